@@ -1,0 +1,2 @@
+//! The Asperity compiler.
+pub mod model;
