@@ -1,0 +1,189 @@
+//! The asset: one texture, as a validated view of its bytes.
+
+use crate::{
+    FormatError, Friction, Grid, Provenance, SectionInfo, Surface, Taps,
+    checksum::crc32,
+    friction::text,
+    header::{self, HAPTIC, Header},
+};
+
+/// One texture, borrowed from bytes whose every claim was checked.
+///
+/// Reading through it cannot fail and allocates nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct Asset<'a> {
+    bytes: &'a [u8],
+    header: Header<'a>,
+    name: &'a str,
+    grid: Grid<'a>,
+    taps: Taps<'a>,
+    friction: Friction<'a>,
+    surface: Surface,
+    provenance: Option<Provenance<'a>>,
+}
+
+impl<'a> Asset<'a> {
+    /// Checks a whole asset, ancillary sections included.
+    ///
+    /// The order is fixed: length, magic, version, header CRC, section table,
+    /// stated against actual length, the CRC of every section, then each section's
+    /// structure and meaning in file order. Linear in the size of the bytes.
+    ///
+    /// # Errors
+    /// The first check that fails, with field, index and value.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        let header = Header::parse(bytes)?;
+        if bytes.len() > header.total_len {
+            return Err(FormatError::TooLong {
+                field: "asset",
+                stated: header.total_len as u64,
+                found: bytes.len() as u64,
+            });
+        }
+        if bytes.len() < header.total_len {
+            return Err(FormatError::TooShort {
+                field: "asset",
+                needed: header.total_len as u64,
+                found: bytes.len() as u64,
+            });
+        }
+        Self::parse_sections(bytes, header, usize::MAX)
+    }
+
+    /// Checks only what a runtime needs: the first [`Asset::haptic_len`] bytes.
+    /// Bytes behind them may be absent and are not read.
+    ///
+    /// # Errors
+    /// As [`Asset::parse`].
+    pub fn parse_haptic(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        let header = Header::parse(bytes)?;
+        let Some(haptic) = bytes.get(..header.haptic_len) else {
+            return Err(FormatError::TooShort {
+                field: "haptic sections",
+                needed: header.haptic_len as u64,
+                found: bytes.len() as u64,
+            });
+        };
+        Self::parse_sections(haptic, header, HAPTIC.len())
+    }
+
+    fn parse_sections(
+        bytes: &'a [u8],
+        header: Header<'a>,
+        count: usize,
+    ) -> Result<Self, FormatError> {
+        for section in header.sections().take(count) {
+            let computed = crc32(&[body(bytes, &section)]);
+            if computed != section.crc32 {
+                return Err(FormatError::Checksum {
+                    section: section.label(),
+                    stated: section.crc32,
+                    computed,
+                });
+            }
+        }
+        let find = |tag| {
+            header
+                .sections()
+                .take(count)
+                .find(|s| s.tag == tag)
+                .map(|s| body(bytes, &s))
+        };
+        let haptic = |tag| find(tag).unwrap_or_default();
+        let asset = Self {
+            bytes,
+            header,
+            name: text("name", 0, haptic(header::NAME))?,
+            grid: Grid::parse(haptic(header::GRID))?,
+            taps: Taps::parse(haptic(header::TAPS))?,
+            friction: Friction::parse(haptic(header::FRICTION))?,
+            surface: Surface::parse(haptic(header::SURFACE))?,
+            provenance: find(header::PROVENANCE)
+                .map(Provenance::parse)
+                .transpose()?,
+        };
+        if asset
+            .preview_png()
+            .is_some_and(|png| !png.starts_with(b"\x89PNG\r\n\x1a\n"))
+        {
+            return Err(FormatError::Section {
+                tag: header::PREVIEW,
+                reason: "is not a PNG",
+            });
+        }
+        Ok(asset)
+    }
+
+    /// Version the asset was written in.
+    #[must_use]
+    pub const fn version(&self) -> u16 {
+        self.header.version
+    }
+
+    /// Name of the texture.
+    #[must_use]
+    pub const fn name(&self) -> &'a str {
+        self.name
+    }
+
+    /// The force–speed grid of models.
+    #[must_use]
+    pub const fn grid(&self) -> &Grid<'a> {
+        &self.grid
+    }
+
+    /// The tap bank.
+    #[must_use]
+    pub const fn taps(&self) -> &Taps<'a> {
+        &self.taps
+    }
+
+    /// μ and its anchors.
+    #[must_use]
+    pub const fn friction(&self) -> &Friction<'a> {
+        &self.friction
+    }
+
+    /// Wall and gains.
+    #[must_use]
+    pub const fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Provenance; absent after [`Asset::parse_haptic`].
+    #[must_use]
+    pub const fn provenance(&self) -> Option<&Provenance<'a>> {
+        self.provenance.as_ref()
+    }
+
+    /// Preview image, PNG; absent after [`Asset::parse_haptic`].
+    #[must_use]
+    pub fn preview_png(&self) -> Option<&'a [u8]> {
+        let section = self.sections().find(|s| s.tag == header::PREVIEW)?;
+        self.bytes.get(section.offset..section.offset + section.len)
+    }
+
+    /// Bytes a runtime needs: header, table and haptic sections.
+    #[must_use]
+    pub const fn haptic_len(&self) -> usize {
+        self.header.haptic_len
+    }
+
+    /// Bytes of the whole asset.
+    #[must_use]
+    pub const fn total_len(&self) -> usize {
+        self.header.total_len
+    }
+
+    /// Every section in file order.
+    pub fn sections(&self) -> impl Iterator<Item = SectionInfo> + use<'a> {
+        self.header.sections()
+    }
+}
+
+/// A section's bytes; the header proved that they are inside.
+fn body<'a>(bytes: &'a [u8], section: &SectionInfo) -> &'a [u8] {
+    bytes
+        .get(section.offset..section.offset.saturating_add(section.len))
+        .unwrap_or_default()
+}

@@ -1,0 +1,137 @@
+//! Why bytes were rejected.
+
+use thiserror::Error;
+
+/// Why an asset or a library was rejected.
+///
+/// Variants stand in the order in which the checks run: length, magic, version,
+/// checksum, structure, meaning.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FormatError {
+    /// Fewer bytes than the smallest file, or than the header says.
+    #[error("{field}: {needed} bytes needed, {found} found: the file is truncated")]
+    TooShort {
+        /// What did not fit.
+        field: &'static str,
+        /// Bytes needed.
+        needed: u64,
+        /// Bytes found.
+        found: u64,
+    },
+    /// More bytes than the header says.
+    #[error("{field}: {stated} bytes stated, {found} found: trailing bytes")]
+    TooLong {
+        /// What was too long.
+        field: &'static str,
+        /// Bytes stated.
+        stated: u64,
+        /// Bytes found.
+        found: u64,
+    },
+    /// The first four bytes are not ours.
+    #[error("magic: {found:02x?} found, {expected:02x?} expected: not this kind of file")]
+    Magic {
+        /// Bytes found.
+        found: [u8; 4],
+        /// Bytes expected.
+        expected: [u8; 4],
+    },
+    /// Written by a later or unknown version of the format.
+    #[error("version: {found} found, {supported} supported: update the reader")]
+    Version {
+        /// Version found.
+        found: u16,
+        /// Latest version this reader knows.
+        supported: u16,
+    },
+    /// Bytes changed after they were written.
+    #[error(
+        "{section} checksum: {stated:08x} stated, {computed:08x} computed: the file is damaged"
+    )]
+    Checksum {
+        /// Section, or `header`.
+        section: &'static str,
+        /// CRC-32 in the file.
+        stated: u32,
+        /// CRC-32 of the bytes.
+        computed: u32,
+    },
+    /// A section is missing, repeated, unknown or out of order.
+    #[error("section {tag:?}: {reason}")]
+    Section {
+        /// Four-byte tag.
+        tag: [u8; 4],
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// A value is outside its range, or breaks a rule.
+    #[error("{field}[{index}] = {value}: {rule}")]
+    Invalid {
+        /// Section and field, e.g. `grid.vertex.speed_mm_s`.
+        field: &'static str,
+        /// Which one, 0 where there is but one.
+        index: u32,
+        /// The value found.
+        value: f64,
+        /// The rule it breaks.
+        rule: &'static str,
+    },
+    /// A text is not UTF-8, empty, or too long.
+    #[error("{field}[{index}]: {reason}")]
+    Text {
+        /// Section and field.
+        field: &'static str,
+        /// Which one.
+        index: u32,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// Metadata that postcard cannot read.
+    #[error("{section}: metadata does not decode")]
+    Metadata {
+        /// Section.
+        section: &'static str,
+    },
+    /// The index of a texture that the library does not have.
+    #[error("texture {index}: the library has {count}")]
+    NoSuchTexture {
+        /// Index asked for.
+        index: usize,
+        /// Textures in the library.
+        count: usize,
+    },
+}
+
+impl FormatError {
+    /// A typed rejection of one number.
+    pub(crate) const fn invalid(
+        field: &'static str,
+        index: usize,
+        value: f64,
+        rule: &'static str,
+    ) -> Self {
+        Self::Invalid {
+            field,
+            index: index as u32,
+            value,
+            rule,
+        }
+    }
+}
+
+/// Rejects a value that is not finite or not in `min..=max`.
+pub(crate) fn in_range(
+    field: &'static str,
+    index: usize,
+    value: f32,
+    (min, max): (f32, f32),
+    rule: &'static str,
+) -> Result<f32, FormatError> {
+    // A NaN compares false with everything, so it is rejected here too.
+    if value >= min && value <= max {
+        Ok(value)
+    } else {
+        Err(FormatError::invalid(field, index, f64::from(value), rule))
+    }
+}

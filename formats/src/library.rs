@@ -1,0 +1,403 @@
+//! The library: many assets behind an index, sorted by name.
+//!
+//! One texture is read by index or name without touching the others. The index
+//! can be read alone ([`LibraryIndex`]) from the front of a file; a whole library
+//! in memory, mapped or in flash is a [`Library`].
+
+use crate::{
+    Asset, EncodeError, FormatError,
+    checksum::crc32,
+    friction::text,
+    limits,
+    wire::{Writer, array_at},
+};
+use core::{cmp::Ordering, ops::Range};
+
+/// Version of the library format that this crate writes.
+pub const VERSION: u16 = 1;
+/// Bytes to read first, enough for [`index_len`].
+pub const HEADER_LEN: usize = 28;
+const MAGIC: [u8; 4] = *b"ASPL";
+const ENTRY_LEN: usize = 24;
+
+/// A validated index, borrowed from the front of a library.
+#[derive(Debug, Clone, Copy)]
+pub struct LibraryIndex<'a> {
+    entries: &'a [u8],
+    names: &'a [u8],
+    total_len: u64,
+}
+
+/// Where one texture lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entry<'a> {
+    /// Its name, unique in the library.
+    pub name: &'a str,
+    /// First byte of its asset in the library.
+    pub offset: u64,
+    /// Bytes of the asset.
+    pub len: u32,
+    /// Bytes of it that a runtime needs.
+    pub haptic_len: u32,
+}
+
+/// Length of header, entries and names, from the first [`HEADER_LEN`] bytes.
+///
+/// # Errors
+/// Too short, wrong magic, unknown version, or a length that cannot be.
+pub fn index_len(header: &[u8]) -> Result<usize, FormatError> {
+    if header.len() < HEADER_LEN {
+        return Err(FormatError::TooShort {
+            field: "library header",
+            needed: HEADER_LEN as u64,
+            found: header.len() as u64,
+        });
+    }
+    let found: [u8; 4] = array_at(header, 0);
+    if found != MAGIC {
+        return Err(FormatError::Magic {
+            found,
+            expected: MAGIC,
+        });
+    }
+    let version = u16::from_le_bytes(array_at(header, 4));
+    if version == 0 || version > VERSION {
+        return Err(FormatError::Version {
+            found: version,
+            supported: VERSION,
+        });
+    }
+    let count = u32::from_le_bytes(array_at(header, 8)) as usize;
+    if count > limits::MAX_TEXTURES {
+        return Err(FormatError::invalid(
+            "library.count",
+            0,
+            count as f64,
+            "at most 1048576 textures",
+        ));
+    }
+    let len = u32::from_le_bytes(array_at(header, 12)) as usize;
+    let least = HEADER_LEN + count * (ENTRY_LEN + 1);
+    let most = HEADER_LEN + count * (ENTRY_LEN + limits::MAX_NAME_BYTES);
+    if (least..=most).contains(&len) {
+        Ok(len)
+    } else {
+        Err(FormatError::invalid(
+            "library.index_len",
+            0,
+            len as f64,
+            "does not fit the count of textures",
+        ))
+    }
+}
+
+impl<'a> LibraryIndex<'a> {
+    /// Checks the index at the front of `bytes`: length, magic, version, CRC, then
+    /// every entry. Bytes behind the index are not looked at.
+    ///
+    /// # Errors
+    /// The first check that fails.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        let len = index_len(bytes)?;
+        let Some(index) = bytes.get(..len) else {
+            return Err(FormatError::TooShort {
+                field: "library index",
+                needed: len as u64,
+                found: bytes.len() as u64,
+            });
+        };
+        let (head, rest) = index.split_at(HEADER_LEN);
+        let stated = u32::from_le_bytes(array_at(head, 24));
+        let computed = crc32(&[head.get(..24).unwrap_or_default(), rest]);
+        if stated != computed {
+            return Err(FormatError::Checksum {
+                section: "library index",
+                stated,
+                computed,
+            });
+        }
+        let flags = u16::from_le_bytes(array_at(head, 6));
+        if flags != 0 {
+            return Err(FormatError::invalid(
+                "library.flags",
+                0,
+                f64::from(flags),
+                "must be 0",
+            ));
+        }
+        let count = u32::from_le_bytes(array_at(head, 8)) as usize;
+        let (entries, names) = rest.split_at(count * ENTRY_LEN);
+        let index = Self {
+            entries,
+            names,
+            total_len: u64::from_le_bytes(array_at(head, 16)),
+        };
+        index.check(len as u64)?;
+        Ok(index)
+    }
+
+    /// Assets lie one after the other; names lie one after the other and ascend.
+    fn check(&self, index_len: u64) -> Result<(), FormatError> {
+        let (mut offset, mut name_end, mut previous) = (index_len, 0, "");
+        for (index, record) in self.entries.chunks_exact(ENTRY_LEN).enumerate() {
+            let raw = RawEntry::read(record);
+            if raw.reserved != 0 || raw.name_offset != name_end {
+                return Err(FormatError::invalid(
+                    "library.entry.name_offset",
+                    index,
+                    f64::from(raw.name_offset),
+                    "names must follow each other",
+                ));
+            }
+            name_end += u32::from(raw.name_len);
+            let name = text("library.entry.name", index, self.name_bytes(&raw))?;
+            if index > 0 && name <= previous {
+                return Err(FormatError::Text {
+                    field: "library.entry.name",
+                    index: index as u32,
+                    reason: "names must ascend and differ",
+                });
+            }
+            previous = name;
+            if raw.offset != offset {
+                return Err(FormatError::invalid(
+                    "library.entry.offset",
+                    index,
+                    raw.offset as f64,
+                    "assets must follow each other",
+                ));
+            }
+            offset += u64::from(raw.len);
+            if raw.haptic_len > raw.len {
+                return Err(FormatError::invalid(
+                    "library.entry.haptic_len",
+                    index,
+                    f64::from(raw.haptic_len),
+                    "at most the length of the asset",
+                ));
+            }
+        }
+        if name_end as usize != self.names.len() {
+            return Err(FormatError::invalid(
+                "library.index_len",
+                0,
+                self.names.len() as f64,
+                "must end with the last name",
+            ));
+        }
+        if offset != self.total_len {
+            return Err(FormatError::invalid(
+                "library.total_len",
+                0,
+                self.total_len as f64,
+                "must be the sum of index and assets",
+            ));
+        }
+        Ok(())
+    }
+
+    fn name_bytes(&self, raw: &RawEntry) -> &'a [u8] {
+        let start = raw.name_offset as usize;
+        self.names
+            .get(start..start + usize::from(raw.name_len))
+            .unwrap_or_default()
+    }
+
+    /// Number of textures.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.entries.len() / ENTRY_LEN
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Bytes of the whole library, as stated.
+    #[must_use]
+    pub const fn total_len(&self) -> u64 {
+        self.total_len
+    }
+
+    /// The entry at `index`, in order of names.
+    #[must_use]
+    pub fn get(&self, index: usize) -> Option<Entry<'a>> {
+        let start = index.checked_mul(ENTRY_LEN)?;
+        let raw = RawEntry::read(self.entries.get(start..start + ENTRY_LEN)?);
+        Some(Entry {
+            name: core::str::from_utf8(self.name_bytes(&raw)).unwrap_or_default(),
+            offset: raw.offset,
+            len: raw.len,
+            haptic_len: raw.haptic_len,
+        })
+    }
+
+    /// The index of `name`; a binary search.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<usize> {
+        let (mut low, mut high) = (0, self.len());
+        while low < high {
+            let middle = low + (high - low) / 2;
+            match self.get(middle)?.name.cmp(name) {
+                Ordering::Equal => return Some(middle),
+                Ordering::Less => low = middle + 1,
+                Ordering::Greater => high = middle,
+            }
+        }
+        None
+    }
+
+    /// Every entry, in order of names.
+    pub fn entries(&self) -> impl ExactSizeIterator<Item = Entry<'a>> + use<'a, '_> {
+        // `get` answers for every index below `len`.
+        (0..self.len()).map(|index| {
+            self.get(index).unwrap_or(Entry {
+                name: "",
+                offset: 0,
+                len: 0,
+                haptic_len: 0,
+            })
+        })
+    }
+}
+
+struct RawEntry {
+    offset: u64,
+    len: u32,
+    haptic_len: u32,
+    name_offset: u32,
+    name_len: u16,
+    reserved: u16,
+}
+
+impl RawEntry {
+    fn read(record: &[u8]) -> Self {
+        Self {
+            offset: u64::from_le_bytes(array_at(record, 0)),
+            len: u32::from_le_bytes(array_at(record, 8)),
+            haptic_len: u32::from_le_bytes(array_at(record, 12)),
+            name_offset: u32::from_le_bytes(array_at(record, 16)),
+            name_len: u16::from_le_bytes(array_at(record, 20)),
+            reserved: u16::from_le_bytes(array_at(record, 22)),
+        }
+    }
+}
+
+/// A whole library in memory.
+#[derive(Debug, Clone, Copy)]
+pub struct Library<'a> {
+    bytes: &'a [u8],
+    index: LibraryIndex<'a>,
+}
+
+impl<'a> Library<'a> {
+    /// Checks the index and the total length; assets are checked when asked for.
+    ///
+    /// # Errors
+    /// The first check that fails.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        let index = LibraryIndex::parse(bytes)?;
+        let (stated, found) = (index.total_len(), bytes.len() as u64);
+        match found.cmp(&stated) {
+            Ordering::Less => Err(FormatError::TooShort {
+                field: "library",
+                needed: stated,
+                found,
+            }),
+            Ordering::Greater => Err(FormatError::TooLong {
+                field: "library",
+                stated,
+                found,
+            }),
+            Ordering::Equal => Ok(Self { bytes, index }),
+        }
+    }
+
+    /// The index.
+    #[must_use]
+    pub const fn index(&self) -> &LibraryIndex<'a> {
+        &self.index
+    }
+
+    /// Bytes of the asset at `index`, unchecked.
+    ///
+    /// # Errors
+    /// [`FormatError::NoSuchTexture`].
+    pub fn bytes(&self, index: usize) -> Result<&'a [u8], FormatError> {
+        self.index
+            .get(index)
+            .and_then(|entry| self.bytes.get(range(&entry)?))
+            .ok_or(FormatError::NoSuchTexture {
+                index,
+                count: self.index.len(),
+            })
+    }
+
+    /// The checked asset at `index`.
+    ///
+    /// # Errors
+    /// [`FormatError::NoSuchTexture`], or why the asset was rejected.
+    pub fn asset(&self, index: usize) -> Result<Asset<'a>, FormatError> {
+        Asset::parse(self.bytes(index)?)
+    }
+}
+
+fn range(entry: &Entry<'_>) -> Option<Range<usize>> {
+    let start = usize::try_from(entry.offset).ok()?;
+    Some(start..start.checked_add(entry.len as usize)?)
+}
+
+/// Bytes of a library of these named assets.
+#[must_use]
+pub fn encoded_len(textures: &[(&str, &[u8])]) -> usize {
+    textures.iter().fold(HEADER_LEN, |sum, (name, bytes)| {
+        sum + ENTRY_LEN + name.len() + bytes.len()
+    })
+}
+
+/// Writes a library of named assets, sorted by name, into `out`.
+///
+/// The names of the index are those given here; each asset is checked.
+///
+/// # Errors
+/// A small buffer, an asset that does not parse, names that do not ascend.
+pub fn encode_library(textures: &[(&str, &[u8])], out: &mut [u8]) -> Result<usize, EncodeError> {
+    let index_len = textures
+        .iter()
+        .fold(HEADER_LEN, |sum, (name, _)| sum + ENTRY_LEN + name.len());
+    let total_len = encoded_len(textures);
+    let mut writer = Writer::new(out, 0);
+    writer.bytes(&MAGIC)?;
+    writer.u16(VERSION)?;
+    writer.u16(0)?;
+    writer.u32(textures.len() as u32)?;
+    writer.u32(index_len as u32)?;
+    writer.u64(total_len as u64)?;
+    writer.u32(0)?;
+    let (mut offset, mut name_offset) = (index_len as u64, 0_u32);
+    for (name, bytes) in textures {
+        writer.u64(offset)?;
+        writer.u32(bytes.len() as u32)?;
+        writer.u32(Asset::parse(bytes)?.haptic_len() as u32)?;
+        writer.u32(name_offset)?;
+        writer.u16(name.len() as u16)?;
+        writer.u16(0)?;
+        offset += bytes.len() as u64;
+        name_offset += name.len() as u32;
+    }
+    for (name, _) in textures {
+        writer.bytes(name.as_bytes())?;
+    }
+    for (_, bytes) in textures {
+        writer.bytes(bytes)?;
+    }
+    let crc = crc32(&[
+        out.get(..24).unwrap_or_default(),
+        out.get(HEADER_LEN..index_len).unwrap_or_default(),
+    ]);
+    Writer::new(out, 24).u32(crc)?;
+    Library::parse(out.get(..total_len).unwrap_or_default())?;
+    Ok(total_len)
+}

@@ -1,0 +1,54 @@
+//! What a valid asset can hold at most; readers size their tables by these.
+
+/// Vertices of the speed–force grid.
+pub const MAX_VERTICES: usize = 64;
+/// Triangles of the grid.
+pub const MAX_TRIANGLES: usize = 128;
+/// Order of A(z) and of B(z).
+pub const MAX_ORDER: usize = 24;
+/// Traces of the tap bank, one an impact speed.
+pub const MAX_TAPS: usize = 16;
+/// Samples of one tap trace at its source rate.
+pub const MAX_TAP_SAMPLES: usize = 1024;
+/// Friction anchors.
+pub const MAX_ANCHORS: usize = 16;
+/// Bytes of a name (texture or anchor), UTF-8.
+pub const MAX_NAME_BYTES: usize = 64;
+/// Bytes of the provenance section.
+pub const MAX_PROVENANCE_BYTES: usize = 16 * 1024;
+/// Sections of an asset.
+pub const MAX_SECTIONS: usize = 16;
+/// Textures of a library.
+pub const MAX_TEXTURES: usize = 1 << 20;
+
+/// Smallest distance between neighbouring LSFs of A(z), and of the outermost ones
+/// from 0 and π, in codes of π/65536: 0.0048 rad, 0.76 Hz at 1 kHz. It bounds the
+/// pole radius of every convex mixture away from 1.
+pub const MIN_LSF_GAP_CODES: u16 = 100;
+
+/// Range of every sample rate, Hz.
+pub const SAMPLE_RATE_HZ: (f32, f32) = (100.0, 200_000.0);
+/// Largest speed of a grid, mm/s.
+pub const MAX_SPEED_MM_S: f32 = 10_000.0;
+/// Largest force of a grid, N.
+pub const MAX_FORCE_N: f32 = 1_000.0;
+/// Largest standard deviation of the excitation, m/s².
+pub const MAX_SIGMA_M_S2: f32 = 10_000.0;
+/// Largest gain of a numerator.
+pub const MAX_GAIN: f32 = 10_000.0;
+/// Largest impact speed of a trace, m/s.
+pub const MAX_IMPACT_SPEED_M_S: f32 = 100.0;
+/// Largest acceleration of a trace, m/s².
+pub const MAX_TAP_ACCEL_M_S2: f32 = 1.0e6;
+/// Largest coefficient of friction.
+pub const MAX_MU: f32 = 10.0;
+/// Largest wall stiffness, N/m.
+pub const MAX_STIFFNESS_N_M: f32 = 100_000.0;
+/// Largest rendered wall damping, N·s/m.
+pub const MAX_DAMPING_N_S_M: f32 = 1_000.0;
+/// Largest vibration gain, s²/m.
+pub const MAX_VIB_GAIN_S2_M: f32 = 1_000.0;
+/// Largest effective mass, kg.
+pub const MAX_EFFECTIVE_MASS_KG: f32 = 100.0;
+/// Largest force the gains are relative to, N.
+pub const MAX_DEVICE_FORCE_N: f32 = 10_000.0;

@@ -1,0 +1,40 @@
+//! prov: where a texture comes from, as postcard metadata.
+
+use crate::FormatError;
+use serde::{Deserialize, Serialize};
+
+/// Where a texture comes from. The runtime never reads it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Provenance<'a> {
+    /// What made it.
+    pub generator: &'a str,
+    /// File or corpus entry it was made from, without a folder.
+    pub source: &'a str,
+    /// CRC-32 of the source's bytes, 0 where there is no file.
+    pub source_crc32: u32,
+    /// The prompt, for a texture that has one.
+    pub prompt: Option<&'a str>,
+    /// Seed of everything random in its making.
+    pub seed: u64,
+    /// Fidelity asked for: `full`, `auto` or an order.
+    pub fidelity: &'a str,
+    /// Whether the taps were synthesised rather than recorded.
+    pub taps_synthetic: bool,
+    /// RMS spectral error of LSF quantisation over the grid, dB.
+    pub lsf_error_db: f32,
+    /// What a reader should know: synthetic parts, unconfirmed defaults.
+    pub notes: &'a str,
+}
+
+impl<'a> Provenance<'a> {
+    pub(crate) fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        let reject = FormatError::Metadata {
+            section: "provenance",
+        };
+        match postcard::take_from_bytes::<Self>(bytes) {
+            // Later minor versions may append fields.
+            Ok((provenance, _)) if provenance.lsf_error_db.is_finite() => Ok(provenance),
+            _ => Err(reject),
+        }
+    }
+}
