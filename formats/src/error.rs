@@ -58,7 +58,7 @@ pub enum FormatError {
         computed: u32,
     },
     /// A section is missing, repeated, unknown or out of order.
-    #[error("section {tag:?}: {reason}")]
+    #[error("section {}: {reason}", tag.escape_ascii())]
     Section {
         /// Four-byte tag.
         tag: [u8; 4],

@@ -141,7 +141,15 @@ impl<'a> LibraryIndex<'a> {
         let (mut offset, mut name_end, mut previous) = (index_len, 0, "");
         for (index, record) in self.entries.chunks_exact(ENTRY_LEN).enumerate() {
             let raw = RawEntry::read(record);
-            if raw.reserved != 0 || raw.name_offset != name_end {
+            if raw.reserved != 0 {
+                return Err(FormatError::invalid(
+                    "library.entry.reserved",
+                    index,
+                    f64::from(raw.reserved),
+                    "must be 0",
+                ));
+            }
+            if raw.name_offset != name_end {
                 return Err(FormatError::invalid(
                     "library.entry.name_offset",
                     index,
@@ -225,7 +233,7 @@ impl<'a> LibraryIndex<'a> {
     #[must_use]
     pub fn get(&self, index: usize) -> Option<Entry<'a>> {
         let start = index.checked_mul(ENTRY_LEN)?;
-        let raw = RawEntry::read(self.entries.get(start..start + ENTRY_LEN)?);
+        let raw = RawEntry::read(self.entries.get(start..start.checked_add(ENTRY_LEN)?)?);
         Some(Entry {
             name: core::str::from_utf8(self.name_bytes(&raw)).unwrap_or_default(),
             offset: raw.offset,
