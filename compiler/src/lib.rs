@@ -1,2 +1,28 @@
-//! The Asperity compiler.
+//! The Asperity compiler: textures in, compact and verified haptic assets out.
+//!
+//! A front end ([`hatt`], [`builtin`]) makes a [`model::TextureModel`] in f64 and SI
+//! units; [`lower`] quantises it into the bytes of an asset and reports the error;
+//! [`verify`] drives the real runtime over the whole domain before anything is
+//! written. [`raise`] goes back, for [`inspect`] and [`plot`]; [`render`] runs a
+//! trajectory through the runtime.
+#![forbid(unsafe_code)]
+
+pub mod attributes;
+pub mod builtin;
+pub mod defaults;
+pub mod diagnostic;
+pub mod hatt;
+pub mod inspect;
+pub mod lower;
+pub mod lsf;
+pub mod mesh;
 pub mod model;
+pub mod output;
+pub mod plot;
+pub mod raise;
+pub mod reflection;
+pub mod render;
+pub mod source;
+pub mod spectrum;
+pub mod tap_synthesis;
+pub mod verify;

@@ -1,0 +1,242 @@
+//! Axes: from values to positions, and round ticks.
+
+/// How values map to positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Proportional.
+    Linear,
+    /// Proportional to the logarithm; both ends are positive.
+    Log,
+}
+
+/// An axis: its label with unit, and its range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// Label with unit, e.g. `Speed (mm/s)`; may be empty.
+    pub label: String,
+    /// Value at the left or lower end.
+    pub min: f64,
+    /// Value at the right or upper end; above `min`.
+    pub max: f64,
+    /// How values map to positions.
+    pub scale: Scale,
+    /// About how many ticks to draw.
+    pub tick_count: usize,
+    /// Whether ticks carry numbers; panels that share an axis switch them off.
+    pub numbered: bool,
+}
+
+impl Axis {
+    /// A linear axis; an empty range is widened.
+    #[must_use]
+    pub fn new(label: impl Into<String>, min: f64, max: f64) -> Self {
+        let (min, max) = widened(min, max);
+        Self {
+            label: label.into(),
+            min,
+            max,
+            scale: Scale::Linear,
+            tick_count: 6,
+            numbered: true,
+        }
+    }
+
+    /// A linear axis over all finite values, with 5 % of air at both ends.
+    #[must_use]
+    pub fn covering(label: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
+        let (min, max) = extent(values).unwrap_or((0.0, 1.0));
+        let (min, max) = widened(min, max);
+        let air = 0.05 * (max - min);
+        Self::new(label, min - air, max + air)
+    }
+
+    /// A logarithmic axis; ends that are not positive become 1 and 10.
+    #[must_use]
+    pub fn log(label: impl Into<String>, min: f64, max: f64) -> Self {
+        let (min, max) = if min > 0.0 && max > min && max.is_finite() {
+            (min, max)
+        } else {
+            (1.0, 10.0)
+        };
+        Self {
+            scale: Scale::Log,
+            ..Self::new(label, min, max)
+        }
+    }
+
+    /// The same axis with about `count` ticks.
+    #[must_use]
+    pub fn ticks_about(self, count: usize) -> Self {
+        Self {
+            tick_count: count,
+            ..self
+        }
+    }
+
+    /// The same axis without numbers at its ticks.
+    #[must_use]
+    pub fn unnumbered(self) -> Self {
+        Self {
+            numbered: false,
+            ..self
+        }
+    }
+
+    /// Position of a value: 0 at `min`, 1 at `max`, beyond them outside.
+    #[must_use]
+    pub fn fraction(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => (value - self.min) / (self.max - self.min),
+            Scale::Log => (value / self.min).ln() / (self.max / self.min).ln(),
+        }
+    }
+
+    /// Ticks inside the range with their labels, ascending.
+    #[must_use]
+    pub fn ticks(&self) -> Vec<(f64, String)> {
+        match self.scale {
+            Scale::Linear => linear_ticks(self.min, self.max, self.tick_count),
+            Scale::Log => log_ticks(self.min, self.max),
+        }
+    }
+}
+
+/// The smallest and largest finite value.
+pub(in crate::plot) fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
+    values
+        .into_iter()
+        .filter(|value| value.is_finite())
+        .fold(None, |range, value| match range {
+            None => Some((value, value)),
+            Some((min, max)) => Some((value.min(min), value.max(max))),
+        })
+}
+
+/// A range that is finite and not empty.
+pub(super) fn widened(min: f64, max: f64) -> (f64, f64) {
+    if !(min.is_finite() && max.is_finite()) {
+        return (0.0, 1.0);
+    }
+    let span = (max - min).abs();
+    let least = 1e-9 * min.abs().max(max.abs()).max(1e-9);
+    if span > least {
+        (min.min(max), min.max(max))
+    } else if min == 0.0 {
+        (0.0, 1.0)
+    } else {
+        (min - 0.5 * min.abs(), min + 0.5 * min.abs())
+    }
+}
+
+fn linear_ticks(min: f64, max: f64, count: usize) -> Vec<(f64, String)> {
+    let rough = (max - min) / count.max(1) as f64;
+    let decade = 10_f64.powi(rough.log10().floor() as i32);
+    let step = [1.0, 2.0, 2.5, 5.0, 10.0]
+        .into_iter()
+        .map(|mantissa| mantissa * decade)
+        .find(|&step| step >= rough * 0.999)
+        .unwrap_or(10.0 * decade);
+    let first = (min / step - 1e-6).ceil() as i64;
+    let last = (max / step + 1e-6).floor() as i64;
+    let decimals = decimals_of(step);
+    (first..=last.min(first + 100))
+        .map(|index| {
+            let value = index as f64 * step;
+            (value, number(value, decimals))
+        })
+        .collect()
+}
+
+fn log_ticks(min: f64, max: f64) -> Vec<(f64, String)> {
+    let decades = (max / min).log10();
+    let mantissas: &[f64] = if decades <= 3.0 {
+        &[1.0, 2.0, 5.0]
+    } else {
+        &[1.0]
+    };
+    let mut ticks = Vec::new();
+    for exponent in (min.log10().floor() as i32)..=(max.log10().ceil() as i32) {
+        for mantissa in mantissas {
+            let value = mantissa * 10_f64.powi(exponent);
+            if value >= min * 0.999_999 && value <= max * 1.000_001 {
+                ticks.push((
+                    value,
+                    number(value, usize::try_from(-exponent).unwrap_or(0)),
+                ));
+            }
+        }
+    }
+    ticks
+}
+
+/// Decimals that show every multiple of `step` exactly.
+fn decimals_of(step: f64) -> usize {
+    (0..12)
+        .find(|&decimals| {
+            let scaled = step * 10_f64.powi(decimals);
+            (scaled - scaled.round()).abs() < 1e-6 * scaled
+        })
+        .map_or(12, |decimals| decimals as usize)
+}
+
+/// A number with a true minus sign; long ones in scientific notation.
+fn number(value: f64, decimals: usize) -> String {
+    let text = if decimals > 4 || value.abs() >= 1e6 {
+        format!("{value:.1e}")
+    } else {
+        format!("{value:.decimals$}")
+    };
+    if value == 0.0 {
+        "0".to_owned()
+    } else {
+        text.replace('-', "\u{2212}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(min: f64, max: f64) -> Vec<String> {
+        let axis = Axis::new("", min, max);
+        axis.ticks().into_iter().map(|tick| tick.1).collect()
+    }
+
+    /// Claim: ticks are round, inside the range, and labelled without rounding.
+    #[test]
+    fn ticks_are_round_and_exactly_labelled() {
+        assert_eq!(labels(0.0, 500.0), ["0", "100", "200", "300", "400", "500"]);
+        assert_eq!(
+            labels(-1.0, 0.25),
+            ["−1.00", "−0.75", "−0.50", "−0.25", "0", "0.25"]
+        );
+        for (min, max) in [(0.013, 0.0131), (-7e5, 3e6), (1e-9, 2e-9), (0.0, 1e-12)] {
+            let axis = Axis::new("", min, max);
+            let ticks = axis.ticks();
+            assert!((3..=12).contains(&ticks.len()), "{min}..{max}: {ticks:?}");
+            for (value, _) in &ticks {
+                assert!((-1e-6..=1.0 + 1e-6).contains(&axis.fraction(*value)));
+            }
+        }
+    }
+
+    /// Claim: no range, however degenerate, gives an axis that maps to NaN.
+    #[test]
+    fn degenerate_ranges_are_widened() {
+        for (min, max) in [
+            (0.0, 0.0),
+            (3.0, 3.0),
+            (-2.0, -2.0),
+            (5.0, 1.0),
+            (f64::NAN, 1.0),
+            (0.0, f64::INFINITY),
+        ] {
+            let axis = Axis::new("", min, max);
+            assert!(axis.min < axis.max, "{min}..{max}");
+            assert!(axis.fraction(1.0).is_finite());
+            assert!(!axis.ticks().is_empty());
+            assert!(!Axis::log("", min, max).ticks().is_empty());
+        }
+        assert_eq!(Axis::covering("", []).min, -0.05);
+    }
+}

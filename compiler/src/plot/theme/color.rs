@@ -1,0 +1,124 @@
+//! Colours: inks for lines, perceptually uniform maps for values.
+
+/// An opaque or translucent sRGB colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Color {
+    /// Red.
+    pub r: u8,
+    /// Green.
+    pub g: u8,
+    /// Blue.
+    pub b: u8,
+    /// Opacity: 255 is opaque.
+    pub a: u8,
+}
+
+impl Color {
+    /// An opaque colour.
+    #[must_use]
+    pub const fn rgb(r: u8, g: u8, b: u8) -> Self {
+        Self { r, g, b, a: 255 }
+    }
+
+    /// The same colour with an opacity in 0..=255.
+    #[must_use]
+    pub const fn alpha(self, a: u8) -> Self {
+        Self { a, ..self }
+    }
+
+    /// Relative luminance as the eye weighs the channels, 0..=1, gamma ignored.
+    #[must_use]
+    pub fn luma(self) -> f32 {
+        (0.2126 * f32::from(self.r) + 0.7152 * f32::from(self.g) + 0.0722 * f32::from(self.b))
+            / 255.0
+    }
+}
+
+/// Inks that stay apart for colour-blind readers (Okabe and Ito, 2008), and greys.
+pub mod ink {
+    use super::Color;
+
+    /// The ground of every picture.
+    pub const PAPER: Color = Color::rgb(255, 255, 255);
+    /// Text and frames.
+    pub const BLACK: Color = Color::rgb(26, 26, 26);
+    /// Secondary text.
+    pub const GREY: Color = Color::rgb(100, 100, 100);
+    /// Construction lines.
+    pub const LIGHT: Color = Color::rgb(190, 190, 190);
+    /// Grid lines behind data.
+    pub const GRID: Color = Color::rgb(232, 232, 232);
+    /// Okabe–Ito blue.
+    pub const BLUE: Color = Color::rgb(0, 114, 178);
+    /// Okabe–Ito orange.
+    pub const ORANGE: Color = Color::rgb(230, 159, 0);
+    /// Okabe–Ito bluish green.
+    pub const GREEN: Color = Color::rgb(0, 158, 115);
+    /// Okabe–Ito vermilion.
+    pub const VERMILION: Color = Color::rgb(213, 94, 0);
+    /// Okabe–Ito reddish purple.
+    pub const PURPLE: Color = Color::rgb(204, 121, 167);
+    /// Okabe–Ito sky blue.
+    pub const SKY: Color = Color::rgb(86, 180, 233);
+
+    /// Categories in the order to use them; wraps around.
+    #[must_use]
+    pub const fn category(index: usize) -> Color {
+        const CATEGORIES: [Color; 6] = [BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY];
+        CATEGORIES[index % CATEGORIES.len()]
+    }
+}
+
+/// A perceptually uniform, colour-blind safe map from 0..=1 to colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColorMap {
+    /// For levels of a texture.
+    Viridis,
+    /// For speeds; without its palest end, so that lines show on white.
+    Plasma,
+    /// For spectrograms.
+    Inferno,
+}
+
+impl ColorMap {
+    /// The colour at `t`, clamped to 0..=1; NaN is grey.
+    #[must_use]
+    pub fn at(self, t: f64) -> Color {
+        if t.is_nan() {
+            return ink::LIGHT;
+        }
+        let t = t.clamp(0.0, 1.0);
+        let color = match self {
+            Self::Viridis => colorous::VIRIDIS.eval_continuous(t),
+            Self::Plasma => colorous::PLASMA.eval_continuous(t * 0.88),
+            Self::Inferno => colorous::INFERNO.eval_continuous(t),
+        };
+        Color::rgb(color.r, color.g, color.b)
+    }
+}
+
+/// A colour map with the range of values it stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColorScale {
+    /// The map.
+    pub map: ColorMap,
+    /// Value of the first colour.
+    pub min: f64,
+    /// Value of the last colour; above `min`.
+    pub max: f64,
+}
+
+impl ColorScale {
+    /// A scale over `min..=max`; an empty range is widened by one unit.
+    #[must_use]
+    pub fn new(map: ColorMap, min: f64, max: f64) -> Self {
+        let (min, max) = super::axis::widened(min, max);
+        Self { map, min, max }
+    }
+
+    /// The colour of a value, clamped to the range.
+    #[must_use]
+    pub fn color(&self, value: f64) -> Color {
+        self.map.at((value - self.min) / (self.max - self.min))
+    }
+}
