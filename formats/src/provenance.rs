@@ -1,6 +1,6 @@
 //! prov: where a texture comes from, as postcard metadata.
 
-use crate::FormatError;
+use crate::{FormatError, limits};
 use serde::{Deserialize, Serialize};
 
 /// Where a texture comes from. The runtime never reads it.
@@ -28,6 +28,14 @@ pub struct Provenance<'a> {
 
 impl<'a> Provenance<'a> {
     pub(crate) fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        if bytes.len() > limits::MAX_PROVENANCE_BYTES {
+            return Err(FormatError::invalid(
+                "provenance.len",
+                0,
+                bytes.len() as f64,
+                "at most 16384 bytes",
+            ));
+        }
         let reject = FormatError::Metadata {
             section: "provenance",
         };

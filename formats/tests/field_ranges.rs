@@ -308,18 +308,23 @@ fn triangles_that_do_not_tile_the_rectangle() {
     let area = "grid.triangle.area";
     rejected(GRID, TRIANGLE + 3, &[0, 2, 4], &Invalid(area, 0, 300.0));
     rejected(GRID, TRIANGLE, &[0, 1, 2], &Invalid(area, 0, 500.0));
-    // A grid of no extent.
-    let mut bytes = small().encode();
-    let (start, _) = span(&bytes, GRID);
-    for vertex in 0..5 {
-        put(&mut bytes, start + VERTEX + 12 * vertex, &[0; 4]);
+}
+
+#[test]
+fn grids_of_too_little_extent() {
+    for (offset, field) in [(0, "grid.max_speed_mm_s"), (4, "grid.max_force_n")] {
+        for extent in [0.0, 0.001_f32.next_down()] {
+            let mut bytes = small().encode();
+            let (start, _) = span(&bytes, GRID);
+            for vertex in 0..5 {
+                let at = start + VERTEX + 12 * vertex + offset;
+                put(&mut bytes, at, &extent.to_le_bytes());
+            }
+            seal(&mut bytes);
+            let error = Asset::parse(&bytes).unwrap_err();
+            check(error, &Invalid(field, 0, extent.into()), field);
+        }
     }
-    seal(&mut bytes);
-    check(
-        Asset::parse(&bytes).unwrap_err(),
-        &Invalid(area, 0, 0.0),
-        "speeds all zero",
-    );
 }
 
 #[test]
@@ -503,6 +508,26 @@ fn provenance_that_does_not_decode() {
             reject,
             "lsf_error_db = {value}"
         );
+    }
+}
+
+#[test]
+fn provenance_is_at_most_16_kib() {
+    let original = small().encode();
+    let (start, len) = span(&original, PROVENANCE);
+    for (room, fits) in [(16_384, true), (16_385, false)] {
+        let mut body = original[start..start + len].to_vec();
+        body.resize(room, 0);
+        let mut bytes = original.clone();
+        replace_section(&mut bytes, PROVENANCE, &body);
+        match Asset::parse(&bytes) {
+            Ok(_) => assert!(fits),
+            Err(error) => check(
+                error,
+                &Invalid("provenance.len", 0, 16_385.0),
+                "one too many",
+            ),
+        }
     }
 }
 

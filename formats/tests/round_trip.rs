@@ -40,7 +40,7 @@ fn name() -> impl Strategy<Value = String> {
     "[A-Za-zµ€😀 0-9]{1,16}"
 }
 
-fn models() -> impl Strategy<Value = (Numerator, Vec<(Vec<u16>, Vec<u16>, f32)>)> {
+fn models() -> impl Strategy<Value = (Numerator, Vec<common::Model>)> {
     (1_usize..=24, 1_usize..=24, 0..3).prop_flat_map(|(ar, ma, numerator)| {
         let (numerator, ma) = match numerator {
             0 => (Numerator::None, 0),

@@ -13,14 +13,16 @@ use asperity_formats::{
     Provenance, Surface, TapParts, Vertex, VertexKind, encode,
 };
 
+/// LSF codes, MA LSF codes and gain.
+pub type Model = (Vec<u16>, Vec<u16>, f32);
+
 /// The parts of an asset, owned.
 #[derive(Debug, Clone)]
 pub struct Parts {
     pub name: String,
     pub grid_rate_hz: f32,
     pub numerator: Numerator,
-    /// LSF codes, MA LSF codes and gain of each model.
-    pub models: Vec<(Vec<u16>, Vec<u16>, f32)>,
+    pub models: Vec<Model>,
     pub vertices: Vec<Vertex>,
     pub triangles: Vec<[u8; 3]>,
     pub tap_rate_hz: f32,
