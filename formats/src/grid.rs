@@ -242,6 +242,19 @@ impl<'a> Grid<'a> {
             self.max_speed_mm_s = self.max_speed_mm_s.max(speed);
             self.max_force_n = self.max_force_n.max(force);
         }
+        for (field, extent) in [
+            ("grid.max_speed_mm_s", self.max_speed_mm_s),
+            ("grid.max_force_n", self.max_force_n),
+        ] {
+            let range = (limits::MIN_EXTENT, f32::MAX);
+            in_range(
+                field,
+                0,
+                extent,
+                range,
+                "the grid must reach at least 0.001",
+            )?;
+        }
         Ok(())
     }
 

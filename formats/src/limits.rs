@@ -30,6 +30,8 @@ pub const MIN_LSF_GAP_CODES: u16 = 100;
 pub const SAMPLE_RATE_HZ: (f32, f32) = (100.0, 200_000.0);
 /// Largest speed of a grid, mm/s.
 pub const MAX_SPEED_MM_S: f32 = 10_000.0;
+/// A grid reaches at least this speed, mm/s, and this force, N.
+pub const MIN_EXTENT: f32 = 1e-3;
 /// Largest force of a grid, N.
 pub const MAX_FORCE_N: f32 = 1_000.0;
 /// Largest standard deviation of the excitation, m/s².

@@ -153,7 +153,7 @@ impl<'a> Taps<'a> {
 
 impl<'a> Trace<'a> {
     /// Stored codes, −2047..=2047.
-    fn codes(&self) -> impl ExactSizeIterator<Item = i16> + use<'a> {
+    fn codes(&self) -> impl ExactSizeIterator<Item = i16> + Clone + use<'a> {
         let codes = self.codes;
         (0..self.samples).map(move |index| {
             let at = index / 2 * 3;
@@ -170,7 +170,7 @@ impl<'a> Trace<'a> {
     }
 
     /// Accelerations, m/s², at the bank's sample rate.
-    pub fn accel_m_s2(&self) -> impl ExactSizeIterator<Item = f32> + use<'a> {
+    pub fn accel_m_s2(&self) -> impl ExactSizeIterator<Item = f32> + Clone + use<'a> {
         let step = self.peak_m_s2 / f32::from(FULL_SCALE);
         self.codes().map(move |code| f32::from(code) * step)
     }

@@ -1,1 +1,55 @@
+//! The Asperity tick: device sample in, limited force out.
+//!
+//! A [`Renderer`] (configuration, immutable) and a [`Texture`] (compiled data,
+//! immutable) drive any number of small [`State`]s. [`Renderer::tick`] allocates
+//! nothing, locks nothing, calls no system, reads no clock and cannot panic; its
+//! result is finite and within the device's limits for every input, NaN and
+//! infinities included, and the same bits on every platform.
+//!
+//! Time is an argument: a simulator, a servo loop and a replay drive the same
+//! function. One call is one servo period.
+//!
+//! | file | the paper's | computes |
+//! |---|---|---|
+//! | [`velocity`] | v_t | velocity from positions |
+//! | [`contact`] | δ, n̂ | depth and normal on a plane, a sphere, a box |
+//! | [`locate`] | f–v grid | triangle and barycentric weights, edge models |
+//! | [`lsf`] | a_k(F_n, v_t) | mixed LSFs to direct-form coefficients |
+//! | [`excitation`] | ε | Gaussian noise |
+//! | [`synthesis`] | y\[n\] | the AR or ARMA recursion |
+//! | [`tap`] | a_tap(t) | impact detection and transient |
+//! | [`friction`] | F_t | bristle friction bounded by μF_n |
+//! | [`wall`] | F_n | stiffness and damping |
+//! | [`limiter`] | | peak and slew of the total force |
+//! | [`safety`] | | bad samples, safe state, ramp |
+//!
+//! What must stay absent: allocation, a file system, a clock, platform maths, any
+//! dependency on a crate above.
 #![no_std]
+#![forbid(unsafe_code)]
+
+pub mod config;
+pub mod contact;
+pub mod excitation;
+pub mod friction;
+pub mod limiter;
+pub mod locate;
+pub mod lsf;
+pub mod math;
+mod resample;
+pub mod safety;
+pub mod synthesis;
+pub mod tap;
+mod texture;
+mod tick;
+pub mod velocity;
+pub mod wall;
+
+pub use config::{
+    Config, ConfigError, FrictionConfig, Limits, SafetyConfig, TapConfig, VibrationAxis,
+};
+pub use contact::Surface;
+pub use locate::Barycentric;
+pub use synthesis::Filter;
+pub use texture::{HostTexture, LoadError, Texture};
+pub use tick::{Counters, Flags, Output, Renderer, Sample, State};

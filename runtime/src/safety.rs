@@ -1,0 +1,101 @@
+//! Bad samples: hold, safe state, ramp.
+//!
+//! A sample is bad when it is stale, not finite or out of reach. Up to `hold_ticks`
+//! bad samples in a row hold the last good one; one more enters the safe state: the
+//! force wanted is zero, the limiter takes it there at the slew limit. Periods that the
+//! caller reports as missed count like bad samples. The first good sample afterwards
+//! restarts the motion estimate, and the force comes back by a ramp.
+
+use crate::{Sample, math::Vec3};
+
+/// Positions beyond this are errors, not positions, m.
+pub const REACH_M: f32 = 1.0e4;
+
+/// The gate that every sample passes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gate {
+    position_m: Vec3,
+    /// Bad samples in a row.
+    bad_in_a_row: u32,
+    /// Share of the force that is let through, 0..=1.
+    gain: f32,
+    /// Whether the next good sample starts anew.
+    fresh: bool,
+}
+
+/// What the gate lets through.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gated {
+    /// Position to render, m.
+    pub position_m: Vec3,
+    /// Periods since the last rendered position, 1..=3.
+    pub elapsed_ticks: u32,
+    /// Share of the force, 0..=1.
+    pub gain: f32,
+    /// Motion starts anew at this position.
+    pub restart: bool,
+    /// The last good position is held.
+    pub held: bool,
+    /// The safe state is on.
+    pub safe: bool,
+    /// The safe state was entered in this tick.
+    pub fault: bool,
+    /// The sample was bad.
+    pub bad: bool,
+}
+
+impl Gate {
+    /// Before the first sample; it is let through without a ramp.
+    pub const NEW: Self = Self {
+        position_m: [0.0; 3],
+        bad_in_a_row: 0,
+        gain: 1.0,
+        fresh: true,
+    };
+
+    /// One sample; `ramp_step` is the gain regained a tick.
+    #[inline]
+    pub fn step(&mut self, sample: &Sample, hold_ticks: u32, ramp_step: f32) -> Gated {
+        let in_reach = |x: f32| x.abs() <= REACH_M;
+        let p = sample.position_m;
+        // A comparison with NaN is false.
+        let usable = in_reach(p[0]) & in_reach(p[1]) & in_reach(p[2]) & (sample.elapsed_ticks > 0);
+        let missed = sample.elapsed_ticks.saturating_sub(1);
+        let gap = missed > hold_ticks && !self.fresh;
+        let good = usable && !gap;
+
+        self.bad_in_a_row = if usable {
+            0
+        } else {
+            self.bad_in_a_row.saturating_add(1)
+        };
+        let held = !usable && !self.fresh && self.bad_in_a_row <= hold_ticks;
+        let safe = !good && !held;
+        let fault = safe && (gap || !self.fresh);
+        let restart = usable && (self.fresh || gap);
+        if usable {
+            self.position_m = p;
+        }
+        self.fresh = safe && !usable;
+        let ramped = self.gain + ramp_step;
+        self.gain = if safe {
+            0.0
+        } else if held {
+            self.gain
+        } else if ramped < 1.0 {
+            ramped
+        } else {
+            1.0
+        };
+        Gated {
+            position_m: self.position_m,
+            elapsed_ticks: if good && !restart { missed + 1 } else { 1 },
+            gain: self.gain,
+            restart,
+            held,
+            safe,
+            fault,
+            bad: !usable,
+        }
+    }
+}

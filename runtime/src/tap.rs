@@ -1,0 +1,214 @@
+//! Taps: impact detection and the transient that follows.
+//!
+//! The normal distance is watched over the last eight ticks; its least-squares slope
+//! when the surface is entered is the impact speed. The transient is the linear
+//! interpolation of the two traces nearest in impact speed (the paper's a_tap(t)).
+//! Below the slowest trace it shrinks with the speed, above the fastest it stays.
+//! After an impact the detector waits until the stylus is `rearm_m` away.
+
+use crate::{
+    math::{max, min},
+    resample::Resampler,
+};
+use asperity_formats::{Taps, limits::MAX_TAPS};
+
+/// Ticks of normal motion that give the impact speed.
+pub const WINDOW_TICKS: usize = 8;
+
+/// The tap bank at the servo rate, `K` samples in all.
+#[derive(Debug, Clone)]
+pub struct TapBank<const K: usize> {
+    count: usize,
+    ticks: usize,
+    speeds_m_s: [f32; MAX_TAPS],
+    samples_m_s2: [f32; K],
+}
+
+impl<const K: usize> TapBank<K> {
+    pub(crate) const EMPTY: Self = Self {
+        count: 0,
+        ticks: 0,
+        speeds_m_s: [0.0; MAX_TAPS],
+        samples_m_s2: [0.0; K],
+    };
+
+    /// Samples needed at the servo rate.
+    pub(crate) fn needed(taps: &Taps<'_>, servo_rate_hz: f32) -> usize {
+        let resampler = Resampler::new(taps.sample_rate_hz(), servo_rate_hz);
+        resampler.ticks(taps.samples()) * taps.traces().len()
+    }
+
+    /// Converts every trace to the servo rate; [`TapBank::needed`] is at most `K`.
+    pub(crate) fn load(&mut self, taps: &Taps<'_>, servo_rate_hz: f32) {
+        *self = Self::EMPTY;
+        let resampler = Resampler::new(taps.sample_rate_hz(), servo_rate_hz);
+        let ticks = resampler.ticks(taps.samples());
+        let places = self.samples_m_s2.chunks_exact_mut(max_one(ticks));
+        for ((trace, place), speed) in taps.traces().zip(places).zip(&mut self.speeds_m_s) {
+            *speed = trace.speed_m_s;
+            resampler.convert(trace.accel_m_s2(), place);
+        }
+        self.count = taps.traces().len();
+        self.ticks = ticks;
+    }
+
+    /// Length of a transient in ticks.
+    #[must_use]
+    pub const fn ticks(&self) -> usize {
+        self.ticks
+    }
+
+    /// Which two traces, and in which proportion, an impact speed plays.
+    #[must_use]
+    pub fn select(&self, impact_speed_m_s: f32) -> Selection {
+        let mut selection = Selection {
+            first: 0,
+            second: 0,
+            first_weight: 0.0,
+            second_weight: 0.0,
+        };
+        if self.count == 0 {
+            return selection;
+        }
+        // The last trace that is not faster; a fixed number of comparisons.
+        let mut first = 0;
+        for index in 1..MAX_TAPS {
+            let reached = index < self.count && impact_speed_m_s >= self.speeds_m_s[index];
+            first = if reached { index } else { first };
+        }
+        let second = if first + 1 < self.count {
+            first + 1
+        } else {
+            first
+        };
+        let (low, high) = (self.speeds_m_s[first], self.speeds_m_s[second]);
+        selection.first = first as u8;
+        selection.second = second as u8;
+        if impact_speed_m_s <= low {
+            selection.first_weight = max(impact_speed_m_s, 0.0) / low;
+        } else if second == first {
+            selection.first_weight = 1.0;
+        } else {
+            selection.second_weight = min((impact_speed_m_s - low) / (high - low), 1.0);
+            selection.first_weight = 1.0 - selection.second_weight;
+        }
+        selection
+    }
+
+    /// Acceleration of a transient at `tick`, m/s²; 0 beyond its end.
+    #[inline]
+    #[must_use]
+    pub fn accel_m_s2(&self, selection: &Selection, tick: usize) -> f32 {
+        let at = |trace: u8| {
+            let inside = tick < self.ticks;
+            let index = usize::from(trace) * self.ticks + if inside { tick } else { 0 };
+            let a = self.samples_m_s2.get(index).copied().unwrap_or(0.0);
+            if inside { a } else { 0.0 }
+        };
+        selection.first_weight * at(selection.first)
+            + selection.second_weight * at(selection.second)
+    }
+}
+
+const fn max_one(n: usize) -> usize {
+    if n == 0 { 1 } else { n }
+}
+
+/// Two traces and their weights.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Selection {
+    /// Index of the slower trace.
+    pub first: u8,
+    /// Index of the faster one.
+    pub second: u8,
+    /// Weight of the slower.
+    pub first_weight: f32,
+    /// Weight of the faster.
+    pub second_weight: f32,
+}
+
+/// The impact detector and the transient under way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TapState {
+    /// Signed distances, the newest first, m.
+    distances_m: [f32; WINDOW_TICKS],
+    armed: bool,
+    /// Next tick of the transient; `u32::MAX` when none plays.
+    tick: u32,
+    selection: Selection,
+}
+
+/// What a tick of the tap stage gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TapOutput {
+    /// Acceleration along the normal, m/s².
+    pub accel_m_s2: f32,
+    /// Whether a transient started in this tick.
+    pub started: bool,
+    /// Whether one is under way.
+    pub active: bool,
+}
+
+impl TapState {
+    /// No contact seen yet: the first one is no impact.
+    pub const IDLE: Self = Self {
+        distances_m: [0.0; WINDOW_TICKS],
+        armed: false,
+        tick: u32::MAX,
+        selection: Selection {
+            first: 0,
+            second: 0,
+            first_weight: 0.0,
+            second_weight: 0.0,
+        },
+    };
+
+    /// Starts over at `distance_m`; a first sample inside is no impact.
+    pub fn restart(&mut self, distance_m: f32) {
+        *self = Self::IDLE;
+        self.distances_m = [distance_m; WINDOW_TICKS];
+    }
+
+    /// Impact speed, m/s: minus the least-squares slope of the last eight distances.
+    fn approach_speed_m_s(&self, servo_rate_hz: f32) -> f32 {
+        // Σ (i − 3.5)² over eight samples.
+        const SPREAD: f32 = 42.0;
+        let mut slope = 0.0;
+        for (i, d) in self.distances_m.iter().enumerate() {
+            slope += (i as f32 - 3.5) * d;
+        }
+        // Index 0 is the newest, so a falling distance gives a positive slope.
+        slope * (servo_rate_hz / SPREAD)
+    }
+
+    /// One tick at `distance_m` from the surface (negative inside).
+    #[inline]
+    pub fn step<const K: usize>(
+        &mut self,
+        bank: &TapBank<K>,
+        distance_m: f32,
+        servo_rate_hz: f32,
+        config: &crate::TapConfig,
+    ) -> TapOutput {
+        self.distances_m.copy_within(..WINDOW_TICKS - 1, 1);
+        self.distances_m[0] = distance_m;
+        let speed_m_s = self.approach_speed_m_s(servo_rate_hz);
+        let touching = distance_m < 0.0;
+        let started = self.armed && touching && speed_m_s >= config.min_speed_m_s;
+        // Chosen in every tick, so that an impact costs what rest costs.
+        let selection = bank.select(speed_m_s);
+        if started {
+            self.selection = selection;
+            self.tick = 0;
+        }
+        self.armed = (self.armed || distance_m > config.rearm_m) && !touching;
+        let active = (self.tick as usize) < bank.ticks();
+        let accel_m_s2 = bank.accel_m_s2(&self.selection, self.tick as usize);
+        self.tick = self.tick.saturating_add(1);
+        TapOutput {
+            accel_m_s2,
+            started,
+            active,
+        }
+    }
+}

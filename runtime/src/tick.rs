@@ -1,0 +1,385 @@
+//! One servo period: device sample in, limited force out.
+
+use crate::{
+    Config, ConfigError, Texture, VibrationAxis,
+    excitation::Excitation,
+    friction::FrictionState,
+    limiter::Limiter,
+    math::{Vec3, add, clamp_from_zero, cross, dot, exp, max, rsqrt, scale, sub, tangential},
+    safety::Gate,
+    synthesis::History,
+    tap::TapState,
+    texture::Parameters,
+    velocity::{LowPass2, LowPass2State},
+    wall,
+};
+
+/// Below this speed the direction of motion is the last one, m/s.
+const DIRECTION_FLOOR_M_S: f32 = 1.0e-4;
+/// m/s to mm/s.
+const MM: f32 = 1000.0;
+
+/// What the device says in one servo period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Stylus position in the world frame, m. Anything not finite, or beyond 10 km, is a
+    /// bad sample.
+    pub position_m: Vec3,
+    /// Servo periods since the sample before: 1 in a healthy loop, more after missed
+    /// periods, 0 when the device had nothing new.
+    pub elapsed_ticks: u32,
+}
+
+impl Sample {
+    /// A fresh sample of a healthy loop.
+    #[must_use]
+    pub const fn at(position_m: Vec3) -> Self {
+        Self {
+            position_m,
+            elapsed_ticks: 1,
+        }
+    }
+
+    /// The device had nothing new, or is lost.
+    pub const STALE: Self = Self {
+        position_m: [f32::NAN; 3],
+        elapsed_ticks: 0,
+    };
+}
+
+/// What happened in a tick, as bits.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub struct Flags(u16);
+
+impl Flags {
+    /// The stylus is inside the surface.
+    pub const CONTACT: Self = Self(1);
+    /// A tap transient started.
+    pub const TAP_STARTED: Self = Self(1 << 1);
+    /// A tap transient is under way.
+    pub const TAP_ACTIVE: Self = Self(1 << 2);
+    /// Speed or force lie outside the grid; an edge model answers.
+    pub const OUTSIDE_GRID: Self = Self(1 << 3);
+    /// The force was cut to the device's peak.
+    pub const PEAK_LIMITED: Self = Self(1 << 4);
+    /// The force was held back by the slew limit.
+    pub const SLEW_LIMITED: Self = Self(1 << 5);
+    /// A bad sample; the last good one was held.
+    pub const HELD_SAMPLE: Self = Self(1 << 6);
+    /// The safe state: the force goes to zero.
+    pub const SAFE_STATE: Self = Self(1 << 7);
+    /// The force comes back after a fault.
+    pub const RAMPING: Self = Self(1 << 8);
+    /// The vibration reached its bound; a verified texture never does.
+    pub const VIB_CLAMPED: Self = Self(1 << 9);
+
+    /// Every flag with its name.
+    pub const ALL: [(Self, &'static str); 10] = [
+        (Self::CONTACT, "contact"),
+        (Self::TAP_STARTED, "tap_started"),
+        (Self::TAP_ACTIVE, "tap_active"),
+        (Self::OUTSIDE_GRID, "outside_grid"),
+        (Self::PEAK_LIMITED, "peak_limited"),
+        (Self::SLEW_LIMITED, "slew_limited"),
+        (Self::HELD_SAMPLE, "held_sample"),
+        (Self::SAFE_STATE, "safe_state"),
+        (Self::RAMPING, "ramping"),
+        (Self::VIB_CLAMPED, "vib_clamped"),
+    ];
+
+    /// The bits, as `render` prints them.
+    #[must_use]
+    pub const fn bits(self) -> u16 {
+        self.0
+    }
+
+    /// Whether every bit of `other` is set.
+    #[must_use]
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    const fn with(self, other: Self, set: bool) -> Self {
+        Self(self.0 | if set { other.0 } else { 0 })
+    }
+}
+
+/// What a tick gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Output {
+    /// Force on the hand in the world frame, N; finite, within peak and slew.
+    pub force_n: Vec3,
+    /// Depth inside the surface, m; 0 outside.
+    pub depth_m: f32,
+    /// Estimated tangential speed, mm/s.
+    pub speed_mm_s: f32,
+    /// k·δ, N: what looks up the grid and what friction is proportional to.
+    pub normal_force_n: f32,
+    /// y\[n\] before device gain, m/s².
+    pub vib_m_s2: f32,
+    /// Tap force along the normal, N.
+    pub tap_n: f32,
+    /// Magnitude of the friction force, N.
+    pub friction_n: f32,
+    /// What happened.
+    pub flags: Flags,
+}
+
+/// How often what happened, since the state was made; saturating.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Ticks.
+    pub ticks: u32,
+    /// Bad samples: stale, not finite, out of reach.
+    pub bad_samples: u32,
+    /// Servo periods that the caller reported as missed.
+    pub missed_ticks: u32,
+    /// Times the safe state was entered.
+    pub faults: u32,
+    /// Taps.
+    pub taps: u32,
+    /// Ticks whose force was cut to the peak.
+    pub peak_limited: u32,
+    /// Ticks whose force was held back by the slew limit.
+    pub slew_limited: u32,
+}
+
+/// Everything that changes from tick to tick. Texture and configuration are outside
+/// it, so a swap of texture copies no history.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    gate: Gate,
+    position_m: Vec3,
+    distance_m: f32,
+    velocity: [LowPass2State; 3],
+    normal_velocity: LowPass2State,
+    direction: Vec3,
+    touching: bool,
+    parameters: Parameters,
+    history: History,
+    excitation: Excitation,
+    tap: TapState,
+    friction: FrictionState,
+    force_n: Vec3,
+    counters: Counters,
+}
+
+impl State {
+    /// A state at rest, without force; the seed is that of the excitation.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self {
+            gate: Gate::NEW,
+            position_m: [0.0; 3],
+            distance_m: 0.0,
+            velocity: [LowPass2State::default(); 3],
+            normal_velocity: LowPass2State::default(),
+            direction: [1.0, 0.0, 0.0],
+            touching: false,
+            parameters: Parameters::SILENT,
+            history: History::SILENT,
+            excitation: Excitation::new(seed),
+            tap: TapState::IDLE,
+            friction: FrictionState::default(),
+            force_n: [0.0; 3],
+            counters: Counters::default(),
+        }
+    }
+
+    /// How often what happened.
+    #[must_use]
+    pub const fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Motion starts anew: no velocity, no bristle, no impact, no sound.
+    fn restart(&mut self, position_m: Vec3, distance_m: f32) {
+        self.position_m = position_m;
+        self.distance_m = distance_m;
+        self.velocity = [LowPass2State::default(); 3];
+        self.normal_velocity = LowPass2State::default();
+        self.touching = false;
+        self.history = History::SILENT;
+        self.friction = FrictionState::default();
+        self.tap.restart(distance_m);
+    }
+}
+
+/// A checked configuration with all that follows from it.
+#[derive(Debug, Clone)]
+pub struct Renderer {
+    config: Config,
+    velocity: LowPass2,
+    normal_velocity: LowPass2,
+    limiter: Limiter,
+    /// Periods per second over 1, 2 and 3 elapsed ticks.
+    rate_over_ticks: [f32; 3],
+    follow_share: f32,
+    ramp_step: f32,
+}
+
+impl Renderer {
+    /// Checks a configuration and prepares it.
+    ///
+    /// # Errors
+    /// The first field out of its range.
+    pub fn new(config: &Config) -> Result<Self, ConfigError> {
+        config.check()?;
+        let rate = config.servo_rate_hz;
+        let time_constant = config.parameter_time_constant_s * rate;
+        Ok(Self {
+            config: Config {
+                surface: config.surface.normalised(),
+                ..config.clone()
+            },
+            velocity: LowPass2::new(config.velocity_cutoff_hz, rate),
+            normal_velocity: LowPass2::new(config.normal_cutoff_hz, rate),
+            limiter: Limiter::new(&config.limits, rate),
+            rate_over_ticks: [rate, rate / 2.0, rate / 3.0],
+            follow_share: if time_constant > 0.0125 {
+                1.0 - exp(-1.0 / time_constant)
+            } else {
+                1.0
+            },
+            ramp_step: 1.0 / max(config.safety.ramp_s * rate, 1.0),
+        })
+    }
+
+    /// The configuration.
+    #[must_use]
+    pub const fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// One servo period. Infallible: every sample gives a finite force within the
+    /// limits. The work does not depend on the sample.
+    ///
+    /// `F = F_n n̂ − F_t t̂ + F_vib t̂` with F_n = kδ − bḋ + m_eff·a_tap and
+    /// F_vib = g_vib·y\[n\]·F_max.
+    pub fn tick<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+        &self,
+        texture: &Texture<V, T, P, Q, K>,
+        state: &mut State,
+        sample: &Sample,
+    ) -> Output {
+        let config = &self.config;
+        let surface = &texture.surface;
+
+        let gated = state
+            .gate
+            .step(sample, config.safety.hold_ticks, self.ramp_step);
+        let contact = config.surface.contact(gated.position_m);
+        if gated.restart {
+            state.restart(gated.position_m, contact.distance_m);
+        }
+
+        let motion_m = sub(gated.position_m, state.position_m);
+        let rate = self.rate_over_ticks[(gated.elapsed_ticks.wrapping_sub(1) % 3) as usize];
+        let velocity_m_s = self
+            .velocity
+            .step3(&mut state.velocity, scale(motion_m, rate));
+        let outward_m_s = self.normal_velocity.step(
+            &mut state.normal_velocity,
+            (contact.distance_m - state.distance_m) * rate,
+        );
+        state.position_m = gated.position_m;
+        state.distance_m = contact.distance_m;
+
+        let slide_m_s = tangential(velocity_m_s, contact.normal);
+        let squared = dot(slide_m_s, slide_m_s);
+        let inverse_speed = rsqrt(squared);
+        let speed_m_s = squared * inverse_speed;
+        if speed_m_s > DIRECTION_FLOOR_M_S {
+            state.direction = scale(slide_m_s, inverse_speed);
+        }
+        let speed_mm_s = speed_m_s * MM;
+
+        let depth_m = max(-contact.distance_m, 0.0);
+        let touching = depth_m > 0.0;
+        let stiffness_n = surface.stiffness_n_m * depth_m;
+
+        let query = texture.weights_at(speed_mm_s, stiffness_n);
+        let target = texture.mix(&query);
+        // Out of contact nothing sounds, so a new contact starts at its own model.
+        let share = if state.touching {
+            self.follow_share
+        } else {
+            1.0
+        };
+        state.parameters.follow(&target, share);
+        state.touching = touching && !gated.safe;
+        let epsilon = state.excitation.next_gaussian();
+        let (vib_m_s2, vib_clamped) =
+            texture
+                .filter(&state.parameters)
+                .step(&mut state.history, epsilon, state.touching);
+
+        let tap = state.tap.step(
+            &texture.taps,
+            contact.distance_m,
+            config.servo_rate_hz,
+            &config.tap,
+        );
+        let tap_n = surface.effective_mass_kg * tap.accel_m_s2;
+
+        let friction = state.friction.step(
+            &config.friction,
+            motion_m,
+            contact.normal,
+            texture.mu * stiffness_n,
+            touching,
+        );
+
+        let normal_n = wall::force_n(stiffness_n, surface.damping_n_s_m, outward_m_s) + tap_n;
+        let axis = match config.vibration_axis {
+            VibrationAxis::Tangent => state.direction,
+            VibrationAxis::Binormal => cross(state.direction, contact.normal),
+        };
+        let vib_n = surface.vib_s2_m * surface.f_max_n * vib_m_s2;
+        let total = add(
+            add(scale(contact.normal, normal_n), friction),
+            scale(axis, vib_n),
+        );
+        let (force_n, limited) = self.limiter.step(state.force_n, scale(total, gated.gain));
+        state.force_n = force_n;
+
+        let flags = Flags::default()
+            .with(Flags::CONTACT, touching)
+            .with(Flags::TAP_STARTED, tap.started)
+            .with(Flags::TAP_ACTIVE, tap.active)
+            .with(Flags::OUTSIDE_GRID, query.outside)
+            .with(Flags::PEAK_LIMITED, limited.peak)
+            .with(Flags::SLEW_LIMITED, limited.slew)
+            .with(Flags::HELD_SAMPLE, gated.held)
+            .with(Flags::SAFE_STATE, gated.safe)
+            .with(Flags::RAMPING, !gated.safe && gated.gain < 1.0)
+            .with(Flags::VIB_CLAMPED, vib_clamped);
+        let counters = &mut state.counters;
+        for (counter, add) in [
+            (&mut counters.ticks, 1),
+            (&mut counters.bad_samples, u32::from(gated.bad)),
+            (
+                &mut counters.missed_ticks,
+                sample.elapsed_ticks.saturating_sub(1),
+            ),
+            (&mut counters.faults, u32::from(gated.fault)),
+            (&mut counters.taps, u32::from(tap.started)),
+            (&mut counters.peak_limited, u32::from(limited.peak)),
+            (&mut counters.slew_limited, u32::from(limited.slew)),
+        ] {
+            *counter = counter.saturating_add(add);
+        }
+
+        let friction_squared = dot(friction, friction);
+        Output {
+            force_n,
+            depth_m,
+            speed_mm_s: clamp_from_zero(speed_mm_s, f32::MAX),
+            normal_force_n: stiffness_n,
+            vib_m_s2,
+            tap_n,
+            friction_n: friction_squared * rsqrt(friction_squared),
+            flags,
+        }
+    }
+}
