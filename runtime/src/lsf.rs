@@ -25,11 +25,13 @@ pub fn polynomial(cosines: &[f32; MAX_ORDER], order: usize) -> [f32; MAX_ORDER] 
     let mut difference: Half = [0.0; HALF];
     sum[0] = 1.0;
     difference[0] = 1.0;
-    for pair in 0..sum_pairs {
-        multiply(&mut sum, pair, cosines[2 * pair % MAX_ORDER]);
+    for done in 0..sum_pairs {
+        let pair = from_both_ends(done, sum_pairs);
+        multiply(&mut sum, done, cosines[2 * pair % MAX_ORDER]);
     }
-    for pair in 0..difference_pairs {
-        multiply(&mut difference, pair, cosines[(2 * pair + 1) % MAX_ORDER]);
+    for done in 0..difference_pairs {
+        let pair = from_both_ends(done, difference_pairs);
+        multiply(&mut difference, done, cosines[(2 * pair + 1) % MAX_ORDER]);
     }
     let sum = |k| mirrored(&sum, sum_pairs, k);
     let difference = |k| mirrored(&difference, difference_pairs, k);
@@ -47,6 +49,18 @@ pub fn polynomial(cosines: &[f32; MAX_ORDER], order: usize) -> [f32; MAX_ORDER] 
             };
     }
     a
+}
+
+/// Which of `pairs` zero pairs comes in after `done` others: low and high frequencies in
+/// turn. Partial products of neighbouring zeros grow large and cancel later; in f32 that
+/// costs up to 0.4 dB on real models, this order less than 0.001 dB.
+#[inline]
+const fn from_both_ends(done: usize, pairs: usize) -> usize {
+    if done.is_multiple_of(2) {
+        done / 2
+    } else {
+        pairs - 1 - done / 2
+    }
 }
 
 /// Multiplies half of a symmetric polynomial of degree `2·pairs` by
@@ -136,7 +150,7 @@ mod tests {
             let a = polynomial(&cosines, order);
             for (ours, exact) in a.iter().zip(reference(&omegas)) {
                 let error = (f64::from(*ours) - exact).abs();
-                assert!(error < 1e-4, "order {order}: {error}");
+                assert!(error < 1e-5, "order {order}: {error}");
             }
             assert!(a[order..].iter().all(|&a| a == 0.0));
         }
