@@ -13,6 +13,8 @@ pub mod defaults;
 pub mod diagnostic;
 pub mod hatt;
 pub mod inspect;
+pub mod levinson;
+pub mod library;
 pub mod lower;
 pub mod lsf;
 pub mod mesh;

@@ -1,1 +1,21 @@
-fn main(){}
+//! The command `asperity`: author time.
+
+mod cli;
+mod commands;
+mod console;
+
+use clap::Parser as _;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    asperity::output::clean_up_on_interrupt();
+    match commands::run(cli::Cli::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failures) => {
+            for failure in &failures {
+                eprintln!("{}", asperity::diagnostic::report(failure.as_ref()));
+            }
+            ExitCode::FAILURE
+        }
+    }
+}

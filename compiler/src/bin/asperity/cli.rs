@@ -1,0 +1,143 @@
+//! What the command understands.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+#[derive(Debug, Parser)]
+#[command(
+    name = "asperity",
+    version,
+    about = "Haptic textures: import, look at, plot and render them",
+    after_help = "Examples:
+  asperity builtin -o grit.asp
+  asperity inspect grit.asp
+  asperity plot grit.asp -o grit.png
+  asperity import hatt Models_Cork.xml -o cork.asp
+
+Exit status: 0 success, 1 failure, 2 wrong usage."
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+    /// Show no progress; results are printed all the same
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Import recorded textures
+    #[command(subcommand)]
+    Import(Import),
+    /// Write the built-in synthetic texture
+    Builtin(Builtin),
+    /// Show everything in an asset or a library
+    Inspect(Inspect),
+    /// Draw a texture on one sheet: poles, spectra, taps, grid, friction
+    Plot(Plot),
+    /// Run a trajectory through the runtime, offline
+    Render(Render),
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Import {
+    /// Import materials of the Penn Haptic Texture Toolkit
+    Hatt(ImportHatt),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Prints one line of figures a material: the RMS distance of its log \
+spectra from the source over 10–450 Hz, level included, and its size. Every vertex and \
+triangle is kept. HaTT holds no tapping traces: they are synthesised and marked so.
+
+Examples:
+  asperity import hatt Models_Cork.xml -o cork.asp
+  asperity import hatt hatt/models -o assets
+  asperity import hatt hatt/models -o hatt.aspl")]
+pub(crate) struct ImportHatt {
+    /// One `Models_<name>.xml`, or a folder of them
+    pub(crate) input: PathBuf,
+    /// One asset (.asp), a folder for one asset a material, or a library (.aspl)
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// How much of the source is kept; this version keeps all of it
+    #[arg(long, default_value = "full", value_parser = fidelity)]
+    pub(crate) fidelity: String,
+}
+
+fn fidelity(text: &str) -> Result<String, String> {
+    if text == "full" {
+        Ok(text.to_owned())
+    } else {
+        Err("this version keeps every model as it is: only `full` can be given".to_owned())
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  asperity builtin -o grit.asp")]
+pub(crate) struct Builtin {
+    /// The asset to write
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Every checksum is verified, of a library those of all textures. With \
+--json, an asset is one object; a library is {format_version, textures: [object, …]} in order \
+of name.
+
+Examples:
+  asperity inspect grit.asp
+  asperity inspect grit.asp --json
+  asperity inspect hatt.aspl
+  asperity inspect hatt.aspl --texture Cork --json")]
+pub(crate) struct Inspect {
+    /// An asset (.asp) or a library (.aspl)
+    pub(crate) file: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// One texture of a library, by name or index from 0; the others are not read
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub(crate) texture: Option<String>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  asperity plot grit.asp -o grit.png
+  asperity plot hatt.aspl --texture Cork -o cork.png")]
+pub(crate) struct Plot {
+    /// An asset (.asp) or a library (.aspl)
+    pub(crate) file: PathBuf,
+    /// The PNG to write
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// One texture of a library, by name or index from 0
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub(crate) texture: Option<String>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "The trajectory has the header t_s,x_mm,y_mm,z_mm and one row a tick at \
+the texture's rate. The surface is the infinite plane z = 0, contact where z < 0. The same \
+asset, trajectory and seed give the same bytes.
+
+Examples:
+  asperity render grit.asp --trajectory stroke.csv -o felt.csv --seed 1
+  asperity render hatt.aspl --texture Cork --trajectory stroke.csv -o felt.csv")]
+pub(crate) struct Render {
+    /// An asset (.asp) or a library (.aspl)
+    pub(crate) file: PathBuf,
+    /// The trajectory, CSV
+    #[arg(long, value_name = "IN.csv")]
+    pub(crate) trajectory: PathBuf,
+    /// The result, CSV
+    #[arg(short, long, value_name = "OUT.csv")]
+    pub(crate) output: PathBuf,
+    /// Seed of the excitation
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// One texture of a library, by name or index from 0
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub(crate) texture: Option<String>,
+}

@@ -1,0 +1,81 @@
+//! `asperity inspect`.
+
+use super::{Failures, one};
+use crate::{cli::Inspect, console};
+use asperity::{
+    inspect::{self, Document, LibraryDocument},
+    source::Source,
+};
+use asperity_formats::{Asset, library};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+pub(crate) fn run(args: &Inspect) -> Result<(), Failures> {
+    let mut source = Source::open(&args.file).map_err(one)?;
+    match source.names() {
+        Some(names) if args.texture.is_none() => whole_library(args, &mut source, &names),
+        _ => one_texture(args, &mut source),
+    }
+}
+
+fn one_texture(args: &Inspect, source: &mut Source) -> Result<(), Failures> {
+    let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
+    let asset = Asset::parse(&bytes)
+        .map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
+    if args.json {
+        print_json(&Document::of(&asset));
+    } else {
+        console::print(&inspect::text(&asset));
+    }
+    Ok(())
+}
+
+fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Result<(), Failures> {
+    let mut documents = Vec::with_capacity(names.len());
+    for (index, name) in names.iter().enumerate() {
+        let bytes = source.texture(index).map_err(one)?;
+        let asset = Asset::parse(&bytes).map_err(|e| one(source.error(Some(name), e.into())))?;
+        documents.push(Document::of(&asset));
+    }
+    if args.json {
+        print_json(&LibraryDocument {
+            format_version: library::VERSION,
+            textures: documents,
+        });
+        return Ok(());
+    }
+    let mut text = format!(
+        "{}: a library of {} textures, every checksum holds\n",
+        source.path().display(),
+        names.len()
+    );
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  index  haptic   total  order  vertices  rough dB  sharp Hz      μ  name"
+    );
+    for (index, (name, d)) in names.iter().zip(&documents).enumerate() {
+        let figure = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
+        let _ = writeln!(
+            text,
+            "  {index:>5}  {:>6}  {:>6}  {:>5}  {:>8}  {:>8}  {:>8}  {:>5.3}  {name}",
+            d.bytes.haptic,
+            d.bytes.total,
+            d.ar.order,
+            d.ar.vertices.len(),
+            figure(d.attributes.rough_db),
+            figure(d.attributes.sharp_hz),
+            d.attributes.mu,
+        );
+    }
+    console::print(&text);
+    Ok(())
+}
+
+fn print_json(document: &impl Serialize) {
+    // Plain structures of numbers and strings always serialise.
+    if let Ok(mut json) = serde_json::to_string(document) {
+        json.push('\n');
+        console::print(&json);
+    }
+}

@@ -1,0 +1,28 @@
+//! One file a command.
+
+mod builtin;
+mod import;
+mod inspect;
+mod plot;
+mod render;
+
+use crate::cli::{Cli, Command, Import};
+use asperity::diagnostic::Diagnostic;
+
+/// What a failed command has to say; several where many files were at fault.
+pub(crate) type Failures = Vec<Box<dyn Diagnostic>>;
+
+pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
+    match cli.command {
+        Command::Import(Import::Hatt(args)) => import::hatt(&args, cli.quiet),
+        Command::Builtin(args) => builtin::run(&args),
+        Command::Inspect(args) => inspect::run(&args),
+        Command::Plot(args) => plot::run(&args),
+        Command::Render(args) => render::run(&args),
+    }
+}
+
+/// For `map_err`: one failure.
+pub(crate) fn one(error: impl Diagnostic + 'static) -> Failures {
+    vec![Box::new(error)]
+}

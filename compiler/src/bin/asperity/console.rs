@@ -1,0 +1,28 @@
+//! Results on stdout, progress on a terminal.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{self, Write as _};
+
+/// Writes a result. A reader that has gone away, as `head` does, ends the command
+/// without noise; nothing else can be done about a stdout that fails.
+pub(crate) fn print(text: &str) {
+    let mut stdout = io::stdout().lock();
+    let _ = stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush());
+}
+
+/// A progress bar on stderr where that is a terminal, else nothing.
+pub(crate) fn progress(quiet: bool, steps: usize, what: &'static str) -> ProgressBar {
+    let target = if quiet {
+        ProgressDrawTarget::hidden()
+    } else {
+        // Hidden by itself where stderr is no terminal.
+        ProgressDrawTarget::stderr()
+    };
+    let bar = ProgressBar::with_draw_target(Some(steps as u64), target);
+    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:32}] {pos}/{len} {eta}") {
+        bar.set_style(style);
+    }
+    bar.with_message(what)
+}

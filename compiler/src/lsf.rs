@@ -1,0 +1,236 @@
+//! Line spectral frequencies in f64: to a polynomial, and back.
+//!
+//! With `A(z)` monic of order p, `Q(z) = A(z) + z⁻⁽ᵖ⁺¹⁾A(z⁻¹)` is the sum polynomial
+//! and `P(z) = A(z) − z⁻⁽ᵖ⁺¹⁾A(z⁻¹)` the difference polynomial, so `A = (P + Q)/2`.
+//! The roots of both lie on the unit circle where A is stable, and alternate; their
+//! angles in (0, π) are the LSFs, the first of which belongs to Q.
+
+use crate::reflection::step_down;
+use std::f64::consts::PI;
+
+/// The monic polynomial `[1, a_1, …, a_p]` of `p` line spectral frequencies (rad).
+///
+/// Defined for any order and any frequencies; stable where they ascend strictly
+/// inside (0, π).
+#[must_use]
+pub fn to_polynomial(lsf_rad: &[f64]) -> Vec<f64> {
+    let order = lsf_rad.len();
+    let mut sum = vec![1.0];
+    let mut difference = vec![1.0];
+    for (index, &omega) in lsf_rad.iter().enumerate() {
+        let factor = [1.0, -2.0 * libm::cos(omega), 1.0];
+        let side = if index % 2 == 0 {
+            &mut sum
+        } else {
+            &mut difference
+        };
+        *side = multiply(side, &factor);
+    }
+    if order.is_multiple_of(2) {
+        sum = multiply(&sum, &[1.0, 1.0]);
+        difference = multiply(&difference, &[1.0, -1.0]);
+    } else {
+        difference = multiply(&difference, &[1.0, 0.0, -1.0]);
+    }
+    let mut monic: Vec<f64> = sum
+        .iter()
+        .zip(&difference)
+        .map(|(q, p)| 0.5 * (q + p))
+        .collect();
+    // The last coefficients of P and Q cancel exactly.
+    monic.truncate(order + 1);
+    monic
+}
+
+fn multiply(x: &[f64], y: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; x.len() + y.len() - 1];
+    for (i, a) in x.iter().enumerate() {
+        for (j, b) in y.iter().enumerate() {
+            product[i + j] += a * b;
+        }
+    }
+    product
+}
+
+/// The line spectral frequencies (rad, ascending) of the monic polynomial
+/// `[1, a_1, …, a_p]`; `None` unless it is stable.
+///
+/// On the unit circle the sum and the difference polynomials obey three-term
+/// recurrences in `x = cos(ω/2)` with positive coefficients (Delsarte and Genin,
+/// "The split Levinson algorithm", 1986), hence are Sturm sequences: bisection on
+/// the count of sign changes finds every root, however close it lies to the next.
+#[must_use]
+pub fn from_polynomial(monic: &[f64]) -> Option<Vec<f64>> {
+    if monic.first() != Some(&1.0) {
+        return None;
+    }
+    let reflection = step_down(monic)?;
+    let order = reflection.len();
+    let sum = Sturm::new(&reflection, Side::Sum);
+    let difference = Sturm::new(&reflection, Side::Difference);
+    let lsf: Vec<f64> = (0..order)
+        .map(|index| {
+            let sequence = if index % 2 == 0 { &sum } else { &difference };
+            sequence.root(index / 2)
+        })
+        .collect();
+    Some(lsf)
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Sum,
+    Difference,
+}
+
+/// `s_{k+1}(x) = 2x·s_k(x) − α_k·s_{k−1}(x)`, all α positive.
+struct Sturm {
+    alpha: Vec<f64>,
+}
+
+impl Sturm {
+    fn new(reflection: &[f64], side: Side) -> Self {
+        let sign = if side == Side::Sum { 1.0 } else { -1.0 };
+        let r = |k: usize| if k == 0 { 0.0 } else { sign * reflection[k - 1] };
+        // S₀ = 2, S₁ = 1 + z⁻¹; the difference side, freed of its factor 1 − z⁻¹,
+        // starts one order later.
+        let first = if side == Side::Sum { 1 } else { 2 };
+        let mut alpha: Vec<f64> = (first..=reflection.len())
+            .map(|k| (1.0 - r(k)) * (1.0 + r(k - 1)))
+            .collect();
+        if side == Side::Sum
+            && let Some(first) = alpha.first_mut()
+        {
+            *first *= 2.0;
+        }
+        Self { alpha }
+    }
+
+    /// Roots with an angle below `omega`, of all in (0, π).
+    fn roots_below(&self, omega: f64) -> usize {
+        let twice_x = 2.0 * libm::cos(0.5 * omega);
+        let mut ratio = twice_x;
+        let mut count = usize::from(ratio < 0.0);
+        for alpha in &self.alpha {
+            // A zero ratio stands for a root exactly here; nudge it to one side.
+            let safe = if ratio == 0.0 { f64::MIN_POSITIVE } else { ratio };
+            ratio = twice_x - alpha / safe;
+            count += usize::from(ratio < 0.0);
+        }
+        count
+    }
+
+    /// The angle of root number `index`, ascending.
+    fn root(&self, index: usize) -> f64 {
+        let (mut low, mut high) = (0.0, PI);
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return middle;
+            }
+            if self.roots_below(middle) > index {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+    }
+}
+
+/// Whether the frequencies ascend strictly inside (0, π): the condition for the
+/// polynomial to be stable.
+#[must_use]
+pub fn is_ordered(lsf_rad: &[f64]) -> bool {
+    let inside = |omega: &f64| *omega > 0.0 && *omega < PI;
+    lsf_rad.iter().all(inside) && lsf_rad.windows(2).all(|pair| pair[0] < pair[1])
+}
+
+/// Smallest distance between neighbouring frequencies, 0 and π included, rad.
+#[must_use]
+pub fn smallest_gap(lsf_rad: &[f64]) -> f64 {
+    let mut previous = 0.0;
+    let mut gap = f64::INFINITY;
+    for &omega in lsf_rad.iter().chain(&[PI]) {
+        gap = gap.min(omega - previous);
+        previous = omega;
+    }
+    gap
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reflection::{is_stable, step_up};
+    use proptest::prelude::*;
+
+    /// Ordered LSFs with a gap no smaller than a quarter of the mean gap.
+    fn ordered() -> impl Strategy<Value = Vec<f64>> {
+        prop::collection::vec(0.25_f64..1.0, 2..=25).prop_map(|gaps| {
+            let total: f64 = gaps.iter().sum();
+            let mut omega = 0.0;
+            gaps[..gaps.len() - 1]
+                .iter()
+                .map(|gap| {
+                    omega += gap / total * PI;
+                    omega
+                })
+                .collect()
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn ordered_frequencies_give_a_stable_polynomial(lsf in ordered()) {
+            prop_assert!(is_stable(&to_polynomial(&lsf)));
+        }
+
+        #[test]
+        fn from_polynomial_inverts_to_polynomial(lsf in ordered()) {
+            let back = from_polynomial(&to_polynomial(&lsf)).expect("stable");
+            prop_assert_eq!(back.len(), lsf.len());
+            for (found, expected) in back.iter().zip(&lsf) {
+                prop_assert!((found - expected).abs() < 1e-8, "{} for {}", found, expected);
+            }
+        }
+
+        #[test]
+        fn to_polynomial_inverts_from_polynomial(
+            r in prop::collection::vec(-0.9_f64..0.9, 1..=24),
+        ) {
+            let monic = step_up(&r);
+            let lsf = from_polynomial(&monic).expect("stable");
+            prop_assert!(is_ordered(&lsf), "{:?}", lsf);
+            let scale = monic.iter().fold(1.0_f64, |m, a| m.max(a.abs()));
+            for (found, expected) in to_polynomial(&lsf).iter().zip(&monic) {
+                prop_assert!((found - expected).abs() < 1e-6 * scale);
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_frequency_belongs_to_the_sum_polynomial() {
+        // A = 1 + a z⁻¹: Q = 1 + 2a z⁻¹·… has its root where cos ω = −a.
+        for a in [-0.9, -0.2, 0.0, 0.5] {
+            let lsf = from_polynomial(&[1.0, a]).unwrap();
+            assert!((libm::cos(lsf[0]) + a).abs() < 1e-12);
+            assert!((to_polynomial(&lsf)[1] - a).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn zeros_next_to_the_circle_keep_their_angles() {
+        // A zero pair at radius 0.999998 squeezes two LSFs together.
+        let (radius, omega) = (0.999_998_f64, 1.3_f64);
+        let monic = [1.0, -2.0 * radius * omega.cos(), radius * radius];
+        let lsf = from_polynomial(&monic).unwrap();
+        assert!(lsf.iter().all(|found| (found - omega).abs() < 1e-5));
+        assert!(lsf[0] < lsf[1]);
+    }
+
+    #[test]
+    fn unstable_polynomials_have_no_frequencies() {
+        assert_eq!(from_polynomial(&[1.0, -2.5, 1.2]), None);
+        assert_eq!(from_polynomial(&[0.5, 0.1]), None);
+        assert_eq!(from_polynomial(&[1.0, f64::NAN]), None);
+    }
+}

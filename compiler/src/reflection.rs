@@ -1,0 +1,73 @@
+//! Reflection coefficients: the step-down recursion, and stability by it.
+
+/// Reflection coefficients of a monic polynomial `A(z) = 1 + Σ a_k z⁻ᵏ`, given as
+/// `[1, a_1, …, a_p]`, from the first to the last; `None` unless every root lies
+/// strictly inside the unit circle.
+///
+/// Convention: `A_k(z) = A_{k−1}(z) + r_k z⁻ᵏ A_{k−1}(z⁻¹)`, so `r_p = a_p`.
+#[must_use]
+pub fn step_down(monic: &[f64]) -> Option<Vec<f64>> {
+    let order = monic.len().checked_sub(1)?;
+    let mut current = monic.to_vec();
+    let mut reflection = vec![0.0; order];
+    for k in (1..=order).rev() {
+        let r = current[k];
+        if r.is_nan() || r.abs() >= 1.0 {
+            return None;
+        }
+        reflection[k - 1] = r;
+        let scale = 1.0 / ((1.0 - r) * (1.0 + r));
+        let previous: Vec<f64> = (0..k)
+            .map(|i| (current[i] - r * current[k - i]) * scale)
+            .collect();
+        current = previous;
+    }
+    Some(reflection)
+}
+
+/// The monic polynomial of given reflection coefficients.
+#[must_use]
+pub fn step_up(reflection: &[f64]) -> Vec<f64> {
+    let mut current = vec![1.0];
+    for &r in reflection {
+        let k = current.len();
+        let at = |i: usize| current.get(i).copied().unwrap_or(0.0);
+        current = (0..=k).map(|i| at(i) + r * at(k - i)).collect();
+        current[0] = 1.0;
+    }
+    current
+}
+
+/// Whether every root of the monic polynomial lies strictly inside the unit circle.
+#[must_use]
+pub fn is_stable(monic: &[f64]) -> bool {
+    monic.first().is_some_and(|&first| first == 1.0) && step_down(monic).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn step_down_inverts_step_up(r in prop::collection::vec(-0.95_f64..0.95, 1..=24)) {
+            let monic = step_up(&r);
+            let back = step_down(&monic).expect("reflection coefficients below one are stable");
+            // The recursion divides by 1 − r² at every step: the error grows by their product.
+            let growth: f64 = r.iter().map(|r| (1.0 + r.abs()) / (1.0 - r.abs())).product();
+            for (found, expected) in back.iter().zip(&r) {
+                prop_assert!((found - expected).abs() <= 1e-15 * (10.0 + growth));
+            }
+        }
+    }
+
+    #[test]
+    fn a_root_on_or_outside_the_circle_is_unstable() {
+        assert!(is_stable(&[1.0, -0.999]));
+        assert!(!is_stable(&[1.0, -1.0]));
+        assert!(!is_stable(&[1.0, -1.6, 0.6]));
+        assert!(!is_stable(&[1.0, f64::NAN]));
+        assert!(!is_stable(&[]));
+    }
+}
