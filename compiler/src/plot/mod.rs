@@ -1,5 +1,10 @@
 //! Pictures of textures, drawn without system fonts and deterministic to the byte.
 //!
-//! [`theme`] is the look that every Asperity picture shares.
+//! [`sheet`] shows a whole texture on one page; [`theme`] is the look that every
+//! Asperity picture shares.
 
+mod roots;
+mod sheet;
 pub mod theme;
+
+pub use sheet::{AssetBytes, HEIGHT_PX, WIDTH_PX, sheet};

@@ -57,12 +57,14 @@ mod canvas;
 mod color;
 mod font;
 mod geometry;
+mod legend;
 mod panel;
 
 pub use axis::{Axis, Scale};
 pub use canvas::{Align, Canvas, Marker, Stroke, TextStyle, VAlign};
 pub use color::{Color, ColorMap, ColorScale, ink};
 pub use geometry::Rect;
+pub use legend::{Key, legend};
 pub use panel::{Margins, Panel};
 
 /// Sizes of type and lines in pixels, for a sheet of about 2400 px width.

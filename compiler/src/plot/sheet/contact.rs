@@ -1,0 +1,217 @@
+//! Friction over normal force with its anchors, and the wall over displacement.
+
+use super::reach;
+use crate::model::{Friction, FrictionAnchor, TextureModel};
+use crate::plot::theme::{
+    Align, Axis, Canvas, Color, Key, Margins, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
+    size,
+};
+
+/// Width of the words beside each picture.
+const WORDS_WIDTH: f32 = 330.0;
+const LINE_HEIGHT: f32 = 31.0;
+/// Speed of pressing and leaving at which damping is shown, m/s.
+const PRESS_SPEED_M_S: f64 = 0.1;
+
+pub(super) fn draw(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
+    let half = 0.5 * rect.height;
+    let above = Rect::new(rect.x, rect.y, rect.width, half + 12.0);
+    let below = Rect::new(rect.x, rect.y + half + 12.0, rect.width, half - 12.0);
+    draw_friction(canvas, above, model);
+    draw_wall(canvas, below, model);
+}
+
+fn margins(top: f32) -> Margins {
+    Margins {
+        left: 100.0,
+        right: WORDS_WIDTH,
+        top,
+        bottom: 88.0,
+    }
+}
+
+fn draw_friction(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
+    let friction = &model.friction;
+    let shown = shown_anchors(friction);
+    let force_n = reach(&model.grid.vertices).1;
+    let force_n = if force_n > 0.0 { force_n } else { 1.0 };
+    let steepest = shown
+        .iter()
+        .map(|anchor| anchor.mu)
+        .fold(friction.mu, f64::max);
+    let panel = Panel::new(
+        rect,
+        Axis::new("Normal force (N)", 0.0, force_n).ticks_about(4),
+        Axis::new("Friction force (N)", 0.0, 1.05 * steepest * force_n).ticks_about(5),
+    )
+    .letter('e')
+    .title("Friction and wall")
+    .margins(margins(96.0));
+    panel.draw_frame(canvas);
+    let ray = |mu: f64| [(0.0, 0.0), (force_n, mu * force_n)];
+    for (index, anchor) in shown.iter().enumerate() {
+        let stroke = Stroke::new(ink::category(index), 2.5).dashed();
+        panel.line(canvas, ray(anchor.mu), stroke);
+    }
+    panel.line(canvas, ray(friction.mu), Stroke::new(ink::BLACK, 4.0));
+
+    let area = panel.area();
+    let mut words = Words::beside(area, rect);
+    words.strong(canvas, &format!("μ = {:.3}", friction.mu));
+    if friction.anchors.is_empty() {
+        words.quiet(canvas, "no anchors");
+    } else {
+        words.quiet(canvas, "anchors: μ, weight");
+    }
+    for (index, anchor) in shown.iter().enumerate() {
+        let numbers = format!("{:.2}, {:.0} %", anchor.mu, 100.0 * anchor.weight);
+        words.keyed(canvas, ink::category(index), &anchor.name, &numbers);
+    }
+    let hidden = friction.anchors.len() - shown.len();
+    if hidden > 0 {
+        words.quiet(canvas, &format!("and {hidden} more"));
+    }
+}
+
+/// The anchors that weigh most: as many as there are lines beside the picture.
+fn shown_anchors(friction: &Friction) -> Vec<&FrictionAnchor> {
+    let mut anchors: Vec<&FrictionAnchor> = friction.anchors.iter().collect();
+    anchors.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    anchors.truncate(if anchors.len() > 4 { 3 } else { 4 });
+    anchors
+}
+
+fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
+    let (wall, gains) = (&model.wall, &model.gains);
+    let limit_n = gains.f_max_n;
+    let damping_n = wall.damping_n_s_m * PRESS_SPEED_M_S;
+    let top_n = 1.2 * limit_n.max(0.0) + damping_n.max(0.0);
+    let depth_mm = 1000.0 * top_n / wall.stiffness_n_m;
+    let panel = Panel::new(
+        rect,
+        Axis::new("Penetration (mm)", 0.0, depth_mm).ticks_about(4),
+        Axis::new("Wall force (N)", 0.0, top_n).ticks_about(5),
+    )
+    .margins(margins(40.0));
+    panel.draw_frame(canvas);
+    let depth_mm = panel.x.max;
+    let force_n = |depth_mm: f64, speed_m_s: f64| {
+        (wall.stiffness_n_m * depth_mm / 1000.0 + wall.damping_n_s_m * speed_m_s).max(0.0)
+    };
+    let moving = Stroke::new(ink::BLUE, 2.5).dashed();
+    let path = |speed_m_s: f64| {
+        (0..=200).map(move |step| {
+            let depth_mm = depth_mm * f64::from(step) / 200.0;
+            (depth_mm, force_n(depth_mm, speed_m_s))
+        })
+    };
+    if wall.damping_n_s_m > 0.0 {
+        panel.line(canvas, path(PRESS_SPEED_M_S), moving);
+        panel.line(canvas, path(-PRESS_SPEED_M_S), moving);
+    }
+    panel.line(canvas, path(0.0), Stroke::new(ink::BLACK, 4.0));
+    let limit = Stroke::new(ink::VERMILION, 2.5).dotted();
+    panel.horizontal_line(canvas, limit_n, limit);
+
+    let mut words = Words::beside(panel.area(), rect);
+    words.strong(canvas, &format!("k = {} N/m", brief(wall.stiffness_n_m)));
+    words.strong(canvas, &format!("b = {} N·s/m", brief(wall.damping_n_s_m)));
+    if wall.damping_n_s_m > 0.0 {
+        words.line_key(canvas, moving, "pressed, left at 0.1 m/s");
+    }
+    words.line_key(canvas, limit, &format!("peak force {} N", brief(limit_n)));
+    words.quiet(
+        canvas,
+        &format!("vibration gain {} s²/m", brief(gains.vib_s2_m)),
+    );
+    words.quiet(
+        canvas,
+        &format!("tap mass {} g", brief(1000.0 * gains.effective_mass_kg)),
+    );
+}
+
+/// A number with at most four significant digits.
+fn brief(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let exponent = value.abs().log10().floor() as i32;
+    let decimals = usize::try_from(3 - exponent).unwrap_or(0).min(9);
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// Lines of text beside a picture, from top to bottom.
+struct Words {
+    left: f32,
+    right: f32,
+    y: f32,
+}
+
+impl Words {
+    fn beside(area: Rect, rect: Rect) -> Self {
+        Self {
+            left: area.right() + 24.0,
+            right: rect.right() - 16.0,
+            y: area.y + 12.0,
+        }
+    }
+
+    fn style(color: Color) -> TextStyle {
+        TextStyle::new(size::TICK)
+            .color(color)
+            .align(Align::Left, VAlign::Middle)
+    }
+
+    fn set(&mut self, canvas: &mut Canvas, text: &str, style: &TextStyle) {
+        let text = canvas.fitted(text, style, self.right - self.left);
+        canvas.text(&text, (self.left, self.y), style);
+        self.y += LINE_HEIGHT;
+    }
+
+    fn strong(&mut self, canvas: &mut Canvas, text: &str) {
+        let mut style = Self::style(ink::BLACK);
+        style.size = size::LABEL;
+        self.set(canvas, text, &style);
+    }
+
+    fn quiet(&mut self, canvas: &mut Canvas, text: &str) {
+        self.set(canvas, text, &Self::style(ink::GREY));
+    }
+
+    fn line_key(&mut self, canvas: &mut Canvas, stroke: Stroke, text: &str) {
+        legend(
+            canvas,
+            (self.left, self.y),
+            f32::INFINITY,
+            &[(Key::Line(stroke), "")],
+        );
+        let style = Self::style(ink::GREY);
+        let text = canvas.fitted(text, &style, self.right - self.left - 44.0);
+        canvas.text(&text, (self.left + 44.0, self.y), &style);
+        self.y += LINE_HEIGHT;
+    }
+
+    /// A name with its dash of colour, and numbers at the right end.
+    fn keyed(&mut self, canvas: &mut Canvas, color: Color, name: &str, numbers: &str) {
+        let dash = Stroke::new(color, 2.5).dashed();
+        legend(
+            canvas,
+            (self.left, self.y),
+            f32::INFINITY,
+            &[(Key::Line(dash), "")],
+        );
+        let style = Self::style(ink::BLACK);
+        let numbers_width = canvas.text_width(numbers, &style);
+        let room = self.right - self.left - 44.0 - numbers_width - 16.0;
+        let name = canvas.fitted(name, &style, room);
+        canvas.text(&name, (self.left + 44.0, self.y), &style);
+        let right = style.align(Align::Right, VAlign::Middle);
+        canvas.text(numbers, (self.right, self.y), &right);
+        self.y += LINE_HEIGHT;
+    }
+}
