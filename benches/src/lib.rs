@@ -1,1 +1,45 @@
+//! What a tick costs: textures of a known size and scripted motions, shared by the
+//! criterion bench `tick` and the command `instructions`.
+#![forbid(unsafe_code)]
 
+pub mod motion;
+pub mod texture;
+
+use asperity_formats::Asset;
+use asperity_runtime::{Config, HostTexture, Output, Renderer, Sample, State};
+
+/// A renderer, a loaded texture and a state, ready to tick.
+pub struct Rig {
+    renderer: Renderer,
+    texture: Box<HostTexture>,
+    state: State,
+}
+
+impl Rig {
+    /// The default renderer (Touch, 1 kHz, plane z = 0) on the bytes of an asset.
+    ///
+    /// # Panics
+    /// When the bytes are no asset at 1 kHz: a bench of nothing must not run.
+    #[must_use]
+    pub fn new(bytes: &[u8]) -> Self {
+        let config = Config::default();
+        let mut texture = Box::new(HostTexture::new());
+        texture
+            .load(
+                &Asset::parse(bytes).expect("a valid asset"),
+                config.servo_rate_hz,
+            )
+            .expect("a texture at 1 kHz that fits");
+        Self {
+            renderer: Renderer::new(&config).expect("the default configuration"),
+            texture,
+            state: State::new(1),
+        }
+    }
+
+    /// One tick.
+    #[inline(never)]
+    pub fn tick(&mut self, sample: &Sample) -> Output {
+        self.renderer.tick(&self.texture, &mut self.state, sample)
+    }
+}

@@ -30,8 +30,8 @@ pub struct Barycentric {
 pub(crate) struct Locator<const T: usize> {
     pub(crate) max_speed_mm_s: f32,
     pub(crate) max_force_n: f32,
-    /// Triangles in use, rounded up to whole lanes.
-    padded: usize,
+    /// Blocks of eight triangles in use.
+    blocks: usize,
     corners: [[u8; 3]; T],
     // First corner, and the rows of the inverse of the edge matrix: weights of the
     // second and third corner are linear in the offset from the first, which keeps
@@ -48,7 +48,7 @@ impl<const T: usize> Locator<T> {
     pub(crate) const EMPTY: Self = Self {
         max_speed_mm_s: 0.0,
         max_force_n: 0.0,
-        padded: 0,
+        blocks: 0,
         corners: [[0; 3]; T],
         speed0: [0.0; T],
         force0: [0.0; T],
@@ -69,7 +69,7 @@ impl<const T: usize> Locator<T> {
         *self = Self::EMPTY;
         self.max_speed_mm_s = max_speed_mm_s;
         self.max_force_n = max_force_n;
-        self.padded = triangles.len().next_multiple_of(LANES);
+        self.blocks = triangles.len().div_ceil(LANES);
         for (t, triangle) in triangles.enumerate().take(T) {
             let point = |v| {
                 let (speed, force) = corner(v);
@@ -108,26 +108,38 @@ impl<const T: usize> Locator<T> {
         let force = clamp_from_zero(force_n, self.max_force_n);
         let mut best = [f32::NEG_INFINITY; LANES];
         let mut winner = [0_u32; LANES];
-        let padded = if self.padded < T { self.padded } else { T };
-        for block in (0..padded).step_by(LANES) {
+        let blocks = self
+            .speed0
+            .as_chunks::<LANES>()
+            .0
+            .iter()
+            .zip(self.force0.as_chunks::<LANES>().0)
+            .zip(self.w1_speed.as_chunks::<LANES>().0)
+            .zip(self.w1_force.as_chunks::<LANES>().0)
+            .zip(self.w2_speed.as_chunks::<LANES>().0)
+            .zip(self.w2_force.as_chunks::<LANES>().0);
+        let mut first = 0_u32;
+        for (((((speed0, force0), w1_speed), w1_force), w2_speed), w2_force) in
+            blocks.take(self.blocks)
+        {
             for lane in 0..LANES {
-                let t = block + lane;
-                if t >= T {
-                    break;
-                }
-                let [w0, w1, w2] = self.weights(t, speed, force);
+                let ds = speed - speed0[lane];
+                let df = force - force0[lane];
+                let w1 = w1_speed[lane] * ds + w1_force[lane] * df;
+                let w2 = w2_speed[lane] * ds + w2_force[lane] * df;
                 // NaN rows compare false and lose.
-                let smallest = min(min(w0, w1), w2);
+                let smallest = min(min(1.0 - w1 - w2, w1), w2);
                 let wins = smallest > best[lane];
                 best[lane] = if wins { smallest } else { best[lane] };
-                winner[lane] = if wins { t as u32 } else { winner[lane] };
+                winner[lane] = if wins { first } else { winner[lane] };
             }
+            first += LANES as u32;
         }
         let (mut top, mut t) = (best[0], winner[0]);
         for lane in 1..LANES {
             let wins = best[lane] > top;
             top = if wins { best[lane] } else { top };
-            t = if wins { winner[lane] } else { t };
+            t = if wins { winner[lane] + lane as u32 } else { t };
         }
         let t = (t as usize) % T;
         let cut = self.weights(t, speed, force).map(|w| max(w, 0.0));

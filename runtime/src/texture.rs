@@ -12,8 +12,8 @@ use thiserror::Error;
 
 /// A texture slot in caller-provided memory.
 ///
-/// Capacities: `V` vertices, `T` triangles (a multiple of 8), `P` the AR order, `Q` the
-/// MA order, `K` tap samples at the servo rate, all traces together. One slot drives any
+/// Capacities: `V` vertices, `T` triangles (a multiple of 8), `P` the AR order and `Q` the
+/// MA order (even, at most 24), `K` tap samples at the servo rate, all traces together. One slot drives any
 /// number of [`State`](crate::State)s; a texture that does not fit is refused.
 #[derive(Debug, Clone)]
 pub struct Texture<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize> {
@@ -25,7 +25,7 @@ pub struct Texture<const V: usize, const T: usize, const P: usize, const Q: usiz
     ma_order: usize,
     numerator: Numerator,
     servo_rate_hz: f32,
-    /// cos ω of A(z)'s LSFs, one row a vertex.
+    /// cos ω of A(z)'s LSFs in [`lsf::stage`] order, one row a vertex.
     ar_cosines: [[f32; P]; V],
     /// cos ω of B(z)'s LSFs.
     ma_cosines: [[f32; Q]; V],
@@ -251,25 +251,29 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     /// Direct-form coefficients of mixed parameters.
     #[inline]
     pub(crate) fn filter(&self, parameters: &Parameters) -> Filter {
-        let b = match self.numerator {
-            Numerator::None => [0.0; limits::MAX_ORDER],
-            Numerator::Nyquist => {
-                let mut b = [0.0; limits::MAX_ORDER];
-                b[0] = 1.0;
-                b
-            }
-            Numerator::Lsf => lsf::polynomial(&parameters.ma_cosines, self.ma_order),
-        };
+        let (a, mut b) = lsf::polynomials(
+            &parameters.ar_cosines,
+            self.ar_order,
+            &parameters.ma_cosines,
+            self.ma_order,
+        );
+        if self.numerator == Numerator::Nyquist {
+            b[0] = 1.0;
+        }
         Filter {
-            a: lsf::polynomial(&parameters.ar_cosines, self.ar_order),
+            a,
             b,
             level_m_s2: parameters.level_m_s2,
         }
     }
 }
 
-fn to_cosines(row: &mut [f32], codes: impl Iterator<Item = LsfCode>) {
-    for (x, code) in row.iter_mut().zip(codes) {
-        *x = cos_pi(code.half_turns());
+/// The cosines of a model, in the order in which the conversion takes them.
+fn to_cosines(row: &mut [f32], codes: impl ExactSizeIterator<Item = LsfCode>) {
+    let order = codes.len();
+    for (index, code) in codes.enumerate() {
+        if let Some(x) = row.get_mut(lsf::stage(index, order)) {
+            *x = cos_pi(code.half_turns());
+        }
     }
 }

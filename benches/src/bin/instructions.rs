@@ -1,0 +1,80 @@
+//! Executed instructions of a tick, exact and repeatable: `cargo run --release -p
+//! asperity-benches --bin instructions`.
+//!
+//! Every scenario runs twice under `valgrind --tool=callgrind`, with n and with 2n ticks;
+//! the difference over n is one tick, without start-up. Needs valgrind on the PATH.
+#![forbid(unsafe_code)]
+
+use asperity_benches::{Rig, motion::Motion, texture::texture};
+use asperity_formats::Numerator;
+use std::{env, hint::black_box, process::Command};
+
+const TICKS: u32 = 4000;
+const TEXTURES: [(&str, usize, Numerator); 4] = [
+    ("order 20, ARMA", 20, Numerator::Lsf),
+    ("order 20, Nyquist zero", 20, Numerator::Nyquist),
+    ("order 20, AR", 20, Numerator::None),
+    ("order 4, Nyquist zero", 4, Numerator::Nyquist),
+];
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    if let [texture_index, motion_index, ticks] = arguments.as_slice() {
+        run(
+            texture_index.parse()?,
+            motion_index.parse()?,
+            ticks.parse()?,
+        );
+        return Ok(());
+    }
+    println!(
+        "executed instructions a tick ({}, release)",
+        env::consts::ARCH
+    );
+    print!("{:<24}", "");
+    for (_, motion) in Motion::ALL {
+        print!("{motion:>9}");
+    }
+    println!("{:>9}", "spread");
+    for (texture_index, (label, ..)) in TEXTURES.iter().enumerate() {
+        print!("{label:<24}");
+        let mut counts = Vec::new();
+        for motion_index in 0..Motion::ALL.len() {
+            let once = count(texture_index, motion_index, TICKS)?;
+            let twice = count(texture_index, motion_index, 2 * TICKS)?;
+            let a_tick = (twice - once) as f64 / f64::from(TICKS);
+            print!("{a_tick:>9.0}");
+            counts.push(a_tick);
+        }
+        let most = counts.iter().copied().fold(f64::MIN, f64::max);
+        let least = counts.iter().copied().fold(f64::MAX, f64::min);
+        println!("{:>8.1}%", (most / least - 1.0) * 100.0);
+    }
+    Ok(())
+}
+
+/// The measured program: ticks whose samples were made before.
+fn run(texture_index: usize, motion_index: usize, ticks: u32) {
+    let (_, order, numerator) = TEXTURES[texture_index];
+    let motion = Motion::ALL[motion_index].0;
+    let mut rig = Rig::new(&texture(order, numerator));
+    // As many samples for n as for 2n ticks, so that making them cancels out.
+    let samples: Vec<_> = (0..TICKS).map(|tick| motion.sample(tick)).collect();
+    for sample in samples.iter().cycle().take(ticks as usize) {
+        black_box(rig.tick(black_box(sample)));
+    }
+}
+
+fn count(texture: usize, motion: usize, ticks: u32) -> Result<u64, Box<dyn std::error::Error>> {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(env::current_exe()?)
+        .args([texture.to_string(), motion.to_string(), ticks.to_string()])
+        .output()
+        .map_err(|error| format!("valgrind cannot be started ({error}); install it"))?;
+    let log = String::from_utf8_lossy(&output.stderr);
+    log.lines()
+        .find_map(|line| line.split("Collected :").nth(1))
+        .and_then(|count| count.trim().parse().ok())
+        .ok_or_else(|| format!("valgrind counted nothing:\n{log}").into())
+}

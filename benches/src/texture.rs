@@ -1,0 +1,126 @@
+//! Textures of the size of a typical imported material: 40 vertices, 56 triangles,
+//! 13 taps of 100 samples at 10 kHz. Synthetic; only their sizes matter here.
+
+use asperity_formats::{
+    Anchor, AssetParts, FrictionParts, GridParts, LsfCode, ModelParts, Numerator, Surface,
+    TapParts, Vertex, VertexKind, encode,
+};
+
+const COLUMNS: usize = 8;
+const ROWS: usize = 5;
+/// Largest speed of the grid, mm/s.
+pub const MAX_SPEED_MM_S: f32 = 280.0;
+/// Largest force of the grid, N.
+pub const MAX_FORCE_N: f32 = 4.0;
+
+/// The bytes of a texture of AR order `order`; with [`Numerator::Lsf`] the MA order is
+/// two lower, as in the HaTT.
+///
+/// # Panics
+/// When the format refuses the texture.
+#[must_use]
+pub fn texture(order: usize, numerator: Numerator) -> Vec<u8> {
+    let ma_order = if numerator == Numerator::Lsf {
+        order.saturating_sub(2).max(1)
+    } else {
+        0
+    };
+    let lsfs: Vec<(Vec<LsfCode>, Vec<LsfCode>)> = (0..COLUMNS * ROWS)
+        .map(|v| (codes(order, v, 0.35), codes(ma_order, v + 7, 0.2)))
+        .collect();
+    let models: Vec<ModelParts<'_>> = lsfs
+        .iter()
+        .map(|(lsf, ma_lsf)| ModelParts {
+            lsf,
+            ma_lsf,
+            gain: 1.0,
+        })
+        .collect();
+    let vertices: Vec<Vertex> = (0..COLUMNS * ROWS).map(vertex).collect();
+    let triangles: Vec<[u8; 3]> = (0..ROWS - 1)
+        .flat_map(|row| (0..COLUMNS - 1).map(move |column| (row * COLUMNS + column) as u8))
+        .flat_map(|corner| {
+            let (right, up) = (corner + 1, corner + COLUMNS as u8);
+            [[corner, right, up], [right, up + 1, up]]
+        })
+        .collect();
+    let traces: Vec<Vec<f32>> = (1..=13).map(|k| trace(k as f32)).collect();
+    let taps: Vec<(f32, &[f32])> = traces
+        .iter()
+        .enumerate()
+        .map(|(k, trace)| (0.04 * (k + 1) as f32, trace.as_slice()))
+        .collect();
+    let parts = AssetParts {
+        name: "bench",
+        grid: GridParts {
+            sample_rate_hz: 1000.0,
+            ar_order: order,
+            ma_order,
+            numerator,
+            models: &models,
+            vertices: &vertices,
+            triangles: &triangles,
+        },
+        taps: TapParts {
+            sample_rate_hz: 10_000.0,
+            traces: &taps,
+        },
+        friction: FrictionParts {
+            mu: 0.4,
+            anchors: &[Anchor {
+                name: "bench",
+                mu: 0.4,
+                weight: 1.0,
+            }],
+        },
+        surface: Surface {
+            stiffness_n_m: 500.0,
+            damping_n_s_m: 0.1,
+            vib_s2_m: 0.05 / 3.3,
+            effective_mass_kg: 0.05,
+            f_max_n: 3.3,
+        },
+        provenance: None,
+        preview_png: None,
+    };
+    let mut bytes = vec![0; 64 * 1024];
+    let len = encode(&parts, &mut bytes).expect("a valid texture");
+    bytes.truncate(len);
+    bytes
+}
+
+/// Evenly spread LSFs, each moved by up to `spread` of the spacing.
+fn codes(order: usize, seed: usize, spread: f64) -> Vec<LsfCode> {
+    let spacing = std::f64::consts::PI / (order + 1) as f64;
+    (1..=order)
+        .map(|k| {
+            let wobble = ((k * 37 + seed * 101) as f64).sin();
+            LsfCode::from_rad(spacing * (k as f64 + spread * wobble)).expect("inside (0, π)")
+        })
+        .collect()
+}
+
+fn vertex(index: usize) -> Vertex {
+    let (row, column) = (index / COLUMNS, index % COLUMNS);
+    let edge = row == 0 || column == 0 || row == ROWS - 1 || column == COLUMNS - 1;
+    Vertex {
+        speed_mm_s: MAX_SPEED_MM_S * column as f32 / (COLUMNS - 1) as f32,
+        force_n: MAX_FORCE_N * row as f32 / (ROWS - 1) as f32,
+        sigma_m_s2: 0.2 * (row * column) as f32,
+        model: index as u8,
+        kind: if edge {
+            VertexKind::Edge
+        } else {
+            VertexKind::Interior
+        },
+    }
+}
+
+fn trace(peak: f32) -> Vec<f32> {
+    (0..100)
+        .map(|i| {
+            let t_s = i as f32 * 1e-4;
+            peak * (-t_s / 0.003).exp() * (std::f32::consts::TAU * 250.0 * t_s).sin()
+        })
+        .collect()
+}
