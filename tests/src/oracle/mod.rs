@@ -1,0 +1,34 @@
+//! The tick in f64, from the documents.
+
+mod bank;
+mod excitation;
+mod motion;
+mod surface;
+mod texture;
+mod tick;
+
+pub use bank::{Bank, impulse_response};
+pub use excitation::Excitation;
+pub use motion::Butterworth2;
+pub use surface::distance_and_normal;
+pub use texture::{Model, Texture, Vertex, polynomial};
+pub use tick::{Oracle, Tick};
+
+/// Three components along the world's axes.
+pub type Vector = [f64; 3];
+
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(crate) fn norm(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+
+pub(crate) fn plus(a: Vector, b: Vector, times: f64) -> Vector {
+    std::array::from_fn(|i| a[i] + b[i] * times)
+}
+
+pub(crate) fn times(a: Vector, factor: f64) -> Vector {
+    a.map(|a| a * factor)
+}

@@ -1,0 +1,316 @@
+//! The whole tick.
+
+use super::{
+    Bank, Butterworth2, Excitation, Model, Texture, Vector, distance_and_normal, dot, norm, plus,
+    polynomial, times,
+};
+use asperity_formats::Asset;
+use asperity_runtime::{Config, Sample, VibrationAxis};
+use std::collections::VecDeque;
+
+/// What a tick gives.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Tick {
+    /// Force on the hand, N.
+    pub force_n: Vector,
+    /// Depth, m.
+    pub depth_m: f64,
+    /// Tangential speed, mm/s.
+    pub speed_mm_s: f64,
+    /// k·δ, N.
+    pub normal_force_n: f64,
+    /// y[n], m/s².
+    pub vib_m_s2: f64,
+    /// Tap force, N.
+    pub tap_n: f64,
+    /// Friction, N.
+    pub friction_n: f64,
+}
+
+/// Texture, configuration and state.
+#[derive(Debug)]
+pub struct Oracle {
+    config: Config,
+    texture: Texture,
+    bank: Bank,
+    mu: f64,
+    surface: asperity_formats::Surface,
+    // Gate.
+    bad_in_a_row: u32,
+    seen: bool,
+    gain: f64,
+    position: Vector,
+    // Motion.
+    velocity: [Butterworth2; 3],
+    outward: Butterworth2,
+    last_position: Vector,
+    last_distance: f64,
+    direction: Vector,
+    // Vibration.
+    sounding: bool,
+    parameters: Option<Model>,
+    excitation: Excitation,
+    past_e: VecDeque<f64>,
+    past_y: VecDeque<f64>,
+    // Tap.
+    distances: VecDeque<f64>,
+    armed: bool,
+    transient: VecDeque<f64>,
+    // Friction and limits.
+    bristle: Vector,
+    force: Vector,
+}
+
+impl Oracle {
+    /// At rest.
+    #[must_use]
+    pub fn new(asset: &Asset<'_>, config: &Config, seed: u64) -> Self {
+        let rate = f64::from(config.servo_rate_hz);
+        let velocity = Butterworth2::new(config.velocity_cutoff_hz.into(), rate);
+        Self {
+            texture: Texture::new(asset),
+            bank: Bank::new(asset.taps(), rate),
+            mu: asset.friction().mu().into(),
+            surface: *asset.surface(),
+            bad_in_a_row: 0,
+            seen: false,
+            gain: 1.0,
+            position: [0.0; 3],
+            velocity: [velocity.clone(), velocity.clone(), velocity],
+            outward: Butterworth2::new(config.normal_cutoff_hz.into(), rate),
+            last_position: [0.0; 3],
+            last_distance: 0.0,
+            direction: [1.0, 0.0, 0.0],
+            sounding: false,
+            parameters: None,
+            excitation: Excitation::new(seed),
+            past_e: VecDeque::from(vec![0.0; 24]),
+            past_y: VecDeque::from(vec![0.0; 24]),
+            distances: VecDeque::from(vec![0.0; 8]),
+            armed: false,
+            transient: VecDeque::new(),
+            bristle: [0.0; 3],
+            force: [0.0; 3],
+            config: config.clone(),
+        }
+    }
+
+    /// The texture.
+    #[must_use]
+    pub const fn texture(&self) -> &Texture {
+        &self.texture
+    }
+
+    /// One servo period.
+    pub fn tick(&mut self, sample: &Sample) -> Tick {
+        let rate = f64::from(self.config.servo_rate_hz);
+        let (safe, elapsed, restart) = self.gate(sample);
+        let (distance, normal) = distance_and_normal(&self.config.surface, self.position);
+        if restart {
+            self.restart(distance);
+        }
+        let tangential = |v: Vector| plus(v, normal, -dot(v, normal));
+
+        let motion = plus(self.position, self.last_position, -1.0);
+        let backward = times(motion, rate / f64::from(elapsed));
+        let velocity: Vector = std::array::from_fn(|i| self.velocity[i].step(backward[i]));
+        let outward = self
+            .outward
+            .step((distance - self.last_distance) * rate / f64::from(elapsed));
+        (self.last_position, self.last_distance) = (self.position, distance);
+        let slide = tangential(velocity);
+        let speed = norm(slide);
+        if speed > 1e-4 {
+            self.direction = times(slide, 1.0 / speed);
+        }
+
+        let touching = distance < 0.0;
+        let depth = (-distance).max(0.0);
+        let normal_force = f64::from(self.surface.stiffness_n_m) * depth;
+        let vib = self.vibration(speed * 1000.0, normal_force, touching && !safe);
+        let tap = f64::from(self.surface.effective_mass_kg) * self.tap(distance);
+        let friction = self.friction(tangential, motion, normal_force, touching);
+
+        let damped = normal_force - f64::from(self.surface.damping_n_s_m) * outward;
+        let wall = if touching { damped.max(0.0) } else { 0.0 };
+        let axis = match self.config.vibration_axis {
+            VibrationAxis::Tangent => self.direction,
+            VibrationAxis::Binormal => {
+                let (t, n) = (self.direction, normal);
+                [
+                    t[1] * n[2] - t[2] * n[1],
+                    t[2] * n[0] - t[0] * n[2],
+                    t[0] * n[1] - t[1] * n[0],
+                ]
+            }
+        };
+        let vib_n = f64::from(self.surface.vib_s2_m) * f64::from(self.surface.f_max_n) * vib;
+        let total = plus(plus(times(normal, wall + tap), friction, 1.0), axis, vib_n);
+        self.limit(times(total, self.gain));
+        Tick {
+            force_n: self.force,
+            depth_m: depth,
+            speed_mm_s: speed * 1000.0,
+            normal_force_n: normal_force,
+            vib_m_s2: vib,
+            tap_n: tap,
+            friction_n: norm(friction),
+        }
+    }
+
+    /// Lets a sample through, holds the last one, or enters the safe state. Returns whether
+    /// it is safe, the periods since the last position, and whether motion restarts.
+    fn gate(&mut self, sample: &Sample) -> (bool, u32, bool) {
+        let position = sample.position_m.map(f64::from);
+        let good = sample.elapsed_ticks > 0 && position.iter().all(|x| x.abs() <= 1e4);
+        let hold = self.config.safety.hold_ticks;
+        let ramp =
+            (f64::from(self.config.safety.ramp_s) * f64::from(self.config.servo_rate_hz)).max(1.0);
+        if good {
+            self.bad_in_a_row = 0;
+            self.position = position;
+            let first = !self.seen;
+            self.seen = true;
+            let gap = !first && sample.elapsed_ticks - 1 > hold;
+            self.gain = if gap {
+                0.0
+            } else {
+                (self.gain + 1.0 / ramp).min(1.0)
+            };
+            let restart = first || gap;
+            return (gap, if restart { 1 } else { sample.elapsed_ticks }, restart);
+        }
+        self.bad_in_a_row += 1;
+        let held = self.seen && self.bad_in_a_row <= hold;
+        if !held {
+            (self.seen, self.gain) = (false, 0.0);
+        }
+        (!held, 1, false)
+    }
+
+    fn restart(&mut self, distance: f64) {
+        self.velocity.iter_mut().for_each(Butterworth2::reset);
+        self.outward.reset();
+        (self.last_position, self.last_distance) = (self.position, distance);
+        self.sounding = false;
+        self.past_e = VecDeque::from(vec![0.0; 24]);
+        self.past_y = VecDeque::from(vec![0.0; 24]);
+        self.distances = VecDeque::from(vec![distance; 8]);
+        self.armed = false;
+        self.transient.clear();
+        self.bristle = [0.0; 3];
+    }
+
+    /// y[n] = e[n] + Σ b_k e[n−k] − Σ a_k y[n−k], with shapes that follow the query.
+    fn vibration(&mut self, speed_mm_s: f64, force_n: f64, sounding: bool) -> f64 {
+        let target = self.texture.model(speed_mm_s, force_n);
+        let steps =
+            f64::from(self.config.parameter_time_constant_s) * f64::from(self.config.servo_rate_hz);
+        let share = if self.sounding && steps > 0.0 {
+            1.0 - (-1.0 / steps).exp()
+        } else {
+            1.0
+        };
+        let model = match self.parameters.take() {
+            None => target,
+            Some(last) => {
+                let follow = |last: &[f64], target: &[f64]| {
+                    last.iter()
+                        .zip(target)
+                        .map(|(l, t)| l + share * (t - l))
+                        .collect()
+                };
+                Model {
+                    cosines: follow(&last.cosines, &target.cosines),
+                    ma_cosines: follow(&last.ma_cosines, &target.ma_cosines),
+                    level_m_s2: target.level_m_s2,
+                }
+            }
+        };
+        self.sounding = sounding;
+        let epsilon = self.excitation.draw();
+        let (mut e, mut y) = (0.0, 0.0);
+        if sounding {
+            let past = |c: &[f64], line: &VecDeque<f64>| -> f64 {
+                c.iter().zip(line).map(|(c, x)| c * x).sum()
+            };
+            e = model.level_m_s2 * epsilon;
+            y = e + past(&self.texture.numerator(&model), &self.past_e)
+                - past(&polynomial(&model.cosines), &self.past_y);
+        }
+        for (line, newest) in [(&mut self.past_e, e), (&mut self.past_y, y)] {
+            line.pop_back();
+            line.push_front(newest);
+        }
+        self.parameters = Some(model);
+        y
+    }
+
+    /// Acceleration of the transient under way, m/s².
+    fn tap(&mut self, distance: f64) -> f64 {
+        self.distances.pop_front();
+        self.distances.push_back(distance);
+        // Least squares over eight points, in distance a period.
+        let mean = 3.5;
+        let slope: f64 = self
+            .distances
+            .iter()
+            .enumerate()
+            .map(|(i, d)| (i as f64 - mean) * d)
+            .sum::<f64>()
+            / 42.0;
+        let speed = -slope * f64::from(self.config.servo_rate_hz);
+        let touching = distance < 0.0;
+        if self.armed && touching && speed >= f64::from(self.config.tap.min_speed_m_s) {
+            self.transient = self.bank.transient(speed).into();
+        }
+        self.armed = !touching && (self.armed || distance > f64::from(self.config.tap.rearm_m));
+        self.transient.pop_front().unwrap_or(0.0)
+    }
+
+    /// The bristle: deflection d at most μF/k + h; beyond the dead zone h a force
+    /// k(|d| − h + the motion of a tick along d) against it, at most μF.
+    fn friction(
+        &mut self,
+        tangential: impl Fn(Vector) -> Vector,
+        motion: Vector,
+        normal_force: f64,
+        touching: bool,
+    ) -> Vector {
+        let (k, h) = (
+            f64::from(self.config.friction.stiffness_n_m),
+            f64::from(self.config.friction.dead_zone_m),
+        );
+        let limit = self.mu * normal_force;
+        let motion = tangential(motion);
+        let moved = tangential(plus(self.bristle, motion, 1.0));
+        let (length, reach) = (norm(moved), limit / k + h);
+        self.bristle = match (touching, length > reach) {
+            (false, _) => [0.0; 3],
+            (true, true) => times(moved, reach / length),
+            (true, false) => moved,
+        };
+        let length = norm(self.bristle);
+        if length <= h {
+            return [0.0; 3];
+        }
+        let along = times(self.bristle, 1.0 / length);
+        let force = (k * (length - h + dot(along, motion))).clamp(0.0, limit);
+        times(along, -force)
+    }
+
+    fn limit(&mut self, wanted: Vector) {
+        let peak = f64::from(self.config.limits.peak_n);
+        let step = f64::from(self.config.limits.slew_n_s) / f64::from(self.config.servo_rate_hz);
+        let size = norm(wanted);
+        let target = if size > peak {
+            times(wanted, peak / size)
+        } else {
+            wanted
+        };
+        let change = plus(target, self.force, -1.0);
+        let size = norm(change);
+        let share = if size > step { step / size } else { 1.0 };
+        self.force = plus(self.force, change, share);
+    }
+}

@@ -1,0 +1,43 @@
+//! Whether a filter is stable, by the step-down recursion.
+
+/// Largest |reflection coefficient| of A(z) = 1 + Σ a_k z⁻ᵏ: the filter is stable exactly
+/// if it is below 1. NaN and infinities give infinity.
+#[must_use]
+pub fn largest_reflection(a: &[f32]) -> f64 {
+    let mut a: Vec<f64> = a.iter().map(|&a| f64::from(a)).collect();
+    let mut largest = 0.0_f64;
+    while let Some(k) = a.pop() {
+        if !(k.abs() < 1.0) {
+            return if k.is_finite() {
+                k.abs()
+            } else {
+                f64::INFINITY
+            };
+        }
+        largest = largest.max(k.abs());
+        let order = a.len();
+        let above = a.clone();
+        for (i, a) in a.iter_mut().enumerate() {
+            *a = (*a - k * above[order - 1 - i]) / (1.0 - k * k);
+        }
+    }
+    largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::largest_reflection;
+
+    #[test]
+    fn the_unit_circle_is_the_border() {
+        for radius in [0.5_f32, 0.9, 0.99, 0.999] {
+            // A pole pair at ±60°, and its mirror outside.
+            assert!(largest_reflection(&[-radius, radius * radius]) < 1.0);
+            let outside = 1.0 / radius;
+            assert!(largest_reflection(&[-outside, outside * outside]) > 1.0);
+        }
+        assert!(largest_reflection(&[f32::NAN, 0.0]).is_infinite());
+        assert!(largest_reflection(&[0.0, f32::INFINITY]).is_infinite());
+        assert_eq!(largest_reflection(&[0.0; 24]), 0.0);
+    }
+}

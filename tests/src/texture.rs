@@ -1,0 +1,236 @@
+//! Textures to test with, written without the compiler.
+
+use crate::draw::Draw;
+use asperity_formats::{
+    AssetParts, FrictionParts, GridParts, LsfCode, ModelParts, Numerator, Surface, TapParts,
+    Vertex, VertexKind, encode,
+};
+
+/// LSFs (codes of π/65536), MA LSFs and gain of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    /// LSF codes of A(z).
+    pub lsf: Vec<u16>,
+    /// LSF codes of B(z).
+    pub ma_lsf: Vec<u16>,
+    /// Gain.
+    pub gain: f32,
+}
+
+/// A texture in parts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Texture {
+    /// Rate of models, Hz.
+    pub sample_rate_hz: f32,
+    /// Numerator.
+    pub numerator: Numerator,
+    /// Distinct models.
+    pub models: Vec<Model>,
+    /// Vertices.
+    pub vertices: Vec<Vertex>,
+    /// Triangles.
+    pub triangles: Vec<[u8; 3]>,
+    /// Rate of taps, Hz.
+    pub tap_rate_hz: f32,
+    /// Impact speed, m/s, and accelerations, m/s².
+    pub traces: Vec<(f32, Vec<f32>)>,
+    /// Coefficient of friction.
+    pub mu: f32,
+    /// Wall and gains.
+    pub surface: Surface,
+}
+
+/// What to draw.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// Order of A(z).
+    pub ar_order: usize,
+    /// Order of B(z), with [`Numerator::Lsf`].
+    pub ma_order: usize,
+    /// Numerator.
+    pub numerator: Numerator,
+    /// Columns and rows of the grid.
+    pub lattice: (usize, usize),
+}
+
+impl Kind {
+    /// AR of an order with the zero at Nyquist, over a lattice of 7 × 6.
+    #[must_use]
+    pub const fn nyquist(ar_order: usize) -> Self {
+        Self {
+            ar_order,
+            ma_order: 0,
+            numerator: Numerator::Nyquist,
+            lattice: (7, 6),
+        }
+    }
+}
+
+/// Strictly ascending codes at least `gap` apart.
+fn ascending(draw: &mut Draw, order: usize, gap: f64) -> Vec<u16> {
+    let steps: Vec<f64> = (0..=order).map(|_| draw.range(0.2, 2.0)).collect();
+    let room = (65536.0 - gap * steps.len() as f64) / steps.iter().sum::<f64>();
+    let mut at = 0.0;
+    steps[..order]
+        .iter()
+        .map(|step| {
+            at += gap + room * step;
+            at as u16
+        })
+        .collect()
+}
+
+/// A random texture: a lattice over 250 mm/s × 4 N, its interior vertices moved, σ
+/// growing from 0 at the axes, 13 taps at 10 kHz.
+#[must_use]
+pub fn random(seed: u64, kind: Kind) -> Texture {
+    let mut draw = Draw::new(seed);
+    let (columns, rows) = kind.lattice;
+    let (max_speed, max_force) = (250.0, 4.0);
+    let mut vertices = Vec::new();
+    let mut models = Vec::new();
+    for row in 0..rows {
+        for column in 0..columns {
+            let inner = |at: usize, count: usize| at > 0 && at < count - 1;
+            let mut place = |at: usize, count: usize, max: f64| {
+                let shift = if inner(at, count) {
+                    draw.range(-0.3, 0.3)
+                } else {
+                    0.0
+                };
+                max * (at as f64 + shift) / (count - 1) as f64
+            };
+            let (speed, force) = (
+                place(column, columns, max_speed),
+                place(row, rows, max_force),
+            );
+            let ma_order = if kind.numerator == Numerator::Lsf {
+                kind.ma_order
+            } else {
+                0
+            };
+            vertices.push(Vertex {
+                speed_mm_s: speed as f32,
+                force_n: force as f32,
+                sigma_m_s2: (draw.range(0.1, 0.5) * (speed / max_speed * force / max_force).sqrt())
+                    as f32,
+                model: models.len() as u8,
+                kind: if inner(column, columns) && inner(row, rows) {
+                    VertexKind::Interior
+                } else {
+                    VertexKind::Edge
+                },
+            });
+            models.push(Model {
+                lsf: ascending(&mut draw, kind.ar_order, 500.0),
+                ma_lsf: ascending(&mut draw, ma_order, 200.0),
+                gain: if ma_order > 0 {
+                    draw.range(0.2, 2.0) as f32
+                } else {
+                    1.0
+                },
+            });
+        }
+    }
+    let traces = (1..=13)
+        .map(|t| {
+            let decay = draw.range(0.03, 0.08);
+            let wave = draw.range(0.05, 0.2);
+            let sample = |n: i32| {
+                let n = f64::from(n);
+                (60.0 * f64::from(t) * (-decay * n).exp() * (wave * n).sin()) as f32
+            };
+            (0.05 * t as f32, (0..100).map(sample).collect())
+        })
+        .collect();
+    Texture {
+        sample_rate_hz: 1000.0,
+        numerator: kind.numerator,
+        models,
+        vertices,
+        triangles: lattice(columns, rows),
+        tap_rate_hz: 10_000.0,
+        traces,
+        mu: draw.range(0.1, 1.2) as f32,
+        surface: Surface {
+            stiffness_n_m: 500.0,
+            damping_n_s_m: 0.2,
+            vib_s2_m: 0.05,
+            effective_mass_kg: 0.01,
+            f_max_n: 3.3,
+        },
+    }
+}
+
+/// The triangles of a lattice of vertices stored row after row.
+#[must_use]
+pub fn lattice(columns: usize, rows: usize) -> Vec<[u8; 3]> {
+    let mut triangles = Vec::new();
+    for row in 0..rows - 1 {
+        for column in 0..columns - 1 {
+            let corner = (row * columns + column) as u8;
+            let next = columns as u8;
+            triangles.push([corner, corner + 1, corner + next]);
+            triangles.push([corner + 1, corner + next + 1, corner + next]);
+        }
+    }
+    triangles
+}
+
+impl Texture {
+    /// The bytes of the texture as an asset.
+    ///
+    /// # Panics
+    /// If the parts are no valid asset.
+    #[must_use]
+    pub fn encode(&self) -> Vec<u8> {
+        let codes = |bits: &[u16]| -> Vec<LsfCode> {
+            bits.iter().map(|&bits| LsfCode::from_bits(bits)).collect()
+        };
+        let codes: Vec<_> = self
+            .models
+            .iter()
+            .map(|model| (codes(&model.lsf), codes(&model.ma_lsf), model.gain))
+            .collect();
+        let models: Vec<_> = codes
+            .iter()
+            .map(|(lsf, ma_lsf, gain)| ModelParts {
+                lsf,
+                ma_lsf,
+                gain: *gain,
+            })
+            .collect();
+        let traces: Vec<_> = self
+            .traces
+            .iter()
+            .map(|(speed_m_s, trace)| (*speed_m_s, trace.as_slice()))
+            .collect();
+        let parts = AssetParts {
+            name: "random",
+            grid: GridParts {
+                sample_rate_hz: self.sample_rate_hz,
+                ar_order: self.models[0].lsf.len(),
+                ma_order: self.models[0].ma_lsf.len(),
+                numerator: self.numerator,
+                models: &models,
+                vertices: &self.vertices,
+                triangles: &self.triangles,
+            },
+            taps: TapParts {
+                sample_rate_hz: self.tap_rate_hz,
+                traces: &traces,
+            },
+            friction: FrictionParts {
+                mu: self.mu,
+                anchors: &[],
+            },
+            surface: self.surface,
+            provenance: None,
+            preview_png: None,
+        };
+        let mut bytes = vec![0; 1 << 16];
+        let len = encode(&parts, &mut bytes).expect("valid parts");
+        bytes.truncate(len);
+        bytes
+    }
+}

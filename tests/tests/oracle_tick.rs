@@ -1,0 +1,201 @@
+//! Every output of the tick is that of the f64 oracle, within the stated tolerances, on
+//! seeded trajectories over plane, sphere and box, bad samples included.
+
+use asperity_formats::{Asset, Numerator};
+use asperity_runtime::{Config, HostTexture, Renderer, Sample, State, Surface, VibrationAxis};
+use asperity_tests::{
+    draw::Draw,
+    oracle::{Oracle, Tick},
+    texture::{Kind, random},
+    trajectory::strokes,
+};
+
+/// Largest difference of each output.
+#[derive(Debug, Default)]
+struct Worst {
+    force_n: f64,
+    depth_um: f64,
+    speed_mm_s: f64,
+    normal_force_n: f64,
+    vib_m_s2: f64,
+    tap_n: f64,
+    friction_n: f64,
+    /// Of the oracle, so that silence is no agreement.
+    loudest_m_s2: f64,
+    hardest_tap_n: f64,
+}
+
+fn compare(bytes: &[u8], config: &Config, seed: u64, samples: &[Sample]) -> Worst {
+    let asset = Asset::parse(bytes).unwrap();
+    let renderer = Renderer::new(config).unwrap();
+    let mut texture = Box::new(HostTexture::new());
+    texture.load(&asset, config.servo_rate_hz).unwrap();
+    let mut state = State::new(seed);
+    let mut oracle = Oracle::new(&asset, config, seed);
+    let mut worst = Worst::default();
+    for sample in samples {
+        let ours = renderer.tick(&texture, &mut state, sample);
+        let exact: Tick = oracle.tick(sample);
+        let note = |worst: &mut f64, a: f32, b: f64| *worst = worst.max((f64::from(a) - b).abs());
+        for (a, b) in ours.force_n.iter().zip(exact.force_n) {
+            note(&mut worst.force_n, *a, b);
+        }
+        note(&mut worst.depth_um, ours.depth_m * 1e6, exact.depth_m * 1e6);
+        note(&mut worst.speed_mm_s, ours.speed_mm_s, exact.speed_mm_s);
+        note(
+            &mut worst.normal_force_n,
+            ours.normal_force_n,
+            exact.normal_force_n,
+        );
+        note(&mut worst.vib_m_s2, ours.vib_m_s2, exact.vib_m_s2);
+        note(&mut worst.tap_n, ours.tap_n, exact.tap_n);
+        note(&mut worst.friction_n, ours.friction_n, exact.friction_n);
+        worst.loudest_m_s2 = worst.loudest_m_s2.max(exact.vib_m_s2.abs());
+        worst.hardest_tap_n = worst.hardest_tap_n.max(exact.tap_n.abs());
+    }
+    worst
+}
+
+fn fresh(positions: Vec<[f32; 3]>) -> Vec<Sample> {
+    positions.into_iter().map(Sample::at).collect()
+}
+
+fn kinds() -> [Kind; 5] {
+    let lsf = |ar_order, ma_order| Kind {
+        ar_order,
+        ma_order,
+        numerator: Numerator::Lsf,
+        lattice: (7, 6),
+    };
+    let none = Kind {
+        numerator: Numerator::None,
+        ..Kind::nyquist(21)
+    };
+    [
+        Kind::nyquist(4),
+        Kind::nyquist(20),
+        none,
+        lsf(20, 18),
+        lsf(23, 24),
+    ]
+}
+
+/// Rounding of f32 in positions of centimetres and in a hundred coefficients.
+fn assert_close(worst: &Worst, rate_hz: f32, case: &str) {
+    println!("{case}: {worst:?}");
+    assert!(worst.depth_um < 0.02, "{case}: {worst:?}");
+    assert!(worst.normal_force_n < 1e-5, "{case}: {worst:?}");
+    // The difference of two f32 positions of 5 cm, times the rate, filtered.
+    assert!(
+        worst.speed_mm_s < 0.01 * f64::from(rate_hz / 1000.0),
+        "{case}: {worst:?}"
+    );
+    assert!(
+        worst.vib_m_s2 < 1e-3 * worst.loudest_m_s2,
+        "{case}: {worst:?}"
+    );
+    assert!(
+        worst.tap_n < 1e-4 * worst.hardest_tap_n.max(0.1),
+        "{case}: {worst:?}"
+    );
+    assert!(worst.friction_n < 2e-5, "{case}: {worst:?}");
+    assert!(worst.force_n < 3e-4, "{case}: {worst:?}");
+    assert!(worst.loudest_m_s2 > 0.05, "{case} says nothing: {worst:?}");
+}
+
+#[test]
+fn strokes_and_taps_on_a_plane_with_every_kind_of_texture() {
+    for (seed, kind) in (1..).zip(kinds()) {
+        let bytes = random(seed, kind).encode();
+        let samples = fresh(strokes(seed, 10_000));
+        let worst = compare(&bytes, &Config::default(), seed, &samples);
+        assert!(worst.hardest_tap_n > 0.1, "no tap: {worst:?}");
+        assert_close(&worst, 1000.0, &format!("{kind:?}"));
+    }
+}
+
+#[test]
+fn spheres_boxes_tilted_planes_and_the_other_axis() {
+    let surfaces = [
+        Surface::Sphere {
+            center_m: [0.0, 0.0, -0.05],
+            radius_m: 0.05,
+        },
+        Surface::Box {
+            center_m: [0.002, 0.001, -0.02],
+            half_extents_m: [0.012, 0.015, 0.02],
+        },
+        Surface::Plane {
+            point_m: [0.0, 0.001, 0.0],
+            normal: [0.3, -0.4, 2.0],
+        },
+    ];
+    let bytes = random(7, Kind::nyquist(20)).encode();
+    for (seed, surface) in (20..).zip(surfaces) {
+        for vibration_axis in [VibrationAxis::Tangent, VibrationAxis::Binormal] {
+            let config = Config {
+                surface,
+                vibration_axis,
+                ..Config::default()
+            };
+            let worst = compare(&bytes, &config, seed, &fresh(strokes(seed, 10_000)));
+            assert_close(&worst, 1000.0, &format!("{surface:?} {vibration_axis:?}"));
+        }
+    }
+}
+
+#[test]
+fn bad_samples_are_held_then_safe_then_ramped() {
+    let bytes = random(9, Kind::nyquist(20)).encode();
+    for seed in 30..35 {
+        let mut draw = Draw::new(seed);
+        let mut bad = 0;
+        let samples: Vec<_> = strokes(seed, 10_000)
+            .into_iter()
+            .map(|position_m| {
+                if bad == 0 && draw.below(200) == 0 {
+                    bad = 1 + draw.below(6);
+                }
+                let is_bad = bad > 0;
+                bad = bad.saturating_sub(1);
+                match (is_bad, draw.below(4)) {
+                    (false, 0) if draw.below(60) == 0 => Sample {
+                        position_m,
+                        elapsed_ticks: 2 + draw.below(4) as u32,
+                    },
+                    (false, _) => Sample::at(position_m),
+                    (true, 0) => Sample::STALE,
+                    (true, 1) => Sample::at([f32::NAN, 0.0, 0.0]),
+                    (true, 2) => Sample::at([0.0, f32::INFINITY, 0.0]),
+                    (true, _) => Sample::at([0.0, 0.0, -2e4]),
+                }
+            })
+            .collect();
+        let worst = compare(&bytes, &Config::default(), seed, &samples);
+        assert_close(&worst, 1000.0, &format!("bad samples, seed {seed}"));
+    }
+}
+
+#[test]
+fn other_rates_cut_offs_and_limits() {
+    for (seed, rate) in [(40, 500.0), (41, 2000.0), (42, 4000.0)] {
+        let mut texture = random(seed, Kind::nyquist(10));
+        texture.sample_rate_hz = rate;
+        let mut config = Config {
+            servo_rate_hz: rate,
+            velocity_cutoff_hz: 35.0,
+            normal_cutoff_hz: 60.0,
+            parameter_time_constant_s: 0.02,
+            ..Config::default()
+        };
+        config.limits.peak_n = 1.0;
+        config.limits.slew_n_s = 100.0;
+        let worst = compare(
+            &texture.encode(),
+            &config,
+            seed,
+            &fresh(strokes(seed, 10_000)),
+        );
+        assert_close(&worst, rate, &format!("{rate} Hz"));
+    }
+}
