@@ -1,0 +1,74 @@
+//! The strip above the panels that names the script's motions, and their edges.
+
+use asperity::plot::theme::{Align, Canvas, Color, Panel, Rect, Stroke, TextStyle, VAlign, ink};
+
+use super::{Recording, TIME_MARGINS, time_axis};
+use crate::hand::Motion;
+
+/// Height of the strip.
+pub(super) const HEIGHT_PX: f32 = 96.0;
+const LABEL_PX: f32 = 19.0;
+const LINE_PX: f32 = 25.0;
+
+/// Draws the strip.
+pub(super) fn draw(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
+    let left = outer.x + TIME_MARGINS.left;
+    let width = outer.width - TIME_MARGINS.left - TIME_MARGINS.right;
+    let axis = time_axis(recording, false);
+    let at = |t_s: f64| left + width * axis.fraction(t_s) as f32;
+    let style = TextStyle::new(LABEL_PX).align(Align::Center, VAlign::Top);
+    for (start_s, end_s, motion) in edges(recording) {
+        let (x0, x1) = (at(start_s), at(end_s));
+        let color = color(&motion);
+        canvas.fill_rect(
+            Rect::new(x0, outer.y, x1 - x0, outer.height),
+            color.alpha(38),
+        );
+        canvas.fill_rect(Rect::new(x0, outer.y, x1 - x0, 7.0), color);
+        canvas.line(
+            &[(x0, outer.y), (x0, outer.bottom())],
+            Stroke::new(ink::PAPER, 2.0),
+            None,
+        );
+        let text = motion.to_string();
+        let mut lines: Vec<String> = vec![motion.name().to_owned()];
+        let words: Vec<&str> = text.split(' ').skip(1).collect();
+        lines.extend(words.chunks(2).map(|pair| pair.join(" ")));
+        for (row, line) in lines.iter().enumerate() {
+            if canvas.text_width(line, &style) < x1 - x0 - 2.0 {
+                let y = outer.y + 16.0 + LINE_PX * row as f32;
+                canvas.text(line, (0.5 * (x0 + x1), y), &style);
+            }
+        }
+    }
+}
+
+/// Shades every other motion behind a panel's data.
+pub(super) fn shade(canvas: &mut Canvas, recording: &Recording, panel: &Panel) {
+    for (index, (start_s, end_s, _)) in edges(recording).into_iter().enumerate() {
+        if index % 2 == 1 {
+            panel.band(canvas, start_s, end_s, ink::GREY.alpha(14));
+        }
+    }
+}
+
+/// Start, end and kind of every motion, s.
+fn edges(recording: &Recording) -> Vec<(f64, f64, Motion)> {
+    let tick_s = recording.tick_s();
+    let ends = |span: super::super::Span<'_>| {
+        let start_s = span.records.first()?.t_s;
+        Some((start_s, span.records.last()?.t_s + tick_s, span.motion))
+    };
+    recording.spans().into_iter().filter_map(ends).collect()
+}
+
+fn color(motion: &Motion) -> Color {
+    match motion {
+        Motion::Approach { .. } | Motion::Lift { .. } => ink::LIGHT,
+        Motion::Tap { .. } => ink::VERMILION,
+        Motion::Press { .. } => ink::PURPLE,
+        Motion::Stroke { .. } => ink::BLUE,
+        Motion::Scrub { .. } => ink::GREEN,
+        Motion::Rest { .. } => ink::ORANGE,
+    }
+}
