@@ -2,7 +2,6 @@
 //!
 //! `cargo bench -p asperity-benches --bench tick`. Results are checked before they are
 //! timed. Machines differ: quote ratios within one run.
-#![expect(missing_docs, reason = "criterion's macros make undocumented items")]
 
 use asperity_benches::{Rig, motion::Motion, texture::texture};
 use asperity_formats::{Asset, Numerator};
