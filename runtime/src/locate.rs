@@ -13,6 +13,10 @@ use crate::math::{clamp_from_zero, max, min};
 
 /// Triangles evaluated side by side.
 const LANES: usize = 8;
+/// Change of the weights over the whole grid beyond which a triangle is too thin: f32
+/// rounding would move them by 1 % and more. It is 1e-5 of the grid thin, so its points
+/// are within 1e-5 of a neighbour. One triangle in 128 that tile the grid always is wider.
+const MAX_REACH: f64 = 1.0e5;
 
 /// A convex mixture of three vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,15 +83,19 @@ impl<const T: usize> Locator<T> {
                 (point(triangle[0]), point(triangle[1]), point(triangle[2]));
             let twice_area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
             self.corners[t] = triangle;
-            // A triangle without area keeps its NaN rows and is never chosen: its
-            // points belong to its neighbours.
-            if twice_area != 0.0 {
+            let [w1_speed, w1_force, w2_speed, w2_force] =
+                [y2 - y0, x0 - x2, y0 - y1, x1 - x0].map(|side| side / twice_area);
+            let reach = (w1_speed.abs() + w2_speed.abs()) * f64::from(max_speed_mm_s)
+                + (w1_force.abs() + w2_force.abs()) * f64::from(max_force_n);
+            // A triangle with no area, or too thin for f32 to weigh, keeps its NaN rows
+            // and is never chosen: its points belong to its neighbours.
+            if reach < MAX_REACH {
                 self.speed0[t] = x0 as f32;
                 self.force0[t] = y0 as f32;
-                self.w1_speed[t] = ((y2 - y0) / twice_area) as f32;
-                self.w1_force[t] = (-(x2 - x0) / twice_area) as f32;
-                self.w2_speed[t] = (-(y1 - y0) / twice_area) as f32;
-                self.w2_force[t] = ((x1 - x0) / twice_area) as f32;
+                self.w1_speed[t] = w1_speed as f32;
+                self.w1_force[t] = w1_force as f32;
+                self.w2_speed[t] = w2_speed as f32;
+                self.w2_force[t] = w2_force as f32;
             }
         }
     }

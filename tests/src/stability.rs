@@ -2,23 +2,28 @@
 
 /// Largest |reflection coefficient| of A(z) = 1 + Σ a_k z⁻ᵏ: the filter is stable exactly
 /// if it is below 1. NaN and infinities give infinity.
+///
+/// # Panics
+/// Above order 24.
 #[must_use]
-pub fn largest_reflection(a: &[f32]) -> f64 {
-    let mut a: Vec<f64> = a.iter().map(|&a| f64::from(a)).collect();
+pub fn largest_reflection(coefficients: &[f32]) -> f64 {
+    let mut a = [0.0; 24];
+    for (a, c) in a.iter_mut().zip(coefficients) {
+        *a = f64::from(*c);
+    }
     let mut largest = 0.0_f64;
-    while let Some(k) = a.pop() {
-        if !(k.abs() < 1.0) {
-            return if k.is_finite() {
-                k.abs()
-            } else {
-                f64::INFINITY
-            };
+    for order in (0..coefficients.len()).rev() {
+        let k = a[order];
+        if !k.is_finite() {
+            return f64::INFINITY;
+        }
+        if k.abs() >= 1.0 {
+            return k.abs();
         }
         largest = largest.max(k.abs());
-        let order = a.len();
-        let above = a.clone();
-        for (i, a) in a.iter_mut().enumerate() {
-            *a = (*a - k * above[order - 1 - i]) / (1.0 - k * k);
+        let above = a;
+        for i in 0..order {
+            a[i] = (above[i] - k * above[order - 1 - i]) / (1.0 - k * k);
         }
     }
     largest
