@@ -8,7 +8,9 @@ use crate::plot::theme::{
 };
 
 /// Width of the words beside each picture.
-const WORDS_WIDTH: f32 = 330.0;
+const WORDS_WIDTH: f32 = 400.0;
+/// Width of a key before its name.
+const KEY_WIDTH: f32 = 44.0;
 const LINE_HEIGHT: f32 = 31.0;
 /// Speed of pressing and leaving at which damping is shown, m/s.
 const PRESS_SPEED_M_S: f64 = 0.1;
@@ -49,11 +51,11 @@ fn draw_friction(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     .margins(margins(96.0));
     panel.draw_frame(canvas);
     let ray = |mu: f64| [(0.0, 0.0), (force_n, mu * force_n)];
+    panel.line(canvas, ray(friction.mu), Stroke::new(ink::BLACK, 5.0));
     for (index, anchor) in shown.iter().enumerate() {
         let stroke = Stroke::new(ink::category(index), 2.5).dashed();
         panel.line(canvas, ray(anchor.mu), stroke);
     }
-    panel.line(canvas, ray(friction.mu), Stroke::new(ink::BLACK, 4.0));
 
     let area = panel.area();
     let mut words = Words::beside(area, rect);
@@ -61,11 +63,16 @@ fn draw_friction(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     if friction.anchors.is_empty() {
         words.quiet(canvas, "no anchors");
     } else {
-        words.quiet(canvas, "anchors: μ, weight");
+        words.quiet(canvas, "from its anchors:");
     }
     for (index, anchor) in shown.iter().enumerate() {
-        let numbers = format!("{:.2}, {:.0} %", anchor.mu, 100.0 * anchor.weight);
-        words.keyed(canvas, ink::category(index), &anchor.name, &numbers);
+        let dash = Stroke::new(ink::category(index), 2.5).dashed();
+        words.line_key(canvas, dash, &anchor.name);
+        let share = 100.0 * anchor.weight;
+        words.indented(
+            canvas,
+            &format!("μ = {:.3}, weight {share:.0} %", anchor.mu),
+        );
     }
     let hidden = friction.anchors.len() - shown.len();
     if hidden > 0 {
@@ -77,7 +84,7 @@ fn draw_friction(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
 fn shown_anchors(friction: &Friction) -> Vec<&FrictionAnchor> {
     let mut anchors: Vec<&FrictionAnchor> = friction.anchors.iter().collect();
     anchors.sort_by(|a, b| b.weight.total_cmp(&a.weight));
-    anchors.truncate(if anchors.len() > 4 { 3 } else { 4 });
+    anchors.truncate(3);
     anchors
 }
 
@@ -105,7 +112,9 @@ fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
             (depth_mm, force_n(depth_mm, speed_m_s))
         })
     };
-    if wall.damping_n_s_m > 0.0 {
+    // Damping is drawn where it can be seen.
+    let damped = damping_n > 0.01 * top_n;
+    if damped {
         panel.line(canvas, path(PRESS_SPEED_M_S), moving);
         panel.line(canvas, path(-PRESS_SPEED_M_S), moving);
     }
@@ -116,7 +125,7 @@ fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     let mut words = Words::beside(panel.area(), rect);
     words.strong(canvas, &format!("k = {} N/m", brief(wall.stiffness_n_m)));
     words.strong(canvas, &format!("b = {} N·s/m", brief(wall.damping_n_s_m)));
-    if wall.damping_n_s_m > 0.0 {
+    if damped {
         words.line_key(canvas, moving, "pressed, left at 0.1 m/s");
     }
     words.line_key(canvas, limit, &format!("peak force {} N", brief(limit_n)));
@@ -130,13 +139,13 @@ fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     );
 }
 
-/// A number with at most four significant digits.
+/// A number with about three significant digits.
 fn brief(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }
     let exponent = value.abs().log10().floor() as i32;
-    let decimals = usize::try_from(3 - exponent).unwrap_or(0).min(9);
+    let decimals = usize::try_from(2 - exponent).unwrap_or(0).min(9);
     let text = format!("{value:.decimals$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -156,7 +165,7 @@ impl Words {
     fn beside(area: Rect, rect: Rect) -> Self {
         Self {
             left: area.right() + 24.0,
-            right: rect.right() - 16.0,
+            right: rect.right() - 40.0,
             y: area.y + 12.0,
         }
     }
@@ -190,28 +199,14 @@ impl Words {
             f32::INFINITY,
             &[(Key::Line(stroke), "")],
         );
-        let style = Self::style(ink::GREY);
-        let text = canvas.fitted(text, &style, self.right - self.left - 44.0);
-        canvas.text(&text, (self.left + 44.0, self.y), &style);
-        self.y += LINE_HEIGHT;
+        self.indented(canvas, text);
     }
 
-    /// A name with its dash of colour, and numbers at the right end.
-    fn keyed(&mut self, canvas: &mut Canvas, color: Color, name: &str, numbers: &str) {
-        let dash = Stroke::new(color, 2.5).dashed();
-        legend(
-            canvas,
-            (self.left, self.y),
-            f32::INFINITY,
-            &[(Key::Line(dash), "")],
-        );
-        let style = Self::style(ink::BLACK);
-        let numbers_width = canvas.text_width(numbers, &style);
-        let room = self.right - self.left - 44.0 - numbers_width - 16.0;
-        let name = canvas.fitted(name, &style, room);
-        canvas.text(&name, (self.left + 44.0, self.y), &style);
-        let right = style.align(Align::Right, VAlign::Middle);
-        canvas.text(numbers, (self.right, self.y), &right);
+    /// A line that belongs to the key above it.
+    fn indented(&mut self, canvas: &mut Canvas, text: &str) {
+        let style = Self::style(ink::GREY);
+        let text = canvas.fitted(text, &style, self.right - self.left - KEY_WIDTH);
+        canvas.text(&text, (self.left + KEY_WIDTH, self.y), &style);
         self.y += LINE_HEIGHT;
     }
 }

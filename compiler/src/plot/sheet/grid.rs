@@ -32,10 +32,15 @@ pub(super) fn draw(canvas: &mut Canvas, rect: Rect, grid: &ModelGrid) {
             .find_map(|triangle| triangle.level_at(speed_mm_s, force_n))
             .map(|level| scale.color(level))
     });
-    let mesh = Stroke::new(ink::PAPER.alpha(150), 1.5);
-    for triangle in &triangles {
-        let [a, b, c] = triangle.corners;
-        panel.line(canvas, [a, b, c, a], mesh);
+    // Light on dark, so that the mesh shows on every colour.
+    for mesh in [
+        Stroke::new(ink::BLACK.alpha(70), 3.5),
+        Stroke::new(ink::PAPER.alpha(210), 1.5),
+    ] {
+        for triangle in &triangles {
+            let [a, b, c] = triangle.corners;
+            panel.line(canvas, [a, b, c, a], mesh);
+        }
     }
     panel.draw_frame(canvas);
 

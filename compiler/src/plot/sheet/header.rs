@@ -64,18 +64,18 @@ fn structure(model: &TextureModel, bytes: Option<AssetBytes>) -> String {
         .filter(|vertex| vertex.kind == VertexKind::Interior)
         .count();
     let mut parts = vec![
-        format!("{filter} at {}", rate(grid.sample_rate_hz)),
+        format!("{filter}, {}", rate(grid.sample_rate_hz)),
         format!(
-            "{interior} interior + {} edge vertices, {} triangles",
+            "{interior} interior + {} edge vertices, {}",
             grid.vertices.len() - interior,
-            grid.triangles.len()
+            counted(grid.triangles.len(), "triangle")
         ),
     ];
     parts.push(match model.taps.traces.first() {
         Some(trace) => format!(
-            "{} taps of {} samples at {}",
-            model.taps.traces.len(),
-            trace.accel_m_s2.len(),
+            "{} of {} at {}",
+            counted(model.taps.traces.len(), "tap"),
+            counted(trace.accel_m_s2.len(), "sample"),
             rate(model.taps.sample_rate_hz)
         ),
         None => "no taps".to_owned(),
@@ -126,6 +126,10 @@ fn remarks(model: &TextureModel) -> String {
         .split_whitespace()
         .collect::<Vec<_>>()
         .join(" ")
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 fn rate(sample_rate_hz: f64) -> String {

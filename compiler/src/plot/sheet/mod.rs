@@ -14,10 +14,11 @@ use crate::model::{GridVertex, TextureModel};
 /// Width of the sheet, pixels.
 pub const WIDTH_PX: u32 = 2400;
 /// Height of the sheet, pixels.
-pub const HEIGHT_PX: u32 = 1680;
+pub const HEIGHT_PX: u32 = 1600;
 
-const HEADER_HEIGHT: f32 = 196.0;
-const ROW_HEIGHT: f32 = 736.0;
+const HEADER_HEIGHT: f32 = 186.0;
+const UPPER_HEIGHT: f32 = 670.0;
+const LOWER_HEIGHT: f32 = 736.0;
 
 /// Sizes of the asset that a sheet is drawn from, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,30 +49,30 @@ pub fn sheet(model: &TextureModel, bytes: Option<AssetBytes>) -> Result<Vec<u8>,
     let top = HEADER_HEIGHT;
     poles::draw(
         &mut canvas,
-        Rect::new(0.0, top, 1150.0, ROW_HEIGHT),
+        Rect::new(0.0, top, 1150.0, UPPER_HEIGHT),
         &model.grid,
     );
     spectra::draw(
         &mut canvas,
-        Rect::new(1150.0, top, width - 1150.0, ROW_HEIGHT),
+        Rect::new(1150.0, top, width - 1150.0, UPPER_HEIGHT),
         &model.grid,
     );
 
-    let top = top + ROW_HEIGHT;
+    let top = top + UPPER_HEIGHT;
     taps::draw(
         &mut canvas,
-        Rect::new(0.0, top, 860.0, ROW_HEIGHT),
+        Rect::new(0.0, top, 830.0, LOWER_HEIGHT),
         &model.taps,
         model.provenance.taps_synthetic,
     );
     grid::draw(
         &mut canvas,
-        Rect::new(860.0, top, 800.0, ROW_HEIGHT),
+        Rect::new(830.0, top, 760.0, LOWER_HEIGHT),
         &model.grid,
     );
     contact::draw(
         &mut canvas,
-        Rect::new(1660.0, top, width - 1660.0, ROW_HEIGHT),
+        Rect::new(1590.0, top, width - 1590.0, LOWER_HEIGHT),
         model,
     );
     canvas.png()

@@ -105,7 +105,7 @@ fn frame(rect: Rect) -> Panel {
         .without_grid();
     let area = panel.area();
     let height = 2.0 * REACH * f64::from(area.height / area.width);
-    let foot = -0.35 * (height - REACH).max(0.1);
+    let foot = -(height - 1.13).max(0.12);
     panel.y = Axis::new("Im z", foot, foot + height);
     panel
 }
@@ -130,9 +130,12 @@ fn draw_circle(canvas: &mut Canvas, panel: &Panel, sample_rate_hz: f64) {
         panel.line(canvas, [(0.2 * x, 0.2 * y), (x, y)], faint);
         let tick = Stroke::new(ink::BLACK, size::FRAME);
         panel.line(canvas, [(x, y), (1.015 * x, 1.015 * y)], tick);
-        // The axes' ends are the real axis, where labels stand above it.
-        let lift = if y < 0.02 { 0.035 } else { 0.0 };
-        let (px, py) = panel.position(1.065 * x, 1.05 * y + lift);
+        // Both ends lie on the real axis, where labels stand below it.
+        let (px, py) = if y < 0.02 {
+            panel.position(x, -0.06)
+        } else {
+            panel.position(1.07 * x, 1.055 * y)
+        };
         let label = if freq_hz == 0.0 {
             "0 Hz".to_owned()
         } else {

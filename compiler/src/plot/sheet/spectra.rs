@@ -10,7 +10,7 @@ use crate::plot::theme::{
 use crate::spectrum::ArmaModel;
 
 const POINTS: usize = 600;
-const COLUMN_GAP: f32 = 26.0;
+const COLUMN_GAP: f32 = 40.0;
 const BAR_ROOM: f32 = 150.0;
 /// The most that the vertical axis spans, dB: notches may be bottomless.
 const SPAN_DB: f64 = 70.0;

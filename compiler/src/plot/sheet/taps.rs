@@ -7,10 +7,14 @@ use crate::plot::theme::{
     ink, legend, size,
 };
 
-const PEAKS_WIDTH: f32 = 236.0;
-const GAP: f32 = 26.0;
+const PEAKS_WIDTH: f32 = 228.0;
+const GAP: f32 = 40.0;
 
 pub(super) fn draw(canvas: &mut Canvas, rect: Rect, taps: &TapBank, synthetic: bool) {
+    if taps.traces.is_empty() {
+        draw_absence(canvas, rect);
+        return;
+    }
     let sample_ms = 1000.0 / taps.sample_rate_hz;
     let samples = taps
         .traces
@@ -29,27 +33,18 @@ pub(super) fn draw(canvas: &mut Canvas, rect: Rect, taps: &TapBank, synthetic: b
 
     let mut room = margins(24.0);
     let duration_ms = sample_ms * samples.saturating_sub(1) as f64;
-    let mut traces = Panel::new(rect, Axis::new("Time (ms)", 0.0, duration_ms), y.clone())
-        .letter('c')
-        .title("Tap bank");
     room.right = 24.0 + PEAKS_WIDTH + GAP;
-    traces = traces.margins(room);
+    let mut traces = traces_frame(rect, duration_ms, y.clone()).margins(room);
     traces.x.tick_count = 5;
     traces.draw_frame(canvas);
     let area = traces.area();
-    if taps.traces.is_empty() {
-        let style = TextStyle::new(size::LABEL)
-            .color(ink::GREY)
-            .align(Align::Center, VAlign::Middle);
-        canvas.text("no taps", area.center(), &style);
-    }
     traces.horizontal_line(canvas, 0.0, Stroke::new(ink::LIGHT, 1.5));
     // Slow over fast: the smaller ones stay visible.
     for trace in taps.traces.iter().rev() {
         let stroke = Stroke::new(scale.color(trace.speed_m_s), size::LINE);
         traces.series(canvas, 0.0, sample_ms, &trace.accel_m_s2, stroke);
     }
-    if synthetic && !taps.traces.is_empty() {
+    if synthetic {
         let note = [(Key::Text, "synthesised, not recorded")];
         legend(canvas, (area.x, area.y - 26.0), area.right(), &note);
     }
@@ -58,7 +53,7 @@ pub(super) fn draw(canvas: &mut Canvas, rect: Rect, taps: &TapBank, synthetic: b
     beside.left = 0.0;
     beside.right = 0.0;
     let outer = Rect::new(area.right() + GAP, rect.y, PEAKS_WIDTH, rect.height);
-    let speeds = Axis::new("Impact speed (m/s)", 0.0, 1.08 * fastest).ticks_about(3);
+    let speeds = Axis::new("Impact speed (m/s)", 0.0, 1.08 * fastest).ticks_about(4);
     let mut peaks = Panel::new(outer, speeds, y.unnumbered()).margins(beside);
     peaks.y.label.clear();
     peaks.draw_frame(canvas);
@@ -76,6 +71,24 @@ pub(super) fn draw(canvas: &mut Canvas, rect: Rect, taps: &TapBank, synthetic: b
     let area = peaks.area();
     let key = [(Key::Text, "peaks, colour key")];
     legend(canvas, (area.x, area.y - 26.0), rect.right(), &key);
+}
+
+/// The frame of the traces.
+fn traces_frame(rect: Rect, duration_ms: f64, y: Axis) -> Panel {
+    Panel::new(rect, Axis::new("Time (ms)", 0.0, duration_ms), y)
+        .letter('c')
+        .title("Tap bank")
+}
+
+/// An empty frame that says why.
+fn draw_absence(canvas: &mut Canvas, rect: Rect) {
+    let y = Axis::new("Acceleration (m/s²)", -1.0, 1.0);
+    let panel = traces_frame(rect, 10.0, y).margins(margins(24.0));
+    panel.draw_frame(canvas);
+    let style = TextStyle::new(size::LABEL)
+        .color(ink::GREY)
+        .align(Align::Center, VAlign::Middle);
+    canvas.text("no taps", panel.area().center(), &style);
 }
 
 /// The sample of largest magnitude, with its sign.

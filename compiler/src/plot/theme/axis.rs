@@ -91,12 +91,39 @@ impl Axis {
         }
     }
 
-    /// Ticks inside the range with their labels, ascending.
+    /// Ticks inside the range with their numbers, ascending. Very small and very large
+    /// numbers are divided by a power of ten that [`Axis::full_label`] names.
     #[must_use]
     pub fn ticks(&self) -> Vec<(f64, String)> {
         match self.scale {
-            Scale::Linear => linear_ticks(self.min, self.max, self.tick_count),
+            Scale::Linear => {
+                let unit = 10_f64.powi(self.exponent());
+                linear_ticks(self.min / unit, self.max / unit, self.tick_count)
+                    .into_iter()
+                    .map(|(value, text)| (value * unit, text))
+                    .collect()
+            }
             Scale::Log => log_ticks(self.min, self.max),
+        }
+    }
+
+    /// The label, with the power of ten that the numbers at the ticks leave out.
+    #[must_use]
+    pub fn full_label(&self) -> String {
+        match self.exponent() {
+            0 => self.label.clone(),
+            exponent => format!("{} × 10{}", self.label, superscript(exponent)),
+        }
+    }
+
+    /// The power of ten to divide by, so that numbers have few digits; mostly 0.
+    fn exponent(&self) -> i32 {
+        let largest = self.min.abs().max(self.max.abs());
+        let exponent = largest.log10().floor() as i32;
+        if self.scale == Scale::Linear && !(-2..5).contains(&exponent) {
+            exponent
+        } else {
+            0
         }
     }
 }
@@ -179,6 +206,15 @@ fn decimals_of(step: f64) -> usize {
         .map_or(12, |decimals| decimals as usize)
 }
 
+fn superscript(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    exponent
+        .to_string()
+        .chars()
+        .map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]))
+        .collect()
+}
+
 /// A number with a true minus sign; long ones in scientific notation.
 fn number(value: f64, decimals: usize) -> String {
     let text = if decimals > 4 || value.abs() >= 1e6 {
@@ -218,6 +254,18 @@ mod tests {
                 assert!((-1e-6..=1.0 + 1e-6).contains(&axis.fraction(*value)));
             }
         }
+    }
+
+    /// Claim: what stands at the ticks times what the label says is the value.
+    #[test]
+    fn powers_of_ten_move_into_the_label() {
+        let faint = Axis::new("Level (m/s²)", 0.0, 1.2e-4);
+        assert_eq!(faint.full_label(), "Level (m/s²) × 10⁻⁴");
+        let (value, text) = faint.ticks().pop().expect("it has ticks");
+        assert_eq!(text, "1.2");
+        assert!((value - 1.2e-4).abs() < 1e-16);
+        assert_eq!(Axis::new("x", -3e6, 0.0).full_label(), "x × 10⁶");
+        assert_eq!(Axis::new("x", 0.0, 0.02).full_label(), "x");
     }
 
     /// Claim: no range, however degenerate, gives an axis that maps to NaN.

@@ -210,11 +210,16 @@ impl Canvas {
             return;
         }
         let opacity = u32::from(color.a);
+        let opaque = [color.r, color.g, color.b, 255];
         let pixels = self.pixmap.data_mut();
         for y in top..bottom {
             let start = 4 * (y * width + left) as usize;
             let end = 4 * (y * width + right) as usize;
             for pixel in pixels[start..end].chunks_exact_mut(4) {
+                if opacity == 255 {
+                    pixel.copy_from_slice(&opaque);
+                    continue;
+                }
                 for (channel, ink) in pixel.iter_mut().zip([color.r, color.g, color.b]) {
                     let mixed = u32::from(ink) * opacity + u32::from(*channel) * (255 - opacity);
                     *channel = ((mixed + 127) / 255) as u8;

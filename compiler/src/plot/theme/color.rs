@@ -72,7 +72,7 @@ pub mod ink {
 /// A perceptually uniform, colour-blind safe map from 0..=1 to colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColorMap {
-    /// For levels of a texture.
+    /// For levels of a texture; without its palest end, so that points show on white.
     Viridis,
     /// For speeds; without its palest end, so that lines show on white.
     Plasma,
@@ -89,7 +89,7 @@ impl ColorMap {
         }
         let t = t.clamp(0.0, 1.0);
         let color = match self {
-            Self::Viridis => colorous::VIRIDIS.eval_continuous(t),
+            Self::Viridis => colorous::VIRIDIS.eval_continuous(t * 0.95),
             Self::Plasma => colorous::PLASMA.eval_continuous(t * 0.88),
             Self::Inferno => colorous::INFERNO.eval_continuous(t),
         };

@@ -162,14 +162,14 @@ impl Panel {
         let below = area.bottom() + TICK_LENGTH + 6.0 + numbers_height + 8.0;
         let center = area.center();
         canvas.text(
-            &self.x.label,
+            &self.x.full_label(),
             (center.0, below),
             &label.align(Align::Center, VAlign::Top),
         );
         // Beside the widest number, but never outside the panel.
         let beside = (area.x - TICK_LENGTH - 6.0 - widest - 16.0).max(self.outer.x + size::LABEL);
         canvas.text(
-            &self.y.label,
+            &self.y.full_label(),
             (beside, center.1),
             &label.align(Align::Center, VAlign::Baseline).upwards(),
         );
@@ -177,7 +177,8 @@ impl Panel {
 
     fn draw_title(&self, canvas: &mut Canvas) {
         let area = self.area();
-        let baseline = area.y - 20.0;
+        // A legend may stand between title and frame where the margin has room.
+        let baseline = (self.outer.y + 44.0).min(area.y - 20.0);
         let style = TextStyle::new(size::TITLE);
         let mut x = area.x;
         if let Some(letter) = self.letter {
@@ -392,7 +393,7 @@ fn draw_colorbar(canvas: &mut Canvas, bar: Rect, scale: &ColorScale, label: &str
     }
     let beside = bar.right() + TICK_LENGTH + 6.0 + widest + 14.0;
     canvas.text(
-        label,
+        &axis.full_label(),
         (beside, bar.center().1),
         &TextStyle::new(size::LABEL)
             .align(Align::Center, VAlign::Top)
