@@ -37,6 +37,10 @@ pub struct AssetBytes {
 /// # Errors
 /// [`PlotError`] if the embedded font or the PNG encoder fails.
 pub fn sheet(model: &TextureModel, bytes: Option<AssetBytes>) -> Result<Vec<u8>, PlotError> {
+    compose(model, bytes)?.png()
+}
+
+fn compose(model: &TextureModel, bytes: Option<AssetBytes>) -> Result<Canvas, PlotError> {
     let mut canvas = Canvas::new(WIDTH_PX, HEIGHT_PX)?;
     let width = WIDTH_PX as f32;
     header::draw(
@@ -75,7 +79,7 @@ pub fn sheet(model: &TextureModel, bytes: Option<AssetBytes>) -> Result<Vec<u8>,
         Rect::new(1590.0, top, width - 1590.0, LOWER_HEIGHT),
         model,
     );
-    canvas.png()
+    Ok(canvas)
 }
 
 /// Margins with room for a line of legend between title and frame.

@@ -79,6 +79,10 @@ fn drawn(model: &TextureModel) -> Vec<u8> {
     sheet(model, None).expect("every model draws")
 }
 
+fn composed(model: &TextureModel) -> Canvas {
+    compose(model, None).expect("every model draws")
+}
+
 /// Width, height and RGB pixels of a PNG.
 fn decoded(png: &[u8]) -> (u32, u32, Vec<u8>) {
     let mut reader = png::Decoder::new(std::io::Cursor::new(png))
@@ -119,11 +123,11 @@ fn extreme_grids_draw() {
         (20, 1, Numerator::Lsf, 0.0),
         (1, 2, Numerator::None, 0.0),
     ] {
-        drawn(&texture(order, side, numerator, sigma_m_s2));
+        composed(&texture(order, side, numerator, sigma_m_s2));
     }
     let mut nothing = texture(2, 2, Numerator::None, 1.0);
     nothing.grid.vertices.clear();
-    drawn(&nothing);
+    composed(&nothing);
 }
 
 /// Claim: names, notes, anchors and taps of any length or absurdity draw, and text
@@ -161,7 +165,7 @@ fn extreme_words_and_taps_draw() {
 
     model.taps.traces.truncate(1);
     model.taps.traces[0].accel_m_s2 = vec![0.0];
-    drawn(&model);
+    composed(&model);
     model.taps.traces[0].accel_m_s2 = vec![f64::NAN, f64::INFINITY];
-    drawn(&model);
+    composed(&model);
 }
