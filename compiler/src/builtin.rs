@@ -11,9 +11,8 @@ use crate::{
         Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TextureModel,
         VertexKind,
     },
-    tap_synthesis,
+    tap_synthesis, triangulate,
 };
-use delaunator::Point;
 use std::f64::consts::PI;
 
 /// Rate of every model, Hz.
@@ -50,7 +49,7 @@ const MU: f64 = 0.72;
 #[must_use]
 pub fn texture() -> TextureModel {
     let vertices = vertices();
-    let triangles = triangulate(&vertices);
+    let triangles = triangulate::delaunay(&vertices);
     let grid = ModelGrid {
         sample_rate_hz: SAMPLE_RATE_HZ,
         order: ORDER,
@@ -117,10 +116,7 @@ fn vertices() -> Vec<GridVertex> {
         },
         ..like.clone()
     };
-    let (first_row, last_row) = (
-        &interior[..columns],
-        &interior[interior.len() - columns..],
-    );
+    let (first_row, last_row) = (&interior[..columns], &interior[interior.len() - columns..]);
     let mut all = interior.clone();
     for vertex in first_row {
         all.push(edge(vertex.speed_mm_s, 0.0, vertex));
@@ -186,22 +182,6 @@ fn spectrum(freq_hz: f64, speed_mm_s: f64) -> f64 {
     line(grains_hz) + SECOND_HARMONIC * line(2.0 * grains_hz) + stylus + floor
 }
 
-/// Delaunay triangles of the vertices, both axes scaled to 0..1.
-fn triangulate(vertices: &[GridVertex]) -> Vec<[usize; 3]> {
-    let points: Vec<Point> = vertices
-        .iter()
-        .map(|vertex| Point {
-            x: vertex.speed_mm_s / MAX_SPEED_MM_S,
-            y: vertex.force_n / MAX_FORCE_N,
-        })
-        .collect();
-    delaunator::triangulate(&points)
-        .triangles
-        .chunks_exact(3)
-        .map(|corners| [corners[0], corners[1], corners[2]])
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -219,7 +199,11 @@ mod tests {
     #[test]
     fn every_model_is_stable_and_follows_the_grains() {
         let grid = texture().grid;
-        for vertex in grid.vertices.iter().filter(|v| v.kind == VertexKind::Interior) {
+        for vertex in grid
+            .vertices
+            .iter()
+            .filter(|v| v.kind == VertexKind::Interior)
+        {
             assert_eq!(vertex.lsf_rad.len(), ORDER);
             assert!(lsf::is_ordered(&vertex.lsf_rad));
             let grains_hz = vertex.speed_mm_s / GRAIN_SPACING_MM;
@@ -237,7 +221,9 @@ mod tests {
         let grid = texture().grid;
         let rms = |vertex: &GridVertex| {
             let model = ArmaModel::at_vertex(&grid, vertex);
-            let sum: f64 = (0..5000).map(|n| model.power(f64::from(n) / 10.0 + 0.05)).sum();
+            let sum: f64 = (0..5000)
+                .map(|n| model.power(f64::from(n) / 10.0 + 0.05))
+                .sum();
             (sum / 5000.0).sqrt()
         };
         assert!((rms(&quiet) / (LEVEL_M_S2 * 0.5_f64.powf(SPEED_EXPONENT)) - 1.0).abs() < 0.02);

@@ -27,4 +27,5 @@ pub mod render;
 pub mod source;
 pub mod spectrum;
 pub mod tap_synthesis;
+pub mod triangulate;
 pub mod verify;

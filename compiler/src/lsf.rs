@@ -91,7 +91,13 @@ struct Sturm {
 impl Sturm {
     fn new(reflection: &[f64], side: Side) -> Self {
         let sign = if side == Side::Sum { 1.0 } else { -1.0 };
-        let r = |k: usize| if k == 0 { 0.0 } else { sign * reflection[k - 1] };
+        let r = |k: usize| {
+            if k == 0 {
+                0.0
+            } else {
+                sign * reflection[k - 1]
+            }
+        };
         // S₀ = 2, S₁ = 1 + z⁻¹; the difference side, freed of its factor 1 − z⁻¹,
         // starts one order later.
         let first = if side == Side::Sum { 1 } else { 2 };
@@ -113,7 +119,11 @@ impl Sturm {
         let mut count = usize::from(ratio < 0.0);
         for alpha in &self.alpha {
             // A zero ratio stands for a root exactly here; nudge it to one side.
-            let safe = if ratio == 0.0 { f64::MIN_POSITIVE } else { ratio };
+            let safe = if ratio == 0.0 {
+                f64::MIN_POSITIVE
+            } else {
+                ratio
+            };
             ratio = twice_x - alpha / safe;
             count += usize::from(ratio < 0.0);
         }

@@ -22,7 +22,9 @@ pub enum MeshError {
         count: usize,
     },
     /// A coordinate is not finite or negative.
-    #[error("vertex {vertex} lies at ({speed_mm_s} mm/s, {force_n} N), not in the positive quadrant")]
+    #[error(
+        "vertex {vertex} lies at ({speed_mm_s} mm/s, {force_n} N), not in the positive quadrant"
+    )]
     Coordinates {
         /// Index of the vertex.
         vertex: usize,
@@ -105,14 +107,18 @@ pub fn check(grid: &ModelGrid) -> Result<(), MeshError> {
             });
         }
         let [a, b, c] = triangle.map(|v| canonical[v]);
-        let twice = (at[b].0 - at[a].0) * (at[c].1 - at[a].1)
-            - (at[c].0 - at[a].0) * (at[b].1 - at[a].1);
+        let twice =
+            (at[b].0 - at[a].0) * (at[c].1 - at[a].1) - (at[c].0 - at[a].0) * (at[b].1 - at[a].1);
         area += twice.abs() / 2.0;
         if a == b || b == c || a == c {
             continue;
         }
         // A triangle without area has no side.
-        let side = if twice == 0.0 { 0 } else { twice.signum() as i8 };
+        let side = if twice == 0.0 {
+            0
+        } else {
+            twice.signum() as i8
+        };
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let (key, side) = if from < to {
                 ((from, to), side)
@@ -141,8 +147,8 @@ pub fn check(grid: &ModelGrid) -> Result<(), MeshError> {
     open.sort_unstable();
     for (from, to) in open {
         let ((v0, f0), (v1, f1)) = (at[from], at[to]);
-        let on_border = (v0 == v1 && (v0 == 0.0 || v0 == width))
-            || (f0 == f1 && (f0 == 0.0 || f0 == height));
+        let on_border =
+            (v0 == v1 && (v0 == 0.0 || v0 == width)) || (f0 == f1 && (f0 == 0.0 || f0 == height));
         if !on_border {
             return Err(MeshError::Hole { from, to });
         }
@@ -193,7 +199,14 @@ mod tests {
         let mut points = SQUARE.to_vec();
         points.push((1.0, 0.5));
         points.push((1.0, 0.0));
-        let fan = [[0, 1, 6], [0, 6, 4], [6, 1, 5], [2, 1, 4], [2, 3, 5], [0, 3, 4]];
+        let fan = [
+            [0, 1, 6],
+            [0, 6, 4],
+            [6, 1, 5],
+            [2, 1, 4],
+            [2, 3, 5],
+            [0, 3, 4],
+        ];
         assert_eq!(check(&grid(&points, &fan)), Ok(()));
     }
 

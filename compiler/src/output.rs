@@ -155,9 +155,10 @@ impl AtomicFile {
 
 /// The error without the temporary file's name, which means nothing to a user.
 fn strip_path(error: &io::Error) -> io::Error {
-    error
-        .raw_os_error()
-        .map_or_else(|| io::Error::from(error.kind()), io::Error::from_raw_os_error)
+    error.raw_os_error().map_or_else(
+        || io::Error::from(error.kind()),
+        io::Error::from_raw_os_error,
+    )
 }
 
 impl Drop for AtomicFile {
@@ -216,9 +217,7 @@ pub fn write_folder(folder: &Path, files: &[(String, &[u8])]) -> Result<(), Outp
     } else {
         let mut list = unfinished();
         fs::create_dir(folder).map_err(|e| match e.kind() {
-            io::ErrorKind::AlreadyExists => {
-                fail("is a file", io::ErrorKind::NotADirectory.into())
-            }
+            io::ErrorKind::AlreadyExists => fail("is a file", io::ErrorKind::NotADirectory.into()),
             _ => fail("cannot make the folder", e),
         })?;
         list.push(folder.to_owned());

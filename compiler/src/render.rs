@@ -191,10 +191,11 @@ pub fn render(
         cause,
     })?;
     let mut slot = Box::new(HostTexture::new());
-    slot.load(asset, rate_hz).map_err(|cause| RenderError::Load {
-        texture: texture(),
-        cause,
-    })?;
+    slot.load(asset, rate_hz)
+        .map_err(|cause| RenderError::Load {
+            texture: texture(),
+            cause,
+        })?;
     let mut state = State::new(seed);
     let mut rows = Rows::new(file, input, rate_hz)?;
     let mut report = RenderReport {
@@ -345,5 +346,115 @@ fn csv_error(file: &Path, error: csv::Error) -> RenderError {
             cause: io::Error::new(cause.kind(), cause.to_string()),
         },
         _ => RenderError::NotCsv { file, cause: error },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{builtin, lower::lower};
+
+    fn run(trajectory: &str, seed: u64) -> Result<(RenderReport, String), RenderError> {
+        let bytes = lower(&builtin::texture(), None).unwrap().bytes;
+        let asset = Asset::parse(&bytes).unwrap();
+        let mut output = Vec::new();
+        let report = render(
+            &asset,
+            Path::new("in.csv"),
+            trajectory.as_bytes(),
+            &mut output,
+            seed,
+        )?;
+        Ok((report, String::from_utf8(output).unwrap()))
+    }
+
+    /// A stroke at 100 mm/s, 2 mm deep, `rows` long.
+    fn stroke(rows: usize) -> String {
+        let mut text = INPUT_COLUMNS.join(",");
+        for n in 0..rows {
+            let t_s = n as f64 / 1000.0;
+            text.push_str(&format!("\n{t_s:.3},{:.4},0,-2", 100.0 * t_s));
+        }
+        text
+    }
+
+    #[test]
+    fn every_row_has_its_tick_and_floats_read_back() {
+        let (report, text) = run(&stroke(500), 3).unwrap();
+        assert_eq!(
+            (report.ticks, report.contact_ticks, report.taps),
+            (500, 500, 0)
+        );
+        let mut lines = text.lines();
+        assert_eq!(lines.next().unwrap(), OUTPUT_COLUMNS.join(","));
+        let mut vibrates = false;
+        for (tick, line) in lines.enumerate() {
+            let fields: Vec<&str> = line.split(',').collect();
+            assert_eq!(fields.len(), OUTPUT_COLUMNS.len());
+            assert_eq!(fields[0], tick.to_string());
+            for field in &fields[2..11] {
+                let value: f32 = field.parse().unwrap();
+                assert_eq!(value.to_string(), *field);
+            }
+            let depth_mm: f32 = fields[2].parse().unwrap();
+            assert!((depth_mm - 2.0).abs() < 1e-6);
+            vibrates |= fields[5].parse::<f32>().unwrap().abs() > 0.1;
+        }
+        assert!(vibrates);
+    }
+
+    #[test]
+    fn the_seed_decides_the_noise_and_nothing_else_does() {
+        let once = run(&stroke(300), 3).unwrap();
+        assert_eq!(once, run(&stroke(300), 3).unwrap());
+        assert_ne!(once.1, run(&stroke(300), 4).unwrap().1);
+    }
+
+    #[test]
+    fn bad_tables_are_refused_with_line_and_column() {
+        let message = |text: &str| run(text, 0).unwrap_err().to_string();
+        let head = INPUT_COLUMNS.join(",");
+        for (text, expected) in [
+            (
+                "t_s,x_mm,z_mm\n0,0,0".to_owned(),
+                "in.csv:1: column y_mm is missing",
+            ),
+            (
+                format!("{head},x_mm\n0,0,0,0,0"),
+                "in.csv:1: column x_mm appears twice",
+            ),
+            (
+                format!("{head}\n0,0,0,0\n0.001,0,up,0"),
+                "in.csv:3: y_mm = \"up\" is not",
+            ),
+            (
+                format!("{head}\n0,0,0,NaN"),
+                "in.csv:2: z_mm = \"NaN\" is not",
+            ),
+            (
+                format!("{head}\n0,0,0,inf"),
+                "in.csv:2: z_mm = \"inf\" is not",
+            ),
+            (format!("{head}\n0,0,0,"), "in.csv:2: z_mm = \"\" is not"),
+            (
+                format!("{head}\n0,0,0,0\n0.002,0,0,0"),
+                "in.csv:3: t_s = 0.002, but row 1 at 1000 Hz",
+            ),
+            (format!("{head}\n0,0,0,0\n0.001,0,0"), "not a CSV table"),
+            (head.clone(), "has no row"),
+            (String::new(), "column t_s is missing"),
+        ] {
+            assert!(
+                message(&text).contains(expected),
+                "{text:?}: {}",
+                message(&text)
+            );
+        }
+    }
+
+    #[test]
+    fn times_with_few_digits_and_other_columns_are_accepted() {
+        let text = "note,z_mm,y_mm,x_mm,t_s\na,1,0,0,5.0000\nb,1,0,0,5.0011\n";
+        assert_eq!(run(text, 0).unwrap().0.ticks, 2);
     }
 }

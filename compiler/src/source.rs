@@ -31,7 +31,8 @@ struct Named<'a>(Option<&'a str>);
 
 impl std::fmt::Display for Named<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.0.map_or(Ok(()), |name| write!(f, ": texture {name:?}"))
+        self.0
+            .map_or(Ok(()), |name| write!(f, ": texture {name:?}"))
     }
 }
 

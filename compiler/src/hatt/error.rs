@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// Why a HaTT file was refused.
 #[derive(Debug, Error)]
-#[error("{}: {problem}", Place { file: file, line: *line })]
+#[error("{}: {problem}", Place { file, line: *line })]
 pub struct HattError {
     /// The file.
     pub file: PathBuf,
@@ -169,9 +169,7 @@ impl Diagnostic for HattError {
                 "give a model file of the Penn Haptic Texture Toolkit, `Models_<name>.xml`".into()
             }
             Problem::NotUtf8 { .. } => "save the file as UTF-8".into(),
-            Problem::Doctype => {
-                "remove the <!DOCTYPE …> declaration; HaTT files have none".into()
-            }
+            Problem::Doctype => "remove the <!DOCTYPE …> declaration; HaTT files have none".into(),
             Problem::Malformed(_) => {
                 "the file is damaged or incomplete: fetch it again from HaTT".into()
             }
@@ -189,7 +187,9 @@ impl Diagnostic for HattError {
                 "compare ARcoeff/MAcoeff and ARlsf/MAlsf of this model with the original file"
                     .into()
             }
-            Problem::Missing { field } => format!("add <{field}>, or fetch the file again from HaTT"),
+            Problem::Missing { field } => {
+                format!("add <{field}>, or fetch the file again from HaTT")
+            }
             Problem::Repeated { field } => format!("keep one <{field}>"),
             Problem::NotANumber { .. } | Problem::OutOfRange { .. } | Problem::NoModels => {
                 "correct the value, or fetch the file again from HaTT".into()

@@ -162,10 +162,7 @@ pub fn files(path: &Path) -> Result<Vec<PathBuf>, HattError> {
 
 /// Imports files in parallel; results in the order of the files, whatever the thread
 /// count. `done` is called once a file, from any thread.
-pub fn import_all(
-    files: &[PathBuf],
-    done: impl Fn() + Sync,
-) -> Vec<Result<Imported, ImportError>> {
+pub fn import_all(files: &[PathBuf], done: impl Fn() + Sync) -> Vec<Result<Imported, ImportError>> {
     let mut results: Vec<_> = files
         .par_iter()
         .map(|file| {

@@ -129,7 +129,11 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<Material, HattError> {
     })
 }
 
-fn unit(root: &Element<'_, '_>, field: &'static str, expected: &'static str) -> Result<(), HattError> {
+fn unit(
+    root: &Element<'_, '_>,
+    field: &'static str,
+    expected: &'static str,
+) -> Result<(), HattError> {
     let element = root.child("", field)?;
     if element.text() == expected {
         return Ok(());
@@ -206,9 +210,10 @@ impl Header {
             .enumerate()
             .map(|(index, element)| {
                 let field = format!("tri {}", index + 1);
-                let corners = element.list(&field, (3, "the corners of a triangle"), &rule, |v| {
-                    v.fract() == 0.0 && v >= 1.0 && v <= self.models as f64
-                })?;
+                let corners =
+                    element.list(&field, (3, "the corners of a triangle"), &rule, |v| {
+                        v.fract() == 0.0 && v >= 1.0 && v <= self.models as f64
+                    })?;
                 let corner = |k: usize| corners[k] as usize - 1;
                 let triangle = [corner(0), corner(1), corner(2)];
                 for (k, other) in [(1, 0), (2, 0), (2, 1)] {
@@ -253,7 +258,13 @@ impl Header {
             }))
         };
         let ordinal = (index + 1) as f64;
-        agree("modNum", stated, "its place in the file".into(), ordinal, 0.0)?;
+        agree(
+            "modNum",
+            stated,
+            "its place in the file".into(),
+            ordinal,
+            0.0,
+        )?;
         for (field, list, value, border) in [
             ("speedMod", "speedList", speed_mm_s, self.max_speed_mm_s),
             ("forceMod", "forceList", force_n, self.max_force_n),
@@ -263,8 +274,18 @@ impl Header {
             agree(field, found, format!("{list}[{index}]"), value, slack)?;
         }
         let (ar, ma) = (
-            self.filter(element, &place, ("ARcoeff", "ARlsf"), ("numARCoeff", self.ar_order))?,
-            self.filter(element, &place, ("MAcoeff", "MAlsf"), ("numMACoeff", self.ma_order))?,
+            self.filter(
+                element,
+                &place,
+                ("ARcoeff", "ARlsf"),
+                ("numARCoeff", self.ar_order),
+            )?,
+            self.filter(
+                element,
+                &place,
+                ("MAcoeff", "MAlsf"),
+                ("numMACoeff", self.ma_order),
+            )?,
         );
         let max_sigma = f64::from(limits::MAX_SIGMA_M_S2);
         Ok(SourceModel {
@@ -305,10 +326,9 @@ impl Header {
             (order, stated_by),
             "0 to π rad",
             // Six decimals may round π up.
-            |v| (0.0..=3.141_593).contains(&v),
+            |v| (0.0..=std::f64::consts::PI + 1e-6).contains(&v),
         )?;
-        filter::choose(monic, lsf, self.sample_rate_hz).map_err(|distance_db| {
-            holder.error(Problem::NoUsableFilter { field, distance_db })
-        })
+        filter::choose(monic, lsf, self.sample_rate_hz)
+            .map_err(|distance_db| holder.error(Problem::NoUsableFilter { field, distance_db }))
     }
 }

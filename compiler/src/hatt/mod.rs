@@ -9,6 +9,8 @@ mod error;
 mod filter;
 mod import;
 mod material;
+#[cfg(test)]
+mod tests;
 mod xml;
 
 pub use error::{HattError, Problem};

@@ -46,7 +46,9 @@ fn write_text(
         Numerator::Nyquist => "1 + z⁻¹".to_owned(),
         Numerator::Lsf => {
             let first = d.ar.vertices.first();
-            let order = first.and_then(|v| v.ma_lsf_rad.as_ref()).map_or(0, Vec::len);
+            let order = first
+                .and_then(|v| v.ma_lsf_rad.as_ref())
+                .map_or(0, Vec::len);
             format!("MA of order {order}")
         }
     };
@@ -126,7 +128,10 @@ fn write_text(
     if !p.notes.is_empty() {
         writeln!(out, "  notes        {}", p.notes)?;
     }
-    writeln!(out, "  vertices     speed mm/s   force N   kind       level m/s²")?;
+    writeln!(
+        out,
+        "  vertices     speed mm/s   force N   kind       level m/s²"
+    )?;
     for (index, v) in d.ar.vertices.iter().enumerate() {
         let kind = match v.kind {
             VertexKind::Interior => "interior",

@@ -46,14 +46,16 @@ pub(crate) enum Import {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "Prints one line of figures a material: the RMS distance of its log \
+#[command(
+    after_help = "Prints one line of figures a material: the RMS distance of its log \
 spectra from the source over 10–450 Hz, level included, and its size. Every vertex and \
 triangle is kept. HaTT holds no tapping traces: they are synthesised and marked so.
 
 Examples:
   asperity import hatt Models_Cork.xml -o cork.asp
   asperity import hatt hatt/models -o assets
-  asperity import hatt hatt/models -o hatt.aspl")]
+  asperity import hatt hatt/models -o hatt.aspl"
+)]
 pub(crate) struct ImportHatt {
     /// One `Models_<name>.xml`, or a folder of them
     pub(crate) input: PathBuf,
@@ -82,7 +84,8 @@ pub(crate) struct Builtin {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "Every checksum is verified, of a library those of all textures. With \
+#[command(
+    after_help = "Every checksum is verified, of a library those of all textures. With \
 --json, an asset is one object; a library is {format_version, textures: [object, …]} in order \
 of name.
 
@@ -90,7 +93,8 @@ Examples:
   asperity inspect grit.asp
   asperity inspect grit.asp --json
   asperity inspect hatt.aspl
-  asperity inspect hatt.aspl --texture Cork --json")]
+  asperity inspect hatt.aspl --texture Cork --json"
+)]
 pub(crate) struct Inspect {
     /// An asset (.asp) or a library (.aspl)
     pub(crate) file: PathBuf,
@@ -118,13 +122,15 @@ pub(crate) struct Plot {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "The trajectory has the header t_s,x_mm,y_mm,z_mm and one row a tick at \
+#[command(
+    after_help = "The trajectory has the header t_s,x_mm,y_mm,z_mm and one row a tick at \
 the texture's rate. The surface is the infinite plane z = 0, contact where z < 0. The same \
 asset, trajectory and seed give the same bytes.
 
 Examples:
   asperity render grit.asp --trajectory stroke.csv -o felt.csv --seed 1
-  asperity render hatt.aspl --texture Cork --trajectory stroke.csv -o felt.csv")]
+  asperity render hatt.aspl --texture Cork --trajectory stroke.csv -o felt.csv"
+)]
 pub(crate) struct Render {
     /// An asset (.asp) or a library (.aspl)
     pub(crate) file: PathBuf,

@@ -20,8 +20,8 @@ pub(crate) fn run(args: &Inspect) -> Result<(), Failures> {
 
 fn one_texture(args: &Inspect, source: &mut Source) -> Result<(), Failures> {
     let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
-    let asset = Asset::parse(&bytes)
-        .map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
+    let asset =
+        Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
     if args.json {
         print_json(&Document::of(&asset));
     } else {
@@ -55,7 +55,8 @@ fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Resul
         "  index  haptic   total  order  vertices  rough dB  sharp Hz      μ  name"
     );
     for (index, (name, d)) in names.iter().zip(&documents).enumerate() {
-        let figure = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
+        let figure =
+            |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
         let _ = writeln!(
             text,
             "  {index:>5}  {:>6}  {:>6}  {:>5}  {:>8}  {:>8}  {:>8}  {:>5.3}  {name}",

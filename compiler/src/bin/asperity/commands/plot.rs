@@ -2,10 +2,36 @@
 
 use super::{Failures, one};
 use crate::cli::Plot;
-use asperity::source::Source;
+use asperity::{
+    diagnostic::Diagnostic,
+    output,
+    plot::{self, AssetBytes, theme::PlotError},
+    raise::raise,
+    source::Source,
+};
+use asperity_formats::Asset;
+use thiserror::Error;
+
+/// The sheet could not be drawn.
+#[derive(Debug, Error)]
+#[error("the sheet cannot be drawn: {0}")]
+struct DrawError(#[from] PlotError);
+
+impl Diagnostic for DrawError {
+    fn remedy(&self) -> String {
+        "free memory and try again".into()
+    }
+}
 
 pub(crate) fn run(args: &Plot) -> Result<(), Failures> {
     let mut source = Source::open(&args.file).map_err(one)?;
-    let _ = source.choose(args.texture.as_deref()).map_err(one)?;
-    Ok(())
+    let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
+    let asset =
+        Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
+    let sizes = AssetBytes {
+        haptic: asset.haptic_len(),
+        total: asset.total_len(),
+    };
+    let png = plot::sheet(&raise(&asset), Some(sizes)).map_err(|e| one(DrawError(e)))?;
+    output::write_atomic(&args.output, &png).map_err(one)
 }

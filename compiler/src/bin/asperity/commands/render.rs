@@ -16,8 +16,8 @@ use std::{
 pub(crate) fn run(args: &Render) -> Result<(), Failures> {
     let mut source = Source::open(&args.file).map_err(one)?;
     let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
-    let asset = Asset::parse(&bytes)
-        .map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
+    let asset =
+        Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
     let trajectory = File::open(&args.trajectory).map_err(|cause| {
         one(RenderError::Unreadable {
             file: args.trajectory.clone(),
