@@ -107,6 +107,11 @@ impl<S: Servo> Session<S> {
     pub fn servo(&self) -> &S {
         &self.servo
     }
+
+    /// The servo, e.g. to start a fault.
+    pub fn servo_mut(&mut self) -> &mut S {
+        &mut self.servo
+    }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::hand::Motion;
 
 /// Height of the strip.
 pub(super) const HEIGHT_PX: f32 = 96.0;
-const LABEL_PX: f32 = 19.0;
+const LABEL_PX: f32 = 18.0;
 const LINE_PX: f32 = 25.0;
 
 /// Draws the strip.
@@ -30,12 +30,21 @@ pub(super) fn draw(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
             Stroke::new(ink::PAPER, 2.0),
             None,
         );
+        let fits = |canvas: &Canvas, line: &str| canvas.text_width(line, &style) < x1 - x0 - 4.0;
         let text = motion.to_string();
-        let mut lines: Vec<String> = vec![motion.name().to_owned()];
+        let mut lines = vec![motion.name().to_owned()];
+        // Pairs of number and unit, on two lines where one is too narrow.
         let words: Vec<&str> = text.split(' ').skip(1).collect();
-        lines.extend(words.chunks(2).map(|pair| pair.join(" ")));
+        for pair in words.chunks(2) {
+            let whole = pair.join(" ");
+            if fits(canvas, &whole) {
+                lines.push(whole);
+            } else {
+                lines.extend(pair.iter().map(|&word| word.to_owned()));
+            }
+        }
         for (row, line) in lines.iter().enumerate() {
-            if canvas.text_width(line, &style) < x1 - x0 - 2.0 {
+            if fits(canvas, line) {
                 let y = outer.y + 16.0 + LINE_PX * row as f32;
                 canvas.text(line, (0.5 * (x0 + x1), y), &style);
             }
