@@ -6,6 +6,11 @@ use std::{error::Error, fmt::Write as _};
 pub trait Diagnostic: Error {
     /// What the user can do, in one sentence.
     fn remedy(&self) -> String;
+
+    /// Whether the command was called wrongly (exit status 2) rather than failed (1).
+    fn is_usage(&self) -> bool {
+        false
+    }
 }
 
 /// The text that both commands print on stderr: `error: …`, `  help: …`.

@@ -99,6 +99,7 @@ impl AtomicFile {
             Some(parent) if parent != Path::new("") => parent,
             _ => Path::new("."),
         };
+        fs::metadata(folder).map_err(|e| fail("cannot reach its folder", e))?;
         let mut builder = tempfile::Builder::new();
         builder.prefix(".asperity-");
         #[cfg(unix)]
@@ -137,6 +138,10 @@ impl AtomicFile {
     /// # Errors
     /// [`OutputError`]; the target is then as it was.
     pub fn commit(mut self) -> Result<(), OutputError> {
+        self.finish()
+    }
+
+    fn finish(&mut self) -> Result<(), OutputError> {
         let fail = |source| OutputError {
             path: self.target.clone(),
             doing: "cannot finish it",
@@ -164,7 +169,10 @@ fn strip_path(error: &io::Error) -> io::Error {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         if let Place::Beside(_, path) = &self.place {
-            unfinished().retain(|other| other != &**path);
+            // Gone before it is forgotten; after a commit there is nothing to remove.
+            let mut list = unfinished();
+            let _ = fs::remove_file(path);
+            list.retain(|other| other != &**path);
         }
     }
 }
@@ -229,9 +237,15 @@ pub fn write_folder(folder: &Path, files: &[(String, &[u8])]) -> Result<(), Outp
         fill(&mut file, bytes)?;
         staged.push(file);
     }
-    for file in staged {
-        file.commit()?;
+    {
+        // Under the lock: an interrupt waits until every file has its name.
+        let list = unfinished();
+        for file in &mut staged {
+            file.finish()?;
+        }
+        drop(list);
     }
+    drop(staged);
     if let Some(made) = made {
         made.keep();
     }

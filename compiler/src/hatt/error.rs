@@ -165,10 +165,9 @@ impl Diagnostic for HattError {
     fn remedy(&self) -> String {
         match &self.problem {
             Problem::Unreadable(_) => "check the path and its permissions".into(),
-            Problem::TooLarge { .. } | Problem::WrongRoot { .. } => {
+            Problem::TooLarge { .. } | Problem::WrongRoot { .. } | Problem::NotUtf8 { .. } => {
                 "give a model file of the Penn Haptic Texture Toolkit, `Models_<name>.xml`".into()
             }
-            Problem::NotUtf8 { .. } => "save the file as UTF-8".into(),
             Problem::Doctype => "remove the <!DOCTYPE …> declaration; HaTT files have none".into(),
             Problem::Malformed(_) => {
                 "the file is damaged or incomplete: fetch it again from HaTT".into()

@@ -15,7 +15,11 @@ fn main() -> ExitCode {
             for failure in &failures {
                 eprintln!("{}", asperity::diagnostic::report(failure.as_ref()));
             }
-            ExitCode::FAILURE
+            if failures.iter().any(|failure| failure.is_usage()) {
+                ExitCode::from(2)
+            } else {
+                ExitCode::FAILURE
+            }
         }
     }
 }

@@ -25,6 +25,10 @@ struct ManyIntoOne {
 }
 
 impl Diagnostic for ManyIntoOne {
+    fn is_usage(&self) -> bool {
+        true
+    }
+
     fn remedy(&self) -> String {
         "give a folder, or a library whose name ends in .aspl".into()
     }
