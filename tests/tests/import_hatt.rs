@@ -1,0 +1,121 @@
+//! Every HaTT material imports, keeps every vertex and triangle, and every sounding vertex is
+//! within 0.5 dB RMS (10–450 Hz, level included) of the coefficients in its file, which are
+//! read here by other means than the importer's.
+
+use asperity_formats::Asset;
+use asperity_tests::{
+    hatt::{self, Source},
+    oracle::{Texture, polynomial},
+};
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// RMS difference of two log spectra over 10–450 Hz at 1 Hz steps, dB.
+fn rms_db(exact: impl Fn(f64) -> f64, found: impl Fn(f64) -> f64) -> f64 {
+    let squares: f64 = (10..=450)
+        .map(|hz| {
+            let omega = TAU * f64::from(hz) / 1000.0;
+            (10.0 * (found(omega) / exact(omega)).log10()).powi(2)
+        })
+        .sum();
+    (squares / 441.0).sqrt()
+}
+
+fn power(a: &[f64], b: &[f64], level: f64, omega: f64) -> f64 {
+    let size = |c: &[f64]| {
+        let (re, im) = (1..).zip(c).fold((1.0, 0.0), |(re, im), (k, c)| {
+            let angle = omega * f64::from(k);
+            (re + c * angle.cos(), im - c * angle.sin())
+        });
+        re * re + im * im
+    };
+    level * level * size(b) / size(a)
+}
+
+/// Error of each sounding vertex, dB.
+fn errors(source: &Source, asset: &Asset<'_>) -> Vec<f64> {
+    let texture = Texture::new(asset);
+    assert_eq!(asset.name(), source.name);
+    assert_eq!(asset.friction().mu(), source.mu as f32);
+    assert_eq!(texture.triangles, source.triangles, "{}", source.name);
+    assert_eq!(
+        texture.vertices.len(),
+        source.models.len(),
+        "{}",
+        source.name
+    );
+    texture
+        .vertices
+        .iter()
+        .zip(&source.models)
+        .filter_map(|(vertex, model)| {
+            assert_eq!(vertex.speed_mm_s, f64::from(model.speed_mm_s as f32));
+            assert_eq!(vertex.force_n, f64::from(model.force_n as f32));
+            if model.level_m_s2 == 0.0 {
+                assert_eq!(vertex.level_m_s2, 0.0, "{}: silence sounds", source.name);
+                return None;
+            }
+            let (a, b) = (polynomial(&vertex.cosines), polynomial(&vertex.ma_cosines));
+            Some(rms_db(
+                |omega| power(&model.a, &model.b, model.level_m_s2, omega),
+                |omega| power(&a, &b, vertex.level_m_s2, omega),
+            ))
+        })
+        .collect()
+}
+
+#[test]
+fn every_material_is_within_half_a_decibel_of_its_file() {
+    let files = hatt::materials("every_material_is_within_half_a_decibel_of_its_file");
+    if files.is_empty() {
+        return;
+    }
+    let mut all: Vec<f64> = files
+        .par_iter()
+        .flat_map(|file| {
+            let source = hatt::read(file).expect("a file as HaTT writes it");
+            let imported = asperity::hatt::import(file).unwrap();
+            let asset = Asset::parse(&imported.bytes).unwrap();
+            let errors = errors(&source, &asset);
+            let worst = errors.iter().copied().fold(0.0, f64::max);
+            assert!(worst < 0.5, "{}: {worst} dB", source.name);
+            // What the importer prints is what is measured here, but for the grid of
+            // frequencies near zeros of the numerator.
+            assert!(
+                (imported.report.error.max_db - worst).abs() < 0.05,
+                "{}; measured here: {worst}",
+                imported.report
+            );
+            assert_eq!(imported.report.sounding, errors.len());
+            errors
+        })
+        .collect();
+    all.sort_by(f64::total_cmp);
+    let at = |share: f64| all[((all.len() - 1) as f64 * share) as usize];
+    println!(
+        "{} materials, {} sounding vertices: median {:.4}, p95 {:.4}, max {:.4} dB",
+        files.len(),
+        all.len(),
+        at(0.5),
+        at(0.95),
+        at(1.0)
+    );
+    assert!(all.len() > 10 * files.len());
+}
+
+#[test]
+fn the_same_file_gives_the_same_bytes_whatever_the_thread_count() {
+    let files = hatt::materials("the_same_file_gives_the_same_bytes_whatever_the_thread_count");
+    let few: Vec<_> = files.into_iter().take(6).collect();
+    let with = |threads: usize| -> Vec<Vec<u8>> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| asperity::hatt::import_all(&few, || {}))
+            .into_iter()
+            .map(|imported| imported.unwrap().bytes)
+            .collect()
+    };
+    assert_eq!(with(1), with(4));
+}
