@@ -89,7 +89,7 @@ impl Surface {
         match self {
             Self::Plane { point_m, normal } => Self::Plane {
                 point_m,
-                normal: scale(normal, rsqrt(dot(normal, normal))),
+                normal: unit(normal),
             },
             other => other,
         }
@@ -125,6 +125,16 @@ impl Surface {
             } => box_contact(sub(position_m, center_m), half_extents_m),
         }
     }
+}
+
+/// `v` at unit length, rounded once: a unit normal stays what it is.
+fn unit(v: Vec3) -> Vec3 {
+    let v = v.map(f64::from);
+    let squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    // The guess is good to 5e-7; one Newton step squares that.
+    let guess = f64::from(rsqrt(squared as f32));
+    let inverse = guess * (1.5 - 0.5 * squared * guess * guess);
+    v.map(|x| (x * inverse) as f32)
 }
 
 fn box_contact(r: Vec3, half: Vec3) -> Contact {
@@ -184,6 +194,17 @@ mod tests {
         assert!((corner.distance_m - 0.1 * 3.0_f32.sqrt()).abs() < 1e-6);
         let third = 1.0 / 3.0_f32.sqrt();
         assert!(near(corner.normal, [third, third, -third]));
+    }
+
+    #[test]
+    fn depth_on_a_plane_is_exact() {
+        let plane = Surface::Plane {
+            point_m: [0.0; 3],
+            normal: [0.0, 0.0, 2.0],
+        };
+        let touch = plane.normalised().contact([0.01, 0.02, -2e-3]);
+        assert_eq!(touch.normal, [0.0, 0.0, 1.0]);
+        assert_eq!(touch.distance_m, -2e-3);
     }
 
     #[test]
