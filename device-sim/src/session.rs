@@ -120,15 +120,15 @@ mod tests {
     use crate::hand::{GripPreset, Motion, Stroke};
     use crate::servo::silence;
 
-    /// A wall of 1 kN/m with viscous-regularised friction of μ = 0.5.
-    fn wall() -> impl FnMut(&Sample) -> Output {
+    /// A wall with viscous-regularised friction of μ = 0.5.
+    fn wall(stiffness_n_m: f32) -> impl FnMut(&Sample) -> Output {
         let mut last_x = 0.0_f32;
         let mut speed_m_s = 0.0_f32;
         move |sample| {
             let [x, _, z] = sample.position_m;
             speed_m_s += 0.1 * ((x - last_x) * 1000.0 - speed_m_s);
             last_x = x;
-            let normal_n = 1000.0 * (-z).max(0.0);
+            let normal_n = stiffness_n_m * (-z).max(0.0);
             let friction_n = 0.5 * normal_n * (speed_m_s / 0.02).clamp(-1.0, 1.0);
             Output {
                 force_n: [-friction_n, 0.0, normal_n],
@@ -137,18 +137,17 @@ mod tests {
         }
     }
 
-    fn explore(preset: GripPreset, seed: u64) -> (Script, Vec<Record>) {
+    fn explore(preset: GripPreset, seed: u64, stiffness_n_m: f32) -> (Script, Vec<Record>) {
         let config = DeviceConfig::touch().expect("built-in file");
         let script = Script::exploration(seed, 1, config.half_extents_m());
         let grip = Grip::preset(preset).expect("built-in file");
-        let mut session = Session::new(&config, grip, script.clone(), wall());
+        let mut session = Session::new(&config, grip, script.clone(), wall(stiffness_n_m));
         let records = session.run(30_000);
         assert_eq!(
             session.device_counts().at_stop,
             0,
             "the hand stays in the workspace"
         );
-        assert_eq!(session.device_counts().clipped, 0);
         (script, records)
     }
 
@@ -157,11 +156,13 @@ mod tests {
         sum / count
     }
 
-    /// Every motion of a script with its records, for both grips and some seeds.
-    fn each_motion(mut check: impl FnMut(&Motion, &[Record])) {
+    /// Every motion of a script with its records, for both grips, soft and stiff
+    /// walls and some seeds.
+    fn each_motion(mut check: impl FnMut(&Motion, &[Record], f64)) {
         for preset in [GripPreset::Light, GripPreset::Firm] {
-            for seed in 1..=5 {
-                let (script, records) = explore(preset, seed);
+            for seed in 1..=6 {
+                let stiffness_n_m = [500.0, 1000.0, 2000.0][seed as usize % 3];
+                let (script, records) = explore(preset, seed, stiffness_n_m);
                 for (index, motion) in script.motions().iter().enumerate() {
                     let of_motion: Vec<Record> = records
                         .iter()
@@ -169,7 +170,7 @@ mod tests {
                         .copied()
                         .collect();
                     assert!(!of_motion.is_empty(), "{motion} never ran");
-                    check(motion, &of_motion);
+                    check(motion, &of_motion, f64::from(stiffness_n_m));
                 }
             }
         }
@@ -177,7 +178,7 @@ mod tests {
 
     #[test]
     fn the_hand_meets_the_surface_at_the_scripted_speed() {
-        each_motion(|motion, records| {
+        each_motion(|motion, records, _| {
             if let Motion::Tap { speed_m_s } = *motion {
                 let meets = |w: &&[Record]| w[0].true_m[2] > 0.0 && w[1].true_m[2] <= 0.0;
                 let impact = records.windows(2).find(meets).expect("an impact");
@@ -189,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_stroke_runs_at_its_speed_and_force() {
-        each_motion(|motion, records| {
+        each_motion(|motion, records, _| {
             if let Motion::Stroke {
                 to_m,
                 speed_m_s,
@@ -215,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_press_and_a_rest_reach_their_force() {
-        each_motion(|motion, records| match *motion {
+        each_motion(|motion, records, stiffness_n_m| match *motion {
             Motion::Press { force_n, .. } => {
                 let peak = records.iter().map(|r| r.device_n[2]).fold(0.0, f64::max);
                 assert!((peak / force_n - 1.0).abs() < 0.1, "{motion}: {peak}");
@@ -223,7 +224,9 @@ mod tests {
             Motion::Rest { force_n, .. } => {
                 let late = &records[records.len() - 100..];
                 let held = mean(late.iter().map(|r| r.device_n[2]));
-                assert!((held - force_n).abs() < 0.05, "{motion}: {held}");
+                // One count of position is k·Δ of force, and the hand lets 0.02 N be.
+                let grain_n = stiffness_n_m * 0.055e-3 + 0.02;
+                assert!((held - force_n).abs() <= grain_n, "{motion}: {held}");
             }
             _ => {}
         });
@@ -232,7 +235,7 @@ mod tests {
     #[test]
     fn the_same_seed_gives_the_same_bits_and_another_does_not() {
         let bits = |seed| -> Vec<u64> {
-            let (_, records) = explore(GripPreset::Light, seed);
+            let (_, records) = explore(GripPreset::Light, seed, 1000.0);
             records
                 .iter()
                 .flat_map(|r| r.true_m.map(f64::to_bits))

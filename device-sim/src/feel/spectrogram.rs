@@ -46,7 +46,7 @@ pub fn spectrogram(
         let last = spectrum.len() - 1;
         let density = spectrum.iter().enumerate().map(|(bin, value)| {
             // Both signs of a frequency, but DC and Nyquist have only one.
-            let sides = if bin == 0 || (bin == last && length % 2 == 0) {
+            let sides = if bin == 0 || (bin == last && length.is_multiple_of(2)) {
                 1.0
             } else {
                 2.0

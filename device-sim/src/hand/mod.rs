@@ -3,8 +3,9 @@
 //! The grip's spring and damper pull the stylus to where the hand means to be. In
 //! the air the hand also feeds forward the inertia and friction it knows of, as a
 //! practised hand does, so that it is where it means to be. In contact it holds a
-//! normal force instead of a height: the spring is loaded by the wanted force and
-//! an integrator corrects what is felt in the stylus, at the grip's bandwidth.
+//! normal force instead of a height: the spring is loaded by the wanted force, the
+//! hand sinks as far as it has learned that the surface yields, and an integrator
+//! corrects what is felt in the stylus, at the grip's bandwidth.
 
 mod grip;
 mod motion;
@@ -33,6 +34,12 @@ const FORCE_RAMP_S: f64 = 0.15;
 const FELT_TIME_S: f64 = 0.02;
 /// Errors of force the hand lets be, N.
 const FORCE_DEAD_BAND_N: f64 = 0.02;
+/// Felt force above which the hand learns how far the surface yields, N.
+const LEARNING_N: f64 = 0.2;
+/// Time constant of that learning, s.
+const LEARNING_S: f64 = 0.05;
+/// Softest surface it can learn, m/N.
+const SOFTEST_M_N: f64 = 0.01;
 /// Most that the hand's correction adds, N.
 const CORRECTION_N: f64 = 1.5;
 /// Force that a tap means to reach against the grip's spring, N.
@@ -94,14 +101,14 @@ pub struct Hand {
     origin_m: [f64; 3],
     target_m: [f64; 3],
     felt_n: f64,
+    /// How far the surface yields, as learned, m/N.
+    compliance_m_n: f64,
     holding: Option<Holding>,
 }
 
 /// A normal force being held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Holding {
-    /// Height at which the spring carries no force, m.
-    reference_m: f64,
     wanted_n: f64,
     correction_n: f64,
 }
@@ -119,6 +126,7 @@ impl Hand {
             origin_m: start_m,
             target_m: start_m,
             felt_n: 0.0,
+            compliance_m_n: 0.0,
             holding: None,
         };
         hand.begin();
@@ -166,7 +174,7 @@ impl Hand {
         };
         if holds_force(&motion) && matches!(self.stage, Stage::Settle { .. } | Stage::Body) {
             let wanted_n = self.wanted_n(&motion);
-            intent.target_m[2] = self.hold(wanted_n, tick_s);
+            intent.target_m[2] = self.hold(wanted_n, tick_s, stylus_z.position_m);
             intent.target_m_s[2] = 0.0;
             intent.feed_forward_n[2] = 0.0;
             intent.wanted_n = Some(wanted_n);
@@ -186,10 +194,13 @@ impl Hand {
             let next = match self.stage {
                 Stage::Descent { .. } if self.stage_s >= DESCENT_S => Stage::Landing,
                 Stage::Landing if self.felt_n > NOTICED_N || stylus_z.position_m < -DEEPEST_M => {
+                    // The target stays where it is, whatever carries it.
+                    let free_n = self.grip.stiffness_n_m
+                        * (-self.target_m[2] - self.felt_n * self.compliance_m_n)
+                        - self.felt_n;
                     self.holding = Some(Holding {
-                        reference_m: self.target_m[2] + self.felt_n / self.grip.stiffness_n_m,
                         wanted_n: self.felt_n,
-                        correction_n: 0.0,
+                        correction_n: free_n.clamp(-CORRECTION_N, CORRECTION_N),
                     });
                     Stage::Settle {
                         from_n: self.felt_n,
@@ -344,8 +355,13 @@ impl Hand {
     }
 
     /// Height of the target that holds `wanted_n`, m.
-    fn hold(&mut self, wanted_n: f64, tick_s: f64) -> f64 {
+    fn hold(&mut self, wanted_n: f64, tick_s: f64, stylus_z_m: f64) -> f64 {
         let felt_n = self.felt_n;
+        if felt_n > LEARNING_N {
+            let seen_m_n = (-stylus_z_m / felt_n).clamp(0.0, SOFTEST_M_N);
+            self.compliance_m_n +=
+                (seen_m_n - self.compliance_m_n) * (tick_s / LEARNING_S).min(1.0);
+        }
         let Some(holding) = self.holding.as_mut() else {
             return self.target_m[2];
         };
@@ -356,7 +372,8 @@ impl Hand {
                 .clamp(-CORRECTION_N, CORRECTION_N);
         }
         holding.wanted_n = wanted_n;
-        holding.reference_m - (wanted_n + holding.correction_n) / self.grip.stiffness_n_m
+        let spring_m = (wanted_n + holding.correction_n) / self.grip.stiffness_n_m;
+        -spring_m - wanted_n * self.compliance_m_n
     }
 }
 

@@ -69,7 +69,7 @@ fn explore(vary: &mut Vary, reach_m: [f64; 3], motions: &mut Vec<Motion>) {
     let line_m = side_m * 0.5 * vary.signed();
     motions.push(Motion::Approach {
         to_m: [left_m, line_m, hover_m],
-        duration_s: 0.5,
+        duration_s: 0.6,
     });
     for speed_m_s in [0.05, 0.1, 0.2, 0.3] {
         motions.push(Motion::Tap {
