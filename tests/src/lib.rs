@@ -5,7 +5,6 @@
 //! comments, `formats/SPEC.md`), with other methods than the runtime's and without its
 //! code: what both get wrong, they must get wrong twice.
 
-pub mod builtin;
 pub mod damage;
 pub mod draw;
 pub mod hatt;

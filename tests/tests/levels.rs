@@ -1,6 +1,8 @@
 //! The vibration of a steady stroke of 60 s has the model's levels in third octaves within
 //! 1 dB: at vertices and between them, built-in texture and HaTT materials.
 
+mod support;
+
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{
@@ -108,7 +110,7 @@ fn the_builtin_texture() {
     } else {
         usize::MAX
     };
-    check("builtin", &asperity_tests::builtin::bytes(), all);
+    check("builtin", &support::builtin(), all);
 }
 
 #[test]

@@ -4,6 +4,8 @@
 //!
 //! The random queries over all materials are 10⁷ in a release build, fewer otherwise.
 
+mod support;
+
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{draw::Draw, hatt, oracle::Texture, stability::largest_reflection};
@@ -192,7 +194,7 @@ fn rest_and_recover(bytes: &[u8]) {
 
 #[test]
 fn the_builtin_texture() {
-    let bytes = asperity_tests::builtin::bytes();
+    let bytes = support::builtin();
     let mut checked = Checked::new(&bytes);
     checked.places();
     checked.random(RANDOM_QUERIES / 20, 1);

@@ -1,11 +1,8 @@
-//! The built-in texture as an asset.
+//! What needs the compiler, which the library of this package does without so that the
+//! fuzzer builds the runtime alone.
 
 /// The bytes that `asperity builtin` writes.
-///
-/// # Panics
-/// If the built-in texture cannot be lowered.
-#[must_use]
-pub fn bytes() -> Vec<u8> {
+pub(crate) fn builtin() -> Vec<u8> {
     asperity::lower::lower(&asperity::builtin::texture(), None)
         .expect("the built-in texture")
         .bytes
