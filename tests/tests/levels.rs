@@ -58,7 +58,7 @@ fn difference_db(bytes: &[u8], speed_mm_s: f64, force_n: f64, seed: u64) -> (f64
 }
 
 /// Sounding vertices, and centroids of triangles that sound.
-fn places(bytes: &[u8]) -> (Vec<(f64, f64)>, Vec<(f64, f64)>) {
+fn places(bytes: &[u8]) -> [Vec<(f64, f64)>; 2] {
     let oracle = Texture::new(&Asset::parse(bytes).unwrap());
     let sounds = |v: usize| oracle.vertices[v].level_m_s2 > 0.0;
     let at = |v: usize| (oracle.vertices[v].speed_mm_s, oracle.vertices[v].force_n);
@@ -76,12 +76,12 @@ fn places(bytes: &[u8]) -> (Vec<(f64, f64)>, Vec<(f64, f64)>) {
             (mean(|p| p.0), mean(|p| p.1))
         })
         .collect();
-    (vertices, centroids)
+    [vertices, centroids]
 }
 
 /// Every `stride`th place of each kind; the worst difference.
 fn check(name: &str, bytes: &[u8], places_a_kind: usize) -> f64 {
-    let (vertices, centroids) = places(bytes);
+    let [vertices, centroids] = places(bytes);
     let some = |places: Vec<(f64, f64)>| {
         let stride = places.len().div_ceil(places_a_kind).max(1);
         places.into_iter().step_by(stride).collect::<Vec<_>>()

@@ -52,7 +52,6 @@ fn prototype() -> Vec<(Complex, Complex)> {
 }
 
 /// Response of the low-pass to a unit impulse after `age_s`, 1/s.
-#[must_use]
 pub fn impulse_response(lower_rate_hz: f64) -> impl Fn(f64) -> f64 {
     let (parts, stop) = (prototype(), PI * lower_rate_hz);
     move |age_s| {

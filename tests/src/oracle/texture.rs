@@ -61,7 +61,7 @@ pub fn polynomial(cosines: &[f64]) -> Vec<f64> {
             |a: (f64, f64), b: (f64, f64)| (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0);
         let square = multiply(w, w);
         let pair = |x: f64| (1.0 - 2.0 * x * w.0 + square.0, -2.0 * x * w.1 + square.1);
-        let (sum, difference) = if order % 2 == 0 {
+        let (sum, difference) = if order.is_multiple_of(2) {
             ((1.0 + w.0, w.1), (1.0 - w.0, -w.1))
         } else {
             ((1.0, 0.0), (1.0 - square.0, -square.1))
