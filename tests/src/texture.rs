@@ -94,7 +94,7 @@ pub fn random(seed: u64, kind: Kind) -> Texture {
             let inner = |at: usize, count: usize| at > 0 && at < count - 1;
             let mut place = |at: usize, count: usize, max: f64| {
                 let shift = if inner(at, count) {
-                    draw.range(-0.3, 0.3)
+                    draw.range(-0.24, 0.24)
                 } else {
                     0.0
                 };

@@ -1,5 +1,6 @@
 //! The fuzzer's target on a bounded number of seeded cases: damaged assets with right
-//! checksums, so that meaning is reached, and samples of any bits.
+//! checksums, so that meaning is reached, and samples of any bits. `ASPERITY_FUZZ_CASES`
+//! asks for another number of them.
 
 use asperity_formats::Numerator;
 use asperity_tests::{
@@ -8,7 +9,11 @@ use asperity_tests::{
     texture::{Kind, random},
 };
 
-const CASES: u64 = 4000;
+/// Number of cases.
+fn cases() -> u64 {
+    let asked = std::env::var("ASPERITY_FUZZ_CASES").ok();
+    asked.and_then(|count| count.parse().ok()).unwrap_or(4000)
+}
 
 /// A small asset of a random kind, patched in a few places.
 fn case(seed: u64) -> Vec<u8> {
@@ -61,16 +66,17 @@ fn case(seed: u64) -> Vec<u8> {
 
 #[test]
 fn load_then_tick_survives_seeded_damage() {
-    let (mut refused, mut rendered) = (0, 0);
-    for seed in 0..CASES {
+    let (mut refused, mut rendered) = (0_u64, 0_u64);
+    let cases = cases();
+    for seed in 0..cases {
         match load_then_tick(&case(seed)) {
             Outcome::Refused => refused += 1,
             Outcome::Rendered(_) => rendered += 1,
         }
     }
-    println!("{CASES} cases: {rendered} rendered, {refused} refused");
+    println!("{cases} cases: {rendered} rendered, {refused} refused");
     // Both sides of the door are reached.
-    assert!(refused > CASES / 10 && rendered > CASES / 10);
+    assert!(refused > cases / 10 && rendered > cases / 10);
 }
 
 #[test]
