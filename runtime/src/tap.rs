@@ -6,11 +6,9 @@
 //! Below the slowest trace it shrinks with the speed, above the fastest it stays.
 //! After an impact the detector waits until the stylus is `rearm_m` away.
 
-use crate::{
-    math::{max, min},
-    resample::Resampler,
-};
+use crate::{math::clamp_from_zero, resample::Resampler};
 use asperity_formats::{Taps, limits::MAX_TAPS};
+use heapless::Vec;
 
 /// Ticks of normal motion that give the impact speed.
 pub const WINDOW_TICKS: usize = 8;
@@ -18,17 +16,16 @@ pub const WINDOW_TICKS: usize = 8;
 /// The tap bank at the servo rate, `K` samples in all.
 #[derive(Debug, Clone)]
 pub struct TapBank<const K: usize> {
-    count: usize,
     ticks: usize,
-    speeds_m_s: [f32; MAX_TAPS],
+    /// Impact speed of each trace, ascending.
+    speeds_m_s: Vec<f32, MAX_TAPS>,
     samples_m_s2: [f32; K],
 }
 
 impl<const K: usize> TapBank<K> {
     pub(crate) const EMPTY: Self = Self {
-        count: 0,
         ticks: 0,
-        speeds_m_s: [0.0; MAX_TAPS],
+        speeds_m_s: Vec::new(),
         samples_m_s2: [0.0; K],
     };
 
@@ -44,11 +41,12 @@ impl<const K: usize> TapBank<K> {
         let resampler = Resampler::new(taps.sample_rate_hz(), servo_rate_hz);
         let ticks = resampler.ticks(taps.samples());
         let places = self.samples_m_s2.chunks_exact_mut(max_one(ticks));
-        for ((trace, place), speed) in taps.traces().zip(places).zip(&mut self.speeds_m_s) {
-            *speed = trace.speed_m_s;
-            resampler.convert(trace.accel_m_s2(), place);
+        for (trace, place) in taps.traces().zip(places) {
+            // A format has at most `MAX_TAPS` traces, so there is room.
+            if self.speeds_m_s.push(trace.speed_m_s).is_ok() {
+                resampler.convert(trace.accel_m_s2(), place);
+            }
         }
-        self.count = taps.traces().len();
         self.ticks = ticks;
     }
 
@@ -61,38 +59,27 @@ impl<const K: usize> TapBank<K> {
     /// Which two traces, and in which proportion, an impact speed plays.
     #[must_use]
     pub fn select(&self, impact_speed_m_s: f32) -> Selection {
-        let mut selection = Selection {
-            first: 0,
-            second: 0,
-            first_weight: 0.0,
-            second_weight: 0.0,
+        let Some(&slowest) = self.speeds_m_s.first() else {
+            return Selection::SILENT;
         };
-        if self.count == 0 {
-            return selection;
-        }
-        // The last trace that is not faster; a fixed number of comparisons.
-        let mut first = 0;
-        for index in 1..MAX_TAPS {
-            let reached = index < self.count && impact_speed_m_s >= self.speeds_m_s[index];
+        // The last trace that is not faster; every trace is compared with.
+        let (mut first, mut low) = (0, slowest);
+        for (index, &speed) in self.speeds_m_s.iter().enumerate() {
+            let reached = speed <= impact_speed_m_s;
             first = if reached { index } else { first };
+            low = if reached { speed } else { low };
         }
-        let second = if first + 1 < self.count {
-            first + 1
-        } else {
-            first
+        let (second, high) = match self.speeds_m_s.get(first + 1) {
+            Some(&speed) => (first + 1, speed),
+            None => (first, f32::INFINITY),
         };
-        let (low, high) = (self.speeds_m_s[first], self.speeds_m_s[second]);
-        selection.first = first as u8;
-        selection.second = second as u8;
-        if impact_speed_m_s <= low {
-            selection.first_weight = max(impact_speed_m_s, 0.0) / low;
-        } else if second == first {
-            selection.first_weight = 1.0;
-        } else {
-            selection.second_weight = min((impact_speed_m_s - low) / (high - low), 1.0);
-            selection.first_weight = 1.0 - selection.second_weight;
+        let share = clamp_from_zero((impact_speed_m_s - low) / (high - low), 1.0);
+        Selection {
+            first: first as u8,
+            second: second as u8,
+            first_weight: (1.0 - share) * clamp_from_zero(impact_speed_m_s / low, 1.0),
+            second_weight: share,
         }
-        selection
     }
 
     /// Acceleration of a transient at `tick`, m/s²; 0 beyond its end.
@@ -127,6 +114,16 @@ pub struct Selection {
     pub second_weight: f32,
 }
 
+impl Selection {
+    /// No trace at all.
+    const SILENT: Self = Self {
+        first: 0,
+        second: 0,
+        first_weight: 0.0,
+        second_weight: 0.0,
+    };
+}
+
 /// The impact detector and the transient under way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TapState {
@@ -155,12 +152,7 @@ impl TapState {
         distances_m: [0.0; WINDOW_TICKS],
         armed: false,
         tick: u32::MAX,
-        selection: Selection {
-            first: 0,
-            second: 0,
-            first_weight: 0.0,
-            second_weight: 0.0,
-        },
+        selection: Selection::SILENT,
     };
 
     /// Starts over at `distance_m`; a first sample inside is no impact.
@@ -210,5 +202,64 @@ impl TapState {
             started,
             active,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+
+    fn bank() -> TapBank<8> {
+        let mut bank = TapBank::EMPTY;
+        bank.ticks = 2;
+        bank.speeds_m_s.extend([0.1, 0.2, 0.4]);
+        bank.samples_m_s2[..6].copy_from_slice(&[1.0, 0.0, 2.0, 0.0, 4.0, 0.0]);
+        bank
+    }
+
+    /// The bank above is linear in speed, so its interpolation is.
+    #[test]
+    fn a_transient_is_linear_in_speed_from_zero_to_the_fastest_trace() {
+        let bank = bank();
+        for (speed, peak) in [
+            (0.0, 0.0),
+            (0.05, 0.5),
+            (0.1, 1.0),
+            (0.15, 1.5),
+            (0.2, 2.0),
+            (0.3, 3.0),
+            (0.4, 4.0),
+            (9.0, 4.0),
+            (-1.0, 0.0),
+        ] {
+            let accel = bank.accel_m_s2(&bank.select(speed), 0);
+            assert!((accel - peak).abs() < 1e-6, "{speed}: {accel}");
+        }
+        assert_eq!(bank.accel_m_s2(&bank.select(0.4), 2), 0.0);
+    }
+
+    #[test]
+    fn an_impact_rearms_only_at_a_distance() {
+        let (bank, config) = (bank(), crate::Config::default().tap);
+        let mut state = TapState::IDLE;
+        state.restart(0.01);
+        let mut starts = std::vec::Vec::new();
+        // Down at 0.2 m/s, a bounce of 0.3 mm, then up by 3 mm and down again.
+        let heights = (0..60)
+            .map(|n| 6e-3 - 0.2e-3 * n as f32)
+            .take(40)
+            .chain([0.3e-3; 10])
+            .chain([-0.3e-3; 10])
+            .chain((0..40).map(|n| 3e-3 - 0.1e-3 * n as f32));
+        for (n, height) in heights.enumerate() {
+            if state.step(&bank, height, 1000.0, &config).started {
+                starts.push((n, state.selection));
+            }
+        }
+        assert_eq!(starts.len(), 2, "{starts:?}");
+        assert_eq!(starts[0].0, 31);
+        // The trace of 0.2 m/s alone, within the rounding of eight heights.
+        assert!(starts[0].1.first == 1 && starts[0].1.first_weight > 0.999);
     }
 }
