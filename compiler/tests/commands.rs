@@ -234,7 +234,6 @@ fn a_full_disk_is_a_failure() {
 
 #[cfg(target_os = "linux")]
 #[test]
-#[ignore = "render says that the disk is full, but not which output it was writing"]
 fn a_full_disk_under_a_render_names_the_output() {
     let inputs = inputs();
     let arguments = [
@@ -251,7 +250,6 @@ fn a_full_disk_under_a_render_names_the_output() {
 /// Results that cannot be written are lost: that is no success.
 #[cfg(target_os = "linux")]
 #[test]
-#[ignore = "the console drops a failure of stdout and exits with 0"]
 fn results_that_cannot_be_printed_are_a_failure() {
     let inputs = inputs();
     for arguments in [

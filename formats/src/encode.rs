@@ -269,6 +269,14 @@ fn write_taps(taps: &TapParts<'_>, mut writer: Writer<'_>) -> Result<usize, Enco
     writer.u16(u16::try_from(samples).unwrap_or(u16::MAX))?;
     for (index, (speed_m_s, trace)) in taps.traces.iter().enumerate() {
         expect("taps.trace", index, trace.len(), samples)?;
+        if let Some((sample, value)) = trace.iter().enumerate().find(|(_, a)| !a.is_finite()) {
+            return Err(EncodeError::Rejected(FormatError::invalid(
+                "taps.trace.samples",
+                index * samples + sample,
+                f64::from(*value),
+                "must be finite",
+            )));
+        }
         let peak = trace.iter().fold(
             0.0_f32,
             |peak, a| if a.abs() > peak { a.abs() } else { peak },

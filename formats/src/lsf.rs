@@ -1,13 +1,15 @@
 //! Line spectral frequencies as sixteen-bit fractions of π.
 
 use core::f64::consts::PI;
-use fixed::types::U0F16;
+
+/// Codes of half a turn.
+const HALF_TURN: f64 = 65536.0;
 
 /// A line spectral frequency ω = π · code / 65536, with 0 < ω < π.
 ///
 /// One step is 4.8e-5 rad, 7.6 mHz at a sample rate of 1 kHz.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub struct LsfCode(U0F16);
+pub struct LsfCode(u16);
 
 impl LsfCode {
     /// The code nearest to `omega_rad`, at least one step inside (0, π); `None`
@@ -17,32 +19,33 @@ impl LsfCode {
         if !(0.0..=PI).contains(&omega_rad) {
             return None;
         }
-        let fraction = U0F16::saturating_from_num(omega_rad / PI);
-        Some(Self(fraction.max(U0F16::DELTA)))
+        // A cast truncates and saturates; the value is not negative.
+        let nearest = (omega_rad / PI * HALF_TURN + 0.5) as u16;
+        Some(Self(nearest.max(1)))
     }
 
     /// ω in rad.
     #[must_use]
     pub fn to_rad(self) -> f64 {
-        f64::from(self.0) * PI
+        f64::from(self.0) / HALF_TURN * PI
     }
 
     /// The stored bits, 1..=65535 in a valid asset.
     #[must_use]
     pub const fn to_bits(self) -> u16 {
-        self.0.to_bits()
+        self.0
     }
 
     /// From stored bits.
     #[must_use]
     pub const fn from_bits(bits: u16) -> Self {
-        Self(U0F16::from_bits(bits))
+        Self(bits)
     }
 
     /// ω / π, exact in f32.
     #[must_use]
     pub fn half_turns(self) -> f32 {
-        f32::from(self.0)
+        f32::from(self.0) / HALF_TURN as f32
     }
 }
 

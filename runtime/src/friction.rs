@@ -10,7 +10,8 @@
 //!
 //! While the bristle pulls, its force is taken one tick of motion ahead. A sampled spring
 //! held over the following period gives off ½kΔ² a tick; with the lead it takes ½kΔ² as
-//! long as the motion has no content above 1/(2πT), 159 Hz at 1 kHz.
+//! long as the motion has no content above 1/(2πT), 159 Hz at 1 kHz. The lead is never more
+//! than the stretch, so the force leaves the dead zone at zero.
 
 use crate::{
     FrictionConfig,
@@ -49,7 +50,7 @@ impl FrictionState {
         let squared = dot(self.deflection_m, self.deflection_m);
         let inverse = rsqrt(squared);
         let stretch_m = squared * inverse - config.dead_zone_m;
-        let lead_m = dot(self.deflection_m, motion_m) * inverse;
+        let lead_m = min(dot(self.deflection_m, motion_m) * inverse, stretch_m);
         let force_n = if stretch_m > 0.0 {
             clamp_from_zero(config.stiffness_n_m * (stretch_m + lead_m), limit_n)
         } else {

@@ -269,7 +269,8 @@ impl Oracle {
     }
 
     /// The bristle: deflection d at most μF/k + h; beyond the dead zone h a force
-    /// k(|d| − h + the motion of a tick along d) against it, at most μF.
+    /// k(|d| − h + lead) against it, at most μF, where the lead is the motion of a tick along
+    /// d, at most |d| − h.
     fn friction(
         &mut self,
         tangential: impl Fn(Vector) -> Vector,
@@ -295,7 +296,8 @@ impl Oracle {
             return [0.0; 3];
         }
         let along = times(self.bristle, 1.0 / length);
-        let force = (k * (length - h + dot(along, motion))).clamp(0.0, limit);
+        let lead = dot(along, motion).min(length - h);
+        let force = (k * (length - h + lead)).clamp(0.0, limit);
         times(along, -force)
     }
 

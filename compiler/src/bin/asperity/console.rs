@@ -1,15 +1,24 @@
 //! Results on stdout, progress on a terminal.
 
+use crate::commands::{Failures, one};
+use asperity::output::OutputError;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, Write as _};
 
-/// Writes a result. A reader that has gone away, as `head` does, ends the command
-/// without noise; nothing else can be done about a stdout that fails.
-pub(crate) fn print(text: &str) {
+/// Writes a result. A reader that has gone away, as `head` does, is no failure.
+pub(crate) fn print(text: &str) -> Result<(), Failures> {
     let mut stdout = io::stdout().lock();
-    let _ = stdout
+    let written = stdout
         .write_all(text.as_bytes())
         .and_then(|()| stdout.flush());
+    match written {
+        Err(source) if source.kind() != io::ErrorKind::BrokenPipe => Err(one(OutputError {
+            path: "stdout".into(),
+            doing: "cannot print the result",
+            source,
+        })),
+        _ => Ok(()),
+    }
 }
 
 /// A progress bar on stderr where that is a terminal, else nothing.

@@ -15,6 +15,5 @@ pub(crate) fn run(args: &Builtin) -> Result<(), Failures> {
         lowered.haptic_bytes,
         lowered.bytes.len(),
         lowered.lsf_error.rms_db
-    ));
-    Ok(())
+    ))
 }

@@ -84,8 +84,7 @@ pub(crate) fn hatt(args: &ImportHatt, quiet: bool) -> Result<(), Failures> {
         return Err(failures);
     }
     write(&target, &imported)?;
-    console::print(&figures(&imported));
-    Ok(())
+    console::print(&figures(&imported))
 }
 
 fn write(target: &Target, imported: &[Imported]) -> Result<(), Failures> {

@@ -23,11 +23,10 @@ fn one_texture(args: &Inspect, source: &mut Source) -> Result<(), Failures> {
     let asset =
         Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
     if args.json {
-        print_json(&Document::of(&asset));
+        print_json(&Document::of(&asset))
     } else {
-        console::print(&inspect::text(&asset));
+        console::print(&inspect::text(&asset))
     }
-    Ok(())
 }
 
 fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Result<(), Failures> {
@@ -38,11 +37,10 @@ fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Resul
         documents.push(Document::of(&asset));
     }
     if args.json {
-        print_json(&LibraryDocument {
+        return print_json(&LibraryDocument {
             format_version: library::VERSION,
             textures: documents,
         });
-        return Ok(());
     }
     let mut text = format!(
         "{}: a library of {} textures, every checksum holds\n",
@@ -69,14 +67,12 @@ fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Resul
             d.attributes.mu,
         );
     }
-    console::print(&text);
-    Ok(())
+    console::print(&text)
 }
 
-fn print_json(document: &impl Serialize) {
+fn print_json(document: &impl Serialize) -> Result<(), Failures> {
     // Plain structures of numbers and strings always serialise.
-    if let Ok(mut json) = serde_json::to_string(document) {
-        json.push('\n');
-        console::print(&json);
-    }
+    let mut json = serde_json::to_string(document).unwrap_or_default();
+    json.push('\n');
+    console::print(&json)
 }

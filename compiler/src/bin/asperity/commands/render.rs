@@ -3,7 +3,7 @@
 use super::{Failures, one};
 use crate::{cli::Render, console};
 use asperity::{
-    output::AtomicFile,
+    output::{AtomicFile, OutputError},
     render::{self, RenderError},
     source::Source,
 };
@@ -32,7 +32,14 @@ pub(crate) fn run(args: &Render) -> Result<(), Failures> {
         BufWriter::new(&mut output),
         args.seed,
     )
-    .map_err(one)?;
+    .map_err(|error| match error {
+        RenderError::Write(source) => one(OutputError {
+            path: args.output.clone(),
+            doing: "cannot write it",
+            source,
+        }),
+        other => one(other),
+    })?;
     // A pipe or a terminal gets the table alone.
     let announce = !output.is_direct();
     output.commit().map_err(one)?;
@@ -44,7 +51,7 @@ pub(crate) fn run(args: &Render) -> Result<(), Failures> {
             report.contact_ticks,
             report.taps,
             report.peak_force_n
-        ));
+        ))?;
     }
     Ok(())
 }
