@@ -23,6 +23,35 @@
 //! | [`limiter`] | | peak and slew of the total force |
 //! | [`safety`] | | bad samples, safe state, ramp |
 //!
+//! ```
+//! use asperity_formats::Asset;
+//! use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, State};
+//!
+//! # let bytes = include_bytes!(concat!(
+//! #     env!("CARGO_MANIFEST_DIR"),
+//! #     "/../tests/tests/assets/builtin-v1.asp"
+//! # ));
+//! let config = Config::default();
+//! let renderer = Renderer::new(&config)?;
+//! // Or a static, of your own capacities.
+//! let mut texture = Box::new(HostTexture::new());
+//! texture.load(&Asset::parse(bytes)?, config.servo_rate_hz)?;
+//! let mut state = State::new(1);
+//!
+//! // 1 mm deep, at rest: the wall answers k·δ.
+//! let mut output = renderer.tick(&texture, &mut state, &Sample::at([0.0, 0.0, -0.001]));
+//! assert!(output.flags.contains(Flags::CONTACT));
+//! assert!((output.force_n[2] - 0.5).abs() < 1e-6);
+//!
+//! // The device is lost: two ticks hold the last sample, then the force goes to zero.
+//! for _ in 0..4 {
+//!     output = renderer.tick(&texture, &mut state, &Sample::STALE);
+//! }
+//! assert!(output.flags.contains(Flags::SAFE_STATE));
+//! assert_eq!(output.force_n, [0.0; 3]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! What must stay absent: allocation, a file system, a clock, platform maths, any
 //! dependency on a crate above.
 #![no_std]

@@ -99,3 +99,60 @@ impl Gate {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BAD: Sample = Sample::at([f32::NAN, 0.0, 0.0]);
+    const GOOD: Sample = Sample::at([0.0; 3]);
+
+    #[test]
+    fn two_bad_samples_hold_and_the_third_is_a_fault() {
+        let mut gate = Gate::NEW;
+        let mut step = |sample: &Sample| gate.step(sample, 2, 0.25);
+        assert!(step(&GOOD).restart);
+        assert!(step(&BAD).held);
+        assert!(step(&Sample::STALE).held);
+        let third = step(&BAD);
+        assert!(third.safe && third.fault && third.gain == 0.0);
+        let fourth = step(&BAD);
+        assert!(fourth.safe && !fourth.fault, "one fault is counted once");
+        let back = step(&GOOD);
+        assert!(back.restart && !back.safe && back.gain == 0.25);
+        for gain in [0.5, 0.75, 1.0, 1.0] {
+            assert_eq!(step(&GOOD).gain, gain);
+        }
+    }
+
+    #[test]
+    fn a_held_sample_keeps_the_force() {
+        let mut gate = Gate::NEW;
+        gate.step(&GOOD, 2, 0.25);
+        assert_eq!(gate.step(&BAD, 2, 0.25).gain, 1.0);
+        let good = gate.step(&GOOD, 2, 0.25);
+        assert!(good.gain == 1.0 && !good.restart);
+    }
+
+    #[test]
+    fn missed_periods_count_like_bad_samples() {
+        let late = |elapsed_ticks| Sample {
+            elapsed_ticks,
+            ..GOOD
+        };
+        let mut gate = Gate::NEW;
+        gate.step(&GOOD, 2, 0.25);
+        let two_missed = gate.step(&late(3), 2, 0.25);
+        assert!(!two_missed.safe && two_missed.elapsed_ticks == 3);
+        let three_missed = gate.step(&late(4), 2, 0.25);
+        assert!(three_missed.fault && three_missed.safe && three_missed.restart);
+        assert_eq!(gate.step(&GOOD, 2, 0.25).gain, 0.25);
+    }
+
+    #[test]
+    fn a_start_without_a_sample_is_safe_and_no_fault() {
+        let mut gate = Gate::NEW;
+        let first = gate.step(&BAD, 2, 0.25);
+        assert!(first.safe && !first.fault && !first.held);
+    }
+}

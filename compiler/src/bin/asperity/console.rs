@@ -1,6 +1,6 @@
 //! Results on stdout, progress on a terminal.
 
-use crate::commands::{Failures, one};
+use crate::failure::{Failures, one};
 use asperity::output::OutputError;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, Write as _};

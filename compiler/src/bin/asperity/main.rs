@@ -3,6 +3,7 @@
 mod cli;
 mod commands;
 mod console;
+mod failure;
 
 use clap::Parser as _;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! `asperity builtin`.
 
-use super::{Failures, one};
+use crate::failure::{Failures, one};
 use crate::{cli::Builtin, console};
 use asperity::{builtin, lower, output, verify};
 

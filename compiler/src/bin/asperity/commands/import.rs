@@ -1,6 +1,6 @@
 //! `asperity import`.
 
-use super::{Failures, one};
+use crate::failure::{Failures, one};
 use crate::{cli::ImportHatt, console};
 use asperity::{
     diagnostic::Diagnostic,

@@ -1,6 +1,6 @@
 //! `asperity inspect`.
 
-use super::{Failures, one};
+use crate::failure::{Failures, one};
 use crate::{cli::Inspect, console};
 use asperity::{
     inspect::{self, Document, LibraryDocument},

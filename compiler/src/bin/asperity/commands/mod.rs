@@ -6,11 +6,10 @@ mod inspect;
 mod plot;
 mod render;
 
-use crate::cli::{Cli, Command, Import};
-use asperity::diagnostic::Diagnostic;
-
-/// What a failed command has to say; several where many files were at fault.
-pub(crate) type Failures = Vec<Box<dyn Diagnostic>>;
+use crate::{
+    cli::{Cli, Command, Import},
+    failure::Failures,
+};
 
 pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     match cli.command {
@@ -20,9 +19,4 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
         Command::Plot(args) => plot::run(&args),
         Command::Render(args) => render::run(&args),
     }
-}
-
-/// For `map_err`: one failure.
-pub(crate) fn one(error: impl Diagnostic + 'static) -> Failures {
-    vec![Box::new(error)]
 }

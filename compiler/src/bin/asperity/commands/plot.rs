@@ -1,7 +1,7 @@
 //! `asperity plot`.
 
-use super::{Failures, one};
 use crate::cli::Plot;
+use crate::failure::{Failures, one};
 use asperity::{
     diagnostic::Diagnostic,
     output,

@@ -1,6 +1,6 @@
 //! `asperity render`.
 
-use super::{Failures, one};
+use crate::failure::{Failures, one};
 use crate::{cli::Render, console};
 use asperity::{
     output::{AtomicFile, OutputError},
