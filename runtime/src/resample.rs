@@ -127,36 +127,39 @@ impl Resampler {
         self.give_back(((wanted - given) * self.servo_hz) as f32, out);
     }
 
-    /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole.
-    fn filter(&self, trace: impl ExactSizeIterator<Item = f32>, out: &mut [f32]) {
-        let tick_s = (1.0 / self.servo_hz) as f32;
-        let gain = (1.0 / self.source_hz) as f32 * self.stop_rad_s;
+    /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which
+    /// moves from source sample to source sample; silence follows the last one.
+    fn filter(&self, trace: impl Iterator<Item = f32>, out: &mut [f32]) {
+        /// A sample this close to a tick belongs to it, s.
+        const ROUNDING_S: f64 = 1e-9;
+        let period_s = 1.0 / self.source_hz;
+        let gain = period_s as f32 * self.stop_rad_s;
+        let step = POLES.map(|(pole, _)| pole.exp(self.stop_rad_s * period_s as f32));
         let mut state = [Complex::new(0.0, 0.0); POLES.len()];
-        let decay = POLES.map(|(pole, _)| pole.exp(self.stop_rad_s * tick_s));
-        let mut trace = trace.enumerate().peekable();
+        let mut samples = trace.chain(core::iter::repeat(0.0));
+        let mut next_s = 0.0;
+        let mut taken = 0_u32;
         for (n, out) in out.iter_mut().enumerate() {
-            for (state, decay) in state.iter_mut().zip(&decay) {
-                *state = state.times(*decay);
-            }
             let now_s = n as f64 / self.servo_hz;
-            while let Some(&(i, a)) = trace.peek() {
-                let age_s = now_s - i as f64 / self.source_hz;
-                // A sample that falls on a tick belongs to it, rounding aside.
-                if age_s < -1e-9 {
-                    break;
+            while next_s <= now_s + ROUNDING_S {
+                let a = samples.next().unwrap_or_default();
+                for (state, step) in state.iter_mut().zip(&step) {
+                    *state = state.times(*step).plus(Complex::new(a, 0.0));
                 }
-                let age = crate::math::max(age_s as f32, 0.0) * self.stop_rad_s;
-                for (state, (pole, _)) in state.iter_mut().zip(&POLES) {
-                    let response = pole.exp(age);
-                    *state = state.plus(Complex::new(a * response.re, a * response.im));
-                }
-                trace.next();
+                taken += 1;
+                next_s = f64::from(taken) * period_s;
             }
+            let age_s = now_s - (next_s - period_s);
             let mut y = 0.0;
             for (state, (pole, residue)) in state.iter().zip(&POLES) {
+                let now = if age_s > ROUNDING_S {
+                    state.times(pole.exp(age_s as f32 * self.stop_rad_s))
+                } else {
+                    *state
+                };
                 // A pole with Im > 0 stands for itself and its conjugate.
                 let multiplicity = if pole.im > 0.0 { 2.0 } else { 1.0 };
-                y += multiplicity * state.times(*residue).re;
+                y += multiplicity * now.times(*residue).re;
             }
             *out = gain * y;
         }

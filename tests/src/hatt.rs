@@ -23,14 +23,20 @@ pub fn materials(test: &str) -> Vec<PathBuf> {
         .collect();
     files.sort();
     if files.is_empty() {
-        // Past the test harness, which hides what a passing test prints.
-        let _ = writeln!(
-            std::io::stderr(),
-            "SKIPPED {test}: no HaTT materials in {}; set ASPERITY_HATT to their folder",
-            folder.display()
+        skipped(
+            test,
+            &format!(
+                "no HaTT materials in {}; set ASPERITY_HATT to their folder",
+                folder.display()
+            ),
         );
     }
     files
+}
+
+/// Says that a test was skipped, past the harness, which hides what a passing test prints.
+pub fn skipped(test: &str, why: &str) {
+    let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {why}");
 }
 
 /// What a material's file says, read by searching its text.
