@@ -19,7 +19,7 @@ pub struct Tick {
     pub speed_mm_s: f64,
     /// k·δ, N.
     pub normal_force_n: f64,
-    /// y[n], m/s².
+    /// y\[n\], m/s².
     pub vib_m_s2: f64,
     /// Tap force, N.
     pub tap_n: f64,
