@@ -9,7 +9,9 @@ use super::{Entry, legend};
 const BEFORE_MS: f64 = 10.0;
 const AFTER_MS: f64 = 60.0;
 /// Levels shown below the loudest, dB.
-const RANGE_DB: f64 = 40.0;
+const RANGE_DB: f64 = 35.0;
+/// Room above it for the legend, dB.
+const HEADROOM_DB: f64 = 15.0;
 
 /// The fastest tap: normal force, and the transient that is part of it.
 pub(super) fn tap(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
@@ -97,11 +99,15 @@ pub(super) fn spectra(
         .flat_map(|(_, curve)| curve)
         .map(|point| point.1)
         .fold(-60.0, f64::max);
-    let top_db = (loudest / 5.0).ceil() * 5.0;
+    let loudest_db = (loudest / 5.0).ceil() * 5.0;
     let panel = Panel::new(
         outer,
         Axis::new("Frequency (Hz)", 0.0, 0.5 * rate_hz),
-        Axis::new("PSD (dB re 1 (m/s²)²/Hz)", top_db - RANGE_DB, top_db),
+        Axis::new(
+            "PSD (dB re 1 (m/s²)²/Hz)",
+            loudest_db - RANGE_DB,
+            loudest_db + HEADROOM_DB,
+        ),
     )
     .letter('g')
     .title("Spectra of the strokes");
