@@ -1,0 +1,298 @@
+//! Everything but the grid: taps, friction, surface, texts, provenance, preview, header.
+
+use super::*;
+
+#[test]
+fn numbers_of_the_tap_bank() {
+    rejected_f32(TAPS, 0, "taps.sample_rate_hz", 0, 100.0, 200_000.0);
+    for count in [17, 255] {
+        rejected(
+            TAPS,
+            4,
+            &[count],
+            &Invalid("taps.trace_count", 0, count.into()),
+        );
+    }
+    rejected(TAPS, 5, &[1], &Invalid("taps.reserved", 0, 1.0));
+    for samples in [0_u16, 1025, 65535] {
+        rejected(
+            TAPS,
+            6,
+            &samples.to_le_bytes(),
+            &Invalid("taps.samples", 0, samples.into()),
+        );
+    }
+    rejected(TAPS, 4, &[0], &Invalid("taps.samples", 0, 3.0));
+    let stride = 8 + 5;
+    for trace in 0..2 {
+        let (at, index) = (TRACE + stride * trace, trace as u32);
+        rejected_f32(
+            TAPS,
+            at,
+            "taps.trace.speed_m_s",
+            index,
+            f32::MIN_POSITIVE,
+            100.0,
+        );
+        rejected_f32(TAPS, at + 4, "taps.trace.peak_m_s2", index, 0.0, 1.0e6);
+    }
+    // Speeds ascend strictly.
+    let first = 0.1_f32.to_le_bytes();
+    let field = "taps.trace.speed_m_s";
+    rejected(
+        TAPS,
+        TRACE + stride,
+        &first,
+        &Invalid(field, 1, 0.1_f32.into()),
+    );
+}
+
+#[test]
+fn codes_of_the_tap_bank() {
+    // −2048, the code 0x800, as the first, second and third sample of trace 1.
+    let codes = TRACE + 13 + 8;
+    for (at, piece, index) in [
+        (0, [0x00, 0x08, 0x00, 0x00, 0x00], 3),
+        (0, [0x00, 0x00, 0x80, 0x00, 0x00], 4),
+        (0, [0x00, 0x00, 0x00, 0x00, 0x08], 5),
+    ] {
+        rejected(
+            TAPS,
+            codes + at,
+            &piece,
+            &Invalid("taps.trace.codes", index, -2048.0),
+        );
+    }
+    accepted(TAPS, codes, &[0x01, 0x18, 0x80, 0x01, 0x08]);
+}
+
+#[test]
+fn numbers_of_friction_and_surface() {
+    rejected_f32(FRICTION, 0, "friction.mu", 0, 0.0, 10.0);
+    for count in [17, 255] {
+        rejected(
+            FRICTION,
+            4,
+            &[count],
+            &Invalid("friction.anchor_count", 0, count.into()),
+        );
+    }
+    rejected_f32(FRICTION, ANCHOR, "friction.anchor.mu", 0, 0.0, 10.0);
+    rejected_f32(FRICTION, ANCHOR + 4, "friction.anchor.weight", 0, 0.0, 1.0);
+    let tiny = f32::MIN_POSITIVE;
+    rejected_f32(SURFACE, 0, "surface.stiffness_n_m", 0, tiny, 1.0e5);
+    rejected_f32(SURFACE, 4, "surface.damping_n_s_m", 0, 0.0, 1000.0);
+    rejected_f32(SURFACE, 8, "surface.vib_s2_m", 0, 0.0, 1000.0);
+    rejected_f32(SURFACE, 12, "surface.effective_mass_kg", 0, 0.0, 100.0);
+    rejected_f32(SURFACE, 16, "surface.f_max_n", 0, tiny, 10_000.0);
+}
+
+#[test]
+fn texts() {
+    for (section, at, field) in [
+        (NAME, 0, "name"),
+        (FRICTION, ANCHOR + 9, "friction.anchor.name"),
+    ] {
+        rejected(section, at, &[0xff], &Text(field, 0, "not UTF-8"));
+        rejected(
+            section,
+            at,
+            b"\n",
+            &Text(field, 0, "holds a control character"),
+        );
+        // U+0085, a control character of two bytes.
+        rejected(
+            section,
+            at,
+            &[0xc2, 0x85],
+            &Text(field, 0, "holds a control character"),
+        );
+    }
+    rejected(
+        FRICTION,
+        ANCHOR + 8,
+        &[0],
+        &Text("friction.anchor.name", 0, "empty"),
+    );
+    for (name, reason) in [(vec![], "empty"), (vec![b'a'; 65], "longer than 64 bytes")] {
+        let mut bytes = small().encode();
+        replace_section(&mut bytes, NAME, &name);
+        check(
+            Asset::parse(&bytes).unwrap_err(),
+            &Text("name", 0, reason),
+            reason,
+        );
+    }
+    let mut bytes = small().encode();
+    replace_section(&mut bytes, NAME, &[b'a'; 64]);
+    assert_eq!(Asset::parse(&bytes).unwrap().name().len(), 64);
+}
+
+#[test]
+fn sections_of_another_length() {
+    for section in [GRID, TAPS, FRICTION, SURFACE] {
+        let original = small().encode();
+        let (start, len) = span(&original, section);
+        let body = original[start..start + len].to_vec();
+        for shorter in 0..len {
+            let mut bytes = original.clone();
+            replace_section(&mut bytes, section, &body[..shorter]);
+            let error = Asset::parse(&bytes).unwrap_err();
+            assert!(
+                matches!(error, FormatError::TooShort { .. }),
+                "section {section} of {shorter} bytes: {error:?}"
+            );
+        }
+        let mut bytes = original.clone();
+        replace_section(&mut bytes, section, &[body, vec![0]].concat());
+        let error = Asset::parse(&bytes).unwrap_err();
+        assert!(
+            matches!(error, FormatError::TooLong { stated, found, .. }
+                if (stated, found) == (len as u64, len as u64 + 1)),
+            "section {section} with one byte more: {error:?}"
+        );
+    }
+}
+
+#[test]
+fn provenance_that_does_not_decode() {
+    let reject = Err(FormatError::Metadata {
+        section: "provenance",
+    });
+    let original = small().encode();
+    let (start, len) = span(&original, PROVENANCE);
+    let body = original[start..start + len].to_vec();
+    for shorter in 0..len {
+        let mut bytes = original.clone();
+        replace_section(&mut bytes, PROVENANCE, &body[..shorter]);
+        assert_eq!(Asset::parse(&bytes).map(drop), reject, "{shorter} bytes");
+        // A runtime does not read it.
+        assert_eq!(Asset::parse_haptic(&bytes).map(drop), Ok(()));
+    }
+    let error_db = body
+        .windows(4)
+        .position(|w| w == 0.015625_f32.to_le_bytes())
+        .unwrap();
+    for value in [f32::NAN, f32::INFINITY] {
+        let mut body = body.clone();
+        put(&mut body, error_db, &value.to_le_bytes());
+        let mut bytes = original.clone();
+        replace_section(&mut bytes, PROVENANCE, &body);
+        assert_eq!(
+            Asset::parse(&bytes).map(drop),
+            reject,
+            "lsf_error_db = {value}"
+        );
+    }
+}
+
+#[test]
+fn provenance_is_at_most_16_kib() {
+    let original = small().encode();
+    let (start, len) = span(&original, PROVENANCE);
+    for (room, fits) in [(16_384, true), (16_385, false)] {
+        let mut body = original[start..start + len].to_vec();
+        body.resize(room, 0);
+        let mut bytes = original.clone();
+        replace_section(&mut bytes, PROVENANCE, &body);
+        match Asset::parse(&bytes) {
+            Ok(_) => assert!(fits),
+            Err(error) => check(
+                error,
+                &Invalid("provenance.len", 0, 16_385.0),
+                "one too many",
+            ),
+        }
+    }
+}
+
+#[test]
+fn a_preview_that_is_no_png() {
+    for body in [
+        &b""[..],
+        b"\x89PNG\r\n\x1a",
+        b"GIF89a..",
+        b"\x89PNG\r\n\x1a\r",
+    ] {
+        let mut bytes = small().encode();
+        replace_section(&mut bytes, PREVIEW, body);
+        assert_eq!(
+            Asset::parse(&bytes).map(drop),
+            Err(FormatError::Section {
+                tag: *b"prev",
+                reason: "is not a PNG"
+            })
+        );
+    }
+}
+
+#[test]
+fn fields_of_the_header() {
+    let original = small().encode();
+    let (total, haptic) = (original.len() as f64, common::u32_at(&original, 12));
+    let patched = |at: usize, piece: &[u8]| {
+        let mut bytes = original.clone();
+        put(&mut bytes, at, piece);
+        seal_header(&mut bytes);
+        Asset::parse(&bytes).expect_err("a patched header")
+    };
+    assert_eq!(
+        patched(0, b"ASPL"),
+        FormatError::Magic {
+            found: *b"ASPL",
+            expected: *b"ASPT"
+        }
+    );
+    for version in [0_u16, 2, 65535] {
+        assert_eq!(
+            patched(4, &version.to_le_bytes()),
+            FormatError::Version {
+                found: version,
+                supported: 1
+            }
+        );
+    }
+    check(
+        patched(7, &[9]),
+        &Invalid("header.reserved", 0, 9.0),
+        "reserved",
+    );
+    for other in [total - 1.0, total + 1.0, 0.0, 4294967295.0] {
+        let error = patched(8, &(other as u32).to_le_bytes());
+        check(error, &Invalid("header.total_len", 0, other), "total");
+    }
+    for other in [haptic - 1, haptic + 1, 0, u32::MAX] {
+        let error = patched(12, &other.to_le_bytes());
+        check(
+            error,
+            &Invalid("header.haptic_len", 0, other.into()),
+            "haptic",
+        );
+    }
+    for (entry, tag) in [b"NAME", b"GRID", b"TAPS", b"FRIC", b"SURF"]
+        .into_iter()
+        .enumerate()
+    {
+        assert_eq!(
+            patched(20 + 12 * entry, b"none"),
+            FormatError::Section {
+                tag: *tag,
+                reason: "missing or out of order"
+            }
+        );
+    }
+    assert_eq!(
+        patched(20 + 12 * 5, b"XTRA"),
+        FormatError::Section {
+            tag: *b"XTRA",
+            reason: "unknown haptic section"
+        }
+    );
+    assert_eq!(
+        patched(20 + 12 * 5, b"prev"),
+        FormatError::Section {
+            tag: *b"prev",
+            reason: "appears twice"
+        }
+    );
+}
