@@ -22,8 +22,8 @@ pub const MAX_SECTIONS: usize = 16;
 pub const MAX_TEXTURES: usize = 1 << 20;
 
 /// Smallest distance between neighbouring LSFs of A(z), and of the outermost ones
-/// from 0 and π, in codes of π/65536: 0.0048 rad, 0.76 Hz at 1 kHz. It bounds the
-/// pole radius of every convex mixture away from 1.
+/// from 0 and π, in codes of π/65536: 0.0048 rad, 0.76 Hz at 1 kHz. It keeps
+/// poles off the unit circle; how far, the compiler verifies.
 pub const MIN_LSF_GAP_CODES: u16 = 100;
 
 /// Range of every sample rate, Hz.

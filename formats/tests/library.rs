@@ -314,3 +314,21 @@ fn every_field_of_the_index_is_checked() {
         })
     );
 }
+
+/// The index alone cannot tell; the asset can.
+#[test]
+fn a_haptic_length_that_is_not_the_assets_is_found_when_it_is_read() {
+    let mut bytes = three();
+    let at = HEADER_LEN + ENTRY + 12;
+    let stated = common::u32_at(&bytes, at) - 1;
+    put(&mut bytes, at, &stated.to_le_bytes());
+    seal(&mut bytes);
+    let library = Library::parse(&bytes).unwrap();
+    assert!(library.asset(0).is_ok() && library.asset(2).is_ok());
+    let error = library.asset(1).map(drop).unwrap_err();
+    assert!(
+        matches!(error, FormatError::Invalid { field: "library.entry.haptic_len", index: 1, value, .. }
+            if value == f64::from(stated)),
+        "{error}"
+    );
+}

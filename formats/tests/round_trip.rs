@@ -3,7 +3,7 @@
 
 mod common;
 
-use asperity_formats::{Asset, EncodeError, Numerator, Surface, Vertex, VertexKind};
+use asperity_formats::{Asset, EncodeError, FormatError, Numerator, Surface, Vertex, VertexKind};
 use common::{Parts, full, lattice, small, spec_reader};
 use proptest::{collection::vec, prelude::*};
 
@@ -331,4 +331,25 @@ fn lists_that_do_not_match_are_named() {
             expected: 255
         })
     );
+}
+
+/// Quantised, it would silently become silence.
+#[test]
+fn a_tap_sample_that_is_no_number_is_refused() {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let mut parts = small();
+        parts.traces[1].1[2] = bad;
+        let error = parts.encode_into(4096).expect_err("no number");
+        assert!(
+            matches!(
+                error,
+                EncodeError::Rejected(FormatError::Invalid {
+                    field: "taps.trace.samples",
+                    index: 5,
+                    ..
+                })
+            ),
+            "{bad}: {error}"
+        );
+    }
 }

@@ -33,8 +33,8 @@ pub struct Texture<const V: usize, const T: usize, const P: usize, const Q: usiz
     levels_m_s2: [f32; V],
 }
 
-/// Room for every valid asset at servo rates up to 10 kHz; 27 KiB, better boxed or
-/// static than on a stack.
+/// Room for the largest grid, and for 16 taps of 256 ticks: 13 taps of 100 samples at 10 kHz
+/// fit at servo rates up to 10 kHz. 32 KiB, better boxed or static than on a stack.
 pub type HostTexture = Texture<64, 128, 24, 24, 4096>;
 
 /// Why a texture does not fit a slot.
@@ -275,5 +275,16 @@ fn to_cosines(row: &mut [f32], codes: impl ExactSizeIterator<Item = LsfCode>) {
         if let Some(x) = row.get_mut(lsf::stage(index, order)) {
             *x = cos_pi(code.half_turns());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_as_stated() {
+        assert!(size_of::<HostTexture>() <= 32 * 1024);
+        assert!(size_of::<crate::State>() <= 1024);
     }
 }

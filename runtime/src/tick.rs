@@ -252,7 +252,7 @@ impl Renderer {
     }
 
     /// One servo period. Infallible: every sample gives a finite force within the
-    /// limits. The work does not depend on the sample.
+    /// limits. The work hardly depends on the sample: a few instructions in a hundred.
     ///
     /// `F = F_n n̂ − F_t t̂ + F_vib t̂` with F_n = kδ − bḋ + m_eff·a_tap and
     /// F_vib = g_vib·y\[n\]·F_max.
