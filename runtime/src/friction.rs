@@ -104,6 +104,17 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_fast_stroke_leaves_the_dead_zone_without_a_step() {
+        for beyond_m in [1e-7_f32, 1e-6, 1e-5] {
+            let mut state = FrictionState::default();
+            let motion_m = config().dead_zone_m + beyond_m;
+            let force = state.step(&config(), [motion_m, 0.0, 0.0], UP, 0.5, true);
+            let bound_n = 2.0 * config().stiffness_n_m * beyond_m + 1e-7;
+            assert!(norm(force) <= bound_n, "{beyond_m}: {force:?}");
+        }
+    }
+
     /// Work done on the hand over closed paths, the force of a tick held until the next.
     #[test]
     fn no_closed_path_gains_energy() {
