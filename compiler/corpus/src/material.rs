@@ -1,0 +1,91 @@
+//! What a corpus holds.
+
+use crate::{BINS, ORDER, TAP_SAMPLES, TAPS, UnifiedGrid};
+use serde::{Deserialize, Serialize};
+
+/// A whole corpus.
+#[derive(Debug, Clone)]
+pub struct Corpus {
+    /// `reference` or `hatt`.
+    pub name: String,
+    /// Licence of the data, as the model card prints it.
+    pub licence: String,
+    /// CRC-32 over everything it was read from.
+    pub crc32: u32,
+    /// The grid all instances share.
+    pub grid: UnifiedGrid,
+    /// Impact speeds of the traces, m/s, ascending.
+    pub tap_speeds_m_s: [f64; TAPS],
+    /// Whether the taps were synthesised rather than recorded.
+    pub taps_synthetic: bool,
+    /// The materials, in a fixed order.
+    pub materials: Vec<Material>,
+}
+
+/// One material.
+#[derive(Debug, Clone)]
+pub struct Material {
+    /// Name, unique in the corpus.
+    pub name: String,
+    /// Family it belongs to.
+    pub family: String,
+    /// Captions to train on.
+    pub training: Vec<Caption>,
+    /// Captions never trained on; name neither the material nor a synonym.
+    pub held_out: Vec<String>,
+    /// What people would say of it; `None` where nobody rated it.
+    pub rating: Option<Rating>,
+    /// Coefficient of kinetic friction.
+    pub mu: f64,
+    /// The material itself, not augmented.
+    pub prototype: Instance,
+    /// Augmented instances.
+    pub instances: Vec<Instance>,
+}
+
+/// A caption and what it dwells on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Caption {
+    /// What it dwells on.
+    pub focus: Focus,
+    /// The caption.
+    pub text: String,
+}
+
+/// What a caption dwells on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Focus {
+    /// Appearance.
+    Look,
+    /// Feel.
+    Touch,
+    /// What it is made of.
+    Material,
+    /// What it is for, where one meets it.
+    Use,
+}
+
+/// Perceived attributes, 0–100.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rating {
+    /// Roughness.
+    pub rough: f64,
+    /// Slipperiness.
+    pub slippery: f64,
+    /// Hardness.
+    pub hard: f64,
+}
+
+/// One augmented sample of a material: what the encoders see.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instance {
+    /// Line spectral frequencies a bin, rad at 1 kHz, ascending; numerator 1 + z⁻¹.
+    pub lsf_rad: [[f32; ORDER]; BINS],
+    /// RMS of the vibration a bin over all frequencies, dB re 1 m/s².
+    pub level_db: [f32; BINS],
+    /// Traces by impact speed, m/s² at 10 kHz.
+    pub taps_m_s2: [[f32; TAP_SAMPLES]; TAPS],
+}
