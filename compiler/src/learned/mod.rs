@@ -1,0 +1,3 @@
+//! The learned model: its folder, its description, its networks.
+
+pub mod description;
