@@ -26,6 +26,18 @@ pub fn all_pole(order: usize, spectrum: impl Fn(f64) -> f64) -> (Vec<f64>, f64) 
             sum / POINTS as f64
         })
         .collect();
+    from_autocorrelation(&autocorrelation)
+}
+
+/// The all-pole model whose autocorrelation begins with the given lags 0..=p.
+///
+/// Returns `[1, a_1, …, a_p]` and σ. The lags must be those of a positive spectrum.
+///
+/// # Panics
+/// When there is no lag at all.
+#[must_use]
+pub fn from_autocorrelation(autocorrelation: &[f64]) -> (Vec<f64>, f64) {
+    let order = autocorrelation.len() - 1;
     let mut reflection = Vec::with_capacity(order);
     let mut error = autocorrelation[0];
     let mut monic = vec![1.0];

@@ -37,6 +37,8 @@ pub struct Material {
     pub rating: Option<Rating>,
     /// Coefficient of kinetic friction.
     pub mu: f64,
+    /// Stiffness of the virtual wall, N/m.
+    pub stiffness_n_m: f64,
     /// The material itself, not augmented.
     pub prototype: Instance,
     /// Augmented instances.

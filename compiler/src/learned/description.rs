@@ -109,6 +109,8 @@ pub struct Anchor {
     pub family: String,
     /// Coefficient of kinetic friction.
     pub mu: f64,
+    /// Stiffness of its wall, N/m.
+    pub stiffness_n_m: f64,
     /// Posterior mean over its instances, [`LATENT`] numbers.
     pub z: Vec<f32>,
 }
