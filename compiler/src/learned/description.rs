@@ -31,6 +31,9 @@ pub struct ModelDescription {
     pub anchors: Vec<Anchor>,
     /// Directions of the latent along which an objective attribute grows.
     pub axes: Vec<AttributeAxis>,
+    /// Standard deviation of instances about the mean of their material, [`LATENT`]
+    /// numbers: how far a seed may move a latent.
+    pub spread: Vec<f32>,
     /// From similarity to certainty.
     pub certainty: CertaintyCurve,
 }

@@ -1,4 +1,9 @@
 //! Text to vectors: frozen sentence encoders with their tokenisers.
+//!
+//! [`minilm`] is embedded. [`clip`] runs a user's export of CLIP's text tower.
+
+pub mod clip;
+pub mod minilm;
 
 use thiserror::Error;
 
@@ -33,7 +38,33 @@ pub enum TextError {
     /// The tokeniser refused the text or its own vocabulary.
     #[error("tokeniser: {0}")]
     Tokeniser(String),
-    /// The network failed.
+    /// The network cannot be loaded or failed.
     #[error("text encoder: {0}")]
     Network(String),
+    /// The network is none of a text encoder.
+    #[error("text encoder: {field}: {found}, expected {expected}")]
+    Signature {
+        /// The input or output.
+        field: String,
+        /// What it is.
+        found: String,
+        /// What it should be.
+        expected: String,
+    },
+    /// The network answered with something that is no direction.
+    #[error("text encoder: its vector for this text has length {0}")]
+    NoDirection(f32),
+}
+
+/// Scales a vector to length one.
+fn unit(mut vector: Vec<f32>) -> Result<Vec<f32>, TextError> {
+    // Summed in order, so that every machine gives the same bits.
+    let norm = vector.iter().map(|x| x * x).sum::<f32>().sqrt();
+    if !(norm.is_finite() && norm > 1e-6) {
+        return Err(TextError::NoDirection(norm));
+    }
+    for x in &mut vector {
+        *x /= norm;
+    }
+    Ok(vector)
 }

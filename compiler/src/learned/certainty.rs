@@ -1,0 +1,35 @@
+//! How far a prompt lies from anything trained.
+
+use super::description::CertaintyCurve;
+
+/// Certainty, 0..=1, of a prompt whose largest cosine with a material's mean caption
+/// is `similarity`: piecewise linear, flat beyond the ends.
+#[must_use]
+pub fn certainty(curve: &CertaintyCurve, similarity: f64) -> f64 {
+    let (x, y) = (&curve.similarity, &curve.certainty);
+    let Some(after) = x.iter().position(|&knot| similarity < knot) else {
+        return y.last().copied().unwrap_or(0.0);
+    };
+    if after == 0 {
+        return y[0];
+    }
+    let share = (similarity - x[after - 1]) / (x[after] - x[after - 1]);
+    y[after - 1] + share * (y[after] - y[after - 1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_linear_between_knots_and_flat_beyond() {
+        let curve = CertaintyCurve {
+            similarity: vec![0.2, 0.4, 0.6],
+            certainty: vec![0.1, 0.5, 0.9],
+        };
+        for (similarity, expected) in [(-1.0, 0.1), (0.2, 0.1), (0.3, 0.3), (0.5, 0.7), (0.9, 0.9)]
+        {
+            assert!((certainty(&curve, similarity) - expected).abs() < 1e-12);
+        }
+    }
+}
