@@ -5,9 +5,15 @@
 //! augmented [`Instance`]s on one unified speed–force grid of [`BINS`] bins.
 #![forbid(unsafe_code)]
 
+pub mod augment;
+mod error;
+pub mod generator;
 mod grid;
 mod material;
+pub mod reference;
+pub mod statistics;
 
+pub use error::CorpusError;
 pub use grid::{Bin, UnifiedGrid};
 pub use material::{Caption, Corpus, Focus, Instance, Material, Rating};
 

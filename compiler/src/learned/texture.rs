@@ -5,14 +5,15 @@ use super::{
     description::ModelDescription,
     edges,
     friction::{self, Neighbour},
+    level::nyquist_rms,
 };
 use crate::{
-    defaults, lsf,
+    defaults,
     model::{
         Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TapBank, TapTrace,
         TextureModel, VertexKind, Wall,
     },
-    reflection, triangulate,
+    triangulate,
 };
 use std::f64::consts::PI;
 
@@ -119,25 +120,6 @@ pub fn taps(description: &ModelDescription, decoded: &Decoded, limit_m_s2: f64) 
     }
 }
 
-/// RMS of `(1 + z⁻¹)/A(z)` driven by unit white noise.
-///
-/// Of 1/A alone the variance is r₀ = Π 1/(1 − k²) and the next lag r₁ = −k₁r₀; the
-/// numerator adds a sample to its predecessor: 2(r₀ + r₁).
-#[must_use]
-pub fn nyquist_rms(lsf_rad: &[f64]) -> f64 {
-    let monic = lsf::to_polynomial(lsf_rad);
-    // Ordered LSFs are stable; what rounding spoils beyond that counts as loud.
-    let Some(reflection) = reflection::step_down(&monic) else {
-        return f64::INFINITY;
-    };
-    let r0: f64 = reflection
-        .iter()
-        .map(|k| 1.0 / ((1.0 - k) * (1.0 + k)))
-        .product();
-    let first = reflection.first().copied().unwrap_or(0.0);
-    (2.0 * r0 * (1.0 - first)).sqrt()
-}
-
 /// LSFs in order and at least [`LEAST_GAP_RAD`] apart, moved as little as it takes.
 fn spread(raw: &[f32]) -> Vec<f64> {
     let count = raw.len();
@@ -164,24 +146,7 @@ fn spread(raw: &[f32]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::ArmaModel;
-
-    #[test]
-    fn the_closed_form_is_the_mean_of_the_spectrum() {
-        let lsf_rad = vec![0.3, 0.7, 1.1, 1.9, 2.6];
-        let model = ArmaModel {
-            sample_rate_hz: 1000.0,
-            a: lsf::to_polynomial(&lsf_rad),
-            b: vec![1.0, 1.0],
-            level_m_s2: 1.0,
-        };
-        let points = 20_000;
-        let mean: f64 = (0..points)
-            .map(|n| model.power(500.0 * (f64::from(n) + 0.5) / f64::from(points)))
-            .sum::<f64>()
-            / f64::from(points);
-        assert!((nyquist_rms(&lsf_rad) / mean.sqrt() - 1.0).abs() < 1e-9);
-    }
+    use crate::lsf;
 
     #[test]
     fn hostile_frequencies_come_out_ordered_and_apart() {

@@ -1,0 +1,52 @@
+//! From heights to the acceleration spectrum of the stylus.
+
+use super::{Physical, surface::height_power};
+
+/// Frequencies from 0 to half the rate at which spectra are sampled.
+pub const POINTS: usize = 512;
+/// *Calibrated.* Resonance of stylus and hand on a contact of 10 MPa, Hz.
+const RESONANCE_HZ: f64 = 104.0;
+/// *Calibrated.* How it grows with the modulus: weakly, as the grip is in series.
+const RESONANCE_EXPONENT: f64 = 0.075;
+/// How it grows with force: a Hertzian contact stiffens as F^(1/3), its root by half
+/// of that, and the grip halves it again.
+const RESONANCE_FORCE_EXPONENT: f64 = 0.08;
+/// *Calibrated.* Damping ratio of the hand, to which the material adds.
+const HAND_DAMPING: f64 = 0.42;
+/// Half the loss factor is a damping ratio.
+const MATERIAL_DAMPING: f64 = 0.5;
+/// *Calibrated.* Noise of the broad kind that no surface model holds (handle, hand,
+/// sensor), as a share of the peak.
+const FLOOR: f64 = 1.2e-2;
+
+/// Power spectrum of acceleration at [`POINTS`] midpoints from 0 to half the rate,
+/// peak one; the zero 1 + z⁻¹ of the model multiplies it.
+#[must_use]
+pub fn spectrum(physical: &Physical, speed_mm_s: f64, force_n: f64) -> [f64; POINTS] {
+    let resonance_hz = resonance_hz(physical, force_n);
+    let damping = HAND_DAMPING + MATERIAL_DAMPING * physical.loss_factor;
+    let mut power: [f64; POINTS] = std::array::from_fn(|point| {
+        let freq_hz = (point as f64 + 0.5) * 0.5 * crate::SAMPLE_RATE_HZ / POINTS as f64;
+        let heights = height_power(physical, freq_hz / speed_mm_s, force_n);
+        let squared = freq_hz * freq_hz;
+        // Base excitation of a mass on a damped spring.
+        let ratio = freq_hz / resonance_hz;
+        let detuning = 1.0 - ratio * ratio;
+        let drag = 2.0 * damping * ratio;
+        let transmitted = (1.0 + drag * drag) / (detuning * detuning + drag * drag);
+        heights * squared * squared * transmitted
+    });
+    let peak = power.iter().copied().fold(0.0, f64::max);
+    for value in &mut power {
+        *value = *value / peak + FLOOR;
+    }
+    power
+}
+
+/// Resonance of the stylus on its contact, Hz.
+#[must_use]
+pub fn resonance_hz(physical: &Physical, force_n: f64) -> f64 {
+    RESONANCE_HZ
+        * libm::pow(physical.modulus_mpa / 10.0, RESONANCE_EXPONENT)
+        * libm::pow(force_n, RESONANCE_FORCE_EXPONENT)
+}

@@ -1,0 +1,114 @@
+use super::*;
+use crate::statistics::{grid_of, of_grid};
+use asperity::spectrum::trace_centroid_hz;
+
+fn load_plain() -> (Corpus, Vec<LexiconEntry>) {
+    load(&ReferenceOptions {
+        instances: 2,
+        ..ReferenceOptions::default()
+    })
+    .unwrap()
+}
+
+/// Spearman's rank correlation; ties share their mean rank.
+fn spearman(x: &[f64], y: &[f64]) -> f64 {
+    let ranks = |values: &[f64]| -> Vec<f64> {
+        values
+            .iter()
+            .map(|v| {
+                let below = values.iter().filter(|w| *w < v).count() as f64;
+                let ties = values.iter().filter(|w| *w == v).count() as f64;
+                below + 0.5 * (ties - 1.0)
+            })
+            .collect()
+    };
+    let (x, y) = (ranks(x), ranks(y));
+    let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+    let (mx, my) = (mean(&x), mean(&y));
+    let product = |a: &[f64], b: &[f64], ma: f64, mb: f64| -> f64 {
+        a.iter().zip(b).map(|(a, b)| (a - ma) * (b - mb)).sum()
+    };
+    product(&x, &y, mx, my) / (product(&x, &x, mx, mx) * product(&y, &y, my, my)).sqrt()
+}
+
+#[test]
+fn the_committed_corpus_keeps_its_rules() {
+    let (corpus, lexicon) = load_plain();
+    assert!(corpus.materials.len() >= 160 && lexicon.len() >= 500);
+    let families: std::collections::BTreeSet<_> =
+        corpus.materials.iter().map(|m| m.family.as_str()).collect();
+    assert!(families.len() >= 14);
+}
+
+#[test]
+fn what_people_say_and_what_the_textures_do_agree_in_order() {
+    let (corpus, _) = load_plain();
+    let ratings: Vec<_> = corpus.materials.iter().map(|m| m.rating.unwrap()).collect();
+    let column = |of: fn(&crate::Rating) -> f64| ratings.iter().map(of).collect::<Vec<_>>();
+    let levels: Vec<f64> = corpus
+        .materials
+        .iter()
+        .map(|m| of_grid(&grid_of(&m.prototype, &corpus), m.mu).unwrap().values[0])
+        .collect();
+    let hardness: Vec<f64> = corpus
+        .materials
+        .iter()
+        .map(|m| {
+            let trace: Vec<f64> = m.prototype.taps_m_s2[12].iter().map(|&a| f64::from(a)).collect();
+            trace_centroid_hz(&trace, crate::TAP_RATE_HZ).unwrap()
+        })
+        .collect();
+    let slip: Vec<f64> = corpus.materials.iter().map(|m| -m.mu).collect();
+    for (what, correlation) in [
+        ("roughness", spearman(&column(|r| r.rough), &levels)),
+        ("hardness", spearman(&column(|r| r.hard), &hardness)),
+        ("slipperiness", spearman(&column(|r| r.slippery), &slip)),
+    ] {
+        assert!(correlation > 0.95, "{what}: {correlation:.3}");
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_instances_and_another_seed_others() {
+    let options = |seed| ReferenceOptions {
+        instances: 1,
+        seed,
+        ..ReferenceOptions::default()
+    };
+    let first = |seed| load(&options(seed)).unwrap().0.materials[7].instances[0].clone();
+    assert_eq!(first(1), first(1));
+    assert_ne!(first(1), first(2));
+}
+
+#[test]
+fn every_instance_is_stable_and_its_taps_are_linear_in_speed() {
+    let (corpus, _) = load_plain();
+    for material in &corpus.materials {
+        for lsf in &material.prototype.lsf_rad {
+            let lsf: Vec<f64> = lsf.iter().map(|&x| f64::from(x)).collect();
+            assert!(asperity::lsf::smallest_gap(&lsf) > 0.012, "{}", material.name);
+        }
+        let taps = &material.prototype.taps_m_s2;
+        let peak = |trace: &[f32]| trace.iter().fold(0.0_f32, |p, a| p.max(a.abs()));
+        let ratio = peak(&taps[12]) / peak(&taps[0]);
+        assert!((ratio / 13.0 - 1.0).abs() < 1e-4, "{}: {ratio}", material.name);
+    }
+}
+
+#[test]
+fn faults_are_told_by_file_material_and_field() {
+    let folder = std::env::temp_dir().join(format!("asperity-corpus-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let text = EMBEDDED[0].1.replacen("wavelength_mm  =", "wavelength_mm =", 1);
+    let broken = text.replacen("hard = ", "hard = 9", 1);
+    std::fs::write(folder.join("abrasives.toml"), broken).unwrap();
+    let options = ReferenceOptions {
+        folder: Some(folder.clone()),
+        ..ReferenceOptions::default()
+    };
+    let message = load(&options).unwrap_err().to_string();
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert!(message.contains("abrasives.toml: "), "{message}");
+    assert!(message.contains("attributes.hard"), "{message}");
+    assert!(message.contains("corpus: 10 materials"), "{message}");
+}
