@@ -1,7 +1,9 @@
 //! Where networks run: the portable engine, or ONNX Runtime where it is installed.
 
-use asperity_nn::{Portable, Session};
-use std::{borrow::Cow, fmt, str::FromStr, sync::Arc};
+use asperity_nn::{Bytes, Portable, Session};
+use crate::diagnostic::Diagnostic;
+use std::{borrow::Cow, fmt, str::FromStr};
+use thiserror::Error;
 
 /// A back end.
 #[derive(Debug, Clone, Default)]
@@ -10,7 +12,7 @@ pub enum Backend {
     #[default]
     Portable,
     /// ONNX Runtime, found at run time; faster, equal within 1e-5, not to the bit.
-    OnnxRuntime(Arc<asperity_onnxruntime::Runtime>),
+    OnnxRuntime,
 }
 
 /// The name of a back end, as a user gives it.
@@ -41,5 +43,47 @@ impl fmt::Display for BackendName {
             Self::Portable => "portable",
             Self::OnnxRuntime => "onnxruntime",
         })
+    }
+}
+
+/// Why a back end cannot be had.
+#[derive(Debug, Error)]
+#[error("ONNX Runtime: {0}")]
+pub struct BackendError(String);
+
+impl Diagnostic for BackendError {
+    fn remedy(&self) -> String {
+        "pip install onnxruntime, or leave --backend out for the portable engine".into()
+    }
+}
+
+impl Backend {
+    /// The back end of a name.
+    ///
+    /// # Errors
+    /// [`BackendError`] when ONNX Runtime is asked for and not installed.
+    pub fn open(name: BackendName) -> Result<Self, BackendError> {
+        match name {
+            BackendName::Portable => Ok(Self::Portable),
+            BackendName::OnnxRuntime => Err(BackendError("not wired up".into())),
+        }
+    }
+
+    /// Loads a network.
+    ///
+    /// # Errors
+    /// What the back end says of it.
+    pub fn session(&self, bytes: Cow<'static, [u8]>) -> Result<Box<dyn Session>, String> {
+        match self {
+            Self::Portable => {
+                let shared = match bytes {
+                    Cow::Borrowed(bytes) => Bytes::from_static(bytes),
+                    Cow::Owned(bytes) => Bytes::from(bytes),
+                };
+                let session = Portable::from_shared(shared).map_err(|error| error.to_string())?;
+                Ok(Box::new(session))
+            }
+            Self::OnnxRuntime => Err("not wired up".into()),
+        }
     }
 }

@@ -5,13 +5,13 @@
 //! last ones. The numerator stays; the level is kept exactly.
 
 use crate::{
-    learned::texture::nyquist_rms,
+    learned::level::nyquist_rms,
     lsf,
     model::{GridVertex, ModelGrid, Numerator, VertexKind},
     reflection,
-    spectrum::squared_magnitude,
+    spectrum::Angles,
 };
-use std::{f64::consts::TAU, fmt, str::FromStr};
+use std::{collections::HashMap, f64::consts::TAU, fmt, str::FromStr};
 
 /// Largest RMS log-spectral distance of a bin that `auto` accepts, dB, level free: the
 /// 95th percentile over the bins and the worst.
@@ -103,11 +103,16 @@ pub fn reduce(grid: &ModelGrid, fidelity: Fidelity) -> (ModelGrid, f64) {
 /// Reflection coefficients and log spectra of the interior bins.
 struct Interior {
     bins: Vec<(Vec<f64>, Vec<f64>)>,
-    sample_rate_hz: f64,
+    /// [`POINTS`] frequencies, evenly over 10–450 Hz.
+    angles: Angles,
 }
 
 impl Interior {
     fn of(grid: &ModelGrid) -> Self {
+        let rate_hz = grid.sample_rate_hz;
+        let high = 450.0_f64.min(0.45 * rate_hz);
+        let step = (high - 10.0) / (POINTS - 1) as f64;
+        let angles = Angles::new((0..POINTS).map(|n| TAU * (10.0 + n as f64 * step) / rate_hz));
         let bins = grid
             .vertices
             .iter()
@@ -115,13 +120,10 @@ impl Interior {
             .filter_map(|vertex| {
                 let monic = lsf::to_polynomial(&vertex.lsf_rad);
                 let reflection = reflection::step_down(&monic)?;
-                Some((reflection, log_spectrum(&monic, grid.sample_rate_hz)))
+                Some((reflection, log_spectrum(&angles, &monic)))
             })
             .collect();
-        Self {
-            bins,
-            sample_rate_hz: grid.sample_rate_hz,
-        }
+        Self { bins, angles }
     }
 
     /// RMS distance of every bin at an order, dB, level free.
@@ -130,7 +132,7 @@ impl Interior {
             .iter()
             .map(|(reflection, full)| {
                 let kept = &reflection[..order.min(reflection.len())];
-                let reduced = log_spectrum(&reflection::step_up(kept), self.sample_rate_hz);
+                let reduced = log_spectrum(&self.angles, &reflection::step_up(kept));
                 let count = full.len() as f64;
                 let mean = full.iter().zip(&reduced).map(|(a, b)| a - b).sum::<f64>() / count;
                 let squares = full.iter().zip(&reduced).map(|(a, b)| {
@@ -143,32 +145,33 @@ impl Interior {
     }
 }
 
-/// −10 log₁₀|A|² over 10–450 Hz, dB: a common numerator cancels in differences.
-fn log_spectrum(monic: &[f64], sample_rate_hz: f64) -> Vec<f64> {
-    let high = 450.0_f64.min(0.45 * sample_rate_hz);
-    (0..POINTS)
-        .map(|point| {
-            let freq_hz = 10.0 + (high - 10.0) * point as f64 / (POINTS - 1) as f64;
-            -10.0 * libm::log10(squared_magnitude(monic, TAU * freq_hz / sample_rate_hz))
-        })
-        .collect()
+/// −10 log₁₀|A|², dB: a common numerator cancels in differences.
+fn log_spectrum(angles: &Angles, monic: &[f64]) -> Vec<f64> {
+    let squares = angles.squared_magnitudes(monic);
+    squares.into_iter().map(|a| -10.0 * libm::log10(a)).collect()
 }
 
 fn with_order(grid: &ModelGrid, order: usize) -> ModelGrid {
+    // Edge models share the frequencies of the bin they continue.
+    let mut known: HashMap<Vec<u64>, Option<(Vec<f64>, f64)>> = HashMap::new();
     let vertices = grid
         .vertices
         .iter()
         .map(|vertex| {
-            let monic = lsf::to_polynomial(&vertex.lsf_rad);
-            let reduced = reflection::step_down(&monic)
-                .and_then(|r| lsf::from_polynomial(&reflection::step_up(&r[..order])));
-            let Some(lsf_rad) = reduced else {
-                return vertex.clone();
-            };
-            GridVertex {
-                sigma_m_s2: vertex.sigma_m_s2 * rms(grid, &vertex.lsf_rad) / rms(grid, &lsf_rad),
-                lsf_rad,
-                ..vertex.clone()
+            let bits = vertex.lsf_rad.iter().map(|x| x.to_bits()).collect();
+            let reduced = known.entry(bits).or_insert_with(|| {
+                let reflection = reflection::step_down(&lsf::to_polynomial(&vertex.lsf_rad))?;
+                let lsf_rad = lsf::from_polynomial(&reflection::step_up(&reflection[..order]))?;
+                let gain = rms(grid, &vertex.lsf_rad) / rms(grid, &lsf_rad);
+                Some((lsf_rad, gain))
+            });
+            match reduced {
+                Some((lsf_rad, gain)) => GridVertex {
+                    sigma_m_s2: vertex.sigma_m_s2 * *gain,
+                    lsf_rad: lsf_rad.clone(),
+                    ..vertex.clone()
+                },
+                None => vertex.clone(),
             }
         })
         .collect();

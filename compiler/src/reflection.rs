@@ -17,10 +17,12 @@ pub fn step_down(monic: &[f64]) -> Option<Vec<f64>> {
         }
         reflection[k - 1] = r;
         let scale = 1.0 / ((1.0 - r) * (1.0 + r));
-        let previous: Vec<f64> = (0..k)
-            .map(|i| (current[i] - r * current[k - i]) * scale)
-            .collect();
-        current = previous;
+        // Pairs i and k − i need each other, and nobody else: in place.
+        for i in 0..=k / 2 {
+            let (x, y) = (current[i], current[k - i]);
+            current[i] = (x - r * y) * scale;
+            current[k - i] = (y - r * x) * scale;
+        }
     }
     Some(reflection)
 }

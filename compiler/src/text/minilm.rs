@@ -3,11 +3,9 @@
 use super::{Encoded, TextEncoder, TextError, unit};
 use asperity_nn::{Session, Tensor};
 use rten_text::{
-    Tokenizer,
-    models::{WordPiece, WordPieceOptions},
-    normalizers::{Bert, BertOptions},
-    pre_tokenizers,
-    tokenizer::TokenizerOptions,
+    models::{Model as _, WordPiece, WordPieceOptions},
+    normalizers::{self, BertOptions, Normalizer as _},
+    pre_tokenizers::{self, PreTokenizer as _},
 };
 
 /// Width of its vectors.
@@ -18,7 +16,10 @@ pub const MAX_TOKENS: usize = 128;
 /// The encoder over a back end.
 pub struct MiniLm {
     session: Box<dyn Session>,
-    tokeniser: Tokenizer,
+    // The parts rather than `rten_text::Tokenizer`, which threads cannot share.
+    normaliser: normalizers::Bert,
+    words: pre_tokenizers::Bert,
+    pieces: WordPiece,
 }
 
 impl MiniLm {
@@ -30,38 +31,39 @@ impl MiniLm {
             .enumerate()
             .map(|(id, piece)| (piece.to_owned(), id as u32))
             .collect();
-        let normaliser = Bert::new(BertOptions {
-            lowercase: true,
-            strip_accents: true,
-        });
-        let options = TokenizerOptions {
-            cls_token: Some("[CLS]"),
-            sep_token: Some("[SEP]"),
-        };
-        let pieces = WordPiece::from_vocab(vocabulary, WordPieceOptions::default());
         Self {
             session,
-            tokeniser: Tokenizer::new(pieces, options)
-                .with_normalizer(Box::new(normaliser))
-                .with_pre_tokenizer(Box::new(pre_tokenizers::Bert::new())),
+            normaliser: normalizers::Bert::new(BertOptions {
+                lowercase: true,
+                strip_accents: true,
+            }),
+            words: pre_tokenizers::Bert::new(),
+            pieces: WordPiece::from_vocab(vocabulary, WordPieceOptions::default()),
         }
     }
 
-    /// Token ids of a text and how many were cut off.
+    /// Token ids of a text, at most [`MAX_TOKENS`], and how many were cut off.
     ///
     /// # Errors
     /// [`TextError::Tokeniser`] when the vocabulary lacks the marks.
     pub fn tokens(&self, text: &str) -> Result<(Vec<i64>, usize), TextError> {
-        let encoded = self
-            .tokeniser
-            .encode(text, None)
-            .map_err(|error| TextError::Tokeniser(error.to_string()))?;
-        let mut ids: Vec<i64> = encoded.token_ids().iter().map(|&id| i64::from(id)).collect();
-        let cut = ids.len().saturating_sub(MAX_TOKENS);
-        if let (Some(&end), true) = (ids.last(), cut > 0) {
-            ids.truncate(MAX_TOKENS - 1);
-            ids.push(end);
+        let failed = |error: &dyn std::fmt::Display| TextError::Tokeniser(error.to_string());
+        let mark = |name: &str| {
+            self.pieces
+                .get_token_id(name)
+                .map(i64::from)
+                .ok_or_else(|| failed(&format!("no {name} in the vocabulary")))
+        };
+        let (normal, _) = self.normaliser.normalize(text).map_err(|e| failed(&e))?;
+        let mut ids = vec![mark("[CLS]")?];
+        for word in self.words.pre_tokenize(&normal).map_err(|e| failed(&e))? {
+            self.pieces
+                .encode_with_offsets(word, &mut |_, id| ids.push(i64::from(id)))
+                .map_err(|e| failed(&e))?;
         }
+        let cut = (ids.len() + 1).saturating_sub(MAX_TOKENS);
+        ids.truncate(MAX_TOKENS - 1);
+        ids.push(mark("[SEP]")?);
         Ok((ids, cut))
     }
 }

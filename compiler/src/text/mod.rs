@@ -2,9 +2,12 @@
 //!
 //! [`minilm`] is embedded. [`clip`] runs a user's export of CLIP's text tower.
 
+
 pub mod clip;
 pub mod minilm;
 
+use crate::diagnostic::Diagnostic;
+use std::{path::PathBuf, str::FromStr};
 use thiserror::Error;
 
 /// A frozen text encoder.
@@ -67,4 +70,38 @@ fn unit(mut vector: Vec<f32>) -> Result<Vec<f32>, TextError> {
         *x /= norm;
     }
     Ok(vector)
+}
+
+/// Which text encoder a user names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum TextEncoderChoice {
+    /// `minilm`: the embedded one.
+    MiniLm,
+    /// `clip:DIR`: an export of CLIP's text tower in a folder.
+    Clip(PathBuf),
+}
+
+impl FromStr for TextEncoderChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once(':') {
+            None if text == "minilm" => Ok(Self::MiniLm),
+            Some(("clip", folder)) if !folder.is_empty() => Ok(Self::Clip(folder.into())),
+            _ => Err("`minilm` or `clip:DIR`".into()),
+        }
+    }
+}
+
+impl Diagnostic for TextError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Tokeniser(_) | Self::NoDirection(_) => "try other words".into(),
+            Self::Network(_) | Self::Signature { .. } => {
+                "export the text tower alone, with ids [1, 77] in and a vector [1, width] out; \
+                 where an operator is unknown, try --backend onnxruntime"
+                    .into()
+            }
+        }
+    }
 }

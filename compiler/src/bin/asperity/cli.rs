@@ -1,5 +1,6 @@
 //! What the command understands.
 
+use asperity::{inference::BackendName, reduce::Fidelity, text::TextEncoderChoice};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -7,8 +8,9 @@ use std::path::PathBuf;
 #[command(
     name = "asperity",
     version,
-    about = "Haptic textures: import, look at, plot and render them",
+    about = "Haptic textures: from a prompt or a recording to an asset, and back to the eye",
     after_help = "Examples:
+  asperity compile \"rough abrasive sheet with gritty particles\" -o sandpaper.asp
   asperity builtin -o grit.asp
   asperity inspect grit.asp
   asperity plot grit.asp -o grit.png
@@ -26,6 +28,8 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Make a texture of a prompt
+    Compile(Compile),
     /// Import recorded textures
     #[command(subcommand)]
     Import(Import),
@@ -37,6 +41,69 @@ pub(crate) enum Command {
     Plot(Plot),
     /// Run a trajectory through the runtime, offline
     Render(Render),
+    /// Show which encoders, models and back ends were found
+    Doctor(Doctor),
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The prompt is read by a frozen text encoder, placed among the materials a \
+model was trained on, decoded, reduced, verified by the runtime itself and written. The same \
+prompt, options and version give the same bytes on any machine with the portable back end.
+
+Examples:
+  asperity compile \"rough abrasive sheet with gritty particles\" -o sandpaper.asp
+  asperity compile \"wet ice\" -o ice.asp --no-preview --json
+  asperity compile \"cork\" -o cork.asp --fidelity 8 --seed 3
+  asperity compile \"felt\" -o felt.asp --text-encoder clip:./clip --model ./clip-model"
+)]
+pub(crate) struct Compile {
+    /// What the surface feels like, looks like, is made of or is for
+    pub(crate) prompt: String,
+    /// The asset to write
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// 0 for the texture that the prompt means, others for variations of it
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// AR order: all of it, the smallest within 0.5 dB, or a number
+    #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
+    pub(crate) fidelity: Fidelity,
+    /// Rate of the AR models, Hz: that of the servo loop
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
+    #[command(flatten)]
+    pub(crate) inference: Inference,
+    /// Draw no preview
+    #[arg(long)]
+    pub(crate) no_preview: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Where networks come from and where they run.
+#[derive(Debug, Args)]
+pub(crate) struct Inference {
+    /// `minilm`, embedded, or `clip:DIR` with an export of CLIP's text tower
+    #[arg(long, default_value = "minilm", value_name = "minilm|clip:DIR")]
+    pub(crate) text_encoder: TextEncoderChoice,
+    /// A model folder that `asperity-train fit` wrote, instead of the embedded one
+    #[arg(long, value_name = "DIR")]
+    pub(crate) model: Option<PathBuf>,
+    /// `portable`, the same bits everywhere, or `onnxruntime` where it is installed
+    #[arg(long, default_value_t, value_name = "portable|onnxruntime")]
+    pub(crate) backend: BackendName,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  asperity doctor --text-encoder clip:./clip")]
+pub(crate) struct Doctor {
+    #[command(flatten)]
+    pub(crate) inference: Inference,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -49,10 +116,12 @@ pub(crate) enum Import {
 #[command(
     after_help = "Prints one line of figures a material: the RMS distance of its log \
 spectra from the source over 10–450 Hz, level included, and its size. Every vertex and \
-triangle is kept. HaTT holds no tapping traces: they are synthesised and marked so.
+triangle is kept. HaTT holds no tapping traces: they are synthesised, or decoded by the \
+learned model from the AR grid with --complete-taps, and marked so.
 
 Examples:
   asperity import hatt Models_Cork.xml -o cork.asp
+  asperity import hatt Models_Cork.xml -o cork.asp --complete-taps
   asperity import hatt hatt/models -o assets
   asperity import hatt hatt/models -o hatt.aspl"
 )]
@@ -65,6 +134,12 @@ pub(crate) struct ImportHatt {
     /// How much of the source is kept; this version keeps all of it
     #[arg(long, default_value = "full", value_parser = fidelity)]
     pub(crate) fidelity: String,
+    /// Let the learned model decode taps from the AR grid
+    #[arg(long)]
+    pub(crate) complete_taps: bool,
+    /// A model folder that `asperity-train fit` wrote, instead of the embedded one
+    #[arg(long, value_name = "DIR", requires = "complete_taps")]
+    pub(crate) model: Option<PathBuf>,
 }
 
 fn fidelity(text: &str) -> Result<String, String> {

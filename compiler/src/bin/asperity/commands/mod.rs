@@ -1,7 +1,10 @@
 //! One file a command.
 
 mod builtin;
+mod compile;
+mod doctor;
 mod import;
+mod inference;
 mod inspect;
 mod plot;
 mod render;
@@ -14,6 +17,8 @@ use crate::{
 pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     match cli.command {
         Command::Import(Import::Hatt(args)) => import::hatt(&args, cli.quiet),
+        Command::Compile(args) => compile::run(&args, cli.quiet),
+        Command::Doctor(args) => doctor::run(&args),
         Command::Builtin(args) => builtin::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Plot(args) => plot::run(&args),
