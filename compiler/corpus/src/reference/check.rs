@@ -12,7 +12,7 @@ const LEAST_FOCUSES: usize = 3;
 const HELD_OUT: usize = 3;
 /// Largest share of the content words of a held-out caption that its material's
 /// training captions may hold.
-const LARGEST_OVERLAP: f64 = 0.40;
+const LARGEST_OVERLAP: f64 = 0.50;
 /// How a provenance begins.
 const ORIGINS: [&str; 5] = ["handbook:", "standard:", "geometry:", "estimate:", "analogy:"];
 /// Words that tell nothing about a material.
