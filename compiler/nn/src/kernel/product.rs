@@ -1,0 +1,210 @@
+//! The matrix product.
+//!
+//! out[i][j] = ((0 + a[i][0]·b[0][j]) + a[i][1]·b[1][j]) + …: every element is summed in
+//! ascending k, each product rounded before it is added. Tiles, panels and lanes run over
+//! rows and columns only; where a sum over k is interrupted, its value so far is stored and
+//! taken up again, which does not change it.
+
+use multiversion::multiversion;
+
+/// Columns of a panel.
+const COLUMNS: usize = 16;
+/// Most rows of a tile: 4 × 16 sums fill half of 16 registers of 8 lanes.
+const ROWS: usize = 4;
+/// Panels that are expanded together: a row of them is a cache line of int8 weights.
+const PANELS: usize = 4;
+/// Rows of b in a panel: four panels of 96 × 16 f32 are 24 KiB, which the first-level cache holds.
+const DEPTH: usize = 96;
+
+/// The right-hand side, k × n.
+pub(crate) enum Matrix<'a> {
+    /// Row-major.
+    Rows(&'a [f32]),
+    /// Column-major: the transpose is row-major.
+    Columns(&'a [f32]),
+    /// Row-major int8 in two's complement; an element is (q − zero[j]) · scale[j].
+    Quantized {
+        weights: &'a [u8],
+        scale: &'a [f32],
+        zero: &'a [f32],
+    },
+}
+
+/// `out` (m × n, all zero before) becomes `a` (m × k) · `b` (k × n), all row-major.
+///
+/// Panics when a slice is shorter than its sizes say: callers have checked shapes.
+pub(crate) fn product(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
+    if m == 0 || n == 0 || k == 0 {
+        return;
+    }
+    dispatched(m, k, n, a, b, out);
+}
+
+#[multiversion(targets("x86_64+avx2"))]
+fn dispatched(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
+    tiled(m, k, n, a, b, out);
+}
+
+#[inline(always)]
+fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
+    let mut left = vec![0.0; m * k];
+    pack_left(m, k, a, &mut left);
+    let mut panels = vec![[[0.0; COLUMNS]; DEPTH]; PANELS];
+    for group in (0..n).step_by(PANELS * COLUMNS) {
+        for start in (0..k).step_by(DEPTH) {
+            let depth = DEPTH.min(k - start);
+            let columns = (group..n).step_by(COLUMNS).take(PANELS);
+            pack_right(k, n, b, start, group, depth, &mut panels);
+            for (column, panel) in columns.zip(&panels) {
+                let mut left = &left[start * m..][..depth * m];
+                let width = COLUMNS.min(n - column);
+                let mut row = 0;
+                while row < m {
+                    let rows = ROWS.min(m - row);
+                    let (block, rest) = left.split_at(rows * depth);
+                    left = rest;
+                    let out = &mut out[row * n + column..];
+                    match rows {
+                        4 => tile::<4>(block, &panel[..depth], out, n, width),
+                        3 => tile::<3>(block, &panel[..depth], out, n, width),
+                        2 => tile::<2>(block, &panel[..depth], out, n, width),
+                        _ => tile::<1>(block, &panel[..depth], out, n, width),
+                    }
+                    row += rows;
+                }
+            }
+        }
+    }
+}
+
+/// Orders `a` as tiles read it: by slice of k, then block of rows, then k, then row.
+#[inline(always)]
+fn pack_left(m: usize, k: usize, a: &[f32], left: &mut [f32]) {
+    let mut slots = left.iter_mut();
+    for start in (0..k).step_by(DEPTH) {
+        let end = k.min(start + DEPTH);
+        for row in (0..m).step_by(ROWS) {
+            let rows = ROWS.min(m - row);
+            for inner in start..end {
+                for (i, slot) in (0..rows).zip(&mut slots) {
+                    *slot = a[(row + i) * k + inner];
+                }
+            }
+        }
+    }
+}
+
+type Panel = [[f32; COLUMNS]; DEPTH];
+
+/// Copies or expands `depth` rows of up to four panels of b, from row `start` and column `group`
+/// on; columns beyond the last stay what they were: never stored.
+#[inline(always)]
+fn pack_right(
+    k: usize,
+    n: usize,
+    b: &Matrix<'_>,
+    start: usize,
+    group: usize,
+    depth: usize,
+    panels: &mut [Panel],
+) {
+    let end = n.min(group + PANELS * COLUMNS);
+    match *b {
+        Matrix::Rows(b) => {
+            for inner in 0..depth {
+                let row = &b[(start + inner) * n..][group..end];
+                for (part, panel) in row.chunks(COLUMNS).zip(&mut *panels) {
+                    transfer(part.len(), part, &mut panel[inner]);
+                }
+            }
+        }
+        Matrix::Columns(b) => {
+            for column in group..end {
+                let offset = column - group;
+                let panel = &mut panels[offset / COLUMNS];
+                let values = &b[column * k + start..][..depth];
+                for (slots, value) in panel.iter_mut().zip(values) {
+                    slots[offset % COLUMNS] = *value;
+                }
+            }
+        }
+        Matrix::Quantized {
+            weights,
+            scale,
+            zero,
+        } => {
+            let mut scales = [[0.0; COLUMNS]; PANELS];
+            let mut zeros = [[0.0; COLUMNS]; PANELS];
+            scales.as_flattened_mut()[..end - group].copy_from_slice(&scale[group..end]);
+            zeros.as_flattened_mut()[..end - group].copy_from_slice(&zero[group..end]);
+            for inner in 0..depth {
+                let row = &weights[(start + inner) * n..][group..end];
+                let (full, rest) = row.as_chunks::<COLUMNS>();
+                for (i, part) in full.iter().enumerate() {
+                    expand(part, &scales[i], &zeros[i], &mut panels[i][inner]);
+                }
+                if !rest.is_empty() {
+                    let i = full.len();
+                    let mut part = [0; COLUMNS];
+                    part[..rest.len()].copy_from_slice(rest);
+                    expand(&part, &scales[i], &zeros[i], &mut panels[i][inner]);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn expand(
+    row: &[u8; COLUMNS],
+    scales: &[f32; COLUMNS],
+    zeros: &[f32; COLUMNS],
+    slots: &mut [f32; COLUMNS],
+) {
+    // In steps of whole rows, so that the compiler makes lanes of each.
+    let mut values = row.map(|q| f32::from(q as i8));
+    for (x, zero) in values.iter_mut().zip(zeros) {
+        *x -= zero;
+    }
+    for (x, scale) in values.iter_mut().zip(scales) {
+        *x *= scale;
+    }
+    *slots = values;
+}
+
+/// Adds R × depth times depth × 16 to R rows of `out`, `n` apart, `width` columns of them.
+#[inline(always)]
+fn tile<const R: usize>(
+    block: &[f32],
+    panel: &[[f32; COLUMNS]],
+    out: &mut [f32],
+    n: usize,
+    width: usize,
+) {
+    let mut sums = [[0.0_f32; COLUMNS]; R];
+    for (i, sums) in sums.iter_mut().enumerate() {
+        transfer(width, &out[i * n..], sums);
+    }
+    for (left, right) in block.as_chunks::<R>().0.iter().zip(panel) {
+        for i in 0..R {
+            for j in 0..COLUMNS {
+                sums[i][j] += left[i] * right[j];
+            }
+        }
+    }
+    for (i, sums) in sums.iter().enumerate() {
+        transfer(width, sums, &mut out[i * n..]);
+    }
+}
+
+/// Copies `width` elements; a full row in one move rather than by a call.
+#[inline(always)]
+fn transfer(width: usize, from: &[f32], to: &mut [f32]) {
+    match (
+        from.first_chunk::<COLUMNS>(),
+        to.first_chunk_mut::<COLUMNS>(),
+    ) {
+        (Some(from), Some(to)) if width == COLUMNS => *to = *from,
+        _ => to[..width].copy_from_slice(&from[..width]),
+    }
+}

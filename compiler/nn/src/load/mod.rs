@@ -1,0 +1,9 @@
+//! From bytes to a plan: everything about a model that can be checked is checked here, once.
+
+pub(crate) mod constant;
+mod fuse;
+mod graph;
+pub(crate) mod ports;
+
+pub use graph::{MAX_OPSET, MIN_OPSET};
+pub(crate) use graph::{Plan, Slot, Step, load};

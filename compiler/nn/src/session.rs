@@ -1,0 +1,206 @@
+//! What a loaded network offers, whatever runs it.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use crate::{ElementType, OpError, Tensor};
+
+/// Size of one dimension of a port.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Dim {
+    /// Always this many.
+    Fixed(usize),
+    /// Any size, the same wherever the name stands.
+    Named(String),
+    /// Any size.
+    Any,
+}
+
+impl Dim {
+    /// A dimension with a name.
+    #[must_use]
+    pub fn named(name: &str) -> Self {
+        Self::Named(name.to_owned())
+    }
+}
+
+impl fmt::Display for Dim {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fixed(size) => write!(f, "{size}"),
+            Self::Named(name) => f.write_str(name),
+            Self::Any => f.write_str("?"),
+        }
+    }
+}
+
+/// An input or output of a network.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Port {
+    /// Name.
+    pub name: String,
+    /// Type of its elements.
+    pub element_type: ElementType,
+    /// Its dimensions; `None` when the file does not even say how many.
+    pub dims: Option<Vec<Dim>>,
+}
+
+/// `float32 [B, 64]`.
+impl fmt::Display for Port {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ", self.element_type)?;
+        match &self.dims {
+            None => f.write_str("[…]"),
+            Some(dims) => {
+                let dims: Vec<_> = dims.iter().map(Dim::to_string).collect();
+                write!(f, "[{}]", dims.join(", "))
+            }
+        }
+    }
+}
+
+/// A loaded network.
+pub trait Session: Send + Sync {
+    /// What must be given.
+    fn inputs(&self) -> &[Port];
+
+    /// What comes back, in this order.
+    fn outputs(&self) -> &[Port];
+
+    /// Runs the network once.
+    ///
+    /// # Errors
+    /// [`RunError`] when the inputs are not those of [`inputs`](Self::inputs), or when an
+    /// operator meets shapes it cannot work on.
+    fn run(&self, inputs: &[(&str, &Tensor)]) -> Result<Vec<(String, Tensor)>, RunError>;
+}
+
+/// Why a run failed.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// An input was not given.
+    #[error("input `{name}` ({port}) is missing")]
+    MissingInput {
+        /// Its name.
+        name: String,
+        /// What was expected.
+        port: String,
+    },
+    /// A name that is no input, or was given twice.
+    #[error("`{name}` is no input of this network, or was given twice; inputs: {inputs}")]
+    UnknownInput {
+        /// The name.
+        name: String,
+        /// The inputs there are.
+        inputs: String,
+    },
+    /// An input of another type or shape.
+    #[error("input `{name}` is {found}, expected {expected}")]
+    WrongInput {
+        /// Its name.
+        name: String,
+        /// Type and shape given.
+        found: String,
+        /// Type and shape expected.
+        expected: String,
+    },
+    /// An operator refused what it met.
+    #[error("node `{node}` ({op_type}): {source}")]
+    Node {
+        /// Name of the node, or of its output when it has none.
+        node: String,
+        /// Its operator.
+        op_type: String,
+        /// Why.
+        source: OpError,
+    },
+    /// An external back end failed.
+    #[error("{backend}: {message}")]
+    Backend {
+        /// Which.
+        backend: &'static str,
+        /// What it says.
+        message: String,
+    },
+}
+
+/// Checks what a caller gives against the ports of a network.
+///
+/// # Errors
+/// The [`RunError`] that names the first input that is missing, unknown, given twice, of
+/// another type, or of another shape; sizes under the same name must agree.
+pub fn check_inputs(ports: &[Port], given: &[(&str, &Tensor)]) -> Result<(), RunError> {
+    for (position, (name, _)) in given.iter().enumerate() {
+        let twice = given[..position].iter().any(|(other, _)| other == name);
+        if twice || !ports.iter().any(|port| port.name == *name) {
+            return Err(RunError::UnknownInput {
+                name: (*name).to_owned(),
+                inputs: names(ports),
+            });
+        }
+    }
+    let mut bound: Vec<(&str, usize)> = Vec::new();
+    for port in ports {
+        let Some((_, tensor)) = given.iter().find(|(name, _)| *name == port.name) else {
+            return Err(RunError::MissingInput {
+                name: port.name.clone(),
+                port: port.to_string(),
+            });
+        };
+        if !fits(port, tensor, &mut bound) {
+            let sizes: Vec<_> = bound
+                .iter()
+                .map(|(name, size)| format!("{name} = {size}"))
+                .collect();
+            let known = if sizes.is_empty() {
+                String::new()
+            } else {
+                format!(" with {}", sizes.join(", "))
+            };
+            return Err(RunError::WrongInput {
+                name: port.name.clone(),
+                found: format!(
+                    "{} {:?} of {} elements",
+                    tensor.element_type(),
+                    tensor.shape(),
+                    tensor.len()
+                ),
+                expected: format!("{port}{known}"),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn names(ports: &[Port]) -> String {
+    let names: Vec<_> = ports
+        .iter()
+        .map(|port| format!("`{}`", port.name))
+        .collect();
+    names.join(", ")
+}
+
+/// Whether a tensor fits a port, given the sizes that names have so far.
+fn fits<'p>(port: &'p Port, tensor: &Tensor, bound: &mut Vec<(&'p str, usize)>) -> bool {
+    if tensor.element_type() != port.element_type || !tensor.is_consistent() {
+        return false;
+    }
+    let Some(dims) = &port.dims else { return true };
+    dims.len() == tensor.shape().len()
+        && dims
+            .iter()
+            .zip(tensor.shape())
+            .all(|(dim, &size)| match dim {
+                Dim::Any => true,
+                Dim::Fixed(fixed) => *fixed == size,
+                Dim::Named(name) => match bound.iter().find(|(other, _)| other == name) {
+                    Some((_, known)) => *known == size,
+                    None => {
+                        bound.push((name, size));
+                        true
+                    }
+                },
+            })
+}
