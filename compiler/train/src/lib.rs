@@ -1,1 +1,41 @@
-//! Under construction.
+//! Training of the learned texture model: a bimodal variational autoencoder over AR
+//! models and tapping transients, with a projection of text into its latent (Qian et
+//! al., "Language-Guided Multimodal Texture Authoring via Generative Models").
+//!
+//! [`fit`] trains on a corpus, [`fit_on`] on some of its materials; both give a
+//! [`Trained`] that encodes, decodes and projects.
+
+mod adam;
+mod batch;
+mod captions;
+mod checkpoint;
+mod coding;
+pub mod config;
+mod error;
+mod export;
+mod fit;
+mod loss;
+mod metrics;
+mod network;
+mod normaliser;
+mod parameters;
+mod progress;
+mod rng;
+#[cfg(test)]
+mod synthetic;
+#[cfg(test)]
+mod tests;
+mod text_stage;
+mod trained;
+mod vae;
+mod weights;
+
+pub use captions::Captions;
+pub use config::Config;
+pub use error::FitError;
+pub use export::{ExportError, ModelFiles, certainty_curve, export};
+pub use fit::{fit, fit_on};
+pub use metrics::{Metrics, Retrieval, measure};
+pub use normaliser::Normaliser;
+pub use progress::{EpochLoss, Progress, Silent};
+pub use trained::{Gaussian, MaterialLatent, Seen, Trained};

@@ -1,0 +1,335 @@
+//! The configuration of a training run: every number of the recipe, in one TOML file.
+
+mod validate;
+
+use asperity::diagnostic::Diagnostic;
+use serde::{Deserialize, Serialize};
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+use thiserror::Error;
+
+const PAPER: &str = include_str!("../configs/paper.toml");
+const REFERENCE: &str = include_str!("../configs/reference.toml");
+
+/// A training run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Config {
+    /// Name of the model.
+    pub name: String,
+    /// Seed of initialisation, shuffles and noise.
+    pub seed: u64,
+    /// What to train on.
+    pub corpus: CorpusChoice,
+    /// How the numbers of an instance are presented to the network.
+    pub coding: Coding,
+    /// Sizes.
+    pub network: Network,
+    /// Weights of the terms of the loss.
+    pub loss: Loss,
+    /// Optimisation of the whole network.
+    pub optimiser: Optimiser,
+    /// What is varied while training.
+    pub augmentation: Augmentation,
+    /// The second stage, which refits the text projection; none in the paper.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub text_stage: Option<TextStage>,
+    /// How μ is read from the anchors.
+    pub friction: Friction,
+    /// Cross-validation.
+    pub evaluation: Evaluation,
+}
+
+/// What to train on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CorpusChoice {
+    /// Which corpus.
+    pub kind: CorpusKind,
+    /// Augmented instances a material.
+    pub instances: usize,
+}
+
+/// The corpora there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CorpusKind {
+    /// The synthetic reference corpus.
+    Reference,
+    /// A folder of HaTT models.
+    Hatt,
+}
+
+/// How the numbers of an instance are presented to the network.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Coding {
+    /// The 22nd channel.
+    pub excitation: Excitation,
+    /// What shares a mean and a deviation.
+    pub normalisation: Normalisation,
+}
+
+/// What the 22nd channel of a bin holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Excitation {
+    /// Variance of the white noise that drives the filter, (m/s²)²: the paper's.
+    Variance,
+    /// Its standard deviation, dB re 1 m/s².
+    LogSigma,
+    /// RMS of the vibration itself, dB re 1 m/s².
+    Level,
+}
+
+/// What shares a mean and a deviation. Taps always share them within a trace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Normalisation {
+    /// A channel over all bins: the paper's.
+    Channel,
+    /// A channel of one bin.
+    Bin,
+}
+
+/// Sizes of the network.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Network {
+    /// Width of the latent; the compiler knows 64.
+    pub latent: usize,
+    /// Widths of the AR encoder after its 396 inputs.
+    pub ar_encoder: Vec<usize>,
+    /// Widths of the tap encoder after its 1,300 inputs.
+    pub tap_encoder: Vec<usize>,
+    /// Widths of both decoders between latent and residual blocks.
+    pub decoder: Vec<usize>,
+    /// Residual blocks of the AR decoder.
+    pub ar_residual_blocks: usize,
+    /// Residual blocks of the tap decoder.
+    pub tap_residual_blocks: usize,
+    /// Hidden widths of the text projection.
+    pub text_projection: Vec<usize>,
+    /// Hidden width of the latent's own projection.
+    pub latent_projection: usize,
+    /// Dropout in residual blocks and in the latent's projection.
+    pub dropout: f64,
+}
+
+/// Weights of the terms of the loss.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Loss {
+    /// λ_rec.
+    pub reconstruction: f64,
+    /// λ_ar.
+    pub ar: f64,
+    /// λ_tap.
+    pub taps: f64,
+    /// λ_text, of InfoNCE.
+    pub contrastive: f64,
+    /// τ of InfoNCE.
+    pub temperature: f64,
+    /// λ_align, of the mean square of μ̂ − μ.
+    pub alignment: f64,
+    /// β at its largest.
+    pub kl: f64,
+    /// Epoch until which β is zero.
+    pub kl_from_epoch: usize,
+    /// Epoch from which β is at its largest; linear in between.
+    pub kl_to_epoch: usize,
+}
+
+/// Optimisation: Adam with decoupled weight decay.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Optimiser {
+    /// Passes over the corpus.
+    pub epochs: usize,
+    /// Instances a step.
+    pub batch: usize,
+    /// Step size.
+    pub learning_rate: f64,
+    /// Step size at the end, reached along half a cosine; constant if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub final_learning_rate: Option<f64>,
+    /// Largest norm of the gradient over all parameters.
+    pub clip_norm: f64,
+    /// Decoupled weight decay, as a rate per unit of step size.
+    pub weight_decay: f64,
+}
+
+/// What is varied while training.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Augmentation {
+    /// Probability that an encoder sees only one modality of an instance.
+    pub modality_dropout: f64,
+    /// Norm of the Gaussian noise on a caption's unit vector.
+    pub caption_noise: f64,
+    /// Probability that a caption's vector is mixed with another's of its material.
+    pub caption_mixup: f64,
+}
+
+/// The second stage: the VAE stands, the text projection is refitted to the mean
+/// latents of the materials.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TextStage {
+    /// Passes over captions and lexicon.
+    pub epochs: usize,
+    /// Captions a step.
+    pub batch: usize,
+    /// Step size at the start; falls to zero along half a cosine.
+    pub learning_rate: f64,
+    /// Decoupled weight decay.
+    pub weight_decay: f64,
+    /// Hidden widths of the projection.
+    pub hidden: Vec<usize>,
+    /// Dropout after each hidden layer.
+    pub dropout: f64,
+    /// Norm of the Gaussian noise on a unit vector.
+    pub noise: f64,
+    /// Probability that two examples are mixed, vectors and targets alike.
+    pub mixup: f64,
+    /// Weight of picking the own material among all by cosine.
+    pub contrastive_weight: f64,
+    /// Temperature of that.
+    pub contrastive_temperature: f64,
+    /// Share of examples drawn from the lexicon, 0..1.
+    pub lexicon_weight: f64,
+    /// τ_t of the weights by meaning.
+    pub lexicon_temperature: f64,
+    /// h of the weights by rating, on the scale 0–100.
+    pub lexicon_bandwidth: f64,
+}
+
+/// How μ is read from the anchors.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Friction {
+    /// How many anchors count.
+    pub top_k: usize,
+    /// Temperature of the softmax over cosines.
+    pub temperature: f64,
+}
+
+/// Cross-validation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Evaluation {
+    /// Number of folds.
+    pub folds: usize,
+}
+
+/// Why a configuration cannot be used.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ConfigError {
+    /// The file cannot be read.
+    #[error("{}: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file is no TOML, or has a field too many or too few.
+    #[error("{file}: {message}")]
+    Syntax {
+        /// The file.
+        file: String,
+        /// Where and what.
+        message: String,
+    },
+    /// A field has a value that makes no sense.
+    #[error("{field} = {value}: must be {expected}")]
+    Value {
+        /// The field, with its table.
+        field: &'static str,
+        /// What it says.
+        value: String,
+        /// What it may be.
+        expected: &'static str,
+    },
+}
+
+impl Diagnostic for ConfigError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Unreadable { .. } => "give a TOML file, or one of: paper, reference".into(),
+            Self::Syntax { .. } => {
+                "start from `asperity-train config paper` or `asperity-train config reference`"
+                    .into()
+            }
+            Self::Value { field, expected, .. } => format!("set {field} to {expected}"),
+        }
+    }
+
+    fn is_usage(&self) -> bool {
+        true
+    }
+}
+
+impl Config {
+    /// The paper's recipe.
+    ///
+    /// # Errors
+    /// None for the embedded file, which a test reads.
+    pub fn paper() -> Result<Self, ConfigError> {
+        Self::parse("paper", PAPER)
+    }
+
+    /// The recipe of the shipped model.
+    ///
+    /// # Errors
+    /// None for the embedded file, which a test reads.
+    pub fn reference() -> Result<Self, ConfigError> {
+        Self::parse("reference", REFERENCE)
+    }
+
+    /// `paper`, `reference`, or the path of a file.
+    ///
+    /// # Errors
+    /// [`ConfigError`].
+    pub fn find(name_or_path: &str) -> Result<Self, ConfigError> {
+        match name_or_path {
+            "paper" => Self::paper(),
+            "reference" => Self::reference(),
+            path => {
+                let text =
+                    fs::read_to_string(path).map_err(|source| ConfigError::Unreadable {
+                        path: Path::new(path).to_owned(),
+                        source,
+                    })?;
+                Self::parse(path, &text)
+            }
+        }
+    }
+
+    /// Reads and validates a configuration; `file` is for messages.
+    ///
+    /// # Errors
+    /// [`ConfigError`].
+    pub fn parse(file: &str, text: &str) -> Result<Self, ConfigError> {
+        let config: Self = toml::from_str(text).map_err(|e| ConfigError::Syntax {
+            file: file.to_owned(),
+            message: e.to_string().trim_end().to_owned(),
+        })?;
+        config.validate()?;
+        Ok(config)
+    }
+
+    /// The configuration as TOML, which [`parse`](Self::parse) reads back.
+    ///
+    /// # Errors
+    /// [`ConfigError::Syntax`] where TOML has no such number, such as a seed of 2⁶³.
+    pub fn to_toml(&self) -> Result<String, ConfigError> {
+        toml::to_string(self).map_err(|e| ConfigError::Syntax {
+            file: self.name.clone(),
+            message: e.to_string(),
+        })
+    }
+}

@@ -1,0 +1,156 @@
+//! What the numbers of a configuration may be.
+
+use super::{Config, ConfigError, TextStage};
+use asperity::learned::description::LATENT;
+use std::fmt::Debug;
+
+/// Layers wider than this are a slip of the keyboard.
+const MAX_WIDTH: usize = 8192;
+
+impl Config {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`ConfigError::Value`] for the first that makes no sense.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        let (n, l, o, a) = (&self.network, &self.loss, &self.optimiser, &self.augmentation);
+        within("name", &self.name, !self.name.is_empty(), "a name")?;
+        within("seed", self.seed, i64::try_from(self.seed).is_ok(), "0..2⁶³")?;
+        count("corpus.instances", self.corpus.instances, 1000)?;
+        within("network.latent", n.latent, n.latent == LATENT, "64")?;
+        widths("network.ar_encoder", &n.ar_encoder)?;
+        widths("network.tap_encoder", &n.tap_encoder)?;
+        widths("network.decoder", &n.decoder)?;
+        widths("network.text_projection", &n.text_projection)?;
+        count("network.ar_residual_blocks", n.ar_residual_blocks, 64)?;
+        count("network.tap_residual_blocks", n.tap_residual_blocks, 64)?;
+        count("network.latent_projection", n.latent_projection, MAX_WIDTH)?;
+        rate("network.dropout", n.dropout)?;
+        weight("loss.reconstruction", l.reconstruction)?;
+        weight("loss.ar", l.ar)?;
+        weight("loss.taps", l.taps)?;
+        weight("loss.contrastive", l.contrastive)?;
+        positive("loss.temperature", l.temperature)?;
+        weight("loss.alignment", l.alignment)?;
+        weight("loss.kl", l.kl)?;
+        within(
+            "loss.kl_to_epoch",
+            l.kl_to_epoch,
+            l.kl_to_epoch >= l.kl_from_epoch,
+            "no earlier than loss.kl_from_epoch",
+        )?;
+        count("optimiser.epochs", o.epochs, 1_000_000)?;
+        let pairs = o.batch >= 2 && o.batch <= MAX_WIDTH;
+        within("optimiser.batch", o.batch, pairs, "2..=8192")?;
+        positive("optimiser.learning_rate", o.learning_rate)?;
+        if let Some(end) = o.final_learning_rate {
+            let falls = end >= 0.0 && end <= o.learning_rate;
+            let expected = "0..=optimiser.learning_rate";
+            within("optimiser.final_learning_rate", end, falls, expected)?;
+        }
+        positive("optimiser.clip_norm", o.clip_norm)?;
+        weight("optimiser.weight_decay", o.weight_decay)?;
+        rate("augmentation.modality_dropout", a.modality_dropout)?;
+        weight("augmentation.caption_noise", a.caption_noise)?;
+        probability("augmentation.caption_mixup", a.caption_mixup)?;
+        if let Some(stage) = &self.text_stage {
+            text_stage(stage)?;
+        }
+        count("friction.top_k", self.friction.top_k, 1000)?;
+        positive("friction.temperature", self.friction.temperature)?;
+        let folds = self.evaluation.folds;
+        within("evaluation.folds", folds, (2..=100).contains(&folds), "2..=100")
+    }
+}
+
+fn text_stage(s: &TextStage) -> Result<(), ConfigError> {
+    count("text_stage.epochs", s.epochs, 1_000_000)?;
+    count("text_stage.batch", s.batch, 65_536)?;
+    positive("text_stage.learning_rate", s.learning_rate)?;
+    weight("text_stage.weight_decay", s.weight_decay)?;
+    widths("text_stage.hidden", &s.hidden)?;
+    rate("text_stage.dropout", s.dropout)?;
+    weight("text_stage.noise", s.noise)?;
+    probability("text_stage.mixup", s.mixup)?;
+    weight("text_stage.contrastive_weight", s.contrastive_weight)?;
+    positive("text_stage.contrastive_temperature", s.contrastive_temperature)?;
+    rate("text_stage.lexicon_weight", s.lexicon_weight)?;
+    positive("text_stage.lexicon_temperature", s.lexicon_temperature)?;
+    positive("text_stage.lexicon_bandwidth", s.lexicon_bandwidth)
+}
+
+fn within(
+    field: &'static str,
+    value: impl Debug,
+    holds: bool,
+    expected: &'static str,
+) -> Result<(), ConfigError> {
+    if holds {
+        return Ok(());
+    }
+    Err(ConfigError::Value {
+        field,
+        value: format!("{value:?}"),
+        expected,
+    })
+}
+
+fn count(field: &'static str, value: usize, most: usize) -> Result<(), ConfigError> {
+    within(field, value, value >= 1 && value <= most, "at least 1, and sane")
+}
+
+fn widths(field: &'static str, value: &[usize]) -> Result<(), ConfigError> {
+    let sane = value.iter().all(|w| (1..=MAX_WIDTH).contains(w));
+    within(field, value, sane && !value.is_empty(), "widths of 1..=8192, at least one")
+}
+
+fn weight(field: &'static str, value: f64) -> Result<(), ConfigError> {
+    let holds = value >= 0.0 && value.is_finite();
+    within(field, value, holds, "finite and not negative")
+}
+
+fn positive(field: &'static str, value: f64) -> Result<(), ConfigError> {
+    let holds = value > 0.0 && value.is_finite();
+    within(field, value, holds, "finite and more than 0")
+}
+
+fn probability(field: &'static str, value: f64) -> Result<(), ConfigError> {
+    within(field, value, (0.0..=1.0).contains(&value), "0..=1")
+}
+
+fn rate(field: &'static str, value: f64) -> Result<(), ConfigError> {
+    within(field, value, (0.0..1.0).contains(&value), "0 or more and less than 1")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_embedded_recipes_are_valid_and_read_back() {
+        for config in [Config::paper().unwrap(), Config::reference().unwrap()] {
+            let text = config.to_toml().unwrap();
+            assert_eq!(Config::parse("again", &text).unwrap(), config);
+        }
+    }
+
+    #[test]
+    fn the_paper_has_no_second_stage() {
+        assert_eq!(Config::paper().unwrap().text_stage, None);
+    }
+
+    #[test]
+    fn an_unknown_field_and_a_bad_value_are_named() {
+        let text = Config::paper().unwrap().to_toml().unwrap();
+        let unknown = Config::parse("x.toml", &format!("colour = 1\n{text}")).unwrap_err();
+        assert!(unknown.to_string().contains("colour"));
+        let mut config = Config::paper().unwrap();
+        config.network.dropout = 1.0;
+        let error = config.validate().unwrap_err().to_string();
+        assert!(error.contains("network.dropout = 1.0"), "{error}");
+        config = Config::paper().unwrap();
+        config.loss.temperature = f64::NAN;
+        let error = config.validate().unwrap_err().to_string();
+        assert!(error.contains("loss.temperature"), "{error}");
+    }
+}

@@ -1,0 +1,156 @@
+//! From a trained model to a model folder.
+
+mod attributes;
+mod card;
+mod certainty;
+mod description;
+mod folder;
+mod gain;
+mod graph;
+mod networks;
+mod ridge;
+mod verify;
+
+pub use certainty::certainty_curve;
+
+use crate::{
+    captions::Captions,
+    metrics::Metrics,
+    trained::Trained,
+    weights,
+};
+use asperity::{diagnostic::Diagnostic, output::OutputError};
+use asperity_corpus::Corpus;
+use asperity_nn::{OnnxError, RunError};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a trained model cannot be written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// A graph that cannot be written.
+    #[error("{file}")]
+    Graph {
+        /// The file.
+        file: &'static str,
+        /// Why.
+        source: OnnxError,
+    },
+    /// A written graph that does not run.
+    #[error("{file}")]
+    Run {
+        /// The file.
+        file: &'static str,
+        /// Why.
+        source: RunError,
+    },
+    /// A written graph that answers otherwise than the network it was made of.
+    #[error(
+        "{file}: output `{output}` differs from the trained network by {difference:e} \
+         of its scale, {limit:e} at most is right"
+    )]
+    Disagreement {
+        /// The file.
+        file: &'static str,
+        /// The output.
+        output: &'static str,
+        /// Largest difference, relative to the largest value or 1.
+        difference: f64,
+        /// What is allowed.
+        limit: f64,
+    },
+    /// A description or weights that cannot be put into bytes.
+    #[error("{file}: {message}")]
+    Encode {
+        /// The file.
+        file: &'static str,
+        /// Why.
+        message: String,
+    },
+    /// The folder holds something else.
+    #[error("{}: is there, and is no model folder", path.display())]
+    Occupied {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+impl Diagnostic for ExportError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Graph { .. } | Self::Run { .. } | Self::Disagreement { .. } => {
+                "report it: nothing was written; train again with --resume to try another version"
+                    .into()
+            }
+            Self::Encode { .. } => "lower optimiser.learning_rate: a number is not finite".into(),
+            Self::Occupied { .. } => "give the path of a new folder, or of an older model".into(),
+            Self::Output(error) => error.remedy(),
+        }
+    }
+}
+
+/// The files of a model folder, in memory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelFiles(Vec<(&'static str, Vec<u8>)>);
+
+impl ModelFiles {
+    /// Names and contents.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &[u8])> {
+        self.0.iter().map(|(name, bytes)| (*name, bytes.as_slice()))
+    }
+
+    /// The contents of a file.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&[u8]> {
+        self.iter().find(|(file, _)| *file == name).map(|(_, bytes)| bytes)
+    }
+
+    /// Makes them the folder `target`: written beside it, then renamed. A model that was
+    /// there is replaced.
+    ///
+    /// # Errors
+    /// [`ExportError::Occupied`] for a folder that holds no model,
+    /// [`ExportError::Output`]; the target is then as it was.
+    pub fn write(&self, target: &Path) -> Result<(), ExportError> {
+        folder::write(target, &self.0)
+    }
+}
+
+/// Everything a model folder holds, each network checked against the trained one.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn export(
+    trained: &Trained,
+    corpus: &Corpus,
+    captions: &Captions,
+    metrics: &Metrics,
+) -> Result<ModelFiles, ExportError> {
+    let networks = networks::write(trained)?;
+    verify::check(trained, corpus, captions, &networks)?;
+    let description = description::describe(trained, corpus, captions);
+    let mut json = serde_json::to_vec_pretty(&description).map_err(|e| ExportError::Encode {
+        file: "model.json",
+        message: e.to_string(),
+    })?;
+    json.push(b'\n');
+    let config = trained.config.to_toml().map_err(|e| ExportError::Encode {
+        file: "config.toml",
+        message: e.to_string(),
+    })?;
+    let weights = weights::model(trained).map_err(|message| ExportError::Encode {
+        file: "weights.safetensors",
+        message,
+    })?;
+    let card = card::write(trained, corpus, &description, metrics, &config);
+    let mut files: Vec<_> = networks.into_iter().collect();
+    files.push(("weights.safetensors", weights));
+    files.push(("config.toml", config.into_bytes()));
+    files.push(("MODEL_CARD.md", card.into_bytes()));
+    files.push(("model.json", json));
+    Ok(ModelFiles(files))
+}

@@ -1,0 +1,197 @@
+//! The four networks of a model folder. Normalisation lies inside: physical units in
+//! and out.
+
+use super::{ExportError, gain, graph::Writer};
+use crate::{
+    config::Excitation,
+    network::{GAPS, LOG_VARIANCE_BOUND, Trunk, gap_matrix, gap_offsets},
+    normaliser::{LSFS, TAP_VALUES},
+    parameters::Slot,
+    trained::Trained,
+};
+use asperity::learned::description::LATENT;
+use asperity_corpus::{BINS, CHANNELS, ORDER, TAP_SAMPLES, TAPS};
+use asperity_nn::build::{Attribute, Value};
+use std::f64::consts::{LN_10, LOG10_E};
+
+pub(super) const TEXT_PROJECTION: &str = "text_projection.onnx";
+pub(super) const AR_DECODER: &str = "ar_decoder.onnx";
+pub(super) const TAP_DECODER: &str = "tap_decoder.onnx";
+pub(super) const ENCODER: &str = "encoder.onnx";
+
+type File = (&'static str, Vec<u8>);
+
+/// Names and bytes of the four.
+pub(super) fn write(trained: &Trained) -> Result<[File; 4], ExportError> {
+    Ok([
+        finish(TEXT_PROJECTION, &text_projection(trained))?,
+        finish(AR_DECODER, &ar_decoder(trained))?,
+        finish(TAP_DECODER, &tap_decoder(trained))?,
+        finish(ENCODER, &encoder(trained))?,
+    ])
+}
+
+fn finish(file: &'static str, writer: &Writer<'_>) -> Result<File, ExportError> {
+    let bytes = writer.graph.finish();
+    let bytes = bytes.map_err(|source| ExportError::Graph { file, source })?;
+    Ok((file, bytes))
+}
+
+/// `embedding` [B, W] → `z` [B, 64] and `similarity` [B, M], its cosine with the mean
+/// caption of every material.
+fn text_projection(trained: &Trained) -> Writer<'_> {
+    let mut writer = Writer::new("text_projection", &trained.projection_parameters);
+    let (width, count) = (trained.width, trained.materials.len());
+    let embedding = writer.input("embedding", &[width]);
+    let z = writer.chain(&trained.projection.layers, &embedding);
+    writer.output("z", &z, &[LATENT]);
+    let mut columns = vec![0.0; width * count];
+    for (column, material) in trained.materials.iter().enumerate() {
+        for (row, x) in material.caption.iter().enumerate() {
+            columns[row * count + column] = *x;
+        }
+    }
+    let captions = writer.table("mean_captions", &[width, count], columns);
+    let attributes = [("axes", Attribute::Ints(vec![1])), ("keepdims", Attribute::Int(1))];
+    let norm = writer.graph.node("ReduceL2", &[Some(&embedding)], &attributes);
+    let norm = writer.plus(&norm, f32::MIN_POSITIVE);
+    let direction = writer.graph.div(&embedding, &norm);
+    let inputs = [Some(&direction), Some(&captions)];
+    let similarity = writer.graph.node("MatMul", &inputs, &[]);
+    writer.output("similarity", &similarity, &[count]);
+    writer
+}
+
+/// `z` [B, 64] → `lsf_rad` [B, 18, 21] and `level_db` [B, 18].
+fn ar_decoder(trained: &Trained) -> Writer<'_> {
+    let mut writer = Writer::new("ar_decoder", &trained.parameters);
+    let (decoder, normaliser) = (&trained.network.ar_decoder, &trained.normaliser);
+    let z = writer.input("z", &[LATENT]);
+    let features = trunk(&mut writer, &decoder.trunk, &z);
+    let logits = writer.linear(decoder.lsf_head, &features);
+    let (bins, gaps) = (BINS as i64, GAPS as i64);
+    let logits = writer.graph.reshape(&logits, &[0, bins, gaps]);
+    let shares = writer.graph.softmax(&logits, 2);
+    let matrix = writer.table("gap_matrix", &[GAPS, ORDER], gap_matrix());
+    let offsets = writer.table("gap_offsets", &[ORDER], gap_offsets());
+    let above = writer.graph.node("MatMul", &[Some(&shares), Some(&matrix)], &[]);
+    let lsf_rad = writer.graph.add(&above, &offsets);
+    writer.output("lsf_rad", &lsf_rad, &[BINS, ORDER]);
+    let free = writer.linear(decoder.excitation_head, &features);
+    let (mean, deviation) = (&normaliser.ar_mean[LSFS..], &normaliser.ar_deviation[LSFS..]);
+    let free = writer.restore("excitation", &free, mean, deviation);
+    let (low, high) = normaliser.excitation_bounds;
+    let (centre, reach) = (0.5 * (low + high), 0.5 * (high - low));
+    let free = writer.plus(&free, -centre);
+    let free = writer.times(&free, 1.0 / reach);
+    let bounded = writer.graph.unary("Tanh", &free);
+    let bounded = writer.times(&bounded, reach);
+    let code = writer.plus(&bounded, centre);
+    let level_db = match normaliser.coding.excitation {
+        Excitation::Level => code,
+        Excitation::LogSigma => {
+            let gain_db = gain::decibels(&mut writer, &lsf_rad);
+            writer.graph.add(&code, &gain_db)
+        }
+        Excitation::Variance => {
+            // The bounds are positive, but rounding may reach below the lower one.
+            let code = writer.graph.clip(&code, low, high);
+            let logarithm = writer.graph.unary("Log", &code);
+            let variance_db = writer.times(&logarithm, (10.0 * LOG10_E) as f32);
+            let gain_db = gain::decibels(&mut writer, &lsf_rad);
+            writer.graph.add(&variance_db, &gain_db)
+        }
+    };
+    let (low, high) = normaliser.level_bounds_db;
+    let level_db = writer.graph.clip(&level_db, low, high);
+    writer.output("level_db", &level_db, &[BINS]);
+    writer
+}
+
+/// `z` [B, 64] → `taps_m_s2` [B, 13, 100].
+fn tap_decoder(trained: &Trained) -> Writer<'_> {
+    let mut writer = Writer::new("tap_decoder", &trained.parameters);
+    let (decoder, normaliser) = (&trained.network.tap_decoder, &trained.normaliser);
+    let z = writer.input("z", &[LATENT]);
+    let features = trunk(&mut writer, &decoder.trunk, &z);
+    let free = writer.linear(decoder.head, &features);
+    let free = writer.restore("taps", &free, &normaliser.tap_mean, &normaliser.tap_deviation);
+    let limit = writer.row("taps.bound", &normaliser.tap_bound);
+    let free = writer.graph.div(&free, &limit);
+    let bounded = writer.graph.unary("Tanh", &free);
+    let taps = writer.graph.mul(&bounded, &limit);
+    let taps = writer.graph.reshape(&taps, &[0, TAPS as i64, TAP_SAMPLES as i64]);
+    writer.output("taps_m_s2", &taps, &[TAPS, TAP_SAMPLES]);
+    writer
+}
+
+fn trunk(writer: &mut Writer<'_>, trunk: &Trunk, z: &Value) -> Value {
+    let widened = writer.chain(&trunk.layers, z);
+    let mut x = writer.graph.relu(&widened);
+    for (first, second) in &trunk.blocks {
+        let inner = writer.linear(*first, &x);
+        let inner = writer.graph.relu(&inner);
+        let change = writer.linear(*second, &inner);
+        let sum = writer.graph.add(&x, &change);
+        x = writer.graph.relu(&sum);
+    }
+    x
+}
+
+/// `ar` [B, 18, 22], `taps_m_s2` [B, 13, 100], `present` [B, 2] → `mean` and
+/// `log_variance` [B, 64].
+fn encoder(trained: &Trained) -> Writer<'_> {
+    let mut writer = Writer::new("encoder", &trained.parameters);
+    let (encoder, normaliser) = (&trained.network.encoder, &trained.normaliser);
+    let ar = writer.input("ar", &[BINS, CHANNELS]);
+    let taps = writer.input("taps_m_s2", &[TAPS, TAP_SAMPLES]);
+    let present = writer.input("present", &[2]);
+    let lsf_rad = writer.graph.slice(&ar, 2, 0, ORDER as i64);
+    let level_db = writer.graph.slice(&ar, 2, ORDER as i64, CHANNELS as i64);
+    let level_db = writer.graph.reshape(&level_db, &[0, BINS as i64]);
+    let code = excitation_code(&mut writer, normaliser.coding.excitation, &lsf_rad, &level_db);
+    let lsf_rad = writer.graph.reshape(&lsf_rad, &[0, LSFS as i64]);
+    let ar = writer.graph.concat(&[&lsf_rad, &code], 1);
+    let ar = writer.normalise("ar", &ar, &normaliser.ar_mean, &normaliser.ar_deviation);
+    let taps = writer.graph.reshape(&taps, &[0, TAP_VALUES as i64]);
+    let taps = writer.normalise("taps", &taps, &normaliser.tap_mean, &normaliser.tap_deviation);
+    let ar = writer.chain(&encoder.ar, &ar);
+    let taps = writer.chain(&encoder.taps, &taps);
+    let mut either = |features: &Value, absent: Slot, column: i64| {
+        let there = writer.graph.slice(&present, 1, column, column + 1);
+        let absent = writer.parameter(absent);
+        let difference = writer.graph.sub(features, &absent);
+        let kept = writer.graph.mul(&difference, &there);
+        writer.graph.add(&kept, &absent)
+    };
+    let ar = either(&ar, encoder.absent_ar, 0);
+    let taps = either(&taps, encoder.absent_taps, 1);
+    let joint = writer.graph.concat(&[&ar, &taps], 1);
+    let mean = writer.linear(encoder.mean, &joint);
+    writer.output("mean", &mean, &[LATENT]);
+    let free = writer.linear(encoder.log_variance, &joint);
+    let free = writer.times(&free, 1.0 / LOG_VARIANCE_BOUND);
+    let bounded = writer.graph.unary("Tanh", &free);
+    let log_variance = writer.times(&bounded, LOG_VARIANCE_BOUND);
+    writer.output("log_variance", &log_variance, &[LATENT]);
+    writer
+}
+
+/// The level as the network was trained to see it, [B, 18].
+fn excitation_code(
+    writer: &mut Writer<'_>,
+    excitation: Excitation,
+    lsf_rad: &Value,
+    level_db: &Value,
+) -> Value {
+    if excitation == Excitation::Level {
+        return level_db.clone();
+    }
+    let gain_db = gain::decibels(writer, lsf_rad);
+    let sigma_db = writer.graph.sub(level_db, &gain_db);
+    if excitation == Excitation::LogSigma {
+        return sigma_db;
+    }
+    let exponent = writer.times(&sigma_db, (0.1 * LN_10) as f32);
+    writer.graph.unary("Exp", &exponent)
+}

@@ -1,0 +1,201 @@
+//! A run from corpus to trained model.
+
+use crate::{
+    batch::Instances,
+    captions::Captions,
+    config::Config,
+    error::FitError,
+    network::Network,
+    normaliser::{Coded, Normaliser, check},
+    parameters::Parameters,
+    progress::Progress,
+    rng::{Purpose, Stream},
+    text_stage,
+    trained::{MaterialLatent, Seen, Trained, posteriors},
+    vae::{Run, State},
+};
+use asperity::{learned::description::LATENT, text::TextEncoder};
+use asperity_corpus::{Corpus, reference::LexiconEntry};
+
+/// Trains on a whole corpus, encoding its texts first.
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit(
+    corpus: &Corpus,
+    lexicon: &[LexiconEntry],
+    encoder: &dyn TextEncoder,
+    config: &Config,
+    progress: &mut dyn Progress,
+) -> Result<Trained, FitError> {
+    let captions = Captions::encode(corpus, lexicon, encoder)?;
+    let all: Vec<usize> = (0..corpus.materials.len()).collect();
+    fit_on(corpus, &all, &captions, config, progress)
+}
+
+/// Trains on some materials of a corpus, given as indices; `captions` are those of the
+/// whole corpus. The same arguments give the same model, whatever the thread count.
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit_on(
+    corpus: &Corpus,
+    materials: &[usize],
+    captions: &Captions,
+    config: &Config,
+    progress: &mut dyn Progress,
+) -> Result<Trained, FitError> {
+    let mut session = Session::new(corpus, materials, captions, config)?;
+    while !session.is_done() {
+        session.epoch(progress)?;
+        if progress.interrupted() && !session.is_done() {
+            let epoch = session.state.history.len();
+            return Err(FitError::Interrupted { epoch });
+        }
+    }
+    Ok(session.finish(progress))
+}
+
+/// A run under way.
+pub(crate) struct Session<'a> {
+    config: &'a Config,
+    captions: &'a Captions,
+    materials: Vec<usize>,
+    normaliser: Normaliser,
+    network: Network,
+    instances: Instances,
+    ratings: Vec<Option<asperity_corpus::Rating>>,
+    pub(crate) state: State,
+}
+
+impl<'a> Session<'a> {
+    /// Prepares data and network.
+    pub(crate) fn new(
+        corpus: &Corpus,
+        materials: &[usize],
+        captions: &'a Captions,
+        config: &'a Config,
+    ) -> Result<Self, FitError> {
+        check(corpus, materials)?;
+        let chosen = || materials.iter().map(|&index| (index, &corpus.materials[index]));
+        let all = || chosen().flat_map(|(_, material)| &material.instances);
+        let mut coded = Coded::of(config.coding, all());
+        let levels = all().flat_map(|instance| instance.level_db);
+        let normaliser = Normaliser::of(config.coding, &coded, levels);
+        normaliser.normalise(&mut coded);
+        let material = chosen()
+            .flat_map(|(index, material)| vec![index; material.instances.len()])
+            .collect();
+        let mut stream = Stream::new(config.seed, Purpose::Initialisation, 0);
+        let (network, parameters) =
+            Network::new(&config.network, captions.width, &normaliser, &mut stream);
+        Ok(Self {
+            config,
+            captions,
+            materials: materials.to_vec(),
+            normaliser,
+            network,
+            instances: Instances { coded, material },
+            ratings: chosen().map(|(_, material)| material.rating).collect(),
+            state: State::new(parameters),
+        })
+    }
+
+    /// Whether the first stage is over.
+    pub(crate) fn is_done(&self) -> bool {
+        self.state.history.len() >= self.config.optimiser.epochs
+    }
+
+    /// One epoch of the first stage.
+    pub(crate) fn epoch(&mut self, progress: &mut dyn Progress) -> Result<(), FitError> {
+        let loss = self.state.epoch(&Run {
+            config: self.config,
+            network: &self.network,
+            normaliser: &self.normaliser,
+            instances: &self.instances,
+            captions: self.captions,
+        })?;
+        progress.epoch(self.state.history.len(), self.config.optimiser.epochs, &loss);
+        Ok(())
+    }
+
+    /// The latents of the materials, the second stage, and the model.
+    pub(crate) fn finish(self, progress: &mut dyn Progress) -> Trained {
+        let State { parameters, history, .. } = self.state;
+        let (materials, spread) = locate(
+            &self.materials,
+            &self.network,
+            &parameters,
+            &self.instances,
+            self.captions,
+        );
+        let mut trained = Trained {
+            config: self.config.clone(),
+            projection: self.network.text.clone(),
+            projection_parameters: parameters.clone(),
+            network: self.network,
+            parameters,
+            normaliser: self.normaliser,
+            encoder: self.captions.encoder.clone(),
+            width: self.captions.width,
+            materials,
+            spread,
+            history,
+            text_history: Vec::new(),
+        };
+        if let Some(stage) = &self.config.text_stage {
+            let seed = self.config.seed;
+            let examples = text_stage::Examples::new(
+                &trained.materials,
+                &self.ratings,
+                self.captions,
+                stage,
+            );
+            let refitted = text_stage::refit(&examples, stage, seed, progress);
+            trained.projection = refitted.projection;
+            trained.projection_parameters = refitted.parameters;
+            trained.text_history = refitted.history;
+        }
+        trained
+    }
+}
+
+/// Mean latent of each material, and the spread of instances about them.
+fn locate(
+    materials: &[usize],
+    network: &Network,
+    parameters: &Parameters,
+    instances: &Instances,
+    captions: &Captions,
+) -> (Vec<MaterialLatent>, [f32; LATENT]) {
+    let posteriors = posteriors(network, parameters, &instances.coded, Seen::Both);
+    let mut square = [0.0_f64; LATENT];
+    let located: Vec<MaterialLatent> = materials
+        .iter()
+        .map(|&material| {
+            let own = || {
+                let pairs = instances.material.iter().zip(&posteriors);
+                pairs.filter(|(of, _)| **of == material).map(|(_, posterior)| &posterior.mean)
+            };
+            let count = own().count() as f64;
+            let mut mean = [0.0_f64; LATENT];
+            for z in own() {
+                for (sum, &x) in mean.iter_mut().zip(z) {
+                    *sum += f64::from(x) / count;
+                }
+            }
+            for z in own() {
+                for ((sum, &x), mean) in square.iter_mut().zip(z).zip(&mean) {
+                    *sum += (f64::from(x) - mean) * (f64::from(x) - mean);
+                }
+            }
+            MaterialLatent {
+                material,
+                mean: mean.map(|x| x as f32),
+                caption: captions.mean(material),
+            }
+        })
+        .collect();
+    let count = posteriors.len() as f64;
+    (located, square.map(|sum| libm::sqrt(sum / count) as f32))
+}

@@ -1,0 +1,4 @@
+//! Whole runs on a small corpus.
+
+mod speed;
+mod training;

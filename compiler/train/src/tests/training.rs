@@ -1,0 +1,144 @@
+//! What a run promises.
+
+use crate::{
+    Captions, Config, FitError, Progress, Seen, Silent, Trained, captions::cosine, fit_on,
+    progress::EpochLoss, rng::{Purpose, Stream}, synthetic::{self, WordBag},
+};
+use asperity::learned::description::LATENT;
+
+pub(super) fn small() -> Config {
+    let mut config = Config::reference().unwrap();
+    config.network.decoder = vec![32, 64];
+    config.network.ar_encoder = vec![64, 32];
+    config.network.tap_encoder = vec![32, 32];
+    config.optimiser.epochs = 40;
+    config.optimiser.batch = 16;
+    config.loss.kl_from_epoch = 2;
+    config.loss.kl_to_epoch = 20;
+    if let Some(stage) = &mut config.text_stage {
+        stage.epochs = 300;
+        stage.learning_rate = 3e-3;
+        stage.batch = 16;
+        stage.hidden = vec![32];
+    }
+    config
+}
+
+fn train(config: &Config) -> Trained {
+    let corpus = synthetic::corpus(8, 8);
+    let captions = Captions::encode(&corpus, &[], &WordBag).unwrap();
+    let all: Vec<usize> = (0..8).collect();
+    fit_on(&corpus, &all, &captions, config, &mut Silent).unwrap()
+}
+
+#[test]
+fn the_loss_falls_and_the_same_seed_repeats_it() {
+    let config = small();
+    let (first, again) = (train(&config), train(&config));
+    let history = first.history();
+    assert!(history[39].ar < 0.6 * history[0].ar, "{history:?}");
+    assert!(history[39].taps < 0.6 * history[0].taps, "{history:?}");
+    assert_eq!(history, again.history());
+    assert_eq!(first.text_history(), again.text_history());
+    assert_eq!(first.materials(), again.materials());
+    let mut other = config;
+    other.seed = 2;
+    assert_ne!(train(&other).history(), history);
+}
+
+#[test]
+fn any_latent_decodes_to_ordered_lsfs_and_bounded_vibration() {
+    let mut config = small();
+    config.optimiser.epochs = 1;
+    config.text_stage = None;
+    for excitation in ["level", "log_sigma", "variance"] {
+        let toml = format!("x = \"{excitation}\"");
+        let parsed: std::collections::BTreeMap<String, crate::config::Excitation> =
+            toml::from_str(&toml).unwrap();
+        config.coding.excitation = parsed["x"];
+        let trained = train(&config);
+        let mut stream = Stream::new(3, Purpose::Epoch, 0);
+        let latents: Vec<[f32; LATENT]> = [0.0, 1.0, 10.0, 1e4]
+            .iter()
+            .map(|scale| std::array::from_fn(|_| scale * stream.normal()))
+            .collect();
+        let (low, high) = trained.normaliser().level_bounds_db;
+        for instance in trained.decode(&latents) {
+            for bin in &instance.lsf_rad {
+                assert!(bin[0] > 0.0119 && bin[20] < std::f32::consts::PI - 0.0119);
+                assert!(bin.windows(2).all(|pair| pair[1] - pair[0] > 0.0119));
+            }
+            assert!(instance.level_db.iter().all(|x| (low..=high).contains(x)));
+            let bound = &trained.normaliser().tap_bound;
+            let taps = instance.taps_m_s2.iter().flatten();
+            assert!(taps.zip(bound).all(|(x, bound)| x.abs() <= *bound));
+        }
+    }
+}
+
+#[test]
+fn captions_find_their_material() {
+    let trained = train(&small());
+    let corpus = synthetic::corpus(8, 8);
+    let captions = Captions::encode(&corpus, &[], &WordBag).unwrap();
+    let mut hits = 0;
+    for (index, own) in captions.training.iter().enumerate() {
+        let vectors: Vec<&[f32]> = own.iter().map(Vec::as_slice).collect();
+        for z in trained.project(&vectors) {
+            let best = trained.materials().iter().max_by(|a, b| {
+                cosine(&a.mean, &z).total_cmp(&cosine(&b.mean, &z))
+            });
+            hits += usize::from(best.unwrap().material == index);
+        }
+    }
+    assert!(hits >= 20, "{hits} of 24");
+}
+
+#[test]
+fn one_modality_is_enough_to_encode() {
+    let trained = train(&small());
+    let corpus = synthetic::corpus(8, 8);
+    let instances: Vec<_> = corpus.materials.iter().map(|m| &m.prototype).collect();
+    for seen in [Seen::Ar, Seen::Taps, Seen::Both] {
+        let posteriors = trained.encode(&instances, seen);
+        assert_eq!(posteriors.len(), 8);
+        let finite = |x: &[f32]| x.iter().all(|x| x.is_finite());
+        assert!(posteriors.iter().all(|p| finite(&p.mean) && finite(&p.log_variance)));
+    }
+    assert_ne!(
+        trained.encode(&instances, Seen::Ar),
+        trained.encode(&instances, Seen::Both)
+    );
+}
+
+#[test]
+fn a_corpus_that_cannot_be_trained_on_is_refused_by_name() {
+    let mut corpus = synthetic::corpus(3, 2);
+    let captions = Captions::encode(&corpus, &[], &WordBag).unwrap();
+    let config = small();
+    let too_few = fit_on(&corpus, &[0], &captions, &config, &mut Silent).unwrap_err();
+    assert!(matches!(too_few, FitError::TooFewMaterials(1)));
+    corpus.materials[1].instances[0].level_db[4] = f32::NAN;
+    let fault = fit_on(&corpus, &[0, 1], &captions, &config, &mut Silent).unwrap_err();
+    assert!(fault.to_string().contains("material 1") && fault.to_string().contains("level_db"));
+}
+
+struct StopAfter(usize, usize);
+
+impl Progress for StopAfter {
+    fn epoch(&mut self, epoch: usize, _: usize, _: &EpochLoss) {
+        self.1 = epoch;
+    }
+    fn text_epoch(&mut self, _: usize, _: usize, _: f32) {}
+    fn interrupted(&self) -> bool {
+        self.1 >= self.0
+    }
+}
+
+#[test]
+fn an_interrupt_stops_after_the_epoch() {
+    let corpus = synthetic::corpus(3, 2);
+    let captions = Captions::encode(&corpus, &[], &WordBag).unwrap();
+    let result = fit_on(&corpus, &[0, 1, 2], &captions, &small(), &mut StopAfter(2, 0));
+    assert!(matches!(result, Err(FitError::Interrupted { epoch: 2 })));
+}

@@ -1,0 +1,235 @@
+//! A trained model, before it is a folder: encode, decode, project.
+
+use crate::{
+    coding,
+    config::Config,
+    network::{Mode, Network, TextProjection, matrix},
+    normaliser::{AR, Coded, LSFS, Normaliser, TAP_VALUES},
+    parameters::{Bound, Parameters, read},
+    progress::EpochLoss,
+    vae::decode,
+};
+use asperity::learned::description::LATENT;
+use asperity_corpus::{BINS, Instance, ORDER, TAP_SAMPLES, TAPS};
+use burn_tensor::{Device, Tensor};
+
+/// Rows that go through the network at once.
+const CHUNK: usize = 256;
+
+/// What an encoder is given of an instance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seen {
+    /// AR models and traces.
+    Both,
+    /// AR models alone.
+    Ar,
+    /// Traces alone.
+    Taps,
+}
+
+/// A Gaussian over the latent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gaussian {
+    /// μ.
+    pub mean: [f32; LATENT],
+    /// log σ².
+    pub log_variance: [f32; LATENT],
+}
+
+/// A training material in the latent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MaterialLatent {
+    /// Index into the corpus.
+    pub material: usize,
+    /// Mean of its instances' posterior means.
+    pub mean: [f32; LATENT],
+    /// Unit mean of its training captions.
+    pub caption: Vec<f32>,
+}
+
+/// A trained model.
+#[derive(Debug, Clone)]
+pub struct Trained {
+    pub(crate) config: Config,
+    pub(crate) network: Network,
+    pub(crate) parameters: Parameters,
+    pub(crate) normaliser: Normaliser,
+    pub(crate) projection: TextProjection,
+    pub(crate) projection_parameters: Parameters,
+    pub(crate) encoder: String,
+    pub(crate) width: usize,
+    pub(crate) materials: Vec<MaterialLatent>,
+    pub(crate) spread: [f32; LATENT],
+    pub(crate) history: Vec<EpochLoss>,
+    pub(crate) text_history: Vec<f32>,
+}
+
+impl Trained {
+    /// What it was trained with.
+    #[must_use]
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// Statistics and bounds of its training instances.
+    #[must_use]
+    pub fn normaliser(&self) -> &Normaliser {
+        &self.normaliser
+    }
+
+    /// The materials it was trained on, in the order they were given.
+    #[must_use]
+    pub fn materials(&self) -> &[MaterialLatent] {
+        &self.materials
+    }
+
+    /// Standard deviation of posterior means about the mean of their material.
+    #[must_use]
+    pub fn spread(&self) -> &[f32; LATENT] {
+        &self.spread
+    }
+
+    /// Losses of the first stage, an epoch each.
+    #[must_use]
+    pub fn history(&self) -> &[EpochLoss] {
+        &self.history
+    }
+
+    /// Losses of the text stage, an epoch each; empty without one.
+    #[must_use]
+    pub fn text_history(&self) -> &[f32] {
+        &self.text_history
+    }
+
+    /// Numbers in the network.
+    #[must_use]
+    pub fn parameter_count(&self) -> usize {
+        self.parameters.count()
+    }
+
+    /// Posteriors of instances, of which the encoders see what `seen` says.
+    #[must_use]
+    pub fn encode(&self, instances: &[&Instance], seen: Seen) -> Vec<Gaussian> {
+        let coding = self.normaliser.coding;
+        let mut coded = Coded::of(coding, instances.iter().copied());
+        self.normaliser.normalise(&mut coded);
+        self.encode_coded(&coded, seen)
+    }
+
+    pub(crate) fn encode_coded(&self, coded: &Coded, seen: Seen) -> Vec<Gaussian> {
+        posteriors(&self.network, &self.parameters, coded, seen)
+    }
+
+    /// The instances that latents decode to: ordered LSFs, levels and samples within
+    /// bounds, whatever the latents.
+    #[must_use]
+    pub fn decode(&self, latents: &[[f32; LATENT]]) -> Vec<Instance> {
+        let device = Device::flex();
+        let bound = self.parameters.bind(&device);
+        let mut instances = Vec::with_capacity(latents.len());
+        for chunk in latents.chunks(CHUNK) {
+            let z = matrix(chunk.concat(), LATENT, &device);
+            let (network, normaliser) = (&self.network, &self.normaliser);
+            let decoded = decode(network, &bound, normaliser, z, &mut Mode::Evaluate);
+            let (lsf_rad, excitation, taps) = (
+                numbers(decoded.lsf_rad),
+                numbers(decoded.excitation),
+                numbers(decoded.taps_m_s2),
+            );
+            for row in 0..chunk.len() {
+                instances.push(self.instance(
+                    &lsf_rad[row * LSFS..(row + 1) * LSFS],
+                    &excitation[row * BINS..(row + 1) * BINS],
+                    &taps[row * TAP_VALUES..(row + 1) * TAP_VALUES],
+                ));
+            }
+        }
+        instances
+    }
+
+    fn instance(&self, lsf_rad: &[f32], excitation: &[f32], taps: &[f32]) -> Instance {
+        let mut instance = Instance {
+            lsf_rad: [[0.0; ORDER]; BINS],
+            level_db: [0.0; BINS],
+            taps_m_s2: [[0.0; TAP_SAMPLES]; TAPS],
+        };
+        let (low, high) = self.normaliser.level_bounds_db;
+        for (bin, lsf_rad) in lsf_rad.chunks(ORDER).enumerate() {
+            instance.lsf_rad[bin].copy_from_slice(lsf_rad);
+            let coding = self.normaliser.coding.excitation;
+            let level_db = coding::decode(coding, lsf_rad, excitation[bin]);
+            instance.level_db[bin] = level_db.clamp(low, high);
+        }
+        for (trace, samples) in instance.taps_m_s2.iter_mut().zip(taps.chunks(TAP_SAMPLES)) {
+            trace.copy_from_slice(samples);
+        }
+        instance
+    }
+
+    /// The latents that text vectors project to.
+    #[must_use]
+    pub fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
+        let device = Device::flex();
+        let bound = self.projection_parameters.bind(&device);
+        let mut latents = Vec::with_capacity(vectors.len());
+        for chunk in vectors.chunks(CHUNK) {
+            let x = matrix(chunk.concat(), self.width, &device);
+            let z = self.projection.forward(&bound, x, &mut Mode::Evaluate);
+            latents.extend(rows(&numbers(z)));
+        }
+        latents
+    }
+}
+
+/// Posteriors of coded, normalised instances.
+pub(crate) fn posteriors(
+    network: &Network,
+    parameters: &Parameters,
+    coded: &Coded,
+    seen: Seen,
+) -> Vec<Gaussian> {
+    let device = Device::flex();
+    let bound = parameters.bind(&device);
+    let mut all = Vec::with_capacity(coded.len());
+    for (ar, taps) in coded.ar.chunks(CHUNK * AR).zip(coded.taps.chunks(CHUNK * TAP_VALUES)) {
+        all.extend(posterior_chunk(network, &bound, ar, taps, seen, &device));
+    }
+    all
+}
+
+fn posterior_chunk(
+    network: &Network,
+    bound: &Bound,
+    ar: &[f32],
+    taps: &[f32],
+    seen: Seen,
+    device: &Device,
+) -> Vec<Gaussian> {
+    let present = match seen {
+        Seen::Both => [1.0, 1.0],
+        Seen::Ar => [1.0, 0.0],
+        Seen::Taps => [0.0, 1.0],
+    };
+    let count = ar.len() / AR;
+    let posterior = network.encoder.forward(
+        bound,
+        matrix(ar.to_vec(), AR, device),
+        matrix(taps.to_vec(), TAP_VALUES, device),
+        matrix(present.repeat(count), 2, device),
+    );
+    let means = rows(&numbers(posterior.mean));
+    let log_variances = rows(&numbers(posterior.log_variance));
+    let pairs = means.into_iter().zip(log_variances);
+    pairs
+        .map(|(mean, log_variance)| Gaussian { mean, log_variance })
+        .collect()
+}
+
+/// Numbers of a tensor that was made of f32.
+fn numbers(tensor: Tensor<2>) -> Vec<f32> {
+    read(tensor).unwrap_or_default()
+}
+
+fn rows(values: &[f32]) -> Vec<[f32; LATENT]> {
+    values.as_chunks::<LATENT>().0.to_vec()
+}

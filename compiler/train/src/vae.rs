@@ -1,0 +1,223 @@
+//! The first stage: the whole network at once.
+
+use crate::{
+    adam::{Adam, Step},
+    batch::{Batch, Instances},
+    captions::Captions,
+    config::{Config, Loss},
+    error::FitError,
+    loss::{info_nce, smooth_l1},
+    network::{Decoded, Mode, Network, matrix},
+    normaliser::{AR, LSFS, Normaliser, TAP_VALUES},
+    parameters::{Bound, Parameters},
+    progress::EpochLoss,
+    rng::{Purpose, Stream},
+};
+use burn_tensor::{Device, Tensor};
+use std::f64::consts::PI;
+
+/// A run between two epochs: all there is to save.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct State {
+    /// What is learned.
+    pub(crate) parameters: Parameters,
+    /// The optimiser's memory.
+    pub(crate) adam: Adam,
+    /// Losses of the epochs done.
+    pub(crate) history: Vec<EpochLoss>,
+}
+
+/// What does not change during a run.
+pub(crate) struct Run<'a> {
+    pub(crate) config: &'a Config,
+    pub(crate) network: &'a Network,
+    pub(crate) normaliser: &'a Normaliser,
+    pub(crate) instances: &'a Instances,
+    pub(crate) captions: &'a Captions,
+}
+
+impl State {
+    /// Before the first epoch.
+    pub(crate) fn new(parameters: Parameters) -> Self {
+        Self {
+            adam: Adam::new(&parameters),
+            parameters,
+            history: Vec::new(),
+        }
+    }
+
+    /// One pass over the instances.
+    pub(crate) fn epoch(&mut self, run: &Run<'_>) -> Result<EpochLoss, FitError> {
+        let epoch = self.history.len();
+        let optimiser = &run.config.optimiser;
+        let device = Device::flex().autodiff();
+        let mut stream = Stream::new(run.config.seed, Purpose::Epoch, epoch);
+        let mut order: Vec<usize> = (0..run.instances.material.len()).collect();
+        stream.shuffle(&mut order);
+        let batches = batches(&order, optimiser.batch);
+        let kl = kl_weight(&run.config.loss, epoch);
+        let mut mean = EpochLoss::default();
+        for (index, chosen) in batches.iter().enumerate() {
+            let augmentation = &run.config.augmentation;
+            let batch =
+                Batch::draw(run.instances, run.captions, chosen, augmentation, &mut stream, &device);
+            let progress = (epoch as f64 + index as f64 / batches.len() as f64)
+                / optimiser.epochs as f64;
+            let step = Step {
+                learning_rate: learning_rate(
+                    optimiser.learning_rate,
+                    optimiser.final_learning_rate,
+                    progress,
+                ),
+                weight_decay: optimiser.weight_decay,
+                clip_norm: optimiser.clip_norm,
+            };
+            let loss = self.step(run, batch, kl, step, &mut stream);
+            if !loss.total.is_finite() {
+                return Err(FitError::Diverged {
+                    epoch: epoch + 1,
+                    loss: loss.total,
+                });
+            }
+            mean.add(loss, chosen.len() as f32 / order.len() as f32);
+        }
+        self.history.push(mean);
+        Ok(mean)
+    }
+
+    fn step(
+        &mut self,
+        run: &Run<'_>,
+        batch: Batch,
+        kl_weight: f64,
+        step: Step,
+        stream: &mut Stream,
+    ) -> EpochLoss {
+        let (network, weights) = (run.network, &run.config.loss);
+        let device = Device::flex().autodiff();
+        let bound = self.parameters.bind(&device);
+        let mut mode = Mode::Train(stream, run.config.network.dropout);
+        let (ar, taps) = (batch.ar, batch.taps);
+        let posterior =
+            network.encoder.forward(&bound, ar.clone(), taps.clone(), batch.present);
+        let z = posterior.sample(batch.epsilon);
+        let decoded = decode(network, &bound, run.normaliser, z.clone(), &mut mode);
+        let (said_ar, said_taps) = normalised(run.normaliser, decoded);
+        let ar = smooth_l1(said_ar, ar);
+        let taps = smooth_l1(said_taps, taps);
+        let kl = posterior.divergence();
+        let predicted = network.text.forward(&bound, batch.text, &mut Mode::Evaluate);
+        let (projected, statistics) = network.latent.forward(&bound, z, &mut mode);
+        let contrastive =
+            info_nce(projected, predicted.clone(), weights.temperature, &batch.pairing);
+        let alignment = (predicted - posterior.mean.clone()).square().mean();
+        let reconstruction = ar.clone() * weights.ar + taps.clone() * weights.taps;
+        let total = reconstruction * weights.reconstruction
+            + kl.clone() * kl_weight
+            + contrastive.clone() * weights.contrastive
+            + alignment.clone() * weights.alignment;
+        let gradients = bound.gradients(total.backward());
+        self.adam.step(&mut self.parameters, &gradients, step);
+        network.latent.observe(&mut self.parameters, statistics);
+        let value = |term: Tensor<1>| term.inner().into_scalar();
+        EpochLoss {
+            total: value(total),
+            ar: value(ar),
+            taps: value(taps),
+            kl: value(kl),
+            contrastive: value(contrastive),
+            alignment: value(alignment),
+        }
+    }
+}
+
+/// Both decoders.
+pub(crate) fn decode(
+    network: &Network,
+    bound: &Bound,
+    normaliser: &Normaliser,
+    z: Tensor<2>,
+    mode: &mut Mode<'_>,
+) -> Decoded {
+    let (lsf_rad, excitation) = network.ar_decoder.forward(bound, normaliser, z.clone(), mode);
+    Decoded {
+        lsf_rad,
+        excitation,
+        taps_m_s2: network.tap_decoder.forward(bound, normaliser, z, mode),
+    }
+}
+
+/// [B, 396] and [B, 1300], as the encoders see them.
+fn normalised(normaliser: &Normaliser, decoded: Decoded) -> (Tensor<2>, Tensor<2>) {
+    let device = decoded.taps_m_s2.device();
+    let row = |values: &[f32]| matrix(values.to_vec(), values.len(), &device);
+    let ar = Tensor::cat(vec![decoded.lsf_rad, decoded.excitation], 1);
+    debug_assert_eq!(ar.dims()[1], AR);
+    debug_assert_eq!(decoded.taps_m_s2.dims()[1], TAP_VALUES);
+    debug_assert_eq!(normaliser.ar_mean.len(), LSFS + asperity_corpus::BINS);
+    (
+        (ar - row(&normaliser.ar_mean)) / row(&normaliser.ar_deviation),
+        (decoded.taps_m_s2 - row(&normaliser.tap_mean)) / row(&normaliser.tap_deviation),
+    )
+}
+
+/// Batches of `size`; a last one of a single instance joins its predecessor, since
+/// one row has no batch statistics.
+fn batches(order: &[usize], size: usize) -> Vec<&[usize]> {
+    let mut batches: Vec<&[usize]> = order.chunks(size).collect();
+    if batches.len() > 1 && batches.last().is_some_and(|last| last.len() == 1) {
+        batches.pop();
+        let start = (batches.len() - 1) * size;
+        if let Some(last) = batches.last_mut() {
+            *last = &order[start..];
+        }
+    }
+    batches
+}
+
+/// β in an epoch, counted from 0.
+fn kl_weight(loss: &Loss, epoch: usize) -> f64 {
+    let (from, to) = (loss.kl_from_epoch, loss.kl_to_epoch);
+    if epoch >= to {
+        loss.kl
+    } else {
+        let done = epoch.saturating_sub(from) as f64 / (to - from).max(1) as f64;
+        loss.kl * done
+    }
+}
+
+/// Step size when this share of a run is done: constant, or half a cosine.
+pub(crate) fn learning_rate(start: f64, end: Option<f64>, done: f64) -> f64 {
+    end.map_or(start, |end| {
+        end + 0.5 * (start - end) * (1.0 + libm::cos(PI * done))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_divergence_fades_in_as_in_the_paper() {
+        let loss = Config::paper().unwrap().loss;
+        let beta = |epoch| kl_weight(&loss, epoch);
+        assert_eq!((beta(0), beta(20), beta(120), beta(199)), (0.0, 0.0, 0.001, 0.001));
+        assert!((beta(70) - 0.0005).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_cosine_ends_where_it_should() {
+        assert_eq!(learning_rate(1e-3, Some(1e-5), 0.0), 1e-3);
+        assert!((learning_rate(1e-3, Some(1e-5), 1.0) - 1e-5).abs() < 1e-15);
+        assert_eq!(learning_rate(1e-4, None, 0.5), 1e-4);
+    }
+
+    #[test]
+    fn no_batch_has_a_single_row() {
+        let order: Vec<usize> = (0..9).collect();
+        let sizes = |size| batches(&order, size).iter().map(|b| b.len()).collect::<Vec<_>>();
+        assert_eq!(sizes(4), [4, 5]);
+        assert_eq!(sizes(5), [5, 4]);
+        assert_eq!(sizes(20), [9]);
+    }
+}

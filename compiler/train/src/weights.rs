@@ -1,0 +1,122 @@
+//! Named matrices as safetensors.
+
+use crate::{
+    parameters::{Parameter, Parameters},
+    trained::Trained,
+};
+use safetensors::{Dtype, SafeTensors, View};
+use std::{borrow::Cow, collections::HashMap};
+
+/// Key of the one entry of a file's metadata.
+const NOTE: &str = "asperity";
+
+/// A matrix on its way into a file.
+pub(crate) struct Table {
+    shape: [usize; 2],
+    bytes: Vec<u8>,
+}
+
+impl Table {
+    /// Rows of `columns` numbers.
+    pub(crate) fn new(values: &[f32], columns: usize) -> Self {
+        Self {
+            shape: [values.len() / columns.max(1), columns],
+            bytes: values.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        }
+    }
+}
+
+impl View for &Table {
+    fn dtype(&self) -> Dtype {
+        Dtype::F32
+    }
+    fn shape(&self) -> &[usize] {
+        &self.shape
+    }
+    fn data(&self) -> Cow<'_, [u8]> {
+        Cow::Borrowed(&self.bytes)
+    }
+    fn data_len(&self) -> usize {
+        self.bytes.len()
+    }
+}
+
+/// The bytes of a file of named tables with a note.
+pub(crate) fn write(tables: &[(String, Table)], note: &str) -> Result<Vec<u8>, String> {
+    let views = tables.iter().map(|(name, table)| (name.as_str(), table));
+    let metadata = HashMap::from([(NOTE.to_owned(), note.to_owned())]);
+    safetensors::serialize(views, Some(metadata)).map_err(|e| e.to_string())
+}
+
+/// Tables by name, and the note.
+pub(crate) struct Read {
+    tables: HashMap<String, Vec<f32>>,
+    pub(crate) note: String,
+}
+
+impl Read {
+    /// Reads a file of f32.
+    pub(crate) fn new(bytes: &[u8]) -> Result<Self, String> {
+        let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|e| e.to_string())?;
+        let note = metadata.metadata().as_ref().and_then(|m| m.get(NOTE)).cloned();
+        let file = SafeTensors::deserialize(bytes).map_err(|e| e.to_string())?;
+        let mut tables = HashMap::new();
+        for (name, view) in file.tensors() {
+            if view.dtype() != Dtype::F32 {
+                return Err(format!("{name}: {:?}, expected F32", view.dtype()));
+            }
+            let (numbers, _) = view.data().as_chunks::<4>();
+            let values = numbers.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+            tables.insert(name, values);
+        }
+        Ok(Self {
+            tables,
+            note: note.ok_or("not written by asperity-train")?,
+        })
+    }
+
+    /// Takes a table that must have this many numbers.
+    pub(crate) fn take(&mut self, name: &str, count: usize) -> Result<Vec<f32>, String> {
+        let values = self.take_any(name)?;
+        if values.len() == count {
+            Ok(values)
+        } else {
+            Err(format!("{name}: {} numbers, expected {count}", values.len()))
+        }
+    }
+
+    /// Takes a table of any size.
+    pub(crate) fn take_any(&mut self, name: &str) -> Result<Vec<f32>, String> {
+        self.tables.remove(name).ok_or_else(|| format!("{name}: missing"))
+    }
+}
+
+/// `weights.safetensors` of a model: parameters as the optimiser left them, those of the
+/// text projection as the graph has them, and the statistics of the normaliser.
+pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
+    let table = |p: &Parameter| (p.name.clone(), Table::new(&p.values, p.columns));
+    let is_text = |p: &&Parameter| p.name.starts_with("text.");
+    let own = trained.parameters.iter().filter(|p| !is_text(p)).map(table);
+    let text = trained.projection_parameters.iter().filter(is_text).map(table);
+    let normaliser = &trained.normaliser;
+    let statistics = [
+        ("ar_mean", &normaliser.ar_mean),
+        ("ar_deviation", &normaliser.ar_deviation),
+        ("tap_mean", &normaliser.tap_mean),
+        ("tap_deviation", &normaliser.tap_deviation),
+        ("tap_bound", &normaliser.tap_bound),
+    ]
+    .map(|(name, values)| (format!("normaliser.{name}"), Table::new(values, values.len())));
+    let (low, high) = normaliser.excitation_bounds;
+    let bounds = ("normaliser.excitation_bounds".to_owned(), Table::new(&[low, high], 2));
+    let tables: Vec<_> = own.chain(text).chain(statistics).chain([bounds]).collect();
+    write(&tables, "weights; matrices are inputs × outputs")
+}
+
+/// The tables of parameters under a prefix.
+pub(crate) fn tables(prefix: &str, parameters: &Parameters) -> Vec<(String, Table)> {
+    let named = |p: &Parameter| {
+        (format!("{prefix}.{}", p.name), Table::new(&p.values, p.columns))
+    };
+    parameters.iter().map(named).collect()
+}
