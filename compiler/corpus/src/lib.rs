@@ -9,6 +9,7 @@ pub mod augment;
 mod error;
 pub mod generator;
 mod grid;
+pub mod hatt;
 mod material;
 pub mod reference;
 pub mod statistics;

@@ -10,8 +10,10 @@ use std::{
 };
 use thiserror::Error;
 
-const PAPER: &str = include_str!("../configs/paper.toml");
-const REFERENCE: &str = include_str!("../configs/reference.toml");
+/// `configs/paper.toml`.
+pub const PAPER: &str = include_str!("../configs/paper.toml");
+/// `configs/reference.toml`.
+pub const REFERENCE: &str = include_str!("../configs/reference.toml");
 
 /// A training run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -3,6 +3,7 @@
 use crate::{
     batch::Instances,
     captions::Captions,
+    checkpoint::{self, Identity},
     config::Config,
     error::FitError,
     network::Network,
@@ -15,7 +16,8 @@ use crate::{
     vae::{Run, State},
 };
 use asperity::{learned::description::LATENT, text::TextEncoder};
-use asperity_corpus::{Corpus, reference::LexiconEntry};
+use asperity_corpus::{Corpus, Rating, reference::LexiconEntry};
+use std::path::Path;
 
 /// Trains on a whole corpus, encoding its texts first.
 ///
@@ -56,6 +58,65 @@ pub fn fit_on(
     Ok(session.finish(progress))
 }
 
+/// Where a run keeps its state.
+#[derive(Debug, Clone, Copy)]
+pub struct Checkpoints<'a> {
+    /// The file.
+    pub path: &'a Path,
+    /// Epochs between two savings.
+    pub every: usize,
+    /// Whether to go on from the file, which must then be there.
+    pub resume: bool,
+}
+
+/// As [`fit_on`], with its state on disk: an interrupt saves it, and what goes on from
+/// there ends in the same model.
+///
+/// # Errors
+/// [`FitError`]; [`FitError::Checkpoint`] for a file of another run.
+pub fn fit_with_checkpoints(
+    corpus: &Corpus,
+    materials: &[usize],
+    captions: &Captions,
+    config: &Config,
+    checkpoints: Checkpoints<'_>,
+    progress: &mut dyn Progress,
+) -> Result<Trained, FitError> {
+    let identity = Identity::new(corpus, materials, captions, config);
+    let mut session = Session::new(corpus, materials, captions, config)?;
+    if checkpoints.resume {
+        checkpoint::load(checkpoints.path, &identity, &mut session.state)?;
+    }
+    while !session.is_done() {
+        session.epoch(progress)?;
+        let epoch = session.state.history.len();
+        let stop = progress.interrupted();
+        if stop || session.is_done() || epoch.is_multiple_of(checkpoints.every.max(1)) {
+            checkpoint::save(checkpoints.path, &identity, &session.state)?;
+        }
+        if stop {
+            return Err(FitError::Interrupted { epoch });
+        }
+    }
+    Ok(session.finish(progress))
+}
+
+/// Runs `work` on a pool of so many threads, all that the trainer uses.
+///
+/// # Errors
+/// [`FitError::Threads`] when the system refuses them.
+pub fn on_threads<T: Send>(
+    threads: usize,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, FitError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| FitError::Threads {
+        threads,
+        message: error.to_string(),
+    })?;
+    Ok(pool.install(work))
+}
+
 /// A run under way.
 pub(crate) struct Session<'a> {
     config: &'a Config,
@@ -64,7 +125,7 @@ pub(crate) struct Session<'a> {
     normaliser: Normaliser,
     network: Network,
     instances: Instances,
-    ratings: Vec<Option<asperity_corpus::Rating>>,
+    ratings: Vec<Option<Rating>>,
     pub(crate) state: State,
 }
 

@@ -34,7 +34,7 @@ pub use captions::Captions;
 pub use config::Config;
 pub use error::FitError;
 pub use export::{ExportError, ModelFiles, certainty_curve, export};
-pub use fit::{fit, fit_on};
+pub use fit::{Checkpoints, fit, fit_on, fit_with_checkpoints, on_threads};
 pub use metrics::{Metrics, Retrieval, measure};
 pub use normaliser::Normaliser;
 pub use progress::{EpochLoss, Progress, Silent};

@@ -93,9 +93,10 @@ impl Bound {
     /// The gradients in the order of the parameters; `None` where the loss does not
     /// depend on one.
     pub(crate) fn gradients(self, mut gradients: Gradients) -> Vec<Option<Vec<f32>>> {
-        let values = |tensor: &Tensor<2>| read(tensor.grad_remove(&mut gradients)?);
-        let mut values = values;
-        self.0.iter().map(&mut values).collect()
+        let tensors = self.0.iter();
+        tensors
+            .map(|tensor| read(tensor.grad_remove(&mut gradients)?))
+            .collect()
     }
 }
 

@@ -3,7 +3,7 @@
 use asperity::text::{Encoded, TextEncoder, TextError};
 use asperity_corpus::{
     BINS, Caption, Corpus, Focus, Instance, Material, ORDER, Rating, TAP_SAMPLES, TAPS,
-    UnifiedGrid,
+    UnifiedGrid, reference::LexiconEntry,
 };
 
 use crate::rng::{Purpose, Stream};
@@ -112,4 +112,18 @@ impl TextEncoder for WordBag {
             cut: 0,
         })
     }
+}
+
+/// Phrases of words the captions use.
+pub(crate) fn lexicon() -> Vec<LexiconEntry> {
+    (0..6_u8)
+        .map(|level| LexiconEntry {
+            text: format!("rough{level} hard{}", 5 - level),
+            rating: Rating {
+                rough: f64::from(level) * 20.0,
+                slippery: 100.0 - f64::from(level) * 20.0,
+                hard: 100.0 - f64::from(level) * 20.0,
+            },
+        })
+        .collect()
 }

@@ -8,7 +8,7 @@ use crate::{
     error::FitError,
     loss::{info_nce, smooth_l1},
     network::{Decoded, Mode, Network, matrix},
-    normaliser::{AR, LSFS, Normaliser, TAP_VALUES},
+    normaliser::Normaliser,
     parameters::{Bound, Parameters},
     progress::EpochLoss,
     rng::{Purpose, Stream},
@@ -152,9 +152,6 @@ fn normalised(normaliser: &Normaliser, decoded: Decoded) -> (Tensor<2>, Tensor<2
     let device = decoded.taps_m_s2.device();
     let row = |values: &[f32]| matrix(values.to_vec(), values.len(), &device);
     let ar = Tensor::cat(vec![decoded.lsf_rad, decoded.excitation], 1);
-    debug_assert_eq!(ar.dims()[1], AR);
-    debug_assert_eq!(decoded.taps_m_s2.dims()[1], TAP_VALUES);
-    debug_assert_eq!(normaliser.ar_mean.len(), LSFS + asperity_corpus::BINS);
     (
         (ar - row(&normaliser.ar_mean)) / row(&normaliser.ar_deviation),
         (decoded.taps_m_s2 - row(&normaliser.tap_mean)) / row(&normaliser.tap_deviation),

@@ -15,7 +15,7 @@ mod projection;
 pub(crate) use decoder::{
     ArDecoder, Decoded, GAPS, TapDecoder, Trunk, gap_matrix, gap_offsets,
 };
-pub(crate) use encoder::{Encoder, LOG_VARIANCE_BOUND, Posterior};
+pub(crate) use encoder::{Encoder, LOG_VARIANCE_BOUND};
 pub(crate) use projection::{LatentProjection, TextProjection, unit_rows};
 
 use crate::{

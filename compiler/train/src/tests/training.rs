@@ -1,8 +1,8 @@
 //! What a run promises.
 
 use crate::{
-    Captions, Config, FitError, Progress, Seen, Silent, Trained, captions::cosine, fit_on,
-    progress::EpochLoss, rng::{Purpose, Stream}, synthetic::{self, WordBag},
+    Captions, Config, FitError, Seen, Silent, Trained, captions::cosine, fit_on,
+    rng::{Purpose, Stream}, synthetic::{self, WordBag},
 };
 use asperity::learned::description::LATENT;
 
@@ -123,22 +123,3 @@ fn a_corpus_that_cannot_be_trained_on_is_refused_by_name() {
     assert!(fault.to_string().contains("material 1") && fault.to_string().contains("level_db"));
 }
 
-struct StopAfter(usize, usize);
-
-impl Progress for StopAfter {
-    fn epoch(&mut self, epoch: usize, _: usize, _: &EpochLoss) {
-        self.1 = epoch;
-    }
-    fn text_epoch(&mut self, _: usize, _: usize, _: f32) {}
-    fn interrupted(&self) -> bool {
-        self.1 >= self.0
-    }
-}
-
-#[test]
-fn an_interrupt_stops_after_the_epoch() {
-    let corpus = synthetic::corpus(3, 2);
-    let captions = Captions::encode(&corpus, &[], &WordBag).unwrap();
-    let result = fit_on(&corpus, &[0, 1, 2], &captions, &small(), &mut StopAfter(2, 0));
-    assert!(matches!(result, Err(FitError::Interrupted { epoch: 2 })));
-}

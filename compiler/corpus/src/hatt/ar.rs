@@ -1,0 +1,58 @@
+//! An ARMA model of HaTT to AR(21) under the fixed numerator 1 + z⁻¹.
+
+use crate::{
+    ORDER,
+    generator::{self, transfer::POINTS},
+};
+use asperity::{hatt::SourceModel, lsf, spectrum::squared_magnitude};
+use std::f64::consts::PI;
+
+/// |1 + e^{−jω}|² is divided out down to this much, 4 being its peak: where a source has
+/// no zero at Nyquist, poles would else crowd there. A tenth of it halves the smallest
+/// gap between LSFs for a hundredth of a decibel below 450 Hz.
+const NYQUIST_FLOOR: f64 = 1e-4;
+
+/// A model of the corpus at its place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sounding {
+    /// Tangential speed, mm/s, positive.
+    pub speed_mm_s: f64,
+    /// Normal force, N, positive.
+    pub force_n: f64,
+    /// LSFs, rad at the rate of the source, ascending.
+    pub lsf_rad: [f64; ORDER],
+    /// RMS over all frequencies, dB re 1 m/s².
+    pub level_db: f64,
+}
+
+/// Whether a model sounds: an edge model at rest or without touch does not.
+pub(super) fn sounds(model: &SourceModel) -> bool {
+    model.variance > 0.0 && model.speed_mm_s > 0.0 && model.force_n > 0.0
+}
+
+/// The autocorrelation of the spectrum without the zero at Nyquist, and Levinson's
+/// recursion on it; the level is that of the source. `None` where doubles do not
+/// suffice for ordered LSFs.
+pub(super) fn convert(model: &SourceModel) -> Option<Sounding> {
+    let mut mean = 0.0;
+    let mut shape: [f64; POINTS] = std::array::from_fn(|point| {
+        let omega = (point as f64 + 0.5) * PI / POINTS as f64;
+        let power =
+            squared_magnitude(&model.ma.monic, omega) / squared_magnitude(&model.ar.monic, omega);
+        mean += power / POINTS as f64;
+        let zero = 2.0 + 2.0 * libm::cos(omega);
+        power / zero.max(NYQUIST_FLOOR)
+    });
+    for power in &mut shape {
+        *power /= mean;
+    }
+    let lsf_rad = generator::ar::lsf(&shape).map(f64::from);
+    let sigma = model.gain * model.variance.sqrt();
+    let level_db = 20.0 * libm::log10(sigma) + 10.0 * libm::log10(mean);
+    (lsf::is_ordered(&lsf_rad) && level_db.is_finite()).then_some(Sounding {
+        speed_mm_s: model.speed_mm_s,
+        force_n: model.force_n,
+        lsf_rad,
+        level_db,
+    })
+}

@@ -1,0 +1,100 @@
+//! Why a folder of HaTT models is no corpus.
+
+use crate::{BINS, CorpusError, SAMPLE_RATE_HZ};
+use asperity::{
+    diagnostic::Diagnostic,
+    hatt::{HattError, Problem},
+};
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Names printed at once; the rest is counted.
+const SHOWN: usize = 10;
+
+/// Why a folder of HaTT models is no corpus.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum HattCorpusError {
+    /// The folder or a file of it was refused.
+    #[error(transparent)]
+    Source(#[from] HattError),
+    /// Materials that we wrote no captions for.
+    #[error("no captions for {}", listed(unknown))]
+    NoCaptions {
+        /// Files with the names they state.
+        unknown: Vec<(PathBuf, String)>,
+    },
+    /// Models at another rate than the corpus: a change of rate is a conversion.
+    #[error("{}: SampleRate = {found}, must be {SAMPLE_RATE_HZ} Hz", file.display())]
+    SampleRate {
+        /// The file.
+        file: PathBuf,
+        /// The rate, Hz.
+        found: f64,
+    },
+    /// A model whose spectrum has no all-pole form in doubles.
+    #[error("{}: model {model} has no ordered LSFs at order {}", file.display(), crate::ORDER)]
+    Unconvertible {
+        /// The file.
+        file: PathBuf,
+        /// Number of the model, 1-based as in the file.
+        model: usize,
+    },
+    /// A material whose models all lie on the border or are silent.
+    #[error("{}: no sounding model inside the grid", file.display())]
+    Silent {
+        /// The file.
+        file: PathBuf,
+    },
+    /// Fewer places on the speed–force plane than bins.
+    #[error("{}: {found} places of sounding models, at least {BINS} wanted", folder.display())]
+    TooFewSamples {
+        /// The folder.
+        folder: PathBuf,
+        /// Places found.
+        found: usize,
+    },
+    /// A share of foreign taps that is none.
+    #[error("tap_mixing = {found}, must be 0 to 1")]
+    TapMixing {
+        /// The value.
+        found: f64,
+    },
+}
+
+fn listed(unknown: &[(PathBuf, String)]) -> String {
+    let mut names: Vec<String> = unknown
+        .iter()
+        .take(SHOWN)
+        .map(|(file, name)| format!("material {name:?} of {}", file.display()))
+        .collect();
+    if unknown.len() > SHOWN {
+        names.push(format!("{} more", unknown.len() - SHOWN));
+    }
+    names.join(", ")
+}
+
+impl Diagnostic for HattCorpusError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Source(error) => match error.problem {
+                Problem::SameMaterial { .. } => "keep one of the two files".into(),
+                _ => error.remedy(),
+            },
+            Self::NoCaptions { .. } => {
+                "take the file out, or add captions to compiler/corpora/hatt/captions.toml".into()
+            }
+            Self::SampleRate { .. } | Self::Unconvertible { .. } | Self::Silent { .. } => {
+                "fetch the file again from HaTT, or take it out of the folder".into()
+            }
+            Self::TooFewSamples { .. } => "give a folder of more materials".into(),
+            Self::TapMixing { .. } => "the paper mixes 0.05".into(),
+        }
+    }
+}
+
+impl From<HattCorpusError> for CorpusError {
+    fn from(error: HattCorpusError) -> Self {
+        Self::Hatt(format!("{error} ({})", error.remedy()))
+    }
+}

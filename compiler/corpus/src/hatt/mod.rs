@@ -1,0 +1,230 @@
+//! A user's own folder of HaTT models as a corpus, after the paper.
+//!
+//! 1. [`source`]: every sounding model of every file, from ARMA to AR(21) under
+//!    1 + z⁻¹ ([`ar`]), with its level.
+//! 2. [`bins`]: the measured places of all materials, clustered by [`kmeans`] into the
+//!    bins of one grid.
+//! 3. [`pool`]: per material and bin the models to draw from, on what its [`own`] grid
+//!    says between them.
+//! 4. [`tap`]: HaTT has none; they are synthesised from the hardness in our
+//!    [`captions`].
+//!
+//! Models on the border of a material's rectangle are no measurements but extensions
+//! of the source: those at rest or without touch are silent and left out; the others
+//! serve as corners of triangles alone, neither clustered nor counted as samples.
+//!
+//! HaTT's licence forbids to pass it on: a model that is trained on such a corpus
+//! stays with whoever trained it.
+
+mod ar;
+mod bins;
+mod captions;
+mod error;
+mod kmeans;
+mod own;
+mod pool;
+mod source;
+mod tap;
+#[cfg(test)]
+mod tests;
+
+pub use error::HattCorpusError;
+
+use crate::{
+    BINS, Bin, Corpus, CorpusError, Instance, Material,
+    augment::{self, Draws},
+    generator,
+};
+use bins::Bins;
+use captions::Captioned;
+use pool::Pool;
+use rayon::prelude::*;
+use source::Source;
+use std::{collections::BTreeSet, path::PathBuf};
+
+/// What to load and how to augment it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HattOptions {
+    /// The folder of `Models_<name>.xml`.
+    pub folder: PathBuf,
+    /// Augmented instances a material (paper: 20).
+    pub instances: usize,
+    /// Number of the first instance: an instance depends on the seed and its number
+    /// alone, so 20 after the first 20 are others of the same kind, unseen by whoever
+    /// trained on those.
+    pub first_instance: usize,
+    /// Seed of the augmentation; the grid does not depend on it.
+    pub seed: u64,
+    /// Share of another material's taps, 0–1 (paper: 0.05).
+    pub tap_mixing: f64,
+    /// Seed of the clustering.
+    pub cluster_seed: u64,
+    /// Starts of the clustering, of which the best counts.
+    pub cluster_restarts: usize,
+}
+
+impl HattOptions {
+    /// The paper's augmentation of a folder.
+    #[must_use]
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        Self {
+            folder: folder.into(),
+            instances: 20,
+            first_instance: 0,
+            seed: 1,
+            tap_mixing: 0.05,
+            cluster_seed: 1,
+            cluster_restarts: 32,
+        }
+    }
+}
+
+/// Loads, converts, clusters and augments a folder. The same files and options give
+/// the same corpus, whatever the thread count.
+///
+/// # Errors
+/// [`CorpusError::Hatt`] for a folder or file that is refused, a material without
+/// captions, or too few samples; it names the file.
+pub fn load(options: &HattOptions) -> Result<Corpus, CorpusError> {
+    let share = options.tap_mixing;
+    if !(0.0..=1.0).contains(&share) {
+        return Err(HattCorpusError::TapMixing { found: share }.into());
+    }
+    let sources = source::read(&options.folder)?;
+    let described = described(sources)?;
+    let bins = clustered(options, &described)?;
+    let unaugmented: Vec<(Pool, Instance)> = described
+        .par_iter()
+        .map(|material| {
+            let pool = Pool::of(&material.source.own, &bins);
+            let (lsf_rad, level_db) = pool.mean();
+            let taps_m_s2 = tap::bank(&material.surface);
+            (
+                pool,
+                Instance {
+                    lsf_rad,
+                    level_db,
+                    taps_m_s2,
+                },
+            )
+        })
+        .collect();
+    let crc32 = checksum(&described);
+    let (pools, prototypes): (Vec<Pool>, Vec<Instance>) = unaugmented.into_iter().unzip();
+    let materials = described
+        .into_par_iter()
+        .enumerate()
+        .map(|(index, material)| Material {
+            instances: (0..options.instances)
+                .map(|number| {
+                    let number = options.first_instance + number;
+                    let mut draws = Draws::new(options.seed, index, number);
+                    let (lsf_rad, level_db) = pools[index].drawn(&mut draws);
+                    let taps_m_s2 = prototypes[index].taps_m_s2;
+                    let mut instance = Instance {
+                        lsf_rad,
+                        level_db,
+                        taps_m_s2,
+                    };
+                    augment::mix_taps(&mut instance, &prototypes, index, share, &mut draws);
+                    instance
+                })
+                .collect(),
+            prototype: prototypes[index].clone(),
+            name: material.source.name,
+            family: material.captioned.family,
+            training: material.captioned.training,
+            held_out: material.captioned.held_out,
+            rating: None,
+            mu: material.source.mu,
+            stiffness_n_m: generator::wall_stiffness_n_m(&material.surface),
+        })
+        .collect();
+    Ok(Corpus {
+        name: "hatt".into(),
+        licence: "Penn Haptic Texture Toolkit: non-profit research only, no redistribution \
+                  (captions: MIT OR Apache-2.0)"
+            .into(),
+        crc32,
+        grid: bins.grid,
+        tap_speeds_m_s: generator::tap_speeds_m_s(),
+        taps_synthetic: true,
+        materials,
+    })
+}
+
+/// A material with what we say of it.
+struct Described {
+    source: Source,
+    captioned: Captioned,
+    surface: generator::Physical,
+}
+
+fn described(sources: Vec<Source>) -> Result<Vec<Described>, CorpusError> {
+    let mut captions = captions::all()?;
+    let (mut described, mut unknown) = (Vec::new(), Vec::new());
+    for source in sources {
+        let found = captions.remove(&source.name).and_then(|captioned| {
+            let surface = tap::surface(captioned.hard, &captioned.family, source.mu)?;
+            Some((captioned, surface))
+        });
+        match found {
+            Some((captioned, surface)) => {
+                described.push(Described {
+                    source,
+                    captioned,
+                    surface,
+                });
+            }
+            None => unknown.push((source.file, source.name)),
+        }
+    }
+    if !unknown.is_empty() {
+        return Err(HattCorpusError::NoCaptions { unknown }.into());
+    }
+    Ok(described)
+}
+
+fn clustered(options: &HattOptions, described: &[Described]) -> Result<Bins, HattCorpusError> {
+    let samples: Vec<Bin> = described
+        .iter()
+        .flat_map(|material| material.source.own.samples())
+        .map(|model| Bin {
+            speed_mm_s: model.speed_mm_s,
+            force_n: model.force_n,
+        })
+        .collect();
+    let places: BTreeSet<(u64, u64)> = samples
+        .iter()
+        .map(|s| (s.speed_mm_s.to_bits(), s.force_n.to_bits()))
+        .collect();
+    if places.len() < BINS {
+        return Err(HattCorpusError::TooFewSamples {
+            folder: options.folder.clone(),
+            found: places.len(),
+        });
+    }
+    Ok(Bins::of(
+        &samples,
+        options.cluster_restarts,
+        options.cluster_seed,
+    ))
+}
+
+/// Over file names, files and captions.
+fn checksum(described: &[Described]) -> u32 {
+    let crc = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+    let mut digest = crc.digest();
+    for Described { source, .. } in described {
+        digest.update(
+            source
+                .file
+                .file_name()
+                .unwrap_or_default()
+                .as_encoded_bytes(),
+        );
+        digest.update(&source.bytes);
+    }
+    digest.update(captions::EMBEDDED.as_bytes());
+    digest.finalize()
+}

@@ -1,0 +1,122 @@
+//! Reading a folder: every file parsed, every sounding model converted.
+
+use super::{
+    ar::{self, Sounding},
+    error::HattCorpusError,
+    own::OwnGrid,
+};
+use crate::SAMPLE_RATE_HZ;
+use asperity::hatt::{self, HattError, Problem};
+use rayon::prelude::*;
+use std::{
+    collections::HashMap,
+    fs::File,
+    io::Read,
+    path::{Path, PathBuf},
+};
+
+/// Largest file accepted; HaTT materials take about 0.2 MB.
+const MAX_BYTES: u64 = 16 * 1024 * 1024;
+
+/// A material as its file states it, in the models of the corpus.
+#[derive(Debug)]
+pub(super) struct Source {
+    pub file: PathBuf,
+    pub bytes: Vec<u8>,
+    pub name: String,
+    pub mu: f64,
+    pub own: OwnGrid,
+}
+
+/// All materials of a folder, in order of file name.
+pub(super) fn read(folder: &Path) -> Result<Vec<Source>, HattCorpusError> {
+    let files = hatt::files(folder)?;
+    let results: Vec<_> = files.par_iter().map(|file| read_file(file)).collect();
+    // The first fault in order of name, whatever the thread count.
+    let sources = results.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut first_with: HashMap<&str, &Path> = HashMap::new();
+    for source in &sources {
+        if let Some(other) = first_with.insert(&source.name, &source.file) {
+            let problem = Problem::SameMaterial {
+                name: source.name.clone(),
+                other: other.display().to_string(),
+            };
+            return Err(fail(&source.file, problem).into());
+        }
+    }
+    Ok(sources)
+}
+
+fn read_file(file: &Path) -> Result<Source, HattCorpusError> {
+    let bytes = bytes(file)?;
+    let material = hatt::parse(file, &bytes)?;
+    if material.sample_rate_hz != SAMPLE_RATE_HZ {
+        return Err(HattCorpusError::SampleRate {
+            file: file.to_owned(),
+            found: material.sample_rate_hz,
+        });
+    }
+    let models = material
+        .models
+        .iter()
+        .enumerate()
+        .map(
+            |(index, model)| -> Result<Option<Sounding>, HattCorpusError> {
+                if !ar::sounds(model) {
+                    return Ok(None);
+                }
+                let converted = ar::convert(model);
+                converted.map(Some).ok_or(HattCorpusError::Unconvertible {
+                    file: file.to_owned(),
+                    model: index + 1,
+                })
+            },
+        )
+        .collect::<Result<_, _>>()?;
+    let own = OwnGrid {
+        models,
+        places: material
+            .models
+            .iter()
+            .map(|m| (m.speed_mm_s, m.force_n))
+            .collect(),
+        triangles: material.triangles,
+        corner: (material.max_speed_mm_s, material.max_force_n),
+    };
+    if own.samples().next().is_none() {
+        return Err(HattCorpusError::Silent {
+            file: file.to_owned(),
+        });
+    }
+    Ok(Source {
+        file: file.to_owned(),
+        bytes,
+        name: material.name,
+        mu: material.mu,
+        own,
+    })
+}
+
+/// The bytes of a file, bounded.
+fn bytes(file: &Path) -> Result<Vec<u8>, HattError> {
+    let mut bytes = Vec::new();
+    File::open(file)
+        .and_then(|handle| handle.take(MAX_BYTES + 1).read_to_end(&mut bytes))
+        .map_err(|error| fail(file, Problem::Unreadable(error)))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        let problem = Problem::TooLarge {
+            bytes: bytes.len() as u64,
+            limit: MAX_BYTES,
+        };
+        return Err(fail(file, problem));
+    }
+    Ok(bytes)
+}
+
+fn fail(file: &Path, problem: Problem) -> HattError {
+    HattError {
+        file: file.to_owned(),
+        line: None,
+        problem,
+    }
+}
