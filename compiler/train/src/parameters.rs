@@ -102,7 +102,7 @@ impl Bound {
 
 /// The numbers of a tensor of f32, row by row; `None` for another type.
 pub(crate) fn read<const D: usize>(tensor: Tensor<D>) -> Option<Vec<f32>> {
-    tensor.into_data().into_vec::<f32>().ok()
+    tensor.into_data().try_into_vec::<f32>().ok()
 }
 
 /// An affine layer `x·W + b`.

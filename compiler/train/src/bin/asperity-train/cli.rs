@@ -1,0 +1,85 @@
+//! What can be typed.
+
+use asperity::{inference::BackendName, text::TextEncoderChoice};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::{num::NonZeroUsize, path::PathBuf};
+
+/// Trains the learned texture model.
+#[derive(Debug, Parser)]
+#[command(version, max_term_width = 100)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Train on a corpus and write a model folder
+    Fit(Fit),
+    /// Print a recipe, to start one's own from
+    Config(Config),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  asperity-train fit -o model
+  asperity-train fit -o model --resume
+  asperity-train fit --config paper --hatt ~/HaTT/Models -o hatt-model
+  asperity-train fit --config mine.toml --text-encoder clip:./clip -o clip-model")]
+pub(crate) struct Fit {
+    /// `paper`, `reference`, or a TOML file
+    #[arg(long, default_value = "reference", value_name = "NAME|FILE")]
+    pub(crate) config: String,
+    /// The model folder to write; a model that is there is replaced
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    /// A folder of family files instead of the embedded reference corpus
+    #[arg(long, value_name = "DIR", conflicts_with = "hatt")]
+    pub(crate) corpus: Option<PathBuf>,
+    /// Your folder of HaTT models, for a configuration with corpus.kind = "hatt", which
+    /// this option implies
+    #[arg(long, value_name = "DIR")]
+    pub(crate) hatt: Option<PathBuf>,
+    /// Instead of the configuration's
+    #[arg(long)]
+    pub(crate) seed: Option<u64>,
+    /// Instead of the configuration's
+    #[arg(long)]
+    pub(crate) epochs: Option<usize>,
+    /// `minilm`, embedded, or `clip:DIR` with an export of CLIP's text tower
+    #[arg(long, default_value = "minilm", value_name = "minilm|clip:DIR")]
+    pub(crate) text_encoder: TextEncoderChoice,
+    /// Where the text encoder runs: `portable`, or `onnxruntime` where it is installed
+    #[arg(long, default_value_t, value_name = "portable|onnxruntime")]
+    pub(crate) backend: BackendName,
+    /// Threads; as many as there are cores if left out. The model does not depend on it
+    #[arg(long)]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// Go on from where an interrupted run with the same options stopped
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Epochs between two savings of the state, in `DIR.training`
+    #[arg(long, default_value = "10", value_name = "EPOCHS")]
+    pub(crate) checkpoint: NonZeroUsize,
+    /// No progress bar
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    /// Print the metrics as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  asperity-train config reference > mine.toml")]
+pub(crate) struct Config {
+    /// Which
+    pub(crate) name: Recipe,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Recipe {
+    /// The paper's
+    Paper,
+    /// The shipped model's
+    Reference,
+}

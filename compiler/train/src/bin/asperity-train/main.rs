@@ -1,0 +1,33 @@
+//! The command `asperity-train`: from a corpus to a model folder.
+
+mod cli;
+mod commands;
+mod console;
+
+use asperity::diagnostic::{Diagnostic, report};
+use clap::Parser as _;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match commands::run(cli::Cli::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{}", report(failure.as_ref()));
+            if console::is_interrupted() {
+                ExitCode::from(130)
+            } else if failure.is_usage() {
+                ExitCode::from(2)
+            } else {
+                ExitCode::FAILURE
+            }
+        }
+    }
+}
+
+/// Why a command failed.
+type Failure = Box<dyn Diagnostic + Send>;
+
+/// For `map_err`.
+fn boxed(error: impl Diagnostic + Send + 'static) -> Failure {
+    Box::new(error)
+}

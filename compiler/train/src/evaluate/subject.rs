@@ -1,0 +1,138 @@
+//! The model under evaluation, read from its folder: what is measured is what ships.
+
+use super::{EvaluateError, cache, signature::Signature};
+use crate::trained::Seen;
+use asperity::{
+    inference::Backend,
+    learned::{
+        Decoded, Files, Latent, LearnedModel, ModelError, Present, Projected,
+        description::ModelDescription, friction,
+    },
+};
+use asperity_corpus::{BINS, CHANNELS, Instance, ORDER, TAP_SAMPLES, TAPS};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// A model folder on a back end.
+pub(super) struct Subject {
+    model: LearnedModel,
+    /// Checksum of its files.
+    pub(super) crc32: u32,
+    speeds_m_s: [f64; TAPS],
+}
+
+/// A texture that a latent decodes to.
+pub(super) struct Texture {
+    pub(super) instance: Instance,
+    pub(super) signature: Signature,
+}
+
+impl Subject {
+    /// Reads a folder.
+    pub(super) fn open(folder: &Path, backend: &Backend) -> Result<Self, EvaluateError> {
+        let files = Files::read(folder)?;
+        let crc32 = cache::checksum([
+            files.description.as_bytes(),
+            &files.text_projection,
+            &files.ar_decoder,
+            &files.tap_decoder,
+            &files.encoder,
+        ]);
+        let model = LearnedModel::load(files, backend)?;
+        let (grid, taps) = (&model.description().grid, &model.description().taps);
+        let shape = [grid.order, grid.speeds_mm_s.len(), taps.speeds_m_s.len(), taps.samples];
+        let expected = [ORDER, BINS, TAPS, TAP_SAMPLES];
+        let speeds_m_s = taps.speeds_m_s.as_slice().try_into().ok();
+        match speeds_m_s.filter(|_| shape == expected) {
+            Some(speeds_m_s) => Ok(Self {
+                model,
+                crc32,
+                speeds_m_s,
+            }),
+            None => Err(EvaluateError::Mismatch {
+                field: "order, bins, traces, samples",
+                model: format!("{shape:?}"),
+                given: format!("{expected:?}"),
+                remedy: "train a model with this version of `asperity-train fit`",
+            }),
+        }
+    }
+
+    pub(super) fn description(&self) -> &ModelDescription {
+        self.model.description()
+    }
+
+    /// Latents of the anchors.
+    pub(super) fn anchors(&self) -> Vec<Latent> {
+        let anchors = &self.description().anchors;
+        // Their width is checked when a model is loaded.
+        let latent = |z: &Vec<f32>| std::array::from_fn(|k| z[k]);
+        anchors.iter().map(|anchor| latent(&anchor.z)).collect()
+    }
+
+    /// Where text vectors land.
+    pub(super) fn project(&self, vectors: &[Vec<f32>]) -> Result<Vec<Projected>, EvaluateError> {
+        let projected = vectors.par_iter().map(|v| self.model.project(v));
+        Ok(projected.collect::<Result<_, ModelError>>()?)
+    }
+
+    /// Posterior means of instances.
+    pub(super) fn encode(
+        &self,
+        instances: &[&Instance],
+        seen: Seen,
+    ) -> Result<Vec<Latent>, EvaluateError> {
+        let means = instances.par_iter().map(|instance| {
+            let ar = ar_input(instance);
+            let taps = instance.taps_m_s2.as_flattened();
+            self.model.encode(match seen {
+                Seen::Both => Present::Both(&ar, taps),
+                Seen::Ar => Present::Ar(&ar),
+                Seen::Taps => Present::Taps(taps),
+            })
+        });
+        Ok(means.collect::<Result<_, ModelError>>()?)
+    }
+
+    /// What latents decode to, with the friction of their neighbours.
+    pub(super) fn decode(&self, latents: &[Latent]) -> Result<Vec<Texture>, EvaluateError> {
+        let textures = latents.par_iter().map(|z| {
+            let instance = instance(&self.model.decode(z)?);
+            let signature = Signature::of(&instance, &self.speeds_m_s, self.mu(z));
+            Ok(Texture { instance, signature })
+        });
+        Ok(textures.collect::<Result<_, ModelError>>()?)
+    }
+
+    /// μ from the neighbours of a latent.
+    fn mu(&self, z: &Latent) -> f64 {
+        let description = self.description();
+        let near = friction::neighbours(z, &description.anchors, description.friction);
+        friction::mu(&near, &description.anchors)
+    }
+}
+
+fn ar_input(instance: &Instance) -> Vec<f32> {
+    let mut ar = Vec::with_capacity(BINS * CHANNELS);
+    for (lsf_rad, &level_db) in instance.lsf_rad.iter().zip(&instance.level_db) {
+        ar.extend(lsf_rad);
+        ar.push(level_db);
+    }
+    ar
+}
+
+/// Decoded numbers in the form of the corpus; their counts were checked.
+fn instance(decoded: &Decoded) -> Instance {
+    let mut instance = Instance {
+        lsf_rad: [[0.0; ORDER]; BINS],
+        level_db: [0.0; BINS],
+        taps_m_s2: [[0.0; TAP_SAMPLES]; TAPS],
+    };
+    let fill = |to: &mut [f32], from: &[f32]| {
+        to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+    };
+    fill(instance.lsf_rad.as_flattened_mut(), &decoded.lsf_rad);
+    fill(&mut instance.level_db, &decoded.level_db);
+    fill(instance.taps_m_s2.as_flattened_mut(), &decoded.taps_m_s2);
+    instance
+}

@@ -1,0 +1,66 @@
+//! How an evaluation says where it is, and how it is stopped.
+
+use super::EvaluateError;
+use crate::progress::{EpochLoss, Progress};
+
+/// A listener to an evaluation.
+pub trait Watch {
+    /// Something begins that takes this many steps.
+    fn begin(&mut self, what: &str, steps: usize);
+    /// So many of its steps are done.
+    fn done(&mut self, steps: usize);
+    /// Whether to stop.
+    fn interrupted(&self) -> bool {
+        false
+    }
+}
+
+/// Listens to nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn begin(&mut self, _: &str, _: usize) {}
+    fn done(&mut self, _: usize) {}
+}
+
+/// Gives up if asked to.
+pub(super) fn pause(watch: &dyn Watch, what: &str) -> Result<(), EvaluateError> {
+    if watch.interrupted() {
+        return Err(EvaluateError::Interrupted { what: what.into() });
+    }
+    Ok(())
+}
+
+/// The training of a fold, watched.
+pub(super) struct Training<'a> {
+    watch: &'a mut dyn Watch,
+    epochs: usize,
+}
+
+impl<'a> Training<'a> {
+    /// `text_epochs` counts those of the second stage.
+    pub(super) fn begin(
+        watch: &'a mut dyn Watch,
+        what: &str,
+        epochs: usize,
+        text_epochs: usize,
+    ) -> Self {
+        watch.begin(what, epochs + text_epochs);
+        Self { watch, epochs }
+    }
+}
+
+impl Progress for Training<'_> {
+    fn epoch(&mut self, epoch: usize, _: usize, _: &EpochLoss) {
+        self.watch.done(epoch);
+    }
+
+    fn text_epoch(&mut self, epoch: usize, _: usize, _: f32) {
+        self.watch.done(self.epochs + epoch);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.watch.interrupted()
+    }
+}

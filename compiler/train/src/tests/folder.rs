@@ -1,0 +1,111 @@
+//! What a model folder promises.
+
+use super::training::small;
+use crate::{
+    Captions, Checkpoints, Config, EpochLoss, FitError, ModelFiles, Progress, Silent, Trained,
+    config::Excitation, export, fit_on, fit_with_checkpoints, measure,
+    synthetic::{self, WordBag},
+};
+use asperity::{
+    inference::Backend,
+    learned::{Files, LearnedModel},
+};
+use asperity_corpus::Corpus;
+
+const MATERIALS: [usize; 6] = [0, 1, 2, 3, 4, 5];
+
+fn data() -> (Corpus, Captions) {
+    let corpus = synthetic::corpus(6, 6);
+    let captions = Captions::encode(&corpus, &synthetic::lexicon(), &WordBag).unwrap();
+    (corpus, captions)
+}
+
+fn short() -> Config {
+    let mut config = small();
+    config.optimiser.epochs = 6;
+    if let Some(stage) = &mut config.text_stage {
+        stage.epochs = 10;
+    }
+    config
+}
+
+fn exported(trained: &Trained) -> ModelFiles {
+    let (corpus, captions) = data();
+    let metrics = measure(trained, &corpus, &captions);
+    export(trained, &corpus, &captions, &metrics).unwrap()
+}
+
+#[test]
+fn the_compiler_loads_what_is_written_and_decodes_the_same() {
+    for excitation in [Excitation::Level, Excitation::LogSigma, Excitation::Variance] {
+        let mut config = short();
+        config.coding.excitation = excitation;
+        let (corpus, captions) = data();
+        let trained = fit_on(&corpus, &MATERIALS, &captions, &config, &mut Silent).unwrap();
+        // The export itself compares every network with the trained one.
+        let files = exported(&trained);
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("model");
+        files.write(&target).unwrap();
+        let read = Files::read(&target).unwrap();
+        let model = LearnedModel::load(read, &Backend::Portable).unwrap();
+        assert_eq!(model.description().anchors.len(), 6);
+        assert_eq!(model.description().axes.len(), 4);
+        let vector = &captions.training[2][0];
+        let projected = model.project(vector).unwrap();
+        assert_eq!(projected.similarity.len(), 6);
+        let decoded = model.decode(&projected.z).unwrap();
+        let expected = &trained.decode(&trained.project(&[vector]))[0];
+        for (x, y) in decoded.level_db.iter().zip(expected.level_db) {
+            assert!((x - y).abs() < 1e-2, "{x} {y}");
+        }
+    }
+}
+
+#[test]
+fn the_same_seed_writes_the_same_bytes() {
+    let (corpus, captions) = data();
+    let run = || fit_on(&corpus, &MATERIALS, &captions, &short(), &mut Silent).unwrap();
+    let (first, again) = (exported(&run()), exported(&run()));
+    for ((name, bytes), (_, others)) in first.iter().zip(again.iter()) {
+        assert!(bytes == others, "{name} differs");
+    }
+}
+
+/// Stops after some epochs.
+struct StopAfter(usize, usize);
+
+impl Progress for StopAfter {
+    fn epoch(&mut self, epoch: usize, _: usize, _: &EpochLoss) {
+        self.1 = epoch;
+    }
+    fn text_epoch(&mut self, _: usize, _: usize, _: f32) {}
+    fn interrupted(&self) -> bool {
+        self.1 >= self.0
+    }
+}
+
+#[test]
+fn a_resumed_run_ends_as_one_that_was_not_interrupted() {
+    let (corpus, captions) = data();
+    let config = short();
+    let whole = fit_on(&corpus, &MATERIALS, &captions, &config, &mut Silent).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("checkpoint.safetensors");
+    let run = |config: &Config, resume, progress: &mut dyn Progress| {
+        let checkpoints = Checkpoints { path: &path, every: 4, resume };
+        fit_with_checkpoints(&corpus, &MATERIALS, &captions, config, checkpoints, progress)
+    };
+    let stopped = run(&config, false, &mut StopAfter(3, 0));
+    assert!(matches!(stopped, Err(FitError::Interrupted { epoch: 3 })));
+    let mut other = config.clone();
+    other.loss.ar = 1.0;
+    let refused = run(&other, true, &mut Silent).unwrap_err().to_string();
+    assert!(refused.contains("another configuration"), "{refused}");
+    let resumed = run(&config, true, &mut Silent).unwrap();
+    assert_eq!(resumed.history(), whole.history());
+    let (resumed, whole) = (exported(&resumed), exported(&whole));
+    for ((name, bytes), (_, others)) in resumed.iter().zip(whole.iter()) {
+        assert!(bytes == others, "{name} differs");
+    }
+}
