@@ -1,13 +1,13 @@
 //! A user's own folder of HaTT models as a corpus, after the paper.
 //!
-//! 1. [`source`]: every sounding model of every file, from ARMA to AR(21) under
-//!    1 + z⁻¹ ([`ar`]), with its level.
-//! 2. [`bins`]: the measured places of all materials, clustered by [`kmeans`] into the
+//! 1. `source`: every sounding model of every file, from ARMA to AR(21) under
+//!    1 + z⁻¹ (`ar`), with its level.
+//! 2. `bins`: the measured places of all materials, clustered by `kmeans` into the
 //!    bins of one grid.
-//! 3. [`pool`]: per material and bin the models to draw from, on what its [`own`] grid
+//! 3. `pool`: per material and bin the models to draw from, on what its `own` grid
 //!    says between them.
-//! 4. [`tap`]: HaTT has none; they are synthesised from the hardness in our
-//!    [`captions`].
+//! 4. `tap`: HaTT has none; they are synthesised from the hardness in our
+//!    `captions`.
 //!
 //! Models on the border of a material's rectangle are no measurements but extensions
 //! of the source: those at rest or without touch are silent and left out; the others
