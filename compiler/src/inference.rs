@@ -1,12 +1,13 @@
 //! Where networks run: the portable engine, or ONNX Runtime where it is installed.
 
 use asperity_nn::{Bytes, Portable, Session};
+use asperity_onnxruntime::OnnxRuntime;
 use crate::diagnostic::Diagnostic;
 use std::{borrow::Cow, fmt, str::FromStr};
 use thiserror::Error;
 
 /// A back end.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Backend {
     /// Our engine: the same bits on every machine.
     #[default]
@@ -46,14 +47,14 @@ impl fmt::Display for BackendName {
     }
 }
 
-/// Why a back end cannot be had.
+/// ONNX Runtime was asked for and is not installed.
 #[derive(Debug, Error)]
 #[error("ONNX Runtime: {0}")]
-pub struct BackendError(String);
+pub struct BackendError(#[from] asperity_onnxruntime::NotFound);
 
 impl Diagnostic for BackendError {
     fn remedy(&self) -> String {
-        "pip install onnxruntime, or leave --backend out for the portable engine".into()
+        format!("{}, or leave --backend out for the portable engine", self.0.remedy())
     }
 }
 
@@ -65,7 +66,10 @@ impl Backend {
     pub fn open(name: BackendName) -> Result<Self, BackendError> {
         match name {
             BackendName::Portable => Ok(Self::Portable),
-            BackendName::OnnxRuntime => Err(BackendError("not wired up".into())),
+            BackendName::OnnxRuntime => {
+                OnnxRuntime::library()?;
+                Ok(Self::OnnxRuntime)
+            }
         }
     }
 
@@ -83,7 +87,10 @@ impl Backend {
                 let session = Portable::from_shared(shared).map_err(|error| error.to_string())?;
                 Ok(Box::new(session))
             }
-            Self::OnnxRuntime => Err("not wired up".into()),
+            Self::OnnxRuntime => {
+                let session = OnnxRuntime::from_bytes(&bytes).map_err(|error| error.to_string())?;
+                Ok(Box::new(session))
+            }
         }
     }
 }

@@ -112,7 +112,7 @@ fn the_same_file_gives_the_same_bytes_whatever_the_thread_count() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| asperity::hatt::import_all(&few, || {}))
+        pool.install(|| asperity::hatt::import_all(&few, None, || {}))
             .into_iter()
             .map(|imported| imported.unwrap().bytes)
             .collect()

@@ -120,7 +120,7 @@ fn every_hatt_material() {
     let worst = files
         .par_iter()
         .map(|file| {
-            let imported = asperity::hatt::import(file).unwrap();
+            let imported = asperity::hatt::import(file, None).unwrap();
             check(&imported.report.name, &imported.bytes, each)
         })
         .reduce(|| 0.0, f64::max);

@@ -3,6 +3,7 @@
 use super::{HattError, Problem, material, to_model, xml};
 use crate::{
     diagnostic::Diagnostic,
+    learned::{LearnedModel, ModelError, complete},
     lower::{self, Error3, LowerError},
     raise::raise,
     spectrum::{ArmaModel, log_spectral_distance_db},
@@ -36,6 +37,14 @@ pub enum ImportError {
         /// What does not fit.
         cause: LowerError,
     },
+    /// The learned model could not decode the taps.
+    #[error("{file}: taps: {cause}", file = file.display())]
+    Complete {
+        /// The file.
+        file: PathBuf,
+        /// What went wrong.
+        cause: ModelError,
+    },
     /// The runtime would not render it faithfully.
     #[error("{file}: verification failed: {cause}", file = file.display())]
     Verify {
@@ -64,6 +73,7 @@ impl Diagnostic for ImportError {
         match self {
             Self::Hatt(error) => error.remedy(),
             Self::Lower { cause, .. } => cause.remedy(),
+            Self::Complete { cause, .. } => cause.remedy(),
             Self::Verify { cause, .. } => cause.remedy(),
             Self::Budget { .. } => {
                 "compare coefficients, variance and gain of this model with the original file"
@@ -162,11 +172,18 @@ pub fn files(path: &Path) -> Result<Vec<PathBuf>, HattError> {
 
 /// Imports files in parallel; results in the order of the files, whatever the thread
 /// count. `done` is called once a file, from any thread.
-pub fn import_all(files: &[PathBuf], done: impl Fn() + Sync) -> Vec<Result<Imported, ImportError>> {
+///
+/// `completer` decodes the taps that HaTT lacks from the AR grid; without one they are
+/// synthesised.
+pub fn import_all(
+    files: &[PathBuf],
+    completer: Option<&LearnedModel>,
+    done: impl Fn() + Sync,
+) -> Vec<Result<Imported, ImportError>> {
     let mut results: Vec<_> = files
         .par_iter()
         .map(|file| {
-            let result = import(file);
+            let result = import(file, completer);
             done();
             result
         })
@@ -191,16 +208,29 @@ pub fn import_all(files: &[PathBuf], done: impl Fn() + Sync) -> Vec<Result<Impor
     results
 }
 
-/// Imports one file: parse, lower, compare with the source, verify.
+/// Imports one file: parse, complete, lower, compare with the source, verify.
 ///
 /// # Errors
 /// [`ImportError`]; nothing is written either way.
-pub fn import(file: &Path) -> Result<Imported, ImportError> {
+pub fn import(file: &Path, completer: Option<&LearnedModel>) -> Result<Imported, ImportError> {
     let source = xml::read(file)?;
     let material = material::parse(file, &source)?;
     let source_crc32 = Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(&source);
     let source_name = file.file_name().unwrap_or_default().to_string_lossy();
-    let texture = to_model(&material, &source_name, source_crc32);
+    let mut texture = to_model(&material, &source_name, source_crc32);
+    if let Some(model) = completer {
+        texture.taps = complete::taps_of_grid(model, &texture.grid, &texture.gains).map_err(
+            |cause| ImportError::Complete {
+                file: file.to_owned(),
+                cause,
+            },
+        )?;
+        texture.provenance.notes = format!(
+            "Taps decoded from the AR grid by the learned model {} (trained on synthetic taps). {}",
+            model.description().name,
+            texture.provenance.notes
+        );
+    }
     let lowered = lower::lower(&texture, None).map_err(|cause| ImportError::Lower {
         file: file.to_owned(),
         cause,

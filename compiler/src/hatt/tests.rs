@@ -77,7 +77,7 @@ fn import_text(text: &str) -> Result<Imported, ImportError> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("Models_Test Board.xml");
     fs::write(&file, text).unwrap();
-    import(&file)
+    import(&file, None)
 }
 
 fn refusal(text: &str) -> String {
@@ -141,7 +141,7 @@ fn the_same_file_gives_the_same_bytes_on_any_number_of_threads() {
         .collect();
     let on_threads = |count: usize| -> Vec<Vec<u8>> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-        let results = pool.unwrap().install(|| import_all(&files, || ()));
+        let results = pool.unwrap().install(|| import_all(&files, None, || ()));
         results.into_iter().map(|r| r.unwrap().bytes).collect()
     };
     assert_eq!(on_threads(1), on_threads(4));
@@ -289,7 +289,7 @@ fn files_of_another_kind_are_refused() {
     // Deeper than any recursion may follow.
     let deep = format!("{}{}", "<a>".repeat(200_000), "</a>".repeat(200_000));
     assert!(refusal(&deep).contains("root element is <a>"));
-    let missing = import(Path::new("no such file.xml")).unwrap_err();
+    let missing = import(Path::new("no such file.xml"), None).unwrap_err();
     assert!(missing.to_string().contains("cannot read it"));
 }
 
@@ -299,7 +299,7 @@ fn bytes_that_are_no_text_and_files_without_end_are_refused() {
     let file = folder.path().join("a.xml");
     fs::write(&file, [0x3c, 0xff, 0xfe]).unwrap();
     assert!(
-        import(&file)
+        import(&file, None)
             .unwrap_err()
             .to_string()
             .contains("byte 1 is not UTF-8")
@@ -310,7 +310,7 @@ fn bytes_that_are_no_text_and_files_without_end_are_refused() {
     assert!(empty.contains("has no .xml file"), "{empty}");
     #[cfg(target_os = "linux")]
     {
-        let endless = import(Path::new("/dev/zero")).unwrap_err().to_string();
+        let endless = import(Path::new("/dev/zero"), None).unwrap_err().to_string();
         assert!(endless.contains("16777216 at most"), "{endless}");
     }
 }
@@ -321,7 +321,7 @@ fn two_files_of_one_material_are_refused() {
     for name in ["a.xml", "b.xml"] {
         fs::write(folder.path().join(name), xml(4, 2)).unwrap();
     }
-    let results = import_all(&files(folder.path()).unwrap(), || ());
+    let results = import_all(&files(folder.path()).unwrap(), None, || ());
     assert!(results[0].is_ok());
     let message = results[1].as_ref().unwrap_err().to_string();
     assert!(message.contains("\"Test Board\" is also in"), "{message}");

@@ -4,6 +4,7 @@
 //! another package; here a model is only read and run.
 
 mod certainty;
+pub mod complete;
 pub mod description;
 mod edges;
 pub mod friction;

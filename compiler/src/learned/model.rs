@@ -167,7 +167,7 @@ impl LearnedModel {
             tap_decoder: session("tap_decoder.onnx", files.tap_decoder)?,
             encoder: OnceLock::new(),
             encoder_bytes: files.encoder,
-            backend: backend.clone(),
+            backend: *backend,
         })
     }
 

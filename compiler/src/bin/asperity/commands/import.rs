@@ -1,5 +1,6 @@
 //! `asperity import`.
 
+use super::inference;
 use crate::failure::{Failures, one};
 use crate::{cli::ImportHatt, console};
 use asperity::{
@@ -69,8 +70,12 @@ fn target(args: &ImportHatt, files: usize) -> Result<Target, ManyIntoOne> {
 pub(crate) fn hatt(args: &ImportHatt, quiet: bool) -> Result<(), Failures> {
     let files = hatt::files(&args.input).map_err(one)?;
     let target = target(args, files.len()).map_err(one)?;
+    let completer = args
+        .complete_taps
+        .then(|| inference::completer(args.model.as_deref()))
+        .transpose()?;
     let bar = console::progress(quiet, files.len(), "importing");
-    let results = hatt::import_all(&files, || bar.inc(1));
+    let results = hatt::import_all(&files, completer.as_ref(), || bar.inc(1));
     bar.finish_and_clear();
     let mut imported: Vec<Imported> = Vec::with_capacity(results.len());
     let mut failures: Failures = Vec::new();

@@ -11,6 +11,7 @@ use asperity::{
     prompt::Author,
     text::{TextEncoder, TextEncoderChoice, clip::Clip},
 };
+use std::path::Path;
 
 /// The author that the options describe.
 pub(crate) fn author(options: &Inference) -> Result<Author, Failures> {
@@ -37,4 +38,13 @@ pub(crate) fn model(options: &Inference, backend: &Backend) -> Result<LearnedMod
         None => embedded::model(),
     };
     LearnedModel::load(files, backend).map_err(one)
+}
+
+/// The model that completes what an import lacks, on the portable back end.
+pub(crate) fn completer(folder: Option<&Path>) -> Result<LearnedModel, Failures> {
+    let files = match folder {
+        Some(folder) => Files::read(folder).map_err(one)?,
+        None => embedded::model(),
+    };
+    LearnedModel::load(files, &Backend::Portable).map_err(one)
 }
