@@ -70,7 +70,11 @@ fn tables(folder: &std::path::Path) -> Result<(), String> {
                 .iter()
                 .map(|&share| format!("{:.2}", statistics::percentile(&mut values, share)))
                 .collect();
-            println!("| {name} | {label} ({}) | {} |", all.len(), cells.join(" | "));
+            println!(
+                "| {name} | {label} ({}) | {} |",
+                all.len(),
+                cells.join(" | ")
+            );
         }
     }
     Ok(())

@@ -39,9 +39,9 @@ pub enum CorpusError {
         /// One line each: file, material, field, fault.
         faults: Vec<String>,
     },
-    /// A HaTT file cannot be imported.
-    #[error("{0}")]
-    Hatt(String),
+    /// A folder of HaTT models is no corpus.
+    #[error(transparent)]
+    Hatt(#[from] crate::hatt::HattCorpusError),
 }
 
 fn summary(faults: &[String]) -> String {
@@ -60,7 +60,7 @@ impl Diagnostic for CorpusError {
             Self::Syntax { .. } | Self::Faults { .. } => {
                 "correct the entry; compiler/corpora/README.md states the rules".into()
             }
-            Self::Hatt(_) => "give a folder of HaTT's Models_<name>.xml".into(),
+            Self::Hatt(error) => error.remedy(),
         }
     }
 }

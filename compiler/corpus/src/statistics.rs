@@ -1,12 +1,12 @@
 //! What a texture is like as a whole: the quantities that the generator is calibrated by.
 
 use crate::{Corpus, Instance};
+use asperity::learned::level::nyquist_rms;
 use asperity::{
     model::{GridVertex, ModelGrid, Numerator, VertexKind},
     reflection,
     spectrum::{ArmaModel, VIBRATION_FLOOR_HZ},
 };
-use asperity::learned::level::nyquist_rms;
 
 /// Names and units of [`Statistics::values`].
 pub const NAMES: [&str; 8] = [
@@ -77,7 +77,10 @@ pub fn grid_of(instance: &Instance, corpus: &Corpus) -> ModelGrid {
         .iter()
         .enumerate()
         .map(|(bin, place)| {
-            let lsf_rad: Vec<f64> = instance.lsf_rad[bin].iter().map(|&x| f64::from(x)).collect();
+            let lsf_rad: Vec<f64> = instance.lsf_rad[bin]
+                .iter()
+                .map(|&x| f64::from(x))
+                .collect();
             let rms = libm::exp10(f64::from(instance.level_db[bin]) / 20.0);
             GridVertex {
                 speed_mm_s: place.speed_mm_s,
@@ -146,7 +149,9 @@ fn exponents(rows: &[[f64; 5]]) -> (f64, f64) {
     let mean = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>() / rows.len() as f64;
     let means = [mean(0), mean(1), mean(2)];
     let product = |i: usize, j: usize| -> f64 {
-        rows.iter().map(|row| (row[i] - means[i]) * (row[j] - means[j])).sum()
+        rows.iter()
+            .map(|row| (row[i] - means[i]) * (row[j] - means[j]))
+            .sum()
     };
     let (vv, ff, vf) = (product(0, 0), product(1, 1), product(0, 1));
     let determinant = vv * ff - vf * vf;

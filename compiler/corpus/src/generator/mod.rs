@@ -75,6 +75,7 @@ pub fn instance(physical: &Physical, grid: &UnifiedGrid) -> Instance {
 #[must_use]
 pub fn wall_stiffness_n_m(physical: &Physical) -> f64 {
     // From 0.03 MPa, a sponge, to 100 MPa, hard for a hand.
-    let share = (libm::log10(physical.modulus_mpa / 0.03) / libm::log10(100.0 / 0.03)).clamp(0.0, 1.0);
+    let share =
+        (libm::log10(physical.modulus_mpa / 0.03) / libm::log10(100.0 / 0.03)).clamp(0.0, 1.0);
     200.0 + share * (asperity::defaults::STIFFNESS_N_M - 200.0)
 }

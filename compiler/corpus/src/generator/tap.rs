@@ -39,7 +39,11 @@ pub fn per_speed(physical: &Physical) -> [f64; TAP_SAMPLES] {
     let mut trace: [f64; TAP_SAMPLES] = std::array::from_fn(|n| {
         let t_s = n as f64 / TAP_RATE_HZ;
         let left = (TAP_SAMPLES - n) as f64 / FADE_SAMPLES as f64;
-        let fade = if left < 1.0 { 0.5 - 0.5 * libm::cos(PI * left) } else { 1.0 };
+        let fade = if left < 1.0 {
+            0.5 - 0.5 * libm::cos(PI * left)
+        } else {
+            1.0
+        };
         libm::exp(-damping * omega * t_s) * libm::sin(omega * t_s) * fade
     });
     // Truncated ringing has a little less impulse than 1/ω: scale by what it has.

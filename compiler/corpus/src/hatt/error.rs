@@ -1,6 +1,6 @@
 //! Why a folder of HaTT models is no corpus.
 
-use crate::{BINS, CorpusError, SAMPLE_RATE_HZ};
+use crate::{BINS, SAMPLE_RATE_HZ};
 use asperity::{
     diagnostic::Diagnostic,
     hatt::{HattError, Problem},
@@ -90,11 +90,5 @@ impl Diagnostic for HattCorpusError {
             Self::TooFewSamples { .. } => "give a folder of more materials".into(),
             Self::TapMixing { .. } => "the paper mixes 0.05".into(),
         }
-    }
-}
-
-impl From<HattCorpusError> for CorpusError {
-    fn from(error: HattCorpusError) -> Self {
-        Self::Hatt(format!("{error} ({})", error.remedy()))
     }
 }

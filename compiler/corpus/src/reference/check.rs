@@ -14,7 +14,13 @@ const HELD_OUT: usize = 3;
 /// training captions may hold.
 const LARGEST_OVERLAP: f64 = 0.50;
 /// How a provenance begins.
-const ORIGINS: [&str; 5] = ["handbook:", "standard:", "geometry:", "estimate:", "analogy:"];
+const ORIGINS: [&str; 5] = [
+    "handbook:",
+    "standard:",
+    "geometry:",
+    "estimate:",
+    "analogy:",
+];
 /// Words that tell nothing about a material.
 const STOP_WORDS: &str = "a about above across after against all along also an and another any are as at \
     away back be because been before behind being below beside between both but by can could does down \
@@ -36,7 +42,10 @@ pub fn check(files: &[(String, FamilyFile)]) -> Result<(), CorpusError> {
     for (file, family) in files {
         let expected = file.strip_suffix(".toml").unwrap_or(file);
         if family.family != expected {
-            faults.push(format!("{file}: family is {:?}, not {expected:?}", family.family));
+            faults.push(format!(
+                "{file}: family is {:?}, not {expected:?}",
+                family.family
+            ));
         }
         for entry in &family.material {
             if let Some(other) = names.insert(&entry.name, file) {
@@ -46,7 +55,11 @@ pub fn check(files: &[(String, FamilyFile)]) -> Result<(), CorpusError> {
                 faults.push(format!("{file}: {}: {field}: {what}", entry.name));
             };
             entry_faults(entry, &mut report);
-            let texts = entry.training.iter().map(|c| &c.text).chain(&entry.held_out);
+            let texts = entry
+                .training
+                .iter()
+                .map(|c| &c.text)
+                .chain(&entry.held_out);
             for text in texts {
                 if let Some(other) = captions.insert(text.to_lowercase(), entry.name.clone()) {
                     report("captions", format!("{text:?} is also a caption of {other}"));
@@ -56,10 +69,15 @@ pub fn check(files: &[(String, FamilyFile)]) -> Result<(), CorpusError> {
     }
     let materials: usize = files.iter().map(|(_, family)| family.material.len()).sum();
     if materials < LEAST_MATERIALS {
-        faults.push(format!("corpus: {materials} materials, at least {LEAST_MATERIALS} wanted"));
+        faults.push(format!(
+            "corpus: {materials} materials, at least {LEAST_MATERIALS} wanted"
+        ));
     }
     if files.len() < LEAST_FAMILIES {
-        faults.push(format!("corpus: {} families, at least {LEAST_FAMILIES} wanted", files.len()));
+        faults.push(format!(
+            "corpus: {} families, at least {LEAST_FAMILIES} wanted",
+            files.len()
+        ));
     }
     if faults.is_empty() {
         Ok(())
@@ -70,17 +88,39 @@ pub fn check(files: &[(String, FamilyFile)]) -> Result<(), CorpusError> {
 
 fn entry_faults(entry: &MaterialEntry, report: &mut impl FnMut(&str, String)) {
     if entry.name.is_empty() || entry.name.len() > asperity_name_limit() {
-        report("name", format!("{} bytes, 1..={} wanted", entry.name.len(), asperity_name_limit()));
+        report(
+            "name",
+            format!(
+                "{} bytes, 1..={} wanted",
+                entry.name.len(),
+                asperity_name_limit()
+            ),
+        );
     }
     if entry.training.len() < LEAST_TRAINING {
-        report("training", format!("{} captions, at least {LEAST_TRAINING} wanted", entry.training.len()));
+        report(
+            "training",
+            format!(
+                "{} captions, at least {LEAST_TRAINING} wanted",
+                entry.training.len()
+            ),
+        );
     }
     let focuses: BTreeSet<Focus> = entry.training.iter().map(|caption| caption.focus).collect();
     if focuses.len() < LEAST_FOCUSES {
-        report("training", format!("{} kinds of focus, at least {LEAST_FOCUSES} wanted", focuses.len()));
+        report(
+            "training",
+            format!(
+                "{} kinds of focus, at least {LEAST_FOCUSES} wanted",
+                focuses.len()
+            ),
+        );
     }
     if entry.held_out.len() != HELD_OUT {
-        report("held_out", format!("{} captions, {HELD_OUT} wanted", entry.held_out.len()));
+        report(
+            "held_out",
+            format!("{} captions, {HELD_OUT} wanted", entry.held_out.len()),
+        );
     }
     for caption in &entry.held_out {
         held_out_faults(entry, caption, report);
@@ -98,13 +138,25 @@ fn entry_faults(entry: &MaterialEntry, report: &mut impl FnMut(&str, String)) {
     for (field, sourced, (low, high)) in entry.physical.fields() {
         let field = format!("physical.{field}");
         if !(low..=high).contains(&sourced.value) {
-            report(&field, format!("{} is not in {low}..={high}", sourced.value));
+            report(
+                &field,
+                format!("{} is not in {low}..={high}", sourced.value),
+            );
         }
-        let told = ORIGINS
-            .iter()
-            .any(|origin| sourced.from.strip_prefix(origin).is_some_and(|rest| rest.trim().len() > 2));
+        let told = ORIGINS.iter().any(|origin| {
+            sourced
+                .from
+                .strip_prefix(origin)
+                .is_some_and(|rest| rest.trim().len() > 2)
+        });
         if !told {
-            report(&field, format!("from = {:?} must begin with one of {ORIGINS:?} and say more", sourced.from));
+            report(
+                &field,
+                format!(
+                    "from = {:?} must begin with one of {ORIGINS:?} and say more",
+                    sourced.from
+                ),
+            );
         }
     }
 }
@@ -126,11 +178,17 @@ fn held_out_faults(entry: &MaterialEntry, caption: &str, report: &mut impl FnMut
         .flat_map(|caption| self::words(&caption.text))
         .collect();
     let content: Vec<&String> = words.iter().filter(|word| !is_stop_word(word)).collect();
-    let shared = content.iter().filter(|word| trained.contains(**word)).count();
+    let shared = content
+        .iter()
+        .filter(|word| trained.contains(**word))
+        .count();
     if shared as f64 > LARGEST_OVERLAP * content.len() as f64 {
         report(
             "held_out",
-            format!("{caption:?} shares {shared} of {} content words with training captions", content.len()),
+            format!(
+                "{caption:?} shares {shared} of {} content words with training captions",
+                content.len()
+            ),
         );
     }
     for training in &entry.training {
@@ -139,7 +197,13 @@ fn held_out_faults(entry: &MaterialEntry, caption: &str, report: &mut impl FnMut
             .windows(4)
             .any(|four| training.windows(4).any(|other| four == other));
         if repeats {
-            report("held_out", format!("{caption:?} repeats four words in a row of {:?}", training.join(" ")));
+            report(
+                "held_out",
+                format!(
+                    "{caption:?} repeats four words in a row of {:?}",
+                    training.join(" ")
+                ),
+            );
         }
     }
 }

@@ -40,14 +40,19 @@ pub fn parse(file: &str, text: &str) -> Result<Vec<LexiconEntry>, CorpusError> {
     let mut seen = std::collections::BTreeSet::new();
     let mut faults = Vec::new();
     for row in &parsed.phrases {
-        let mut fault = |what: String| faults.push(format!("{file}: phrase {:?}: {what}", row.text));
+        let mut fault =
+            |what: String| faults.push(format!("{file}: phrase {:?}: {what}", row.text));
         if row.text.trim().is_empty() {
             fault("is empty".into());
         }
         if !seen.insert(row.text.to_lowercase()) {
             fault("appears twice".into());
         }
-        for (field, value) in [("rough", row.rough), ("slippery", row.slippery), ("hard", row.hard)] {
+        for (field, value) in [
+            ("rough", row.rough),
+            ("slippery", row.slippery),
+            ("hard", row.hard),
+        ] {
             if !(0.0..=100.0).contains(&value) {
                 fault(format!("{field} = {value} is not in 0..=100"));
             }

@@ -1,5 +1,5 @@
 //! The reference corpus: materials we describe ourselves, textures the
-//! [`generator`](crate::generator) makes of them. Synthetic, and licence-clean.
+//! [`generator`] makes of them. Synthetic, and licence-clean.
 
 pub mod check;
 pub mod lexicon;
@@ -96,7 +96,10 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
         .into_iter()
         .flat_map(|(_, family)| {
             let name = family.family;
-            family.material.into_iter().map(move |entry| (name.clone(), entry))
+            family
+                .material
+                .into_iter()
+                .map(move |entry| (name.clone(), entry))
         })
         .collect();
     let prototypes: Vec<_> = described
@@ -161,8 +164,12 @@ fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> 
     let mut all = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(unreadable(folder))? {
         let path = entry.map_err(unreadable(folder))?.path();
-        let is_toml = path.extension().is_some_and(|extension| extension == "toml");
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+        let is_toml = path
+            .extension()
+            .is_some_and(|extension| extension == "toml");
+        let name = path
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned());
         // Evaluation pairs lie beside the corpus and are no part of it.
         if let (true, Some(name)) = (is_toml, name)
             && name != "pairs.toml"
@@ -173,7 +180,9 @@ fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> 
     }
     all.sort();
     if all.iter().all(|(name, _)| name == LEXICON_FILE) {
-        return Err(CorpusError::Empty { path: folder.to_owned() });
+        return Err(CorpusError::Empty {
+            path: folder.to_owned(),
+        });
     }
     Ok(all)
 }

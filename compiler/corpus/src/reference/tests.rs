@@ -48,13 +48,20 @@ fn what_people_say_and_what_the_textures_do_agree_in_order() {
     let levels: Vec<f64> = corpus
         .materials
         .iter()
-        .map(|m| of_grid(&grid_of(&m.prototype, &corpus), m.mu).unwrap().values[0])
+        .map(|m| {
+            of_grid(&grid_of(&m.prototype, &corpus), m.mu)
+                .unwrap()
+                .values[0]
+        })
         .collect();
     let hardness: Vec<f64> = corpus
         .materials
         .iter()
         .map(|m| {
-            let trace: Vec<f64> = m.prototype.taps_m_s2[12].iter().map(|&a| f64::from(a)).collect();
+            let trace: Vec<f64> = m.prototype.taps_m_s2[12]
+                .iter()
+                .map(|&a| f64::from(a))
+                .collect();
             trace_centroid_hz(&trace, crate::TAP_RATE_HZ).unwrap()
         })
         .collect();
@@ -86,12 +93,20 @@ fn every_instance_is_stable_and_its_taps_are_linear_in_speed() {
     for material in &corpus.materials {
         for lsf in &material.prototype.lsf_rad {
             let lsf: Vec<f64> = lsf.iter().map(|&x| f64::from(x)).collect();
-            assert!(asperity::lsf::smallest_gap(&lsf) > 0.012, "{}", material.name);
+            assert!(
+                asperity::lsf::smallest_gap(&lsf) > 0.012,
+                "{}",
+                material.name
+            );
         }
         let taps = &material.prototype.taps_m_s2;
         let peak = |trace: &[f32]| trace.iter().fold(0.0_f32, |p, a| p.max(a.abs()));
         let ratio = peak(&taps[12]) / peak(&taps[0]);
-        assert!((ratio / 13.0 - 1.0).abs() < 1e-4, "{}: {ratio}", material.name);
+        assert!(
+            (ratio / 13.0 - 1.0).abs() < 1e-4,
+            "{}: {ratio}",
+            material.name
+        );
     }
 }
 
@@ -99,7 +114,9 @@ fn every_instance_is_stable_and_its_taps_are_linear_in_speed() {
 fn faults_are_told_by_file_material_and_field() {
     let folder = std::env::temp_dir().join(format!("asperity-corpus-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let text = EMBEDDED[0].1.replacen("wavelength_mm  =", "wavelength_mm =", 1);
+    let text = EMBEDDED[0]
+        .1
+        .replacen("wavelength_mm  =", "wavelength_mm =", 1);
     let broken = text.replacen("hard = ", "hard = 9", 1);
     std::fs::write(folder.join("abrasives.toml"), broken).unwrap();
     let options = ReferenceOptions {
