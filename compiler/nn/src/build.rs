@@ -27,6 +27,8 @@ pub enum Attribute {
     Float(f32),
     /// Integers.
     Ints(Vec<i64>),
+    /// A tensor.
+    Tensor(Tensor),
 }
 
 /// Builds one graph, node by node, in the order in which they run.
@@ -277,11 +279,13 @@ fn attribute(name: &str, value: &Attribute) -> AttributeProto {
         Attribute::Int(_) => AttributeType::Int,
         Attribute::Float(_) => AttributeType::Float,
         Attribute::Ints(_) => AttributeType::Ints,
+        Attribute::Tensor(_) => AttributeType::Tensor,
     });
     match value {
         Attribute::Int(value) => proto.i = Some(*value),
         Attribute::Float(value) => proto.f = Some(*value),
         Attribute::Ints(values) => proto.ints.clone_from(values),
+        Attribute::Tensor(value) => proto.t = Some(constant::write("", value)),
     }
     proto
 }

@@ -27,3 +27,21 @@ fn total(values: &[f32], of: impl Fn(f32) -> f32) -> f32 {
     let [a, b, c, d, e, f, g, h] = lanes;
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_element_counts_once() {
+        for count in 0..40_u16 {
+            let values: Vec<f32> = (1..=count).map(f32::from).collect();
+            let n = f32::from(count);
+            assert_eq!(sum(&values), n * (n + 1.0) / 2.0);
+            assert_eq!(
+                sum_of_squares(&values),
+                n * (n + 1.0) * (2.0 * n + 1.0) / 6.0
+            );
+        }
+    }
+}

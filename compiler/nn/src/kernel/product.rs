@@ -208,3 +208,112 @@ fn transfer(width: usize, from: &[f32], to: &mut [f32]) {
         _ => to[..width].copy_from_slice(&from[..width]),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(seed: u32, count: usize) -> Vec<f32> {
+        let mut state = seed;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / (1 << 23) as f32 - 1.0
+        };
+        (0..count).map(|_| next()).collect()
+    }
+
+    /// The definition, element by element.
+    fn plain(m: usize, k: usize, n: usize, a: &[f32], b: impl Fn(usize, usize) -> f32) -> Vec<f32> {
+        let mut out = Vec::with_capacity(m * n);
+        for i in 0..m {
+            for j in 0..n {
+                let mut sum = 0.0;
+                for inner in 0..k {
+                    sum += a[i * k + inner] * b(inner, j);
+                }
+                out.push(sum);
+            }
+        }
+        out
+    }
+
+    fn bits(values: &[f32]) -> Vec<u32> {
+        values.iter().map(|x| x.to_bits()).collect()
+    }
+
+    /// Sizes at, below and above those of tiles, panels and slices.
+    const SIZES: [(usize, usize, usize); 9] = [
+        (1, 1, 1),
+        (1, 300, 33),
+        (2, 97, 16),
+        (3, 96, 64),
+        (4, 192, 65),
+        (5, 7, 100),
+        (6, 200, 15),
+        (13, 95, 130),
+        (17, 400, 48),
+    ];
+
+    #[test]
+    fn tiles_panels_and_lanes_do_not_change_a_bit() {
+        for (m, k, n) in SIZES {
+            let (a, b) = (numbers(1, m * k), numbers(2, k * n));
+            let expected = bits(&plain(m, k, n, &a, |inner, j| b[inner * n + j]));
+            let turned: Vec<f32> = (0..n * k).map(|i| b[i % k * n + i / k]).collect();
+            for matrix in [Matrix::Rows(&b), Matrix::Columns(&turned)] {
+                let mut scalar = vec![0.0; m * n];
+                tiled(m, k, n, &a, &matrix, &mut scalar);
+                assert_eq!(
+                    bits(&scalar),
+                    expected,
+                    "as compiled for any processor, {m}×{k}×{n}"
+                );
+                let mut dispatched = vec![0.0; m * n];
+                product(m, k, n, &a, &matrix, &mut dispatched);
+                assert_eq!(
+                    bits(&dispatched),
+                    expected,
+                    "as compiled for this one, {m}×{k}×{n}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn quantized_weights_expand_by_their_formula() {
+        for (m, k, n) in SIZES {
+            let a = numbers(3, m * k);
+            let weights: Vec<u8> = numbers(4, k * n)
+                .into_iter()
+                .map(|x| (x * 128.0) as i8 as u8)
+                .collect();
+            let scale = numbers(5, n);
+            let zero: Vec<f32> = numbers(6, n)
+                .into_iter()
+                .map(|x| (x * 100.0) as i8 as f32)
+                .collect();
+            let at = |inner: usize, j: usize| {
+                (f32::from(weights[inner * n + j] as i8) - zero[j]) * scale[j]
+            };
+            let expected = bits(&plain(m, k, n, &a, at));
+            let matrix = Matrix::Quantized {
+                weights: &weights,
+                scale: &scale,
+                zero: &zero,
+            };
+            let (mut scalar, mut dispatched) = (vec![0.0; m * n], vec![0.0; m * n]);
+            tiled(m, k, n, &a, &matrix, &mut scalar);
+            product(m, k, n, &a, &matrix, &mut dispatched);
+            assert_eq!(bits(&scalar), expected, "{m}×{k}×{n}");
+            assert_eq!(bits(&dispatched), expected, "{m}×{k}×{n}");
+        }
+    }
+
+    #[test]
+    fn an_empty_product_is_zero() {
+        let mut out = vec![0.0; 6];
+        product(2, 0, 3, &[], &Matrix::Rows(&[]), &mut out);
+        assert_eq!(out, [0.0; 6]);
+        product(0, 4, 3, &[], &Matrix::Rows(&[0.0; 12]), &mut []);
+    }
+}

@@ -18,9 +18,6 @@ mod shape;
 mod slice;
 mod unary;
 
-#[cfg(test)]
-mod tests;
-
 pub(crate) use cast::{DequantizeLinear, numbers};
 pub(crate) use matmul::{MatMul, QuantizedMatMul};
 
