@@ -12,6 +12,7 @@ mod checkpoint;
 mod coding;
 pub mod config;
 mod error;
+pub mod evaluate;
 mod export;
 mod fit;
 mod loss;

@@ -170,9 +170,10 @@ fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> 
         let name = path
             .file_name()
             .map(|name| name.to_string_lossy().into_owned());
-        // Evaluation pairs lie beside the corpus and are no part of it.
+        // Prompts of the evaluation lie beside the corpus and are no part of it.
         if let (true, Some(name)) = (is_toml, name)
             && name != "pairs.toml"
+            && name != "probes.toml"
         {
             let text = std::fs::read_to_string(&path).map_err(unreadable(&path))?;
             all.push((name, text));

@@ -36,21 +36,25 @@ impl Cache {
         })
     }
 
-    /// The result of this name if it was computed under the same `key`, else what
-    /// `compute` gives, kept.
+    /// The result of this name if it was computed under the same `key`, else, where it
+    /// is `asked` for, what `compute` gives, kept.
     pub(super) fn part<T: Serialize + DeserializeOwned>(
         &self,
         name: &str,
         key: &str,
+        asked: bool,
         compute: impl FnOnce() -> Result<T, EvaluateError>,
-    ) -> Result<T, EvaluateError> {
+    ) -> Result<Option<T>, EvaluateError> {
         let key = format!("{} {key}", self.base);
         let path = self.folder.join(format!("{name}.json"));
         // What cannot be read is computed again.
         let kept = fs::read(&path).ok();
         let kept = kept.and_then(|bytes| serde_json::from_slice::<Entry<T>>(&bytes).ok());
         if let Some(entry) = kept.filter(|entry| entry.key == key) {
-            return Ok(entry.result);
+            return Ok(Some(entry.result));
+        }
+        if !asked {
+            return Ok(None);
         }
         let entry = Entry {
             key,
@@ -61,7 +65,7 @@ impl Cache {
             message: e.to_string(),
         })?;
         write_atomic(&path, &bytes)?;
-        Ok(entry.result)
+        Ok(Some(entry.result))
     }
 }
 
@@ -95,17 +99,24 @@ mod tests {
     fn a_result_is_computed_once_a_key() {
         let folder = tempfile::tempdir().unwrap();
         let mut calls = 0;
-        let mut ask = |base: &str, key: &str| {
+        let mut ask = |base: &str, key: &str, asked: bool| {
             let cache = Cache::open(folder.path(), base).unwrap();
-            let result: usize = cache
-                .part("a", key, || {
+            let result: Option<usize> = cache
+                .part("a", key, asked, || {
                     calls += 1;
                     Ok(calls)
                 })
                 .unwrap();
             result
         };
-        assert_eq!((ask("m", "1"), ask("m", "1")), (1, 1));
-        assert_eq!((ask("m", "2"), ask("n", "2")), (2, 3));
+        assert_eq!(ask("m", "1", false), None);
+        assert_eq!(
+            (ask("m", "1", true), ask("m", "1", false)),
+            (Some(1), Some(1))
+        );
+        assert_eq!(
+            (ask("m", "2", true), ask("n", "2", true)),
+            (Some(2), Some(3))
+        );
     }
 }

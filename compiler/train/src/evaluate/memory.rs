@@ -32,16 +32,14 @@ pub(super) struct Memory<'a> {
 
 impl<'a> Memory<'a> {
     /// Reads what an earlier run with the same encoder left in the report's folder.
-    pub(super) fn open(
-        encoder: &'a dyn TextEncoder,
-        report: &Path,
-    ) -> Result<Self, EvaluateError> {
+    pub(super) fn open(encoder: &'a dyn TextEncoder, report: &Path) -> Result<Self, EvaluateError> {
         let path = cache::folder(report)?.join("texts.bin");
         let probe = encoder.encode(PROBE).map_err(|source| FitError::Caption {
             caption: PROBE.into(),
             source,
         })?;
-        let fingerprint = cache::checksum([bytes(&probe.vector).as_slice(), encoder.name().as_bytes()]);
+        let fingerprint =
+            cache::checksum([bytes(&probe.vector).as_slice(), encoder.name().as_bytes()]);
         // A file of another encoder, or half a file, is no loss.
         let known = fs::read(&path).ok();
         let known = known.and_then(|bytes| parse(&bytes, fingerprint, encoder.width()));
@@ -66,7 +64,10 @@ impl<'a> Memory<'a> {
     ) -> Result<(), EvaluateError> {
         let mut new: Vec<&str> = {
             let known = self.known();
-            texts.into_iter().filter(|t| !known.contains_key(*t)).collect()
+            texts
+                .into_iter()
+                .filter(|t| !known.contains_key(*t))
+                .collect()
         };
         new.sort_unstable();
         new.dedup();

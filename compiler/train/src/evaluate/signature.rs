@@ -242,7 +242,10 @@ mod tests {
         let speeds = corpus.tap_speeds_m_s;
         let truth = Signature::of(&soft, &speeds, 0.5);
         let distance = Signature::of(&strong, &speeds, 0.5).distance(&truth);
-        assert!(distance.taps_db > 4.0 && distance.taps_db < 6.03, "{distance:?}");
+        assert!(
+            distance.taps_db > 4.0 && distance.taps_db < 6.03,
+            "{distance:?}"
+        );
         assert!((distance.rate_hardness - std::f64::consts::LN_2).abs() < 1e-6);
     }
 }

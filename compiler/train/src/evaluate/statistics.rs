@@ -132,10 +132,7 @@ mod tests {
 
     #[test]
     fn ranks_correlate_whatever_the_scale_and_ties_share_a_rank() {
-        assert_eq!(
-            spearman(&[1.0, 2.0, 3.0], &[-9.0, 0.1, 900.0]),
-            Some(1.0)
-        );
+        assert_eq!(spearman(&[1.0, 2.0, 3.0], &[-9.0, 0.1, 900.0]), Some(1.0));
         assert_eq!(spearman(&[1.0, 2.0], &[5.0, 5.0]), None);
         assert_eq!(ranks(&[4.0, 1.0, 4.0]), [1.5, 0.0, 1.5]);
     }

@@ -40,7 +40,12 @@ impl Subject {
         ]);
         let model = LearnedModel::load(files, backend)?;
         let (grid, taps) = (&model.description().grid, &model.description().taps);
-        let shape = [grid.order, grid.speeds_mm_s.len(), taps.speeds_m_s.len(), taps.samples];
+        let shape = [
+            grid.order,
+            grid.speeds_mm_s.len(),
+            taps.speeds_m_s.len(),
+            taps.samples,
+        ];
         let expected = [ORDER, BINS, TAPS, TAP_SAMPLES];
         let speeds_m_s = taps.speeds_m_s.as_slice().try_into().ok();
         match speeds_m_s.filter(|_| shape == expected) {
@@ -99,7 +104,10 @@ impl Subject {
         let textures = latents.par_iter().map(|z| {
             let instance = instance(&self.model.decode(z)?);
             let signature = Signature::of(&instance, &self.speeds_m_s, self.mu(z));
-            Ok(Texture { instance, signature })
+            Ok(Texture {
+                instance,
+                signature,
+            })
         });
         Ok(textures.collect::<Result<_, ModelError>>()?)
     }

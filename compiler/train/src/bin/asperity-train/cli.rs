@@ -4,7 +4,7 @@ use asperity::{inference::BackendName, text::TextEncoderChoice};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::{num::NonZeroUsize, path::PathBuf};
 
-/// Trains the learned texture model.
+/// Trains and evaluates the learned texture model.
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 100)]
 pub(crate) struct Cli {
@@ -16,6 +16,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Train on a corpus and write a model folder
     Fit(Fit),
+    /// Report what a model is worth: on its corpus, on captions and materials never seen
+    Evaluate(crate::evaluate::Evaluate),
     /// Print a recipe, to start one's own from
     Config(Config),
 }

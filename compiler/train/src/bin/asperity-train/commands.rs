@@ -64,6 +64,7 @@ impl Diagnostic for UsageError {
 pub(crate) fn run(cli: Cli) -> Result<(), Failure> {
     match cli.command {
         Command::Fit(args) => fit(&args),
+        Command::Evaluate(args) => crate::evaluate::run(&args),
         Command::Config(args) => {
             let text = match args.name {
                 Recipe::Paper => asperity_train::config::PAPER,

@@ -1,8 +1,9 @@
-//! The command `asperity-train`: from a corpus to a model folder.
+//! The command `asperity-train`: from a corpus to a model folder, and what it is worth.
 
 mod cli;
 mod commands;
 mod console;
+mod evaluate;
 
 use asperity::diagnostic::{Diagnostic, report};
 use clap::Parser as _;

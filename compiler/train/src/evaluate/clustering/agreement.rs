@@ -38,7 +38,11 @@ pub(super) fn normalised_mutual_information(x: &[usize], y: &[usize]) -> f64 {
         })
         .sum();
     let scale = 0.5 * (entropy(&table.rows) + entropy(&table.columns));
-    if scale > 0.0 { information / scale } else { 1.0 }
+    if scale > 0.0 {
+        information / scale
+    } else {
+        1.0
+    }
 }
 
 /// How often labels meet.

@@ -119,11 +119,9 @@ mod tests {
     #[test]
     fn indices_are_those_worked_out_by_hand() {
         let (points, labels) = line();
-        let expected = ((11.0 - 1.0) / 11.0
-            + (10.0 - 1.0) / 10.0
-            + (9.5 - 2.0) / 9.5
-            + (11.5 - 2.0) / 11.5)
-            / 4.0;
+        let expected =
+            ((11.0 - 1.0) / 11.0 + (10.0 - 1.0) / 10.0 + (9.5 - 2.0) / 9.5 + (11.5 - 2.0) / 11.5)
+                / 4.0;
         assert!((silhouette(&points, &labels) - expected).abs() < 1e-6);
         // Within 0.5 + 2, between 4 · 5.25².
         assert!((calinski_harabasz(&points, &labels) - 110.25 / 1.25).abs() < 1e-4);

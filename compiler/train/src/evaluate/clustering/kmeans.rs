@@ -16,7 +16,11 @@ pub(super) fn cluster(points: &[Latent], k: usize, restarts: usize, seed: u64) -
         let start = if restart == 0 {
             farthest_points(points, k)
         } else {
-            plus_plus(points, k, &mut Draws::new(seed.wrapping_add(restart as u64)))
+            plus_plus(
+                points,
+                k,
+                &mut Draws::new(seed.wrapping_add(restart as u64)),
+            )
         };
         let (inertia, labels) = lloyd(points, start);
         if best.as_ref().is_none_or(|(least, _)| inertia < *least) {

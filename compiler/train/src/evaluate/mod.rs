@@ -1,0 +1,247 @@
+//! What a trained model is worth: a report of a model folder.
+//!
+//! Six parts, each measured alone and kept when finished:
+//! 1. [`clustering`]: materials in the latent, beside the paper's figures, and what the
+//!    latent still says of its inputs;
+//! 2. [`retrieval`]: materials found by captions never trained on;
+//! 3. [`held_out`]: textures of materials never trained on, by k-fold cross-validation;
+//! 4. [`probes`]: paraphrases, negations, and pairs that people rank;
+//! 5. [`midpoints`]: what lies halfway between two materials;
+//! 6. [`map`]: pictures of the anchors.
+
+mod cache;
+pub mod clustering;
+mod data;
+mod draws;
+mod eigen;
+mod error;
+mod memory;
+pub mod probes;
+mod report;
+pub mod retrieval;
+mod signature;
+mod statistics;
+mod subject;
+mod watch;
+
+pub use error::EvaluateError;
+pub use report::{Conditions, Report};
+pub use signature::Objective;
+pub use statistics::{Share, Spread};
+pub use watch::{Unwatched, Watch};
+
+use crate::{captions::Captions, config::Config};
+use asperity::{inference::Backend, text::TextEncoder};
+use asperity_corpus::{Corpus, reference::LexiconEntry};
+use memory::Memory;
+use signature::Signature;
+use std::{
+    collections::BTreeSet,
+    fmt,
+    path::{Path, PathBuf},
+    str::FromStr,
+};
+use subject::Subject;
+
+/// Where the corpus of a model comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum CorpusSource {
+    /// The reference corpus, embedded or of a folder.
+    Reference(Option<PathBuf>),
+    /// A folder of HaTT models.
+    Hatt(PathBuf),
+}
+
+impl FromStr for CorpusSource {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once(':') {
+            None if text == "reference" => Ok(Self::Reference(None)),
+            Some(("reference", folder)) if !folder.is_empty() => {
+                Ok(Self::Reference(Some(folder.into())))
+            }
+            Some(("hatt", folder)) if !folder.is_empty() => Ok(Self::Hatt(folder.into())),
+            _ => Err("`reference`, `reference:DIR` or `hatt:DIR`".into()),
+        }
+    }
+}
+
+/// A part of the evaluation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    /// 1
+    Clustering,
+    /// 2
+    Retrieval,
+    /// 3
+    HeldOut,
+    /// 4
+    Probes,
+    /// 5
+    Midpoints,
+    /// 6
+    Map,
+}
+
+impl Part {
+    /// All of them, in their order.
+    pub const ALL: [Self; 6] = [
+        Self::Clustering,
+        Self::Retrieval,
+        Self::HeldOut,
+        Self::Probes,
+        Self::Midpoints,
+        Self::Map,
+    ];
+}
+
+impl FromStr for Part {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number: usize = text.parse().map_err(|_| "a number from 1 to 6")?;
+        let part = number.checked_sub(1).and_then(|index| Self::ALL.get(index));
+        part.copied().ok_or_else(|| "a number from 1 to 6".into())
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", *self as usize + 1)
+    }
+}
+
+/// What to evaluate.
+#[derive(Debug, Clone)]
+pub struct Options<'a> {
+    /// The model folder.
+    pub model: &'a Path,
+    /// The corpus it was trained on.
+    pub corpus: CorpusSource,
+    /// Which parts.
+    pub parts: BTreeSet<Part>,
+    /// Configuration of the folds; the model's own if `None`.
+    pub fold_config: Option<Config>,
+    /// Folds, instead of the configuration's.
+    pub folds: Option<usize>,
+    /// Epochs of a fold's first stage, instead of the configuration's.
+    pub fold_epochs: Option<usize>,
+    /// Folder of the report, made if need be.
+    pub report: &'a Path,
+}
+
+/// Everything the parts look at.
+struct Bench<'a> {
+    subject: Subject,
+    corpus: Corpus,
+    captions: Captions,
+    /// Material of every anchor.
+    materials: Vec<usize>,
+    /// Of the anchors' materials themselves.
+    signatures: Vec<Signature>,
+    memory: Memory<'a>,
+    config: Config,
+}
+
+/// Measures the parts asked for and writes the report: `report.md`, `report.json`,
+/// pictures, and a cache by which an interrupted evaluation goes on. The same model and
+/// options give the same report.
+///
+/// # Errors
+/// [`EvaluateError`]; finished parts stay in the cache.
+pub fn evaluate(
+    options: &Options<'_>,
+    encoder: &dyn TextEncoder,
+    backend: &Backend,
+    watch: &mut dyn Watch,
+) -> Result<Report, EvaluateError> {
+    let bench = set_up(options, encoder, backend, watch)?;
+    let cache = cache::Cache::open(
+        options.report,
+        &format!(
+            "{:08x} {:08x} {:08x}",
+            bench.subject.crc32,
+            bench.corpus.crc32,
+            bench.memory.fingerprint()
+        ),
+    )?;
+    let asked = |part| options.parts.contains(&part);
+    let mut report = Report::new(&bench);
+    let (subject, materials) = (&bench.subject, &bench.materials);
+    report.clustering = cache.part("clustering", "", asked(Part::Clustering), || {
+        let unseen = data::unseen(&options.corpus, &bench.config)?;
+        clustering::measure(
+            subject,
+            &bench.corpus,
+            &unseen,
+            materials,
+            bench.config.seed,
+            watch,
+        )
+    })?;
+    report.retrieval = cache.part("retrieval", "", asked(Part::Retrieval), || {
+        watch.begin("retrieval", 1);
+        retrieval::measure(subject, &bench.corpus, &bench.captions, materials)
+    })?;
+    let key = format!("{:08x}", cache::checksum(probes::sources()));
+    report.probes = cache.part("probes", &key, asked(Part::Probes), || {
+        probes::measure(subject, &bench.signatures, &bench.memory, watch)
+    })?;
+    report.write(options.report)?;
+    Ok(report)
+}
+
+fn set_up<'a>(
+    options: &Options<'_>,
+    encoder: &'a dyn TextEncoder,
+    backend: &Backend,
+    watch: &mut dyn Watch,
+) -> Result<Bench<'a>, EvaluateError> {
+    let subject = Subject::open(options.model, backend)?;
+    let text = &subject.description().text_encoder;
+    let (model, given) = (
+        format!("{}, {} numbers", text.name, text.width),
+        format!("{}, {} numbers", encoder.name(), encoder.width()),
+    );
+    if model != given {
+        return Err(EvaluateError::Mismatch {
+            field: "text_encoder",
+            model,
+            given,
+            remedy: "give the text encoder that the model was trained with with --text-encoder",
+        });
+    }
+    let config = data::config_of(options.model)?;
+    watch.begin("corpus", 1);
+    let (corpus, lexicon) = data::training(&options.corpus, &config)?;
+    let materials = data::materials(&subject, &corpus)?;
+    let memory = Memory::open(encoder, options.report)?;
+    memory.learn(texts(&corpus, &lexicon), watch)?;
+    let captions = Captions::encode(&corpus, &lexicon, &memory)?;
+    let signatures = materials
+        .iter()
+        .map(|&m| &corpus.materials[m])
+        .map(|m| Signature::of(&m.prototype, &corpus.tap_speeds_m_s, m.mu))
+        .collect();
+    Ok(Bench {
+        subject,
+        corpus,
+        captions,
+        materials,
+        signatures,
+        memory,
+        config,
+    })
+}
+
+fn texts<'c>(corpus: &'c Corpus, lexicon: &'c [LexiconEntry]) -> impl Iterator<Item = &'c str> {
+    let materials = corpus.materials.iter().flat_map(|material| {
+        let training = material
+            .training
+            .iter()
+            .map(|caption| caption.text.as_str());
+        training.chain(material.held_out.iter().map(String::as_str))
+    });
+    materials.chain(lexicon.iter().map(|entry| entry.text.as_str()))
+}

@@ -1,0 +1,258 @@
+//! Part 4: prompts that say the same, the opposite, more and less.
+
+mod prompts;
+
+pub use prompts::{Attribute, Change, Direction, Kind};
+pub(super) use prompts::{Probes, sources};
+
+use super::{
+    EvaluateError, Watch,
+    memory::Memory,
+    signature::{Objective, Signature},
+    statistics::{Share, mean, median},
+    subject::Subject,
+};
+use prompts::Pairs;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// How alike two ways to say the same thing feel; distances in deviations of the corpus,
+/// over `rough_db` and the logarithms of `sharp_hz`, `hard_hz` and μ.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Paraphrases {
+    /// Pairs.
+    pub pairs: usize,
+    /// Mean distance within pairs.
+    pub distance: f64,
+    /// Mean distance between prompts of different pairs.
+    pub random_distance: f64,
+    /// The first over the second.
+    pub ratio: f64,
+    /// Pairs closer than half of all random ones.
+    pub closer: Share,
+}
+
+/// A direction and what came of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Step {
+    /// The direction.
+    #[serde(flatten)]
+    pub direction: Direction,
+    /// Objective attribute before.
+    pub before: f64,
+    /// And after.
+    pub after: f64,
+    /// Whether it went where it should.
+    pub right: bool,
+}
+
+/// Right rankings of pairs by an attribute.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Ranked {
+    /// The attribute.
+    pub attribute: Attribute,
+    /// By the decoded textures.
+    pub model: Share,
+    /// By the training materials nearest to the prompts; two prompts with the same
+    /// nearest material are not told apart, hence not right.
+    pub nearest: Share,
+}
+
+/// Three prompts whose textures should be ever less sharp and rough.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Order {
+    /// The prompts.
+    pub prompts: [String; 3],
+    /// Spectral centroids, Hz.
+    pub sharp_hz: [f64; 3],
+    /// Levels, dB.
+    pub rough_db: [f64; 3],
+    /// Whether the centroids fall.
+    pub sharp_falls: bool,
+    /// Whether the levels fall.
+    pub rough_falls: bool,
+}
+
+/// Part 4.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Probing {
+    /// Two ways to say the same.
+    pub paraphrases: Paraphrases,
+    /// Every direction.
+    pub steps: Vec<Step>,
+    /// Pairs of the committed list.
+    pub pairs: Vec<Ranked>,
+    /// Abrasive, cork, foam.
+    pub orders: Vec<Order>,
+}
+
+impl Probing {
+    /// Right directions among those that `which` accepts.
+    #[must_use]
+    pub fn right(&self, which: impl Fn(&Direction) -> bool) -> Share {
+        let steps = self.steps.iter().filter(|step| which(&step.direction));
+        Share::of(steps.map(|step| step.right))
+    }
+}
+
+/// What a prompt decodes to, and the attributes of the training material nearest to it.
+struct Felt {
+    decoded: Objective,
+    nearest: Objective,
+}
+
+/// Asks the model all prompts. `materials` are the signatures of the anchors' materials.
+pub(super) fn measure(
+    subject: &Subject,
+    materials: &[Signature],
+    memory: &Memory<'_>,
+    watch: &mut dyn Watch,
+) -> Result<Probing, EvaluateError> {
+    let (probes, pairs) = (Probes::read()?, Pairs::read()?);
+    let of_pairs = Attribute::ALL.iter().flat_map(|a| pairs.of(*a)).flatten();
+    let prompts: Vec<&str> = probes
+        .prompts()
+        .chain(of_pairs.map(String::as_str))
+        .collect();
+    let felt = ask(subject, materials, memory, &prompts, watch)?;
+    let of = |prompt: &String| &felt[prompt.as_str()];
+    let steps = probes.directions.iter().map(|direction| {
+        let value = |prompt| value(&of(prompt).decoded, direction.attribute);
+        let (before, after) = (value(&direction.from), value(&direction.to));
+        Step {
+            direction: direction.clone(),
+            before,
+            after,
+            right: match direction.change {
+                Change::More => after > before,
+                Change::Less => after < before,
+            },
+        }
+    });
+    let ranked = Attribute::ALL.iter().map(|&attribute| {
+        let right = |which: fn(&Felt) -> &Objective| {
+            let value = |prompt| value(which(of(prompt)), attribute);
+            let pairs = pairs.of(attribute).iter();
+            Share::of(pairs.map(|[more, less]| value(more) > value(less)))
+        };
+        Ranked {
+            attribute,
+            model: right(|felt| &felt.decoded),
+            nearest: right(|felt| &felt.nearest),
+        }
+    });
+    let orders = probes.orders.iter().map(|prompts| {
+        let values =
+            |value: fn(&Objective) -> f64| std::array::from_fn(|k| value(&of(&prompts[k]).decoded));
+        let falls = |x: [f64; 3]| x[0] > x[1] && x[1] > x[2];
+        let (sharp_hz, rough_db) = (values(|o| o.sharp_hz), values(|o| o.rough_db));
+        Order {
+            prompts: prompts.clone(),
+            sharp_hz,
+            rough_db,
+            sharp_falls: falls(sharp_hz),
+            rough_falls: falls(rough_db),
+        }
+    });
+    let scales = scales(materials);
+    let places = probes.paraphrases.iter().map(|pair| {
+        [0, 1].map(|k: usize| {
+            let even = of(&pair[k]).decoded.even();
+            std::array::from_fn(|axis| even[axis] / scales[axis])
+        })
+    });
+    Ok(Probing {
+        paraphrases: paraphrases(&places.collect::<Vec<_>>()),
+        steps: steps.collect(),
+        pairs: ranked.collect(),
+        orders: orders.collect(),
+    })
+}
+
+fn ask<'p>(
+    subject: &Subject,
+    materials: &[Signature],
+    memory: &Memory<'_>,
+    prompts: &[&'p str],
+    watch: &mut dyn Watch,
+) -> Result<BTreeMap<&'p str, Felt>, EvaluateError> {
+    memory.learn(prompts.iter().copied(), watch)?;
+    let mut distinct = prompts.to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    watch.begin("prompts", distinct.len());
+    let vectors: Vec<Vec<f32>> = distinct
+        .iter()
+        .map(|prompt| memory.vector(prompt))
+        .collect::<Result<_, _>>()?;
+    let projected = subject.project(&vectors)?;
+    let latents: Vec<_> = projected.iter().map(|said| said.z).collect();
+    let decoded = subject.decode(&latents)?;
+    watch.done(distinct.len());
+    let felt = projected.iter().zip(decoded).map(|(said, decoded)| Felt {
+        decoded: decoded.signature.objective,
+        nearest: materials[nearest(&said.similarity)].objective,
+    });
+    Ok(distinct.iter().copied().zip(felt).collect())
+}
+
+/// Index of the largest; the first of equal ones.
+fn nearest(similarity: &[f32]) -> usize {
+    let ranked = similarity.iter().enumerate();
+    ranked
+        .max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(&a.0)))
+        .map_or(0, |(index, _)| index)
+}
+
+fn value(objective: &Objective, attribute: Attribute) -> f64 {
+    match attribute {
+        Attribute::Rough => objective.rough_db,
+        Attribute::Slippery => -objective.mu,
+        Attribute::Hard => objective.hard_hz,
+    }
+}
+
+/// Deviations of the attributes over the materials, on even scales.
+pub(super) fn scales(materials: &[Signature]) -> [f64; 4] {
+    std::array::from_fn(|axis| {
+        let values: Vec<f64> = materials.iter().map(|m| m.objective.even()[axis]).collect();
+        super::statistics::Spread::of(&values).deviation.max(1e-9)
+    })
+}
+
+fn paraphrases(places: &[[[f64; 4]; 2]]) -> Paraphrases {
+    let distance = |x: &[f64; 4], y: &[f64; 4]| -> f64 {
+        let squares = x.iter().zip(y).map(|(x, y)| (x - y) * (x - y));
+        squares.sum::<f64>().sqrt()
+    };
+    let within: Vec<f64> = places.iter().map(|[x, y]| distance(x, y)).collect();
+    let mut random = Vec::new();
+    for (index, pair) in places.iter().enumerate() {
+        for other in &places[index + 1..] {
+            for x in pair {
+                random.extend(other.iter().map(|y| distance(x, y)));
+            }
+        }
+    }
+    let (own, apart, half) = (mean(&within), mean(&random), median(&random));
+    Paraphrases {
+        pairs: places.len(),
+        distance: own,
+        random_distance: apart,
+        ratio: if apart > 0.0 { own / apart } else { 1.0 },
+        closer: Share::of(within.iter().map(|&x| x < half)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paraphrases_that_fall_together_are_closer_than_chance() {
+        let at = |x: f64| [x, 0.0, 0.0, 0.0];
+        let found = paraphrases(&[[at(0.0), at(0.1)], [at(3.0), at(3.1)], [at(9.0), at(9.0)]]);
+        assert_eq!(found.closer.hits, 3);
+        assert!(found.ratio < 0.05, "{found:?}");
+    }
+}

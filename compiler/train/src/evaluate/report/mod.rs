@@ -1,0 +1,177 @@
+//! The report on paper: `report.md` reads like a results section, `report.json` holds
+//! every number.
+
+mod clustering;
+mod probes;
+mod retrieval;
+
+use super::{Bench, EvaluateError, clustering::Clustering, probes::Probing, retrieval::Retrieval};
+use asperity::output::{OutputError, write_folder};
+use serde::Serialize;
+use std::{fmt::Write as _, fs, path::Path};
+
+/// Under what a report was measured. No clock is read: the same model and options give
+/// the same report.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Conditions {
+    /// Name of the model.
+    pub model: String,
+    /// CRC-32 of its networks and description.
+    pub model_crc32: String,
+    /// Seed that it was trained with, and that splits are drawn with.
+    pub seed: u64,
+    /// Name of the corpus.
+    pub corpus: String,
+    /// CRC-32 of its files.
+    pub corpus_crc32: String,
+    /// Materials.
+    pub materials: usize,
+    /// Families.
+    pub families: usize,
+    /// Whether its taps were synthesised.
+    pub taps_synthetic: bool,
+    /// Text encoder.
+    pub text_encoder: String,
+    /// Its configuration, as TOML.
+    pub config: String,
+}
+
+/// A report; parts that were not asked for, and not kept from before, are `None`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Under what it was measured.
+    pub conditions: Conditions,
+    /// Part 1.
+    pub clustering: Option<Clustering>,
+    /// Part 2.
+    pub retrieval: Option<Retrieval>,
+    /// Part 4.
+    pub probes: Option<Probing>,
+}
+
+impl Report {
+    pub(super) fn new(bench: &Bench<'_>) -> Self {
+        let (corpus, description) = (&bench.corpus, bench.subject.description());
+        let families = description.anchors.iter().map(|a| a.family.as_str());
+        let families: std::collections::BTreeSet<&str> = families.collect();
+        Self {
+            conditions: Conditions {
+                model: description.name.clone(),
+                model_crc32: format!("{:08x}", bench.subject.crc32),
+                seed: bench.config.seed,
+                corpus: corpus.name.clone(),
+                corpus_crc32: format!("{:08x}", corpus.crc32),
+                materials: bench.materials.len(),
+                families: families.len(),
+                taps_synthetic: corpus.taps_synthetic,
+                text_encoder: description.text_encoder.name.clone(),
+                // A configuration that was read as TOML can be written as TOML.
+                config: bench.config.to_toml().unwrap_or_default(),
+            },
+            clustering: None,
+            retrieval: None,
+            probes: None,
+        }
+    }
+
+    /// Writes everything into a folder, at once.
+    pub(super) fn write(&self, folder: &Path) -> Result<(), EvaluateError> {
+        fs::create_dir_all(folder).map_err(|source| OutputError {
+            path: folder.to_owned(),
+            doing: "cannot make the folder",
+            source,
+        })?;
+        let json = self.json()?;
+        let markdown = self.markdown();
+        let files: Vec<(String, &[u8])> = vec![
+            ("report.md".into(), markdown.as_bytes()),
+            ("report.json".into(), json.as_bytes()),
+        ];
+        Ok(write_folder(folder, &files)?)
+    }
+
+    /// What `report.json` holds.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Encode`], which no report met so far.
+    pub fn json(&self) -> Result<String, EvaluateError> {
+        let json = serde_json::to_string_pretty(self).map_err(|e| EvaluateError::Encode {
+            file: "report.json".into(),
+            message: e.to_string(),
+        })?;
+        Ok(json + "\n")
+    }
+
+    fn markdown(&self) -> String {
+        let mut text = self.head();
+        let sections = [
+            self.clustering.as_ref().map(clustering::section),
+            self.retrieval.as_ref().map(retrieval::section),
+            self.probes.as_ref().map(probes::section),
+        ];
+        for section in sections.into_iter().flatten() {
+            text.push('\n');
+            text.push_str(&section);
+        }
+        // Writing to a string cannot fail.
+        let _ = write!(
+            text,
+            "\n## Configuration of the model\n\n```toml\n{}\n```\n",
+            self.conditions.config.trim_end()
+        );
+        text
+    }
+
+    fn head(&self) -> String {
+        let c = &self.conditions;
+        let taps = if c.taps_synthetic {
+            "synthesised, not recorded: what is said of taps says how well the model knows the \
+             synthesis"
+        } else {
+            "recorded"
+        };
+        format!(
+            "# Evaluation of the model `{}`\n\n\
+             | | |\n|---|---|\n\
+             | model | {}, CRC-32 {}, trained with seed {} |\n\
+             | corpus | {}, CRC-32 {}: {} materials in {} families |\n\
+             | taps | {taps} |\n\
+             | text encoder | {} |\n\n\
+             Written by `asperity-train evaluate`; `report.json` holds every number. Intervals \
+             are Wilson's at 95 %. Nothing here was felt by people.\n",
+            c.model,
+            c.model,
+            c.model_crc32,
+            c.seed,
+            c.corpus,
+            c.corpus_crc32,
+            c.materials,
+            c.families,
+            c.text_encoder,
+        )
+    }
+}
+
+/// `12.3 % (10.1–14.9)`.
+fn percent(share: super::Share) -> String {
+    let scaled = |x: f64| 100.0 * x;
+    format!(
+        "{:.1} % ({:.1}–{:.1})",
+        scaled(share.share),
+        scaled(share.low),
+        scaled(share.high)
+    )
+}
+
+/// A row of a table.
+fn row(cells: &[String]) -> String {
+    format!("| {} |\n", cells.join(" | "))
+}
+
+/// The head of a table: the first column left, the others right.
+fn table(titles: &[&str]) -> String {
+    let rules: Vec<&str> = (0..titles.len())
+        .map(|column| if column == 0 { "---" } else { "---:" })
+        .collect();
+    format!("| {} |\n|{}|\n", titles.join(" | "), rules.join("|"))
+}

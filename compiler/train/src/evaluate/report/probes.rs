@@ -1,0 +1,80 @@
+//! Section 4.
+
+use super::{percent, row, table};
+use crate::evaluate::probes::{Attribute, Direction, Kind, Order, Probing};
+
+pub(super) fn section(part: &Probing) -> String {
+    let mut text = String::from(
+        "## 4. Do words move the texture the right way?\n\n\
+         Prompts of `compiler/corpora/probes.toml` and `pairs.toml`, never trained on, are decoded \
+         and their objective attributes read: rough from rough_db, slippery from −μ, hard from \
+         hard_hz. The baseline gives each prompt the training material nearest in text.\n\n",
+    );
+    let p = &part.paraphrases;
+    text += &format!(
+        "**Paraphrases.** {} pairs lie {:.2} deviations of the corpus apart, prompts of different \
+         pairs {:.2}: a ratio of {:.2}. {} of the pairs are closer than half of the random \
+         ones.\n\n**Directions.**\n\n",
+        p.pairs,
+        p.distance,
+        p.random_distance,
+        p.ratio,
+        percent(p.closer)
+    );
+    text += &table(&["changed by", "rough", "slippery", "hard", "all"]);
+    let kinds = [
+        ("negation", Some(Kind::Negation)),
+        ("less, more", Some(Kind::Comparative)),
+        ("degree", Some(Kind::Degree)),
+        ("all", None),
+    ];
+    for (name, kind) in kinds {
+        let of_kind = |d: &Direction| kind.is_none_or(|kind| d.kind == kind);
+        let mut cells = vec![name.to_owned()];
+        for attribute in Attribute::ALL {
+            let share = part.right(|d| of_kind(d) && d.attribute == attribute);
+            cells.push(format!("{} of {}", share.hits, share.of));
+        }
+        cells.push(percent(part.right(of_kind)));
+        text += &row(&cells);
+    }
+    text += "\n**Pairs** in which nearly anyone would agree on the first:\n\n";
+    text += &table(&["attribute", "pairs", "decoded texture", "nearest material"]);
+    for ranked in &part.pairs {
+        text += &row(&[
+            ranked.attribute.name().into(),
+            ranked.model.of.to_string(),
+            percent(ranked.model),
+            percent(ranked.nearest),
+        ]);
+    }
+    text += "\n**Abrasive over cork over foam**, the paper's order:\n\n";
+    text += &table(&["prompts", "sharp_hz", "rough_db", "in order"]);
+    part.orders.iter().for_each(|order| text += &line(order));
+    let (negation, all) = (
+        part.right(|d| d.kind == Kind::Negation),
+        part.right(|_| true),
+    );
+    text += &format!(
+        "\n**Answer.** {} of the directions are right, {} of the negations (chance is 50 %).\n",
+        percent(all),
+        percent(negation)
+    );
+    text
+}
+
+fn line(order: &Order) -> String {
+    let values = |x: [f64; 3]| x.map(|x| format!("{x:.1}")).join(" > ").replace('-', "−");
+    let said = match (order.sharp_falls, order.rough_falls) {
+        (true, true) => "both",
+        (true, false) => "sharpness",
+        (false, true) => "excitation",
+        (false, false) => "none",
+    };
+    row(&[
+        order.prompts.join("; "),
+        values(order.sharp_hz),
+        values(order.rough_db),
+        said.into(),
+    ])
+}
