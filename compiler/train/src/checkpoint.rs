@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Numbers of a row of the history.
-const TERMS: usize = 6;
+const TERMS: usize = 7;
 
 /// What a checkpoint belongs to: a run goes on only where all of it is the same.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -119,13 +119,22 @@ fn difference(old: &Identity, new: &Identity) -> Option<&'static str> {
 }
 
 fn terms(loss: &EpochLoss) -> [f32; TERMS] {
-    [loss.total, loss.ar, loss.taps, loss.kl, loss.contrastive, loss.alignment]
+    [
+        loss.total,
+        loss.ar,
+        loss.excitation,
+        loss.taps,
+        loss.kl,
+        loss.contrastive,
+        loss.alignment,
+    ]
 }
 
-fn loss([total, ar, taps, kl, contrastive, alignment]: &[f32; TERMS]) -> EpochLoss {
+fn loss([total, ar, excitation, taps, kl, contrastive, alignment]: &[f32; TERMS]) -> EpochLoss {
     EpochLoss {
         total: *total,
         ar: *ar,
+        excitation: *excitation,
         taps: *taps,
         kl: *kl,
         contrastive: *contrastive,

@@ -130,6 +130,9 @@ pub struct Loss {
     pub ar: f64,
     /// λ_tap.
     pub taps: f64,
+    /// Share of the excitation in the AR term, 0..=1; the paper's mean over all channels
+    /// gives it 1/22.
+    pub excitation_share: f64,
     /// λ_text, of InfoNCE.
     pub contrastive: f64,
     /// τ of InfoNCE.

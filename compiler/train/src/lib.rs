@@ -29,6 +29,7 @@ mod tests;
 mod text_stage;
 mod trained;
 mod vae;
+mod vectors;
 mod weights;
 
 pub use captions::Captions;
@@ -39,4 +40,5 @@ pub use fit::{Checkpoints, fit, fit_on, fit_with_checkpoints, on_threads};
 pub use metrics::{Metrics, Retrieval, measure};
 pub use normaliser::Normaliser;
 pub use progress::{EpochLoss, Progress, Silent};
+pub use vectors::Remembered;
 pub use trained::{Gaussian, MaterialLatent, Seen, Trained};

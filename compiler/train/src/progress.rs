@@ -7,8 +7,10 @@ use serde::{Deserialize, Serialize};
 pub struct EpochLoss {
     /// What is minimised.
     pub total: f32,
-    /// Smooth L1 of the normalised LSFs and excitations.
+    /// Smooth L1 of the normalised LSFs and excitations, weighted.
     pub ar: f32,
+    /// Smooth L1 of the normalised excitations alone.
+    pub excitation: f32,
     /// Smooth L1 of the normalised tap samples.
     pub taps: f32,
     /// Divergence from the standard normal, nats.
@@ -23,6 +25,7 @@ impl EpochLoss {
     pub(crate) fn add(&mut self, other: Self, share: f32) {
         self.total += share * other.total;
         self.ar += share * other.ar;
+        self.excitation += share * other.excitation;
         self.taps += share * other.taps;
         self.kl += share * other.kl;
         self.contrastive += share * other.contrastive;

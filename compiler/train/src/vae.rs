@@ -8,11 +8,12 @@ use crate::{
     error::FitError,
     loss::{info_nce, smooth_l1},
     network::{Decoded, Mode, Network, matrix},
-    normaliser::Normaliser,
+    normaliser::{LSFS, Normaliser},
     parameters::{Bound, Parameters},
     progress::EpochLoss,
     rng::{Purpose, Stream},
 };
+use asperity_corpus::BINS;
 use burn_tensor::{Device, Tensor};
 use std::f64::consts::PI;
 
@@ -102,9 +103,12 @@ impl State {
             network.encoder.forward(&bound, ar.clone(), taps.clone(), batch.present);
         let z = posterior.sample(batch.epsilon);
         let decoded = decode(network, &bound, run.normaliser, z.clone(), &mut mode);
-        let (said_ar, said_taps) = normalised(run.normaliser, decoded);
-        let ar = smooth_l1(said_ar, ar);
-        let taps = smooth_l1(said_taps, taps);
+        let said = normalised(run.normaliser, decoded);
+        let lsf = smooth_l1(said.lsf_rad, ar.clone().narrow(1, 0, LSFS));
+        let excitation = smooth_l1(said.excitation, ar.narrow(1, LSFS, BINS));
+        let share = weights.excitation_share;
+        let ar = lsf * (1.0 - share) + excitation.clone() * share;
+        let taps = smooth_l1(said.taps_m_s2, taps);
         let kl = posterior.divergence();
         let predicted = network.text.forward(&bound, batch.text, &mut Mode::Evaluate);
         let (projected, statistics) = network.latent.forward(&bound, z, &mut mode);
@@ -123,6 +127,7 @@ impl State {
         EpochLoss {
             total: value(total),
             ar: value(ar),
+            excitation: value(excitation),
             taps: value(taps),
             kl: value(kl),
             contrastive: value(contrastive),
@@ -147,15 +152,19 @@ pub(crate) fn decode(
     }
 }
 
-/// [B, 396] and [B, 1300], as the encoders see them.
-fn normalised(normaliser: &Normaliser, decoded: Decoded) -> (Tensor<2>, Tensor<2>) {
-    let device = decoded.taps_m_s2.device();
-    let row = |values: &[f32]| matrix(values.to_vec(), values.len(), &device);
-    let ar = Tensor::cat(vec![decoded.lsf_rad, decoded.excitation], 1);
-    (
-        (ar - row(&normaliser.ar_mean)) / row(&normaliser.ar_deviation),
-        (decoded.taps_m_s2 - row(&normaliser.tap_mean)) / row(&normaliser.tap_deviation),
-    )
+/// The same with mean zero and deviation one, as the encoders see it.
+fn normalised(normaliser: &Normaliser, decoded: Decoded) -> Decoded {
+    let normal = |x: Tensor<2>, mean: &[f32], deviation: &[f32]| {
+        let device = x.device();
+        let row = |values: &[f32]| matrix(values.to_vec(), values.len(), &device);
+        (x - row(mean)) / row(deviation)
+    };
+    let (mean, deviation) = (&normaliser.ar_mean, &normaliser.ar_deviation);
+    Decoded {
+        lsf_rad: normal(decoded.lsf_rad, &mean[..LSFS], &deviation[..LSFS]),
+        excitation: normal(decoded.excitation, &mean[LSFS..], &deviation[LSFS..]),
+        taps_m_s2: normal(decoded.taps_m_s2, &normaliser.tap_mean, &normaliser.tap_deviation),
+    }
 }
 
 /// Batches of `size`; a last one of a single instance joins its predecessor, since

@@ -29,6 +29,7 @@ impl Config {
         weight("loss.reconstruction", l.reconstruction)?;
         weight("loss.ar", l.ar)?;
         weight("loss.taps", l.taps)?;
+        probability("loss.excitation_share", l.excitation_share)?;
         weight("loss.contrastive", l.contrastive)?;
         positive("loss.temperature", l.temperature)?;
         weight("loss.alignment", l.alignment)?;

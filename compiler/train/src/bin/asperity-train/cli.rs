@@ -54,6 +54,9 @@ pub(crate) struct Fit {
     /// Where the text encoder runs: `portable`, or `onnxruntime` where it is installed
     #[arg(long, default_value_t, value_name = "portable|onnxruntime")]
     pub(crate) backend: BackendName,
+    /// Keep text vectors in this file, and take from it those that are there
+    #[arg(long, value_name = "FILE")]
+    pub(crate) vectors: Option<PathBuf>,
     /// Threads; as many as there are cores if left out. The model does not depend on it
     #[arg(long)]
     pub(crate) threads: Option<NonZeroUsize>,

@@ -16,7 +16,7 @@ use asperity_corpus::{
     reference::{self, LexiconEntry, ReferenceOptions},
 };
 use asperity_train::{
-    Captions, Checkpoints, Config, FitError, Metrics, config::CorpusKind, export,
+    Captions, Checkpoints, Config, FitError, Metrics, Remembered, config::CorpusKind, export,
     fit_with_checkpoints, measure, on_threads,
 };
 use std::{
@@ -120,7 +120,7 @@ fn train(
     bar: &mut Bar,
 ) -> Result<Metrics, Failure> {
     let (corpus, lexicon) = corpus(args, config)?;
-    let captions = Captions::encode(&corpus, &lexicon, encoder).map_err(boxed)?;
+    let captions = captions(args, &corpus, &lexicon, encoder).map_err(boxed)?;
     let made = make_folder(state)?;
     let all: Vec<usize> = (0..corpus.materials.len()).collect();
     let trained = fit_with_checkpoints(&corpus, &all, &captions, config, checkpoints, bar);
@@ -133,6 +133,26 @@ fn train(
     let files = export(&trained, &corpus, &captions, &metrics).map_err(boxed)?;
     files.write(&args.output).map_err(boxed)?;
     Ok(metrics)
+}
+
+/// Encodes the texts, but for those that a file already holds.
+fn captions(
+    args: &cli::Fit,
+    corpus: &Corpus,
+    lexicon: &[LexiconEntry],
+    encoder: &dyn TextEncoder,
+) -> Result<Captions, FitError> {
+    let Some(path) = &args.vectors else {
+        return Captions::encode(corpus, lexicon, encoder);
+    };
+    let remembered = if path.exists() {
+        Remembered::load(encoder, path)?
+    } else {
+        Remembered::new(encoder)
+    };
+    let captions = Captions::encode(corpus, lexicon, &remembered)?;
+    remembered.save(path)?;
+    Ok(captions)
 }
 
 fn configuration(args: &cli::Fit) -> Result<Config, Failure> {
