@@ -14,9 +14,13 @@ const VOCABULARY: &str = include_str!("../model/vocab.txt");
 pub fn model() -> Files {
     Files {
         description: include_str!("../model/model.json").into(),
-        text_projection: include_bytes!("../model/text_projection.onnx").as_slice().into(),
+        text_projection: include_bytes!("../model/text_projection.onnx")
+            .as_slice()
+            .into(),
         ar_decoder: include_bytes!("../model/ar_decoder.onnx").as_slice().into(),
-        tap_decoder: include_bytes!("../model/tap_decoder.onnx").as_slice().into(),
+        tap_decoder: include_bytes!("../model/tap_decoder.onnx")
+            .as_slice()
+            .into(),
         encoder: include_bytes!("../model/encoder.onnx").as_slice().into(),
     }
 }

@@ -1,8 +1,8 @@
 //! Where networks run: the portable engine, or ONNX Runtime where it is installed.
 
+use crate::diagnostic::Diagnostic;
 use asperity_nn::{Bytes, Portable, Session};
 use asperity_onnxruntime::OnnxRuntime;
-use crate::diagnostic::Diagnostic;
 use std::{borrow::Cow, fmt, str::FromStr};
 use thiserror::Error;
 
@@ -54,7 +54,10 @@ pub struct BackendError(#[from] asperity_onnxruntime::NotFound);
 
 impl Diagnostic for BackendError {
     fn remedy(&self) -> String {
-        format!("{}, or leave --backend out for the portable engine", self.0.remedy())
+        format!(
+            "{}, or leave --backend out for the portable engine",
+            self.0.remedy()
+        )
     }
 }
 

@@ -64,11 +64,7 @@ impl crate::diagnostic::Diagnostic for PreviewError {
 ///
 /// # Errors
 /// [`PreviewError`] when the encoder fails.
-pub fn png(
-    grid: &ModelGrid,
-    families: &[(&str, f64)],
-    seed: u64,
-) -> Result<Vec<u8>, PreviewError> {
+pub fn png(grid: &ModelGrid, families: &[(&str, f64)], seed: u64) -> Result<Vec<u8>, PreviewError> {
     let heights = relief(grid, seed);
     let pixels = shade(&heights, tint(families));
     let mut bytes = Vec::new();
@@ -146,9 +142,7 @@ fn quantiles(model: &ArmaModel) -> Vec<f64> {
     let mut sum = 0.0;
     for (step, power) in powers.iter().enumerate() {
         sum += power / total;
-        while frequencies.len() < WAVES
-            && (frequencies.len() as f64 + 0.5) / WAVES as f64 <= sum
-        {
+        while frequencies.len() < WAVES && (frequencies.len() as f64 + 0.5) / WAVES as f64 <= sum {
             frequencies.push(low + (step as f64 + 0.5) * width);
         }
     }
@@ -217,8 +211,13 @@ mod tests {
     fn the_same_texture_gives_the_same_bytes_and_a_readable_png() {
         let grid = builtin::texture().grid;
         let bytes = png(&grid, &[("abrasives", 0.7), ("unknown", 0.3)], 3).unwrap();
-        assert_eq!(bytes, png(&grid, &[("abrasives", 0.7), ("unknown", 0.3)], 3).unwrap());
-        let reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap();
+        assert_eq!(
+            bytes,
+            png(&grid, &[("abrasives", 0.7), ("unknown", 0.3)], 3).unwrap()
+        );
+        let reader = png::Decoder::new(std::io::Cursor::new(&bytes))
+            .read_info()
+            .unwrap();
         assert_eq!(reader.info().size(), (SIZE as u32, SIZE as u32));
     }
 }

@@ -148,7 +148,10 @@ impl Interior {
 /// −10 log₁₀|A|², dB: a common numerator cancels in differences.
 fn log_spectrum(angles: &Angles, monic: &[f64]) -> Vec<f64> {
     let squares = angles.squared_magnitudes(monic);
-    squares.into_iter().map(|a| -10.0 * libm::log10(a)).collect()
+    squares
+        .into_iter()
+        .map(|a| -10.0 * libm::log10(a))
+        .collect()
 }
 
 fn with_order(grid: &ModelGrid, order: usize) -> ModelGrid {

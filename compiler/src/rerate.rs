@@ -74,7 +74,11 @@ fn convert(
     let peak = (0..POINTS).fold(0.0_f64, |peak, n| peak.max(model.power(at(n))));
     let shape = |omega: f64| {
         let freq_hz = omega / TAU * rate_hz;
-        let power = if freq_hz < old_nyquist { model.power(freq_hz) } else { 0.0 };
+        let power = if freq_hz < old_nyquist {
+            model.power(freq_hz)
+        } else {
+            0.0
+        };
         let zero = match numerator {
             Numerator::None => 1.0,
             // Half the new rate itself is never asked for.
@@ -87,7 +91,11 @@ fn convert(
     let fitted = ArmaModel {
         sample_rate_hz: rate_hz,
         a: monic,
-        b: if numerator == Numerator::None { vec![1.0] } else { vec![1.0, 1.0] },
+        b: if numerator == Numerator::None {
+            vec![1.0]
+        } else {
+            vec![1.0, 1.0]
+        },
         level_m_s2: 1.0,
     };
     // One-sided densities 2·S/rate over the common band.
@@ -121,7 +129,10 @@ mod tests {
                 };
                 let (before, after) = (of(&grid, x), of(&converted, y));
                 let shift = after.centroid_hz / before.centroid_hz;
-                assert!((shift - 1.0).abs() < 0.15, "{rate_hz} Hz: centroid × {shift}");
+                assert!(
+                    (shift - 1.0).abs() < 0.15,
+                    "{rate_hz} Hz: centroid × {shift}"
+                );
                 let level_db = 10.0 * (after.power / before.power).log10();
                 assert!(level_db.abs() < 1.5, "{rate_hz} Hz: {level_db} dB");
             }

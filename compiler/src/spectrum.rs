@@ -136,7 +136,10 @@ impl Angles {
 
     /// [`squared_magnitude`] at every frequency, to the bit.
     pub(crate) fn squared_magnitudes(&self, coefficients: &[f64]) -> Vec<f64> {
-        let used = coefficients.iter().rposition(|&c| c != 0.0).map_or(0, |last| last + 1);
+        let used = coefficients
+            .iter()
+            .rposition(|&c| c != 0.0)
+            .map_or(0, |last| last + 1);
         let mut all = Vec::with_capacity(self.blocks.len() * Self::LANES);
         for (cosines, sines) in &self.blocks {
             let (mut re, mut im) = ([0.0; Self::LANES], [0.0; Self::LANES]);
@@ -180,7 +183,10 @@ pub fn log_spectral_distance_db(x: &ArmaModel, y: &ArmaModel) -> f64 {
     let (low, high) = ERROR_BAND_HZ;
     let high = high.min(0.45 * x.sample_rate_hz.min(y.sample_rate_hz));
     let step = (high - low) / (ERROR_POINTS - 1) as f64;
-    let (x, y) = (x.powers(low, step, ERROR_POINTS), y.powers(low, step, ERROR_POINTS));
+    let (x, y) = (
+        x.powers(low, step, ERROR_POINTS),
+        y.powers(low, step, ERROR_POINTS),
+    );
     let mut sum = 0.0;
     for (x, y) in x.iter().zip(&y) {
         let difference_db = 10.0 * libm::log10(x / y);
@@ -263,7 +269,10 @@ mod tests {
         let together = Angles::new(omegas.iter().copied()).squared_magnitudes(&coefficients);
         assert_eq!(together.len(), omegas.len());
         for (found, omega) in together.iter().zip(&omegas) {
-            assert_eq!(found.to_bits(), squared_magnitude(&coefficients, *omega).to_bits());
+            assert_eq!(
+                found.to_bits(),
+                squared_magnitude(&coefficients, *omega).to_bits()
+            );
         }
     }
 

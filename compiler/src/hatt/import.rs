@@ -219,12 +219,13 @@ pub fn import(file: &Path, completer: Option<&LearnedModel>) -> Result<Imported,
     let source_name = file.file_name().unwrap_or_default().to_string_lossy();
     let mut texture = to_model(&material, &source_name, source_crc32);
     if let Some(model) = completer {
-        texture.taps = complete::taps_of_grid(model, &texture.grid, &texture.gains).map_err(
-            |cause| ImportError::Complete {
-                file: file.to_owned(),
-                cause,
-            },
-        )?;
+        texture.taps =
+            complete::taps_of_grid(model, &texture.grid, &texture.gains).map_err(|cause| {
+                ImportError::Complete {
+                    file: file.to_owned(),
+                    cause,
+                }
+            })?;
         texture.provenance.notes = format!(
             "Taps decoded from the AR grid by the learned model {} (trained on synthetic taps). {}",
             model.description().name,

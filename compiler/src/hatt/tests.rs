@@ -310,7 +310,9 @@ fn bytes_that_are_no_text_and_files_without_end_are_refused() {
     assert!(empty.contains("has no .xml file"), "{empty}");
     #[cfg(target_os = "linux")]
     {
-        let endless = import(Path::new("/dev/zero"), None).unwrap_err().to_string();
+        let endless = import(Path::new("/dev/zero"), None)
+            .unwrap_err()
+            .to_string();
         assert!(endless.contains("16777216 at most"), "{endless}");
     }
 }

@@ -102,8 +102,16 @@ fn at(grid: &ModelGrid, speed_mm_s: f64, force_n: f64, bins: &GridDescription) -
         .collect();
     let (monic, _) = levinson::from_autocorrelation(&autocorrelation);
     // A silent grid has no shape: evenly spaced frequencies, that is white noise.
-    let flat = || (1..=bins.order).map(|k| k as f64 * PI / (bins.order + 1) as f64).collect();
-    let level_db = if total > 0.0 { 10.0 * libm::log10(mean.max(1e-12)) } else { -120.0 };
+    let flat = || {
+        (1..=bins.order)
+            .map(|k| k as f64 * PI / (bins.order + 1) as f64)
+            .collect()
+    };
+    let level_db = if total > 0.0 {
+        10.0 * libm::log10(mean.max(1e-12))
+    } else {
+        -120.0
+    };
     (lsf::from_polynomial(&monic).unwrap_or_else(flat), level_db)
 }
 
@@ -197,7 +205,10 @@ mod tests {
         let channels = ar_channels(&bins, &texture.grid);
         for (vertex, found) in interior.iter().zip(channels.chunks(bins.order + 1)) {
             for (expected, found) in vertex.lsf_rad.iter().zip(found) {
-                assert!((expected - f64::from(*found)).abs() < 0.02, "{expected} {found}");
+                assert!(
+                    (expected - f64::from(*found)).abs() < 0.02,
+                    "{expected} {found}"
+                );
             }
             let level = vertex.sigma_m_s2 * super::super::level::nyquist_rms(&vertex.lsf_rad);
             let level_db = 20.0 * libm::log10(level);

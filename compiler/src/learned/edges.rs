@@ -111,8 +111,7 @@ fn growth(vertices: &[GridVertex]) -> (f64, f64) {
         })
         .collect();
     let count = points.len().max(1) as f64;
-    let mean: [f64; 3] =
-        std::array::from_fn(|k| points.iter().map(|p| p[k]).sum::<f64>() / count);
+    let mean: [f64; 3] = std::array::from_fn(|k| points.iter().map(|p| p[k]).sum::<f64>() / count);
     let product = |i: usize, j: usize| -> f64 {
         points
             .iter()
@@ -135,7 +134,11 @@ fn growth(vertices: &[GridVertex]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{mesh, model::{ModelGrid, Numerator}, triangulate};
+    use crate::{
+        mesh,
+        model::{ModelGrid, Numerator},
+        triangulate,
+    };
 
     fn interior() -> Vec<GridVertex> {
         // A scattered cloud with σ = (v/100)^0.9·F^0.3.
@@ -159,7 +162,8 @@ mod tests {
     #[test]
     fn a_power_law_goes_on_to_the_far_borders_and_is_silent_at_the_near_ones() {
         for vertex in close(interior(), 250.0, 3.5) {
-            let expected = libm::pow(vertex.speed_mm_s / 100.0, 0.9) * libm::pow(vertex.force_n, 0.3);
+            let expected =
+                libm::pow(vertex.speed_mm_s / 100.0, 0.9) * libm::pow(vertex.force_n, 0.3);
             assert!((vertex.sigma_m_s2 - expected).abs() < 1e-9, "{vertex:?}");
         }
     }

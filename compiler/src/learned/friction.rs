@@ -46,7 +46,10 @@ pub fn neighbours(z: &[f32], anchors: &[Anchor], how: FrictionDescription) -> Ve
 /// Σ w_i μ_i.
 #[must_use]
 pub fn mu(neighbours: &[Neighbour], anchors: &[Anchor]) -> f64 {
-    neighbours.iter().map(|n| n.weight * anchors[n.index].mu).sum()
+    neighbours
+        .iter()
+        .map(|n| n.weight * anchors[n.index].mu)
+        .sum()
 }
 
 /// The same mean of the walls' stiffness, N/m.
@@ -62,7 +65,10 @@ pub fn stiffness_n_m(neighbours: &[Neighbour], anchors: &[Anchor]) -> f64 {
 #[must_use]
 pub fn cosine(x: &[f32], y: &[f32]) -> f64 {
     let dot = |a: &[f32], b: &[f32]| -> f64 {
-        a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
+        a.iter()
+            .zip(b)
+            .map(|(a, b)| f64::from(*a) * f64::from(*b))
+            .sum()
     };
     let length = (dot(x, x) * dot(y, y)).sqrt();
     if length > 0.0 && length.is_finite() {
@@ -88,7 +94,11 @@ mod tests {
 
     #[test]
     fn mu_follows_the_softmax_over_the_nearest() {
-        let anchors = [anchor([1.0, 0.0], 0.2), anchor([0.0, 2.0], 0.8), anchor([-1.0, 0.0], 5.0)];
+        let anchors = [
+            anchor([1.0, 0.0], 0.2),
+            anchor([0.0, 2.0], 0.8),
+            anchor([-1.0, 0.0], 5.0),
+        ];
         let how = FrictionDescription {
             top_k: 2,
             temperature: 0.5,

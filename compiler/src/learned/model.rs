@@ -38,7 +38,9 @@ pub enum ModelError {
         message: String,
     },
     /// A text vector of another width than the projection takes.
-    #[error("text_projection.onnx takes vectors of {expected} numbers, the text encoder gives {found}")]
+    #[error(
+        "text_projection.onnx takes vectors of {expected} numbers, the text encoder gives {found}"
+    )]
     Width {
         /// What the projection takes.
         expected: usize,
@@ -155,10 +157,12 @@ impl LearnedModel {
             })?;
         check(&description)?;
         let session = |file: &str, bytes: Cow<'static, [u8]>| {
-            backend.session(bytes).map_err(|message| ModelError::Network {
-                file: file.into(),
-                message,
-            })
+            backend
+                .session(bytes)
+                .map_err(|message| ModelError::Network {
+                    file: file.into(),
+                    message,
+                })
         };
         Ok(Self {
             description,
@@ -217,7 +221,12 @@ impl LearnedModel {
         let taps = &self.description.taps;
         let file = "tap_decoder.onnx";
         let outputs = run(file, self.tap_decoder.as_ref(), &[("z", &shape, &z)])?;
-        let taps_m_s2 = take(file, &outputs, "taps_m_s2", taps.speeds_m_s.len() * taps.samples)?;
+        let taps_m_s2 = take(
+            file,
+            &outputs,
+            "taps_m_s2",
+            taps.speeds_m_s.len() * taps.samples,
+        )?;
         Ok(Decoded {
             lsf_rad,
             level_db,
@@ -235,7 +244,10 @@ impl LearnedModel {
         let taps = &self.description.taps;
         let bins = grid.speeds_mm_s.len();
         let (traces, samples) = (taps.speeds_m_s.len(), taps.samples);
-        let (no_ar, no_taps) = (vec![0.0; bins * (grid.order + 1)], vec![0.0; traces * samples]);
+        let (no_ar, no_taps) = (
+            vec![0.0; bins * (grid.order + 1)],
+            vec![0.0; traces * samples],
+        );
         let (ar, bank, present): (&[f32], &[f32], [f32; 2]) = match known {
             Present::Ar(ar) => (ar, &no_taps, [1.0, 0.0]),
             Present::Taps(bank) => (&no_ar, bank, [0.0, 1.0]),
@@ -277,7 +289,10 @@ fn check(description: &ModelDescription) -> Result<(), ModelError> {
         })
     };
     if description.format != FORMAT {
-        return fault(format!("format: {}, this version reads {FORMAT}", description.format));
+        return fault(format!(
+            "format: {}, this version reads {FORMAT}",
+            description.format
+        ));
     }
     let grid = &description.grid;
     if grid.speeds_mm_s.len() != grid.forces_n.len() || grid.speeds_mm_s.len() < 3 {
@@ -286,7 +301,8 @@ fn check(description: &ModelDescription) -> Result<(), ModelError> {
     let inside = |values: &[f64], border: f64| {
         values.iter().all(|x| *x > 0.0 && *x < border) && border.is_finite()
     };
-    if !inside(&grid.speeds_mm_s, grid.max_speed_mm_s) || !inside(&grid.forces_n, grid.max_force_n) {
+    if !inside(&grid.speeds_mm_s, grid.max_speed_mm_s) || !inside(&grid.forces_n, grid.max_force_n)
+    {
         return fault("grid: a bin outside the borders".into());
     }
     if description.taps.speeds_m_s.is_empty() || description.taps.samples == 0 {
@@ -297,10 +313,16 @@ fn check(description: &ModelDescription) -> Result<(), ModelError> {
     }
     for anchor in &description.anchors {
         if anchor.z.len() != LATENT || !anchor.z.iter().all(|x| x.is_finite()) {
-            return fault(format!("anchors: {}: z: {LATENT} finite numbers wanted", anchor.name));
+            return fault(format!(
+                "anchors: {}: z: {LATENT} finite numbers wanted",
+                anchor.name
+            ));
         }
         if !(anchor.mu >= 0.0 && anchor.mu.is_finite() && anchor.stiffness_n_m > 0.0) {
-            return fault(format!("anchors: {}: mu or stiffness_n_m is no such value", anchor.name));
+            return fault(format!(
+                "anchors: {}: mu or stiffness_n_m is no such value",
+                anchor.name
+            ));
         }
     }
     if description.spread.len() != LATENT || !description.spread.iter().all(|x| x.is_finite()) {

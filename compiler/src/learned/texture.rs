@@ -42,7 +42,11 @@ pub fn build(
     let texture = TextureModel {
         name,
         grid: grid(description, decoded),
-        taps: taps(description, decoded, gains.f_max_n / gains.effective_mass_kg),
+        taps: taps(
+            description,
+            decoded,
+            gains.f_max_n / gains.effective_mass_kg,
+        ),
         friction: Friction {
             mu: friction::mu(&neighbours, &description.anchors),
             anchors: neighbours
@@ -159,7 +163,10 @@ mod tests {
         ];
         for raw in hostile {
             let lsf = spread(raw);
-            assert!(lsf::smallest_gap(&lsf) > 0.99 * LEAST_GAP_RAD, "{raw:?} {lsf:?}");
+            assert!(
+                lsf::smallest_gap(&lsf) > 0.99 * LEAST_GAP_RAD,
+                "{raw:?} {lsf:?}"
+            );
         }
     }
 

@@ -236,8 +236,8 @@ impl Author {
         let (mut texture, neighbours) = self.decode(&z, prompt, options)?;
         clock.lap("decode");
         if let Some(rate_hz) = options.rate_hz {
-            texture.grid = rerate::rerate(&texture.grid, rate_hz)
-                .ok_or(PromptError::Rate(rate_hz))?;
+            texture.grid =
+                rerate::rerate(&texture.grid, rate_hz).ok_or(PromptError::Rate(rate_hz))?;
         }
         let (grid, reduction_db) = reduce::reduce(&texture.grid, options.fidelity);
         texture.grid = grid;

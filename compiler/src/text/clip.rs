@@ -42,7 +42,8 @@ impl Clip {
                 FILES[1]
             ))
         })?;
-        let network = |message: String| TextError::Network(format!("{}: {message}", file.display()));
+        let network =
+            |message: String| TextError::Network(format!("{}: {message}", file.display()));
         let bytes = std::fs::read(&file).map_err(|error| network(error.to_string()))?;
         Self::new(backend.session(bytes.into()).map_err(network)?)
     }
@@ -67,11 +68,22 @@ impl Clip {
             names.join(", ")
         };
         let ids = inputs.iter().find(is_ids).cloned().ok_or_else(|| {
-            signature("inputs", listed(inputs), "token ids, int32 or int64 [1, 77]")
+            signature(
+                "inputs",
+                listed(inputs),
+                "token ids, int32 or int64 [1, 77]",
+            )
         })?;
-        let mask = inputs.iter().find(|port| port.name.contains("mask")).cloned();
+        let mask = inputs
+            .iter()
+            .find(|port| port.name.contains("mask"))
+            .cloned();
         if inputs.len() > 1 + usize::from(mask.is_some()) {
-            return Err(signature("inputs", listed(inputs), "token ids and at most a mask"));
+            return Err(signature(
+                "inputs",
+                listed(inputs),
+                "token ids and at most a mask",
+            ));
         }
         let outputs = session.outputs();
         let output = OUTPUTS
@@ -124,7 +136,9 @@ impl Clip {
             .run(&inputs)
             .map_err(|error| TextError::Network(error.to_string()))?;
         match outputs.into_iter().find(|(name, _)| *name == self.output) {
-            Some((_, Tensor::F32 { shape, data })) if shape.first() == Some(&1) && shape.len() == 2 => {
+            Some((_, Tensor::F32 { shape, data }))
+                if shape.first() == Some(&1) && shape.len() == 2 =>
+            {
                 Ok(data)
             }
             Some((name, other)) => Err(TextError::Signature {

@@ -2,7 +2,6 @@
 //!
 //! [`minilm`] is embedded. [`clip`] runs a user's export of CLIP's text tower.
 
-
 pub mod clip;
 pub mod minilm;
 

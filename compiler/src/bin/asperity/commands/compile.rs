@@ -3,7 +3,10 @@
 use super::inference;
 use crate::failure::{Failures, one};
 use crate::{cli::Compile, console};
-use asperity::{output, prompt::{Options, PromptError}};
+use asperity::{
+    output,
+    prompt::{Options, PromptError},
+};
 
 pub(crate) fn run(args: &Compile, quiet: bool) -> Result<(), Failures> {
     // Before half a second of loading.

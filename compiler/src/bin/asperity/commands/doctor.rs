@@ -74,7 +74,12 @@ fn findings(args: &Doctor) -> Vec<Finding> {
     findings.push(check(
         "minilm",
         embedded::text_encoder(&Backend::Portable)
-            .map(|_| format!("all-MiniLM-L6-v2, int8 weights, embedded, {} MB", megabytes(encoder_bytes)))
+            .map(|_| {
+                format!(
+                    "all-MiniLM-L6-v2, int8 weights, embedded, {} MB",
+                    megabytes(encoder_bytes)
+                )
+            })
             .map_err(|error| (error.to_string(), "build the command anew".to_owned())),
     ));
     let model = inference::model(&args.inference, &Backend::Portable);
