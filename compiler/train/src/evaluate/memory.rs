@@ -17,6 +17,8 @@ use std::{
 
 /// Texts that are encoded between two looks at the clock.
 const CHUNK: usize = 64;
+/// Chunks between two savings.
+const SAVED_CHUNKS: usize = 16;
 /// A text by whose vector an encoder is known.
 const PROBE: &str = "a rough surface";
 const MAGIC: &[u8; 8] = b"aspvec01";
@@ -76,12 +78,11 @@ impl<'a> Memory<'a> {
         }
         watch.begin("text vectors", new.len());
         let mut done = 0;
-        let mut stopped = Ok(());
-        for chunk in new.chunks(CHUNK) {
-            stopped = pause(watch, "text vectors");
-            if stopped.is_err() {
-                break;
+        for (index, chunk) in new.chunks(CHUNK).enumerate() {
+            if watch.interrupted() || (index + 1) % SAVED_CHUNKS == 0 {
+                self.save()?;
             }
+            pause(watch, "text vectors")?;
             let vectors: Vec<Vec<f32>> = chunk
                 .par_iter()
                 .map(|text| self.vector(text))
@@ -91,9 +92,12 @@ impl<'a> Memory<'a> {
             done += chunk.len();
             watch.done(done);
         }
+        self.save()
+    }
+
+    fn save(&self) -> Result<(), EvaluateError> {
         let bytes = serialise(&self.known(), self.fingerprint, self.encoder.width());
-        write_atomic(&self.path, &bytes)?;
-        stopped
+        Ok(write_atomic(&self.path, &bytes)?)
     }
 
     /// The unit vector of a text.
@@ -160,7 +164,7 @@ fn parse(all: &[u8], fingerprint: u32, width: usize) -> Option<BTreeMap<String, 
         return None;
     }
     let mut rest = body.strip_prefix(MAGIC)?;
-    let mut number = |rest: &mut &[u8]| {
+    let number = |rest: &mut &[u8]| {
         let (head, tail) = rest.split_first_chunk::<4>()?;
         *rest = tail;
         Some(u32::from_le_bytes(*head))

@@ -15,7 +15,10 @@ mod data;
 mod draws;
 mod eigen;
 mod error;
+pub mod held_out;
+pub mod map;
 mod memory;
+pub mod midpoints;
 pub mod probes;
 mod report;
 pub mod retrieval;
@@ -184,9 +187,30 @@ pub fn evaluate(
         watch.begin("retrieval", 1);
         retrieval::measure(subject, &bench.corpus, &bench.captions, materials)
     })?;
+    let config = options.fold_config.clone();
+    let config = config.unwrap_or_else(|| bench.config.clone());
+    let config = held_out::shortened(config, options.fold_epochs);
+    config.validate()?;
+    let inputs = held_out::Inputs {
+        corpus: &bench.corpus,
+        captions: &bench.captions,
+        materials,
+        signatures: &bench.signatures,
+        folds: options.folds.unwrap_or(config.evaluation.folds),
+        config: &config,
+    };
+    report.held_out = held_out::measure(&inputs, &cache, asked(Part::HeldOut), watch)?;
     let key = format!("{:08x}", cache::checksum(probes::sources()));
     report.probes = cache.part("probes", &key, asked(Part::Probes), || {
         probes::measure(subject, &bench.signatures, &bench.memory, watch)
+    })?;
+    report.midpoints = cache.part("midpoints", &key, asked(Part::Midpoints), || {
+        watch.begin("midpoints", 1);
+        midpoints::measure(subject, &bench.signatures)
+    })?;
+    report.map = cache.part("map", "", asked(Part::Map), || {
+        watch.begin("map", 1);
+        Ok(map::measure(subject))
     })?;
     report.write(options.report)?;
     Ok(report)

@@ -1,11 +1,24 @@
 //! The report on paper: `report.md` reads like a results section, `report.json` holds
 //! every number.
 
+mod bars;
+mod charts;
 mod clustering;
+mod held_out;
+mod midpoints;
 mod probes;
 mod retrieval;
 
-use super::{Bench, EvaluateError, clustering::Clustering, probes::Probing, retrieval::Retrieval};
+use super::{
+    Bench, EvaluateError,
+    clustering::Clustering,
+    held_out::HeldOut,
+    map::{self, Map},
+    midpoints::Midpoints,
+    probes::Probing,
+    retrieval::Retrieval,
+};
+use asperity::learned::description::CertaintyCurve;
 use asperity::output::{OutputError, write_folder};
 use serde::Serialize;
 use std::{fmt::Write as _, fs, path::Path};
@@ -45,8 +58,23 @@ pub struct Report {
     pub clustering: Option<Clustering>,
     /// Part 2.
     pub retrieval: Option<Retrieval>,
+    /// Part 3.
+    pub held_out: Option<HeldOut>,
     /// Part 4.
     pub probes: Option<Probing>,
+    /// Part 5.
+    pub midpoints: Option<Midpoints>,
+    /// Part 6.
+    pub map: Option<Map>,
+}
+
+/// `certainty.json`: the curve for a model description, and the one that also looks at
+/// single materials held out.
+#[derive(Serialize)]
+struct Certainty<'a> {
+    #[serde(flatten)]
+    families: &'a CertaintyCurve,
+    both: &'a CertaintyCurve,
 }
 
 impl Report {
@@ -70,7 +98,10 @@ impl Report {
             },
             clustering: None,
             retrieval: None,
+            held_out: None,
             probes: None,
+            midpoints: None,
+            map: None,
         }
     }
 
@@ -81,12 +112,29 @@ impl Report {
             doing: "cannot make the folder",
             source,
         })?;
-        let json = self.json()?;
-        let markdown = self.markdown();
-        let files: Vec<(String, &[u8])> = vec![
-            ("report.md".into(), markdown.as_bytes()),
-            ("report.json".into(), json.as_bytes()),
+        let mut files: Vec<(String, Vec<u8>)> = vec![
+            ("report.md".into(), self.markdown().into_bytes()),
+            ("report.json".into(), self.json()?.into_bytes()),
         ];
+        if let Some(part) = &self.held_out {
+            let certainty = Certainty {
+                families: &part.certainty,
+                both: &part.certainty_both,
+            };
+            let json = encode("certainty.json", &certainty)?;
+            files.push(("certainty.json".into(), json.into_bytes()));
+            files.push(("held_out.png".into(), charts::held_out(part)?));
+        }
+        if let Some(part) = &self.probes {
+            files.push(("probes.png".into(), charts::probes(part)?));
+        }
+        if let Some(part) = &self.map {
+            files.push(("anchors.png".into(), map::draw(part)?));
+        }
+        let files: Vec<(String, &[u8])> = files
+            .iter()
+            .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
+            .collect();
         Ok(write_folder(folder, &files)?)
     }
 
@@ -95,11 +143,7 @@ impl Report {
     /// # Errors
     /// [`EvaluateError::Encode`], which no report met so far.
     pub fn json(&self) -> Result<String, EvaluateError> {
-        let json = serde_json::to_string_pretty(self).map_err(|e| EvaluateError::Encode {
-            file: "report.json".into(),
-            message: e.to_string(),
-        })?;
-        Ok(json + "\n")
+        encode("report.json", self)
     }
 
     fn markdown(&self) -> String {
@@ -107,7 +151,10 @@ impl Report {
         let sections = [
             self.clustering.as_ref().map(clustering::section),
             self.retrieval.as_ref().map(retrieval::section),
+            self.held_out.as_ref().map(held_out::section),
             self.probes.as_ref().map(probes::section),
+            self.midpoints.as_ref().map(midpoints::section),
+            self.map.as_ref().map(midpoints::map),
         ];
         for section in sections.into_iter().flatten() {
             text.push('\n');
@@ -150,6 +197,14 @@ impl Report {
             c.text_encoder,
         )
     }
+}
+
+fn encode(file: &str, value: &impl Serialize) -> Result<String, EvaluateError> {
+    let json = serde_json::to_string_pretty(value).map_err(|e| EvaluateError::Encode {
+        file: file.into(),
+        message: e.to_string(),
+    })?;
+    Ok(json + "\n")
 }
 
 /// `12.3 % (10.1–14.9)`.

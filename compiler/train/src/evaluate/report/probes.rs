@@ -8,7 +8,8 @@ pub(super) fn section(part: &Probing) -> String {
         "## 4. Do words move the texture the right way?\n\n\
          Prompts of `compiler/corpora/probes.toml` and `pairs.toml`, never trained on, are decoded \
          and their objective attributes read: rough from rough_db, slippery from −μ, hard from \
-         hard_hz. The baseline gives each prompt the training material nearest in text.\n\n",
+         hard_hz. The baseline gives each prompt the training material nearest in text.\n\n\
+         ![Directions and pairs](probes.png)\n\n",
     );
     let p = &part.paraphrases;
     text += &format!(
