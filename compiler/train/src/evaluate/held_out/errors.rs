@@ -1,0 +1,61 @@
+//! How wrong a prediction is, in every unit that matters.
+
+use super::fold::within_tolerance;
+use crate::evaluate::signature::{Objective, Signature};
+use serde::{Deserialize, Serialize};
+
+/// Number of [`NAMES`].
+pub const METRICS: usize = 11;
+
+/// Metrics of a prediction, less is better, with units.
+pub const NAMES: [&str; METRICS] = [
+    "spectrum, level free, dB",
+    "spectrum with level, dB",
+    "level, dB",
+    "tap spectrum, dB",
+    "rate-hardness, |ln ratio|",
+    "rough_db, dB",
+    "sharp_hz, Hz",
+    "hard_hz, Hz",
+    "hard_hz, |ln ratio|",
+    "μ",
+    "μ, |ln ratio|",
+];
+
+/// A held-out caption.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// Its largest cosine with the mean caption of a training material.
+    pub similarity: f64,
+    /// Whether each predictor's attributes lie within tolerance.
+    pub within: [bool; 4],
+}
+
+impl Trial {
+    pub(super) fn new(similarity: f64, said: &[Objective; 4], truth: &Objective) -> Self {
+        Self {
+            similarity,
+            within: said.map(|said| within_tolerance(&said, truth)),
+        }
+    }
+}
+
+/// In the order of [`NAMES`].
+pub(super) fn errors(said: &Signature, truth: &Signature) -> [f64; METRICS] {
+    let distance = said.distance(truth);
+    let (x, y) = (said.objective, truth.objective);
+    let (x_even, y_even) = (x.even(), y.even());
+    [
+        distance.shape_db,
+        distance.spectrum_db,
+        distance.level_db,
+        distance.taps_db,
+        distance.rate_hardness,
+        (x.rough_db - y.rough_db).abs(),
+        (x.sharp_hz - y.sharp_hz).abs(),
+        (x.hard_hz - y.hard_hz).abs(),
+        (x_even[2] - y_even[2]).abs(),
+        (x.mu - y.mu).abs(),
+        (x_even[3] - y_even[3]).abs(),
+    ]
+}

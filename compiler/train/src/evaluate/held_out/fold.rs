@@ -1,0 +1,264 @@
+//! One fold: train without some materials, then ask for them by captions nobody saw.
+
+use super::errors::{METRICS, Trial, errors};
+use crate::{
+    captions::{Captions, dot},
+    config::Config,
+    error::FitError,
+    evaluate::{
+        EvaluateError, Watch,
+        signature::{Objective, Signature},
+        statistics::{mean, spearman},
+        watch::Training,
+    },
+    fit::fit_on,
+    trained::{Seen, Trained},
+};
+use asperity::learned::{
+    Latent,
+    description::{Anchor, FrictionDescription},
+    friction,
+};
+use asperity_corpus::{BINS, Corpus, Instance, ORDER, TAP_SAMPLES, TAPS};
+use serde::{Deserialize, Serialize};
+
+/// Who says what a held-out caption feels like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Predictor {
+    /// The model, from the caption.
+    Text,
+    /// The mean texture of the training materials, whatever the caption.
+    Mean,
+    /// The training material whose mean caption is nearest to the caption.
+    Nearest,
+    /// The model, from the texture itself: encoded and decoded. No prediction, but how
+    /// much of the error is the decoder's.
+    Own,
+}
+
+impl Predictor {
+    /// All of them, in the order of every array.
+    pub const ALL: [Self; 4] = [Self::Text, Self::Mean, Self::Nearest, Self::Own];
+}
+
+/// Errors on one held-out material, means over its captions.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Its name.
+    pub name: String,
+    /// Its family.
+    pub family: String,
+    /// A row a predictor, a column a metric.
+    pub errors: [[f64; METRICS]; 4],
+}
+
+/// What came of a fold.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Fold {
+    /// Materials trained on.
+    pub training: usize,
+    /// Materials held out.
+    pub materials: Vec<Material>,
+    /// Rank correlation of predicted and true attributes over captions, a row a
+    /// predictor, in the order of [`Objective::NAMES`].
+    pub spearman: [[Option<f64>; 4]; 4],
+    /// Every held-out caption.
+    pub trials: Vec<Trial>,
+}
+
+/// What all folds share.
+pub(super) struct Setting<'a> {
+    pub(super) corpus: &'a Corpus,
+    pub(super) captions: &'a Captions,
+    /// Materials of the model under evaluation, and their signatures.
+    pub(super) materials: &'a [usize],
+    pub(super) signatures: &'a [Signature],
+    pub(super) config: &'a Config,
+}
+
+/// Trains without the materials at the positions `held_out`, and asks for them.
+pub(super) fn run(
+    setting: &Setting<'_>,
+    held_out: &[usize],
+    what: &str,
+    watch: &mut dyn Watch,
+) -> Result<Fold, EvaluateError> {
+    let Setting {
+        corpus,
+        captions,
+        config,
+        ..
+    } = *setting;
+    let positions = (0..setting.materials.len()).filter(|p| held_out.binary_search(p).is_err());
+    let positions: Vec<usize> = positions.collect();
+    let training: Vec<usize> = positions.iter().map(|&p| setting.materials[p]).collect();
+    let text_epochs = config.text_stage.as_ref().map_or(0, |stage| stage.epochs);
+    let epochs = config.optimiser.epochs;
+    let mut progress = Training::begin(watch, what, epochs, text_epochs);
+    let trained = fit_on(corpus, &training, captions, config, &mut progress);
+    let trained = trained.map_err(|error| match error {
+        FitError::Interrupted { .. } => EvaluateError::Interrupted { what: what.into() },
+        other => other.into(),
+    })?;
+    let anchors = anchors(&trained, corpus);
+    let asked = Asked {
+        setting,
+        trained: &trained,
+        anchors: &anchors,
+        mean: mean_texture(corpus, &training),
+        positions: &positions,
+    };
+    Ok(asked.all(held_out))
+}
+
+/// A trained fold and its baselines.
+struct Asked<'a> {
+    setting: &'a Setting<'a>,
+    trained: &'a Trained,
+    anchors: &'a [Anchor],
+    mean: Signature,
+    /// Positions of the training materials, in the order of the anchors.
+    positions: &'a [usize],
+}
+
+impl Asked<'_> {
+    fn all(&self, held_out: &[usize]) -> Fold {
+        let mut materials = Vec::new();
+        let mut trials = Vec::new();
+        // Predicted values a predictor, and true ones, of every caption.
+        let mut said: [Vec<[f64; 4]>; 4] = Default::default();
+        let mut truth = Vec::new();
+        for &position in held_out {
+            let index = self.setting.materials[position];
+            let material = &self.setting.corpus.materials[index];
+            let own = &self.setting.signatures[position];
+            let mut sums = [[0.0; METRICS]; 4];
+            let asked = self.material(index);
+            let count = asked.len().max(1) as f64;
+            for (similarity, predictions) in asked {
+                for (predictor, prediction) in predictions.iter().enumerate() {
+                    let found = errors(prediction, own);
+                    for (sum, x) in sums[predictor].iter_mut().zip(found) {
+                        *sum += x / count;
+                    }
+                    said[predictor].push(prediction.objective.values());
+                }
+                truth.push(own.objective.values());
+                let objectives = predictions.map(|signature| signature.objective);
+                trials.push(Trial::new(similarity, &objectives, &own.objective));
+            }
+            materials.push(Material {
+                name: material.name.clone(),
+                family: material.family.clone(),
+                errors: sums,
+            });
+        }
+        let spearman = said.map(|said| {
+            std::array::from_fn(|attribute| {
+                let column = |rows: &[[f64; 4]]| -> Vec<f64> {
+                    rows.iter().map(|row| row[attribute]).collect()
+                };
+                spearman(&column(&said), &column(&truth))
+            })
+        });
+        Fold {
+            training: self.positions.len(),
+            materials,
+            spearman,
+            trials,
+        }
+    }
+
+    /// Of every held-out caption of a material: its largest cosine with a mean caption of
+    /// a training material, and what each predictor says.
+    fn material(&self, index: usize) -> Vec<(f64, [Signature; 4])> {
+        let Setting {
+            corpus, captions, ..
+        } = *self.setting;
+        let vectors: Vec<&[f32]> = captions.held_out[index].iter().map(Vec::as_slice).collect();
+        let latents = self.trained.project(&vectors);
+        let prototype = &corpus.materials[index].prototype;
+        let own = self.trained.encode(&[prototype], Seen::Both);
+        let own: Vec<Latent> = own.iter().map(|posterior| posterior.mean).collect();
+        let own = self.decode(&own);
+        let decoded = self.decode(&latents);
+        let predictions = vectors.iter().zip(decoded).map(|(vector, text)| {
+            let (nearest, similarity) = self.nearest(vector);
+            let nearest = self.setting.signatures[self.positions[nearest]].clone();
+            // One latent gives one texture.
+            let own = own.first().cloned().unwrap_or_else(|| text.clone());
+            (similarity, [text, self.mean.clone(), nearest, own])
+        });
+        predictions.collect()
+    }
+
+    fn nearest(&self, vector: &[f32]) -> (usize, f64) {
+        let mut best = (0, f32::NEG_INFINITY);
+        for (index, material) in self.trained.materials().iter().enumerate() {
+            let similarity = dot(vector, &material.caption);
+            if similarity > best.1 {
+                best = (index, similarity);
+            }
+        }
+        (best.0, f64::from(best.1))
+    }
+
+    fn decode(&self, latents: &[Latent]) -> Vec<Signature> {
+        let friction = self.setting.config.friction;
+        let how = FrictionDescription {
+            top_k: friction.top_k.min(self.anchors.len()),
+            temperature: friction.temperature,
+        };
+        let decoded = self.trained.decode(latents);
+        let speeds_m_s = &self.setting.corpus.tap_speeds_m_s;
+        let pairs = latents.iter().zip(&decoded);
+        let signatures = pairs.map(|(z, instance)| {
+            let near = friction::neighbours(z, self.anchors, how);
+            Signature::of(instance, speeds_m_s, friction::mu(&near, self.anchors))
+        });
+        signatures.collect()
+    }
+}
+
+fn anchors(trained: &Trained, corpus: &Corpus) -> Vec<Anchor> {
+    let anchors = trained.materials().iter().map(|located| {
+        let material = &corpus.materials[located.material];
+        Anchor {
+            name: material.name.clone(),
+            family: material.family.clone(),
+            mu: material.mu,
+            stiffness_n_m: material.stiffness_n_m,
+            z: located.mean.to_vec(),
+        }
+    });
+    anchors.collect()
+}
+
+/// Mean LSFs, levels, samples and friction.
+fn mean_texture(corpus: &Corpus, training: &[usize]) -> Signature {
+    let all = || training.iter().map(|&m| &corpus.materials[m].prototype);
+    let share = 1.0 / training.len().max(1) as f64;
+    let average = |value: &dyn Fn(&Instance) -> f32| -> f32 {
+        (all().map(|i| f64::from(value(i))).sum::<f64>() * share) as f32
+    };
+    let instance = Instance {
+        lsf_rad: std::array::from_fn::<_, BINS, _>(|bin| {
+            std::array::from_fn::<_, ORDER, _>(|k| average(&|i| i.lsf_rad[bin][k]))
+        }),
+        level_db: std::array::from_fn(|bin| average(&|i| i.level_db[bin])),
+        taps_m_s2: std::array::from_fn::<_, TAPS, _>(|trace| {
+            std::array::from_fn::<_, TAP_SAMPLES, _>(|n| average(&|i| i.taps_m_s2[trace][n]))
+        }),
+    };
+    let mu: Vec<f64> = training.iter().map(|&m| corpus.materials[m].mu).collect();
+    Signature::of(&instance, &corpus.tap_speeds_m_s, mean(&mu))
+}
+
+/// Whether attributes are as near to the truth as a prompt may expect: 6 dB of
+/// roughness, a quarter of the hardness, and a factor of e^0.35 in μ.
+pub(super) fn within_tolerance(said: &Objective, truth: &Objective) -> bool {
+    let (said_even, truth_even) = (said.even(), truth.even());
+    (said.rough_db - truth.rough_db).abs() < 6.0
+        && (said.hard_hz / truth.hard_hz - 1.0).abs() < 0.25
+        && (said_even[3] - truth_even[3]).abs() < 0.35
+}

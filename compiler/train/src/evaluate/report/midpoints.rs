@@ -1,0 +1,70 @@
+//! Sections 5 and 6.
+
+use super::{percent, row, table};
+use crate::evaluate::{map::Map, midpoints::Midpoints};
+
+pub(super) fn section(part: &Midpoints) -> String {
+    let ends: Vec<String> = part
+        .ends
+        .iter()
+        .map(|[name, material]| format!("{name} ({material})"))
+        .collect();
+    let mut text = format!(
+        "## 5. Does a mixture lie between its ends?\n\n\
+         Latents of {} are mixed half and half, and decoded. The place of an attribute is (midpoint \
+         − A)/(B − A), all three decoded: inside 0..1 it lies between, 0.5 is halfway; — marks ends \
+         that differ by less than a tenth of the corpus's deviation. *On the line* projects all \
+         four attributes, each in deviations of the corpus, onto the line between the ends; *off \
+         it* is the distance that remains, over that of the ends. This is the objective analogue \
+         of asking people whether a mixture feels between its ends; nobody was asked.\n\n",
+        ends.join(", ")
+    );
+    text += &table(&[
+        "A, B",
+        "rough_db",
+        "sharp_hz",
+        "hard_hz",
+        "μ",
+        "on the line",
+        "off it",
+    ]);
+    for pair in &part.pairs {
+        let mut cells = vec![pair.ends.join(", ")];
+        cells.extend(pair.place.map(|place| match place {
+            Some(t) => format!("{t:.2}").replace('-', "−"),
+            None => "—".into(),
+        }));
+        cells.push(format!("{:.2}", pair.place_on_line).replace('-', "−"));
+        cells.push(format!("{:.2}", pair.off_line));
+        text += &row(&cells);
+    }
+    let mut cells = vec!["between the ends".to_owned()];
+    cells.extend(
+        part.between
+            .map(|share| format!("{} of {}", share.hits, share.of)),
+    );
+    let line = part.between_on_line;
+    cells.push(format!("{} of {}", line.hits, line.of));
+    cells.push(String::new());
+    text += &row(&cells);
+    text += &format!(
+        "\n**Answer.** {} of the attributes and {} of the projections lie between their ends.\n",
+        percent(part.between_any),
+        percent(part.between_on_line)
+    );
+    text
+}
+
+pub(super) fn map(part: &Map) -> String {
+    format!(
+        "## 6. How do the materials lie?\n\n\
+         Anchors (mean latents of the materials) along the first two principal components, which \
+         hold {:.0} % and {:.0} % of their variance, and by exact t-SNE (perplexity 15, 1,000 \
+         steps, started at the components: no randomness).\n\n\
+         ![Anchors by family](anchors.png)\n\n\
+         **Answer.** The nearest neighbour of {:.0} % of the anchors is of their own family.\n",
+        100.0 * part.explained[0],
+        100.0 * part.explained[1],
+        100.0 * part.family_neighbours
+    )
+}
