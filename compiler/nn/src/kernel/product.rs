@@ -49,10 +49,11 @@ fn dispatched(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut
 fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
     let mut left = vec![0.0; m * k];
     pack_left(m, k, a, &mut left);
-    let mut panels = vec![[[0.0; COLUMNS]; DEPTH]; PANELS];
-    for group in (0..n).step_by(PANELS * COLUMNS) {
-        for start in (0..k).step_by(DEPTH) {
-            let depth = DEPTH.min(k - start);
+    let mut panels = vec![[[0.0; COLUMNS]; DEPTH]; PANELS.min(n.div_ceil(COLUMNS))];
+    // Slices of k outside: the rows of b that a slice needs lie together in memory.
+    for start in (0..k).step_by(DEPTH) {
+        let depth = DEPTH.min(k - start);
+        for group in (0..n).step_by(PANELS * COLUMNS) {
             let columns = (group..n).step_by(COLUMNS).take(PANELS);
             pack_right(k, n, b, start, group, depth, &mut panels);
             for (column, panel) in columns.zip(&panels) {
