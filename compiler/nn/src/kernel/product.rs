@@ -81,14 +81,17 @@ fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32
 /// Orders `a` as tiles read it: by slice of k, then block of rows, then k, then row.
 #[inline(always)]
 fn pack_left(m: usize, k: usize, a: &[f32], left: &mut [f32]) {
-    let mut slots = left.iter_mut();
+    let mut rest = left;
     for start in (0..k).step_by(DEPTH) {
         let end = k.min(start + DEPTH);
         for row in (0..m).step_by(ROWS) {
             let rows = ROWS.min(m - row);
-            for inner in start..end {
-                for (i, slot) in (0..rows).zip(&mut slots) {
-                    *slot = a[(row + i) * k + inner];
+            let (block, after) = rest.split_at_mut(rows * (end - start));
+            rest = after;
+            for i in 0..rows {
+                let values = &a[(row + i) * k..][start..end];
+                for (slot, value) in block[i..].iter_mut().step_by(rows).zip(values) {
+                    *slot = *value;
                 }
             }
         }
@@ -134,43 +137,49 @@ fn pack_right(
             scale,
             zero,
         } => {
-            let mut scales = [[0.0; COLUMNS]; PANELS];
-            let mut zeros = [[0.0; COLUMNS]; PANELS];
-            scales.as_flattened_mut()[..end - group].copy_from_slice(&scale[group..end]);
-            zeros.as_flattened_mut()[..end - group].copy_from_slice(&zero[group..end]);
-            for inner in 0..depth {
-                let row = &weights[(start + inner) * n..][group..end];
-                let (full, rest) = row.as_chunks::<COLUMNS>();
-                for (i, part) in full.iter().enumerate() {
-                    expand(part, &scales[i], &zeros[i], &mut panels[i][inner]);
-                }
-                if !rest.is_empty() {
-                    let i = full.len();
-                    let mut part = [0; COLUMNS];
-                    part[..rest.len()].copy_from_slice(rest);
-                    expand(&part, &scales[i], &zeros[i], &mut panels[i][inner]);
-                }
+            // Panel by panel, so that its scales stay in registers; the cache line that four
+            // panels share is fetched for the first.
+            let columns = (group..end).step_by(COLUMNS);
+            for (column, panel) in columns.zip(panels) {
+                let part = column..end.min(column + COLUMNS);
+                let rows = weights[start * n..]
+                    .chunks_exact(n)
+                    .map(|row| &row[part.clone()]);
+                let (scale, zero) = (&scale[part.clone()], &zero[part.clone()]);
+                expand(rows, scale, zero, &mut panel[..depth]);
             }
         }
     }
 }
 
+/// (q − zero) · scale for the rows of a panel.
 #[inline(always)]
-fn expand(
-    row: &[u8; COLUMNS],
-    scales: &[f32; COLUMNS],
-    zeros: &[f32; COLUMNS],
-    slots: &mut [f32; COLUMNS],
+fn expand<'a>(
+    rows: impl Iterator<Item = &'a [u8]>,
+    scale: &[f32],
+    zero: &[f32],
+    panel: &mut [[f32; COLUMNS]],
 ) {
-    // In steps of whole rows, so that the compiler makes lanes of each.
-    let mut values = row.map(|q| f32::from(q as i8));
-    for (x, zero) in values.iter_mut().zip(zeros) {
-        *x -= zero;
+    let (mut scales, mut zeros) = ([0.0; COLUMNS], [0.0; COLUMNS]);
+    transfer(scale.len(), scale, &mut scales);
+    transfer(zero.len(), zero, &mut zeros);
+    for (row, slots) in rows.zip(panel) {
+        let Some(row) = row.first_chunk::<COLUMNS>() else {
+            for (j, &q) in row.iter().enumerate() {
+                slots[j] = (f32::from(q as i8) - zeros[j]) * scales[j];
+            }
+            continue;
+        };
+        // In steps of whole rows, so that the compiler makes lanes of each.
+        let mut values = row.map(|q| f32::from(q as i8));
+        for (x, zero) in values.iter_mut().zip(zeros) {
+            *x -= zero;
+        }
+        for (x, scale) in values.iter_mut().zip(scales) {
+            *x *= scale;
+        }
+        *slots = values;
     }
-    for (x, scale) in values.iter_mut().zip(scales) {
-        *x *= scale;
-    }
-    *slots = values;
 }
 
 /// Adds R × depth times depth × 16 to R rows of `out`, `n` apart, `width` columns of them.
