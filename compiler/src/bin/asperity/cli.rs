@@ -52,7 +52,7 @@ model was trained on, decoded, reduced, verified by the runtime itself and writt
 prompt, options and version give the same bytes on any machine with the portable back end.
 
 Examples:
-  asperity compile \"rough abrasive sheet with gritty particles\" -o sandpaper.asp
+  asperity compile \"rough abrasive sheet with gritty particles\" -o sandpaper.asp --plot sandpaper.png
   asperity compile \"wet ice\" -o ice.asp --no-preview --json
   asperity compile \"cork\" -o cork.asp --fidelity 8 --seed 3
   asperity compile \"felt\" -o felt.asp --text-encoder clip:./clip --model ./clip-model"
@@ -77,6 +77,9 @@ pub(crate) struct Compile {
     /// Draw no preview
     #[arg(long)]
     pub(crate) no_preview: bool,
+    /// Draw the texture on one sheet, as `asperity plot` does
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) plot: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,

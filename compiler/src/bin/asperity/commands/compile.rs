@@ -1,12 +1,13 @@
 //! `asperity compile`.
 
-use super::inference;
+use super::{inference, plot};
 use crate::failure::{Failures, one};
 use crate::{cli::Compile, console};
 use asperity::{
     output,
     prompt::{Options, PromptError},
 };
+use asperity_formats::Asset;
 
 pub(crate) fn run(args: &Compile, quiet: bool) -> Result<(), Failures> {
     // Before half a second of loading.
@@ -22,6 +23,12 @@ pub(crate) fn run(args: &Compile, quiet: bool) -> Result<(), Failures> {
     };
     let authored = author.author(&args.prompt, &options).map_err(one)?;
     output::write_atomic(&args.output, &authored.lowered.bytes).map_err(one)?;
+    if let Some(file) = &args.plot {
+        // Verified a moment ago: the bytes parse.
+        let asset = Asset::parse(&authored.lowered.bytes)
+            .map_err(|cause| one(PromptError::Verify(cause.into())))?;
+        plot::draw(&asset, file)?;
+    }
     if !quiet {
         for warning in authored.warnings() {
             eprintln!("warning: {warning}");

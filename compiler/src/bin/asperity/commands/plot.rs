@@ -10,6 +10,7 @@ use asperity::{
     source::Source,
 };
 use asperity_formats::Asset;
+use std::path::Path;
 use thiserror::Error;
 
 /// The sheet could not be drawn.
@@ -28,10 +29,15 @@ pub(crate) fn run(args: &Plot) -> Result<(), Failures> {
     let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
     let asset =
         Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
+    draw(&asset, &args.output)
+}
+
+/// Draws the sheet of an asset.
+pub(super) fn draw(asset: &Asset<'_>, file: &Path) -> Result<(), Failures> {
     let sizes = AssetBytes {
         haptic: asset.haptic_len(),
         total: asset.total_len(),
     };
-    let png = plot::sheet(&raise(&asset), Some(sizes)).map_err(|e| one(DrawError(e)))?;
-    output::write_atomic(&args.output, &png).map_err(one)
+    let png = plot::sheet(&raise(asset), Some(sizes)).map_err(|e| one(DrawError(e)))?;
+    output::write_atomic(file, &png).map_err(one)
 }

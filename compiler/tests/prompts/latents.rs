@@ -1,0 +1,58 @@
+//! Whatever the latent, the texture is stable and within bounds.
+
+use super::AUTHOR;
+use asperity::{
+    learned::{Latent, texture},
+    lower, lsf,
+    model::Provenance,
+    verify,
+};
+use rand_core::{Rng as _, SeedableRng as _};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rayon::prelude::*;
+
+/// All of them without debug assertions, as `.ci/run` does.
+const LATENTS: usize = if cfg!(debug_assertions) { 400 } else { 100_000 };
+/// Every so many goes through the runtime as well.
+const VERIFIED_EVERY: usize = 100;
+
+/// Uniform in a cube whose half side runs from 0.01 to 10,000; every tenth has absurd
+/// components.
+fn latent(number: usize) -> Latent {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(number as u64);
+    let mut uniform = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+    let half_side = 10.0_f64.powf(6.0 * uniform() - 2.0);
+    let mut z: Latent = std::array::from_fn(|_| (half_side * (2.0 * uniform() - 1.0)) as f32);
+    if number % 10 == 0 {
+        let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, 1e-40];
+        z[number / 10 % z.len()] = odd[number / 10 % odd.len()];
+    }
+    z
+}
+
+#[test]
+fn any_latent_is_a_stable_texture_within_bounds() {
+    let model = AUTHOR.model();
+    (0..LATENTS).into_par_iter().for_each(|number| {
+        let z = latent(number);
+        let decoded = model.decode(&z).unwrap();
+        let name = format!("latent {number}");
+        let (texture, _) =
+            texture::build(model.description(), &decoded, &z, name, Provenance::default());
+        let limits = &asperity_formats::limits::MAX_SIGMA_M_S2;
+        for vertex in &texture.grid.vertices {
+            assert!(lsf::is_ordered(&vertex.lsf_rad), "{number}");
+            assert!(lsf::smallest_gap(&vertex.lsf_rad) > 0.009, "{number}");
+            assert!((0.0..f64::from(*limits)).contains(&vertex.sigma_m_s2), "{number}");
+        }
+        let mus: Vec<f64> = texture.friction.anchors.iter().map(|a| a.mu).collect();
+        let low = mus.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = mus.iter().copied().fold(0.0, f64::max);
+        assert!((low..=high * (1.0 + 1e-12)).contains(&texture.friction.mu), "{number}");
+        if number % VERIFIED_EVERY == 0 {
+            let lowered = lower::lower(&texture, None).unwrap();
+            let report = verify::verify(&texture, &lowered.bytes);
+            assert!(report.is_ok(), "{number}: {report:?}");
+        }
+    });
+}

@@ -1,0 +1,14 @@
+//! What a prompt becomes with the shipped model, on the portable back end.
+
+mod clip;
+mod completion;
+mod latents;
+mod words;
+
+use asperity::{inference::Backend, prompt::Author};
+use std::sync::LazyLock;
+
+/// Loaded once: the tests of this file only ask it.
+static AUTHOR: LazyLock<Author> = LazyLock::new(|| {
+    Author::embedded(&Backend::Portable).expect("the shipped model loads")
+});

@@ -1,0 +1,152 @@
+//! What the words of a prompt do.
+
+use super::AUTHOR;
+use asperity::{
+    attributes::{self, Attributes},
+    learned::texture,
+    model::Provenance,
+    prompt::{Options, PromptError},
+    reduce::Fidelity,
+};
+use rayon::prelude::*;
+use serde_json::Value;
+
+/// Rightly ordered share of the committed pairs, each attribute.
+const LEAST_SHARE: f64 = 0.90;
+
+fn plain() -> Options {
+    Options {
+        preview: false,
+        ..Options::default()
+    }
+}
+
+/// Attributes of the decoder's own texture: neither reduced nor lowered.
+fn attributes(prompt: &str) -> Attributes {
+    let model = AUTHOR.model();
+    let z = AUTHOR.project(prompt).unwrap().z;
+    let decoded = model.decode(&z).unwrap();
+    let (texture, _) = texture::build(
+        model.description(),
+        &decoded,
+        &z,
+        "x".into(),
+        Provenance::default(),
+    );
+    attributes::of(&texture)
+}
+
+#[test]
+fn an_abrasive_is_sharper_and_stronger_than_cork_and_cork_than_foam() {
+    let [abrasive, cork, foam] = [
+        "rough abrasive sheet with gritty particles",
+        "cork",
+        "soft foam",
+    ]
+    .map(attributes);
+    assert!(abrasive.rough_db > cork.rough_db && cork.rough_db > foam.rough_db);
+    assert!(abrasive.sharp_hz > cork.sharp_hz && cork.sharp_hz > foam.sharp_hz);
+}
+
+#[test]
+fn everyday_words_are_ordered_as_any_person_would() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/pairs.toml");
+    let text = std::fs::read_to_string(file).unwrap();
+    let pairs: toml::Table = text.parse().unwrap();
+    let of = |attribute: &str, a: Attributes| match attribute {
+        "rough" => a.rough_db.unwrap(),
+        "slippery" => -a.mu,
+        _ => a.hard_hz.unwrap(),
+    };
+    for attribute in ["rough", "slippery", "hard"] {
+        let rows = pairs[attribute].as_array().unwrap();
+        assert!(rows.len() >= 100, "{attribute}");
+        let right = rows
+            .par_iter()
+            .filter(|row| {
+                let [first, second] = [0, 1].map(|k| row[k].as_str().unwrap());
+                of(attribute, attributes(first)) > of(attribute, attributes(second))
+            })
+            .count();
+        let share = right as f64 / rows.len() as f64;
+        assert!(share >= LEAST_SHARE, "{attribute}: {right} of {}", rows.len());
+        println!("{attribute}: {right} of {}", rows.len());
+    }
+}
+
+#[test]
+fn the_same_prompt_gives_the_same_bytes_whatever_the_threads() {
+    let prompt = "wet ice";
+    let first = AUTHOR.author(prompt, &Options::default()).unwrap().lowered.bytes;
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let again = pool.unwrap().install(|| AUTHOR.author(prompt, &Options::default()).unwrap());
+        assert_eq!(again.lowered.bytes, first);
+    }
+}
+
+#[test]
+fn a_texture_fits_four_kibibytes() {
+    for prompt in ["rough abrasive sheet with gritty particles", "velvet", "window glass"] {
+        let authored = AUTHOR.author(prompt, &plain()).unwrap();
+        assert!(authored.lowered.haptic_bytes <= 4096, "{prompt}: {}", authored.lowered.haptic_bytes);
+    }
+}
+
+#[test]
+fn a_seed_varies_a_texture_without_leaving_the_material() {
+    let with_seed = |seed| AUTHOR.author("cork", &Options { seed, ..plain() }).unwrap();
+    let (meant, varied) = (with_seed(0), with_seed(5));
+    assert_ne!(meant.lowered.bytes, varied.lowered.bytes);
+    let difference = meant.attributes.rough_db.unwrap() - varied.attributes.rough_db.unwrap();
+    assert!(difference.abs() < 4.0, "{difference} dB");
+}
+
+#[test]
+fn fidelity_sets_the_order_and_rate_the_clock() {
+    let with = |fidelity, rate_hz| {
+        let options = Options {
+            fidelity,
+            rate_hz,
+            ..plain()
+        };
+        AUTHOR.author("denim", &options).unwrap().texture.grid
+    };
+    assert_eq!(with(Fidelity::Full, None).order, 21);
+    assert_eq!(with(Fidelity::Order(5), None).order, 5);
+    assert!(with(Fidelity::Auto, None).order < 21);
+    assert_eq!(with(Fidelity::Auto, Some(1500.0)).sample_rate_hz, 1500.0);
+    let absurd = Options {
+        rate_hz: Some(f64::NAN),
+        ..plain()
+    };
+    assert!(matches!(AUTHOR.author("denim", &absurd), Err(PromptError::Rate(_))));
+}
+
+#[test]
+fn long_prompts_are_cut_with_a_warning_and_empty_ones_refused() {
+    let long = "gritty ".repeat(400);
+    let authored = AUTHOR.author(&long, &plain()).unwrap();
+    assert!(authored.tokens.1 > 200);
+    assert!(authored.warnings().iter().any(|warning| warning.contains("too long")));
+    assert!(authored.texture.name.len() <= 64);
+    assert!(matches!(AUTHOR.author(" \n", &plain()), Err(PromptError::Empty)));
+}
+
+#[test]
+fn what_no_surface_is_like_is_told_apart_and_still_safe() {
+    let far = AUTHOR
+        .author("the quarterly inflation report of a central bank", &plain())
+        .unwrap();
+    let near = AUTHOR.author("coarse sandpaper", &plain()).unwrap();
+    assert!(far.certainty < near.certainty);
+    assert!(far.is_uncertain() && !near.is_uncertain());
+    assert!(far.json()["low_certainty"] == Value::Bool(true));
+}
+
+#[test]
+fn any_text_at_all_gives_a_texture() {
+    for prompt in ["?", "ﷺ 🪨🧽", "a\u{0}b", "'; DROP TABLE--", "é́́́", "0"] {
+        assert!(AUTHOR.author(prompt, &plain()).is_ok(), "{prompt:?}");
+    }
+}
