@@ -33,26 +33,32 @@ impl Operator for Arithmetic {
             (ElementType::F32, Binary::Sub) => apply(inputs, |x: f32, y: f32| x - y),
             (ElementType::F32, Binary::Mul) => apply(inputs, |x: f32, y: f32| x * y),
             (ElementType::F32, Binary::Div) => apply(inputs, |x: f32, y: f32| x / y),
-            (ElementType::I64, Binary::Add) => apply(inputs, i64::wrapping_add),
-            (ElementType::I64, Binary::Sub) => apply(inputs, i64::wrapping_sub),
-            (ElementType::I64, Binary::Mul) => apply(inputs, i64::wrapping_mul),
-            (ElementType::I64, Binary::Div) => {
-                refuse_zero(inputs.elements::<i64>(1)?.contains(&0))?;
-                apply(inputs, i64::wrapping_div)
+            (ElementType::I64, kind) => {
+                refuse_zero(kind, inputs.elements::<i64>(1)?.contains(&0))?;
+                let function: &dyn Fn(i64, i64) -> i64 = match kind {
+                    Binary::Add => &i64::wrapping_add,
+                    Binary::Sub => &i64::wrapping_sub,
+                    Binary::Mul => &i64::wrapping_mul,
+                    Binary::Div => &i64::wrapping_div,
+                };
+                apply(inputs, function)
             }
-            (_, Binary::Add) => apply(inputs, i32::wrapping_add),
-            (_, Binary::Sub) => apply(inputs, i32::wrapping_sub),
-            (_, Binary::Mul) => apply(inputs, i32::wrapping_mul),
-            (_, Binary::Div) => {
-                refuse_zero(inputs.elements::<i32>(1)?.contains(&0))?;
-                apply(inputs, i32::wrapping_div)
+            (_, kind) => {
+                refuse_zero(kind, inputs.elements::<i32>(1)?.contains(&0))?;
+                let function: &dyn Fn(i32, i32) -> i32 = match kind {
+                    Binary::Add => &i32::wrapping_add,
+                    Binary::Sub => &i32::wrapping_sub,
+                    Binary::Mul => &i32::wrapping_mul,
+                    Binary::Div => &i32::wrapping_div,
+                };
+                apply(inputs, function)
             }
         }
     }
 }
 
-fn refuse_zero(zero: bool) -> Result<(), OpError> {
-    if zero {
+fn refuse_zero(kind: Binary, zero: bool) -> Result<(), OpError> {
+    if zero && matches!(kind, Binary::Div) {
         return Err(OpError::Value {
             what: "division of integers by",
             value: 0,

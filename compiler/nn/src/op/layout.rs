@@ -114,7 +114,7 @@ impl<const N: usize> Walk<N> {
         }
     }
 
-    pub(crate) fn rows(&self, mut row: impl FnMut([isize; N])) {
+    pub(crate) fn rows(&self, row: &mut dyn FnMut([isize; N])) {
         if self.row == 0 || self.outer.iter().any(|&(size, _)| size == 0) {
             return;
         }
@@ -154,7 +154,7 @@ pub(crate) fn copy<T: Copy>(
 ) -> Vec<T> {
     let walk = Walk::new(shape, [strides]);
     let mut result = Vec::with_capacity(shape.iter().product());
-    walk.rows(|[offset]| {
+    walk.rows(&mut |[offset]| {
         let first = start.wrapping_add_signed(offset);
         match walk.step {
             [1] => result.extend_from_slice(&data[first..first + walk.row]),
@@ -178,7 +178,7 @@ pub(crate) fn zip<A: Copy, B: Copy, O>(
     ];
     let walk = Walk::new(shape, [&strides[0], &strides[1]]);
     let mut result = Vec::with_capacity(shape.iter().product());
-    walk.rows(|[a_start, b_start]| {
+    walk.rows(&mut |[a_start, b_start]| {
         let (a, b) = (&a[a_start as usize..], &b[b_start as usize..]);
         match walk.step {
             [1, 1] => result.extend(

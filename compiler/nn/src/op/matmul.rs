@@ -65,7 +65,7 @@ impl Operator for MatMul {
             return Ok(Tensor::F32 { shape, data });
         }
         let mut results = data.chunks_exact_mut(m * n);
-        walk.rows(|[a_start, b_start]| {
+        walk.rows(&mut |[a_start, b_start]| {
             for i in 0..walk.row {
                 let a_start = (a_start as usize + i * walk.step[0] as usize) * m * k;
                 let b_start = (b_start as usize + i * walk.step[1] as usize) * k * n;

@@ -81,7 +81,7 @@ impl Operator for Reduce {
         );
         let walk = layout::Walk::new(shape, [&from, &to]);
         let square = self.reduction == Reduction::L2;
-        walk.rows(|[from, to]| {
+        walk.rows(&mut |[from, to]| {
             let mut slot = to as usize;
             for &x in &source[from as usize..from as usize + walk.row] {
                 data[slot] += if square { x * x } else { x };
