@@ -6,7 +6,7 @@
 
 use crate::{
     captions::Captions,
-    config::Config,
+    config::{Config, Evaluation, Friction},
     error::FitError,
     progress::EpochLoss,
     vae::State,
@@ -19,6 +19,15 @@ use std::path::Path;
 /// Numbers of a row of the history.
 const TERMS: usize = 7;
 
+/// Stands in an identity for what the first stage does not depend on.
+const FIXED: (Friction, Evaluation) = (
+    Friction {
+        top_k: 1,
+        temperature: 1.0,
+    },
+    Evaluation { folds: 2 },
+);
+
 /// What a checkpoint belongs to: a run goes on only where all of it is the same.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -29,7 +38,7 @@ pub(crate) struct Identity {
     materials: Vec<usize>,
     /// Text encoder.
     encoder: String,
-    /// The whole configuration.
+    /// The configuration, but for what comes after the first stage.
     config: Config,
 }
 
@@ -47,11 +56,17 @@ impl Identity {
         captions: &Captions,
         config: &Config,
     ) -> Self {
+        let config = Config {
+            text_stage: None,
+            friction: FIXED.0,
+            evaluation: FIXED.1,
+            ..config.clone()
+        };
         Self {
             corpus: format!("{} {:08x}", corpus.name, corpus.crc32),
             materials: materials.to_vec(),
             encoder: format!("{} {}", captions.encoder, captions.width),
-            config: config.clone(),
+            config,
         }
     }
 }

@@ -3,7 +3,8 @@
 use super::training::small;
 use crate::{
     Captions, Checkpoints, Config, EpochLoss, FitError, ModelFiles, Progress, Silent, Trained,
-    config::Excitation, export, fit_on, fit_with_checkpoints, measure,
+    config::Excitation,
+    export, fit_on, fit_with_checkpoints, measure,
     synthetic::{self, WordBag},
 };
 use asperity::{
@@ -37,7 +38,11 @@ fn exported(trained: &Trained) -> ModelFiles {
 
 #[test]
 fn the_compiler_loads_what_is_written_and_decodes_the_same() {
-    for excitation in [Excitation::Level, Excitation::LogSigma, Excitation::Variance] {
+    for excitation in [
+        Excitation::Level,
+        Excitation::LogSigma,
+        Excitation::Variance,
+    ] {
         let mut config = short();
         config.coding.excitation = excitation;
         let (corpus, captions) = data();
@@ -93,8 +98,19 @@ fn a_resumed_run_ends_as_one_that_was_not_interrupted() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("checkpoint.safetensors");
     let run = |config: &Config, resume, progress: &mut dyn Progress| {
-        let checkpoints = Checkpoints { path: &path, every: 4, resume };
-        fit_with_checkpoints(&corpus, &MATERIALS, &captions, config, checkpoints, progress)
+        let checkpoints = Checkpoints {
+            path: &path,
+            every: 4,
+            resume,
+        };
+        fit_with_checkpoints(
+            &corpus,
+            &MATERIALS,
+            &captions,
+            config,
+            checkpoints,
+            progress,
+        )
     };
     let stopped = run(&config, false, &mut StopAfter(3, 0));
     assert!(matches!(stopped, Err(FitError::Interrupted { epoch: 3 })));
@@ -102,6 +118,10 @@ fn a_resumed_run_ends_as_one_that_was_not_interrupted() {
     other.loss.ar = 1.0;
     let refused = run(&other, true, &mut Silent).unwrap_err().to_string();
     assert!(refused.contains("another configuration"), "{refused}");
+    let mut without_text = config.clone();
+    without_text.text_stage = None;
+    let first_stage = run(&without_text, true, &mut Silent).unwrap();
+    assert_eq!(first_stage.history(), whole.history());
     let resumed = run(&config, true, &mut Silent).unwrap();
     assert_eq!(resumed.history(), whole.history());
     let (resumed, whole) = (exported(&resumed), exported(&whole));

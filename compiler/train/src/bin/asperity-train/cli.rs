@@ -63,6 +63,9 @@ pub(crate) struct Fit {
     /// Go on from where an interrupted run with the same options stopped
     #[arg(long)]
     pub(crate) resume: bool,
+    /// Keep the state of the finished run, to --resume it with another text stage
+    #[arg(long)]
+    pub(crate) keep_state: bool,
     /// Epochs between two savings of the state, in `DIR.training`
     #[arg(long, default_value = "10", value_name = "EPOCHS")]
     pub(crate) checkpoint: NonZeroUsize,

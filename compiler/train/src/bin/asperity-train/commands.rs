@@ -88,9 +88,7 @@ fn fit(args: &cli::Fit) -> Result<(), Failure> {
     let backend = Backend::open(args.backend).map_err(boxed)?;
     let encoder: Box<dyn TextEncoder> = match &args.text_encoder {
         TextEncoderChoice::MiniLm => Box::new(embedded::text_encoder(&backend).map_err(boxed)?),
-        TextEncoderChoice::Clip(folder) => {
-            Box::new(Clip::open(folder, &backend).map_err(boxed)?)
-        }
+        TextEncoderChoice::Clip(folder) => Box::new(Clip::open(folder, &backend).map_err(boxed)?),
     };
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let threads = args.threads.map_or(cores, usize::from);
@@ -101,13 +99,22 @@ fn fit(args: &cli::Fit) -> Result<(), Failure> {
         resume: args.resume,
     };
     let metrics = on_threads(threads, || {
-        train(args, &config, encoder.as_ref(), &state, checkpoints, &mut bar)
+        train(
+            args,
+            &config,
+            encoder.as_ref(),
+            &state,
+            checkpoints,
+            &mut bar,
+        )
     });
     bar.clear();
     let metrics = metrics.map_err(boxed)??;
-    // The model is written: the state has served.
-    let _ = fs::remove_file(&checkpoint);
-    let _ = fs::remove_dir(&state);
+    if !args.keep_state {
+        // The model is written: the state has served.
+        let _ = fs::remove_file(&checkpoint);
+        let _ = fs::remove_dir(&state);
+    }
     report(args, &metrics)
 }
 
@@ -183,7 +190,11 @@ fn corpus(args: &cli::Fit, config: &Config) -> Result<(Corpus, Vec<LexiconEntry>
     if args.corpus.is_some() {
         return Err(boxed(UsageError::ReferenceFolder));
     }
-    let folder = args.hatt.clone().ok_or(UsageError::NoHattFolder).map_err(boxed)?;
+    let folder = args
+        .hatt
+        .clone()
+        .ok_or(UsageError::NoHattFolder)
+        .map_err(boxed)?;
     let corpus = hatt::load(&hatt::HattOptions {
         instances: config.corpus.instances,
         seed: config.seed,
@@ -197,7 +208,9 @@ fn corpus(args: &cli::Fit, config: &Config) -> Result<(Corpus, Vec<LexiconEntry>
 
 /// `DIR.training`, beside the model folder.
 fn state_folder(output: &Path) -> Result<PathBuf, UsageError> {
-    let name = output.file_name().ok_or_else(|| UsageError::NoName(output.to_owned()))?;
+    let name = output
+        .file_name()
+        .ok_or_else(|| UsageError::NoName(output.to_owned()))?;
     let mut name: OsString = name.to_owned();
     name.push(".training");
     Ok(output.with_file_name(name))
