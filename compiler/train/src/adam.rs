@@ -32,7 +32,12 @@ pub(crate) struct Step {
 impl Adam {
     /// Before the first step.
     pub(crate) fn new(parameters: &Parameters) -> Self {
-        let zeros = || parameters.iter().map(|p| vec![0.0; p.values.len()]).collect();
+        let zeros = || {
+            parameters
+                .iter()
+                .map(|p| vec![0.0; p.values.len()])
+                .collect()
+        };
         Self {
             steps: 0,
             first: zeros(),

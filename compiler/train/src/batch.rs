@@ -97,7 +97,9 @@ fn caption(captions: &[Vec<f32>], augmentation: &Augmentation, stream: &mut Stre
 pub(crate) fn add_noise(vector: &mut [f32], norm: f64, stream: &mut Stream) {
     if norm > 0.0 {
         let deviation = (norm / libm::sqrt(vector.len() as f64)) as f32;
-        vector.iter_mut().for_each(|x| *x += deviation * stream.normal());
+        vector
+            .iter_mut()
+            .for_each(|x| *x += deviation * stream.normal());
         unit(vector);
     }
 }

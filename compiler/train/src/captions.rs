@@ -36,9 +36,10 @@ impl Captions {
             let captions = material.training.iter();
             captions.map(|caption| vector(&caption.text)).collect()
         });
-        let held_out = corpus.materials.par_iter().map(|material| {
-            material.held_out.iter().map(|text| vector(text)).collect()
-        });
+        let held_out = corpus
+            .materials
+            .par_iter()
+            .map(|material| material.held_out.iter().map(|text| vector(text)).collect());
         let lexicon = lexicon
             .par_iter()
             .map(|entry| Ok((vector(&entry.text)?, entry.rating)));

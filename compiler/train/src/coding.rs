@@ -21,9 +21,7 @@ pub(crate) fn decode(excitation: Excitation, lsf_rad: &[f32], code: f32) -> f32 
     match excitation {
         Excitation::Level => code,
         Excitation::LogSigma => (f64::from(code) + gain_db(lsf_rad)) as f32,
-        Excitation::Variance => {
-            (10.0 * libm::log10(f64::from(code)) + gain_db(lsf_rad)) as f32
-        }
+        Excitation::Variance => (10.0 * libm::log10(f64::from(code)) + gain_db(lsf_rad)) as f32,
     }
 }
 
@@ -52,7 +50,11 @@ mod tests {
 
     #[test]
     fn every_coding_is_undone() {
-        for excitation in [Excitation::Level, Excitation::LogSigma, Excitation::Variance] {
+        for excitation in [
+            Excitation::Level,
+            Excitation::LogSigma,
+            Excitation::Variance,
+        ] {
             for level_db in [-40.0, -3.0, 12.5] {
                 let code = encode(excitation, &LSF, level_db);
                 assert!((decode(excitation, &LSF, code) - level_db).abs() < 1e-4);

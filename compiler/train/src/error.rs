@@ -89,9 +89,7 @@ impl Diagnostic for FitError {
             Self::Material { .. } => "correct the material's entry in the corpus".into(),
             Self::Caption { .. } => "correct the caption, or choose another text encoder".into(),
             Self::Width { .. } => "choose another text encoder".into(),
-            Self::Diverged { .. } => {
-                "lower optimiser.learning_rate, or optimiser.clip_norm".into()
-            }
+            Self::Diverged { .. } => "lower optimiser.learning_rate, or optimiser.clip_norm".into(),
             Self::Interrupted { .. } => "the same command with --resume goes on from there".into(),
             Self::Checkpoint { .. } => "train without --resume, from the start".into(),
             Self::Output(error) => error.remedy(),

@@ -32,7 +32,11 @@ impl Pairing {
         Self {
             matches: each(&|i, j| f32::from(u8::from(i == j))),
             exclusion: each(&|i, j| {
-                if i != j && materials[i] == materials[j] { EXCLUDED } else { 0.0 }
+                if i != j && materials[i] == materials[j] {
+                    EXCLUDED
+                } else {
+                    0.0
+                }
             }),
         }
     }

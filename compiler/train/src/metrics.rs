@@ -54,8 +54,11 @@ pub fn measure(trained: &Trained, corpus: &Corpus, captions: &Captions) -> Metri
         .iter()
         .flat_map(|m| &corpus.materials[m.material].instances)
         .collect();
-    let means: Vec<[f32; LATENT]> =
-        trained.encode(&instances, Seen::Both).iter().map(|p| p.mean).collect();
+    let means: Vec<[f32; LATENT]> = trained
+        .encode(&instances, Seen::Both)
+        .iter()
+        .map(|p| p.mean)
+        .collect();
     let decoded = trained.decode(&means);
     let coding = trained.normaliser.coding;
     let coded = |instances: &mut dyn Iterator<Item = &Instance>| {
@@ -86,7 +89,9 @@ fn explained(truth: &[f32], said: &[f32], columns: usize) -> Vec<(f64, f64)> {
     let rows = (truth.len() / columns) as f64;
     let mut mean = vec![0.0; columns];
     for row in truth.chunks(columns) {
-        mean.iter_mut().zip(row).for_each(|(sum, &x)| *sum += f64::from(x) / rows);
+        mean.iter_mut()
+            .zip(row)
+            .for_each(|(sum, &x)| *sum += f64::from(x) / rows);
     }
     let mut sums = vec![(0.0, 0.0); columns];
     for (truth, said) in truth.chunks(columns).zip(said.chunks(columns)) {
@@ -102,7 +107,11 @@ fn explained(truth: &[f32], said: &[f32], columns: usize) -> Vec<(f64, f64)> {
 fn share(sums: &[(f64, f64)]) -> f64 {
     let residual: f64 = sums.iter().map(|sum| sum.0).sum();
     let total: f64 = sums.iter().map(|sum| sum.1).sum();
-    if total > 0.0 { 1.0 - residual / total } else { 0.0 }
+    if total > 0.0 {
+        1.0 - residual / total
+    } else {
+        0.0
+    }
 }
 
 fn active_units(means: &[[f32; LATENT]]) -> usize {
@@ -128,8 +137,10 @@ fn retrieval(trained: &Trained, captions: &[Vec<Vec<f32>>]) -> Retrieval {
         .iter()
         .enumerate()
         .flat_map(|(own, located)| {
-            let vectors: Vec<&[f32]> =
-                captions[located.material].iter().map(Vec::as_slice).collect();
+            let vectors: Vec<&[f32]> = captions[located.material]
+                .iter()
+                .map(Vec::as_slice)
+                .collect();
             let latents = trained.project(&vectors);
             latents.into_iter().map(move |z| place(trained, &z, own))
         })
@@ -150,8 +161,10 @@ fn retrieval(trained: &Trained, captions: &[Vec<Vec<f32>>]) -> Retrieval {
 pub(crate) fn held_out_trials(trained: &Trained, captions: &Captions) -> Vec<(f64, f64)> {
     let mut trials = Vec::new();
     for (own, located) in trained.materials.iter().enumerate() {
-        let vectors: Vec<&[f32]> =
-            captions.held_out[located.material].iter().map(Vec::as_slice).collect();
+        let vectors: Vec<&[f32]> = captions.held_out[located.material]
+            .iter()
+            .map(Vec::as_slice)
+            .collect();
         for (vector, z) in vectors.iter().zip(trained.project(&vectors)) {
             let similarities = trained.materials.iter().map(|m| dot(vector, &m.caption));
             let similarity = similarities.fold(-1.0, f32::max);

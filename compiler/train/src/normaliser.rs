@@ -63,10 +63,7 @@ pub(crate) struct Coded {
 
 impl Coded {
     /// Codes instances.
-    pub(crate) fn of<'a>(
-        coding: Coding,
-        instances: impl Iterator<Item = &'a Instance>,
-    ) -> Self {
+    pub(crate) fn of<'a>(coding: Coding, instances: impl Iterator<Item = &'a Instance>) -> Self {
         let mut coded = Self {
             ar: Vec::new(),
             taps: Vec::new(),
@@ -74,7 +71,9 @@ impl Coded {
         for instance in instances {
             coded.ar.extend(instance.lsf_rad.iter().flatten());
             for (lsf_rad, &level_db) in instance.lsf_rad.iter().zip(&instance.level_db) {
-                coded.ar.push(coding::encode(coding.excitation, lsf_rad, level_db));
+                coded
+                    .ar
+                    .push(coding::encode(coding.excitation, lsf_rad, level_db));
             }
             coded.taps.extend(instance.taps_m_s2.iter().flatten());
         }
@@ -134,17 +133,27 @@ fn is_ordered(lsf_rad: &[f32; ORDER]) -> bool {
 impl Normaliser {
     /// The statistics of coded instances, of which there must be one.
     pub(crate) fn of(coding: Coding, coded: &Coded, levels_db: impl Iterator<Item = f32>) -> Self {
-        let excitations = coded.ar.chunks(AR).flat_map(|row| row[LSFS..].iter().copied());
+        let excitations = coded
+            .ar
+            .chunks(AR)
+            .flat_map(|row| row[LSFS..].iter().copied());
         let (low, high) = range(excitations);
         let (ar_mean, mut ar_deviation) = match coding.normalisation {
             Normalisation::Bin => moments(&coded.ar, AR, |element| element),
             // A channel an LSF index, and one for the excitation.
             Normalisation::Channel => moments(&coded.ar, AR, |element| {
-                if element < LSFS { element % ORDER } else { ORDER }
+                if element < LSFS {
+                    element % ORDER
+                } else {
+                    ORDER
+                }
             }),
         };
         at_least(&mut ar_deviation[..LSFS], MIN_LSF_DEVIATION);
-        at_least(&mut ar_deviation[LSFS..], (MIN_SHARE * (high - low)).max(f32::MIN_POSITIVE));
+        at_least(
+            &mut ar_deviation[LSFS..],
+            (MIN_SHARE * (high - low)).max(f32::MIN_POSITIVE),
+        );
         let (tap_mean, mut tap_deviation) =
             moments(&coded.taps, TAP_VALUES, |element| element / TAP_SAMPLES);
         let (tap_low, tap_high) = range(coded.taps.iter().copied());
@@ -191,11 +200,7 @@ fn scale(values: &mut [f32], mean: &[f32], deviation: &[f32]) {
 
 /// Mean and deviation of every column of `rows`, where columns of the same `group`
 /// share them.
-fn moments(
-    values: &[f32],
-    columns: usize,
-    group: impl Fn(usize) -> usize,
-) -> (Vec<f32>, Vec<f32>) {
+fn moments(values: &[f32], columns: usize, group: impl Fn(usize) -> usize) -> (Vec<f32>, Vec<f32>) {
     let groups: Vec<usize> = (0..columns).map(group).collect();
     let size = groups.iter().max().map_or(0, |most| most + 1);
     let (mut count, mut sum, mut square) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
@@ -205,7 +210,11 @@ fn moments(
             sum[group] += f64::from(x);
         }
     }
-    let mean: Vec<f64> = sum.iter().zip(&count).map(|(sum, count)| sum / count).collect();
+    let mean: Vec<f64> = sum
+        .iter()
+        .zip(&count)
+        .map(|(sum, count)| sum / count)
+        .collect();
     for row in values.chunks(columns) {
         for (&x, &group) in row.iter().zip(&groups) {
             let away = f64::from(x) - mean[group];
@@ -267,7 +276,11 @@ mod tests {
         assert!(mean.iter().all(|x| x.abs() < 1e-4));
         for (deviation, of) in deviation.iter().zip(&normaliser.ar_deviation) {
             // A channel that hardly moves is not blown up.
-            let expected = if *of > MIN_LSF_DEVIATION { 1.0 } else { *deviation };
+            let expected = if *of > MIN_LSF_DEVIATION {
+                1.0
+            } else {
+                *deviation
+            };
             assert!((deviation - expected).abs() < 1e-2 && *deviation < 1.01);
         }
     }

@@ -125,7 +125,9 @@ impl Linear {
     ) -> Self {
         let bound = 1.0 / libm::sqrtf(inputs as f32);
         let mut draw = |count| -> Vec<f32> {
-            (0..count).map(|_| bound * (2.0 * stream.uniform() - 1.0)).collect()
+            (0..count)
+                .map(|_| bound * (2.0 * stream.uniform() - 1.0))
+                .collect()
         };
         let weight = draw(inputs * outputs);
         let bias = draw(outputs);
@@ -152,7 +154,13 @@ pub(crate) fn chain(
         .windows(2)
         .enumerate()
         .map(|(index, pair)| {
-            Linear::new(parameters, &format!("{name}.{index}"), pair[0], pair[1], stream)
+            Linear::new(
+                parameters,
+                &format!("{name}.{index}"),
+                pair[0],
+                pair[1],
+                stream,
+            )
         })
         .collect()
 }

@@ -23,15 +23,24 @@ pub(crate) fn corpus(materials: usize, instances: usize) -> Corpus {
             let words = ["rough", "hard", "dull"].iter().zip(traits);
             let text = |focus: &str| {
                 let words = words.clone();
-                let words: Vec<String> = words.map(|(w, t)| format!("{w}{}", (t * 6.0) as u8)).collect();
+                let words: Vec<String> = words
+                    .map(|(w, t)| format!("{w}{}", (t * 6.0) as u8))
+                    .collect();
                 format!("{focus} name{index} {}", words.join(" "))
             };
             Material {
                 name: format!("material {index}"),
                 family: format!("family {}", index % 3),
-                training: [(Focus::Look, "look"), (Focus::Touch, "touch"), (Focus::Use, "use")]
-                    .map(|(focus, word)| Caption { focus, text: text(word) })
-                    .to_vec(),
+                training: [
+                    (Focus::Look, "look"),
+                    (Focus::Touch, "touch"),
+                    (Focus::Use, "use"),
+                ]
+                .map(|(focus, word)| Caption {
+                    focus,
+                    text: text(word),
+                })
+                .to_vec(),
                 held_out: vec![text("held")],
                 rating: Some(Rating {
                     rough: f64::from(traits[0]) * 100.0,
@@ -62,8 +71,11 @@ fn instance([rough, hard, dull]: [f32; 3]) -> Instance {
         level_db: [0.0; BINS],
         taps_m_s2: [[0.0; TAP_SAMPLES]; TAPS],
     };
-    for (bin, (lsf_rad, level_db)) in
-        instance.lsf_rad.iter_mut().zip(&mut instance.level_db).enumerate()
+    for (bin, (lsf_rad, level_db)) in instance
+        .lsf_rad
+        .iter_mut()
+        .zip(&mut instance.level_db)
+        .enumerate()
     {
         let place = bin as f32 / BINS as f32;
         *level_db = -30.0 + 20.0 * rough + 10.0 * place;
@@ -98,7 +110,9 @@ impl TextEncoder for WordBag {
     fn encode(&self, text: &str) -> Result<Encoded, TextError> {
         let mut vector = vec![0.0; WIDTH];
         for word in text.split_whitespace() {
-            let key = word.bytes().fold(1, |key: u64, byte| key.wrapping_mul(31) + u64::from(byte));
+            let key = word
+                .bytes()
+                .fold(1, |key: u64, byte| key.wrapping_mul(31) + u64::from(byte));
             let direction = Stream::new(key, Purpose::Initialisation, 1).normals(WIDTH);
             for (x, y) in vector.iter_mut().zip(direction) {
                 *x += y;

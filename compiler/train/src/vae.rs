@@ -60,10 +60,16 @@ impl State {
         let mut mean = EpochLoss::default();
         for (index, chosen) in batches.iter().enumerate() {
             let augmentation = &run.config.augmentation;
-            let batch =
-                Batch::draw(run.instances, run.captions, chosen, augmentation, &mut stream, &device);
-            let progress = (epoch as f64 + index as f64 / batches.len() as f64)
-                / optimiser.epochs as f64;
+            let batch = Batch::draw(
+                run.instances,
+                run.captions,
+                chosen,
+                augmentation,
+                &mut stream,
+                &device,
+            );
+            let progress =
+                (epoch as f64 + index as f64 / batches.len() as f64) / optimiser.epochs as f64;
             let step = Step {
                 learning_rate: learning_rate(
                     optimiser.learning_rate,
@@ -99,8 +105,9 @@ impl State {
         let bound = self.parameters.bind(&device);
         let mut mode = Mode::Train(stream, run.config.network.dropout);
         let (ar, taps) = (batch.ar, batch.taps);
-        let posterior =
-            network.encoder.forward(&bound, ar.clone(), taps.clone(), batch.present);
+        let posterior = network
+            .encoder
+            .forward(&bound, ar.clone(), taps.clone(), batch.present);
         let z = posterior.sample(batch.epsilon);
         let decoded = decode(network, &bound, run.normaliser, z.clone(), &mut mode);
         let said = normalised(run.normaliser, decoded);
@@ -110,10 +117,16 @@ impl State {
         let ar = lsf * (1.0 - share) + excitation.clone() * share;
         let taps = smooth_l1(said.taps_m_s2, taps);
         let kl = posterior.divergence();
-        let predicted = network.text.forward(&bound, batch.text, &mut Mode::Evaluate);
+        let predicted = network
+            .text
+            .forward(&bound, batch.text, &mut Mode::Evaluate);
         let (projected, statistics) = network.latent.forward(&bound, z, &mut mode);
-        let contrastive =
-            info_nce(projected, predicted.clone(), weights.temperature, &batch.pairing);
+        let contrastive = info_nce(
+            projected,
+            predicted.clone(),
+            weights.temperature,
+            &batch.pairing,
+        );
         let alignment = (predicted - posterior.mean.clone()).square().mean();
         let reconstruction = ar.clone() * weights.ar + taps.clone() * weights.taps;
         let total = reconstruction * weights.reconstruction
@@ -144,7 +157,9 @@ pub(crate) fn decode(
     z: Tensor<2>,
     mode: &mut Mode<'_>,
 ) -> Decoded {
-    let (lsf_rad, excitation) = network.ar_decoder.forward(bound, normaliser, z.clone(), mode);
+    let (lsf_rad, excitation) = network
+        .ar_decoder
+        .forward(bound, normaliser, z.clone(), mode);
     Decoded {
         lsf_rad,
         excitation,
@@ -163,7 +178,11 @@ fn normalised(normaliser: &Normaliser, decoded: Decoded) -> Decoded {
     Decoded {
         lsf_rad: normal(decoded.lsf_rad, &mean[..LSFS], &deviation[..LSFS]),
         excitation: normal(decoded.excitation, &mean[LSFS..], &deviation[LSFS..]),
-        taps_m_s2: normal(decoded.taps_m_s2, &normaliser.tap_mean, &normaliser.tap_deviation),
+        taps_m_s2: normal(
+            decoded.taps_m_s2,
+            &normaliser.tap_mean,
+            &normaliser.tap_deviation,
+        ),
     }
 }
 
@@ -207,7 +226,10 @@ mod tests {
     fn the_divergence_fades_in_as_in_the_paper() {
         let loss = Config::paper().unwrap().loss;
         let beta = |epoch| kl_weight(&loss, epoch);
-        assert_eq!((beta(0), beta(20), beta(120), beta(199)), (0.0, 0.0, 0.001, 0.001));
+        assert_eq!(
+            (beta(0), beta(20), beta(120), beta(199)),
+            (0.0, 0.0, 0.001, 0.001)
+        );
         assert!((beta(70) - 0.0005).abs() < 1e-12);
     }
 
@@ -221,7 +243,12 @@ mod tests {
     #[test]
     fn no_batch_has_a_single_row() {
         let order: Vec<usize> = (0..9).collect();
-        let sizes = |size| batches(&order, size).iter().map(|b| b.len()).collect::<Vec<_>>();
+        let sizes = |size| {
+            batches(&order, size)
+                .iter()
+                .map(|b| b.len())
+                .collect::<Vec<_>>()
+        };
         assert_eq!(sizes(4), [4, 5]);
         assert_eq!(sizes(5), [5, 4]);
         assert_eq!(sizes(20), [9]);

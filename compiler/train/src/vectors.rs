@@ -53,9 +53,14 @@ impl<'a> Remembered<'a> {
         let note: Note = serde_json::from_str(&read.note).map_err(|e| fail(e.to_string()))?;
         let width = encoder.width();
         if note.encoder != encoder.name() {
-            return Err(fail(format!("holds vectors of the text encoder `{}`", note.encoder)));
+            return Err(fail(format!(
+                "holds vectors of the text encoder `{}`",
+                note.encoder
+            )));
         }
-        let vectors = read.take("vectors", note.texts.len() * width).map_err(fail)?;
+        let vectors = read
+            .take("vectors", note.texts.len() * width)
+            .map_err(fail)?;
         let known: BTreeMap<_, _> = note
             .texts
             .into_iter()

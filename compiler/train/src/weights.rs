@@ -58,7 +58,11 @@ impl Read {
     /// Reads a file of f32.
     pub(crate) fn new(bytes: &[u8]) -> Result<Self, String> {
         let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|e| e.to_string())?;
-        let note = metadata.metadata().as_ref().and_then(|m| m.get(NOTE)).cloned();
+        let note = metadata
+            .metadata()
+            .as_ref()
+            .and_then(|m| m.get(NOTE))
+            .cloned();
         let file = SafeTensors::deserialize(bytes).map_err(|e| e.to_string())?;
         let mut tables = HashMap::new();
         for (name, view) in file.tensors() {
@@ -66,7 +70,10 @@ impl Read {
                 return Err(format!("{name}: {:?}, expected F32", view.dtype()));
             }
             let (numbers, _) = view.data().as_chunks::<4>();
-            let values = numbers.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+            let values = numbers
+                .iter()
+                .map(|bytes| f32::from_le_bytes(*bytes))
+                .collect();
             tables.insert(name, values);
         }
         Ok(Self {
@@ -81,13 +88,18 @@ impl Read {
         if values.len() == count {
             Ok(values)
         } else {
-            Err(format!("{name}: {} numbers, expected {count}", values.len()))
+            Err(format!(
+                "{name}: {} numbers, expected {count}",
+                values.len()
+            ))
         }
     }
 
     /// Takes a table of any size.
     pub(crate) fn take_any(&mut self, name: &str) -> Result<Vec<f32>, String> {
-        self.tables.remove(name).ok_or_else(|| format!("{name}: missing"))
+        self.tables
+            .remove(name)
+            .ok_or_else(|| format!("{name}: missing"))
     }
 }
 
@@ -97,7 +109,11 @@ pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
     let table = |p: &Parameter| (p.name.clone(), Table::new(&p.values, p.columns));
     let is_text = |p: &&Parameter| p.name.starts_with("text.");
     let own = trained.parameters.iter().filter(|p| !is_text(p)).map(table);
-    let text = trained.projection_parameters.iter().filter(is_text).map(table);
+    let text = trained
+        .projection_parameters
+        .iter()
+        .filter(is_text)
+        .map(table);
     let normaliser = &trained.normaliser;
     let statistics = [
         ("ar_mean", &normaliser.ar_mean),
@@ -106,9 +122,17 @@ pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
         ("tap_deviation", &normaliser.tap_deviation),
         ("tap_bound", &normaliser.tap_bound),
     ]
-    .map(|(name, values)| (format!("normaliser.{name}"), Table::new(values, values.len())));
+    .map(|(name, values)| {
+        (
+            format!("normaliser.{name}"),
+            Table::new(values, values.len()),
+        )
+    });
     let (low, high) = normaliser.excitation_bounds;
-    let bounds = ("normaliser.excitation_bounds".to_owned(), Table::new(&[low, high], 2));
+    let bounds = (
+        "normaliser.excitation_bounds".to_owned(),
+        Table::new(&[low, high], 2),
+    );
     let tables: Vec<_> = own.chain(text).chain(statistics).chain([bounds]).collect();
     write(&tables, "weights; matrices are inputs × outputs")
 }
@@ -116,7 +140,10 @@ pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
 /// The tables of parameters under a prefix.
 pub(crate) fn tables(prefix: &str, parameters: &Parameters) -> Vec<(String, Table)> {
     let named = |p: &Parameter| {
-        (format!("{prefix}.{}", p.name), Table::new(&p.values, p.columns))
+        (
+            format!("{prefix}.{}", p.name),
+            Table::new(&p.values, p.columns),
+        )
     };
     parameters.iter().map(named).collect()
 }

@@ -39,7 +39,11 @@ pub(crate) fn of(instance: &Instance) -> Attributes {
     let count = vibrations.len().max(1) as f64;
     let fastest = instance.taps_m_s2[instance.taps_m_s2.len() - 1].map(f64::from);
     Attributes {
-        rough_db: vibrations.iter().map(|v| 10.0 * libm::log10(v.power)).sum::<f64>() / count,
+        rough_db: vibrations
+            .iter()
+            .map(|v| 10.0 * libm::log10(v.power))
+            .sum::<f64>()
+            / count,
         sharp_hz: vibrations.iter().map(|v| v.centroid_hz).sum::<f64>() / count,
         hard_hz: trace_centroid_hz(&fastest, TAP_RATE_HZ).unwrap_or_default(),
     }

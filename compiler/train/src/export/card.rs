@@ -28,9 +28,15 @@ fn card(
     config: &str,
 ) -> std::fmt::Result {
     let materials = &trained.materials;
-    let instances: usize =
-        materials.iter().map(|m| corpus.materials[m.material].instances.len()).sum();
-    let taps = if corpus.taps_synthetic { "synthesised" } else { "recorded" };
+    let instances: usize = materials
+        .iter()
+        .map(|m| corpus.materials[m.material].instances.len())
+        .sum();
+    let taps = if corpus.taps_synthetic {
+        "synthesised"
+    } else {
+        "recorded"
+    };
     writeln!(text, "# Model card: {}\n", description.name)?;
     writeln!(
         text,
@@ -40,14 +46,22 @@ fn card(
          Written by `asperity-train fit`, read by `asperity`.\n"
     )?;
     writeln!(text, "| | |\n|---|---|")?;
-    writeln!(text, "| corpus | {} (CRC-32 {:08x}) |", corpus.name, corpus.crc32)?;
+    writeln!(
+        text,
+        "| corpus | {} (CRC-32 {:08x}) |",
+        corpus.name, corpus.crc32
+    )?;
     writeln!(text, "| licence of the corpus | {} |", corpus.licence)?;
     writeln!(
         text,
         "| data | {} materials, {instances} instances, taps {taps} |",
         materials.len()
     )?;
-    writeln!(text, "| text encoder | {}, {} numbers |", trained.encoder, trained.width)?;
+    writeln!(
+        text,
+        "| text encoder | {}, {} numbers |",
+        trained.encoder, trained.width
+    )?;
     writeln!(text, "| parameters | {} |", trained.parameter_count())?;
     writeln!(text, "| seed | {} |", description.seed)?;
     writeln!(text, "| epochs | {}", epochs(trained))?;
@@ -80,10 +94,15 @@ fn card(
         percent(metrics.excitation_explained),
         percent(metrics.taps_explained)
     )?;
-    writeln!(text, "| active latent units | {} of 64 |", metrics.active_units)?;
-    for (name, retrieval) in
-        [("training", metrics.training), ("held-out", metrics.held_out)]
-    {
+    writeln!(
+        text,
+        "| active latent units | {} of 64 |",
+        metrics.active_units
+    )?;
+    for (name, retrieval) in [
+        ("training", metrics.training),
+        ("held-out", metrics.held_out),
+    ] {
         writeln!(
             text,
             "| material found by its {} {name} captions, first / first five | {} / {} |",
@@ -93,7 +112,11 @@ fn card(
         )?;
     }
     for axis in &description.axes {
-        writeln!(text, "| linear in z: {}, R² | {:.3} |", axis.attribute, axis.r_squared)?;
+        writeln!(
+            text,
+            "| linear in z: {}, R² | {:.3} |",
+            axis.attribute, axis.r_squared
+        )?;
     }
     writeln!(text, "\n## Limits\n")?;
     writeln!(
@@ -102,11 +125,19 @@ fn card(
          `model.json` says how far. What it says of friction is read from the nearest \
          materials. Nothing was felt by people on a device.\n"
     )?;
-    writeln!(text, "## Configuration\n\n```toml\n{}\n```", config.trim_end())
+    writeln!(
+        text,
+        "## Configuration\n\n```toml\n{}\n```",
+        config.trim_end()
+    )
 }
 
 fn epochs(trained: &Trained) -> String {
     let text = trained.text_history.len();
     let first = trained.history.len();
-    if text == 0 { format!("{first} |") } else { format!("{first}, text stage {text} |") }
+    if text == 0 {
+        format!("{first} |")
+    } else {
+        format!("{first}, text stage {text} |")
+    }
 }

@@ -67,10 +67,19 @@ pub(super) fn describe(
 /// Lines through the attributes of what the anchors decode to, and through their μ.
 fn axes(trained: &Trained, corpus: &Corpus) -> Vec<AttributeAxis> {
     let latents: Vec<_> = trained.materials.iter().map(|m| m.mean).collect();
-    let points: Vec<Vec<f64>> =
-        latents.iter().map(|z| z.iter().map(|&x| f64::from(x)).collect()).collect();
-    let decoded: Vec<_> = trained.decode(&latents).iter().map(attributes::of).collect();
-    let mu = trained.materials.iter().map(|m| corpus.materials[m.material].mu);
+    let points: Vec<Vec<f64>> = latents
+        .iter()
+        .map(|z| z.iter().map(|&x| f64::from(x)).collect())
+        .collect();
+    let decoded: Vec<_> = trained
+        .decode(&latents)
+        .iter()
+        .map(attributes::of)
+        .collect();
+    let mu = trained
+        .materials
+        .iter()
+        .map(|m| corpus.materials[m.material].mu);
     let values: [(&str, Vec<f64>); 4] = [
         ("rough_db", decoded.iter().map(|a| a.rough_db).collect()),
         ("sharp_hz", decoded.iter().map(|a| a.sharp_hz).collect()),

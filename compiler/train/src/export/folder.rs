@@ -14,12 +14,18 @@ const MARK: &str = "model.json";
 pub(super) fn write(target: &Path, files: &[(&'static str, Vec<u8>)]) -> Result<(), ExportError> {
     let fail = |doing: &'static str| {
         let path = target.to_owned();
-        move |source: io::Error| OutputError { path, doing, source }
+        move |source: io::Error| OutputError {
+            path,
+            doing,
+            source,
+        }
     };
     let parent = parent(target);
     let existing = fs::symlink_metadata(target).is_ok();
     if existing && !is_replaceable(target) {
-        return Err(ExportError::Occupied { path: target.to_owned() });
+        return Err(ExportError::Occupied {
+            path: target.to_owned(),
+        });
     }
     let cannot = "cannot write beside it";
     let staged = tempfile::Builder::new()

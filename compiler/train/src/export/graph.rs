@@ -44,8 +44,10 @@ impl<'a> Writer<'a> {
     pub(super) fn parameter(&mut self, slot: Slot) -> Value {
         let parameter = self.parameters.get(slot);
         let shape = [parameter.rows, parameter.columns];
-        self.graph
-            .constant(&parameter.name, Tensor::f32(&shape, parameter.values.clone()))
+        self.graph.constant(
+            &parameter.name,
+            Tensor::f32(&shape, parameter.values.clone()),
+        )
     }
 
     /// `x·W + b`.
@@ -113,7 +115,8 @@ impl<'a> Writer<'a> {
     pub(super) fn gather(&mut self, x: &Value, axis: i64, indices: &[i64]) -> Value {
         let indices = self.graph.integers(indices);
         let axis = ("axis", Attribute::Int(axis));
-        self.graph.node("Gather", &[Some(x), Some(&indices)], &[axis])
+        self.graph
+            .node("Gather", &[Some(x), Some(&indices)], &[axis])
     }
 }
 

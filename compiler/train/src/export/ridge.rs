@@ -28,8 +28,9 @@ pub(super) fn fit(points: &[Vec<f64>], y: &[f64]) -> Line {
     let total: f64 = y.iter().map(|y| y * y).sum();
     let covariance = gram(&x, columns);
     let trace: f64 = (0..columns).map(|i| covariance[i][i]).sum();
-    let moment: Vec<f64> =
-        (0..columns).map(|i| x.iter().zip(&y).map(|(x, y)| x[i] * y).sum()).collect();
+    let moment: Vec<f64> = (0..columns)
+        .map(|i| x.iter().zip(&y).map(|(x, y)| x[i] * y).sum())
+        .collect();
     let best = PENALTIES
         .iter()
         .filter_map(|penalty| {
@@ -73,7 +74,9 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
 
 fn gram(x: &[Vec<f64>], columns: usize) -> Vec<Vec<f64>> {
     let entry = |i: usize, j: usize| x.iter().map(|x| x[i] * x[j]).sum();
-    (0..columns).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect()
+    (0..columns)
+        .map(|i| (0..columns).map(|j| entry(i, j)).collect())
+        .collect()
 }
 
 /// The lower factor of `matrix + penalty·1`; `None` unless that is positive definite.

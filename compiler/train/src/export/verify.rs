@@ -26,13 +26,19 @@ pub(super) fn check(
     networks: &[(&'static str, Vec<u8>); 4],
 ) -> Result<(), ExportError> {
     let run = |file: &'static str, inputs: &[(&str, &Tensor)]| {
-        let (_, bytes) = networks
-            .iter()
-            .find(|(name, _)| *name == file)
-            .ok_or(ExportError::Encode { file, message: "was not written".into() })?;
-        let portable = Portable::from_bytes(bytes)
-            .map_err(|source| ExportError::Graph { file, source })?;
-        portable.run(inputs).map_err(|source| ExportError::Run { file, source })
+        let (_, bytes) =
+            networks
+                .iter()
+                .find(|(name, _)| *name == file)
+                .ok_or(ExportError::Encode {
+                    file,
+                    message: "was not written".into(),
+                })?;
+        let portable =
+            Portable::from_bytes(bytes).map_err(|source| ExportError::Graph { file, source })?;
+        portable
+            .run(inputs)
+            .map_err(|source| ExportError::Run { file, source })
     };
     let materials = &trained.materials[..trained.materials.len().min(SAMPLES)];
     let mut stream = Stream::new(trained.config.seed, Purpose::Verification, 0);
@@ -48,7 +54,12 @@ pub(super) fn check(
     compare(AR_DECODER, &ar, "lsf_rad", &flat(|i| i.lsf_rad.concat()))?;
     compare(AR_DECODER, &ar, "level_db", &flat(|i| i.level_db.to_vec()))?;
     let taps = run(TAP_DECODER, &[("z", &z)])?;
-    compare(TAP_DECODER, &taps, "taps_m_s2", &flat(|i| i.taps_m_s2.concat()))?;
+    compare(
+        TAP_DECODER,
+        &taps,
+        "taps_m_s2",
+        &flat(|i| i.taps_m_s2.concat()),
+    )?;
 
     let vectors: Vec<&[f32]> = materials
         .iter()
@@ -56,25 +67,42 @@ pub(super) fn check(
         .collect();
     let embedding = Tensor::f32(&[vectors.len(), trained.width], vectors.concat());
     let text = run(TEXT_PROJECTION, &[("embedding", &embedding)])?;
-    compare(TEXT_PROJECTION, &text, "z", &trained.project(&vectors).concat())?;
-    let cosines = vectors.iter().flat_map(|vector| {
-        trained.materials.iter().map(|m| cosine(vector, &m.caption))
-    });
-    compare(TEXT_PROJECTION, &text, "similarity", &cosines.collect::<Vec<_>>())?;
+    compare(
+        TEXT_PROJECTION,
+        &text,
+        "z",
+        &trained.project(&vectors).concat(),
+    )?;
+    let cosines = vectors
+        .iter()
+        .flat_map(|vector| trained.materials.iter().map(|m| cosine(vector, &m.caption)));
+    compare(
+        TEXT_PROJECTION,
+        &text,
+        "similarity",
+        &cosines.collect::<Vec<_>>(),
+    )?;
 
-    let instances: Vec<&Instance> =
-        materials.iter().map(|m| &corpus.materials[m.material].prototype).collect();
+    let instances: Vec<&Instance> = materials
+        .iter()
+        .map(|m| &corpus.materials[m.material].prototype)
+        .collect();
     let count = instances.len();
     let ar = instances.iter().flat_map(|instance| {
         let bins = instance.lsf_rad.iter().zip(instance.level_db);
         bins.flat_map(|(lsf_rad, level_db)| lsf_rad.iter().copied().chain([level_db]))
     });
     let ar = Tensor::f32(&[count, BINS, CHANNELS], ar.collect());
-    let taps = instances.iter().flat_map(|i| i.taps_m_s2.concat()).collect();
+    let taps = instances
+        .iter()
+        .flat_map(|i| i.taps_m_s2.concat())
+        .collect();
     let taps = Tensor::f32(&[count, TAPS, TAP_SAMPLES], taps);
-    for (seen, present) in
-        [(Seen::Both, [1.0, 1.0]), (Seen::Ar, [1.0, 0.0]), (Seen::Taps, [0.0, 1.0])]
-    {
+    for (seen, present) in [
+        (Seen::Both, [1.0, 1.0]),
+        (Seen::Ar, [1.0, 0.0]),
+        (Seen::Taps, [0.0, 1.0]),
+    ] {
         let present = Tensor::f32(&[count, 2], present.repeat(count));
         let inputs = [("ar", &ar), ("taps_m_s2", &taps), ("present", &present)];
         let said = run(ENCODER, &inputs)?;
@@ -94,13 +122,25 @@ fn compare(
     expected: &[f32],
 ) -> Result<(), ExportError> {
     let found = said.iter().find(|(name, _)| name == output);
-    let found = found.and_then(|(_, tensor)| tensor.as_f32()).unwrap_or_default();
-    let scale = expected.iter().fold(1.0_f64, |scale, &x| scale.max(f64::from(x.abs())));
-    let mut difference = if found.len() == expected.len() { 0.0 } else { f64::INFINITY };
+    let found = found
+        .and_then(|(_, tensor)| tensor.as_f32())
+        .unwrap_or_default();
+    let scale = expected
+        .iter()
+        .fold(1.0_f64, |scale, &x| scale.max(f64::from(x.abs())));
+    let mut difference = if found.len() == expected.len() {
+        0.0
+    } else {
+        f64::INFINITY
+    };
     for (x, y) in found.iter().zip(expected) {
         let apart = f64::from((x - y).abs()) / scale;
         // A NaN on either side is an infinite difference.
-        difference = if apart <= difference { difference } else { apart };
+        difference = if apart <= difference {
+            difference
+        } else {
+            apart
+        };
         if apart.is_nan() {
             difference = f64::INFINITY;
             break;

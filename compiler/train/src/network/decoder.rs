@@ -96,7 +96,13 @@ pub(crate) struct Decoded {
 /// [22, 21]: shares of what the smallest gaps leave of π, to LSFs above those gaps.
 pub(crate) fn gap_matrix() -> Vec<f32> {
     let free = PI - GAPS as f32 * MIN_GAP_RAD;
-    let entry = |index: usize| if index / ORDER <= index % ORDER { free } else { 0.0 };
+    let entry = |index: usize| {
+        if index / ORDER <= index % ORDER {
+            free
+        } else {
+            0.0
+        }
+    };
     (0..GAPS * ORDER).map(entry).collect()
 }
 

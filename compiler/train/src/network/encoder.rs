@@ -43,8 +43,10 @@ impl Encoder {
         let widths = |inputs, hidden: &[usize]| [&[inputs], hidden].concat();
         let ar_widths = widths(AR, &sizes.ar_encoder);
         let tap_widths = widths(TAP_VALUES, &sizes.tap_encoder);
-        let (ar_features, tap_features) =
-            (ar_widths[ar_widths.len() - 1], tap_widths[tap_widths.len() - 1]);
+        let (ar_features, tap_features) = (
+            ar_widths[ar_widths.len() - 1],
+            tap_widths[tap_widths.len() - 1],
+        );
         let joint = ar_features + tap_features;
         Self {
             ar: chain(into, "ar_encoder", &ar_widths, stream),

@@ -15,7 +15,10 @@ fn seconds_an_epoch_of_4000_instances() {
     let captions = Captions::encode(&corpus, &[], &WordBag).unwrap();
     let all: Vec<usize> = (0..200).collect();
     for threads in [1, 2] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         for batch in [32, 128, 256] {
             let mut config = Config::reference().unwrap();
             config.optimiser.batch = batch;
@@ -25,7 +28,10 @@ fn seconds_an_epoch_of_4000_instances() {
                     let start = Instant::now();
                     session.epoch(&mut Silent).unwrap();
                     let loss = session.state.history.last().unwrap();
-                    println!("{threads} threads, batch {batch}: {:.2?} {loss:?}", start.elapsed());
+                    println!(
+                        "{threads} threads, batch {batch}: {:.2?} {loss:?}",
+                        start.elapsed()
+                    );
                 }
             });
         }

@@ -1,8 +1,11 @@
 //! What a run promises.
 
 use crate::{
-    Captions, Config, FitError, Seen, Silent, Trained, captions::cosine, fit_on,
-    rng::{Purpose, Stream}, synthetic::{self, WordBag},
+    Captions, Config, FitError, Seen, Silent, Trained,
+    captions::cosine,
+    fit_on,
+    rng::{Purpose, Stream},
+    synthetic::{self, WordBag},
 };
 use asperity::learned::description::LATENT;
 
@@ -85,9 +88,10 @@ fn captions_find_their_material() {
     for (index, own) in captions.training.iter().enumerate() {
         let vectors: Vec<&[f32]> = own.iter().map(Vec::as_slice).collect();
         for z in trained.project(&vectors) {
-            let best = trained.materials().iter().max_by(|a, b| {
-                cosine(&a.mean, &z).total_cmp(&cosine(&b.mean, &z))
-            });
+            let best = trained
+                .materials()
+                .iter()
+                .max_by(|a, b| cosine(&a.mean, &z).total_cmp(&cosine(&b.mean, &z)));
             hits += usize::from(best.unwrap().material == index);
         }
     }
@@ -103,7 +107,11 @@ fn one_modality_is_enough_to_encode() {
         let posteriors = trained.encode(&instances, seen);
         assert_eq!(posteriors.len(), 8);
         let finite = |x: &[f32]| x.iter().all(|x| x.is_finite());
-        assert!(posteriors.iter().all(|p| finite(&p.mean) && finite(&p.log_variance)));
+        assert!(
+            posteriors
+                .iter()
+                .all(|p| finite(&p.mean) && finite(&p.log_variance))
+        );
     }
     assert_ne!(
         trained.encode(&instances, Seen::Ar),
@@ -122,4 +130,3 @@ fn a_corpus_that_cannot_be_trained_on_is_refused_by_name() {
     let fault = fit_on(&corpus, &[0, 1], &captions, &config, &mut Silent).unwrap_err();
     assert!(fault.to_string().contains("material 1") && fault.to_string().contains("level_db"));
 }
-

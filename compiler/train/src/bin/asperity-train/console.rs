@@ -29,7 +29,9 @@ pub(crate) fn is_interrupted() -> bool {
 /// Writes a result. A reader that has gone away, as `head` does, is no failure.
 pub(crate) fn print(text: &str) -> Result<(), OutputError> {
     let mut stdout = io::stdout().lock();
-    let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+    let written = stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush());
     match written {
         Err(source) if source.kind() != io::ErrorKind::BrokenPipe => Err(OutputError {
             path: "stdout".into(),
