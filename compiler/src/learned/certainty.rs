@@ -11,7 +11,7 @@ pub fn certainty(curve: &CertaintyCurve, similarity: f64) -> f64 {
         return y.last().copied().unwrap_or(0.0);
     };
     if after == 0 {
-        return y[0];
+        return y[0] * (similarity / x[0]).clamp(0.0, 1.0);
     }
     let share = (similarity - x[after - 1]) / (x[after] - x[after - 1]);
     y[after - 1] + share * (y[after] - y[after - 1])
@@ -22,12 +22,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_linear_between_knots_and_flat_beyond() {
+    fn it_is_linear_between_knots_flat_above_and_falls_to_nothing_below() {
         let curve = CertaintyCurve {
             similarity: vec![0.2, 0.4, 0.6],
             certainty: vec![0.1, 0.5, 0.9],
         };
-        for (similarity, expected) in [(-1.0, 0.1), (0.2, 0.1), (0.3, 0.3), (0.5, 0.7), (0.9, 0.9)]
+        for (similarity, expected) in [(-1.0, 0.0), (0.1, 0.05), (0.2, 0.1), (0.3, 0.3), (0.5, 0.7), (0.9, 0.9)]
         {
             assert!((certainty(&curve, similarity) - expected).abs() < 1e-12);
         }

@@ -301,7 +301,7 @@ impl Author {
                 description.corpus.name, description.text_encoder.name
             ),
         };
-        let name = shortened(prompt, limits::MAX_NAME_BYTES).to_owned();
+        let name = title(prompt);
         Ok(texture::build(description, &decoded, z, name, provenance))
     }
 
@@ -344,6 +344,13 @@ pub struct Prompted {
     pub certainty: f64,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
+}
+
+/// A name that an asset can hold: the beginning of the prompt, without control characters.
+fn title(prompt: &str) -> String {
+    let plain = prompt.replace(char::is_control, " ");
+    let words: Vec<&str> = plain.split_whitespace().collect();
+    shortened(&words.join(" "), limits::MAX_NAME_BYTES).to_owned()
 }
 
 /// The longest beginning of whole characters within a number of bytes.

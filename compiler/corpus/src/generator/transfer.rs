@@ -5,9 +5,9 @@ use super::{Physical, surface::height_power};
 /// Frequencies from 0 to half the rate at which spectra are sampled.
 pub const POINTS: usize = 512;
 /// *Calibrated.* Resonance of stylus and hand on a contact of 10 MPa, Hz.
-const RESONANCE_HZ: f64 = 104.0;
+const RESONANCE_HZ: f64 = 122.0;
 /// *Calibrated.* How it grows with the modulus: weakly, as the grip is in series.
-const RESONANCE_EXPONENT: f64 = 0.075;
+const RESONANCE_EXPONENT: f64 = 0.09;
 /// How it grows with force: a Hertzian contact stiffens as F^(1/3), its root by half
 /// of that, and the grip halves it again.
 const RESONANCE_FORCE_EXPONENT: f64 = 0.08;
@@ -24,7 +24,9 @@ const FLOOR: f64 = 1.2e-2;
 #[must_use]
 pub fn spectrum(physical: &Physical, speed_mm_s: f64, force_n: f64) -> [f64; POINTS] {
     let resonance_hz = resonance_hz(physical, force_n);
-    let damping = HAND_DAMPING + MATERIAL_DAMPING * physical.loss_factor;
+    // The hand damps against itself, the material against the surface.
+    let material = MATERIAL_DAMPING * physical.loss_factor;
+    let damping = HAND_DAMPING + material;
     let mut power: [f64; POINTS] = std::array::from_fn(|point| {
         let freq_hz = (point as f64 + 0.5) * 0.5 * crate::SAMPLE_RATE_HZ / POINTS as f64;
         let heights = height_power(physical, freq_hz / speed_mm_s, force_n);
@@ -33,7 +35,8 @@ pub fn spectrum(physical: &Physical, speed_mm_s: f64, force_n: f64) -> [f64; POI
         let ratio = freq_hz / resonance_hz;
         let detuning = 1.0 - ratio * ratio;
         let drag = 2.0 * damping * ratio;
-        let transmitted = (1.0 + drag * drag) / (detuning * detuning + drag * drag);
+        let through = 2.0 * material * ratio;
+        let transmitted = (1.0 + through * through) / (detuning * detuning + drag * drag);
         heights * squared * squared * transmitted
     });
     let peak = power.iter().copied().fold(0.0, f64::max);
