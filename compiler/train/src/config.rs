@@ -209,6 +209,21 @@ pub struct TextStage {
     pub lexicon_temperature: f64,
     /// h of the weights by rating, on the scale 0–100.
     pub lexicon_bandwidth: f64,
+    /// A projection from memory in place of the trained one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory: Option<Memory>,
+}
+
+/// The projection from memory: kernel ridge regression over captions and lexicon.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Memory {
+    /// γ of `exp(γ(cos − 1))`.
+    pub concentration: f64,
+    /// λ.
+    pub ridge: f64,
+    /// Steps of the solver at most.
+    pub iterations: usize,
 }
 
 /// How μ is read from the anchors.

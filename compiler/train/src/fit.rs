@@ -11,6 +11,7 @@ use crate::{
     parameters::Parameters,
     progress::Progress,
     rng::{Purpose, Stream},
+    memory::TextMemory,
     text_stage,
     trained::{MaterialLatent, Seen, Trained, posteriors},
     vae::{Run, State},
@@ -69,8 +70,9 @@ pub struct Checkpoints<'a> {
     pub resume: bool,
 }
 
-/// As [`fit_on`], with its state on disk: an interrupt saves it, and what goes on from
-/// there ends in the same model.
+/// As [`fit_on`], with the state of the first stage on disk: an interrupt saves it, and
+/// what goes on from there ends in the same model. A finished state may be resumed with
+/// another text stage, which alone then runs.
 ///
 /// # Errors
 /// [`FitError`]; [`FitError::Checkpoint`] for a file of another run.
@@ -203,6 +205,7 @@ impl<'a> Session<'a> {
             spread,
             history,
             text_history: Vec::new(),
+            memory: None,
         };
         if let Some(stage) = &self.config.text_stage {
             let seed = self.config.seed;
@@ -212,6 +215,16 @@ impl<'a> Session<'a> {
                 self.captions,
                 stage,
             );
+            if let Some(how) = &stage.memory {
+                let (vectors, targets) = examples.all();
+                trained.memory = Some(TextMemory::fit(
+                    &vectors,
+                    &targets,
+                    how,
+                    |step, steps, left| progress.text_epoch(step, steps, left),
+                ));
+                return trained;
+            }
             let refitted = text_stage::refit(&examples, stage, seed, progress);
             trained.projection = refitted.projection;
             trained.projection_parameters = refitted.parameters;

@@ -16,6 +16,7 @@ pub mod evaluate;
 mod export;
 mod fit;
 mod loss;
+mod memory;
 mod metrics;
 mod network;
 mod normaliser;

@@ -92,6 +92,20 @@ impl Examples {
         }
     }
 
+    /// Vectors and latents, captions first, then phrases.
+    pub(crate) fn all(&self) -> (Vec<&[f32]>, Vec<[f32; LATENT]>) {
+        self.captions
+            .iter()
+            .chain(&self.lexicon)
+            .map(|example| {
+                let z = std::array::from_fn(|k| {
+                    example.target[k] * self.deviation[k] + self.mean[k]
+                });
+                (example.vector.as_slice(), z)
+            })
+            .unzip()
+    }
+
     /// An example, perhaps mixed with another, perhaps with noise.
     fn draw(&self, index: usize, stage: &TextStage, stream: &mut Stream) -> Example {
         let mut example = self.pick(index, stage, stream).clone();

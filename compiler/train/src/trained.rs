@@ -3,6 +3,7 @@
 use crate::{
     coding,
     config::Config,
+    memory::TextMemory,
     network::{Mode, Network, TextProjection, matrix},
     normaliser::{AR, Coded, LSFS, Normaliser, TAP_VALUES},
     parameters::{Bound, Parameters, read},
@@ -62,6 +63,8 @@ pub struct Trained {
     pub(crate) spread: [f32; LATENT],
     pub(crate) history: Vec<EpochLoss>,
     pub(crate) text_history: Vec<f32>,
+    /// Projects in place of the network where there is one.
+    pub(crate) memory: Option<TextMemory>,
 }
 
 impl Trained {
@@ -169,6 +172,9 @@ impl Trained {
     /// The latents that text vectors project to.
     #[must_use]
     pub fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
+        if let Some(memory) = &self.memory {
+            return vectors.chunks(CHUNK).flat_map(|chunk| memory.project(chunk)).collect();
+        }
         let device = Device::flex();
         let bound = self.projection_parameters.bind(&device);
         let mut latents = Vec::with_capacity(vectors.len());
@@ -226,7 +232,7 @@ fn posterior_chunk(
 }
 
 /// Numbers of a tensor that was made of f32.
-fn numbers(tensor: Tensor<2>) -> Vec<f32> {
+pub(crate) fn numbers(tensor: Tensor<2>) -> Vec<f32> {
     read(tensor).unwrap_or_default()
 }
 

@@ -77,7 +77,13 @@ fn text_stage(s: &TextStage) -> Result<(), ConfigError> {
     positive("text_stage.contrastive_temperature", s.contrastive_temperature)?;
     rate("text_stage.lexicon_weight", s.lexicon_weight)?;
     positive("text_stage.lexicon_temperature", s.lexicon_temperature)?;
-    positive("text_stage.lexicon_bandwidth", s.lexicon_bandwidth)
+    positive("text_stage.lexicon_bandwidth", s.lexicon_bandwidth)?;
+    if let Some(memory) = &s.memory {
+        positive("text_stage.memory.concentration", memory.concentration)?;
+        positive("text_stage.memory.ridge", memory.ridge)?;
+        count("text_stage.memory.iterations", memory.iterations, 10_000)?;
+    }
+    Ok(())
 }
 
 fn within(

@@ -60,12 +60,15 @@ impl Cache {
             key,
             result: compute()?,
         };
-        let bytes = serde_json::to_vec(&entry).map_err(|e| EvaluateError::Encode {
+        let fail = |e: serde_json::Error| EvaluateError::Encode {
             file: path.display().to_string(),
             message: e.to_string(),
-        })?;
+        };
+        let bytes = serde_json::to_vec(&entry).map_err(fail)?;
         write_atomic(&path, &bytes)?;
-        Ok(Some(entry.result))
+        // As a rerun will read it: numbers may lose their last bit on the way.
+        let read: Entry<T> = serde_json::from_slice(&bytes).map_err(fail)?;
+        Ok(Some(read.result))
     }
 }
 

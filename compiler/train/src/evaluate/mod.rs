@@ -10,6 +10,7 @@
 //! 6. [`map`]: pictures of the anchors.
 
 mod cache;
+mod calibrate;
 pub mod clustering;
 mod data;
 mod draws;
@@ -25,8 +26,11 @@ pub mod retrieval;
 mod signature;
 mod statistics;
 mod subject;
+#[cfg(test)]
+mod tests;
 mod watch;
 
+pub use calibrate::calibrate;
 pub use error::EvaluateError;
 pub use report::{Conditions, Report};
 pub use signature::Objective;

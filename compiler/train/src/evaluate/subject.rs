@@ -16,7 +16,7 @@ use std::path::Path;
 /// A model folder on a back end.
 pub(super) struct Subject {
     model: LearnedModel,
-    /// Checksum of its files.
+    /// Checksum of its networks and its description, certainty apart.
     pub(super) crc32: u32,
     speeds_m_s: [f64; TAPS],
 }
@@ -31,14 +31,14 @@ impl Subject {
     /// Reads a folder.
     pub(super) fn open(folder: &Path, backend: &Backend) -> Result<Self, EvaluateError> {
         let files = Files::read(folder)?;
-        let crc32 = cache::checksum([
-            files.description.as_bytes(),
-            &files.text_projection,
-            &files.ar_decoder,
-            &files.tap_decoder,
-            &files.encoder,
-        ]);
+        let networks = [
+            files.text_projection.to_vec(),
+            files.ar_decoder.to_vec(),
+            files.tap_decoder.to_vec(),
+            files.encoder.to_vec(),
+        ];
         let model = LearnedModel::load(files, backend)?;
+        let crc32 = checksum(model.description(), &networks)?;
         let (grid, taps) = (&model.description().grid, &model.description().taps);
         let shape = [
             grid.order,
@@ -118,6 +118,19 @@ impl Subject {
         let near = friction::neighbours(z, &description.anchors, description.friction);
         friction::mu(&near, &description.anchors)
     }
+}
+
+/// Of everything but the certainty, which the evaluation itself may have set.
+fn checksum(description: &ModelDescription, networks: &[Vec<u8>; 4]) -> Result<u32, EvaluateError> {
+    let mut description = description.clone();
+    description.certainty.similarity.clear();
+    description.certainty.certainty.clear();
+    let json = serde_json::to_vec(&description).map_err(|error| EvaluateError::Encode {
+        file: "model.json".into(),
+        message: error.to_string(),
+    })?;
+    let networks = networks.iter().map(Vec::as_slice);
+    Ok(cache::checksum(networks.chain([json.as_slice()])))
 }
 
 fn ar_input(instance: &Instance) -> Vec<f32> {

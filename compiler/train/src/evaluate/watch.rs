@@ -36,6 +36,7 @@ pub(super) fn pause(watch: &dyn Watch, what: &str) -> Result<(), EvaluateError> 
 pub(super) struct Training<'a> {
     watch: &'a mut dyn Watch,
     epochs: usize,
+    text_epochs: usize,
 }
 
 impl<'a> Training<'a> {
@@ -47,7 +48,11 @@ impl<'a> Training<'a> {
         text_epochs: usize,
     ) -> Self {
         watch.begin(what, epochs + text_epochs);
-        Self { watch, epochs }
+        Self {
+            watch,
+            epochs,
+            text_epochs,
+        }
     }
 }
 
@@ -56,8 +61,10 @@ impl Progress for Training<'_> {
         self.watch.done(epoch);
     }
 
-    fn text_epoch(&mut self, epoch: usize, _: usize, _: f32) {
-        self.watch.done(self.epochs + epoch);
+    fn text_epoch(&mut self, epoch: usize, epochs: usize, _: f32) {
+        // The stage may count its steps otherwise than in epochs.
+        let done = epoch * self.text_epochs / epochs.max(1);
+        self.watch.done(self.epochs + done);
     }
 
     fn interrupted(&self) -> bool {

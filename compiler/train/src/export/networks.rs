@@ -4,6 +4,7 @@
 use super::{ExportError, gain, graph::Writer};
 use crate::{
     config::Excitation,
+    memory::TextMemory,
     network::{GAPS, LOG_VARIANCE_BOUND, Trunk, gap_matrix, gap_offsets},
     normaliser::{LSFS, TAP_VALUES},
     parameters::Slot,
@@ -11,7 +12,7 @@ use crate::{
 };
 use asperity::learned::description::LATENT;
 use asperity_corpus::{BINS, CHANNELS, ORDER, TAP_SAMPLES, TAPS};
-use asperity_nn::build::{Attribute, Value};
+use asperity_nn::{Tensor, build::{Attribute, Value}};
 use std::f64::consts::{LN_10, LOG10_E};
 
 pub(super) const TEXT_PROJECTION: &str = "text_projection.onnx";
@@ -43,8 +44,6 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
     let mut writer = Writer::new("text_projection", &trained.projection_parameters);
     let (width, count) = (trained.width, trained.materials.len());
     let embedding = writer.input("embedding", &[width]);
-    let z = writer.chain(&trained.projection.layers, &embedding);
-    writer.output("z", &z, &[LATENT]);
     let mut columns = vec![0.0; width * count];
     for (column, material) in trained.materials.iter().enumerate() {
         for (row, x) in material.caption.iter().enumerate() {
@@ -56,10 +55,40 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
     let norm = writer.graph.node("ReduceL2", &[Some(&embedding)], &attributes);
     let norm = writer.plus(&norm, f32::MIN_POSITIVE);
     let direction = writer.graph.div(&embedding, &norm);
+    let z = match &trained.memory {
+        Some(memory) => from_memory(&mut writer, memory, &direction),
+        None => writer.chain(&trained.projection.layers, &embedding),
+    };
+    writer.output("z", &z, &[LATENT]);
     let inputs = [Some(&direction), Some(&captions)];
     let similarity = writer.graph.node("MatMul", &inputs, &[]);
     writer.output("similarity", &similarity, &[count]);
     writer
+}
+
+/// `z̄ + exp(γ(cos − 1))·a`: 8-bit vectors, a column an example.
+fn from_memory(writer: &mut Writer<'_>, memory: &TextMemory, direction: &Value) -> Value {
+    let (width, count) = (memory.width, memory.scales.len());
+    let mut columns = vec![0_u8; width * count];
+    for (column, example) in memory.codes.chunks(width).enumerate() {
+        for (row, code) in example.iter().enumerate() {
+            columns[row * count + column] = code.to_ne_bytes()[0];
+        }
+    }
+    let codes = Tensor::I8 { shape: vec![width, count], data: columns.into() };
+    let codes = writer.graph.constant("memory.vectors", codes);
+    let scales = writer.graph.constant("memory.scales", Tensor::f32(&[count], memory.scales.clone()));
+    let axis = ("axis", Attribute::Int(1));
+    let kept = writer.graph.node("DequantizeLinear", &[Some(&codes), Some(&scales)], &[axis]);
+    let likeness = writer.graph.node("MatMul", &[Some(direction), Some(&kept)], &[]);
+    let likeness = writer.plus(&likeness, -1.0);
+    let likeness = writer.times(&likeness, memory.concentration);
+    let kernel = writer.graph.unary("Exp", &likeness);
+    let coefficients =
+        writer.table("memory.coefficients", &[count, LATENT], memory.coefficients.clone());
+    let from_mean = writer.graph.node("MatMul", &[Some(&kernel), Some(&coefficients)], &[]);
+    let mean = writer.row("memory.mean", &memory.mean);
+    writer.graph.add(&from_mean, &mean)
 }
 
 /// `z` [B, 64] → `lsf_rad` [B, 18, 21] and `level_db` [B, 18].

@@ -29,7 +29,7 @@ use std::{fmt::Write as _, fs, path::Path};
 pub struct Conditions {
     /// Name of the model.
     pub model: String,
-    /// CRC-32 of its networks and description.
+    /// CRC-32 of its networks and description, certainty apart.
     pub model_crc32: String,
     /// Seed that it was trained with, and that splits are drawn with.
     pub seed: u64,
