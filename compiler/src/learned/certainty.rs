@@ -27,8 +27,14 @@ mod tests {
             similarity: vec![0.2, 0.4, 0.6],
             certainty: vec![0.1, 0.5, 0.9],
         };
-        for (similarity, expected) in [(-1.0, 0.0), (0.1, 0.05), (0.2, 0.1), (0.3, 0.3), (0.5, 0.7), (0.9, 0.9)]
-        {
+        for (similarity, expected) in [
+            (-1.0, 0.0),
+            (0.1, 0.05),
+            (0.2, 0.1),
+            (0.3, 0.3),
+            (0.5, 0.7),
+            (0.9, 0.9),
+        ] {
             assert!((certainty(&curve, similarity) - expected).abs() < 1e-12);
         }
     }

@@ -7,7 +7,10 @@ use asperity::{
     prompt::{Author, Options},
     text::{TextEncoder as _, clip::Clip},
 };
-use asperity_nn::{Dim, ElementType, Tensor, build::{Attribute, GraphBuilder}};
+use asperity_nn::{
+    Dim, ElementType, Tensor,
+    build::{Attribute, GraphBuilder},
+};
 
 const WIDTH: usize = 32;
 const VOCABULARY: usize = 49_408;
@@ -18,13 +21,25 @@ fn tower(ids: ElementType) -> Vec<u8> {
     let input = graph.input("input_ids", ids, &[Dim::Fixed(1), Dim::Fixed(77)]);
     let values = (0..VOCABULARY * WIDTH).map(|n| ((n % 9973) as f32 * 0.37).sin());
     let table = graph.constant("table", Tensor::f32(&[VOCABULARY, WIDTH], values.collect()));
-    let rows = graph.node("Gather", &[Some(&table), Some(&input)], &[("axis", Attribute::Int(0))]);
+    let rows = graph.node(
+        "Gather",
+        &[Some(&table), Some(&input)],
+        &[("axis", Attribute::Int(0))],
+    );
     let mean = graph.node(
         "ReduceMean",
         &[Some(&rows)],
-        &[("axes", Attribute::Ints(vec![1])), ("keepdims", Attribute::Int(0))],
+        &[
+            ("axes", Attribute::Ints(vec![1])),
+            ("keepdims", Attribute::Int(0)),
+        ],
     );
-    graph.output("text_embeds", &mean, ElementType::F32, &[Dim::Fixed(1), Dim::Fixed(WIDTH)]);
+    graph.output(
+        "text_embeds",
+        &mean,
+        ElementType::F32,
+        &[Dim::Fixed(1), Dim::Fixed(WIDTH)],
+    );
     graph.finish().unwrap()
 }
 
@@ -39,8 +54,13 @@ fn files() -> Files {
     let batch = || Dim::named("B");
     let x = graph.input("embedding", ElementType::F32, &[batch(), Dim::Fixed(WIDTH)]);
     for (name, columns) in [("z", 64), ("similarity", anchors)] {
-        let values = (0..WIDTH * columns).map(|n| (n as f32 * 0.71).cos() * 0.2).collect();
-        let weights = graph.constant(&format!("{name}.weight"), Tensor::f32(&[WIDTH, columns], values));
+        let values = (0..WIDTH * columns)
+            .map(|n| (n as f32 * 0.71).cos() * 0.2)
+            .collect();
+        let weights = graph.constant(
+            &format!("{name}.weight"),
+            Tensor::f32(&[WIDTH, columns], values),
+        );
         let y = graph.node("MatMul", &[Some(&x), Some(&weights)], &[]);
         graph.output(name, &y, ElementType::F32, &[batch(), Dim::Fixed(columns)]);
     }
@@ -77,12 +97,18 @@ fn a_prompt_goes_through_a_tower_with_a_projection_of_its_width() {
     // The shipped projection takes vectors of another width, and says so.
     let shipped = LearnedModel::load(embedded::model(), &backend).unwrap();
     let refused = Author::new(clip(), shipped).err().unwrap().to_string();
-    assert!(refused.contains("384") && refused.contains("32"), "{refused}");
+    assert!(
+        refused.contains("384") && refused.contains("32"),
+        "{refused}"
+    );
 }
 
 #[test]
 fn a_folder_without_a_tower_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let error = Clip::open(folder.path(), &Backend::Portable).err().unwrap().to_string();
+    let error = Clip::open(folder.path(), &Backend::Portable)
+        .err()
+        .unwrap()
+        .to_string();
     assert!(error.contains("text_model.onnx"), "{error}");
 }

@@ -2,11 +2,7 @@
 
 use super::AUTHOR;
 use asperity::{
-    builtin,
-    learned::complete,
-    mesh, raise,
-    spectrum::trace_centroid_hz,
-    tap_synthesis,
+    builtin, learned::complete, mesh, raise, spectrum::trace_centroid_hz, tap_synthesis,
 };
 use asperity_formats::Asset;
 
@@ -18,7 +14,13 @@ fn taps_decoded_from_a_grid_fit_the_texture_they_complete() {
     let completed = asperity::model::TextureModel { taps, ..texture };
     let lowered = asperity::lower::lower(&completed, None).unwrap();
     asperity::verify::verify(&completed, &lowered.bytes).unwrap();
-    assert_eq!(raise::raise(&Asset::parse(&lowered.bytes).unwrap()).taps.traces.len(), 13);
+    assert_eq!(
+        raise::raise(&Asset::parse(&lowered.bytes).unwrap())
+            .taps
+            .traces
+            .len(),
+        13
+    );
 }
 
 #[test]

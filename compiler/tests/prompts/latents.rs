@@ -37,18 +37,29 @@ fn any_latent_is_a_stable_texture_within_bounds() {
         let z = latent(number);
         let decoded = model.decode(&z).unwrap();
         let name = format!("latent {number}");
-        let (texture, _) =
-            texture::build(model.description(), &decoded, &z, name, Provenance::default());
+        let (texture, _) = texture::build(
+            model.description(),
+            &decoded,
+            &z,
+            name,
+            Provenance::default(),
+        );
         let limits = &asperity_formats::limits::MAX_SIGMA_M_S2;
         for vertex in &texture.grid.vertices {
             assert!(lsf::is_ordered(&vertex.lsf_rad), "{number}");
             assert!(lsf::smallest_gap(&vertex.lsf_rad) > 0.009, "{number}");
-            assert!((0.0..f64::from(*limits)).contains(&vertex.sigma_m_s2), "{number}");
+            assert!(
+                (0.0..f64::from(*limits)).contains(&vertex.sigma_m_s2),
+                "{number}"
+            );
         }
         let mus: Vec<f64> = texture.friction.anchors.iter().map(|a| a.mu).collect();
         let low = mus.iter().copied().fold(f64::INFINITY, f64::min);
         let high = mus.iter().copied().fold(0.0, f64::max);
-        assert!((low..=high * (1.0 + 1e-12)).contains(&texture.friction.mu), "{number}");
+        assert!(
+            (low..=high * (1.0 + 1e-12)).contains(&texture.friction.mu),
+            "{number}"
+        );
         if number % VERIFIED_EVERY == 0 {
             let lowered = lower::lower(&texture, None).unwrap();
             let report = verify::verify(&texture, &lowered.bytes);

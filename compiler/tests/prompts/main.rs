@@ -9,6 +9,5 @@ use asperity::{inference::Backend, prompt::Author};
 use std::sync::LazyLock;
 
 /// Loaded once: the tests of this file only ask it.
-static AUTHOR: LazyLock<Author> = LazyLock::new(|| {
-    Author::embedded(&Backend::Portable).expect("the shipped model loads")
-});
+static AUTHOR: LazyLock<Author> =
+    LazyLock::new(|| Author::embedded(&Backend::Portable).expect("the shipped model loads"));

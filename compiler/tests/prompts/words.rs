@@ -69,7 +69,11 @@ fn everyday_words_are_ordered_as_any_person_would() {
             })
             .count();
         let share = right as f64 / rows.len() as f64;
-        assert!(share >= LEAST_SHARE, "{attribute}: {right} of {}", rows.len());
+        assert!(
+            share >= LEAST_SHARE,
+            "{attribute}: {right} of {}",
+            rows.len()
+        );
         println!("{attribute}: {right} of {}", rows.len());
     }
 }
@@ -77,19 +81,33 @@ fn everyday_words_are_ordered_as_any_person_would() {
 #[test]
 fn the_same_prompt_gives_the_same_bytes_whatever_the_threads() {
     let prompt = "wet ice";
-    let first = AUTHOR.author(prompt, &Options::default()).unwrap().lowered.bytes;
+    let first = AUTHOR
+        .author(prompt, &Options::default())
+        .unwrap()
+        .lowered
+        .bytes;
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let again = pool.unwrap().install(|| AUTHOR.author(prompt, &Options::default()).unwrap());
+        let again = pool
+            .unwrap()
+            .install(|| AUTHOR.author(prompt, &Options::default()).unwrap());
         assert_eq!(again.lowered.bytes, first);
     }
 }
 
 #[test]
 fn a_texture_fits_four_kibibytes() {
-    for prompt in ["rough abrasive sheet with gritty particles", "velvet", "window glass"] {
+    for prompt in [
+        "rough abrasive sheet with gritty particles",
+        "velvet",
+        "window glass",
+    ] {
         let authored = AUTHOR.author(prompt, &plain()).unwrap();
-        assert!(authored.lowered.haptic_bytes <= 4096, "{prompt}: {}", authored.lowered.haptic_bytes);
+        assert!(
+            authored.lowered.haptic_bytes <= 4096,
+            "{prompt}: {}",
+            authored.lowered.haptic_bytes
+        );
     }
 }
 
@@ -120,7 +138,10 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
         rate_hz: Some(f64::NAN),
         ..plain()
     };
-    assert!(matches!(AUTHOR.author("denim", &absurd), Err(PromptError::Rate(_))));
+    assert!(matches!(
+        AUTHOR.author("denim", &absurd),
+        Err(PromptError::Rate(_))
+    ));
 }
 
 #[test]
@@ -128,9 +149,17 @@ fn long_prompts_are_cut_with_a_warning_and_empty_ones_refused() {
     let long = "gritty ".repeat(400);
     let authored = AUTHOR.author(&long, &plain()).unwrap();
     assert!(authored.tokens.1 > 200);
-    assert!(authored.warnings().iter().any(|warning| warning.contains("too long")));
+    assert!(
+        authored
+            .warnings()
+            .iter()
+            .any(|warning| warning.contains("too long"))
+    );
     assert!(authored.texture.name.len() <= 64);
-    assert!(matches!(AUTHOR.author(" \n", &plain()), Err(PromptError::Empty)));
+    assert!(matches!(
+        AUTHOR.author(" \n", &plain()),
+        Err(PromptError::Empty)
+    ));
 }
 
 #[test]

@@ -284,7 +284,9 @@ impl Diagnostic for ConfigError {
                 "start from `asperity-train config paper` or `asperity-train config reference`"
                     .into()
             }
-            Self::Value { field, expected, .. } => format!("set {field} to {expected}"),
+            Self::Value {
+                field, expected, ..
+            } => format!("set {field} to {expected}"),
         }
     }
 
@@ -319,11 +321,10 @@ impl Config {
             "paper" => Self::paper(),
             "reference" => Self::reference(),
             path => {
-                let text =
-                    fs::read_to_string(path).map_err(|source| ConfigError::Unreadable {
-                        path: Path::new(path).to_owned(),
-                        source,
-                    })?;
+                let text = fs::read_to_string(path).map_err(|source| ConfigError::Unreadable {
+                    path: Path::new(path).to_owned(),
+                    source,
+                })?;
                 Self::parse(path, &text)
             }
         }

@@ -6,12 +6,12 @@ use crate::{
     checkpoint::{self, Identity},
     config::Config,
     error::FitError,
+    memory::TextMemory,
     network::Network,
     normaliser::{Coded, Normaliser, check},
     parameters::Parameters,
     progress::Progress,
     rng::{Purpose, Stream},
-    memory::TextMemory,
     text_stage,
     trained::{MaterialLatent, Seen, Trained, posteriors},
     vae::{Run, State},
@@ -107,10 +107,7 @@ pub fn fit_with_checkpoints(
 ///
 /// # Errors
 /// [`FitError::Threads`] when the system refuses them.
-pub fn on_threads<T: Send>(
-    threads: usize,
-    work: impl FnOnce() -> T + Send,
-) -> Result<T, FitError> {
+pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, FitError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| FitError::Threads {
         threads,
@@ -140,7 +137,11 @@ impl<'a> Session<'a> {
         config: &'a Config,
     ) -> Result<Self, FitError> {
         check(corpus, materials)?;
-        let chosen = || materials.iter().map(|&index| (index, &corpus.materials[index]));
+        let chosen = || {
+            materials
+                .iter()
+                .map(|&index| (index, &corpus.materials[index]))
+        };
         let all = || chosen().flat_map(|(_, material)| &material.instances);
         let mut coded = Coded::of(config.coding, all());
         let levels = all().flat_map(|instance| instance.level_db);
@@ -178,13 +179,21 @@ impl<'a> Session<'a> {
             instances: &self.instances,
             captions: self.captions,
         })?;
-        progress.epoch(self.state.history.len(), self.config.optimiser.epochs, &loss);
+        progress.epoch(
+            self.state.history.len(),
+            self.config.optimiser.epochs,
+            &loss,
+        );
         Ok(())
     }
 
     /// The latents of the materials, the second stage, and the model.
     pub(crate) fn finish(self, progress: &mut dyn Progress) -> Trained {
-        let State { parameters, history, .. } = self.state;
+        let State {
+            parameters,
+            history,
+            ..
+        } = self.state;
         let (materials, spread) = locate(
             &self.materials,
             &self.network,
@@ -209,12 +218,8 @@ impl<'a> Session<'a> {
         };
         if let Some(stage) = &self.config.text_stage {
             let seed = self.config.seed;
-            let examples = text_stage::Examples::new(
-                &trained.materials,
-                &self.ratings,
-                self.captions,
-                stage,
-            );
+            let examples =
+                text_stage::Examples::new(&trained.materials, &self.ratings, self.captions, stage);
             if let Some(how) = &stage.memory {
                 let (vectors, targets) = examples.all();
                 trained.memory = Some(TextMemory::fit(
@@ -249,7 +254,9 @@ fn locate(
         .map(|&material| {
             let own = || {
                 let pairs = instances.material.iter().zip(&posteriors);
-                pairs.filter(|(of, _)| **of == material).map(|(_, posterior)| &posterior.mean)
+                pairs
+                    .filter(|(of, _)| **of == material)
+                    .map(|(_, posterior)| &posterior.mean)
             };
             let count = own().count() as f64;
             let mut mean = [0.0_f64; LATENT];

@@ -41,5 +41,5 @@ pub use fit::{Checkpoints, fit, fit_on, fit_with_checkpoints, on_threads};
 pub use metrics::{Metrics, Retrieval, measure};
 pub use normaliser::Normaliser;
 pub use progress::{EpochLoss, Progress, Silent};
-pub use vectors::Remembered;
 pub use trained::{Gaussian, MaterialLatent, Seen, Trained};
+pub use vectors::Remembered;

@@ -45,14 +45,18 @@ impl TextMemory {
         let width = vectors.first().map_or(0, |vector| vector.len());
         let (mut codes, mut scales) = (Vec::with_capacity(count * width), Vec::new());
         for vector in vectors {
-            let peak = vector.iter().fold(f32::MIN_POSITIVE, |peak, x| peak.max(x.abs()));
+            let peak = vector
+                .iter()
+                .fold(f32::MIN_POSITIVE, |peak, x| peak.max(x.abs()));
             let scale = peak / FULL_SCALE;
             codes.extend(vector.iter().map(|x| libm::roundf(x / scale) as i8));
             scales.push(scale);
         }
         let mut mean = [0.0; LATENT];
         for target in targets {
-            mean.iter_mut().zip(target).for_each(|(sum, x)| *sum += x / count as f32);
+            mean.iter_mut()
+                .zip(target)
+                .for_each(|(sum, x)| *sum += x / count as f32);
         }
         let mut memory = Self {
             concentration: how.concentration as f32,
@@ -68,7 +72,9 @@ impl TextMemory {
             let likeness = kept.clone().matmul(kept.transpose());
             memory.kernel(likeness)
         };
-        let centred = targets.iter().flat_map(|z| z.iter().zip(&mean).map(|(x, mean)| x - mean));
+        let centred = targets
+            .iter()
+            .flat_map(|z| z.iter().zip(&mean).map(|(x, mean)| x - mean));
         let wanted = matrix(centred.collect(), LATENT, &device);
         let found = conjugate_gradients(gram, wanted, how, &mut done);
         memory.coefficients = numbers(found);
@@ -135,7 +141,10 @@ fn conjugate_gradients(
         found = found + direction.clone() * length.clone();
         residual = residual - image * length;
         let next = dot(&residual, &residual);
-        let left = (next.clone() / first.clone()).max().into_scalar::<f32>().sqrt();
+        let left = (next.clone() / first.clone())
+            .max()
+            .into_scalar::<f32>()
+            .sqrt();
         done(step + 1, how.iterations, left);
         if left < TOLERANCE {
             break;
@@ -162,15 +171,25 @@ mod tests {
                 v.into_iter().map(|x| x / norm).collect()
             })
             .collect();
-        let targets = (0..12).map(|n| std::array::from_fn(|k| ((n * k) as f32).sin())).collect();
+        let targets = (0..12)
+            .map(|n| std::array::from_fn(|k| ((n * k) as f32).sin()))
+            .collect();
         (vectors, targets)
     }
 
     fn fitted(ridge: f64) -> (TextMemory, Vec<Vec<f32>>, Vec<[f32; LATENT]>) {
         let (vectors, targets) = examples();
-        let how = Memory { concentration: 8.0, ridge, iterations: 200 };
+        let how = Memory {
+            concentration: 8.0,
+            ridge,
+            iterations: 200,
+        };
         let views: Vec<&[f32]> = vectors.iter().map(Vec::as_slice).collect();
-        (TextMemory::fit(&views, &targets, &how, |_, _, _| ()), vectors, targets)
+        (
+            TextMemory::fit(&views, &targets, &how, |_, _, _| ()),
+            vectors,
+            targets,
+        )
     }
 
     #[test]

@@ -79,7 +79,10 @@ impl Examples {
             .lexicon
             .iter()
             .map(|(vector, rating)| {
-                example(vector, phrase_shares(vector, rating, materials, ratings, stage))
+                example(
+                    vector,
+                    phrase_shares(vector, rating, materials, ratings, stage),
+                )
             })
             .collect();
         Self {
@@ -98,9 +101,8 @@ impl Examples {
             .iter()
             .chain(&self.lexicon)
             .map(|example| {
-                let z = std::array::from_fn(|k| {
-                    example.target[k] * self.deviation[k] + self.mean[k]
-                });
+                let z =
+                    std::array::from_fn(|k| example.target[k] * self.deviation[k] + self.mean[k]);
                 (example.vector.as_slice(), z)
             })
             .unzip()
@@ -114,7 +116,9 @@ impl Examples {
             let other = self.pick(index, stage, stream).clone();
             let share = stream.uniform();
             let blend = |x: &mut [f32], y: &[f32]| {
-                x.iter_mut().zip(y).for_each(|(x, y)| *x += share * (y - *x));
+                x.iter_mut()
+                    .zip(y)
+                    .for_each(|(x, y)| *x += share * (y - *x));
             };
             blend(&mut example.vector, &other.vector);
             blend(&mut example.target, &other.target);
@@ -151,8 +155,11 @@ fn phrase_shares(
         .map(|(material, rated)| {
             let meaning = f64::from(cosine(vector, &material.caption)) / stage.lexicon_temperature;
             match rated {
-                Some(rated) => meaning - square_distance(rating, rated)
-                    / (2.0 * stage.lexicon_bandwidth * stage.lexicon_bandwidth),
+                Some(rated) => {
+                    meaning
+                        - square_distance(rating, rated)
+                            / (2.0 * stage.lexicon_bandwidth * stage.lexicon_bandwidth)
+                }
                 None if any_rated => f64::NEG_INFINITY,
                 None => meaning,
             }
@@ -222,7 +229,14 @@ pub(crate) fn refit(
         for chosen in order.chunks(stage.batch) {
             let share = chosen.len() as f32 / order.len() as f32;
             let loss = train(
-                examples, stage, chosen, &projection, &mut parameters, &mut adam, step, &mut stream,
+                examples,
+                stage,
+                chosen,
+                &projection,
+                &mut parameters,
+                &mut adam,
+                step,
+                &mut stream,
             );
             mean += share * loss;
         }
@@ -237,7 +251,10 @@ pub(crate) fn refit(
     }
 }
 
-#[allow(clippy::too_many_arguments, reason = "one step of one loop, split out to be read")]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "one step of one loop, split out to be read"
+)]
 fn train(
     examples: &Examples,
     stage: &TextStage,
@@ -249,10 +266,15 @@ fn train(
     stream: &mut Stream,
 ) -> f32 {
     let device = Device::flex().autodiff();
-    let drawn: Vec<Example> =
-        chosen.iter().map(|&index| examples.draw(index, stage, stream)).collect();
+    let drawn: Vec<Example> = chosen
+        .iter()
+        .map(|&index| examples.draw(index, stage, stream))
+        .collect();
     let stack = |part: fn(&Example) -> &[f32]| -> Vec<f32> {
-        drawn.iter().flat_map(|example| part(example).iter().copied()).collect()
+        drawn
+            .iter()
+            .flat_map(|example| part(example).iter().copied())
+            .collect()
     };
     let x = matrix(stack(|e| &e.vector), examples.width, &device);
     let target = matrix(stack(|e| &e.target), LATENT, &device);
@@ -277,9 +299,13 @@ fn undo_standardisation(
     projection: &TextProjection,
     parameters: &mut Parameters,
 ) {
-    let Some(last) = projection.layers.last() else { return };
+    let Some(last) = projection.layers.last() else {
+        return;
+    };
     for row in parameters.get_mut(last.weight).values.chunks_mut(LATENT) {
-        row.iter_mut().zip(&examples.deviation).for_each(|(x, scale)| *x *= scale);
+        row.iter_mut()
+            .zip(&examples.deviation)
+            .for_each(|(x, scale)| *x *= scale);
     }
     let bias = &mut parameters.get_mut(last.bias).values;
     for ((x, scale), mean) in bias.iter_mut().zip(&examples.deviation).zip(&examples.mean) {

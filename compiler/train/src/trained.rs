@@ -173,7 +173,10 @@ impl Trained {
     #[must_use]
     pub fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
         if let Some(memory) = &self.memory {
-            return vectors.chunks(CHUNK).flat_map(|chunk| memory.project(chunk)).collect();
+            return vectors
+                .chunks(CHUNK)
+                .flat_map(|chunk| memory.project(chunk))
+                .collect();
         }
         let device = Device::flex();
         let bound = self.projection_parameters.bind(&device);
@@ -197,7 +200,11 @@ pub(crate) fn posteriors(
     let device = Device::flex();
     let bound = parameters.bind(&device);
     let mut all = Vec::with_capacity(coded.len());
-    for (ar, taps) in coded.ar.chunks(CHUNK * AR).zip(coded.taps.chunks(CHUNK * TAP_VALUES)) {
+    for (ar, taps) in coded
+        .ar
+        .chunks(CHUNK * AR)
+        .zip(coded.taps.chunks(CHUNK * TAP_VALUES))
+    {
         all.extend(posterior_chunk(network, &bound, ar, taps, seen, &device));
     }
     all

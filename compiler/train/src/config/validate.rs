@@ -13,9 +13,19 @@ impl Config {
     /// # Errors
     /// [`ConfigError::Value`] for the first that makes no sense.
     pub fn validate(&self) -> Result<(), ConfigError> {
-        let (n, l, o, a) = (&self.network, &self.loss, &self.optimiser, &self.augmentation);
+        let (n, l, o, a) = (
+            &self.network,
+            &self.loss,
+            &self.optimiser,
+            &self.augmentation,
+        );
         within("name", &self.name, !self.name.is_empty(), "a name")?;
-        within("seed", self.seed, i64::try_from(self.seed).is_ok(), "0..2⁶³")?;
+        within(
+            "seed",
+            self.seed,
+            i64::try_from(self.seed).is_ok(),
+            "0..2⁶³",
+        )?;
         count("corpus.instances", self.corpus.instances, 1000)?;
         within("network.latent", n.latent, n.latent == LATENT, "64")?;
         widths("network.ar_encoder", &n.ar_encoder)?;
@@ -60,7 +70,12 @@ impl Config {
         count("friction.top_k", self.friction.top_k, 1000)?;
         positive("friction.temperature", self.friction.temperature)?;
         let folds = self.evaluation.folds;
-        within("evaluation.folds", folds, (2..=100).contains(&folds), "2..=100")
+        within(
+            "evaluation.folds",
+            folds,
+            (2..=100).contains(&folds),
+            "2..=100",
+        )
     }
 }
 
@@ -74,7 +89,10 @@ fn text_stage(s: &TextStage) -> Result<(), ConfigError> {
     weight("text_stage.noise", s.noise)?;
     probability("text_stage.mixup", s.mixup)?;
     weight("text_stage.contrastive_weight", s.contrastive_weight)?;
-    positive("text_stage.contrastive_temperature", s.contrastive_temperature)?;
+    positive(
+        "text_stage.contrastive_temperature",
+        s.contrastive_temperature,
+    )?;
     rate("text_stage.lexicon_weight", s.lexicon_weight)?;
     positive("text_stage.lexicon_temperature", s.lexicon_temperature)?;
     positive("text_stage.lexicon_bandwidth", s.lexicon_bandwidth)?;
@@ -103,12 +121,22 @@ fn within(
 }
 
 fn count(field: &'static str, value: usize, most: usize) -> Result<(), ConfigError> {
-    within(field, value, value >= 1 && value <= most, "at least 1, and sane")
+    within(
+        field,
+        value,
+        value >= 1 && value <= most,
+        "at least 1, and sane",
+    )
 }
 
 fn widths(field: &'static str, value: &[usize]) -> Result<(), ConfigError> {
     let sane = value.iter().all(|w| (1..=MAX_WIDTH).contains(w));
-    within(field, value, sane && !value.is_empty(), "widths of 1..=8192, at least one")
+    within(
+        field,
+        value,
+        sane && !value.is_empty(),
+        "widths of 1..=8192, at least one",
+    )
 }
 
 fn weight(field: &'static str, value: f64) -> Result<(), ConfigError> {
@@ -126,7 +154,12 @@ fn probability(field: &'static str, value: f64) -> Result<(), ConfigError> {
 }
 
 fn rate(field: &'static str, value: f64) -> Result<(), ConfigError> {
-    within(field, value, (0.0..1.0).contains(&value), "0 or more and less than 1")
+    within(
+        field,
+        value,
+        (0.0..1.0).contains(&value),
+        "0 or more and less than 1",
+    )
 }
 
 #[cfg(test)]

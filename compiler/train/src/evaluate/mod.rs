@@ -206,7 +206,11 @@ pub fn evaluate(
     report.held_out = held_out::measure(&inputs, &cache, asked(Part::HeldOut), watch)?;
     let key = format!("{:08x}", cache::checksum(probes::sources()));
     report.probes = cache.part("probes", &key, asked(Part::Probes), || {
-        probes::measure(subject, &bench.signatures, &bench.memory, watch)
+        let known = probes::Known {
+            materials: &bench.signatures,
+            lexicon: &bench.captions.lexicon,
+        };
+        probes::measure(subject, &known, &bench.memory, watch)
     })?;
     report.midpoints = cache.part("midpoints", &key, asked(Part::Midpoints), || {
         watch.begin("midpoints", 1);

@@ -63,7 +63,11 @@ fn measured(bench: &Bench<'_>, folder: &Path, watch: &mut dyn Watch) -> Report {
         folds: 3,
     };
     report.held_out = held_out::measure(&inputs, &cache, true, watch).unwrap();
-    report.probes = probes::measure(subject, signatures, &bench.memory, watch).ok();
+    let known = probes::Known {
+        materials: signatures,
+        lexicon: &bench.captions.lexicon,
+    };
+    report.probes = probes::measure(subject, &known, &bench.memory, watch).ok();
     report.midpoints = midpoints::measure(subject, signatures).ok();
     report.map = Some(map::measure(subject));
     report

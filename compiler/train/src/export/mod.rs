@@ -13,12 +13,7 @@ mod verify;
 
 pub use certainty::certainty_curve;
 
-use crate::{
-    captions::Captions,
-    metrics::Metrics,
-    trained::Trained,
-    weights,
-};
+use crate::{captions::Captions, metrics::Metrics, trained::Trained, weights};
 use asperity::{diagnostic::Diagnostic, output::OutputError};
 use asperity_corpus::Corpus;
 use asperity_nn::{OnnxError, RunError};
@@ -106,7 +101,9 @@ impl ModelFiles {
     /// The contents of a file.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&[u8]> {
-        self.iter().find(|(file, _)| *file == name).map(|(_, bytes)| bytes)
+        self.iter()
+            .find(|(file, _)| *file == name)
+            .map(|(_, bytes)| bytes)
     }
 
     /// Makes them the folder `target`: written beside it, then renamed. A model that was

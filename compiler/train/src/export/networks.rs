@@ -12,7 +12,10 @@ use crate::{
 };
 use asperity::learned::description::LATENT;
 use asperity_corpus::{BINS, CHANNELS, ORDER, TAP_SAMPLES, TAPS};
-use asperity_nn::{Tensor, build::{Attribute, Value}};
+use asperity_nn::{
+    Tensor,
+    build::{Attribute, Value},
+};
 use std::f64::consts::{LN_10, LOG10_E};
 
 pub(super) const TEXT_PROJECTION: &str = "text_projection.onnx";
@@ -51,8 +54,13 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
         }
     }
     let captions = writer.table("mean_captions", &[width, count], columns);
-    let attributes = [("axes", Attribute::Ints(vec![1])), ("keepdims", Attribute::Int(1))];
-    let norm = writer.graph.node("ReduceL2", &[Some(&embedding)], &attributes);
+    let attributes = [
+        ("axes", Attribute::Ints(vec![1])),
+        ("keepdims", Attribute::Int(1)),
+    ];
+    let norm = writer
+        .graph
+        .node("ReduceL2", &[Some(&embedding)], &attributes);
     let norm = writer.plus(&norm, f32::MIN_POSITIVE);
     let direction = writer.graph.div(&embedding, &norm);
     let z = match &trained.memory {
@@ -75,18 +83,33 @@ fn from_memory(writer: &mut Writer<'_>, memory: &TextMemory, direction: &Value) 
             columns[row * count + column] = code.to_ne_bytes()[0];
         }
     }
-    let codes = Tensor::I8 { shape: vec![width, count], data: columns.into() };
+    let codes = Tensor::I8 {
+        shape: vec![width, count],
+        data: columns.into(),
+    };
     let codes = writer.graph.constant("memory.vectors", codes);
-    let scales = writer.graph.constant("memory.scales", Tensor::f32(&[count], memory.scales.clone()));
+    let scales = writer.graph.constant(
+        "memory.scales",
+        Tensor::f32(&[count], memory.scales.clone()),
+    );
     let axis = ("axis", Attribute::Int(1));
-    let kept = writer.graph.node("DequantizeLinear", &[Some(&codes), Some(&scales)], &[axis]);
-    let likeness = writer.graph.node("MatMul", &[Some(direction), Some(&kept)], &[]);
+    let kept = writer
+        .graph
+        .node("DequantizeLinear", &[Some(&codes), Some(&scales)], &[axis]);
+    let likeness = writer
+        .graph
+        .node("MatMul", &[Some(direction), Some(&kept)], &[]);
     let likeness = writer.plus(&likeness, -1.0);
     let likeness = writer.times(&likeness, memory.concentration);
     let kernel = writer.graph.unary("Exp", &likeness);
-    let coefficients =
-        writer.table("memory.coefficients", &[count, LATENT], memory.coefficients.clone());
-    let from_mean = writer.graph.node("MatMul", &[Some(&kernel), Some(&coefficients)], &[]);
+    let coefficients = writer.table(
+        "memory.coefficients",
+        &[count, LATENT],
+        memory.coefficients.clone(),
+    );
+    let from_mean = writer
+        .graph
+        .node("MatMul", &[Some(&kernel), Some(&coefficients)], &[]);
     let mean = writer.row("memory.mean", &memory.mean);
     writer.graph.add(&from_mean, &mean)
 }
@@ -103,11 +126,16 @@ fn ar_decoder(trained: &Trained) -> Writer<'_> {
     let shares = writer.graph.softmax(&logits, 2);
     let matrix = writer.table("gap_matrix", &[GAPS, ORDER], gap_matrix());
     let offsets = writer.table("gap_offsets", &[ORDER], gap_offsets());
-    let above = writer.graph.node("MatMul", &[Some(&shares), Some(&matrix)], &[]);
+    let above = writer
+        .graph
+        .node("MatMul", &[Some(&shares), Some(&matrix)], &[]);
     let lsf_rad = writer.graph.add(&above, &offsets);
     writer.output("lsf_rad", &lsf_rad, &[BINS, ORDER]);
     let free = writer.linear(decoder.excitation_head, &features);
-    let (mean, deviation) = (&normaliser.ar_mean[LSFS..], &normaliser.ar_deviation[LSFS..]);
+    let (mean, deviation) = (
+        &normaliser.ar_mean[LSFS..],
+        &normaliser.ar_deviation[LSFS..],
+    );
     let free = writer.restore("excitation", &free, mean, deviation);
     let (low, high) = normaliser.excitation_bounds;
     let (centre, reach) = (0.5 * (low + high), 0.5 * (high - low));
@@ -144,12 +172,19 @@ fn tap_decoder(trained: &Trained) -> Writer<'_> {
     let z = writer.input("z", &[LATENT]);
     let features = trunk(&mut writer, &decoder.trunk, &z);
     let free = writer.linear(decoder.head, &features);
-    let free = writer.restore("taps", &free, &normaliser.tap_mean, &normaliser.tap_deviation);
+    let free = writer.restore(
+        "taps",
+        &free,
+        &normaliser.tap_mean,
+        &normaliser.tap_deviation,
+    );
     let limit = writer.row("taps.bound", &normaliser.tap_bound);
     let free = writer.graph.div(&free, &limit);
     let bounded = writer.graph.unary("Tanh", &free);
     let taps = writer.graph.mul(&bounded, &limit);
-    let taps = writer.graph.reshape(&taps, &[0, TAPS as i64, TAP_SAMPLES as i64]);
+    let taps = writer
+        .graph
+        .reshape(&taps, &[0, TAPS as i64, TAP_SAMPLES as i64]);
     writer.output("taps_m_s2", &taps, &[TAPS, TAP_SAMPLES]);
     writer
 }
@@ -178,12 +213,22 @@ fn encoder(trained: &Trained) -> Writer<'_> {
     let lsf_rad = writer.graph.slice(&ar, 2, 0, ORDER as i64);
     let level_db = writer.graph.slice(&ar, 2, ORDER as i64, CHANNELS as i64);
     let level_db = writer.graph.reshape(&level_db, &[0, BINS as i64]);
-    let code = excitation_code(&mut writer, normaliser.coding.excitation, &lsf_rad, &level_db);
+    let code = excitation_code(
+        &mut writer,
+        normaliser.coding.excitation,
+        &lsf_rad,
+        &level_db,
+    );
     let lsf_rad = writer.graph.reshape(&lsf_rad, &[0, LSFS as i64]);
     let ar = writer.graph.concat(&[&lsf_rad, &code], 1);
     let ar = writer.normalise("ar", &ar, &normaliser.ar_mean, &normaliser.ar_deviation);
     let taps = writer.graph.reshape(&taps, &[0, TAP_VALUES as i64]);
-    let taps = writer.normalise("taps", &taps, &normaliser.tap_mean, &normaliser.tap_deviation);
+    let taps = writer.normalise(
+        "taps",
+        &taps,
+        &normaliser.tap_mean,
+        &normaliser.tap_deviation,
+    );
     let ar = writer.chain(&encoder.ar, &ar);
     let taps = writer.chain(&encoder.taps, &taps);
     let mut either = |features: &Value, absent: Slot, column: i64| {

@@ -12,17 +12,12 @@ mod decoder;
 mod encoder;
 mod projection;
 
-pub(crate) use decoder::{
-    ArDecoder, Decoded, GAPS, TapDecoder, Trunk, gap_matrix, gap_offsets,
-};
+pub(crate) use decoder::{ArDecoder, Decoded, GAPS, TapDecoder, Trunk, gap_matrix, gap_offsets};
 pub(crate) use encoder::{Encoder, LOG_VARIANCE_BOUND};
 pub(crate) use projection::{LatentProjection, TextProjection, unit_rows};
 
 use crate::{
-    config::Network as Sizes,
-    normaliser::Normaliser,
-    parameters::Parameters,
-    rng::Stream,
+    config::Network as Sizes, normaliser::Normaliser, parameters::Parameters, rng::Stream,
 };
 use burn_tensor::{Device, Tensor, TensorData};
 

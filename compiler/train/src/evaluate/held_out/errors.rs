@@ -7,19 +7,19 @@ use serde::{Deserialize, Serialize};
 /// Number of [`NAMES`].
 pub const METRICS: usize = 11;
 
-/// Metrics of a prediction, less is better, with units.
+/// Metrics of a prediction with units: absolute values, less is better.
 pub const NAMES: [&str; METRICS] = [
     "spectrum, level free, dB",
     "spectrum with level, dB",
     "level, dB",
     "tap spectrum, dB",
-    "rate-hardness, |ln ratio|",
+    "rate-hardness, ln ratio",
     "rough_db, dB",
     "sharp_hz, Hz",
     "hard_hz, Hz",
-    "hard_hz, |ln ratio|",
+    "hard_hz, ln ratio",
     "μ",
-    "μ, |ln ratio|",
+    "μ, ln ratio",
 ];
 
 /// A held-out caption.

@@ -24,6 +24,8 @@ use serde::{Deserialize, Serialize};
 pub struct HeldOut {
     /// Configuration of the folds, as TOML.
     pub config: String,
+    /// Epochs of their first stage.
+    pub epochs: usize,
     /// Materials held out one by one.
     pub materials: Folds,
     /// Whole families held out.
@@ -116,6 +118,7 @@ pub(super) fn measure(
     let both: Vec<(f64, f64)> = families.trials().chain(materials.trials()).collect();
     Ok(Some(HeldOut {
         config,
+        epochs: inputs.config.optimiser.epochs,
         certainty: certainty_curve(&trials),
         certainty_both: certainty_curve(&both),
         materials,

@@ -12,6 +12,8 @@ use super::{
     statistics::{Share, mean, median},
     subject::Subject,
 };
+use crate::captions::dot;
+use asperity_corpus::Rating;
 use prompts::Pairs;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -53,9 +55,29 @@ pub struct Ranked {
     pub attribute: Attribute,
     /// By the decoded textures.
     pub model: Share,
-    /// By the training materials nearest to the prompts; two prompts with the same
-    /// nearest material are not told apart, hence not right.
-    pub nearest: Share,
+    /// By the training materials nearest to the prompts.
+    pub material: Baseline,
+    /// By the ratings of the lexicon's phrases nearest to the prompts.
+    pub phrase: Baseline,
+}
+
+/// A baseline that may give both prompts the same.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Baseline {
+    /// Right rankings.
+    pub right: Share,
+    /// Pairs that it does not tell apart.
+    pub tied: usize,
+}
+
+impl Baseline {
+    /// Of the values of the prompts with more and with less.
+    fn of(pairs: impl Iterator<Item = (f64, f64)> + Clone) -> Self {
+        Self {
+            right: Share::of(pairs.clone().map(|(more, less)| more > less)),
+            tied: pairs.filter(|(more, less)| more == less).count(),
+        }
+    }
 }
 
 /// Three prompts whose textures should be ever less sharp and rough.
@@ -95,16 +117,25 @@ impl Probing {
     }
 }
 
-/// What a prompt decodes to, and the attributes of the training material nearest to it.
+/// What a prompt decodes to, and what is nearest to it in text.
 struct Felt {
     decoded: Objective,
-    nearest: Objective,
+    material: Objective,
+    phrase: Rating,
 }
 
-/// Asks the model all prompts. `materials` are the signatures of the anchors' materials.
+/// What prompts are compared with.
+pub(super) struct Known<'a> {
+    /// Of the anchors' materials.
+    pub(super) materials: &'a [Signature],
+    /// Vectors and ratings.
+    pub(super) lexicon: &'a [(Vec<f32>, Rating)],
+}
+
+/// Asks the model all prompts.
 pub(super) fn measure(
     subject: &Subject,
-    materials: &[Signature],
+    known: &Known<'_>,
     memory: &Memory<'_>,
     watch: &mut dyn Watch,
 ) -> Result<Probing, EvaluateError> {
@@ -114,7 +145,7 @@ pub(super) fn measure(
         .prompts()
         .chain(of_pairs.map(String::as_str))
         .collect();
-    let felt = ask(subject, materials, memory, &prompts, watch)?;
+    let felt = ask(subject, known, memory, &prompts, watch)?;
     let of = |prompt: &String| &felt[prompt.as_str()];
     let steps = probes.directions.iter().map(|direction| {
         let value = |prompt| value(&of(prompt).decoded, direction.attribute);
@@ -130,15 +161,16 @@ pub(super) fn measure(
         }
     });
     let ranked = Attribute::ALL.iter().map(|&attribute| {
-        let right = |which: fn(&Felt) -> &Objective| {
-            let value = |prompt| value(which(of(prompt)), attribute);
+        let pairs = |value: fn(&Felt, Attribute) -> f64| {
             let pairs = pairs.of(attribute).iter();
-            Share::of(pairs.map(|[more, less]| value(more) > value(less)))
+            pairs.map(move |[more, less]| (value(of(more), attribute), value(of(less), attribute)))
         };
+        let decoded = pairs(|felt, attribute| value(&felt.decoded, attribute));
         Ranked {
             attribute,
-            model: right(|felt| &felt.decoded),
-            nearest: right(|felt| &felt.nearest),
+            model: Share::of(decoded.map(|(more, less)| more > less)),
+            material: Baseline::of(pairs(|felt, attribute| value(&felt.material, attribute))),
+            phrase: Baseline::of(pairs(|felt, attribute| rated(&felt.phrase, attribute))),
         }
     });
     let orders = probes.orders.iter().map(|prompts| {
@@ -154,7 +186,7 @@ pub(super) fn measure(
             rough_falls: falls(rough_db),
         }
     });
-    let scales = scales(materials);
+    let scales = scales(known.materials);
     let places = probes.paraphrases.iter().map(|pair| {
         [0, 1].map(|k: usize| {
             let even = of(&pair[k]).decoded.even();
@@ -171,7 +203,7 @@ pub(super) fn measure(
 
 fn ask<'p>(
     subject: &Subject,
-    materials: &[Signature],
+    known: &Known<'_>,
     memory: &Memory<'_>,
     prompts: &[&'p str],
     watch: &mut dyn Watch,
@@ -189,11 +221,34 @@ fn ask<'p>(
     let latents: Vec<_> = projected.iter().map(|said| said.z).collect();
     let decoded = subject.decode(&latents)?;
     watch.done(distinct.len());
-    let felt = projected.iter().zip(decoded).map(|(said, decoded)| Felt {
-        decoded: decoded.signature.objective,
-        nearest: materials[nearest(&said.similarity)].objective,
+    let found = vectors.iter().zip(&projected).zip(decoded);
+    let felt = found.map(|((vector, said), decoded)| {
+        let phrases: Vec<f32> = known.lexicon.iter().map(|(v, _)| dot(vector, v)).collect();
+        Felt {
+            decoded: decoded.signature.objective,
+            material: known.materials[nearest(&said.similarity)].objective,
+            phrase: known
+                .lexicon
+                .get(nearest(&phrases))
+                .map_or(UNRATED, |found| found.1),
+        }
     });
     Ok(distinct.iter().copied().zip(felt).collect())
+}
+
+/// What stands for a rating where there is no lexicon.
+const UNRATED: Rating = Rating {
+    rough: 50.0,
+    slippery: 50.0,
+    hard: 50.0,
+};
+
+fn rated(rating: &Rating, attribute: Attribute) -> f64 {
+    match attribute {
+        Attribute::Rough => rating.rough,
+        Attribute::Slippery => rating.slippery,
+        Attribute::Hard => rating.hard,
+    }
 }
 
 /// Index of the largest; the first of equal ones.

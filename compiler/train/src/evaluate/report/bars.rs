@@ -43,16 +43,12 @@ pub(super) fn draw(canvas: &mut Canvas, rect: Rect, chart: &Chart<'_>, groups: &
         top: 70.0 + LEGEND,
         ..Margins::default()
     };
-    let rows = Axis {
-        tick_count: 0,
-        ..Axis::new("", 0.0, count).unnumbered()
-    };
-    let mut panel = Panel::new(rect, chart.axis.clone(), rows)
+    let rows = Axis::new("", 0.0, count).unnumbered().ticks_about(1);
+    let panel = Panel::new(rect, chart.axis.clone(), rows)
         .letter(chart.letter)
         .title(chart.title)
         .margins(margins)
         .without_grid();
-    panel.y.tick_count = 1;
     panel.draw_frame(canvas);
     let area = panel.area();
     legend(canvas, (area.x, area.y - 0.5 * LEGEND), chart.series);

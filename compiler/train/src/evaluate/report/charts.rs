@@ -8,7 +8,10 @@ use crate::evaluate::{
 };
 use asperity::{
     learned::description::CertaintyCurve,
-    plot::theme::{Axis, Canvas, Color, Marker, Panel, PlotError, Rect, Stroke, ink, size},
+    plot::theme::{
+        Axis, Canvas, Color, Key, Margins, Marker, Panel, PlotError, Rect, Stroke, ink, legend,
+        size,
+    },
 };
 
 const WIDTH: f32 = 2400.0;
@@ -78,11 +81,15 @@ fn relative(folds: &Folds) -> Vec<Group> {
 fn certainty(canvas: &mut Canvas, rect: Rect, part: &HeldOut) {
     let panel = Panel::new(
         rect,
-        Axis::new("Largest cosine with training captions", 0.0, 1.0),
+        Axis::new("Similarity to training captions", 0.0, 1.0),
         Axis::new("Share within tolerance", 0.0, 1.0),
     )
     .letter('c')
-    .title("Certainty");
+    .title("Certainty")
+    .margins(Margins {
+        top: 122.0,
+        ..Margins::default()
+    });
     panel.draw_frame(canvas);
     let curves: [(&CertaintyCurve, Stroke); 2] = [
         (
@@ -91,6 +98,12 @@ fn certainty(canvas: &mut Canvas, rect: Rect, part: &HeldOut) {
         ),
         (&part.certainty, Stroke::new(ink::BLUE, 2.0 * size::LINE)),
     ];
+    let area = panel.area();
+    let names = [
+        (Key::Line(curves[1].1), "families held out"),
+        (Key::Line(curves[0].1), "both"),
+    ];
+    legend(canvas, (area.x, area.y - 26.0), rect.right(), &names);
     for (curve, stroke) in curves {
         let knots = || {
             curve
@@ -139,7 +152,11 @@ pub(super) fn probes(part: &Probing) -> Result<Vec<u8>, PlotError> {
         .zip(&part.pairs)
         .map(|(attribute, ranked)| Group {
             name: attribute.name().into(),
-            bars: vec![bar(ranked.model), bar(ranked.nearest)],
+            bars: vec![
+                bar(ranked.model),
+                bar(ranked.material.right),
+                bar(ranked.phrase.right),
+            ],
         })
         .collect();
     let half = 0.5 * WIDTH;
@@ -161,6 +178,7 @@ pub(super) fn probes(part: &Probing) -> Result<Vec<u8>, PlotError> {
     chart.series = &[
         ("decoded texture", ink::BLUE),
         ("nearest material", ink::ORANGE),
+        ("nearest phrase", ink::LIGHT),
     ];
     bars::draw(
         &mut canvas,

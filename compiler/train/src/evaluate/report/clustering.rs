@@ -88,10 +88,10 @@ fn percent(share: f64) -> String {
 fn indices(name: &str, found: &Indices) -> String {
     row(&[
         name.into(),
-        format!("{:.3}", found.silhouette),
+        format!("{:.3}", found.silhouette).replace('-', "−"),
         format!("{:.3e}", found.calinski_harabasz),
         format!("{:.3}", found.davies_bouldin),
-        format!("{:.3}", found.adjusted_rand),
+        format!("{:.3}", found.adjusted_rand).replace('-', "−"),
         format!("{:.3}", found.mutual_information),
     ])
 }

@@ -11,15 +11,16 @@ pub(super) fn section(part: &HeldOut) -> String {
     let count = part.materials.folds.len();
     let mut text = format!(
         "## 3. What of materials the model has never met?\n\n\
-         {count} folds; each trains the whole recipe without a part of the materials (means and \
-         deviations of normalisation included) and decodes the held-out captions of those left out. \
+         {count} folds; each trains the recipe ({} epochs of the first stage) without a part of \
+         the materials, normalisation included, and decodes the held-out captions of those left out. \
          Compared with the materials' unaugmented textures: RMS of log spectra over 10–450 Hz a \
          bin; third octaves of 100–4000 Hz of the transients; initial slope of the transients \
          over impact speed (rate-hardness); objective attributes; μ by the softmax over the \
          remaining anchors. *Mean texture*: mean LSFs, levels, transients and μ of the training \
          materials. *Nearest*: the training material whose mean caption is nearest in text. *Own \
          latent*: the held-out texture itself, encoded and decoded: what the decoder alone costs. \
-         Mean ± deviation over folds.\n\n"
+         Absolute errors, mean ± deviation over folds; logarithms are natural.\n\n",
+        part.epochs
     );
     text += "![Errors on held-out materials](held_out.png)\n\n";
     text += "### Single materials held out, spread over the families\n\n";

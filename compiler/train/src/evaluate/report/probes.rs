@@ -1,14 +1,15 @@
 //! Section 4.
 
 use super::{percent, row, table};
-use crate::evaluate::probes::{Attribute, Direction, Kind, Order, Probing};
+use crate::evaluate::probes::{Attribute, Baseline, Direction, Kind, Order, Probing};
 
 pub(super) fn section(part: &Probing) -> String {
     let mut text = String::from(
         "## 4. Do words move the texture the right way?\n\n\
          Prompts of `compiler/corpora/probes.toml` and `pairs.toml`, never trained on, are decoded \
          and their objective attributes read: rough from rough_db, slippery from −μ, hard from \
-         hard_hz. The baseline gives each prompt the training material nearest in text.\n\n\
+         hard_hz. Two baselines: the training material nearest in text, and the rating of the \
+         nearest phrase of the everyday lexicon.\n\n\
          ![Directions and pairs](probes.png)\n\n",
     );
     let p = &part.paraphrases;
@@ -40,13 +41,20 @@ pub(super) fn section(part: &Probing) -> String {
         text += &row(&cells);
     }
     text += "\n**Pairs** in which nearly anyone would agree on the first:\n\n";
-    text += &table(&["attribute", "pairs", "decoded texture", "nearest material"]);
+    text += &table(&[
+        "attribute",
+        "pairs",
+        "decoded texture",
+        "nearest material",
+        "nearest phrase",
+    ]);
     for ranked in &part.pairs {
         text += &row(&[
             ranked.attribute.name().into(),
             ranked.model.of.to_string(),
             percent(ranked.model),
-            percent(ranked.nearest),
+            ties(&ranked.material),
+            ties(&ranked.phrase),
         ]);
     }
     text += "\n**Abrasive over cork over foam**, the paper's order:\n\n";
@@ -62,6 +70,19 @@ pub(super) fn section(part: &Probing) -> String {
         percent(negation)
     );
     text
+}
+
+/// `70.0 % (62.0–77.0) + 5.0 % tied`.
+fn ties(baseline: &Baseline) -> String {
+    let of = baseline.right.of.max(1) as f64;
+    let tied = 100.0 * baseline.tied as f64 / of;
+    format!("{} + {tied:.1} % tied", percent(baseline.right))
+}
+
+/// With a true minus sign, and none on zero.
+fn number(x: f64) -> String {
+    let rounded = (10.0 * x).round() / 10.0 + 0.0;
+    format!("{rounded:.1}").replace('-', "−")
 }
 
 fn line(order: &Order) -> String {
