@@ -86,7 +86,7 @@ fn number(x: f64) -> String {
 }
 
 fn line(order: &Order) -> String {
-    let values = |x: [f64; 3]| x.map(|x| format!("{x:.1}")).join(" > ").replace('-', "−");
+    let values = |x: [f64; 3]| x.map(number).join(", ");
     let said = match (order.sharp_falls, order.rough_falls) {
         (true, true) => "both",
         (true, false) => "sharpness",
