@@ -74,7 +74,7 @@ fn every_material_is_within_half_a_decibel_of_its_file() {
         .par_iter()
         .flat_map(|file| {
             let source = hatt::read(file).expect("a file as HaTT writes it");
-            let imported = asperity::hatt::import(file).unwrap();
+            let imported = asperity::hatt::import(file, None).unwrap();
             let asset = Asset::parse(&imported.bytes).unwrap();
             let errors = errors(&source, &asset);
             let worst = errors.iter().copied().fold(0.0, f64::max);
