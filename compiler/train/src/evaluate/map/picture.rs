@@ -22,6 +22,9 @@ const MARKERS: [Marker; 4] = [
 /// Inks of [`ink::category`].
 const INKS: usize = 6;
 
+/// Where an anchor lies on one of the maps.
+type Spot = fn(&Place) -> [f64; 2];
+
 /// The picture as PNG.
 pub(in crate::evaluate) fn draw(map: &Map) -> Result<Vec<u8>, PlotError> {
     let mut canvas = Canvas::new(WIDTH as u32, HEIGHT as u32)?;
@@ -36,7 +39,7 @@ pub(in crate::evaluate) fn draw(map: &Map) -> Result<Vec<u8>, PlotError> {
             percent(map.explained[k])
         )
     };
-    let panels: [(char, &str, [String; 2], fn(&Place) -> [f64; 2]); 2] = [
+    let panels: [(char, &str, [String; 2], Spot); 2] = [
         (
             'a',
             "Principal components of the anchors",
