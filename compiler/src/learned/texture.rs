@@ -19,6 +19,9 @@ use std::f64::consts::PI;
 
 /// Neighbouring LSFs keep at least this distance, rad: twice what an asset demands.
 const LEAST_GAP_RAD: f64 = 0.01;
+/// RMS gain of a filter that single precision still renders stably, far above
+/// what materials need; only latents far from any of them exceed it.
+const LARGEST_GAIN: f64 = 40.0;
 /// Levels of a bin are kept in this range, dB re 1 m/s², whatever a decoder says: at
 /// the default gain 20 dB are 0.5 N RMS.
 const LEVEL_RANGE_DB: (f64, f64) = (-60.0, 20.0);
@@ -78,7 +81,7 @@ pub fn grid(description: &ModelDescription, decoded: &Decoded) -> ModelGrid {
     let interior = (0..grid.speeds_mm_s.len())
         .map(|bin| {
             let raw = &decoded.lsf_rad[bin * grid.order..(bin + 1) * grid.order];
-            let lsf_rad = spread(raw);
+            let lsf_rad = tamed(spread(raw));
             let (low, high) = LEVEL_RANGE_DB;
             let level_db = f64::from(decoded.level_db[bin]).clamp(low, high);
             GridVertex {
@@ -122,6 +125,24 @@ pub fn taps(description: &ModelDescription, decoded: &Decoded, limit_m_s2: f64) 
             })
             .collect(),
     }
+}
+
+/// LSFs moved towards even spacing, white noise, until the gain is within bounds:
+/// convex mixtures of ordered LSFs are ordered.
+fn tamed(lsf_rad: Vec<f64>) -> Vec<f64> {
+    const STEPS: u32 = 20;
+    let count = lsf_rad.len();
+    let even = |index: usize| (index + 1) as f64 * PI / (count + 1) as f64;
+    (0..=STEPS)
+        .map(|step| {
+            let share = f64::from(step) / f64::from(STEPS);
+            let mixed = lsf_rad.iter().enumerate();
+            mixed
+                .map(|(index, omega)| omega + share * (even(index) - omega))
+                .collect::<Vec<f64>>()
+        })
+        .find(|mixed| nyquist_rms(mixed) <= LARGEST_GAIN)
+        .unwrap_or(lsf_rad)
 }
 
 /// LSFs in order and at least [`LEAST_GAP_RAD`] apart, moved as little as it takes.
