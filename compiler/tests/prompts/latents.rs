@@ -23,7 +23,7 @@ fn latent(number: usize) -> Latent {
     let mut uniform = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
     let half_side = 10.0_f64.powf(6.0 * uniform() - 2.0);
     let mut z: Latent = std::array::from_fn(|_| (half_side * (2.0 * uniform() - 1.0)) as f32);
-    if number % 10 == 0 {
+    if number.is_multiple_of(10) {
         let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, 1e-40];
         z[number / 10 % z.len()] = odd[number / 10 % odd.len()];
     }
@@ -60,7 +60,7 @@ fn any_latent_is_a_stable_texture_within_bounds() {
             (low..=high * (1.0 + 1e-12)).contains(&texture.friction.mu),
             "{number}"
         );
-        if number % VERIFIED_EVERY == 0 {
+        if number.is_multiple_of(VERIFIED_EVERY) {
             let lowered = lower::lower(&texture, None).unwrap();
             let report = verify::verify(&texture, &lowered.bytes);
             assert!(report.is_ok(), "{number}: {report:?}");
