@@ -1,4 +1,4 @@
-//! Training corpora in one form: the synthetic reference corpus ([`reference`]) and a
+//! Training corpora in one form: the synthetic reference corpus ([`mod@reference`]) and a
 //! user's folder of HaTT models ([`hatt`]).
 //!
 //! A corpus is a list of [`Material`]s with captions, attributes, friction and
