@@ -9,13 +9,15 @@ use crate::{
     rng::Stream,
 };
 use asperity::learned::description::LATENT;
-use burn_tensor::{Device, Tensor};
+use burn_tensor::{Device, Int, Tensor};
 
 /// The training instances, normalised, and whose they are.
 pub(crate) struct Instances {
     pub(crate) coded: Coded,
     /// Material of each, an index into the corpus.
     pub(crate) material: Vec<usize>,
+    /// Friction of each: ln μ, standardised.
+    pub(crate) friction: Vec<f32>,
 }
 
 /// One step's inputs.
@@ -28,6 +30,10 @@ pub(crate) struct Batch {
     pub(crate) present: Tensor<2>,
     /// [B, W], a caption each.
     pub(crate) text: Tensor<2>,
+    /// [B], the material of each.
+    pub(crate) material: Tensor<1, Int>,
+    /// [B, 1], ln μ, standardised.
+    pub(crate) friction: Tensor<2>,
     /// B·64 standard normals.
     pub(crate) epsilon: Vec<f32>,
     /// Which rows match.
@@ -63,6 +69,19 @@ impl Batch {
             taps: gather(&instances.coded.taps, TAP_VALUES),
             present: matrix(present, 2, device),
             text: matrix(text, captions.width, device),
+            material: Tensor::from_data(
+                materials
+                    .iter()
+                    .map(|&m| m as i64)
+                    .collect::<Vec<_>>()
+                    .as_slice(),
+                device,
+            ),
+            friction: matrix(
+                chosen.iter().map(|&row| instances.friction[row]).collect(),
+                1,
+                device,
+            ),
             epsilon: stream.normals(chosen.len() * LATENT),
             pairing: Pairing::new(&materials, device),
         }

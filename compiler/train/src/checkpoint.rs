@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Numbers of a row of the history.
-const TERMS: usize = 7;
+const TERMS: usize = 9;
 
 /// Stands in an identity for what the first stage does not depend on.
 const FIXED: (Friction, Evaluation) = (
@@ -142,10 +142,23 @@ fn terms(loss: &EpochLoss) -> [f32; TERMS] {
         loss.kl,
         loss.contrastive,
         loss.alignment,
+        loss.compactness,
+        loss.friction,
     ]
 }
 
-fn loss([total, ar, excitation, taps, kl, contrastive, alignment]: &[f32; TERMS]) -> EpochLoss {
+fn loss(terms: &[f32; TERMS]) -> EpochLoss {
+    let [
+        total,
+        ar,
+        excitation,
+        taps,
+        kl,
+        contrastive,
+        alignment,
+        compactness,
+        friction,
+    ] = terms;
     EpochLoss {
         total: *total,
         ar: *ar,
@@ -154,5 +167,7 @@ fn loss([total, ar, excitation, taps, kl, contrastive, alignment]: &[f32; TERMS]
         kl: *kl,
         contrastive: *contrastive,
         alignment: *alignment,
+        compactness: *compactness,
+        friction: *friction,
     }
 }

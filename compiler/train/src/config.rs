@@ -139,6 +139,15 @@ pub struct Loss {
     pub temperature: f64,
     /// λ_align, of the mean square of μ̂ − μ.
     pub alignment: f64,
+    /// Of the mean square of μ − c, c a learned centre for each material (Wen et al. 2016,
+    /// centre loss); none in the paper.
+    #[serde(default)]
+    pub compactness: f64,
+    /// Of the mean square error of ln μ_friction, standardised, read linearly from the
+    /// posterior's mean: encoders see no friction, yet it is read from neighbours in the
+    /// latent; none in the paper.
+    #[serde(default)]
+    pub friction: f64,
     /// β at its largest.
     pub kl: f64,
     /// Epoch until which β is zero.

@@ -147,19 +147,29 @@ impl<'a> Session<'a> {
         let levels = all().flat_map(|instance| instance.level_db);
         let normaliser = Normaliser::of(config.coding, &coded, levels);
         normaliser.normalise(&mut coded);
-        let material = chosen()
+        let material: Vec<usize> = chosen()
             .flat_map(|(index, material)| vec![index; material.instances.len()])
             .collect();
+        let friction = standardised_log_friction(corpus, &material);
         let mut stream = Stream::new(config.seed, Purpose::Initialisation, 0);
-        let (network, parameters) =
-            Network::new(&config.network, captions.width, &normaliser, &mut stream);
+        let (network, parameters) = Network::new(
+            &config.network,
+            captions.width,
+            corpus.materials.len(),
+            &normaliser,
+            &mut stream,
+        );
         Ok(Self {
             config,
             captions,
             materials: materials.to_vec(),
             normaliser,
             network,
-            instances: Instances { coded, material },
+            instances: Instances {
+                coded,
+                material,
+                friction,
+            },
             ratings: chosen().map(|(_, material)| material.rating).collect(),
             state: State::new(parameters),
         })
@@ -237,6 +247,19 @@ impl<'a> Session<'a> {
         }
         trained
     }
+}
+
+/// ln μ of the material of each instance, mean zero and deviation one.
+fn standardised_log_friction(corpus: &Corpus, material: &[usize]) -> Vec<f32> {
+    let logs = || {
+        let of = material.iter();
+        of.map(|&index| libm::log(corpus.materials[index].mu.max(f64::MIN_POSITIVE)))
+    };
+    let count = material.len().max(1) as f64;
+    let mean = logs().sum::<f64>() / count;
+    let variance = logs().map(|x| (x - mean) * (x - mean)).sum::<f64>() / count;
+    let scale = libm::sqrt(variance).max(1e-6);
+    logs().map(|x| ((x - mean) / scale) as f32).collect()
 }
 
 /// Mean latent of each material, and the spread of instances about them.

@@ -19,6 +19,10 @@ pub struct EpochLoss {
     pub contrastive: f32,
     /// Mean square of μ̂ − μ.
     pub alignment: f32,
+    /// Mean square of μ − c.
+    pub compactness: f32,
+    /// Mean square error of friction's logarithm, standardised.
+    pub friction: f32,
 }
 
 impl EpochLoss {
@@ -30,6 +34,8 @@ impl EpochLoss {
         self.kl += share * other.kl;
         self.contrastive += share * other.contrastive;
         self.alignment += share * other.alignment;
+        self.compactness += share * other.compactness;
+        self.friction += share * other.friction;
     }
 }
 

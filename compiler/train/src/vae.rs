@@ -128,11 +128,17 @@ impl State {
             &batch.pairing,
         );
         let alignment = (predicted - posterior.mean.clone()).square().mean();
+        let centres = bound.get(network.centres).select(0, batch.material);
+        let compactness = (posterior.mean.clone() - centres).square().mean();
+        let friction = network.friction.forward(&bound, posterior.mean.clone()) - batch.friction;
+        let friction = friction.square().mean();
         let reconstruction = ar.clone() * weights.ar + taps.clone() * weights.taps;
         let total = reconstruction * weights.reconstruction
             + kl.clone() * kl_weight
             + contrastive.clone() * weights.contrastive
-            + alignment.clone() * weights.alignment;
+            + alignment.clone() * weights.alignment
+            + compactness.clone() * weights.compactness
+            + friction.clone() * weights.friction;
         let gradients = bound.gradients(total.backward());
         self.adam.step(&mut self.parameters, &gradients, step);
         network.latent.observe(&mut self.parameters, statistics);
@@ -145,6 +151,8 @@ impl State {
             kl: value(kl),
             contrastive: value(contrastive),
             alignment: value(alignment),
+            compactness: value(compactness),
+            friction: value(friction),
         }
     }
 }

@@ -9,8 +9,6 @@ use multiversion::multiversion;
 
 /// Columns of a panel.
 const COLUMNS: usize = 16;
-/// Most rows of a tile: 4 × 16 sums fill half of 16 registers of 8 lanes.
-const ROWS: usize = 4;
 /// Panels that are expanded together: a row of them is a cache line of int8 weights.
 const PANELS: usize = 4;
 /// Rows of b in a panel: four panels of 96 × 16 f32 are 24 KiB, which the first-level cache holds.
@@ -47,7 +45,7 @@ fn dispatched(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut
 
 #[inline(always)]
 fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
-    let mut left = vec![0.0; m * k];
+    let mut left = vec![0.0; padded(m) * k];
     pack_left(m, k, a, &mut left);
     let mut panels = vec![[[0.0; COLUMNS]; DEPTH]; PANELS.min(n.div_ceil(COLUMNS))];
     // Slices of k outside: the rows of b that a slice needs lie together in memory.
@@ -57,19 +55,18 @@ fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32
             let columns = (group..n).step_by(COLUMNS).take(PANELS);
             pack_right(k, n, b, start, group, depth, &mut panels);
             for (column, panel) in columns.zip(&panels) {
-                let mut left = &left[start * m..][..depth * m];
+                let mut left = &left[start * padded(m)..][..depth * padded(m)];
                 let width = COLUMNS.min(n - column);
                 let mut row = 0;
                 while row < m {
-                    let rows = ROWS.min(m - row);
+                    let rows = tile_rows(m - row);
                     let (block, rest) = left.split_at(rows * depth);
                     left = rest;
                     let out = &mut out[row * n + column..];
+                    let here = rows.min(m - row);
                     match rows {
-                        4 => tile::<4>(block, &panel[..depth], out, n, width),
-                        3 => tile::<3>(block, &panel[..depth], out, n, width),
-                        2 => tile::<2>(block, &panel[..depth], out, n, width),
-                        _ => tile::<1>(block, &panel[..depth], out, n, width),
+                        4 => tile::<4>(block, &panel[..depth], out, n, here, width),
+                        _ => tile::<1>(block, &panel[..depth], out, n, here, width),
                     }
                     row += rows;
                 }
@@ -78,22 +75,38 @@ fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32
     }
 }
 
+/// Rows of the tile for so many rows left: 4 × 16 sums fill half of 16 registers of 8 lanes.
+/// Two or three rows make a tile of four, padded with zeros: the compiler makes lanes of four
+/// rows and of one, and left two and three scalar, at three times the instructions.
+#[inline(always)]
+fn tile_rows(left: usize) -> usize {
+    if left == 1 { 1 } else { 4 }
+}
+
+/// Rows of all tiles of m rows.
+#[inline(always)]
+fn padded(m: usize) -> usize {
+    if m % 4 == 1 { m } else { m.next_multiple_of(4) }
+}
+
 /// Orders `a` as tiles read it: by slice of k, then block of rows, then k, then row.
 #[inline(always)]
 fn pack_left(m: usize, k: usize, a: &[f32], left: &mut [f32]) {
     let mut rest = left;
     for start in (0..k).step_by(DEPTH) {
         let end = k.min(start + DEPTH);
-        for row in (0..m).step_by(ROWS) {
-            let rows = ROWS.min(m - row);
+        let mut row = 0;
+        while row < m {
+            let rows = tile_rows(m - row);
             let (block, after) = rest.split_at_mut(rows * (end - start));
             rest = after;
-            for i in 0..rows {
+            for i in 0..rows.min(m - row) {
                 let values = &a[(row + i) * k..][start..end];
                 for (slot, value) in block[i..].iter_mut().step_by(rows).zip(values) {
                     *slot = *value;
                 }
             }
+            row += rows;
         }
     }
 }
@@ -182,17 +195,19 @@ fn expand<'a>(
     }
 }
 
-/// Adds R × depth times depth × 16 to R rows of `out`, `n` apart, `width` columns of them.
+/// Adds R × depth times depth × 16 to the first `rows` of R rows of `out`, `n` apart, `width`
+/// columns of them.
 #[inline(always)]
 fn tile<const R: usize>(
     block: &[f32],
     panel: &[[f32; COLUMNS]],
     out: &mut [f32],
     n: usize,
+    rows: usize,
     width: usize,
 ) {
     let mut sums = [[0.0_f32; COLUMNS]; R];
-    for (i, sums) in sums.iter_mut().enumerate() {
+    for (i, sums) in sums.iter_mut().enumerate().take(rows) {
         transfer(width, &out[i * n..], sums);
     }
     for (left, right) in block.as_chunks::<R>().0.iter().zip(panel) {
@@ -202,7 +217,7 @@ fn tile<const R: usize>(
             }
         }
     }
-    for (i, sums) in sums.iter().enumerate() {
+    for (i, sums) in sums.iter().enumerate().take(rows) {
         transfer(width, sums, &mut out[i * n..]);
     }
 }

@@ -43,6 +43,8 @@ impl Config {
         weight("loss.contrastive", l.contrastive)?;
         positive("loss.temperature", l.temperature)?;
         weight("loss.alignment", l.alignment)?;
+        weight("loss.compactness", l.compactness)?;
+        weight("loss.friction", l.friction)?;
         weight("loss.kl", l.kl)?;
         within(
             "loss.kl_to_epoch",

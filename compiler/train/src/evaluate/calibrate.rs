@@ -26,7 +26,7 @@ pub fn calibrate(model: &Path, measured: &HeldOut) -> Result<(), EvaluateError> 
         })?;
     description.certainty = measured.certainty.clone();
     let mut json =
-        serde_json::to_vec_pretty(&description).map_err(|error| EvaluateError::Encode {
+        serde_json::to_vec(&description).map_err(|error| EvaluateError::Encode {
             file: FILE.into(),
             message: error.to_string(),
         })?;

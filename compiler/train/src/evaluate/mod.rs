@@ -18,7 +18,6 @@ mod eigen;
 mod error;
 pub mod held_out;
 pub mod map;
-mod memory;
 pub mod midpoints;
 pub mod probes;
 mod report;
@@ -28,6 +27,7 @@ mod statistics;
 mod subject;
 #[cfg(test)]
 mod tests;
+mod texts;
 mod watch;
 
 pub use calibrate::calibrate;
@@ -40,7 +40,6 @@ pub use watch::{Unwatched, Watch};
 use crate::{captions::Captions, config::Config};
 use asperity::{inference::Backend, text::TextEncoder};
 use asperity_corpus::{Corpus, reference::LexiconEntry};
-use memory::Memory;
 use signature::Signature;
 use std::{
     collections::BTreeSet,
@@ -49,6 +48,7 @@ use std::{
     str::FromStr,
 };
 use subject::Subject;
+use texts::Texts;
 
 /// Where the corpus of a model comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -147,7 +147,7 @@ struct Bench<'a> {
     materials: Vec<usize>,
     /// Of the anchors' materials themselves.
     signatures: Vec<Signature>,
-    memory: Memory<'a>,
+    texts: Texts<'a>,
     config: Config,
 }
 
@@ -170,7 +170,7 @@ pub fn evaluate(
             "{:08x} {:08x} {:08x}",
             bench.subject.crc32,
             bench.corpus.crc32,
-            bench.memory.fingerprint()
+            bench.texts.fingerprint()
         ),
     )?;
     let asked = |part| options.parts.contains(&part);
@@ -210,7 +210,7 @@ pub fn evaluate(
             materials: &bench.signatures,
             lexicon: &bench.captions.lexicon,
         };
-        probes::measure(subject, &known, &bench.memory, watch)
+        probes::measure(subject, &known, &bench.texts, watch)
     })?;
     report.midpoints = cache.part("midpoints", &key, asked(Part::Midpoints), || {
         watch.begin("midpoints", 1);
@@ -248,9 +248,9 @@ fn set_up<'a>(
     watch.begin("corpus", 1);
     let (corpus, lexicon) = data::training(&options.corpus, &config)?;
     let materials = data::materials(&subject, &corpus)?;
-    let memory = Memory::open(encoder, options.report)?;
-    memory.learn(texts(&corpus, &lexicon), watch)?;
-    let captions = Captions::encode(&corpus, &lexicon, &memory)?;
+    let texts = Texts::open(encoder, options.report)?;
+    texts.learn(every_text(&corpus, &lexicon), watch)?;
+    let captions = Captions::encode(&corpus, &lexicon, &texts)?;
     let signatures = materials
         .iter()
         .map(|&m| &corpus.materials[m])
@@ -262,12 +262,15 @@ fn set_up<'a>(
         captions,
         materials,
         signatures,
-        memory,
+        texts,
         config,
     })
 }
 
-fn texts<'c>(corpus: &'c Corpus, lexicon: &'c [LexiconEntry]) -> impl Iterator<Item = &'c str> {
+fn every_text<'c>(
+    corpus: &'c Corpus,
+    lexicon: &'c [LexiconEntry],
+) -> impl Iterator<Item = &'c str> {
     let materials = corpus.materials.iter().flat_map(|material| {
         let training = material
             .training

@@ -39,7 +39,7 @@ fn bench(report: &Path) -> Bench<'static> {
     Bench {
         materials: data::materials(&subject, &corpus).unwrap(),
         signatures: corpus.materials.iter().map(signature).collect(),
-        memory: Memory::open(&WordBag, report).unwrap(),
+        texts: Texts::open(&WordBag, report).unwrap(),
         subject,
         captions,
         config,
@@ -67,7 +67,7 @@ fn measured(bench: &Bench<'_>, folder: &Path, watch: &mut dyn Watch) -> Report {
         materials: signatures,
         lexicon: &bench.captions.lexicon,
     };
-    report.probes = probes::measure(subject, &known, &bench.memory, watch).ok();
+    report.probes = probes::measure(subject, &known, &bench.texts, watch).ok();
     report.midpoints = midpoints::measure(subject, signatures).ok();
     report.map = Some(map::measure(subject));
     report

@@ -84,6 +84,11 @@ fn card(
         "| last epoch: KL, InfoNCE, alignment | {:.2} nats, {:.4}, {:.4} |",
         loss.kl, loss.contrastive, loss.alignment
     )?;
+    writeln!(
+        text,
+        "| last epoch: compactness, friction | {:.4}, {:.4} |",
+        loss.compactness, loss.friction
+    )?;
     if let Some(loss) = metrics.text_loss {
         writeln!(text, "| text stage | {loss:.4} |")?;
     }

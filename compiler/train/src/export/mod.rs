@@ -130,7 +130,7 @@ pub fn export(
     let networks = networks::write(trained)?;
     verify::check(trained, corpus, captions, &networks)?;
     let description = description::describe(trained, corpus, captions);
-    let mut json = serde_json::to_vec_pretty(&description).map_err(|e| ExportError::Encode {
+    let mut json = serde_json::to_vec(&description).map_err(|e| ExportError::Encode {
         file: "model.json",
         message: e.to_string(),
     })?;

@@ -17,8 +17,12 @@ pub(crate) use encoder::{Encoder, LOG_VARIANCE_BOUND};
 pub(crate) use projection::{LatentProjection, TextProjection, unit_rows};
 
 use crate::{
-    config::Network as Sizes, normaliser::Normaliser, parameters::Parameters, rng::Stream,
+    config::Network as Sizes,
+    normaliser::Normaliser,
+    parameters::{Linear, Parameters, Slot},
+    rng::Stream,
 };
+use asperity::learned::description::LATENT;
 use burn_tensor::{Device, Tensor, TensorData};
 
 /// Where the numbers of the network are.
@@ -34,13 +38,18 @@ pub(crate) struct Network {
     pub(crate) text: TextProjection,
     /// The latent's side of the contrastive loss.
     pub(crate) latent: LatentProjection,
+    /// Where each material of the corpus gathers, [M, 64].
+    pub(crate) centres: Slot,
+    /// Standardised ln μ of friction from the latent.
+    pub(crate) friction: Linear,
 }
 
 impl Network {
-    /// A network drawn from `stream`, for text vectors of `width`.
+    /// A network drawn from `stream`, for text vectors of `width` and so many materials.
     pub(crate) fn new(
         sizes: &Sizes,
         width: usize,
+        materials: usize,
         normaliser: &Normaliser,
         stream: &mut Stream,
     ) -> (Self, Parameters) {
@@ -52,6 +61,8 @@ impl Network {
             tap_decoder: TapDecoder::new(into, sizes, stream),
             text: TextProjection::new(into, width, &sizes.text_projection, stream),
             latent: LatentProjection::new(into, sizes.latent_projection, stream),
+            centres: into.add("centres".into(), materials, vec![0.0; materials * LATENT]),
+            friction: Linear::new(into, "friction", LATENT, 1, stream),
         };
         (network, parameters)
     }

@@ -1,5 +1,4 @@
 //! Whole runs on a small corpus.
 
 mod folder;
-mod speed;
 mod training;

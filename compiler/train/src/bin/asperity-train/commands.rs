@@ -4,13 +4,9 @@ use crate::{
     Failure, boxed,
     cli::{self, Cli, Command, Recipe},
     console::{self, Bar},
+    setup,
 };
-use asperity::{
-    diagnostic::Diagnostic,
-    embedded,
-    inference::Backend,
-    text::{TextEncoder, TextEncoderChoice, clip::Clip},
-};
+use asperity::{diagnostic::Diagnostic, inference::Backend, text::TextEncoder};
 use asperity_corpus::{
     Corpus, hatt,
     reference::{self, LexiconEntry, ReferenceOptions},
@@ -23,7 +19,6 @@ use std::{
     ffi::OsString,
     fs,
     path::{Path, PathBuf},
-    thread,
 };
 use thiserror::Error;
 
@@ -86,12 +81,8 @@ fn fit(args: &cli::Fit) -> Result<(), Failure> {
     }
     console::listen();
     let backend = Backend::open(args.backend).map_err(boxed)?;
-    let encoder: Box<dyn TextEncoder> = match &args.text_encoder {
-        TextEncoderChoice::MiniLm => Box::new(embedded::text_encoder(&backend).map_err(boxed)?),
-        TextEncoderChoice::Clip(folder) => Box::new(Clip::open(folder, &backend).map_err(boxed)?),
-    };
-    let cores = thread::available_parallelism().map_or(1, usize::from);
-    let threads = args.threads.map_or(cores, usize::from);
+    let encoder = setup::text_encoder(&args.text_encoder, &backend)?;
+    let threads = setup::threads(args.threads);
     let mut bar = Bar::new(args.quiet, config.optimiser.epochs);
     let checkpoints = Checkpoints {
         path: &checkpoint,

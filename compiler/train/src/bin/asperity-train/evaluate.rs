@@ -3,12 +3,12 @@
 use crate::{
     Failure, boxed,
     console::{self, is_interrupted},
+    setup,
 };
 use asperity::{
     diagnostic::Diagnostic,
-    embedded,
     inference::{Backend, BackendName},
-    text::{TextEncoder, TextEncoderChoice, clip::Clip},
+    text::TextEncoderChoice,
 };
 use asperity_train::{
     Config,
@@ -17,7 +17,7 @@ use asperity_train::{
 };
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::{num::NonZeroUsize, path::PathBuf, thread};
+use std::{num::NonZeroUsize, path::PathBuf};
 use thiserror::Error;
 
 #[derive(Debug, Args)]
@@ -84,12 +84,8 @@ pub(crate) fn run(args: &Evaluate) -> Result<(), Failure> {
     };
     console::listen();
     let backend = Backend::open(args.backend).map_err(boxed)?;
-    let encoder: Box<dyn TextEncoder> = match &args.text_encoder {
-        TextEncoderChoice::MiniLm => Box::new(embedded::text_encoder(&backend).map_err(boxed)?),
-        TextEncoderChoice::Clip(folder) => Box::new(Clip::open(folder, &backend).map_err(boxed)?),
-    };
-    let cores = thread::available_parallelism().map_or(1, usize::from);
-    let threads = args.threads.map_or(cores, usize::from);
+    let encoder = setup::text_encoder(&args.text_encoder, &backend)?;
+    let threads = setup::threads(args.threads);
     let mut bar = Bar::new(args.quiet);
     let report = on_threads(threads, || {
         evaluate(&options, encoder.as_ref(), &backend, &mut bar)

@@ -4,6 +4,7 @@ mod cli;
 mod commands;
 mod console;
 mod evaluate;
+mod setup;
 
 use asperity::diagnostic::{Diagnostic, report};
 use clap::Parser as _;

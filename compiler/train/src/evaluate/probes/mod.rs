@@ -7,10 +7,10 @@ pub(super) use prompts::{Probes, sources};
 
 use super::{
     EvaluateError, Watch,
-    memory::Memory,
     signature::{Objective, Signature},
     statistics::{Share, mean, median},
     subject::Subject,
+    texts::Texts,
 };
 use crate::captions::dot;
 use asperity_corpus::Rating;
@@ -136,7 +136,7 @@ pub(super) struct Known<'a> {
 pub(super) fn measure(
     subject: &Subject,
     known: &Known<'_>,
-    memory: &Memory<'_>,
+    texts: &Texts<'_>,
     watch: &mut dyn Watch,
 ) -> Result<Probing, EvaluateError> {
     let (probes, pairs) = (Probes::read()?, Pairs::read()?);
@@ -145,7 +145,7 @@ pub(super) fn measure(
         .prompts()
         .chain(of_pairs.map(String::as_str))
         .collect();
-    let felt = ask(subject, known, memory, &prompts, watch)?;
+    let felt = ask(subject, known, texts, &prompts, watch)?;
     let of = |prompt: &String| &felt[prompt.as_str()];
     let steps = probes.directions.iter().map(|direction| {
         let value = |prompt| value(&of(prompt).decoded, direction.attribute);
@@ -204,18 +204,18 @@ pub(super) fn measure(
 fn ask<'p>(
     subject: &Subject,
     known: &Known<'_>,
-    memory: &Memory<'_>,
+    texts: &Texts<'_>,
     prompts: &[&'p str],
     watch: &mut dyn Watch,
 ) -> Result<BTreeMap<&'p str, Felt>, EvaluateError> {
-    memory.learn(prompts.iter().copied(), watch)?;
+    texts.learn(prompts.iter().copied(), watch)?;
     let mut distinct = prompts.to_vec();
     distinct.sort_unstable();
     distinct.dedup();
     watch.begin("prompts", distinct.len());
     let vectors: Vec<Vec<f32>> = distinct
         .iter()
-        .map(|prompt| memory.vector(prompt))
+        .map(|prompt| texts.vector(prompt))
         .collect::<Result<_, _>>()?;
     let projected = subject.project(&vectors)?;
     let latents: Vec<_> = projected.iter().map(|said| said.z).collect();

@@ -1,0 +1,38 @@
+//! A prompt through the library, everything loaded: text, decoding, reduction, lowering,
+//! verification; no preview.
+//!
+//! `cargo bench -p asperity-benches --bench prompt`. The texture is checked before it is
+//! timed.
+
+use asperity::{
+    inference::{Backend, BackendName},
+    prompt::{Author, Options},
+};
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+
+const PROMPT: &str = "rough abrasive sheet with gritty particles";
+
+fn warm(c: &mut Criterion) {
+    let backend = Backend::open(BackendName::Portable).expect("the embedded engine");
+    let author = Author::embedded(&backend).expect("the embedded model");
+    let options = Options {
+        preview: false,
+        ..Options::default()
+    };
+    let authored = author.author(PROMPT, &options).expect("a texture");
+    assert!(authored.attributes.rough_db.is_some_and(|db| db > 0.0));
+    assert!(authored.lowered.bytes.len() < 4096 + 1024);
+    let mut group = c.benchmark_group("warm prompt");
+    group.sample_size(30);
+    group.bench_function("text to verified bytes", |b| {
+        b.iter(|| author.author(black_box(PROMPT), &options));
+    });
+    group.bench_function("text to latent", |b| {
+        b.iter(|| author.project(black_box(PROMPT)));
+    });
+    group.finish();
+}
+
+criterion_group!(prompt, warm);
+criterion_main!(prompt);

@@ -1,0 +1,26 @@
+//! What both long commands need before they start.
+
+use crate::{Failure, boxed};
+use asperity::{
+    embedded,
+    inference::Backend,
+    text::{TextEncoder, TextEncoderChoice, clip::Clip},
+};
+use std::{num::NonZeroUsize, thread};
+
+/// The chosen text encoder on a back end.
+pub(crate) fn text_encoder(
+    choice: &TextEncoderChoice,
+    backend: &Backend,
+) -> Result<Box<dyn TextEncoder>, Failure> {
+    Ok(match choice {
+        TextEncoderChoice::MiniLm => Box::new(embedded::text_encoder(backend).map_err(boxed)?),
+        TextEncoderChoice::Clip(folder) => Box::new(Clip::open(folder, backend).map_err(boxed)?),
+    })
+}
+
+/// As many threads as asked for, or as there are cores.
+pub(crate) fn threads(asked: Option<NonZeroUsize>) -> usize {
+    let cores = || thread::available_parallelism().map_or(1, usize::from);
+    asked.map_or_else(cores, usize::from)
+}
