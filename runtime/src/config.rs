@@ -71,8 +71,8 @@ pub struct FrictionConfig {
     /// with noise of ±1 count feels no change of sign.
     pub dead_zone_m: f32,
     /// Speed v_c of the leak, m/s: steady friction grows by F_n/v_c with speed until it is
-    /// μF_n at μ·v_c + kh·v_c/F_n. 4 mm/s is 0.025 F_n per 0.1 mm/s, which no hand feels as
-    /// a step; 0 is Coulomb friction that holds for ever.
+    /// μF_n at μ·v_c + kh·v_c/F_n. 5.5 mm/s is 0.018 F_n per 0.1 mm/s; 0 is Coulomb
+    /// friction that holds for ever.
     pub leak_speed_m_s: f32,
 }
 
@@ -128,7 +128,7 @@ impl Default for Config {
             friction: FrictionConfig {
                 stiffness_n_m: 300.0,
                 dead_zone_m: 0.12e-3,
-                leak_speed_m_s: 4.0e-3,
+                leak_speed_m_s: 5.5e-3,
             },
             mechanics: MechanicsConfig {
                 damping_n_s_m: 0.1,

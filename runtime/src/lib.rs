@@ -82,5 +82,5 @@ pub use contact::Surface;
 pub use locate::Barycentric;
 pub use synthesis::Filter;
 pub use texture::{HostTexture, LoadError, Texture};
-pub use wall::{Passivity, Wall};
 pub use tick::{Counters, Flags, Output, Renderer, Sample, State};
+pub use wall::{Passivity, Wall};

@@ -134,7 +134,9 @@ mod tests {
             ..crate::Config::default().mechanics
         };
         assert_eq!(
-            Passivity::new(&mechanics, 1000.0).wall(500.0, 0.1).stiffness_n_m,
+            Passivity::new(&mechanics, 1000.0)
+                .wall(500.0, 0.1)
+                .stiffness_n_m,
             0.0
         );
     }

@@ -22,6 +22,21 @@ const COUNT_M: f64 = 0.055e-3;
 /// Coefficient of friction of the rows that vary nothing.
 const MU: f64 = 0.7;
 
+/// A device that absorbs nothing: the strictest.
+const NOTHING: Absorber = Absorber {
+    damping_n_s_m: 0.0,
+    coulomb_n: 0.0,
+};
+/// The simulated Touch.
+const TOUCH: Absorber = Absorber {
+    damping_n_s_m: 0.1,
+    coulomb_n: 0.26,
+};
+/// Frequencies that no hand reaches by itself, and slower ones for late forces, Hz.
+const FAST_HZ: [f64; 11] = [
+    0.5, 2.0, 5.0, 12.0, 20.0, 35.0, 50.0, 75.0, 100.0, 125.0, 150.0,
+];
+
 /// Position along an axis and normal force in, friction force out.
 pub type Law = Box<dyn FnMut(f64, f64) -> f64>;
 
@@ -70,24 +85,27 @@ fn by_law(
     mu: f64,
     figure: impl Fn(&mut Law) -> f64,
 ) -> Row {
-    let [ours, paper, reference] =
-        laws(mu, 0).map(|(name, mut law)| (name, figure(&mut law)));
+    let [ours, paper, reference] = laws(mu, 0).map(|(name, mut law)| (name, figure(&mut law)));
     words.row(scenario, ours.1, limit, &[paper, reference])
+}
+
+/// Positions, m: a stroke at 100 mm/s for 200 ms, then rest with noise of ±1 count.
+pub fn stroke_and_rest(seed: u64, ticks: usize) -> impl Iterator<Item = f64> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut base_m = 0.0;
+    (0..ticks).map(move |n| {
+        base_m += if n < 200 { 0.1e-3 } else { 0.0 };
+        base_m + ((rng.next_u64() % 3) as f64 - 1.0) * COUNT_M
+    })
 }
 
 /// Changes of sign a second over 10 s of rest with noise of ±1 count, after a stroke.
 fn flips_at_rest(law: &mut Law, seed: u64) -> f64 {
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let (mut base_m, mut sign, mut flips) = (0.0, 0.0, 0);
-    for n in 0..10_500 {
-        let stroke = n < 200;
-        base_m += if stroke { 0.1e-3 } else { 0.0 };
-        let count = (rng.next_u64() % 3) as f64 - 1.0;
-        let force = law(base_m + count * COUNT_M, 1.0);
-        if n >= 500 && force != 0.0 {
-            flips += u32::from(force * sign < 0.0);
-            sign = force;
-        } else if force != 0.0 {
+    let (mut sign, mut flips) = (0.0, 0);
+    for (n, x) in stroke_and_rest(seed, 10_500).enumerate() {
+        let force = law(x, 1.0);
+        if force != 0.0 {
+            flips += u32::from(n >= 500 && force * sign < 0.0);
             sign = force;
         }
     }
@@ -95,7 +113,7 @@ fn flips_at_rest(law: &mut Law, seed: u64) -> f64 {
 }
 
 /// Force at each tick of a motion whose speed is `speed(n)`, m/s.
-fn forces(
+pub fn forces(
     law: &mut Law,
     ticks: usize,
     normal_n: f64,
@@ -110,18 +128,27 @@ fn forces(
         .collect()
 }
 
-/// Largest change of F_t/F_n per 0.1 mm/s in a ramp from −`top` to `top`, m/s, at `accel`,
-/// m/s², after a second of steady speed.
+/// Ticks of steady speed before a ramp.
+pub const SETTLE: usize = 15_000;
+
+/// Speeds, m/s, a tick each: steady at −`top`, then a ramp at `accel`, m/s², to `top`.
+#[must_use]
+pub fn ramp(accel: f64, top: f64) -> Vec<f64> {
+    let ticks = (2.0 * top / (accel * TICK_S)).ceil() as usize;
+    (0..SETTLE + ticks)
+        .map(|n| (-top + accel * TICK_S * n.saturating_sub(SETTLE) as f64).min(top))
+        .collect()
+}
+
+/// Largest change of F_t/F_n per 0.1 mm/s in a [`ramp`].
 #[must_use]
 pub fn steepest(law: &mut Law, normal_n: f64, accel: f64, top: f64) -> f64 {
-    let settle = 3000;
-    let ramp = (2.0 * top / (accel * TICK_S)).ceil() as usize;
-    let force = forces(law, settle + ramp, normal_n, |n| {
-        (-top + accel * TICK_S * n.saturating_sub(settle) as f64).min(top)
-    });
-    let force = &force[settle..];
+    let speeds = ramp(accel, top);
+    let force = forces(law, speeds.len(), normal_n, |n| speeds[n]);
+    let force = &force[SETTLE..];
     let per_tick = accel * TICK_S;
-    let window = ((0.1e-3 / per_tick).round() as usize).clamp(1, force.len().saturating_sub(1).max(1));
+    let window =
+        ((0.1e-3 / per_tick).round() as usize).clamp(1, force.len().saturating_sub(1).max(1));
     let scale = 0.1e-3 / (per_tick * window as f64);
     force
         .windows(window + 1)
@@ -160,9 +187,15 @@ pub fn departure(law: &mut Law, normal_n: f64, steady: f64, within: f64, seed: u
     while speeds.len() < settle + 8000 {
         let unit = (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         let stretch = 1 + rng.next_u64() as usize % 400;
-        speeds.extend(std::iter::repeat_n(steady + within * (2.0 * unit - 1.0), stretch));
+        speeds.extend(std::iter::repeat_n(
+            steady + within * (2.0 * unit - 1.0),
+            stretch,
+        ));
     }
-    let largest = speeds.iter().map(|v| (v - steady).abs()).fold(0.0, f64::max);
+    let largest = speeds
+        .iter()
+        .map(|v| (v - steady).abs())
+        .fold(0.0, f64::max);
     let force = forces(law, speeds.len(), normal_n, |n| speeds[n]);
     let before = force[settle - 1];
     let far = force[settle..]
@@ -184,43 +217,62 @@ fn departure_of_all(law: impl Fn() -> Law, seed: u64) -> f64 {
     worst
 }
 
-/// Largest energy given off over whole cycles of a sinusoid, J, pressed steadily or harder at
-/// one phase, on a device that absorbs nothing.
+/// Largest lack of μF_n in a steady stroke at 10 mm/s, %.
+fn lacking(law: impl Fn() -> Law) -> f64 {
+    [0.1, 0.3, 1.0, 3.0]
+        .into_iter()
+        .map(|normal_n| {
+            let force = forces(&mut law(), 15_000, normal_n, |_| 0.01);
+            100.0 * (1.0 - force[14_999].abs() / (MU * normal_n))
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Fastest stroke, m/s, and largest acceleration, m/s², that count: 100 m/s² is what 8.5 N
+/// give to stylus and light grip.
+const POSSIBLE: (f64, f64) = (0.65, 100.0);
+/// Half the strokes, m: from below the dead zone to far beyond slip.
+const AMPLITUDES_M: [f64; 16] = [
+    1.0e-4, 1.2e-4, 1.3e-4, 1.5e-4, 1.8e-4, 2.2e-4, 3e-4, 4e-4, 5e-4, 7e-4, 1e-3, 1.5e-3, 2e-3,
+    3e-3, 5e-3, 1e-2,
+];
+
+/// Largest energy that a law gives off over cycles of a sinusoid beyond what the device
+/// absorbs, J, at any time: pressed steadily or harder at one phase, all amplitudes that a
+/// hand can make at these frequencies.
 #[must_use]
 pub fn energy_of_cycles(
     law: impl Fn() -> Law,
     delay_ticks: usize,
-    amplitudes_m: &[f64],
     frequencies_hz: &[f64],
+    absorber: &Absorber,
 ) -> f64 {
-    let mut worst = f64::NEG_INFINITY;
-    for &amplitude_m in amplitudes_m {
-        for &frequency_hz in frequencies_hz {
+    let mut worst = 0.0_f64;
+    for &frequency_hz in frequencies_hz {
+        let turn = TAU * frequency_hz;
+        let possible = |a: f64| a * turn <= POSSIBLE.0 && a * turn * turn <= POSSIBLE.1;
+        for amplitude_m in AMPLITUDES_M.into_iter().filter(|&a| possible(a)) {
             for (press, phase) in [(0.0, 0.0), (0.4, 0.0), (0.4, 0.25), (0.4, 0.5), (0.4, 0.75)] {
                 let ticks = (4.0 / (frequency_hz * TICK_S)).round() as usize;
-                let at = |n: usize| n as f64 * TICK_S * frequency_hz;
-                let x = |n: usize| amplitude_m * (TAU * at(n)).sin();
+                let at = |n: usize| n as f64 * TICK_S;
+                let x = |n: usize| amplitude_m * (turn * at(n)).sin();
                 let mut law = law();
                 let force: Vec<f64> = (0..=ticks)
-                    .map(|n| law(x(n), 0.6 + press * (TAU * (at(n) + phase)).cos()))
+                    .map(|n| law(x(n), 0.6 + press * (turn * at(n) + TAU * phase).cos()))
                     .collect();
                 let mut observer = Observer::default();
-                let nothing = Absorber {
-                    damping_n_s_m: 0.0,
-                    coulomb_n: 0.0,
-                };
                 for n in delay_ticks..ticks {
-                    observer.tick(&nothing, force[n - delay_ticks], x(n + 1) - x(n), TICK_S);
+                    observer.tick(absorber, force[n - delay_ticks], x(n + 1) - x(n), TICK_S);
                 }
-                worst = worst.max(observer.given_j);
+                worst = worst.max(observer.worst_j);
             }
         }
     }
     worst
 }
 
-/// Root mean square of the stylus's speed along the stroke, mm/s, while a light grip rests
-/// after a stroke, friction by `law` on a wall of 500 N/m.
+/// Root mean square of the stylus's speed along the stroke about its mean over 50 ms, mm/s,
+/// while a light grip rests after a stroke.
 fn rest_in_a_hand<S: Servo>(servo: S) -> Result<f64, StabilityError> {
     let device = DeviceConfig::touch()?;
     let grip = Grip::preset(GripPreset::Light)?;
@@ -232,14 +284,19 @@ fn rest_in_a_hand<S: Servo>(servo: S) -> Result<f64, StabilityError> {
         },
         Motion::Rest {
             force_n: 1.5,
-            duration_s: 2.0,
+            duration_s: 6.0,
         },
     ]);
     let mut session = Session::new(&device, grip, script, servo);
-    let records = session.run(10_000);
+    let records = session.run(20_000);
     let late = &records[records.len() - 1500..];
-    let square: f64 = late.iter().map(|r| r.true_m_s[0].powi(2)).sum();
-    Ok(1e3 * (square / late.len() as f64).sqrt())
+    let speeds: Vec<f64> = late.iter().map(|r| 1e3 * r.true_m_s[0]).collect();
+    let about_mean = |block: &[f64]| {
+        let mean = block.iter().sum::<f64>() / block.len() as f64;
+        block.iter().map(|v| (v - mean).powi(2)).sum::<f64>()
+    };
+    let square: f64 = speeds.chunks_exact(50).map(about_mean).sum();
+    Ok((square / speeds.len() as f64).sqrt())
 }
 
 /// A wall of 500 N/m with a friction law along x.
@@ -289,21 +346,25 @@ const WANDER: Words = Words {
 };
 const CYCLE: Words = Words {
     theme: "friction",
-    quantity: "largest energy given off over a closed path (µJ)",
+    quantity: "largest energy given off to a device that absorbs nothing (µJ)",
     fails: "a velocity filtered at 20 Hz lags by more than a quarter turn above: friction pushes",
     instead: "constant stiffness, leak and slip only lose; the force is taken one tick ahead",
 };
-const LATE: Words = Words {
-    quantity: "largest energy given off over a closed path, force late (µJ)",
-    instead: "the force is taken one more tick ahead for every tick of delay",
-    fails: "each tick of delay adds kΔ² a tick to what a held spring gives off",
+const NET: Words = Words {
+    quantity: "largest energy given off beyond what the Touch absorbs (µJ)",
     ..CYCLE
+};
+const FULL: Words = Words {
+    theme: "friction",
+    quantity: "what friction lacks of μF_n (%)",
+    fails: "a viscous part up to v = μ/0.004 mm/s leaves slow strokes without friction",
+    instead: "the viscous part ends at a few mm/s: no wider than the step in speed asks",
 };
 const HAND: Words = Words {
     theme: "friction",
-    quantity: "stylus speed at rest in a light grip (mm/s RMS)",
+    quantity: "speed of the stylus about its mean of 50 ms (mm/s RMS)",
     fails: "a sign that flips drives device and hand into a limit cycle",
-    instead: "a spring in the dead zone's place stores nothing and drives nothing",
+    instead: "the bristle holds, then lets go slowly: it creeps, and nothing drives it",
 };
 
 /// The rows.
@@ -317,7 +378,10 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
     };
     let nth = |n: usize, mu: f64| {
         let [a, b, c] = laws(mu, 0);
-        [a, b, c].into_iter().nth(n).map_or_else(|| ours(mu, 0), |(_, law)| law)
+        [a, b, c]
+            .into_iter()
+            .nth(n)
+            .map_or_else(|| ours(mu, 0), |(_, law)| law)
     };
     let mut rows = vec![by_law(
         REST,
@@ -341,7 +405,10 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
     ));
 
     for (scenario, mu) in [
-        ("ramps through zero, 0.1 mm/s² to 10 m/s², 0.05–3 N, μ = 0.1", 0.1),
+        (
+            "ramps through zero, 0.1 mm/s² to 10 m/s², 0.05–3 N, μ = 0.1",
+            0.1,
+        ),
         ("the same, μ = 0.7", 0.7),
         ("the same, μ = 1.4", 1.4),
     ] {
@@ -356,28 +423,40 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
         &others,
     ));
 
-    let amplitudes = [1e-4, 2e-4, 5e-4, 1e-3, 1e-2];
-    let slow = [0.5, 2.0, 10.0, 25.0];
-    let fast = [50.0, 100.0, 125.0, 150.0];
-    for (scenario, frequencies) in [
-        ("strokes to and fro, 0.5–25 Hz, 0.1–10 mm, pressed steadily or harder one way", slow),
-        ("the same, 50–150 Hz", fast),
+    let (ours_lacks, others) = each(&|n| lacking(|| nth(n, MU)));
+    rows.push(FULL.row(
+        "steady stroke at 10 mm/s, 0.1–3 N, μ = 0.7",
+        ours_lacks,
+        1.0,
+        &others,
+    ));
+    for (words, scenario, delay, frequencies, absorber) in [
+        (
+            CYCLE,
+            "strokes to and fro, 0.5–10 Hz, 0.1–10 mm, pressed steadily or harder one way",
+            0,
+            &[0.5, 1.0, 2.0, 5.0, 10.0][..],
+            &NOTHING,
+        ),
+        (
+            NET,
+            "0.5–150 Hz, as far as a hand can move",
+            0,
+            &FAST_HZ,
+            &TOUCH,
+        ),
+        (NET, "0.5–150 Hz, 1 tick of delay", 1, &FAST_HZ, &TOUCH),
+        (NET, "0.5–150 Hz, 2 ticks of delay", 2, &FAST_HZ, &TOUCH),
     ] {
-        let (ours, others) =
-            each(&|n| 1e6 * energy_of_cycles(|| nth(n, MU), 0, &amplitudes, &frequencies));
-        rows.push(CYCLE.row(scenario, ours, 1e-3, &others));
-    }
-    for delay in [1, 2_u32] {
-        let late = |law: &dyn Fn() -> Law| {
-            1e6 * energy_of_cycles(law, delay as usize, &amplitudes, &slow)
-        };
-        rows.push(LATE.row(
-            format!("0.5–25 Hz, {delay} ticks of delay"),
-            late(&|| ours(MU, delay)),
+        let energy =
+            |law: &dyn Fn() -> Law| 1e6 * energy_of_cycles(law, delay, frequencies, absorber);
+        rows.push(words.row(
+            scenario,
+            energy(&|| ours(MU, delay as u32)),
             1e-3,
             &[
-                ("paper's sign of v", late(&|| nth(1, MU))),
-                ("reference's viscous", late(&|| nth(2, MU))),
+                ("paper's sign of v", energy(&|| nth(1, MU))),
+                ("reference's viscous", energy(&|| nth(2, MU))),
             ],
         ));
     }
@@ -387,7 +466,7 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
     let [_, paper, reference] = laws(silent.model.friction.mu, 0);
     let runtime = RenderedTexture::new(renderer, &silent.slot, seed);
     rows.push(HAND.row(
-        "stroke at 80 mm/s and 1.5 N, then rest; Touch, light grip, counts of 0.055 mm",
+        "stroke at 80 mm/s and 1.5 N, then 6 s of rest; Touch, light grip, counts of 0.055 mm",
         rest_in_a_hand(runtime)?,
         0.1,
         &[

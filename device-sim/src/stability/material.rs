@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use asperity::model::TextureModel;
+use asperity::model::{GridVertex, TextureModel, VertexKind};
 use asperity_formats::Asset;
 use asperity_runtime::HostTexture;
 
@@ -40,6 +40,30 @@ impl Material {
         ))
     }
 
+    /// One vertex's model at every speed and force.
+    ///
+    /// # Errors
+    /// [`StabilityError::Lower`].
+    pub fn constant(like: &TextureModel, vertex: &GridVertex) -> Result<Self, StabilityError> {
+        let corner = |speed_mm_s: f64, force_n: f64| GridVertex {
+            speed_mm_s,
+            force_n,
+            kind: VertexKind::Edge,
+            ..vertex.clone()
+        };
+        let mut model = like.clone();
+        model.taps.traces.clear();
+        model.grid.order = vertex.lsf_rad.len();
+        model.grid.vertices = vec![
+            corner(0.0, 0.0),
+            corner(200.0, 0.0),
+            corner(0.0, 3.0),
+            corner(200.0, 3.0),
+        ];
+        model.grid.triangles = vec![[0, 1, 2], [1, 3, 2]];
+        Self::new(model)
+    }
+
     /// Loads the bytes of an asset.
     ///
     /// # Panics
@@ -63,6 +87,16 @@ impl Material {
     /// [`StabilityError::Lower`].
     pub fn built_in() -> Result<Self, StabilityError> {
         Self::new(asperity::builtin::texture())
+    }
+
+    /// [1, a_1, …] of what the runtime renders at a speed and a force.
+    #[must_use]
+    pub fn monic(&self, speed_mm_s: f64, force_n: f64) -> Vec<f64> {
+        let filter = self.slot.filter_at(speed_mm_s as f32, force_n as f32);
+        let order = self.model.grid.order;
+        std::iter::once(1.0)
+            .chain(filter.a[..order].iter().map(|&a| f64::from(a)))
+            .collect()
     }
 
     /// The built-in texture's wall and friction, without any vibration or tap: what is

@@ -272,7 +272,7 @@ impl Oracle {
     /// The bristle: deflection d, of which a share 1/(1 + T/τ) with τ = F_n/(k·v_c) is kept
     /// every tick, at most μF/k + h; beyond the dead zone h a force k(|d| − h + lead) against
     /// it, at most μF, where the lead is the motion of a tick and the delay along d, at most
-    /// |d| − h.
+    /// half of |d| − h.
     fn friction(
         &mut self,
         tangential: impl Fn(Vector) -> Vector,
@@ -308,7 +308,7 @@ impl Oracle {
         }
         let along = times(self.bristle, 1.0 / length);
         let ticks = 1.0 + f64::from(self.config.mechanics.delay_ticks);
-        let lead = (ticks * dot(along, motion)).min(length - h);
+        let lead = (ticks * dot(along, motion)).min((length - h) / 2.0);
         let force = (k * (length - h + lead)).clamp(0.0, limit);
         times(along, -force)
     }

@@ -4,7 +4,9 @@
 #[must_use]
 pub fn q1_15(monic: &[f64]) -> Vec<f64> {
     let step = 2.0_f64.powi(-15);
-    coefficients(monic, |a| (a / step).round().clamp(-32768.0, 32767.0) * step)
+    coefficients(monic, |a| {
+        (a / step).round().clamp(-32768.0, 32767.0) * step
+    })
 }
 
 /// 16 bits with the exponent that the filter's largest coefficient needs.
