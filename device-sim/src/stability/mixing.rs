@@ -94,6 +94,11 @@ pub fn rms(signal: &[f64]) -> f64 {
     (signal.iter().map(|y| y * y).sum::<f64>() / signal.len() as f64).sqrt()
 }
 
+/// Whose turn it is: the first one's until all has settled, then every sample.
+fn turn(n: usize) -> usize {
+    if n < SETTLE { 0 } else { n % 2 }
+}
+
 /// A stroke at 100 mm/s and 1 N over textures that take turns every sample.
 fn stroke(textures: [&Material; 2], seed: u64) -> Vec<f64> {
     let renderer = Renderer::new(&Config::default()).expect("the default");
@@ -102,7 +107,7 @@ fn stroke(textures: [&Material; 2], seed: u64) -> Vec<f64> {
     (0..TICKS)
         .map(|n| {
             let sample = Sample::at([1e-4 * n as f32, 0.0, -1.0 / stiffness]);
-            let output = renderer.tick(&textures[n % 2].slot, &mut state, &sample);
+            let output = renderer.tick(&textures[turn(n)].slot, &mut state, &sample);
             f64::from(output.vib_m_s2)
         })
         .skip(SETTLE)
@@ -116,7 +121,7 @@ fn direct(textures: [&Material; 2], seed: u64) -> Vec<f64> {
     let models = textures.map(|m| (m.monic(100.0, 1.0), m.slot.filter_at(100.0, 1.0).level_m_s2));
     (0..TICKS)
         .map(|n| {
-            let (monic, level) = &models[n % 2];
+            let (monic, level) = &models[turn(n)];
             filter.step(monic, f64::from(level * noise.next_gaussian()))
         })
         .skip(SETTLE)

@@ -74,18 +74,6 @@ impl Bench {
     }
 }
 
-/// What the runtime is told of a simulated device, along z.
-#[must_use]
-pub fn mechanics(device: &DeviceConfig) -> MechanicsConfig {
-    Bench {
-        damping_n_s_m: device.mechanics.damping_n_s_m[2],
-        coulomb_n: device.mechanics.coulomb_n[2],
-        position_step_m: 1e-3 * device.sensor.position_step_mm,
-        delay_ticks: device.timing.transport_delay_ticks as u32,
-    }
-    .mechanics()
-}
-
 /// A renderer that is told nothing of limits: the wall as the asset gives it.
 fn as_given() -> Renderer {
     let mut config = Config::default();
@@ -395,7 +383,7 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
                 format!(
                     "taps, press and rest, b = 0.02 N·s/m, {grip} grip, {delay} ticks of delay"
                 ),
-                energy(told(mechanics(&device)))?,
+                energy(told(device.mechanics_config()))?,
                 1e3 * ROUNDING_J,
                 &[("500 N/m as given", energy(as_given())?)],
             ));
@@ -410,7 +398,7 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
         };
         let told_of_two = MechanicsConfig {
             delay_ticks: 2,
-            ..mechanics(&device)
+            ..device.mechanics_config()
         };
         rows.push(LOST.row(
             format!("the same, firm, one tick in 20 starts a run of up to 2 {name} samples"),

@@ -78,7 +78,7 @@ fn draw(
 
 fn dropped(canvas: &mut Canvas, outer: Rect) -> Result<(), StabilityError> {
     let silent = Material::silent(wall::REPORTED.0, wall::REPORTED.1)?;
-    let bench = Bench::viscous(0.1, 0);
+    let bench = Bench::viscous(0.1, 1);
     let height = |lowered| {
         wall::dropped(&bench, &silent, lowered).map(|z| {
             let ms = z.iter().take(1500).enumerate();
@@ -89,14 +89,14 @@ fn dropped(canvas: &mut Canvas, outer: Rect) -> Result<(), StabilityError> {
         canvas,
         outer,
         'a',
-        "45 g dropped on a wall, pressed by 0.5 N, b = 0.1 N·s/m",
+        "45 g dropped on a wall with 0.5 N, b = 0.1 N·s/m, 1 tick late",
         (
             Axis::new("Time (ms)", 0.0, 1500.0),
-            Axis::new("Height (mm)", -15.0, 36.0),
+            Axis::new("Height (mm)", -20.0, 40.0),
         ),
         &[
             ("500 N/m as given", PAPER, height(false)?),
-            ("ours, lowered to 200 N/m", OURS, height(true)?),
+            ("ours, lowered to 67 N/m", OURS, height(true)?),
         ],
     );
     Ok(())
@@ -177,8 +177,8 @@ fn alternation(canvas: &mut Canvas, outer: Rect, seed: u64) -> Result<(), Stabil
         'd',
         "Two models take turns every sample",
         (
-            Axis::new("Time (ms)", 0.0, 1000.0),
-            Axis::new("Level of 20 ms (dB re 1 m/s²)", -30.0, 120.0),
+            Axis::new("Time since they take turns (ms)", 0.0, 1000.0),
+            Axis::new("Level of 20 ms (dB re 1 m/s²)", -20.0, 200.0),
         ),
         &[
             ("direct form at once", PAPER, level(direct)),
