@@ -128,6 +128,9 @@ fn direct(textures: [&Material; 2], seed: u64) -> Vec<f64> {
         .collect()
 }
 
+/// Renders two textures that take turns, with a seed.
+type Method = fn([&Material; 2], u64) -> Vec<f64>;
+
 /// What a random pair of vertices gives when its models take turns.
 struct Pair {
     /// Vibration of the runtime, and of direct forms at once.
@@ -148,7 +151,7 @@ fn pairs(material: &Material, seed: u64) -> Result<Vec<Pair>, StabilityError> {
     let models: Vec<Material> = sounding
         .map(|vertex| Material::constant(&material.model, vertex))
         .collect::<Result<_, _>>()?;
-    let methods: [fn([&Material; 2], u64) -> Vec<f64>; 2] = [stroke, direct];
+    let methods: [Method; 2] = [stroke, direct];
     let steady: Vec<[f64; 2]> = models
         .iter()
         .map(|m| methods.map(|method| rms(&method([m, m], seed))))
