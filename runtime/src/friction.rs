@@ -107,9 +107,7 @@ impl FrictionState {
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "tests run on the host")]
 mod tests {
-    extern crate std;
     use super::*;
     use crate::math::norm;
 

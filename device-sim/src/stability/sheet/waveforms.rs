@@ -63,6 +63,7 @@ fn draw(
         .title(title);
     panel.margins = Margins {
         top: 112.0,
+        right: 48.0,
         ..panel.margins
     };
     panel.draw_frame(canvas);
