@@ -16,6 +16,7 @@
 //! | [`fault`] | NaN, dropped, stale, stuck and late samples, stackable |
 //! | [`session`] | the loop, and the record of every tick |
 //! | [`feel`] | what a session amounts to: summary, CSV, sheet, sound |
+//! | [`stability`] | where methods fail: a table of ours against others |
 //!
 //! Not modelled, on purpose: the kinematics of the arm (axes are independent and
 //! Cartesian), gravity (taken as compensated), the stylus's orientation, motor
@@ -30,3 +31,4 @@ pub mod feel;
 pub mod hand;
 pub mod servo;
 pub mod session;
+pub mod stability;

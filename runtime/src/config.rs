@@ -24,6 +24,8 @@ pub struct Config {
     pub tap: TapConfig,
     /// Bristle friction.
     pub friction: FrictionConfig,
+    /// What the device's own mechanics absorb: decides how stiff a wall may be.
+    pub mechanics: MechanicsConfig,
     /// Bad samples and recovery.
     pub safety: SafetyConfig,
     /// Time constant with which model parameters follow speed and force, s. Far
@@ -59,7 +61,7 @@ pub struct TapConfig {
     pub rearm_m: f32,
 }
 
-/// The bristle that carries friction: `F = k·(|d| − h)`, at most μF_n.
+/// The bristle that carries friction: `F = k·(|d| − h)`, at most μF_n, with a leak.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionConfig {
     /// Bristle stiffness k, N/m. It does not depend on the normal force, or else a
@@ -68,6 +70,31 @@ pub struct FrictionConfig {
     /// Dead zone h, m: a little more than two counts of position, so that a resting hand
     /// with noise of ±1 count feels no change of sign.
     pub dead_zone_m: f32,
+    /// Speed v_c of the leak, m/s: steady friction grows by F_n/v_c with speed until it is
+    /// μF_n at μ·v_c + kh·v_c/F_n. 5.5 mm/s is 0.018 F_n per 0.1 mm/s; 0 is Coulomb
+    /// friction that holds for ever.
+    pub leak_speed_m_s: f32,
+}
+
+/// What the device absorbs by itself, and how late its force acts: the sampled wall must
+/// not give off more ([`wall`](crate::wall)).
+///
+/// The default is a 3D Systems Touch, all of it unconfirmed on a device: 0.26 N of back-drive
+/// friction as published, 0.1 N·s/m assumed, no delay beyond the hold of one period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MechanicsConfig {
+    /// Viscous damping b of the mechanism, N·s/m, without any hand.
+    pub damping_n_s_m: f32,
+    /// Coulomb friction f_c of the mechanism, N.
+    pub coulomb_n: f32,
+    /// Speed V up to which that friction counts as damping f_c/V, m/s. The default is the
+    /// fastest tap of the corpus.
+    pub fastest_m_s: f32,
+    /// One count Δ of position, m; 0 if positions are not quantised.
+    pub position_step_m: f32,
+    /// Whole periods between a force and its effect, on top of the hold of one. A loop
+    /// that may lose two samples in a row counts as two later.
+    pub delay_ticks: u32,
 }
 
 /// Bad samples and recovery.
@@ -101,6 +128,14 @@ impl Default for Config {
             friction: FrictionConfig {
                 stiffness_n_m: 300.0,
                 dead_zone_m: 0.12e-3,
+                leak_speed_m_s: 5.5e-3,
+            },
+            mechanics: MechanicsConfig {
+                damping_n_s_m: 0.1,
+                coulomb_n: 0.26,
+                fastest_m_s: 0.65,
+                position_step_m: 0.055e-3,
+                delay_ticks: 0,
             },
             safety: SafetyConfig {
                 hold_ticks: 2,
@@ -182,6 +217,48 @@ impl Config {
                 0.0,
                 0.01,
                 "0 to 0.01 m",
+            ),
+            (
+                "friction.leak_speed_m_s",
+                self.friction.leak_speed_m_s,
+                0.0,
+                1.0,
+                "0 to 1 m/s",
+            ),
+            (
+                "mechanics.damping_n_s_m",
+                self.mechanics.damping_n_s_m,
+                0.0,
+                1000.0,
+                "0 to 1000 N·s/m",
+            ),
+            (
+                "mechanics.coulomb_n",
+                self.mechanics.coulomb_n,
+                0.0,
+                1000.0,
+                "0 to 1000 N",
+            ),
+            (
+                "mechanics.fastest_m_s",
+                self.mechanics.fastest_m_s,
+                0.01,
+                100.0,
+                "0.01 to 100 m/s",
+            ),
+            (
+                "mechanics.position_step_m",
+                self.mechanics.position_step_m,
+                0.0,
+                0.01,
+                "0 to 0.01 m",
+            ),
+            (
+                "mechanics.delay_ticks",
+                self.mechanics.delay_ticks as f32,
+                0.0,
+                100.0,
+                "at most 100",
             ),
             (
                 "safety.hold_ticks",

@@ -18,8 +18,8 @@
 //! | [`excitation`] | ε | Gaussian noise |
 //! | [`synthesis`] | y\[n\] | the AR or ARMA recursion |
 //! | [`tap`] | a_tap(t) | impact detection and transient |
-//! | [`friction`] | F_t | bristle friction bounded by μF_n |
-//! | [`wall`] | F_n | stiffness and damping |
+//! | [`friction`] | F_t | leaking bristle bounded by μF_n |
+//! | [`wall`] | F_n | stiffness and damping that the device can bear |
 //! | [`limiter`] | | peak and slew of the total force |
 //! | [`safety`] | | bad samples, safe state, ramp |
 //!
@@ -75,10 +75,12 @@ pub mod velocity;
 pub mod wall;
 
 pub use config::{
-    Config, ConfigError, FrictionConfig, Limits, SafetyConfig, TapConfig, VibrationAxis,
+    Config, ConfigError, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, TapConfig,
+    VibrationAxis,
 };
 pub use contact::Surface;
 pub use locate::Barycentric;
 pub use synthesis::Filter;
 pub use texture::{HostTexture, LoadError, Texture};
 pub use tick::{Counters, Flags, Output, Renderer, Sample, State};
+pub use wall::{Passivity, Wall};

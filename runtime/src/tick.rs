@@ -1,9 +1,11 @@
 //! One servo period: device sample in, limited force out.
 
+use asperity_formats::Surface;
+
 use crate::{
     Config, ConfigError, Texture, VibrationAxis,
     excitation::Excitation,
-    friction::FrictionState,
+    friction::{Bristle, FrictionState},
     limiter::Limiter,
     math::{Vec3, add, clamp_from_zero, cross, dot, exp, max, rsqrt, scale, sub, tangential},
     safety::Gate,
@@ -11,7 +13,7 @@ use crate::{
     tap::TapState,
     texture::Parameters,
     velocity::{LowPass2, LowPass2State},
-    wall,
+    wall::{Passivity, Wall},
 };
 
 /// Below this speed the direction of motion is the last one, m/s.
@@ -212,6 +214,8 @@ pub struct Renderer {
     velocity: LowPass2,
     normal_velocity: LowPass2,
     limiter: Limiter,
+    bristle: Bristle,
+    passivity: Passivity,
     /// Periods per second over 1, 2 and 3 elapsed ticks.
     rate_over_ticks: [f32; 3],
     follow_share: f32,
@@ -235,6 +239,8 @@ impl Renderer {
             velocity: LowPass2::new(config.velocity_cutoff_hz, rate),
             normal_velocity: LowPass2::new(config.normal_cutoff_hz, rate),
             limiter: Limiter::new(&config.limits, rate),
+            bristle: Bristle::new(&config.friction, config.mechanics.delay_ticks, rate),
+            passivity: Passivity::new(&config.mechanics, rate),
             rate_over_ticks: [rate, rate / 2.0, rate / 3.0],
             follow_share: if time_constant > 0.0125 {
                 1.0 - exp(-1.0 / time_constant)
@@ -249,6 +255,15 @@ impl Renderer {
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
+    }
+
+    /// The wall that is rendered for an asset's: as the asset says where the device can bear
+    /// it.
+    #[inline]
+    #[must_use]
+    pub fn wall(&self, surface: &Surface) -> Wall {
+        self.passivity
+            .wall(surface.stiffness_n_m, surface.damping_n_s_m)
     }
 
     /// One servo period. Infallible: every sample gives a finite force within the
@@ -296,7 +311,8 @@ impl Renderer {
 
         let depth_m = max(-contact.distance_m, 0.0);
         let touching = depth_m > 0.0;
-        let stiffness_n = surface.stiffness_n_m * depth_m;
+        let wall = self.wall(surface);
+        let stiffness_n = wall.stiffness_n_m * depth_m;
 
         let query = texture.weights_at(speed_mm_s, stiffness_n);
         let target = texture.mix(&query);
@@ -323,14 +339,15 @@ impl Renderer {
         let tap_n = surface.effective_mass_kg * tap.accel_m_s2;
 
         let friction = state.friction.step(
-            &config.friction,
+            &self.bristle,
             motion_m,
             contact.normal,
-            texture.mu * stiffness_n,
+            stiffness_n,
+            texture.mu,
             touching,
         );
 
-        let normal_n = wall::force_n(stiffness_n, surface.damping_n_s_m, outward_m_s) + tap_n;
+        let normal_n = wall.force_n(stiffness_n, outward_m_s) + tap_n;
         let axis = match config.vibration_axis {
             VibrationAxis::Tangent => state.direction,
             VibrationAxis::Binormal => cross(state.direction, contact.normal),

@@ -22,6 +22,13 @@ fn texture() -> &'static HostTexture {
     })
 }
 
+/// A device that bears the texture's 2000 N/m.
+fn config() -> Config {
+    let mut config = Config::default();
+    config.mechanics.damping_n_s_m = 2.0;
+    config
+}
+
 fn number() -> impl Strategy<Value = f32> {
     prop_oneof![
         8 => -0.01_f32..0.01,
@@ -113,7 +120,7 @@ proptest! {
         (peak_n, slew_n_s) in (0.01_f32..100.0, 0.1_f32..1e5),
         seed in any::<u64>(),
     ) {
-        let mut config = Config { surface, ..Config::default() };
+        let mut config = Config { surface, ..config() };
         (config.limits.peak_n, config.limits.slew_n_s) = (peak_n, slew_n_s);
         let renderer = Renderer::new(&config).unwrap();
         let (mut state, mut twin) = (State::new(seed), State::new(seed));
@@ -134,7 +141,7 @@ proptest! {
     /// there is none.
     #[test]
     fn good_samples_bring_the_force_back(samples in samples(), seed in any::<u64>()) {
-        let config = Config::default();
+        let config = config();
         let renderer = Renderer::new(&config).unwrap();
         let mut state = State::new(seed);
         for sample in &samples {
@@ -157,7 +164,7 @@ proptest! {
 
 #[test]
 fn a_fault_is_safe_within_one_tick_and_falls_at_the_slew_limit() {
-    let config = Config::default();
+    let config = config();
     let renderer = Renderer::new(&config).unwrap();
     let pressed = Sample::at([0.0, 0.0, -0.0015]);
     let faults: [&[Sample]; 4] = [

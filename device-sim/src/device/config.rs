@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use asperity_runtime::{Config, MechanicsConfig};
 use serde::Deserialize;
 
 use crate::config::{self, ConfigError};
@@ -96,6 +97,19 @@ pub struct Timing {
 }
 
 impl DeviceConfig {
+    /// What the runtime is told of the mechanics: those of the weakest axis.
+    #[must_use]
+    pub fn mechanics_config(&self) -> MechanicsConfig {
+        let least = |values: [f64; 3]| values.into_iter().fold(f64::INFINITY, f64::min) as f32;
+        MechanicsConfig {
+            damping_n_s_m: least(self.mechanics.damping_n_s_m),
+            coulomb_n: least(self.mechanics.coulomb_n),
+            position_step_m: (1e-3 * self.sensor.position_step_mm) as f32,
+            delay_ticks: self.timing.transport_delay_ticks as u32,
+            ..Config::default().mechanics
+        }
+    }
+
     /// The built-in Touch.
     ///
     /// # Errors

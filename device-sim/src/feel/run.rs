@@ -26,7 +26,7 @@ pub struct FeelOptions {
     pub seconds: Option<f64>,
 }
 
-/// Lets a hand explore a texture over the plane z = 0. Limits and rate of the
+/// Lets a hand explore a texture over the plane z = 0. Limits, rate and mechanics of the
 /// renderer are those of the device. `origin` says where the asset came from.
 ///
 /// # Errors
@@ -52,10 +52,22 @@ pub fn record(
             peak_n: device.actuator.peak_force_n as f32,
             ..Config::default().limits
         },
+        mechanics: device.mechanics_config(),
         ..Config::default()
     };
     let slew_limit_n_s = f64::from(config.limits.slew_n_s);
-    let servo = RenderedTexture::new(Renderer::new(&config)?, &texture, *seed);
+    let renderer = Renderer::new(&config)?;
+    let mut facts = facts(asset, origin);
+    let wall = renderer.wall(asset.surface());
+    if wall.stiffness_n_m < asset.surface().stiffness_n_m {
+        facts.stiffness_n_m = f64::from(wall.stiffness_n_m);
+        facts.caveats.push(format!(
+            "the wall is lowered from {:.0} to {:.0} N/m, what the device can bear",
+            asset.surface().stiffness_n_m,
+            wall.stiffness_n_m
+        ));
+    }
+    let servo = RenderedTexture::new(renderer, &texture, *seed);
 
     let cycles = seconds.map_or(1, |seconds| (seconds / CYCLE_S).ceil() as usize + 1);
     let ticks = seconds.map_or(u64::MAX, |seconds| (seconds * rate_hz).round() as u64);
@@ -64,7 +76,7 @@ pub fn record(
     let mut session = Session::new(device, grip.clone(), script, servo);
     let records = session.run(ticks);
     Ok(Recording {
-        texture: facts(asset, origin),
+        texture: facts,
         device: device.clone(),
         grip: grip.clone(),
         seed: *seed,

@@ -126,12 +126,13 @@ impl Oracle {
 
         let touching = distance < 0.0;
         let depth = (-distance).max(0.0);
-        let normal_force = f64::from(self.surface.stiffness_n_m) * depth;
+        let (stiffness, damping) = self.wall();
+        let normal_force = stiffness * depth;
         let vib = self.vibration(speed * 1000.0, normal_force, touching && !safe);
         let tap = f64::from(self.surface.effective_mass_kg) * self.tap(distance);
         let friction = self.friction(tangential, motion, normal_force, touching);
 
-        let damped = normal_force - f64::from(self.surface.damping_n_s_m) * outward;
+        let damped = normal_force - damping * outward;
         let wall = if touching { damped.max(0.0) } else { 0.0 };
         let axis = match self.config.vibration_axis {
             VibrationAxis::Tangent => self.direction,
@@ -268,9 +269,10 @@ impl Oracle {
         self.transient.pop_front().unwrap_or(0.0)
     }
 
-    /// The bristle: deflection d at most μF/k + h; beyond the dead zone h a force
-    /// k(|d| − h + lead) against it, at most μF, where the lead is the motion of a tick along
-    /// d, at most |d| − h.
+    /// The bristle: deflection d, of which a share 1/(1 + T/τ) with τ = F_n/(k·v_c) is kept
+    /// every tick, at most μF/k + h; beyond the dead zone h a force k(|d| − h + lead) against
+    /// it, at most μF, where the lead is the motion of a tick and the delay along d, at most
+    /// half of |d| − h.
     fn friction(
         &mut self,
         tangential: impl Fn(Vector) -> Vector,
@@ -282,23 +284,56 @@ impl Oracle {
             f64::from(self.config.friction.stiffness_n_m),
             f64::from(self.config.friction.dead_zone_m),
         );
+        if !touching {
+            self.bristle = [0.0; 3];
+            return self.bristle;
+        }
         let limit = self.mu * normal_force;
+        let time_constant = normal_force / (k * f64::from(self.config.friction.leak_speed_m_s));
+        let leak = 1.0 / (time_constant * f64::from(self.config.servo_rate_hz));
         let motion = tangential(motion);
-        let moved = tangential(plus(self.bristle, motion, 1.0));
+        let moved = times(
+            tangential(plus(self.bristle, motion, 1.0)),
+            1.0 / (1.0 + leak),
+        );
         let (length, reach) = (norm(moved), limit / k + h);
-        self.bristle = match (touching, length > reach) {
-            (false, _) => [0.0; 3],
-            (true, true) => times(moved, reach / length),
-            (true, false) => moved,
+        self.bristle = if length > reach {
+            times(moved, reach / length)
+        } else {
+            moved
         };
         let length = norm(self.bristle);
         if length <= h {
             return [0.0; 3];
         }
         let along = times(self.bristle, 1.0 / length);
-        let lead = dot(along, motion).min(length - h);
+        let ticks = 1.0 + f64::from(self.config.mechanics.delay_ticks);
+        let lead = (ticks * dot(along, motion)).min((length - h) / 2.0);
         let force = (k * (length - h + lead)).clamp(0.0, limit);
         times(along, -force)
+    }
+
+    /// The passive wall nearest to the asset's: stiffness and damping.
+    fn wall(&self) -> (f64, f64) {
+        let mechanics = &self.config.mechanics;
+        let period = 1.0 / f64::from(self.config.servo_rate_hz);
+        let (fastest, step) = (
+            f64::from(mechanics.fastest_m_s),
+            f64::from(mechanics.position_step_m),
+        );
+        let coulomb = f64::from(mechanics.coulomb_n);
+        let budget = f64::from(mechanics.damping_n_s_m) + coulomb / fastest;
+        let held = period * (1.0 + 2.0 * f64::from(mechanics.delay_ticks)) / 2.0;
+        let cost = held + step / (2.0 * fastest);
+        let stiffness = f64::from(self.surface.stiffness_n_m)
+            .min(budget / cost)
+            .min(if step > 0.0 {
+                2.0 * coulomb / step
+            } else {
+                f64::INFINITY
+            });
+        let left = (budget - stiffness * cost).max(0.0) / (1.0 + step / (period * fastest));
+        (stiffness, f64::from(self.surface.damping_n_s_m).min(left))
     }
 
     fn limit(&mut self, wanted: Vector) {

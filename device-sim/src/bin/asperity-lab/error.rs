@@ -1,4 +1,6 @@
-//! Failures that belong to no library.
+//! Failures that belong to no library, and what every command prints by.
+
+use std::io::{self, Write as _};
 
 use asperity::diagnostic::Diagnostic;
 
@@ -25,5 +27,21 @@ impl Plain {
 impl Diagnostic for Plain {
     fn remedy(&self) -> String {
         self.remedy.clone()
+    }
+}
+
+/// A failure of the libraries.
+pub(crate) fn boxed<E: Diagnostic + 'static>(error: E) -> Failure {
+    Box::new(error)
+}
+
+/// Prints results; a reader that has gone away is no failure.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    match writeln!(io::stdout(), "{text}") {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Plain::boxed(
+            format!("stdout: {error}"),
+            "check where the output goes",
+        )),
+        _ => Ok(()),
     }
 }

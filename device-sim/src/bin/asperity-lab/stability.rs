@@ -1,0 +1,70 @@
+//! `asperity-lab stability`: the table of scenarios where methods fail.
+
+use std::io::{self, Write as _};
+use std::path::PathBuf;
+
+use asperity_sim::stability::{StabilityOptions, run as make_table, sheet};
+
+use crate::error::{Failure, Plain, boxed, print};
+
+/// Try our methods, the paper's and the textbook's where methods fail
+///
+/// Every row measures one figure in virtual time: of the runtime itself, and of other
+/// methods in the same scenario. A row passes if ours is within its limit. The last line
+/// counts; the exit status is 1 if a row fails.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab stability
+  asperity-lab stability --hatt materials/ --out pictures/
+  asperity-lab stability --json > table.json
+
+With --out: wall-map.png (stiffness, delay and damping against the bound) and
+waveforms.png (the worst cases).")]
+pub(crate) struct Arguments {
+    /// Folder of HaTT XML files, for the rows that need real materials
+    #[arg(long, value_name = "DIR")]
+    hatt: Option<PathBuf>,
+    /// Write the pictures to a folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Seed of everything random
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print the rows as JSON instead, the count on stderr
+    #[arg(long)]
+    json: bool,
+}
+
+/// Gives whether every row passes.
+pub(crate) fn run(arguments: &Arguments) -> Result<bool, Failure> {
+    let options = StabilityOptions {
+        hatt: arguments.hatt.clone(),
+        seed: arguments.seed,
+    };
+    let table = make_table(&options).map_err(boxed)?;
+    if let Some(folder) = &arguments.out {
+        let sheets = [
+            ("wall-map.png", sheet::wall_map().map_err(boxed)?),
+            ("waveforms.png", sheet::waveforms(&options).map_err(boxed)?),
+        ];
+        std::fs::create_dir_all(folder).map_err(|error| {
+            Plain::boxed(
+                format!("{}: cannot make the folder: {error}", folder.display()),
+                "check the path",
+            )
+        })?;
+        for (name, png) in sheets {
+            asperity::output::write_atomic(&folder.join(name), &png).map_err(boxed)?;
+        }
+    }
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&table)
+            .map_err(|error| Plain::boxed(error, "report this as a bug"))?;
+        print(&text)?;
+        let _ = writeln!(io::stderr(), "{}", table.summary());
+    } else {
+        print(&table.to_string())?;
+    }
+    let [_, failed, _] = table.counts();
+    Ok(failed == 0)
+}

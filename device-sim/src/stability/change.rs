@@ -1,0 +1,161 @@
+//! Another texture in mid-stroke.
+
+use asperity::lsf;
+use asperity_runtime::{Config, Renderer, Sample, State, excitation::Excitation};
+
+use super::coefficients::resonant;
+use super::methods::AllPole;
+use super::{Material, Row, StabilityError, Words};
+
+/// Ticks between changes.
+const PERIOD: usize = 500;
+/// Changes.
+const CHANGES: usize = 40;
+
+/// Two textures of one filter each, poles of radius 0.986 at 60 Hz and at 400 Hz, the second
+/// an eighth as loud.
+fn textures() -> Result<[Material; 2], StabilityError> {
+    let like = asperity::builtin::texture();
+    let texture = |hz: f64, level_m_s2: f64| {
+        let lsf_rad = lsf::from_polynomial(&resonant(hz)).expect("a stable filter");
+        let mut vertex = like.grid.vertices[0].clone();
+        let power: f64 = impulse_response(&resonant(hz)).map(|h| h * h).sum();
+        (vertex.lsf_rad, vertex.sigma_m_s2) = (lsf_rad, level_m_s2 / power.sqrt());
+        Material::constant(&like, &vertex)
+    };
+    Ok([texture(60.0, 2.0)?, texture(400.0, 0.25)?])
+}
+
+fn impulse_response(monic: &[f64]) -> impl Iterator<Item = f64> {
+    let mut filter = AllPole::default();
+    (0..4000).map(move |n| filter.step(monic, if n == 0 { 1.0 } else { 0.0 }))
+}
+
+fn rms(signal: &[f64]) -> f64 {
+    (signal.iter().map(|y| y * y).sum::<f64>() / signal.len() as f64).sqrt()
+}
+
+/// Loudest 20 ms after a change over the loudest 20 ms elsewhere, dB; `signal` changes every
+/// [`PERIOD`] ticks.
+fn rise_db(signal: &[f64]) -> f64 {
+    let (mut after, mut elsewhere) = (0.0_f64, 0.0_f64);
+    for stretch in signal.chunks_exact(PERIOD).skip(1) {
+        for (n, block) in stretch.chunks_exact(20).enumerate() {
+            let level = rms(block);
+            if n == 0 {
+                after = after.max(level);
+            } else {
+                elsewhere = elsewhere.max(level);
+            }
+        }
+    }
+    20.0 * (after / elsewhere).log10()
+}
+
+/// A stroke at 100 mm/s and 1 N over textures that take turns; the vibration, and the largest
+/// step of the force, N.
+fn ours(textures: &[Material; 2], seed: u64) -> (Vec<f64>, f64) {
+    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let mut state = State::new(seed);
+    let (mut last, mut step_n) = ([0.0; 3], 0.0_f64);
+    let vibration = (0..PERIOD * CHANGES)
+        .map(|n| {
+            let texture = &textures[n / PERIOD % 2].slot;
+            let sample = Sample::at([1e-4 * n as f32, 0.0, -2e-3]);
+            let output = renderer.tick(texture, &mut state, &sample);
+            let force = output.force_n.map(f64::from);
+            let change: f64 = (0..3).map(|i| (force[i] - last[i]).powi(2)).sum();
+            if n > PERIOD / 2 {
+                step_n = step_n.max(change.sqrt());
+            }
+            last = force;
+            f64::from(output.vib_m_s2)
+        })
+        .collect();
+    (vibration, step_n)
+}
+
+/// The same by a transposed direct form (II): its state holds products with coefficients, so
+/// that a change of coefficients finds a state of the old ones. The level enters before it.
+fn transposed(textures: &[Material; 2], seed: u64) -> Vec<f64> {
+    let mut noise = Excitation::new(seed);
+    let models = textures
+        .each_ref()
+        .map(|m| (m.monic(100.0, 1.0), m.slot.filter_at(100.0, 1.0).level_m_s2));
+    let mut state = vec![0.0; models[0].0.len()];
+    (0..PERIOD * CHANGES)
+        .map(|n| {
+            let (monic, level) = &models[n / PERIOD % 2];
+            let y = f64::from(level * noise.next_gaussian()) + state[0];
+            for k in 1..monic.len() {
+                state[k - 1] = state.get(k).copied().unwrap_or(0.0) - monic[k] * y;
+            }
+            y
+        })
+        .collect()
+}
+
+/// The same with a_k that cross-fade over 20 ms.
+fn faded(textures: &[Material; 2], seed: u64) -> Vec<f64> {
+    let mut filter = AllPole::default();
+    let mut noise = Excitation::new(seed);
+    let models = textures.each_ref().map(|m| {
+        (
+            m.monic(100.0, 1.0),
+            f64::from(m.slot.filter_at(100.0, 1.0).level_m_s2),
+        )
+    });
+    (0..PERIOD * CHANGES)
+        .map(|n| {
+            let (now, before) = (&models[n / PERIOD % 2], &models[(n / PERIOD + 1) % 2]);
+            let share = ((n % PERIOD) as f64 / 20.0).min(1.0);
+            let mix = |a: f64, b: f64| share * a + (1.0 - share) * b;
+            let monic: Vec<f64> = now
+                .0
+                .iter()
+                .zip(&before.0)
+                .map(|(a, b)| mix(*a, *b))
+                .collect();
+            filter.step(
+                &monic,
+                mix(now.1, before.1) * f64::from(noise.next_gaussian()),
+            )
+        })
+        .collect()
+}
+
+const CHANGE: Words = Words {
+    theme: "change",
+    quantity: "loudest 20 ms after a change over the loudest elsewhere (dB)",
+    fails: "a state that holds products with old coefficients, or halfway coefficients, is a shock",
+    instead: "the level enters before the filter, the past is in m/s², LSFs follow in 5 ms",
+};
+const FORCE: Words = Words {
+    theme: "change",
+    quantity: "largest step of the force in a tick (N)",
+    fails: "stiffness and μ that change at once step the force by Δk·δ",
+    instead: "the total is slew-limited to 2 N a tick",
+};
+
+/// The rows.
+///
+/// # Errors
+/// None for these textures.
+pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
+    let textures = textures()?;
+    let (vibration, step_n) = ours(&textures, seed);
+    let scenario =
+        format!("two textures take turns every {PERIOD} ms of a stroke, {CHANGES} times");
+    Ok(vec![
+        CHANGE.row(
+            scenario.clone(),
+            rise_db(&vibration),
+            0.0,
+            &[
+                ("transposed form", rise_db(&transposed(&textures, seed))),
+                ("a_k faded in 20 ms", rise_db(&faded(&textures, seed))),
+            ],
+        ),
+        FORCE.row(scenario, step_n, 2.0 + 1e-5, &[]),
+    ])
+}

@@ -1,0 +1,138 @@
+//! The textures that rows run on: the built-in one and, where given, HaTT materials.
+
+use std::path::Path;
+
+use asperity::model::{GridVertex, TextureModel, VertexKind};
+use asperity_formats::Asset;
+use asperity_runtime::HostTexture;
+
+use super::StabilityError;
+
+/// Materials whose mixtures are known to fail, and their neighbours in kind: the rows name
+/// them one by one.
+pub const HARD: [&str; 5] = [
+    "Stone Tile 1",
+    "Textured Rubber",
+    "Painted Brick",
+    "Polyethylene Foam",
+    "Bubble Envelope",
+];
+
+/// One texture, as a model and in a slot.
+#[derive(Debug)]
+pub struct Material {
+    /// Its name.
+    pub name: String,
+    /// The model.
+    pub model: TextureModel,
+    /// What the runtime has of it.
+    pub slot: Box<HostTexture>,
+}
+
+impl Material {
+    /// Lowers and loads a model.
+    ///
+    /// # Errors
+    /// [`StabilityError::Lower`].
+    pub fn new(model: TextureModel) -> Result<Self, StabilityError> {
+        Ok(Self::from_bytes(
+            &asperity::lower::lower(&model, None)?.bytes,
+        ))
+    }
+
+    /// One vertex's model at every speed and force.
+    ///
+    /// # Errors
+    /// [`StabilityError::Lower`].
+    pub fn constant(like: &TextureModel, vertex: &GridVertex) -> Result<Self, StabilityError> {
+        let corner = |speed_mm_s: f64, force_n: f64| GridVertex {
+            speed_mm_s,
+            force_n,
+            kind: VertexKind::Edge,
+            ..vertex.clone()
+        };
+        let mut model = like.clone();
+        model.taps.traces.clear();
+        model.grid.order = vertex.lsf_rad.len();
+        model.grid.vertices = vec![
+            corner(0.0, 0.0),
+            corner(200.0, 0.0),
+            corner(0.0, 3.0),
+            corner(200.0, 3.0),
+        ];
+        model.grid.triangles = vec![[0, 1, 2], [1, 3, 2]];
+        Self::new(model)
+    }
+
+    /// Loads the bytes of an asset.
+    ///
+    /// # Panics
+    /// If the runtime refuses what the compiler wrote.
+    fn from_bytes(bytes: &[u8]) -> Self {
+        let asset = Asset::parse(bytes).expect("the compiler's own bytes");
+        let model = asperity::raise::raise(&asset);
+        let mut slot = Box::new(HostTexture::new());
+        slot.load(&asset, model.grid.sample_rate_hz as f32)
+            .expect("a slot of full size");
+        Self {
+            name: model.name.clone(),
+            model,
+            slot,
+        }
+    }
+
+    /// The built-in texture.
+    ///
+    /// # Errors
+    /// [`StabilityError::Lower`].
+    pub fn built_in() -> Result<Self, StabilityError> {
+        Self::new(asperity::builtin::texture())
+    }
+
+    /// [1, a_1, …] of what the runtime renders at a speed and a force.
+    #[must_use]
+    pub fn monic(&self, speed_mm_s: f64, force_n: f64) -> Vec<f64> {
+        let filter = self.slot.filter_at(speed_mm_s as f32, force_n as f32);
+        let order = self.model.grid.order;
+        std::iter::once(1.0)
+            .chain(filter.a[..order].iter().map(|&a| f64::from(a)))
+            .collect()
+    }
+
+    /// The built-in texture's wall and friction, without any vibration or tap: what is
+    /// active by design is left out, so that energy is the contact's alone.
+    ///
+    /// # Errors
+    /// [`StabilityError::Lower`].
+    pub fn silent(stiffness_n_m: f64, damping_n_s_m: f64) -> Result<Self, StabilityError> {
+        let mut model = asperity::builtin::texture();
+        model.taps.traces.clear();
+        for vertex in &mut model.grid.vertices {
+            vertex.sigma_m_s2 = 0.0;
+        }
+        model.wall.stiffness_n_m = stiffness_n_m;
+        model.wall.damping_n_s_m = damping_n_s_m;
+        Self::new(model)
+    }
+}
+
+/// The built-in texture and the hard materials of a HaTT folder that are there.
+///
+/// # Errors
+/// [`StabilityError::Hatt`] or [`StabilityError::Import`] for a folder or a file that cannot be read.
+pub fn all(hatt: Option<&Path>) -> Result<Vec<Material>, StabilityError> {
+    let mut materials = vec![Material::built_in()?];
+    let Some(folder) = hatt else {
+        return Ok(materials);
+    };
+    for file in asperity::hatt::files(folder)? {
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+        let name = stem.trim_start_matches("Models_");
+        if !HARD.contains(&name) {
+            continue;
+        }
+        let imported = asperity::hatt::import(&file, None)?;
+        materials.push(Material::from_bytes(&imported.bytes));
+    }
+    Ok(materials)
+}

@@ -1,0 +1,100 @@
+//! Friction from an estimated velocity.
+//!
+//! [`Sign`] is the paper's F_t = μF_n against t̂; [`Regularised`] is what the reference
+//! renderer does: viscous below v = μ/0.004 mm/s, Coulomb above. Both see the velocity
+//! through the reference's second-order low-pass at 20 Hz.
+
+use asperity_runtime::velocity::{LowPass2, LowPass2State};
+
+/// A velocity in one dimension, m/s, from positions.
+#[derive(Debug, Clone)]
+struct Velocity {
+    filter: LowPass2,
+    state: LowPass2State,
+    last_m: Option<f64>,
+    rate_hz: f64,
+}
+
+impl Velocity {
+    fn new(rate_hz: f64) -> Self {
+        Self {
+            filter: LowPass2::new(20.0, rate_hz as f32),
+            state: LowPass2State::default(),
+            last_m: None,
+            rate_hz,
+        }
+    }
+
+    fn step(&mut self, position_m: f64) -> f64 {
+        let motion_m = position_m - self.last_m.replace(position_m).unwrap_or(position_m);
+        let raw = (motion_m * self.rate_hz) as f32;
+        f64::from(self.filter.step(&mut self.state, raw))
+    }
+}
+
+/// The paper's: full force against the sign of the velocity.
+#[derive(Debug, Clone)]
+pub struct Sign {
+    velocity: Velocity,
+}
+
+impl Sign {
+    /// At rest.
+    #[must_use]
+    pub fn new(rate_hz: f64) -> Self {
+        Self {
+            velocity: Velocity::new(rate_hz),
+        }
+    }
+
+    /// Force along the axis, N.
+    pub fn step(&mut self, position_m: f64, mu: f64, normal_n: f64) -> f64 {
+        let speed = self.velocity.step(position_m);
+        if speed == 0.0 {
+            0.0
+        } else {
+            -mu * normal_n * speed.signum()
+        }
+    }
+}
+
+/// The reference renderer's: viscous, then Coulomb.
+#[derive(Debug, Clone)]
+pub struct Regularised {
+    velocity: Velocity,
+}
+
+/// Slope of the viscous part, (N/N)/(m/s): 0.004 per mm/s.
+const SLOPE: f64 = 4.0;
+
+impl Regularised {
+    /// At rest.
+    #[must_use]
+    pub fn new(rate_hz: f64) -> Self {
+        Self {
+            velocity: Velocity::new(rate_hz),
+        }
+    }
+
+    /// Force along the axis, N.
+    pub fn step(&mut self, position_m: f64, mu: f64, normal_n: f64) -> f64 {
+        let speed = self.velocity.step(position_m);
+        -normal_n * (SLOPE * speed).clamp(-mu, mu)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_give_coulomb_friction_when_fast() {
+        let (mut sign, mut regularised) = (Sign::new(1000.0), Regularised::new(1000.0));
+        let mut last = (0.0, 0.0);
+        for n in 0..500 {
+            let x = 0.3e-3 * f64::from(n);
+            last = (sign.step(x, 0.5, 2.0), regularised.step(x, 0.5, 2.0));
+        }
+        assert_eq!(last, (-1.0, -1.0));
+    }
+}

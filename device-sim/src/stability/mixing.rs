@@ -1,0 +1,237 @@
+//! Mixtures of models, and models that change every sample.
+
+use asperity::lsf;
+use asperity_runtime::{Config, Renderer, Sample, State, excitation::Excitation};
+use rand_core::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::grid::unit;
+use super::material::HARD;
+use super::methods::AllPole;
+use super::methods::all_pole::{is_stable, mixed, polynomials};
+use super::{Material, Row, StabilityError, Words};
+
+/// Points a material, and pairs of random filters.
+const POINTS: usize = 20_000;
+/// Pairs of vertices that alternate, and the ticks of each, the first of them left out.
+const PAIRS: usize = 60;
+const TICKS: usize = 2500;
+const SETTLE: usize = 500;
+/// Ticks of a block whose loudness counts: 20 ms.
+pub const BLOCK: usize = 20;
+
+/// Share of unstable filters, %, at random points of a grid: ours, and with a_k mixed.
+fn unstable(material: &Material, seed: u64) -> [f64; 2] {
+    let grid = &material.model.grid;
+    let polynomials = polynomials(grid);
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut count = [0_usize; 2];
+    for _ in 0..POINTS {
+        // A triangle by chance, a point in it uniformly.
+        let triangle = grid.triangles[(unit(&mut rng) * grid.triangles.len() as f64) as usize];
+        let (mut s, mut t) = (unit(&mut rng), unit(&mut rng));
+        if s + t > 1.0 {
+            (s, t) = (1.0 - s, 1.0 - t);
+        }
+        let w = [1.0 - s - t, s, t];
+        let at = |f: fn(&asperity::model::GridVertex) -> f64| -> f64 {
+            (0..3).map(|i| w[i] * f(&grid.vertices[triangle[i]])).sum()
+        };
+        let ours = material.monic(at(|v| v.speed_mm_s), at(|v| v.force_n));
+        count[0] += usize::from(!is_stable(&ours));
+        let corners = triangle.map(|v| polynomials[v].as_slice());
+        count[1] += usize::from(!is_stable(&mixed(corners, w)));
+    }
+    count.map(|n| 100.0 * n as f64 / POINTS as f64)
+}
+
+/// Random line spectral frequencies of an order, at least `gap` rad apart.
+pub(super) fn random_lsf(rng: &mut Xoshiro256PlusPlus, order: usize, gap: f64) -> Vec<f64> {
+    // Steps uneven by ten to one.
+    let steps: Vec<f64> = (0..=order).map(|_| 0.2 + 1.8 * unit(rng)).collect();
+    let room = std::f64::consts::PI - gap * (order + 1) as f64;
+    let total: f64 = steps.iter().sum();
+    let mut at = 0.0;
+    steps[..order]
+        .iter()
+        .map(|step| {
+            at += gap + room * step / total;
+            at
+        })
+        .collect()
+}
+
+/// Share of unstable halfway mixtures, %, of random pairs of filters of order 20: of LSFs'
+/// cosines, and of coefficients.
+fn unstable_pairs(seed: u64) -> [f64; 2] {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut count = [0_usize; 2];
+    for _ in 0..POINTS {
+        let [a, b] = [(); 2].map(|()| random_lsf(&mut rng, 20, 0.038));
+        let between: Vec<f64> = a
+            .iter()
+            .zip(&b)
+            .map(|(a, b)| (0.5 * (a.cos() + b.cos())).acos())
+            .collect();
+        count[0] += usize::from(!is_stable(&lsf::to_polynomial(&between)));
+        let [a, b] = [a, b].map(|x| lsf::to_polynomial(&x));
+        count[1] += usize::from(!is_stable(&mixed([&a, &b, &b], [0.5, 0.25, 0.25])));
+    }
+    count.map(|n| 100.0 * n as f64 / POINTS as f64)
+}
+
+/// Loudest block's RMS.
+fn loudest(signal: &[f64]) -> f64 {
+    signal
+        .chunks_exact(BLOCK)
+        .map(|block| (block.iter().map(|y| y * y).sum::<f64>() / BLOCK as f64).sqrt())
+        .fold(0.0, f64::max)
+}
+
+/// Root mean square.
+#[must_use]
+pub fn rms(signal: &[f64]) -> f64 {
+    (signal.iter().map(|y| y * y).sum::<f64>() / signal.len() as f64).sqrt()
+}
+
+/// Whose turn it is: the first one's until all has settled, then every sample.
+fn turn(n: usize) -> usize {
+    if n < SETTLE { 0 } else { n % 2 }
+}
+
+/// A stroke at 100 mm/s and 1 N over textures that take turns every sample.
+fn stroke(textures: [&Material; 2], seed: u64) -> Vec<f64> {
+    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let stiffness = renderer.wall(textures[0].slot.surface()).stiffness_n_m;
+    let mut state = State::new(seed);
+    (0..TICKS)
+        .map(|n| {
+            let sample = Sample::at([1e-4 * n as f32, 0.0, -1.0 / stiffness]);
+            let output = renderer.tick(&textures[turn(n)].slot, &mut state, &sample);
+            f64::from(output.vib_m_s2)
+        })
+        .skip(SETTLE)
+        .collect()
+}
+
+/// The same by direct forms whose coefficients alternate at once.
+fn direct(textures: [&Material; 2], seed: u64) -> Vec<f64> {
+    let mut filter = AllPole::default();
+    let mut noise = Excitation::new(seed);
+    let models = textures.map(|m| (m.monic(100.0, 1.0), m.slot.filter_at(100.0, 1.0).level_m_s2));
+    (0..TICKS)
+        .map(|n| {
+            let (monic, level) = &models[turn(n)];
+            filter.step(monic, f64::from(level * noise.next_gaussian()))
+        })
+        .skip(SETTLE)
+        .collect()
+}
+
+/// Renders two textures that take turns, with a seed.
+type Method = fn([&Material; 2], u64) -> Vec<f64>;
+
+/// What a random pair of vertices gives when its models take turns.
+struct Pair {
+    /// Vibration of the runtime, and of direct forms at once.
+    signals: [Vec<f64>; 2],
+    /// Their loudest blocks over the louder steady RMS, dB.
+    rise_db: [f64; 2],
+}
+
+/// [`PAIRS`] random pairs of a material's vertices.
+fn pairs(material: &Material, seed: u64) -> Result<Vec<Pair>, StabilityError> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let sounding = material
+        .model
+        .grid
+        .vertices
+        .iter()
+        .filter(|v| v.sigma_m_s2 > 0.0);
+    let models: Vec<Material> = sounding
+        .map(|vertex| Material::constant(&material.model, vertex))
+        .collect::<Result<_, _>>()?;
+    let methods: [Method; 2] = [stroke, direct];
+    let steady: Vec<[f64; 2]> = models
+        .iter()
+        .map(|m| methods.map(|method| rms(&method([m, m], seed))))
+        .collect();
+    Ok((0..PAIRS)
+        .map(|_| {
+            let [i, j] = [(); 2].map(|()| (unit(&mut rng) * models.len() as f64) as usize);
+            let signals = methods.map(|method| method([&models[i], &models[j]], seed));
+            let rise_db = [0, 1].map(|k| {
+                let db = 20.0 * (loudest(&signals[k]) / steady[i][k].max(steady[j][k])).log10();
+                if db.is_nan() { f64::INFINITY } else { db }
+            });
+            Pair { signals, rise_db }
+        })
+        .collect())
+}
+
+/// The signals of the pair that is worst for a direct form: ours, and the direct form's.
+///
+/// # Errors
+/// [`StabilityError::Lower`].
+pub fn worst_pair(material: &Material, seed: u64) -> Result<(Vec<f64>, Vec<f64>), StabilityError> {
+    let worst = pairs(material, seed)?
+        .into_iter()
+        .max_by(|a, b| a.rise_db[1].total_cmp(&b.rise_db[1]));
+    Ok(worst.map_or_else(Default::default, |pair| pair.signals.into()))
+}
+
+const MIX: Words = Words {
+    theme: "mixing",
+    quantity: "unstable filters (%)",
+    fails: "a convex mixture of stable a_k need not be stable",
+    instead: "cosines of LSFs are mixed: ordered, hence stable, whatever the weights",
+};
+const ALTERNATE: Words = Words {
+    theme: "mixing",
+    quantity: "loudest 20 ms over the louder steady RMS (dB)",
+    fails: "two stable filters that alternate are one unstable system",
+    instead: "LSFs follow in 5 ms and are converted then: the recursion sees a filter that moves \
+              slowly",
+};
+
+/// The rows.
+///
+/// # Errors
+/// [`StabilityError::Lower`].
+pub fn rows(materials: &[Material], seed: u64) -> Result<Vec<Row>, StabilityError> {
+    let mut rows = Vec::new();
+    let [ours, mixed] = unstable_pairs(seed);
+    rows.push(MIX.row(
+        format!("{POINTS} random pairs of filters of order 20, halfway"),
+        ours,
+        0.0,
+        &[("mixed a_k", mixed)],
+    ));
+    for name in std::iter::once("Built-in Grit").chain(HARD) {
+        let scenario = format!("{name}: {POINTS} random points");
+        match materials.iter().find(|m| m.name == name) {
+            Some(material) => {
+                let [ours, mixed] = unstable(material, seed);
+                rows.push(MIX.row(scenario, ours, 0.0, &[("mixed a_k", mixed)]));
+            }
+            None => rows.push(MIX.skipped(scenario, "needs the HaTT materials: --hatt DIR")),
+        }
+    }
+    for material in materials {
+        let pairs = pairs(material, seed)?;
+        let [ours, at_once] = [0, 1].map(|k| {
+            let rises = pairs.iter().map(|pair| pair.rise_db[k]);
+            rises.fold(f64::NEG_INFINITY, f64::max)
+        });
+        rows.push(ALTERNATE.row(
+            format!(
+                "{}: two models take turns every sample, {PAIRS} random pairs of vertices",
+                material.name
+            ),
+            ours,
+            12.0,
+            &[("direct form at once", at_once)],
+        ));
+    }
+    Ok(rows)
+}

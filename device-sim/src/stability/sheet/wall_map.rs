@@ -1,0 +1,153 @@
+//! Stiffness against physical damping, for some delays: what was measured, and the bound.
+
+use asperity::plot::theme::{
+    Axis, Canvas, ColorMap, ColorScale, Key, Margins, Marker, Panel, Rect, Stroke, ink, size,
+};
+use asperity_runtime::{Passivity, Wall};
+
+use super::super::StabilityError;
+use super::super::wall::{Bench, REPORTED, ROUNDING_J, law_j};
+use super::{WIDTH_PX, heading, keys};
+
+const HEIGHT_PX: f32 = 1010.0;
+const HEADING_PX: f32 = 130.0;
+/// Delays shown, ticks.
+const DELAYS: [u32; 3] = [0, 1, 2];
+/// Physical damping shown, N·s/m, and stiffness, N/m.
+const DAMPING: (f64, f64) = (0.01, 2.0);
+const STIFFNESS: (f64, f64) = (10.0, 4000.0);
+/// Rendered damping of the second boundary, N·s/m.
+const RENDERED_N_S_M: f64 = 0.2;
+/// Edge of a measured cell, pixels.
+const CELL_PX: usize = 16;
+
+/// Draws the map.
+///
+/// # Errors
+/// [`StabilityError::Plot`].
+pub fn wall_map() -> Result<Vec<u8>, StabilityError> {
+    let mut canvas = Canvas::new(WIDTH_PX as u32, HEIGHT_PX as u32)?;
+    heading(
+        &mut canvas,
+        "Walls that give off energy, measured, and the bound",
+        "Largest net energy to a hand that moves the stylus as it likes, 1–460 Hz below 0.65 m/s, \
+         1 kHz, no friction; cells: rendered damping 0",
+    );
+    let scale = ColorScale::new(ColorMap::Viridis, -4.0, 3.0);
+    let bar_px = 150.0;
+    let width = (WIDTH_PX - bar_px) / DELAYS.len() as f32;
+    for (index, delay) in DELAYS.into_iter().enumerate() {
+        let last = index + 1 == DELAYS.len();
+        let extra = if last { bar_px } else { 0.0 };
+        let outer = Rect::new(
+            index as f32 * width,
+            HEADING_PX,
+            width + extra,
+            HEIGHT_PX - HEADING_PX,
+        );
+        let panel = panel(outer, index, delay, extra);
+        cells(&mut canvas, &panel, delay, &scale);
+        panel.draw_frame(&mut canvas);
+        lines(&mut canvas, &panel, delay, index);
+        if last {
+            panel.colorbar(&mut canvas, &scale, "log₁₀ of energy given off (mJ)");
+        }
+    }
+    Ok(canvas.png()?)
+}
+
+fn panel(outer: Rect, index: usize, delay: u32, extra: f32) -> Panel {
+    let title = match delay {
+        0 => "No delay".to_owned(),
+        1 => "1 tick of delay".to_owned(),
+        n => format!("{n} ticks of delay"),
+    };
+    let mut panel = Panel::new(
+        outer,
+        Axis::log("Physical damping (N·s/m)", DAMPING.0, DAMPING.1),
+        Axis::log("Stiffness (N/m)", STIFFNESS.0, STIFFNESS.1),
+    )
+    .letter(char::from(b'a' + index as u8))
+    .title(title)
+    .without_grid();
+    panel.margins = Margins {
+        top: 112.0,
+        right: panel.margins.right + extra,
+        ..panel.margins
+    };
+    panel
+}
+
+/// Net energy of undamped walls; passive ones stay white.
+fn cells(canvas: &mut Canvas, panel: &Panel, delay: u32, scale: &ColorScale) {
+    panel.field(canvas, CELL_PX, |damping, stiffness| {
+        let wall = Wall {
+            stiffness_n_m: stiffness as f32,
+            damping_n_s_m: 0.0,
+        };
+        let energy_j = law_j(&Bench::viscous(damping, delay), wall);
+        (energy_j > ROUNDING_J).then(|| scale.color((1e3 * energy_j).log10()))
+    });
+}
+
+/// The bound without and with rendered damping, what was measured with it, and our wall.
+fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32, index: usize) {
+    let bound = Stroke::new(ink::BLACK, size::LINE);
+    let damped = bound.dashed();
+    let ours = Stroke::new(ink::VERMILION, 2.0 * size::LINE);
+    let per_stiffness = 1e-3 * (0.5 + f64::from(delay));
+    let dampings =
+        || (0..=200).map(|n| DAMPING.0 * (DAMPING.1 / DAMPING.0).powf(f64::from(n) / 200.0));
+    for (stroke, rendered) in [(bound, 0.0), (damped, RENDERED_N_S_M)] {
+        let line = dampings()
+            .filter(|b| *b > rendered)
+            .map(|b| (b, (b - rendered) / per_stiffness));
+        panel.line(canvas, line, stroke);
+    }
+    let ours_at = |b: f64| {
+        let passivity = Passivity::new(&Bench::viscous(b, delay).mechanics(), 1000.0);
+        let wall = passivity.wall(REPORTED.0 as f32, REPORTED.1 as f32);
+        (b, f64::from(wall.stiffness_n_m))
+    };
+    panel.line(canvas, dampings().map(ours_at), ours);
+    let outline = Stroke::new(ink::BLACK, size::FRAME);
+    let measured = [20.0, 40.0, 80.0, 160.0, 320.0, 640.0, 1280.0, 2560.0]
+        .map(|stiffness| (least_damping(stiffness, delay), stiffness));
+    panel.points(
+        canvas,
+        measured,
+        Marker::Circle,
+        7.0,
+        Some(ink::PAPER),
+        Some(outline),
+    );
+    let point = Key::Point(Marker::Circle, 7.0, Some(ink::PAPER), Some(outline));
+    let entries = match index {
+        0 => vec![
+            (Key::Line(bound), "bound"),
+            (Key::Line(damped), "with B = 0.2 N·s/m"),
+        ],
+        1 => vec![(point, "measured with B = 0.2 N·s/m")],
+        _ => vec![(Key::Line(ours), "ours for 500 N/m, 0.1 N·s/m")],
+    };
+    keys(canvas, panel, &entries);
+}
+
+/// Least physical damping, N·s/m, with which a wall of the rendered damping above is passive,
+/// by bisection.
+fn least_damping(stiffness_n_m: f64, delay: u32) -> f64 {
+    let wall = Wall {
+        stiffness_n_m: stiffness_n_m as f32,
+        damping_n_s_m: RENDERED_N_S_M as f32,
+    };
+    let (mut active, mut passive) = (0.0, 20.0);
+    for _ in 0..14 {
+        let middle = 0.5 * (active + passive);
+        if law_j(&Bench::viscous(middle, delay), wall) > ROUNDING_J {
+            active = middle;
+        } else {
+            passive = middle;
+        }
+    }
+    passive
+}
