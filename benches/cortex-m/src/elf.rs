@@ -21,6 +21,8 @@ pub(crate) struct Function {
 pub(crate) struct Elf {
     /// Bytes of code and constants in flash, without the library.
     pub(crate) flash_bytes: u64,
+    /// Bytes of initial values in flash, from which statics are filled at start.
+    pub(crate) initial_bytes: u64,
     /// Bytes of statics in RAM.
     pub(crate) ram_bytes: u64,
     /// By address.
@@ -34,7 +36,7 @@ pub(crate) fn read(path: &Path) -> Result<Elf> {
         return Err("the firmware does not hold the library in one piece".into());
     }
     let file = object::File::parse(bytes.as_slice())?;
-    let (mut flash_bytes, mut ram_bytes) = (0, 0);
+    let (mut flash_bytes, mut initial_bytes, mut ram_bytes) = (0, 0, 0);
     for section in file.sections() {
         let SectionFlags::Elf { sh_flags } = section.flags() else {
             continue;
@@ -43,13 +45,18 @@ pub(crate) fn read(path: &Path) -> Result<Elf> {
             continue;
         }
         let writable = sh_flags & u64::from(elf::SHF_WRITE) != 0;
-        ram_bytes += if writable { section.size() } else { 0 };
-        // Initial values of .data lie in flash too; .bss has none.
+        // .bss has no bytes in the file.
         let stored = section.file_range().map_or(0, |(_, size)| size);
-        flash_bytes += stored;
+        if writable {
+            ram_bytes += section.size();
+            initial_bytes += stored;
+        } else {
+            flash_bytes += stored;
+        }
     }
     Ok(Elf {
         flash_bytes: flash_bytes - LIBRARY.len() as u64,
+        initial_bytes,
         ram_bytes,
         functions: functions(&file)?,
     })

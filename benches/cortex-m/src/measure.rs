@@ -11,6 +11,8 @@ use asperity_session::{Case, PHASE_TICKS, Phase};
 
 /// The function whose reach is searched for panics.
 const TICK: &str = "asperity_tick";
+/// Parsing and loading.
+const LOAD: &str = "asperity_firmware::load";
 
 /// Everything that was measured of a case.
 #[derive(Debug)]
@@ -19,6 +21,8 @@ pub(crate) struct Measured {
     pub(crate) run: Run,
     pub(crate) elf: Elf,
     pub(crate) reach: calls::Reach,
+    /// Bytes of code that loading reaches.
+    pub(crate) load_code_bytes: usize,
     pub(crate) state_bytes: u64,
     pub(crate) slot_bytes: u64,
     pub(crate) stack_load_bytes: u64,
@@ -61,6 +65,7 @@ fn measure(target: &Target, toolchain: &Toolchain, case: &'static Case) -> Resul
     Ok(Measured {
         case,
         reach: calls::from(&elf, TICK),
+        load_code_bytes: calls::from(&elf, LOAD).code_bytes,
         state_bytes: run.value("state")?,
         slot_bytes: run.value("slot")?,
         stack_load_bytes: run.value("stack-load")?,

@@ -20,11 +20,17 @@ pub(crate) fn print(target: &Target, measured: &[Measured]) {
         spread(&counts)
     });
     println!("\nbytes");
-    row("flash, no library", measured, |m| {
+    row("code, constants", measured, |m| {
         m.elf.flash_bytes.to_string()
+    });
+    row("initial values", measured, |m| {
+        m.elf.initial_bytes.to_string()
     });
     row("code of the tick", measured, |m| {
         m.reach.code_bytes.to_string()
+    });
+    row("code of loading", measured, |m| {
+        m.load_code_bytes.to_string()
     });
     row("statics in RAM", measured, |m| m.elf.ram_bytes.to_string());
     row("slot, part of it", measured, |m| m.slot_bytes.to_string());

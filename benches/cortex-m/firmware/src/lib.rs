@@ -7,7 +7,7 @@
 pub mod print;
 pub mod stack;
 
-use asperity_runtime::{Output, Renderer, Sample, State, Texture};
+use asperity_runtime::{LoadError, Output, Renderer, Sample, State, Texture};
 use asperity_session::{Case, Phase, SEED};
 use cortex_m_semihosting::debug;
 
@@ -37,7 +37,7 @@ pub fn run<const V: usize, const T: usize, const P: usize, const Q: usize, const
     tick: Tick<Texture<V, T, P, Q, K>>,
 ) -> ! {
     stack::paint();
-    let loaded = asperity_session::load(case, slot);
+    let loaded = load(case, slot);
     let stack_load = stack::depth();
     let (Ok(()), Ok(renderer)) = (loaded, asperity_session::renderer()) else {
         fail();
@@ -65,6 +65,15 @@ pub fn run<const V: usize, const T: usize, const P: usize, const Q: usize, const
     }
     debug::exit(debug::EXIT_SUCCESS);
     loop {}
+}
+
+/// A function of its own, so that its stack and code can be told from the session's.
+#[inline(never)]
+fn load<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+    case: &Case,
+    slot: &mut Texture<V, T, P, Q, K>,
+) -> Result<(), LoadError> {
+    asperity_session::load(case, slot)
 }
 
 fn fail() -> ! {

@@ -27,7 +27,10 @@ pub fn load<const V: usize, const T: usize, const P: usize, const Q: usize, cons
 ) -> Result<(), LoadError> {
     let library = Library::parse(LIBRARY)?;
     let index = library.index().find(case.texture).unwrap_or(usize::MAX);
-    slot.load(&Asset::parse_haptic(library.bytes(index)?)?, Config::default().servo_rate_hz)
+    slot.load(
+        &Asset::parse_haptic(library.bytes(index)?)?,
+        Config::default().servo_rate_hz,
+    )
 }
 
 /// Runs every phase, [`PHASE_TICKS`] ticks each, through `tick`, and tells `report`
