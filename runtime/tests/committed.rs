@@ -4,6 +4,7 @@
 
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
+use std::sync::OnceLock;
 
 const ASSET: &[u8] = include_bytes!("../../tests/tests/assets/builtin-v1.asp");
 const TRAJECTORY: &str = include_str!("../../tests/tests/data/trajectory.csv");
@@ -16,10 +17,15 @@ fn numbers(line: &str) -> Vec<f64> {
     line.split(',').map(|x| x.parse().unwrap()).collect()
 }
 
-fn texture() -> Box<HostTexture> {
-    let mut texture = Box::new(HostTexture::new());
-    texture.load(&Asset::parse(ASSET).unwrap(), 1000.0).unwrap();
-    texture
+/// Loaded once: an interpreter takes its time.
+fn texture() -> &'static HostTexture {
+    static TEXTURE: OnceLock<Box<HostTexture>> = OnceLock::new();
+    TEXTURE.get_or_init(|| {
+        let mut texture = Box::new(HostTexture::new());
+        let asset = Asset::parse_haptic(ASSET).unwrap();
+        texture.load(&asset, 1000.0).unwrap();
+        texture
+    })
 }
 
 #[test]
@@ -36,7 +42,7 @@ fn the_render_is_the_committed_one() {
     for (position, felt) in rows {
         let (position, felt) = (numbers(position), numbers(felt));
         let position_m = std::array::from_fn(|axis| (position[1 + axis] / 1000.0) as f32);
-        let output = renderer.tick(&texture, &mut state, &Sample::at(position_m));
+        let output = renderer.tick(texture, &mut state, &Sample::at(position_m));
         let [x, y, z] = output.force_n;
         let found = [
             output.vib_m_s2,
@@ -135,7 +141,7 @@ fn faults_give_finite_forces() {
                 position_m,
                 elapsed_ticks,
             };
-            let output = renderer.tick(&texture, &mut state, &sample);
+            let output = renderer.tick(texture, &mut state, &sample);
             assert!(output.force_n.iter().all(|f| f.abs() <= 3.3), "{output:?}");
         }
     }

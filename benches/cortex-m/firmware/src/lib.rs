@@ -64,7 +64,9 @@ pub fn run<const V: usize, const T: usize, const P: usize, const Q: usize, const
         print::line(name, bytes as u64);
     }
     debug::exit(debug::EXIT_SUCCESS);
-    loop {}
+    loop {
+        cortex_m::asm::wfi();
+    }
 }
 
 /// A function of its own, so that its stack and code can be told from the session's.
@@ -78,7 +80,9 @@ fn load<const V: usize, const T: usize, const P: usize, const Q: usize, const K:
 
 fn fail() -> ! {
     debug::exit(debug::EXIT_FAILURE);
-    loop {}
+    loop {
+        cortex_m::asm::wfi();
+    }
 }
 
 #[panic_handler]
