@@ -100,7 +100,8 @@ pub(crate) fn stdout(command: &mut Command) -> Result<String> {
     if output.status.success() {
         Ok(String::from_utf8(output.stdout)?)
     } else {
-        let errors = String::from_utf8_lossy(&output.stderr);
-        Err(format!("{command:?}: {}\n{errors}", output.status).into())
+        let [said, errors] =
+            [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+        Err(format!("{command:?}: {}\n{said}{errors}", output.status).into())
     }
 }

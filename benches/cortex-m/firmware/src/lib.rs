@@ -40,7 +40,7 @@ pub fn run<const V: usize, const T: usize, const P: usize, const Q: usize, const
     let loaded = load(case, slot);
     let stack_load = stack::depth();
     let (Ok(()), Ok(renderer)) = (loaded, asperity_session::renderer()) else {
-        fail();
+        fail("texture-refused");
     };
     let mut state = State::new(SEED);
     stack::paint();
@@ -78,7 +78,8 @@ fn load<const V: usize, const T: usize, const P: usize, const Q: usize, const K:
     asperity_session::load(case, slot)
 }
 
-fn fail() -> ! {
+fn fail(why: &str) -> ! {
+    print::line(why, 1);
     debug::exit(debug::EXIT_FAILURE);
     loop {
         cortex_m::asm::wfi();
@@ -87,7 +88,7 @@ fn fail() -> ! {
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
-    fail()
+    fail("panic")
 }
 
 /// A firmware program: a case and the type of its slot.

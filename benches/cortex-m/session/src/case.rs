@@ -5,10 +5,10 @@ use asperity_runtime::Texture;
 /// The library that the firmware carries; `cortex-m library` writes it.
 pub static LIBRARY: &[u8] = include_bytes!("../../textures.aspl");
 
-/// 40 vertices, 56 triangles, 13 taps of 16 ticks.
-pub type Arma20 = Texture<40, 56, 20, 18, TAP_SAMPLES>;
-/// Order 21, as prompts give it, would round up to 22.
-pub type Nyquist20 = Texture<40, 56, 22, 0, TAP_SAMPLES>;
+/// 40 vertices, 56 triangles, 13 taps; orders in multiples of 4.
+pub type Arma20 = Texture<40, 56, 20, 20, TAP_SAMPLES>;
+/// Order 21, as prompts give it, fits too.
+pub type Nyquist20 = Texture<40, 56, 24, 0, TAP_SAMPLES>;
 /// The cheapest that is felt as the original.
 pub type Nyquist4 = Texture<40, 56, 4, 0, TAP_SAMPLES>;
 
