@@ -97,7 +97,7 @@ fn texture(seed: u64) -> Box<HostTexture> {
     texture.traces.truncate(draw.below(14));
     texture.mu = draw.range(0.0, 10.0) as f32;
     texture.surface.vib_s2_m = [0.05, 1.0, 1000.0][draw.below(3)];
-    texture.surface.stiffness_n_m = [0.0, 500.0, 1e5][draw.below(3)];
+    texture.surface.stiffness_n_m = [1.0, 500.0, 1e5][draw.below(3)];
     texture.surface.damping_n_s_m = [0.0, 0.2, 1e3][draw.below(3)];
     texture.surface.effective_mass_kg = [0.01, 0.1, 100.0][draw.below(3)];
     let mut slot = Box::new(HostTexture::new());
