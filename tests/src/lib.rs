@@ -7,6 +7,8 @@
 
 pub mod damage;
 pub mod draw;
+pub mod force_limits;
+pub mod fuzz_ticks;
 pub mod hatt;
 pub mod load_then_tick;
 pub mod oracle;

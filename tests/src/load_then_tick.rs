@@ -1,6 +1,6 @@
 //! The target of the fuzzer: any bytes as an asset, any numbers as samples.
 
-use crate::damage::seal;
+use crate::{damage::seal, force_limits::ForceLimits};
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 
@@ -49,31 +49,9 @@ pub fn load_then_tick(data: &[u8]) -> Outcome {
     }
     queries(&texture, data);
     let mut state = State::new(u64::from(first));
-    let step_n = config.limits.slew_n_s / config.servo_rate_hz;
-    let mut last = [0.0_f32; 3];
+    let mut limits = ForceLimits::new(&config);
     let mut render = |state: &mut State, sample: &Sample| {
-        let output = renderer.tick(&texture, state, sample);
-        let force = output.force_n;
-        let size = |v: [f32; 3]| v.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>().sqrt();
-        let change: [f32; 3] = std::array::from_fn(|i| force[i] - last[i]);
-        assert!(
-            size(force) <= f64::from(config.limits.peak_n),
-            "peak: {output:?}"
-        );
-        // The difference of two rounded forces.
-        let allowed = f64::from(step_n) + 4.0 * f64::from(config.limits.peak_n * f32::EPSILON);
-        assert!(size(change) <= allowed, "slew: {output:?}");
-        for value in [
-            output.depth_m,
-            output.speed_mm_s,
-            output.normal_force_n,
-            output.vib_m_s2,
-            output.tap_n,
-            output.friction_n,
-        ] {
-            assert!(value.is_finite(), "{output:?}");
-        }
-        last = force;
+        limits.check(&renderer.tick(&texture, state, sample));
     };
     let mut rendered = 0;
     for chunk in data.chunks_exact(13).rev().take(200) {
@@ -96,10 +74,12 @@ pub fn load_then_tick(data: &[u8]) -> Outcome {
         rendered += 1;
     }
     // Whatever came before, good samples out of contact end in no force.
+    let step_n = config.limits.slew_n_s / config.servo_rate_hz;
     let ticks = (config.limits.peak_n / step_n) as usize + texture.taps().ticks() + 10;
     for _ in 0..ticks {
         render(&mut state, &Sample::at([0.0, 0.0, 0.1]));
     }
+    let last = limits.last_n();
     assert!(last.iter().all(|f| f.abs() < 1e-6), "no recovery: {last:?}");
     Outcome::Rendered(rendered)
 }

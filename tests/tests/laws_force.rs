@@ -2,8 +2,11 @@
 //! gives the same bits; good samples bring it back.
 
 use asperity_formats::Asset;
-use asperity_runtime::{Config, Flags, HostTexture, Output, Renderer, Sample, State, Surface};
-use asperity_tests::texture::{Kind, random};
+use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, State, Surface};
+use asperity_tests::{
+    force_limits::{ForceLimits, size},
+    texture::{Kind, random},
+};
 use proptest::{collection::vec, prelude::*};
 use std::sync::OnceLock;
 
@@ -85,31 +88,6 @@ fn surface() -> impl Strategy<Value = Surface> {
     ]
 }
 
-fn size(v: [f32; 3]) -> f64 {
-    v.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>().sqrt()
-}
-
-/// The exact slew, and the rounding of the two forces it lies between.
-fn assert_limited(config: &Config, last: [f32; 3], output: &Output) {
-    let peak = f64::from(config.limits.peak_n);
-    let step = f64::from(config.limits.slew_n_s) / f64::from(config.servo_rate_hz);
-    assert!(size(output.force_n) <= peak, "peak: {output:?}");
-    let change = std::array::from_fn(|i| output.force_n[i] - last[i]);
-    assert!(
-        size(change) <= step + 2.0 * peak * f64::from(f32::EPSILON),
-        "slew: {output:?}"
-    );
-    let numbers = [
-        output.depth_m,
-        output.speed_mm_s,
-        output.normal_force_n,
-        output.vib_m_s2,
-        output.tap_n,
-        output.friction_n,
-    ];
-    assert!(numbers.iter().all(|x| x.is_finite()), "{output:?}");
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -124,11 +102,10 @@ proptest! {
         (config.limits.peak_n, config.limits.slew_n_s) = (peak_n, slew_n_s);
         let renderer = Renderer::new(&config).unwrap();
         let (mut state, mut twin) = (State::new(seed), State::new(seed));
-        let mut last = [0.0; 3];
+        let mut limits = ForceLimits::new(&config);
         for sample in &samples {
             let output = renderer.tick(texture(), &mut state, sample);
-            assert_limited(&config, last, &output);
-            last = output.force_n;
+            limits.check(&output);
             // The same input gives the same bits.
             let again = renderer.tick(texture(), &mut twin, sample);
             prop_assert_eq!(output.force_n.map(f32::to_bits), again.force_n.map(f32::to_bits));

@@ -1,0 +1,123 @@
+//! What the firmware programs share. Each is one call of [`firmware!`].
+//!
+//! Output over semihosting, a line each: `phase HASH` in order of the session, then
+//! `state`, `slot`, `stack-load`, `stack-tick` in bytes, hexadecimal all of them.
+#![no_std]
+
+pub mod print;
+pub mod stack;
+
+use asperity_runtime::{LoadError, Output, Renderer, Sample, State, Texture};
+use asperity_session::{Case, Phase, SEED};
+use cortex_m_semihosting::debug;
+
+/// First instruction that does not count as the tick's; the plugin knows its name.
+#[allow(unsafe_code, reason = "the plugin finds the marker by its symbol")]
+#[unsafe(no_mangle)]
+#[inline(never)]
+pub extern "C" fn mark_begin() {
+    cortex_m::asm::nop();
+}
+
+/// First instruction after the tick. Its body differs, or the two would be merged.
+#[allow(unsafe_code, reason = "the plugin finds the marker by its symbol")]
+#[unsafe(no_mangle)]
+#[inline(never)]
+pub extern "C" fn mark_end() {
+    cortex_m::asm::dmb();
+}
+
+/// The tick of a slot, compiled under a name of its own.
+pub type Tick<S> = fn(&Renderer, &S, &mut State, &Sample) -> Output;
+
+/// Loads, runs the session, reports, and leaves the emulator.
+pub fn run<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+    case: &Case,
+    slot: &mut Texture<V, T, P, Q, K>,
+    tick: Tick<Texture<V, T, P, Q, K>>,
+) -> ! {
+    stack::paint();
+    let loaded = load(case, slot);
+    let stack_load = stack::depth();
+    let (Ok(()), Ok(renderer)) = (loaded, asperity_session::renderer()) else {
+        fail("texture-refused");
+    };
+    let mut state = State::new(SEED);
+    stack::paint();
+    asperity_session::run(
+        &mut state,
+        |state, sample| {
+            mark_begin();
+            let output = tick(&renderer, slot, state, sample);
+            mark_end();
+            output
+        },
+        |phase: Phase, hash| print::line(phase.name(), hash),
+    );
+    let stack_tick = stack::depth();
+    for (name, bytes) in [
+        ("state", size_of::<State>()),
+        ("slot", size_of_val(slot)),
+        ("stack-load", stack_load),
+        ("stack-tick", stack_tick),
+    ] {
+        print::line(name, bytes as u64);
+    }
+    debug::exit(debug::EXIT_SUCCESS);
+    loop {
+        cortex_m::asm::wfi();
+    }
+}
+
+/// A function of its own, so that its stack and code can be told from the session's.
+#[inline(never)]
+fn load<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+    case: &Case,
+    slot: &mut Texture<V, T, P, Q, K>,
+) -> Result<(), LoadError> {
+    asperity_session::load(case, slot)
+}
+
+fn fail(why: &str) -> ! {
+    print::line(why, 1);
+    debug::exit(debug::EXIT_FAILURE);
+    loop {
+        cortex_m::asm::wfi();
+    }
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    fail("panic")
+}
+
+/// A firmware program: a case and the type of its slot.
+#[macro_export]
+macro_rules! firmware {
+    ($case:expr, $slot:ty) => {
+        use asperity_runtime::{Output, Renderer, Sample, State};
+
+        /// The measured tick, under a symbol of its own.
+        #[allow(unsafe_code, reason = "the search for panics starts at this symbol")]
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        fn asperity_tick(
+            renderer: &Renderer,
+            slot: &$slot,
+            state: &mut State,
+            sample: &Sample,
+        ) -> Output {
+            #[cfg(feature = "can-panic")]
+            if sample.elapsed_ticks == 99 {
+                panic!();
+            }
+            renderer.tick(slot, state, sample)
+        }
+
+        #[cortex_m_rt::entry]
+        fn main() -> ! {
+            static mut SLOT: $slot = <$slot>::new();
+            $crate::run(&$case, SLOT, asperity_tick)
+        }
+    };
+}

@@ -1,0 +1,83 @@
+//! FNV-1a over the bits of outputs.
+
+use asperity_runtime::{Counters, Output};
+
+/// A 64-bit FNV-1a hash under way, taken a word at a time.
+#[derive(Debug, Clone, Copy)]
+pub struct Hash(u64);
+
+impl Default for Hash {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Hash {
+    /// Of nothing.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    /// The hash so far.
+    #[must_use]
+    pub const fn value(&self) -> u64 {
+        self.0
+    }
+
+    fn word(&mut self, word: u32) {
+        self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3);
+    }
+
+    /// Takes in every bit of an output.
+    pub fn output(&mut self, output: &Output) {
+        let Output {
+            force_n: [x, y, z],
+            depth_m,
+            speed_mm_s,
+            normal_force_n,
+            vib_m_s2,
+            tap_n,
+            friction_n,
+            flags,
+        } = *output;
+        for value in [
+            x,
+            y,
+            z,
+            depth_m,
+            speed_mm_s,
+            normal_force_n,
+            vib_m_s2,
+            tap_n,
+            friction_n,
+        ] {
+            self.word(value.to_bits());
+        }
+        self.word(u32::from(flags.bits()));
+    }
+
+    /// Takes in every counter.
+    pub fn counters(&mut self, counters: &Counters) {
+        let Counters {
+            ticks,
+            bad_samples,
+            missed_ticks,
+            faults,
+            taps,
+            peak_limited,
+            slew_limited,
+        } = *counters;
+        for count in [
+            ticks,
+            bad_samples,
+            missed_ticks,
+            faults,
+            taps,
+            peak_limited,
+            slew_limited,
+        ] {
+            self.word(count);
+        }
+    }
+}

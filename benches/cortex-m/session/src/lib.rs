@@ -1,0 +1,59 @@
+//! The scripted session that firmware and host both run: the same samples, made of
+//! + − × ÷ alone, and a hash of every bit that comes out.
+#![no_std]
+#![forbid(unsafe_code)]
+
+mod case;
+mod hash;
+mod phase;
+
+pub use case::{ARMA_20, Arma20, CASES, Case, LIBRARY, NYQUIST_4, NYQUIST_20, Nyquist4, Nyquist20};
+pub use hash::Hash;
+pub use phase::{PHASE_TICKS, Phase};
+
+use asperity_formats::{Asset, Library};
+use asperity_runtime::{Config, LoadError, Output, Renderer, Sample, State, Texture};
+
+/// Seed of the excitation.
+pub const SEED: u64 = 7;
+
+/// Loads a case's texture from the embedded library into `slot`, at 1 kHz.
+///
+/// # Errors
+/// What the library or the slot says.
+pub fn load<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+    case: &Case,
+    slot: &mut Texture<V, T, P, Q, K>,
+) -> Result<(), LoadError> {
+    let library = Library::parse(LIBRARY)?;
+    let index = library.index().find(case.texture).unwrap_or(usize::MAX);
+    slot.load(
+        &Asset::parse_haptic(library.bytes(index)?)?,
+        Config::default().servo_rate_hz,
+    )
+}
+
+/// Runs every phase, [`PHASE_TICKS`] ticks each, through `tick`, and tells `report`
+/// after each the hash of all outputs and counters so far.
+pub fn run(
+    state: &mut State,
+    mut tick: impl FnMut(&mut State, &Sample) -> Output,
+    mut report: impl FnMut(Phase, u64),
+) {
+    let mut hash = Hash::new();
+    for phase in Phase::ALL {
+        for n in 0..PHASE_TICKS {
+            hash.output(&tick(state, &phase.sample(n)));
+        }
+        hash.counters(state.counters());
+        report(phase, hash.value());
+    }
+}
+
+/// The default renderer: a Touch at 1 kHz over the plane z = 0.
+///
+/// # Errors
+/// Never, while the default configuration is a valid one.
+pub fn renderer() -> Result<Renderer, asperity_runtime::ConfigError> {
+    Renderer::new(&Config::default())
+}

@@ -1,0 +1,121 @@
+//! One case from sources to figures.
+
+use crate::{
+    Result, calls,
+    elf::{self, Elf},
+    emulate::{self, Run},
+    target::Target,
+    toolchain::{Toolchain, host_session},
+};
+use asperity_session::{Case, PHASE_TICKS, Phase};
+
+/// The function whose reach is searched for panics.
+const TICK: &str = "asperity_tick";
+/// Parsing and loading.
+const LOAD: &str = "asperity_firmware::load";
+
+/// Everything that was measured of a case.
+#[derive(Debug)]
+pub(crate) struct Measured {
+    pub(crate) case: &'static Case,
+    pub(crate) run: Run,
+    pub(crate) elf: Elf,
+    pub(crate) reach: calls::Reach,
+    /// Bytes of code that loading reaches.
+    pub(crate) load_code_bytes: usize,
+    pub(crate) state_bytes: u64,
+    pub(crate) slot_bytes: u64,
+    pub(crate) stack_load_bytes: u64,
+    pub(crate) stack_tick_bytes: u64,
+    /// What the host printed, by profile.
+    host: [(&'static str, String); 2],
+}
+
+impl Measured {
+    /// Executed instructions of a phase's ticks, ascending.
+    pub(crate) fn phase(&self, index: usize) -> Vec<u64> {
+        let ticks = PHASE_TICKS as usize;
+        let mut counts = self.run.instructions[index * ticks..(index + 1) * ticks].to_vec();
+        counts.sort_unstable();
+        counts
+    }
+
+    /// The costliest tick.
+    pub(crate) fn worst(&self) -> u64 {
+        self.run.instructions.iter().copied().max().unwrap_or(0)
+    }
+}
+
+/// Every case that fits the target.
+pub(crate) fn all(target: &Target, toolchain: &Toolchain) -> Result<Vec<Measured>> {
+    target
+        .cases()
+        .map(|case| {
+            measure(target, toolchain, case).map_err(|e| format!("{}: {e}", case.name).into())
+        })
+        .collect()
+}
+
+fn measure(target: &Target, toolchain: &Toolchain, case: &'static Case) -> Result<Measured> {
+    let path = toolchain.firmware(case.name, &[])?;
+    let elf = elf::read(&path)?;
+    let run = emulate::run(target, &path)?;
+    let host =
+        |profile| Ok::<_, Box<dyn std::error::Error>>((profile, host_session(case.name, profile)?));
+    Ok(Measured {
+        case,
+        reach: calls::from(&elf, TICK),
+        load_code_bytes: calls::from(&elf, LOAD).code_bytes,
+        state_bytes: run.value("state")?,
+        slot_bytes: run.value("slot")?,
+        stack_load_bytes: run.value("stack-load")?,
+        stack_tick_bytes: run.value("stack-tick")?,
+        host: [host("dev")?, host("release")?],
+        run,
+        elf,
+    })
+}
+
+/// Panics that the tick reaches, and phases whose bits are not the host's.
+pub(crate) fn differences(measured: &[Measured]) -> Vec<String> {
+    let mut faults = Vec::new();
+    for m in measured {
+        let name = m.case.name;
+        faults.extend(
+            m.reach
+                .faults
+                .iter()
+                .map(|fault| format!("{name}: {fault}")),
+        );
+        for (profile, printed) in &m.host {
+            let mut lines = printed.lines();
+            for phase in Phase::ALL {
+                let hash = m.run.value(phase.name()).unwrap_or(0);
+                let found = format!("{} {hash:016x}", phase.name());
+                let expected = lines.next().unwrap_or("nothing");
+                if found != expected {
+                    faults.push(format!(
+                        "{name}: the target says `{found}`, the host ({profile}) `{expected}`"
+                    ));
+                    // What follows a difference differs too.
+                    break;
+                }
+            }
+        }
+    }
+    faults
+}
+
+/// A fault when the search for panics misses the one of a tick that can panic.
+pub(crate) fn search_for_panics_works(
+    target: &Target,
+    toolchain: &Toolchain,
+) -> Result<Option<String>> {
+    let Some(case) = target.cases().last() else {
+        return Ok(Some("no case fits the target".into()));
+    };
+    let elf = elf::read(&toolchain.firmware(case.name, &["can-panic"])?)?;
+    let found = calls::from(&elf, TICK).faults;
+    let panics = found.iter().any(|fault| fault.contains("panic"));
+    Ok((!panics).then(|| format!("the search for panics misses a panic in the tick: {found:?}")))
+}

@@ -1,0 +1,107 @@
+//! Cargo for a target: with its standard library where that is installed, else with core
+//! built from the sources that a distribution ships.
+
+use crate::{Result, home, target::Target, target_dir};
+use std::{
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+/// Debian's compiler, whose package of sources core can be built from.
+const DISTRIBUTION_RUSTC: &str = "/usr/bin/rustc";
+
+/// How cargo is called.
+#[derive(Debug)]
+pub(crate) struct Toolchain {
+    /// The linker for core built from source; `None` with an installed target.
+    build_core_with: Option<PathBuf>,
+    triple: &'static str,
+}
+
+impl Toolchain {
+    /// Looks for what is installed.
+    pub(crate) fn find(target: &Target, build_core: bool) -> Result<Self> {
+        let triple = target.triple;
+        let libdir =
+            stdout(Command::new("rustc").args(["--print", "target-libdir", "--target", triple]))
+                .unwrap_or_default();
+        let installed = !libdir.is_empty() && Path::new(libdir.trim()).is_dir();
+        if installed && !build_core {
+            return Ok(Self {
+                build_core_with: None,
+                triple,
+            });
+        }
+        let sysroot = stdout(Command::new("rustc").args(["--print", "sysroot"]))?;
+        let linker =
+            Path::new(sysroot.trim()).join("lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld");
+        let sources = Path::new("/usr/lib/rustlib/src");
+        if Path::new(DISTRIBUTION_RUSTC).exists() && sources.exists() && linker.exists() {
+            Ok(Self {
+                build_core_with: Some(linker),
+                triple,
+            })
+        } else {
+            Err(format!(
+                "no core for {triple}: `rustup target add {triple}`, or Debian's packages \
+                 rustc-web and rust-web-src beside a rustup toolchain"
+            )
+            .into())
+        }
+    }
+
+    /// Builds a firmware program and returns the path of its ELF.
+    pub(crate) fn firmware(&self, name: &str, features: &[&str]) -> Result<PathBuf> {
+        // Apart, so that a firmware with features does not replace the measured one.
+        let folder = target_dir().join(if features.is_empty() {
+            "firmware"
+        } else {
+            "firmware-features"
+        });
+        let mut cargo = Command::new("cargo");
+        cargo
+            .current_dir(home())
+            .args(["build", "--quiet", "--release", "--locked"])
+            .args(["--package", "asperity-firmware", "--bin", name])
+            .args(["--target", self.triple, "--features", &features.join(",")])
+            .arg("--target-dir")
+            .arg(&folder);
+        if let Some(linker) = &self.build_core_with {
+            let name = self.triple.to_uppercase().replace('-', "_");
+            cargo
+                .arg("-Zbuild-std=core")
+                .env("RUSTC", DISTRIBUTION_RUSTC)
+                .env("RUSTC_BOOTSTRAP", "1")
+                .env(format!("CARGO_TARGET_{name}_LINKER"), linker);
+        }
+        stdout(&mut cargo)?;
+        Ok(folder.join(self.triple).join("release").join(name))
+    }
+}
+
+/// What the session prints on the host, in one profile.
+pub(crate) fn host_session(case: &str, profile: &str) -> Result<String> {
+    stdout(
+        Command::new("cargo")
+            .current_dir(home())
+            .args(["run", "--quiet", "--locked", "--bin", "host-session"])
+            .args(["--profile", profile, "--target-dir"])
+            .arg(target_dir())
+            .args(["--", case]),
+    )
+}
+
+/// Runs a command to its end and returns what it printed.
+pub(crate) fn stdout(command: &mut Command) -> Result<String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let output = command
+        .output()
+        .map_err(|error| format!("{name} cannot be started ({error}); install it"))?;
+    if output.status.success() {
+        Ok(String::from_utf8(output.stdout)?)
+    } else {
+        let [said, errors] =
+            [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+        Err(format!("{command:?}: {}\n{said}{errors}", output.status).into())
+    }
+}

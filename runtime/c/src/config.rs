@@ -1,0 +1,196 @@
+//! The configuration as a plain struct.
+
+use crate::{AsperityStatus, memory};
+use asperity_runtime::{
+    Config, FrictionConfig, Limits, SafetyConfig, Surface, TapConfig, VibrationAxis,
+};
+
+/// `AsperityConfig::surface`: the half-space below a plane through `surface_point_m` with
+/// the outward normal `surface_normal`.
+pub const ASPERITY_SURFACE_PLANE: u32 = 0;
+/// `AsperityConfig::surface`: a ball of `surface_radius_m` around `surface_point_m`.
+pub const ASPERITY_SURFACE_SPHERE: u32 = 1;
+/// `AsperityConfig::surface`: a box around `surface_point_m`, edges along the axes, half
+/// as long as `surface_half_extents_m` says.
+pub const ASPERITY_SURFACE_BOX: u32 = 2;
+/// `AsperityConfig::vibration_axis`: along the motion.
+pub const ASPERITY_VIBRATION_TANGENT: u32 = 0;
+/// `AsperityConfig::vibration_axis`: across it.
+pub const ASPERITY_VIBRATION_BINORMAL: u32 = 1;
+
+/// What a renderer is told once. Start from `asperity_config_default`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AsperityConfig {
+    /// Servo rate, Hz; one tick is one period.
+    pub servo_rate_hz: f32,
+    /// Cut-off of the velocity filter, Hz.
+    pub velocity_cutoff_hz: f32,
+    /// Cut-off of the normal velocity that the wall's damping sees, Hz.
+    pub normal_cutoff_hz: f32,
+    /// One of `ASPERITY_SURFACE_*`.
+    pub surface: u32,
+    /// A point of the plane, or the centre, m.
+    pub surface_point_m: [f32; 3],
+    /// Plane only: outward normal, any length above 0.
+    pub surface_normal: [f32; 3],
+    /// Sphere only: radius, m.
+    pub surface_radius_m: f32,
+    /// Box only: half the edge lengths, m.
+    pub surface_half_extents_m: [f32; 3],
+    /// One of `ASPERITY_VIBRATION_*`.
+    pub vibration_axis: u32,
+    /// Largest force, N.
+    pub peak_n: f32,
+    /// Largest change of force, N/s.
+    pub slew_n_s: f32,
+    /// Slowest impact that plays a transient, m/s.
+    pub tap_min_speed_m_s: f32,
+    /// Distance from the surface that re-arms the tap detector, m.
+    pub tap_rearm_m: f32,
+    /// Stiffness of the bristle, N/m.
+    pub friction_stiffness_n_m: f32,
+    /// Dead zone of the bristle, m.
+    pub friction_dead_zone_m: f32,
+    /// Bad samples in a row that hold the last good one, at most 2.
+    pub hold_ticks: u32,
+    /// Duration of the ramp after a fault, s.
+    pub ramp_s: f32,
+    /// Time constant with which model parameters follow speed and force, s.
+    pub parameter_time_constant_s: f32,
+}
+
+impl From<Config> for AsperityConfig {
+    fn from(config: Config) -> Self {
+        let (mut normal, mut radius_m, mut half_extents_m) = ([0.0, 0.0, 1.0], 0.0, [0.0; 3]);
+        let (surface, point_m) = match config.surface {
+            Surface::Plane { point_m, normal: n } => {
+                normal = n;
+                (ASPERITY_SURFACE_PLANE, point_m)
+            }
+            Surface::Sphere {
+                center_m,
+                radius_m: r,
+            } => {
+                radius_m = r;
+                (ASPERITY_SURFACE_SPHERE, center_m)
+            }
+            Surface::Box {
+                center_m,
+                half_extents_m: h,
+            } => {
+                half_extents_m = h;
+                (ASPERITY_SURFACE_BOX, center_m)
+            }
+        };
+        Self {
+            servo_rate_hz: config.servo_rate_hz,
+            velocity_cutoff_hz: config.velocity_cutoff_hz,
+            normal_cutoff_hz: config.normal_cutoff_hz,
+            surface,
+            surface_point_m: point_m,
+            surface_normal: normal,
+            surface_radius_m: radius_m,
+            surface_half_extents_m: half_extents_m,
+            vibration_axis: match config.vibration_axis {
+                VibrationAxis::Tangent => ASPERITY_VIBRATION_TANGENT,
+                VibrationAxis::Binormal => ASPERITY_VIBRATION_BINORMAL,
+            },
+            peak_n: config.limits.peak_n,
+            slew_n_s: config.limits.slew_n_s,
+            tap_min_speed_m_s: config.tap.min_speed_m_s,
+            tap_rearm_m: config.tap.rearm_m,
+            friction_stiffness_n_m: config.friction.stiffness_n_m,
+            friction_dead_zone_m: config.friction.dead_zone_m,
+            hold_ticks: config.safety.hold_ticks,
+            ramp_s: config.safety.ramp_s,
+            parameter_time_constant_s: config.parameter_time_constant_s,
+        }
+    }
+}
+
+impl TryFrom<AsperityConfig> for Config {
+    type Error = AsperityStatus;
+
+    /// A surface or an axis that is none is refused here, every other field by the renderer.
+    fn try_from(c: AsperityConfig) -> Result<Self, AsperityStatus> {
+        Ok(Self {
+            servo_rate_hz: c.servo_rate_hz,
+            velocity_cutoff_hz: c.velocity_cutoff_hz,
+            normal_cutoff_hz: c.normal_cutoff_hz,
+            surface: match c.surface {
+                ASPERITY_SURFACE_PLANE => Surface::Plane {
+                    point_m: c.surface_point_m,
+                    normal: c.surface_normal,
+                },
+                ASPERITY_SURFACE_SPHERE => Surface::Sphere {
+                    center_m: c.surface_point_m,
+                    radius_m: c.surface_radius_m,
+                },
+                ASPERITY_SURFACE_BOX => Surface::Box {
+                    center_m: c.surface_point_m,
+                    half_extents_m: c.surface_half_extents_m,
+                },
+                _ => return Err(AsperityStatus::Config),
+            },
+            vibration_axis: match c.vibration_axis {
+                ASPERITY_VIBRATION_TANGENT => VibrationAxis::Tangent,
+                ASPERITY_VIBRATION_BINORMAL => VibrationAxis::Binormal,
+                _ => return Err(AsperityStatus::Config),
+            },
+            limits: Limits {
+                peak_n: c.peak_n,
+                slew_n_s: c.slew_n_s,
+            },
+            tap: TapConfig {
+                min_speed_m_s: c.tap_min_speed_m_s,
+                rearm_m: c.tap_rearm_m,
+            },
+            friction: FrictionConfig {
+                stiffness_n_m: c.friction_stiffness_n_m,
+                dead_zone_m: c.friction_dead_zone_m,
+            },
+            safety: SafetyConfig {
+                hold_ticks: c.hold_ticks,
+                ramp_s: c.ramp_s,
+            },
+            parameter_time_constant_s: c.parameter_time_constant_s,
+        })
+    }
+}
+
+/// Fills in the defaults: a 3D Systems Touch at 1 kHz over the plane z = 0.
+///
+/// # Safety
+/// `config` is null or valid for writes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn asperity_config_default(config: *mut AsperityConfig) -> AsperityStatus {
+    // SAFETY: the caller's promise.
+    match unsafe { memory::write(config, Config::default().into()) } {
+        Ok(()) => AsperityStatus::Ok,
+        Err(status) => status,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_configuration_survives_the_way_there_and_back() {
+        let mut configs = [Config::default(), Config::default(), Config::default()];
+        configs[0].limits.peak_n = 1.5;
+        configs[1].surface = Surface::Sphere {
+            center_m: [1.0, 2.0, 3.0],
+            radius_m: 0.5,
+        };
+        configs[1].vibration_axis = VibrationAxis::Binormal;
+        configs[2].surface = Surface::Box {
+            center_m: [1.0, 2.0, 3.0],
+            half_extents_m: [4.0, 5.0, 6.0],
+        };
+        for config in configs {
+            assert_eq!(AsperityConfig::from(config.clone()).try_into(), Ok(config));
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Any number of ticks that nobody would make on purpose: random bits as samples, faults,
+//! textures swapped under a running state, configurations at their bounds.
+
+use crate::{
+    draw::Draw,
+    force_limits::ForceLimits,
+    texture::{Kind, random},
+};
+use asperity_formats::{Asset, Numerator};
+use asperity_runtime::{Config, HostTexture, Renderer, Sample, State, Surface, VibrationAxis};
+
+/// Textures to swap between.
+const TEXTURES: u64 = 24;
+/// Ticks of one renderer and state.
+const SESSION_TICKS: u64 = 20_000;
+
+/// What was run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Ticks.
+    pub ticks: u64,
+    /// Textures swapped under a running state.
+    pub swaps: u64,
+    /// Ticks in contact.
+    pub contacts: u64,
+    /// Taps.
+    pub taps: u64,
+    /// Times the safe state was entered.
+    pub faults: u64,
+    /// Ticks whose force was cut or held back.
+    pub limited: u64,
+    /// FNV-1a of the forces' bits: the same ticks and seed give the same.
+    pub hash: u64,
+}
+
+/// Runs `ticks` ticks drawn from `seed`, each held to the law of [`ForceLimits`].
+///
+/// # Panics
+/// If a tick panics, or breaks the law: the message names seed, session and tick.
+#[must_use]
+pub fn fuzz_ticks(seed: u64, ticks: u64) -> Summary {
+    let textures: Vec<_> = (0..TEXTURES).map(|index| texture(seed ^ index)).collect();
+    let mut summary = Summary {
+        hash: 0xcbf2_9ce4_8422_2325,
+        ..Summary::default()
+    };
+    let mut session = 0;
+    while summary.ticks < ticks {
+        let count = SESSION_TICKS.min(ticks - summary.ticks);
+        let mut draw = Draw::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ session);
+        run(&mut draw, &textures, count, &mut summary);
+        session += 1;
+    }
+    summary
+}
+
+/// One renderer and one state.
+fn run(draw: &mut Draw, textures: &[Box<HostTexture>], ticks: u64, summary: &mut Summary) {
+    let config = config(draw);
+    let renderer = Renderer::new(&config).expect("a valid configuration");
+    let mut state = State::new(draw.bits());
+    let mut limits = ForceLimits::new(&config);
+    let mut motion = Motion::new(draw);
+    let mut texture = &textures[0];
+    for _ in 0..ticks {
+        if draw.below(300) == 0 {
+            texture = &textures[draw.below(textures.len())];
+            summary.swaps += 1;
+        }
+        let output = renderer.tick(texture, &mut state, &motion.next(draw));
+        limits.check(&output);
+        summary.contacts += u64::from(output.depth_m > 0.0);
+        for force in output.force_n {
+            let word = u64::from(force.to_bits());
+            summary.hash = (summary.hash ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+    let counters = state.counters();
+    summary.ticks += ticks;
+    summary.taps += u64::from(counters.taps);
+    summary.faults += u64::from(counters.faults);
+    summary.limited += u64::from(counters.peak_limited) + u64::from(counters.slew_limited);
+}
+
+/// A texture of any kind, some louder and stiffer than any device.
+fn texture(seed: u64) -> Box<HostTexture> {
+    let mut draw = Draw::new(seed);
+    let mut texture = random(
+        seed,
+        Kind {
+            ar_order: 1 + draw.below(24),
+            ma_order: 1 + draw.below(24),
+            numerator: [Numerator::None, Numerator::Nyquist, Numerator::Lsf][draw.below(3)],
+            lattice: (2 + draw.below(6), 2 + draw.below(6)),
+        },
+    );
+    texture.traces.truncate(draw.below(14));
+    texture.mu = draw.range(0.0, 10.0) as f32;
+    texture.surface.vib_s2_m = [0.05, 1.0, 1000.0][draw.below(3)];
+    texture.surface.stiffness_n_m = [1.0, 500.0, 1e5][draw.below(3)];
+    texture.surface.damping_n_s_m = [0.0, 0.2, 1e3][draw.below(3)];
+    texture.surface.effective_mass_kg = [0.01, 0.1, 100.0][draw.below(3)];
+    let mut slot = Box::new(HostTexture::new());
+    slot.load(
+        &Asset::parse(&texture.encode()).expect("a valid texture"),
+        1000.0,
+    )
+    .expect("a texture that fits");
+    slot
+}
+
+fn config(draw: &mut Draw) -> Config {
+    let mut config = Config {
+        surface: match draw.below(4) {
+            0 => Surface::Sphere {
+                center_m: [0.0, 0.0, -0.01],
+                radius_m: 0.01,
+            },
+            1 => Surface::Box {
+                center_m: [0.0; 3],
+                half_extents_m: [0.004, 0.005, 0.006],
+            },
+            2 => Surface::Plane {
+                point_m: [0.001, 0.002, -0.003],
+                normal: [1e-3, 2e-3, -1e-4],
+            },
+            _ => Config::default().surface,
+        },
+        vibration_axis: [VibrationAxis::Tangent, VibrationAxis::Binormal][draw.below(2)],
+        ..Config::default()
+    };
+    config.limits.peak_n = 10_f64.powf(draw.range(-2.0, 2.0)) as f32;
+    config.limits.slew_n_s = 10_f64.powf(draw.range(-1.0, 5.0)) as f32;
+    config.safety.hold_ticks = draw.below(3) as u32;
+    config.safety.ramp_s = [0.0, 0.1, 10.0][draw.below(3)];
+    config.parameter_time_constant_s = [0.0, 0.005, 0.04][draw.below(3)];
+    config.tap.min_speed_m_s = [0.0, 0.01][draw.below(2)];
+    config
+}
+
+/// Stretches of one kind of motion after the other.
+struct Motion {
+    kind: usize,
+    left: usize,
+    position_m: [f32; 3],
+    step_m: [f32; 3],
+}
+
+impl Motion {
+    fn new(draw: &mut Draw) -> Self {
+        let mut motion = Self {
+            kind: 0,
+            left: 0,
+            position_m: [0.0; 3],
+            step_m: [0.0; 3],
+        };
+        motion.turn(draw);
+        motion
+    }
+
+    /// Starts another stretch.
+    fn turn(&mut self, draw: &mut Draw) {
+        self.kind = draw.below(8);
+        self.left = 1 + draw.below(200);
+        let mut metres = |range: f64| [0; 3].map(|_: i32| draw.range(-range, range) as f32);
+        self.position_m = metres(0.01);
+        self.step_m = metres(1e-3);
+    }
+
+    fn next(&mut self, draw: &mut Draw) -> Sample {
+        if self.left == 0 {
+            self.turn(draw);
+        }
+        self.left -= 1;
+        match self.kind {
+            // A stroke, a jitter about a point, rest.
+            0..=2 => {
+                for (x, step) in self.position_m.iter_mut().zip(self.step_m) {
+                    *x += step;
+                }
+                Sample::at(self.position_m)
+            }
+            3 => Sample::at(self.position_m.map(|x| x + draw.range(-1e-3, 1e-3) as f32)),
+            4 => Sample::at(self.position_m),
+            // Any bits at all, as position and as time.
+            5 => any_bits(draw),
+            6 => special(draw),
+            _ if draw.below(3) == 0 => Sample::STALE,
+            _ => Sample {
+                position_m: self.position_m,
+                elapsed_ticks: draw.below(8) as u32,
+            },
+        }
+    }
+}
+
+fn any_bits(draw: &mut Draw) -> Sample {
+    let (low, high) = (draw.bits(), draw.bits());
+    Sample {
+        position_m: [low as u32, (low >> 32) as u32, high as u32].map(f32::from_bits),
+        elapsed_ticks: match (high >> 32) % 4 {
+            0 => (high >> 34) as u32,
+            _ => 1,
+        },
+    }
+}
+
+fn special(draw: &mut Draw) -> Sample {
+    const VALUES: [f32; 14] = [
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::MAX,
+        f32::MIN,
+        f32::MIN_POSITIVE,
+        1e-45,
+        0.0,
+        -0.0,
+        1e4,
+        -1e4,
+        10_000.001,
+        1e-20,
+        -0.01,
+    ];
+    Sample {
+        position_m: [0; 3].map(|_: i32| VALUES[draw.below(VALUES.len())]),
+        elapsed_ticks: [1, 1, 1, 0, 2, 3, 4, u32::MAX][draw.below(8)],
+    }
+}

@@ -1,0 +1,27 @@
+//! A short run of the fuzzed ticks; `.ci/run` has a longer one, and the command
+//! `fuzz-ticks` any other.
+
+use asperity_tests::fuzz_ticks::{Summary, fuzz_ticks};
+
+#[test]
+fn fuzzed_ticks_keep_the_law_and_reach_what_they_are_for() {
+    let summary = fuzz_ticks(1, 300_000);
+    let Summary {
+        ticks,
+        swaps,
+        contacts,
+        taps,
+        faults,
+        limited,
+        hash,
+    } = summary;
+    assert_eq!(ticks, 300_000);
+    // Nothing that the fuzzer is for has become rare.
+    assert!(swaps > 500 && contacts > ticks / 20, "{summary:?}");
+    assert!(
+        taps > 50 && faults > 1000 && limited > 10_000,
+        "{summary:?}"
+    );
+    assert_eq!(fuzz_ticks(1, 300_000).hash, hash, "the same ticks again");
+    assert_ne!(fuzz_ticks(2, 300_000).hash, hash, "other ticks");
+}
