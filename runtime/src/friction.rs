@@ -15,7 +15,8 @@
 
 use crate::{
     FrictionConfig,
-    math::{Vec3, add, clamp_from_zero, dot, min, rsqrt, scale, tangential},
+    lanes::F4,
+    math::{Vec3, clamp_from_zero, min, rsqrt},
 };
 
 /// The bristle.
@@ -26,7 +27,8 @@ pub struct FrictionState {
 
 impl FrictionState {
     /// One tick. `motion_m` is the displacement since the last tick, `limit_n` is
-    /// μF_n, 0 out of contact. Returns the force on the hand, N, in the tangent plane.
+    /// μF_n, 0 out of contact. Returns the force on the hand in the tangent plane and its size,
+    /// N.
     #[inline]
     pub fn step(
         &mut self,
@@ -35,28 +37,26 @@ impl FrictionState {
         normal: Vec3,
         limit_n: f32,
         touching: bool,
-    ) -> Vec3 {
+    ) -> (Vec3, f32) {
+        let normal = F4::vec3(normal);
         let reach_m = limit_n / config.stiffness_n_m + config.dead_zone_m;
-        let motion_m = tangential(motion_m, normal);
-        let moved = tangential(add(self.deflection_m, motion_m), normal);
-        let squared = dot(moved, moved);
-        let slip = min(reach_m * rsqrt(squared), 1.0);
+        let motion_m = F4::vec3(motion_m).tangential(normal);
+        let moved = (F4::vec3(self.deflection_m) + motion_m).tangential(normal);
+        let squared = moved.dot3(moved);
+        let inverse = rsqrt(squared);
+        let slip = min(reach_m * inverse, 1.0);
         self.deflection_m = if touching {
-            scale(moved, slip)
+            (moved * F4::splat(slip)).xyz()
         } else {
             [0.0; 3]
         };
 
-        let squared = dot(self.deflection_m, self.deflection_m);
-        let inverse = rsqrt(squared);
-        let stretch_m = squared * inverse - config.dead_zone_m;
-        let lead_m = min(dot(self.deflection_m, motion_m) * inverse, stretch_m);
-        let force_n = if stretch_m > 0.0 {
-            clamp_from_zero(config.stiffness_n_m * (stretch_m + lead_m), limit_n)
-        } else {
-            0.0
-        };
-        scale(self.deflection_m, -force_n * inverse)
+        let along = moved * F4::splat(inverse);
+        let stretch_m = squared * inverse * slip - config.dead_zone_m;
+        let lead_m = min(along.dot3(motion_m), stretch_m);
+        let force_n = clamp_from_zero(config.stiffness_n_m * (stretch_m + lead_m), limit_n);
+        let force_n = if stretch_m > 0.0 { force_n } else { 0.0 };
+        ((along * F4::splat(-force_n)).xyz(), force_n)
     }
 }
 
@@ -78,7 +78,7 @@ mod tests {
         let mut state = FrictionState::default();
         let mut force = [0.0; 3];
         for _ in 0..100 {
-            force = state.step(&config(), [1e-4, 1e-4, 3e-4], UP, 0.4, true);
+            (force, _) = state.step(&config(), [1e-4, 1e-4, 3e-4], UP, 0.4, true);
         }
         assert!((norm(force) - 0.4).abs() < 1e-5);
         assert!(force[0] < 0.0 && (force[0] - force[1]).abs() < 1e-6 && force[2] == 0.0);
@@ -98,7 +98,7 @@ mod tests {
             } else {
                 0.0
             };
-            let force = state.step(&config(), [x - last, 0.0, 0.0], UP, 0.5, true);
+            let (force, _) = state.step(&config(), [x - last, 0.0, 0.0], UP, 0.5, true);
             last = x;
             assert_eq!(norm(force), 0.0);
         }
@@ -109,7 +109,7 @@ mod tests {
         for beyond_m in [1e-7_f32, 1e-6, 1e-5] {
             let mut state = FrictionState::default();
             let motion_m = config().dead_zone_m + beyond_m;
-            let force = state.step(&config(), [motion_m, 0.0, 0.0], UP, 0.5, true);
+            let (force, _) = state.step(&config(), [motion_m, 0.0, 0.0], UP, 0.5, true);
             let bound_n = 2.0 * config().stiffness_n_m * beyond_m + 1e-7;
             assert!(norm(force) <= bound_n, "{beyond_m}: {force:?}");
         }
@@ -133,7 +133,7 @@ mod tests {
                         // normal force would gain energy here.
                         let limit_n = 0.4 + 0.3 * (tau * (t + phase)).cos();
                         work_j += f64::from(force[0]) * f64::from(x - last);
-                        force = state.step(&config(), [x - last, 0.0, 0.0], UP, limit_n, true);
+                        (force, _) = state.step(&config(), [x - last, 0.0, 0.0], UP, limit_n, true);
                         last = x;
                     }
                     assert!(

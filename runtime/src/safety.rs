@@ -6,7 +6,11 @@
 //! caller reports as missed count like bad samples. The first good sample afterwards
 //! restarts the motion estimate, and the force comes back by a ramp.
 
-use crate::{Sample, math::Vec3};
+use crate::{
+    Sample,
+    lanes::F4,
+    math::Vec3,
+};
 
 /// Positions beyond this are errors, not positions, m.
 pub const REACH_M: f32 = 1.0e4;
@@ -28,6 +32,8 @@ pub struct Gate {
 pub struct Gated {
     /// Position to render, m.
     pub position_m: Vec3,
+    /// Displacement since the position before, m; none where motion starts anew.
+    pub motion_m: Vec3,
     /// Periods since the last rendered position, 1..=3.
     pub elapsed_ticks: u32,
     /// Share of the force, 0..=1.
@@ -56,10 +62,8 @@ impl Gate {
     /// One sample; `ramp_step` is the gain regained a tick.
     #[inline]
     pub fn step(&mut self, sample: &Sample, hold_ticks: u32, ramp_step: f32) -> Gated {
-        let in_reach = |x: f32| x.abs() <= REACH_M;
         let p = sample.position_m;
-        // A comparison with NaN is false.
-        let usable = in_reach(p[0]) & in_reach(p[1]) & in_reach(p[2]) & (sample.elapsed_ticks > 0);
+        let usable = F4::vec3(p).is_within(REACH_M) & (sample.elapsed_ticks > 0);
         let missed = sample.elapsed_ticks.saturating_sub(1);
         let gap = missed > hold_ticks && !self.fresh;
         let good = usable && !gap;
@@ -73,6 +77,7 @@ impl Gate {
         let safe = !good && !held;
         let fault = safe && (gap || !self.fresh);
         let restart = usable && (self.fresh || gap);
+        let before = if restart { p } else { self.position_m };
         if usable {
             self.position_m = p;
         }
@@ -89,6 +94,7 @@ impl Gate {
         };
         Gated {
             position_m: self.position_m,
+            motion_m: (F4::vec3(self.position_m) - F4::vec3(before)).xyz(),
             elapsed_ticks: if good && !restart { missed + 1 } else { 1 },
             gain: self.gain,
             restart,
