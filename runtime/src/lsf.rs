@@ -201,26 +201,28 @@ impl Two {
 /// for odd ones. The products carry the ½.
 #[inline(always)]
 fn assemble<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], order: usize, a: &mut Line) {
-    let a = a.0.as_flattened_mut();
-    let (mut before, mut two_before) = ([c[0][LANE], c[0][LANE + 1]], 0.0);
-    let odd = order % 2 == 1;
-    for (k, here) in c.iter().enumerate().skip(1).take(order / 2) {
-        let here = [here[LANE], here[LANE + 1]];
-        let (q, p) = if odd {
-            (here[0], here[1] - two_before)
-        } else {
-            (here[0] + before[0], here[1] - before[1])
-        };
-        (two_before, before) = (before[1], here);
-        if let Some(low) = a.get_mut(k - 1) {
-            *low = q + p;
+    let half = order / 2;
+    let (low, high) = a.0.as_flattened_mut().split_at_mut(order.div_ceil(2).min(MAX_ORDER));
+    let (Some(ends), Some(high), Some(c)) = (low.get_mut(..half), high.get_mut(..half), c.get(..=order.div_ceil(2)))
+    else {
+        return;
+    };
+    if order.is_multiple_of(2) {
+        for k in 0..half {
+            let q = c[k + 1][LANE] + c[k][LANE];
+            let p = c[k + 1][LANE + 1] - c[k][LANE + 1];
+            (ends[k], high[half - 1 - k]) = (q + p, q - p);
         }
-        if let Some(high) = a.get_mut(order - k) {
-            *high = q - p;
+    } else {
+        let mut two_before = 0.0;
+        for k in 0..half {
+            let (q, p) = (c[k + 1][LANE], c[k + 1][LANE + 1] - two_before);
+            two_before = c[k][LANE + 1];
+            (ends[k], high[half - 1 - k]) = (q + p, q - p);
         }
-    }
-    if odd && let (Some(middle), Some(c)) = (a.get_mut(order / 2), c.get(order.div_ceil(2))) {
-        *middle = c[LANE];
+        if let (Some(middle), Some(c)) = (low.last_mut(), c.last()) {
+            *middle = c[LANE];
+        }
     }
 }
 

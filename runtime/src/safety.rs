@@ -9,7 +9,7 @@
 use crate::{
     Sample,
     lanes::F4,
-    math::Vec3,
+    math::{Vec3, min},
 };
 
 /// Positions beyond this are errors, not positions, m.
@@ -62,8 +62,39 @@ impl Gate {
     /// One sample; `ramp_step` is the gain regained a tick.
     #[inline]
     pub fn step(&mut self, sample: &Sample, hold_ticks: u32, ramp_step: f32) -> Gated {
+        let p = F4::vec3(sample.position_m);
+        let usable = p.is_within(REACH_M) & (sample.elapsed_ticks > 0);
+        let missed = sample.elapsed_ticks.wrapping_sub(1);
+        if !usable || missed > hold_ticks || self.fresh {
+            return self.irregular(sample, usable, hold_ticks, ramp_step);
+        }
+        let motion = p - F4::vec3(self.position_m);
+        self.position_m = sample.position_m;
+        self.bad_in_a_row = 0;
+        self.gain = min(self.gain + ramp_step, 1.0);
+        Gated {
+            position_m: self.position_m,
+            motion_m: motion.xyz(),
+            elapsed_ticks: sample.elapsed_ticks,
+            gain: self.gain,
+            restart: false,
+            held: false,
+            safe: false,
+            fault: false,
+            bad: false,
+        }
+    }
+
+    /// A bad sample, one after missed periods, or the first one.
+    #[inline(always)]
+    fn irregular(
+        &mut self,
+        sample: &Sample,
+        usable: bool,
+        hold_ticks: u32,
+        ramp_step: f32,
+    ) -> Gated {
         let p = sample.position_m;
-        let usable = F4::vec3(p).is_within(REACH_M) & (sample.elapsed_ticks > 0);
         let missed = sample.elapsed_ticks.saturating_sub(1);
         let gap = missed > hold_ticks && !self.fresh;
         let good = usable && !gap;
