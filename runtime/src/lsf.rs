@@ -125,7 +125,10 @@ impl Shape {
         let (busy, m) = (F4::load(&busy), F4::load(&m));
         let zero = F4::splat(0.0);
         // The new middle's old value mirrors the one two before it.
-        let mirrored = done.checked_sub(1).and_then(|k| c.get(k)).map_or(zero, F4::load);
+        let mirrored = done
+            .checked_sub(1)
+            .and_then(|k| c.get(k))
+            .map_or(zero, F4::load);
         if let Some(middle) = c.get_mut(done + 1) {
             *middle = (busy * mirrored).to_array();
         }
@@ -202,9 +205,14 @@ impl Two {
 #[inline(always)]
 fn assemble<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], order: usize, a: &mut Line) {
     let half = order / 2;
-    let (low, high) = a.0.as_flattened_mut().split_at_mut(order.div_ceil(2).min(MAX_ORDER));
-    let (Some(ends), Some(high), Some(c)) = (low.get_mut(..half), high.get_mut(..half), c.get(..=order.div_ceil(2)))
-    else {
+    let (low, high) =
+        a.0.as_flattened_mut()
+            .split_at_mut(order.div_ceil(2).min(MAX_ORDER));
+    let (Some(ends), Some(high), Some(c)) = (
+        low.get_mut(..half),
+        high.get_mut(..half),
+        c.get(..=order.div_ceil(2)),
+    ) else {
         return;
     };
     if order.is_multiple_of(2) {
@@ -297,7 +305,8 @@ mod tests {
             let staged = |omegas: &[f64]| {
                 let mut line = Line::ZERO;
                 for (index, omega) in omegas.iter().enumerate() {
-                    line.0.as_flattened_mut()[stage(index, omegas.len())] = (-2.0 * omega.cos()) as f32;
+                    line.0.as_flattened_mut()[stage(index, omegas.len())] =
+                        (-2.0 * omega.cos()) as f32;
                 }
                 line
             };

@@ -312,9 +312,11 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, unit: usize) {
         // A slot without room for B(z) needs no code for it.
         if Q > 0 && self.shape.ma_order > 0 {
-            self.shape.multiply::<4>(products, &pairs.ar, &pairs.ma, unit);
+            self.shape
+                .multiply::<4>(products, &pairs.ar, &pairs.ma, unit);
         } else {
-            self.shape.multiply::<2>(products, &pairs.ar, &pairs.ma, unit);
+            self.shape
+                .multiply::<2>(products, &pairs.ar, &pairs.ma, unit);
         }
     }
 

@@ -342,7 +342,8 @@ impl Renderer {
             VibrationAxis::Binormal => cross(state.direction, contact.normal),
         };
         let vib_n = surface.vib_s2_m * surface.f_max_n * vib_m_s2;
-        let total = normal * F4::splat(normal_n) + F4::vec3(friction) + F4::vec3(axis) * F4::splat(vib_n);
+        let total =
+            normal * F4::splat(normal_n) + F4::vec3(friction) + F4::vec3(axis) * F4::splat(vib_n);
         let wanted_n = (total * F4::splat(gated.gain)).xyz();
         let (force_n, limited) = self.limiter.step(state.force_n, wanted_n);
         state.force_n = force_n;

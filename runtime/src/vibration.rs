@@ -98,13 +98,7 @@ impl Vibration {
     /// `sounding` false the vibration is mute. Returns y, m/s², and whether it had to be
     /// clamped.
     #[inline]
-    pub fn step<
-        const V: usize,
-        const T: usize,
-        const P: usize,
-        const Q: usize,
-        const K: usize,
-    >(
+    pub fn step<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
         &mut self,
         texture: &Texture<V, T, P, Q, K>,
         speed_mm_s: f32,
@@ -132,13 +126,7 @@ impl Vibration {
 
     /// This tick's share of the cycle.
     #[inline]
-    fn work<
-        const V: usize,
-        const T: usize,
-        const P: usize,
-        const Q: usize,
-        const K: usize,
-    >(
+    fn work<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
         &mut self,
         texture: &Texture<V, T, P, Q, K>,
     ) {

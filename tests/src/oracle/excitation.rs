@@ -33,7 +33,9 @@ fn moments() -> [f64; 6] {
 fn bend() -> (f64, f64) {
     let m = moments();
     let scale = m[0].sqrt();
-    let n: Vec<f64> = (0..6).map(|i| m[i] / scale.powi(2 * (i as i32 + 1))).collect();
+    let n: Vec<f64> = (0..6)
+        .map(|i| m[i] / scale.powi(2 * (i as i32 + 1)))
+        .collect();
     let errors = |a: f64, b: f64| {
         let variance = a * a * n[0] + 2.0 * a * b * n[1] + b * b * n[2];
         let fourth = a.powi(4) * n[1]
