@@ -11,13 +11,13 @@ use core::ops::Range;
 pub const CYCLE_TICKS: usize = 6;
 
 /// Costs in executed x86-64 instructions; only their ratios matter.
-const BLOCK: usize = 28;
-const CHOICE: usize = 60;
-const MIX: usize = 40;
-const MIX_BLOCK: usize = 16;
-const UNIT: usize = 20;
+const BLOCK: usize = 31;
+const CHOICE: usize = 75;
+const MIX: usize = 30;
+const MIX_BLOCK: usize = 13;
+const UNIT: usize = 50;
 const STEP: usize = 10;
-const ASSEMBLY_STEP: usize = 15;
+const ASSEMBLY_STEP: usize = 16;
 
 /// The share of one tick: blocks first, then the choice, then the mixture, then units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -115,7 +115,7 @@ macro_rules! by_blocks {
 #[inline(always)]
 fn recurse<const N: usize>(a: &Line, past: &mut Line, driven: f32, sounding: bool) -> (f32, bool) {
     let raw = driven - inner_product::<N>(a, past);
-    let clamped = !(raw.abs() <= VIB_LIMIT_M_S2);
+    let clamped = raw.is_nan() || raw.abs() > VIB_LIMIT_M_S2;
     // A NaN fails both comparisons and becomes silence.
     let bounded = if raw > VIB_LIMIT_M_S2 {
         VIB_LIMIT_M_S2
