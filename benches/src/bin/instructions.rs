@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (_, motion) in Motion::ALL {
         print!("{motion:>9}");
     }
-    println!("{:>9}  {}", "spread", "ticks of a cycle, stroke");
+    println!("{:>9}  ticks of a cycle, stroke", "spread");
     for (texture_index, (label, ..)) in TEXTURES.iter().enumerate() {
         print!("{label:<24}");
         let mut counts = Vec::new();
