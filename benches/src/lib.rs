@@ -1,8 +1,9 @@
 //! What a tick costs: textures of a known size and scripted motions, shared by the
-//! criterion bench `tick` and the command `instructions`.
+//! criterion bench `tick` and the command `instructions`, and the usual way for comparison.
 #![forbid(unsafe_code)]
 
 pub mod motion;
+pub mod reference;
 pub mod texture;
 
 use asperity_formats::Asset;

@@ -2,7 +2,7 @@
 
 use crate::{
     config::ConfigError,
-    math::{Vec3, dot, max, min, norm, rsqrt, scale, sub},
+    math::{Vec3, dot, max, min, norm, rsqrt, scale, sqrt_with, sub},
 };
 
 /// A solid that the stylus touches; the texture is the same everywhere on it.
@@ -111,7 +111,7 @@ impl Surface {
                 let squared = dot(r, r);
                 let inverse = rsqrt(squared);
                 Contact {
-                    distance_m: squared * inverse - radius_m,
+                    distance_m: sqrt_with(squared, inverse) - radius_m,
                     normal: if squared > 1e-18 {
                         scale(r, inverse)
                     } else {
@@ -162,7 +162,7 @@ fn box_contact(r: Vec3, half: Vec3) -> Contact {
     ];
     let is_outside = squared > 1e-18;
     Contact {
-        distance_m: squared * inverse + min(deepest, 0.0),
+        distance_m: sqrt_with(squared, inverse) + min(deepest, 0.0),
         normal: if is_outside {
             scale(away, inverse)
         } else {

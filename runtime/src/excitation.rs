@@ -1,17 +1,25 @@
-//! Excitation ε: standard Gaussian noise by the Box–Muller transform.
+//! Excitation ε: noise with the moments of a standard Gaussian.
+//!
+//! The centred sum s of eight random bytes is bell-shaped (kurtosis 2.85);
+//! `ε = s·(C1 + C3·s²)` widens its tails (after Teichroew) so that variance 1 and kurtosis 3
+//! are exact for the distribution: C1 and C3 solve the two equations in its exact moments.
 
-use crate::math::{cos_pi, ln, sqrt};
 use rand_core::{Rng, SeedableRng};
-use rand_xoshiro::Xoshiro128PlusPlus;
+use rand_xoshiro::Xoroshiro64StarStar;
 
-/// A seeded stream of standard Gaussian samples.
+const C1: f32 = 0.004_681_182;
+const C3: f32 = 8.221_878e-10;
+/// Mean of a sum of eight bytes.
+const MEAN: i32 = 1020;
+
+/// A seeded stream of Gaussian samples.
 ///
 /// Two 32-bit draws a sample, no branch and no rejection, so every sample costs the
-/// same. Over 10⁷ samples: mean 0 within 1e-3, variance 1 within 1.5e-3, skewness 0 within
-/// 4e-3, kurtosis 3 within 1e-2 (tested). |ε| ≤ √(2·ln 2²⁴) = 5.77.
+/// same. Mean 0, variance 1, skewness 0, kurtosis 3, sixth moment 14.88 (a Gaussian's is 15);
+/// |ε| > 3 in 0.267 % (0.270 %), |ε| ≤ 5.65; 2041 values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Excitation {
-    generator: Xoshiro128PlusPlus,
+    generator: Xoroshiro64StarStar,
 }
 
 impl Excitation {
@@ -19,43 +27,76 @@ impl Excitation {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
-            generator: Xoshiro128PlusPlus::seed_from_u64(seed),
+            generator: Xoroshiro64StarStar::seed_from_u64(seed),
         }
     }
 
     /// The next sample.
     #[inline]
     pub fn next_gaussian(&mut self) -> f32 {
-        const STEP: f32 = 1.0 / 16_777_216.0;
-        // u in (0, 1], v in [0, 1), both exact multiples of 2⁻²⁴.
-        let u = ((self.generator.next_u32() >> 8) + 1) as f32 * STEP;
-        let v = (self.generator.next_u32() >> 8) as f32 * STEP;
-        let radius = sqrt(-2.0 * ln(u));
-        // cos(2πv) is even about v = ½.
-        let folded = 2.0 * v - 1.0;
-        -radius * cos_pi(if folded < 0.0 { -folded } else { folded })
+        const EVEN_BYTES: u32 = 0x00ff_00ff;
+        // Two sums of four bytes side by side.
+        let pairs = |bits: u32| (bits & EVEN_BYTES) + ((bits >> 8) & EVEN_BYTES);
+        let sums = pairs(self.generator.next_u32()) + pairs(self.generator.next_u32());
+        let centred = ((sums & 0xffff) + (sums >> 16)) as i32 - MEAN;
+        let s = centred as f32;
+        s * (C1 + C3 * (s * s))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
     use super::*;
 
+    /// The distribution of the sum, from its definition.
+    fn shares() -> std::vec::Vec<f64> {
+        let mut shares = std::vec![1.0];
+        for _ in 0..8 {
+            let mut next = std::vec![0.0; shares.len() + 255];
+            for (sum, share) in shares.iter().enumerate() {
+                for byte in 0..256 {
+                    next[sum + byte] += share / 256.0;
+                }
+            }
+            shares = next;
+        }
+        shares
+    }
+
     #[test]
-    fn moments_are_those_of_a_gaussian() {
+    fn the_distribution_has_the_stated_moments() {
+        let moment = |power: i32| {
+            let term = |(sum, share): (usize, &f64)| {
+                let s = sum as f64 - f64::from(MEAN);
+                share * (s * (f64::from(C1) + f64::from(C3) * s * s)).powi(power)
+            };
+            shares().iter().enumerate().map(term).sum::<f64>()
+        };
+        assert!(moment(1).abs() < 1e-12 && moment(3).abs() < 1e-12);
+        assert!((moment(2) - 1.0).abs() < 1e-6, "{}", moment(2));
+        assert!((moment(4) - 3.0).abs() < 1e-5, "{}", moment(4));
+        assert!((moment(6) - 14.88).abs() < 0.01, "{}", moment(6));
+    }
+
+    #[test]
+    fn samples_are_white_and_distributed_as_stated() {
         let mut noise = Excitation::new(1);
         let count = 10_000_000;
-        let (mut m1, mut m2, mut m3, mut m4, mut lag, mut last) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let (mut m1, mut m2, mut m3, mut m4) = (0.0, 0.0, 0.0, 0.0);
+        let (mut lags, mut past) = ([0.0; 4], [0.0; 4]);
         let mut beyond_three = 0_u32;
         for _ in 0..count {
             let x = f64::from(noise.next_gaussian());
-            assert!(x.abs() < 5.78);
+            assert!(x.abs() < 5.65);
             m1 += x;
             m2 += x * x;
             m3 += x * x * x;
             m4 += x * x * x * x;
-            lag += x * last;
-            last = x;
+            for (lag, past) in lags.iter_mut().zip(&past) {
+                *lag += x * past;
+            }
+            past = [x, past[0], past[1], past[2]];
             beyond_three += u32::from(x.abs() > 3.0);
         }
         let n = f64::from(count);
@@ -64,7 +105,9 @@ mod tests {
         assert!((m2 / n - 1.0).abs() < 1.5e-3);
         assert!((m3 / n).abs() < 4e-3);
         assert!((m4 / n - 3.0).abs() < 1e-2);
-        assert!((lag / n).abs() < 1e-3);
-        assert!((f64::from(beyond_three) / n - 0.002_699_8).abs() < 6e-5);
+        for lag in lags {
+            assert!((lag / n).abs() < 1e-3);
+        }
+        assert!((f64::from(beyond_three) / n - 0.002_667).abs() < 6e-5);
     }
 }

@@ -30,7 +30,8 @@
 
 use crate::{
     FrictionConfig,
-    math::{Vec3, add, clamp_from_zero, dot, max, min, rsqrt, scale, tangential},
+    lanes::F4,
+    math::{Vec3, clamp_from_zero, max, min, rsqrt},
 };
 
 /// What the bristle is made of.
@@ -68,7 +69,7 @@ pub struct FrictionState {
 
 impl FrictionState {
     /// One tick. `motion_m` is the displacement since the last tick, `normal_n` is F_n, 0 out
-    /// of contact. Returns the force on the hand, N, in the tangent plane.
+    /// of contact. Returns the force on the hand in the tangent plane and its size, N.
     #[inline]
     pub fn step(
         &mut self,
@@ -78,31 +79,30 @@ impl FrictionState {
         normal_n: f32,
         mu: f32,
         touching: bool,
-    ) -> Vec3 {
+    ) -> (Vec3, f32) {
         let limit_n = mu * normal_n;
         let reach_m = limit_n / bristle.stiffness_n_m + bristle.dead_zone_m;
         let kept = normal_n / (normal_n + bristle.leak_n);
-        let motion_m = tangential(motion_m, normal);
-        let moved = tangential(scale(add(self.deflection_m, motion_m), kept), normal);
-        let squared = dot(moved, moved);
-        let slip = min(reach_m * rsqrt(squared), 1.0);
+        let normal = F4::vec3(normal);
+        let motion_m = F4::vec3(motion_m).tangential(normal);
+        let moved = (F4::vec3(self.deflection_m) + motion_m) * F4::splat(kept);
+        let moved = moved.tangential(normal);
+        let squared = moved.dot3(moved);
+        let inverse = rsqrt(squared);
+        let slip = min(reach_m * inverse, 1.0);
         self.deflection_m = if touching {
-            scale(moved, slip)
+            (moved * F4::splat(slip)).xyz()
         } else {
             [0.0; 3]
         };
 
-        let squared = dot(self.deflection_m, self.deflection_m);
-        let inverse = rsqrt(squared);
-        let stretch_m = squared * inverse - bristle.dead_zone_m;
-        let ahead_m = bristle.lead_ticks * dot(self.deflection_m, motion_m) * inverse;
+        let along = moved * F4::splat(inverse);
+        let stretch_m = squared * inverse * slip - bristle.dead_zone_m;
+        let ahead_m = bristle.lead_ticks * along.dot3(motion_m);
         let lead_m = min(ahead_m, 0.5 * stretch_m);
-        let force_n = if stretch_m > 0.0 {
-            clamp_from_zero(bristle.stiffness_n_m * (stretch_m + lead_m), limit_n)
-        } else {
-            0.0
-        };
-        scale(self.deflection_m, -force_n * inverse)
+        let force_n = clamp_from_zero(bristle.stiffness_n_m * (stretch_m + lead_m), limit_n);
+        let force_n = if stretch_m > 0.0 { force_n } else { 0.0 };
+        ((along * F4::splat(-force_n)).xyz(), force_n)
     }
 }
 
@@ -122,7 +122,7 @@ mod tests {
         let mut state = FrictionState::default();
         let mut force = [0.0; 3];
         for _ in 0..100 {
-            force = state.step(&bristle(), [1e-4, 1e-4, 3e-4], UP, 0.8, 0.5, true);
+            (force, _) = state.step(&bristle(), [1e-4, 1e-4, 3e-4], UP, 0.8, 0.5, true);
         }
         assert!((norm(force) - 0.4).abs() < 1e-5);
         assert!(force[0] < 0.0 && (force[0] - force[1]).abs() < 1e-6 && force[2] == 0.0);
@@ -147,7 +147,7 @@ mod tests {
                 base += 1e-4;
             }
             let x = base + count;
-            let force = state.step(&bristle(), [x - last, 0.0, 0.0], UP, 1.0, 0.5, true);
+            let (force, _) = state.step(&bristle(), [x - last, 0.0, 0.0], UP, 1.0, 0.5, true);
             last = x;
             match n {
                 ..40_000 => assert_eq!(norm(force), 0.0),
@@ -163,7 +163,7 @@ mod tests {
         for beyond_m in [1e-7_f32, 1e-6, 1e-5] {
             let mut state = FrictionState::default();
             let motion_m = config.dead_zone_m + beyond_m;
-            let force = state.step(&bristle(), [motion_m, 0.0, 0.0], UP, 1.0, 0.5, true);
+            let (force, _) = state.step(&bristle(), [motion_m, 0.0, 0.0], UP, 1.0, 0.5, true);
             let bound_n = 2.0 * config.stiffness_n_m * beyond_m + 1e-7;
             assert!(norm(force) <= bound_n, "{beyond_m}: {force:?}");
         }
@@ -179,7 +179,7 @@ mod tests {
             let bristle = Bristle::new(&config, 0, 1000.0);
             let mut state = FrictionState::default();
             for normal_n in [0.0, 1e-40, 0.0, 1.0, 0.0] {
-                let force = state.step(&bristle, [1e-3, 0.0, 0.0], UP, normal_n, 0.5, true);
+                let (force, _) = state.step(&bristle, [1e-3, 0.0, 0.0], UP, normal_n, 0.5, true);
                 assert!(norm(force) <= 0.500_001 * normal_n, "{normal_n}: {force:?}");
             }
         }

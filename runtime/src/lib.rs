@@ -14,9 +14,10 @@
 //! | [`velocity`] | v_t | velocity from positions |
 //! | [`contact`] | δ, n̂ | depth and normal on a plane, a sphere, a box |
 //! | [`locate`] | f–v grid | triangle and barycentric weights, edge models |
-//! | [`lsf`] | a_k(F_n, v_t) | mixed LSFs to direct-form coefficients |
+//! | `lsf` | a_k(F_n, v_t) | mixed LSFs to direct-form coefficients |
+//! | [`vibration`] | y\[n\] | the model that sounds, made in shares over six ticks |
 //! | [`excitation`] | ε | Gaussian noise |
-//! | [`synthesis`] | y\[n\] | the AR or ARMA recursion |
+//! | [`synthesis`] | | the AR or ARMA recursion |
 //! | [`tap`] | a_tap(t) | impact detection and transient |
 //! | [`friction`] | F_t | leaking bristle bounded by μF_n |
 //! | [`wall`] | F_n | stiffness and damping that the device can bear |
@@ -61,17 +62,20 @@ pub mod config;
 pub mod contact;
 pub mod excitation;
 pub mod friction;
+mod lanes;
 pub mod limiter;
 pub mod locate;
-pub mod lsf;
+mod lsf;
 pub mod math;
 mod resample;
 pub mod safety;
+mod schedule;
 pub mod synthesis;
 pub mod tap;
 mod texture;
 mod tick;
 pub mod velocity;
+pub mod vibration;
 pub mod wall;
 
 pub use config::{

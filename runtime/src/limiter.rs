@@ -1,6 +1,9 @@
 //! Peak and slew of the total force.
 
-use crate::math::{Vec3, add, dot, min, rsqrt, scale, sub};
+use crate::{
+    lanes::F4,
+    math::{Vec3, min, rsqrt},
+};
 
 /// The limits a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +21,8 @@ pub struct Limited {
     pub slew: bool,
 }
 
+/// Forces beyond this are errors, not forces, N: their squares are not finite.
+const SANE_N: f32 = 1e15;
 /// Keeps rounding of the approximated root from exceeding a limit.
 const MARGIN: f32 = 1.0 - 2e-6;
 
@@ -36,18 +41,22 @@ impl Limiter {
     #[inline]
     #[must_use]
     pub fn step(&self, last: Vec3, wanted: Vec3) -> (Vec3, Limited) {
-        let sane = wanted[0].abs() < 1e15 && wanted[1].abs() < 1e15 && wanted[2].abs() < 1e15;
-        let wanted = if sane { wanted } else { [0.0; 3] };
-        let squared = dot(wanted, wanted);
+        let (last, wanted) = (F4::vec3(last), F4::vec3(wanted));
+        let wanted = if wanted.is_within(SANE_N) {
+            wanted
+        } else {
+            F4::splat(0.0)
+        };
+        let squared = wanted.dot3(wanted);
         let peak = squared > self.peak_n * self.peak_n;
         let shrink = min(self.peak_n * MARGIN * rsqrt(squared), 1.0);
-        let target = scale(wanted, if peak { shrink } else { 1.0 });
-        let step = sub(target, last);
-        let squared = dot(step, step);
+        let target = wanted * F4::splat(if peak { shrink } else { 1.0 });
+        let step = target - last;
+        let squared = step.dot3(step);
         let slew = squared > self.step_n * self.step_n;
         let shrink = min(self.step_n * MARGIN * rsqrt(squared), 1.0);
         // Both ends lie in the ball of the peak, so does what lies between.
-        let next = add(last, scale(step, if slew { shrink } else { 1.0 }));
+        let next = (last + step * F4::splat(if slew { shrink } else { 1.0 })).xyz();
         (next, Limited { peak, slew })
     }
 }

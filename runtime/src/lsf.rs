@@ -1,4 +1,4 @@
-//! Line spectral frequencies, kept as x = cos ω, to direct-form coefficients.
+//! Line spectral frequencies, kept as −2 cos ω, to direct-form coefficients.
 //!
 //! For A(z) = 1 + Σ a_k z⁻ᵏ of order p, the sum polynomial Q(z) = A(z) + z⁻⁽ᵖ⁺¹⁾A(z⁻¹)
 //! and the difference polynomial P(z) = A(z) − z⁻⁽ᵖ⁺¹⁾A(z⁻¹) have their zeros on the
@@ -6,25 +6,238 @@
 //! mixture of ordered frequencies is ordered, in ω and in cos ω, so its A(z) is
 //! stable; in cos ω it needs no trigonometry.
 //!
-//! Each zero pair multiplies its polynomial by 1 − 2x z⁻¹ + z⁻². Pairs come in low and
-//! high in turn: partial products of neighbouring zeros grow large and cancel later,
-//! which in f32 costs up to 0.4 dB on real models; this order costs less than 0.001 dB.
-//! The cosines are stored in that order ([`stage`]), and the four polynomials of A(z) and
-//! B(z) are multiplied side by side.
+//! Each zero pair multiplies its polynomial by 1 + m z⁻¹ + z⁻², m = −2 cos ω. Pairs come in
+//! low and high in turn ([`stage`]): partial products of neighbouring zeros grow large and
+//! cancel later, which in f32 costs up to 0.4 dB on real models; this order costs less than
+//! 0.001 dB. A low pair and a high one are multiplied in at once, Q and P of A(z) and B(z)
+//! side by side, in [`Shape::units`] units of work that can be done one at a time.
 
+use crate::{lanes::F4, synthesis::Line};
 use asperity_formats::limits::MAX_ORDER;
 
 /// Q and P of A(z), Q and P of B(z).
-type Lanes = [f32; 4];
-/// Two zeros before the first coefficient, then half of a symmetric polynomial.
-type Half = [Lanes; 16];
-/// Where coefficient 0 stands in a [`Half`].
-const FIRST: usize = 2;
+const LANES: usize = 4;
+/// Coefficients 0..=12 of symmetric polynomials of degree up to 24.
+const COEFFICIENTS: usize = MAX_ORDER / 2 + 1;
 
-/// Where the cosine of LSF `index` of `order` is stored: its position in the order of
+/// Orders of A(z) and B(z), and what follows from them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Shape {
+    pub(crate) ar_order: usize,
+    pub(crate) ma_order: usize,
+    /// Zero pairs of each polynomial.
+    pairs: [u8; LANES],
+    /// Twos of pairs that every polynomial in use has.
+    full: usize,
+}
+
+/// Partial products, the half of each that symmetry leaves, times ½.
+#[derive(Debug, Clone, PartialEq)]
+#[repr(align(16))]
+pub(crate) struct Products([[f32; LANES]; COEFFICIENTS]);
+
+impl Products {
+    /// No pair yet.
+    pub(crate) const ONE: Self = {
+        let mut c = [[0.0; LANES]; COEFFICIENTS];
+        c[0] = [0.5; LANES];
+        Self(c)
+    };
+}
+
+impl Shape {
+    pub(crate) const fn new(ar_order: usize, ma_order: usize) -> Self {
+        let pairs = [
+            ar_order.div_ceil(2) as u8,
+            (ar_order / 2) as u8,
+            ma_order.div_ceil(2) as u8,
+            (ma_order / 2) as u8,
+        ];
+        let fewest = if ma_order == 0 || ar_order < ma_order {
+            ar_order / 2
+        } else {
+            ma_order / 2
+        };
+        Self {
+            ar_order,
+            ma_order,
+            pairs,
+            full: fewest / 2,
+        }
+    }
+
+    /// Units of work of a conversion: two for every two pairs.
+    pub(crate) const fn units(&self) -> usize {
+        let order = if self.ar_order > self.ma_order {
+            self.ar_order
+        } else {
+            self.ma_order
+        };
+        2 * order.div_ceil(4)
+    }
+
+    /// Steps of a unit: coefficients that it changes.
+    pub(crate) const fn steps(&self, unit: usize) -> usize {
+        if unit / 2 < self.full {
+            unit / 2 + 1
+        } else {
+            unit + 1
+        }
+    }
+
+    /// One unit of work on `L` polynomials, two without B(z); `ar` and `ma` hold −2 cos ω in
+    /// [`stage`] order, 0 beyond the order.
+    #[inline(always)]
+    pub(crate) fn multiply<const L: usize>(
+        &self,
+        products: &mut Products,
+        ar: &Line,
+        ma: &Line,
+        unit: usize,
+    ) {
+        let (two, upper) = (unit / 2, unit.is_multiple_of(2));
+        let (Some(ar), Some(ma)) = (ar.0.get(two), ma.0.get(two)) else {
+            return;
+        };
+        let low = [ar[0], ar[1], ma[0], ma[1]];
+        let high = [ar[2], ar[3], ma[2], ma[3]];
+        let c = &mut products.0;
+        if two >= self.full {
+            return self.one_pair(c, if upper { low } else { high }, unit);
+        }
+        let factors = Two::new(low, high);
+        match two {
+            0 => factors.multiply::<0>(c, upper),
+            1 => factors.multiply::<1>(c, upper),
+            2 => factors.multiply::<2>(c, upper),
+            3 => factors.multiply::<3>(c, upper),
+            4 => factors.multiply::<4>(c, upper),
+            _ => factors.multiply::<5>(c, upper),
+        }
+    }
+
+    /// Multiplies polynomials of `done` pairs by one more where they have one.
+    #[inline(always)]
+    fn one_pair(&self, c: &mut [[f32; LANES]; COEFFICIENTS], m: [f32; LANES], done: usize) {
+        let busy = self
+            .pairs
+            .map(|pairs| if done < usize::from(pairs) { 1.0 } else { 0.0 });
+        let (busy, m) = (F4::load(&busy), F4::load(&m));
+        let zero = F4::splat(0.0);
+        // The new middle's old value mirrors the one two before it.
+        let mirrored = done
+            .checked_sub(1)
+            .and_then(|k| c.get(k))
+            .map_or(zero, F4::load);
+        if let Some(middle) = c.get_mut(done + 1) {
+            *middle = (busy * mirrored).to_array();
+        }
+        let (mut two_before, mut before) = (zero, F4::load(&c[0]));
+        for here in c.iter_mut().skip(1).take(done + 1) {
+            let old = F4::load(here);
+            *here = (old + busy * two_before + m * before).to_array();
+            (two_before, before) = (before, old);
+        }
+    }
+
+    /// Coefficients of A(z).
+    #[inline]
+    pub(crate) fn ar(&self, products: &Products, a: &mut Line) {
+        assemble::<0>(&products.0, self.ar_order, a);
+    }
+
+    /// Coefficients of B(z).
+    #[inline]
+    pub(crate) fn ma(&self, products: &Products, b: &mut Line) {
+        assemble::<2>(&products.0, self.ma_order, b);
+    }
+}
+
+/// Two zero pairs at once: 1 + s z⁻¹ + q z⁻² + s z⁻³ + z⁻⁴.
+struct Two {
+    s: F4,
+    q: F4,
+}
+
+impl Two {
+    #[inline(always)]
+    fn new(low: [f32; LANES], high: [f32; LANES]) -> Self {
+        let (low, high) = (F4::load(&low), F4::load(&high));
+        Self {
+            s: low + high,
+            q: F4::splat(2.0) + low * high,
+        }
+    }
+
+    /// Multiplies polynomials of degree 4·`TWO`, the upper half of the coefficients or
+    /// the lower one. From the highest down, in place.
+    #[inline(always)]
+    fn multiply<const TWO: usize>(&self, c: &mut [[f32; LANES]; COEFFICIENTS], upper: bool) {
+        let (middle, top) = (TWO + 1, 2 * TWO + 2);
+        if upper {
+            // Symmetry gives the two coefficients beyond the middle.
+            if TWO == 0 {
+                (c[1], c[2]) = ([0.0; LANES], [0.0; LANES]);
+            } else {
+                (c[top - 1], c[top]) = (c[top - 3], c[top - 4]);
+            }
+            for k in (middle + 1..=top).rev() {
+                self.step(c, k);
+            }
+        } else {
+            for k in (1..=middle).rev() {
+                self.step(c, k);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn step(&self, c: &mut [[f32; LANES]; COEFFICIENTS], k: usize) {
+        let back = |by: usize| F4::load(if k < by { &[0.0; LANES] } else { &c[k - by] });
+        let outer = F4::load(&c[k]) + back(4);
+        c[k] = (outer + self.q * back(2) + self.s * (back(1) + back(3))).to_array();
+    }
+}
+
+/// a_k = (q_k + p_k)/2 and, by symmetry, a_{p+1−k} = (q_k − p_k)/2, where Q = sum·(1 + z⁻¹)
+/// and P = difference·(1 − z⁻¹) for even orders, Q = sum and P = difference·(1 − z⁻²)
+/// for odd ones. The products carry the ½.
+#[inline(always)]
+fn assemble<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], order: usize, a: &mut Line) {
+    let half = order / 2;
+    let (low, high) =
+        a.0.as_flattened_mut()
+            .split_at_mut(order.div_ceil(2).min(MAX_ORDER));
+    let (Some(ends), Some(high), Some(c)) = (
+        low.get_mut(..half),
+        high.get_mut(..half),
+        c.get(..=order.div_ceil(2)),
+    ) else {
+        return;
+    };
+    if order.is_multiple_of(2) {
+        for k in 0..half {
+            let q = c[k + 1][LANE] + c[k][LANE];
+            let p = c[k + 1][LANE + 1] - c[k][LANE + 1];
+            (ends[k], high[half - 1 - k]) = (q + p, q - p);
+        }
+    } else {
+        let mut two_before = 0.0;
+        for k in 0..half {
+            let (q, p) = (c[k + 1][LANE], c[k + 1][LANE + 1] - two_before);
+            two_before = c[k][LANE + 1];
+            (ends[k], high[half - 1 - k]) = (q + p, q - p);
+        }
+        if let (Some(middle), Some(c)) = (low.last_mut(), c.last()) {
+            *middle = c[LANE];
+        }
+    }
+}
+
+/// Where −2 cos ω of LSF `index` of `order` is stored: its position in the order of
 /// multiplication, Q's pairs at even places, P's at odd ones.
 #[must_use]
-pub const fn stage(index: usize, order: usize) -> usize {
+pub(crate) const fn stage(index: usize, order: usize) -> usize {
     let of_difference = index % 2;
     let pair = index / 2;
     let pairs = if of_difference == 0 {
@@ -38,105 +251,6 @@ pub const fn stage(index: usize, order: usize) -> usize {
         2 * (pairs - 1 - pair) + 1
     };
     2 * stage + of_difference
-}
-
-/// Coefficients a_1..a_p of A(z) and b_1..b_q of B(z), zeros above, from cosines in
-/// [`stage`] order. Orders are at most 24; an order of 0 gives no coefficients.
-#[must_use]
-pub fn polynomials(
-    ar_cosines: &[f32; MAX_ORDER],
-    ar_order: usize,
-    ma_cosines: &[f32; MAX_ORDER],
-    ma_order: usize,
-) -> ([f32; MAX_ORDER], [f32; MAX_ORDER]) {
-    // Without B(z) its lanes repeat A(z)'s, so that no stage is partly idle.
-    let (ma_cosines, paired_order) = if ma_order == 0 {
-        (ar_cosines, ar_order)
-    } else {
-        (ma_cosines, ma_order)
-    };
-    let pairs = [
-        ar_order.div_ceil(2),
-        ar_order / 2,
-        paired_order.div_ceil(2),
-        paired_order / 2,
-    ];
-    let mut half: Half = [[0.0; 4]; 16];
-    half[FIRST] = [1.0; 4];
-    let (ar, _) = ar_cosines.as_chunks::<2>();
-    let (ma, _) = ma_cosines.as_chunks::<2>();
-    let all_busy = pairs[1].min(pairs[3]);
-    let some_busy = pairs[0].max(pairs[2]);
-    for (done, (ar, ma)) in ar.iter().zip(ma).enumerate().take(some_busy) {
-        let minus_2x = [-2.0 * ar[0], -2.0 * ar[1], -2.0 * ma[0], -2.0 * ma[1]];
-        if done < all_busy {
-            multiply(&mut half, done, minus_2x);
-        } else {
-            let before = half;
-            multiply(&mut half, done, minus_2x);
-            for (after, before) in half.iter_mut().zip(&before) {
-                for lane in 0..4 {
-                    let busy = done < pairs[lane];
-                    after[lane] = if busy { after[lane] } else { before[lane] };
-                }
-            }
-        }
-    }
-    (assemble(&half, 0, ar_order), assemble(&half, 2, ma_order))
-}
-
-/// Multiplies four symmetric polynomials of degree `2·done`, half of each, by
-/// 1 − 2x z⁻¹ + z⁻².
-#[inline]
-fn multiply(half: &mut Half, done: usize, minus_2x: Lanes) {
-    let step = |here: Lanes, before: Lanes, two_before: Lanes| {
-        let mut product = [0.0; 4];
-        for lane in 0..4 {
-            product[lane] = (here[lane] + two_before[lane]) + minus_2x[lane] * before[lane];
-        }
-        product
-    };
-    let (mut two_before, mut before) = ([0.0; 4], half[FIRST]);
-    let mut rest = half[FIRST + 1..].iter_mut();
-    for place in rest.by_ref().take(done) {
-        let here = *place;
-        *place = step(here, before, two_before);
-        (two_before, before) = (before, here);
-    }
-    // The new middle's old value mirrors the one two before it.
-    if let Some(middle) = rest.next() {
-        *middle = step(two_before, before, two_before);
-    }
-}
-
-/// a_k = (q_k + p_k)/2 and, by symmetry, a_{p+1−k} = (q_k − p_k)/2, where Q = sum·(1 + z⁻¹)
-/// and P = difference·(1 − z⁻¹) for even orders, Q = sum and P = difference·(1 − z⁻²)
-/// for odd ones.
-#[inline]
-fn assemble(half: &Half, lane: usize, order: usize) -> [f32; MAX_ORDER] {
-    let mut a = [0.0; MAX_ORDER];
-    let odd = order % 2 == 1;
-    let middle = order.div_ceil(2);
-    for k in 1..=middle.min(MAX_ORDER / 2) {
-        let sum = |back: usize| half[(FIRST + k - back) % 16][lane];
-        let difference = |back: usize| half[(FIRST + k - back) % 16][lane + 1];
-        let (q, p) = if odd {
-            let is_middle = k == middle;
-            (
-                sum(0),
-                if is_middle {
-                    0.0
-                } else {
-                    difference(0) - difference(2)
-                },
-            )
-        } else {
-            (sum(0) + sum(1), difference(0) - difference(1))
-        };
-        a[(order - k) % MAX_ORDER] = 0.5 * (q - p);
-        a[k - 1] = 0.5 * (q + p);
-    }
-    a
 }
 
 #[cfg(test)]
@@ -189,16 +303,29 @@ mod tests {
                 })
                 .collect();
             let staged = |omegas: &[f64]| {
-                let mut cosines = [0.0; MAX_ORDER];
+                let mut line = Line::ZERO;
                 for (index, omega) in omegas.iter().enumerate() {
-                    cosines[stage(index, omegas.len())] = omega.cos() as f32;
+                    line.0.as_flattened_mut()[stage(index, omegas.len())] =
+                        (-2.0 * omega.cos()) as f32;
                 }
-                cosines
+                line
+            };
+            let polynomials = |ar: &[f64], ma: &[f64]| {
+                let shape = Shape::new(ar.len(), ma.len());
+                let (mut products, mut a, mut b) = (Products::ONE, Line::ZERO, Line::ZERO);
+                for unit in 0..shape.units() {
+                    shape.multiply::<4>(&mut products, &staged(ar), &staged(ma), unit);
+                }
+                shape.ar(&products, &mut a);
+                shape.ma(&products, &mut b);
+                (a.to_array(), b.to_array())
             };
             let shorter = &omegas[..order / 2];
-            let (a, b) = polynomials(&staged(&omegas), order, &staged(shorter), order / 2);
-            let (_, swapped) = polynomials(&staged(shorter), order / 2, &staged(&omegas), order);
-            assert_eq!(a, swapped, "A(z) and B(z) are converted alike");
+            let (a, b) = polynomials(&omegas, shorter);
+            let (_, swapped) = polynomials(shorter, &omegas);
+            if order > 1 {
+                assert_eq!(a, swapped, "A(z) and B(z) are converted alike");
+            }
             for (ours, exact) in a.iter().zip(reference(&omegas)) {
                 let error = (f64::from(*ours) - exact).abs();
                 assert!(error < 1e-5, "order {order}: {error}");

@@ -6,7 +6,11 @@
 //! caller reports as missed count like bad samples. The first good sample afterwards
 //! restarts the motion estimate, and the force comes back by a ramp.
 
-use crate::{Sample, math::Vec3};
+use crate::{
+    Sample,
+    lanes::F4,
+    math::{Vec3, min},
+};
 
 /// Positions beyond this are errors, not positions, m.
 pub const REACH_M: f32 = 1.0e4;
@@ -28,6 +32,8 @@ pub struct Gate {
 pub struct Gated {
     /// Position to render, m.
     pub position_m: Vec3,
+    /// Displacement since the position before, m; none where motion starts anew.
+    pub motion_m: Vec3,
     /// Periods since the last rendered position, 1..=3.
     pub elapsed_ticks: u32,
     /// Share of the force, 0..=1.
@@ -56,10 +62,39 @@ impl Gate {
     /// One sample; `ramp_step` is the gain regained a tick.
     #[inline]
     pub fn step(&mut self, sample: &Sample, hold_ticks: u32, ramp_step: f32) -> Gated {
-        let in_reach = |x: f32| x.abs() <= REACH_M;
+        let p = F4::vec3(sample.position_m);
+        let usable = p.is_within(REACH_M) & (sample.elapsed_ticks > 0);
+        let missed = sample.elapsed_ticks.wrapping_sub(1);
+        if !usable || missed > hold_ticks || self.fresh {
+            return self.irregular(sample, usable, hold_ticks, ramp_step);
+        }
+        let motion = p - F4::vec3(self.position_m);
+        self.position_m = sample.position_m;
+        self.bad_in_a_row = 0;
+        self.gain = min(self.gain + ramp_step, 1.0);
+        Gated {
+            position_m: self.position_m,
+            motion_m: motion.xyz(),
+            elapsed_ticks: sample.elapsed_ticks,
+            gain: self.gain,
+            restart: false,
+            held: false,
+            safe: false,
+            fault: false,
+            bad: false,
+        }
+    }
+
+    /// A bad sample, one after missed periods, or the first one.
+    #[inline(always)]
+    fn irregular(
+        &mut self,
+        sample: &Sample,
+        usable: bool,
+        hold_ticks: u32,
+        ramp_step: f32,
+    ) -> Gated {
         let p = sample.position_m;
-        // A comparison with NaN is false.
-        let usable = in_reach(p[0]) & in_reach(p[1]) & in_reach(p[2]) & (sample.elapsed_ticks > 0);
         let missed = sample.elapsed_ticks.saturating_sub(1);
         let gap = missed > hold_ticks && !self.fresh;
         let good = usable && !gap;
@@ -73,6 +108,7 @@ impl Gate {
         let safe = !good && !held;
         let fault = safe && (gap || !self.fresh);
         let restart = usable && (self.fresh || gap);
+        let before = if restart { p } else { self.position_m };
         if usable {
             self.position_m = p;
         }
@@ -89,6 +125,7 @@ impl Gate {
         };
         Gated {
             position_m: self.position_m,
+            motion_m: (F4::vec3(self.position_m) - F4::vec3(before)).xyz(),
             elapsed_ticks: if good && !restart { missed + 1 } else { 1 },
             gain: self.gain,
             restart,

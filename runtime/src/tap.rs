@@ -6,7 +6,7 @@
 //! Below the slowest trace it shrinks with the speed, above the fastest it stays.
 //! After an impact the detector waits until the stylus is `rearm_m` away.
 
-use crate::{math::clamp_from_zero, resample::Resampler};
+use crate::{lanes::F4, math::clamp_from_zero, resample::Resampler};
 use asperity_formats::{Taps, limits::MAX_TAPS};
 use heapless::Vec;
 
@@ -128,7 +128,7 @@ impl Selection {
 #[derive(Debug, Clone, PartialEq)]
 pub struct TapState {
     /// Signed distances, the newest first, m.
-    distances_m: [f32; WINDOW_TICKS],
+    distances_m: [[f32; 4]; WINDOW_TICKS / 4],
     armed: bool,
     /// Next tick of the transient; `u32::MAX` when none plays.
     tick: u32,
@@ -149,7 +149,7 @@ pub struct TapOutput {
 impl TapState {
     /// No contact seen yet: the first one is no impact.
     pub const IDLE: Self = Self {
-        distances_m: [0.0; WINDOW_TICKS],
+        distances_m: [[0.0; 4]; WINDOW_TICKS / 4],
         armed: false,
         tick: u32::MAX,
         selection: Selection::SILENT,
@@ -158,19 +158,19 @@ impl TapState {
     /// Starts over at `distance_m`; a first sample inside is no impact.
     pub fn restart(&mut self, distance_m: f32) {
         *self = Self::IDLE;
-        self.distances_m = [distance_m; WINDOW_TICKS];
+        self.distances_m = [[distance_m; 4]; WINDOW_TICKS / 4];
     }
 
     /// Impact speed, m/s: minus the least-squares slope of the last eight distances.
+    #[inline]
     fn approach_speed_m_s(&self, servo_rate_hz: f32) -> f32 {
         // Σ (i − 3.5)² over eight samples.
         const SPREAD: f32 = 42.0;
-        let mut slope = 0.0;
-        for (i, d) in self.distances_m.iter().enumerate() {
-            slope += (i as f32 - 3.5) * d;
-        }
+        let [newer, older] = &self.distances_m;
         // Index 0 is the newest, so a falling distance gives a positive slope.
-        slope * (servo_rate_hz / SPREAD)
+        let newer = F4::load(newer) * F4::load(&[-3.5, -2.5, -1.5, -0.5]);
+        let older = F4::load(older) * F4::load(&[0.5, 1.5, 2.5, 3.5]);
+        (newer + older).sum() * (servo_rate_hz * (1.0 / SPREAD))
     }
 
     /// One tick at `distance_m` from the surface (negative inside).
@@ -182,15 +182,13 @@ impl TapState {
         servo_rate_hz: f32,
         config: &crate::TapConfig,
     ) -> TapOutput {
-        self.distances_m.copy_within(..WINDOW_TICKS - 1, 1);
-        self.distances_m[0] = distance_m;
+        let [[a, b, c, d], [e, f, g, _]] = self.distances_m;
+        self.distances_m = [[distance_m, a, b, c], [d, e, f, g]];
         let speed_m_s = self.approach_speed_m_s(servo_rate_hz);
         let touching = distance_m < 0.0;
         let started = self.armed && touching && speed_m_s >= config.min_speed_m_s;
-        // Chosen in every tick, so that an impact costs what rest costs.
-        let selection = bank.select(speed_m_s);
         if started {
-            self.selection = selection;
+            self.selection = bank.select(speed_m_s);
             self.tick = 0;
         }
         self.armed = (self.armed || distance_m > config.rearm_m) && !touching;

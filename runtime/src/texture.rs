@@ -2,18 +2,21 @@
 
 use crate::{
     Filter,
+    lanes::F4,
     locate::{Barycentric, Locator},
-    lsf,
+    lsf::{self, Products, Shape},
     math::cos_pi,
+    schedule::{self, CYCLE_TICKS, Share},
+    synthesis::{Lags, Line},
     tap::TapBank,
 };
-use asperity_formats::{Asset, FormatError, LsfCode, Numerator, Surface, limits};
+use asperity_formats::{Asset, FormatError, LsfCode, Numerator, Surface};
 use thiserror::Error;
 
 /// A texture slot in caller-provided memory.
 ///
-/// Capacities: `V` vertices, `T` triangles (a multiple of 8), `P` the AR order and `Q` the
-/// MA order (even, at most 24), `K` tap samples at the servo rate, all traces together. One slot drives any
+/// Capacities: `V` vertices, `T` triangles, `P` the AR order and `Q` the MA order (`T`, `P` and
+/// `Q` multiples of 4, orders at most 24), `K` tap samples at the servo rate, all traces together. One slot drives any
 /// number of [`State`](crate::State)s; a texture that does not fit is refused.
 #[derive(Debug, Clone)]
 pub struct Texture<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize> {
@@ -21,14 +24,17 @@ pub struct Texture<const V: usize, const T: usize, const P: usize, const Q: usiz
     pub(crate) taps: TapBank<K>,
     pub(crate) surface: Surface,
     pub(crate) mu: f32,
-    ar_order: usize,
-    ma_order: usize,
-    numerator: Numerator,
+    id: u32,
+    shape: Shape,
+    lags: Lags,
+    shares: [Share; CYCLE_TICKS],
     servo_rate_hz: f32,
-    /// cos ω of A(z)'s LSFs in [`lsf::stage`] order, one row a vertex.
-    ar_cosines: [[f32; P]; V],
-    /// cos ω of B(z)'s LSFs.
-    ma_cosines: [[f32; Q]; V],
+    /// b_1 of a numerator that every model shares.
+    b1: f32,
+    /// −2 cos ω of A(z)'s LSFs in [`lsf::stage`] order, one row a vertex.
+    ar_pairs: Rows<P, V>,
+    /// −2 cos ω of B(z)'s LSFs.
+    ma_pairs: Rows<Q, V>,
     /// gain·σ, m/s²: mixed linearly. Mixing σ² would be 9 dB too loud near rest.
     levels_m_s2: [f32; V],
 }
@@ -66,31 +72,41 @@ pub enum LoadError {
     },
 }
 
-/// The mixed parameters of one query: cosines of LSFs and a level.
+/// −2 cos ω in [`lsf::stage`] order, one row a vertex.
+#[derive(Debug, Clone)]
+#[repr(align(16))]
+struct Rows<const N: usize, const V: usize>([[f32; N]; V]);
+
+/// Mixed parameters: −2 cos ω of A(z) and B(z) in [`lsf::stage`] order, zero beyond the order.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Parameters {
-    pub(crate) ar_cosines: [f32; limits::MAX_ORDER],
-    pub(crate) ma_cosines: [f32; limits::MAX_ORDER],
-    pub(crate) level_m_s2: f32,
+pub(crate) struct Pairs {
+    ar: Line,
+    ma: Line,
 }
 
-impl Parameters {
-    pub(crate) const SILENT: Self = Self {
-        ar_cosines: [0.0; limits::MAX_ORDER],
-        ma_cosines: [0.0; limits::MAX_ORDER],
-        level_m_s2: 0.0,
+impl Pairs {
+    pub(crate) const ZERO: Self = Self {
+        ar: Line::ZERO,
+        ma: Line::ZERO,
     };
+}
 
-    /// Moves the shape towards `target` by `share` of the way; takes its level.
-    #[inline]
-    pub(crate) fn follow(&mut self, target: &Self, share: f32) {
-        for (x, t) in self.ar_cosines.iter_mut().zip(&target.ar_cosines) {
-            *x += share * (t - *x);
+impl<const N: usize, const V: usize> Rows<N, V> {
+    /// Moves the first `blocks` blocks of four `share` of the way to the mixture of three rows.
+    #[inline(always)]
+    fn follow(&self, line: &mut Line, query: &Barycentric, share: f32, blocks: usize) {
+        let row = |corner: usize| {
+            let row = self.0.get(usize::from(query.vertices[corner]));
+            row.map_or(&[][..], |row| row.as_chunks::<4>().0)
+        };
+        let [wi, wj, wk] = query.weights.map(F4::splat);
+        let share = F4::splat(share);
+        let rows = row(0).iter().zip(row(1)).zip(row(2));
+        for (place, ((i, j), k)) in line.0.iter_mut().zip(rows).take(blocks) {
+            let mixed = wi * F4::load(i) + wj * F4::load(j) + wk * F4::load(k);
+            let before = F4::load(place);
+            *place = (before + share * (mixed - before)).to_array();
         }
-        for (x, t) in self.ma_cosines.iter_mut().zip(&target.ma_cosines) {
-            *x += share * (t - *x);
-        }
-        self.level_m_s2 = target.level_m_s2;
     }
 }
 
@@ -119,12 +135,14 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
                 f_max_n: 0.0,
             },
             mu: 0.0,
-            ar_order: 0,
-            ma_order: 0,
-            numerator: Numerator::None,
+            id: 0,
+            shape: Shape::new(0, 0),
+            lags: Lags { ar: 0, ma: 0 },
+            shares: [Share::NONE; CYCLE_TICKS],
             servo_rate_hz: 0.0,
-            ar_cosines: [[0.0; P]; V],
-            ma_cosines: [[0.0; Q]; V],
+            b1: 0.0,
+            ar_pairs: Rows([[0.0; P]; V]),
+            ma_pairs: Rows([[0.0; Q]; V]),
             levels_m_s2: [0.0; V],
         }
     }
@@ -143,13 +161,13 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
                 servo_hz: servo_rate_hz,
             });
         }
-        let triangle_room = T - T % 8;
+        let triangle_room = T - T % 4;
         let tap_samples = TapBank::<K>::needed(asset.taps(), servo_rate_hz);
         for (field, found, capacity) in [
             ("vertices", grid.vertices().len(), V),
             ("triangles", grid.triangles().len(), triangle_room),
-            ("ar_order", grid.ar_order(), P),
-            ("ma_order", grid.ma_order(), Q),
+            ("ar_order", grid.ar_order(), P - P % 4),
+            ("ma_order", grid.ma_order(), Q - Q % 4),
             ("tap samples", tap_samples, K),
         ] {
             if found > capacity {
@@ -160,19 +178,27 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
                 });
             }
         }
-        self.ar_order = grid.ar_order();
-        self.ma_order = grid.ma_order();
-        self.numerator = grid.numerator();
+        // The checksums of all that is loaded.
+        self.id = asset
+            .sections()
+            .fold(1, |id, section| id.rotate_left(5) ^ section.crc32);
+        self.shape = Shape::new(grid.ar_order(), grid.ma_order());
+        self.lags = Lags::new(grid.ar_order(), grid.ma_order());
+        self.b1 = if grid.numerator() == Numerator::Nyquist {
+            1.0
+        } else {
+            0.0
+        };
         self.servo_rate_hz = servo_rate_hz;
         self.surface = *asset.surface();
         self.mu = asset.friction().mu();
-        self.ar_cosines = [[0.0; P]; V];
-        self.ma_cosines = [[0.0; Q]; V];
+        self.ar_pairs.0 = [[0.0; P]; V];
+        self.ma_pairs.0 = [[0.0; Q]; V];
         self.levels_m_s2 = [0.0; V];
         for (index, vertex) in grid.vertices().enumerate().take(V) {
             if let Some(model) = grid.models().nth(usize::from(vertex.model)) {
-                to_cosines(&mut self.ar_cosines[index], model.lsf());
-                to_cosines(&mut self.ma_cosines[index], model.ma_lsf());
+                to_pairs(&mut self.ar_pairs.0[index], model.lsf());
+                to_pairs(&mut self.ma_pairs.0[index], model.ma_lsf());
                 self.levels_m_s2[index] = model.gain * vertex.sigma_m_s2;
             }
         }
@@ -187,6 +213,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             grid.max_speed_mm_s(),
             grid.max_force_n(),
         );
+        self.shares = schedule::shares(self.locator.blocks(), &self.shape);
         self.taps.load(asset.taps(), servo_rate_hz);
         Ok(())
     }
@@ -224,56 +251,103 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     /// The steady model of a query: what the tick renders once speed and force rest.
     #[must_use]
     pub fn filter_at(&self, speed_mm_s: f32, force_n: f32) -> Filter {
-        self.filter(&self.mix(&self.weights_at(speed_mm_s, force_n)))
-    }
-
-    /// Mixes cosines and levels of three vertices.
-    #[inline]
-    pub(crate) fn mix(&self, query: &Barycentric) -> Parameters {
-        let [i, j, k] = query.vertices.map(|v| usize::from(v) % V);
-        let [wi, wj, wk] = query.weights;
-        let mut mixed = Parameters::SILENT;
-        for (n, x) in mixed.ar_cosines.iter_mut().enumerate().take(P) {
-            *x = wi * self.ar_cosines[i][n]
-                + wj * self.ar_cosines[j][n]
-                + wk * self.ar_cosines[k][n];
+        let query = self.weights_at(speed_mm_s, force_n);
+        let (mut pairs, mut products) = (Pairs::ZERO, Products::ONE);
+        self.follow_ar(&mut pairs, &query, 1.0);
+        self.follow_ma(&mut pairs, &query, 1.0);
+        for unit in 0..self.shape.units() {
+            self.multiply(&mut products, &pairs, unit);
         }
-        for (n, x) in mixed.ma_cosines.iter_mut().enumerate().take(Q) {
-            *x = wi * self.ma_cosines[i][n]
-                + wj * self.ma_cosines[j][n]
-                + wk * self.ma_cosines[k][n];
-        }
-        mixed.level_m_s2 =
-            wi * self.levels_m_s2[i] + wj * self.levels_m_s2[j] + wk * self.levels_m_s2[k];
-        mixed
-    }
-
-    /// Direct-form coefficients of mixed parameters.
-    #[inline]
-    pub(crate) fn filter(&self, parameters: &Parameters) -> Filter {
-        let (a, mut b) = lsf::polynomials(
-            &parameters.ar_cosines,
-            self.ar_order,
-            &parameters.ma_cosines,
-            self.ma_order,
-        );
-        if self.numerator == Numerator::Nyquist {
-            b[0] = 1.0;
-        }
+        let (mut a, mut b) = (Line::ZERO, Line::ZERO);
+        self.coefficients(&products, &mut a, &mut b);
         Filter {
-            a,
-            b,
-            level_m_s2: parameters.level_m_s2,
+            a: a.to_array(),
+            b: b.to_array(),
+            level_m_s2: self.level_m_s2(&query),
         }
+    }
+
+    /// Whether an edge model answers a query.
+    #[inline]
+    pub(crate) fn is_outside(&self, speed_mm_s: f32, force_n: f32) -> bool {
+        !(speed_mm_s <= self.locator.max_speed_mm_s && force_n <= self.locator.max_force_n)
+    }
+
+    /// Checksum of what was loaded; 0 for an empty slot.
+    #[inline]
+    pub(crate) const fn id(&self) -> u32 {
+        self.id
+    }
+
+    /// Lags of the recursion.
+    #[inline]
+    pub(crate) const fn lags(&self) -> Lags {
+        self.lags
+    }
+
+    /// The work of a tick of the cycle.
+    #[inline]
+    pub(crate) fn share(&self, phase: u8) -> &Share {
+        self.shares.get(usize::from(phase)).unwrap_or(&Share::NONE)
+    }
+
+    /// Moves parameters of A(z) towards a mixture.
+    #[inline]
+    pub(crate) fn follow_ar(&self, pairs: &mut Pairs, query: &Barycentric, share: f32) {
+        let blocks = self.lags.ar.into();
+        self.ar_pairs.follow(&mut pairs.ar, query, share, blocks);
+    }
+
+    /// Moves parameters of B(z) towards a mixture.
+    #[inline]
+    pub(crate) fn follow_ma(&self, pairs: &mut Pairs, query: &Barycentric, share: f32) {
+        if Q > 0 {
+            let blocks = self.lags.ma.into();
+            self.ma_pairs.follow(&mut pairs.ma, query, share, blocks);
+        }
+    }
+
+    /// One unit of the conversion.
+    #[inline]
+    pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, unit: usize) {
+        // A slot without room for B(z) needs no code for it.
+        if Q > 0 && self.shape.ma_order > 0 {
+            self.shape
+                .multiply::<4>(products, &pairs.ar, &pairs.ma, unit);
+        } else {
+            self.shape
+                .multiply::<2>(products, &pairs.ar, &pairs.ma, unit);
+        }
+    }
+
+    /// Coefficients of A(z) and B(z), all units done.
+    #[inline]
+    pub(crate) fn coefficients(&self, products: &Products, a: &mut Line, b: &mut Line) {
+        self.shape.ar(products, a);
+        if Q > 0 && self.shape.ma_order > 0 {
+            self.shape.ma(products, b);
+        } else {
+            b.0[0][0] = self.b1;
+        }
+    }
+
+    /// gain·σ of a mixture, m/s².
+    #[inline]
+    pub(crate) fn level_m_s2(&self, query: &Barycentric) -> f32 {
+        let level = |corner: usize| {
+            let vertex = usize::from(query.vertices[corner]);
+            query.weights[corner] * self.levels_m_s2.get(vertex).copied().unwrap_or_default()
+        };
+        level(0) + level(1) + level(2)
     }
 }
 
-/// The cosines of a model, in the order in which the conversion takes them.
-fn to_cosines(row: &mut [f32], codes: impl ExactSizeIterator<Item = LsfCode>) {
+/// −2 cos ω of a model, in the order in which the conversion takes them.
+fn to_pairs(row: &mut [f32], codes: impl ExactSizeIterator<Item = LsfCode>) {
     let order = codes.len();
     for (index, code) in codes.enumerate() {
-        if let Some(x) = row.get_mut(lsf::stage(index, order)) {
-            *x = cos_pi(code.half_turns());
+        if let Some(m) = row.get_mut(lsf::stage(index, order)) {
+            *m = -2.0 * cos_pi(code.half_turns());
         }
     }
 }

@@ -4,15 +4,14 @@ use asperity_formats::Surface;
 
 use crate::{
     Config, ConfigError, Texture, VibrationAxis,
-    excitation::Excitation,
     friction::{Bristle, FrictionState},
-    limiter::Limiter,
-    math::{Vec3, add, clamp_from_zero, cross, dot, exp, max, rsqrt, scale, sub, tangential},
+    lanes::F4,
+    limiter::{Limited, Limiter},
+    math::{Vec3, clamp_from_zero, cross, exp, max, rsqrt, scale},
     safety::Gate,
-    synthesis::History,
     tap::TapState,
-    texture::Parameters,
     velocity::{LowPass2, LowPass2State},
+    vibration::{CYCLE_TICKS, Vibration},
     wall::{Passivity, Wall},
 };
 
@@ -146,20 +145,45 @@ pub struct Counters {
     pub slew_limited: u32,
 }
 
+/// What a tick counts.
+struct Events {
+    bad_sample: bool,
+    missed_ticks: u32,
+    fault: bool,
+    tap: bool,
+    limited: Limited,
+}
+
+impl Counters {
+    #[inline]
+    fn count(&mut self, events: &Events) {
+        self.missed_ticks = self.missed_ticks.saturating_add(events.missed_ticks);
+        // The others never exceed the count of ticks: all stop with it.
+        if self.ticks == u32::MAX {
+            return;
+        }
+        self.ticks += 1;
+        for (counter, event) in [
+            (&mut self.bad_samples, events.bad_sample),
+            (&mut self.faults, events.fault),
+            (&mut self.taps, events.tap),
+            (&mut self.peak_limited, events.limited.peak),
+            (&mut self.slew_limited, events.limited.slew),
+        ] {
+            *counter = counter.wrapping_add(u32::from(event));
+        }
+    }
+}
+
 /// Everything that changes from tick to tick. Texture and configuration are outside
 /// it, so a swap of texture copies no history.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
+    vibration: Vibration,
     gate: Gate,
-    position_m: Vec3,
     distance_m: f32,
-    velocity: [LowPass2State; 3],
-    normal_velocity: LowPass2State,
+    velocity: LowPass2State,
     direction: Vec3,
-    touching: bool,
-    parameters: Parameters,
-    history: History,
-    excitation: Excitation,
     tap: TapState,
     friction: FrictionState,
     force_n: Vec3,
@@ -171,16 +195,11 @@ impl State {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
+            vibration: Vibration::new(seed),
             gate: Gate::NEW,
-            position_m: [0.0; 3],
             distance_m: 0.0,
-            velocity: [LowPass2State::default(); 3],
-            normal_velocity: LowPass2State::default(),
+            velocity: LowPass2State::REST,
             direction: [1.0, 0.0, 0.0],
-            touching: false,
-            parameters: Parameters::SILENT,
-            history: History::SILENT,
-            excitation: Excitation::new(seed),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
             force_n: [0.0; 3],
@@ -195,13 +214,11 @@ impl State {
     }
 
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.
-    fn restart(&mut self, position_m: Vec3, distance_m: f32) {
-        self.position_m = position_m;
+    #[cold]
+    fn restart(&mut self, distance_m: f32) {
         self.distance_m = distance_m;
-        self.velocity = [LowPass2State::default(); 3];
-        self.normal_velocity = LowPass2State::default();
-        self.touching = false;
-        self.history = History::SILENT;
+        self.velocity = LowPass2State::REST;
+        self.vibration.silence();
         self.friction = FrictionState::default();
         self.tap.restart(distance_m);
     }
@@ -212,12 +229,12 @@ impl State {
 pub struct Renderer {
     config: Config,
     velocity: LowPass2,
-    normal_velocity: LowPass2,
     limiter: Limiter,
     bristle: Bristle,
     passivity: Passivity,
     /// Periods per second over 1, 2 and 3 elapsed ticks.
     rate_over_ticks: [f32; 3],
+    /// Share of the way that parameters go in a cycle.
     follow_share: f32,
     ramp_step: f32,
 }
@@ -230,20 +247,20 @@ impl Renderer {
     pub fn new(config: &Config) -> Result<Self, ConfigError> {
         config.check()?;
         let rate = config.servo_rate_hz;
-        let time_constant = config.parameter_time_constant_s * rate;
+        let cycles = config.parameter_time_constant_s * rate / CYCLE_TICKS as f32;
+        let [plane, normal] = [config.velocity_cutoff_hz, config.normal_cutoff_hz];
         Ok(Self {
             config: Config {
                 surface: config.surface.normalised(),
                 ..config.clone()
             },
-            velocity: LowPass2::new(config.velocity_cutoff_hz, rate),
-            normal_velocity: LowPass2::new(config.normal_cutoff_hz, rate),
+            velocity: LowPass2::new([plane, plane, plane, normal], rate),
             limiter: Limiter::new(&config.limits, rate),
             bristle: Bristle::new(&config.friction, config.mechanics.delay_ticks, rate),
             passivity: Passivity::new(&config.mechanics, rate),
             rate_over_ticks: [rate, rate / 2.0, rate / 3.0],
-            follow_share: if time_constant > 0.0125 {
-                1.0 - exp(-1.0 / time_constant)
+            follow_share: if cycles > 0.0125 {
+                1.0 - exp(-1.0 / cycles)
             } else {
                 1.0
             },
@@ -285,27 +302,23 @@ impl Renderer {
             .step(sample, config.safety.hold_ticks, self.ramp_step);
         let contact = config.surface.contact(gated.position_m);
         if gated.restart {
-            state.restart(gated.position_m, contact.distance_m);
+            state.restart(contact.distance_m);
         }
 
-        let motion_m = sub(gated.position_m, state.position_m);
+        let motion_m = gated.motion_m;
         let rate = self.rate_over_ticks[(gated.elapsed_ticks.wrapping_sub(1) % 3) as usize];
-        let velocity_m_s = self
-            .velocity
-            .step3(&mut state.velocity, scale(motion_m, rate));
-        let outward_m_s = self.normal_velocity.step(
-            &mut state.normal_velocity,
-            (contact.distance_m - state.distance_m) * rate,
-        );
-        state.position_m = gated.position_m;
+        let [x, y, z] = scale(motion_m, rate);
+        let outward = (contact.distance_m - state.distance_m) * rate;
+        let [x, y, z, outward_m_s] = self.velocity.step(&mut state.velocity, [x, y, z, outward]);
         state.distance_m = contact.distance_m;
 
-        let slide_m_s = tangential(velocity_m_s, contact.normal);
-        let squared = dot(slide_m_s, slide_m_s);
+        let normal = F4::vec3(contact.normal);
+        let slide_m_s = F4::vec3([x, y, z]).tangential(normal);
+        let squared = slide_m_s.dot3(slide_m_s);
         let inverse_speed = rsqrt(squared);
         let speed_m_s = squared * inverse_speed;
         if speed_m_s > DIRECTION_FLOOR_M_S {
-            state.direction = scale(slide_m_s, inverse_speed);
+            state.direction = (slide_m_s * F4::splat(inverse_speed)).xyz();
         }
         let speed_mm_s = speed_m_s * MM;
 
@@ -314,21 +327,14 @@ impl Renderer {
         let wall = self.wall(surface);
         let stiffness_n = wall.stiffness_n_m * depth_m;
 
-        let query = texture.weights_at(speed_mm_s, stiffness_n);
-        let target = texture.mix(&query);
-        // Out of contact nothing sounds, so a new contact starts at its own model.
-        let share = if state.touching {
-            self.follow_share
-        } else {
-            1.0
-        };
-        state.parameters.follow(&target, share);
-        state.touching = touching && !gated.safe;
-        let epsilon = state.excitation.next_gaussian();
-        let (vib_m_s2, vib_clamped) =
-            texture
-                .filter(&state.parameters)
-                .step(&mut state.history, epsilon, state.touching);
+        let outside = texture.is_outside(speed_mm_s, stiffness_n);
+        let (vib_m_s2, vib_clamped) = state.vibration.step(
+            texture,
+            speed_mm_s,
+            stiffness_n,
+            self.follow_share,
+            touching && !gated.safe,
+        );
 
         let tap = state.tap.step(
             &texture.taps,
@@ -338,7 +344,7 @@ impl Renderer {
         );
         let tap_n = surface.effective_mass_kg * tap.accel_m_s2;
 
-        let friction = state.friction.step(
+        let (friction, friction_n) = state.friction.step(
             &self.bristle,
             motion_m,
             contact.normal,
@@ -353,41 +359,31 @@ impl Renderer {
             VibrationAxis::Binormal => cross(state.direction, contact.normal),
         };
         let vib_n = surface.vib_s2_m * surface.f_max_n * vib_m_s2;
-        let total = add(
-            add(scale(contact.normal, normal_n), friction),
-            scale(axis, vib_n),
-        );
-        let (force_n, limited) = self.limiter.step(state.force_n, scale(total, gated.gain));
+        let total =
+            normal * F4::splat(normal_n) + F4::vec3(friction) + F4::vec3(axis) * F4::splat(vib_n);
+        let wanted_n = (total * F4::splat(gated.gain)).xyz();
+        let (force_n, limited) = self.limiter.step(state.force_n, wanted_n);
         state.force_n = force_n;
 
         let flags = Flags::default()
             .with(Flags::CONTACT, touching)
             .with(Flags::TAP_STARTED, tap.started)
             .with(Flags::TAP_ACTIVE, tap.active)
-            .with(Flags::OUTSIDE_GRID, query.outside)
+            .with(Flags::OUTSIDE_GRID, outside)
             .with(Flags::PEAK_LIMITED, limited.peak)
             .with(Flags::SLEW_LIMITED, limited.slew)
             .with(Flags::HELD_SAMPLE, gated.held)
             .with(Flags::SAFE_STATE, gated.safe)
             .with(Flags::RAMPING, !gated.safe && gated.gain < 1.0)
             .with(Flags::VIB_CLAMPED, vib_clamped);
-        let counters = &mut state.counters;
-        for (counter, add) in [
-            (&mut counters.ticks, 1),
-            (&mut counters.bad_samples, u32::from(gated.bad)),
-            (
-                &mut counters.missed_ticks,
-                sample.elapsed_ticks.saturating_sub(1),
-            ),
-            (&mut counters.faults, u32::from(gated.fault)),
-            (&mut counters.taps, u32::from(tap.started)),
-            (&mut counters.peak_limited, u32::from(limited.peak)),
-            (&mut counters.slew_limited, u32::from(limited.slew)),
-        ] {
-            *counter = counter.saturating_add(add);
-        }
+        state.counters.count(&Events {
+            bad_sample: gated.bad,
+            missed_ticks: sample.elapsed_ticks.saturating_sub(1),
+            fault: gated.fault,
+            tap: tap.started,
+            limited,
+        });
 
-        let friction_squared = dot(friction, friction);
         Output {
             force_n,
             depth_m,
@@ -395,7 +391,7 @@ impl Renderer {
             normal_force_n: stiffness_n,
             vib_m_s2,
             tap_n,
-            friction_n: friction_squared * rsqrt(friction_squared),
+            friction_n,
             flags,
         }
     }

@@ -1,59 +1,64 @@
 //! Velocity from positions: backward difference and second-order low-pass.
 
-use crate::math::{Vec3, cos_pi, sin_pi};
+use crate::{
+    lanes::F4,
+    math::{cos_pi, sin_pi},
+};
 
-/// Butterworth low-pass of second order by the bilinear transform, in transposed
-/// direct form II:
+/// Channels filtered side by side: the three of a velocity, and the normal one.
+pub const CHANNELS: usize = 4;
+
+/// Butterworth low-passes of second order by the bilinear transform, in transposed
+/// direct form II, each channel with a cut-off of its own:
 ///
 /// `y = b0·x + s1`, `s1 = 2·b0·x − a1·y + s2`, `s2 = b0·x − a2·y`, with b1 = 2·b0 and
 /// b2 = b0. Unit gain at DC; delay at low frequency √2/(2π f_c).
 #[derive(Debug, Clone, Copy)]
 pub struct LowPass2 {
-    b0: f32,
-    a1: f32,
-    a2: f32,
+    b0: [f32; CHANNELS],
+    a1: [f32; CHANNELS],
+    a2: [f32; CHANNELS],
 }
 
-/// State of one channel of a [`LowPass2`].
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+/// State of a [`LowPass2`].
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LowPass2State {
-    s1: f32,
-    s2: f32,
+    s1: [f32; CHANNELS],
+    s2: [f32; CHANNELS],
+}
+
+impl LowPass2State {
+    /// At rest.
+    pub const REST: Self = Self {
+        s1: [0.0; CHANNELS],
+        s2: [0.0; CHANNELS],
+    };
 }
 
 impl LowPass2 {
-    /// A filter with cut-off `cutoff_hz` (−3 dB) at `rate_hz`; 0 < cut-off < rate/2.
+    /// Filters with cut-offs `cutoffs_hz` (−3 dB) at `rate_hz`; 0 < cut-off < rate/2.
     #[must_use]
-    pub fn new(cutoff_hz: f32, rate_hz: f32) -> Self {
-        let x = cutoff_hz / rate_hz;
-        let k = sin_pi(x) / cos_pi(x);
-        let norm = 1.0 / (1.0 + core::f32::consts::SQRT_2 * k + k * k);
+    pub fn new(cutoffs_hz: [f32; CHANNELS], rate_hz: f32) -> Self {
+        let k = cutoffs_hz.map(|cutoff_hz| {
+            let x = cutoff_hz / rate_hz;
+            sin_pi(x) / cos_pi(x)
+        });
+        let norm = |k: f32| 1.0 / (1.0 + core::f32::consts::SQRT_2 * k + k * k);
         Self {
-            b0: k * k * norm,
-            a1: 2.0 * (k * k - 1.0) * norm,
-            a2: (1.0 - core::f32::consts::SQRT_2 * k + k * k) * norm,
+            b0: k.map(|k| k * k * norm(k)),
+            a1: k.map(|k| 2.0 * (k * k - 1.0) * norm(k)),
+            a2: k.map(|k| (1.0 - core::f32::consts::SQRT_2 * k + k * k) * norm(k)),
         }
     }
 
-    /// One step.
+    /// One step of every channel.
     #[inline]
-    pub fn step(&self, state: &mut LowPass2State, x: f32) -> f32 {
-        let bx = self.b0 * x;
-        let y = bx + state.s1;
-        state.s1 = 2.0 * bx - self.a1 * y + state.s2;
-        state.s2 = bx - self.a2 * y;
-        y
-    }
-
-    /// One step of three channels.
-    #[inline]
-    pub fn step3(&self, states: &mut [LowPass2State; 3], x: Vec3) -> Vec3 {
-        let [sx, sy, sz] = states;
-        [
-            self.step(sx, x[0]),
-            self.step(sy, x[1]),
-            self.step(sz, x[2]),
-        ]
+    pub fn step(&self, state: &mut LowPass2State, x: [f32; CHANNELS]) -> [f32; CHANNELS] {
+        let bx = F4::load(&self.b0) * F4::load(&x);
+        let y = bx + F4::load(&state.s1);
+        state.s1 = (bx + bx - F4::load(&self.a1) * y + F4::load(&state.s2)).to_array();
+        state.s2 = (bx - F4::load(&self.a2) * y).to_array();
+        y.to_array()
     }
 }
 
@@ -64,15 +69,18 @@ mod tests {
 
     #[test]
     fn a_ramp_is_followed_with_the_stated_delay() {
-        let (rate_hz, cutoff_hz) = (1000.0, 20.0);
-        let filter = LowPass2::new(cutoff_hz, rate_hz);
-        let mut state = LowPass2State::default();
-        let mut y = 0.0;
-        for n in 0..1000 {
-            y = filter.step(&mut state, n as f32);
+        let rate_hz = 1000.0;
+        let cutoffs_hz = [20.0, 5.0, 40.0, 100.0];
+        let filter = LowPass2::new(cutoffs_hz, rate_hz);
+        let mut state = LowPass2State::REST;
+        let mut y = [0.0; CHANNELS];
+        for n in 0..2000 {
+            y = filter.step(&mut state, [n as f32; CHANNELS]);
         }
-        let delay_s = (999.0 - y) / rate_hz;
-        let stated_s = core::f32::consts::SQRT_2 / (core::f32::consts::TAU * cutoff_hz);
-        assert!((delay_s - stated_s).abs() < 1e-4, "{delay_s} {stated_s}");
+        for (y, cutoff_hz) in y.into_iter().zip(cutoffs_hz) {
+            let delay_s = (1999.0 - y) / rate_hz;
+            let stated_s = core::f32::consts::SQRT_2 / (core::f32::consts::TAU * cutoff_hz);
+            assert!((delay_s - stated_s).abs() < 2e-4, "{delay_s} {stated_s}");
+        }
     }
 }

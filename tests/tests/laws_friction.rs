@@ -36,7 +36,7 @@ impl Axis {
         let motion_m = (x_m - self.last_m) as f32;
         self.last_m = x_m;
         let up = [0.0, 0.0, 1.0];
-        let force = self.state.step(
+        let (force, _) = self.state.step(
             &self.bristle,
             [motion_m, 0.0, 0.0],
             up,

@@ -2,14 +2,18 @@
 //! asperity-benches --bin instructions`.
 //!
 //! Every scenario runs twice under `valgrind --tool=callgrind`, with n and with 2n ticks;
-//! the difference over n is one tick, without start-up. Needs valgrind on the PATH.
+//! the difference over n is one tick, without start-up. The ticks of one cycle of the
+//! parameters are also counted one by one. Needs valgrind on the PATH.
 #![forbid(unsafe_code)]
 
 use asperity_benches::{Rig, motion::Motion, texture::texture};
 use asperity_formats::Numerator;
+use asperity_runtime::vibration::CYCLE_TICKS;
 use std::{env, hint::black_box, process::Command};
 
 const TICKS: u32 = 4000;
+/// The motion whose ticks are counted one by one.
+const STROKE: usize = 2;
 const TEXTURES: [(&str, usize, Numerator); 4] = [
     ("order 20, ARMA", 20, Numerator::Lsf),
     ("order 20, Nyquist zero", 20, Numerator::Nyquist),
@@ -35,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (_, motion) in Motion::ALL {
         print!("{motion:>9}");
     }
-    println!("{:>9}", "spread");
+    println!("{:>9}  ticks of a cycle, stroke", "spread");
     for (texture_index, (label, ..)) in TEXTURES.iter().enumerate() {
         print!("{label:<24}");
         let mut counts = Vec::new();
@@ -48,7 +52,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         let most = counts.iter().copied().fold(f64::MIN, f64::max);
         let least = counts.iter().copied().fold(f64::MAX, f64::min);
-        println!("{:>8.1}%", (most / least - 1.0) * 100.0);
+        print!("{:>8.1}%", (most / least - 1.0) * 100.0);
+        let mut before = count(texture_index, STROKE, TICKS)?;
+        for tick in 1..=CYCLE_TICKS as u32 {
+            let now = count(texture_index, STROKE, TICKS + tick)?;
+            print!(" {:>5}", now - before);
+            before = now;
+        }
+        println!();
     }
     Ok(())
 }
@@ -61,7 +72,7 @@ fn run(texture_index: usize, motion_index: usize, ticks: u32) {
     // As many samples for n as for 2n ticks, so that making them cancels out.
     let samples: Vec<_> = (0..TICKS).map(|tick| motion.sample(tick)).collect();
     for sample in samples.iter().cycle().take(ticks as usize) {
-        black_box(rig.tick(black_box(sample)));
+        black_box(&rig.tick(sample));
     }
 }
 

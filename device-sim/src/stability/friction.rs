@@ -65,7 +65,7 @@ pub fn ours(mu: f64, delay_ticks: u32) -> Law {
     let mut last_m = None;
     Box::new(move |x, normal_n| {
         let motion_m = x - last_m.replace(x).unwrap_or(x);
-        let force = state.step(
+        let (force, _) = state.step(
             &bristle,
             [motion_m as f32, 0.0, 0.0],
             [0.0, 0.0, 1.0],

@@ -151,6 +151,18 @@ typedef struct AsperityConfig {
   float friction_stiffness_n_m;
   // Dead zone of the bristle, m.
   float friction_dead_zone_m;
+  // Speed at which the bristle's deflection leaks, m/s.
+  float friction_leak_speed_m_s;
+  // Viscous damping of the mechanism, N·s/m, without any hand.
+  float mechanics_damping_n_s_m;
+  // Coulomb friction of the mechanism, N.
+  float mechanics_coulomb_n;
+  // Speed up to which that friction counts as damping, m/s.
+  float mechanics_fastest_m_s;
+  // One count of position, m; 0 if positions are not quantised.
+  float mechanics_position_step_m;
+  // Whole periods between a force and its effect, on top of the hold of one.
+  uint32_t mechanics_delay_ticks;
   // Bad samples in a row that hold the last good one, at most 2.
   uint32_t hold_ticks;
   // Duration of the ramp after a fault, s.

@@ -2,7 +2,7 @@
 
 use crate::{AsperityStatus, memory};
 use asperity_runtime::{
-    Config, FrictionConfig, Limits, SafetyConfig, Surface, TapConfig, VibrationAxis,
+    Config, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, Surface, TapConfig, VibrationAxis,
 };
 
 /// `AsperityConfig::surface`: the half-space below a plane through `surface_point_m` with
@@ -52,6 +52,18 @@ pub struct AsperityConfig {
     pub friction_stiffness_n_m: f32,
     /// Dead zone of the bristle, m.
     pub friction_dead_zone_m: f32,
+    /// Speed at which the bristle's deflection leaks, m/s.
+    pub friction_leak_speed_m_s: f32,
+    /// Viscous damping of the mechanism, N·s/m, without any hand.
+    pub mechanics_damping_n_s_m: f32,
+    /// Coulomb friction of the mechanism, N.
+    pub mechanics_coulomb_n: f32,
+    /// Speed up to which that friction counts as damping, m/s.
+    pub mechanics_fastest_m_s: f32,
+    /// One count of position, m; 0 if positions are not quantised.
+    pub mechanics_position_step_m: f32,
+    /// Whole periods between a force and its effect, on top of the hold of one.
+    pub mechanics_delay_ticks: u32,
     /// Bad samples in a row that hold the last good one, at most 2.
     pub hold_ticks: u32,
     /// Duration of the ramp after a fault, s.
@@ -102,6 +114,12 @@ impl From<Config> for AsperityConfig {
             tap_rearm_m: config.tap.rearm_m,
             friction_stiffness_n_m: config.friction.stiffness_n_m,
             friction_dead_zone_m: config.friction.dead_zone_m,
+            friction_leak_speed_m_s: config.friction.leak_speed_m_s,
+            mechanics_damping_n_s_m: config.mechanics.damping_n_s_m,
+            mechanics_coulomb_n: config.mechanics.coulomb_n,
+            mechanics_fastest_m_s: config.mechanics.fastest_m_s,
+            mechanics_position_step_m: config.mechanics.position_step_m,
+            mechanics_delay_ticks: config.mechanics.delay_ticks,
             hold_ticks: config.safety.hold_ticks,
             ramp_s: config.safety.ramp_s,
             parameter_time_constant_s: config.parameter_time_constant_s,
@@ -149,6 +167,14 @@ impl TryFrom<AsperityConfig> for Config {
             friction: FrictionConfig {
                 stiffness_n_m: c.friction_stiffness_n_m,
                 dead_zone_m: c.friction_dead_zone_m,
+                leak_speed_m_s: c.friction_leak_speed_m_s,
+            },
+            mechanics: MechanicsConfig {
+                damping_n_s_m: c.mechanics_damping_n_s_m,
+                coulomb_n: c.mechanics_coulomb_n,
+                fastest_m_s: c.mechanics_fastest_m_s,
+                position_step_m: c.mechanics_position_step_m,
+                delay_ticks: c.mechanics_delay_ticks,
             },
             safety: SafetyConfig {
                 hold_ticks: c.hold_ticks,

@@ -47,8 +47,11 @@ pub struct Oracle {
     last_distance: f64,
     direction: Vector,
     // Vibration.
-    sounding: bool,
-    parameters: Option<Model>,
+    phase: usize,
+    follows: bool,
+    smoothed: Option<Model>,
+    pending: Option<Model>,
+    sounds: Option<Model>,
     excitation: Excitation,
     past_e: VecDeque<f64>,
     past_y: VecDeque<f64>,
@@ -81,8 +84,11 @@ impl Oracle {
             last_position: [0.0; 3],
             last_distance: 0.0,
             direction: [1.0, 0.0, 0.0],
-            sounding: false,
-            parameters: None,
+            phase: 0,
+            follows: false,
+            smoothed: None,
+            pending: None,
+            sounds: None,
             excitation: Excitation::new(seed),
             past_e: VecDeque::from(vec![0.0; 24]),
             past_y: VecDeque::from(vec![0.0; 24]),
@@ -193,7 +199,7 @@ impl Oracle {
         self.velocity.iter_mut().for_each(Butterworth2::reset);
         self.outward.reset();
         (self.last_position, self.last_distance) = (self.position, distance);
-        self.sounding = false;
+        (self.follows, self.pending, self.sounds) = (false, None, None);
         self.past_e = VecDeque::from(vec![0.0; 24]);
         self.past_y = VecDeque::from(vec![0.0; 24]);
         self.distances = VecDeque::from(vec![distance; 8]);
@@ -202,48 +208,64 @@ impl Oracle {
         self.bristle = [0.0; 3];
     }
 
-    /// y[n] = e[n] + Σ b_k e[n−k] − Σ a_k y[n−k], with shapes that follow the query.
-    fn vibration(&mut self, speed_mm_s: f64, force_n: f64, sounding: bool) -> f64 {
-        let target = self.texture.model(speed_mm_s, force_n);
-        let steps =
-            f64::from(self.config.parameter_time_constant_s) * f64::from(self.config.servo_rate_hz);
-        let share = if self.sounding && steps > 0.0 {
-            1.0 - (-1.0 / steps).exp()
-        } else {
-            1.0
-        };
-        let model = match self.parameters.take() {
-            None => target,
-            Some(last) => {
-                let follow = |last: &[f64], target: &[f64]| {
-                    last.iter()
-                        .zip(target)
-                        .map(|(l, t)| l + share * (t - l))
-                        .collect()
-                };
-                Model {
-                    cosines: follow(&last.cosines, &target.cosines),
-                    ma_cosines: follow(&last.ma_cosines, &target.ma_cosines),
-                    level_m_s2: target.level_m_s2,
+    /// Every six ticks a query is taken; its model sounds five ticks later, if the contact
+    /// lasts. Shapes follow the query in steps of six ticks, a new contact's at once.
+    fn model_at_work(&mut self, speed_mm_s: f64, force_n: f64, sounding: bool) {
+        const CYCLE: usize = 6;
+        if !sounding {
+            (self.follows, self.pending, self.sounds) = (false, None, None);
+        }
+        if self.phase == 0 {
+            let target = self.texture.model(speed_mm_s, force_n);
+            let steps = f64::from(self.config.parameter_time_constant_s)
+                * f64::from(self.config.servo_rate_hz)
+                / CYCLE as f64;
+            let share = if self.follows && steps > 0.0 {
+                1.0 - (-1.0 / steps).exp()
+            } else {
+                1.0
+            };
+            let model = match &self.smoothed {
+                None => target,
+                Some(last) => {
+                    let follow = |last: &[f64], target: &[f64]| {
+                        let step = |(l, t): (&f64, &f64)| l + share * (t - l);
+                        last.iter().zip(target).map(step).collect()
+                    };
+                    Model {
+                        cosines: follow(&last.cosines, &target.cosines),
+                        ma_cosines: follow(&last.ma_cosines, &target.ma_cosines),
+                        level_m_s2: target.level_m_s2,
+                    }
                 }
-            }
-        };
-        self.sounding = sounding;
+            };
+            self.smoothed = Some(model.clone());
+            self.pending = sounding.then_some(model);
+        }
+        self.phase = (self.phase + 1) % CYCLE;
+        if self.phase == 0 {
+            self.sounds = self.pending.take();
+            self.follows = self.sounds.is_some();
+        }
+    }
+
+    /// y[n] = e[n] + Σ b_k e[n−k] − Σ a_k y[n−k].
+    fn vibration(&mut self, speed_mm_s: f64, force_n: f64, sounding: bool) -> f64 {
+        self.model_at_work(speed_mm_s, force_n, sounding);
         let epsilon = self.excitation.draw();
         let (mut e, mut y) = (0.0, 0.0);
-        if sounding {
+        if let Some(model) = &self.sounds {
             let past = |c: &[f64], line: &VecDeque<f64>| -> f64 {
                 c.iter().zip(line).map(|(c, x)| c * x).sum()
             };
             e = model.level_m_s2 * epsilon;
-            y = e + past(&self.texture.numerator(&model), &self.past_e)
+            y = e + past(&self.texture.numerator(model), &self.past_e)
                 - past(&polynomial(&model.cosines), &self.past_y);
         }
         for (line, newest) in [(&mut self.past_e, e), (&mut self.past_y, y)] {
             line.pop_back();
             line.push_front(newest);
         }
-        self.parameters = Some(model);
         y
     }
 

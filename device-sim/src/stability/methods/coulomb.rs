@@ -18,8 +18,8 @@ struct Velocity {
 impl Velocity {
     fn new(rate_hz: f64) -> Self {
         Self {
-            filter: LowPass2::new(20.0, rate_hz as f32),
-            state: LowPass2State::default(),
+            filter: LowPass2::new([20.0; 4], rate_hz as f32),
+            state: LowPass2State::REST,
             last_m: None,
             rate_hz,
         }
@@ -28,7 +28,7 @@ impl Velocity {
     fn step(&mut self, position_m: f64) -> f64 {
         let motion_m = position_m - self.last_m.replace(position_m).unwrap_or(position_m);
         let raw = (motion_m * self.rate_hz) as f32;
-        f64::from(self.filter.step(&mut self.state, raw))
+        f64::from(self.filter.step(&mut self.state, [raw; 4])[0])
     }
 }
 

@@ -1,0 +1,110 @@
+//! Four numbers side by side: the same operations in the same order on every processor.
+//!
+//! Registers where there are some, an array elsewhere. Every operation rounds alike, and no two
+//! are fused.
+
+use core::ops::{Add, Mul, Sub};
+use wide::{CmpLe, f32x4};
+
+/// Four `f32`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct F4(f32x4);
+
+impl F4 {
+    #[inline(always)]
+    pub(crate) fn load(from: &[f32; 4]) -> Self {
+        Self(f32x4::new(*from))
+    }
+
+    #[inline(always)]
+    pub(crate) fn splat(x: f32) -> Self {
+        Self(f32x4::splat(x))
+    }
+
+    #[inline(always)]
+    pub(crate) fn to_array(self) -> [f32; 4] {
+        self.0.to_array()
+    }
+
+    /// The smaller of each two; nothing is NaN.
+    #[inline(always)]
+    pub(crate) fn min(self, other: Self) -> Self {
+        Self(self.0.fast_min(other.0))
+    }
+
+    /// The larger of each two; nothing is NaN.
+    #[inline(always)]
+    pub(crate) fn max(self, other: Self) -> Self {
+        Self(self.0.fast_max(other.0))
+    }
+
+    /// Replaces the bits of each that `clear` has by those of `set`.
+    #[inline(always)]
+    pub(crate) fn mark(self, clear: u32, set: u32) -> Self {
+        let keep = f32x4::splat(f32::from_bits(!clear));
+        Self(self.0 & keep | f32x4::splat(f32::from_bits(set)))
+    }
+
+    /// Three components and a zero.
+    #[inline(always)]
+    pub(crate) fn vec3([x, y, z]: [f32; 3]) -> Self {
+        Self::load(&[x, y, z, 0.0])
+    }
+
+    /// The first three.
+    #[inline(always)]
+    pub(crate) fn xyz(self) -> [f32; 3] {
+        let [x, y, z, _] = self.to_array();
+        [x, y, z]
+    }
+
+    /// All four: (1st + 2nd) + (3rd + 4th).
+    #[inline(always)]
+    pub(crate) fn sum(self) -> f32 {
+        let [a, b, c, d] = self.to_array();
+        (a + b) + (c + d)
+    }
+
+    /// What is left of the first three in the plane with unit normal `normal`.
+    #[inline(always)]
+    pub(crate) fn tangential(self, normal: Self) -> Self {
+        self - normal * Self::splat(self.dot3(normal))
+    }
+
+    /// Whether none of the four is beyond ±`limit` or NaN.
+    #[inline(always)]
+    pub(crate) fn is_within(self, limit: f32) -> bool {
+        self.0.abs().cmp_le(f32x4::splat(limit)).all()
+    }
+
+    /// Inner product of the first three.
+    #[inline(always)]
+    pub(crate) fn dot3(self, other: Self) -> f32 {
+        let [x, y, z, _] = (self * other).to_array();
+        x + y + z
+    }
+}
+
+impl Add for F4 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+}
+
+impl Sub for F4 {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+}
+
+impl Mul for F4 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0 * other.0)
+    }
+}

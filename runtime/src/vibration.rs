@@ -1,0 +1,162 @@
+//! The vibration y\[n\]: parameters that follow speed and force, and the next sample.
+//!
+//! The model at a speed and a force is made in cycles of [`CYCLE_TICKS`] ticks. The first
+//! tick of a cycle takes the query; every tick does an equal share of location, mixture and
+//! conversion; the last one puts the new coefficients and level to work. A change of speed or
+//! force is thus heard after 5 to 10 ticks. Between cycles the shape of the spectrum follows
+//! its target as a one-pole, which keeps the recursion bounded when speed or force jump; the
+//! level is the target's.
+//!
+//! A contact is silent until a query that was taken in it takes effect, and starts at its own
+//! model. Out of contact the cycles go on, so that a tick always costs the same.
+
+pub use crate::schedule::CYCLE_TICKS;
+use crate::{
+    Barycentric, Texture,
+    excitation::Excitation,
+    locate::Search,
+    lsf::Products,
+    synthesis::{History, Line},
+    texture::Pairs,
+};
+
+/// State of the vibration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vibration {
+    /// Partial products of the conversion under way.
+    products: Products,
+    /// Smoothed parameters.
+    pairs: Pairs,
+    /// Coefficients at work.
+    a: Line,
+    b: Line,
+    history: History,
+    level_m_s2: f32,
+    // The query of the cycle under way, and what was found.
+    speed_mm_s: f32,
+    force_n: f32,
+    search: Search,
+    found: Barycentric,
+    share: f32,
+    excitation: Excitation,
+    texture: u32,
+    phase: u8,
+    /// In contact since the query was taken.
+    in_contact: bool,
+    /// The parameters at work belong to this contact.
+    follows: bool,
+}
+
+impl Vibration {
+    /// Silence; the seed is that of the excitation.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self {
+            products: Products::ONE,
+            pairs: Pairs::ZERO,
+            a: Line::ZERO,
+            b: Line::ZERO,
+            history: History::SILENT,
+            level_m_s2: 0.0,
+            speed_mm_s: 0.0,
+            force_n: 0.0,
+            search: Search::START,
+            found: Barycentric::NONE,
+            share: 1.0,
+            excitation: Excitation::new(seed),
+            texture: 0,
+            phase: 0,
+            in_contact: false,
+            follows: false,
+        }
+    }
+
+    /// The contact ends, and what was heard of it.
+    pub(crate) fn silence(&mut self) {
+        self.history = History::SILENT;
+        self.leave();
+    }
+
+    #[inline]
+    fn leave(&mut self) {
+        self.level_m_s2 = 0.0;
+        self.in_contact = false;
+        self.follows = false;
+    }
+
+    /// Another texture: a cycle begun on one is not finished on the other.
+    #[cold]
+    fn change_texture(&mut self, texture: u32) {
+        *self = Self {
+            excitation: self.excitation.clone(),
+            texture,
+            ..Self::new(0)
+        };
+    }
+
+    /// One tick. `follow_share` is the share of the way that parameters go in a cycle; with
+    /// `sounding` false the vibration is mute. Returns y, m/s², and whether it had to be
+    /// clamped.
+    #[inline]
+    pub fn step<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+        speed_mm_s: f32,
+        force_n: f32,
+        follow_share: f32,
+        sounding: bool,
+    ) -> (f32, bool) {
+        if self.texture != texture.id() {
+            self.change_texture(texture.id());
+        }
+        if !sounding {
+            self.leave();
+        }
+        if self.phase == 0 {
+            (self.speed_mm_s, self.force_n) = texture.locator.clamp(speed_mm_s, force_n);
+            self.search = Search::START;
+            self.in_contact = sounding;
+            self.share = if self.follows { follow_share } else { 1.0 };
+        }
+        self.work(texture);
+        let e = self.level_m_s2 * self.excitation.next_gaussian();
+        self.history
+            .step(&self.a, &self.b, texture.lags(), e, sounding)
+    }
+
+    /// This tick's share of the cycle.
+    #[inline]
+    fn work<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+    ) {
+        let share = texture.share(self.phase);
+        let (speed, force) = (self.speed_mm_s, self.force_n);
+        texture
+            .locator
+            .look(&mut self.search, speed, force, share.blocks());
+        if share.chooses {
+            self.found = texture.locator.choose(&self.search, speed, force);
+        }
+        if share.mixes_ar {
+            texture.follow_ar(&mut self.pairs, &self.found, self.share);
+        }
+        if share.mixes_ma {
+            texture.follow_ma(&mut self.pairs, &self.found, self.share);
+        }
+        for unit in share.units() {
+            texture.multiply(&mut self.products, &self.pairs, unit);
+        }
+        self.phase += 1;
+        if usize::from(self.phase) >= CYCLE_TICKS {
+            self.phase = 0;
+            texture.coefficients(&self.products, &mut self.a, &mut self.b);
+            self.level_m_s2 = if self.in_contact {
+                texture.level_m_s2(&self.found)
+            } else {
+                0.0
+            };
+            self.follows = self.in_contact;
+        }
+    }
+}

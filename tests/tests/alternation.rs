@@ -1,0 +1,130 @@
+//! Speed and force that jump to and fro between two points do not make the vibration louder
+//! than its parts: built-in texture and HaTT materials, at every sample and in step with the
+//! cycles of the runtime, which then sees each point in turn.
+
+mod support;
+
+use asperity_formats::Asset;
+use asperity_runtime::{HostTexture, vibration::CYCLE_TICKS, vibration::Vibration};
+use asperity_tests::{draw::Draw, hatt, oracle::Texture};
+use rayon::prelude::*;
+
+const RELEASE: bool = !cfg!(debug_assertions);
+const PAIRS: usize = if RELEASE { 60 } else { 4 };
+const SECOND: usize = 1000;
+const BLOCK: usize = 20;
+/// Ticks at the start that are not counted: the contact fades in.
+const SETTLE: usize = 200;
+/// Share of the way in a cycle: 5 ms at 1 kHz.
+const FOLLOW: f64 = 5.0;
+
+/// RMS over a second, and of every block of 20 ms.
+fn levels(slot: &HostTexture, seed: u64, query: impl Fn(usize) -> (f32, f32)) -> (f64, Vec<f64>) {
+    let share = (1.0 - (-(CYCLE_TICKS as f64) / FOLLOW).exp()) as f32;
+    let mut vibration = Vibration::new(seed);
+    let signal: Vec<f64> = (0..SETTLE + SECOND)
+        .map(|tick| {
+            let (speed, force) = query(tick);
+            let (y, clamped) = vibration.step(slot, speed, force, share, true);
+            assert!(!clamped, "{speed} mm/s, {force} N");
+            y.into()
+        })
+        .skip(SETTLE)
+        .collect();
+    let rms = |part: &[f64]| (part.iter().map(|y| y * y).sum::<f64>() / part.len() as f64).sqrt();
+    (rms(&signal), signal.chunks(BLOCK).map(rms).collect())
+}
+
+#[derive(Default)]
+struct Excess {
+    /// Of a second over the louder stationary one, dB.
+    seconds: Vec<f64>,
+    /// Of blocks of 20 ms over the same, dB.
+    blocks: Vec<f64>,
+}
+
+fn percentile(values: &mut [f64], share: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let at = (share * (values.len() as f64 - 1.0)).round() as usize;
+    values.get(at).copied().unwrap_or(f64::NEG_INFINITY)
+}
+
+impl Excess {
+    /// Random pairs of one texture, alternating every `every` ticks.
+    fn of(bytes: &[u8], every: usize, seed: u64) -> Self {
+        let asset = Asset::parse(bytes).unwrap();
+        let mut slot = Box::new(HostTexture::new());
+        slot.load(&asset, asset.grid().sample_rate_hz()).unwrap();
+        let oracle = Texture::new(&asset);
+        let mut draw = Draw::new(seed);
+        let mut excess = Self::default();
+        for pair in 0..PAIRS as u64 {
+            let mut point = || {
+                if draw.below(2) == 0 {
+                    let v = &oracle.vertices[draw.below(oracle.vertices.len())];
+                    return (v.speed_mm_s as f32, v.force_n as f32);
+                }
+                (
+                    draw.range(0.0, oracle.max_speed_mm_s) as f32,
+                    draw.range(0.0, oracle.max_force_n) as f32,
+                )
+            };
+            let ends = [point(), point()];
+            let stationary = ends.map(|end| levels(&slot, pair, |_| end).0);
+            let loudest = stationary[0].max(stationary[1]);
+            if loudest < 1e-6 {
+                continue;
+            }
+            let (rms, blocks) = levels(&slot, pair, |tick| ends[tick / every % 2]);
+            let db = |level: f64| 20.0 * (level / loudest).max(1e-9).log10();
+            excess.seconds.push(db(rms));
+            excess.blocks.extend(blocks.into_iter().map(db));
+        }
+        excess
+    }
+
+    fn and(mut self, other: Self) -> Self {
+        self.seconds.extend(other.seconds);
+        self.blocks.extend(other.blocks);
+        self
+    }
+
+    fn verdict(&mut self, name: &str) {
+        let second = percentile(&mut self.seconds, 1.0);
+        let block = percentile(&mut self.blocks, 0.999);
+        let (pairs, loudest) = (self.seconds.len(), percentile(&mut self.blocks, 1.0));
+        println!(
+            "{name}: {pairs} pairs, a second at most {second:.2} dB, blocks of 20 ms: \
+             99.9 % below {block:.2} dB, loudest {loudest:.2} dB"
+        );
+        assert!(second <= 6.0 && block <= 12.0, "{name}: {second} {block}");
+    }
+}
+
+const STEPS: [(usize, &str); 3] = [
+    (1, "every sample"),
+    (CYCLE_TICKS, "every cycle"),
+    (CYCLE_TICKS + 1, "every seven samples"),
+];
+
+#[test]
+fn the_builtin_texture() {
+    for (every, name) in STEPS {
+        Excess::of(&support::builtin(), every, 1).verdict(&format!("built-in, {name}"));
+    }
+}
+
+#[test]
+fn every_hatt_material() {
+    let files = hatt::materials("every_hatt_material");
+    if files.is_empty() {
+        return;
+    }
+    for (every, name) in STEPS {
+        files
+            .par_iter()
+            .map(|file| Excess::of(&asperity::hatt::import(file, None).unwrap().bytes, every, 2))
+            .reduce(Excess::default, Excess::and)
+            .verdict(&format!("HaTT, {name}"));
+    }
+}
