@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// Below it a prompt is far from anything the model was trained on.
-pub const LOW_CERTAINTY: f64 = 0.35;
+pub const LOW_CERTAINTY: f64 = 0.2;
 /// Bytes of a prompt that the provenance keeps.
 const KEPT_PROMPT_BYTES: usize = 2048;
 
