@@ -15,6 +15,7 @@ pub mod embedded;
 pub mod hatt;
 pub mod inference;
 pub mod inspect;
+pub mod interpolate;
 pub mod learned;
 pub mod levinson;
 pub mod library;

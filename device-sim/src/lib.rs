@@ -16,6 +16,7 @@
 //! | [`fault`] | NaN, dropped, stale, stuck and late samples, stackable |
 //! | [`session`] | the loop, and the record of every tick |
 //! | [`feel`] | what a session amounts to: summary, CSV, sheet, sound |
+//! | [`labs`] | alternatives to the tick, for charts alone |
 //!
 //! Not modelled, on purpose: the kinematics of the arm (axes are independent and
 //! Cartesian), gravity (taken as compensated), the stylus's orientation, motor
@@ -28,5 +29,6 @@ pub mod device;
 pub mod fault;
 pub mod feel;
 pub mod hand;
+pub mod labs;
 pub mod servo;
 pub mod session;

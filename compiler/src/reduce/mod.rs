@@ -4,6 +4,8 @@
 //! has the same first reflection coefficients, so the reduction is to leave out the
 //! last ones. The numerator stays; the level is kept exactly.
 
+pub mod order;
+
 use crate::{
     learned::level::nyquist_rms,
     lsf,
