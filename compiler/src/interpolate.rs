@@ -92,6 +92,13 @@ impl<'a> Field<'a> {
         Some([1.0 - w1 - w2, w1, w2])
     }
 
+    /// Largest gain·σ of a vertex, m/s².
+    #[must_use]
+    pub fn loudest_m_s2(&self) -> f64 {
+        let levels = self.grid.vertices.iter().map(|v| v.gain * v.sigma_m_s2);
+        levels.fold(0.0, f64::max)
+    }
+
     /// The model of a mixture.
     #[must_use]
     pub fn mixture(&self, place: &Place) -> ArmaModel {
@@ -180,7 +187,10 @@ mod tests {
             // Near rest f32 leaves a level of rounding where there is none.
             if ours.level_m_s2 > 1e-4 {
                 let distance_db = log_spectral_distance_db(&ours, &runtime);
-                assert!(distance_db < 0.02, "{speed_mm_s} mm/s, {force_n} N: {distance_db} dB");
+                assert!(
+                    distance_db < 0.02,
+                    "{speed_mm_s} mm/s, {force_n} N: {distance_db} dB"
+                );
             }
         }
     }

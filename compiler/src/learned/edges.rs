@@ -12,11 +12,7 @@ const EXPONENTS: (f64, f64) = (0.0, 2.0);
 /// The interior vertices followed by the edge models that close
 /// `[0, max_speed_mm_s] × [0, max_force_n]`.
 #[must_use]
-pub fn close(
-    interior: Vec<GridVertex>,
-    max_speed_mm_s: f64,
-    max_force_n: f64,
-) -> Vec<GridVertex> {
+pub fn close(interior: Vec<GridVertex>, max_speed_mm_s: f64, max_force_n: f64) -> Vec<GridVertex> {
     let (speed_exponent, force_exponent) = growth(&interior);
     let edge = |like: &GridVertex, speed_mm_s: f64, force_n: f64| {
         let ratio = |x: f64, y: f64, exponent: f64| libm::pow(x / y, exponent);

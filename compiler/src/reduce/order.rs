@@ -64,6 +64,12 @@ impl<'a> Fits<'a> {
         })
     }
 
+    /// The numerator.
+    #[must_use]
+    pub fn numerator(&self) -> Numerator {
+        self.numerator
+    }
+
     /// Largest order there is.
     #[must_use]
     pub fn largest(&self) -> usize {
@@ -108,11 +114,7 @@ impl<'a> Fits<'a> {
 }
 
 /// Reflection coefficients under a numerator, and the RMS of the model at unit level.
-fn shape(
-    grid: &ModelGrid,
-    vertex: &GridVertex,
-    numerator: Numerator,
-) -> Option<(Vec<f64>, f64)> {
+fn shape(grid: &ModelGrid, vertex: &GridVertex, numerator: Numerator) -> Option<(Vec<f64>, f64)> {
     let model = ArmaModel {
         level_m_s2: 1.0,
         ..ArmaModel::at_vertex(grid, vertex)

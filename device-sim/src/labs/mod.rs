@@ -15,11 +15,11 @@
 //! | [`table`] | the CSV files |
 //! | [`chart`] | the pictures |
 
-//pub mod accuracy;
+pub mod accuracy;
 //pub mod chart;
 //pub mod cost;
 pub mod design;
-//pub mod held_out;
+pub mod held_out;
 pub mod kernel;
 pub mod material;
 //pub mod pareto;

@@ -59,10 +59,7 @@ mod tests {
     fn ranks_are_nearest_and_nan_is_worst() {
         let values: Vec<f64> = (1..=100).map(f64::from).collect();
         let spread = Spread::of(&values).unwrap();
-        assert_eq!(
-            (spread.median, spread.p95, spread.max),
-            (50.0, 95.0, 100.0)
-        );
+        assert_eq!((spread.median, spread.p95, spread.max), (50.0, 95.0, 100.0));
         assert_eq!(percentile(&[f64::NAN, 1.0], 1.0), Some(f64::INFINITY));
         assert_eq!(percentile(&[], 0.5), None);
     }

@@ -111,13 +111,7 @@ impl<S: Number> Line<S> {
 
     /// The lattice: `f_{i−1} = f_i − k_i g_{i−1}[n−1]`, `g_i = g_{i−1}[n−1] + k_i f_{i−1}`.
     #[inline]
-    pub(super) fn lattice(
-        &mut self,
-        c: &Coefficients<S>,
-        order: usize,
-        used_ma: usize,
-        e: S,
-    ) -> S {
+    pub(super) fn lattice(&mut self, c: &Coefficients<S>, order: usize, used_ma: usize, e: S) -> S {
         let mut f = self.numerator(&c.ma, used_ma, e);
         for i in (0..order).rev() {
             f = f.minus(c.ar[i].times(self.y[i]));
@@ -195,9 +189,7 @@ impl<S: Number> Chain<S> {
             let sum = &mut side[i % 2];
             sections[i] = *sum;
             let m = minus_two.times(cosines[i]);
-            *sum = sum
-                .plus(m.times(self.past[i][0]))
-                .plus(self.past[i][1]);
+            *sum = sum.plus(m.times(self.past[i][0])).plus(self.past[i][1]);
         }
         let ends = side;
         let [q, p] = side;
