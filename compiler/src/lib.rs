@@ -26,6 +26,7 @@ pub mod model;
 pub mod output;
 pub mod plot;
 pub mod preview;
+pub mod progress;
 pub mod prompt;
 pub mod raise;
 pub mod reduce;

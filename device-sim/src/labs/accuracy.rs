@@ -235,7 +235,9 @@ impl Truth {
 
     fn alternating(&self, kernel: &mut dyn Rendering, errors: &mut Errors) {
         for pair in &self.pairs {
-            let places: Vec<Place> = (0..ALTERNATIONS).map(|n| at(pair.vertices[n % 2])).collect();
+            let places: Vec<Place> = (0..ALTERNATIONS)
+                .map(|n| at(pair.vertices[n % 2]))
+                .collect();
             kernel.settle(&places[0]);
             let rendered = kernel.render(&places, &self.epsilon);
             errors

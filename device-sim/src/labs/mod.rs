@@ -16,12 +16,12 @@
 //! | [`chart`] | the pictures |
 
 pub mod accuracy;
-//pub mod chart;
-//pub mod cost;
+pub mod chart;
+pub mod cost;
 pub mod design;
 pub mod held_out;
 pub mod kernel;
 pub mod material;
-//pub mod pareto;
+pub mod pareto;
 pub mod statistics;
-//pub mod table;
+pub mod table;

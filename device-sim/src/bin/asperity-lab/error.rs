@@ -27,3 +27,8 @@ impl Diagnostic for Plain {
         self.remedy.clone()
     }
 }
+
+/// For `map_err`: any failure that knows its remedy.
+pub(crate) fn boxed<E: Diagnostic + 'static>(error: E) -> Failure {
+    Box::new(error)
+}

@@ -10,7 +10,7 @@ use asperity_sim::device::DeviceConfig;
 use asperity_sim::feel::{FeelOptions, Summary, csv, record, sheet, wav};
 use asperity_sim::hand::{Grip, GripPreset};
 
-use crate::error::{Failure, Plain};
+use crate::error::{Failure, Plain, boxed};
 
 /// Let a simulated hand explore a texture on a simulated device
 ///
@@ -132,7 +132,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         file.commit().map_err(boxed)?;
     }
     progress.clear();
-    print(report.trim_end())
+    crate::print(&format!("{}\n", report.trim_end()))
 }
 
 /// Bytes of the asset to feel, and where it came from.
@@ -177,21 +177,6 @@ fn filled(mut file: AtomicFile, bytes: &[u8]) -> Result<AtomicFile, Failure> {
             format!("{}: cannot write it: {error}", file.target().display()),
             "check the path and the disk",
         )),
-    }
-}
-
-fn boxed<E: asperity::diagnostic::Diagnostic + 'static>(error: E) -> Failure {
-    Box::new(error)
-}
-
-/// Prints results; a reader that has gone away is no failure.
-fn print(text: &str) -> Result<(), Failure> {
-    match writeln!(io::stdout(), "{text}") {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Plain::boxed(
-            format!("stdout: {error}"),
-            "check where the output goes",
-        )),
-        _ => Ok(()),
     }
 }
 

@@ -7,7 +7,7 @@ use asperity::{
     diagnostic::Diagnostic,
     hatt::{self, Imported},
     library::{self, NamedAsset},
-    output,
+    output, progress,
 };
 use std::{
     collections::HashSet,
@@ -74,7 +74,7 @@ pub(crate) fn hatt(args: &ImportHatt, quiet: bool) -> Result<(), Failures> {
         .complete_taps
         .then(|| inference::completer(args.model.as_deref()))
         .transpose()?;
-    let bar = console::progress(quiet, files.len(), "importing");
+    let bar = progress::bar(quiet, files.len(), "importing");
     let results = hatt::import_all(&files, completer.as_ref(), args.fidelity, || bar.inc(1));
     bar.finish_and_clear();
     let mut imported: Vec<Imported> = Vec::with_capacity(results.len());
