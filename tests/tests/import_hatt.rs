@@ -87,7 +87,7 @@ fn every_material_is_within_half_a_decibel_of_its_file() {
                 "{}; measured here: {worst}",
                 imported.report
             );
-            assert_eq!(imported.report.sounding, errors.len());
+            assert_eq!(imported.report.compared, errors.len());
             errors
         })
         .collect();

@@ -3,6 +3,7 @@
 
 use super::design::Design;
 use super::kernel::{Rendering, kernel};
+use super::noise::{gaussian, uniform};
 use super::statistics;
 use asperity::{
     interpolate::{Field, Place, places},
@@ -10,7 +11,7 @@ use asperity::{
     reflection,
     spectrum::{Angles, ArmaModel, ERROR_BAND_HZ},
 };
-use asperity_runtime::excitation::Excitation;
+
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
@@ -38,7 +39,8 @@ pub struct Errors {
     pub moving_level_db: Vec<f64>,
     /// RMS of the difference of the samples, relative to the oracle's RMS, dB.
     pub moving_error_db: f64,
-    /// RMS under alternation every sample, above the louder of the two at rest, dB.
+    /// RMS while every sample is at one of two vertices at random, above the louder of the
+    /// two at rest, dB.
     pub alternation_db: Vec<f64>,
     /// Places with a filter that is not stable, or with none.
     pub unstable: usize,
@@ -125,7 +127,8 @@ struct Still {
 }
 
 struct Pair {
-    vertices: [usize; 2],
+    /// Drawn at random, so that no update interval meets one of them only.
+    places: Vec<Place>,
     louder_rms: f64,
 }
 
@@ -158,10 +161,7 @@ impl Truth {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let ticks = (seconds * grid.sample_rate_hz) as usize;
         let motion = motion(grid, &field, ticks, &mut random)?;
-        let mut excitation = Excitation::new(random.next_u64());
-        let epsilon: Vec<f64> = (0..ticks.max(ALTERNATIONS))
-            .map(|_| f64::from(excitation.next_gaussian()))
-            .collect();
+        let epsilon = gaussian(&mut random, ticks.max(ALTERNATIONS));
         let mut oracle = kernel(&Design::ORACLE, grid)?;
         oracle.settle(motion.first()?);
         let moving = oracle.render(&motion, &epsilon);
@@ -235,11 +235,9 @@ impl Truth {
 
     fn alternating(&self, kernel: &mut dyn Rendering, errors: &mut Errors) {
         for pair in &self.pairs {
-            let places: Vec<Place> = (0..ALTERNATIONS)
-                .map(|n| at(pair.vertices[n % 2]))
-                .collect();
+            let places = &pair.places;
             kernel.settle(&places[0]);
-            let rendered = kernel.render(&places, &self.epsilon);
+            let rendered = kernel.render(places, &self.epsilon);
             errors
                 .alternation_db
                 .push(decibels(rms(&rendered) / pair.louder_rms));
@@ -264,8 +262,7 @@ fn motion(
     random: &mut Xoshiro256PlusPlus,
 ) -> Option<Vec<Place>> {
     let (max_speed, max_force) = asperity::mesh::corner(grid);
-    let mut phase = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-    let (stroke, press) = (phase(), phase());
+    let (stroke, press) = (uniform(random), uniform(random));
     (0..ticks)
         .map(|tick| {
             let t = tick as f64 / grid.sample_rate_hz;
@@ -285,15 +282,20 @@ fn pairs(grid: &ModelGrid, loudest: f64, random: &mut Xoshiro256PlusPlus) -> Vec
         return Vec::new();
     }
     let rms = |v: usize| statistics::rms(&ArmaModel::at_vertex(grid, &grid.vertices[v]));
-    let mut draw = || sounding[(random.next_u64() % sounding.len() as u64) as usize];
-    (0..PAIRS)
-        .map(|_| [draw(), draw()])
-        .filter(|[a, b]| grid.vertices[*a].lsf_rad != grid.vertices[*b].lsf_rad)
-        .map(|vertices| Pair {
-            vertices,
-            louder_rms: rms(vertices[0]).max(rms(vertices[1])),
-        })
-        .collect()
+    let mut pairs = Vec::new();
+    for _ in 0..PAIRS {
+        let mut draw = || sounding[(random.next_u64() % sounding.len() as u64) as usize];
+        let [a, b] = [draw(), draw()];
+        if grid.vertices[a].lsf_rad != grid.vertices[b].lsf_rad {
+            pairs.push(Pair {
+                places: (0..ALTERNATIONS)
+                    .map(|_| at(if uniform(random) < 0.5 { a } else { b }))
+                    .collect(),
+                louder_rms: rms(a).max(rms(b)),
+            });
+        }
+    }
+    pairs
 }
 
 fn rms(signal: &[f64]) -> f64 {

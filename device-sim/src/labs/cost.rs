@@ -25,7 +25,7 @@ use thiserror::Error;
 /// Name of the hidden command that runs one kernel.
 pub const COMMAND: &str = "pareto-kernel";
 /// Ticks of a counted run: a multiple of every update interval.
-const TICKS: usize = 1600;
+const TICKS: usize = 1632;
 /// Ticks of a timed run, and how many of them.
 const TIMED: (usize, usize) = (20_000, 7);
 

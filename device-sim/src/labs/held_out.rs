@@ -91,6 +91,8 @@ impl Method {
 /// One prediction of one model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
+    /// Which model of the grid, counted among those that were measured.
+    pub model: usize,
     /// By what.
     pub method: Method,
     /// Where.
@@ -220,6 +222,7 @@ fn predict(
     let mut all = Vec::new();
     let mut add = |method, model: Option<ArmaModel>| {
         all.push(Prediction {
+            model: out,
             method,
             region,
             difference: model.and_then(powers),

@@ -12,6 +12,7 @@
 //! | [`held_out`] | how well an interpolation predicts a measured model it has not seen |
 //! | [`cost`] | executed instructions, bytes, time |
 //! | [`pareto`] | all of it over all materials |
+//! | [`noise`], [`statistics`] | what they need |
 //! | [`table`] | the CSV files |
 //! | [`chart`] | the pictures |
 
@@ -22,6 +23,7 @@ pub mod design;
 pub mod held_out;
 pub mod kernel;
 pub mod material;
+pub mod noise;
 pub mod pareto;
 pub mod statistics;
 pub mod table;

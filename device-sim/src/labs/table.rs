@@ -4,12 +4,12 @@
 //! |---|---|---|
 //! | `summary.csv` | a design over all materials | factor, name, the eight settings; instructions a tick, Cortex-M4F instructions where given, time ratio, bytes; median, p95 and max (dB) of distortion, level, moving level, moving error and alternation; unstable share, materials with an unstable place |
 //! | `designs.csv` | a design on a material | factor, name, material, poles, zeros, bytes; the same errors; unstable places of how many |
-//! | `held-out.csv` | a method in a region over all materials | what is varied, method, region, models, refused; median, p95, max of distortion, of shape alone and of the absolute level error, median of the signed one (dB) |
+//! | `held-out.csv` | a method in a region over all materials | what is varied, method, region, models, refused; median, p95, max of distortion, of shape alone and of the absolute level error, median of the signed one (dB); share of models to which it is nearer than the product's way |
 //! | `fidelity.csv` | what `auto` keeps of a material | material, poles, zeros, vertices, triangles, tap samples, instructions and bytes, each whole and kept; ratio of instructions; p95 and worst (dB) |
 
 use super::accuracy::Errors;
-use super::design::{Design, Variant};
-use super::held_out::{Method, Prediction, Region};
+use super::design::{Design, Level, Shape, Variant};
+use super::held_out::{Exponents, Method, Prediction, Region};
 use super::pareto::{Results, Summary};
 use super::statistics::{Spread, percentile};
 use asperity::reduce::Change;
@@ -201,6 +201,9 @@ pub struct HeldOut {
     pub level_db: Option<Spread>,
     /// Median of the signed level error.
     pub bias_db: Option<f64>,
+    /// Share of the models to which it comes nearer than the product's way: in shape where
+    /// that is varied, else in level. Ties count half.
+    pub nearer: Option<f64>,
 }
 
 /// Predictions by method and region, in the order in which they first appear.
@@ -233,9 +236,49 @@ pub fn held_out_summary(predictions: &[Vec<Prediction>]) -> Vec<HeldOut> {
                 shape_db: Spread::of(&list(|d| d.shape_db)),
                 level_db: Spread::of(&list(|d| d.level_db.abs())),
                 bias_db: percentile(&signed, 0.5),
+                nearer: nearer(predictions, method, region),
             }
         })
         .collect()
+}
+
+/// The product's way where a method is compared.
+fn chosen(method: Method, region: Region) -> Method {
+    match (method, region) {
+        (Method::Powers(_), _) | (_, Region::Beyond) => Method::Powers(Exponents::Fitted),
+        (Method::Shape(_), _) => Method::Shape(Shape::LsfCosine),
+        (Method::Level(_) | Method::Nearest, _) => Method::Level(Level::Rms),
+    }
+}
+
+fn nearer(predictions: &[Vec<Prediction>], method: Method, region: Region) -> Option<f64> {
+    let error = |prediction: &Prediction| {
+        prediction.difference.map(|d| match method {
+            Method::Shape(_) => d.shape_db,
+            _ => d.level_db.abs(),
+        })
+    };
+    let other = chosen(method, region);
+    let (mut won, mut count) = (0.0, 0.0);
+    for material in predictions {
+        let of = |method| {
+            material
+                .iter()
+                .filter(move |p| (p.method, p.region) == (method, region))
+        };
+        for (mine, theirs) in of(method).zip(of(other)) {
+            debug_assert_eq!(mine.model, theirs.model);
+            if let (Some(mine), Some(theirs)) = (error(mine), error(theirs)) {
+                won += match mine.total_cmp(&theirs) {
+                    std::cmp::Ordering::Less => 1.0,
+                    std::cmp::Ordering::Equal => 0.5,
+                    std::cmp::Ordering::Greater => 0.0,
+                };
+                count += 1.0;
+            }
+        }
+    }
+    (count > 0.0).then(|| won / count)
 }
 
 /// `held-out.csv`.
@@ -248,7 +291,7 @@ pub fn held_out(summary: &[HeldOut]) -> Result<Vec<u8>, csv::Error> {
     for what in ["distortion", "shape", "level"] {
         header.extend(spread_names(what));
     }
-    header.extend(texts(["level_bias_median_db"]));
+    header.extend(texts(["level_bias_median_db", "nearer_than_chosen_share"]));
     writer.write_record(&header)?;
     for group in summary {
         let (varied, method) = group.method.names();
@@ -263,6 +306,7 @@ pub fn held_out(summary: &[HeldOut]) -> Result<Vec<u8>, csv::Error> {
             row.extend(spread(errors));
         }
         row.push(optional(group.bias_db));
+        row.push(optional(group.nearer));
         writer.write_record(&row)?;
     }
     finished(writer)
@@ -336,6 +380,10 @@ pub fn json(results: &Results) -> serde_json::Value {
             })
         })
         .collect();
+    let exponent = |of: fn(&(f64, f64)) -> f64| {
+        let values: Vec<f64> = results.exponents.iter().map(of).collect();
+        [0.25, 0.5, 0.75].map(|share| percentile(&values, share))
+    };
     let halved = results
         .kept
         .iter()
@@ -348,6 +396,10 @@ pub fn json(results: &Results) -> serde_json::Value {
             "nyquist_zero": results.common.nyquist,
         },
         "designs": designs,
+        "level_exponents_quartiles": {
+            "speed": exponent(|e| e.0),
+            "force": exponent(|e| e.1),
+        },
         "auto": {
             "halved": halved.count(),
             "within_budget": results.kept.iter().filter(|k| k.is_within_budget()).count(),

@@ -16,14 +16,12 @@ const COLUMNS: usize = 2;
 enum Measure {
     Rest,
     Motion,
-    Alternation,
 }
 
 impl Measure {
     fn of(factor: Factor) -> Self {
         match factor {
-            Factor::Update => Self::Motion,
-            Factor::Structure => Self::Alternation,
+            Factor::Update | Factor::Structure => Self::Motion,
             _ => Self::Rest,
         }
     }
@@ -32,7 +30,6 @@ impl Measure {
         match self {
             Self::Rest => "Distortion at rest, p95 (dB)",
             Self::Motion => "Block level in motion, p95 (dB)",
-            Self::Alternation => "RMS in alternation, max (dB)",
         }
     }
 
@@ -40,7 +37,6 @@ impl Measure {
         match self {
             Self::Rest => summary.distortion_db.map_or(f64::INFINITY, |s| s.p95),
             Self::Motion => summary.moving_level_db.map_or(f64::INFINITY, |s| s.p95),
-            Self::Alternation => summary.alternation_db.map_or(f64::INFINITY, |s| s.max),
         }
     }
 }
@@ -65,39 +61,23 @@ fn draw_factor(
     outer: Rect,
 ) {
     let measure = Measure::of(factor);
-    let mut x = costs.axis(results);
-    if index / COLUMNS < 3 {
-        x.label = String::new();
-    }
-    let y = match measure {
-        Measure::Alternation => {
-            let mut axis = error_axis(measure.label());
-            (axis.min, axis.max) = (1.0, 1e4);
-            axis
-        }
-        Measure::Rest | Measure::Motion => error_axis(measure.label()),
-    };
-    let panel = Panel::new(outer, x, y)
-        .letter(char::from(b'a' + index as u8))
-        .title(capitalised(factor.name()));
-    panel.draw_frame(canvas);
-    if !matches!(measure, Measure::Alternation) {
-        panel.horizontal_line(canvas, BUDGET_DB.0, BUDGET);
-    }
-    let at = |summary: &Summary| {
-        let value = match measure {
-            Measure::Alternation => measure.value(summary).clamp(panel.y.min, panel.y.max),
-            Measure::Rest | Measure::Motion => within(measure.value(summary)),
-        };
-        (costs.value(summary), value)
-    };
-    let others = results.summaries.iter().map(at);
-    panel.points(canvas, others, Marker::Circle, 5.0, Some(ink::LIGHT), None);
     let mine: Vec<&Summary> = results
         .summaries
         .iter()
         .filter(|s| s.variant.factor == factor || s.variant.factor == Factor::Default)
         .collect();
+    let mut x = costs.axis(mine.iter().copied());
+    if index / COLUMNS < 3 {
+        x.label = String::new();
+    }
+    let panel = Panel::new(outer, x, error_axis(measure.label()))
+        .letter(char::from(b'a' + index as u8))
+        .title(capitalised(factor.name()));
+    panel.draw_frame(canvas);
+    panel.horizontal_line(canvas, BUDGET_DB.0, BUDGET);
+    let at = |summary: &Summary| (costs.value(summary), within(measure.value(summary)));
+    let others = results.summaries.iter().map(at);
+    panel.points(canvas, others, Marker::Circle, 5.0, Some(ink::LIGHT), None);
     for summary in &mine {
         mark_at(canvas, &panel, [at(summary)], summary);
     }
@@ -106,14 +86,15 @@ fn draw_factor(
         panel.position(x, y)
     });
     let mut labels = Labels::new(panel.area(), points.collect::<Vec<_>>());
+    labels.reserve_line(&[
+        panel.position(panel.x.min, BUDGET_DB.0),
+        panel.position(panel.x.max, BUDGET_DB.0),
+    ]);
     for summary in mine {
         let (x, y) = at(summary);
         let mut text = summary.variant.name.clone();
         if summary.unstable > 0.0 {
             text += &format!(" ({:.2} % unstable)", 100.0 * summary.unstable);
-        }
-        if measure.value(summary) > 1e4 {
-            text += " (diverges)";
         }
         labels.set(canvas, &text, panel.position(x, y), ink::BLACK);
     }

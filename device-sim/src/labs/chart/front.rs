@@ -14,7 +14,7 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
     let costs = Costs::of(results);
     let mut panel = Panel::new(
         Rect::new(0.0, 0.0, SIZE.0 as f32, SIZE.1 as f32),
-        costs.axis(results),
+        costs.axis(&results.summaries),
         error_axis("p95 of the larger error, at rest or in motion (dB)"),
     )
     .title(format!(
@@ -46,23 +46,33 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
         }
         steps.push(points[index]);
     }
-    panel.line(&mut canvas, steps, Stroke::new(ink::LIGHT, 3.0));
+    panel.line(
+        &mut canvas,
+        steps.iter().copied(),
+        Stroke::new(ink::LIGHT, 3.0),
+    );
 
     let every = results
         .summaries
         .iter()
         .map(|s| panel.position(costs.value(s), larger_error(s)));
     let mut labels = Labels::new(panel.area(), every.collect::<Vec<_>>());
-    let budget = panel.position(panel.x.min, BUDGET_DB.0);
-    labels.reserve(Rect::new(budget.0, budget.1 - 3.0, panel.area().width, 6.0));
+    let at = |&(x, y): &(f64, f64)| panel.position(x, y);
+    labels.reserve_line(&steps.iter().map(at).collect::<Vec<_>>());
+    labels.reserve_line(&[
+        panel.position(panel.x.min, BUDGET_DB.0),
+        panel.position(panel.x.max, BUDGET_DB.0),
+    ]);
     for summary in &results.summaries {
         mark(&mut canvas, &panel, &costs, summary);
     }
     let default = |s: &Summary| s.variant.factor == Factor::Default;
     let named = |s: &Summary| {
         default(s)
-            || s.variant.factor == Factor::Cross
-            || s.unstable > 0.0
+            || matches!(
+                s.variant.factor,
+                Factor::Cross | Factor::Structure | Factor::Level | Factor::Shape
+            )
             || front.iter().any(|&i| std::ptr::eq(stable[i], s))
     };
     let mut order: Vec<&Summary> = results.summaries.iter().filter(|s| named(s)).collect();

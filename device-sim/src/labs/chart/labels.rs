@@ -19,8 +19,18 @@ impl Labels {
     }
 
     /// Keeps names out of a rectangle.
-    pub(super) fn reserve(&mut self, rect: Rect) {
+    fn reserve(&mut self, rect: Rect) {
         self.taken.push(rect);
+    }
+
+    /// Keeps names off a line of level and upright pieces.
+    pub(super) fn reserve_line(&mut self, points: &[(f32, f32)]) {
+        for pair in points.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            let (left, top) = (a.0.min(b.0), a.1.min(b.1));
+            let (width, height) = ((a.0 - b.0).abs(), (a.1 - b.1).abs());
+            self.reserve(Rect::new(left - 2.0, top - 2.0, width + 4.0, height + 4.0));
+        }
     }
 
     /// Sets a name where there is room beside a point; left out where there is none.

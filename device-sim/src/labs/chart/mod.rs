@@ -68,10 +68,10 @@ impl Costs {
         value.unwrap_or(f64::NAN)
     }
 
-    fn axis(&self, results: &Results) -> Axis {
-        let values: Vec<f64> = results
-            .summaries
-            .iter()
+    /// Around some designs.
+    fn axis<'a>(&self, designs: impl IntoIterator<Item = &'a Summary>) -> Axis {
+        let values: Vec<f64> = designs
+            .into_iter()
             .map(|s| self.value(s))
             .filter(|v| v.is_finite())
             .collect();
@@ -82,7 +82,7 @@ impl Costs {
         } else {
             "Bytes of an asset, median"
         };
-        Axis::log(label, 0.7 * least, 1.8 * most)
+        Axis::log(label, 0.75 * least, 1.6 * most)
     }
 }
 

@@ -1,7 +1,7 @@
 //! From mixed parameters to what a structure runs on, at any precision.
 //!
-//! LSFs come in the order of [`asperity_runtime::lsf::stage`]: those of the sum polynomial
-//! at even places, of the difference polynomial at odd ones, low and high in turn.
+//! LSFs come in the order of [`stage`]: partial products of neighbouring zeros grow large
+//! and cancel later, those of zeros far apart do not.
 
 use super::number::Number;
 use asperity_formats::limits::MAX_ORDER;
@@ -13,6 +13,19 @@ pub(super) type Row<P> = [P; MAX_ORDER];
 /// side and of the difference side.
 type Half<P> = [[P; 2]; 16];
 const FIRST: usize = 2;
+
+/// Where LSF `index` of `order` is stored: those of the sum polynomial at even places, of the
+/// difference polynomial at odd ones, on each side low and high in turn.
+pub(super) fn stage(index: usize, order: usize) -> usize {
+    let (side, pair) = (index % 2, index / 2);
+    let pairs = (order + 1 - side) / 2;
+    let turn = if 2 * pair < pairs {
+        2 * pair
+    } else {
+        2 * (pairs - 1 - pair) + 1
+    };
+    2 * turn + side
+}
 
 /// Coefficients 1..=p of A(z) from the cosines of its LSFs.
 pub(super) fn from_cosines<P: Number>(cosines: &Row<P>, order: usize) -> Row<P> {
@@ -143,7 +156,6 @@ pub(super) fn step_down<P: Number>(coefficients: &Row<P>, order: usize) -> Row<P
 mod tests {
     use super::*;
     use asperity::{lsf, reflection};
-    use asperity_runtime::lsf::stage;
 
     fn angles(order: usize) -> Vec<f64> {
         let step = std::f64::consts::PI / (order + 1) as f64;

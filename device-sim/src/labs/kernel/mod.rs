@@ -18,8 +18,7 @@ use asperity::{
     spectrum::ArmaModel,
 };
 use asperity_formats::limits::MAX_ORDER;
-use asperity_runtime::lsf::stage;
-use convert::Row;
+use convert::{Row, stage};
 use line::{Coefficients, Line};
 
 /// Time constant of the smoothing, s: the runtime's.

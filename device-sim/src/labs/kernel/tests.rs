@@ -1,8 +1,11 @@
 //! Every kernel against the f64 oracle, at rest and in time.
 
 use super::super::design::{Order, variants};
+use super::super::noise::gaussian;
 use super::*;
 use asperity::{builtin, interpolate::Field, reduce::order::Fits, spectrum};
+use rand_core::SeedableRng as _;
+use rand_xoshiro::Xoshiro256PlusPlus;
 
 /// A texture with a numerator of its own: the built-in one, its zeros from its poles.
 fn arma() -> ModelGrid {
@@ -28,10 +31,7 @@ fn places(grid: &ModelGrid, count: usize) -> Vec<Place> {
 }
 
 fn noise(count: usize) -> Vec<f64> {
-    let mut excitation = asperity_runtime::excitation::Excitation::new(3);
-    (0..count)
-        .map(|_| f64::from(excitation.next_gaussian()))
-        .collect()
+    gaussian(&mut Xoshiro256PlusPlus::seed_from_u64(3), count)
 }
 
 #[test]
