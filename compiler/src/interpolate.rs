@@ -18,12 +18,19 @@ pub struct Place {
     pub weights: [f64; 3],
 }
 
+/// cos ω of A(z) and of B(z).
+#[derive(Debug, Clone)]
+struct Cosines {
+    ar: Vec<f64>,
+    ma: Vec<f64>,
+}
+
 /// A grid prepared for queries.
 #[derive(Debug, Clone)]
 pub struct Field<'a> {
     grid: &'a ModelGrid,
-    /// cos ω of A(z) and of B(z), a row a vertex.
-    cosines: Vec<(Vec<f64>, Vec<f64>)>,
+    /// One a vertex.
+    cosines: Vec<Cosines>,
     corner: (f64, f64),
 }
 
@@ -39,7 +46,10 @@ impl<'a> Field<'a> {
                 .iter()
                 .map(|vertex| {
                     let ma = vertex.ma_lsf_rad.as_deref().unwrap_or_default();
-                    (cosines(&vertex.lsf_rad), cosines(ma))
+                    Cosines {
+                        ar: cosines(&vertex.lsf_rad),
+                        ma: cosines(ma),
+                    }
                 })
                 .collect(),
             corner: mesh::corner(grid),
@@ -103,7 +113,7 @@ impl<'a> Field<'a> {
     #[must_use]
     pub fn mixture(&self, place: &Place) -> ArmaModel {
         let parts = || place.vertices.into_iter().zip(place.weights);
-        let rows = |side: fn(&(Vec<f64>, Vec<f64>)) -> &[f64]| -> Vec<f64> {
+        let rows = |side: fn(&Cosines) -> &[f64]| -> Vec<f64> {
             let mut mixed = vec![0.0; side(&self.cosines[place.vertices[0]]).len()];
             for (vertex, weight) in parts() {
                 for (sum, x) in mixed.iter_mut().zip(side(&self.cosines[vertex])) {
@@ -114,11 +124,11 @@ impl<'a> Field<'a> {
         };
         ArmaModel {
             sample_rate_hz: self.grid.sample_rate_hz,
-            a: lsf::from_cosines(&rows(|row| &row.0)),
+            a: lsf::from_cosines(&rows(|row| &row.ar)),
             b: match self.grid.numerator {
                 Numerator::None => vec![1.0],
                 Numerator::Nyquist => vec![1.0, 1.0],
-                Numerator::Lsf => lsf::from_cosines(&rows(|row| &row.1)),
+                Numerator::Lsf => lsf::from_cosines(&rows(|row| &row.ma)),
             },
             level_m_s2: parts()
                 .map(|(v, weight)| {

@@ -106,7 +106,7 @@ fn any_orders_import_within_a_hundredth_of_a_decibel() {
     ] {
         let imported = import_text(&xml(ar, ma)).unwrap();
         assert!(imported.report.error.max_db < 0.02, "{}", imported.report);
-        assert_eq!(imported.report.sounding, 2);
+        assert_eq!(imported.report.compared, 2);
         assert_eq!(imported.report.recomputed, 0, "{ar}, {ma}");
         let asset = Asset::parse(&imported.bytes).unwrap();
         let texture = raise(&asset);

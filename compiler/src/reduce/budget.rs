@@ -19,13 +19,21 @@ const POINTS: usize = 111;
 /// Quieter than the loudest vertex by this, a place is silent: 40 dB.
 const SILENT: f64 = 0.01;
 
+/// Where a grid is compared with another.
+#[derive(Debug, Clone)]
+struct Compared {
+    /// mm/s and N.
+    at: (f64, f64),
+    /// dB, where it sounds.
+    log_spectrum: Option<Vec<f64>>,
+}
+
 /// The whole grid, at all places where another is compared with it.
 #[derive(Debug, Clone)]
 pub struct Reference<'a> {
     grid: &'a ModelGrid,
     angles: Angles,
-    /// Speed, force, and the log spectrum in dB where it sounds.
-    places: Vec<((f64, f64), Option<Vec<f64>>)>,
+    places: Vec<Compared>,
 }
 
 /// Distances of a grid, one a place, dB; infinite where it is not stable or sounds where
@@ -76,7 +84,10 @@ impl<'a> Reference<'a> {
             .map(|at| {
                 let model = field.mixture(&field.locate(at.0, at.1)?);
                 let sounds = model.level_m_s2 > silent_m_s2;
-                Some((at, sounds.then(|| log_spectrum(&angles, &model))))
+                Some(Compared {
+                    at,
+                    log_spectrum: sounds.then(|| log_spectrum(&angles, &model)),
+                })
             })
             .collect::<Option<_>>()?;
         Some(Self {
@@ -88,17 +99,19 @@ impl<'a> Reference<'a> {
 
     /// Speed and force of every place.
     pub(super) fn at(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.places.iter().map(|(at, _)| *at)
+        self.places.iter().map(|place| place.at)
     }
 
     /// Distance of a mixture from the whole grid at a place, dB.
     pub(super) fn distance(&self, index: usize, field: &Field<'_>, place: &Place) -> f64 {
         let model = field.mixture(place);
-        match &self.places[index].1 {
+        match &self.places[index].log_spectrum {
             Some(truth) if reflection::is_stable(&model.a) => {
                 let found = log_spectrum(&self.angles, &model);
                 let squares = truth.iter().zip(&found).map(|(x, y)| (x - y) * (x - y));
-                (squares.sum::<f64>() / truth.len() as f64).sqrt()
+                let rms = (squares.sum::<f64>() / truth.len() as f64).sqrt();
+                // Of silence there is no spectrum.
+                if rms.is_nan() { f64::INFINITY } else { rms }
             }
             Some(_) => f64::INFINITY,
             // A level counts relative to its own grid: under another numerator the same
@@ -115,9 +128,16 @@ impl<'a> Reference<'a> {
         self.places
             .iter()
             .enumerate()
-            .map(|(index, &((speed, force), _))| {
-                Some(self.distance(index, &field, &field.locate(speed, force)?))
-            })
+            .map(
+                |(
+                    index,
+                    &Compared {
+                        at: (speed, force), ..
+                    },
+                )| {
+                    Some(self.distance(index, &field, &field.locate(speed, force)?))
+                },
+            )
             .collect::<Option<_>>()
             .map(Distances)
     }
@@ -130,14 +150,14 @@ impl<'a> Reference<'a> {
         let count = self.places.len();
         let mut may_exceed = count - (0.95 * count as f64).ceil() as usize;
         let field = Field::new(grid);
-        for (index, &((speed, force), _)) in self.places.iter().enumerate() {
+        for (index, compared) in self.places.iter().enumerate() {
+            let (speed, force) = compared.at;
             let Some(place) = field.locate(speed, force) else {
                 return false;
             };
             let distance_db = self.distance(index, &field, &place);
-            // A NaN is refused too.
-            if !(distance_db <= BUDGET_DB.0 - ROOM_DB) {
-                if !(distance_db <= BUDGET_DB.1 - ROOM_DB) || may_exceed == 0 {
+            if distance_db > BUDGET_DB.0 - ROOM_DB {
+                if distance_db > BUDGET_DB.1 - ROOM_DB || may_exceed == 0 {
                     return false;
                 }
                 may_exceed -= 1;
