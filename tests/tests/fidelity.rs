@@ -41,15 +41,12 @@ fn places(texture: &Texture) -> Vec<(f64, f64)> {
         (sum.0 / count, sum.1 / count)
     };
     let mut all: Vec<_> = (0..texture.vertices.len()).map(at).collect();
+    let mut edges = std::collections::BTreeSet::new();
     for &[a, b, c] in &texture.triangles {
-        let (a, b, c) = (at(a), at(b), at(c));
-        all.extend([
-            mean(&[a, b]),
-            mean(&[b, c]),
-            mean(&[c, a]),
-            mean(&[a, b, c]),
-        ]);
+        edges.extend([(a, b), (b, c), (c, a)].map(|(a, b)| (a.min(b), a.max(b))));
+        all.push(mean(&[at(a), at(b), at(c)]));
     }
+    all.extend(edges.into_iter().map(|(a, b)| mean(&[at(a), at(b)])));
     all
 }
 
@@ -79,18 +76,20 @@ fn what_auto_keeps_is_within_its_budget_for_every_material() {
             for (speed, force) in places(&full) {
                 let (exact, found) = (full.model(speed, force), kept.model(speed, force));
                 assert!(is_stable(&found), "{}: {speed}, {force}", report.name);
-                // 40 dB below the loudest vertex it counts as silence.
+                // 40 dB below the loudest vertex it counts as silence: a place without error.
                 if exact.level_m_s2 > 0.01 * loudest {
                     let (x, y) = (log_spectrum(&full, &exact), log_spectrum(&kept, &found));
                     let squares: f64 = x.iter().zip(&y).map(|(x, y)| (x - y).powi(2)).sum();
                     distances.push((squares / x.len() as f64).sqrt());
+                } else {
+                    distances.push(0.0);
                 }
             }
             distances.sort_by(f64::total_cmp);
             let rank = (0.95 * distances.len() as f64).ceil() as usize;
             let (p95, worst) = (distances[rank - 1], distances[distances.len() - 1]);
-            // Here only what sounds counts, and edges inside count twice.
-            assert!(p95 <= 0.55, "{}: {p95} dB at 95 %", report.name);
+            // The frequencies are other ones than the reducer's.
+            assert!(p95 <= 0.51, "{}: {p95} dB at 95 %", report.name);
             assert!(worst <= 1.01, "{}: {worst} dB at worst", report.name);
             assert!(report.haptic_bytes < whole.haptic_bytes);
             kept.vertices[0].cosines.len() + kept.vertices[0].ma_cosines.len() <= 10

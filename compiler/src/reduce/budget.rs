@@ -9,7 +9,7 @@ use crate::{
 use std::f64::consts::TAU;
 
 /// Largest RMS log-spectral distance over 10–450 Hz, level included, that `auto` accepts,
-/// dB: at 95 % of the places, and at the worst. An amplitude is told from another at 1.6 dB
+/// dB: at 95 % of the places, and at the worst. Silent places count as without error. An amplitude is told from another at 1.6 dB
 /// by the best of observers, and at 2.2 to 2.5 dB by most.
 pub const BUDGET_DB: (f64, f64) = (0.5, 1.0);
 /// Kept below the budget for what lowering rounds, dB.
