@@ -157,22 +157,37 @@ pub fn reduce(texture: &TextureModel, fidelity: Fidelity) -> Reduction {
 /// within the budget; the grid itself where none does.
 #[must_use]
 pub fn least_order(grid: &ModelGrid, reference: &Reference<'_>) -> ModelGrid {
-    let fits: Vec<Fits<'_>> = [Numerator::None, Numerator::Nyquist]
-        .into_iter()
-        .filter_map(|numerator| Fits::new(grid, numerator))
-        .collect();
-    for order in 1..=grid.order {
-        for fits in &fits {
-            let same = (order, fits.numerator()) == (grid.order, grid.numerator);
-            let Some(reduced) = fits.at(order).filter(|_| !same) else {
-                continue;
-            };
-            if reference.is_within_budget(&reduced) {
-                return reduced;
+    // A zero at half the rate is worth eight poles: without it nothing gets cheaper.
+    let numerators: &[Numerator] = match grid.numerator {
+        Numerator::Nyquist => &[Numerator::Nyquist],
+        Numerator::None | Numerator::Lsf => &[Numerator::None, Numerator::Nyquist],
+    };
+    let within = |fits: &Fits<'_>, order: usize| {
+        fits.at(order)
+            .filter(|reduced| reference.is_within_budget(reduced))
+    };
+    let mut best: Option<ModelGrid> = None;
+    for fits in numerators.iter().filter_map(|&n| Fits::new(grid, n)) {
+        let largest = if fits.numerator() == grid.numerator {
+            grid.order - 1
+        } else {
+            grid.order
+        };
+        // What is found below stays below; of equal orders the first numerator wins.
+        let largest = best.as_ref().map_or(largest, |found| found.order - 1);
+        let (mut low, mut high) = (1, largest.min(fits.largest()) + 1);
+        while low < high {
+            let order = low.midpoint(high);
+            match within(&fits, order) {
+                Some(found) => {
+                    best = Some(found);
+                    high = order;
+                }
+                None => low = order + 1,
             }
         }
     }
-    grid.clone()
+    best.unwrap_or_else(|| grid.clone())
 }
 
 fn with_order(grid: &ModelGrid, order: usize) -> Option<ModelGrid> {

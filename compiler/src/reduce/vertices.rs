@@ -1,8 +1,9 @@
 //! Fewer vertices: those go whose neighbours say the same.
 //!
-//! One at a time, the vertex whose loss changes the grid least goes, while the grid stays
-//! within the budget; the hole is tiled by its neighbours. Corners stay, and a vertex on the
-//! border goes only along it, so the triangles go on tiling the rectangle.
+//! One after the other, the least missed first, a vertex goes if the grid stays within the
+//! budget without it; the hole is tiled by its neighbours. How much it is missed is how far its
+//! own model is from what the neighbours say there. Corners stay, and a vertex on the border
+//! goes only along it, so the triangles go on tiling the rectangle.
 
 use super::budget::{Distances, Reference};
 use crate::{
@@ -11,7 +12,7 @@ use crate::{
     model::ModelGrid,
 };
 
-/// The grid with as few vertices as the budget leaves.
+/// The grid with the vertices that the budget asks for.
 #[must_use]
 pub fn fewest(grid: &ModelGrid, reference: &Reference<'_>) -> ModelGrid {
     let Some(mut state) = State::of(grid.clone(), reference) else {
@@ -20,16 +21,35 @@ pub fn fewest(grid: &ModelGrid, reference: &Reference<'_>) -> ModelGrid {
     if !state.distances.are_within_budget() {
         return state.grid;
     }
-    loop {
-        let candidates =
-            (0..state.grid.vertices.len()).filter_map(|vertex| state.without(vertex, reference));
-        // The first of equals: the same grid gives the same grid.
-        let best = candidates.reduce(|best, next| if next.0 < best.0 { next } else { best });
-        match best {
-            Some((_, next)) => state = next,
-            None => return state.grid,
+    let mut order: Vec<(f64, usize)> = (0..grid.vertices.len())
+        .filter_map(|vertex| Some((missed(grid, vertex, reference)?, vertex)))
+        .collect();
+    // Stable: of equals the first goes first, so the same grid gives the same grid.
+    order.sort_by(|x, y| x.0.total_cmp(&y.0));
+    let mut here: Vec<usize> = (0..grid.vertices.len()).collect();
+    for (_, vertex) in order {
+        if let Ok(index) = here.binary_search(&vertex)
+            && let Some(next) = state.without(index, reference)
+        {
+            state = next;
+            here.remove(index);
         }
     }
+    state.grid
+}
+
+/// Distance between the model of a vertex and what the grid says there without it, dB; `None`
+/// for one that cannot go.
+fn missed(grid: &ModelGrid, vertex: usize, reference: &Reference<'_>) -> Option<f64> {
+    let at = (
+        grid.vertices[vertex].speed_mm_s,
+        grid.vertices[vertex].force_n,
+    );
+    let smaller = removed(grid, vertex)?;
+    let field = Field::new(&smaller);
+    let place = field.locate(at.0, at.1)?;
+    let index = reference.at().position(|other| other == at)?;
+    Some(reference.distance(index, &field, &place))
 }
 
 /// A grid with the place and the distance of everything that is compared.
@@ -58,35 +78,28 @@ impl State {
         })
     }
 
-    /// Without a vertex, and the largest distance that this makes; `None` where the vertex
-    /// is needed.
-    fn without(&self, vertex: usize, reference: &Reference<'_>) -> Option<(f64, Self)> {
+    /// Without a vertex; `None` where it is needed.
+    fn without(&self, vertex: usize, reference: &Reference<'_>) -> Option<Self> {
         let grid = removed(&self.grid, vertex)?;
         let field = Field::new(&grid);
         let mut distances = self.distances.0.clone();
         let mut located = self.located.clone();
-        let mut largest = 0.0_f64;
         for (index, at) in reference.at().enumerate() {
             let place = &mut located[index];
             if place.vertices.contains(&vertex) {
                 *place = field.locate(at.0, at.1)?;
-                let distance_db = reference.distance(index, &field, place);
-                distances[index] = distance_db;
-                largest = largest.max(distance_db);
+                distances[index] = reference.distance(index, &field, place);
             } else {
                 // Those behind it move up.
                 place.vertices = place.vertices.map(|v| v - usize::from(v > vertex));
             }
         }
         let distances = Distances(distances);
-        distances.are_within_budget().then_some((
-            largest,
-            Self {
-                grid,
-                located,
-                distances,
-            },
-        ))
+        distances.are_within_budget().then_some(Self {
+            grid,
+            located,
+            distances,
+        })
     }
 }
 
