@@ -247,7 +247,11 @@ fn assemble_four<const LANE: usize>(c: &[F4; COEFFICIENTS], first: usize, a: &mu
         return;
     };
     let alternating = F4::load(&[1.0, -1.0, 1.0, -1.0]);
-    let [t0, t1, t2, t3] = [0, 1, 2, 3].map(|k| (c[k + 1] + alternating * c[k]).to_array());
+    let [c0, c1, c2, c3, c4] = *c;
+    let t0 = (c1 + alternating * c0).to_array();
+    let t1 = (c2 + alternating * c1).to_array();
+    let t2 = (c3 + alternating * c2).to_array();
+    let t3 = (c4 + alternating * c3).to_array();
     let across = |lane: usize| F4::load(&[t0[lane], t1[lane], t2[lane], t3[lane]]);
     let (q, p) = (across(LANE), across(LANE + 1));
     if let Some(place) = a.get_mut(first..first + LANES) {
