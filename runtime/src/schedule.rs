@@ -19,7 +19,7 @@ const UNIT: usize = 31;
 const STEP: usize = 11;
 const PARTIAL_STEP: usize = 14;
 const LEVEL: usize = 30;
-const ASSEMBLY_FOUR: usize = 45;
+const ASSEMBLY_FOUR: usize = 38;
 
 /// The share of one tick: blocks first, then the choice, then the mixture, then units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

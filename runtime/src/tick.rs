@@ -101,7 +101,7 @@ impl Flags {
     }
 
     const fn with(self, other: Self, set: bool) -> Self {
-        Self(self.0 | other.0 * set as u16)
+        Self(self.0 | (other.0 * set as u16))
     }
 }
 
