@@ -7,7 +7,7 @@ use crate::{
     friction::{Bristle, FrictionState},
     lanes::F4,
     limiter::{Limited, Limiter},
-    math::{Vec3, clamp_from_zero, cross, exp, max, rsqrt, scale},
+    math::{Vec3, clamp_from_zero, cross, exp, max, rsqrt},
     safety::Gate,
     tap::TapState,
     velocity::{LowPass2, LowPass2State},
@@ -101,7 +101,7 @@ impl Flags {
     }
 
     const fn with(self, other: Self, set: bool) -> Self {
-        Self(self.0 | if set { other.0 } else { 0 })
+        Self(self.0 | (other.0 * set as u16))
     }
 }
 
@@ -154,6 +154,14 @@ struct Events {
     limited: Limited,
 }
 
+impl Events {
+    /// Whether anything but the tick itself is counted.
+    #[inline(always)]
+    const fn any(&self) -> bool {
+        self.bad_sample | self.fault | self.tap | self.limited.peak | self.limited.slew
+    }
+}
+
 impl Counters {
     #[inline]
     fn count(&mut self, events: &Events) {
@@ -163,6 +171,9 @@ impl Counters {
             return;
         }
         self.ticks += 1;
+        if !events.any() {
+            return;
+        }
         for (counter, event) in [
             (&mut self.bad_samples, events.bad_sample),
             (&mut self.faults, events.fault),
@@ -183,10 +194,10 @@ pub struct State {
     gate: Gate,
     distance_m: f32,
     velocity: LowPass2State,
-    direction: Vec3,
+    direction: F4,
     tap: TapState,
     friction: FrictionState,
-    force_n: Vec3,
+    force_n: F4,
     counters: Counters,
 }
 
@@ -199,10 +210,10 @@ impl State {
             gate: Gate::NEW,
             distance_m: 0.0,
             velocity: LowPass2State::REST,
-            direction: [1.0, 0.0, 0.0],
+            direction: F4::vec3([1.0, 0.0, 0.0]),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
-            force_n: [0.0; 3],
+            force_n: F4::ZERO,
             counters: Counters::default(),
         }
     }
@@ -300,29 +311,29 @@ impl Renderer {
         let gated = state
             .gate
             .step(sample, config.safety.hold_ticks, self.ramp_step);
-        let contact = config.surface.contact(gated.position_m);
+        let (distance_m, normal) = config.surface.touch(gated.position_m);
         if gated.restart {
-            state.restart(contact.distance_m);
+            state.restart(distance_m);
         }
 
         let motion_m = gated.motion_m;
         let rate = self.rate_over_ticks[(gated.elapsed_ticks.wrapping_sub(1) % 3) as usize];
-        let [x, y, z] = scale(motion_m, rate);
-        let outward = (contact.distance_m - state.distance_m) * rate;
-        let [x, y, z, outward_m_s] = self.velocity.step(&mut state.velocity, [x, y, z, outward]);
-        state.distance_m = contact.distance_m;
+        let moved_m = motion_m.with_fourth(distance_m - state.distance_m);
+        let moving_m_s = moved_m * F4::splat(rate);
+        let velocity_m_s = self.velocity.advance(&mut state.velocity, moving_m_s);
+        let outward_m_s = velocity_m_s.fourth();
+        state.distance_m = distance_m;
 
-        let normal = F4::vec3(contact.normal);
-        let slide_m_s = F4::vec3([x, y, z]).tangential(normal);
+        let slide_m_s = velocity_m_s.with_fourth(0.0).tangential(normal);
         let squared = slide_m_s.dot3(slide_m_s);
         let inverse_speed = rsqrt(squared);
         let speed_m_s = squared * inverse_speed;
         if speed_m_s > DIRECTION_FLOOR_M_S {
-            state.direction = (slide_m_s * F4::splat(inverse_speed)).xyz();
+            state.direction = slide_m_s * F4::splat(inverse_speed);
         }
         let speed_mm_s = speed_m_s * MM;
 
-        let depth_m = max(-contact.distance_m, 0.0);
+        let depth_m = max(-distance_m, 0.0);
         let touching = depth_m > 0.0;
         let wall = self.wall(surface);
         let stiffness_n = wall.stiffness_n_m * depth_m;
@@ -336,18 +347,15 @@ impl Renderer {
             touching && !gated.safe,
         );
 
-        let tap = state.tap.step(
-            &texture.taps,
-            contact.distance_m,
-            config.servo_rate_hz,
-            &config.tap,
-        );
+        let tap = state
+            .tap
+            .step(&texture.taps, distance_m, config.servo_rate_hz, &config.tap);
         let tap_n = surface.effective_mass_kg * tap.accel_m_s2;
 
-        let (friction, friction_n) = state.friction.step(
+        let (friction, friction_n) = state.friction.advance(
             &self.bristle,
             motion_m,
-            contact.normal,
+            normal,
             stiffness_n,
             texture.mu,
             touching,
@@ -356,13 +364,12 @@ impl Renderer {
         let normal_n = wall.force_n(stiffness_n, outward_m_s) + tap_n;
         let axis = match config.vibration_axis {
             VibrationAxis::Tangent => state.direction,
-            VibrationAxis::Binormal => cross(state.direction, contact.normal),
+            VibrationAxis::Binormal => F4::vec3(cross(state.direction.xyz(), normal.xyz())),
         };
         let vib_n = surface.vib_s2_m * surface.f_max_n * vib_m_s2;
-        let total =
-            normal * F4::splat(normal_n) + F4::vec3(friction) + F4::vec3(axis) * F4::splat(vib_n);
-        let wanted_n = (total * F4::splat(gated.gain)).xyz();
-        let (force_n, limited) = self.limiter.step(state.force_n, wanted_n);
+        let total_n = normal * F4::splat(normal_n) + friction + axis * F4::splat(vib_n);
+        let wanted_n = total_n * F4::splat(gated.gain);
+        let (force_n, limited) = self.limiter.advance(state.force_n, wanted_n);
         state.force_n = force_n;
 
         let flags = Flags::default()
@@ -385,7 +392,7 @@ impl Renderer {
         });
 
         Output {
-            force_n,
+            force_n: force_n.xyz(),
             depth_m,
             speed_mm_s: clamp_from_zero(speed_mm_s, f32::MAX),
             normal_force_n: stiffness_n,

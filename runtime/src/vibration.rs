@@ -15,9 +15,8 @@ use crate::{
     Barycentric, Texture,
     excitation::Excitation,
     locate::Search,
-    lsf::Products,
+    lsf::{Pairs, Products},
     synthesis::{History, Line},
-    texture::Pairs,
 };
 
 /// State of the vibration.
