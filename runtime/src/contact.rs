@@ -32,6 +32,41 @@ pub enum Surface {
     },
 }
 
+/// A [`Surface`] prepared for the tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Solid {
+    /// A half-space: a point, and the normal of unit length.
+    Plane { point_m: F4, normal: F4 },
+    /// The solids that are not flat.
+    Curved(Surface),
+}
+
+impl Solid {
+    /// Of a checked surface.
+    #[must_use]
+    pub(crate) fn new(surface: &Surface) -> Self {
+        match *surface {
+            Surface::Plane { point_m, normal } => Self::Plane {
+                point_m: F4::vec3(point_m),
+                normal: F4::vec3(unit(normal)),
+            },
+            curved => Self::Curved(curved),
+        }
+    }
+
+    /// [`Surface::contact`] on lanes: distance, m, and normal.
+    #[inline(always)]
+    pub(crate) fn touch(&self, position_m: F4) -> (f32, F4) {
+        match self {
+            Self::Plane { point_m, normal } => ((position_m - *point_m).dot3(*normal), *normal),
+            Self::Curved(surface) => {
+                let contact = surface.contact(position_m.xyz());
+                (contact.distance_m, F4::vec3(contact.normal))
+            }
+        }
+    }
+}
+
 /// Where the stylus is relative to a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
@@ -99,29 +134,8 @@ impl Surface {
     /// Signed distance and normal at `position_m`, exact for the three solids. At a
     /// sphere's centre the normal is +z; inside a box it is that of the nearest
     /// face, of the first axis where two are equally near.
-    #[inline]
     #[must_use]
     pub fn contact(&self, position_m: Vec3) -> Contact {
-        let (distance_m, normal) = self.touch(F4::vec3(position_m));
-        Contact {
-            distance_m,
-            normal: normal.xyz(),
-        }
-    }
-
-    /// [`Surface::contact`] on lanes: distance, m, and normal.
-    #[inline(always)]
-    pub(crate) fn touch(&self, position_m: F4) -> (f32, F4) {
-        if let Self::Plane { point_m, normal } = *self {
-            let normal = F4::vec3(normal);
-            return ((position_m - F4::vec3(point_m)).dot3(normal), normal);
-        }
-        let contact = self.curved(position_m.xyz());
-        (contact.distance_m, F4::vec3(contact.normal))
-    }
-
-    /// The solids that are not flat.
-    fn curved(&self, position_m: Vec3) -> Contact {
         match *self {
             Self::Plane { point_m, normal } => Contact {
                 distance_m: dot(sub(position_m, point_m), normal),

@@ -75,6 +75,15 @@ impl Default for FrictionState {
     }
 }
 
+/// The bristle after the motion and the leak of a tick, before slip.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stretched {
+    /// Deflection in the tangent plane, m.
+    moved_m: F4,
+    /// Its square, m².
+    pub(crate) squared: f32,
+}
+
 impl FrictionState {
     /// One tick. `motion_m` is the displacement since the last tick, `normal_n` is F_n, 0 out
     /// of contact. Returns the force on the hand in the tangent plane and its size, N.
@@ -86,45 +95,54 @@ impl FrictionState {
         normal: Vec3,
         normal_n: f32,
         mu: f32,
-        touching: bool,
     ) -> (Vec3, f32) {
         let (motion_m, normal) = (F4::vec3(motion_m), F4::vec3(normal));
-        let (force, size_n) = self.advance(bristle, motion_m, normal, normal_n, mu, touching);
+        let stretched = self.stretch(bristle, motion_m, normal, normal_n);
+        let inverse = rsqrt(stretched.squared);
+        let (force, size_n) = self.slip(bristle, &stretched, inverse, motion_m, mu * normal_n);
         (force.xyz(), size_n)
     }
 
-    /// [`FrictionState::step`] on lanes; the fourth ones are zero.
+    /// The first half of [`FrictionState::step`]: motion and leak, which keeps nothing without
+    /// a normal force. Fourth lanes are zero.
     #[inline(always)]
-    pub(crate) fn advance(
-        &mut self,
+    pub(crate) fn stretch(
+        &self,
         bristle: &Bristle,
         motion_m: F4,
         normal: F4,
         normal_n: f32,
-        mu: f32,
-        touching: bool,
-    ) -> (F4, f32) {
-        let limit_n = mu * normal_n;
-        let reach_m = limit_n / bristle.stiffness_n_m + bristle.dead_zone_m;
+    ) -> Stretched {
         let kept = normal_n / (normal_n + bristle.leak_n);
-        let moved = (self.deflection_m + motion_m) * F4::splat(kept);
-        let moved = moved.tangential(normal);
-        let squared = moved.dot3(moved);
-        let inverse = rsqrt(squared);
-        let slip = min(reach_m * inverse, 1.0);
-        self.deflection_m = if touching {
-            moved * F4::splat(slip)
-        } else {
-            F4::ZERO
-        };
+        let moved_m = (self.deflection_m + motion_m) * F4::splat(kept);
+        let moved_m = moved_m.tangential(normal);
+        Stretched {
+            moved_m,
+            squared: moved_m.dot3(moved_m),
+        }
+    }
 
-        let along = moved * F4::splat(inverse);
-        let stretch_m = squared * inverse * slip - bristle.dead_zone_m;
+    /// The second half: slip and force; `inverse` is 1/|d|, `limit_n` is μF_n.
+    #[inline(always)]
+    pub(crate) fn slip(
+        &mut self,
+        bristle: &Bristle,
+        stretched: &Stretched,
+        inverse: f32,
+        motion_m: F4,
+        limit_n: f32,
+    ) -> (F4, f32) {
+        let reach_m = limit_n / bristle.stiffness_n_m + bristle.dead_zone_m;
+        let slip = min(reach_m * inverse, 1.0);
+        self.deflection_m = stretched.moved_m * F4::splat(slip);
+
+        let along = stretched.moved_m * F4::splat(inverse);
+        let stretch_m = stretched.squared * inverse * slip - bristle.dead_zone_m;
         // `along` lies in the plane: the rest of the motion adds nothing.
         let ahead_m = bristle.lead_ticks * along.dot3(motion_m);
+        // Inside the dead zone both are below zero, and the force is zero.
         let lead_m = min(ahead_m, 0.5 * stretch_m);
         let force_n = clamp_from_zero(bristle.stiffness_n_m * (stretch_m + lead_m), limit_n);
-        let force_n = if stretch_m > 0.0 { force_n } else { 0.0 };
         (along * F4::splat(-force_n), force_n)
     }
 }
@@ -145,7 +163,7 @@ mod tests {
         let mut state = FrictionState::default();
         let mut force = [0.0; 3];
         for _ in 0..100 {
-            (force, _) = state.step(&bristle(), [1e-4, 1e-4, 3e-4], UP, 0.8, 0.5, true);
+            (force, _) = state.step(&bristle(), [1e-4, 1e-4, 3e-4], UP, 0.8, 0.5);
         }
         assert!((norm(force) - 0.4).abs() < 1e-5);
         assert!(force[0] < 0.0 && (force[0] - force[1]).abs() < 1e-6 && force[2] == 0.0);
@@ -170,7 +188,7 @@ mod tests {
                 base += 1e-4;
             }
             let x = base + count;
-            let (force, _) = state.step(&bristle(), [x - last, 0.0, 0.0], UP, 1.0, 0.5, true);
+            let (force, _) = state.step(&bristle(), [x - last, 0.0, 0.0], UP, 1.0, 0.5);
             last = x;
             match n {
                 ..40_000 => assert_eq!(norm(force), 0.0),
@@ -186,7 +204,7 @@ mod tests {
         for beyond_m in [1e-7_f32, 1e-6, 1e-5] {
             let mut state = FrictionState::default();
             let motion_m = config.dead_zone_m + beyond_m;
-            let (force, _) = state.step(&bristle(), [motion_m, 0.0, 0.0], UP, 1.0, 0.5, true);
+            let (force, _) = state.step(&bristle(), [motion_m, 0.0, 0.0], UP, 1.0, 0.5);
             let bound_n = 2.0 * config.stiffness_n_m * beyond_m + 1e-7;
             assert!(norm(force) <= bound_n, "{beyond_m}: {force:?}");
         }
@@ -202,7 +220,7 @@ mod tests {
             let bristle = Bristle::new(&config, 0, 1000.0);
             let mut state = FrictionState::default();
             for normal_n in [0.0, 1e-40, 0.0, 1.0, 0.0] {
-                let (force, _) = state.step(&bristle, [1e-3, 0.0, 0.0], UP, normal_n, 0.5, true);
+                let (force, _) = state.step(&bristle, [1e-3, 0.0, 0.0], UP, normal_n, 0.5);
                 assert!(norm(force) <= 0.500_001 * normal_n, "{normal_n}: {force:?}");
             }
         }

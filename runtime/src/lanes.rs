@@ -7,10 +7,16 @@ use core::ops::{Add, Mul, Sub};
 use wide::{CmpLe, f32x4};
 
 /// Four `f32`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct F4(f32x4);
 
 impl F4 {
+    /// Whether registers hold four numbers; elsewhere long work costs less lane by lane.
+    pub(crate) const IN_REGISTERS: bool = cfg!(any(
+        target_feature = "sse2",
+        target_feature = "simd128",
+        all(target_feature = "neon", target_arch = "aarch64")
+    ));
     pub(crate) const ZERO: Self = Self(f32x4::ZERO);
     pub(crate) const ONE: Self = Self(f32x4::ONE);
     pub(crate) const HALF: Self = Self(f32x4::HALF);
@@ -61,6 +67,18 @@ impl F4 {
     pub(crate) fn with_fourth(self, w: f32) -> Self {
         let [x, y, z, _] = self.to_array();
         Self::load(&[x, y, z, w])
+    }
+
+    /// The first three and a zero; the fourth is finite.
+    #[inline(always)]
+    pub(crate) fn first_three(self) -> Self {
+        self * Self::load(&[1.0, 1.0, 1.0, 0.0])
+    }
+
+    /// One of the four.
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> f32 {
+        self.to_array()[lane % 4]
     }
 
     /// The fourth.

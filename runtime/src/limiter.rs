@@ -1,6 +1,7 @@
 //! Peak and slew of the total force.
 
 use crate::{
+    Flags,
     lanes::F4,
     math::{Vec3, min, rsqrt},
 };
@@ -8,20 +9,27 @@ use crate::{
 /// The limits a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limiter {
-    peak_n: f32,
-    step_n: f32,
+    peak_n: Bound,
+    step_n: Bound,
 }
 
-/// What the limiter had to do.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Limited {
-    /// The wanted force was above the peak.
-    pub peak: bool,
-    /// The step to it was above the slew limit.
-    pub slew: bool,
+/// A length, and its square.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Bound {
+    longest: f32,
+    squared: f32,
 }
 
-/// Forces beyond this are errors, not forces, N: their squares are not finite.
+impl Bound {
+    const fn new(longest: f32) -> Self {
+        Self {
+            longest,
+            squared: longest * longest,
+        }
+    }
+}
+
+/// Forces beyond this are errors, not forces, N.
 const SANE_N: f32 = 1e15;
 /// Keeps rounding of the approximated root from exceeding a limit.
 const MARGIN: f32 = 1.0 - 2e-6;
@@ -31,44 +39,42 @@ impl Limiter {
     #[must_use]
     pub fn new(limits: &crate::Limits, servo_rate_hz: f32) -> Self {
         Self {
-            peak_n: limits.peak_n,
-            step_n: limits.slew_n_s / servo_rate_hz,
+            peak_n: Bound::new(limits.peak_n),
+            step_n: Bound::new(limits.slew_n_s / servo_rate_hz),
         }
     }
 
     /// From `last` towards `wanted`, both N. Vectors are shortened, not turned.
-    /// Anything that is not finite counts as no force.
+    /// Anything that is not finite counts as no force. Tells with
+    /// [`Flags::PEAK_LIMITED`] and [`Flags::SLEW_LIMITED`] what was cut.
     #[inline]
     #[must_use]
-    pub fn step(&self, last: Vec3, wanted: Vec3) -> (Vec3, Limited) {
+    pub fn step(&self, last: Vec3, wanted: Vec3) -> (Vec3, Flags) {
         let (next, limited) = self.advance(F4::vec3(last), F4::vec3(wanted));
         (next.xyz(), limited)
     }
 
     /// [`Limiter::step`] on lanes; the fourth ones are zero.
     #[inline(always)]
-    pub(crate) fn advance(&self, last: F4, wanted: F4) -> (F4, Limited) {
-        let wanted = if wanted.is_within(SANE_N) {
-            wanted
-        } else {
-            F4::ZERO
-        };
-        let (target, peak) = shorten(wanted, self.peak_n);
-        let (step, slew) = shorten(target - last, self.step_n);
+    pub(crate) fn advance(&self, last: F4, wanted: F4) -> (F4, Flags) {
+        let (target, peak) = shorten(wanted, &self.peak_n, Flags::PEAK_LIMITED);
+        let (step, slew) = shorten(target - last, &self.step_n, Flags::SLEW_LIMITED);
         // Both ends lie in the ball of the peak, so does what lies between.
-        (last + step, Limited { peak, slew })
+        (last + step, peak.and(slew))
     }
 }
 
-/// A vector at most `longest` long, and whether it was longer.
+/// A vector no longer than a bound, and a flag where it was longer; none for an error.
 #[inline(always)]
-fn shorten(v: F4, longest: f32) -> (F4, bool) {
+fn shorten(v: F4, bound: &Bound, longer: Flags) -> (F4, Flags) {
     let squared = v.dot3(v);
-    if squared > longest * longest {
-        let shrink = min(longest * MARGIN * rsqrt(squared), 1.0);
-        (v * F4::splat(shrink), true)
+    if squared <= bound.squared {
+        (v, Flags::NONE)
+    } else if squared <= SANE_N * SANE_N {
+        let shrink = min(bound.longest * MARGIN * rsqrt(squared), 1.0);
+        (v * F4::splat(shrink), longer)
     } else {
-        (v, false)
+        (F4::ZERO, Flags::NONE)
     }
 }
 
@@ -81,7 +87,7 @@ mod tests {
     fn a_spike_is_cut_in_peak_and_slew_and_a_nan_is_no_force() {
         let limiter = Limiter::new(&crate::Config::default().limits, 1000.0);
         let (a, limited) = limiter.step([0.0; 3], [0.0, 0.0, 100.0]);
-        assert!(limited.peak && limited.slew);
+        assert!(limited.contains(Flags::PEAK_LIMITED) && limited.contains(Flags::SLEW_LIMITED));
         assert!(norm(a) <= 2.0 && norm(a) > 1.999);
         let (b, _) = limiter.step(a, [0.0, 0.0, 100.0]);
         assert!(norm(b) <= 3.3 && norm(b) > 3.299);

@@ -1,7 +1,8 @@
 //! Which triangle of the speed–force grid a query falls into, and its weights.
 //!
-//! Every triangle is looked at every time: bounded, branch-free work with no path
-//! to walk, so nothing can hang on an edge. The winner is the triangle whose
+//! Triangles stand in blocks of four neighbours. Each axis is cut into strips, and each strip
+//! knows the blocks that it meets: those that both strips of a query meet are looked at, with
+//! no path to walk, so nothing can hang on an edge. The winner is the triangle whose
 //! smallest barycentric weight is largest; on a shared edge or vertex either
 //! neighbour wins and both give the same mixture. Weights that rounding left below
 //! zero are cut, so the mixture is convex whatever the query.
@@ -11,13 +12,17 @@
 
 use crate::{
     lanes::F4,
-    math::{clamp_from_zero, max},
+    math::{clamp_from_zero, max, min},
 };
 use asperity_formats::limits::MAX_TRIANGLES;
-use core::ops::Range;
 
 /// Triangles evaluated side by side.
 const LANES: usize = 4;
+/// Strips of an axis.
+const STRIPS: usize = 32;
+/// A block meets strips this much beyond it, in strips: far more than rounding, and than what
+/// triangles too thin to weigh leave to their neighbours.
+const MARGIN: f32 = 0.1;
 /// Change of the weights over the whole grid beyond which a triangle is too thin: f32
 /// rounding would move them by 1 % and more. It is 1e-5 of the grid thin, so its points
 /// are within 1e-5 of a neighbour. One triangle in 128 that tile the grid always is wider.
@@ -48,9 +53,63 @@ impl Barycentric {
 pub(crate) struct Locator<const T: usize> {
     pub(crate) max_speed_mm_s: f32,
     pub(crate) max_force_n: f32,
-    triangles: usize,
+    speed_strips: Strips,
+    force_strips: Strips,
+    /// Blocks of triangles that a query looks at, at most.
+    blocks: usize,
     corners: [[u8; 3]; T],
     rows: Rows<T>,
+}
+
+/// The blocks that each strip of an axis meets, one bit a block. Strip i reaches half a strip
+/// to either side of i.
+#[derive(Debug, Clone)]
+struct Strips {
+    per_unit: f32,
+    blocks: [u32; STRIPS],
+}
+
+impl Strips {
+    const EMPTY: Self = Self {
+        per_unit: 0.0,
+        blocks: [0; STRIPS],
+    };
+
+    /// Of an axis from 0 to `longest`.
+    fn new(longest: f32) -> Self {
+        Self {
+            per_unit: if longest > 0.0 {
+                (STRIPS - 1) as f32 / longest
+            } else {
+                0.0
+            },
+            ..Self::EMPTY
+        }
+    }
+
+    /// The strip of a number from 0 to the longest.
+    #[inline(always)]
+    fn strip(&self, x: f32) -> usize {
+        /// From here on floats are whole numbers: a sum rounds to the nearest.
+        const WHOLE: f32 = (1 << 23) as f32;
+        (x * self.per_unit + WHOLE).to_bits() as usize % STRIPS
+    }
+
+    #[inline(always)]
+    fn at(&self, x: f32) -> u32 {
+        self.blocks[self.strip(x)]
+    }
+
+    /// Block `block` reaches from `low` to `high`.
+    fn meets(&mut self, block: usize, low: f32, high: f32) {
+        let [low, high] = [low, high].map(|x| x * self.per_unit);
+        for (strip, blocks) in self.blocks.iter_mut().enumerate() {
+            let strip = strip as f32;
+            if strip >= low - (0.5 + MARGIN) && strip <= high + (0.5 + MARGIN) {
+                *blocks |= 1 << block;
+            }
+        }
+    }
 }
 
 /// Six numbers a triangle, in blocks of four triangles: four times each of first corner's
@@ -82,14 +141,21 @@ impl<const T: usize> Rows<T> {
     };
 }
 
-/// The best triangle so far in each lane: its smallest weight, whose last bits are replaced
-/// by the index of its block. Neighbours that differ by so little mix the same.
+/// A search under way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(align(16))]
-pub(crate) struct Search([f32; LANES]);
+pub(crate) struct Search {
+    /// The best triangle so far in each lane: its smallest weight, whose last bits are replaced
+    /// by the index of its block. Neighbours that differ by so little mix the same.
+    best: F4,
+    /// Blocks to look at, one bit each.
+    left: u32,
+}
 
 impl Search {
-    pub(crate) const START: Self = Self([-1.0e30; LANES]);
+    pub(crate) const NONE: Self = Self {
+        best: F4::ZERO,
+        left: 0,
+    };
 }
 
 /// Bits that hold an index.
@@ -99,12 +165,14 @@ impl<const T: usize> Locator<T> {
     pub(crate) const EMPTY: Self = Self {
         max_speed_mm_s: 0.0,
         max_force_n: 0.0,
-        triangles: 0,
+        speed_strips: Strips::EMPTY,
+        force_strips: Strips::EMPTY,
+        blocks: 0,
         corners: [[0; 3]; T],
         rows: Rows::NEVER,
     };
 
-    /// Prepares `count` triangles; `corner` gives (speed, force) of a vertex.
+    /// Prepares triangles; `corner` gives (speed, force) of a vertex.
     pub(crate) fn load(
         &mut self,
         triangles: impl ExactSizeIterator<Item = [u8; 3]>,
@@ -115,30 +183,83 @@ impl<const T: usize> Locator<T> {
         *self = Self::EMPTY;
         self.max_speed_mm_s = max_speed_mm_s;
         self.max_force_n = max_force_n;
-        self.triangles = triangles.len();
-        let flat = self.rows.0.as_flattened_mut();
-        for (t, (triangle, place)) in triangles.zip(&mut self.corners).enumerate() {
-            let point = |v| {
-                let (speed, force) = corner(v);
-                (f64::from(speed), f64::from(force))
+        self.speed_strips = Strips::new(max_speed_mm_s);
+        self.force_strips = Strips::new(max_force_n);
+        let count = self.sort(triangles, &corner);
+        for t in 0..count {
+            let points = self.corners[t].map(&corner);
+            self.prepare(t, points);
+            let [speeds, forces] = [points.map(|(speed, _)| speed), points.map(|(_, f)| f)];
+            self.speed_strips
+                .meets(t / LANES, least(speeds), most(speeds));
+            self.force_strips
+                .meets(t / LANES, least(forces), most(forces));
+        }
+        self.count_blocks(count.div_ceil(LANES));
+    }
+
+    /// Takes the triangles in an order that makes neighbours of those that stand together: along
+    /// a Z curve through their centres. Returns how many.
+    fn sort(
+        &mut self,
+        triangles: impl Iterator<Item = [u8; 3]>,
+        corner: &impl Fn(u8) -> (f32, f32),
+    ) -> usize {
+        let (mut places, mut count) = ([0; T], 0);
+        for triangle in triangles.take(T) {
+            let points = triangle.map(corner);
+            let centre = |number: fn((f32, f32)) -> f32| {
+                let [a, b, c] = points.map(number);
+                (a + b + c) * (1.0 / 3.0)
             };
-            let ((x0, y0), (x1, y1), (x2, y2)) =
-                (point(triangle[0]), point(triangle[1]), point(triangle[2]));
-            let per_twice_area = 1.0 / ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0));
-            *place = triangle;
-            let inverse = [y2 - y0, x0 - x2, y0 - y1, x1 - x0].map(|side| side * per_twice_area);
-            let reach = (inverse[0].abs() + inverse[2].abs()) * f64::from(max_speed_mm_s)
-                + (inverse[1].abs() + inverse[3].abs()) * f64::from(max_force_n);
-            // A triangle with no area, or too thin for f32 to weigh, is left out
-            // and never chosen: its points belong to its neighbours.
-            if reach < MAX_REACH {
-                let row = [x0, y0, inverse[0], inverse[1], inverse[2], inverse[3]];
-                for (k, x) in row.into_iter().enumerate() {
-                    if let Some(place) = flat.get_mut(Self::index(t, k)) {
-                        *place = x as f32;
-                    }
+            let place = interleaved(
+                self.speed_strips.strip(centre(|(speed, _)| speed)),
+                self.force_strips.strip(centre(|(_, force)| force)),
+            );
+            let mut t = count;
+            while t > 0 && places[t - 1] > place {
+                (places[t], self.corners[t]) = (places[t - 1], self.corners[t - 1]);
+                t -= 1;
+            }
+            (places[t], self.corners[t]) = (place, triangle);
+            count += 1;
+        }
+        count
+    }
+
+    /// Rows of triangle `t` with these corners.
+    fn prepare(&mut self, t: usize, points: [(f32, f32); 3]) {
+        let [(x0, y0), (x1, y1), (x2, y2)] = points.map(|(x, y)| (f64::from(x), f64::from(y)));
+        let per_twice_area = 1.0 / ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0));
+        let inverse = [y2 - y0, x0 - x2, y0 - y1, x1 - x0].map(|side| side * per_twice_area);
+        let reach = (inverse[0].abs() + inverse[2].abs()) * f64::from(self.max_speed_mm_s)
+            + (inverse[1].abs() + inverse[3].abs()) * f64::from(self.max_force_n);
+        // A triangle with no area, or too thin for f32 to weigh, is left out
+        // and never chosen: its points belong to its neighbours.
+        if reach < MAX_REACH {
+            let row = [x0, y0, inverse[0], inverse[1], inverse[2], inverse[3]];
+            let flat = self.rows.0.as_flattened_mut();
+            for (k, x) in row.into_iter().enumerate() {
+                if let Some(place) = flat.get_mut(Self::index(t, k)) {
+                    *place = x as f32;
                 }
             }
+        }
+    }
+
+    /// How many of `all` blocks a query looks at: the most that two strips share. Where they
+    /// share none (the triangles leave a gap), every query looks at all.
+    fn count_blocks(&mut self, all: usize) {
+        let shared = |speed: &u32| self.force_strips.blocks.map(|force| speed & force);
+        let cells = || self.speed_strips.blocks.iter().flat_map(shared);
+        if cells().any(|blocks| blocks == 0) {
+            let every = u32::MAX >> (u32::BITS as usize - all.clamp(1, 32));
+            self.speed_strips.blocks = [every; STRIPS];
+            self.force_strips.blocks = [every; STRIPS];
+            self.blocks = all;
+        } else {
+            let counts = cells().map(|blocks| blocks.count_ones() as usize);
+            self.blocks = counts.fold(0, usize::max);
         }
     }
 
@@ -147,9 +268,9 @@ impl<const T: usize> Locator<T> {
         t / LANES * (6 * LANES) + k * LANES + t % LANES
     }
 
-    /// Blocks of four triangles in use.
+    /// Blocks of four triangles that a query looks at, at most.
     pub(crate) const fn blocks(&self) -> usize {
-        self.triangles.div_ceil(LANES)
+        self.blocks
     }
 
     /// Inside the grid: the nearest point of its border where the query lies outside.
@@ -161,31 +282,42 @@ impl<const T: usize> Locator<T> {
         )
     }
 
-    /// Looks at the triangles of some blocks; the query lies in the grid.
+    /// Begins a search; the query lies in the grid.
     #[inline]
-    pub(crate) fn look(&self, search: &mut Search, speed: f32, force: f32, blocks: Range<usize>) {
-        let mut mark = (blocks.start * LANES) as u32;
+    pub(crate) fn begin(&self, speed: f32, force: f32) -> Search {
+        Search {
+            best: F4::splat(-1.0e30),
+            left: self.speed_strips.at(speed) & self.force_strips.at(force),
+        }
+    }
+
+    /// Looks at up to `blocks` more blocks.
+    #[inline]
+    pub(crate) fn look(&self, search: &mut Search, speed: f32, force: f32, blocks: usize) {
         let (speed, force) = (F4::splat(speed), F4::splat(force));
-        let mut best = F4::load(&search.0);
         let all = self.rows.0.as_flattened().as_chunks::<LANES>().0;
         let all = all.as_chunks::<6>().0;
-        for [speed0, force0, w1s, w1f, w2s, w2f] in all.get(blocks).unwrap_or_default() {
+        for _ in 0..blocks {
+            let block = search.left.trailing_zeros();
+            let Some([speed0, force0, w1s, w1f, w2s, w2f]) = all.get(block as usize) else {
+                return;
+            };
+            search.left &= search.left - 1;
             let ds = speed - F4::load(speed0);
             let df = force - F4::load(force0);
             let w1 = F4::load(w1s) * ds + F4::load(w1f) * df;
             let w2 = F4::load(w2s) * ds + F4::load(w2f) * df;
             // Zeros lose their sign, which platforms compare differently.
-            let smallest = (F4::splat(1.0) - w1 - w2).min(w1).min(w2) + F4::splat(0.0);
-            best = smallest.mark(INDEX, mark).max(best);
-            mark += LANES as u32;
+            let smallest = (F4::ONE - w1 - w2).min(w1).min(w2) + F4::ZERO;
+            search.best = smallest.mark(INDEX, block * LANES as u32).max(search.best);
         }
-        search.0 = best.to_array();
     }
 
     /// The mixture of the best triangle; finite and convex for every query in the grid.
     #[inline]
     pub(crate) fn choose(&self, search: &Search, speed: f32, force: f32) -> Barycentric {
-        let lane = |lane: usize| f32::from_bits(search.0[lane].to_bits() | lane as u32);
+        let best = search.best.to_array();
+        let lane = |lane: usize| f32::from_bits(best[lane].to_bits() | lane as u32);
         let best = max(max(lane(0), lane(1)), max(lane(2), lane(3)));
         let t = (best.to_bits() & INDEX) as usize;
         let flat = self.rows.0.as_flattened();
@@ -207,11 +339,26 @@ impl<const T: usize> Locator<T> {
     /// The mixture at a speed and a force; finite and convex for every input.
     pub(crate) fn locate(&self, speed_mm_s: f32, force_n: f32) -> Barycentric {
         let (speed, force) = self.clamp(speed_mm_s, force_n);
-        let mut search = Search::START;
-        self.look(&mut search, speed, force, 0..self.blocks());
+        let mut search = self.begin(speed, force);
+        self.look(&mut search, speed, force, self.blocks);
         Barycentric {
             outside: !(speed == speed_mm_s && force == force_n),
             ..self.choose(&search, speed, force)
         }
     }
+}
+
+fn least(x: [f32; 3]) -> f32 {
+    min(min(x[0], x[1]), x[2])
+}
+
+fn most(x: [f32; 3]) -> f32 {
+    max(max(x[0], x[1]), x[2])
+}
+
+/// The bits of two numbers below [`STRIPS`] in turn.
+fn interleaved(x: usize, y: usize) -> usize {
+    (0..5).fold(0, |z, bit| {
+        z | (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1)
+    })
 }

@@ -9,11 +9,12 @@
 //! Each zero pair multiplies its polynomial by 1 + m z⁻¹ + z⁻², m = −2 cos ω. Pairs come in
 //! low and high in turn ([`stage`]): partial products of neighbouring zeros grow large and
 //! cancel later, which in f32 costs up to 0.4 dB on real models; this order costs less than
-//! 0.001 dB. A low pair and a high one are multiplied in at once, Q and P of A(z) and B(z)
-//! side by side, in [`Shape::units`] units of work that can be done one at a time.
+//! 0.001 dB. A low pair and a high one, a two, are multiplied in at once, Q and P of A(z) and
+//! B(z) side by side; the twos can be done one at a time.
 
 use crate::{lanes::F4, synthesis::Line};
 use asperity_formats::limits::MAX_ORDER;
+use core::ops::{Add, Mul};
 
 /// Q and P of A(z), Q and P of B(z).
 const LANES: usize = 4;
@@ -25,7 +26,7 @@ const COEFFICIENTS: usize = MAX_ORDER / 2 + 1;
 pub(crate) struct Shape {
     pub(crate) ar_order: usize,
     pub(crate) ma_order: usize,
-    /// Twos of pairs that every polynomial in use has.
+    /// Twos that every polynomial in use has.
     full: usize,
     /// Pairs of each polynomial.
     pairs: F4,
@@ -47,15 +48,117 @@ impl Pairs {
 
 /// Partial products, the half of each that symmetry leaves, times ½.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Products([F4; COEFFICIENTS]);
+#[repr(align(16))]
+pub(crate) struct Products([[f32; LANES]; COEFFICIENTS]);
 
 impl Products {
     /// No pair yet.
     pub(crate) const ONE: Self = {
-        let mut c = [F4::ZERO; COEFFICIENTS];
-        c[0] = F4::HALF;
+        let mut c = [[0.0; LANES]; COEFFICIENTS];
+        c[0] = [0.5; LANES];
         Self(c)
     };
+}
+
+/// The coefficients of polynomials side by side, or of one of them.
+trait Coefficients {
+    type Number: Copy + Default + Add<Output = Self::Number> + Mul<Output = Self::Number>;
+
+    fn get(&self, k: usize) -> Self::Number;
+
+    fn set(&mut self, k: usize, x: Self::Number);
+}
+
+impl Coefficients for Products {
+    type Number = F4;
+
+    #[inline(always)]
+    fn get(&self, k: usize) -> F4 {
+        F4::load(&self.0[k])
+    }
+
+    #[inline(always)]
+    fn set(&mut self, k: usize, x: F4) {
+        self.0[k] = x.to_array();
+    }
+}
+
+/// One polynomial: every fourth number.
+struct Lane<'a>(&'a mut [f32; LANES * (COEFFICIENTS - 1) + 1]);
+
+impl Coefficients for Lane<'_> {
+    type Number = f32;
+
+    #[inline(always)]
+    fn get(&self, k: usize) -> f32 {
+        self.0[LANES * k]
+    }
+
+    #[inline(always)]
+    fn set(&mut self, k: usize, x: f32) {
+        self.0[LANES * k] = x;
+    }
+}
+
+/// A two: 1 + s z⁻¹ + q z⁻² + r z⁻³ + o z⁻⁴, of polynomials side by side or of one.
+#[derive(Debug, Clone, Copy)]
+struct Two<T> {
+    s: T,
+    q: T,
+    r: T,
+    o: T,
+}
+
+impl Two<F4> {
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> Two<f32> {
+        Two {
+            s: self.s.lane(lane),
+            q: self.q.lane(lane),
+            r: self.r.lane(lane),
+            o: self.o.lane(lane),
+        }
+    }
+}
+
+impl<T: Copy + Default + Add<Output = T> + Mul<Output = T>> Two<T> {
+    /// Multiplies polynomials of degree 4·`two` in place; with `FULL`, r = s and o = 1.
+    #[inline(always)]
+    fn multiply<const FULL: bool>(&self, two: usize, c: &mut impl Coefficients<Number = T>) {
+        match two {
+            0 => self.extend::<FULL, 0>(c),
+            1 => self.extend::<FULL, 1>(c),
+            2 => self.extend::<FULL, 2>(c),
+            3 => self.extend::<FULL, 3>(c),
+            4 => self.extend::<FULL, 4>(c),
+            _ => self.extend::<FULL, 5>(c),
+        }
+    }
+
+    /// From the highest coefficient down, so that nothing is overwritten before it is read.
+    #[inline(always)]
+    fn extend<const FULL: bool, const TWO: usize>(&self, c: &mut impl Coefficients<Number = T>) {
+        // Symmetry gives what lies beyond the middle.
+        let old = |c: &_, k: usize| {
+            if k <= 2 * TWO {
+                Coefficients::get(c, k)
+            } else if TWO == 0 {
+                T::default()
+            } else {
+                Coefficients::get(c, 4 * TWO - k)
+            }
+        };
+        for k in (1..2 * TWO + 3).rev() {
+            let back = |by: usize| if k < by { T::default() } else { old(c, k - by) };
+            let [one, two, three, four] = [back(1), back(2), back(3), back(4)];
+            let x = if FULL {
+                (old(c, k) + four) + self.q * two + self.s * (one + three)
+            } else {
+                (old(c, k) + self.o * four) + self.q * two + (self.s * one + self.r * three)
+            };
+            c.set(k, x);
+        }
+    }
 }
 
 impl Shape {
@@ -79,45 +182,75 @@ impl Shape {
         }
     }
 
-    /// Units of work of a conversion: two for every two pairs.
-    pub(crate) const fn units(&self) -> usize {
+    /// Twos of pairs of the longest polynomial.
+    pub(crate) const fn twos(&self) -> usize {
         let order = if self.ar_order > self.ma_order {
             self.ar_order
         } else {
             self.ma_order
         };
-        2 * order.div_ceil(4)
+        order.div_ceil(4)
     }
 
-    /// Whether every polynomial in use has both pairs of a two.
-    pub(crate) const fn is_full(&self, two: usize) -> bool {
-        two < self.full
-    }
-
-    /// One unit of work on all polynomials.
+    /// Parts in which a two is multiplied in: A(z) and B(z) at once where registers hold four
+    /// numbers, else one after the other.
     #[inline(always)]
-    pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, unit: usize) {
-        let two = unit / 2;
+    pub(crate) const fn parts(&self) -> usize {
+        if F4::IN_REGISTERS || self.ma_order == 0 {
+            1
+        } else {
+            2
+        }
+    }
+
+    /// Multiplies one part of a two in, in the order of twos.
+    #[inline(always)]
+    pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, part: usize) {
+        let (two, part) = (part / self.parts(), part % self.parts());
         let (Some(ar), Some(ma)) = (pairs.ar.0.get(two), pairs.ma.0.get(two)) else {
             return;
         };
         let low = F4::load(&[ar[0], ar[1], ma[0], ma[1]]);
         let high = F4::load(&[ar[2], ar[3], ma[2], ma[3]]);
         let (s, product) = (low + high, low * high);
-        if self.is_full(two) {
+        if two < self.full {
             let q = F4::TWO + product;
-            Full { s, q }.multiply(&mut products.0, unit);
-        } else {
-            // 1 where a polynomial has the low pair, and the high one.
-            let left = self.pairs - F4::splat((2 * two) as f32);
-            let [first, second] = [left, left - F4::ONE].map(|x| x.max(F4::ZERO).min(F4::ONE));
-            Partial {
+            let factors = Two {
                 s,
-                q: first + second + product,
-                r: s * second,
-                o: second,
+                q,
+                r: s,
+                o: F4::ONE,
+            };
+            self.multiply_by::<true>(products, &factors, two, part);
+        } else {
+            // A polynomial may have fewer pairs than others. What it gets beyond its own middle
+            // is not used.
+            let left = self.pairs - F4::splat((2 * two) as f32);
+            // 1 where it has the low pair, and the high one.
+            let [first, o] = [left, left - F4::ONE].map(|x| x.max(F4::ZERO).min(F4::ONE));
+            let (q, r) = (first + o + product, s * o);
+            self.multiply_by::<false>(products, &Two { s, q, r, o }, two, part);
+        }
+    }
+
+    /// All polynomials at once, or the two of a part one by one: the bits are the same.
+    #[inline(always)]
+    fn multiply_by<const FULL: bool>(
+        &self,
+        products: &mut Products,
+        by: &Two<F4>,
+        two: usize,
+        part: usize,
+    ) {
+        if F4::IN_REGISTERS {
+            by.multiply::<FULL>(two, products);
+        } else {
+            for lane in 2 * part..2 * part + 2 {
+                let from = products.0.as_flattened_mut().get_mut(lane..);
+                if let Some(polynomial) = from.and_then(|from| from.first_chunk_mut()) {
+                    by.lane(lane).multiply::<FULL>(two, &mut Lane(polynomial));
+                }
             }
-            .multiply(&mut products.0, unit);
         }
     }
 
@@ -134,95 +267,11 @@ impl Shape {
     }
 }
 
-/// Symmetric polynomials of degree up to 4 that multiply others in place.
-trait Factors: Sized {
-    /// The new coefficient from the old one and the four before it.
-    fn coefficient(&self, old: F4, before: [F4; 4]) -> F4;
-
-    /// The upper half of the coefficients, from the highest down, of polynomials of degree
-    /// 4·`TWO`.
-    #[inline(always)]
-    fn upper<const TWO: usize>(&self, c: &mut [F4; COEFFICIENTS]) {
-        let (middle, top) = (TWO + 1, 2 * TWO + 2);
-        // Symmetry gives the two coefficients beyond the middle.
-        (c[top - 1], c[top]) = if TWO == 0 {
-            (F4::ZERO, F4::ZERO)
-        } else {
-            (c[top - 3], c[top - 4])
-        };
-        for k in (middle + 1..top + 1).rev() {
-            self.step(c, k);
-        }
-    }
-
-    /// The lower half.
-    #[inline(always)]
-    fn lower<const TWO: usize>(&self, c: &mut [F4; COEFFICIENTS]) {
-        for k in (1..TWO + 2).rev() {
-            self.step(c, k);
-        }
-    }
-
-    #[inline(always)]
-    fn step(&self, c: &mut [F4; COEFFICIENTS], k: usize) {
-        let back = |by: usize| if k < by { F4::ZERO } else { c[k - by] };
-        c[k] = self.coefficient(c[k], [back(1), back(2), back(3), back(4)]);
-    }
-
-    /// Unit 2·n is the upper half of two n, the next one the lower half.
-    #[inline(always)]
-    fn multiply(&self, c: &mut [F4; COEFFICIENTS], unit: usize) {
-        match unit {
-            0 => self.upper::<0>(c),
-            1 => self.lower::<0>(c),
-            2 => self.upper::<1>(c),
-            3 => self.lower::<1>(c),
-            4 => self.upper::<2>(c),
-            5 => self.lower::<2>(c),
-            6 => self.upper::<3>(c),
-            7 => self.lower::<3>(c),
-            8 => self.upper::<4>(c),
-            9 => self.lower::<4>(c),
-            10 => self.upper::<5>(c),
-            _ => self.lower::<5>(c),
-        }
-    }
-}
-
-/// Two zero pairs at once: 1 + s z⁻¹ + q z⁻² + s z⁻³ + z⁻⁴.
-struct Full {
-    s: F4,
-    q: F4,
-}
-
-impl Factors for Full {
-    #[inline(always)]
-    fn coefficient(&self, old: F4, [one, two, three, four]: [F4; 4]) -> F4 {
-        (old + four) + self.q * two + self.s * (one + three)
-    }
-}
-
-/// Two pairs, one or none: 1 + s z⁻¹ + q z⁻² + r z⁻³ + o z⁻⁴. What a polynomial with fewer
-/// pairs than others gets beyond its own middle is not used.
-struct Partial {
-    s: F4,
-    q: F4,
-    r: F4,
-    o: F4,
-}
-
-impl Factors for Partial {
-    #[inline(always)]
-    fn coefficient(&self, old: F4, [one, two, three, four]: [F4; 4]) -> F4 {
-        (old + self.o * four) + self.q * two + (self.s * one + self.r * three)
-    }
-}
-
 /// a_k = (q_k + p_k)/2 and, by symmetry, a_{p+1−k} = (q_k − p_k)/2, where Q = sum·(1 + z⁻¹)
 /// and P = difference·(1 − z⁻¹) for even orders, Q = sum and P = difference·(1 − z⁻²)
 /// for odd ones. The products carry the ½.
 #[inline(always)]
-fn assemble<const LANE: usize>(c: &[F4; COEFFICIENTS], order: usize, a: &mut Line) {
+fn assemble<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], order: usize, a: &mut Line) {
     let half = order / 2;
     let Some(a) = a.0.as_flattened_mut().get_mut(..order) else {
         return;
@@ -241,13 +290,13 @@ fn assemble<const LANE: usize>(c: &[F4; COEFFICIENTS], order: usize, a: &mut Lin
 
 /// Four coefficients from `first` on and their four mirror images, of an even order.
 #[inline(always)]
-fn assemble_four<const LANE: usize>(c: &[F4; COEFFICIENTS], first: usize, a: &mut [f32]) {
+fn assemble_four<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], first: usize, a: &mut [f32]) {
     let last = a.len() - first;
     let Some(c) = c.get(first..).and_then(|c| c.first_chunk::<5>()) else {
         return;
     };
     let alternating = F4::load(&[1.0, -1.0, 1.0, -1.0]);
-    let [c0, c1, c2, c3, c4] = *c;
+    let [c0, c1, c2, c3, c4] = c.each_ref().map(F4::load);
     let t0 = (c1 + alternating * c0).to_array();
     let t1 = (c2 + alternating * c1).to_array();
     let t2 = (c3 + alternating * c2).to_array();
@@ -264,10 +313,10 @@ fn assemble_four<const LANE: usize>(c: &[F4; COEFFICIENTS], first: usize, a: &mu
 }
 
 /// The same for every order, one after the other.
-fn assemble_singly<const LANE: usize>(c: &[F4; COEFFICIENTS], a: &mut [f32]) {
+fn assemble_singly<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], a: &mut [f32]) {
     let order = a.len();
     let even = order.is_multiple_of(2);
-    let number = |k: usize, lane: usize| c.get(k).map_or(0.0, |c| c.to_array()[lane]);
+    let number = |k: usize, lane: usize| c.get(k).map_or(0.0, |c| c[lane]);
     for k in 0..order / 2 {
         let (q, p) = (number(k + 1, LANE), number(k + 1, LANE + 1));
         let (q, p) = if even {
@@ -370,8 +419,8 @@ mod tests {
                     ar: staged(ar),
                     ma: staged(ma),
                 };
-                for unit in 0..shape.units() {
-                    shape.multiply(&mut products, &pairs, unit);
+                for part in 0..shape.twos() * shape.parts() {
+                    shape.multiply(&mut products, &pairs, part);
                 }
                 shape.ar(&products, &mut a);
                 shape.ma(&products, &mut b);

@@ -3,6 +3,8 @@
 //! Coefficients are Chebyshev interpolants; the errors stated were measured over
 //! the whole range by the tests below.
 
+use crate::lanes::F4;
+
 /// Three components along the world's axes.
 pub type Vec3 = [f32; 3];
 
@@ -78,11 +80,28 @@ pub fn clamp_from_zero(x: f32, limit: f32) -> f32 {
 #[inline]
 #[must_use]
 pub fn rsqrt(x: f32) -> f32 {
-    // The exponent's half as a first guess, a Newton step with constants that balance its
-    // error (Kadlec's, 6.5e-4), and a plain one whose one-sided error is halved.
-    let y = f32::from_bits(0x5f1f_fff9_u32.wrapping_sub(x.to_bits() >> 1));
+    let y = rsqrt_guess(x);
     let y = y * (0.703_952_25 * (2.389_244_6 - x * y * y));
     y * (1.500_000_3 - 0.5 * x * y * y)
+}
+
+/// The exponent's half as a first guess; a Newton step with constants that balance its
+/// error (Kadlec's, 6.5e-4), and a plain one whose one-sided error is halved, follow.
+#[inline(always)]
+fn rsqrt_guess(x: f32) -> f32 {
+    f32::from_bits(0x5f1f_fff9_u32.wrapping_sub(x.to_bits() >> 1))
+}
+
+/// [`rsqrt`] of two numbers side by side.
+#[inline(always)]
+#[must_use]
+pub(crate) fn rsqrt_pair([a, b]: [f32; 2]) -> [f32; 2] {
+    let x = F4::load(&[a, b, 0.0, 0.0]);
+    let y = F4::load(&[rsqrt_guess(a), rsqrt_guess(b), 0.0, 0.0]);
+    let y = y * (F4::splat(0.703_952_25) * (F4::splat(2.389_244_6) - x * y * y));
+    let y = y * (F4::splat(1.500_000_3) - F4::HALF * x * y * y);
+    let [a, b, ..] = y.to_array();
+    [a, b]
 }
 
 /// √x for x in [0, 3e38], relative error below 5e-7.
@@ -196,6 +215,8 @@ mod tests {
             let x = 1.37 * (f64::from(exponent)).exp2();
             let relative = f64::from(rsqrt(x as f32)) * x.sqrt() - 1.0;
             assert!(relative.abs() < 5e-7, "{x}: {relative}");
+            let pair = rsqrt_pair([x as f32, 0.7]);
+            assert_eq!(pair, [rsqrt(x as f32), rsqrt(0.7)]);
         }
         assert_eq!(sqrt(0.0), 0.0);
         assert!(norm([1e-30, 0.0, 0.0]).is_finite());

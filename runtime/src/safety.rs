@@ -6,7 +6,7 @@
 //! caller reports as missed count like bad samples. The first good sample afterwards
 //! restarts the motion estimate, and the force comes back by a ramp.
 
-use crate::{Sample, lanes::F4, math::min};
+use crate::{Flags, Sample, lanes::F4};
 
 /// Positions beyond this are errors, not positions, m.
 pub const REACH_M: f32 = 1.0e4;
@@ -34,16 +34,8 @@ pub struct Gated {
     pub elapsed_ticks: u32,
     /// Share of the force, 0..=1.
     pub gain: f32,
-    /// Motion starts anew at this position.
-    pub restart: bool,
-    /// The last good position is held.
-    pub held: bool,
-    /// The safe state is on.
-    pub safe: bool,
-    /// The safe state was entered in this tick.
-    pub fault: bool,
-    /// The sample was bad.
-    pub bad: bool,
+    /// Held sample, safe state, ramp; for the other stages restart, bad sample and fault.
+    pub flags: Flags,
 }
 
 impl Gate {
@@ -59,38 +51,41 @@ impl Gate {
     #[inline]
     pub fn step(&mut self, sample: &Sample, hold_ticks: u32, ramp_step: f32) -> Gated {
         let p = F4::vec3(sample.position_m);
-        let usable = p.is_within(REACH_M) & (sample.elapsed_ticks > 0);
+        // A stale sample counts as far too late.
         let missed = sample.elapsed_ticks.wrapping_sub(1);
-        if !usable || missed > hold_ticks || self.fresh {
-            return self.irregular(sample, usable, hold_ticks, ramp_step);
+        if missed > hold_ticks || self.fresh || !p.is_within(REACH_M) {
+            return self.irregular(sample, hold_ticks, ramp_step);
         }
         let motion_m = p - self.position_m;
         self.position_m = p;
         self.bad_in_a_row = 0;
-        self.gain = min(self.gain + ramp_step, 1.0);
+        let flags = self.ramp(ramp_step);
         Gated {
-            position_m: self.position_m,
+            position_m: p,
             motion_m,
             elapsed_ticks: sample.elapsed_ticks,
             gain: self.gain,
-            restart: false,
-            held: false,
-            safe: false,
-            fault: false,
-            bad: false,
+            flags,
+        }
+    }
+
+    /// The force comes back by one step.
+    #[inline(always)]
+    fn ramp(&mut self, ramp_step: f32) -> Flags {
+        self.gain += ramp_step;
+        if self.gain < 1.0 {
+            Flags::RAMPING
+        } else {
+            self.gain = 1.0;
+            Flags::NONE
         }
     }
 
     /// A bad sample, one after missed periods, or the first one.
     #[inline(always)]
-    fn irregular(
-        &mut self,
-        sample: &Sample,
-        usable: bool,
-        hold_ticks: u32,
-        ramp_step: f32,
-    ) -> Gated {
+    fn irregular(&mut self, sample: &Sample, hold_ticks: u32, ramp_step: f32) -> Gated {
         let p = F4::vec3(sample.position_m);
+        let usable = p.is_within(REACH_M) & (sample.elapsed_ticks > 0);
         let missed = sample.elapsed_ticks.saturating_sub(1);
         let gap = missed > hold_ticks && !self.fresh;
         let good = usable && !gap;
@@ -109,26 +104,23 @@ impl Gate {
             self.position_m = p;
         }
         self.fresh = safe && !usable;
-        let ramped = self.gain + ramp_step;
-        self.gain = if safe {
-            0.0
+        let flags = if safe {
+            self.gain = 0.0;
+            Flags::SAFE_STATE
         } else if held {
-            self.gain
-        } else if ramped < 1.0 {
-            ramped
+            Flags::HELD_SAMPLE.and(Flags::RAMPING.when(self.gain < 1.0))
         } else {
-            1.0
+            self.ramp(ramp_step)
         };
         Gated {
             position_m: self.position_m,
             motion_m: self.position_m - before,
             elapsed_ticks: if good && !restart { missed + 1 } else { 1 },
             gain: self.gain,
-            restart,
-            held,
-            safe,
-            fault,
-            bad: !usable,
+            flags: flags
+                .and(Flags::RESTART.when(restart))
+                .and(Flags::FAULT.when(fault))
+                .and(Flags::BAD_SAMPLE.when(!usable)),
         }
     }
 }
@@ -144,15 +136,26 @@ mod tests {
     fn two_bad_samples_hold_and_the_third_is_a_fault() {
         let mut gate = Gate::NEW;
         let mut step = |sample: &Sample| gate.step(sample, 2, 0.25);
-        assert!(step(&GOOD).restart);
-        assert!(step(&BAD).held);
-        assert!(step(&Sample::STALE).held);
+        assert!(step(&GOOD).flags.contains(Flags::RESTART));
+        assert!(step(&BAD).flags.contains(Flags::HELD_SAMPLE));
+        assert!(step(&Sample::STALE).flags.contains(Flags::HELD_SAMPLE));
         let third = step(&BAD);
-        assert!(third.safe && third.fault && third.gain == 0.0);
+        assert!(
+            third.flags.contains(Flags::SAFE_STATE)
+                && third.flags.contains(Flags::FAULT)
+                && third.gain == 0.0
+        );
         let fourth = step(&BAD);
-        assert!(fourth.safe && !fourth.fault, "one fault is counted once");
+        assert!(
+            fourth.flags.contains(Flags::SAFE_STATE) && !fourth.flags.contains(Flags::FAULT),
+            "one fault is counted once"
+        );
         let back = step(&GOOD);
-        assert!(back.restart && !back.safe && back.gain == 0.25);
+        assert!(
+            back.flags.contains(Flags::RESTART)
+                && !back.flags.contains(Flags::SAFE_STATE)
+                && back.gain == 0.25
+        );
         for gain in [0.5, 0.75, 1.0, 1.0] {
             assert_eq!(step(&GOOD).gain, gain);
         }
@@ -164,7 +167,7 @@ mod tests {
         gate.step(&GOOD, 2, 0.25);
         assert_eq!(gate.step(&BAD, 2, 0.25).gain, 1.0);
         let good = gate.step(&GOOD, 2, 0.25);
-        assert!(good.gain == 1.0 && !good.restart);
+        assert!(good.gain == 1.0 && !good.flags.contains(Flags::RESTART));
     }
 
     #[test]
@@ -176,9 +179,13 @@ mod tests {
         let mut gate = Gate::NEW;
         gate.step(&GOOD, 2, 0.25);
         let two_missed = gate.step(&late(3), 2, 0.25);
-        assert!(!two_missed.safe && two_missed.elapsed_ticks == 3);
+        assert!(!two_missed.flags.contains(Flags::SAFE_STATE) && two_missed.elapsed_ticks == 3);
         let three_missed = gate.step(&late(4), 2, 0.25);
-        assert!(three_missed.fault && three_missed.safe && three_missed.restart);
+        assert!(
+            three_missed.flags.contains(Flags::FAULT)
+                && three_missed.flags.contains(Flags::SAFE_STATE)
+                && three_missed.flags.contains(Flags::RESTART)
+        );
         assert_eq!(gate.step(&GOOD, 2, 0.25).gain, 0.25);
     }
 
@@ -186,6 +193,10 @@ mod tests {
     fn a_start_without_a_sample_is_safe_and_no_fault() {
         let mut gate = Gate::NEW;
         let first = gate.step(&BAD, 2, 0.25);
-        assert!(first.safe && !first.fault && !first.held);
+        assert!(
+            first.flags.contains(Flags::SAFE_STATE)
+                && !first.flags.contains(Flags::FAULT)
+                && !first.flags.contains(Flags::HELD_SAMPLE)
+        );
     }
 }

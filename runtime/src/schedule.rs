@@ -1,113 +1,122 @@
 //! Which share of location and conversion each tick of a cycle does.
 //!
-//! Location looks at triangles in blocks of four, chooses, and conversion multiplies in units:
-//! a fixed list of items, cut into [`CYCLE_TICKS`] shares of equal cost when a texture is
-//! loaded. What comes out does not depend on where the cuts are.
+//! Location looks at triangles in blocks of four and chooses, a mixture is made, and conversion
+//! multiplies two pairs of zeros at a time: a fixed list of items, cut into [`CYCLE_TICKS`]
+//! shares of about equal cost when a texture is loaded. What comes out does not depend on where
+//! the cuts are.
 
-use crate::lsf::Shape;
+use crate::{lanes::F4, lsf::Shape};
 use core::ops::Range;
 
 /// Ticks from one query to the next; a query takes effect in the last of them.
 pub const CYCLE_TICKS: usize = 6;
 
-/// Costs in executed x86-64 instructions; only their ratios matter.
-const BLOCK: usize = 32;
-const CHOICE: usize = 80;
-const MIX: usize = 45;
-const MIX_BLOCK: usize = 13;
-const UNIT: usize = 31;
-const STEP: usize = 11;
-const PARTIAL_STEP: usize = 14;
-const LEVEL: usize = 30;
-const ASSEMBLY_FOUR: usize = 38;
+/// What each item costs, in executed instructions; only ratios matter.
+struct Costs {
+    block: usize,
+    choice: usize,
+    mix: usize,
+    mix_four: usize,
+    /// A two, and each of the coefficients that it makes.
+    two: usize,
+    coefficient: usize,
+    assembly_four: usize,
+}
 
-/// The share of one tick: blocks first, then the choice, then the mixture, then units.
+/// On x86-64, and on a Cortex-M4F, where four lanes are four numbers.
+const COSTS: Costs = if F4::IN_REGISTERS {
+    Costs {
+        block: 32,
+        choice: 75,
+        mix: 40,
+        mix_four: 12,
+        two: 30,
+        coefficient: 11,
+        assembly_four: 32,
+    }
+} else {
+    Costs {
+        block: 45,
+        choice: 85,
+        mix: 20,
+        mix_four: 23,
+        two: 10,
+        coefficient: 22,
+        assembly_four: 14,
+    }
+};
+
+/// The share of one tick: blocks first, then the choice, then the mixture, then twos.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Share {
-    blocks: (u8, u8),
+    /// Blocks of triangles to look at.
+    pub(crate) blocks: u8,
     pub(crate) chooses: bool,
-    pub(crate) mixes_ar: bool,
-    pub(crate) mixes_ma: bool,
-    units: (u8, u8),
+    pub(crate) mixes: bool,
+    twos: (u8, u8),
 }
 
 impl Share {
     pub(crate) const NONE: Self = Self {
-        blocks: (0, 0),
+        blocks: 0,
         chooses: false,
-        mixes_ar: false,
-        mixes_ma: false,
-        units: (0, 0),
+        mixes: false,
+        twos: (0, 0),
     };
 
-    /// Blocks of triangles to look at.
-    pub(crate) fn blocks(&self) -> Range<usize> {
-        self.blocks.0.into()..self.blocks.1.into()
+    /// Parts of twos to multiply in.
+    #[inline(always)]
+    pub(crate) fn twos(&self) -> Range<usize> {
+        self.twos.0.into()..self.twos.1.into()
     }
+}
 
-    /// Units of the conversion.
-    pub(crate) fn units(&self) -> Range<usize> {
-        self.units.0.into()..self.units.1.into()
+/// The shares of all ticks, with room for any index of three bits.
+#[derive(Debug, Clone)]
+pub(crate) struct Shares([Share; 8]);
+
+impl Shares {
+    pub(crate) const NONE: Self = Self([Share::NONE; 8]);
+
+    #[inline(always)]
+    pub(crate) fn of(&self, phase: u8) -> &Share {
+        &self.0[usize::from(phase % 8)]
     }
 }
 
 /// The shares of `blocks` blocks of triangles and the conversion of a shape.
-pub(crate) fn shares(blocks: usize, shape: &Shape) -> [Share; CYCLE_TICKS] {
-    let mix = |order: usize| {
-        if order == 0 {
-            0
-        } else {
-            MIX + MIX_BLOCK * order.div_ceil(4)
-        }
+pub(crate) fn shares(blocks: usize, shape: &Shape) -> Shares {
+    let costs = COSTS;
+    let fours = |order: usize| order.div_ceil(4);
+    let mix = costs.mix + costs.mix_four * (fours(shape.ar_order) + fours(shape.ma_order));
+    let part_cost = |part: usize| {
+        let two = part / shape.parts();
+        costs.two + costs.coefficient * 2 * (two + 1)
     };
-    let unit_cost = |unit: usize| {
-        let two = unit / 2;
-        let step = if shape.is_full(two) {
-            STEP
-        } else {
-            PARTIAL_STEP
-        };
-        UNIT + step * (two + 1)
-    };
-    let assembly = |order: usize| ASSEMBLY_FOUR * (order / 2).div_ceil(4);
-    let last = LEVEL + assembly(shape.ar_order) + assembly(shape.ma_order);
-    let units: usize = (0..shape.units()).map(unit_cost).sum();
-    let total = BLOCK * blocks + CHOICE + mix(shape.ar_order) + mix(shape.ma_order) + units + last;
+    let halves = fours(shape.ar_order.div_ceil(2)) + fours(shape.ma_order.div_ceil(2));
+    let parts = shape.twos() * shape.parts();
+    let twos: usize = (0..parts).map(part_cost).sum();
+    let total = costs.block * blocks + costs.choice + mix + twos + costs.assembly_four * halves;
 
-    let mut shares = [Share::NONE; CYCLE_TICKS];
+    let mut shares = Shares::NONE.0;
     let mut spent = 0;
-    // An item belongs to the tick in which its middle lies.
-    let mut tick_of = |cost: usize| {
+    // An item belongs to the tick in which its middle lies; in the first one, only blocks.
+    let mut tick_of = |cost: usize, first: usize| {
         let tick = CYCLE_TICKS * (2 * spent + cost) / (2 * total);
         spent += cost;
-        tick
+        tick.clamp(first, CYCLE_TICKS - 1)
     };
-    let extend = |range: &mut (u8, u8), item: usize| {
+    for _ in 0..blocks {
+        shares[tick_of(costs.block, 0)].blocks += 1;
+    }
+    shares[tick_of(costs.choice, 1)].chooses = true;
+    shares[tick_of(mix, 1)].mixes = true;
+    for part in 0..parts {
+        let range = &mut shares[tick_of(part_cost(part), 1)].twos;
         if range.1 == 0 {
-            range.0 = item as u8;
+            range.0 = part as u8;
         }
-        range.1 = item as u8 + 1;
-    };
-    for block in 0..blocks {
-        if let Some(share) = shares.get_mut(tick_of(BLOCK)) {
-            extend(&mut share.blocks, block);
-        }
+        range.1 = part as u8 + 1;
     }
-    if let Some(share) = shares.get_mut(tick_of(CHOICE)) {
-        share.chooses = true;
-    }
-    if let Some(share) = shares.get_mut(tick_of(mix(shape.ar_order))) {
-        share.mixes_ar = true;
-    }
-    if shape.ma_order > 0
-        && let Some(share) = shares.get_mut(tick_of(mix(shape.ma_order)))
-    {
-        share.mixes_ma = true;
-    }
-    for unit in 0..shape.units() {
-        if let Some(share) = shares.get_mut(tick_of(unit_cost(unit))) {
-            extend(&mut share.units, unit);
-        }
-    }
-    shares
+    Shares(shares)
 }

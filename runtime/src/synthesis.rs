@@ -13,6 +13,8 @@ pub const VIB_LIMIT_M_S2: f32 = 1.0e4;
 const SILENCE_M_S2: f32 = 1.0e-20;
 const LANES: usize = 4;
 const BLOCKS: usize = MAX_ORDER / LANES;
+/// One block more than the lags: all move on only when four new numbers fill it.
+const WINDOW: usize = BLOCKS + 1;
 
 /// Numbers of up to 24 lags, from lag 1 on, in blocks of four.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,86 +46,178 @@ pub struct Filter {
     pub level_m_s2: f32,
 }
 
-/// Past inputs and outputs, the newest first, as far back as the orders in use reach.
+/// Past inputs and outputs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History {
-    e: Line,
-    y: Line,
+    e: Window,
+    y: Window,
+    /// Where the newest stand, 0..=3.
+    at: u8,
 }
 
-/// Lags of a recursion, in blocks of four.
+/// Numbers in order of age, the newest at `at` of the first block.
+#[derive(Debug, Clone, PartialEq)]
+#[repr(align(16))]
+struct Window([[f32; LANES]; WINDOW]);
+
+impl Window {
+    const ZERO: Self = Self([[0.0; LANES]; WINDOW]);
+
+    /// All move on by a block, the last of them out.
+    #[inline(always)]
+    fn shift<const N: usize>(&mut self) {
+        for block in (0..N).rev() {
+            self.0[block + 1] = F4::load(&self.0[block]).to_array();
+        }
+    }
+
+    /// Σ c_k x_k over the first `N` blocks from the newest number on, in four partial sums.
+    #[inline(always)]
+    fn inner_product<const N: usize>(&self, c: &Line, at: usize) -> F4 {
+        let past = &self.0.as_flattened()[at % LANES..];
+        let past = past.as_chunks::<LANES>().0;
+        let mut partial = F4::load(&c.0[0]) * F4::load(&past[0]);
+        for block in 1..N {
+            partial = partial + F4::load(&c.0[block]) * F4::load(&past[block]);
+        }
+        partial
+    }
+}
+
+/// Length and kind of a recursion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lags {
-    /// Of A(z), 0..=6.
-    pub ar: u8,
-    /// Of B(z), 0..=6; 0 stands for the first lag alone.
-    pub ma: u8,
+    /// Lags in blocks of four, of the longer one of A(z) and B(z), 1..=6.
+    blocks: u8,
+    /// Whether B(z) has more than its first lag.
+    numerator: bool,
 }
 
 impl Lags {
     /// As many as the orders need; orders are at most 24.
     #[must_use]
     pub const fn new(ar_order: usize, ma_order: usize) -> Self {
+        let longer = if ar_order > ma_order {
+            ar_order
+        } else {
+            ma_order
+        };
         Self {
-            ar: ar_order.div_ceil(LANES) as u8,
-            ma: ma_order.div_ceil(LANES) as u8,
+            blocks: longer.div_ceil(LANES) as u8,
+            numerator: ma_order > 0,
         }
     }
 }
 
-/// Σ c_k x_k over the first `N` blocks in four partial sums, in the same order on every
-/// platform.
-#[inline(always)]
-fn inner_product<const N: usize>(c: &Line, x: &Line) -> F4 {
-    let mut partial = F4::load(&c.0[0]) * F4::load(&x.0[0]);
-    for block in 1..N {
-        partial = partial + F4::load(&c.0[block]) * F4::load(&x.0[block]);
-    }
-    partial
-}
-
-/// The newest enters, all others move one lag on.
-#[inline(always)]
-fn push<const N: usize>(line: &mut Line, newest: f32) {
-    let flat = line.0.as_flattened_mut();
-    // From the last block on, so that nothing is overwritten before it is read.
-    for block in (1..N).rev() {
-        let at = LANES * block;
-        let moved = F4::load(&[flat[at - 1], flat[at], flat[at + 1], flat[at + 2]]).to_array();
-        flat[at..at + LANES].copy_from_slice(&moved);
-    }
-    let first = [newest, flat[0], flat[1], flat[2]];
-    flat[..LANES].copy_from_slice(&first);
-}
-
-/// Calls a function generic over a number of blocks.
+/// Calls a method generic over a number of blocks.
 macro_rules! by_blocks {
-    ($blocks:expr, $f:ident($($argument:expr),*)) => {
+    ($blocks:expr, $history:ident.$f:ident($($argument:expr),*)) => {
         match $blocks {
-            0 => $f::<0>($($argument),*),
-            1 => $f::<1>($($argument),*),
-            2 => $f::<2>($($argument),*),
-            3 => $f::<3>($($argument),*),
-            4 => $f::<4>($($argument),*),
-            5 => $f::<5>($($argument),*),
-            _ => $f::<6>($($argument),*),
+            0 | 1 => $history.$f::<1>($($argument),*),
+            2 => $history.$f::<2>($($argument),*),
+            3 => $history.$f::<3>($($argument),*),
+            4 => $history.$f::<4>($($argument),*),
+            5 => $history.$f::<5>($($argument),*),
+            _ => $history.$f::<6>($($argument),*),
         }
     };
 }
 
-/// The recursive half for `N` blocks of lags: the output from what the numerator gives.
-#[inline(always)]
-fn recurse<const N: usize>(a: &Line, past: &mut Line, driven: F4, sounding: bool) -> (f32, bool) {
-    let raw = (driven - inner_product::<N>(a, past)).sum();
-    let size = raw.abs();
-    let (bounded, clamped) = if size > SILENCE_M_S2 && size <= VIB_LIMIT_M_S2 {
-        (raw, false)
-    } else {
-        bound(raw)
+impl History {
+    /// Silence.
+    pub const SILENT: Self = Self {
+        e: Window::ZERO,
+        y: Window::ZERO,
+        at: 0,
     };
-    let y = if sounding { bounded } else { 0.0 };
-    push::<N>(past, y);
-    (y, clamped && sounding)
+
+    /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags
+    /// 1.., zero above the order. With `sounding` false the model is mute, and with `e` zero its
+    /// history fades out within 24 samples. Returns y, m/s², and whether it had to be clamped.
+    #[inline]
+    pub fn step(&mut self, a: &Line, b: &Line, lags: Lags, e: f32, sounding: bool) -> (f32, bool) {
+        let at = usize::from(self.at) % LANES;
+        if lags.numerator {
+            by_blocks!(lags.blocks, self.arma(a, b, at, e, sounding))
+        } else {
+            by_blocks!(lags.blocks, self.ar(a, b, at, e, sounding))
+        }
+    }
+
+    /// Both sums over `N` blocks of lags; the newest of the past stand at `at`.
+    #[inline(always)]
+    fn arma<const N: usize>(
+        &mut self,
+        a: &Line,
+        b: &Line,
+        at: usize,
+        e: f32,
+        sounding: bool,
+    ) -> (f32, bool) {
+        let driven = F4::load(&[e, 0.0, 0.0, 0.0]) + self.e.inner_product::<N>(b, at);
+        let (y, clamped) = self.recurse::<N>(a, at, driven, sounding);
+        if at == 0 {
+            self.e.shift::<N>();
+            self.y.shift::<N>();
+        }
+        self.push(at, e, y);
+        (y, clamped)
+    }
+
+    /// With a numerator of one lag.
+    #[inline(always)]
+    fn ar<const N: usize>(
+        &mut self,
+        a: &Line,
+        b: &Line,
+        at: usize,
+        e: f32,
+        sounding: bool,
+    ) -> (f32, bool) {
+        let driven = F4::load(&[e + b.0[0][0] * self.e.0[0][at], 0.0, 0.0, 0.0]);
+        let (y, clamped) = self.recurse::<N>(a, at, driven, sounding);
+        if at == 0 {
+            self.y.shift::<N>();
+        }
+        self.push(at, e, y);
+        (y, clamped)
+    }
+
+    /// The output from what the numerator gives.
+    #[inline(always)]
+    fn recurse<const N: usize>(
+        &self,
+        a: &Line,
+        at: usize,
+        driven: F4,
+        sounding: bool,
+    ) -> (f32, bool) {
+        let raw = (driven - self.y.inner_product::<N>(a, at)).sum();
+        let (bounded, clamped) = if is_usual(raw) {
+            (raw, false)
+        } else {
+            bound(raw)
+        };
+        (if sounding { bounded } else { 0.0 }, clamped && sounding)
+    }
+
+    /// The newest enter before `at`, in a circle: at the start, all others have moved.
+    #[inline(always)]
+    fn push(&mut self, at: usize, e: f32, y: f32) {
+        let at = (at + LANES - 1) % LANES;
+        self.at = at as u8;
+        self.e.0[0][at] = e;
+        self.y.0[0][at] = y;
+    }
+}
+
+/// Whether an output is neither too small to matter, nor too large, nor NaN. Bits of positive
+/// numbers are in their order.
+#[inline(always)]
+fn is_usual(raw: f32) -> bool {
+    const LEAST: u32 = SILENCE_M_S2.to_bits();
+    const SPAN: u32 = VIB_LIMIT_M_S2.to_bits() - LEAST;
+    raw.abs().to_bits().wrapping_sub(LEAST) <= SPAN
 }
 
 /// An output too small to matter, too large, or NaN, which becomes silence.
@@ -134,35 +228,5 @@ fn bound(raw: f32) -> (f32, bool) {
         (-VIB_LIMIT_M_S2, true)
     } else {
         (0.0, raw.is_nan())
-    }
-}
-
-/// In four partial sums, the numerator for `N` blocks of lags, none of them standing for the first lag alone.
-#[inline(always)]
-fn drive<const N: usize>(b: &Line, past: &mut Line, e: f32) -> F4 {
-    let driven = if N == 0 {
-        F4::load(&[e + b.0[0][0] * past.0[0][0], 0.0, 0.0, 0.0])
-    } else {
-        F4::load(&[e, 0.0, 0.0, 0.0]) + inner_product::<N>(b, past)
-    };
-    push::<N>(past, e);
-    driven
-}
-
-impl History {
-    /// Silence.
-    pub const SILENT: Self = Self {
-        e: Line::ZERO,
-        y: Line::ZERO,
-    };
-
-    /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags
-    /// 1.., zero above the order. With `sounding` false the model is mute and its history
-    /// fades out within 24 samples. Returns y, m/s², and whether it had to be clamped.
-    #[inline]
-    pub fn step(&mut self, a: &Line, b: &Line, lags: Lags, e: f32, sounding: bool) -> (f32, bool) {
-        let e = if sounding { e } else { 0.0 };
-        let driven = by_blocks!(lags.ma, drive(b, &mut self.e, e));
-        by_blocks!(lags.ar, recurse(a, &mut self.y, driven, sounding))
     }
 }

@@ -6,7 +6,7 @@
 //! Below the slowest trace it shrinks with the speed, above the fastest it stays.
 //! After an impact the detector waits until the stylus is `rearm_m` away.
 
-use crate::{lanes::F4, math::clamp_from_zero, resample::Resampler};
+use crate::{Flags, lanes::F4, math::clamp_from_zero, resample::Resampler};
 use asperity_formats::{Taps, limits::MAX_TAPS};
 use heapless::Vec;
 
@@ -127,8 +127,10 @@ impl Selection {
 /// The impact detector and the transient under way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TapState {
-    /// Signed distances, the newest first, m.
-    distances_m: [[f32; 4]; WINDOW_TICKS / 4],
+    /// Signed distances in a ring, m.
+    distances_m: [f32; WINDOW_TICKS],
+    /// Where the newest stands; the older ones follow.
+    newest: u8,
     armed: bool,
     /// Next tick of the transient; at its length or above when none plays.
     tick: u32,
@@ -140,16 +142,15 @@ pub struct TapState {
 pub struct TapOutput {
     /// Acceleration along the normal, m/s².
     pub accel_m_s2: f32,
-    /// Whether a transient started in this tick.
-    pub started: bool,
-    /// Whether one is under way.
-    pub active: bool,
+    /// Whether a transient started in this tick, and whether one is under way.
+    pub flags: Flags,
 }
 
 impl TapState {
     /// No contact seen yet: the first one is no impact.
     pub const IDLE: Self = Self {
-        distances_m: [[0.0; 4]; WINDOW_TICKS / 4],
+        distances_m: [0.0; WINDOW_TICKS],
+        newest: 0,
         armed: false,
         tick: u32::MAX,
         selection: Selection::SILENT,
@@ -158,7 +159,7 @@ impl TapState {
     /// Starts over at `distance_m`; a first sample inside is no impact.
     pub fn restart(&mut self, distance_m: f32) {
         *self = Self::IDLE;
-        self.distances_m = [[distance_m; 4]; WINDOW_TICKS / 4];
+        self.distances_m = [distance_m; WINDOW_TICKS];
     }
 
     /// Impact speed, m/s: minus the least-squares slope of the last eight distances.
@@ -166,11 +167,13 @@ impl TapState {
     fn approach_speed_m_s(&self, servo_rate_hz: f32) -> f32 {
         // Σ (i − 3.5)² over eight samples.
         const SPREAD: f32 = 42.0;
-        let [newer, older] = &self.distances_m;
-        // Index 0 is the newest, so a falling distance gives a positive slope.
-        let newer = F4::load(newer) * F4::load(&[-3.5, -2.5, -1.5, -0.5]);
-        let older = F4::load(older) * F4::load(&[0.5, 1.5, 2.5, 3.5]);
-        (newer + older).sum() * (servo_rate_hz * (1.0 / SPREAD))
+        let age = |i: usize| self.distances_m[(usize::from(self.newest) + i) % WINDOW_TICKS];
+        // Age 0 is the newest, so a falling distance gives a positive slope.
+        let newer = F4::load(&[age(0), age(1), age(2), age(3)]);
+        let older = F4::load(&[age(4), age(5), age(6), age(7)]);
+        let products =
+            newer * F4::load(&[-3.5, -2.5, -1.5, -0.5]) + older * F4::load(&[0.5, 1.5, 2.5, 3.5]);
+        products.sum() * (servo_rate_hz * (1.0 / SPREAD))
     }
 
     /// One tick at `distance_m` from the surface (negative inside).
@@ -182,30 +185,30 @@ impl TapState {
         servo_rate_hz: f32,
         config: &crate::TapConfig,
     ) -> TapOutput {
-        let [[a, b, c, d], [e, f, g, _]] = self.distances_m;
-        self.distances_m = [[distance_m, a, b, c], [d, e, f, g]];
+        self.newest = self.newest.wrapping_sub(1) % WINDOW_TICKS as u8;
+        self.distances_m[usize::from(self.newest) % WINDOW_TICKS] = distance_m;
         let touching = distance_m < 0.0;
-        let mut started = false;
-        if self.armed && touching {
-            let speed_m_s = self.approach_speed_m_s(servo_rate_hz);
-            started = speed_m_s >= config.min_speed_m_s;
-            if started {
-                self.selection = bank.select(speed_m_s);
-                self.tick = 0;
+        let mut flags = Flags::NONE;
+        if touching {
+            if self.armed {
+                let speed_m_s = self.approach_speed_m_s(servo_rate_hz);
+                if speed_m_s >= config.min_speed_m_s {
+                    self.selection = bank.select(speed_m_s);
+                    self.tick = 0;
+                    flags = Flags::TAP_STARTED;
+                }
             }
+            self.armed = false;
+        } else if distance_m > config.rearm_m {
+            self.armed = true;
         }
-        self.armed = (self.armed || distance_m > config.rearm_m) && !touching;
-        let active = (self.tick as usize) < bank.ticks();
         let mut accel_m_s2 = 0.0;
-        if active {
+        if (self.tick as usize) < bank.ticks() {
+            flags = flags.and(Flags::TAP_ACTIVE);
             accel_m_s2 = bank.accel_m_s2(&self.selection, self.tick as usize);
             self.tick += 1;
         }
-        TapOutput {
-            accel_m_s2,
-            started,
-            active,
-        }
+        TapOutput { accel_m_s2, flags }
     }
 }
 
@@ -257,7 +260,8 @@ mod tests {
             .chain([-0.3e-3; 10])
             .chain((0..40).map(|n| 3e-3 - 0.1e-3 * n as f32));
         for (n, height) in heights.enumerate() {
-            if state.step(&bank, height, 1000.0, &config).started {
+            let output = state.step(&bank, height, 1000.0, &config);
+            if output.flags.contains(Flags::TAP_STARTED) {
                 starts.push((n, state.selection));
             }
         }

@@ -6,7 +6,7 @@ use crate::{
     locate::{Barycentric, Locator},
     lsf::{self, Pairs, Products, Shape},
     math::cos_pi,
-    schedule::{self, CYCLE_TICKS, Share},
+    schedule::{self, Share, Shares},
     synthesis::{Lags, Line},
     tap::TapBank,
 };
@@ -27,7 +27,7 @@ pub struct Texture<const V: usize, const T: usize, const P: usize, const Q: usiz
     id: u32,
     shape: Shape,
     lags: Lags,
-    shares: [Share; CYCLE_TICKS],
+    shares: Shares,
     servo_rate_hz: f32,
     /// b_1 of a numerator that every model shares.
     b1: f32,
@@ -40,7 +40,7 @@ pub struct Texture<const V: usize, const T: usize, const P: usize, const Q: usiz
 }
 
 /// Room for the largest grid, and for 16 taps of 256 ticks: 13 taps of 100 samples at 10 kHz
-/// fit at servo rates up to 10 kHz. 32 KiB, better boxed or static than on a stack.
+/// fit at servo rates up to 10 kHz. 33 KiB, better boxed or static than on a stack.
 pub type HostTexture = Texture<64, 128, 24, 24, 4096>;
 
 /// Why a texture does not fit a slot.
@@ -78,20 +78,20 @@ pub enum LoadError {
 struct Rows<const N: usize, const V: usize>([[f32; N]; V]);
 
 impl<const N: usize, const V: usize> Rows<N, V> {
-    /// Moves the first `blocks` blocks of four `share` of the way to the mixture of three rows.
+    /// Moves numbers `share` of the way to the mixture of three rows.
     #[inline(always)]
-    fn follow(&self, line: &mut Line, query: &Barycentric, share: f32, blocks: usize) {
+    fn follow(&self, line: &mut Line, query: &Barycentric, share: f32) {
         let row = |corner: usize| {
             let row = self.0.get(usize::from(query.vertices[corner]));
-            row.map_or(&[][..], |row| row.as_chunks::<4>().0)
+            row.unwrap_or(&[0.0; N]).as_chunks::<4>().0
         };
-        let [wi, wj, wk] = query.weights.map(F4::splat);
-        let share = F4::splat(share);
+        let [wi, wj, wk] = query.weights.map(|weight| F4::splat(share * weight));
+        let kept = F4::splat(1.0 - share);
         let rows = row(0).iter().zip(row(1)).zip(row(2));
-        for (place, ((i, j), k)) in line.0.iter_mut().zip(rows).take(blocks) {
+        // Rows are zero beyond the order: a loop of constant length costs less than a shorter one.
+        for (place, ((i, j), k)) in line.0.iter_mut().zip(rows) {
             let mixed = wi * F4::load(i) + wj * F4::load(j) + wk * F4::load(k);
-            let before = F4::load(place);
-            *place = (before + share * (mixed - before)).to_array();
+            *place = (kept * F4::load(place) + mixed).to_array();
         }
     }
 }
@@ -123,8 +123,8 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             mu: 0.0,
             id: 0,
             shape: Shape::new(0, 0),
-            lags: Lags { ar: 0, ma: 0 },
-            shares: [Share::NONE; CYCLE_TICKS],
+            lags: Lags::new(0, 0),
+            shares: Shares::NONE,
             servo_rate_hz: 0.0,
             b1: 0.0,
             ar_pairs: Rows([[0.0; P]; V]),
@@ -239,10 +239,9 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     pub fn filter_at(&self, speed_mm_s: f32, force_n: f32) -> Filter {
         let query = self.weights_at(speed_mm_s, force_n);
         let (mut pairs, mut products) = (Pairs::ZERO, Products::ONE);
-        self.follow_ar(&mut pairs, &query, 1.0);
-        self.follow_ma(&mut pairs, &query, 1.0);
-        for unit in 0..self.shape.units() {
-            self.multiply(&mut products, &pairs, unit);
+        self.follow(&mut pairs, &query, 1.0);
+        for part in 0..self.shape.twos() * self.shape.parts() {
+            self.multiply(&mut products, &pairs, part);
         }
         let (mut a, mut b) = (Line::ZERO, Line::ZERO);
         self.coefficients(&products, &mut a, &mut b);
@@ -274,32 +273,25 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     /// The work of a tick of the cycle.
     #[inline]
     pub(crate) fn share(&self, phase: u8) -> &Share {
-        self.shares.get(usize::from(phase)).unwrap_or(&Share::NONE)
+        self.shares.of(phase)
     }
 
-    /// Moves parameters of A(z) towards a mixture.
+    /// Moves parameters `share` of the way to a mixture.
     #[inline]
-    pub(crate) fn follow_ar(&self, pairs: &mut Pairs, query: &Barycentric, share: f32) {
-        let blocks = self.lags.ar.into();
-        self.ar_pairs.follow(&mut pairs.ar, query, share, blocks);
-    }
-
-    /// Moves parameters of B(z) towards a mixture.
-    #[inline]
-    pub(crate) fn follow_ma(&self, pairs: &mut Pairs, query: &Barycentric, share: f32) {
-        if Q > 0 {
-            let blocks = self.lags.ma.into();
-            self.ma_pairs.follow(&mut pairs.ma, query, share, blocks);
+    pub(crate) fn follow(&self, pairs: &mut Pairs, query: &Barycentric, share: f32) {
+        self.ar_pairs.follow(&mut pairs.ar, query, share);
+        if Q > 0 && self.shape.ma_order > 0 {
+            self.ma_pairs.follow(&mut pairs.ma, query, share);
         }
     }
 
-    /// One unit of the conversion.
+    /// Multiplies one part of a two of pairs in.
     #[inline]
-    pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, unit: usize) {
-        self.shape.multiply(products, pairs, unit);
+    pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, part: usize) {
+        self.shape.multiply(products, pairs, part);
     }
 
-    /// Coefficients of A(z) and B(z), all units done.
+    /// Coefficients of A(z) and B(z), all twos done.
     #[inline]
     pub(crate) fn coefficients(&self, products: &Products, a: &mut Line, b: &mut Line) {
         self.shape.ar(products, a);
@@ -337,7 +329,7 @@ mod tests {
 
     #[test]
     fn sizes_are_as_stated() {
-        assert!(size_of::<HostTexture>() <= 32 * 1024);
-        assert!(size_of::<crate::State>() <= 1056);
+        assert!(size_of::<HostTexture>() <= 33 * 1024);
+        assert!(size_of::<crate::State>() <= 1136);
     }
 }

@@ -4,10 +4,11 @@ use asperity_formats::Surface;
 
 use crate::{
     Config, ConfigError, Texture, VibrationAxis,
+    contact::Solid,
     friction::{Bristle, FrictionState},
     lanes::F4,
-    limiter::{Limited, Limiter},
-    math::{Vec3, clamp_from_zero, cross, exp, max, rsqrt},
+    limiter::Limiter,
+    math::{Vec3, cross, exp, max, rsqrt_pair},
     safety::Gate,
     tap::TapState,
     velocity::{LowPass2, LowPass2State},
@@ -50,7 +51,7 @@ impl Sample {
 
 /// What happened in a tick, as bits.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
-pub struct Flags(u16);
+pub struct Flags(u32);
 
 impl Flags {
     /// The stylus is inside the surface.
@@ -74,6 +75,22 @@ impl Flags {
     /// The vibration reached its bound; a verified texture never does.
     pub const VIB_CLAMPED: Self = Self(1 << 9);
 
+    // What the stages tell each other, above the bits that callers see.
+    /// Motion starts anew.
+    pub(crate) const RESTART: Self = Self(1 << 16);
+    /// The sample was bad.
+    pub(crate) const BAD_SAMPLE: Self = Self(1 << 17);
+    /// The safe state was entered.
+    pub(crate) const FAULT: Self = Self(1 << 18);
+    /// Nothing.
+    pub(crate) const NONE: Self = Self(0);
+    /// What [`Counters`] count.
+    const COUNTED: Self = Self::BAD_SAMPLE
+        .and(Self::FAULT)
+        .and(Self::TAP_STARTED)
+        .and(Self::PEAK_LIMITED)
+        .and(Self::SLEW_LIMITED);
+
     /// Every flag with its name.
     pub const ALL: [(Self, &'static str); 10] = [
         (Self::CONTACT, "contact"),
@@ -91,7 +108,7 @@ impl Flags {
     /// The bits, as `render` prints them.
     #[must_use]
     pub const fn bits(self) -> u16 {
-        self.0
+        self.0 as u16
     }
 
     /// Whether every bit of `other` is set.
@@ -100,8 +117,28 @@ impl Flags {
         self.0 & other.0 == other.0
     }
 
-    const fn with(self, other: Self, set: bool) -> Self {
-        Self(self.0 | (other.0 * set as u16))
+    /// The bits of both.
+    #[inline(always)]
+    pub(crate) const fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// These where `set`, else none.
+    #[inline(always)]
+    pub(crate) const fn when(self, set: bool) -> Self {
+        Self(if set { self.0 } else { 0 })
+    }
+
+    /// What callers see.
+    #[inline(always)]
+    const fn seen(self) -> Self {
+        Self(self.0 & 0xffff)
+    }
+
+    /// Whether any bit of `other` is set.
+    #[inline(always)]
+    const fn meets(self, other: Self) -> bool {
+        self.0 & other.0 != 0
     }
 }
 
@@ -145,43 +182,28 @@ pub struct Counters {
     pub slew_limited: u32,
 }
 
-/// What a tick counts.
-struct Events {
-    bad_sample: bool,
-    missed_ticks: u32,
-    fault: bool,
-    tap: bool,
-    limited: Limited,
-}
-
-impl Events {
-    /// Whether anything but the tick itself is counted.
-    #[inline(always)]
-    const fn any(&self) -> bool {
-        self.bad_sample | self.fault | self.tap | self.limited.peak | self.limited.slew
-    }
-}
-
 impl Counters {
-    #[inline]
-    fn count(&mut self, events: &Events) {
-        self.missed_ticks = self.missed_ticks.saturating_add(events.missed_ticks);
+    #[inline(always)]
+    fn count(&mut self, flags: Flags, elapsed_ticks: u32) {
+        if elapsed_ticks > 1 {
+            self.missed_ticks = self.missed_ticks.saturating_add(elapsed_ticks - 1);
+        }
         // The others never exceed the count of ticks: all stop with it.
         if self.ticks == u32::MAX {
             return;
         }
         self.ticks += 1;
-        if !events.any() {
+        if !flags.meets(Flags::COUNTED) {
             return;
         }
         for (counter, event) in [
-            (&mut self.bad_samples, events.bad_sample),
-            (&mut self.faults, events.fault),
-            (&mut self.taps, events.tap),
-            (&mut self.peak_limited, events.limited.peak),
-            (&mut self.slew_limited, events.limited.slew),
+            (&mut self.bad_samples, Flags::BAD_SAMPLE),
+            (&mut self.faults, Flags::FAULT),
+            (&mut self.taps, Flags::TAP_STARTED),
+            (&mut self.peak_limited, Flags::PEAK_LIMITED),
+            (&mut self.slew_limited, Flags::SLEW_LIMITED),
         ] {
-            *counter = counter.wrapping_add(u32::from(event));
+            *counter = counter.wrapping_add(u32::from(flags.meets(event)));
         }
     }
 }
@@ -239,12 +261,13 @@ impl State {
 #[derive(Debug, Clone)]
 pub struct Renderer {
     config: Config,
+    solid: Solid,
     velocity: LowPass2,
     limiter: Limiter,
     bristle: Bristle,
     passivity: Passivity,
-    /// Periods per second over 1, 2 and 3 elapsed ticks.
-    rate_over_ticks: [f32; 3],
+    /// Periods per second over 0 (never), 1, 2 and 3 elapsed ticks.
+    rate_over_ticks: [f32; 4],
     /// Share of the way that parameters go in a cycle.
     follow_share: f32,
     ramp_step: f32,
@@ -265,11 +288,12 @@ impl Renderer {
                 surface: config.surface.normalised(),
                 ..config.clone()
             },
+            solid: Solid::new(&config.surface),
             velocity: LowPass2::new([plane, plane, plane, normal], rate),
             limiter: Limiter::new(&config.limits, rate),
             bristle: Bristle::new(&config.friction, config.mechanics.delay_ticks, rate),
             passivity: Passivity::new(&config.mechanics, rate),
-            rate_over_ticks: [rate, rate / 2.0, rate / 3.0],
+            rate_over_ticks: [rate, rate, rate / 2.0, rate / 3.0],
             follow_share: if cycles > 0.0125 {
                 1.0 - exp(-1.0 / cycles)
             } else {
@@ -307,59 +331,64 @@ impl Renderer {
     ) -> Output {
         let config = &self.config;
         let surface = &texture.surface;
+        state.vibration.prepare(texture, self.follow_share);
 
         let gated = state
             .gate
             .step(sample, config.safety.hold_ticks, self.ramp_step);
-        let (distance_m, normal) = config.surface.touch(gated.position_m);
-        if gated.restart {
+        let mut flags = gated.flags;
+        let (distance_m, normal) = self.solid.touch(gated.position_m);
+        if flags.contains(Flags::RESTART) {
             state.restart(distance_m);
         }
 
         let motion_m = gated.motion_m;
-        let rate = self.rate_over_ticks[(gated.elapsed_ticks.wrapping_sub(1) % 3) as usize];
+        let rate = self.rate_over_ticks[gated.elapsed_ticks as usize % 4];
         let moved_m = motion_m.with_fourth(distance_m - state.distance_m);
         let moving_m_s = moved_m * F4::splat(rate);
         let velocity_m_s = self.velocity.advance(&mut state.velocity, moving_m_s);
         let outward_m_s = velocity_m_s.fourth();
         state.distance_m = distance_m;
 
-        let slide_m_s = velocity_m_s.with_fourth(0.0).tangential(normal);
+        let depth_m = max(-distance_m, 0.0);
+        let touching = depth_m > 0.0;
+        flags = flags.and(Flags::CONTACT.when(touching));
+        let wall = self.wall(surface);
+        let stiffness_n = wall.stiffness_n_m * depth_m;
+
+        let slide_m_s = velocity_m_s.first_three().tangential(normal);
         let squared = slide_m_s.dot3(slide_m_s);
-        let inverse_speed = rsqrt(squared);
+        let stretched = state
+            .friction
+            .stretch(&self.bristle, motion_m, normal, stiffness_n);
+        let [inverse_speed, inverse_stretch] = rsqrt_pair([squared, stretched.squared]);
         let speed_m_s = squared * inverse_speed;
         if speed_m_s > DIRECTION_FLOOR_M_S {
             state.direction = slide_m_s * F4::splat(inverse_speed);
         }
         let speed_mm_s = speed_m_s * MM;
-
-        let depth_m = max(-distance_m, 0.0);
-        let touching = depth_m > 0.0;
-        let wall = self.wall(surface);
-        let stiffness_n = wall.stiffness_n_m * depth_m;
-
         let outside = texture.is_outside(speed_mm_s, stiffness_n);
-        let (vib_m_s2, vib_clamped) = state.vibration.step(
-            texture,
-            speed_mm_s,
-            stiffness_n,
-            self.follow_share,
-            touching && !gated.safe,
+        flags = flags.and(Flags::OUTSIDE_GRID.when(outside));
+        let limit_n = texture.mu * stiffness_n;
+        let (friction, friction_n) = state.friction.slip(
+            &self.bristle,
+            &stretched,
+            inverse_stretch,
+            motion_m,
+            limit_n,
         );
 
         let tap = state
             .tap
             .step(&texture.taps, distance_m, config.servo_rate_hz, &config.tap);
+        flags = flags.and(tap.flags);
         let tap_n = surface.effective_mass_kg * tap.accel_m_s2;
 
-        let (friction, friction_n) = state.friction.advance(
-            &self.bristle,
-            motion_m,
-            normal,
-            stiffness_n,
-            texture.mu,
-            touching,
-        );
+        let sounding = touching && !flags.contains(Flags::SAFE_STATE);
+        let (vib_m_s2, clamped) = state.vibration.sound(texture, sounding);
+        if clamped {
+            flags = flags.and(Flags::VIB_CLAMPED);
+        }
 
         let normal_n = wall.force_n(stiffness_n, outward_m_s) + tap_n;
         let axis = match config.vibration_axis {
@@ -371,35 +400,19 @@ impl Renderer {
         let wanted_n = total_n * F4::splat(gated.gain);
         let (force_n, limited) = self.limiter.advance(state.force_n, wanted_n);
         state.force_n = force_n;
+        flags = flags.and(limited);
 
-        let flags = Flags::default()
-            .with(Flags::CONTACT, touching)
-            .with(Flags::TAP_STARTED, tap.started)
-            .with(Flags::TAP_ACTIVE, tap.active)
-            .with(Flags::OUTSIDE_GRID, outside)
-            .with(Flags::PEAK_LIMITED, limited.peak)
-            .with(Flags::SLEW_LIMITED, limited.slew)
-            .with(Flags::HELD_SAMPLE, gated.held)
-            .with(Flags::SAFE_STATE, gated.safe)
-            .with(Flags::RAMPING, !gated.safe && gated.gain < 1.0)
-            .with(Flags::VIB_CLAMPED, vib_clamped);
-        state.counters.count(&Events {
-            bad_sample: gated.bad,
-            missed_ticks: sample.elapsed_ticks.saturating_sub(1),
-            fault: gated.fault,
-            tap: tap.started,
-            limited,
-        });
-
+        state.counters.count(flags, sample.elapsed_ticks);
+        state.vibration.query(texture, speed_mm_s, stiffness_n);
         Output {
             force_n: force_n.xyz(),
             depth_m,
-            speed_mm_s: clamp_from_zero(speed_mm_s, f32::MAX),
+            speed_mm_s,
             normal_force_n: stiffness_n,
             vib_m_s2,
             tap_n,
             friction_n,
-            flags,
+            flags: flags.seen(),
         }
     }
 }

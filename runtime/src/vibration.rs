@@ -1,9 +1,9 @@
 //! The vibration y\[n\]: parameters that follow speed and force, and the next sample.
 //!
 //! The model at a speed and a force is made in cycles of [`CYCLE_TICKS`] ticks. The first
-//! tick of a cycle takes the query; every tick does an equal share of location, mixture and
-//! conversion; the last one puts the new coefficients and level to work. A change of speed or
-//! force is thus heard after 5 to 10 ticks. Between cycles the shape of the spectrum follows
+//! tick of a cycle ends with a query and the first share of location, mixture and conversion;
+//! the others begin with a share each, the last of which puts the new coefficients and level to
+//! work. A change of speed or force is thus heard after 5 to 10 ticks. Between cycles the shape of the spectrum follows
 //! its target as a one-pole, which keeps the recursion bounded when speed or force jump; the
 //! level is the target's.
 //!
@@ -36,7 +36,6 @@ pub struct Vibration {
     force_n: f32,
     search: Search,
     found: Barycentric,
-    share: f32,
     excitation: Excitation,
     texture: u32,
     phase: u8,
@@ -59,9 +58,8 @@ impl Vibration {
             level_m_s2: 0.0,
             speed_mm_s: 0.0,
             force_n: 0.0,
-            search: Search::START,
+            search: Search::NONE,
             found: Barycentric::NONE,
-            share: 1.0,
             excitation: Excitation::new(seed),
             texture: 0,
             phase: 0,
@@ -86,15 +84,18 @@ impl Vibration {
     /// Another texture: a cycle begun on one is not finished on the other.
     #[cold]
     fn change_texture(&mut self, texture: u32) {
-        *self = Self {
-            excitation: self.excitation.clone(),
-            texture,
-            ..Self::new(0)
-        };
+        // A new state has nothing to forget.
+        if self.texture != 0 {
+            self.silence();
+            self.pairs = Pairs::ZERO;
+            (self.a, self.b) = (Line::ZERO, Line::ZERO);
+        }
+        self.texture = texture;
+        self.phase = 0;
     }
 
-    /// One tick. `follow_share` is the share of the way that parameters go in a cycle; with
-    /// `sounding` false the vibration is mute. Returns y, m/s², and whether it had to be
+    /// One tick by itself. `follow_share` is the share of the way that parameters go in a cycle;
+    /// with `sounding` false the vibration is mute. Returns y, m/s², and whether it had to be
     /// clamped.
     #[inline]
     pub fn step<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
@@ -105,57 +106,136 @@ impl Vibration {
         follow_share: f32,
         sounding: bool,
     ) -> (f32, bool) {
+        self.prepare(texture, follow_share);
+        let sound = self.sound(texture, sounding);
+        self.query(texture, speed_mm_s, force_n);
+        sound
+    }
+
+    /// Begins a tick: its share of the cycle, where that is not the first one.
+    #[inline(always)]
+    pub(crate) fn prepare<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+        follow_share: f32,
+    ) {
         if self.texture != texture.id() {
             self.change_texture(texture.id());
         }
+        if self.phase == CYCLE_TICKS as u8 {
+            self.phase = 0;
+        } else if self.phase > 0 {
+            self.work(texture, follow_share);
+        }
+    }
+
+    /// The next sample.
+    #[inline(always)]
+    pub(crate) fn sound<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+        sounding: bool,
+    ) -> (f32, bool) {
         if !sounding {
             self.leave();
         }
         if self.phase == 0 {
-            (self.speed_mm_s, self.force_n) = texture.locator.clamp(speed_mm_s, force_n);
-            self.search = Search::START;
             self.in_contact = sounding;
-            self.share = if self.follows { follow_share } else { 1.0 };
         }
-        self.work(texture);
         let e = self.level_m_s2 * self.excitation.next_gaussian();
         self.history
             .step(&self.a, &self.b, texture.lags(), e, sounding)
     }
 
-    /// This tick's share of the cycle.
-    #[inline]
+    /// Ends a tick: the first one of a cycle takes the query.
+    #[inline(always)]
+    pub(crate) fn query<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+        speed_mm_s: f32,
+        force_n: f32,
+    ) {
+        if self.phase == 0 {
+            self.begin(texture, speed_mm_s, force_n);
+        }
+    }
+
+    /// The first share of a cycle.
+    #[inline(never)]
+    fn begin<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+        speed_mm_s: f32,
+        force_n: f32,
+    ) {
+        let (speed, force) = texture.locator.clamp(speed_mm_s, force_n);
+        (self.speed_mm_s, self.force_n) = (speed, force);
+        self.search = texture.locator.begin(speed, force);
+        let blocks = texture.share(0).blocks.into();
+        texture.locator.look(&mut self.search, speed, force, blocks);
+        self.phase = 1;
+    }
+
+    /// The share of another tick.
+    #[inline(always)]
     fn work<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
         &mut self,
         texture: &Texture<V, T, P, Q, K>,
+        follow_share: f32,
     ) {
         let share = texture.share(self.phase);
         let (speed, force) = (self.speed_mm_s, self.force_n);
-        texture
-            .locator
-            .look(&mut self.search, speed, force, share.blocks());
+        if share.blocks > 0 {
+            let blocks = share.blocks.into();
+            texture.locator.look(&mut self.search, speed, force, blocks);
+        }
         if share.chooses {
             self.found = texture.locator.choose(&self.search, speed, force);
         }
-        if share.mixes_ar {
-            texture.follow_ar(&mut self.pairs, &self.found, self.share);
+        if share.mixes {
+            // A new contact starts at its own model.
+            let way = if self.follows { follow_share } else { 1.0 };
+            texture.follow(&mut self.pairs, &self.found, way);
         }
-        if share.mixes_ma {
-            texture.follow_ma(&mut self.pairs, &self.found, self.share);
-        }
-        for unit in share.units() {
-            texture.multiply(&mut self.products, &self.pairs, unit);
+        for part in share.twos() {
+            texture.multiply(&mut self.products, &self.pairs, part);
         }
         self.phase += 1;
-        if usize::from(self.phase) >= CYCLE_TICKS {
-            self.phase = 0;
-            texture.coefficients(&self.products, &mut self.a, &mut self.b);
-            self.level_m_s2 = if self.in_contact {
-                texture.level_m_s2(&self.found)
-            } else {
-                0.0
-            };
-            self.follows = self.in_contact;
+        if self.phase == CYCLE_TICKS as u8 {
+            self.finish(texture);
         }
+    }
+
+    /// Puts what the cycle made to work.
+    #[inline(always)]
+    fn finish<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+    ) {
+        texture.coefficients(&self.products, &mut self.a, &mut self.b);
+        self.level_m_s2 = if self.in_contact {
+            texture.level_m_s2(&self.found)
+        } else {
+            0.0
+        };
+        self.follows = self.in_contact;
     }
 }

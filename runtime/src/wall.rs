@@ -31,12 +31,10 @@ pub struct Wall {
 /// The bound above, prepared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passivity {
-    /// b + f_c/V, N·s/m.
-    budget_n_s_m: f32,
-    /// What a unit of stiffness costs of it, s.
+    /// What damping may be without any stiffness, N·s/m.
+    damping_n_s_m: f32,
+    /// What a unit of stiffness takes of it, s.
     stiffness_cost_s: f32,
-    /// 1/(1 + Δ/TV).
-    damping_share: f32,
     stiffest_n_m: f32,
 }
 
@@ -54,10 +52,10 @@ impl Passivity {
         } else {
             f32::MAX
         };
+        let damping_share = 1.0 / (1.0 + step_m * rate_hz * per_speed);
         Self {
-            budget_n_s_m,
-            stiffness_cost_s,
-            damping_share: 1.0 / (1.0 + step_m * rate_hz * per_speed),
+            damping_n_s_m: budget_n_s_m * damping_share,
+            stiffness_cost_s: stiffness_cost_s * damping_share,
             stiffest_n_m: min(budget_n_s_m / stiffness_cost_s, quantised_n_m),
         }
     }
@@ -67,10 +65,10 @@ impl Passivity {
     #[must_use]
     pub fn wall(&self, stiffness_n_m: f32, damping_n_s_m: f32) -> Wall {
         let stiffness_n_m = min(stiffness_n_m, self.stiffest_n_m);
-        let left_n_s_m = self.budget_n_s_m - stiffness_n_m * self.stiffness_cost_s;
+        let left_n_s_m = self.damping_n_s_m - stiffness_n_m * self.stiffness_cost_s;
         Wall {
             stiffness_n_m,
-            damping_n_s_m: clamp_from_zero(left_n_s_m * self.damping_share, damping_n_s_m),
+            damping_n_s_m: clamp_from_zero(left_n_s_m, damping_n_s_m),
         }
     }
 }

@@ -42,7 +42,6 @@ impl Axis {
             up,
             normal_n as f32,
             self.mu,
-            true,
         );
         f64::from(force[0])
     }

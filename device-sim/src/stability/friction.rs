@@ -71,7 +71,6 @@ pub fn ours(mu: f64, delay_ticks: u32) -> Law {
             [0.0, 0.0, 1.0],
             normal_n as f32,
             mu as f32,
-            true,
         );
         f64::from(force[0])
     })

@@ -1,4 +1,4 @@
-//! ε: xoroshiro64** seeded through SplitMix64; eight bytes summed, the sum bent so that its
+//! ε: xoroshiro64** seeded through SplitMix64; four bytes summed, the sum bent so that its
 //! variance is 1 and its kurtosis 3.
 
 /// Noise with a Gaussian's moments.
@@ -9,10 +9,10 @@ pub struct Excitation {
     cubic: f64,
 }
 
-/// Moments 2, 4, .. 12 about the mean of the sum of eight bytes.
+/// Moments 2, 4, .. 12 about the mean of the sum of four bytes.
 fn moments() -> [f64; 6] {
     let mut shares = vec![1.0_f64];
-    for _ in 0..8 {
+    for _ in 0..4 {
         let mut next = vec![0.0; shares.len() + 255];
         for (sum, share) in shares.iter().enumerate() {
             for place in &mut next[sum..sum + 256] {
@@ -23,7 +23,7 @@ fn moments() -> [f64; 6] {
     }
     std::array::from_fn(|i| {
         let power = 2 * (i as i32 + 1);
-        let term = |(sum, share): (usize, &f64)| share * (sum as f64 - 1020.0).powi(power);
+        let term = |(sum, share): (usize, &f64)| share * (sum as f64 - 510.0).powi(power);
         shares.iter().enumerate().map(term).sum()
     })
 }
@@ -89,9 +89,8 @@ impl Excitation {
 
     /// The next sample.
     pub fn draw(&mut self) -> f64 {
-        let words = [self.bits(), self.bits()];
-        let bytes = words.iter().flat_map(|word| word.to_le_bytes());
-        let s = bytes.map(f64::from).sum::<f64>() - 1020.0;
+        let bytes = self.bits().to_le_bytes().into_iter();
+        let s = bytes.map(f64::from).sum::<f64>() - 510.0;
         self.linear * s + self.cubic * s.powi(3)
     }
 }

@@ -7,8 +7,8 @@
 pub mod print;
 pub mod stack;
 
-use asperity_runtime::{LoadError, Output, Renderer, Sample, State, Texture};
-use asperity_session::{Case, Phase, SEED};
+use asperity_runtime::{LoadError, Output, Renderer, Sample, State};
+use asperity_session::{Case, Phase, SEED, Slot};
 use cortex_m_semihosting::debug;
 
 /// First instruction that does not count as the tick's; the plugin knows its name.
@@ -31,11 +31,7 @@ pub extern "C" fn mark_end() {
 pub type Tick<S> = fn(&Renderer, &S, &mut State, &Sample) -> Output;
 
 /// Loads, runs the session, reports, and leaves the emulator.
-pub fn run<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
-    case: &Case,
-    slot: &mut Texture<V, T, P, Q, K>,
-    tick: Tick<Texture<V, T, P, Q, K>>,
-) -> ! {
+pub fn run<S: Slot>(case: &Case, slot: &mut S, tick: Tick<S>) -> ! {
     stack::paint();
     let loaded = load(case, slot);
     let stack_load = stack::depth();
@@ -71,11 +67,8 @@ pub fn run<const V: usize, const T: usize, const P: usize, const Q: usize, const
 
 /// A function of its own, so that its stack and code can be told from the session's.
 #[inline(never)]
-fn load<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
-    case: &Case,
-    slot: &mut Texture<V, T, P, Q, K>,
-) -> Result<(), LoadError> {
-    asperity_session::load(case, slot)
+fn load<S: Slot>(case: &Case, slot: &mut S) -> Result<(), LoadError> {
+    slot.load(case)
 }
 
 fn fail(why: &str) -> ! {

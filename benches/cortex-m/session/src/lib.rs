@@ -33,6 +33,29 @@ pub fn load<const V: usize, const T: usize, const P: usize, const Q: usize, cons
     )
 }
 
+/// A slot of one of the cases. Loading is compiled here, for size, and the tick where it is
+/// called, for speed.
+pub trait Slot {
+    /// [`load`].
+    ///
+    /// # Errors
+    /// What the library or the slot says.
+    fn load(&mut self, case: &Case) -> Result<(), LoadError>;
+}
+
+macro_rules! slots {
+    ($($slot:ty),*) => {
+        $(impl Slot for $slot {
+            #[inline(never)]
+            fn load(&mut self, case: &Case) -> Result<(), LoadError> {
+                load(case, self)
+            }
+        })*
+    };
+}
+
+slots!(Arma20, Nyquist20, Nyquist4);
+
 /// Runs every phase, [`PHASE_TICKS`] ticks each, through `tick`, and tells `report`
 /// after each the hash of all outputs and counters so far.
 pub fn run(
