@@ -1,10 +1,11 @@
 //! The usual way, for comparison: what the HaTT's published renderer does a tick, written from
 //! its description.
 //!
-//! Location walks from the last triangle across the edge with the most negative weight. Mixed
-//! LSFs become coefficients by multiplying out the complex conjugate roots of P and Q in f64,
-//! in ascending order, one polynomial product a pair. The recursion runs in f64. The walk is
-//! bounded here; the original's is not, and can run for ever on an edge.
+//! Location walks from the last triangle across the edge with the most negative weight; who
+//! lies across is known before. Mixed LSFs become coefficients by multiplying out the complex
+//! conjugate roots of P and Q in f64, in ascending order, one root at a time and in place,
+//! without an allocation. The recursion runs in f64. The walk is bounded here; the original's is
+//! not, and can run for ever on an edge.
 
 use asperity_formats::{Asset, Numerator};
 use std::f64::consts::PI;
@@ -58,59 +59,52 @@ pub struct Model {
     pub level_m_s2: f64,
 }
 
-/// A polynomial in z⁻¹ of degree up to 25.
-#[derive(Clone, Copy)]
+/// A polynomial in z⁻¹ of degree up to 25, monic.
 struct Polynomial {
     c: [Complex; 26],
     degree: usize,
 }
 
 impl Polynomial {
-    fn new(c: &[f64]) -> Self {
-        let mut all = [Complex { re: 0.0, im: 0.0 }; 26];
-        for (place, &re) in all.iter_mut().zip(c) {
-            place.re = re;
-        }
-        Self {
-            c: all,
-            degree: c.len() - 1,
+    const ONE: Self = {
+        let mut c = [Complex { re: 0.0, im: 0.0 }; 26];
+        c[0].re = 1.0;
+        Self { c, degree: 0 }
+    };
+
+    /// Multiplies by 1 − r z⁻¹, in place.
+    fn root(&mut self, r: Complex) {
+        self.degree += 1;
+        for k in (1..=self.degree).rev() {
+            let term = r.times(self.c[k - 1]);
+            self.c[k].re -= term.re;
+            self.c[k].im -= term.im;
         }
     }
 
-    fn times(&self, other: &Self) -> Self {
-        let mut product = Self::new(&[0.0]);
-        product.degree = self.degree + other.degree;
-        for (i, a) in self.c[..=self.degree].iter().enumerate() {
-            for (j, b) in other.c[..=other.degree].iter().enumerate() {
-                let term = a.times(*b);
-                product.c[i + j].re += term.re;
-                product.c[i + j].im += term.im;
-            }
+    /// The roots e^{±jω} of every second frequency, and real ones.
+    fn product<'a>(omegas: impl Iterator<Item = &'a f64>, real: &[f64]) -> Self {
+        let mut product = Self::ONE;
+        for (im, re) in omegas.step_by(2).map(|omega| omega.sin_cos()) {
+            product.root(Complex { re, im });
+            product.root(Complex { re, im: -im });
+        }
+        for &re in real {
+            product.root(Complex { re, im: 0.0 });
         }
         product
-    }
-
-    /// 1 − r z⁻¹ for a root r = e^{jω}.
-    fn root(omega: f64) -> Self {
-        let mut root = Self::new(&[1.0, -omega.cos()]);
-        root.c[1].im = -omega.sin();
-        root
     }
 }
 
 /// Coefficients 1.. of (P + Q)/2, from roots on the unit circle.
 fn coefficients(lsf: &[f64], out: &mut [f64]) {
-    let product = |first: usize, rest: &[f64]| {
-        let pairs = lsf.iter().skip(first).step_by(2);
-        pairs.fold(Polynomial::new(rest), |product, &w| {
-            product.times(&Polynomial::root(w).times(&Polynomial::root(-w)))
-        })
-    };
-    let (q, p) = if lsf.len().is_multiple_of(2) {
-        (product(0, &[1.0, 1.0]), product(1, &[1.0, -1.0]))
+    let (of_q, of_p): (&[f64], &[f64]) = if lsf.len().is_multiple_of(2) {
+        (&[-1.0], &[1.0])
     } else {
-        (product(0, &[1.0]), product(1, &[1.0, 0.0, -1.0]))
+        (&[], &[1.0, -1.0])
     };
+    let q = Polynomial::product(lsf.iter(), of_q);
+    let p = Polynomial::product(lsf.iter().skip(1), of_p);
     for (k, a) in out.iter_mut().enumerate().take(lsf.len()) {
         *a = 0.5 * (q.c[k + 1].re + p.c[k + 1].re);
     }
@@ -188,23 +182,21 @@ impl Reference {
             }
             weights = self.weights(self.at, speed_mm_s, force_n);
         }
-        let corners = self.triangles[self.at].map(|v| &self.vertices[v]);
-        let mix = |of: &dyn Fn(&Vertex) -> f64| -> f64 {
-            weights[0] * of(corners[0]) + weights[1] * of(corners[1]) + weights[2] * of(corners[2])
-        };
+        let [i, j, k] = self.triangles[self.at].map(|v| &self.vertices[v]);
+        let [wi, wj, wk] = weights;
         let convert = |lsf: fn(&Vertex) -> &[f64]| {
             let (mut mixed, mut out) = ([0.0; 24], [0.0; 24]);
-            let order = lsf(corners[0]).len();
-            for (i, w) in mixed[..order].iter_mut().enumerate() {
-                *w = mix(&|vertex| lsf(vertex)[i]);
+            let rows = lsf(i).iter().zip(lsf(j)).zip(lsf(k));
+            for (place, ((i, j), k)) in mixed.iter_mut().zip(rows) {
+                *place = wi * i + wj * j + wk * k;
             }
-            coefficients(&mixed[..order], &mut out);
+            coefficients(&mixed[..lsf(i).len()], &mut out);
             out
         };
         let mut model = Model {
             a: convert(|v| &v.lsf),
             b: [0.0; 24],
-            level_m_s2: mix(&|vertex| vertex.level_m_s2),
+            level_m_s2: wi * i.level_m_s2 + wj * j.level_m_s2 + wk * k.level_m_s2,
         };
         match self.numerator {
             Numerator::None => {}

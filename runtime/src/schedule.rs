@@ -26,13 +26,13 @@ struct Costs {
 /// On x86-64, and on a Cortex-M4F, where four lanes are four numbers.
 const COSTS: Costs = if F4::IN_REGISTERS {
     Costs {
-        block: 32,
+        block: 35,
         choice: 75,
-        mix: 40,
+        mix: 35,
         mix_four: 12,
-        two: 30,
+        two: 28,
         coefficient: 11,
-        assembly_four: 32,
+        assembly_four: 30,
     }
 } else {
     Costs {
