@@ -146,14 +146,14 @@ impl<const T: usize> Rows<T> {
 pub(crate) struct Search {
     /// The best triangle so far in each lane: its smallest weight, whose last bits are replaced
     /// by the index of its block. Neighbours that differ by so little mix the same.
-    best: F4,
+    best: [f32; LANES],
     /// Blocks to look at, one bit each.
     left: u32,
 }
 
 impl Search {
     pub(crate) const NONE: Self = Self {
-        best: F4::ZERO,
+        best: [0.0; LANES],
         left: 0,
     };
 }
@@ -286,7 +286,7 @@ impl<const T: usize> Locator<T> {
     #[inline]
     pub(crate) fn begin(&self, speed: f32, force: f32) -> Search {
         Search {
-            best: F4::splat(-1.0e30),
+            best: [-1.0e30; LANES],
             left: self.speed_strips.at(speed) & self.force_strips.at(force),
         }
     }
@@ -295,12 +295,13 @@ impl<const T: usize> Locator<T> {
     #[inline]
     pub(crate) fn look(&self, search: &mut Search, speed: f32, force: f32, blocks: usize) {
         let (speed, force) = (F4::splat(speed), F4::splat(force));
+        let mut best = F4::load(&search.best);
         let all = self.rows.0.as_flattened().as_chunks::<LANES>().0;
         let all = all.as_chunks::<6>().0;
         for _ in 0..blocks {
             let block = search.left.trailing_zeros();
             let Some([speed0, force0, w1s, w1f, w2s, w2f]) = all.get(block as usize) else {
-                return;
+                break;
             };
             search.left &= search.left - 1;
             let ds = speed - F4::load(speed0);
@@ -309,15 +310,15 @@ impl<const T: usize> Locator<T> {
             let w2 = F4::load(w2s) * ds + F4::load(w2f) * df;
             // Zeros lose their sign, which platforms compare differently.
             let smallest = (F4::ONE - w1 - w2).min(w1).min(w2) + F4::ZERO;
-            search.best = smallest.mark(INDEX, block * LANES as u32).max(search.best);
+            best = smallest.mark(INDEX, block * LANES as u32).max(best);
         }
+        search.best = best.to_array();
     }
 
     /// The mixture of the best triangle; finite and convex for every query in the grid.
     #[inline]
     pub(crate) fn choose(&self, search: &Search, speed: f32, force: f32) -> Barycentric {
-        let best = search.best.to_array();
-        let lane = |lane: usize| f32::from_bits(best[lane].to_bits() | lane as u32);
+        let lane = |lane: usize| f32::from_bits(search.best[lane].to_bits() | lane as u32);
         let best = max(max(lane(0), lane(1)), max(lane(2), lane(3)));
         let t = (best.to_bits() & INDEX) as usize;
         let flat = self.rows.0.as_flattened();

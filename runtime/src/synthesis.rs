@@ -57,7 +57,6 @@ pub struct History {
 
 /// Numbers in order of age, the newest at `at` of the first block.
 #[derive(Debug, Clone, PartialEq)]
-#[repr(align(16))]
 struct Window([[f32; LANES]; WINDOW]);
 
 impl Window {
