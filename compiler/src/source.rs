@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use asperity_formats::{
-    FormatError,
+    FormatError, SceneSurface,
     library::{self, LibraryIndex},
 };
 use std::{
@@ -194,6 +194,37 @@ impl Source {
                 |index| index.entries().map(|e| e.name.to_owned()).collect(),
             )),
         }
+    }
+
+    /// Version of the format of a library; `None` for an asset.
+    #[must_use]
+    pub fn library_version(&self) -> Option<u16> {
+        match &self.content {
+            Content::Asset => None,
+            Content::Library(index) => LibraryIndex::parse(index).ok().map(|i| i.version()),
+        }
+    }
+
+    /// Surfaces of a library's scene; none without a scene.
+    ///
+    /// # Errors
+    /// [`SourceError`] for a damaged scene.
+    pub fn surfaces(&mut self) -> Result<Vec<SceneSurface>, SourceError> {
+        let Content::Library(index) = &self.content else {
+            return Ok(Vec::new());
+        };
+        // Parsed when it was opened.
+        let Ok(index) = LibraryIndex::parse(index) else {
+            return Ok(Vec::new());
+        };
+        let (range, textures) = (index.scene_range(), index.len());
+        let Some(range) = range else {
+            return Ok(Vec::new());
+        };
+        let bytes = self.read(range.start, range.end - range.start, None)?;
+        let scene = asperity_formats::Scene::parse(&bytes, textures)
+            .map_err(|e| self.error(None, e.into()))?;
+        Ok(scene.surfaces().collect())
     }
 
     /// Bytes of the one texture meant by `wanted`, a name or an index of a library. Not

@@ -4,6 +4,7 @@ use asperity_formats::Surface;
 
 use crate::{
     Config, ConfigError, Texture, VibrationAxis,
+    contact::Surface as Solid,
     friction::{Bristle, FrictionState},
     lanes::F4,
     limiter::{Limited, Limiter},
@@ -213,6 +214,14 @@ impl State {
         &self.counters
     }
 
+    /// Another surface is touched from here on: the way there is no motion along its normal.
+    #[cold]
+    pub(crate) fn cross(&mut self, solid: &Solid) {
+        let before_m = solid.contact(self.gate.position_m()).distance_m;
+        self.distance_m = before_m;
+        self.tap.cross(before_m);
+    }
+
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.
     #[cold]
     fn restart(&mut self, distance_m: f32) {
@@ -221,6 +230,55 @@ impl State {
         self.vibration.silence();
         self.friction = FrictionState::default();
         self.tap.restart(distance_m);
+    }
+}
+
+/// What is touched, apart from the sound of its texture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Felt {
+    pub(crate) solid: Solid,
+    pub(crate) surface: Surface,
+    pub(crate) mu: f32,
+}
+
+impl Felt {
+    /// No wall, no friction.
+    pub(crate) const NOTHING: Self = Self {
+        solid: Solid::Plane {
+            point_m: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+        },
+        surface: Surface {
+            stiffness_n_m: 0.0,
+            damping_n_s_m: 0.0,
+            vib_s2_m: 0.0,
+            effective_mass_kg: 0.0,
+            f_max_n: 0.0,
+        },
+        mu: 0.0,
+    };
+
+    /// Goes `share` of the way to a texture's wall, gains and friction; exactly there with 1.
+    #[inline]
+    pub(crate) fn follow<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+        share: f32,
+    ) {
+        let mix = |from: f32, to: f32| to - (1.0 - share) * (to - from);
+        let (from, to) = (&mut self.surface, &texture.surface);
+        from.stiffness_n_m = mix(from.stiffness_n_m, to.stiffness_n_m);
+        from.damping_n_s_m = mix(from.damping_n_s_m, to.damping_n_s_m);
+        from.vib_s2_m = mix(from.vib_s2_m, to.vib_s2_m);
+        from.effective_mass_kg = mix(from.effective_mass_kg, to.effective_mass_kg);
+        from.f_max_n = mix(from.f_max_n, to.f_max_n);
+        self.mu = mix(self.mu, texture.mu);
     }
 }
 
@@ -294,13 +352,36 @@ impl Renderer {
         state: &mut State,
         sample: &Sample,
     ) -> Output {
+        let felt = Felt {
+            solid: self.config.surface,
+            surface: texture.surface,
+            mu: texture.mu,
+        };
+        self.tick_on(&felt, texture, state, sample)
+    }
+
+    /// [`Renderer::tick`] on a solid, with wall, gains and friction as given.
+    #[inline]
+    pub(crate) fn tick_on<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &self,
+        felt: &Felt,
+        texture: &Texture<V, T, P, Q, K>,
+        state: &mut State,
+        sample: &Sample,
+    ) -> Output {
         let config = &self.config;
-        let surface = &texture.surface;
+        let surface = &felt.surface;
 
         let gated = state
             .gate
             .step(sample, config.safety.hold_ticks, self.ramp_step);
-        let contact = config.surface.contact(gated.position_m);
+        let contact = felt.solid.contact(gated.position_m);
         if gated.restart {
             state.restart(contact.distance_m);
         }
@@ -349,7 +430,7 @@ impl Renderer {
             motion_m,
             contact.normal,
             stiffness_n,
-            texture.mu,
+            felt.mu,
             touching,
         );
 

@@ -9,6 +9,10 @@
 //!
 //! A contact is silent until a query that was taken in it takes effect, and starts at its own
 //! model. Out of contact the cycles go on, so that a tick always costs the same.
+//!
+//! When the texture changes in a contact, the old model sounds on until the new one is made.
+//! That starts from silence, and the last output fades beside it: a step of the force is never
+//! more than a texture's own.
 
 pub use crate::schedule::CYCLE_TICKS;
 use crate::{
@@ -16,9 +20,14 @@ use crate::{
     excitation::Excitation,
     locate::Search,
     lsf::Products,
-    synthesis::{History, Line},
+    synthesis::{History, Lags, Line},
     texture::Pairs,
 };
+
+/// What is left a tick later of a model that no longer sounds.
+const FADE: f32 = 0.75;
+/// Less than this is silence, m/s².
+const FADED_M_S2: f32 = 1.0e-20;
 
 /// State of the vibration.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,8 +39,11 @@ pub struct Vibration {
     /// Coefficients at work.
     a: Line,
     b: Line,
+    lags: Lags,
     history: History,
     level_m_s2: f32,
+    /// What fades of the texture before, m/s².
+    fading_m_s2: f32,
     // The query of the cycle under way, and what was found.
     speed_mm_s: f32,
     force_n: f32,
@@ -45,6 +57,8 @@ pub struct Vibration {
     in_contact: bool,
     /// The parameters at work belong to this contact.
     follows: bool,
+    /// The coefficients at work are those of the texture before.
+    changing: bool,
 }
 
 impl Vibration {
@@ -56,8 +70,10 @@ impl Vibration {
             pairs: Pairs::ZERO,
             a: Line::ZERO,
             b: Line::ZERO,
+            lags: Lags { ar: 0, ma: 0 },
             history: History::SILENT,
             level_m_s2: 0.0,
+            fading_m_s2: 0.0,
             speed_mm_s: 0.0,
             force_n: 0.0,
             search: Search::START,
@@ -68,6 +84,7 @@ impl Vibration {
             phase: 0,
             in_contact: false,
             follows: false,
+            changing: false,
         }
     }
 
@@ -80,18 +97,33 @@ impl Vibration {
     #[inline]
     fn leave(&mut self) {
         self.level_m_s2 = 0.0;
+        self.fading_m_s2 = 0.0;
         self.in_contact = false;
         self.follows = false;
     }
 
-    /// Another texture: a cycle begun on one is not finished on the other.
+    /// Another texture: a cycle begun on one is not finished on the other. What is at work
+    /// stays until the first cycle ends.
     #[cold]
     fn change_texture(&mut self, texture: u32) {
-        *self = Self {
-            excitation: self.excitation.clone(),
-            texture,
-            ..Self::new(0)
-        };
+        self.texture = texture;
+        self.products = Products::ONE;
+        self.pairs = Pairs::ZERO;
+        self.found = Barycentric::NONE;
+        self.phase = 0;
+        self.follows = false;
+        self.changing = true;
+    }
+
+    /// The first cycle on another texture ends.
+    #[cold]
+    fn take_over(&mut self, lags: Lags) {
+        if self.in_contact {
+            self.fading_m_s2 += self.history.last();
+        }
+        self.history = History::SILENT;
+        (self.a, self.b, self.lags) = (Line::ZERO, Line::ZERO, lags);
+        self.changing = false;
     }
 
     /// One tick. `follow_share` is the share of the way that parameters go in a cycle; with
@@ -120,8 +152,10 @@ impl Vibration {
         }
         self.work(texture);
         let e = self.level_m_s2 * self.excitation.next_gaussian();
-        self.history
-            .step(&self.a, &self.b, texture.lags(), e, sounding)
+        let (y, clamped) = self.history.step(&self.a, &self.b, self.lags, e, sounding);
+        let faded = FADE * self.fading_m_s2;
+        self.fading_m_s2 = if faded.abs() > FADED_M_S2 { faded } else { 0.0 };
+        (y + self.fading_m_s2, clamped)
     }
 
     /// This tick's share of the cycle.
@@ -150,6 +184,9 @@ impl Vibration {
         self.phase += 1;
         if usize::from(self.phase) >= CYCLE_TICKS {
             self.phase = 0;
+            if self.changing {
+                self.take_over(texture.lags());
+            }
             texture.coefficients(&self.products, &mut self.a, &mut self.b);
             self.level_m_s2 = if self.in_contact {
                 texture.level_m_s2(&self.found)

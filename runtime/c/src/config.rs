@@ -2,7 +2,8 @@
 
 use crate::{AsperityStatus, memory};
 use asperity_runtime::{
-    Config, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, Surface, TapConfig, VibrationAxis,
+    Config, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, Surface, TapConfig,
+    VibrationAxis,
 };
 
 /// `AsperityConfig::surface`: the half-space below a plane through `surface_point_m` with
