@@ -359,6 +359,6 @@ mod tests {
     #[test]
     fn sizes_are_as_stated() {
         assert!(size_of::<HostTexture>() <= 32 * 1024);
-        assert!(size_of::<crate::State>() <= 1024);
+        assert!(size_of::<crate::State>() <= 1040);
     }
 }

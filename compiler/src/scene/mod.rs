@@ -76,23 +76,23 @@ pub fn build(
         .iter()
         .map(|entry| whole(scene, entry, prompter))
         .collect::<Result<Vec<_>, _>>()?;
-    let all = order
+    let tried: Vec<_> = wholes
         .par_iter()
-        .zip(&wholes)
-        .map(|(entry, texture)| {
-            fidelity::candidates(texture, &target, scene.surfaces.len())
-                .map_err(|e| failed(scene, entry, e))
-        })
+        .map(|texture| fidelity::candidates(texture, &target, scene.surfaces.len()))
+        .collect();
+    let all = order
+        .iter()
+        .zip(tried)
+        .map(|(entry, tried)| tried.map_err(|e| failed(scene, entry, e)))
         .collect::<Result<Vec<_>, _>>()?;
     let chosen = chosen(scene, &order, &all, budget, &target)?;
-    order
+    let verified: Vec<_> = chosen
         .par_iter()
-        .zip(&chosen)
-        .try_for_each(|(entry, candidate)| {
-            verify::verify(&candidate.texture, &candidate.bytes)
-                .map(drop)
-                .map_err(|e| failed(scene, entry, e))
-        })?;
+        .map(|candidate| verify::verify(&candidate.texture, &candidate.bytes))
+        .collect();
+    for (entry, verified) in order.iter().zip(verified) {
+        verified.map_err(|e| failed(scene, entry, e))?;
+    }
     let bytes = encode(scene, &order, &chosen)?;
     let report = Report::new(scene, budget, &target, &order, &chosen, bytes.len());
     Ok(Built { bytes, report })
