@@ -21,7 +21,6 @@ pub struct SurfaceDocument {
 /// A solid, m.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
-#[expect(missing_docs, reason = "as in the format's `Shape`")]
 pub enum Solid {
     Plane {
         point_m: [f32; 3],

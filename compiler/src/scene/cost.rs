@@ -50,7 +50,7 @@ impl Cost {
 
 /// Zeros that are mixed and converted.
 #[must_use]
-pub fn zeros(grid: &ModelGrid) -> usize {
+pub(super) fn zeros(grid: &ModelGrid) -> usize {
     match grid.numerator {
         Numerator::None | Numerator::Nyquist => 0,
         Numerator::Lsf => grid
