@@ -14,11 +14,18 @@ use std::f64::consts::PI;
 /// inside (0, π).
 #[must_use]
 pub fn to_polynomial(lsf_rad: &[f64]) -> Vec<f64> {
-    let order = lsf_rad.len();
+    let cosines: Vec<f64> = lsf_rad.iter().map(|&omega| libm::cos(omega)).collect();
+    from_cosines(&cosines)
+}
+
+/// [`to_polynomial`] of frequencies given by their cosines.
+#[must_use]
+pub fn from_cosines(cosines: &[f64]) -> Vec<f64> {
+    let order = cosines.len();
     let mut sum = vec![1.0];
     let mut difference = vec![1.0];
-    for (index, &omega) in lsf_rad.iter().enumerate() {
-        let factor = [1.0, -2.0 * libm::cos(omega), 1.0];
+    for (index, &cosine) in cosines.iter().enumerate() {
+        let factor = [1.0, -2.0 * cosine, 1.0];
         let side = if index % 2 == 0 {
             &mut sum
         } else {

@@ -106,7 +106,7 @@ pub struct Vibration {
 
 /// Frequencies at which polynomials are evaluated side by side.
 #[derive(Debug, Clone)]
-pub(crate) struct Angles {
+pub struct Angles {
     /// Cosine and sine of [`Angles::LANES`] frequencies together.
     blocks: Vec<([f64; Angles::LANES], [f64; Angles::LANES])>,
     count: usize,
@@ -117,7 +117,8 @@ impl Angles {
     const LANES: usize = 8;
 
     /// Of frequencies in rad.
-    pub(crate) fn new(omegas: impl Iterator<Item = f64>) -> Self {
+    #[must_use]
+    pub fn new(omegas: impl Iterator<Item = f64>) -> Self {
         let mut blocks = Vec::new();
         let mut count = 0;
         for omega in omegas {
@@ -135,7 +136,8 @@ impl Angles {
     }
 
     /// [`squared_magnitude`] at every frequency, to the bit.
-    pub(crate) fn squared_magnitudes(&self, coefficients: &[f64]) -> Vec<f64> {
+    #[must_use]
+    pub fn squared_magnitudes(&self, coefficients: &[f64]) -> Vec<f64> {
         let used = coefficients
             .iter()
             .rposition(|&c| c != 0.0)

@@ -16,6 +16,7 @@
 //! | [`fault`] | NaN, dropped, stale, stuck and late samples, stackable |
 //! | [`session`] | the loop, and the record of every tick |
 //! | [`feel`] | what a session amounts to: summary, CSV, sheet, sound |
+//! | [`labs`] | alternatives to the tick, for charts alone |
 //! | [`stability`] | where methods fail: a table of ours against others |
 //!
 //! Not modelled, on purpose: the kinematics of the arm (axes are independent and
@@ -29,6 +30,7 @@ pub mod device;
 pub mod fault;
 pub mod feel;
 pub mod hand;
+pub mod labs;
 pub mod servo;
 pub mod session;
 pub mod stability;

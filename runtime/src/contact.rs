@@ -2,6 +2,7 @@
 
 use crate::{
     config::ConfigError,
+    lanes::F4,
     math::{Vec3, dot, max, min, norm, rsqrt, scale, sqrt_with, sub},
 };
 
@@ -101,6 +102,26 @@ impl Surface {
     #[inline]
     #[must_use]
     pub fn contact(&self, position_m: Vec3) -> Contact {
+        let (distance_m, normal) = self.touch(F4::vec3(position_m));
+        Contact {
+            distance_m,
+            normal: normal.xyz(),
+        }
+    }
+
+    /// [`Surface::contact`] on lanes: distance, m, and normal.
+    #[inline(always)]
+    pub(crate) fn touch(&self, position_m: F4) -> (f32, F4) {
+        if let Self::Plane { point_m, normal } = *self {
+            let normal = F4::vec3(normal);
+            return ((position_m - F4::vec3(point_m)).dot3(normal), normal);
+        }
+        let contact = self.curved(position_m.xyz());
+        (contact.distance_m, F4::vec3(contact.normal))
+    }
+
+    /// The solids that are not flat.
+    fn curved(&self, position_m: Vec3) -> Contact {
         match *self {
             Self::Plane { point_m, normal } => Contact {
                 distance_m: dot(sub(position_m, point_m), normal),

@@ -62,9 +62,17 @@ impl Bristle {
 }
 
 /// Where the bristle is.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionState {
-    deflection_m: Vec3,
+    deflection_m: F4,
+}
+
+impl Default for FrictionState {
+    fn default() -> Self {
+        Self {
+            deflection_m: F4::ZERO,
+        }
+    }
 }
 
 impl FrictionState {
@@ -80,29 +88,44 @@ impl FrictionState {
         mu: f32,
         touching: bool,
     ) -> (Vec3, f32) {
+        let (motion_m, normal) = (F4::vec3(motion_m), F4::vec3(normal));
+        let (force, size_n) = self.advance(bristle, motion_m, normal, normal_n, mu, touching);
+        (force.xyz(), size_n)
+    }
+
+    /// [`FrictionState::step`] on lanes; the fourth ones are zero.
+    #[inline(always)]
+    pub(crate) fn advance(
+        &mut self,
+        bristle: &Bristle,
+        motion_m: F4,
+        normal: F4,
+        normal_n: f32,
+        mu: f32,
+        touching: bool,
+    ) -> (F4, f32) {
         let limit_n = mu * normal_n;
         let reach_m = limit_n / bristle.stiffness_n_m + bristle.dead_zone_m;
         let kept = normal_n / (normal_n + bristle.leak_n);
-        let normal = F4::vec3(normal);
-        let motion_m = F4::vec3(motion_m).tangential(normal);
-        let moved = (F4::vec3(self.deflection_m) + motion_m) * F4::splat(kept);
+        let moved = (self.deflection_m + motion_m) * F4::splat(kept);
         let moved = moved.tangential(normal);
         let squared = moved.dot3(moved);
         let inverse = rsqrt(squared);
         let slip = min(reach_m * inverse, 1.0);
         self.deflection_m = if touching {
-            (moved * F4::splat(slip)).xyz()
+            moved * F4::splat(slip)
         } else {
-            [0.0; 3]
+            F4::ZERO
         };
 
         let along = moved * F4::splat(inverse);
         let stretch_m = squared * inverse * slip - bristle.dead_zone_m;
+        // `along` lies in the plane: the rest of the motion adds nothing.
         let ahead_m = bristle.lead_ticks * along.dot3(motion_m);
         let lead_m = min(ahead_m, 0.5 * stretch_m);
         let force_n = clamp_from_zero(bristle.stiffness_n_m * (stretch_m + lead_m), limit_n);
         let force_n = if stretch_m > 0.0 { force_n } else { 0.0 };
-        ((along * F4::splat(-force_n)).xyz(), force_n)
+        (along * F4::splat(-force_n), force_n)
     }
 }
 

@@ -7,12 +7,17 @@ use core::ops::{Add, Mul, Sub};
 use wide::{CmpLe, f32x4};
 
 /// Four `f32`.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct F4(f32x4);
 
 impl F4 {
+    pub(crate) const ZERO: Self = Self(f32x4::ZERO);
+    pub(crate) const ONE: Self = Self(f32x4::ONE);
+    pub(crate) const HALF: Self = Self(f32x4::HALF);
+    pub(crate) const TWO: Self = Self(f32x4::new([2.0; 4]));
+
     #[inline(always)]
-    pub(crate) fn load(from: &[f32; 4]) -> Self {
+    pub(crate) const fn load(from: &[f32; 4]) -> Self {
         Self(f32x4::new(*from))
     }
 
@@ -49,6 +54,19 @@ impl F4 {
     #[inline(always)]
     pub(crate) fn vec3([x, y, z]: [f32; 3]) -> Self {
         Self::load(&[x, y, z, 0.0])
+    }
+
+    /// The first three and a number.
+    #[inline(always)]
+    pub(crate) fn with_fourth(self, w: f32) -> Self {
+        let [x, y, z, _] = self.to_array();
+        Self::load(&[x, y, z, w])
+    }
+
+    /// The fourth.
+    #[inline(always)]
+    pub(crate) fn fourth(self) -> f32 {
+        self.to_array()[3]
     }
 
     /// The first three.

@@ -61,6 +61,7 @@
 
 pub mod config;
 pub mod contact;
+mod crossing;
 pub mod excitation;
 pub mod friction;
 mod lanes;

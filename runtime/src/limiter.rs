@@ -41,23 +41,34 @@ impl Limiter {
     #[inline]
     #[must_use]
     pub fn step(&self, last: Vec3, wanted: Vec3) -> (Vec3, Limited) {
-        let (last, wanted) = (F4::vec3(last), F4::vec3(wanted));
+        let (next, limited) = self.advance(F4::vec3(last), F4::vec3(wanted));
+        (next.xyz(), limited)
+    }
+
+    /// [`Limiter::step`] on lanes; the fourth ones are zero.
+    #[inline(always)]
+    pub(crate) fn advance(&self, last: F4, wanted: F4) -> (F4, Limited) {
         let wanted = if wanted.is_within(SANE_N) {
             wanted
         } else {
-            F4::splat(0.0)
+            F4::ZERO
         };
-        let squared = wanted.dot3(wanted);
-        let peak = squared > self.peak_n * self.peak_n;
-        let shrink = min(self.peak_n * MARGIN * rsqrt(squared), 1.0);
-        let target = wanted * F4::splat(if peak { shrink } else { 1.0 });
-        let step = target - last;
-        let squared = step.dot3(step);
-        let slew = squared > self.step_n * self.step_n;
-        let shrink = min(self.step_n * MARGIN * rsqrt(squared), 1.0);
+        let (target, peak) = shorten(wanted, self.peak_n);
+        let (step, slew) = shorten(target - last, self.step_n);
         // Both ends lie in the ball of the peak, so does what lies between.
-        let next = (last + step * F4::splat(if slew { shrink } else { 1.0 })).xyz();
-        (next, Limited { peak, slew })
+        (last + step, Limited { peak, slew })
+    }
+}
+
+/// A vector at most `longest` long, and whether it was longer.
+#[inline(always)]
+fn shorten(v: F4, longest: f32) -> (F4, bool) {
+    let squared = v.dot3(v);
+    if squared > longest * longest {
+        let shrink = min(longest * MARGIN * rsqrt(squared), 1.0);
+        (v * F4::splat(shrink), true)
+    } else {
+        (v, false)
     }
 }
 

@@ -21,26 +21,39 @@ const LANES: usize = 4;
 const COEFFICIENTS: usize = MAX_ORDER / 2 + 1;
 
 /// Orders of A(z) and B(z), and what follows from them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Shape {
     pub(crate) ar_order: usize,
     pub(crate) ma_order: usize,
-    /// Zero pairs of each polynomial.
-    pairs: [u8; LANES],
     /// Twos of pairs that every polynomial in use has.
     full: usize,
+    /// Pairs of each polynomial.
+    pairs: F4,
+}
+
+/// −2 cos ω of a mixture, in [`stage`] order, 0 beyond the order.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Pairs {
+    pub(crate) ar: Line,
+    pub(crate) ma: Line,
+}
+
+impl Pairs {
+    pub(crate) const ZERO: Self = Self {
+        ar: Line::ZERO,
+        ma: Line::ZERO,
+    };
 }
 
 /// Partial products, the half of each that symmetry leaves, times ½.
 #[derive(Debug, Clone, PartialEq)]
-#[repr(align(16))]
-pub(crate) struct Products([[f32; LANES]; COEFFICIENTS]);
+pub(crate) struct Products([F4; COEFFICIENTS]);
 
 impl Products {
     /// No pair yet.
     pub(crate) const ONE: Self = {
-        let mut c = [[0.0; LANES]; COEFFICIENTS];
-        c[0] = [0.5; LANES];
+        let mut c = [F4::ZERO; COEFFICIENTS];
+        c[0] = F4::HALF;
         Self(c)
     };
 }
@@ -48,10 +61,10 @@ impl Products {
 impl Shape {
     pub(crate) const fn new(ar_order: usize, ma_order: usize) -> Self {
         let pairs = [
-            ar_order.div_ceil(2) as u8,
-            (ar_order / 2) as u8,
-            ma_order.div_ceil(2) as u8,
-            (ma_order / 2) as u8,
+            ar_order.div_ceil(2) as f32,
+            (ar_order / 2) as f32,
+            ma_order.div_ceil(2) as f32,
+            (ma_order / 2) as f32,
         ];
         let fewest = if ma_order == 0 || ar_order < ma_order {
             ar_order / 2
@@ -61,8 +74,8 @@ impl Shape {
         Self {
             ar_order,
             ma_order,
-            pairs,
             full: fewest / 2,
+            pairs: F4::load(&pairs),
         }
     }
 
@@ -76,67 +89,35 @@ impl Shape {
         2 * order.div_ceil(4)
     }
 
-    /// Steps of a unit: coefficients that it changes.
-    pub(crate) const fn steps(&self, unit: usize) -> usize {
-        if unit / 2 < self.full {
-            unit / 2 + 1
-        } else {
-            unit + 1
-        }
+    /// Whether every polynomial in use has both pairs of a two.
+    pub(crate) const fn is_full(&self, two: usize) -> bool {
+        two < self.full
     }
 
-    /// One unit of work on `L` polynomials, two without B(z); `ar` and `ma` hold −2 cos ω in
-    /// [`stage`] order, 0 beyond the order.
+    /// One unit of work on all polynomials.
     #[inline(always)]
-    pub(crate) fn multiply<const L: usize>(
-        &self,
-        products: &mut Products,
-        ar: &Line,
-        ma: &Line,
-        unit: usize,
-    ) {
-        let (two, upper) = (unit / 2, unit.is_multiple_of(2));
-        let (Some(ar), Some(ma)) = (ar.0.get(two), ma.0.get(two)) else {
+    pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, unit: usize) {
+        let two = unit / 2;
+        let (Some(ar), Some(ma)) = (pairs.ar.0.get(two), pairs.ma.0.get(two)) else {
             return;
         };
-        let low = [ar[0], ar[1], ma[0], ma[1]];
-        let high = [ar[2], ar[3], ma[2], ma[3]];
-        let c = &mut products.0;
-        if two >= self.full {
-            return self.one_pair(c, if upper { low } else { high }, unit);
-        }
-        let factors = Two::new(low, high);
-        match two {
-            0 => factors.multiply::<0>(c, upper),
-            1 => factors.multiply::<1>(c, upper),
-            2 => factors.multiply::<2>(c, upper),
-            3 => factors.multiply::<3>(c, upper),
-            4 => factors.multiply::<4>(c, upper),
-            _ => factors.multiply::<5>(c, upper),
-        }
-    }
-
-    /// Multiplies polynomials of `done` pairs by one more where they have one.
-    #[inline(always)]
-    fn one_pair(&self, c: &mut [[f32; LANES]; COEFFICIENTS], m: [f32; LANES], done: usize) {
-        let busy = self
-            .pairs
-            .map(|pairs| if done < usize::from(pairs) { 1.0 } else { 0.0 });
-        let (busy, m) = (F4::load(&busy), F4::load(&m));
-        let zero = F4::splat(0.0);
-        // The new middle's old value mirrors the one two before it.
-        let mirrored = done
-            .checked_sub(1)
-            .and_then(|k| c.get(k))
-            .map_or(zero, F4::load);
-        if let Some(middle) = c.get_mut(done + 1) {
-            *middle = (busy * mirrored).to_array();
-        }
-        let (mut two_before, mut before) = (zero, F4::load(&c[0]));
-        for here in c.iter_mut().skip(1).take(done + 1) {
-            let old = F4::load(here);
-            *here = (old + busy * two_before + m * before).to_array();
-            (two_before, before) = (before, old);
+        let low = F4::load(&[ar[0], ar[1], ma[0], ma[1]]);
+        let high = F4::load(&[ar[2], ar[3], ma[2], ma[3]]);
+        let (s, product) = (low + high, low * high);
+        if self.is_full(two) {
+            let q = F4::TWO + product;
+            Full { s, q }.multiply(&mut products.0, unit);
+        } else {
+            // 1 where a polynomial has the low pair, and the high one.
+            let left = self.pairs - F4::splat((2 * two) as f32);
+            let [first, second] = [left, left - F4::ONE].map(|x| x.max(F4::ZERO).min(F4::ONE));
+            Partial {
+                s,
+                q: first + second + product,
+                r: s * second,
+                o: second,
+            }
+            .multiply(&mut products.0, unit);
         }
     }
 
@@ -153,49 +134,87 @@ impl Shape {
     }
 }
 
+/// Symmetric polynomials of degree up to 4 that multiply others in place.
+trait Factors: Sized {
+    /// The new coefficient from the old one and the four before it.
+    fn coefficient(&self, old: F4, before: [F4; 4]) -> F4;
+
+    /// The upper half of the coefficients, from the highest down, of polynomials of degree
+    /// 4·`TWO`.
+    #[inline(always)]
+    fn upper<const TWO: usize>(&self, c: &mut [F4; COEFFICIENTS]) {
+        let (middle, top) = (TWO + 1, 2 * TWO + 2);
+        // Symmetry gives the two coefficients beyond the middle.
+        (c[top - 1], c[top]) = if TWO == 0 {
+            (F4::ZERO, F4::ZERO)
+        } else {
+            (c[top - 3], c[top - 4])
+        };
+        for k in (middle + 1..top + 1).rev() {
+            self.step(c, k);
+        }
+    }
+
+    /// The lower half.
+    #[inline(always)]
+    fn lower<const TWO: usize>(&self, c: &mut [F4; COEFFICIENTS]) {
+        for k in (1..TWO + 2).rev() {
+            self.step(c, k);
+        }
+    }
+
+    #[inline(always)]
+    fn step(&self, c: &mut [F4; COEFFICIENTS], k: usize) {
+        let back = |by: usize| if k < by { F4::ZERO } else { c[k - by] };
+        c[k] = self.coefficient(c[k], [back(1), back(2), back(3), back(4)]);
+    }
+
+    /// Unit 2·n is the upper half of two n, the next one the lower half.
+    #[inline(always)]
+    fn multiply(&self, c: &mut [F4; COEFFICIENTS], unit: usize) {
+        match unit {
+            0 => self.upper::<0>(c),
+            1 => self.lower::<0>(c),
+            2 => self.upper::<1>(c),
+            3 => self.lower::<1>(c),
+            4 => self.upper::<2>(c),
+            5 => self.lower::<2>(c),
+            6 => self.upper::<3>(c),
+            7 => self.lower::<3>(c),
+            8 => self.upper::<4>(c),
+            9 => self.lower::<4>(c),
+            10 => self.upper::<5>(c),
+            _ => self.lower::<5>(c),
+        }
+    }
+}
+
 /// Two zero pairs at once: 1 + s z⁻¹ + q z⁻² + s z⁻³ + z⁻⁴.
-struct Two {
+struct Full {
     s: F4,
     q: F4,
 }
 
-impl Two {
+impl Factors for Full {
     #[inline(always)]
-    fn new(low: [f32; LANES], high: [f32; LANES]) -> Self {
-        let (low, high) = (F4::load(&low), F4::load(&high));
-        Self {
-            s: low + high,
-            q: F4::splat(2.0) + low * high,
-        }
+    fn coefficient(&self, old: F4, [one, two, three, four]: [F4; 4]) -> F4 {
+        (old + four) + self.q * two + self.s * (one + three)
     }
+}
 
-    /// Multiplies polynomials of degree 4·`TWO`, the upper half of the coefficients or
-    /// the lower one. From the highest down, in place.
-    #[inline(always)]
-    fn multiply<const TWO: usize>(&self, c: &mut [[f32; LANES]; COEFFICIENTS], upper: bool) {
-        let (middle, top) = (TWO + 1, 2 * TWO + 2);
-        if upper {
-            // Symmetry gives the two coefficients beyond the middle.
-            if TWO == 0 {
-                (c[1], c[2]) = ([0.0; LANES], [0.0; LANES]);
-            } else {
-                (c[top - 1], c[top]) = (c[top - 3], c[top - 4]);
-            }
-            for k in (middle + 1..=top).rev() {
-                self.step(c, k);
-            }
-        } else {
-            for k in (1..=middle).rev() {
-                self.step(c, k);
-            }
-        }
-    }
+/// Two pairs, one or none: 1 + s z⁻¹ + q z⁻² + r z⁻³ + o z⁻⁴. What a polynomial with fewer
+/// pairs than others gets beyond its own middle is not used.
+struct Partial {
+    s: F4,
+    q: F4,
+    r: F4,
+    o: F4,
+}
 
+impl Factors for Partial {
     #[inline(always)]
-    fn step(&self, c: &mut [[f32; LANES]; COEFFICIENTS], k: usize) {
-        let back = |by: usize| F4::load(if k < by { &[0.0; LANES] } else { &c[k - by] });
-        let outer = F4::load(&c[k]) + back(4);
-        c[k] = (outer + self.q * back(2) + self.s * (back(1) + back(3))).to_array();
+    fn coefficient(&self, old: F4, [one, two, three, four]: [F4; 4]) -> F4 {
+        (old + self.o * four) + self.q * two + (self.s * one + self.r * three)
     }
 }
 
@@ -203,34 +222,68 @@ impl Two {
 /// and P = difference·(1 − z⁻¹) for even orders, Q = sum and P = difference·(1 − z⁻²)
 /// for odd ones. The products carry the ½.
 #[inline(always)]
-fn assemble<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], order: usize, a: &mut Line) {
+fn assemble<const LANE: usize>(c: &[F4; COEFFICIENTS], order: usize, a: &mut Line) {
     let half = order / 2;
-    let (low, high) =
-        a.0.as_flattened_mut()
-            .split_at_mut(order.div_ceil(2).min(MAX_ORDER));
-    let (Some(ends), Some(high), Some(c)) = (
-        low.get_mut(..half),
-        high.get_mut(..half),
-        c.get(..=order.div_ceil(2)),
-    ) else {
+    let Some(a) = a.0.as_flattened_mut().get_mut(..order) else {
         return;
     };
-    if order.is_multiple_of(2) {
-        for k in 0..half {
-            let q = c[k + 1][LANE] + c[k][LANE];
-            let p = c[k + 1][LANE + 1] - c[k][LANE + 1];
-            (ends[k], high[half - 1 - k]) = (q + p, q - p);
+    if order.is_multiple_of(2) && half >= LANES {
+        // The last four overlap those before where four does not divide the half.
+        let last = half - LANES;
+        for first in (0..last).step_by(LANES) {
+            assemble_four::<LANE>(c, first, a);
         }
+        assemble_four::<LANE>(c, last, a);
     } else {
-        let mut two_before = 0.0;
-        for k in 0..half {
-            let (q, p) = (c[k + 1][LANE], c[k + 1][LANE + 1] - two_before);
-            two_before = c[k][LANE + 1];
-            (ends[k], high[half - 1 - k]) = (q + p, q - p);
+        assemble_singly::<LANE>(c, a);
+    }
+}
+
+/// Four coefficients from `first` on and their four mirror images, of an even order.
+#[inline(always)]
+fn assemble_four<const LANE: usize>(c: &[F4; COEFFICIENTS], first: usize, a: &mut [f32]) {
+    let last = a.len() - first;
+    let Some(c) = c.get(first..).and_then(|c| c.first_chunk::<5>()) else {
+        return;
+    };
+    let alternating = F4::load(&[1.0, -1.0, 1.0, -1.0]);
+    let [c0, c1, c2, c3, c4] = *c;
+    let t0 = (c1 + alternating * c0).to_array();
+    let t1 = (c2 + alternating * c1).to_array();
+    let t2 = (c3 + alternating * c2).to_array();
+    let t3 = (c4 + alternating * c3).to_array();
+    let across = |lane: usize| F4::load(&[t0[lane], t1[lane], t2[lane], t3[lane]]);
+    let (q, p) = (across(LANE), across(LANE + 1));
+    if let Some(place) = a.get_mut(first..first + LANES) {
+        place.copy_from_slice(&(q + p).to_array());
+    }
+    if let Some(place) = a.get_mut(last - LANES..last) {
+        let [a0, a1, a2, a3] = (q - p).to_array();
+        place.copy_from_slice(&[a3, a2, a1, a0]);
+    }
+}
+
+/// The same for every order, one after the other.
+fn assemble_singly<const LANE: usize>(c: &[F4; COEFFICIENTS], a: &mut [f32]) {
+    let order = a.len();
+    let even = order.is_multiple_of(2);
+    let number = |k: usize, lane: usize| c.get(k).map_or(0.0, |c| c.to_array()[lane]);
+    for k in 0..order / 2 {
+        let (q, p) = (number(k + 1, LANE), number(k + 1, LANE + 1));
+        let (q, p) = if even {
+            (q + number(k, LANE), p - number(k, LANE + 1))
+        } else {
+            (q, p - number(k.wrapping_sub(1), LANE + 1))
+        };
+        if let Some(low) = a.get_mut(k) {
+            *low = q + p;
         }
-        if let (Some(middle), Some(c)) = (low.last_mut(), c.last()) {
-            *middle = c[LANE];
+        if let Some(high) = a.get_mut(order - 1 - k) {
+            *high = q - p;
         }
+    }
+    if !even && let Some(middle) = a.get_mut(order / 2) {
+        *middle = number(order / 2 + 1, LANE);
     }
 }
 
@@ -313,8 +366,12 @@ mod tests {
             let polynomials = |ar: &[f64], ma: &[f64]| {
                 let shape = Shape::new(ar.len(), ma.len());
                 let (mut products, mut a, mut b) = (Products::ONE, Line::ZERO, Line::ZERO);
+                let pairs = Pairs {
+                    ar: staged(ar),
+                    ma: staged(ma),
+                };
                 for unit in 0..shape.units() {
-                    shape.multiply::<4>(&mut products, &staged(ar), &staged(ma), unit);
+                    shape.multiply(&mut products, &pairs, unit);
                 }
                 shape.ar(&products, &mut a);
                 shape.ma(&products, &mut b);

@@ -6,11 +6,7 @@
 //! caller reports as missed count like bad samples. The first good sample afterwards
 //! restarts the motion estimate, and the force comes back by a ramp.
 
-use crate::{
-    Sample,
-    lanes::F4,
-    math::{Vec3, min},
-};
+use crate::{Sample, lanes::F4, math::min};
 
 /// Positions beyond this are errors, not positions, m.
 pub const REACH_M: f32 = 1.0e4;
@@ -18,7 +14,7 @@ pub const REACH_M: f32 = 1.0e4;
 /// The gate that every sample passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gate {
-    position_m: Vec3,
+    position_m: F4,
     /// Bad samples in a row.
     bad_in_a_row: u32,
     /// Share of the force that is let through, 0..=1.
@@ -31,9 +27,9 @@ pub struct Gate {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gated {
     /// Position to render, m.
-    pub position_m: Vec3,
+    pub(crate) position_m: F4,
     /// Displacement since the position before, m; none where motion starts anew.
-    pub motion_m: Vec3,
+    pub(crate) motion_m: F4,
     /// Periods since the last rendered position, 1..=3.
     pub elapsed_ticks: u32,
     /// Share of the force, 0..=1.
@@ -53,14 +49,14 @@ pub struct Gated {
 impl Gate {
     /// Before the first sample; it is let through without a ramp.
     pub const NEW: Self = Self {
-        position_m: [0.0; 3],
+        position_m: F4::ZERO,
         bad_in_a_row: 0,
         gain: 1.0,
         fresh: true,
     };
 
     /// The last usable position, m.
-    pub(crate) const fn position_m(&self) -> Vec3 {
+    pub(crate) const fn position_m(&self) -> F4 {
         self.position_m
     }
 
@@ -73,13 +69,13 @@ impl Gate {
         if !usable || missed > hold_ticks || self.fresh {
             return self.irregular(sample, usable, hold_ticks, ramp_step);
         }
-        let motion = p - F4::vec3(self.position_m);
-        self.position_m = sample.position_m;
+        let motion_m = p - self.position_m;
+        self.position_m = p;
         self.bad_in_a_row = 0;
         self.gain = min(self.gain + ramp_step, 1.0);
         Gated {
             position_m: self.position_m,
-            motion_m: motion.xyz(),
+            motion_m,
             elapsed_ticks: sample.elapsed_ticks,
             gain: self.gain,
             restart: false,
@@ -99,7 +95,7 @@ impl Gate {
         hold_ticks: u32,
         ramp_step: f32,
     ) -> Gated {
-        let p = sample.position_m;
+        let p = F4::vec3(sample.position_m);
         let missed = sample.elapsed_ticks.saturating_sub(1);
         let gap = missed > hold_ticks && !self.fresh;
         let good = usable && !gap;
@@ -130,7 +126,7 @@ impl Gate {
         };
         Gated {
             position_m: self.position_m,
-            motion_m: (F4::vec3(self.position_m) - F4::vec3(before)).xyz(),
+            motion_m: self.position_m - before,
             elapsed_ticks: if good && !restart { missed + 1 } else { 1 },
             gain: self.gain,
             restart,

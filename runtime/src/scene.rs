@@ -4,16 +4,19 @@
 //! that in which the stylus is deepest. A surface in contact keeps it until another is
 //! deeper by [`HYSTERESIS_M`], or its region is left by as much, so that noise at a border
 //! changes nothing. From one texture to the next wall, gains and friction follow within the
-//! time constant of the parameters; the vibration goes on until the new model is made
-//! ([`vibration`](crate::vibration)), and the limiter bounds what is left of a step.
+//! time constant of the parameters; the old vibration goes on until the new model is made,
+//! then its last output fades; the limiter bounds what is left of a step.
 //!
 //! The work is one distance a surface, and a tick.
 
 use crate::{
     Config, Flags, LoadError, Output, Renderer, Sample, State, Surface, Texture,
+    crossing::Crossing,
+    lanes::F4,
     math::{Vec3, exp},
     safety::REACH_M,
     tick::Felt,
+    vibration::Vibration,
 };
 use asperity_formats::{Library, Shape};
 use thiserror::Error;
@@ -248,7 +251,8 @@ pub struct SceneState {
     /// Surface last touched or nearest; the count of surfaces or more for none.
     at: usize,
     texture: usize,
-    felt: Felt,
+    solid: Surface,
+    crossing: Crossing,
     /// In contact in the tick before.
     touching: bool,
 }
@@ -261,7 +265,8 @@ impl SceneState {
             state: State::new(seed),
             at: usize::MAX,
             texture: 0,
-            felt: Felt::NOTHING,
+            solid: Placed::NOWHERE.solid,
+            crossing: Crossing::START,
             touching: false,
         }
     }
@@ -270,6 +275,20 @@ impl SceneState {
     #[must_use]
     pub const fn state(&self) -> &State {
         &self.state
+    }
+
+    /// Another surface is touched from here on; one beyond all is none.
+    #[cold]
+    fn move_to(&mut self, at: usize, surfaces: &[Placed]) {
+        self.at = at;
+        self.solid = match surfaces.get(at) {
+            Some(placed) => {
+                self.texture = placed.texture;
+                placed.solid
+            }
+            None => Placed::NOWHERE.solid,
+        };
+        self.state.cross(&self.solid);
     }
 
     /// Index of the surface in contact after the last tick.
@@ -299,14 +318,7 @@ impl Renderer {
         if is_usable(sample) {
             let at = scene.touched(state.at, sample.position_m);
             if at != state.at {
-                let placed = scene.placed.get(at).filter(|_| at < scene.count);
-                let placed = placed.unwrap_or(&Placed::NOWHERE);
-                state.at = at;
-                state.felt.solid = placed.solid;
-                if at < scene.count {
-                    state.texture = placed.texture;
-                }
-                state.state.cross(&placed.solid);
+                state.move_to(at, scene.placed.get(..scene.count).unwrap_or_default());
             }
         }
         let texture = scene.texture(state.texture);
@@ -315,16 +327,25 @@ impl Renderer {
         } else {
             1.0
         };
-        state.felt.follow(texture, share);
-        let output = self.tick_on(&state.felt, texture, &mut state.state, sample);
+        let crossing = &mut state.crossing;
+        crossing.follow(&texture.surface, texture.mu, share);
+        let (surface, mu) = (crossing.surface, crossing.mu);
+        let felt = Felt {
+            solid: &state.solid,
+            surface: &surface,
+            mu,
+        };
+        let sound = |vibration: &mut Vibration, speed_mm_s, force_n, share, sounding| {
+            crossing.sound(vibration, texture, (speed_mm_s, force_n), share, sounding)
+        };
+        let output = self.tick_on(felt, texture, &mut state.state, sample, sound);
         state.touching = output.flags.contains(Flags::CONTACT);
         output
     }
 }
 
 /// Whether the gate will take a sample for a position.
+#[inline]
 fn is_usable(sample: &Sample) -> bool {
-    let near = |x: f32| x.abs() <= REACH_M;
-    let [x, y, z] = sample.position_m;
-    near(x) & near(y) & near(z) & (sample.elapsed_ticks > 0)
+    F4::vec3(sample.position_m).is_within(REACH_M) & (sample.elapsed_ticks > 0)
 }

@@ -11,13 +11,15 @@ use core::ops::Range;
 pub const CYCLE_TICKS: usize = 6;
 
 /// Costs in executed x86-64 instructions; only their ratios matter.
-const BLOCK: usize = 31;
-const CHOICE: usize = 75;
-const MIX: usize = 30;
+const BLOCK: usize = 32;
+const CHOICE: usize = 80;
+const MIX: usize = 45;
 const MIX_BLOCK: usize = 13;
-const UNIT: usize = 50;
-const STEP: usize = 10;
-const ASSEMBLY_STEP: usize = 16;
+const UNIT: usize = 31;
+const STEP: usize = 11;
+const PARTIAL_STEP: usize = 14;
+const LEVEL: usize = 30;
+const ASSEMBLY_FOUR: usize = 38;
 
 /// The share of one tick: blocks first, then the choice, then the mixture, then units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,10 +40,12 @@ impl Share {
         units: (0, 0),
     };
 
+    /// Blocks of triangles to look at.
     pub(crate) fn blocks(&self) -> Range<usize> {
         self.blocks.0.into()..self.blocks.1.into()
     }
 
+    /// Units of the conversion.
     pub(crate) fn units(&self) -> Range<usize> {
         self.units.0.into()..self.units.1.into()
     }
@@ -56,11 +60,19 @@ pub(crate) fn shares(blocks: usize, shape: &Shape) -> [Share; CYCLE_TICKS] {
             MIX + MIX_BLOCK * order.div_ceil(4)
         }
     };
-    let unit_cost = |unit: usize| UNIT + STEP * shape.steps(unit);
-    let assembly = ASSEMBLY_STEP * (shape.ar_order + shape.ma_order) / 2;
+    let unit_cost = |unit: usize| {
+        let two = unit / 2;
+        let step = if shape.is_full(two) {
+            STEP
+        } else {
+            PARTIAL_STEP
+        };
+        UNIT + step * (two + 1)
+    };
+    let assembly = |order: usize| ASSEMBLY_FOUR * (order / 2).div_ceil(4);
+    let last = LEVEL + assembly(shape.ar_order) + assembly(shape.ma_order);
     let units: usize = (0..shape.units()).map(unit_cost).sum();
-    let mixes = mix(shape.ar_order) + mix(shape.ma_order);
-    let total = BLOCK * blocks + CHOICE + mixes + units + assembly;
+    let total = BLOCK * blocks + CHOICE + mix(shape.ar_order) + mix(shape.ma_order) + units + last;
 
     let mut shares = [Share::NONE; CYCLE_TICKS];
     let mut spent = 0;

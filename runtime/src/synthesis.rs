@@ -74,12 +74,12 @@ impl Lags {
 /// Σ c_k x_k over the first `N` blocks in four partial sums, in the same order on every
 /// platform.
 #[inline(always)]
-fn inner_product<const N: usize>(c: &Line, x: &Line) -> f32 {
+fn inner_product<const N: usize>(c: &Line, x: &Line) -> F4 {
     let mut partial = F4::load(&c.0[0]) * F4::load(&x.0[0]);
     for block in 1..N {
         partial = partial + F4::load(&c.0[block]) * F4::load(&x.0[block]);
     }
-    partial.sum()
+    partial
 }
 
 /// The newest enters, all others move one lag on.
@@ -113,31 +113,37 @@ macro_rules! by_blocks {
 
 /// The recursive half for `N` blocks of lags: the output from what the numerator gives.
 #[inline(always)]
-fn recurse<const N: usize>(a: &Line, past: &mut Line, driven: f32, sounding: bool) -> (f32, bool) {
-    let raw = driven - inner_product::<N>(a, past);
-    let clamped = raw.is_nan() || raw.abs() > VIB_LIMIT_M_S2;
-    // A NaN fails both comparisons and becomes silence.
-    let bounded = if raw > VIB_LIMIT_M_S2 {
-        VIB_LIMIT_M_S2
-    } else if raw < -VIB_LIMIT_M_S2 {
-        -VIB_LIMIT_M_S2
-    } else if raw.abs() > SILENCE_M_S2 {
-        raw
+fn recurse<const N: usize>(a: &Line, past: &mut Line, driven: F4, sounding: bool) -> (f32, bool) {
+    let raw = (driven - inner_product::<N>(a, past)).sum();
+    let size = raw.abs();
+    let (bounded, clamped) = if size > SILENCE_M_S2 && size <= VIB_LIMIT_M_S2 {
+        (raw, false)
     } else {
-        0.0
+        bound(raw)
     };
     let y = if sounding { bounded } else { 0.0 };
     push::<N>(past, y);
     (y, clamped && sounding)
 }
 
-/// The numerator for `N` blocks of lags, none of them standing for the first lag alone.
-#[inline(always)]
-fn drive<const N: usize>(b: &Line, past: &mut Line, e: f32) -> f32 {
-    let driven = if N == 0 {
-        e + b.0[0][0] * past.0[0][0]
+/// An output too small to matter, too large, or NaN, which becomes silence.
+fn bound(raw: f32) -> (f32, bool) {
+    if raw > VIB_LIMIT_M_S2 {
+        (VIB_LIMIT_M_S2, true)
+    } else if raw < -VIB_LIMIT_M_S2 {
+        (-VIB_LIMIT_M_S2, true)
     } else {
-        e + inner_product::<N>(b, past)
+        (0.0, raw.is_nan())
+    }
+}
+
+/// In four partial sums, the numerator for `N` blocks of lags, none of them standing for the first lag alone.
+#[inline(always)]
+fn drive<const N: usize>(b: &Line, past: &mut Line, e: f32) -> F4 {
+    let driven = if N == 0 {
+        F4::load(&[e + b.0[0][0] * past.0[0][0], 0.0, 0.0, 0.0])
+    } else {
+        F4::load(&[e, 0.0, 0.0, 0.0]) + inner_product::<N>(b, past)
     };
     push::<N>(past, e);
     driven

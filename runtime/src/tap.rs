@@ -130,7 +130,7 @@ pub struct TapState {
     /// Signed distances, the newest first, m.
     distances_m: [[f32; 4]; WINDOW_TICKS / 4],
     armed: bool,
-    /// Next tick of the transient; `u32::MAX` when none plays.
+    /// Next tick of the transient; at its length or above when none plays.
     tick: u32,
     selection: Selection,
 }
@@ -194,17 +194,23 @@ impl TapState {
     ) -> TapOutput {
         let [[a, b, c, d], [e, f, g, _]] = self.distances_m;
         self.distances_m = [[distance_m, a, b, c], [d, e, f, g]];
-        let speed_m_s = self.approach_speed_m_s(servo_rate_hz);
         let touching = distance_m < 0.0;
-        let started = self.armed && touching && speed_m_s >= config.min_speed_m_s;
-        if started {
-            self.selection = bank.select(speed_m_s);
-            self.tick = 0;
+        let mut started = false;
+        if self.armed && touching {
+            let speed_m_s = self.approach_speed_m_s(servo_rate_hz);
+            started = speed_m_s >= config.min_speed_m_s;
+            if started {
+                self.selection = bank.select(speed_m_s);
+                self.tick = 0;
+            }
         }
         self.armed = (self.armed || distance_m > config.rearm_m) && !touching;
         let active = (self.tick as usize) < bank.ticks();
-        let accel_m_s2 = bank.accel_m_s2(&self.selection, self.tick as usize);
-        self.tick = self.tick.saturating_add(1);
+        let mut accel_m_s2 = 0.0;
+        if active {
+            accel_m_s2 = bank.accel_m_s2(&self.selection, self.tick as usize);
+            self.tick += 1;
+        }
         TapOutput {
             accel_m_s2,
             started,

@@ -4,7 +4,7 @@ use crate::{
     Filter,
     lanes::F4,
     locate::{Barycentric, Locator},
-    lsf::{self, Products, Shape},
+    lsf::{self, Pairs, Products, Shape},
     math::cos_pi,
     schedule::{self, CYCLE_TICKS, Share},
     synthesis::{Lags, Line},
@@ -76,20 +76,6 @@ pub enum LoadError {
 #[derive(Debug, Clone)]
 #[repr(align(16))]
 struct Rows<const N: usize, const V: usize>([[f32; N]; V]);
-
-/// Mixed parameters: −2 cos ω of A(z) and B(z) in [`lsf::stage`] order, zero beyond the order.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Pairs {
-    ar: Line,
-    ma: Line,
-}
-
-impl Pairs {
-    pub(crate) const ZERO: Self = Self {
-        ar: Line::ZERO,
-        ma: Line::ZERO,
-    };
-}
 
 impl<const N: usize, const V: usize> Rows<N, V> {
     /// Moves the first `blocks` blocks of four `share` of the way to the mixture of three rows.
@@ -310,14 +296,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     /// One unit of the conversion.
     #[inline]
     pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, unit: usize) {
-        // A slot without room for B(z) needs no code for it.
-        if Q > 0 && self.shape.ma_order > 0 {
-            self.shape
-                .multiply::<4>(products, &pairs.ar, &pairs.ma, unit);
-        } else {
-            self.shape
-                .multiply::<2>(products, &pairs.ar, &pairs.ma, unit);
-        }
+        self.shape.multiply(products, pairs, unit);
     }
 
     /// Coefficients of A(z) and B(z), all units done.
@@ -359,6 +338,6 @@ mod tests {
     #[test]
     fn sizes_are_as_stated() {
         assert!(size_of::<HostTexture>() <= 32 * 1024);
-        assert!(size_of::<crate::State>() <= 1040);
+        assert!(size_of::<crate::State>() <= 1056);
     }
 }

@@ -8,7 +8,7 @@ use crate::{
     friction::{Bristle, FrictionState},
     lanes::F4,
     limiter::{Limited, Limiter},
-    math::{Vec3, clamp_from_zero, cross, exp, max, rsqrt, scale},
+    math::{Vec3, clamp_from_zero, cross, exp, max, rsqrt},
     safety::Gate,
     tap::TapState,
     velocity::{LowPass2, LowPass2State},
@@ -102,7 +102,7 @@ impl Flags {
     }
 
     const fn with(self, other: Self, set: bool) -> Self {
-        Self(self.0 | if set { other.0 } else { 0 })
+        Self(self.0 | (other.0 * set as u16))
     }
 }
 
@@ -155,6 +155,14 @@ struct Events {
     limited: Limited,
 }
 
+impl Events {
+    /// Whether anything but the tick itself is counted.
+    #[inline(always)]
+    const fn any(&self) -> bool {
+        self.bad_sample | self.fault | self.tap | self.limited.peak | self.limited.slew
+    }
+}
+
 impl Counters {
     #[inline]
     fn count(&mut self, events: &Events) {
@@ -164,6 +172,9 @@ impl Counters {
             return;
         }
         self.ticks += 1;
+        if !events.any() {
+            return;
+        }
         for (counter, event) in [
             (&mut self.bad_samples, events.bad_sample),
             (&mut self.faults, events.fault),
@@ -184,10 +195,10 @@ pub struct State {
     gate: Gate,
     distance_m: f32,
     velocity: LowPass2State,
-    direction: Vec3,
+    direction: F4,
     tap: TapState,
     friction: FrictionState,
-    force_n: Vec3,
+    force_n: F4,
     counters: Counters,
 }
 
@@ -200,10 +211,10 @@ impl State {
             gate: Gate::NEW,
             distance_m: 0.0,
             velocity: LowPass2State::REST,
-            direction: [1.0, 0.0, 0.0],
+            direction: F4::vec3([1.0, 0.0, 0.0]),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
-            force_n: [0.0; 3],
+            force_n: F4::ZERO,
             counters: Counters::default(),
         }
     }
@@ -217,9 +228,9 @@ impl State {
     /// Another surface is touched from here on: the way there is no motion along its normal.
     #[cold]
     pub(crate) fn cross(&mut self, solid: &Solid) {
-        let before_m = solid.contact(self.gate.position_m()).distance_m;
-        self.distance_m = before_m;
-        self.tap.cross(before_m);
+        let (distance_m, _) = solid.touch(self.gate.position_m());
+        self.distance_m = distance_m;
+        self.tap.cross(distance_m);
     }
 
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.
@@ -234,52 +245,11 @@ impl State {
 }
 
 /// What is touched, apart from the sound of its texture.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Felt {
-    pub(crate) solid: Solid,
-    pub(crate) surface: Surface,
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Felt<'a> {
+    pub(crate) solid: &'a Solid,
+    pub(crate) surface: &'a Surface,
     pub(crate) mu: f32,
-}
-
-impl Felt {
-    /// No wall, no friction.
-    pub(crate) const NOTHING: Self = Self {
-        solid: Solid::Plane {
-            point_m: [0.0; 3],
-            normal: [0.0, 0.0, 1.0],
-        },
-        surface: Surface {
-            stiffness_n_m: 0.0,
-            damping_n_s_m: 0.0,
-            vib_s2_m: 0.0,
-            effective_mass_kg: 0.0,
-            f_max_n: 0.0,
-        },
-        mu: 0.0,
-    };
-
-    /// Goes `share` of the way to a texture's wall, gains and friction; exactly there with 1.
-    #[inline]
-    pub(crate) fn follow<
-        const V: usize,
-        const T: usize,
-        const P: usize,
-        const Q: usize,
-        const K: usize,
-    >(
-        &mut self,
-        texture: &Texture<V, T, P, Q, K>,
-        share: f32,
-    ) {
-        let mix = |from: f32, to: f32| to - (1.0 - share) * (to - from);
-        let (from, to) = (&mut self.surface, &texture.surface);
-        from.stiffness_n_m = mix(from.stiffness_n_m, to.stiffness_n_m);
-        from.damping_n_s_m = mix(from.damping_n_s_m, to.damping_n_s_m);
-        from.vib_s2_m = mix(from.vib_s2_m, to.vib_s2_m);
-        from.effective_mass_kg = mix(from.effective_mass_kg, to.effective_mass_kg);
-        from.f_max_n = mix(from.f_max_n, to.f_max_n);
-        self.mu = mix(self.mu, texture.mu);
-    }
 }
 
 /// A checked configuration with all that follows from it.
@@ -353,15 +323,19 @@ impl Renderer {
         sample: &Sample,
     ) -> Output {
         let felt = Felt {
-            solid: self.config.surface,
-            surface: texture.surface,
+            solid: &self.config.surface,
+            surface: &texture.surface,
             mu: texture.mu,
         };
-        self.tick_on(&felt, texture, state, sample)
+        let sound = |vibration: &mut Vibration, speed_mm_s, force_n, share, sounding| {
+            vibration.step(texture, speed_mm_s, force_n, share, sounding)
+        };
+        self.tick_on(felt, texture, state, sample, sound)
     }
 
-    /// [`Renderer::tick`] on a solid, with wall, gains and friction as given.
-    #[inline]
+    /// [`Renderer::tick`] on a solid, with wall, gains and friction as given; `sound` makes the
+    /// vibration of speed (mm/s), force (N), share to follow and whether it is to be heard.
+    #[inline(always)]
     pub(crate) fn tick_on<
         const V: usize,
         const T: usize,
@@ -370,65 +344,63 @@ impl Renderer {
         const K: usize,
     >(
         &self,
-        felt: &Felt,
+        felt: Felt<'_>,
         texture: &Texture<V, T, P, Q, K>,
         state: &mut State,
         sample: &Sample,
+        sound: impl FnOnce(&mut Vibration, f32, f32, f32, bool) -> (f32, bool),
     ) -> Output {
         let config = &self.config;
-        let surface = &felt.surface;
+        let surface = felt.surface;
 
         let gated = state
             .gate
             .step(sample, config.safety.hold_ticks, self.ramp_step);
-        let contact = felt.solid.contact(gated.position_m);
+        let (distance_m, normal) = felt.solid.touch(gated.position_m);
         if gated.restart {
-            state.restart(contact.distance_m);
+            state.restart(distance_m);
         }
 
         let motion_m = gated.motion_m;
         let rate = self.rate_over_ticks[(gated.elapsed_ticks.wrapping_sub(1) % 3) as usize];
-        let [x, y, z] = scale(motion_m, rate);
-        let outward = (contact.distance_m - state.distance_m) * rate;
-        let [x, y, z, outward_m_s] = self.velocity.step(&mut state.velocity, [x, y, z, outward]);
-        state.distance_m = contact.distance_m;
+        let moved_m = motion_m.with_fourth(distance_m - state.distance_m);
+        let moving_m_s = moved_m * F4::splat(rate);
+        let velocity_m_s = self.velocity.advance(&mut state.velocity, moving_m_s);
+        let outward_m_s = velocity_m_s.fourth();
+        state.distance_m = distance_m;
 
-        let normal = F4::vec3(contact.normal);
-        let slide_m_s = F4::vec3([x, y, z]).tangential(normal);
+        let slide_m_s = velocity_m_s.with_fourth(0.0).tangential(normal);
         let squared = slide_m_s.dot3(slide_m_s);
         let inverse_speed = rsqrt(squared);
         let speed_m_s = squared * inverse_speed;
         if speed_m_s > DIRECTION_FLOOR_M_S {
-            state.direction = (slide_m_s * F4::splat(inverse_speed)).xyz();
+            state.direction = slide_m_s * F4::splat(inverse_speed);
         }
         let speed_mm_s = speed_m_s * MM;
 
-        let depth_m = max(-contact.distance_m, 0.0);
+        let depth_m = max(-distance_m, 0.0);
         let touching = depth_m > 0.0;
         let wall = self.wall(surface);
         let stiffness_n = wall.stiffness_n_m * depth_m;
 
         let outside = texture.is_outside(speed_mm_s, stiffness_n);
-        let (vib_m_s2, vib_clamped) = state.vibration.step(
-            texture,
+        let (vib_m_s2, vib_clamped) = sound(
+            &mut state.vibration,
             speed_mm_s,
             stiffness_n,
             self.follow_share,
             touching && !gated.safe,
         );
 
-        let tap = state.tap.step(
-            &texture.taps,
-            contact.distance_m,
-            config.servo_rate_hz,
-            &config.tap,
-        );
+        let tap = state
+            .tap
+            .step(&texture.taps, distance_m, config.servo_rate_hz, &config.tap);
         let tap_n = surface.effective_mass_kg * tap.accel_m_s2;
 
-        let (friction, friction_n) = state.friction.step(
+        let (friction, friction_n) = state.friction.advance(
             &self.bristle,
             motion_m,
-            contact.normal,
+            normal,
             stiffness_n,
             felt.mu,
             touching,
@@ -437,13 +409,12 @@ impl Renderer {
         let normal_n = wall.force_n(stiffness_n, outward_m_s) + tap_n;
         let axis = match config.vibration_axis {
             VibrationAxis::Tangent => state.direction,
-            VibrationAxis::Binormal => cross(state.direction, contact.normal),
+            VibrationAxis::Binormal => F4::vec3(cross(state.direction.xyz(), normal.xyz())),
         };
         let vib_n = surface.vib_s2_m * surface.f_max_n * vib_m_s2;
-        let total =
-            normal * F4::splat(normal_n) + F4::vec3(friction) + F4::vec3(axis) * F4::splat(vib_n);
-        let wanted_n = (total * F4::splat(gated.gain)).xyz();
-        let (force_n, limited) = self.limiter.step(state.force_n, wanted_n);
+        let total_n = normal * F4::splat(normal_n) + friction + axis * F4::splat(vib_n);
+        let wanted_n = total_n * F4::splat(gated.gain);
+        let (force_n, limited) = self.limiter.advance(state.force_n, wanted_n);
         state.force_n = force_n;
 
         let flags = Flags::default()
@@ -466,7 +437,7 @@ impl Renderer {
         });
 
         Output {
-            force_n,
+            force_n: force_n.xyz(),
             depth_m,
             speed_mm_s: clamp_from_zero(speed_mm_s, f32::MAX),
             normal_force_n: stiffness_n,

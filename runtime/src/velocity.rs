@@ -15,23 +15,23 @@ pub const CHANNELS: usize = 4;
 /// b2 = b0. Unit gain at DC; delay at low frequency √2/(2π f_c).
 #[derive(Debug, Clone, Copy)]
 pub struct LowPass2 {
-    b0: [f32; CHANNELS],
-    a1: [f32; CHANNELS],
-    a2: [f32; CHANNELS],
+    b0: F4,
+    a1: F4,
+    a2: F4,
 }
 
 /// State of a [`LowPass2`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LowPass2State {
-    s1: [f32; CHANNELS],
-    s2: [f32; CHANNELS],
+    s1: F4,
+    s2: F4,
 }
 
 impl LowPass2State {
     /// At rest.
     pub const REST: Self = Self {
-        s1: [0.0; CHANNELS],
-        s2: [0.0; CHANNELS],
+        s1: F4::ZERO,
+        s2: F4::ZERO,
     };
 }
 
@@ -45,20 +45,26 @@ impl LowPass2 {
         });
         let norm = |k: f32| 1.0 / (1.0 + core::f32::consts::SQRT_2 * k + k * k);
         Self {
-            b0: k.map(|k| k * k * norm(k)),
-            a1: k.map(|k| 2.0 * (k * k - 1.0) * norm(k)),
-            a2: k.map(|k| (1.0 - core::f32::consts::SQRT_2 * k + k * k) * norm(k)),
+            b0: F4::load(&k.map(|k| k * k * norm(k))),
+            a1: F4::load(&k.map(|k| 2.0 * (k * k - 1.0) * norm(k))),
+            a2: F4::load(&k.map(|k| (1.0 - core::f32::consts::SQRT_2 * k + k * k) * norm(k))),
         }
     }
 
     /// One step of every channel.
     #[inline]
     pub fn step(&self, state: &mut LowPass2State, x: [f32; CHANNELS]) -> [f32; CHANNELS] {
-        let bx = F4::load(&self.b0) * F4::load(&x);
-        let y = bx + F4::load(&state.s1);
-        state.s1 = (bx + bx - F4::load(&self.a1) * y + F4::load(&state.s2)).to_array();
-        state.s2 = (bx - F4::load(&self.a2) * y).to_array();
-        y.to_array()
+        self.advance(state, F4::load(&x)).to_array()
+    }
+
+    /// [`LowPass2::step`] on lanes.
+    #[inline(always)]
+    pub(crate) fn advance(&self, state: &mut LowPass2State, x: F4) -> F4 {
+        let bx = self.b0 * x;
+        let y = bx + state.s1;
+        state.s1 = bx + bx - self.a1 * y + state.s2;
+        state.s2 = bx - self.a2 * y;
+        y
     }
 }
 

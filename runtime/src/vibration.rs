@@ -9,25 +9,15 @@
 //!
 //! A contact is silent until a query that was taken in it takes effect, and starts at its own
 //! model. Out of contact the cycles go on, so that a tick always costs the same.
-//!
-//! When the texture changes in a contact, the old model sounds on until the new one is made.
-//! That starts from silence, and the last output fades beside it: a step of the force is never
-//! more than a texture's own.
 
 pub use crate::schedule::CYCLE_TICKS;
 use crate::{
     Barycentric, Texture,
     excitation::Excitation,
     locate::Search,
-    lsf::Products,
+    lsf::{Pairs, Products},
     synthesis::{History, Lags, Line},
-    texture::Pairs,
 };
-
-/// What is left a tick later of a model that no longer sounds.
-const FADE: f32 = 0.75;
-/// Less than this is silence, m/s².
-const FADED_M_S2: f32 = 1.0e-20;
 
 /// State of the vibration.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,11 +29,8 @@ pub struct Vibration {
     /// Coefficients at work.
     a: Line,
     b: Line,
-    lags: Lags,
     history: History,
     level_m_s2: f32,
-    /// What fades of the texture before, m/s².
-    fading_m_s2: f32,
     // The query of the cycle under way, and what was found.
     speed_mm_s: f32,
     force_n: f32,
@@ -57,8 +44,6 @@ pub struct Vibration {
     in_contact: bool,
     /// The parameters at work belong to this contact.
     follows: bool,
-    /// The coefficients at work are those of the texture before.
-    changing: bool,
 }
 
 impl Vibration {
@@ -70,10 +55,8 @@ impl Vibration {
             pairs: Pairs::ZERO,
             a: Line::ZERO,
             b: Line::ZERO,
-            lags: Lags { ar: 0, ma: 0 },
             history: History::SILENT,
             level_m_s2: 0.0,
-            fading_m_s2: 0.0,
             speed_mm_s: 0.0,
             force_n: 0.0,
             search: Search::START,
@@ -84,7 +67,6 @@ impl Vibration {
             phase: 0,
             in_contact: false,
             follows: false,
-            changing: false,
         }
     }
 
@@ -97,33 +79,50 @@ impl Vibration {
     #[inline]
     fn leave(&mut self) {
         self.level_m_s2 = 0.0;
-        self.fading_m_s2 = 0.0;
         self.in_contact = false;
         self.follows = false;
     }
 
-    /// Another texture: a cycle begun on one is not finished on the other. What is at work
-    /// stays until the first cycle ends.
+    /// Another texture: a cycle begun on one is not finished on the other.
     #[cold]
     fn change_texture(&mut self, texture: u32) {
+        *self = Self {
+            excitation: self.excitation.clone(),
+            texture,
+            ..Self::new(0)
+        };
+    }
+
+    /// Another texture in a scene: what is at work stays until the first cycle ends.
+    #[cold]
+    pub(crate) fn begin(&mut self, texture: u32) {
         self.texture = texture;
         self.products = Products::ONE;
         self.pairs = Pairs::ZERO;
         self.found = Barycentric::NONE;
         self.phase = 0;
         self.follows = false;
-        self.changing = true;
     }
 
-    /// The first cycle on another texture ends.
+    /// Whether this tick puts new coefficients to work.
+    #[inline]
+    pub(crate) fn is_last_of_cycle(&self) -> bool {
+        usize::from(self.phase) == CYCLE_TICKS - 1
+    }
+
+    /// Stops what is at work. Returns its last output, m/s².
     #[cold]
-    fn take_over(&mut self, lags: Lags) {
-        if self.in_contact {
-            self.fading_m_s2 += self.history.last();
-        }
+    pub(crate) fn stop(&mut self) -> f32 {
+        let last = self.history.last();
         self.history = History::SILENT;
-        (self.a, self.b, self.lags) = (Line::ZERO, Line::ZERO, lags);
-        self.changing = false;
+        (self.a, self.b) = (Line::ZERO, Line::ZERO);
+        last
+    }
+
+    /// Whether the texture is the one that was rendered last.
+    #[inline]
+    pub(crate) const fn is_on(&self, texture: u32) -> bool {
+        self.texture == texture
     }
 
     /// One tick. `follow_share` is the share of the way that parameters go in a cycle; with
@@ -141,6 +140,27 @@ impl Vibration {
         if self.texture != texture.id() {
             self.change_texture(texture.id());
         }
+        let lags = texture.lags();
+        self.sound(texture, lags, speed_mm_s, force_n, follow_share, sounding)
+    }
+
+    /// [`Vibration::step`] with the lags of the recursion at work, on the texture begun.
+    #[inline(always)]
+    pub(crate) fn sound<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+        lags: Lags,
+        speed_mm_s: f32,
+        force_n: f32,
+        follow_share: f32,
+        sounding: bool,
+    ) -> (f32, bool) {
         if !sounding {
             self.leave();
         }
@@ -152,10 +172,7 @@ impl Vibration {
         }
         self.work(texture);
         let e = self.level_m_s2 * self.excitation.next_gaussian();
-        let (y, clamped) = self.history.step(&self.a, &self.b, self.lags, e, sounding);
-        let faded = FADE * self.fading_m_s2;
-        self.fading_m_s2 = if faded.abs() > FADED_M_S2 { faded } else { 0.0 };
-        (y + self.fading_m_s2, clamped)
+        self.history.step(&self.a, &self.b, lags, e, sounding)
     }
 
     /// This tick's share of the cycle.
@@ -184,9 +201,6 @@ impl Vibration {
         self.phase += 1;
         if usize::from(self.phase) >= CYCLE_TICKS {
             self.phase = 0;
-            if self.changing {
-                self.take_over(texture.lags());
-            }
             texture.coefficients(&self.products, &mut self.a, &mut self.b);
             self.level_m_s2 = if self.in_contact {
                 texture.level_m_s2(&self.found)

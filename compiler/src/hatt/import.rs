@@ -1,11 +1,13 @@
 //! From files to verified assets, with one line of error statistics a material.
 
-use super::{HattError, Problem, material, to_model, xml};
+use super::{HattError, Material, Problem, material, to_model, xml};
 use crate::{
     diagnostic::Diagnostic,
     learned::{LearnedModel, ModelError, complete},
     lower::{self, Error3, LowerError},
+    model::{ModelGrid, TextureModel},
     raise::raise,
+    reduce::{self, Fidelity, Reduction, Reference},
     spectrum::{ArmaModel, log_spectral_distance_db},
     verify::{self, VerifyError},
 };
@@ -97,11 +99,12 @@ pub struct Imported {
 pub struct Report {
     /// Name of the material.
     pub name: String,
-    /// Distance of the asset from the source's coefficients, over the vertices with
-    /// non-zero variance.
+    /// Distance of the asset from its source: in full, from the coefficients of every vertex
+    /// that sounds; else, from what the whole grid renders, at the places of
+    /// [`interpolate::places`](crate::interpolate::places).
     pub error: Error3,
-    /// Vertices with non-zero variance.
-    pub sounding: usize,
+    /// Vertices or places that were compared.
+    pub compared: usize,
     /// All vertices.
     pub vertices: usize,
     /// All triangles.
@@ -110,6 +113,8 @@ pub struct Report {
     pub models: usize,
     /// Polynomials whose printed LSFs described another filter.
     pub recomputed: usize,
+    /// What was left out, unless nothing was to be.
+    pub reduction: Option<reduce::Report>,
     /// Bytes that a runtime needs.
     pub haptic_bytes: usize,
     /// Bytes of the asset.
@@ -118,20 +123,25 @@ pub struct Report {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let compared = match &self.reduction {
+            None => format!("{} of {} vertices", self.compared, self.vertices),
+            Some(_) => format!("{} places", self.compared),
+        };
         write!(
             f,
-            "{}: max {:.4} dB, mean {:.4} dB over {} of {} vertices, {} triangles, {} models, \
+            "{}: max {:.4} dB, mean {:.4} dB over {compared}, {} triangles, {} models, \
              {} haptic bytes, {} in all",
             self.name,
             self.error.max_db,
             self.error.mean_db,
-            self.sounding,
-            self.vertices,
             self.triangles,
             self.models,
             self.haptic_bytes,
             self.total_bytes
         )?;
+        if let Some(reduction) = &self.reduction {
+            write!(f, ", {reduction}")?;
+        }
         if self.recomputed > 0 {
             write!(f, ", {} LSF lists recomputed", self.recomputed)?;
         }
@@ -170,20 +180,21 @@ pub fn files(path: &Path) -> Result<Vec<PathBuf>, HattError> {
     Ok(found)
 }
 
-/// Imports files in parallel; results in the order of the files, whatever the thread
-/// count. `done` is called once a file, from any thread.
+/// Imports files in parallel at a fidelity; results in the order of the files, whatever the
+/// thread count. `done` is called once a file, from any thread.
 ///
 /// `completer` decodes the taps that HaTT lacks from the AR grid; without one they are
 /// synthesised.
 pub fn import_all(
     files: &[PathBuf],
     completer: Option<&LearnedModel>,
+    fidelity: Fidelity,
     done: impl Fn() + Sync,
 ) -> Vec<Result<Imported, ImportError>> {
     let mut results: Vec<_> = files
         .par_iter()
         .map(|file| {
-            let result = import(file, completer);
+            let result = import_at(file, completer, fidelity);
             done();
             result
         })
@@ -208,30 +219,39 @@ pub fn import_all(
     results
 }
 
-/// Imports one file: parse, complete, lower, compare with the source, verify.
+/// Imports one file in full: parse, complete, lower, compare with the source, verify.
 ///
 /// # Errors
 /// [`ImportError`]; nothing is written either way.
 pub fn import(file: &Path, completer: Option<&LearnedModel>) -> Result<Imported, ImportError> {
+    import_at(file, completer, Fidelity::Full)
+}
+
+/// [`import`] at a fidelity.
+///
+/// # Errors
+/// [`ImportError`]; nothing is written either way.
+pub fn import_at(
+    file: &Path,
+    completer: Option<&LearnedModel>,
+    fidelity: Fidelity,
+) -> Result<Imported, ImportError> {
     let source = xml::read(file)?;
     let material = material::parse(file, &source)?;
     let source_crc32 = Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(&source);
     let source_name = file.file_name().unwrap_or_default().to_string_lossy();
-    let mut texture = to_model(&material, &source_name, source_crc32);
+    let mut full = to_model(&material, &source_name, source_crc32);
     if let Some(model) = completer {
-        texture.taps =
-            complete::taps_of_grid(model, &texture.grid, &texture.gains).map_err(|cause| {
-                ImportError::Complete {
-                    file: file.to_owned(),
-                    cause,
-                }
-            })?;
-        texture.provenance.notes = format!(
-            "Taps decoded from the AR grid by the learned model {} (trained on synthetic taps). {}",
-            model.description().name,
-            texture.provenance.notes
-        );
+        complete(&mut full, model).map_err(|cause| ImportError::Complete {
+            file: file.to_owned(),
+            cause,
+        })?;
     }
+    full.provenance.fidelity = fidelity.to_string();
+    let Reduction {
+        texture,
+        report: mut reduction,
+    } = reduce::reduce(&full, fidelity);
     let lowered = lower::lower(&texture, None).map_err(|cause| ImportError::Lower {
         file: file.to_owned(),
         cause,
@@ -242,6 +262,54 @@ pub fn import(file: &Path, completer: Option<&LearnedModel>) -> Result<Imported,
     };
     let asset = Asset::parse(&lowered.bytes).map_err(|e| fail(e.into()))?;
     let stored = raise(&asset).grid;
+    let errors_db = if fidelity == Fidelity::Full {
+        errors_at_vertices(file, &material, &stored)?
+    } else {
+        let distances = Reference::new(&full.grid).and_then(|whole| whole.distances(&stored));
+        let distances = distances.unwrap_or_default();
+        (reduction.p95_db, reduction.worst_db) = distances.summary();
+        distances.into_inner()
+    };
+    verify::verify(&texture, &lowered.bytes).map_err(fail)?;
+    let report = Report {
+        name: texture.name,
+        error: Error3::of(&errors_db),
+        compared: errors_db.len(),
+        vertices: texture.grid.vertices.len(),
+        triangles: texture.grid.triangles.len(),
+        models: lowered.models,
+        recomputed: material
+            .models
+            .iter()
+            .map(|m| usize::from(m.ar.recomputed) + usize::from(m.ma.recomputed))
+            .sum(),
+        reduction: (fidelity != Fidelity::Full).then_some(reduction),
+        haptic_bytes: lowered.haptic_bytes,
+        total_bytes: lowered.bytes.len(),
+    };
+    Ok(Imported {
+        bytes: lowered.bytes,
+        report,
+    })
+}
+
+/// Taps from the AR grid, by the learned model.
+fn complete(texture: &mut TextureModel, model: &LearnedModel) -> Result<(), ModelError> {
+    texture.taps = complete::taps_of_grid(model, &texture.grid, &texture.gains)?;
+    texture.provenance.notes = format!(
+        "Taps decoded from the AR grid by the learned model {} (trained on synthetic taps). {}",
+        model.description().name,
+        texture.provenance.notes
+    );
+    Ok(())
+}
+
+/// Distance of every sounding vertex from the coefficients of its source, dB.
+fn errors_at_vertices(
+    file: &Path,
+    material: &Material,
+    stored: &ModelGrid,
+) -> Result<Vec<f64>, ImportError> {
     let mut errors_db = Vec::new();
     for (index, (model, vertex)) in material.models.iter().zip(&stored.vertices).enumerate() {
         if model.variance == 0.0 {
@@ -253,7 +321,7 @@ pub fn import(file: &Path, completer: Option<&LearnedModel>) -> Result<Imported,
             b: model.ma.monic.clone(),
             level_m_s2: model.gain * model.variance.sqrt(),
         };
-        let distance_db = log_spectral_distance_db(&truth, &ArmaModel::at_vertex(&stored, vertex));
+        let distance_db = log_spectral_distance_db(&truth, &ArmaModel::at_vertex(stored, vertex));
         // A NaN fails too.
         if distance_db.is_nan() || distance_db > BUDGET_DB {
             return Err(ImportError::Budget {
@@ -264,24 +332,5 @@ pub fn import(file: &Path, completer: Option<&LearnedModel>) -> Result<Imported,
         }
         errors_db.push(distance_db);
     }
-    verify::verify(&texture, &lowered.bytes).map_err(fail)?;
-    let report = Report {
-        name: texture.name,
-        error: Error3::of(&errors_db),
-        sounding: errors_db.len(),
-        vertices: texture.grid.vertices.len(),
-        triangles: texture.grid.triangles.len(),
-        models: lowered.models,
-        recomputed: material
-            .models
-            .iter()
-            .map(|m| usize::from(m.ar.recomputed) + usize::from(m.ma.recomputed))
-            .sum(),
-        haptic_bytes: lowered.haptic_bytes,
-        total_bytes: lowered.bytes.len(),
-    };
-    Ok(Imported {
-        bytes: lowered.bytes,
-        report,
-    })
+    Ok(errors_db)
 }

@@ -15,7 +15,7 @@ mod xml;
 
 pub use error::{HattError, Problem};
 pub use filter::Filter;
-pub use import::{BUDGET_DB, ImportError, Imported, Report, files, import, import_all};
+pub use import::{BUDGET_DB, ImportError, Imported, Report, files, import, import_all, import_at};
 pub use material::{Material, SourceModel, parse};
 
 use crate::{

@@ -6,6 +6,7 @@ use crate::{
     lsf,
     model::{Numerator, VertexKind},
     raise::raise,
+    reduce::Fidelity,
 };
 use asperity_formats::Asset;
 use std::{fmt::Write as _, fs, path::Path};
@@ -105,7 +106,7 @@ fn any_orders_import_within_a_hundredth_of_a_decibel() {
     ] {
         let imported = import_text(&xml(ar, ma)).unwrap();
         assert!(imported.report.error.max_db < 0.02, "{}", imported.report);
-        assert_eq!(imported.report.sounding, 2);
+        assert_eq!(imported.report.compared, 2);
         assert_eq!(imported.report.recomputed, 0, "{ar}, {ma}");
         let asset = Asset::parse(&imported.bytes).unwrap();
         let texture = raise(&asset);
@@ -141,7 +142,9 @@ fn the_same_file_gives_the_same_bytes_on_any_number_of_threads() {
         .collect();
     let on_threads = |count: usize| -> Vec<Vec<u8>> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-        let results = pool.unwrap().install(|| import_all(&files, None, || ()));
+        let results = pool
+            .unwrap()
+            .install(|| import_all(&files, None, Fidelity::Full, || ()));
         results.into_iter().map(|r| r.unwrap().bytes).collect()
     };
     assert_eq!(on_threads(1), on_threads(4));
@@ -323,7 +326,7 @@ fn two_files_of_one_material_are_refused() {
     for name in ["a.xml", "b.xml"] {
         fs::write(folder.path().join(name), xml(4, 2)).unwrap();
     }
-    let results = import_all(&files(folder.path()).unwrap(), None, || ());
+    let results = import_all(&files(folder.path()).unwrap(), None, Fidelity::Full, || ());
     assert!(results[0].is_ok());
     let message = results[1].as_ref().unwrap_err().to_string();
     assert!(message.contains("\"Test Board\" is also in"), "{message}");

@@ -3,7 +3,8 @@
 use super::description::CertaintyCurve;
 
 /// Certainty, 0..=1, of a prompt whose largest cosine with a material's mean caption
-/// is `similarity`: piecewise linear, flat beyond the ends.
+/// is `similarity`: piecewise linear, falling to zero below the first knot, flat beyond the
+/// last.
 #[must_use]
 pub fn certainty(curve: &CertaintyCurve, similarity: f64) -> f64 {
     let (x, y) = (&curve.similarity, &curve.certainty);

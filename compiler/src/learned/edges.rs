@@ -12,11 +12,7 @@ const EXPONENTS: (f64, f64) = (0.0, 2.0);
 /// The interior vertices followed by the edge models that close
 /// `[0, max_speed_mm_s] × [0, max_force_n]`.
 #[must_use]
-pub(super) fn close(
-    interior: Vec<GridVertex>,
-    max_speed_mm_s: f64,
-    max_force_n: f64,
-) -> Vec<GridVertex> {
+pub fn close(interior: Vec<GridVertex>, max_speed_mm_s: f64, max_force_n: f64) -> Vec<GridVertex> {
     let (speed_exponent, force_exponent) = growth(&interior);
     let edge = |like: &GridVertex, speed_mm_s: f64, force_n: f64| {
         let ratio = |x: f64, y: f64, exponent: f64| libm::pow(x / y, exponent);
@@ -98,7 +94,8 @@ fn facing(
 }
 
 /// Exponents of speed and force that fit ln σ over the vertices best.
-fn growth(vertices: &[GridVertex]) -> (f64, f64) {
+#[must_use]
+pub fn growth(vertices: &[GridVertex]) -> (f64, f64) {
     let points: Vec<[f64; 3]> = vertices
         .iter()
         .filter(|v| v.sigma_m_s2 > 0.0 && v.speed_mm_s > 0.0 && v.force_n > 0.0)

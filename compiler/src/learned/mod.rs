@@ -6,7 +6,7 @@
 mod certainty;
 pub mod complete;
 pub mod description;
-mod edges;
+pub mod edges;
 pub mod friction;
 pub mod level;
 mod model;

@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// Below it a prompt is far from anything the model was trained on.
-pub const LOW_CERTAINTY: f64 = 0.35;
+pub const LOW_CERTAINTY: f64 = 0.2;
 /// Bytes of a prompt that the provenance keeps.
 const KEPT_PROMPT_BYTES: usize = 2048;
 
@@ -128,8 +128,8 @@ pub struct Authored {
     pub similarity: f64,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
-    /// Spectral distance that the reduction of order cost, dB.
-    pub reduction_db: f64,
+    /// What the fidelity left out, and what that cost.
+    pub reduction: reduce::Report,
     /// What verification saw.
     pub verified: VerifyReport,
     /// Time a stage.
@@ -239,8 +239,10 @@ impl Author {
             texture.grid =
                 rerate::rerate(&texture.grid, rate_hz).ok_or(PromptError::Rate(rate_hz))?;
         }
-        let (grid, reduction_db) = reduce::reduce(&texture.grid, options.fidelity);
-        texture.grid = grid;
+        let reduce::Reduction {
+            texture,
+            report: reduction,
+        } = reduce::reduce(&texture, options.fidelity);
         clock.lap("reduce");
         let nearest = self.nearest(&neighbours);
         let preview = if options.preview {
@@ -268,7 +270,7 @@ impl Author {
             certainty: prompted.certainty,
             similarity: prompted.similarity,
             tokens: prompted.tokens,
-            reduction_db,
+            reduction,
             verified,
             stages: clock.stages,
         })

@@ -80,13 +80,13 @@ impl Authored {
         line(
             "model",
             format!(
-                "AR order {}, {:.2} dB from the decoder's at worst, {} vertices, {:.0} Hz",
+                "AR order {}, {} vertices, {:.0} Hz",
                 texture.grid.order,
-                self.reduction_db,
                 texture.grid.vertices.len(),
                 texture.grid.sample_rate_hz
             ),
         );
+        line("kept", self.reduction.to_string());
         let preview = self.preview.as_ref().map_or(0, Vec::len);
         line(
             "bytes",
@@ -146,7 +146,7 @@ impl Authored {
             "gains": self.texture.gains,
             "wall": self.texture.wall,
             "order": self.texture.grid.order,
-            "reduction_db": self.reduction_db,
+            "reduction": self.reduction,
             "z": self.z.to_vec(),
             "bytes": {
                 "haptic": self.lowered.haptic_bytes,

@@ -74,13 +74,13 @@ fn fewest(candidates: &[Candidate], of: impl Fn(&Candidate) -> u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{builtin, reduce::Fidelity};
+    use crate::builtin;
 
     fn texture(figures: &[(u64, usize, f64)]) -> Vec<Candidate> {
         figures
             .iter()
             .map(|&(instructions, bytes, error_db)| Candidate {
-                fidelity: Fidelity::Full,
+                fidelity: String::new(),
                 texture: builtin::texture(),
                 bytes: vec![0; bytes],
                 instructions,

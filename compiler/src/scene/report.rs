@@ -36,7 +36,7 @@ pub struct Report {
 pub struct Row {
     /// Its name.
     pub name: String,
-    /// `full`, `auto` or an order.
+    /// `full`, `auto`, an order, or `auto` with a lower order.
     pub fidelity: String,
     /// Poles.
     pub order: usize,
@@ -65,7 +65,7 @@ impl Row {
         let texture = &candidate.texture;
         Self {
             name: name.to_owned(),
-            fidelity: candidate.fidelity.to_string(),
+            fidelity: candidate.fidelity.clone(),
             order: texture.grid.order,
             numerator: texture.grid.numerator,
             zeros: candidate.zeros(),

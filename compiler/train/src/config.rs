@@ -12,6 +12,8 @@ use thiserror::Error;
 
 /// `configs/paper.toml`.
 pub const PAPER: &str = include_str!("../configs/paper.toml");
+/// `configs/hatt.toml`.
+pub const HATT: &str = include_str!("../configs/hatt.toml");
 /// `configs/reference.toml`.
 pub const REFERENCE: &str = include_str!("../configs/reference.toml");
 
@@ -288,10 +290,9 @@ pub enum ConfigError {
 impl Diagnostic for ConfigError {
     fn remedy(&self) -> String {
         match self {
-            Self::Unreadable { .. } => "give a TOML file, or one of: paper, reference".into(),
+            Self::Unreadable { .. } => "give a TOML file, or one of: paper, reference, hatt".into(),
             Self::Syntax { .. } => {
-                "start from `asperity-train config paper` or `asperity-train config reference`"
-                    .into()
+                "start from `asperity-train config reference`, or `paper`, or `hatt`".into()
             }
             Self::Value {
                 field, expected, ..
@@ -321,7 +322,7 @@ impl Config {
         Self::parse("reference", REFERENCE)
     }
 
-    /// `paper`, `reference`, or the path of a file.
+    /// `paper`, `reference`, `hatt`, or the path of a file.
     ///
     /// # Errors
     /// [`ConfigError`].
@@ -329,6 +330,7 @@ impl Config {
         match name_or_path {
             "paper" => Self::paper(),
             "reference" => Self::reference(),
+            "hatt" => Self::parse("hatt", HATT),
             path => {
                 let text = fs::read_to_string(path).map_err(|source| ConfigError::Unreadable {
                     path: Path::new(path).to_owned(),

@@ -69,7 +69,7 @@ pub(crate) struct Compile {
     /// 0 for the texture that the prompt means, others for variations of it
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
-    /// AR order: all of it, the smallest within 0.5 dB, or a number
+    /// How much of the texture is kept: all, the least within 0.5 dB, or an AR order
     #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
     /// Rate of the AR models, Hz: that of the servo loop
@@ -163,15 +163,16 @@ pub(crate) enum Import {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Prints one line of figures a material: the RMS distance of its log \
-spectra from the source over 10–450 Hz, level included, and its size. Every vertex and \
-triangle is kept. HaTT holds no tapping traces: they are synthesised, or decoded by the \
+spectra from the source over 10–450 Hz, level included, and its size. In full, every vertex \
+and triangle is kept; `auto` keeps the smallest order and numerator, the fewest vertices and \
+the shortest taps within 0.5 dB at 95 % of the grid and 1 dB at worst. HaTT holds no tapping traces: they are synthesised, or decoded by the \
 learned model from the AR grid with --complete-taps, and marked so.
 
 Examples:
   asperity import hatt Models_Cork.xml -o cork.asp
   asperity import hatt Models_Cork.xml -o cork.asp --complete-taps
   asperity import hatt hatt/models -o assets
-  asperity import hatt hatt/models -o hatt.aspl"
+  asperity import hatt hatt/models -o hatt.aspl --fidelity auto"
 )]
 pub(crate) struct ImportHatt {
     /// One `Models_<name>.xml`, or a folder of them
@@ -179,23 +180,15 @@ pub(crate) struct ImportHatt {
     /// One asset (.asp), a folder for one asset a material, or a library (.aspl)
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// How much of the source is kept; this version keeps all of it
-    #[arg(long, default_value = "full", value_parser = fidelity)]
-    pub(crate) fidelity: String,
+    /// How much of the source is kept: all, the least within 0.5 dB, or an AR order
+    #[arg(long, default_value = "full", value_name = "full|auto|ORDER")]
+    pub(crate) fidelity: Fidelity,
     /// Let the learned model decode taps from the AR grid
     #[arg(long)]
     pub(crate) complete_taps: bool,
     /// A model folder that `asperity-train fit` wrote, instead of the embedded one
     #[arg(long, value_name = "DIR", requires = "complete_taps")]
     pub(crate) model: Option<PathBuf>,
-}
-
-fn fidelity(text: &str) -> Result<String, String> {
-    if text == "full" {
-        Ok(text.to_owned())
-    } else {
-        Err("this version keeps every model as it is: only `full` can be given".to_owned())
-    }
 }
 
 #[derive(Debug, Args)]

@@ -1,8 +1,7 @@
-//! Results on stdout, progress on a terminal.
+//! Results on stdout.
 
 use crate::failure::{Failures, one};
 use asperity::output::OutputError;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, Write as _};
 
 /// Writes a result. A reader that has gone away, as `head` does, is no failure.
@@ -19,19 +18,4 @@ pub(crate) fn print(text: &str) -> Result<(), Failures> {
         })),
         _ => Ok(()),
     }
-}
-
-/// A progress bar on stderr where that is a terminal, else nothing.
-pub(crate) fn progress(quiet: bool, steps: usize, what: &'static str) -> ProgressBar {
-    let target = if quiet {
-        ProgressDrawTarget::hidden()
-    } else {
-        // Hidden by itself where stderr is no terminal.
-        ProgressDrawTarget::stderr()
-    };
-    let bar = ProgressBar::with_draw_target(Some(steps as u64), target);
-    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:32}] {pos}/{len} {eta}") {
-        bar.set_style(style);
-    }
-    bar.with_message(what)
 }

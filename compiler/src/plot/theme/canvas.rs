@@ -7,6 +7,7 @@ use tiny_skia::{
 use super::color::{Color, ink};
 use super::font::Fonts;
 use super::geometry::{Rect, clip_polyline};
+use super::svg::Recorder;
 use super::{PlotError, size};
 
 const MAX_SIDE_PX: u32 = 16_384;
@@ -162,6 +163,7 @@ impl Default for TextStyle {
 pub struct Canvas {
     pixmap: Pixmap,
     fonts: Fonts,
+    svg: Option<Recorder>,
 }
 
 /// Height of DejaVu's capitals relative to the em square.
@@ -185,7 +187,26 @@ impl Canvas {
         Ok(Self {
             pixmap,
             fonts: Fonts::embedded()?,
+            svg: None,
         })
+    }
+
+    /// A white canvas that also writes down what is drawn, for [`Canvas::svg`].
+    ///
+    /// # Errors
+    /// As [`Canvas::new`].
+    pub fn recording(width_px: u32, height_px: u32) -> Result<Self, PlotError> {
+        Ok(Self {
+            svg: Some(Recorder::new()),
+            ..Self::new(width_px, height_px)?
+        })
+    }
+
+    /// The picture as SVG; `None` of a canvas that was not [recording](Canvas::recording).
+    #[must_use]
+    pub fn svg(&self) -> Option<String> {
+        let recorder = self.svg.as_ref()?;
+        Some(recorder.document(self.pixmap.width(), self.pixmap.height()))
     }
 
     /// The whole canvas.
@@ -208,6 +229,9 @@ impl Canvas {
         let (right, bottom) = (right.min(width), bottom.min(height));
         if left >= right {
             return;
+        }
+        if let Some(svg) = &mut self.svg {
+            svg.rect(rect, color);
         }
         let opacity = u32::from(color.a);
         let opaque = [color.r, color.g, color.b, 255];
@@ -379,6 +403,10 @@ impl Canvas {
         } else {
             Transform::from_translate(snap(x + along), (y + across).round())
         };
+        if let Some(svg) = &mut self.svg {
+            let looks = (style.size, style.bold, style.upwards);
+            svg.text(text, (placed.tx, placed.ty), looks, width, style.color);
+        }
         if let Some(outline) = self.fonts.outline(text, style.bold, style.size) {
             self.pixmap.fill_path(
                 &outline,
@@ -413,6 +441,9 @@ impl Canvas {
     }
 
     fn fill_path(&mut self, path: &Path, color: Color) {
+        if let Some(svg) = &mut self.svg {
+            svg.fill(path, color);
+        }
         self.pixmap.fill_path(
             path,
             &paint(color),
@@ -423,6 +454,9 @@ impl Canvas {
     }
 
     fn stroke_path(&mut self, path: &Path, stroke: Stroke, line_join: LineJoin) {
+        if let Some(svg) = &mut self.svg {
+            svg.stroke(path, stroke);
+        }
         let pen = tiny_skia::Stroke {
             width: stroke.width,
             line_cap: LineCap::Butt,

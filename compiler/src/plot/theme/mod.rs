@@ -2,7 +2,7 @@
 //! uniform colour maps, axes with units.
 //!
 //! Three layers, each usable alone. A [`Canvas`] takes pixels, lines, markers and
-//! text and gives PNG bytes. An [`Axis`] turns values into positions and picks
+//! text and gives PNG bytes, and SVG where it records. An [`Axis`] turns values into positions and picks
 //! round ticks. A [`Panel`] joins two axes to a rectangle, draws the frame, and
 //! takes data in data coordinates: lines, sampled series, points, heat maps.
 //!
@@ -59,6 +59,7 @@ mod font;
 mod geometry;
 mod legend;
 mod panel;
+mod svg;
 
 pub use axis::{Axis, Scale};
 pub use canvas::{Align, Canvas, Marker, Stroke, TextStyle, VAlign};

@@ -25,11 +25,10 @@ pub fn calibrate(model: &Path, measured: &HeldOut) -> Result<(), EvaluateError> 
             message: error.to_string(),
         })?;
     description.certainty = measured.certainty.clone();
-    let mut json =
-        serde_json::to_vec(&description).map_err(|error| EvaluateError::Encode {
-            file: FILE.into(),
-            message: error.to_string(),
-        })?;
+    let mut json = serde_json::to_vec(&description).map_err(|error| EvaluateError::Encode {
+        file: FILE.into(),
+        message: error.to_string(),
+    })?;
     json.push(b'\n');
     Ok(write_atomic(&path, &json)?)
 }

@@ -37,7 +37,11 @@ pub(crate) fn boxed<E: Diagnostic + 'static>(error: E) -> Failure {
 
 /// Prints results; a reader that has gone away is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    match writeln!(io::stdout(), "{text}") {
+    let mut stdout = io::stdout().lock();
+    match stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush())
+    {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Plain::boxed(
             format!("stdout: {error}"),
             "check where the output goes",

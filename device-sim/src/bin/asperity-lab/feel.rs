@@ -132,7 +132,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         file.commit().map_err(boxed)?;
     }
     progress.clear();
-    print(report.trim_end())
+    print(&format!("{}\n", report.trim_end()))
 }
 
 /// Bytes of the asset to feel, and where it came from.

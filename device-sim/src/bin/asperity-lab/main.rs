@@ -3,11 +3,14 @@
 
 mod error;
 mod feel;
+mod pareto;
 mod stability;
 
 use std::process::ExitCode;
 
+use asperity_sim::labs::cost;
 use clap::{Parser, Subcommand};
+use error::{Failure, Plain};
 
 /// Labs for Asperity textures: what a simulated user feels on a simulated device, and where
 /// methods fail.
@@ -16,7 +19,8 @@ use clap::{Parser, Subcommand};
 #[command(after_help = "Examples:
   asperity-lab feel
   asperity-lab feel brick.asp --plot feel.png --wav feel.wav
-  asperity-lab stability")]
+  asperity-lab stability
+  asperity-lab pareto --out charts")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -26,6 +30,12 @@ struct Arguments {
 enum Command {
     Feel(feel::Arguments),
     Stability(stability::Arguments),
+    Pareto(pareto::Arguments),
+    /// Run one kernel, for counting
+    #[command(name = cost::COMMAND, hide = true)]
+    Kernel {
+        numbers: Vec<usize>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -34,6 +44,8 @@ fn main() -> ExitCode {
     let result = match &arguments.command {
         Command::Feel(arguments) => feel::run(arguments).map(|()| true),
         Command::Stability(arguments) => stability::run(arguments),
+        Command::Pareto(arguments) => pareto::run(arguments).map(|()| true),
+        Command::Kernel { numbers } => kernel(numbers).map(|()| true),
     };
     match result {
         Ok(true) => ExitCode::SUCCESS,
@@ -43,4 +55,13 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn kernel(numbers: &[usize]) -> Result<(), Failure> {
+    cost::run(numbers).map(drop).ok_or_else(|| {
+        Plain::boxed(
+            format!("{numbers:?} names no kernel"),
+            "leave this command to `asperity-lab pareto`",
+        )
+    })
 }

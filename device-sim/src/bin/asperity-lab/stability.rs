@@ -60,10 +60,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<bool, Failure> {
     if arguments.json {
         let text = serde_json::to_string_pretty(&table)
             .map_err(|error| Plain::boxed(error, "report this as a bug"))?;
-        print(&text)?;
+        print(&format!("{text}\n"))?;
         let _ = writeln!(io::stderr(), "{}", table.summary());
     } else {
-        print(&table.to_string())?;
+        print(&format!("{table}\n"))?;
     }
     let [_, failed, _] = table.counts();
     Ok(failed == 0)

@@ -7,7 +7,7 @@ use asperity::{
     diagnostic::Diagnostic,
     hatt::{self, Imported},
     library::{self, NamedAsset},
-    output,
+    output, progress,
 };
 use std::{
     collections::HashSet,
@@ -74,8 +74,8 @@ pub(crate) fn hatt(args: &ImportHatt, quiet: bool) -> Result<(), Failures> {
         .complete_taps
         .then(|| inference::completer(args.model.as_deref()))
         .transpose()?;
-    let bar = console::progress(quiet, files.len(), "importing");
-    let results = hatt::import_all(&files, completer.as_ref(), || bar.inc(1));
+    let bar = progress::bar(quiet, files.len(), "importing");
+    let results = hatt::import_all(&files, completer.as_ref(), args.fidelity, || bar.inc(1));
     bar.finish_and_clear();
     let mut imported: Vec<Imported> = Vec::with_capacity(results.len());
     let mut failures: Failures = Vec::new();
@@ -134,19 +134,23 @@ fn figures(imported: &[Imported]) -> String {
         let _ = writeln!(text, "{}", material.report);
     }
     if imported.len() > 1 {
-        let sounding: usize = imported.iter().map(|m| m.report.sounding).sum();
+        let compared: usize = imported.iter().map(|m| m.report.compared).sum();
         let sum_db: f64 = imported
             .iter()
-            .map(|m| m.report.error.mean_db * m.report.sounding as f64)
+            .map(|m| m.report.error.mean_db * m.report.compared as f64)
             .sum();
         let max_db = imported
             .iter()
             .fold(0.0_f64, |max, m| max.max(m.report.error.max_db));
+        let places = match imported[0].report.reduction {
+            None => "vertices",
+            Some(_) => "places",
+        };
         let _ = writeln!(
             text,
-            "{} materials: max {max_db:.4} dB, mean {:.4} dB over {sounding} vertices",
+            "{} materials: max {max_db:.4} dB, mean {:.4} dB over {compared} {places}",
             imported.len(),
-            sum_db / sounding.max(1) as f64
+            sum_db / compared.max(1) as f64
         );
     }
     text

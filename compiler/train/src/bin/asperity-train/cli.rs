@@ -29,7 +29,7 @@ pub(crate) enum Command {
   asperity-train fit --config paper --hatt ~/HaTT/Models -o hatt-model
   asperity-train fit --config mine.toml --text-encoder clip:./clip -o clip-model")]
 pub(crate) struct Fit {
-    /// `paper`, `reference`, or a TOML file
+    /// `paper`, `reference`, `hatt`, or a TOML file
     #[arg(long, default_value = "reference", value_name = "NAME|FILE")]
     pub(crate) config: String,
     /// The model folder to write; a model that is there is replaced
@@ -90,4 +90,6 @@ pub(crate) enum Recipe {
     Paper,
     /// The shipped model's
     Reference,
+    /// For your own HaTT
+    Hatt,
 }

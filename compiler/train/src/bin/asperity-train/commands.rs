@@ -64,6 +64,7 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failure> {
             let text = match args.name {
                 Recipe::Paper => asperity_train::config::PAPER,
                 Recipe::Reference => asperity_train::config::REFERENCE,
+                Recipe::Hatt => asperity_train::config::HATT,
             };
             console::print(text).map_err(boxed)
         }

@@ -39,7 +39,8 @@ pub(crate) struct Evaluate {
     /// 1 clustering, 2 retrieval, 3 held-out materials, 4 words, 5 midpoints, 6 pictures
     #[arg(long, value_delimiter = ',', default_value = "1,2,3,4,5,6")]
     parts: Vec<Part>,
-    /// Recipe of the folds instead of the model's own: `paper`, `reference`, or a TOML file
+    /// Recipe of the folds instead of the model's own: `paper`, `reference`, `hatt`, or a TOML
+    /// file
     #[arg(long, value_name = "NAME|FILE")]
     config: Option<String>,
     /// Folds of the cross-validation, instead of the recipe's

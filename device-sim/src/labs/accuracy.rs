@@ -1,0 +1,385 @@
+//! How far a design is from the f64 oracle: at rest over the whole grid, moving, and under
+//! alternation between any two vertices.
+
+use super::design::Design;
+use super::kernel::{Rendering, kernel};
+use super::noise::{gaussian, uniform};
+use super::statistics;
+use asperity::{
+    interpolate::{Field, Place, places},
+    model::ModelGrid,
+    reflection,
+    spectrum::{Angles, ArmaModel, ERROR_BAND_HZ},
+};
+
+use rand_core::{Rng as _, SeedableRng as _};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use std::f64::consts::TAU;
+
+/// Frequencies at which spectra are compared: four hertz apart.
+const POINTS: usize = 111;
+/// Quieter than the loudest vertex by this, a place or a block is silent: 40 dB.
+const SILENT: f64 = 0.01;
+/// A block of the moving comparison, s: what the hand does not resolve in time.
+const BLOCK_S: f64 = 0.05;
+/// Pairs of vertices that a material is made to alternate between.
+const PAIRS: usize = 8;
+/// Samples of an alternation.
+const ALTERNATIONS: usize = 1000;
+
+/// Errors of one design on one material; lists have one entry a place, a block or a pair.
+/// Infinity stands for what is not finite.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Errors {
+    /// RMS log-spectral distortion at rest, level included, dB.
+    pub distortion_db: Vec<f64>,
+    /// Level at rest over 10–450 Hz, signed, dB.
+    pub level_db: Vec<f64>,
+    /// Level of a block while the hand moves, absolute, dB.
+    pub moving_level_db: Vec<f64>,
+    /// RMS of the difference of the samples, relative to the oracle's RMS, dB.
+    pub moving_error_db: f64,
+    /// RMS while every sample is at one of two vertices at random, above the louder of the
+    /// two at rest, dB.
+    pub alternation_db: Vec<f64>,
+    /// Places with a filter that is not stable, or with none.
+    pub unstable: usize,
+    /// Places in all, silent ones included.
+    pub places: usize,
+}
+
+/// Log spectra at fixed frequencies.
+pub struct Band(Angles);
+
+impl Band {
+    /// The band of all spectral errors at a sample rate.
+    #[must_use]
+    pub fn new(sample_rate_hz: f64) -> Self {
+        let (low, high) = ERROR_BAND_HZ;
+        let high = high.min(0.45 * sample_rate_hz);
+        let step = (high - low) / (POINTS - 1) as f64;
+        Self(Angles::new(
+            (0..POINTS).map(|n| TAU * (low + n as f64 * step) / sample_rate_hz),
+        ))
+    }
+
+    /// Powers of a model, (m/s²)².
+    #[must_use]
+    pub fn powers(&self, model: &ArmaModel) -> Vec<f64> {
+        let square = model.level_m_s2 * model.level_m_s2;
+        self.0
+            .squared_magnitudes(&model.b)
+            .into_iter()
+            .zip(self.0.squared_magnitudes(&model.a))
+            .map(|(b, a)| square * b / a)
+            .collect()
+    }
+}
+
+/// How two power spectra differ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Difference {
+    /// RMS of the difference of their logarithms, dB.
+    pub distortion_db: f64,
+    /// The same without its mean: shape alone, dB.
+    pub shape_db: f64,
+    /// Power of the second over the first, dB.
+    pub level_db: f64,
+}
+
+impl Difference {
+    /// Of two lists of powers at the same frequencies.
+    #[must_use]
+    pub fn of(truth: &[f64], found: &[f64]) -> Self {
+        let count = truth.len() as f64;
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for (truth, found) in truth.iter().zip(found) {
+            let db = 10.0 * libm::log10(found / truth);
+            sum += db;
+            squares += db * db;
+        }
+        let mean = sum / count;
+        let total = |powers: &[f64]| powers.iter().sum::<f64>();
+        Self {
+            distortion_db: (squares / count).sqrt(),
+            shape_db: (squares / count - mean * mean).max(0.0).sqrt(),
+            level_db: 10.0 * libm::log10(total(found) / total(truth)),
+        }
+    }
+}
+
+/// A material, and what the oracle makes of it.
+pub struct Truth {
+    band: Band,
+    still: Vec<Still>,
+    /// Where the hand moves, and what the oracle renders there.
+    motion: Vec<Place>,
+    epsilon: Vec<f64>,
+    moving: Vec<f64>,
+    block: usize,
+    pairs: Vec<Pair>,
+}
+
+struct Still {
+    place: Place,
+    /// None where it is silent.
+    powers: Option<Vec<f64>>,
+}
+
+struct Pair {
+    /// Drawn at random, so that no update interval meets one of them only.
+    places: Vec<Place>,
+    louder_rms: f64,
+}
+
+impl Truth {
+    /// Prepares a grid: `seconds` of motion, everything random from `seed`.
+    ///
+    /// `None` for a grid that has no oracle: one without area or with models that are not
+    /// stable.
+    #[must_use]
+    pub fn new(grid: &ModelGrid, seconds: f64, seed: u64) -> Option<Self> {
+        let field = Field::new(grid);
+        let band = Band::new(grid.sample_rate_hz);
+        let loudest = grid
+            .vertices
+            .iter()
+            .map(|v| v.gain * v.sigma_m_s2)
+            .fold(0.0, f64::max);
+        let still = places(grid)
+            .into_iter()
+            .map(|(speed_mm_s, force_n)| {
+                let place = field.locate(speed_mm_s, force_n)?;
+                let model = field.mixture(&place);
+                let sounds = model.level_m_s2 > SILENT * loudest;
+                Some(Still {
+                    place,
+                    powers: sounds.then(|| band.powers(&model)),
+                })
+            })
+            .collect::<Option<_>>()?;
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let ticks = (seconds * grid.sample_rate_hz) as usize;
+        let motion = motion(grid, &field, ticks, &mut random)?;
+        let epsilon = gaussian(&mut random, ticks.max(ALTERNATIONS));
+        let mut oracle = kernel(&Design::ORACLE, grid)?;
+        oracle.settle(motion.first()?);
+        let moving = oracle.render(&motion, &epsilon);
+        Some(Self {
+            band,
+            still,
+            moving,
+            motion,
+            epsilon,
+            block: (BLOCK_S * grid.sample_rate_hz) as usize,
+            pairs: pairs(grid, loudest, &mut random),
+        })
+    }
+
+    /// Errors of a design on a grid with the same vertices and triangles as the truth's.
+    #[must_use]
+    pub fn errors(&self, design: &Design, grid: &ModelGrid) -> Errors {
+        let mut errors = Errors {
+            places: self.still.len(),
+            ..Errors::default()
+        };
+        let Some(mut kernel) = kernel(design, grid) else {
+            errors.unstable = errors.places;
+            errors.moving_error_db = f64::INFINITY;
+            return errors;
+        };
+        self.at_rest(kernel.as_mut(), &mut errors);
+        self.moving(kernel.as_mut(), &mut errors);
+        self.alternating(kernel.as_mut(), &mut errors);
+        errors
+    }
+
+    fn at_rest(&self, kernel: &mut dyn Rendering, errors: &mut Errors) {
+        for still in &self.still {
+            kernel.settle(&still.place);
+            let model = kernel.model();
+            if !reflection::is_stable(&model.a) {
+                errors.unstable += 1;
+                continue;
+            }
+            if let Some(truth) = &still.powers {
+                let difference = Difference::of(truth, &self.band.powers(&model));
+                errors.distortion_db.push(difference.distortion_db);
+                errors.level_db.push(difference.level_db);
+            }
+        }
+    }
+
+    fn moving(&self, kernel: &mut dyn Rendering, errors: &mut Errors) {
+        let Some(first) = self.motion.first() else {
+            return;
+        };
+        kernel.settle(first);
+        let rendered = kernel.render(&self.motion, &self.epsilon);
+        let difference: Vec<f64> = rendered
+            .iter()
+            .zip(&self.moving)
+            .map(|(x, y)| x - y)
+            .collect();
+        errors.moving_error_db = decibels(rms(&difference) / rms(&self.moving));
+        let levels = |signal: &[f64]| signal.chunks(self.block).map(rms).collect::<Vec<_>>();
+        let truth = levels(&self.moving);
+        let loudest = truth.iter().copied().fold(0.0, f64::max);
+        errors.moving_level_db = truth
+            .iter()
+            .zip(levels(&rendered))
+            .filter(|(truth, _)| **truth > SILENT * loudest)
+            .map(|(truth, found)| decibels(found / truth).abs())
+            .collect();
+    }
+
+    fn alternating(&self, kernel: &mut dyn Rendering, errors: &mut Errors) {
+        for pair in &self.pairs {
+            let places = &pair.places;
+            kernel.settle(&places[0]);
+            let rendered = kernel.render(places, &self.epsilon);
+            errors
+                .alternation_db
+                .push(decibels(rms(&rendered) / pair.louder_rms));
+        }
+    }
+}
+
+/// At a vertex.
+fn at(vertex: usize) -> Place {
+    Place {
+        vertices: [vertex; 3],
+        weights: [1.0, 0.0, 0.0],
+    }
+}
+
+/// Strokes of 1.5 Hz up to nine tenths of the grid while the hand presses and eases at
+/// 0.7 Hz: as fast as people scrub.
+fn motion(
+    grid: &ModelGrid,
+    field: &Field<'_>,
+    ticks: usize,
+    random: &mut Xoshiro256PlusPlus,
+) -> Option<Vec<Place>> {
+    let (max_speed, max_force) = asperity::mesh::corner(grid);
+    let (stroke, press) = (uniform(random), uniform(random));
+    (0..ticks)
+        .map(|tick| {
+            let t = tick as f64 / grid.sample_rate_hz;
+            let speed = 0.9 * max_speed * libm::sin(TAU * (1.5 * t + stroke)).abs();
+            let force = max_force * (0.5 + 0.4 * libm::sin(TAU * (0.7 * t + press)));
+            field.locate(speed, force)
+        })
+        .collect()
+}
+
+/// Pairs of sounding vertices with different models.
+fn pairs(grid: &ModelGrid, loudest: f64, random: &mut Xoshiro256PlusPlus) -> Vec<Pair> {
+    let sounding: Vec<usize> = (0..grid.vertices.len())
+        .filter(|&v| grid.vertices[v].gain * grid.vertices[v].sigma_m_s2 > SILENT * loudest)
+        .collect();
+    if sounding.is_empty() {
+        return Vec::new();
+    }
+    let rms = |v: usize| statistics::rms(&ArmaModel::at_vertex(grid, &grid.vertices[v]));
+    let mut pairs = Vec::new();
+    for _ in 0..PAIRS {
+        let mut draw = || sounding[(random.next_u64() % sounding.len() as u64) as usize];
+        let [a, b] = [draw(), draw()];
+        if grid.vertices[a].lsf_rad != grid.vertices[b].lsf_rad {
+            pairs.push(Pair {
+                places: (0..ALTERNATIONS)
+                    .map(|_| at(if uniform(random) < 0.5 { a } else { b }))
+                    .collect(),
+                louder_rms: rms(a).max(rms(b)),
+            });
+        }
+    }
+    pairs
+}
+
+fn rms(signal: &[f64]) -> f64 {
+    let squares: f64 = signal.iter().map(|x| x * x).sum();
+    (squares / signal.len().max(1) as f64).sqrt()
+}
+
+/// Of an amplitude; infinite for what is not finite.
+fn decibels(ratio: f64) -> f64 {
+    if ratio.is_finite() {
+        20.0 * libm::log10(ratio)
+    } else {
+        f64::INFINITY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::design::Shape;
+    use super::*;
+    use asperity::builtin;
+
+    fn spread(values: &[f64]) -> statistics::Spread {
+        statistics::Spread::of(values).expect("not empty")
+    }
+
+    #[test]
+    fn the_oracle_has_no_error() {
+        let grid = builtin::texture().grid;
+        let truth = Truth::new(&grid, 0.5, 1).unwrap();
+        let errors = truth.errors(&Design::ORACLE, &grid);
+        assert_eq!(errors.unstable, 0);
+        assert!(spread(&errors.distortion_db).max < 1e-9);
+        assert_eq!(errors.moving_error_db, f64::NEG_INFINITY);
+        assert_eq!(spread(&errors.moving_level_db).max, 0.0);
+    }
+
+    #[test]
+    fn a_level_that_is_twice_too_high_is_six_decibels_everywhere() {
+        let grid = builtin::texture().grid;
+        let truth = Truth::new(&grid, 0.5, 1).unwrap();
+        let mut louder = grid.clone();
+        for vertex in &mut louder.vertices {
+            vertex.sigma_m_s2 *= 2.0;
+        }
+        let errors = truth.errors(&Design::ORACLE, &louder);
+        let twice = 20.0 * 2.0_f64.log10();
+        for list in [
+            &errors.distortion_db,
+            &errors.level_db,
+            &errors.moving_level_db,
+        ] {
+            assert!(list.iter().all(|db| (db - twice).abs() < 1e-9));
+        }
+        assert!(errors.moving_error_db.abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_unstable_mixture_is_counted_and_a_divergence_is_seen() {
+        // Coefficients of two resonances far apart, mixed, leave the unit circle.
+        let mut grid = builtin::texture().grid;
+        let sharp = |centre: f64| {
+            (0..grid.order)
+                .map(|i| centre + 0.12 * (i as f64 - grid.order as f64 / 2.0))
+                .collect::<Vec<f64>>()
+        };
+        let (low, high) = (sharp(1.3), sharp(1.8));
+        for (index, vertex) in grid.vertices.iter_mut().enumerate() {
+            vertex.lsf_rad = if index % 2 == 0 { &low } else { &high }.clone();
+        }
+        let truth = Truth::new(&grid, 0.1, 1).unwrap();
+        let mixed = Design {
+            shape: Shape::Coefficients,
+            ..Design::ORACLE
+        };
+        let errors = truth.errors(&mixed, &grid);
+        assert!(errors.unstable > 0 && errors.unstable < errors.places);
+        // What alternates between such resonances grows; between ordinary ones it does not.
+        let sharp = spread(&truth.errors(&Design::DEFAULT, &grid).alternation_db).max;
+        assert!(sharp > 100.0, "{sharp} dB");
+        let ordinary = builtin::texture().grid;
+        let truth = Truth::new(&ordinary, 0.1, 1).unwrap();
+        let errors = truth.errors(&Design::DEFAULT, &ordinary);
+        let bounded = spread(&errors.alternation_db).max;
+        assert!(bounded < 12.0, "{bounded} dB");
+    }
+}

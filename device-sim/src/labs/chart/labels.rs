@@ -1,0 +1,68 @@
+//! Names beside points, none over another.
+
+use asperity::plot::theme::{Align, Canvas, Color, Rect, TextStyle, VAlign, size};
+
+/// Where names stand so far.
+pub(super) struct Labels {
+    area: Rect,
+    taken: Vec<Rect>,
+}
+
+impl Labels {
+    /// For a panel's area; points that no name may cover.
+    pub(super) fn new(area: Rect, points: impl IntoIterator<Item = (f32, f32)>) -> Self {
+        let taken = points
+            .into_iter()
+            .map(|(x, y)| Rect::new(x - 7.0, y - 7.0, 14.0, 14.0))
+            .collect();
+        Self { area, taken }
+    }
+
+    /// Keeps names out of a rectangle.
+    fn reserve(&mut self, rect: Rect) {
+        self.taken.push(rect);
+    }
+
+    /// Keeps names off a line of level and upright pieces.
+    pub(super) fn reserve_line(&mut self, points: &[(f32, f32)]) {
+        for pair in points.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            let (left, top) = (a.0.min(b.0), a.1.min(b.1));
+            let (width, height) = ((a.0 - b.0).abs(), (a.1 - b.1).abs());
+            self.reserve(Rect::new(left - 2.0, top - 2.0, width + 4.0, height + 4.0));
+        }
+    }
+
+    /// Sets a name where there is room beside a point; left out where there is none.
+    pub(super) fn set(&mut self, canvas: &mut Canvas, text: &str, at: (f32, f32), color: Color) {
+        let style = TextStyle::new(size::TICK - 2.0)
+            .color(color)
+            .align(Align::Left, VAlign::Middle);
+        let (width, height) = (canvas.text_width(text, &style), style.size);
+        let (x, y) = at;
+        let side = 13.0;
+        let rows = [0.0, -0.6, 0.6, -1.2, 1.2, -1.8, 1.8, -2.6, 2.6, -3.4, 3.4];
+        let beside = rows.into_iter().flat_map(|row| {
+            let dy = row * height;
+            [(x + side, y + dy), (x - side - width, y + dy)]
+        });
+        let around = [-1.1, 1.1, -2.0, 2.0].map(|row| (x - 0.5 * width, y + row * height));
+        let free = beside.chain(around).find(|&(left, middle)| {
+            let rect = Rect::new(left, middle - 0.5 * height, width, height);
+            let inside = rect.x >= self.area.x + 4.0
+                && rect.right() <= self.area.right() - 4.0
+                && rect.y >= self.area.y + 4.0
+                && rect.bottom() <= self.area.bottom() - 4.0;
+            inside && !self.taken.iter().any(|other| overlap(other, &rect))
+        });
+        if let Some((left, middle)) = free {
+            canvas.text(text, (left, middle), &style);
+            self.taken
+                .push(Rect::new(left, middle - 0.5 * height, width, height));
+        }
+    }
+}
+
+fn overlap(a: &Rect, b: &Rect) -> bool {
+    a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom()
+}

@@ -1,0 +1,29 @@
+//! Alternatives to the tick, and what each costs and loses.
+//!
+//! The runtime renders in one way. Why that way, these labs measure: they hold the other
+//! kernels, which only the charts need, and nothing of them runs in a servo loop.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`design`] | the factors of a kernel, the default, and what is compared with it |
+//! | [`kernel`] | mixing, conversion and synthesis in every such way |
+//! | [`material`] | the textures that are measured |
+//! | [`accuracy`] | how far a design is from the f64 oracle, at rest and moving |
+//! | [`held_out`] | how well an interpolation predicts a measured model it has not seen |
+//! | [`cost`] | executed instructions, bytes, time |
+//! | [`pareto`] | all of it over all materials |
+//! | [`noise`], [`statistics`] | what they need |
+//! | [`table`] | the CSV files |
+//! | [`chart`] | the pictures |
+
+pub mod accuracy;
+pub mod chart;
+pub mod cost;
+pub mod design;
+pub mod held_out;
+pub mod kernel;
+pub mod material;
+pub mod noise;
+pub mod pareto;
+pub mod statistics;
+pub mod table;
