@@ -23,8 +23,7 @@ const DEPTH_M: f32 = 2.0e-3;
 /// The built-in texture; one that is softer, rougher, of lower order and stickier.
 fn textures() -> [TextureModel; 2] {
     let hard = builtin::texture();
-    let mut soft = hard.clone();
-    soft.grid = reduce(&hard.grid, Fidelity::Order(4)).0;
+    let mut soft = reduce(&hard, Fidelity::Order(4)).texture;
     for vertex in &mut soft.grid.vertices {
         vertex.sigma_m_s2 *= 2.0;
     }
