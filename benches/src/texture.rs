@@ -45,7 +45,9 @@ pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usiz
             gain: 1.0,
         })
         .collect();
-    let vertices: Vec<Vertex> = (0..columns * rows).map(|index| vertex(index, columns, rows)).collect();
+    let vertices: Vec<Vertex> = (0..columns * rows)
+        .map(|index| vertex(index, columns, rows))
+        .collect();
     let triangles: Vec<[u8; 3]> = (0..rows - 1)
         .flat_map(|row| (0..columns - 1).map(move |column| (row * columns + column) as u8))
         .flat_map(|corner| {

@@ -97,7 +97,7 @@ fn a_library_holds_each_texture_that_is_touched_once_and_in_full() {
 #[test]
 fn the_same_scene_gives_the_same_bytes_whatever_the_thread_count() {
     let folder = folder();
-    let budget = within(Some("5600"), Some(7000));
+    let budget = within(Some("2700"), Some(7000));
     let with_threads = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let build = || built(folder.path(), SCENE, &budget).unwrap().bytes;
@@ -107,31 +107,58 @@ fn the_same_scene_gives_the_same_bytes_whatever_the_thread_count() {
 }
 
 #[test]
-fn budgets_are_kept_and_cost_the_least_order() {
+fn budgets_are_kept_and_a_tighter_one_never_costs_less_error() {
     let folder = folder();
-    let whole = built(folder.path(), SCENE, &Budget::default())
-        .unwrap()
-        .report;
-    for instructions in [whole.instructions, whole.instructions - 1, 5600, 5000] {
-        let target = instructions.to_string();
-        let spent = built(folder.path(), SCENE, &within(Some(&target), None)).unwrap();
-        let report = spent.report;
-        assert!(report.instructions <= instructions);
-        for row in report.textures {
-            // One pole more would not fit.
-            assert!(
-                row.fidelity == "full" || row.instructions + 127 > instructions,
-                "{row:?}"
-            );
+    let within = |target: Option<u64>, bytes: Option<usize>| {
+        let target = target.map(|count| count.to_string());
+        let budget = within(target.as_deref(), bytes.map(|bytes| bytes as u64));
+        built(folder.path(), SCENE, &budget)
+    };
+    let whole = within(None, None).unwrap().report;
+    let error_db = |built: &Built| -> f64 {
+        let rows = built.report.textures.iter();
+        rows.map(|row| row.error_db).sum()
+    };
+
+    let (mut budget, mut least_db, mut steps) = (whole.instructions, 0.0, 0);
+    let refused = loop {
+        match within(Some(budget), None) {
+            Ok(built) => {
+                assert!(built.report.instructions <= budget);
+                assert!(error_db(&built) >= least_db);
+                least_db = error_db(&built);
+                // The next budget is the first that this choice does not keep.
+                budget = built.report.instructions - 1;
+                steps += 1;
+            }
+            Err(error) => break report(&error),
         }
-    }
-    for bytes in [whole.bytes, whole.bytes - 1, whole.bytes - 1000] {
-        let spent = built(folder.path(), SCENE, &within(None, Some(bytes as u64))).unwrap();
-        assert!(spent.bytes.len() <= bytes, "{bytes}");
-        assert_eq!(spent.report.bytes, spent.bytes.len());
-        let library = Library::parse(&spent.bytes).unwrap();
+    };
+    assert!(
+        steps > 3 && least_db > 1.0,
+        "{steps} steps to {least_db} dB"
+    );
+    assert!(
+        refused.contains(&format!("takes {} instructions", budget + 1)),
+        "{refused}"
+    );
+
+    let mut least_db = 0.0;
+    for bytes in [
+        whole.bytes,
+        whole.bytes - 1,
+        whole.bytes - 1000,
+        whole.bytes - 2000,
+    ] {
+        let built = within(None, Some(bytes)).unwrap();
+        assert!(built.bytes.len() <= bytes, "{bytes}");
+        assert_eq!(built.report.bytes, built.bytes.len());
+        assert!(error_db(&built) >= least_db, "{bytes}");
+        least_db = error_db(&built);
+        let library = Library::parse(&built.bytes).unwrap();
         assert!(library.asset(0).is_ok() && library.asset(1).is_ok());
     }
+    assert!(least_db > 0.0);
 }
 
 #[test]
@@ -139,8 +166,8 @@ fn a_budget_that_cannot_hold_says_by_how_much() {
     let folder = folder();
     for (budget, expected) in [
         (
-            within(Some("4000"), None),
-            ["more than the budget of 4000", "--share"],
+            within(Some("1500"), None),
+            ["more than the budget of 1500", "--share"],
         ),
         (
             within(None, Some(900)),

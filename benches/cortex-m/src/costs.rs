@@ -6,6 +6,7 @@ use crate::{
     toolchain::{Toolchain, host_program},
 };
 use asperity_session::{PHASE_TICKS, Phase, SCENE_CASES, SceneCase, TOUCHED};
+use std::fmt::Write as _;
 
 /// Executed instructions of a tick: a sum over what the texture and the scene have.
 #[derive(Debug, Clone, Copy)]
@@ -18,60 +19,82 @@ struct Cost {
     surfaces: [f64; 3],
 }
 
-/// Counts on the target and on the host, and prints the table of
-/// `compiler/src/scene/cost.rs`.
+/// Counts on the target and on the host, and prints `compiler/src/scene/counted.rs`.
 pub(crate) fn print(target: &Target, toolchain: &Toolchain) -> Result<()> {
     let firmware = toolchain.firmware("costs", &[])?;
     let expected = SCENE_CASES.len() * Phase::ALL.len() * PHASE_TICKS as usize;
     let on_target = emulate::run(target, &firmware, expected)?.instructions;
     let on_host = emulate::run_on_host(&host_program("host-costs")?, expected)?;
-    for (processor, counts) in [("cortex-m4f", on_target), ("x86-64", on_host)] {
-        fitted(processor, &counts);
-    }
+    let counted = [("cortex-m4f", on_target), ("x86-64", on_host)].map(|(processor, counts)| {
+        let ticks = counts.len() / SCENE_CASES.len();
+        let worst = counts.chunks(ticks).map(|of| of.iter().copied().max());
+        (processor, worst.map(Option::unwrap_or_default).collect())
+    });
+    print!("{}", table(&counted));
     Ok(())
 }
 
-fn fitted(processor: &str, counts: &[u64]) {
-    let ticks = counts.len() / SCENE_CASES.len();
-    let worst: Vec<f64> = counts
-        .chunks(ticks)
-        .map(|of| of.iter().copied().max().unwrap_or(0) as f64)
-        .collect();
-    let cost = Cost::fit(&worst);
-    println!("// {processor}: costliest tick of {ticks}, and what the model says of it");
-    let mut most: f64 = 0.0;
-    for (case, measured) in SCENE_CASES.iter().zip(&worst) {
-        let model = cost.of(case);
-        let above = 100.0 * (model / measured - 1.0);
-        most = most.max(above);
-        println!(
-            "// {:>2} poles, {:>2} zeros, {:>2} triangles, {:?} apart: {measured:>5}, {model:>6.0} (+{above:.1} %)",
-            case.poles, case.zeros, case.triangles, case.apart
-        );
-    }
-    let [plane, sphere, cuboid] = cost.surfaces;
-    println!(
-        "Cost {{\n    processor: {processor:?},\n    base: {:.0}.0,\n    pole: {:.1},\n    zero: {:.1},\n    \
-         triangle: {:.1},\n    plane: {plane:.1},\n    sphere: {sphere:.1},\n    cuboid: {cuboid:.1},\n    \
-         above_percent: {most:.0}.0,\n}},",
-        cost.base.ceil(),
-        cost.pole,
-        cost.zero,
-        cost.triangle
+/// The file, of each processor's costliest ticks.
+fn table(counted: &[(&str, Vec<u64>)]) -> String {
+    let mut text = String::from(HEAD);
+    let _ = write!(
+        text,
+        "pub(super) const COSTS: [Cost; {}] = [\n",
+        counted.len()
     );
+    for (processor, worst) in counted {
+        text.push_str(&Cost::fit(worst).entry(processor, worst));
+    }
+    text.push_str("];\n\n");
+    text.push_str(MEASURED);
+    let rows = counted.len() * SCENE_CASES.len();
+    let _ = write!(
+        text,
+        "pub(super) const MEASURED: [(&str, [usize; 6], u64); {rows}] = [\n"
+    );
+    for (processor, worst) in counted {
+        for (case, count) in SCENE_CASES.iter().zip(worst) {
+            let SceneCase {
+                poles,
+                zeros,
+                triangles,
+                apart: [planes, spheres, boxes],
+                ..
+            } = case;
+            let planes = planes + TOUCHED;
+            let _ = write!(
+                text,
+                "    ({processor:?}, [{poles}, {zeros}, {triangles}, {planes}, {spheres}, {boxes}], {count}),\n"
+            );
+        }
+    }
+    text.push_str("];\n");
+    text
 }
+
+const HEAD: &str = "\
+//! Written by `cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- costs`.
+
+use super::cost::Cost;
+
+/// Slopes between the ends of what was counted; the base such that no count is above the model.
+";
+const MEASURED: &str = "\
+/// The costliest tick of 12,000, in QEMU: poles, zeros that are mixed and converted, triangles, planes, spheres, boxes.
+#[cfg(test)]
+";
 
 impl Cost {
     /// Slopes between the ends of what was counted; the base such that no case costs more
     /// than the model says.
-    fn fit(worst: &[f64]) -> Self {
+    fn fit(worst: &[u64]) -> Self {
         let at = |poles, zeros, triangles, apart| {
             let wanted = |case: &SceneCase| {
                 (case.poles, case.zeros, case.triangles, case.apart)
                     == (poles, zeros, triangles, apart)
             };
             let index = SCENE_CASES.iter().position(wanted);
-            index.map_or(f64::NAN, |index| worst[index])
+            index.map_or(f64::NAN, |index| worst[index] as f64)
         };
         let alone = |poles, zeros| at(poles, zeros, 56, [0; 3]);
         let middle = alone(10, 0);
@@ -83,14 +106,42 @@ impl Cost {
             triangle: tenths((at(10, 0, 98, [0; 3]) - at(10, 0, 12, [0; 3])) / 86.0),
             surfaces: [one([8, 0, 0]), one([0, 8, 0]), one([0, 0, 8])].map(tenths),
         };
-        let missing = SCENE_CASES.iter().zip(worst).map(|(c, w)| w - cost.of(c));
+        let missing = SCENE_CASES
+            .iter()
+            .zip(worst)
+            .map(|(c, w)| *w as f64 - cost.of(c));
         cost.base = missing.fold(f64::MIN, f64::max).ceil();
         cost
     }
 
+    /// As an entry of the table.
+    fn entry(&self, processor: &str, worst: &[u64]) -> String {
+        let above = SCENE_CASES.iter().zip(worst);
+        let above = above.map(|(case, count)| 100.0 * (self.of(case) / *count as f64 - 1.0));
+        let above = above.fold(0.0, f64::max).ceil();
+        let Self {
+            base,
+            pole,
+            zero,
+            triangle,
+            surfaces: [plane, sphere, cuboid],
+        } = self;
+        format!(
+            "    Cost {{
+        processor: {processor:?},
+        base: {base:.1},
+        pole: {pole:.1},
+        zero: {zero:.1},
+        triangle: {triangle:.1},
+        surfaces: [{plane:.1}, {sphere:.1}, {cuboid:.1}],
+        above_percent: {above:.1},
+    }},\n"
+        )
+    }
+
     fn of(&self, case: &SceneCase) -> f64 {
         // What is touched are planes.
-        let touched = TOUCHED as f64 * self.surfaces[0];
+        let touched = f64::from(TOUCHED) * self.surfaces[0];
         let apart = self.surfaces.iter().zip(case.apart);
         self.base
             + self.pole * f64::from(case.poles)

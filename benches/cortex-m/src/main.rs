@@ -29,7 +29,8 @@ use std::{
 /// What any step can fail with; the text says what to do about it.
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
-const USAGE: &str = "usage: cortex-m [--target TRIPLE] [--build-core] | cortex-m costs | cortex-m library
+const USAGE: &str =
+    "usage: cortex-m [--target TRIPLE] [--build-core] | cortex-m costs | cortex-m library
   --target TRIPLE  thumbv7em-none-eabihf (default), thumbv7m-none-eabi or thumbv6m-none-eabi
   --build-core     build core from the sources of /usr/bin/rustc even where the target is installed
   costs            print the cost model of `asperity build`, for compiler/src/scene/cost.rs

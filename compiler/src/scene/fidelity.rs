@@ -1,6 +1,6 @@
 //! What a texture costs at each fidelity, and which fidelities are worth having.
 
-use super::cost::{Target, zeros};
+use super::cost::{Surfaces, Target, zeros};
 use crate::{
     lower::{self, LowerError},
     model::TextureModel,
@@ -30,7 +30,7 @@ pub(super) struct Candidate {
 pub(super) fn candidates(
     texture: &TextureModel,
     target: &Target,
-    surfaces: usize,
+    surfaces: Surfaces,
 ) -> Result<Vec<Candidate>, LowerError> {
     let lowered = |fidelity: String, mut texture: TextureModel, error_db| {
         texture.provenance.fidelity.clone_from(&fidelity);

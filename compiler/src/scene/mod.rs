@@ -3,12 +3,13 @@
 
 mod budget;
 mod cost;
+mod counted;
 mod description;
 mod error;
 mod fidelity;
 mod report;
 
-pub use cost::Target;
+pub use cost::{Surfaces, Target};
 pub use description::{Description, Origin, SurfaceEntry, TextureEntry};
 pub use error::{SceneError, SceneProblem};
 pub use report::{Report, Row};
@@ -76,9 +77,10 @@ pub fn build(
         .iter()
         .map(|entry| whole(scene, entry, prompter))
         .collect::<Result<Vec<_>, _>>()?;
+    let surfaces = Surfaces::of(scene.surfaces.iter().map(|surface| surface.shape));
     let tried: Vec<_> = wholes
         .par_iter()
-        .map(|texture| fidelity::candidates(texture, &target, scene.surfaces.len()))
+        .map(|texture| fidelity::candidates(texture, &target, surfaces))
         .collect();
     let all = order
         .iter()

@@ -19,6 +19,8 @@ pub struct Report {
     pub instructions_budget: Option<u64>,
     /// Instructions of the costliest texture's tick.
     pub instructions: u64,
+    /// The most that counts of instructions are above what was measured, percent; never below.
+    pub instructions_above_percent: f64,
     /// Bytes the library may take.
     pub bytes_budget: Option<u64>,
     /// Bytes it takes.
@@ -103,6 +105,7 @@ impl Report {
                 .target
                 .map(|target| target.budget(scene.servo_rate_hz, budget.share)),
             instructions: chosen.iter().map(|c| c.instructions).max().unwrap_or(0),
+            instructions_above_percent: target.above_percent(),
             bytes_budget: budget.bytes,
             bytes,
             surfaces: scene.surfaces.len(),
@@ -150,6 +153,8 @@ impl fmt::Display for Report {
             }
             write!(f, ")")?;
         }
+        let above = self.instructions_above_percent;
+        write!(f, ", up to {above} % above what was counted")?;
         write!(f, "; the library {} bytes", self.bytes)?;
         if let Some(budget) = self.bytes_budget {
             write!(f, " of {budget}")?;

@@ -15,7 +15,7 @@ static TEXTURES: &[u8] = include_bytes!("../../costs.aspl");
 /// Texture of the raised strip.
 const OTHER: &str = "other";
 /// Surfaces that are touched: the plane and the strip.
-pub const TOUCHED: usize = 2;
+pub const TOUCHED: u32 = 2;
 /// Room for the bytes of a scene.
 pub const SCENE_BYTES: usize = 32 * 1024;
 
@@ -100,10 +100,7 @@ impl SceneCase {
             let index = library.index().find(name).unwrap_or(usize::MAX);
             library.bytes(index).map_err(CaseError::Textures)
         };
-        let textures = [
-            (self.texture, asset(self.texture)?),
-            (OTHER, asset(OTHER)?),
-        ];
+        let textures = [(self.texture, asset(self.texture)?), (OTHER, asset(OTHER)?)];
         let under = SceneSurface {
             texture: 0,
             ..surface(ground(0.0))
@@ -112,7 +109,11 @@ impl SceneCase {
         let apart = APART.into_iter().zip(self.apart);
         let apart = apart.flat_map(|(shape, count)| (0..count).map(move |_| surface(shape)));
         let mut len = 1;
-        for (place, above) in surfaces.iter_mut().skip(1).zip([strip()].into_iter().chain(apart)) {
+        for (place, above) in surfaces
+            .iter_mut()
+            .skip(1)
+            .zip([strip()].into_iter().chain(apart))
+        {
             *place = above;
             len += 1;
         }
@@ -120,7 +121,9 @@ impl SceneCase {
         let len = encode_scene(&textures, surfaces, bytes).map_err(CaseError::Encode)?;
         let written = bytes.get(..len).unwrap_or_default();
         let library = Library::parse(written).map_err(CaseError::Textures)?;
-        scene.load(&library, &Config::default()).map_err(CaseError::Load)
+        scene
+            .load(&library, &Config::default())
+            .map_err(CaseError::Load)
     }
 }
 

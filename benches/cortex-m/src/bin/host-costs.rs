@@ -22,12 +22,7 @@ extern "C" fn mark_end() {
 }
 
 #[inline(never)]
-fn tick(
-    renderer: &Renderer,
-    scene: &CostScene,
-    state: &mut SceneState,
-    sample: &Sample,
-) -> Output {
+fn tick(renderer: &Renderer, scene: &CostScene, state: &mut SceneState, sample: &Sample) -> Output {
     renderer.tick_scene(scene, state, sample)
 }
 

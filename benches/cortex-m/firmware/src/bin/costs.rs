@@ -8,12 +8,7 @@ use asperity_session::{CostScene, SCENE_BYTES, SCENE_CASES, renderer, run_scene}
 use cortex_m_semihosting::debug;
 
 #[inline(never)]
-fn tick(
-    renderer: &Renderer,
-    scene: &CostScene,
-    state: &mut SceneState,
-    sample: &Sample,
-) -> Output {
+fn tick(renderer: &Renderer, scene: &CostScene, state: &mut SceneState, sample: &Sample) -> Output {
     renderer.tick_scene(scene, state, sample)
 }
 
