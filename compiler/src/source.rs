@@ -227,6 +227,20 @@ impl Source {
         Ok(scene.surfaces().collect())
     }
 
+    /// Bytes of the whole library if it has a scene.
+    ///
+    /// # Errors
+    /// [`SourceError`] for a failed read.
+    pub fn scene_library(&mut self) -> Result<Option<Vec<u8>>, SourceError> {
+        let has_scene = match &self.content {
+            Content::Asset => false,
+            Content::Library(index) => {
+                LibraryIndex::parse(index).is_ok_and(|index| index.scene_range().is_some())
+            }
+        };
+        has_scene.then(|| self.read(0, self.len, None)).transpose()
+    }
+
     /// Bytes of the one texture meant by `wanted`, a name or an index of a library. Not
     /// needed for an asset or a library of one; then given, it must still fit.
     ///

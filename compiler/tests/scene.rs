@@ -8,9 +8,11 @@ use asperity::{
     lower::lower,
     prompt::{Author, Options},
     reduce::Fidelity,
+    render::render_scene,
     scene::{Budget, Built, Description, SceneError, build},
 };
 use asperity_formats::Library;
+use asperity_runtime::{Config, HostScene, Renderer, Sample, SceneState};
 use std::{fs, path::Path};
 use tempfile::TempDir;
 
@@ -281,6 +283,60 @@ fn errors_name_the_file_the_field_and_the_remedy() {
     }
     let gone = Description::read(&folder.path().join("gone.toml")).unwrap_err();
     assert!(report(&gone).contains("gone.toml: cannot read it"));
+}
+
+/// What `asperity render` writes of a scene is what the runtime gives, tick by tick.
+#[test]
+fn a_scene_is_rendered_on_its_surfaces() {
+    let folder = folder();
+    let built = built(folder.path(), SCENE, &Budget::default()).unwrap();
+    let library = Library::parse(&built.bytes).unwrap();
+    // Down onto the plane where x < 0, over the border, into the box.
+    let x_mm = |n: u32| -60.0 + 0.125 * f64::from(n);
+    let z_mm = |n: u32| {
+        if n < 200 {
+            99.0 + f64::from(200 - n) / 64.0
+        } else {
+            99.0
+        }
+    };
+    let mut trajectory = String::from("t_s,x_mm,y_mm,z_mm\n");
+    for n in 0..900 {
+        let t_s = f64::from(n) / 1000.0;
+        trajectory += &format!("{t_s},{},0,{}\n", x_mm(n), z_mm(n));
+    }
+    let file = Path::new("stroke.csv");
+    let mut table = Vec::new();
+    let report = render_scene(&library, file, trajectory.as_bytes(), &mut table, 5).unwrap();
+
+    let config = Config::default();
+    let renderer = Renderer::new(&config).unwrap();
+    let mut scene = Box::new(HostScene::new());
+    scene.load(&library, &config).unwrap();
+    let mut state = SceneState::new(5);
+    let mut rows = csv::Reader::from_reader(table.as_slice());
+    let mut seen = Vec::new();
+    for (n, row) in rows.records().enumerate() {
+        let row = row.unwrap();
+        let metres = |mm: f64| (mm / 1000.0) as f32;
+        let position_m = [metres(x_mm(n as u32)), 0.0, metres(z_mm(n as u32))];
+        let output = renderer.tick_scene(&scene, &mut state, &Sample::at(position_m));
+        for (axis, force_n) in output.force_n.into_iter().enumerate() {
+            let printed: f32 = row[8 + axis].parse().unwrap();
+            assert_eq!(printed.to_bits(), force_n.to_bits(), "tick {n}");
+        }
+        let touched = state
+            .touched()
+            .map_or(String::new(), |index| index.to_string());
+        assert_eq!(row[12], touched, "tick {n}");
+        if seen.last() != Some(&touched) {
+            seen.push(touched);
+        }
+    }
+    assert_eq!(report.ticks, 900);
+    assert_eq!(report.taps, state.state().counters().taps);
+    println!("surfaces touched: {seen:?}");
+    assert!(seen.len() > 2 && seen.contains(&"1".to_owned()), "{seen:?}");
 }
 
 /// The example of docs/scenes.md.

@@ -87,7 +87,7 @@ pub use config::{
 };
 pub use contact::Surface;
 pub use locate::Barycentric;
-pub use scene::{Scene, SceneError, SceneState};
+pub use scene::{HostScene, Scene, SceneError, SceneState};
 pub use synthesis::Filter;
 pub use texture::{HostTexture, LoadError, Texture};
 pub use tick::{Counters, Flags, Output, Renderer, Sample, State};

@@ -81,6 +81,10 @@ pub struct Scene<
     follow_share: f32,
 }
 
+/// Room for every surface that a library can hold and for 16 of the largest textures: 0.5 MB,
+/// better boxed or static than on a stack.
+pub type HostScene = Scene<64, 16, 64, 128, 24, 24, 4096>;
+
 /// Why a library cannot be rendered as a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]

@@ -240,12 +240,14 @@ pub(crate) struct Plot {
 #[derive(Debug, Args)]
 #[command(
     after_help = "The trajectory has the header t_s,x_mm,y_mm,z_mm and one row a tick at \
-the texture's rate. The surface is the infinite plane z = 0, contact where z < 0. The same \
-asset, trajectory and seed give the same bytes.
+the texture's rate. The surface is the infinite plane z = 0, contact where z < 0; a library \
+with a scene is rendered on the scene's surfaces, and a last column says which one is touched. \
+The same file, trajectory and seed give the same bytes.
 
 Examples:
   asperity render grit.asp --trajectory stroke.csv -o felt.csv --seed 1
-  asperity render hatt.aspl --texture Cork --trajectory stroke.csv -o felt.csv"
+  asperity render hatt.aspl --texture Cork --trajectory stroke.csv -o felt.csv
+  asperity render desk.aspl --trajectory stroke.csv -o felt.csv"
 )]
 pub(crate) struct Render {
     /// An asset (.asp) or a library (.aspl)
