@@ -151,9 +151,6 @@ impl Diagnostic for RenderError {
             Self::Load { .. } | Self::Config { .. } => {
                 "make the texture for a servo rate of the runtime".into()
             }
-            Self::Scene(SceneError::Capacity { .. }) => {
-                "build the scene with fewer, or render one texture of it with --texture".into()
-            }
             Self::Scene(_) => "build the scene again".into(),
             Self::Write(error) if error.kind() == io::ErrorKind::StorageFull => {
                 "free space on the disk, or give a path on another one".into()
@@ -240,8 +237,8 @@ pub fn render_scene(
         texture: first.name().to_owned(),
         cause,
     })?;
-    let mut scene = Box::new(HostScene::new());
-    scene.load(library, &config).map_err(RenderError::Scene)?;
+    let mut slots = vec![HostTexture::new(); library.index().len()];
+    let scene = HostScene::load(library, &config, &mut slots).map_err(RenderError::Scene)?;
     let mut state = SceneState::new(seed);
     let rows = Rows::new(file, input, config.servo_rate_hz)?;
     writeln!(output, "{},{SURFACE_COLUMN}", OUTPUT_COLUMNS.join(","))

@@ -12,7 +12,7 @@ use asperity::{
     scene::{Budget, Built, Description, SceneError, build},
 };
 use asperity_formats::Library;
-use asperity_runtime::{Config, HostScene, Renderer, Sample, SceneState};
+use asperity_runtime::{Config, HostScene, HostTexture, Renderer, Sample, SceneState};
 use std::{fs, path::Path};
 use tempfile::TempDir;
 
@@ -311,8 +311,8 @@ fn a_scene_is_rendered_on_its_surfaces() {
 
     let config = Config::default();
     let renderer = Renderer::new(&config).unwrap();
-    let mut scene = Box::new(HostScene::new());
-    scene.load(&library, &config).unwrap();
+    let mut slots = vec![HostTexture::new(); 2];
+    let scene = HostScene::load(&library, &config, &mut slots).unwrap();
     let mut state = SceneState::new(5);
     let mut rows = csv::Reader::from_reader(table.as_slice());
     let mut seen = Vec::new();

@@ -18,12 +18,21 @@ use crate::{
     tick::Felt,
     vibration::Vibration,
 };
-use asperity_formats::{Library, Shape};
+use asperity_formats::{Library, SceneSurface, Shape};
+use heapless::Vec;
 use thiserror::Error;
 
 /// How much deeper another surface must be to take over a contact, and how far behind its
 /// border a region keeps one, m: two counts of a Touch.
 pub const HYSTERESIS_M: f32 = 0.12e-3;
+
+/// Index of no surface.
+const NONE: usize = usize::MAX;
+/// Out of reach of every usable sample.
+const NOWHERE: Surface = Surface::Plane {
+    point_m: [0.0, 0.0, -10.0 * REACH_M],
+    normal: [0.0, 0.0, 1.0],
+};
 
 /// A solid, where it can be touched, and its texture.
 #[derive(Debug, Clone, Copy)]
@@ -35,16 +44,14 @@ struct Placed {
 }
 
 impl Placed {
-    /// Out of reach of every usable sample.
-    const NOWHERE: Self = Self {
-        solid: Surface::Plane {
-            point_m: [0.0, 0.0, -10.0 * REACH_M],
-            normal: [0.0, 0.0, 1.0],
-        },
-        from_m: [-REACH_M; 3],
-        to_m: [REACH_M; 3],
-        texture: 0,
-    };
+    fn new(surface: SceneSurface) -> Self {
+        Self {
+            solid: solid(surface.shape).normalised(),
+            from_m: surface.from_m,
+            to_m: surface.to_m,
+            texture: usize::from(surface.texture),
+        }
+    }
 
     /// Signed distance, m; infinite outside the region widened by `margin_m`.
     #[inline]
@@ -62,28 +69,27 @@ impl Placed {
     }
 }
 
-/// Surfaces and textures of a scene in caller-provided memory: room for `N` surfaces and `M`
-/// textures of the capacities of [`Texture`]. One scene drives any number of [`SceneState`]s.
+/// A scene with room for `N` surfaces, on textures in caller-provided slots of the capacities of
+/// [`Texture`]. One scene drives any number of [`SceneState`]s.
 #[derive(Debug, Clone)]
 pub struct Scene<
+    'a,
     const N: usize,
-    const M: usize,
     const V: usize,
     const T: usize,
     const P: usize,
     const Q: usize,
     const K: usize,
 > {
-    placed: [Placed; N],
-    count: usize,
-    textures: [Texture<V, T, P, Q, K>; M],
+    placed: Vec<Placed, N>,
+    first: &'a Texture<V, T, P, Q, K>,
+    others: &'a [Texture<V, T, P, Q, K>],
     /// Share of the way that wall, gains and friction go in a tick.
     follow_share: f32,
 }
 
-/// Room for every surface that a library can hold and for 16 of the largest textures: 0.5 MB,
-/// better boxed or static than on a stack.
-pub type HostScene = Scene<64, 16, 64, 128, 24, 24, 4096>;
+/// Room for every surface that a library can hold, on [`HostTexture`](crate::HostTexture)s.
+pub type HostScene<'a> = Scene<'a, 64, 64, 128, 24, 24, 4096>;
 
 /// Why a library cannot be rendered as a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -113,113 +119,71 @@ pub enum SceneError {
 }
 
 impl<
+    'a,
     const N: usize,
-    const M: usize,
     const V: usize,
     const T: usize,
     const P: usize,
     const Q: usize,
     const K: usize,
-> Default for Scene<N, M, V, T, P, Q, K>
+> Scene<'a, N, V, T, P, Q, K>
 {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<
-    const N: usize,
-    const M: usize,
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-> Scene<N, M, V, T, P, Q, K>
-{
-    /// Nothing to touch.
-    #[must_use]
-    pub const fn new() -> Self {
-        const { assert!(M > 0, "a scene needs room for a texture") }
-        Self {
-            placed: [Placed::NOWHERE; N],
-            count: 0,
-            textures: [const { Texture::new() }; M],
-            follow_share: 1.0,
-        }
-    }
-
-    /// Prepares every surface and texture of a library; allocates nothing. After a refusal
-    /// there is nothing to touch.
+    /// Prepares every surface of a library, and every texture in a slot of its own; allocates
+    /// nothing.
     ///
     /// # Errors
     /// [`SceneError`].
-    pub fn load(&mut self, library: &Library<'_>, config: &Config) -> Result<(), SceneError> {
-        self.count = 0;
+    pub fn load(
+        library: &Library<'_>,
+        config: &Config,
+        slots: &'a mut [Texture<V, T, P, Q, K>],
+    ) -> Result<Self, SceneError> {
         let scene = library.scene().ok_or(SceneError::NoScene)?;
-        for (field, found, capacity) in [
-            ("surfaces", scene.len(), N),
-            ("textures", library.index().len(), M),
-        ] {
-            if found > capacity {
-                return Err(SceneError::Capacity {
-                    field,
-                    found,
-                    capacity,
-                });
-            }
+        let textures = library.index().len();
+        let capacity = |field, found, capacity| SceneError::Capacity {
+            field,
+            found,
+            capacity,
+        };
+        if scene.len() > N {
+            return Err(capacity("surfaces", scene.len(), N));
         }
-        for (index, slot) in self.textures.iter_mut().enumerate() {
-            if index < library.index().len() {
-                let load = |asset| slot.load(&asset, config.servo_rate_hz);
-                let loaded = library.asset(index).map_err(LoadError::from).and_then(load);
-                loaded.map_err(|cause| SceneError::Texture { index, cause })?;
-            }
+        let room = slots.len();
+        for (index, slot) in slots.iter_mut().enumerate().take(textures) {
+            let load = |asset| slot.load(&asset, config.servo_rate_hz);
+            let loaded = library.asset(index).map_err(LoadError::from).and_then(load);
+            loaded.map_err(|cause| SceneError::Texture { index, cause })?;
         }
-        for (place, surface) in self.placed.iter_mut().zip(scene.surfaces()) {
-            *place = Placed {
-                solid: solid(surface.shape).normalised(),
-                from_m: surface.from_m,
-                to_m: surface.to_m,
-                texture: usize::from(surface.texture),
-            };
-        }
+        // A scene has a surface, and that a texture.
+        let loaded = slots.get(..textures).and_then(<[_]>::split_first);
+        let (first, others) = loaded.ok_or(capacity("textures", textures, room))?;
         let ticks = config.parameter_time_constant_s * config.servo_rate_hz;
-        self.follow_share = if ticks > 0.1 {
+        let follow_share = if ticks > 0.1 {
             1.0 - exp(-1.0 / ticks)
         } else {
             1.0
         };
-        self.count = scene.len();
-        Ok(())
+        Ok(Self {
+            placed: scene.surfaces().take(N).map(Placed::new).collect(),
+            first,
+            others,
+            follow_share,
+        })
     }
 
-    /// Number of surfaces.
-    #[must_use]
-    pub const fn len(&self) -> usize {
-        self.count
-    }
-
-    /// Whether there is nothing to touch.
-    #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-
-    /// The surface to touch at a position, `count` for none, when it was `at` before.
+    /// The surface to touch at a position, [`NONE`] for none, when it was `at` before.
     #[inline]
     fn touched(&self, at: usize, position_m: Vec3) -> usize {
-        let surfaces = self.placed.get(..self.count).unwrap_or_default();
-        let kept = surfaces.get(at).map_or(f32::INFINITY, |placed| {
+        let kept = self.placed.get(at).map_or(f32::INFINITY, |placed| {
             let distance_m = placed.distance_m(position_m, HYSTERESIS_M);
             distance_m - if distance_m < 0.0 { HYSTERESIS_M } else { 0.0 }
         });
         let (mut nearest, mut least_m) = if kept < f32::INFINITY {
             (at, kept)
         } else {
-            (self.count, f32::INFINITY)
+            (NONE, f32::INFINITY)
         };
-        for (index, placed) in surfaces.iter().enumerate() {
+        for (index, placed) in self.placed.iter().enumerate() {
             let distance_m = placed.distance_m(position_m, 0.0);
             let closer = distance_m < least_m;
             nearest = if closer { index } else { nearest };
@@ -229,8 +193,10 @@ impl<
     }
 
     fn texture(&self, index: usize) -> &Texture<V, T, P, Q, K> {
-        // An index of a loaded scene is in range, and there is at least one slot.
-        self.textures.get(index).unwrap_or(&self.textures[0])
+        let other = index
+            .checked_sub(1)
+            .and_then(|other| self.others.get(other));
+        other.unwrap_or(self.first)
     }
 }
 
@@ -252,7 +218,7 @@ fn solid(shape: Shape) -> Surface {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneState {
     state: State,
-    /// Surface last touched or nearest; the count of surfaces or more for none.
+    /// Surface last touched or nearest, or [`NONE`].
     at: usize,
     texture: usize,
     solid: Surface,
@@ -267,9 +233,9 @@ impl SceneState {
     pub fn new(seed: u64) -> Self {
         Self {
             state: State::new(seed),
-            at: usize::MAX,
+            at: NONE,
             texture: 0,
-            solid: Placed::NOWHERE.solid,
+            solid: NOWHERE,
             crossing: Crossing::START,
             touching: false,
         }
@@ -281,7 +247,7 @@ impl SceneState {
         &self.state
     }
 
-    /// Another surface is touched from here on; one beyond all is none.
+    /// Another surface is touched from here on, or none.
     #[cold]
     fn move_to(&mut self, at: usize, surfaces: &[Placed]) {
         self.at = at;
@@ -290,7 +256,7 @@ impl SceneState {
                 self.texture = placed.texture;
                 placed.solid
             }
-            None => Placed::NOWHERE.solid,
+            None => NOWHERE,
         };
         self.state.cross(&self.solid);
     }
@@ -307,7 +273,6 @@ impl Renderer {
     /// of the one in the configuration. Infallible.
     pub fn tick_scene<
         const N: usize,
-        const M: usize,
         const V: usize,
         const T: usize,
         const P: usize,
@@ -315,14 +280,14 @@ impl Renderer {
         const K: usize,
     >(
         &self,
-        scene: &Scene<N, M, V, T, P, Q, K>,
+        scene: &Scene<'_, N, V, T, P, Q, K>,
         state: &mut SceneState,
         sample: &Sample,
     ) -> Output {
         if is_usable(sample) {
             let at = scene.touched(state.at, sample.position_m);
             if at != state.at {
-                state.move_to(at, scene.placed.get(..scene.count).unwrap_or_default());
+                state.move_to(at, &scene.placed);
             }
         }
         let texture = scene.texture(state.texture);

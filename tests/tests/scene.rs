@@ -14,7 +14,7 @@ use asperity_runtime::{
     Surface,
 };
 
-type HostScene = Scene<8, 3, 64, 128, 24, 24, 4096>;
+type TestScene<'a> = Scene<'a, 8, 64, 128, 24, 24, 4096>;
 
 /// Where one texture ends and the next begins, m.
 const BORDER_M: f32 = 0.05;
@@ -54,11 +54,11 @@ fn library(textures: &[Vec<u8>], surfaces: &[SceneSurface]) -> Vec<u8> {
     encode_scene(&named, surfaces).expect("a valid scene")
 }
 
-fn load(library: &[u8]) -> Box<HostScene> {
-    let mut scene = Box::new(HostScene::new());
+/// A scene in slots that live as long as the process: a test loads a handful.
+fn load(library: &[u8]) -> TestScene<'static> {
     let library = Library::parse(library).unwrap();
-    scene.load(&library, &Config::default()).unwrap();
-    scene
+    let slots = vec![HostTexture::new(); library.index().len()].leak();
+    Scene::load(&library, &Config::default(), slots).unwrap()
 }
 
 fn bytes(texture: &TextureModel) -> Vec<u8> {
@@ -74,7 +74,7 @@ fn stroke(speed_mm_s: f32) -> Vec<Sample> {
     down.chain(along).map(Sample::at).collect()
 }
 
-fn run(scene: &HostScene, seed: u64, samples: &[Sample]) -> Vec<Output> {
+fn run(scene: &TestScene<'_>, seed: u64, samples: &[Sample]) -> Vec<Output> {
     let renderer = Renderer::new(&Config::default()).unwrap();
     let mut state = SceneState::new(seed);
     let tick = |sample| renderer.tick_scene(scene, &mut state, sample);
@@ -241,6 +241,113 @@ fn the_deepest_surface_is_touched_and_none_outside_every_region() {
     }
 }
 
+/// A ball, a box and a plane that interpenetrate, on both textures.
+fn heap() -> TestScene<'static> {
+    let pair = textures().map(|t| bytes(&t));
+    let anywhere = |shape, texture| SceneSurface {
+        shape,
+        from_m: [-FAR; 3],
+        to_m: [FAR; 3],
+        texture,
+    };
+    let ball = Shape::Sphere {
+        center_m: [0.0, 0.0, 0.01],
+        radius_m: 0.015,
+    };
+    let cube = Shape::Box {
+        center_m: [0.02, 0.0, 0.0],
+        half_extents_m: [0.01; 3],
+    };
+    let surfaces = [anywhere(ball, 0), anywhere(cube, 1), plane(0, -FAR, 0.03)];
+    load(&library(&pair, &surfaces))
+}
+
+/// Whatever comes, on the way over edges and from solid to solid too: finite, within peak and
+/// slew.
+#[test]
+fn every_force_is_within_peak_and_slew() {
+    let scene = heap();
+    let limits = Config::default().limits;
+    let slew_n = limits.slew_n_s / 1000.0;
+    let mut random = 1_u64;
+    let mut draw = move || {
+        random = random
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (random >> 40) as f32 / (1_u64 << 24) as f32
+    };
+    let mut position_m = [0.0, 0.0, 0.03];
+    let samples: Vec<Sample> = (0..20_000)
+        .map(|n| {
+            for (axis, half_m) in [0.04, 0.02, 0.03].into_iter().enumerate() {
+                let moved = position_m[axis] + 1.0e-3 * (draw() - 0.5);
+                position_m[axis] = moved.clamp(-half_m, half_m);
+            }
+            let mut sample = Sample::at(position_m);
+            match n % 97 {
+                0..3 => sample.position_m[n % 3] = f32::NAN,
+                40..44 => sample = Sample::STALE,
+                60 => sample.position_m[1] = f32::INFINITY,
+                80 => sample.elapsed_ticks = 1 + (n % 7) as u32,
+                // A jump, as to another solid.
+                90 => position_m = [0.04 * (draw() - 0.5), 0.0, 0.02 * draw()],
+                _ => {}
+            }
+            sample
+        })
+        .collect();
+    let outputs = run(&scene, 3, &samples);
+    let size = |v: [f32; 3]| v.iter().map(|x| x * x).sum::<f32>().sqrt();
+    for (n, output) in outputs.iter().enumerate() {
+        assert!(output.force_n.iter().all(|x| x.is_finite()), "tick {n}");
+        assert!(size(output.force_n) <= limits.peak_n * 1.0001, "tick {n}");
+    }
+    for (n, pair) in outputs.windows(2).enumerate() {
+        assert!(step_n(&pair[0], &pair[1]) <= slew_n * 1.0001, "tick {n}");
+    }
+    let contacts = outputs.iter().filter(|o| o.flags.contains(Flags::CONTACT));
+    assert!((4_000..16_000).contains(&contacts.count()));
+}
+
+/// Off one texture and onto the next through the air: the new contact is a tap, and mute until
+/// its own model is made; nothing of the one before is heard.
+#[test]
+fn a_surface_that_is_left_is_not_heard_on_the_next() {
+    let pair = textures().map(|t| bytes(&t));
+    let scene = load(&library(
+        &pair,
+        &[plane(0, -FAR, BORDER_M), plane(1, BORDER_M, FAR)],
+    ));
+    let mut samples = stroke(100.0);
+    // Half a second on the first texture, up by 5 mm over 50 ticks, over the border, down.
+    samples.truncate(700);
+    let x_m = samples[699].position_m[0];
+    let hop = (0..200).map(|n| {
+        let up = if n < 50 { n } else { 199 - n.max(149) };
+        let along_m = x_m + 1.0e-4 * n as f32;
+        Sample::at([along_m, 0.0, -DEPTH_M + 1.4e-4 * up as f32])
+    });
+    let rest: Vec<Sample> = hop.collect();
+    let last_m = rest[199].position_m;
+    samples.extend(rest);
+    samples.extend((0..100).map(|n| Sample::at([last_m[0] + 1.0e-4 * n as f32, 0.0, -DEPTH_M])));
+    let outputs = run(&scene, 2, &samples);
+    let touching = |n: usize| outputs[n].flags.contains(Flags::CONTACT);
+    let left = (700..900).find(|&n| !touching(n)).unwrap();
+    let entered = (left..1000).find(|&n| touching(n)).unwrap();
+    assert!(samples[entered].position_m[0] > BORDER_M && entered > left + 100);
+    assert!(outputs[entered].flags.contains(Flags::TAP_STARTED));
+    assert!(outputs[left..entered].iter().all(|o| o.vib_m_s2 == 0.0));
+    let heard = (entered..1000)
+        .find(|&n| outputs[n].vib_m_s2 != 0.0)
+        .unwrap();
+    assert!(
+        (entered + 5..entered + 12).contains(&heard),
+        "{}",
+        heard - entered
+    );
+}
+
 /// Leaving a region sideways, and crossing into another at once deep, is no impact.
 #[test]
 fn a_crossing_is_no_tap() {
@@ -272,25 +379,25 @@ fn a_crossing_is_no_tap() {
 fn what_is_no_scene_or_does_not_fit_is_refused() {
     let pair = textures().map(|t| bytes(&t));
     let config = Config::default();
-    let mut scene = Box::new(HostScene::new());
+    let mut slots = vec![HostTexture::new(); 2];
     let named = [NamedAsset {
         name: "a",
         bytes: &pair[0],
     }];
     let plain = asperity::library::encode(&named).unwrap();
-    let refused = scene.load(&Library::parse(&plain).unwrap(), &config);
-    assert_eq!(refused, Err(SceneError::NoScene));
+    let mut refused = |bytes: &[u8], room: usize| {
+        let library = Library::parse(bytes).unwrap();
+        TestScene::load(&library, &config, &mut slots[..room]).expect_err("no scene that fits")
+    };
+    assert_eq!(refused(&plain, 2), SceneError::NoScene);
+    let capacity = |field, found, capacity| SceneError::Capacity {
+        field,
+        found,
+        capacity,
+    };
     let wide = library(&pair, &[plane(0, -FAR, FAR); 9]);
-    let refused = scene.load(&Library::parse(&wide).unwrap(), &config);
-    assert!(matches!(
-        refused,
-        Err(SceneError::Capacity {
-            field: "surfaces",
-            found: 9,
-            capacity: 8
-        })
-    ));
-    assert!(scene.is_empty());
-    let outputs = run(&scene, 1, &stroke(100.0));
-    assert!(outputs.iter().all(|o| o.force_n == [0.0; 3]));
+    assert_eq!(refused(&wide, 2), capacity("surfaces", 9, 8));
+    let two = library(&pair, &[plane(1, -FAR, FAR)]);
+    assert_eq!(refused(&two, 1), capacity("textures", 2, 1));
+    assert_eq!(refused(&two, 0), capacity("textures", 2, 0));
 }

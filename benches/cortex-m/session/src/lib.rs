@@ -11,7 +11,9 @@ mod scenes;
 pub use case::{ARMA_20, Arma20, CASES, Case, LIBRARY, NYQUIST_4, NYQUIST_20, Nyquist4, Nyquist20};
 pub use hash::Hash;
 pub use phase::{PHASE_TICKS, Phase};
-pub use scenes::{CaseError, CostScene, SCENE_BYTES, SCENE_CASES, SceneCase, TOUCHED, run_scene};
+pub use scenes::{
+    CaseError, CostScene, CostSlot, SCENE_BYTES, SCENE_CASES, SceneCase, TOUCHED, run_scene,
+};
 
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{Config, LoadError, Output, Renderer, Sample, State, Texture};

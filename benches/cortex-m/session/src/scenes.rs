@@ -8,7 +8,7 @@ use crate::{Phase, SEED};
 use asperity_formats::{
     EncodeError, FormatError, Library, SceneSurface, Shape, library::encode_scene,
 };
-use asperity_runtime::{Config, Output, Renderer, Sample, Scene, SceneError, SceneState};
+use asperity_runtime::{Config, Output, Renderer, Sample, Scene, SceneError, SceneState, Texture};
 
 /// The textures; `cortex-m library` writes it.
 static TEXTURES: &[u8] = include_bytes!("../../costs.aspl");
@@ -20,7 +20,9 @@ pub const TOUCHED: u32 = 2;
 pub const SCENE_BYTES: usize = 32 * 1024;
 
 /// Room for every case.
-pub type CostScene = Scene<10, 2, 64, 128, 24, 24, 520>;
+pub type CostScene<'a> = Scene<'a, 10, 64, 128, 24, 24, 520>;
+/// A slot for its texture, or the strip's.
+pub type CostSlot = Texture<64, 128, 24, 24, 520>;
 
 /// A measured scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,7 +96,11 @@ impl SceneCase {
     ///
     /// # Errors
     /// [`CaseError`].
-    pub fn load(&self, bytes: &mut [u8], scene: &mut CostScene) -> Result<(), CaseError> {
+    pub fn load<'a>(
+        &self,
+        bytes: &mut [u8],
+        slots: &'a mut [CostSlot; 2],
+    ) -> Result<CostScene<'a>, CaseError> {
         let library = Library::parse(TEXTURES).map_err(CaseError::Textures)?;
         let asset = |name: &str| {
             let index = library.index().find(name).unwrap_or(usize::MAX);
@@ -121,9 +127,7 @@ impl SceneCase {
         let len = encode_scene(&textures, surfaces, bytes).map_err(CaseError::Encode)?;
         let written = bytes.get(..len).unwrap_or_default();
         let library = Library::parse(written).map_err(CaseError::Textures)?;
-        scene
-            .load(&library, &Config::default())
-            .map_err(CaseError::Load)
+        Scene::load(&library, &Config::default(), slots).map_err(CaseError::Load)
     }
 }
 
@@ -170,9 +174,9 @@ fn ground(height_m: f32) -> Shape {
 
 /// Runs the session on a scene through `tick`.
 pub fn run_scene(
-    scene: &CostScene,
+    scene: &CostScene<'_>,
     renderer: &Renderer,
-    mut tick: impl FnMut(&Renderer, &CostScene, &mut SceneState, &Sample) -> Output,
+    mut tick: impl FnMut(&Renderer, &CostScene<'_>, &mut SceneState, &Sample) -> Output,
 ) {
     let mut state = SceneState::new(SEED);
     for phase in Phase::ALL {

@@ -2,7 +2,7 @@
 //! in QEMU's user mode.
 
 use asperity_runtime::{Output, Renderer, Sample, SceneState};
-use asperity_session::{CostScene, SCENE_BYTES, SCENE_CASES, renderer, run_scene};
+use asperity_session::{CostScene, CostSlot, SCENE_BYTES, SCENE_CASES, renderer, run_scene};
 use std::{error::Error, hint::black_box};
 
 /// First instruction that does not count as the tick's; the plugin knows its name.
@@ -22,15 +22,21 @@ extern "C" fn mark_end() {
 }
 
 #[inline(never)]
-fn tick(renderer: &Renderer, scene: &CostScene, state: &mut SceneState, sample: &Sample) -> Output {
+fn tick(
+    renderer: &Renderer,
+    scene: &CostScene<'_>,
+    state: &mut SceneState,
+    sample: &Sample,
+) -> Output {
     renderer.tick_scene(scene, state, sample)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut scene = Box::new(CostScene::new());
+    let mut slots = Box::new([const { CostSlot::new() }; 2]);
     let mut bytes = vec![0; SCENE_BYTES];
     for case in &SCENE_CASES {
-        case.load(&mut bytes, &mut scene)
+        let scene = case
+            .load(&mut bytes, &mut slots)
             .map_err(|error| format!("{case:?}: {error:?}"))?;
         run_scene(&scene, &renderer()?, |renderer, scene, state, sample| {
             mark_begin();
