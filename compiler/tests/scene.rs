@@ -291,15 +291,9 @@ fn a_scene_is_rendered_on_its_surfaces() {
     let folder = folder();
     let built = built(folder.path(), SCENE, &Budget::default()).unwrap();
     let library = Library::parse(&built.bytes).unwrap();
-    // Down onto the plane where x < 0, over the border, into the box.
-    let x_mm = |n: u32| -60.0 + 0.125 * f64::from(n);
-    let z_mm = |n: u32| {
-        if n < 200 {
-            99.0 + f64::from(200 - n) / 64.0
-        } else {
-            99.0
-        }
-    };
+    // Down onto the plane, and sideways into the box.
+    let x_mm = |n: u32| -130.0 + 0.0625 * f64::from(n);
+    let z_mm = |n: u32| (2.0 - f64::from(n) / 64.0).max(-1.0);
     let mut trajectory = String::from("t_s,x_mm,y_mm,z_mm\n");
     for n in 0..900 {
         let t_s = f64::from(n) / 1000.0;
@@ -335,8 +329,7 @@ fn a_scene_is_rendered_on_its_surfaces() {
     }
     assert_eq!(report.ticks, 900);
     assert_eq!(report.taps, state.state().counters().taps);
-    println!("surfaces touched: {seen:?}");
-    assert!(seen.len() > 2 && seen.contains(&"1".to_owned()), "{seen:?}");
+    assert_eq!(seen, ["", "0", "1"]);
 }
 
 /// The example of docs/scenes.md.
@@ -355,14 +348,17 @@ fn the_documented_scene_builds() {
         rate_hz: None,
         preview: false,
     };
-    let budget = within(Some("cortex-m4f@16MHz"), Some(8192));
+    let budget = Budget {
+        share: 0.05,
+        ..within(Some("cortex-m4f@48MHz"), Some(7000))
+    };
     let description = Description::read(&file).unwrap();
     let built = build(&description, &budget, &mut |prompt, seed| {
         Ok(author.author(prompt, &options(seed)).unwrap().texture)
     })
     .unwrap();
     println!("{}", built.report);
-    assert!(built.bytes.len() <= 8192);
+    assert!(built.bytes.len() <= 7000 && built.report.instructions <= 2400);
     assert_eq!(
         Library::parse(&built.bytes).unwrap().scene().unwrap().len(),
         3

@@ -98,8 +98,8 @@ budget is too small, fidelity is lowered where that costs the least error.
 
 Examples:
   asperity build desk.toml -o desk.aspl
-  asperity build desk.toml -o desk.aspl --target cortex-m4f@16MHz --share 40
-  asperity build desk.toml -o desk.aspl --target 6000 --budget-bytes 8192 --json"
+  asperity build desk.toml -o desk.aspl --target cortex-m4f@48MHz --share 5
+  asperity build desk.toml -o desk.aspl --target 2500 --budget-bytes 8192 --json"
 )]
 pub(crate) struct Build {
     /// The scene (.toml)
