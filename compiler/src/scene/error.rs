@@ -116,6 +116,9 @@ pub enum SceneProblem {
 impl Diagnostic for SceneError {
     fn remedy(&self) -> String {
         match &self.problem {
+            SceneProblem::Unreadable(e) if e.kind() == io::ErrorKind::InvalidData => {
+                "give a scene in TOML: see the example in docs/scenes.md".into()
+            }
             SceneProblem::Unreadable(_) => "check the path and its permissions".into(),
             SceneProblem::Syntax(_) => "see the example in docs/scenes.md".into(),
             SceneProblem::NoSurface => {
