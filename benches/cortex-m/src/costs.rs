@@ -39,7 +39,7 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
     let mut text = String::from(HEAD);
     let _ = write!(
         text,
-        "pub(super) const COSTS: [Cost; {}] = [\n",
+        "pub(super) static COSTS: [Cost; {}] = [\n",
         counted.len()
     );
     for (processor, worst) in counted {

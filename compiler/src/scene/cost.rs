@@ -73,7 +73,7 @@ pub(super) fn zeros(grid: &ModelGrid) -> usize {
 /// processor of the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
-    cost: Cost,
+    cost: &'static Cost,
     supply: Supply,
 }
 
@@ -111,7 +111,7 @@ impl Target {
     #[must_use]
     pub fn unlimited() -> Self {
         Self {
-            cost: COSTS[0],
+            cost: &COSTS[0],
             supply: Supply::Instructions(u64::MAX),
         }
     }
@@ -141,7 +141,7 @@ impl FromStr for Target {
     fn from_str(text: &str) -> Result<Self, String> {
         if let Ok(count) = text.parse() {
             return Ok(Self {
-                cost: COSTS[0],
+                cost: &COSTS[0],
                 supply: Supply::Instructions(count),
             });
         }
@@ -153,7 +153,7 @@ impl FromStr for Target {
             )
         };
         let (name, clock) = text.split_once('@').ok_or_else(wrong)?;
-        let cost = *COSTS
+        let cost = COSTS
             .iter()
             .find(|cost| cost.processor == name)
             .ok_or_else(|| format!("no processor {name:?} was measured, only: {known}"))?;

@@ -3,7 +3,7 @@
 use super::cost::Cost;
 
 /// Slopes between the ends of what was counted; the base such that no count is above the model.
-pub(super) const COSTS: [Cost; 2] = [
+pub(super) static COSTS: [Cost; 2] = [
     Cost {
         processor: "cortex-m4f",
         base: 1773.0,

@@ -16,7 +16,7 @@ use std::{
 /// What the trajectory goes over: the surfaces of a scene, or a plane with one texture.
 enum Felt<'a> {
     Scene(Library<'a>),
-    Texture(Asset<'a>),
+    Texture(Box<Asset<'a>>),
 }
 
 pub(crate) fn run(args: &Render) -> Result<(), Failures> {
@@ -34,7 +34,7 @@ pub(crate) fn run(args: &Render) -> Result<(), Failures> {
     let felt = if is_scene {
         Library::parse(&bytes).map(Felt::Scene)
     } else {
-        Asset::parse(&bytes).map(Felt::Texture)
+        Asset::parse(&bytes).map(|asset| Felt::Texture(Box::new(asset)))
     };
     let felt = felt.map_err(|e| one(source.error(wanted, e.into())))?;
     let trajectory = File::open(&args.trajectory).map_err(|cause| {
