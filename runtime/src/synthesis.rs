@@ -156,6 +156,11 @@ impl History {
         y: Line::ZERO,
     };
 
+    /// The last output, m/s².
+    pub(crate) const fn last(&self) -> f32 {
+        self.y.0[0][0]
+    }
+
     /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags
     /// 1.., zero above the order. With `sounding` false the model is mute and its history
     /// fades out within 24 samples. Returns y, m/s², and whether it had to be clamped.

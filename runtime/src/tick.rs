@@ -4,6 +4,7 @@ use asperity_formats::Surface;
 
 use crate::{
     Config, ConfigError, Texture, VibrationAxis,
+    contact::Surface as Solid,
     friction::{Bristle, FrictionState},
     lanes::F4,
     limiter::{Limited, Limiter},
@@ -224,6 +225,14 @@ impl State {
         &self.counters
     }
 
+    /// Another surface is touched from here on: the way there is no motion along its normal.
+    #[cold]
+    pub(crate) fn cross(&mut self, solid: &Solid) {
+        let (distance_m, _) = solid.touch(self.gate.position_m());
+        self.distance_m = distance_m;
+        self.tap.cross(distance_m);
+    }
+
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.
     #[cold]
     fn restart(&mut self, distance_m: f32) {
@@ -233,6 +242,14 @@ impl State {
         self.friction = FrictionState::default();
         self.tap.restart(distance_m);
     }
+}
+
+/// What is touched, apart from the sound of its texture.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Felt<'a> {
+    pub(crate) solid: &'a Solid,
+    pub(crate) surface: &'a Surface,
+    pub(crate) mu: f32,
 }
 
 /// A checked configuration with all that follows from it.
@@ -305,13 +322,41 @@ impl Renderer {
         state: &mut State,
         sample: &Sample,
     ) -> Output {
+        let felt = Felt {
+            solid: &self.config.surface,
+            surface: &texture.surface,
+            mu: texture.mu,
+        };
+        let sound = |vibration: &mut Vibration, speed_mm_s, force_n, share, sounding| {
+            vibration.step(texture, speed_mm_s, force_n, share, sounding)
+        };
+        self.tick_on(felt, texture, state, sample, sound)
+    }
+
+    /// [`Renderer::tick`] on a solid, with wall, gains and friction as given; `sound` makes the
+    /// vibration of speed (mm/s), force (N), share to follow and whether it is to be heard.
+    #[inline(always)]
+    pub(crate) fn tick_on<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &self,
+        felt: Felt<'_>,
+        texture: &Texture<V, T, P, Q, K>,
+        state: &mut State,
+        sample: &Sample,
+        sound: impl FnOnce(&mut Vibration, f32, f32, f32, bool) -> (f32, bool),
+    ) -> Output {
         let config = &self.config;
-        let surface = &texture.surface;
+        let surface = felt.surface;
 
         let gated = state
             .gate
             .step(sample, config.safety.hold_ticks, self.ramp_step);
-        let (distance_m, normal) = config.surface.touch(gated.position_m);
+        let (distance_m, normal) = felt.solid.touch(gated.position_m);
         if gated.restart {
             state.restart(distance_m);
         }
@@ -339,8 +384,8 @@ impl Renderer {
         let stiffness_n = wall.stiffness_n_m * depth_m;
 
         let outside = texture.is_outside(speed_mm_s, stiffness_n);
-        let (vib_m_s2, vib_clamped) = state.vibration.step(
-            texture,
+        let (vib_m_s2, vib_clamped) = sound(
+            &mut state.vibration,
             speed_mm_s,
             stiffness_n,
             self.follow_share,
@@ -357,7 +402,7 @@ impl Renderer {
             motion_m,
             normal,
             stiffness_n,
-            texture.mu,
+            felt.mu,
             touching,
         );
 

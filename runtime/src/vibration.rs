@@ -16,7 +16,7 @@ use crate::{
     excitation::Excitation,
     locate::Search,
     lsf::{Pairs, Products},
-    synthesis::{History, Line},
+    synthesis::{History, Lags, Line},
 };
 
 /// State of the vibration.
@@ -93,6 +93,38 @@ impl Vibration {
         };
     }
 
+    /// Another texture in a scene: what is at work stays until the first cycle ends.
+    #[cold]
+    pub(crate) fn begin(&mut self, texture: u32) {
+        self.texture = texture;
+        self.products = Products::ONE;
+        self.pairs = Pairs::ZERO;
+        self.found = Barycentric::NONE;
+        self.phase = 0;
+        self.follows = false;
+    }
+
+    /// Whether this tick puts new coefficients to work.
+    #[inline]
+    pub(crate) fn is_last_of_cycle(&self) -> bool {
+        usize::from(self.phase) == CYCLE_TICKS - 1
+    }
+
+    /// Stops what is at work. Returns its last output, m/s².
+    #[cold]
+    pub(crate) fn stop(&mut self) -> f32 {
+        let last = self.history.last();
+        self.history = History::SILENT;
+        (self.a, self.b) = (Line::ZERO, Line::ZERO);
+        last
+    }
+
+    /// Whether the texture is the one that was rendered last.
+    #[inline]
+    pub(crate) const fn is_on(&self, texture: u32) -> bool {
+        self.texture == texture
+    }
+
     /// One tick. `follow_share` is the share of the way that parameters go in a cycle; with
     /// `sounding` false the vibration is mute. Returns y, m/s², and whether it had to be
     /// clamped.
@@ -108,6 +140,27 @@ impl Vibration {
         if self.texture != texture.id() {
             self.change_texture(texture.id());
         }
+        let lags = texture.lags();
+        self.sound(texture, lags, speed_mm_s, force_n, follow_share, sounding)
+    }
+
+    /// [`Vibration::step`] with the lags of the recursion at work, on the texture begun.
+    #[inline(always)]
+    pub(crate) fn sound<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K>,
+        lags: Lags,
+        speed_mm_s: f32,
+        force_n: f32,
+        follow_share: f32,
+        sounding: bool,
+    ) -> (f32, bool) {
         if !sounding {
             self.leave();
         }
@@ -119,8 +172,7 @@ impl Vibration {
         }
         self.work(texture);
         let e = self.level_m_s2 * self.excitation.next_gaussian();
-        self.history
-            .step(&self.a, &self.b, texture.lags(), e, sounding)
+        self.history.step(&self.a, &self.b, lags, e, sounding)
     }
 
     /// This tick's share of the cycle.
