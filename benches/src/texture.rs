@@ -20,12 +20,21 @@ pub const MAX_FORCE_N: f32 = 4.0;
 /// When the format refuses the texture.
 #[must_use]
 pub fn texture(order: usize, numerator: Numerator) -> Vec<u8> {
+    texture_on(order, numerator, COLUMNS, ROWS)
+}
+
+/// [`texture`] on a grid of its own: `columns` × `rows` vertices, two triangles a field.
+///
+/// # Panics
+/// When the format refuses the texture.
+#[must_use]
+pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usize) -> Vec<u8> {
     let ma_order = if numerator == Numerator::Lsf {
         order.saturating_sub(2).max(1)
     } else {
         0
     };
-    let lsfs: Vec<(Vec<LsfCode>, Vec<LsfCode>)> = (0..COLUMNS * ROWS)
+    let lsfs: Vec<(Vec<LsfCode>, Vec<LsfCode>)> = (0..columns * rows)
         .map(|v| (codes(order, v, 0.35), codes(ma_order, v + 7, 0.2)))
         .collect();
     let models: Vec<ModelParts<'_>> = lsfs
@@ -36,11 +45,13 @@ pub fn texture(order: usize, numerator: Numerator) -> Vec<u8> {
             gain: 1.0,
         })
         .collect();
-    let vertices: Vec<Vertex> = (0..COLUMNS * ROWS).map(vertex).collect();
-    let triangles: Vec<[u8; 3]> = (0..ROWS - 1)
-        .flat_map(|row| (0..COLUMNS - 1).map(move |column| (row * COLUMNS + column) as u8))
+    let vertices: Vec<Vertex> = (0..columns * rows)
+        .map(|index| vertex(index, columns, rows))
+        .collect();
+    let triangles: Vec<[u8; 3]> = (0..rows - 1)
+        .flat_map(|row| (0..columns - 1).map(move |column| (row * columns + column) as u8))
         .flat_map(|corner| {
-            let (right, up) = (corner + 1, corner + COLUMNS as u8);
+            let (right, up) = (corner + 1, corner + columns as u8);
             [[corner, right, up], [right, up + 1, up]]
         })
         .collect();
@@ -100,12 +111,12 @@ fn codes(order: usize, seed: usize, spread: f64) -> Vec<LsfCode> {
         .collect()
 }
 
-fn vertex(index: usize) -> Vertex {
-    let (row, column) = (index / COLUMNS, index % COLUMNS);
-    let edge = row == 0 || column == 0 || row == ROWS - 1 || column == COLUMNS - 1;
+fn vertex(index: usize, columns: usize, rows: usize) -> Vertex {
+    let (row, column) = (index / columns, index % columns);
+    let edge = row == 0 || column == 0 || row == rows - 1 || column == columns - 1;
     Vertex {
-        speed_mm_s: MAX_SPEED_MM_S * column as f32 / (COLUMNS - 1) as f32,
-        force_n: MAX_FORCE_N * row as f32 / (ROWS - 1) as f32,
+        speed_mm_s: MAX_SPEED_MM_S * column as f32 / (columns - 1) as f32,
+        force_n: MAX_FORCE_N * row as f32 / (rows - 1) as f32,
         sigma_m_s2: 0.2 * (row * column) as f32,
         model: index as u8,
         kind: if edge {

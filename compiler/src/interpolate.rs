@@ -8,6 +8,7 @@ use crate::{
     model::{ModelGrid, Numerator},
     spectrum::ArmaModel,
 };
+use std::rc::Rc;
 
 /// A triangle, by its vertices, and the weights of a query in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,9 +21,20 @@ pub struct Place {
 
 /// cos ω of A(z) and of B(z).
 #[derive(Debug, Clone)]
-struct Cosines {
+pub(crate) struct Cosines {
     ar: Vec<f64>,
     ma: Vec<f64>,
+}
+
+/// A mixture as it is made, before conversion to coefficients.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mixture {
+    /// cos ω of A(z).
+    pub ar_cosines: Vec<f64>,
+    /// cos ω of B(z), where it is mixed.
+    pub ma_cosines: Vec<f64>,
+    /// gain·σ, m/s².
+    pub level_m_s2: f64,
 }
 
 /// A grid prepared for queries.
@@ -30,7 +42,7 @@ struct Cosines {
 pub struct Field<'a> {
     grid: &'a ModelGrid,
     /// One a vertex.
-    cosines: Vec<Cosines>,
+    cosines: Vec<Rc<Cosines>>,
     corner: (f64, f64),
 }
 
@@ -46,14 +58,28 @@ impl<'a> Field<'a> {
                 .iter()
                 .map(|vertex| {
                     let ma = vertex.ma_lsf_rad.as_deref().unwrap_or_default();
-                    Cosines {
+                    Rc::new(Cosines {
                         ar: cosines(&vertex.lsf_rad),
                         ma: cosines(ma),
-                    }
+                    })
                 })
                 .collect(),
             corner: mesh::corner(grid),
         }
+    }
+
+    /// Prepares a grid whose cosines are known, one entry a vertex.
+    pub(crate) fn with_cosines(grid: &'a ModelGrid, cosines: &[Rc<Cosines>]) -> Self {
+        Self {
+            grid,
+            cosines: cosines.to_vec(),
+            corner: mesh::corner(grid),
+        }
+    }
+
+    /// The cosines, one entry a vertex.
+    pub(crate) fn cosines(&self) -> &[Rc<Cosines>] {
+        &self.cosines
     }
 
     /// The triangle whose smallest weight is largest, as the runtime chooses; `None` for a
@@ -102,6 +128,12 @@ impl<'a> Field<'a> {
         Some([1.0 - w1 - w2, w1, w2])
     }
 
+    /// Numerator of the grid.
+    #[must_use]
+    pub fn numerator(&self) -> Numerator {
+        self.grid.numerator
+    }
+
     /// Largest gain·σ of a vertex, m/s².
     #[must_use]
     pub fn loudest_m_s2(&self) -> f64 {
@@ -109,9 +141,9 @@ impl<'a> Field<'a> {
         levels.fold(0.0, f64::max)
     }
 
-    /// The model of a mixture.
+    /// The mixture at a place.
     #[must_use]
-    pub fn mixture(&self, place: &Place) -> ArmaModel {
+    pub fn mixture(&self, place: &Place) -> Mixture {
         let parts = || place.vertices.into_iter().zip(place.weights);
         let rows = |side: fn(&Cosines) -> &[f64]| -> Vec<f64> {
             let mut mixed = vec![0.0; side(&self.cosines[place.vertices[0]]).len()];
@@ -122,20 +154,31 @@ impl<'a> Field<'a> {
             }
             mixed
         };
-        ArmaModel {
-            sample_rate_hz: self.grid.sample_rate_hz,
-            a: lsf::from_cosines(&rows(|row| &row.ar)),
-            b: match self.grid.numerator {
-                Numerator::None => vec![1.0],
-                Numerator::Nyquist => vec![1.0, 1.0],
-                Numerator::Lsf => lsf::from_cosines(&rows(|row| &row.ma)),
-            },
+        Mixture {
+            ar_cosines: rows(|row| &row.ar),
+            ma_cosines: rows(|row| &row.ma),
             level_m_s2: parts()
                 .map(|(v, weight)| {
                     let vertex = &self.grid.vertices[v];
                     weight * vertex.gain * vertex.sigma_m_s2
                 })
                 .sum(),
+        }
+    }
+
+    /// The model at a place.
+    #[must_use]
+    pub fn model(&self, place: &Place) -> ArmaModel {
+        let mixture = self.mixture(place);
+        ArmaModel {
+            sample_rate_hz: self.grid.sample_rate_hz,
+            a: lsf::from_cosines(&mixture.ar_cosines),
+            b: match self.grid.numerator {
+                Numerator::None => vec![1.0],
+                Numerator::Nyquist => vec![1.0, 1.0],
+                Numerator::Lsf => lsf::from_cosines(&mixture.ma_cosines),
+            },
+            level_m_s2: mixture.level_m_s2,
         }
     }
 }
@@ -181,7 +224,7 @@ mod tests {
         slot.load(&asset, asset.grid().sample_rate_hz()).unwrap();
         let field = Field::new(&texture.grid);
         for (speed_mm_s, force_n) in places(&texture.grid) {
-            let ours = field.mixture(&field.locate(speed_mm_s, force_n).unwrap());
+            let ours = field.model(&field.locate(speed_mm_s, force_n).unwrap());
             let filter = slot.filter_at(speed_mm_s as f32, force_n as f32);
             let monic = |c: &[f32]| {
                 std::iter::once(1.0)

@@ -4,7 +4,7 @@
 //! units; [`lower`] quantises it into the bytes of an asset and reports the error;
 //! [`verify`] drives the real runtime over the whole domain before anything is
 //! written. [`raise`] goes back, for [`inspect`] and [`plot`]; [`render`] runs a
-//! trajectory through the runtime.
+//! trajectory through the runtime; [`scene`] packs what a scene touches within a budget.
 #![forbid(unsafe_code)]
 
 pub mod attributes;
@@ -33,6 +33,7 @@ pub mod reduce;
 pub mod reflection;
 pub mod render;
 pub mod rerate;
+pub mod scene;
 pub mod source;
 pub mod spectrum;
 pub mod tap_synthesis;

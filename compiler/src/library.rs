@@ -1,7 +1,7 @@
 //! Many assets into one library.
 
 use crate::diagnostic::Diagnostic;
-use asperity_formats::{EncodeError, library};
+use asperity_formats::{EncodeError, SceneSurface, library, scene};
 use thiserror::Error;
 
 /// An asset and its name.
@@ -29,12 +29,39 @@ impl Diagnostic for LibraryError {
 /// # Errors
 /// [`LibraryError`] for two assets of one name, or an asset that does not parse.
 pub fn encode(assets: &[NamedAsset<'_>]) -> Result<Vec<u8>, LibraryError> {
-    let mut sorted: Vec<(&str, &[u8])> = assets.iter().map(|a| (a.name, a.bytes)).collect();
-    sorted.sort_by_key(|(name, _)| *name);
+    let sorted = sorted(assets);
     let mut bytes = vec![0; library::encoded_len(&sorted)];
     let len = library::encode_library(&sorted, &mut bytes)?;
     bytes.truncate(len);
     Ok(bytes)
+}
+
+/// Bytes of a library with a scene; textures count in order of name.
+///
+/// # Errors
+/// As [`encode`], and for a surface that the format refuses.
+pub fn encode_scene(
+    assets: &[NamedAsset<'_>],
+    surfaces: &[SceneSurface],
+) -> Result<Vec<u8>, LibraryError> {
+    let sorted = sorted(assets);
+    let len = library::encoded_len(&sorted) + scene::encoded_len(surfaces.len());
+    let mut bytes = vec![0; len];
+    library::encode_scene(&sorted, surfaces, &mut bytes)?;
+    Ok(bytes)
+}
+
+/// Bytes of a library with a scene beside its assets.
+#[must_use]
+pub fn scene_len(names: &[&str], surfaces: usize) -> usize {
+    let empty: Vec<(&str, &[u8])> = names.iter().map(|name| (*name, &[][..])).collect();
+    library::encoded_len(&empty) + scene::encoded_len(surfaces)
+}
+
+fn sorted<'a>(assets: &[NamedAsset<'a>]) -> Vec<(&'a str, &'a [u8])> {
+    let mut sorted: Vec<(&str, &[u8])> = assets.iter().map(|a| (a.name, a.bytes)).collect();
+    sorted.sort_by_key(|(name, _)| *name);
+    sorted
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use crate::{
     lsf,
     mesh::{self, MeshError},
     model::{GridVertex, ModelGrid, Numerator, TapTrace, TextureModel, VertexKind},
-    spectrum::{ArmaModel, log_spectral_distance_db},
+    spectrum::{ArmaModel, ERROR_POINTS, ErrorBand},
 };
 use asperity_formats as formats;
 use asperity_formats::{
@@ -292,6 +292,7 @@ impl ModelTable {
             ma_order: 0,
             errors_db: Vec::new(),
         };
+        let band = ErrorBand::new(grid.sample_rate_hz, ERROR_POINTS);
         for (index, vertex) in grid.vertices.iter().enumerate() {
             let has_numerator = grid.numerator == Numerator::Lsf;
             let ma_lsf = vertex.ma_lsf_rad.as_deref().filter(|_| has_numerator);
@@ -309,7 +310,7 @@ impl ModelTable {
             table.ma_order = table.ma_order.max(entry.ma_lsf.len());
             table
                 .errors_db
-                .push(quantisation_error_db(grid, vertex, &entry));
+                .push(quantisation_error_db(&band, grid, vertex, &entry));
             let known = table.entries.iter().position(|other| *other == entry);
             table.model_of.push(known.unwrap_or(table.entries.len()));
             if known.is_none() {
@@ -354,7 +355,12 @@ fn check_gap(vertex: usize, lsf: &[LsfCode]) -> Result<(), LowerError> {
 }
 
 /// Distance of a vertex's spectrum from that of its codes, at equal level.
-fn quantisation_error_db(grid: &ModelGrid, vertex: &GridVertex, entry: &Entry) -> f64 {
+fn quantisation_error_db(
+    band: &ErrorBand,
+    grid: &ModelGrid,
+    vertex: &GridVertex,
+    entry: &Entry,
+) -> f64 {
     let angles = |codes: &[LsfCode]| codes.iter().map(|c| c.to_rad()).collect::<Vec<_>>();
     let mut exact = ArmaModel::at_vertex(grid, vertex);
     exact.level_m_s2 = 1.0;
@@ -363,7 +369,7 @@ fn quantisation_error_db(grid: &ModelGrid, vertex: &GridVertex, entry: &Entry) -
     if grid.numerator == Numerator::Lsf {
         rounded.b = lsf::to_polynomial(&angles(&entry.ma_lsf));
     }
-    log_spectral_distance_db(&exact, &rounded)
+    band.distance_db(&exact, &rounded)
 }
 
 /// The trace on the grid of its codes, its impulse kept to half a step: samples are

@@ -71,18 +71,31 @@ pub fn from_polynomial(monic: &[f64]) -> Option<Vec<f64>> {
     if monic.first() != Some(&1.0) {
         return None;
     }
-    let reflection = step_down(monic)?;
-    let order = reflection.len();
-    let sum = Sturm::new(&reflection, Side::Sum);
-    let difference = Sturm::new(&reflection, Side::Difference);
-    let lsf: Vec<f64> = (0..order)
-        .map(|index| {
-            let sequence = if index % 2 == 0 { &sum } else { &difference };
-            sequence.root(index / 2)
-        })
-        .collect();
-    Some(lsf)
+    Some(from_reflection(&step_down(monic)?))
 }
+
+/// [`from_polynomial`] of the polynomial with the given reflection coefficients, all of
+/// them inside (−1, 1).
+#[must_use]
+pub fn from_reflection(reflection: &[f64]) -> Vec<f64> {
+    let order = reflection.len();
+    let mut lsf_rad = vec![0.0; order];
+    for (first, side) in [Side::Sum, Side::Difference].into_iter().enumerate() {
+        let sequence = Sturm::new(reflection, side);
+        let indices: Vec<usize> = (0..order.saturating_sub(first).div_ceil(2)).collect();
+        for block in indices.chunks(LANES) {
+            for (&index, root) in block.iter().zip(sequence.roots(block)) {
+                lsf_rad[2 * index + first] = root;
+            }
+        }
+    }
+    lsf_rad
+}
+
+/// Roots that are sought side by side: what fits the registers of a processor.
+const LANES: usize = 8;
+/// Halvings of [0, 1]: to the last bit of a number near 1.
+const HALVINGS: usize = 54;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Side {
@@ -90,7 +103,7 @@ enum Side {
     Difference,
 }
 
-/// `s_{k+1}(x) = 2x·s_k(x) − α_k·s_{k−1}(x)`, all α positive.
+/// `s_{k+1}(x) = 2x·s_k(x) − α_k·s_{k−1}(x)` from `s₀ = 1`, all α positive.
 struct Sturm {
     alpha: Vec<f64>,
 }
@@ -119,38 +132,52 @@ impl Sturm {
         Self { alpha }
     }
 
-    /// Roots with an angle below `omega`, of all in (0, π).
-    fn roots_below(&self, omega: f64) -> usize {
-        let twice_x = 2.0 * libm::cos(0.5 * omega);
-        let mut ratio = twice_x;
-        let mut count = usize::from(ratio < 0.0);
+    /// Of every x the number of roots with a larger one, that is with a smaller angle.
+    fn roots_beyond(&self, x: &[f64; LANES]) -> [u64; LANES] {
+        let mut before = [1.0; LANES];
+        let mut here = x.map(|x| 2.0 * x);
+        let mut count = here.map(|s| u64::from(s < 0.0));
         for alpha in &self.alpha {
-            // A zero ratio stands for a root exactly here; nudge it to one side.
-            let safe = if ratio == 0.0 {
-                f64::MIN_POSITIVE
-            } else {
-                ratio
-            };
-            ratio = twice_x - alpha / safe;
-            count += usize::from(ratio < 0.0);
+            for lane in 0..LANES {
+                let next = 2.0 * x[lane] * here[lane] - alpha * before[lane];
+                // A zero counts as positive: the next one has the sign opposite to the last.
+                count[lane] += u64::from((next < 0.0) != (here[lane] < 0.0));
+                before[lane] = here[lane];
+                here[lane] = next;
+            }
         }
         count
     }
 
-    /// The angle of root number `index`, ascending.
-    fn root(&self, index: usize) -> f64 {
-        let (mut low, mut high) = (0.0, PI);
-        loop {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                return middle;
+    /// The angles of roots, numbered from the smallest angle.
+    fn roots(&self, indices: &[usize]) -> impl Iterator<Item = f64> {
+        let mut wanted = [0; LANES];
+        for (wanted, &index) in wanted.iter_mut().zip(indices) {
+            *wanted = index as u64;
+        }
+        let (mut low, mut high) = ([0.0; LANES], [1.0; LANES]);
+        for _ in 0..HALVINGS {
+            let mut middle = [0.0; LANES];
+            for lane in 0..LANES {
+                middle[lane] = 0.5 * (low[lane] + high[lane]);
             }
-            if self.roots_below(middle) > index {
-                high = middle;
-            } else {
-                low = middle;
+            let beyond = self.roots_beyond(&middle);
+            for lane in 0..LANES {
+                let root_is_beyond = beyond[lane] > wanted[lane];
+                low[lane] = if root_is_beyond {
+                    middle[lane]
+                } else {
+                    low[lane]
+                };
+                high[lane] = if root_is_beyond {
+                    high[lane]
+                } else {
+                    middle[lane]
+                };
             }
         }
+        let middle = move |lane: usize| 0.5 * (low[lane] + high[lane]);
+        (0..indices.len()).map(move |lane| 2.0 * libm::acos(middle(lane)))
     }
 }
 

@@ -1,8 +1,11 @@
 //! The runtime offline: a trajectory in, what a hand would feel out.
 
 use crate::diagnostic::Diagnostic;
-use asperity_formats::Asset;
-use asperity_runtime::{Config, ConfigError, HostTexture, LoadError, Renderer, Sample, State};
+use asperity_formats::{Asset, Library};
+use asperity_runtime::{
+    Config, ConfigError, Flags, HostScene, HostTexture, LoadError, Output, Renderer, Sample,
+    SceneError, SceneState, State,
+};
 use std::{
     io::{self, Read, Write},
     path::{Path, PathBuf},
@@ -26,6 +29,8 @@ pub const OUTPUT_COLUMNS: [&str; 12] = [
     "fz_n",
     "flags",
 ];
+/// One more column of a scene: the surface in contact, from 0; empty where there is none.
+pub const SURFACE_COLUMN: &str = "surface";
 /// A row's time may differ from its place by this share of a period: enough for times
 /// printed with few digits, too little for another rate to go unnoticed for long.
 const TIME_TOLERANCE: f64 = 0.25;
@@ -111,6 +116,9 @@ pub enum RenderError {
         /// Why.
         cause: LoadError,
     },
+    /// The library's scene cannot be rendered.
+    #[error("the scene cannot be rendered: {0}")]
+    Scene(SceneError),
     /// The texture's rate is no servo rate.
     #[error("{texture}: {cause}")]
     Config {
@@ -143,6 +151,7 @@ impl Diagnostic for RenderError {
             Self::Load { .. } | Self::Config { .. } => {
                 "make the texture for a servo rate of the runtime".into()
             }
+            Self::Scene(_) => "build the scene again".into(),
             Self::Write(error) if error.kind() == io::ErrorKind::StorageFull => {
                 "free space on the disk, or give a path on another one".into()
             }
@@ -197,22 +206,70 @@ pub fn render(
             cause,
         })?;
     let mut state = State::new(seed);
-    let mut rows = Rows::new(file, input, rate_hz)?;
+    let rows = Rows::new(file, input, rate_hz)?;
+    writeln!(output, "{}", OUTPUT_COLUMNS.join(",")).map_err(RenderError::Write)?;
+    run(rows, output, |sample| {
+        (renderer.tick(&slot, &mut state, sample), String::new())
+    })
+}
+
+/// As [`render`], on the surfaces of a library's scene; a row says at its end, under
+/// [`SURFACE_COLUMN`], which one is touched.
+///
+/// # Errors
+/// As [`render`], and [`RenderError::Scene`].
+pub fn render_scene(
+    library: &Library<'_>,
+    file: &Path,
+    input: impl Read,
+    mut output: impl Write,
+    seed: u64,
+) -> Result<RenderReport, RenderError> {
+    let first = library.asset(0).map_err(|cause| {
+        let (index, cause) = (0, cause.into());
+        RenderError::Scene(SceneError::Texture { index, cause })
+    })?;
+    let config = Config {
+        servo_rate_hz: first.grid().sample_rate_hz(),
+        ..Config::default()
+    };
+    let renderer = Renderer::new(&config).map_err(|cause| RenderError::Config {
+        texture: first.name().to_owned(),
+        cause,
+    })?;
+    let mut slots = vec![HostTexture::new(); library.index().len()];
+    let scene = HostScene::load(library, &config, &mut slots).map_err(RenderError::Scene)?;
+    let mut state = SceneState::new(seed);
+    let rows = Rows::new(file, input, config.servo_rate_hz)?;
+    writeln!(output, "{},{SURFACE_COLUMN}", OUTPUT_COLUMNS.join(","))
+        .map_err(RenderError::Write)?;
+    run(rows, output, |sample| {
+        let felt = renderer.tick_scene(&scene, &mut state, sample);
+        let touched = state.touched().map(|index| index.to_string());
+        (felt, format!(",{}", touched.unwrap_or_default()))
+    })
+}
+
+/// Every row through `tick`, which may add columns.
+fn run<R: Read>(
+    mut rows: Rows<'_, R>,
+    mut output: impl Write,
+    mut tick: impl FnMut(&Sample) -> (Output, String),
+) -> Result<RenderReport, RenderError> {
     let mut report = RenderReport {
         ticks: 0,
         contact_ticks: 0,
         taps: 0,
         peak_force_n: 0.0,
     };
-    writeln!(output, "{}", OUTPUT_COLUMNS.join(",")).map_err(RenderError::Write)?;
     while let Some(row) = rows.next()? {
         // Millimetres to metres in f64, so that only one rounding is left.
         let position_m = row.position_mm.map(|mm| (mm / 1000.0) as f32);
-        let out = renderer.tick(&slot, &mut state, &Sample::at(position_m));
+        let (out, more) = tick(&Sample::at(position_m));
         let [fx, fy, fz] = out.force_n;
         writeln!(
             output,
-            "{},{},{},{},{},{},{},{},{fx},{fy},{fz},{}",
+            "{},{},{},{},{},{},{},{},{fx},{fy},{fz},{}{more}",
             report.ticks,
             row.t_s,
             out.depth_m * 1000.0,
@@ -226,15 +283,15 @@ pub fn render(
         .map_err(RenderError::Write)?;
         report.ticks += 1;
         report.contact_ticks += u64::from(out.depth_m > 0.0);
+        report.taps += u32::from(out.flags.contains(Flags::TAP_STARTED));
         report.peak_force_n = report
             .peak_force_n
             .max((fx * fx + fy * fy + fz * fz).sqrt());
     }
     output.flush().map_err(RenderError::Write)?;
-    report.taps = state.counters().taps;
     if report.ticks == 0 {
         return Err(RenderError::Empty {
-            file: file.to_owned(),
+            file: rows.file.to_owned(),
         });
     }
     Ok(report)

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use asperity_formats::{
-    FormatError,
+    FormatError, SceneSurface,
     library::{self, LibraryIndex},
 };
 use std::{
@@ -194,6 +194,51 @@ impl Source {
                 |index| index.entries().map(|e| e.name.to_owned()).collect(),
             )),
         }
+    }
+
+    /// Version of the format of a library; `None` for an asset.
+    #[must_use]
+    pub fn library_version(&self) -> Option<u16> {
+        match &self.content {
+            Content::Asset => None,
+            Content::Library(index) => LibraryIndex::parse(index).ok().map(|i| i.version()),
+        }
+    }
+
+    /// Surfaces of a library's scene; none without a scene.
+    ///
+    /// # Errors
+    /// [`SourceError`] for a damaged scene.
+    pub fn surfaces(&mut self) -> Result<Vec<SceneSurface>, SourceError> {
+        let Content::Library(index) = &self.content else {
+            return Ok(Vec::new());
+        };
+        // Parsed when it was opened.
+        let Ok(index) = LibraryIndex::parse(index) else {
+            return Ok(Vec::new());
+        };
+        let (range, textures) = (index.scene_range(), index.len());
+        let Some(range) = range else {
+            return Ok(Vec::new());
+        };
+        let bytes = self.read(range.start, range.end - range.start, None)?;
+        let scene = asperity_formats::Scene::parse(&bytes, textures)
+            .map_err(|e| self.error(None, e.into()))?;
+        Ok(scene.surfaces().collect())
+    }
+
+    /// Bytes of the whole library if it has a scene.
+    ///
+    /// # Errors
+    /// [`SourceError`] for a failed read.
+    pub fn scene_library(&mut self) -> Result<Option<Vec<u8>>, SourceError> {
+        let has_scene = match &self.content {
+            Content::Asset => false,
+            Content::Library(index) => {
+                LibraryIndex::parse(index).is_ok_and(|index| index.scene_range().is_some())
+            }
+        };
+        has_scene.then(|| self.read(0, self.len, None)).transpose()
     }
 
     /// Bytes of the one texture meant by `wanted`, a name or an index of a library. Not

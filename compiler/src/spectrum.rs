@@ -56,11 +56,8 @@ impl ArmaModel {
         level * level * squared_magnitude(&self.b, omega) / squared_magnitude(&self.a, omega)
     }
 
-    /// [`ArmaModel::power`] at evenly spaced frequencies `first + n·step`.
-    fn powers(&self, first_hz: f64, step_hz: f64, count: usize) -> Vec<f64> {
-        let angles = Angles::new(
-            (0..count).map(|n| TAU * (first_hz + n as f64 * step_hz) / self.sample_rate_hz),
-        );
+    /// [`ArmaModel::power`] at every frequency.
+    fn powers_at(&self, angles: &Angles) -> Vec<f64> {
         let mut powers = angles.squared_magnitudes(&self.b);
         let level = self.level_m_s2;
         for (power, below) in powers.iter_mut().zip(angles.squared_magnitudes(&self.a)) {
@@ -81,7 +78,8 @@ impl ArmaModel {
         let width = (nyquist - VIBRATION_FLOOR_HZ) / steps;
         let (mut sum, mut moment) = (0.0, 0.0);
         let first_hz = VIBRATION_FLOOR_HZ + 0.5 * width;
-        let powers = self.powers(first_hz, width, steps as usize);
+        let omega = |n: usize| TAU * (first_hz + n as f64 * width) / self.sample_rate_hz;
+        let powers = self.powers_at(&Angles::new((0..steps as usize).map(omega)));
         for (step, power) in powers.into_iter().enumerate() {
             let freq_hz = first_hz + step as f64 * width;
             sum += power;
@@ -159,6 +157,69 @@ impl Angles {
     }
 }
 
+impl Angles {
+    /// |A|² at every frequency, of the polynomial whose LSFs have these cosines.
+    ///
+    /// The sum and the difference polynomial are in quadrature on the unit circle and known by
+    /// their roots, so |A|² = (|Q|² + |P|²)/4 needs no coefficients.
+    #[must_use]
+    pub fn squared_magnitudes_of_lsf(&self, lsf_cosines: &[f64]) -> Vec<f64> {
+        let mut all = Vec::with_capacity(self.blocks.len() * Self::LANES);
+        for (x, _) in &self.blocks {
+            let (mut sum, mut difference) = ([1.0; Self::LANES], [1.0; Self::LANES]);
+            for pair in lsf_cosines.chunks(2) {
+                for lane in 0..Self::LANES {
+                    sum[lane] *= 2.0 * (x[lane] - pair[0]);
+                }
+                if let &[_, c] = pair {
+                    for lane in 0..Self::LANES {
+                        difference[lane] *= 2.0 * (x[lane] - c);
+                    }
+                }
+            }
+            let even = lsf_cosines.len().is_multiple_of(2);
+            all.extend((0..Self::LANES).map(|lane| {
+                let x = x[lane];
+                let (q, p) = (sum[lane] * sum[lane], difference[lane] * difference[lane]);
+                if even {
+                    0.5 * ((1.0 + x) * q + (1.0 - x) * p)
+                } else {
+                    0.25 * q + (1.0 - x) * (1.0 + x) * p
+                }
+            }));
+        }
+        all.truncate(self.count);
+        all
+    }
+}
+
+/// `10·log10` of a positive, normal number, to 1e-11 dB; anything else gives a number without
+/// meaning, far beyond what a spectrum spans for 0, ∞ and NaN.
+///
+/// Compilers turn a loop over it into vector instructions, which they cannot for a call.
+#[inline(always)]
+#[must_use]
+pub fn decibels(power: f64) -> f64 {
+    /// Bits of √½, the least mantissa.
+    const LEAST: u64 = 0x3FE6_A09E_667F_3BCD;
+    const ONE: u64 = 0x3FF0_0000_0000_0000;
+    const MANTISSA_BITS: u32 = 52;
+    /// A number with these bits below is 2⁵² and the integer they are.
+    const TWO_52: u64 = 0x4330_0000_0000_0000;
+    let shifted = power.to_bits().wrapping_add(ONE - LEAST);
+    let exponent =
+        f64::from_bits(TWO_52 | shifted >> MANTISSA_BITS) - (f64::from_bits(TWO_52) + 1023.0);
+    let mantissa = f64::from_bits((shifted & ((1 << MANTISSA_BITS) - 1)) + LEAST);
+    // ln m = 2·artanh t, |t| ≤ 0.172.
+    let t = (mantissa - 1.0) / (mantissa + 1.0);
+    let square = t * t;
+    let mut series = 0.0;
+    for n in (0..8).rev() {
+        series = series * square + 1.0 / f64::from(2 * n + 1);
+    }
+    10.0 / std::f64::consts::LN_10 * (exponent * std::f64::consts::LN_2 + 2.0 * t * series)
+}
+
 /// `|1 + Σ c_k e^{−jkω}|²` by Horner's rule.
 #[must_use]
 pub fn squared_magnitude(coefficients: &[f64], omega: f64) -> f64 {
@@ -171,30 +232,65 @@ pub fn squared_magnitude(coefficients: &[f64], omega: f64) -> f64 {
     re * re + im * im
 }
 
+/// The uniform frequencies over [`ERROR_BAND_HZ`] at which models are compared; the band ends
+/// at 0.45 of the sample rate where that is less.
+#[derive(Debug, Clone)]
+pub struct ErrorBand(Angles);
+
+impl ErrorBand {
+    /// Of models at a sample rate, Hz, at so many frequencies, both ends included.
+    #[must_use]
+    pub fn new(sample_rate_hz: f64, points: usize) -> Self {
+        Self::up_to(0.45 * sample_rate_hz, sample_rate_hz, points)
+    }
+
+    fn up_to(limit_hz: f64, sample_rate_hz: f64, points: usize) -> Self {
+        let (low, high) = ERROR_BAND_HZ;
+        let step = (high.min(limit_hz) - low) / (points - 1) as f64;
+        let omega = |n: usize| TAU * (low + n as f64 * step) / sample_rate_hz;
+        Self(Angles::new((0..points).map(omega)))
+    }
+
+    /// The frequencies.
+    #[must_use]
+    pub fn angles(&self) -> &Angles {
+        &self.0
+    }
+
+    /// [`log_spectral_distance_db`] of models at the rate of the band.
+    #[must_use]
+    pub fn distance_db(&self, x: &ArmaModel, y: &ArmaModel) -> f64 {
+        distance_over((self, x), (self, y))
+    }
+}
+
 /// RMS over 10–450 Hz of the difference of two log spectra, level included, dB.
 ///
 /// The band ends at 0.45 of the lower sample rate where that is less. Infinite
 /// where one of them is silent and the other is not, zero where both are.
 #[must_use]
 pub fn log_spectral_distance_db(x: &ArmaModel, y: &ArmaModel) -> f64 {
+    let limit_hz = 0.45 * x.sample_rate_hz.min(y.sample_rate_hz);
+    let [of_x, of_y] =
+        [x, y].map(|model| ErrorBand::up_to(limit_hz, model.sample_rate_hz, ERROR_POINTS));
+    distance_over((&of_x, x), (&of_y, y))
+}
+
+fn distance_over(
+    (ErrorBand(of_x), x): (&ErrorBand, &ArmaModel),
+    (ErrorBand(of_y), y): (&ErrorBand, &ArmaModel),
+) -> f64 {
     match (x.level_m_s2 > 0.0, y.level_m_s2 > 0.0) {
         (true, true) => {}
         (false, false) => return 0.0,
         _ => return f64::INFINITY,
     }
-    let (low, high) = ERROR_BAND_HZ;
-    let high = high.min(0.45 * x.sample_rate_hz.min(y.sample_rate_hz));
-    let step = (high - low) / (ERROR_POINTS - 1) as f64;
-    let (x, y) = (
-        x.powers(low, step, ERROR_POINTS),
-        y.powers(low, step, ERROR_POINTS),
-    );
-    let mut sum = 0.0;
-    for (x, y) in x.iter().zip(&y) {
-        let difference_db = 10.0 * libm::log10(x / y);
-        sum += difference_db * difference_db;
+    let mut squares = x.powers_at(of_x);
+    for (x, y) in squares.iter_mut().zip(y.powers_at(of_y)) {
+        let difference_db = decibels(*x / y);
+        *x = difference_db * difference_db;
     }
-    (sum / ERROR_POINTS as f64).sqrt()
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
 /// Power-weighted mean frequency of a transient, Hz; `None` for a silent one.
@@ -275,6 +371,41 @@ mod tests {
                 found.to_bits(),
                 squared_magnitude(&coefficients, *omega).to_bits()
             );
+        }
+    }
+
+    #[test]
+    fn a_polynomial_is_known_by_its_lsf() {
+        let omegas = (0..40).map(|n| 0.08 * f64::from(n));
+        let angles = Angles::new(omegas);
+        for lsf_rad in [
+            vec![0.4],
+            vec![0.3, 0.9],
+            vec![0.2, 0.5, 1.9],
+            vec![0.1, 0.4, 1.0, 2.2],
+        ] {
+            let cosines: Vec<f64> = lsf_rad.iter().map(|w: &f64| w.cos()).collect();
+            let by_roots = angles.squared_magnitudes_of_lsf(&cosines);
+            let by_horner = angles.squared_magnitudes(&lsf::to_polynomial(&lsf_rad));
+            assert_eq!(by_roots.len(), 40);
+            for (x, y) in by_roots.iter().zip(&by_horner) {
+                assert!((x / y - 1.0).abs() < 1e-9, "{lsf_rad:?}: {x} for {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn decibels_are_ten_times_the_logarithm() {
+        for n in -3000..3000 {
+            let power = 1.07_f64.powi(n);
+            assert!(
+                (decibels(power) - 10.0 * power.log10()).abs() < 1e-11,
+                "{power}"
+            );
+        }
+        assert_eq!(decibels(1.0), 0.0);
+        for odd in [0.0, f64::INFINITY, f64::NAN] {
+            assert!(decibels(odd).abs() > 3000.0);
         }
     }
 

@@ -5,7 +5,7 @@ use crate::{
     mesh,
     model::{ModelGrid, TextureModel},
     reflection::step_down,
-    spectrum::{ArmaModel, log_spectral_distance_db},
+    spectrum::{ArmaModel, ERROR_POINTS, ErrorBand},
 };
 use asperity_formats::{Asset, FormatError};
 use asperity_runtime::{
@@ -242,6 +242,7 @@ fn check_spectra(slot: &HostTexture, grid: &ModelGrid) -> Result<f64, VerifyErro
         .vertices
         .iter()
         .fold(0.0, |m: f64, v| m.max(v.gain * v.sigma_m_s2));
+    let band = ErrorBand::new(grid.sample_rate_hz, ERROR_POINTS);
     let mut max_db = 0.0_f64;
     for (index, vertex) in grid.vertices.iter().enumerate() {
         let filter = slot.filter_at(vertex.speed_mm_s as f32, vertex.force_n as f32);
@@ -257,7 +258,7 @@ fn check_spectra(slot: &HostTexture, grid: &ModelGrid) -> Result<f64, VerifyErro
                     let silent = found.level_m_s2 <= 2.0 * SILENCE_SHARE * loudest;
                     if silent { 0.0 } else { f64::INFINITY }
                 } else {
-                    log_spectral_distance_db(&expected, &found)
+                    band.distance_db(&expected, &found)
                 }
             })
             .fold(f64::INFINITY, f64::min);

@@ -2,19 +2,22 @@
 //!
 //! One texture is read by index or name without touching the others. The index
 //! can be read alone ([`LibraryIndex`]) from the front of a file; a whole library
-//! in memory, mapped or in flash is a [`Library`].
+//! in memory, mapped or in flash is a [`Library`]. Behind the assets of version 2 lies a
+//! [`Scene`].
 
 use crate::{
     Asset, EncodeError, FormatError,
     checksum::crc32,
     friction::text,
     limits,
+    scene::{self, Scene, SceneSurface},
     wire::{Writer, array_at},
 };
 use core::{cmp::Ordering, ops::Range};
 
-/// Version of the library format that this crate writes.
-pub const VERSION: u16 = 1;
+/// Latest version of the library format; without a scene, a library is written in version 1.
+pub const VERSION: u16 = 2;
+const VERSION_WITH_SCENE: u16 = 2;
 /// Bytes to read first, enough for [`index_len`].
 pub const HEADER_LEN: usize = 28;
 const MAGIC: [u8; 4] = *b"ASPL";
@@ -26,6 +29,9 @@ pub struct LibraryIndex<'a> {
     entries: &'a [u8],
     names: &'a [u8],
     total_len: u64,
+    version: u16,
+    /// Where the assets end.
+    assets_end: u64,
 }
 
 /// Where one texture lies.
@@ -127,17 +133,20 @@ impl<'a> LibraryIndex<'a> {
         }
         let count = u32::from_le_bytes(array_at(head, 8)) as usize;
         let (entries, names) = rest.split_at(count * ENTRY_LEN);
-        let index = Self {
+        let mut index = Self {
             entries,
             names,
             total_len: u64::from_le_bytes(array_at(head, 16)),
+            version: u16::from_le_bytes(array_at(head, 4)),
+            assets_end: 0,
         };
-        index.check(len as u64)?;
+        index.assets_end = index.check(len as u64)?;
         Ok(index)
     }
 
-    /// Assets lie one after the other; names lie one after the other and ascend.
-    fn check(&self, index_len: u64) -> Result<(), FormatError> {
+    /// Assets lie one after the other; names lie one after the other and ascend. Returns
+    /// where the assets end.
+    fn check(&self, index_len: u64) -> Result<u64, FormatError> {
         let (mut offset, mut name_end, mut previous) = (index_len, 0, "");
         for (index, record) in self.entries.chunks_exact(ENTRY_LEN).enumerate() {
             let raw = RawEntry::read(record);
@@ -193,15 +202,37 @@ impl<'a> LibraryIndex<'a> {
                 "must end with the last name",
             ));
         }
-        if offset != self.total_len {
-            return Err(FormatError::invalid(
+        let (fits, rule) = if self.version < VERSION_WITH_SCENE {
+            let rule = "must be the sum of index and assets";
+            (offset == self.total_len, rule)
+        } else {
+            let lengths = [1, limits::MAX_SURFACES].map(|n| scene::encoded_len(n) as u64);
+            let rest = self.total_len.checked_sub(offset);
+            let fits = rest.is_some_and(|rest| (lengths[0]..=lengths[1]).contains(&rest));
+            (fits, "must be the sum of index, assets and scene")
+        };
+        if fits {
+            Ok(offset)
+        } else {
+            Err(FormatError::invalid(
                 "library.total_len",
                 0,
                 self.total_len as f64,
-                "must be the sum of index and assets",
-            ));
+                rule,
+            ))
         }
-        Ok(())
+    }
+
+    /// Version of the format that the library was written in.
+    #[must_use]
+    pub const fn version(&self) -> u16 {
+        self.version
+    }
+
+    /// Where the scene lies, if there is one.
+    #[must_use]
+    pub fn scene_range(&self) -> Option<Range<u64>> {
+        (self.version >= VERSION_WITH_SCENE).then_some(self.assets_end..self.total_len)
     }
 
     fn name_bytes(&self, raw: &RawEntry) -> &'a [u8] {
@@ -298,10 +329,11 @@ impl RawEntry {
 pub struct Library<'a> {
     bytes: &'a [u8],
     index: LibraryIndex<'a>,
+    scene: Option<Scene<'a>>,
 }
 
 impl<'a> Library<'a> {
-    /// Checks the index and the total length; assets are checked when asked for.
+    /// Checks the index, the total length and the scene; assets are checked when asked for.
     ///
     /// # Errors
     /// The first check that fails.
@@ -319,8 +351,27 @@ impl<'a> Library<'a> {
                 stated,
                 found,
             }),
-            Ordering::Equal => Ok(Self { bytes, index }),
+            Ordering::Equal => {
+                let section = index.scene_range().and_then(|range| {
+                    // Within a length that was found in memory.
+                    bytes.get(range.start as usize..range.end as usize)
+                });
+                let scene = section
+                    .map(|section| Scene::parse(section, index.len()))
+                    .transpose()?;
+                Ok(Self {
+                    bytes,
+                    index,
+                    scene,
+                })
+            }
         }
+    }
+
+    /// The scene, if there is one.
+    #[must_use]
+    pub const fn scene(&self) -> Option<&Scene<'a>> {
+        self.scene.as_ref()
     }
 
     /// The index.
@@ -383,13 +434,49 @@ pub fn encoded_len(textures: &[(&str, &[u8])]) -> usize {
 /// # Errors
 /// A small buffer, an asset that does not parse, names that do not ascend.
 pub fn encode_library(textures: &[(&str, &[u8])], out: &mut [u8]) -> Result<usize, EncodeError> {
+    encode(textures, &[], out)
+}
+
+/// Writes a library with a scene: as [`encode_library`], with at least one surface. Takes
+/// [`encoded_len`] and [`scene::encoded_len`] bytes.
+///
+/// # Errors
+/// As [`encode_library`], and a surface that a reader would refuse.
+pub fn encode_scene(
+    textures: &[(&str, &[u8])],
+    surfaces: &[SceneSurface],
+    out: &mut [u8],
+) -> Result<usize, EncodeError> {
+    if !(1..=limits::MAX_SURFACES).contains(&surfaces.len()) {
+        return Err(FormatError::invalid(
+            "scene.count",
+            0,
+            surfaces.len() as f64,
+            "1 to 64 surfaces",
+        )
+        .into());
+    }
+    encode(textures, surfaces, out)
+}
+
+fn encode(
+    textures: &[(&str, &[u8])],
+    surfaces: &[SceneSurface],
+    out: &mut [u8],
+) -> Result<usize, EncodeError> {
     let index_len = textures
         .iter()
         .fold(HEADER_LEN, |sum, (name, _)| sum + ENTRY_LEN + name.len());
-    let total_len = encoded_len(textures);
+    let assets_end = encoded_len(textures);
+    let (version, total_len) = if surfaces.is_empty() {
+        (1, assets_end)
+    } else {
+        let scene_len = scene::encoded_len(surfaces.len());
+        (VERSION_WITH_SCENE, assets_end + scene_len)
+    };
     let mut writer = Writer::new(out, 0);
     writer.bytes(&MAGIC)?;
-    writer.u16(VERSION)?;
+    writer.u16(version)?;
     writer.u16(0)?;
     writer.u32(textures.len() as u32)?;
     writer.u32(index_len as u32)?;
@@ -411,6 +498,10 @@ pub fn encode_library(textures: &[(&str, &[u8])], out: &mut [u8]) -> Result<usiz
     }
     for (_, bytes) in textures {
         writer.bytes(bytes)?;
+    }
+    if !surfaces.is_empty() {
+        let place = out.get_mut(assets_end..).unwrap_or_default();
+        scene::encode(surfaces, textures.len(), place)?;
     }
     let crc = crc32(&[
         out.get(..24).unwrap_or_default(),

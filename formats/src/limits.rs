@@ -18,6 +18,8 @@ pub const MAX_NAME_BYTES: usize = 64;
 pub const MAX_PROVENANCE_BYTES: usize = 16 * 1024;
 /// Sections of an asset.
 pub const MAX_SECTIONS: usize = 16;
+/// Surfaces of a scene.
+pub const MAX_SURFACES: usize = 64;
 /// Textures of a library.
 pub const MAX_TEXTURES: usize = 1 << 20;
 
@@ -54,3 +56,7 @@ pub const MAX_VIB_GAIN_S2_M: f32 = 1_000.0;
 pub const MAX_EFFECTIVE_MASS_KG: f32 = 100.0;
 /// Largest force the gains are relative to, N.
 pub const MAX_DEVICE_FORCE_N: f32 = 10_000.0;
+/// Largest coordinate and size of a scene, m.
+pub const MAX_POSITION_M: f32 = 10_000.0;
+/// Smallest radius and half edge length of a solid, m.
+pub const MIN_SOLID_M: f32 = 1e-6;

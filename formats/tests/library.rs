@@ -295,14 +295,14 @@ fn every_field_of_the_index_is_checked() {
             _ => panic!("byte {offset} = {piece:02x?}: {error:?}"),
         }
     }
-    for version in [0_u16, 2, 256] {
+    for version in [0_u16, 3, 256] {
         let mut bytes = original.clone();
         put(&mut bytes, 4, &version.to_le_bytes());
         assert_eq!(
             Library::parse(&bytes).map(drop),
             Err(FormatError::Version {
                 found: version,
-                supported: 1
+                supported: 2
             })
         );
     }

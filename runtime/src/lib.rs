@@ -23,6 +23,7 @@
 //! | [`wall`] | F_n | stiffness and damping that the device can bear |
 //! | [`limiter`] | | peak and slew of the total force |
 //! | [`safety`] | | bad samples, safe state, ramp |
+//! | [`scene`] | | which of several surfaces is touched, the way from one to the next |
 //!
 //! ```
 //! use asperity_formats::Asset;
@@ -60,6 +61,7 @@
 
 pub mod config;
 pub mod contact;
+mod crossing;
 pub mod excitation;
 pub mod friction;
 mod lanes;
@@ -69,6 +71,7 @@ mod lsf;
 pub mod math;
 mod resample;
 pub mod safety;
+pub mod scene;
 mod schedule;
 pub mod synthesis;
 pub mod tap;
@@ -84,6 +87,7 @@ pub use config::{
 };
 pub use contact::Surface;
 pub use locate::Barycentric;
+pub use scene::{HostScene, Scene, SceneError, SceneState};
 pub use synthesis::Filter;
 pub use texture::{HostTexture, LoadError, Texture};
 pub use tick::{Counters, Flags, Output, Renderer, Sample, State};

@@ -356,6 +356,7 @@ pub(crate) const fn stage(index: usize, order: usize) -> usize {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests run on the host")]
 mod tests {
     extern crate std;
     use super::*;
@@ -441,6 +442,38 @@ mod tests {
                 assert!((f64::from(*ours) - exact).abs() < 1e-2 * exact.abs().max(1.0));
             }
             assert!(b[order / 2..].iter().all(|&b| b == 0.0));
+        }
+    }
+
+    /// Processors without registers of four numbers take the lanes one by one.
+    #[test]
+    fn one_polynomial_at_a_time_gives_the_same_bits() {
+        let number = |k: usize| F4::load(&[1, 2, 3, 4].map(|lane| ((7 * k + lane) as f32).sin()));
+        let (mut at_once, mut singly) = (Products::ONE, Products::ONE);
+        for two in 0..MAX_ORDER / 4 {
+            let by = Two {
+                s: number(two),
+                q: number(two + 10),
+                r: number(two + 20),
+                o: number(two + 30),
+            };
+            let full = two % 2 == 0;
+            if full {
+                by.multiply::<true>(two, &mut at_once);
+            } else {
+                by.multiply::<false>(two, &mut at_once);
+            }
+            for lane in 0..LANES {
+                let from = &mut singly.0.as_flattened_mut()[lane..];
+                let mut polynomial = Lane(from.first_chunk_mut().unwrap());
+                if full {
+                    by.lane(lane).multiply::<true>(two, &mut polynomial);
+                } else {
+                    by.lane(lane).multiply::<false>(two, &mut polynomial);
+                }
+            }
+            let bits = |products: &Products| products.0.map(|c| c.map(f32::to_bits));
+            assert_eq!(bits(&at_once), bits(&singly), "two {two}");
         }
     }
 }

@@ -47,6 +47,11 @@ impl Gate {
         fresh: true,
     };
 
+    /// The last usable position, m.
+    pub(crate) const fn position_m(&self) -> F4 {
+        self.position_m
+    }
+
     /// One sample; `ramp_step` is the gain regained a tick.
     #[inline]
     pub fn step(&mut self, sample: &Sample, hold_ticks: u32, ramp_step: f32) -> Gated {

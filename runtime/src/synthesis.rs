@@ -130,6 +130,11 @@ impl History {
         at: 0,
     };
 
+    /// The last output, m/s².
+    pub(crate) fn last(&self) -> f32 {
+        self.y.0[0][usize::from(self.at) % LANES]
+    }
+
     /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags
     /// 1.., zero above the order. With `sounding` false the model is mute, and with `e` zero its
     /// history fades out within 24 samples. Returns y, m/s², and whether it had to be clamped.

@@ -162,6 +162,16 @@ impl TapState {
         self.distances_m = [distance_m; WINDOW_TICKS];
     }
 
+    /// Another surface, from which the last position was `distance_m` away: the slope stays,
+    /// and a transient plays on. A surface that was already entered is no impact.
+    pub(crate) fn cross(&mut self, distance_m: f32) {
+        let moved_m = distance_m - self.distances_m[usize::from(self.newest) % WINDOW_TICKS];
+        for past in &mut self.distances_m {
+            *past += moved_m;
+        }
+        self.armed = self.armed && distance_m > 0.0;
+    }
+
     /// Impact speed, m/s: minus the least-squares slope of the last eight distances.
     #[inline]
     fn approach_speed_m_s(&self, servo_rate_hz: f32) -> f32 {

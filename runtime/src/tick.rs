@@ -212,7 +212,7 @@ impl Counters {
 /// it, so a swap of texture copies no history.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    vibration: Vibration,
+    pub(crate) vibration: Vibration,
     gate: Gate,
     distance_m: f32,
     velocity: LowPass2State,
@@ -246,6 +246,14 @@ impl State {
         &self.counters
     }
 
+    /// Another surface is touched from here on: the way there is no motion along its normal.
+    #[cold]
+    pub(crate) fn cross(&mut self, solid: &Solid) {
+        let (distance_m, _) = solid.touch(self.gate.position_m());
+        self.distance_m = distance_m;
+        self.tap.cross(distance_m);
+    }
+
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.
     #[cold]
     fn restart(&mut self, distance_m: f32) {
@@ -255,6 +263,14 @@ impl State {
         self.friction = FrictionState::default();
         self.tap.restart(distance_m);
     }
+}
+
+/// What is touched, apart from the sound of its texture.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Felt<'a> {
+    pub(crate) solid: &'a Solid,
+    pub(crate) surface: &'a Surface,
+    pub(crate) mu: f32,
 }
 
 /// A checked configuration with all that follows from it.
@@ -269,7 +285,7 @@ pub struct Renderer {
     /// Periods per second over 0 (never), 1, 2 and 3 elapsed ticks.
     rate_over_ticks: [f32; 4],
     /// Share of the way that parameters go in a cycle.
-    follow_share: f32,
+    pub(crate) follow_share: f32,
     ramp_step: f32,
 }
 
@@ -329,15 +345,47 @@ impl Renderer {
         state: &mut State,
         sample: &Sample,
     ) -> Output {
-        let config = &self.config;
-        let surface = &texture.surface;
+        let felt = Felt {
+            solid: &self.solid,
+            surface: &texture.surface,
+            mu: texture.mu,
+        };
         state.vibration.prepare(texture, self.follow_share);
+        let lags = texture.lags();
+        let sound = |vibration: &mut Vibration, sounding| vibration.sound(lags, sounding);
+        let output = self.tick_on(felt, texture, state, sample, sound);
+        state
+            .vibration
+            .query(texture, output.speed_mm_s, output.normal_force_n);
+        output
+    }
+
+    /// [`Renderer::tick`] on a solid, with wall, gains and friction as given; `sound` gives the
+    /// vibration, told whether it is to be heard. Its parameters are made around this, where
+    /// little else is at hand.
+    #[inline(always)]
+    pub(crate) fn tick_on<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &self,
+        felt: Felt<'_>,
+        texture: &Texture<V, T, P, Q, K>,
+        state: &mut State,
+        sample: &Sample,
+        sound: impl FnOnce(&mut Vibration, bool) -> (f32, bool),
+    ) -> Output {
+        let config = &self.config;
+        let surface = felt.surface;
 
         let gated = state
             .gate
             .step(sample, config.safety.hold_ticks, self.ramp_step);
         let mut flags = gated.flags;
-        let (distance_m, normal) = self.solid.touch(gated.position_m);
+        let (distance_m, normal) = felt.solid.touch(gated.position_m);
         if flags.contains(Flags::RESTART) {
             state.restart(distance_m);
         }
@@ -369,7 +417,7 @@ impl Renderer {
         let speed_mm_s = speed_m_s * MM;
         let outside = texture.is_outside(speed_mm_s, stiffness_n);
         flags = flags.and(Flags::OUTSIDE_GRID.when(outside));
-        let limit_n = texture.mu * stiffness_n;
+        let limit_n = felt.mu * stiffness_n;
         let (friction, friction_n) = state.friction.slip(
             &self.bristle,
             &stretched,
@@ -385,7 +433,7 @@ impl Renderer {
         let tap_n = surface.effective_mass_kg * tap.accel_m_s2;
 
         let sounding = touching && !flags.contains(Flags::SAFE_STATE);
-        let (vib_m_s2, clamped) = state.vibration.sound(texture, sounding);
+        let (vib_m_s2, clamped) = sound(&mut state.vibration, sounding);
         if clamped {
             flags = flags.and(Flags::VIB_CLAMPED);
         }
@@ -403,7 +451,6 @@ impl Renderer {
         flags = flags.and(limited);
 
         state.counters.count(flags, sample.elapsed_ticks);
-        state.vibration.query(texture, speed_mm_s, stiffness_n);
         Output {
             force_n: force_n.xyz(),
             depth_m,

@@ -16,7 +16,7 @@ use crate::{
     excitation::Excitation,
     locate::Search,
     lsf::{Pairs, Products},
-    synthesis::{History, Line},
+    synthesis::{History, Lags, Line},
 };
 
 /// State of the vibration.
@@ -94,6 +94,37 @@ impl Vibration {
         self.phase = 0;
     }
 
+    /// Another texture in a scene: what is at work stays until the first cycle ends.
+    #[cold]
+    pub(crate) fn begin(&mut self, texture: u32) {
+        self.texture = texture;
+        self.pairs = Pairs::ZERO;
+        self.found = Barycentric::NONE;
+        self.phase = 0;
+        self.follows = false;
+    }
+
+    /// Whether this tick puts new coefficients to work.
+    #[inline]
+    pub(crate) fn is_last_of_cycle(&self) -> bool {
+        usize::from(self.phase) == CYCLE_TICKS - 1
+    }
+
+    /// Stops what is at work. Returns its last output, m/s².
+    #[cold]
+    pub(crate) fn stop(&mut self) -> f32 {
+        let last = self.history.last();
+        self.history = History::SILENT;
+        (self.a, self.b) = (Line::ZERO, Line::ZERO);
+        last
+    }
+
+    /// Whether the texture is the one that was rendered last.
+    #[inline]
+    pub(crate) const fn is_on(&self, texture: u32) -> bool {
+        self.texture == texture
+    }
+
     /// One tick by itself. `follow_share` is the share of the way that parameters go in a cycle;
     /// with `sounding` false the vibration is mute. Returns y, m/s², and whether it had to be
     /// clamped.
@@ -107,7 +138,7 @@ impl Vibration {
         sounding: bool,
     ) -> (f32, bool) {
         self.prepare(texture, follow_share);
-        let sound = self.sound(texture, sounding);
+        let sound = self.sound(texture.lags(), sounding);
         self.query(texture, speed_mm_s, force_n);
         sound
     }
@@ -135,19 +166,9 @@ impl Vibration {
         }
     }
 
-    /// The next sample.
+    /// The next sample; `lags` are those of the texture at work.
     #[inline(always)]
-    pub(crate) fn sound<
-        const V: usize,
-        const T: usize,
-        const P: usize,
-        const Q: usize,
-        const K: usize,
-    >(
-        &mut self,
-        texture: &Texture<V, T, P, Q, K>,
-        sounding: bool,
-    ) -> (f32, bool) {
+    pub(crate) fn sound(&mut self, lags: Lags, sounding: bool) -> (f32, bool) {
         if !sounding {
             self.leave();
         }
@@ -155,8 +176,7 @@ impl Vibration {
             self.in_contact = sounding;
         }
         let e = self.level_m_s2 * self.excitation.next_gaussian();
-        self.history
-            .step(&self.a, &self.b, texture.lags(), e, sounding)
+        self.history.step(&self.a, &self.b, lags, e, sounding)
     }
 
     /// Ends a tick: the first one of a cycle takes the query.
@@ -174,13 +194,19 @@ impl Vibration {
         force_n: f32,
     ) {
         if self.phase == 0 {
-            self.begin(texture, speed_mm_s, force_n);
+            self.begin_cycle(texture, speed_mm_s, force_n);
         }
     }
 
     /// The first share of a cycle.
     #[inline(never)]
-    fn begin<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+    fn begin_cycle<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
         &mut self,
         texture: &Texture<V, T, P, Q, K>,
         speed_mm_s: f32,

@@ -1,7 +1,6 @@
 //! A firmware in QEMU, every tick's instructions counted.
 
 use crate::{Result, home, target::Target, target_dir, toolchain::stdout};
-use asperity_session::{PHASE_TICKS, Phase};
 use std::{fs, path::Path, process::Command};
 
 /// What came out of the emulator.
@@ -23,8 +22,40 @@ impl Run {
     }
 }
 
-/// Runs an ELF to its end.
-pub(crate) fn run(target: &Target, firmware: &Path) -> Result<Run> {
+/// Runs a firmware to its end; it marks `expected` ticks.
+pub(crate) fn run(target: &Target, firmware: &Path, expected: usize) -> Result<Run> {
+    let mut machine = qemu("qemu-system-arm");
+    machine
+        .args(["-M", target.machine, "-display", "none", "-monitor", "none"])
+        .args(["-serial", "none", "-semihosting-config"])
+        .arg("enable=on,target=native");
+    let (printed, instructions) = counted(machine, "-kernel", firmware, expected)?;
+    let lines = printed.lines().map(line).collect::<Result<_>>()?;
+    Ok(Run {
+        lines,
+        instructions,
+    })
+}
+
+/// Executed instructions of each tick of a program of the host, x86-64.
+pub(crate) fn run_on_host(program: &Path, expected: usize) -> Result<Vec<u64>> {
+    Ok(counted(qemu("qemu-x86_64"), "--", program, expected)?.1)
+}
+
+/// An emulator that cannot hang its caller.
+fn qemu(name: &str) -> Command {
+    let mut command = Command::new("timeout");
+    command.args(["600", name]);
+    command
+}
+
+/// What a program printed, and the instructions of each tick.
+fn counted(
+    mut emulator: Command,
+    program_flag: &str,
+    program: &Path,
+    expected: usize,
+) -> Result<(String, Vec<u64>)> {
     let plugin = target_dir().join("libtickcount.so");
     stdout(
         Command::new("cc")
@@ -40,36 +71,28 @@ pub(crate) fn run(target: &Target, firmware: &Path) -> Result<Run> {
             .arg(&plugin)
             .arg(home().join("tickcount.c")),
     )?;
-    let counts = firmware.with_extension("ticks");
+    let counts = program.with_extension("ticks");
     let printed = stdout(
-        // A firmware that hangs must not hang the caller.
-        Command::new("timeout")
-            .args(["600", "qemu-system-arm", "-M", target.machine])
-            .args(["-display", "none", "-monitor", "none", "-serial", "none"])
-            .args(["-semihosting-config", "enable=on,target=native", "-plugin"])
+        emulator
+            .arg("-plugin")
             .arg(format!(
                 "{},begin=mark_begin,end=mark_end,out={}",
                 plugin.display(),
                 counts.display()
             ))
-            .arg("-kernel")
-            .arg(firmware),
+            .arg(program_flag)
+            .arg(program),
     )?;
     let instructions = fs::read_to_string(&counts)?
         .lines()
         .map(str::parse)
         .collect::<std::result::Result<Vec<u64>, _>>()
         .map_err(|_| "a marker of the tick was met without the other")?;
-    let expected = Phase::ALL.len() * PHASE_TICKS as usize;
     if instructions.len() != expected {
         let found = instructions.len();
-        return Err(format!("{found} ticks counted, {expected} in the session").into());
+        return Err(format!("{found} ticks counted, {expected} expected").into());
     }
-    let lines = printed.lines().map(line).collect::<Result<_>>()?;
-    Ok(Run {
-        lines,
-        instructions,
-    })
+    Ok((printed, instructions))
 }
 
 fn line(text: &str) -> Result<(String, u64)> {

@@ -4,11 +4,13 @@
 //! ```console
 //! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml            # Cortex-M4F
 //! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- --target thumbv7m-none-eabi
-//! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- library # textures.aspl
+//! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- library # *.aspl
+//! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- costs   # of asperity build
 //! ```
 #![forbid(unsafe_code)]
 
 mod calls;
+mod costs;
 mod elf;
 mod emulate;
 mod library;
@@ -27,10 +29,12 @@ use std::{
 /// What any step can fail with; the text says what to do about it.
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
-const USAGE: &str = "usage: cortex-m [--target TRIPLE] [--build-core] | cortex-m library
+const USAGE: &str =
+    "usage: cortex-m [--target TRIPLE] [--build-core] | cortex-m costs | cortex-m library
   --target TRIPLE  thumbv7em-none-eabihf (default), thumbv7m-none-eabi or thumbv6m-none-eabi
   --build-core     build core from the sources of /usr/bin/rustc even where the target is installed
-  library          write textures.aspl, which the firmware embeds";
+  costs            print the cost model of `asperity build`, for compiler/src/scene/cost.rs
+  library          write textures.aspl and costs.aspl, which the firmware embeds";
 
 /// This package's folder.
 fn home() -> &'static Path {
@@ -47,7 +51,8 @@ fn main() -> ExitCode {
     let (mut triple, mut build_core) = (String::from("thumbv7em-none-eabihf"), false);
     while let Some(argument) = arguments.next() {
         match (argument.as_str(), arguments.len()) {
-            ("library", 0) => return exit(library::write(&home().join("textures.aspl"))),
+            ("library", 0) => return exit(library::write(home())),
+            ("costs", 0) => return exit(costs(build_core)),
             ("--target", 1..) => triple = arguments.next().unwrap_or_default(),
             ("--build-core", _) => build_core = true,
             _ => {
@@ -67,6 +72,11 @@ fn exit(result: Result<()>) -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn costs(build_core: bool) -> Result<()> {
+    let target = target::find("thumbv7em-none-eabihf")?;
+    costs::print(target, &toolchain::Toolchain::find(target, build_core)?)
 }
 
 fn run(triple: &str, build_core: bool) -> Result<()> {

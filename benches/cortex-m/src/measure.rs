@@ -59,7 +59,7 @@ pub(crate) fn all(target: &Target, toolchain: &Toolchain) -> Result<Vec<Measured
 fn measure(target: &Target, toolchain: &Toolchain, case: &'static Case) -> Result<Measured> {
     let path = toolchain.firmware(case.name, &[])?;
     let elf = elf::read(&path)?;
-    let run = emulate::run(target, &path)?;
+    let run = emulate::run(target, &path, Phase::ALL.len() * PHASE_TICKS as usize)?;
     let host =
         |profile| Ok::<_, Box<dyn std::error::Error>>((profile, host_session(case.name, profile)?));
     Ok(Measured {

@@ -91,6 +91,18 @@ pub(crate) fn host_session(case: &str, profile: &str) -> Result<String> {
     )
 }
 
+/// Builds a program of this package for the host and returns its path.
+pub(crate) fn host_program(name: &str) -> Result<PathBuf> {
+    stdout(
+        Command::new("cargo")
+            .current_dir(home())
+            .args(["build", "--quiet", "--release", "--locked", "--bin", name])
+            .arg("--target-dir")
+            .arg(target_dir()),
+    )?;
+    Ok(target_dir().join("release").join(name))
+}
+
 /// Runs a command to its end and returns what it printed.
 pub(crate) fn stdout(command: &mut Command) -> Result<String> {
     let name = command.get_program().to_string_lossy().into_owned();

@@ -1,5 +1,6 @@
 //! The contract of `inspect --json`.
 
+use super::SurfaceDocument;
 use crate::{
     attributes::{self, Attributes},
     model::{FrictionAnchor, Gains, Numerator, Provenance, VertexKind, Wall},
@@ -179,6 +180,9 @@ pub struct LibraryDocument {
     pub format_version: u16,
     /// Every texture.
     pub textures: Vec<Document>,
+    /// Surfaces of the scene, if there is one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub surfaces: Vec<SurfaceDocument>,
 }
 
 #[cfg(test)]

@@ -19,12 +19,15 @@ use std::f64::consts::PI;
 
 /// Neighbouring LSFs keep at least this distance, rad: twice what an asset demands.
 const LEAST_GAP_RAD: f64 = 0.01;
-/// RMS gain of a filter that single precision still renders stably, far above
-/// what materials need; only latents far from any of them exceed it.
-const LARGEST_GAIN: f64 = 40.0;
+/// RMS gain of a filter whose neighbours may be anything: twice what trained materials have.
+/// Very different models of a larger gain that take turns within a stroke can ring.
+const LARGEST_GAIN: f64 = 8.0;
 /// Levels of a bin are kept in this range, dB re 1 m/s², whatever a decoder says: at
 /// the default gain 20 dB are 0.5 N RMS.
 const LEVEL_RANGE_DB: (f64, f64) = (-60.0, 20.0);
+/// Level of an edge model at most, dB: levels grow towards fast and hard strokes by the power
+/// that the bins show, which of far latents may be anything.
+const LARGEST_EDGE_DB: f64 = 32.0;
 /// Samples of a trace keep below this share of the device's force over `m_eff`.
 const TAP_SHARE: f64 = 0.95;
 
@@ -95,7 +98,11 @@ pub fn grid(description: &ModelDescription, decoded: &Decoded) -> ModelGrid {
             }
         })
         .collect();
-    let vertices = edges::close(interior, grid.max_speed_mm_s, grid.max_force_n);
+    let mut vertices = edges::close(interior, grid.max_speed_mm_s, grid.max_force_n);
+    for vertex in &mut vertices {
+        let largest = libm::exp10(LARGEST_EDGE_DB / 20.0) / nyquist_rms(&vertex.lsf_rad);
+        vertex.sigma_m_s2 = vertex.sigma_m_s2.min(largest);
+    }
     ModelGrid {
         sample_rate_hz: grid.sample_rate_hz,
         order: grid.order,
@@ -127,22 +134,38 @@ pub fn taps(description: &ModelDescription, decoded: &Decoded, limit_m_s2: f64) 
     }
 }
 
-/// LSFs moved towards even spacing, white noise, until the gain is within bounds:
-/// convex mixtures of ordered LSFs are ordered.
+/// A texture with every model moved this share of the way to white noise, its level kept.
+///
+/// Bounded gains alone do not bound what models of opposite shapes do when they take turns
+/// faster than they ring; likeness does, and white noise has no memory at all.
+#[must_use]
+pub fn calmed(texture: &TextureModel, share: f64) -> TextureModel {
+    let mut calm = texture.clone();
+    for vertex in &mut calm.grid.vertices {
+        let lsf_rad = towards_even(&vertex.lsf_rad, share);
+        vertex.sigma_m_s2 *= nyquist_rms(&vertex.lsf_rad) / nyquist_rms(&lsf_rad);
+        vertex.lsf_rad = lsf_rad;
+    }
+    calm
+}
+
+/// LSFs moved towards white noise until the gain is within bounds.
 fn tamed(lsf_rad: Vec<f64>) -> Vec<f64> {
     const STEPS: u32 = 20;
-    let count = lsf_rad.len();
-    let even = |index: usize| (index + 1) as f64 * PI / (count + 1) as f64;
     (0..=STEPS)
-        .map(|step| {
-            let share = f64::from(step) / f64::from(STEPS);
-            let mixed = lsf_rad.iter().enumerate();
-            mixed
-                .map(|(index, omega)| omega + share * (even(index) - omega))
-                .collect::<Vec<f64>>()
-        })
+        .map(|step| towards_even(&lsf_rad, f64::from(step) / f64::from(STEPS)))
         .find(|mixed| nyquist_rms(mixed) <= LARGEST_GAIN)
         .unwrap_or(lsf_rad)
+}
+
+/// LSFs moved towards even spacing, which is white noise: convex mixtures of ordered LSFs are
+/// ordered.
+fn towards_even(lsf_rad: &[f64], share: f64) -> Vec<f64> {
+    let step = PI / (lsf_rad.len() + 1) as f64;
+    let mixed = lsf_rad.iter().enumerate();
+    mixed
+        .map(|(index, omega)| omega + share * ((index + 1) as f64 * step - omega))
+        .collect()
 }
 
 /// LSFs in order and at least [`LEAST_GAP_RAD`] apart, moved as little as it takes.

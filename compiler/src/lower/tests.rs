@@ -1,7 +1,7 @@
 //! Size, rounding and refusals of the back end.
 
 use super::*;
-use crate::{builtin, triangulate};
+use crate::{builtin, spectrum::log_spectral_distance_db, triangulate};
 use proptest::prelude::*;
 
 /// The largest plain texture: 18 interior vertices with models of their own, edge

@@ -1,5 +1,6 @@
 //! A prompt becomes a texture: text vector, latent, parameters, asset, preview.
 
+pub mod finish;
 mod report;
 
 use crate::{
@@ -7,15 +8,16 @@ use crate::{
     diagnostic::Diagnostic,
     inference::Backend,
     learned::{self, Files, Latent, LearnedModel, ModelError, friction::Neighbour, texture},
-    lower::{self, LowerError, Lowered},
+    lower::{LowerError, Lowered},
     model::{Provenance, TextureModel},
-    preview::{self, PreviewError},
+    preview::PreviewError,
     reduce::{self, Fidelity},
     rerate,
     text::{TextEncoder, TextError},
-    verify::{self, VerifyError, VerifyReport},
+    verify::{VerifyError, VerifyReport},
 };
 use asperity_formats::limits;
+use finish::Finished;
 use rand_core::SeedableRng as _;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::time::{Duration, Instant};
@@ -132,6 +134,9 @@ pub struct Authored {
     pub reduction: reduce::Report,
     /// What verification saw.
     pub verified: VerifyReport,
+    /// How far the models had to be moved towards white noise to pass, 0..=1: 0 but for
+    /// latents far from anything trained.
+    pub calmed: f64,
     /// Time a stage.
     pub stages: Vec<Stage>,
 }
@@ -239,27 +244,19 @@ impl Author {
             texture.grid =
                 rerate::rerate(&texture.grid, rate_hz).ok_or(PromptError::Rate(rate_hz))?;
         }
-        let reduce::Reduction {
-            texture,
-            report: reduction,
-        } = reduce::reduce(&texture, options.fidelity);
-        clock.lap("reduce");
         let nearest = self.nearest(&neighbours);
-        let preview = if options.preview {
-            let families: Vec<(&str, f64)> = nearest
-                .iter()
-                .map(|near| (near.family.as_str(), near.weight))
-                .collect();
-            let png = preview::png(&texture.grid, &families, options.seed)?;
-            clock.lap("preview");
-            Some(png)
-        } else {
-            None
-        };
-        let lowered = lower::lower(&texture, preview.as_deref())?;
-        clock.lap("lower");
-        let verified = verify::verify(&texture, &lowered.bytes)?;
-        clock.lap("verify");
+        let families: Vec<(&str, f64)> = nearest
+            .iter()
+            .map(|near| (near.family.as_str(), near.weight))
+            .collect();
+        let Finished {
+            texture,
+            reduction,
+            preview,
+            lowered,
+            verified,
+            calmed,
+        } = finish::finish(&texture, &families, options, &mut clock)?;
         Ok(Authored {
             attributes: attributes::of(&texture),
             texture,
@@ -272,6 +269,7 @@ impl Author {
             tokens: prompted.tokens,
             reduction,
             verified,
+            calmed,
             stages: clock.stages,
         })
     }
@@ -372,7 +370,8 @@ fn normal(random: &mut Xoshiro256PlusPlus) -> f64 {
     radius * libm::cos(std::f64::consts::TAU * uniform())
 }
 
-struct Clock {
+/// Times the stages of the way.
+pub struct Clock {
     last: Instant,
     stages: Vec<Stage>,
 }

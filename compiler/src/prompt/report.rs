@@ -27,6 +27,12 @@ impl Authored {
                 100.0 * self.certainty
             ));
         }
+        if self.calmed > 0.0 {
+            warnings.push(format!(
+                "the decoded models rang in motion and were moved {:.0} % of the way to white noise",
+                100.0 * self.calmed
+            ));
+        }
         warnings
     }
 

@@ -1,16 +1,15 @@
 //! How far a reduced grid may be from the whole one, and how far it is.
 
 use crate::{
-    interpolate::{Field, Place, places},
-    model::ModelGrid,
-    reflection,
-    spectrum::{Angles, ArmaModel, ERROR_BAND_HZ},
+    interpolate::{Field, Mixture, Place, places},
+    model::{ModelGrid, Numerator},
+    spectrum::{Angles, ErrorBand, decibels},
 };
-use std::f64::consts::TAU;
 
 /// Largest RMS log-spectral distance over 10–450 Hz, level included, that `auto` accepts,
-/// dB: at 95 % of the places, and at the worst. Silent places count as without error. An amplitude is told from another at 1.6 dB
-/// by the best of observers, and at 2.2 to 2.5 dB by most.
+/// dB: at 95 % of the places, and at the worst. Silent places count as without error. An
+/// amplitude is told from another at 1.6 dB by the best of observers, and at 2.2 to 2.5 dB by
+/// most.
 pub const BUDGET_DB: (f64, f64) = (0.5, 1.0);
 /// Kept below the budget for what lowering rounds, dB.
 const ROOM_DB: f64 = 0.01;
@@ -24,16 +23,26 @@ const SILENT: f64 = 0.01;
 struct Compared {
     /// mm/s and N.
     at: (f64, f64),
-    /// dB, where it sounds.
-    log_spectrum: Option<Vec<f64>>,
+    /// Where that is in the whole grid.
+    place: Place,
+    /// Reciprocal power spectrum, where it sounds.
+    inverse_power: Option<Vec<f64>>,
 }
 
 /// The whole grid, at all places where another is compared with it.
 #[derive(Debug, Clone)]
 pub struct Reference<'a> {
     grid: &'a ModelGrid,
-    angles: Angles,
+    band: Band,
     places: Vec<Compared>,
+}
+
+/// The frequencies at which spectra are compared.
+#[derive(Debug, Clone)]
+struct Band {
+    angles: Angles,
+    /// |1 + z⁻¹|² there.
+    nyquist: Vec<f64>,
 }
 
 /// Distances of a grid, one a place, dB; infinite where it is not stable or sounds where
@@ -68,33 +77,40 @@ impl Distances {
     }
 }
 
+/// Whether no place may be so far.
+pub(super) fn is_beyond_budget(distance_db: f64) -> bool {
+    distance_db > BUDGET_DB.1 - ROOM_DB
+}
+
 impl<'a> Reference<'a> {
     /// Prepares a grid; `None` for one without area.
     #[must_use]
     pub fn new(grid: &'a ModelGrid) -> Option<Self> {
-        let rate_hz = grid.sample_rate_hz;
-        let (low, high) = ERROR_BAND_HZ;
-        let high = high.min(0.45 * rate_hz);
-        let step = (high - low) / (POINTS - 1) as f64;
-        let angles = Angles::new((0..POINTS).map(|n| TAU * (low + n as f64 * step) / rate_hz));
+        let angles = ErrorBand::new(grid.sample_rate_hz, POINTS).angles().clone();
+        let band = Band {
+            nyquist: angles.squared_magnitudes(&[1.0, 1.0]),
+            angles,
+        };
         let field = Field::new(grid);
         let silent_m_s2 = SILENT * field.loudest_m_s2();
         let places = places(grid)
             .into_iter()
             .map(|at| {
-                let model = field.mixture(&field.locate(at.0, at.1)?);
-                let sounds = model.level_m_s2 > silent_m_s2;
+                let place = field.locate(at.0, at.1)?;
+                let mixture = field.mixture(&place);
+                let sounds = mixture.level_m_s2 > silent_m_s2;
+                let inverse = || {
+                    let power = band.power(&mixture, grid.numerator);
+                    power.into_iter().map(|power| 1.0 / power).collect()
+                };
                 Some(Compared {
                     at,
-                    log_spectrum: sounds.then(|| log_spectrum(&angles, &model)),
+                    place,
+                    inverse_power: sounds.then(inverse),
                 })
             })
             .collect::<Option<_>>()?;
-        Some(Self {
-            grid,
-            angles,
-            places,
-        })
+        Some(Self { grid, band, places })
     }
 
     /// Speed and force of every place.
@@ -104,19 +120,21 @@ impl<'a> Reference<'a> {
 
     /// Distance of a mixture from the whole grid at a place, dB.
     pub(super) fn distance(&self, index: usize, field: &Field<'_>, place: &Place) -> f64 {
-        let model = field.mixture(place);
-        match &self.places[index].log_spectrum {
-            Some(truth) if reflection::is_stable(&model.a) => {
-                let found = log_spectrum(&self.angles, &model);
-                let squares = truth.iter().zip(&found).map(|(x, y)| (x - y) * (x - y));
-                let rms = (squares.sum::<f64>() / truth.len() as f64).sqrt();
-                // Of silence there is no spectrum.
-                if rms.is_nan() { f64::INFINITY } else { rms }
+        let mixture = field.mixture(place);
+        match &self.places[index].inverse_power {
+            // Ordered frequencies are a stable filter.
+            Some(inverse_power) if is_ordered(&mixture.ar_cosines) => {
+                let mut squares = self.band.power(&mixture, field.numerator());
+                for (power, inverse) in squares.iter_mut().zip(inverse_power) {
+                    let difference_db = decibels(*power * inverse);
+                    *power = difference_db * difference_db;
+                }
+                (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
             }
             Some(_) => f64::INFINITY,
             // A level counts relative to its own grid: under another numerator the same
             // vibration has another.
-            None if model.level_m_s2 <= 2.0 * SILENT * field.loudest_m_s2() => 0.0,
+            None if mixture.level_m_s2 <= 2.0 * SILENT * field.loudest_m_s2() => 0.0,
             None => f64::INFINITY,
         }
     }
@@ -151,13 +169,9 @@ impl<'a> Reference<'a> {
         let mut may_exceed = count - (0.95 * count as f64).ceil() as usize;
         let field = Field::new(grid);
         for (index, compared) in self.places.iter().enumerate() {
-            let (speed, force) = compared.at;
-            let Some(place) = field.locate(speed, force) else {
-                return false;
-            };
-            let distance_db = self.distance(index, &field, &place);
+            let distance_db = self.distance(index, &field, &compared.place);
             if distance_db > BUDGET_DB.0 - ROOM_DB {
-                if distance_db > BUDGET_DB.1 - ROOM_DB || may_exceed == 0 {
+                if is_beyond_budget(distance_db) || may_exceed == 0 {
                     return false;
                 }
                 may_exceed -= 1;
@@ -167,12 +181,28 @@ impl<'a> Reference<'a> {
     }
 }
 
-fn log_spectrum(angles: &Angles, model: &ArmaModel) -> Vec<f64> {
-    let level_db = 20.0 * libm::log10(model.level_m_s2);
-    angles
-        .squared_magnitudes(&model.b)
-        .into_iter()
-        .zip(angles.squared_magnitudes(&model.a))
-        .map(|(b, a)| level_db + 10.0 * libm::log10(b / a))
-        .collect()
+/// Whether the cosines are of frequencies that ascend strictly inside (0, π).
+fn is_ordered(cosines: &[f64]) -> bool {
+    let inside = cosines.iter().all(|c| (-1.0..=1.0).contains(c));
+    inside && cosines.windows(2).all(|pair| pair[0] > pair[1])
+}
+
+impl Band {
+    /// The power spectrum of a mixture.
+    fn power(&self, mixture: &Mixture, numerator: Numerator) -> Vec<f64> {
+        let square = mixture.level_m_s2 * mixture.level_m_s2;
+        let mut power = self.angles.squared_magnitudes_of_lsf(&mixture.ar_cosines);
+        for power in &mut power {
+            *power = square / *power;
+        }
+        let zeros = match numerator {
+            Numerator::None => return power,
+            Numerator::Nyquist => &self.nyquist,
+            Numerator::Lsf => &self.angles.squared_magnitudes_of_lsf(&mixture.ma_cosines),
+        };
+        for (power, zero) in power.iter_mut().zip(zeros) {
+            *power *= zero;
+        }
+        power
+    }
 }

@@ -7,7 +7,7 @@
 //! lower orders are then its first reflection coefficients. The level is kept.
 
 use crate::{
-    learned::level::nyquist_rms,
+    learned::level,
     levinson, lsf,
     model::{GridVertex, ModelGrid, Numerator},
     reflection,
@@ -86,11 +86,11 @@ impl<'a> Fits<'a> {
             .shapes
             .iter()
             .map(|(reflection, rms)| {
-                let lsf_rad = lsf::from_polynomial(&reflection::step_up(&reflection[..order]))?;
-                let scale = rms / unit_rms(&lsf_rad, self.numerator);
-                Some((lsf_rad, scale))
+                let reflection = &reflection[..order];
+                let scale = rms / unit_rms(reflection, self.numerator);
+                (lsf::from_reflection(reflection), scale)
             })
-            .collect::<Option<Vec<_>>>()?;
+            .collect::<Vec<_>>();
         let vertices = self
             .grid
             .vertices
@@ -120,8 +120,9 @@ fn shape(grid: &ModelGrid, vertex: &GridVertex, numerator: Numerator) -> Option<
         ..ArmaModel::at_vertex(grid, vertex)
     };
     if numerator == grid.numerator {
-        let rms = unit_rms(&vertex.lsf_rad, numerator);
-        return Some((reflection::step_down(&model.a)?, rms));
+        let reflection = reflection::step_down(&model.a)?;
+        let rms = unit_rms(&reflection, numerator);
+        return Some((reflection, rms));
     }
     let power =
         |omega: f64| squared_magnitude(&model.b, omega) / squared_magnitude(&model.a, omega);
@@ -142,16 +143,11 @@ fn shape(grid: &ModelGrid, vertex: &GridVertex, numerator: Numerator) -> Option<
 }
 
 /// RMS of the filter driven by unit white noise.
-fn unit_rms(lsf_rad: &[f64], numerator: Numerator) -> f64 {
-    if numerator == Numerator::Nyquist {
-        return nyquist_rms(lsf_rad);
+fn unit_rms(reflection: &[f64], numerator: Numerator) -> f64 {
+    match numerator {
+        Numerator::Nyquist => level::nyquist_rms_of(reflection),
+        Numerator::None | Numerator::Lsf => level::all_pole_variance(reflection).sqrt(),
     }
-    reflection::step_down(&lsf::to_polynomial(lsf_rad)).map_or(f64::INFINITY, |reflection| {
-        reflection
-            .iter()
-            .map(|k| 1.0 / ((1.0 - k) * (1.0 + k)).sqrt())
-            .product()
-    })
 }
 
 #[cfg(test)]

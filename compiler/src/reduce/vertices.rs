@@ -5,24 +5,32 @@
 //! own model is from what the neighbours say there. Corners stay, and a vertex on the border
 //! goes only along it, so the triangles go on tiling the rectangle.
 
-use super::budget::{Distances, Reference};
+use super::budget::{Distances, Reference, is_beyond_budget};
 use crate::{
-    interpolate::{Field, Place},
+    interpolate::{Cosines, Field, Place},
     mesh,
-    model::ModelGrid,
+    model::{GridVertex, ModelGrid},
 };
+use std::rc::Rc;
+
+/// Difference of areas that is rounding, of a rectangle of area 1.
+const AREA_TOLERANCE: f64 = 1e-9;
 
 /// The grid with the vertices that the budget asks for.
 #[must_use]
 pub fn fewest(grid: &ModelGrid, reference: &Reference<'_>) -> ModelGrid {
-    let Some(mut state) = State::of(grid.clone(), reference) else {
-        return grid.clone();
-    };
+    fewer(grid, reference)
+        .filter(|smaller| mesh::check(smaller).is_ok())
+        .unwrap_or_else(|| grid.clone())
+}
+
+fn fewer(grid: &ModelGrid, reference: &Reference<'_>) -> Option<ModelGrid> {
+    let mut state = State::of(grid, reference)?;
     if !state.distances.are_within_budget() {
-        return state.grid;
+        return None;
     }
     let mut order: Vec<(f64, usize)> = (0..grid.vertices.len())
-        .filter_map(|vertex| Some((missed(grid, vertex, reference)?, vertex)))
+        .filter_map(|vertex| Some((state.missed(vertex, reference)?, vertex)))
         .collect();
     // Stable: of equals the first goes first, so the same grid gives the same grid.
     order.sort_by(|x, y| x.0.total_cmp(&y.0));
@@ -35,33 +43,20 @@ pub fn fewest(grid: &ModelGrid, reference: &Reference<'_>) -> ModelGrid {
             here.remove(index);
         }
     }
-    state.grid
-}
-
-/// Distance between the model of a vertex and what the grid says there without it, dB; `None`
-/// for one that cannot go.
-fn missed(grid: &ModelGrid, vertex: usize, reference: &Reference<'_>) -> Option<f64> {
-    let at = (
-        grid.vertices[vertex].speed_mm_s,
-        grid.vertices[vertex].force_n,
-    );
-    let smaller = removed(grid, vertex)?;
-    let field = Field::new(&smaller);
-    let place = field.locate(at.0, at.1)?;
-    let index = reference.at().position(|other| other == at)?;
-    Some(reference.distance(index, &field, &place))
+    Some(state.grid)
 }
 
 /// A grid with the place and the distance of everything that is compared.
 struct State {
     grid: ModelGrid,
+    cosines: Vec<Rc<Cosines>>,
     located: Vec<Place>,
     distances: Distances,
 }
 
 impl State {
-    fn of(grid: ModelGrid, reference: &Reference<'_>) -> Option<Self> {
-        let field = Field::new(&grid);
+    fn of(grid: &ModelGrid, reference: &Reference<'_>) -> Option<Self> {
+        let field = Field::new(grid);
         let located: Vec<Place> = reference
             .at()
             .map(|(speed, force)| field.locate(speed, force))
@@ -72,16 +67,42 @@ impl State {
             .map(|(index, place)| reference.distance(index, &field, place))
             .collect();
         Some(Self {
+            grid: grid.clone(),
+            cosines: field.cosines().to_vec(),
             located,
             distances: Distances(distances),
-            grid,
         })
+    }
+
+    /// The cosines of all vertices but one.
+    fn cosines_without(&self, vertex: usize) -> Vec<Rc<Cosines>> {
+        let mut cosines = self.cosines.clone();
+        cosines.remove(vertex);
+        cosines
+    }
+
+    /// Distance between the model of a vertex and what the grid says there without it, dB;
+    /// `None` for one that cannot go.
+    fn missed(&self, vertex: usize, reference: &Reference<'_>) -> Option<f64> {
+        let GridVertex {
+            speed_mm_s,
+            force_n,
+            ..
+        } = self.grid.vertices[vertex];
+        let smaller = removed(&self.grid, vertex)?;
+        let field = Field::with_cosines(&smaller, &self.cosines_without(vertex));
+        let place = field.locate(speed_mm_s, force_n)?;
+        let index = reference
+            .at()
+            .position(|other| other == (speed_mm_s, force_n))?;
+        Some(reference.distance(index, &field, &place))
     }
 
     /// Without a vertex; `None` where it is needed.
     fn without(&self, vertex: usize, reference: &Reference<'_>) -> Option<Self> {
         let grid = removed(&self.grid, vertex)?;
-        let field = Field::new(&grid);
+        let cosines = self.cosines_without(vertex);
+        let field = Field::with_cosines(&grid, &cosines);
         let mut distances = self.distances.0.clone();
         let mut located = self.located.clone();
         for (index, at) in reference.at().enumerate() {
@@ -89,6 +110,9 @@ impl State {
             if place.vertices.contains(&vertex) {
                 *place = field.locate(at.0, at.1)?;
                 distances[index] = reference.distance(index, &field, place);
+                if is_beyond_budget(distances[index]) {
+                    return None;
+                }
             } else {
                 // Those behind it move up.
                 place.vertices = place.vertices.map(|v| v - usize::from(v > vertex));
@@ -97,6 +121,7 @@ impl State {
         let distances = Distances(distances);
         distances.are_within_budget().then_some(Self {
             grid,
+            cosines,
             located,
             distances,
         })
@@ -117,6 +142,14 @@ fn removed(grid: &ModelGrid, vertex: usize) -> Option<ModelGrid> {
         .partition(|triangle| triangle.contains(&vertex));
     let polygon = ring(&here, vertex, &at)?;
     let hole = tiled(&polygon, &at)?;
+    // What is left must tile the same rectangle.
+    let area = |triangles: &[[usize; 3]]| -> f64 {
+        let twice = |&[a, b, c]: &[usize; 3]| cross(at(a), at(b), at(c)).abs();
+        triangles.iter().map(twice).sum()
+    };
+    if (area(&hole) - area(&here)).abs() > AREA_TOLERANCE {
+        return None;
+    }
     let mut triangles: Vec<[usize; 3]> = others;
     triangles.extend(hole);
     for triangle in &mut triangles {
@@ -125,12 +158,13 @@ fn removed(grid: &ModelGrid, vertex: usize) -> Option<ModelGrid> {
     let mut vertices = grid.vertices.clone();
     vertices.remove(vertex);
     let smaller = ModelGrid {
+        sample_rate_hz: grid.sample_rate_hz,
+        order: grid.order,
+        numerator: grid.numerator,
         vertices,
         triangles,
-        ..grid.clone()
     };
-    // What is left must tile the same rectangle.
-    (mesh::corner(&smaller) == (width, height) && mesh::check(&smaller).is_ok()).then_some(smaller)
+    (mesh::corner(&smaller) == (width, height)).then_some(smaller)
 }
 
 /// The neighbours of a vertex, counter-clockwise; on a border from one end to the other.
@@ -233,7 +267,7 @@ fn cross(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        model::{GridVertex, Numerator, VertexKind},
+        model::{Numerator, VertexKind},
         triangulate,
     };
 

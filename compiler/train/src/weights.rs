@@ -1,9 +1,11 @@
 //! Named matrices as safetensors.
 
 use crate::{
+    memory::TextMemory,
     parameters::{Parameter, Parameters},
     trained::Trained,
 };
+use asperity::learned::description::LATENT;
 use safetensors::{Dtype, SafeTensors, View};
 use std::{borrow::Cow, collections::HashMap};
 
@@ -12,6 +14,7 @@ const NOTE: &str = "asperity";
 
 /// A matrix on its way into a file.
 pub(crate) struct Table {
+    dtype: Dtype,
     shape: [usize; 2],
     bytes: Vec<u8>,
 }
@@ -20,15 +23,25 @@ impl Table {
     /// Rows of `columns` numbers.
     pub(crate) fn new(values: &[f32], columns: usize) -> Self {
         Self {
+            dtype: Dtype::F32,
             shape: [values.len() / columns.max(1), columns],
             bytes: values.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        }
+    }
+
+    /// Rows of `columns` codes.
+    fn codes(codes: &[i8], columns: usize) -> Self {
+        Self {
+            dtype: Dtype::I8,
+            shape: [codes.len() / columns.max(1), columns],
+            bytes: codes.iter().map(|&code| code as u8).collect(),
         }
     }
 }
 
 impl View for &Table {
     fn dtype(&self) -> Dtype {
-        Dtype::F32
+        self.dtype
     }
     fn shape(&self) -> &[usize] {
         &self.shape
@@ -104,7 +117,8 @@ impl Read {
 }
 
 /// `weights.safetensors` of a model: parameters as the optimiser left them, those of the
-/// text projection as the graph has them, and the statistics of the normaliser.
+/// text projection as the graph has them, the examples of its memory, and the statistics of
+/// the normaliser.
 pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
     let table = |p: &Parameter| (p.name.clone(), Table::new(&p.values, p.columns));
     let is_text = |p: &&Parameter| p.name.starts_with("text.");
@@ -133,8 +147,22 @@ pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
         "normaliser.excitation_bounds".to_owned(),
         Table::new(&[low, high], 2),
     );
-    let tables: Vec<_> = own.chain(text).chain(statistics).chain([bounds]).collect();
+    let memory = trained.memory.iter().flat_map(memory);
+    let all = own.chain(text).chain(memory).chain(statistics);
+    let tables: Vec<_> = all.chain([bounds]).collect();
     write(&tables, "weights; matrices are inputs × outputs")
+}
+
+fn memory(memory: &TextMemory) -> [(String, Table); 5] {
+    let column = |values: &[f32]| Table::new(values, 1);
+    [
+        ("codes", Table::codes(&memory.codes, memory.width)),
+        ("scales", column(&memory.scales)),
+        ("coefficients", Table::new(&memory.coefficients, LATENT)),
+        ("mean", Table::new(&memory.mean, LATENT)),
+        ("concentration", column(&[memory.concentration])),
+    ]
+    .map(|(name, table)| (format!("memory.{name}"), table))
 }
 
 /// The tables of parameters under a prefix.

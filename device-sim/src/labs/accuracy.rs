@@ -9,7 +9,7 @@ use asperity::{
     interpolate::{Field, Place, places},
     model::ModelGrid,
     reflection,
-    spectrum::{Angles, ArmaModel, ERROR_BAND_HZ},
+    spectrum::{ArmaModel, ErrorBand},
 };
 
 use rand_core::{Rng as _, SeedableRng as _};
@@ -49,28 +49,24 @@ pub struct Errors {
 }
 
 /// Log spectra at fixed frequencies.
-pub struct Band(Angles);
+pub struct Band(ErrorBand);
 
 impl Band {
     /// The band of all spectral errors at a sample rate.
     #[must_use]
     pub fn new(sample_rate_hz: f64) -> Self {
-        let (low, high) = ERROR_BAND_HZ;
-        let high = high.min(0.45 * sample_rate_hz);
-        let step = (high - low) / (POINTS - 1) as f64;
-        Self(Angles::new(
-            (0..POINTS).map(|n| TAU * (low + n as f64 * step) / sample_rate_hz),
-        ))
+        Self(ErrorBand::new(sample_rate_hz, POINTS))
     }
 
     /// Powers of a model, (m/s²)².
     #[must_use]
     pub fn powers(&self, model: &ArmaModel) -> Vec<f64> {
         let square = model.level_m_s2 * model.level_m_s2;
-        self.0
+        let angles = self.0.angles();
+        angles
             .squared_magnitudes(&model.b)
             .into_iter()
-            .zip(self.0.squared_magnitudes(&model.a))
+            .zip(angles.squared_magnitudes(&model.a))
             .map(|(b, a)| square * b / a)
             .collect()
     }
@@ -150,7 +146,7 @@ impl Truth {
             .into_iter()
             .map(|(speed_mm_s, force_n)| {
                 let place = field.locate(speed_mm_s, force_n)?;
-                let model = field.mixture(&place);
+                let model = field.model(&place);
                 let sounds = model.level_m_s2 > SILENT * loudest;
                 Some(Still {
                     place,

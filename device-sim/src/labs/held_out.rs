@@ -233,7 +233,7 @@ fn predict(
         nearest_to(target).map(|vertex| ArmaModel::at_vertex(grid, vertex)),
     );
     if beyond {
-        let model = Field::new(&around).mixture(&place);
+        let model = Field::new(&around).model(&place);
         let fitted = edges::growth(&with_levels(&others));
         for exponents in Exponents::ALL {
             let (v, f) = match exponents {

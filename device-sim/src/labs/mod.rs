@@ -14,6 +14,7 @@
 //! | [`pareto`] | all of it over all materials |
 //! | [`noise`], [`statistics`] | what they need |
 //! | [`table`] | the CSV files |
+//! | [`markdown`] | the tables of the documentation |
 //! | [`chart`] | the pictures |
 
 pub mod accuracy;
@@ -22,6 +23,7 @@ pub mod cost;
 pub mod design;
 pub mod held_out;
 pub mod kernel;
+pub mod markdown;
 pub mod material;
 pub mod noise;
 pub mod pareto;

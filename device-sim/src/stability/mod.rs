@@ -16,13 +16,14 @@
 //! | [`fault`] | NaN, stuck samples |
 //!
 //! [`observer`] measures energy; [`sheet`] draws the map of stable walls and the worst
-//! waveforms.
+//! waveforms; [`markdown`] prints the tables of the documentation.
 
 pub mod change;
 pub mod coefficients;
 pub mod fault;
 pub mod friction;
 pub mod grid;
+pub mod markdown;
 pub mod material;
 pub mod methods;
 pub mod mixing;

@@ -6,10 +6,14 @@
 mod case;
 mod hash;
 mod phase;
+mod scenes;
 
 pub use case::{ARMA_20, Arma20, CASES, Case, LIBRARY, NYQUIST_4, NYQUIST_20, Nyquist4, Nyquist20};
 pub use hash::Hash;
 pub use phase::{PHASE_TICKS, Phase};
+pub use scenes::{
+    CaseError, CostScene, CostSlot, SCENE_BYTES, SCENE_CASES, SceneCase, TOUCHED, run_scene,
+};
 
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{Config, LoadError, Output, Renderer, Sample, State, Texture};

@@ -210,16 +210,27 @@ fn tile<const R: usize>(
     for (i, sums) in sums.iter_mut().enumerate().take(rows) {
         transfer(width, &out[i * n..], sums);
     }
-    for (left, right) in block.as_chunks::<R>().0.iter().zip(panel) {
+    let sums = accumulate(sums, block.as_chunks().0, panel);
+    for (i, sums) in sums.iter().enumerate().take(rows) {
+        transfer(width, sums, &mut out[i * n..]);
+    }
+}
+
+/// By value: sums that no copy by length has seen stay in registers.
+#[inline(always)]
+fn accumulate<const R: usize>(
+    mut sums: [[f32; COLUMNS]; R],
+    block: &[[f32; R]],
+    panel: &[[f32; COLUMNS]],
+) -> [[f32; COLUMNS]; R] {
+    for (left, right) in block.iter().zip(panel) {
         for i in 0..R {
             for j in 0..COLUMNS {
                 sums[i][j] += left[i] * right[j];
             }
         }
     }
-    for (i, sums) in sums.iter().enumerate().take(rows) {
-        transfer(width, sums, &mut out[i * n..]);
-    }
+    sums
 }
 
 /// Copies `width` elements; a full row in one move rather than by a call.

@@ -1,6 +1,6 @@
 //! What the command understands.
 
-use asperity::{inference::BackendName, reduce::Fidelity, text::TextEncoderChoice};
+use asperity::{inference::BackendName, reduce::Fidelity, scene::Target, text::TextEncoderChoice};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -15,6 +15,7 @@ use std::path::PathBuf;
   asperity inspect grit.asp
   asperity plot grit.asp -o grit.png
   asperity import hatt Models_Cork.xml -o cork.asp
+  asperity build desk.toml -o desk.aspl --target cortex-m4f@16MHz
 
 Exit status: 0 success, 1 failure, 2 wrong usage."
 )]
@@ -30,6 +31,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Make a texture of a prompt
     Compile(Compile),
+    /// Pack what a scene touches, within a budget
+    Build(Build),
     /// Import recorded textures
     #[command(subcommand)]
     Import(Import),
@@ -83,6 +86,48 @@ pub(crate) struct Compile {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A scene is a TOML file of [[texture]] entries (name and one of prompt, import, \
+asset) and [[surface]] entries (texture and one of plane, sphere, box). Only textures that a \
+surface wears are packed, each once, in full where nothing limits them. A target limits the \
+instructions of a tick, a clock by a share of its period at one instruction a clock. Where a \
+budget is too small, fidelity is lowered where that costs the least error.
+
+Examples:
+  asperity build desk.toml -o desk.aspl
+  asperity build desk.toml -o desk.aspl --target cortex-m4f@48MHz --share 5
+  asperity build desk.toml -o desk.aspl --target 2500 --budget-bytes 8192 --json"
+)]
+pub(crate) struct Build {
+    /// The scene (.toml)
+    pub(crate) scene: PathBuf,
+    /// The library to write (.aspl)
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// Where a tick has to fit: a processor and its clock, or a number of instructions
+    #[arg(long, value_name = "cortex-m4f@168MHz|INSTRUCTIONS")]
+    pub(crate) target: Option<Target>,
+    /// Percent of the target's clocks that a tick may take
+    #[arg(long, default_value_t = 100.0 * asperity::scene::DEFAULT_SHARE, value_name = "PERCENT", value_parser = percent)]
+    pub(crate) share: f64,
+    /// Bytes that the library may take
+    #[arg(long, value_name = "N")]
+    pub(crate) budget_bytes: Option<u64>,
+    #[command(flatten)]
+    pub(crate) inference: Inference,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(percent) if percent > 0.0 && percent <= 100.0 => Ok(percent),
+        _ => Err("above 0, at most 100".to_owned()),
+    }
 }
 
 /// Where networks come from and where they run.
@@ -195,12 +240,14 @@ pub(crate) struct Plot {
 #[derive(Debug, Args)]
 #[command(
     after_help = "The trajectory has the header t_s,x_mm,y_mm,z_mm and one row a tick at \
-the texture's rate. The surface is the infinite plane z = 0, contact where z < 0. The same \
-asset, trajectory and seed give the same bytes.
+the texture's rate. The surface is the infinite plane z = 0, contact where z < 0; a library \
+with a scene is rendered on the scene's surfaces, and a last column says which one is touched. \
+The same file, trajectory and seed give the same bytes.
 
 Examples:
   asperity render grit.asp --trajectory stroke.csv -o felt.csv --seed 1
-  asperity render hatt.aspl --texture Cork --trajectory stroke.csv -o felt.csv"
+  asperity render hatt.aspl --texture Cork --trajectory stroke.csv -o felt.csv
+  asperity render desk.aspl --trajectory stroke.csv -o felt.csv"
 )]
 pub(crate) struct Render {
     /// An asset (.asp) or a library (.aspl)

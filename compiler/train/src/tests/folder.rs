@@ -32,8 +32,12 @@ fn short() -> Config {
 
 fn exported(trained: &Trained) -> ModelFiles {
     let (corpus, captions) = data();
-    let metrics = measure(trained, &corpus, &captions);
-    export(trained, &corpus, &captions, &metrics).unwrap()
+    exported_of(trained, &corpus, &captions)
+}
+
+pub(super) fn exported_of(trained: &Trained, corpus: &Corpus, captions: &Captions) -> ModelFiles {
+    let metrics = measure(trained, corpus, captions);
+    export(trained, corpus, captions, &metrics).unwrap()
 }
 
 #[test]
@@ -52,6 +56,14 @@ fn the_compiler_loads_what_is_written_and_decodes_the_same() {
         let folder = tempfile::tempdir().unwrap();
         let target = folder.path().join("model");
         files.write(&target).unwrap();
+        let weights = std::fs::read(target.join("weights.safetensors")).unwrap();
+        let weights = safetensors::SafeTensors::deserialize(&weights).unwrap();
+        let kept = weights.tensor("memory.codes").is_ok();
+        assert_eq!(
+            kept,
+            trained.memory.is_some(),
+            "the memory is kept with the weights"
+        );
         let read = Files::read(&target).unwrap();
         let model = LearnedModel::load(read, &Backend::Portable).unwrap();
         assert_eq!(model.description().anchors.len(), 6);

@@ -1,4 +1,5 @@
 //! Whole runs on a small corpus.
 
+mod clip;
 mod folder;
 mod training;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use asperity::output;
 use asperity::progress;
 use asperity_sim::labs::pareto::{Options, Results, measure, steps};
-use asperity_sim::labs::{chart, material, table};
+use asperity_sim::labs::{chart, markdown, material, table};
 
 use crate::error::{Failure, Plain, boxed, print};
 
@@ -21,8 +21,8 @@ use crate::error::{Failure, Plain, boxed, print};
   asperity-lab pareto --hatt hatt/models --out charts   your own copy of the HaTT
   asperity-lab pareto --quick --json                    a few materials, no counting
 
-Writes summary.csv, designs.csv, held-out.csv, fidelity.csv, and front, held-out and fidelity
-as .svg and .png. Instructions a tick are counted by valgrind where it is installed, at the
+Writes summary.csv, designs.csv, held-out.csv, fidelity.csv, their tables.md, and charts as
+.svg and .png. Instructions a tick are counted by valgrind where it is installed, at the
 orders that most of the materials have. A firmware bench's counts (factor,name,instructions)
 are added by --cortex-m.")]
 pub(crate) struct Arguments {
@@ -117,6 +117,10 @@ fn write(folder: &Path, results: &Results, cortex_m: &table::CortexM) -> Result<
             encode(table::held_out(&held_out))?,
         ),
         ("fidelity.csv".to_owned(), encode(table::fidelity(results))?),
+        (
+            "tables.md".to_owned(),
+            markdown::tables(results, &held_out, cortex_m).into_bytes(),
+        ),
     ];
     for (name, picture) in
         chart::all(results, &held_out).map_err(|e| Plain::boxed(e, "report this"))?

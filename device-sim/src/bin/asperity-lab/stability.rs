@@ -3,7 +3,7 @@
 use std::io::{self, Write as _};
 use std::path::PathBuf;
 
-use asperity_sim::stability::{StabilityOptions, run as make_table, sheet};
+use asperity_sim::stability::{StabilityOptions, markdown, run as make_table, sheet};
 
 use crate::error::{Failure, Plain, boxed, print};
 
@@ -18,13 +18,13 @@ use crate::error::{Failure, Plain, boxed, print};
   asperity-lab stability --hatt materials/ --out pictures/
   asperity-lab stability --json > table.json
 
-With --out: wall-map.png (stiffness, delay and damping against the bound) and
-waveforms.png (the worst cases).")]
+With --out: wall-map.png (stiffness, delay and damping against the bound),
+waveforms.png (the worst cases) and tables.md (the rows as the documentation has them).")]
 pub(crate) struct Arguments {
     /// Folder of HaTT XML files, for the rows that need real materials
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
-    /// Write the pictures to a folder
+    /// Write pictures and tables to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of everything random
@@ -43,9 +43,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<bool, Failure> {
     };
     let table = make_table(&options).map_err(boxed)?;
     if let Some(folder) = &arguments.out {
-        let sheets = [
+        let files = [
             ("wall-map.png", sheet::wall_map().map_err(boxed)?),
             ("waveforms.png", sheet::waveforms(&options).map_err(boxed)?),
+            ("tables.md", markdown::tables(&table.rows).into_bytes()),
         ];
         std::fs::create_dir_all(folder).map_err(|error| {
             Plain::boxed(
@@ -53,8 +54,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<bool, Failure> {
                 "check the path",
             )
         })?;
-        for (name, png) in sheets {
-            asperity::output::write_atomic(&folder.join(name), &png).map_err(boxed)?;
+        for (name, bytes) in files {
+            asperity::output::write_atomic(&folder.join(name), &bytes).map_err(boxed)?;
         }
     }
     if arguments.json {

@@ -41,7 +41,7 @@ fn the_oracle_settles_on_the_exact_mixture() {
         let mut oracle = kernel(&Design::ORACLE, &grid).unwrap();
         for place in places(&grid, 20) {
             oracle.settle(&place);
-            let exact = field.mixture(&place);
+            let exact = field.model(&place);
             let distance_db = spectrum::log_spectral_distance_db(&exact, &oracle.model());
             assert!(distance_db < 1e-9, "{distance_db} dB");
         }

@@ -3,7 +3,7 @@
 use crate::failure::{Failures, one};
 use crate::{cli::Inspect, console};
 use asperity::{
-    inspect::{self, Document, LibraryDocument},
+    inspect::{self, Document, LibraryDocument, SurfaceDocument},
     source::Source,
 };
 use asperity_formats::{Asset, library};
@@ -36,10 +36,17 @@ fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Resul
         let asset = Asset::parse(&bytes).map_err(|e| one(source.error(Some(name), e.into())))?;
         documents.push(Document::of(&asset));
     }
+    let surfaces: Vec<SurfaceDocument> = source
+        .surfaces()
+        .map_err(one)?
+        .iter()
+        .map(|surface| SurfaceDocument::of(surface, names))
+        .collect();
     if args.json {
         return print_json(&LibraryDocument {
-            format_version: library::VERSION,
+            format_version: source.library_version().unwrap_or(library::VERSION),
             textures: documents,
+            surfaces,
         });
     }
     let mut text = format!(
@@ -66,6 +73,12 @@ fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Resul
             figure(d.attributes.sharp_hz),
             d.attributes.mu,
         );
+    }
+    if !surfaces.is_empty() {
+        let _ = writeln!(text, "  a scene of {} surfaces", surfaces.len());
+    }
+    for (index, surface) in surfaces.iter().enumerate() {
+        let _ = writeln!(text, "  {index:>5}  {surface}");
     }
     console::print(&text)
 }

@@ -1,5 +1,6 @@
 //! One file a command.
 
+mod build;
 mod builtin;
 mod compile;
 mod doctor;
@@ -17,6 +18,7 @@ use crate::{
 pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     match cli.command {
         Command::Import(Import::Hatt(args)) => import::hatt(&args, cli.quiet),
+        Command::Build(args) => build::run(&args, cli.quiet),
         Command::Compile(args) => compile::run(&args, cli.quiet),
         Command::Doctor(args) => doctor::run(&args),
         Command::Builtin(args) => builtin::run(&args),

@@ -7,17 +7,36 @@ use asperity::{
     render::{self, RenderError},
     source::Source,
 };
-use asperity_formats::Asset;
+use asperity_formats::{Asset, Library};
 use std::{
     fs::File,
     io::{BufReader, BufWriter},
 };
 
+/// What the trajectory goes over: the surfaces of a scene, or a plane with one texture.
+enum Felt<'a> {
+    Scene(Library<'a>),
+    Texture(Box<Asset<'a>>),
+}
+
 pub(crate) fn run(args: &Render) -> Result<(), Failures> {
     let mut source = Source::open(&args.file).map_err(one)?;
-    let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
-    let asset =
-        Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
+    let wanted = args.texture.as_deref();
+    let scene = match wanted {
+        None => source.scene_library().map_err(one)?,
+        Some(_) => None,
+    };
+    let is_scene = scene.is_some();
+    let bytes = match scene {
+        Some(bytes) => bytes,
+        None => source.choose(wanted).map_err(one)?,
+    };
+    let felt = if is_scene {
+        Library::parse(&bytes).map(Felt::Scene)
+    } else {
+        Asset::parse(&bytes).map(|asset| Felt::Texture(Box::new(asset)))
+    };
+    let felt = felt.map_err(|e| one(source.error(wanted, e.into())))?;
     let trajectory = File::open(&args.trajectory).map_err(|cause| {
         one(RenderError::Unreadable {
             file: args.trajectory.clone(),
@@ -25,13 +44,12 @@ pub(crate) fn run(args: &Render) -> Result<(), Failures> {
         })
     })?;
     let mut output = AtomicFile::create(&args.output).map_err(one)?;
-    let report = render::render(
-        &asset,
-        &args.trajectory,
-        BufReader::new(trajectory),
-        BufWriter::new(&mut output),
-        args.seed,
-    )
+    let (file, input) = (&args.trajectory, BufReader::new(trajectory));
+    let rows = BufWriter::new(&mut output);
+    let report = match &felt {
+        Felt::Scene(library) => render::render_scene(library, file, input, rows, args.seed),
+        Felt::Texture(asset) => render::render(asset, file, input, rows, args.seed),
+    }
     .map_err(|error| match error {
         RenderError::Write(source) => one(OutputError {
             path: args.output.clone(),

@@ -112,10 +112,13 @@ fn certainty(canvas: &mut Canvas, rect: Rect, part: &HeldOut) {
                 .copied()
                 .zip(curve.certainty.iter().copied())
         };
-        let ends = |x: f64, y: Option<&f64>| y.map(|&y| (x, y));
-        let first = ends(0.0, curve.certainty.first());
-        let last = ends(1.0, curve.certainty.last());
-        let line: Vec<(f64, f64)> = first.into_iter().chain(knots()).chain(last).collect();
+        // As the compiler reads it: from nothing at 0 to the first knot, flat above the last.
+        let last = curve.certainty.last().map(|&y| (1.0, y));
+        let line: Vec<(f64, f64)> = [(0.0, 0.0)]
+            .into_iter()
+            .chain(knots())
+            .chain(last)
+            .collect();
         panel.line(canvas, line, stroke);
         panel.points(
             canvas,

@@ -1,0 +1,237 @@
+//! A scene into a library that holds no more than the scene needs: the textures that its
+//! surfaces wear, each once, at the fidelity that a budget of instructions and bytes allows.
+
+mod budget;
+mod cost;
+mod counted;
+mod description;
+mod error;
+mod fidelity;
+mod report;
+
+pub use cost::{Surfaces, Target};
+pub use description::{Description, Origin, SurfaceEntry, TextureEntry};
+pub use error::{SceneError, SceneProblem};
+pub use report::{Report, Row};
+
+use crate::{
+    diagnostic::Diagnostic, hatt, library, model::TextureModel, raise::raise, rerate,
+    source::Source, verify,
+};
+use asperity_formats::{Asset, SceneSurface};
+use budget::{Excess, Limits};
+use fidelity::Candidate;
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Share of a target's clocks that a tick may take unless told otherwise.
+pub const DEFAULT_SHARE: f64 = 0.5;
+
+/// What a scene may cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Budget {
+    /// Where it runs; without one, instructions are counted and not limited.
+    pub target: Option<Target>,
+    /// Share of the target's clocks that a tick may take, above 0 and at most 1.
+    pub share: f64,
+    /// Bytes of the library.
+    pub bytes: Option<u64>,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self {
+            target: None,
+            share: DEFAULT_SHARE,
+            bytes: None,
+        }
+    }
+}
+
+/// A library with its scene, and how the budget was spent.
+#[derive(Debug, Clone)]
+pub struct Built {
+    /// The library.
+    pub bytes: Vec<u8>,
+    /// How the budget was spent.
+    pub report: Report,
+}
+
+/// Makes a texture of a prompt and a seed.
+pub type Prompter<'a> = dyn FnMut(&str, u64) -> Result<TextureModel, Box<dyn Diagnostic>> + 'a;
+
+/// Builds a scene; the same files give the same bytes, whatever the thread count. `prompter`
+/// is asked once a prompt.
+///
+/// # Errors
+/// [`SceneError`] for a texture that cannot be made or a budget that cannot hold.
+pub fn build(
+    scene: &Description,
+    budget: &Budget,
+    prompter: &mut Prompter<'_>,
+) -> Result<Built, SceneError> {
+    let target = budget.target.unwrap_or_else(Target::unlimited);
+    let mut order: Vec<&TextureEntry> = scene.textures.iter().collect();
+    order.sort_by(|a, b| a.name.cmp(&b.name));
+    let wholes = order
+        .iter()
+        .map(|entry| whole(scene, entry, prompter))
+        .collect::<Result<Vec<_>, _>>()?;
+    let surfaces = Surfaces::of(scene.surfaces.iter().map(|surface| surface.shape));
+    let tried: Vec<_> = wholes
+        .par_iter()
+        .map(|texture| fidelity::candidates(texture, &target, surfaces))
+        .collect();
+    let all = order
+        .iter()
+        .zip(tried)
+        .map(|(entry, tried)| tried.map_err(|e| failed(scene, entry, e)))
+        .collect::<Result<Vec<_>, _>>()?;
+    let chosen = chosen(scene, &order, &all, budget, &target)?;
+    let verified: Vec<_> = chosen
+        .par_iter()
+        .map(|candidate| verify::verify(&candidate.texture, &candidate.bytes))
+        .collect();
+    for (entry, verified) in order.iter().zip(verified) {
+        verified.map_err(|e| failed(scene, entry, e))?;
+    }
+    let bytes = encode(scene, &order, &chosen)?;
+    let report = Report::new(scene, budget, &target, &order, &chosen, bytes.len());
+    Ok(Built { bytes, report })
+}
+
+fn failed(
+    scene: &Description,
+    entry: &TextureEntry,
+    cause: impl Diagnostic + 'static,
+) -> SceneError {
+    at(scene, entry, SceneProblem::Texture(Box::new(cause)))
+}
+
+fn at(scene: &Description, entry: &TextureEntry, problem: SceneProblem) -> SceneError {
+    let key = match &entry.origin {
+        Origin::Prompt(..) => "prompt",
+        Origin::Import(_) => "import",
+        Origin::Asset(_) => "asset",
+    };
+    SceneError {
+        file: scene.file.clone(),
+        field: format!("texture[{}].{key}", entry.index),
+        problem,
+    }
+}
+
+/// A texture in full, at the rate of the scene's servo loop and under its name there.
+fn whole(
+    scene: &Description,
+    entry: &TextureEntry,
+    prompter: &mut Prompter<'_>,
+) -> Result<TextureModel, SceneError> {
+    let made = match &entry.origin {
+        Origin::Prompt(prompt, seed) => prompter(prompt, *seed),
+        Origin::Import(file) => imported(file),
+        Origin::Asset(file) => asset(file),
+    };
+    let mut texture = made.map_err(|e| at(scene, entry, SceneProblem::Texture(e)))?;
+    let (from_hz, to_hz) = (texture.grid.sample_rate_hz, scene.servo_rate_hz);
+    if from_hz != to_hz {
+        texture.grid = rerate::rerate(&texture.grid, to_hz)
+            .ok_or_else(|| at(scene, entry, SceneProblem::Rate { from_hz, to_hz }))?;
+    }
+    texture.name.clone_from(&entry.name);
+    Ok(texture)
+}
+
+fn imported(file: &Path) -> Result<TextureModel, Box<dyn Diagnostic>> {
+    let imported = hatt::import(file, None).map_err(boxed)?;
+    // Verified by the import: the bytes parse.
+    let asset = Asset::parse(&imported.bytes).map_err(|e| boxed(verify::VerifyError::from(e)))?;
+    Ok(raise(&asset))
+}
+
+fn asset(file: &Path) -> Result<TextureModel, Box<dyn Diagnostic>> {
+    let mut source = Source::open(file).map_err(boxed)?;
+    let bytes = source.choose(None).map_err(boxed)?;
+    let asset = Asset::parse(&bytes).map_err(|e| boxed(source.error(None, e.into())))?;
+    Ok(raise(&asset))
+}
+
+fn boxed(error: impl Diagnostic + 'static) -> Box<dyn Diagnostic> {
+    Box::new(error)
+}
+
+/// The candidates that the budget allows, one a texture.
+fn chosen<'a>(
+    scene: &Description,
+    order: &[&TextureEntry],
+    all: &'a [Vec<Candidate>],
+    budget: &Budget,
+    target: &Target,
+) -> Result<Vec<&'a Candidate>, SceneError> {
+    let names: Vec<&str> = order.iter().map(|entry| entry.name.as_str()).collect();
+    let fixed = library::scene_len(&names, scene.surfaces.len()) as u64;
+    let limits = Limits {
+        instructions: target.budget(scene.servo_rate_hz, budget.share),
+        bytes: budget
+            .bytes
+            .map_or(u64::MAX, |bytes| bytes.saturating_sub(fixed)),
+    };
+    let chosen = budget::choose(all, limits).map_err(|excess| match excess {
+        Excess::Instructions { texture, least } => {
+            let entry = order[texture];
+            let problem = SceneProblem::Instructions {
+                name: entry.name.clone(),
+                least,
+                budget: limits.instructions,
+                target: *target,
+            };
+            SceneError {
+                file: scene.file.clone(),
+                field: format!("texture[{}]", entry.index),
+                problem,
+            }
+        }
+        Excess::Bytes { least } => SceneError {
+            file: scene.file.clone(),
+            field: String::new(),
+            problem: SceneProblem::Bytes {
+                least: least + fixed,
+                budget: budget.bytes.unwrap_or(u64::MAX),
+                textures: order.len(),
+            },
+        },
+    })?;
+    Ok(all.iter().zip(chosen).map(|(of, at)| &of[at]).collect())
+}
+
+fn encode(
+    scene: &Description,
+    order: &[&TextureEntry],
+    chosen: &[&Candidate],
+) -> Result<Vec<u8>, SceneError> {
+    let named: Vec<library::NamedAsset<'_>> = order
+        .iter()
+        .zip(chosen)
+        .map(|(entry, candidate)| library::NamedAsset {
+            name: &entry.name,
+            bytes: &candidate.bytes,
+        })
+        .collect();
+    let index = |name: &str| order.iter().position(|entry| entry.name == name);
+    let surfaces: Vec<SceneSurface> = scene
+        .surfaces
+        .iter()
+        .map(|surface| SceneSurface {
+            shape: surface.shape,
+            from_m: surface.from_m,
+            to_m: surface.to_m,
+            // Checked when it was read; there are at most as many textures as surfaces.
+            texture: index(&surface.texture).unwrap_or(0) as u16,
+        })
+        .collect();
+    library::encode_scene(&named, &surfaces).map_err(|e| SceneError {
+        file: scene.file.clone(),
+        field: String::new(),
+        problem: e.into(),
+    })
+}

@@ -1,0 +1,164 @@
+//! How the budget was spent.
+
+use super::{Budget, Description, Target, TextureEntry, fidelity::Candidate};
+use serde::Serialize;
+use std::fmt;
+
+/// How the budget was spent.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Processor whose instructions are counted.
+    pub processor: String,
+    /// What the instructions were limited by.
+    pub target: Option<String>,
+    /// Rate of the servo loop, Hz.
+    pub servo_rate_hz: f64,
+    /// Share of the target's clocks.
+    pub share: f64,
+    /// Instructions a tick may take.
+    pub instructions_budget: Option<u64>,
+    /// Instructions of the costliest texture's tick.
+    pub instructions: u64,
+    /// The most that counts of instructions are above what was measured, percent; never below.
+    pub instructions_above_percent: f64,
+    /// Bytes the library may take.
+    pub bytes_budget: Option<u64>,
+    /// Bytes it takes.
+    pub bytes: usize,
+    /// Surfaces.
+    pub surfaces: usize,
+    /// One row a texture, by name.
+    pub textures: Vec<Row>,
+    /// Textures that no surface wears; left out.
+    pub unused: Vec<String>,
+}
+
+/// What was kept of a texture, and what it costs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// Its name.
+    pub name: String,
+    /// `full`, `auto`, an order, or `auto` with a lower order.
+    pub fidelity: String,
+    /// Poles.
+    pub order: usize,
+    /// `none`, `nyquist` or `lsf`.
+    pub numerator: crate::model::Numerator,
+    /// Zeros that are mixed and converted.
+    pub zeros: usize,
+    /// Vertices of the grid.
+    pub vertices: usize,
+    /// Triangles of the grid.
+    pub triangles: usize,
+    /// Tap traces.
+    pub taps: usize,
+    /// Samples of a tap trace.
+    pub tap_samples: usize,
+    /// Executed instructions a tick.
+    pub instructions: u64,
+    /// Bytes of the asset.
+    pub bytes: usize,
+    /// Largest spectral distance from the whole texture, dB.
+    pub error_db: f64,
+}
+
+impl Row {
+    fn new(name: &str, candidate: &Candidate) -> Self {
+        let texture = &candidate.texture;
+        Self {
+            name: name.to_owned(),
+            fidelity: candidate.fidelity.clone(),
+            order: texture.grid.order,
+            numerator: texture.grid.numerator,
+            zeros: candidate.zeros(),
+            vertices: texture.grid.vertices.len(),
+            triangles: texture.grid.triangles.len(),
+            taps: texture.taps.traces.len(),
+            tap_samples: texture
+                .taps
+                .traces
+                .first()
+                .map_or(0, |t| t.accel_m_s2.len()),
+            instructions: candidate.instructions,
+            bytes: candidate.bytes.len(),
+            error_db: candidate.error_db,
+        }
+    }
+}
+
+impl Report {
+    pub(super) fn new(
+        scene: &Description,
+        budget: &Budget,
+        target: &Target,
+        order: &[&TextureEntry],
+        chosen: &[&Candidate],
+        bytes: usize,
+    ) -> Self {
+        let rows = order.iter().zip(chosen);
+        Self {
+            processor: target.processor().to_owned(),
+            target: budget.target.map(|target| target.to_string()),
+            servo_rate_hz: scene.servo_rate_hz,
+            share: budget.share,
+            instructions_budget: budget
+                .target
+                .map(|target| target.budget(scene.servo_rate_hz, budget.share)),
+            instructions: chosen.iter().map(|c| c.instructions).max().unwrap_or(0),
+            instructions_above_percent: target.above_percent(),
+            bytes_budget: budget.bytes,
+            bytes,
+            surfaces: scene.surfaces.len(),
+            textures: rows.map(|(entry, c)| Row::new(&entry.name, c)).collect(),
+            unused: scene.unused.clone(),
+        }
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "  fidelity  order  numerator  vertices      taps  instructions   bytes  error dB  texture"
+        )?;
+        for row in &self.textures {
+            let numerator = match row.numerator {
+                crate::model::Numerator::None => "1".to_owned(),
+                crate::model::Numerator::Nyquist => "1 + z⁻¹".to_owned(),
+                crate::model::Numerator::Lsf => format!("{} zeros", row.zeros),
+            };
+            let taps = format!("{} × {}", row.taps, row.tap_samples);
+            writeln!(
+                f,
+                "  {:<8}  {:>5}  {numerator:>9}  {:>8}  {taps:>8}  {:>12}  {:>6}  {:>8.3}  {}",
+                row.fidelity,
+                row.order,
+                row.vertices,
+                row.instructions,
+                row.bytes,
+                row.error_db,
+                row.name
+            )?;
+        }
+        write!(
+            f,
+            "{} surfaces; a tick takes {} instructions of a {}",
+            self.surfaces, self.instructions, self.processor
+        )?;
+        if let (Some(budget), Some(target)) = (self.instructions_budget, &self.target) {
+            write!(f, " of {budget} ({target}")?;
+            if target.contains('@') {
+                let percent = 100.0 * self.share;
+                write!(f, ", {percent:.0} % of {} Hz", self.servo_rate_hz)?;
+            }
+            write!(f, ")")?;
+        }
+        let above = self.instructions_above_percent;
+        write!(f, ", up to {above} % above what was counted")?;
+        write!(f, "; the library {} bytes", self.bytes)?;
+        if let Some(budget) = self.bytes_budget {
+            write!(f, " of {budget}")?;
+        }
+        writeln!(f)
+    }
+}

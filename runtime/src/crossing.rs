@@ -1,0 +1,98 @@
+//! The way from one texture to the next while in contact.
+//!
+//! Wall, gains and friction go to the new texture as a one-pole. The old vibration goes on
+//! until the first model of the new texture is made; that starts from silence, and the old
+//! one's last output fades beside it: a step of the force is never more than a texture's own.
+
+use crate::{Texture, synthesis::Lags, vibration::Vibration};
+use asperity_formats::Surface;
+
+/// What is left a tick later of a vibration that was stopped.
+const FADE: f32 = 0.75;
+/// Less than this is silence, m/s².
+const SILENCE_M_S2: f32 = 1.0e-20;
+
+/// What is felt on the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Crossing {
+    /// Wall and gains.
+    pub(crate) surface: Surface,
+    /// Coefficient of kinetic friction.
+    pub(crate) mu: f32,
+    /// Of the vibration at work.
+    lags: Lags,
+    /// What fades of the vibration before, m/s².
+    fading_m_s2: f32,
+    /// The vibration at work is that of the texture before.
+    changing: bool,
+}
+
+impl Crossing {
+    /// No wall, no friction, silence.
+    pub(crate) const START: Self = Self {
+        surface: Surface {
+            stiffness_n_m: 0.0,
+            damping_n_s_m: 0.0,
+            vib_s2_m: 0.0,
+            effective_mass_kg: 0.0,
+            f_max_n: 0.0,
+        },
+        mu: 0.0,
+        lags: Lags::new(0, 0),
+        fading_m_s2: 0.0,
+        changing: false,
+    };
+
+    /// Goes `share` of the way to a texture's wall, gains and friction; exactly there with 1.
+    #[inline]
+    pub(crate) fn follow(&mut self, to: &Surface, mu: f32, share: f32) {
+        let left = 1.0 - share;
+        let mix = |from: f32, to: f32| to - left * (to - from);
+        let from = &mut self.surface;
+        from.stiffness_n_m = mix(from.stiffness_n_m, to.stiffness_n_m);
+        from.damping_n_s_m = mix(from.damping_n_s_m, to.damping_n_s_m);
+        from.vib_s2_m = mix(from.vib_s2_m, to.vib_s2_m);
+        from.effective_mass_kg = mix(from.effective_mass_kg, to.effective_mass_kg);
+        from.f_max_n = mix(from.f_max_n, to.f_max_n);
+        self.mu = mix(self.mu, mu);
+    }
+
+    /// [`Vibration::prepare`], from one texture to the next.
+    #[inline]
+    pub(crate) fn prepare<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &mut self,
+        vibration: &mut Vibration,
+        texture: &Texture<V, T, P, Q, K>,
+        follow_share: f32,
+    ) {
+        if !vibration.is_on(texture.id()) {
+            vibration.begin(texture.id());
+            self.changing = true;
+        }
+        if self.changing && vibration.is_last_of_cycle() {
+            self.fading_m_s2 += vibration.stop();
+            self.lags = texture.lags();
+            self.changing = false;
+        }
+        vibration.prepare(texture, follow_share);
+    }
+
+    /// [`Vibration::sound`], and what fades beside it.
+    #[inline]
+    pub(crate) fn sound(&mut self, vibration: &mut Vibration, sounding: bool) -> (f32, bool) {
+        let (y, clamped) = vibration.sound(self.lags, sounding);
+        let faded = FADE * self.fading_m_s2;
+        self.fading_m_s2 = if sounding && faded.abs() > SILENCE_M_S2 {
+            faded
+        } else {
+            0.0
+        };
+        (y + self.fading_m_s2, clamped)
+    }
+}

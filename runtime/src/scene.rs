@@ -1,0 +1,323 @@
+//! Several surfaces with textures of their own; only the one that is touched is rendered.
+//!
+//! Of all surfaces the one with the smallest signed distance is touched: the nearest, or
+//! that in which the stylus is deepest. A surface in contact keeps it until another is
+//! deeper by [`HYSTERESIS_M`], or its region is left by as much, so that noise at a border
+//! changes nothing. From one texture to the next wall, gains and friction follow within the
+//! time constant of the parameters; the old vibration goes on until the new model is made,
+//! then its last output fades; the limiter bounds what is left of a step.
+//!
+//! The work is one distance a surface, and a tick.
+
+use crate::{
+    Config, Flags, LoadError, Output, Renderer, Sample, State, Surface, Texture,
+    contact::Solid,
+    crossing::Crossing,
+    lanes::F4,
+    math::{Vec3, exp},
+    safety::REACH_M,
+    tick::Felt,
+    vibration::Vibration,
+};
+use asperity_formats::{Library, SceneSurface, Shape};
+use heapless::Vec;
+use thiserror::Error;
+
+/// How much deeper another surface must be to take over a contact, and how far behind its
+/// border a region keeps one, m: two counts of a Touch.
+pub const HYSTERESIS_M: f32 = 0.12e-3;
+
+/// Index of no surface.
+const NONE: usize = usize::MAX;
+/// Out of reach of every usable sample.
+const NOWHERE: Surface = Surface::Plane {
+    point_m: [0.0, 0.0, -10.0 * REACH_M],
+    normal: [0.0, 0.0, 1.0],
+};
+
+/// A solid, where it can be touched, and its texture.
+#[derive(Debug, Clone, Copy)]
+struct Placed {
+    solid: Surface,
+    from_m: Vec3,
+    to_m: Vec3,
+    texture: usize,
+}
+
+impl Placed {
+    fn new(surface: SceneSurface) -> Self {
+        Self {
+            solid: solid(surface.shape).normalised(),
+            from_m: surface.from_m,
+            to_m: surface.to_m,
+            texture: usize::from(surface.texture),
+        }
+    }
+
+    /// Signed distance, m; infinite outside the region widened by `margin_m`.
+    #[inline]
+    fn distance_m(&self, position_m: Vec3, margin_m: f32) -> f32 {
+        let within = |axis: usize| {
+            (position_m[axis] >= self.from_m[axis] - margin_m)
+                & (position_m[axis] <= self.to_m[axis] + margin_m)
+        };
+        let distance_m = self.solid.contact(position_m).distance_m;
+        if within(0) & within(1) & within(2) {
+            distance_m
+        } else {
+            f32::INFINITY
+        }
+    }
+}
+
+/// A scene with room for `N` surfaces, on textures in caller-provided slots of the capacities of
+/// [`Texture`]. One scene drives any number of [`SceneState`]s.
+#[derive(Debug, Clone)]
+pub struct Scene<
+    'a,
+    const N: usize,
+    const V: usize,
+    const T: usize,
+    const P: usize,
+    const Q: usize,
+    const K: usize,
+> {
+    placed: Vec<Placed, N>,
+    first: &'a Texture<V, T, P, Q, K>,
+    others: &'a [Texture<V, T, P, Q, K>],
+    /// Share of the way that wall, gains and friction go in a tick.
+    follow_share: f32,
+}
+
+/// Room for every surface that a library can hold, on [`HostTexture`](crate::HostTexture)s.
+pub type HostScene<'a> = Scene<'a, 64, 64, 128, 24, 24, 4096>;
+
+/// Why a library cannot be rendered as a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The library has textures but no surfaces.
+    #[error("the library holds no scene: build one with `asperity build`")]
+    NoScene,
+    /// More of something than there is room for.
+    #[error("{field}: the scene has {found}, there is room for {capacity}")]
+    Capacity {
+        /// Which capacity.
+        field: &'static str,
+        /// What the scene needs.
+        found: usize,
+        /// What there is room for.
+        capacity: usize,
+    },
+    /// A texture does not fit its slot.
+    #[error("texture {index}: {cause}")]
+    Texture {
+        /// Index in the library.
+        index: usize,
+        /// Why.
+        cause: LoadError,
+    },
+}
+
+impl<
+    'a,
+    const N: usize,
+    const V: usize,
+    const T: usize,
+    const P: usize,
+    const Q: usize,
+    const K: usize,
+> Scene<'a, N, V, T, P, Q, K>
+{
+    /// Prepares every surface of a library, and every texture in a slot of its own; allocates
+    /// nothing.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn load(
+        library: &Library<'_>,
+        config: &Config,
+        slots: &'a mut [Texture<V, T, P, Q, K>],
+    ) -> Result<Self, SceneError> {
+        let scene = library.scene().ok_or(SceneError::NoScene)?;
+        let textures = library.index().len();
+        let capacity = |field, found, capacity| SceneError::Capacity {
+            field,
+            found,
+            capacity,
+        };
+        if scene.len() > N {
+            return Err(capacity("surfaces", scene.len(), N));
+        }
+        let room = slots.len();
+        for (index, slot) in slots.iter_mut().enumerate().take(textures) {
+            let load = |asset| slot.load(&asset, config.servo_rate_hz);
+            let loaded = library.asset(index).map_err(LoadError::from).and_then(load);
+            loaded.map_err(|cause| SceneError::Texture { index, cause })?;
+        }
+        // A scene has a surface, and that a texture.
+        let loaded = slots.get(..textures).and_then(<[_]>::split_first);
+        let (first, others) = loaded.ok_or(capacity("textures", textures, room))?;
+        let ticks = config.parameter_time_constant_s * config.servo_rate_hz;
+        let follow_share = if ticks > 0.1 {
+            1.0 - exp(-1.0 / ticks)
+        } else {
+            1.0
+        };
+        Ok(Self {
+            placed: scene.surfaces().take(N).map(Placed::new).collect(),
+            first,
+            others,
+            follow_share,
+        })
+    }
+
+    /// The surface to touch at a position, [`NONE`] for none, when it was `at` before.
+    #[inline]
+    fn touched(&self, at: usize, position_m: Vec3) -> usize {
+        let kept = self.placed.get(at).map_or(f32::INFINITY, |placed| {
+            let distance_m = placed.distance_m(position_m, HYSTERESIS_M);
+            distance_m - if distance_m < 0.0 { HYSTERESIS_M } else { 0.0 }
+        });
+        let (mut nearest, mut least_m) = if kept < f32::INFINITY {
+            (at, kept)
+        } else {
+            (NONE, f32::INFINITY)
+        };
+        for (index, placed) in self.placed.iter().enumerate() {
+            let distance_m = placed.distance_m(position_m, 0.0);
+            let closer = distance_m < least_m;
+            nearest = if closer { index } else { nearest };
+            least_m = if closer { distance_m } else { least_m };
+        }
+        nearest
+    }
+
+    fn texture(&self, index: usize) -> &Texture<V, T, P, Q, K> {
+        let other = index
+            .checked_sub(1)
+            .and_then(|other| self.others.get(other));
+        other.unwrap_or(self.first)
+    }
+}
+
+fn solid(shape: Shape) -> Surface {
+    match shape {
+        Shape::Plane { point_m, normal } => Surface::Plane { point_m, normal },
+        Shape::Sphere { center_m, radius_m } => Surface::Sphere { center_m, radius_m },
+        Shape::Box {
+            center_m,
+            half_extents_m,
+        } => Surface::Box {
+            center_m,
+            half_extents_m,
+        },
+    }
+}
+
+/// Everything that changes from tick to tick in a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneState {
+    state: State,
+    /// Surface last touched or nearest, or [`NONE`].
+    at: usize,
+    texture: usize,
+    solid: Solid,
+    crossing: Crossing,
+    /// In contact in the tick before.
+    touching: bool,
+}
+
+impl SceneState {
+    /// At rest, without force; the seed is that of the excitation.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self {
+            state: State::new(seed),
+            at: NONE,
+            texture: 0,
+            solid: Solid::new(&NOWHERE),
+            crossing: Crossing::START,
+            touching: false,
+        }
+    }
+
+    /// The state of the tick.
+    #[must_use]
+    pub const fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Another surface is touched from here on, or none.
+    #[cold]
+    fn move_to(&mut self, at: usize, surfaces: &[Placed]) {
+        self.at = at;
+        let surface = match surfaces.get(at) {
+            Some(placed) => {
+                self.texture = placed.texture;
+                placed.solid
+            }
+            None => NOWHERE,
+        };
+        self.solid = Solid::new(&surface);
+        self.state.cross(&self.solid);
+    }
+
+    /// Index of the surface in contact after the last tick.
+    #[must_use]
+    pub fn touched(&self) -> Option<usize> {
+        self.touching.then_some(self.at)
+    }
+}
+
+impl Renderer {
+    /// One servo period in a scene: [`Renderer::tick`] on the surface that is touched, in place
+    /// of the one in the configuration. Infallible.
+    pub fn tick_scene<
+        const N: usize,
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &self,
+        scene: &Scene<'_, N, V, T, P, Q, K>,
+        state: &mut SceneState,
+        sample: &Sample,
+    ) -> Output {
+        if is_usable(sample) {
+            let at = scene.touched(state.at, sample.position_m);
+            if at != state.at {
+                state.move_to(at, &scene.placed);
+            }
+        }
+        let texture = scene.texture(state.texture);
+        let share = if state.touching {
+            scene.follow_share
+        } else {
+            1.0
+        };
+        let crossing = &mut state.crossing;
+        crossing.follow(&texture.surface, texture.mu, share);
+        let (surface, mu) = (crossing.surface, crossing.mu);
+        let felt = Felt {
+            solid: &state.solid,
+            surface: &surface,
+            mu,
+        };
+        crossing.prepare(&mut state.state.vibration, texture, self.follow_share);
+        let sound = |vibration: &mut Vibration, sounding| crossing.sound(vibration, sounding);
+        let output = self.tick_on(felt, texture, &mut state.state, sample, sound);
+        let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
+        state.state.vibration.query(texture, speed_mm_s, force_n);
+        state.touching = output.flags.contains(Flags::CONTACT);
+        output
+    }
+}
+
+/// Whether the gate will take a sample for a position.
+#[inline]
+fn is_usable(sample: &Sample) -> bool {
+    F4::vec3(sample.position_m).is_within(REACH_M) & (sample.elapsed_ticks > 0)
+}
