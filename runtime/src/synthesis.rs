@@ -72,6 +72,10 @@ impl Window {
 
     /// Σ c_k x_k over the first `N` blocks from the newest number on, in four partial sums.
     #[inline(always)]
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "of constant length, it is unrolled"
+    )]
     fn inner_product<const N: usize>(&self, c: &Line, at: usize) -> F4 {
         let past = &self.0.as_flattened()[at % LANES..];
         let past = past.as_chunks::<LANES>().0;

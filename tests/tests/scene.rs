@@ -108,7 +108,7 @@ fn crossing_is_smooth(name: &str, pair: &[Vec<u8>; 2]) {
         let border = 200 + (BORDER_M / (speed_mm_s * 1e-6)) as usize;
         let steady = samples.len() - border;
         let (mut crossing_n, mut alone_n) = (0.0_f32, 0.0_f32);
-        for seed in 0..40 {
+        for seed in 0..200 {
             let outputs = run(&across, seed, &samples);
             let crossed = &outputs[border - AROUND..border + AROUND];
             crossing_n = crossing_n.max(largest_step_n(crossed));
