@@ -137,7 +137,7 @@ fn smoothing_closes_two_thirds_of_a_step_in_its_time_constant() {
         smoothed.render(&[fast; 5], &[0.0; 5]);
         let share = |model: &ArmaModel, index: usize| {
             let value = |model: &ArmaModel| lsf::from_polynomial(&model.a).unwrap()[index].cos();
-            let ends = [slow, fast].map(|place| value(&Field::new(&grid).mixture(&place)));
+            let ends = [slow, fast].map(|place| value(&Field::new(&grid).model(&place)));
             (value(model) - ends[0]) / (ends[1] - ends[0])
         };
         let found = share(&smoothed.model(), 2);
