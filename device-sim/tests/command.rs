@@ -127,7 +127,7 @@ fn stability_passes_counts_on_its_last_line_and_draws() {
     assert!(table.contains("needs the HaTT materials: --hatt DIR"));
     assert_eq!(
         entries(&folder.path().join("pictures")),
-        ["wall-map.png", "waveforms.png"]
+        ["tables.md", "wall-map.png", "waveforms.png"]
     );
 }
 

@@ -61,6 +61,7 @@ fn a_quick_run_writes_every_table_and_chart_twice_the_same() {
             "held-out.png",
             "held-out.svg",
             "summary.csv",
+            "tables.md",
         ]
     );
     for name in names {

@@ -30,15 +30,16 @@ pub const HYSTERESIS_M: f32 = 0.12e-3;
 /// Index of no surface.
 const NONE: usize = usize::MAX;
 /// Out of reach of every usable sample.
-const NOWHERE: Surface = Surface::Plane {
-    point_m: [0.0, 0.0, -10.0 * REACH_M],
-    normal: [0.0, 0.0, 1.0],
+const NOWHERE: Solid = Solid::Plane {
+    point_m: F4::load(&[0.0, 0.0, -10.0 * REACH_M, 0.0]),
+    normal: F4::load(&[0.0, 0.0, 1.0, 0.0]),
 };
 
 /// A solid, where it can be touched, and its texture.
 #[derive(Debug, Clone, Copy)]
 struct Placed {
-    solid: Surface,
+    /// Prepared here: a plane's normal is made of unit length in f64, which a tick has no time for.
+    solid: Solid,
     from_m: Vec3,
     to_m: Vec3,
     texture: usize,
@@ -47,7 +48,7 @@ struct Placed {
 impl Placed {
     fn new(surface: SceneSurface) -> Self {
         Self {
-            solid: solid(surface.shape).normalised(),
+            solid: Solid::new(&solid(surface.shape).normalised()),
             from_m: surface.from_m,
             to_m: surface.to_m,
             texture: usize::from(surface.texture),
@@ -61,7 +62,7 @@ impl Placed {
             (position_m[axis] >= self.from_m[axis] - margin_m)
                 & (position_m[axis] <= self.to_m[axis] + margin_m)
         };
-        let distance_m = self.solid.contact(position_m).distance_m;
+        let (distance_m, _) = self.solid.touch(F4::vec3(position_m));
         if within(0) & within(1) & within(2) {
             distance_m
         } else {
@@ -236,7 +237,7 @@ impl SceneState {
             state: State::new(seed),
             at: NONE,
             texture: 0,
-            solid: Solid::new(&NOWHERE),
+            solid: NOWHERE,
             crossing: Crossing::START,
             touching: false,
         }
@@ -252,14 +253,13 @@ impl SceneState {
     #[cold]
     fn move_to(&mut self, at: usize, surfaces: &[Placed]) {
         self.at = at;
-        let surface = match surfaces.get(at) {
+        self.solid = match surfaces.get(at) {
             Some(placed) => {
                 self.texture = placed.texture;
                 placed.solid
             }
             None => NOWHERE,
         };
-        self.solid = Solid::new(&surface);
         self.state.cross(&self.solid);
     }
 

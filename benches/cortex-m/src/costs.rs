@@ -21,10 +21,10 @@ struct Cost {
 
 /// Counts on the target and on the host, and prints `compiler/src/scene/counted.rs`.
 pub(crate) fn print(target: &Target, toolchain: &Toolchain) -> Result<()> {
-    let firmware = toolchain.firmware("costs", &[])?;
+    let firmware = toolchain.firmware("costs", &[], "fast")?;
     let expected = SCENE_CASES.len() * Phase::ALL.len() * PHASE_TICKS as usize;
     let on_target = emulate::run(target, &firmware, expected)?.instructions;
-    let on_host = emulate::run_on_host(&host_program("host-costs")?, expected)?;
+    let on_host = emulate::run_on_host(&host_program("host-costs", "fast")?, expected)?;
     let counted = [("cortex-m4f", on_target), ("x86-64", on_host)].map(|(processor, counts)| {
         let ticks = counts.len() / SCENE_CASES.len();
         let worst = counts.chunks(ticks).map(|of| of.iter().copied().max());

@@ -50,8 +50,8 @@ impl Toolchain {
         }
     }
 
-    /// Builds a firmware program and returns the path of its ELF.
-    pub(crate) fn firmware(&self, name: &str, features: &[&str]) -> Result<PathBuf> {
+    /// Builds a firmware program in a profile and returns the path of its ELF.
+    pub(crate) fn firmware(&self, name: &str, features: &[&str], profile: &str) -> Result<PathBuf> {
         // Apart, so that a firmware with features does not replace the measured one.
         let folder = target_dir().join(if features.is_empty() {
             "firmware"
@@ -61,7 +61,7 @@ impl Toolchain {
         let mut cargo = Command::new("cargo");
         cargo
             .current_dir(home())
-            .args(["build", "--quiet", "--release", "--locked"])
+            .args(["build", "--quiet", "--profile", profile, "--locked"])
             .args(["--package", "asperity-firmware", "--bin", name])
             .args(["--target", self.triple, "--features", &features.join(",")])
             .arg("--target-dir")
@@ -75,7 +75,7 @@ impl Toolchain {
                 .env(format!("CARGO_TARGET_{name}_LINKER"), linker);
         }
         stdout(&mut cargo)?;
-        Ok(folder.join(self.triple).join("release").join(name))
+        Ok(folder.join(self.triple).join(profile).join(name))
     }
 }
 
@@ -91,16 +91,17 @@ pub(crate) fn host_session(case: &str, profile: &str) -> Result<String> {
     )
 }
 
-/// Builds a program of this package for the host and returns its path.
-pub(crate) fn host_program(name: &str) -> Result<PathBuf> {
+/// Builds a program of this package for the host in a profile and returns its path.
+pub(crate) fn host_program(name: &str, profile: &str) -> Result<PathBuf> {
     stdout(
         Command::new("cargo")
             .current_dir(home())
-            .args(["build", "--quiet", "--release", "--locked", "--bin", name])
+            .args(["build", "--quiet", "--profile", profile, "--locked"])
+            .args(["--bin", name])
             .arg("--target-dir")
             .arg(target_dir()),
     )?;
-    Ok(target_dir().join("release").join(name))
+    Ok(target_dir().join(profile).join(name))
 }
 
 /// Runs a command to its end and returns what it printed.

@@ -80,9 +80,7 @@ fn any_latent_is_a_stable_texture_within_bounds() {
         }
     });
     let calmed = calmed.into_inner();
-    println!(
-        "{calmed} of {} verified textures had to be calmed",
-        LATENTS / VERIFIED_EVERY
-    );
-    assert!(calmed * 50 < LATENTS / VERIFIED_EVERY, "{calmed} calmed");
+    let verified = latents.div_ceil(VERIFIED_EVERY);
+    println!("{calmed} of {verified} verified textures had to be calmed");
+    assert!(calmed * 10 <= verified, "{calmed} of {verified}");
 }
