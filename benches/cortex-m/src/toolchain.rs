@@ -52,6 +52,16 @@ impl Toolchain {
 
     /// Builds a firmware program and returns the path of its ELF.
     pub(crate) fn firmware(&self, name: &str, features: &[&str]) -> Result<PathBuf> {
+        self.firmware_with(name, features, &[])
+    }
+
+    /// The same with variables that its sources read while they are compiled.
+    pub(crate) fn firmware_with(
+        &self,
+        name: &str,
+        features: &[&str],
+        variables: &[(&str, usize)],
+    ) -> Result<PathBuf> {
         // Apart, so that a firmware with features does not replace the measured one.
         let folder = target_dir().join(if features.is_empty() {
             "firmware"
@@ -65,11 +75,16 @@ impl Toolchain {
             .args(["--package", "asperity-firmware", "--bin", name])
             .args(["--target", self.triple, "--features", &features.join(",")])
             .arg("--target-dir")
-            .arg(&folder);
+            .arg(&folder)
+            .envs(
+                variables
+                    .iter()
+                    .map(|(name, value)| (name, value.to_string())),
+            );
         if let Some(linker) = &self.build_core_with {
             let name = self.triple.to_uppercase().replace('-', "_");
             cargo
-                .arg("-Zbuild-std=core")
+                .arg("-Zbuild-std=core,alloc")
                 .env("RUSTC", DISTRIBUTION_RUSTC)
                 .env("RUSTC_BOOTSTRAP", "1")
                 .env(format!("CARGO_TARGET_{name}_LINKER"), linker);
