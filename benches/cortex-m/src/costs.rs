@@ -37,9 +37,9 @@ pub(crate) fn print(target: &Target, toolchain: &Toolchain) -> Result<()> {
 /// The file, of each processor's costliest ticks.
 fn table(counted: &[(&str, Vec<u64>)]) -> String {
     let mut text = String::from(HEAD);
-    let _ = write!(
+    let _ = writeln!(
         text,
-        "pub(super) static COSTS: [Cost; {}] = [\n",
+        "pub(super) static COSTS: [Cost; {}] = [",
         counted.len()
     );
     for (processor, worst) in counted {
@@ -48,9 +48,9 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
     text.push_str("];\n\n");
     text.push_str(MEASURED);
     let rows = counted.len() * SCENE_CASES.len();
-    let _ = write!(
+    let _ = writeln!(
         text,
-        "pub(super) const MEASURED: [(&str, [usize; 6], u64); {rows}] = [\n"
+        "pub(super) const MEASURED: [(&str, [usize; 6], u64); {rows}] = ["
     );
     for (processor, worst) in counted {
         for (case, count) in SCENE_CASES.iter().zip(worst) {
@@ -62,9 +62,9 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
                 ..
             } = case;
             let planes = planes + TOUCHED;
-            let _ = write!(
+            let _ = writeln!(
                 text,
-                "    ({processor:?}, [{poles}, {zeros}, {triangles}, {planes}, {spheres}, {boxes}], {count}),\n"
+                "    ({processor:?}, [{poles}, {zeros}, {triangles}, {planes}, {spheres}, {boxes}], {count}),"
             );
         }
     }

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | [`design`] | the factors of a kernel, the default, and what is compared with it |
 //! | [`texture`] | what a kernel is made of and what it is asked |
-//! | [`kernel`] | a kernel of any design |
+//! | [`mod@kernel`] | a kernel of any design |
 //! | [`number`] | what it computes with |
 //! | [`workload`] | the same work for every design, to count |
 #![no_std]

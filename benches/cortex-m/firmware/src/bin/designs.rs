@@ -19,8 +19,12 @@ const HEAP_BYTES: usize = 2 << 20;
 /// Of the texture, from the command that builds this.
 fn orders() -> Option<Orders> {
     Some(Orders {
-        poles: env!("ASPERITY_POLES").parse().ok()?,
-        zeros: env!("ASPERITY_ZEROS").parse().ok()?,
+        poles: env!("ASPERITY_POLES", "set by `cortex-m designs`")
+            .parse()
+            .ok()?,
+        zeros: env!("ASPERITY_ZEROS", "set by `cortex-m designs`")
+            .parse()
+            .ok()?,
         nyquist: false,
     })
 }
