@@ -21,10 +21,10 @@ struct Cost {
 
 /// Counts on the target and on the host, and prints `compiler/src/scene/counted.rs`.
 pub(crate) fn print(target: &Target, toolchain: &Toolchain) -> Result<()> {
-    let firmware = toolchain.firmware("costs", &[], "fast")?;
+    let firmware = toolchain.firmware("costs", &[])?;
     let expected = SCENE_CASES.len() * Phase::ALL.len() * PHASE_TICKS as usize;
     let on_target = emulate::run(target, &firmware, expected)?.instructions;
-    let on_host = emulate::run_on_host(&host_program("host-costs", "fast")?, expected)?;
+    let on_host = emulate::run_on_host(&host_program("host-costs")?, expected)?;
     let counted = [("cortex-m4f", on_target), ("x86-64", on_host)].map(|(processor, counts)| {
         let ticks = counts.len() / SCENE_CASES.len();
         let worst = counts.chunks(ticks).map(|of| of.iter().copied().max());
@@ -37,9 +37,9 @@ pub(crate) fn print(target: &Target, toolchain: &Toolchain) -> Result<()> {
 /// The file, of each processor's costliest ticks.
 fn table(counted: &[(&str, Vec<u64>)]) -> String {
     let mut text = String::from(HEAD);
-    let _ = write!(
+    let _ = writeln!(
         text,
-        "pub(super) static COSTS: [Cost; {}] = [\n",
+        "pub(super) static COSTS: [Cost; {}] = [",
         counted.len()
     );
     for (processor, worst) in counted {
@@ -48,9 +48,9 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
     text.push_str("];\n\n");
     text.push_str(MEASURED);
     let rows = counted.len() * SCENE_CASES.len();
-    let _ = write!(
+    let _ = writeln!(
         text,
-        "pub(super) const MEASURED: [(&str, [usize; 6], u64); {rows}] = [\n"
+        "pub(super) const MEASURED: [(&str, [usize; 6], u64); {rows}] = ["
     );
     for (processor, worst) in counted {
         for (case, count) in SCENE_CASES.iter().zip(worst) {
@@ -62,9 +62,9 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
                 ..
             } = case;
             let planes = planes + TOUCHED;
-            let _ = write!(
+            let _ = writeln!(
                 text,
-                "    ({processor:?}, [{poles}, {zeros}, {triangles}, {planes}, {spheres}, {boxes}], {count}),\n"
+                "    ({processor:?}, [{poles}, {zeros}, {triangles}, {planes}, {spheres}, {boxes}], {count}),"
             );
         }
     }

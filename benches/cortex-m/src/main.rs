@@ -6,11 +6,13 @@
 //! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- --target thumbv7m-none-eabi
 //! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- library # *.aspl
 //! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- costs   # of asperity build
+//! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- designs # of the labs
 //! ```
 #![forbid(unsafe_code)]
 
 mod calls;
 mod costs;
+mod designs;
 mod elf;
 mod emulate;
 mod library;
@@ -21,6 +23,7 @@ mod target;
 mod thumb;
 mod toolchain;
 
+use asperity_kernels::workload::Orders;
 use std::{
     path::{Path, PathBuf},
     process::ExitCode,
@@ -31,9 +34,12 @@ type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 const USAGE: &str =
     "usage: cortex-m [--target TRIPLE] [--build-core] | cortex-m costs | cortex-m library
+       cortex-m designs [--poles N] [--zeros N]
   --target TRIPLE  thumbv7em-none-eabihf (default), thumbv7m-none-eabi or thumbv6m-none-eabi
   --build-core     build core from the sources of /usr/bin/rustc even where the target is installed
   costs            print the cost model of `asperity build`, for compiler/src/scene/cost.rs
+  designs          print what every design of `asperity-lab pareto` costs, for its --cortex-m;
+                   of textures with so many poles and zeros (20, 18: most of the HaTT)
   library          write textures.aspl and costs.aspl, which the firmware embeds";
 
 /// This package's folder.
@@ -46,22 +52,51 @@ fn target_dir() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| home().join("target"), PathBuf::from)
 }
 
-fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1);
-    let (mut triple, mut build_core) = (String::from("thumbv7em-none-eabihf"), false);
-    while let Some(argument) = arguments.next() {
-        match (argument.as_str(), arguments.len()) {
-            ("library", 0) => return exit(library::write(home())),
-            ("costs", 0) => return exit(costs(build_core)),
-            ("--target", 1..) => triple = arguments.next().unwrap_or_default(),
-            ("--build-core", _) => build_core = true,
-            _ => {
-                eprintln!("{USAGE}");
-                return ExitCode::from(2);
+/// What is asked for.
+struct Arguments {
+    command: String,
+    triple: String,
+    build_core: bool,
+    orders: Orders,
+}
+
+impl Arguments {
+    fn parse(mut words: impl Iterator<Item = String>) -> Option<Self> {
+        let mut arguments = Self {
+            command: String::from("session"),
+            triple: String::from("thumbv7em-none-eabihf"),
+            build_core: false,
+            orders: Orders {
+                poles: 20,
+                zeros: 18,
+                nyquist: false,
+            },
+        };
+        while let Some(word) = words.next() {
+            match word.as_str() {
+                "library" | "costs" | "designs" => arguments.command = word,
+                "--target" => arguments.triple = words.next()?,
+                "--build-core" => arguments.build_core = true,
+                "--poles" => arguments.orders.poles = words.next()?.parse().ok()?,
+                "--zeros" => arguments.orders.zeros = words.next()?.parse().ok()?,
+                _ => return None,
             }
         }
+        Some(arguments)
     }
-    exit(run(&triple, build_core))
+}
+
+fn main() -> ExitCode {
+    let Some(arguments) = Arguments::parse(std::env::args().skip(1)) else {
+        eprintln!("{USAGE}");
+        return ExitCode::from(2);
+    };
+    exit(match arguments.command.as_str() {
+        "library" => library::write(home()),
+        "costs" => costs(arguments.build_core),
+        "designs" => designs(&arguments),
+        _ => run(&arguments.triple, arguments.build_core),
+    })
 }
 
 fn exit(result: Result<()>) -> ExitCode {
@@ -77,6 +112,12 @@ fn exit(result: Result<()>) -> ExitCode {
 fn costs(build_core: bool) -> Result<()> {
     let target = target::find("thumbv7em-none-eabihf")?;
     costs::print(target, &toolchain::Toolchain::find(target, build_core)?)
+}
+
+fn designs(arguments: &Arguments) -> Result<()> {
+    let target = target::find(&arguments.triple)?;
+    let toolchain = toolchain::Toolchain::find(target, arguments.build_core)?;
+    designs::print(target, &toolchain, arguments.orders)
 }
 
 fn run(triple: &str, build_core: bool) -> Result<()> {

@@ -57,7 +57,7 @@ pub(crate) fn all(target: &Target, toolchain: &Toolchain) -> Result<Vec<Measured
 }
 
 fn measure(target: &Target, toolchain: &Toolchain, case: &'static Case) -> Result<Measured> {
-    let path = toolchain.firmware(case.name, &[], "release")?;
+    let path = toolchain.firmware(case.name, &[])?;
     let elf = elf::read(&path)?;
     let run = emulate::run(target, &path, Phase::ALL.len() * PHASE_TICKS as usize)?;
     let host =
@@ -114,7 +114,7 @@ pub(crate) fn search_for_panics_works(
     let Some(case) = target.cases().last() else {
         return Ok(Some("no case fits the target".into()));
     };
-    let elf = elf::read(&toolchain.firmware(case.name, &["can-panic"], "release")?)?;
+    let elf = elf::read(&toolchain.firmware(case.name, &["can-panic"])?)?;
     let found = calls::from(&elf, TICK).faults;
     let panics = found.iter().any(|fault| fault.contains("panic"));
     Ok((!panics).then(|| format!("the search for panics misses a panic in the tick: {found:?}")))

@@ -50,8 +50,18 @@ impl Toolchain {
         }
     }
 
-    /// Builds a firmware program in a profile and returns the path of its ELF.
-    pub(crate) fn firmware(&self, name: &str, features: &[&str], profile: &str) -> Result<PathBuf> {
+    /// Builds a firmware program and returns the path of its ELF.
+    pub(crate) fn firmware(&self, name: &str, features: &[&str]) -> Result<PathBuf> {
+        self.firmware_with(name, features, &[])
+    }
+
+    /// The same with variables that its sources read while they are compiled.
+    pub(crate) fn firmware_with(
+        &self,
+        name: &str,
+        features: &[&str],
+        variables: &[(&str, usize)],
+    ) -> Result<PathBuf> {
         // Apart, so that a firmware with features does not replace the measured one.
         let folder = target_dir().join(if features.is_empty() {
             "firmware"
@@ -61,21 +71,26 @@ impl Toolchain {
         let mut cargo = Command::new("cargo");
         cargo
             .current_dir(home())
-            .args(["build", "--quiet", "--profile", profile, "--locked"])
+            .args(["build", "--quiet", "--release", "--locked"])
             .args(["--package", "asperity-firmware", "--bin", name])
             .args(["--target", self.triple, "--features", &features.join(",")])
             .arg("--target-dir")
-            .arg(&folder);
+            .arg(&folder)
+            .envs(
+                variables
+                    .iter()
+                    .map(|(name, value)| (name, value.to_string())),
+            );
         if let Some(linker) = &self.build_core_with {
             let name = self.triple.to_uppercase().replace('-', "_");
             cargo
-                .arg("-Zbuild-std=core")
+                .arg("-Zbuild-std=core,alloc")
                 .env("RUSTC", DISTRIBUTION_RUSTC)
                 .env("RUSTC_BOOTSTRAP", "1")
                 .env(format!("CARGO_TARGET_{name}_LINKER"), linker);
         }
         stdout(&mut cargo)?;
-        Ok(folder.join(self.triple).join(profile).join(name))
+        Ok(folder.join(self.triple).join("release").join(name))
     }
 }
 
@@ -91,17 +106,16 @@ pub(crate) fn host_session(case: &str, profile: &str) -> Result<String> {
     )
 }
 
-/// Builds a program of this package for the host in a profile and returns its path.
-pub(crate) fn host_program(name: &str, profile: &str) -> Result<PathBuf> {
+/// Builds a program of this package for the host and returns its path.
+pub(crate) fn host_program(name: &str) -> Result<PathBuf> {
     stdout(
         Command::new("cargo")
             .current_dir(home())
-            .args(["build", "--quiet", "--profile", profile, "--locked"])
-            .args(["--bin", name])
+            .args(["build", "--quiet", "--release", "--locked", "--bin", name])
             .arg("--target-dir")
             .arg(target_dir()),
     )?;
-    Ok(target_dir().join(profile).join(name))
+    Ok(target_dir().join("release").join(name))
 }
 
 /// Runs a command to its end and returns what it printed.

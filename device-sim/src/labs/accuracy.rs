@@ -1,8 +1,7 @@
 //! How far a design is from the f64 oracle: at rest over the whole grid, moving, and under
 //! alternation between any two vertices.
 
-use super::design::Design;
-use super::kernel::{Rendering, kernel};
+use super::kernel::Kernel;
 use super::noise::{gaussian, uniform};
 use super::statistics;
 use asperity::{
@@ -11,7 +10,7 @@ use asperity::{
     reflection,
     spectrum::{ArmaModel, ErrorBand},
 };
-
+use asperity_kernels::design::Design;
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
@@ -158,7 +157,7 @@ impl Truth {
         let ticks = (seconds * grid.sample_rate_hz) as usize;
         let motion = motion(grid, &field, ticks, &mut random)?;
         let epsilon = gaussian(&mut random, ticks.max(ALTERNATIONS));
-        let mut oracle = kernel(&Design::ORACLE, grid)?;
+        let mut oracle = Kernel::new(&Design::ORACLE, grid)?;
         oracle.settle(motion.first()?);
         let moving = oracle.render(&motion, &epsilon);
         Some(Self {
@@ -179,18 +178,18 @@ impl Truth {
             places: self.still.len(),
             ..Errors::default()
         };
-        let Some(mut kernel) = kernel(design, grid) else {
+        let Some(mut kernel) = Kernel::new(design, grid) else {
             errors.unstable = errors.places;
             errors.moving_error_db = f64::INFINITY;
             return errors;
         };
-        self.at_rest(kernel.as_mut(), &mut errors);
-        self.moving(kernel.as_mut(), &mut errors);
-        self.alternating(kernel.as_mut(), &mut errors);
+        self.at_rest(&mut kernel, &mut errors);
+        self.moving(&mut kernel, &mut errors);
+        self.alternating(&mut kernel, &mut errors);
         errors
     }
 
-    fn at_rest(&self, kernel: &mut dyn Rendering, errors: &mut Errors) {
+    fn at_rest(&self, kernel: &mut Kernel, errors: &mut Errors) {
         for still in &self.still {
             kernel.settle(&still.place);
             let model = kernel.model();
@@ -206,7 +205,7 @@ impl Truth {
         }
     }
 
-    fn moving(&self, kernel: &mut dyn Rendering, errors: &mut Errors) {
+    fn moving(&self, kernel: &mut Kernel, errors: &mut Errors) {
         let Some(first) = self.motion.first() else {
             return;
         };
@@ -229,7 +228,7 @@ impl Truth {
             .collect();
     }
 
-    fn alternating(&self, kernel: &mut dyn Rendering, errors: &mut Errors) {
+    fn alternating(&self, kernel: &mut Kernel, errors: &mut Errors) {
         for pair in &self.pairs {
             let places = &pair.places;
             kernel.settle(&places[0]);
@@ -310,9 +309,9 @@ fn decibels(ratio: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::design::Shape;
     use super::*;
     use asperity::builtin;
+    use asperity_kernels::design::Shape;
 
     fn spread(values: &[f64]) -> statistics::Spread {
         statistics::Spread::of(values).expect("not empty")

@@ -2,20 +2,20 @@
 //! an asset, and time beside the default.
 //!
 //! Instructions are callgrind's, of this very program running one kernel for n and for 2n
-//! ticks: the difference over n is one tick, without start-up. They hardly depend on the
-//! numbers that are computed with, so a made-up texture of the same orders stands for all.
+//! ticks of a [`Workload`]: the difference over n is one tick, without start-up.
 
-use super::design::{Design, variants};
-use super::kernel::{Rendering, kernel};
 use asperity::{
-    interpolate::Place,
     lower,
-    model::{GridVertex, ModelGrid, Numerator, TextureModel, VertexKind},
+    model::{ModelGrid, Numerator, TextureModel},
+};
+use asperity_kernels::{
+    Rendering,
+    design::{Design, variants},
+    workload::{Orders, TICKS, Workload, kernel_of},
 };
 use std::{
     collections::HashMap,
     env,
-    hint::black_box,
     process::Command,
     sync::Mutex,
     time::{Duration, Instant},
@@ -24,79 +24,30 @@ use thiserror::Error;
 
 /// Name of the hidden command that runs one kernel.
 pub const COMMAND: &str = "pareto-kernel";
-/// Ticks of a counted run: a multiple of every update interval.
-const TICKS: usize = 1632;
 /// Ticks of a timed run, and how many of them.
 const TIMED: (usize, usize) = (20_000, 7);
 
-/// The orders that a cost depends on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Orders {
-    /// Poles.
-    pub poles: usize,
-    /// Zeros of a numerator of its own.
-    pub zeros: usize,
-    /// Whether the numerator is 1 + z⁻¹.
-    pub nyquist: bool,
+/// The orders of a grid.
+#[must_use]
+pub fn orders(grid: &ModelGrid) -> Orders {
+    let zeros = grid.vertices.first().and_then(|v| v.ma_lsf_rad.as_ref());
+    Orders {
+        poles: grid.order,
+        zeros: match grid.numerator {
+            Numerator::Lsf => zeros.map_or(0, Vec::len),
+            Numerator::None | Numerator::Nyquist => 0,
+        },
+        nyquist: grid.numerator == Numerator::Nyquist,
+    }
 }
 
-impl Orders {
-    /// Of a grid.
-    #[must_use]
-    pub fn of(grid: &ModelGrid) -> Self {
-        let zeros = grid.vertices.first().and_then(|v| v.ma_lsf_rad.as_ref());
-        Self {
-            poles: grid.order,
-            zeros: match grid.numerator {
-                Numerator::Lsf => zeros.map_or(0, Vec::len),
-                Numerator::None | Numerator::Nyquist => 0,
-            },
-            nyquist: grid.numerator == Numerator::Nyquist,
-        }
-    }
-
-    /// A grid of these orders: one triangle, LSFs spread evenly and then moved a little.
-    fn grid(self) -> ModelGrid {
-        let spread = |order: usize, seed: usize| -> Vec<f64> {
-            let step = std::f64::consts::PI / (order + 1) as f64;
-            (1..=order)
-                .map(|k| step * (k as f64 + 0.3 * ((k * 37 + seed * 101) as f64).sin()))
-                .collect()
-        };
-        let vertices = [(0.0, 0.0), (250.0, 0.0), (0.0, 4.0)]
-            .into_iter()
-            .enumerate()
-            .map(|(index, (speed_mm_s, force_n))| GridVertex {
-                speed_mm_s,
-                force_n,
-                kind: VertexKind::Edge,
-                lsf_rad: spread(self.poles, index),
-                ma_lsf_rad: (self.zeros > 0).then(|| spread(self.zeros, index + 7)),
-                gain: 1.0,
-                sigma_m_s2: 0.1 * (index + 1) as f64,
-            })
-            .collect();
-        ModelGrid {
-            sample_rate_hz: 1000.0,
-            order: self.poles,
-            numerator: match (self.zeros, self.nyquist) {
-                (0, false) => Numerator::None,
-                (0, true) => Numerator::Nyquist,
-                _ => Numerator::Lsf,
-            },
-            vertices,
-            triangles: vec![[0, 1, 2]],
-        }
-    }
-
-    /// As arguments of the hidden command.
-    fn arguments(self) -> [String; 3] {
-        [
-            self.poles.to_string(),
-            self.zeros.to_string(),
-            u8::from(self.nyquist).to_string(),
-        ]
-    }
+/// As arguments of the hidden command.
+fn arguments(orders: Orders) -> [String; 3] {
+    [
+        orders.poles.to_string(),
+        orders.zeros.to_string(),
+        u8::from(orders.nyquist).to_string(),
+    ]
 }
 
 /// Why instructions could not be counted.
@@ -150,7 +101,7 @@ fn counted(variant: usize, orders: Orders, ticks: usize) -> Result<u64, CountErr
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(program)
         .args([COMMAND, &variant.to_string()])
-        .args(orders.arguments())
+        .args(arguments(orders))
         .arg(ticks.to_string())
         .output()
         .map_err(CountError::Missing)?;
@@ -177,35 +128,20 @@ pub fn run(arguments: &[usize]) -> Option<f64> {
         zeros,
         nyquist: nyquist == 1,
     };
-    let mut kernel = kernel(&variants().get(variant)?.design, &orders.grid())?;
-    Some(spun(kernel.as_mut(), ticks))
-}
-
-/// Ticks at places that wander through the triangle.
-fn spun(kernel: &mut dyn Rendering, ticks: usize) -> f64 {
-    let places: Vec<Place> = (0..TICKS)
-        .map(|n| {
-            let t = n as f64 / TICKS as f64;
-            Place {
-                vertices: [0, 1, 2],
-                weights: [0.5 - 0.3 * t, 0.2 + 0.5 * t, 0.3 - 0.2 * t],
-            }
-        })
-        .collect();
-    let epsilon: Vec<f64> = (0..TICKS).map(|n| ((n * n) as f64).sin()).collect();
-    kernel.settle(&places[0]);
-    black_box(kernel.repeat(&places, &epsilon, black_box(ticks)))
+    let mut kernel = kernel_of(&variants().get(variant)?.design, orders)?;
+    Some(Workload::default().run(kernel.as_mut(), ticks))
 }
 
 /// Time of a design over that of the default, on this machine, in one run: the best of
 /// several, in turn. Informative: it depends on the machine and on its other users.
 #[must_use]
 pub fn time_ratio(design: &Design, orders: Orders) -> Option<f64> {
-    let grid = orders.grid();
-    let (mut other, mut default) = (kernel(design, &grid)?, kernel(&Design::DEFAULT, &grid)?);
+    let workload = Workload::default();
+    let mut other = kernel_of(design, orders)?;
+    let mut default = kernel_of(&Design::DEFAULT, orders)?;
     let timed = |kernel: &mut dyn Rendering| {
         let start = Instant::now();
-        spun(kernel, TIMED.0);
+        workload.run(kernel, TIMED.0);
         start.elapsed()
     };
     let (mut best, mut best_default) = (Duration::MAX, Duration::MAX);
@@ -226,7 +162,7 @@ pub fn bytes(texture: &TextureModel, grid: &ModelGrid, lsf_bits: u32) -> Option<
         ..texture.clone()
     };
     let lowered = lower::lower(&texture, None).ok()?;
-    let orders = Orders::of(grid);
+    let orders = orders(grid);
     let codes = lowered.models * (orders.poles + orders.zeros);
     let packed = (codes * lsf_bits.min(16) as usize).div_ceil(8);
     Some(lowered.haptic_bytes - 2 * codes + packed)
@@ -238,12 +174,10 @@ mod tests {
     use asperity::builtin;
 
     #[test]
-    fn every_kernel_of_the_comparison_runs_alone() {
+    fn the_hidden_command_knows_every_kernel() {
         for index in 0..variants().len() {
-            for (zeros, nyquist) in [(18, 0), (0, 1), (0, 0)] {
-                let last = run(&[index, 20, zeros, nyquist, 32]);
-                assert!(last.is_some_and(f64::is_finite), "variant {index}");
-            }
+            let last = run(&[index, 20, 18, 0, 32]);
+            assert!(last.is_some_and(f64::is_finite), "variant {index}");
         }
         assert_eq!(run(&[9999, 20, 0, 1, 32]), None);
     }

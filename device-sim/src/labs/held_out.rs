@@ -7,8 +7,7 @@
 //! of their border as an edge model would be, its level raised by powers of speed and force.
 
 use super::accuracy::{Band, Difference};
-use super::design::{Arithmetic, Design, Level, Shape};
-use super::kernel::kernel;
+use super::kernel::Kernel;
 use asperity::{
     interpolate::{Field, Place},
     learned::edges,
@@ -17,6 +16,7 @@ use asperity::{
     spectrum::ArmaModel,
     triangulate,
 };
+use asperity_kernels::design::{Arithmetic, Design, Level, Shape};
 
 /// Where a model lies among the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -279,7 +279,7 @@ fn mixed(grid: &ModelGrid, place: &Place, shape: Shape, level: Level) -> Option<
         arithmetic: Arithmetic::F64,
         ..Design::ORACLE
     };
-    let mut kernel = kernel(&design, grid)?;
+    let mut kernel = Kernel::new(&design, grid)?;
     kernel.settle(place);
     Some(kernel.model())
 }

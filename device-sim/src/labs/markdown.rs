@@ -1,11 +1,11 @@
 //! The comparison as the documentation prints it.
 
-use super::design::Factor;
 use super::held_out::Region;
 use super::pareto::{Results, Summary};
 use super::statistics::{Spread, percentile};
 use super::table::{CortexM, HeldOut};
 use asperity::reduce::Change;
+use asperity_kernels::design::Factor;
 use std::fmt::Write as _;
 
 /// Markdown of every table: designs by factor, predictions by region, what `auto` keeps.

@@ -1,12 +1,11 @@
 //! Alternatives to the tick, and what each costs and loses.
 //!
-//! The runtime renders in one way. Why that way, these labs measure: they hold the other
-//! kernels, which only the charts need, and nothing of them runs in a servo loop.
+//! The runtime renders in one way. Why that way, these labs measure with kernels of every
+//! other way ([`asperity_kernels`]).
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`design`] | the factors of a kernel, the default, and what is compared with it |
-//! | [`kernel`] | mixing, conversion and synthesis in every such way |
+//! | [`kernel`] | the kernels on the compiler's models |
 //! | [`material`] | the textures that are measured |
 //! | [`accuracy`] | how far a design is from the f64 oracle, at rest and moving |
 //! | [`held_out`] | how well an interpolation predicts a measured model it has not seen |
@@ -20,7 +19,6 @@
 pub mod accuracy;
 pub mod chart;
 pub mod cost;
-pub mod design;
 pub mod held_out;
 pub mod kernel;
 pub mod markdown;

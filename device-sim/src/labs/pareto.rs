@@ -1,13 +1,16 @@
 //! Every variant on every material, in parallel, and what that amounts to.
 
 use super::accuracy::{Errors, Truth};
-use super::cost::{self, CountError, Counter, Orders};
-use super::design::{Design, Order, Variant, variants};
+use super::cost::{self, CountError, Counter};
 use super::held_out::{self, Prediction};
 use super::statistics::{Spread, percentile};
 use asperity::{
     model::{ModelGrid, Numerator, TextureModel},
     reduce::{self, BUDGET_DB, Fidelity, Reference, order::Fits},
+};
+use asperity_kernels::{
+    design::{Design, Order, Variant, variants},
+    workload::Orders,
 };
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -221,7 +224,7 @@ impl Measured {
                 Row {
                     material: index,
                     variant,
-                    orders: Orders::of(&grid),
+                    orders: cost::orders(&grid),
                     bytes: cost::bytes(texture, &grid, design.lsf_bits),
                     errors,
                 }
@@ -236,8 +239,8 @@ impl Measured {
             kept: Kept {
                 report: reduction.report,
                 orders: (
-                    Orders::of(&texture.grid),
-                    Orders::of(&reduction.texture.grid),
+                    cost::orders(&texture.grid),
+                    cost::orders(&reduction.texture.grid),
                 ),
                 instructions: None,
                 bytes: bytes(texture).zip(bytes(&reduction.texture)),
@@ -282,7 +285,7 @@ impl<'a> Grids<'a> {
 fn commonest(textures: &[TextureModel]) -> Orders {
     let mut counts: HashMap<Orders, usize> = HashMap::new();
     for texture in textures {
-        *counts.entry(Orders::of(&texture.grid)).or_default() += 1;
+        *counts.entry(cost::orders(&texture.grid)).or_default() += 1;
     }
     counts
         .into_iter()

@@ -8,11 +8,11 @@
 //! | `fidelity.csv` | what `auto` keeps of a material | material, poles, zeros, vertices, triangles, tap samples, instructions and bytes, each whole and kept; ratio of instructions; p95 and worst (dB) |
 
 use super::accuracy::Errors;
-use super::design::{Design, Level, Shape, Variant};
 use super::held_out::{Exponents, Method, Prediction, Region};
 use super::pareto::{Results, Summary};
 use super::statistics::{Spread, percentile};
 use asperity::reduce::Change;
+use asperity_kernels::design::{Design, Level, Shape, Variant};
 use std::collections::HashMap;
 
 /// Counts of a firmware bench: instructions a tick by factor and name of the design.

@@ -1,12 +1,12 @@
 //! One panel a factor: its variants among all others.
 
-use super::super::design::Factor;
 use super::super::pareto::{Results, Summary};
 use super::front::mark_at;
 use super::labels::Labels;
 use super::{BUDGET, Costs, Picture, error_axis, finished, within};
 use asperity::plot::theme::{Canvas, Marker, Panel, PlotError, Rect, ink};
 use asperity::reduce::BUDGET_DB;
+use asperity_kernels::design::Factor;
 
 const SIZE: (f32, f32) = (2200.0, 2720.0);
 const COLUMNS: usize = 2;

@@ -1,12 +1,12 @@
 //! Measured models, predicted from the others.
 
-use super::super::design::{Level, Shape};
 use super::super::held_out::{Exponents, Method, Region};
 use super::super::statistics::Spread;
 use super::super::table::HeldOut;
 use super::rows::{self, Row};
 use super::{Picture, finished};
 use asperity::plot::theme::{Canvas, Color, PlotError, Rect, ink};
+use asperity_kernels::design::{Level, Shape};
 
 const SIZE: (u32, u32) = (2200, 1500);
 

@@ -1,9 +1,16 @@
 //! Every kernel against the f64 oracle, at rest and in time.
 
-use super::super::design::{Order, variants};
 use super::super::noise::gaussian;
-use super::*;
-use asperity::{builtin, interpolate::Field, reduce::order::Fits, spectrum};
+use super::Kernel;
+use asperity::{
+    builtin,
+    interpolate::{Field, Place},
+    lsf,
+    model::{ModelGrid, Numerator},
+    reduce::order::Fits,
+    spectrum::{self, ArmaModel},
+};
+use asperity_kernels::design::{Design, Order, Shape, Structure, variants};
 use rand_core::SeedableRng as _;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -38,7 +45,7 @@ fn noise(count: usize) -> Vec<f64> {
 fn the_oracle_settles_on_the_exact_mixture() {
     for grid in [builtin::texture().grid, arma()] {
         let field = Field::new(&grid);
-        let mut oracle = kernel(&Design::ORACLE, &grid).unwrap();
+        let mut oracle = Kernel::new(&Design::ORACLE, &grid).unwrap();
         for place in places(&grid, 20) {
             oracle.settle(&place);
             let exact = field.model(&place);
@@ -59,7 +66,7 @@ fn every_structure_renders_the_same_samples_where_parameters_stand_still() {
                 structure,
                 ..Design::ORACLE
             };
-            let mut kernel = kernel(&design, &grid).unwrap();
+            let mut kernel = Kernel::new(&design, &grid).unwrap();
             kernel.settle(&place);
             kernel.render(&still, &epsilon)
         };
@@ -84,7 +91,7 @@ fn every_shape_is_exact_at_a_vertex() {
             shape,
             ..Design::ORACLE
         };
-        let mut kernel = kernel(&design, &grid).unwrap();
+        let mut kernel = Kernel::new(&design, &grid).unwrap();
         for (index, vertex) in grid.vertices.iter().enumerate() {
             kernel.settle(&Place {
                 vertices: [index; 3],
@@ -112,7 +119,7 @@ fn every_variant_renders_the_reference_texture() {
             }
             Order::Full | Order::Auto => full.clone(),
         };
-        let mut kernel = kernel(&variant.design, &grid).unwrap();
+        let mut kernel = Kernel::new(&variant.design, &grid).unwrap();
         let places = places(&grid, 2000);
         kernel.settle(&places[0]);
         let rendered = kernel.render(&places, &noise(places.len()));
@@ -131,7 +138,7 @@ fn smoothing_closes_two_thirds_of_a_step_in_its_time_constant() {
             every,
             ..Design::ORACLE
         };
-        let mut smoothed = kernel(&design, &grid).unwrap();
+        let mut smoothed = Kernel::new(&design, &grid).unwrap();
         smoothed.settle(&slow);
         // Five ticks of 1 ms.
         smoothed.render(&[fast; 5], &[0.0; 5]);

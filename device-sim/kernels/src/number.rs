@@ -26,12 +26,12 @@ pub trait Number: Copy + Send + Sync + 'static {
     /// Square root of a number that is not negative.
     #[must_use]
     fn root(self) -> Self {
-        Self::of(self.value().sqrt())
+        Self::of(libm::sqrt(self.value()))
     }
     /// e to the power of it.
     #[must_use]
     fn exp(self) -> Self {
-        Self::of(self.value().exp())
+        Self::of(libm::exp(self.value()))
     }
     /// Σ c_k x_k; lengths are equal and multiples of four.
     fn dot(c: &[Self], x: &[Self]) -> Self;
@@ -44,7 +44,7 @@ pub trait Rounds<S> {
 }
 
 macro_rules! float {
-    ($($float:ty),*) => {$(
+    ($($float:ty, $root:path, $exp:path;)*) => {$(
         impl Number for $float {
             const ZERO: Self = 0.0;
             #[inline]
@@ -60,9 +60,9 @@ macro_rules! float {
             #[inline]
             fn over(self, other: Self) -> Self { self / other }
             #[inline]
-            fn root(self) -> Self { self.sqrt() }
+            fn root(self) -> Self { $root(self) }
             #[inline]
-            fn exp(self) -> Self { <$float>::exp(self) }
+            fn exp(self) -> Self { $exp(self) }
             // Four partial sums, which registers hold side by side.
             #[inline]
             fn dot(c: &[Self], x: &[Self]) -> Self {
@@ -83,7 +83,10 @@ macro_rules! float {
     )*};
 }
 
-float!(f32, f64);
+float! {
+    f32, libm::sqrtf, libm::expf;
+    f64, libm::sqrt, libm::exp;
+}
 
 macro_rules! fixed {
     ($fixed:ty, $bits:ty, $wide:ty, $point:literal) => {
@@ -155,6 +158,7 @@ impl Rounds<Fixed16> for Fixed32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::vec::Vec;
 
     fn dot_agrees<N: Number>(tolerance: f64) {
         let c: Vec<f64> = (0..8).map(|n| (f64::from(n) * 1.7).sin()).collect();

@@ -3,11 +3,11 @@
 //! LSFs come in the order of [`stage`]: partial products of neighbouring zeros grow large
 //! and cancel later, those of zeros far apart do not.
 
-use super::number::Number;
+use crate::number::Number;
 use asperity_formats::limits::MAX_ORDER;
 
 /// One number a pole or zero; zeros above the order.
-pub(super) type Row<P> = [P; MAX_ORDER];
+pub(crate) type Row<P> = [P; MAX_ORDER];
 
 /// Two zeros before the first coefficient, then half of a symmetric polynomial: of the sum
 /// side and of the difference side.
@@ -16,7 +16,7 @@ const FIRST: usize = 2;
 
 /// Where LSF `index` of `order` is stored: those of the sum polynomial at even places, of the
 /// difference polynomial at odd ones, on each side low and high in turn.
-pub(super) fn stage(index: usize, order: usize) -> usize {
+pub(crate) fn stage(index: usize, order: usize) -> usize {
     let (side, pair) = (index % 2, index / 2);
     let pairs = (order + 1 - side) / 2;
     let turn = if 2 * pair < pairs {
@@ -28,7 +28,7 @@ pub(super) fn stage(index: usize, order: usize) -> usize {
 }
 
 /// Coefficients 1..=p of A(z) from the cosines of its LSFs.
-pub(super) fn from_cosines<P: Number>(cosines: &Row<P>, order: usize) -> Row<P> {
+pub(crate) fn from_cosines<P: Number>(cosines: &Row<P>, order: usize) -> Row<P> {
     let minus_two = P::of(-2.0);
     let mut half: Half<P> = [[P::ZERO; 2]; 16];
     half[FIRST] = [P::of(1.0); 2];
@@ -93,7 +93,7 @@ fn assemble<P: Number>(half: &Half<P>, order: usize) -> Row<P> {
 
 /// cos ω for ω in 0..π, within 6e-8: minus the sine of ω − π/2.
 #[inline]
-pub(super) fn cosine<P: Number>(omega: P) -> P {
+pub(crate) fn cosine<P: Number>(omega: P) -> P {
     const ODD: [f64; 6] = [
         1.0,
         -1.0 / 6.0,
@@ -102,7 +102,7 @@ pub(super) fn cosine<P: Number>(omega: P) -> P {
         1.0 / 362_880.0,
         -1.0 / 39_916_800.0,
     ];
-    let t = omega.minus(P::of(std::f64::consts::FRAC_PI_2));
+    let t = omega.minus(P::of(core::f64::consts::FRAC_PI_2));
     let square = t.times(t);
     let sum = ODD
         .iter()
@@ -113,7 +113,7 @@ pub(super) fn cosine<P: Number>(omega: P) -> P {
 
 /// k = tanh(x/2) of a log-area ratio x: a continued fraction at x/32, doubled four times.
 #[inline]
-pub(super) fn from_log_area<P: Number>(ratio: P) -> P {
+pub(crate) fn from_log_area<P: Number>(ratio: P) -> P {
     let t = ratio.times(P::of(1.0 / 32.0));
     let square = t.times(t);
     let above = P::of(945.0).plus(square.times(P::of(105.0).plus(square)));
@@ -124,7 +124,7 @@ pub(super) fn from_log_area<P: Number>(ratio: P) -> P {
 }
 
 /// Coefficients of A(z) from reflection coefficients.
-pub(super) fn step_up<P: Number>(reflection: &Row<P>, order: usize) -> Row<P> {
+pub(crate) fn step_up<P: Number>(reflection: &Row<P>, order: usize) -> Row<P> {
     let mut a = [P::ZERO; MAX_ORDER];
     for (done, &r) in reflection.iter().enumerate().take(order) {
         for i in 0..done.div_ceil(2) {
@@ -138,7 +138,7 @@ pub(super) fn step_up<P: Number>(reflection: &Row<P>, order: usize) -> Row<P> {
 }
 
 /// Reflection coefficients of A(z); where one of them is 1 or more, A(z) is not stable.
-pub(super) fn step_down<P: Number>(coefficients: &Row<P>, order: usize) -> Row<P> {
+pub(crate) fn step_down<P: Number>(coefficients: &Row<P>, order: usize) -> Row<P> {
     let mut a = *coefficients;
     for last in (0..order).rev() {
         let r = a[last];
@@ -155,10 +155,11 @@ pub(super) fn step_down<P: Number>(coefficients: &Row<P>, order: usize) -> Row<P
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::vec::Vec;
     use asperity::{lsf, reflection};
 
     fn angles(order: usize) -> Vec<f64> {
-        let step = std::f64::consts::PI / (order + 1) as f64;
+        let step = core::f64::consts::PI / (order + 1) as f64;
         (1..=order)
             .map(|k| step * (k as f64 + 0.3 * (k as f64 * 7.0).sin()))
             .collect()

@@ -2,25 +2,25 @@
 //!
 //! All of them put the numerator before the poles, on the excitation.
 
-use super::convert::Row;
-use super::number::Number;
+use crate::convert::Row;
+use crate::number::Number;
 use asperity_formats::limits::MAX_ORDER;
 
 /// What a structure runs on.
 #[derive(Debug, Clone)]
-pub(super) struct Coefficients<S> {
+pub(crate) struct Coefficients<S> {
     /// Coefficients of A(z), its cosines or its reflection coefficients.
-    pub(super) ar: Row<S>,
+    pub(crate) ar: Row<S>,
     /// √(1 − k²), for the normalised lattice.
-    pub(super) complement: Row<S>,
+    pub(crate) complement: Row<S>,
     /// Coefficients of B(z), or its cosines.
-    pub(super) ma: Row<S>,
+    pub(crate) ma: Row<S>,
     /// What the excitation of the normalised lattice is multiplied by: Π 1/√(1 − k²).
-    pub(super) gain: S,
+    pub(crate) gain: S,
 }
 
 impl<S: Number> Coefficients<S> {
-    pub(super) fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         Self {
             ar: [S::ZERO; MAX_ORDER],
             complement: [S::ZERO; MAX_ORDER],
@@ -30,7 +30,7 @@ impl<S: Number> Coefficients<S> {
     }
 
     /// The point at `share` of the way between two sets.
-    pub(super) fn between(from: &Self, to: &Self, share: S, lanes: (usize, usize)) -> Self {
+    pub(crate) fn between(from: &Self, to: &Self, share: S, lanes: (usize, usize)) -> Self {
         let mix = |x: &Row<S>, y: &Row<S>, used: usize| {
             let mut row = [S::ZERO; MAX_ORDER];
             for ((row, x), y) in row.iter_mut().zip(x).zip(y).take(used) {
@@ -49,7 +49,7 @@ impl<S: Number> Coefficients<S> {
 
 /// Past samples, the newest first, or the delays of sections.
 #[derive(Debug, Clone)]
-pub(super) struct Line<S> {
+pub(crate) struct Line<S> {
     e: Row<S>,
     y: Row<S>,
     ma_chain: Chain<S>,
@@ -57,7 +57,7 @@ pub(super) struct Line<S> {
 }
 
 impl<S: Number> Line<S> {
-    pub(super) fn silent() -> Self {
+    pub(crate) fn silent() -> Self {
         Self {
             e: [S::ZERO; MAX_ORDER],
             y: [S::ZERO; MAX_ORDER],
@@ -79,7 +79,7 @@ impl<S: Number> Line<S> {
 
     /// y = x − Σ a_k y[n−k].
     #[inline]
-    pub(super) fn direct(&mut self, c: &Coefficients<S>, used: (usize, usize), e: S) -> S {
+    pub(crate) fn direct(&mut self, c: &Coefficients<S>, used: (usize, usize), e: S) -> S {
         let x = self.numerator(&c.ma, used.1, e);
         let y = x.minus(S::dot(&c.ar[..used.0], &self.y[..used.0]));
         push(&mut self.y[..used.0], y);
@@ -89,7 +89,7 @@ impl<S: Number> Line<S> {
     /// Numerator and poles as chains of sections in cos ω. `has_chain` is false where the
     /// numerator is 1 + z⁻¹ or 1.
     #[inline]
-    pub(super) fn lsp(
+    pub(crate) fn lsp(
         &mut self,
         c: &Coefficients<S>,
         (order, ma_order): (usize, usize),
@@ -111,7 +111,7 @@ impl<S: Number> Line<S> {
 
     /// The lattice: `f_{i−1} = f_i − k_i g_{i−1}[n−1]`, `g_i = g_{i−1}[n−1] + k_i f_{i−1}`.
     #[inline]
-    pub(super) fn lattice(&mut self, c: &Coefficients<S>, order: usize, used_ma: usize, e: S) -> S {
+    pub(crate) fn lattice(&mut self, c: &Coefficients<S>, order: usize, used_ma: usize, e: S) -> S {
         let mut f = self.numerator(&c.ma, used_ma, e);
         for i in (0..order).rev() {
             f = f.minus(c.ar[i].times(self.y[i]));
@@ -127,7 +127,7 @@ impl<S: Number> Line<S> {
     /// The lattice whose every stage turns (f, g) by an angle: what is stored cannot grow
     /// when coefficients change.
     #[inline]
-    pub(super) fn normalised(
+    pub(crate) fn normalised(
         &mut self,
         c: &Coefficients<S>,
         order: usize,

@@ -1,37 +1,30 @@
-//! Mixing, conversion and synthesis in every way that a [`Design`] names.
+//! A kernel of any [`Design`].
 //!
 //! One generic kernel: what differs is looked up in the design, what does not is shared, so
 //! that a difference between two designs is theirs.
 
-mod convert;
-mod line;
-mod number;
-
-pub use number::{Fixed16, Fixed32, Number, Rounds};
-
-use super::design::{Arithmetic, Design, Level, Shape, Structure, Transition};
-use asperity::{
-    interpolate::Place,
-    lsf,
-    model::{ModelGrid, Numerator},
-    reflection,
-    spectrum::ArmaModel,
-};
+use crate::convert::{self, Row};
+use crate::design::{Arithmetic, Design, Level, Shape, Structure, Transition};
+use crate::line::{Coefficients, Line};
+use crate::number::{Fixed16, Fixed32, Number, Rounds};
+use crate::parameters::{Parameters, parameters};
+use crate::texture::{Filter, Numerator, Place, Texture};
+use alloc::{boxed::Box, vec::Vec};
 use asperity_formats::limits::MAX_ORDER;
-use convert::{Row, stage};
-use line::{Coefficients, Line};
 
 /// Time constant of the smoothing, s: the runtime's.
 const SMOOTHING_S: f64 = 0.005;
 /// Floor of a mixed logarithm relative to the loudest vertex: −60 dB.
 const LOG_FLOOR: f64 = 1e-3;
+/// Samples of an impulse response: the slowest poles that are known fall by 100 dB in 800.
+const RESPONSE: usize = 2048;
 
 /// A kernel of some arithmetic.
 pub trait Rendering: Send {
     /// Starts at a place: its model, at once, from silence.
     fn settle(&mut self, place: &Place);
-    /// The model that is rendered now, in f64.
-    fn model(&self) -> ArmaModel;
+    /// What is rendered with now.
+    fn filter(&self) -> Filter;
     /// Samples, m/s², one a place and an excitation.
     fn render(&mut self, places: &[Place], epsilon: &[f64]) -> Vec<f64>;
     /// Renders `ticks` samples over and over the same places; the last of them. Everything
@@ -39,29 +32,23 @@ pub trait Rendering: Send {
     fn repeat(&mut self, places: &[Place], epsilon: &[f64], ticks: usize) -> f64;
 }
 
-/// The kernel of a design for a grid, its LSFs rounded as the design says; `None` where
-/// rounding leaves no filter, and for a direct LSP form of anything but LSFs.
+/// The kernel of a design for a texture, its LSFs rounded as the design says; `None` where
+/// rounding leaves no filter, for a direct LSP form of anything but LSFs, and for orders
+/// above [`MAX_ORDER`].
 ///
-/// The order is the grid's: [`Design::order`] is applied before.
+/// The order is the texture's: [`Design::order`] is applied before.
 #[must_use]
-pub fn kernel(design: &Design, grid: &ModelGrid) -> Option<Box<dyn Rendering>> {
+pub fn kernel(design: &Design, texture: &Texture<'_>) -> Option<Box<dyn Rendering>> {
     let of_lsfs = matches!(design.shape, Shape::LsfOmega | Shape::LsfCosine);
     if design.structure == Structure::DirectLsp && !of_lsfs {
         return None;
     }
     Some(match design.arithmetic {
-        Arithmetic::F64 => Box::new(Kernel::<f64, f64>::new(design, grid)?),
-        Arithmetic::F32 => Box::new(Kernel::<f32, f32>::new(design, grid)?),
-        Arithmetic::Fixed32 => Box::new(Kernel::<Fixed32, Fixed32>::new(design, grid)?),
-        Arithmetic::Fixed16 => Box::new(Kernel::<Fixed32, Fixed16>::new(design, grid)?),
+        Arithmetic::F64 => Box::new(Kernel::<f64, f64>::new(design, texture)?),
+        Arithmetic::F32 => Box::new(Kernel::<f32, f32>::new(design, texture)?),
+        Arithmetic::Fixed32 => Box::new(Kernel::<Fixed32, Fixed32>::new(design, texture)?),
+        Arithmetic::Fixed16 => Box::new(Kernel::<Fixed32, Fixed16>::new(design, texture)?),
     })
-}
-
-/// What is mixed of a vertex.
-#[derive(Debug, Clone, Copy)]
-struct Parameters<P> {
-    ar: Row<P>,
-    ma: Row<P>,
 }
 
 struct Vertex<P> {
@@ -77,7 +64,6 @@ struct Mix<P> {
 
 struct Kernel<P, S> {
     design: Design,
-    sample_rate_hz: f64,
     numerator: Numerator,
     order: usize,
     ma_order: usize,
@@ -86,8 +72,8 @@ struct Kernel<P, S> {
     vertices: Vec<Vertex<P>>,
     /// Share of the way that parameters go in one update.
     share: P,
-    /// Share of a crossfade that passes in one tick.
-    ramp: S,
+    /// Share of a crossfade that has passed in each tick of a cycle.
+    ramp: Vec<S>,
     /// m/s² of a signal of 1.
     scale: f64,
     tick: usize,
@@ -100,56 +86,47 @@ struct Kernel<P, S> {
 }
 
 impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
-    fn new(design: &Design, grid: &ModelGrid) -> Option<Self> {
-        let order = grid.order;
-        let ma_order = match grid.numerator {
+    fn new(design: &Design, texture: &Texture<'_>) -> Option<Self> {
+        let first = texture.vertices.first()?;
+        let order = first.lsf_rad.len();
+        let ma_order = match texture.numerator {
             Numerator::None => 0,
             Numerator::Nyquist => 1,
-            Numerator::Lsf => grid.vertices.first()?.ma_lsf_rad.as_ref()?.len(),
+            Numerator::Lsf => first.ma_lsf_rad.len(),
         };
-        let scale = scale(design, grid)?;
-        let loudest = grid
-            .vertices
-            .iter()
-            .fold(0.0, |most: f64, v| most.max(v.gain * v.sigma_m_s2));
-        let vertices = grid
+        if order.max(ma_order) > MAX_ORDER {
+            return None;
+        }
+        let scale = scale(design, texture)?;
+        let levels = texture.vertices.iter().map(|vertex| vertex.level_m_s2);
+        let loudest = levels.fold(0.0, f64::max);
+        let vertices = texture
             .vertices
             .iter()
             .map(|vertex| {
-                let ma = vertex.ma_lsf_rad.as_deref().unwrap_or_default();
-                let level = vertex.gain * vertex.sigma_m_s2;
+                let level = vertex.level_m_s2;
                 Some(Vertex {
-                    shape: Parameters {
-                        ar: parameters(design, &stored(design, &vertex.lsf_rad))?,
-                        // Zeros may lie on the circle, but not where a recursion ends.
-                        ma: parameters(design, &apart(stored(design, ma)))?,
-                    },
+                    shape: parameters(design, vertex)?,
                     level: P::of(match design.level {
-                        Level::Variance => (level / scale).powi(2),
+                        Level::Variance => (level / scale) * (level / scale),
                         Level::Rms => level / scale,
-                        Level::Log => (level.max(LOG_FLOOR * loudest) / scale).ln(),
+                        Level::Log => libm::log(level.max(LOG_FLOOR * loudest) / scale),
                     }),
                 })
             })
             .collect::<Option<Vec<_>>>()?;
-        let shares = 1.0 - (-(design.every as f64) / (SMOOTHING_S * grid.sample_rate_hz)).exp();
+        let constants = design.every as f64 / (SMOOTHING_S * texture.sample_rate_hz);
         Some(Self {
             design: *design,
-            sample_rate_hz: grid.sample_rate_hz,
-            numerator: grid.numerator,
+            numerator: texture.numerator,
             order,
             ma_order,
-            used: (
-                order.next_multiple_of(4),
-                if ma_order == 1 && grid.numerator == Numerator::Nyquist {
-                    4
-                } else {
-                    ma_order.next_multiple_of(4)
-                },
-            ),
+            used: (order.next_multiple_of(4), ma_order.next_multiple_of(4)),
             vertices,
-            share: P::of(shares),
-            ramp: S::of(1.0 / design.every as f64),
+            share: P::of(1.0 - libm::exp(-constants)),
+            ramp: (1..=design.every)
+                .map(|tick| S::of(tick as f64 / design.every as f64))
+                .collect(),
             scale,
             tick: 0,
             mixed: Parameters {
@@ -265,8 +242,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
             self.update(mix);
         }
         if self.design.transition == Transition::Crossfade {
-            let share = S::of(phase as f64 + 1.0).times(self.ramp);
-            self.now = Coefficients::between(&self.from, &self.to, share, self.used);
+            self.now = Coefficients::between(&self.from, &self.to, self.ramp[phase], self.used);
         }
         self.tick += 1;
         self.level = self.mix_level(mix);
@@ -305,29 +281,28 @@ impl<P: Number + Rounds<S>, S: Number> Rendering for Kernel<P, S> {
         self.tick = 0;
     }
 
-    fn model(&self) -> ArmaModel {
-        let values = |row: &Row<S>, order: usize| -> Vec<f64> {
-            row[..order].iter().map(|x| x.value()).collect()
+    fn filter(&self) -> Filter {
+        let values = |row: &Row<S>| row.map(Number::value);
+        let monic = |row: Row<f64>, order: usize| -> Vec<f64> {
+            core::iter::once(1.0)
+                .chain(row.into_iter().take(order))
+                .collect()
         };
-        let monic = |rest: Vec<f64>| std::iter::once(1.0).chain(rest).collect::<Vec<f64>>();
-        let unstaged = |row: &Row<S>, order: usize| -> Vec<f64> {
-            (0..order).map(|i| row[stage(i, order)].value()).collect()
-        };
+        let (ar, ma) = (values(&self.now.ar), values(&self.now.ma));
         let chained = self.design.structure == Structure::DirectLsp;
-        ArmaModel {
-            sample_rate_hz: self.sample_rate_hz,
-            a: match self.design.structure {
-                Structure::Direct => monic(values(&self.now.ar, self.order)),
-                Structure::DirectLsp => lsf::from_cosines(&unstaged(&self.now.ar, self.order)),
-                Structure::Lattice | Structure::NormalisedLattice => {
-                    reflection::step_up(&values(&self.now.ar, self.order))
-                }
-            },
-            b: if chained && self.numerator == Numerator::Lsf {
-                lsf::from_cosines(&unstaged(&self.now.ma, self.ma_order))
-            } else {
-                monic(values(&self.now.ma, self.ma_order))
-            },
+        let ar = match self.design.structure {
+            Structure::Direct => ar,
+            Structure::DirectLsp => convert::from_cosines(&ar, self.order),
+            Structure::Lattice | Structure::NormalisedLattice => convert::step_up(&ar, self.order),
+        };
+        let ma = if chained && self.numerator == Numerator::Lsf {
+            convert::from_cosines(&ma, self.ma_order)
+        } else {
+            ma
+        };
+        Filter {
+            a: monic(ar, self.order),
+            b: monic(ma, self.ma_order),
             level_m_s2: self.level.value() * self.scale,
         }
     }
@@ -363,78 +338,30 @@ fn rounded<P: Number + Rounds<S>, S: Number>(out: &mut Row<S>, row: &Row<P>, ord
 }
 
 /// m/s² of a signal of 1: fixed point runs relative to the loudest vertex's RMS.
-fn scale(design: &Design, grid: &ModelGrid) -> Option<f64> {
+fn scale(design: &Design, texture: &Texture<'_>) -> Option<f64> {
     if matches!(design.arithmetic, Arithmetic::F64 | Arithmetic::F32) {
         return Some(1.0);
     }
-    let loudest = grid
-        .vertices
-        .iter()
-        .map(|vertex| super::statistics::rms(&ArmaModel::at_vertex(grid, vertex)))
-        .fold(0.0, f64::max);
-    (loudest > 0.0 && loudest.is_finite()).then_some(loudest)
-}
-
-fn stored(design: &Design, lsf_rad: &[f64]) -> Vec<f64> {
-    lsf_rad
-        .iter()
-        .map(|&omega| quantised(omega, design.lsf_bits))
-        .collect()
-}
-
-/// Frequencies that rounding made one, a little apart.
-fn apart(mut lsf_rad: Vec<f64>) -> Vec<f64> {
-    let mut least = 0.0;
-    for omega in &mut lsf_rad {
-        *omega = omega.max(least);
-        least = *omega + 1e-7;
-    }
-    lsf_rad
-}
-
-/// The parameters that stand for some LSFs; `None` where two of them meet and no filter has
-/// such parameters.
-fn parameters<P: Number>(design: &Design, lsf_rad: &[f64]) -> Option<Row<P>> {
-    let order = lsf_rad.len();
-    let mut row = [P::ZERO; MAX_ORDER];
-    match design.shape {
-        Shape::LsfOmega | Shape::LsfCosine => {
-            for (index, &omega) in lsf_rad.iter().enumerate() {
-                let value = if design.shape == Shape::LsfOmega {
-                    omega
-                } else {
-                    libm::cos(omega)
-                };
-                row[stage(index, order)] = P::of(value);
-            }
-        }
-        Shape::Coefficients => {
-            for (place, a) in row.iter_mut().zip(&lsf::to_polynomial(lsf_rad)[1..]) {
-                *place = P::of(*a);
-            }
-        }
-        Shape::Reflection | Shape::LogArea => {
-            let reflection = reflection::step_down(&lsf::to_polynomial(lsf_rad))?;
-            for (place, k) in row.iter_mut().zip(reflection) {
-                *place = P::of(if design.shape == Shape::Reflection {
-                    k
-                } else {
-                    libm::log((1.0 + k) / (1.0 - k))
-                });
-            }
-        }
-    }
-    Some(row)
-}
-
-/// A frequency as some bits hold it: steps of π/2ᵇ.
-fn quantised(omega_rad: f64, bits: u32) -> f64 {
-    if bits > 32 {
-        return omega_rad;
-    }
-    let step = std::f64::consts::PI / f64::from(1 << bits);
-    let last = f64::from((1_u32 << bits) - 1);
-    (omega_rad / step).round().clamp(1.0, last) * step
+    // The energy of an impulse response: a filter that is converted once and held.
+    let exact = Design {
+        every: RESPONSE,
+        transition: Transition::Hold,
+        ..Design::ORACLE
+    };
+    let mut kernel = kernel(&exact, texture)?;
+    let mut impulse = alloc::vec![0.0; RESPONSE];
+    impulse[0] = 1.0;
+    let energy = |vertex| {
+        let place = Place {
+            vertices: [vertex; 3],
+            weights: [1.0, 0.0, 0.0],
+        };
+        kernel.settle(&place);
+        let response = kernel.render(&alloc::vec![place; RESPONSE], &impulse);
+        response.iter().map(|y| y * y).sum::<f64>()
+    };
+    let largest = (0..texture.vertices.len()).map(energy).fold(0.0, f64::max);
+    (largest > 0.0 && largest.is_finite()).then(|| libm::sqrt(largest))
 }
 
 #[inline]
@@ -477,6 +404,3 @@ fn reflections<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> 
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

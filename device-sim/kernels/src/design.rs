@@ -1,6 +1,11 @@
 //! The factors of a kernel: one differs from the default at a time, or several as named.
 
-use std::fmt;
+use alloc::{
+    format,
+    string::{String, ToString as _},
+    vec::Vec,
+};
+use core::fmt;
 
 /// What three vertices are mixed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,164 @@
+//! The same work for every design: a made-up texture, places that wander through its
+//! triangle, an excitation.
+//!
+//! What a tick costs hardly depends on the numbers that are computed with, so a texture of
+//! the same orders stands for all.
+
+use crate::design::{Design, Order};
+use crate::kernel::{Rendering, kernel};
+use crate::texture::{Numerator, Place, Texture, Vertex};
+use alloc::{boxed::Box, vec::Vec};
+use core::{f64::consts::PI, hint::black_box};
+
+/// Ticks of a counted run: a multiple of every update interval.
+pub const TICKS: usize = 1632;
+
+/// The orders that a cost depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Orders {
+    /// Poles.
+    pub poles: usize,
+    /// Zeros of a numerator of its own.
+    pub zeros: usize,
+    /// Whether the numerator is 1 + z⁻¹.
+    pub nyquist: bool,
+}
+
+impl Orders {
+    /// What an order makes of whole textures of these orders; `None` where it depends on
+    /// more than the orders.
+    #[must_use]
+    pub fn reduced(self, order: Order) -> Option<Self> {
+        let of = |poles: usize, nyquist| Self {
+            poles: poles.min(self.poles),
+            zeros: 0,
+            nyquist,
+        };
+        match order {
+            Order::Full => Some(self),
+            Order::WithZero(poles) => Some(of(poles, true)),
+            Order::AllPole(poles) => Some(of(poles, false)),
+            Order::Auto => None,
+        }
+    }
+
+    fn numerator(self) -> Numerator {
+        match (self.zeros, self.nyquist) {
+            (0, false) => Numerator::None,
+            (0, true) => Numerator::Nyquist,
+            _ => Numerator::Lsf,
+        }
+    }
+}
+
+/// The kernel of a design for a texture of some orders; `None` where there is none.
+#[must_use]
+pub fn kernel_of(design: &Design, orders: Orders) -> Option<Box<dyn Rendering>> {
+    let lsf_rad = [0, 1, 2].map(|vertex| spread(orders.poles, vertex));
+    let ma_lsf_rad = [7, 8, 9].map(|vertex| spread(orders.zeros, vertex));
+    let vertices = [0, 1, 2].map(|vertex| Vertex {
+        lsf_rad: &lsf_rad[vertex],
+        ma_lsf_rad: &ma_lsf_rad[vertex],
+        level_m_s2: 0.1 * (vertex + 1) as f64,
+    });
+    let texture = Texture {
+        sample_rate_hz: 1000.0,
+        numerator: orders.numerator(),
+        vertices: &vertices,
+    };
+    kernel(design, &texture)
+}
+
+/// LSFs spread evenly and then moved a little.
+fn spread(order: usize, seed: usize) -> Vec<f64> {
+    let step = PI / (order + 1) as f64;
+    (1..=order)
+        .map(|k| step * (k as f64 + 0.3 * libm::sin((k * 37 + seed * 101) as f64)))
+        .collect()
+}
+
+/// Places and an excitation.
+#[derive(Debug, Clone)]
+pub struct Workload {
+    places: Vec<Place>,
+    epsilon: Vec<f64>,
+}
+
+impl Default for Workload {
+    fn default() -> Self {
+        let place = |n: usize| {
+            let t = n as f64 / TICKS as f64;
+            Place {
+                vertices: [0, 1, 2],
+                weights: [0.5 - 0.3 * t, 0.2 + 0.5 * t, 0.3 - 0.2 * t],
+            }
+        };
+        Self {
+            places: (0..TICKS).map(place).collect(),
+            epsilon: (0..TICKS).map(|n| libm::sin((n * n) as f64)).collect(),
+        }
+    }
+}
+
+impl Workload {
+    /// Renders so many ticks from silence; the last sample, relative. Everything but the
+    /// ticks costs the same for any number of them.
+    pub fn run(&self, kernel: &mut dyn Rendering, ticks: usize) -> f64 {
+        kernel.settle(&self.places[0]);
+        black_box(kernel.repeat(&self.places, &self.epsilon, black_box(ticks)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Transition, variants};
+
+    #[test]
+    fn a_counted_run_is_whole_cycles_of_every_design() {
+        for variant in variants() {
+            assert_eq!(TICKS % variant.design.every, 0, "{}", variant.name);
+        }
+    }
+
+    #[test]
+    fn every_kernel_of_the_comparison_runs() {
+        let workload = Workload::default();
+        for variant in variants() {
+            for (zeros, nyquist) in [(18, false), (0, true), (0, false)] {
+                let orders = Orders {
+                    poles: 20,
+                    zeros,
+                    nyquist,
+                };
+                let mut kernel = kernel_of(&variant.design, orders).expect("it has a filter");
+                let last = workload.run(kernel.as_mut(), 32);
+                assert!(last.is_finite() && last != 0.0, "{}: {last}", variant.name);
+            }
+        }
+    }
+
+    #[test]
+    fn a_crossfade_ends_on_what_is_held() {
+        let at = |transition, every| {
+            let design = Design {
+                transition,
+                every,
+                ..Design::DEFAULT
+            };
+            let orders = Orders {
+                poles: 4,
+                zeros: 0,
+                nyquist: true,
+            };
+            let mut kernel = kernel_of(&design, orders).expect("it has a filter");
+            // Two cycles: the first begins where it settled.
+            Workload::default().run(kernel.as_mut(), 2 * every);
+            kernel.filter().a
+        };
+        let (faded, held) = (at(Transition::Crossfade, 8), at(Transition::Hold, 8));
+        for (x, y) in faded.iter().zip(&held) {
+            assert!((x - y).abs() < 2e-6, "{faded:?}, {held:?}");
+        }
+    }
+}

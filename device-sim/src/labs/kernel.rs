@@ -1,0 +1,82 @@
+//! The kernels on the compiler's models.
+
+use asperity::{
+    interpolate::Place,
+    model::{self, ModelGrid},
+    spectrum::ArmaModel,
+};
+use asperity_kernels::{
+    Rendering,
+    design::Design,
+    texture::{self, Numerator, Texture, Vertex},
+};
+
+/// A kernel of some design for a grid.
+pub struct Kernel {
+    rendering: Box<dyn Rendering>,
+    sample_rate_hz: f64,
+}
+
+impl Kernel {
+    /// `None` where the design has no filter for the grid.
+    ///
+    /// The order is the grid's: [`Design::order`] is applied before.
+    #[must_use]
+    pub fn new(design: &Design, grid: &ModelGrid) -> Option<Self> {
+        let vertices: Vec<Vertex<'_>> = grid
+            .vertices
+            .iter()
+            .map(|vertex| Vertex {
+                lsf_rad: &vertex.lsf_rad,
+                ma_lsf_rad: vertex.ma_lsf_rad.as_deref().unwrap_or_default(),
+                level_m_s2: vertex.gain * vertex.sigma_m_s2,
+            })
+            .collect();
+        let texture = Texture {
+            sample_rate_hz: grid.sample_rate_hz,
+            numerator: match grid.numerator {
+                model::Numerator::None => Numerator::None,
+                model::Numerator::Nyquist => Numerator::Nyquist,
+                model::Numerator::Lsf => Numerator::Lsf,
+            },
+            vertices: &vertices,
+        };
+        Some(Self {
+            rendering: asperity_kernels::kernel(design, &texture)?,
+            sample_rate_hz: grid.sample_rate_hz,
+        })
+    }
+
+    /// Starts at a place: its model, at once, from silence.
+    pub fn settle(&mut self, place: &Place) {
+        self.rendering.settle(&of(place));
+    }
+
+    /// The model that is rendered now, in f64.
+    #[must_use]
+    pub fn model(&self) -> ArmaModel {
+        let filter = self.rendering.filter();
+        ArmaModel {
+            sample_rate_hz: self.sample_rate_hz,
+            a: filter.a,
+            b: filter.b,
+            level_m_s2: filter.level_m_s2,
+        }
+    }
+
+    /// Samples, m/s², one a place and an excitation.
+    pub fn render(&mut self, places: &[Place], epsilon: &[f64]) -> Vec<f64> {
+        let places: Vec<texture::Place> = places.iter().map(of).collect();
+        self.rendering.render(&places, epsilon)
+    }
+}
+
+fn of(place: &Place) -> texture::Place {
+    texture::Place {
+        vertices: place.vertices,
+        weights: place.weights,
+    }
+}
+
+#[cfg(test)]
+mod tests;
