@@ -133,7 +133,7 @@ pub fn run(options: &StabilityOptions) -> Result<Table, StabilityError> {
     let materials = material::all(options.hatt.as_deref())?;
     let mut rows = Vec::new();
     rows.extend(grid::rows(&materials, options.seed));
-    rows.extend(mixing::rows(&materials, options.seed)?);
+    rows.extend(mixing::rows(&materials, options.seed));
     rows.extend(coefficients::rows(&materials, options.seed));
     rows.extend(friction::rows(options.seed)?);
     rows.extend(wall::rows(options.seed)?);
