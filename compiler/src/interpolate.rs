@@ -86,6 +86,16 @@ impl<'a> Field<'a> {
     /// grid without a triangle that has an area.
     #[must_use]
     pub fn locate(&self, speed_mm_s: f64, force_n: f64) -> Option<Place> {
+        self.locate_among(&self.grid.triangles, speed_mm_s, force_n)
+    }
+
+    /// [`Field::locate`] where only some triangles come into question.
+    pub(crate) fn locate_among(
+        &self,
+        triangles: &[[usize; 3]],
+        speed_mm_s: f64,
+        force_n: f64,
+    ) -> Option<Place> {
         // A NaN goes to rest.
         let inside = |x: f64, max: f64| if x > 0.0 { x.min(max) } else { 0.0 };
         let (speed, force) = (
@@ -93,9 +103,7 @@ impl<'a> Field<'a> {
             inside(force_n, self.corner.1),
         );
         let smallest = |w: &[f64; 3]| w[0].min(w[1]).min(w[2]);
-        let (vertices, weights) = self
-            .grid
-            .triangles
+        let (vertices, weights) = triangles
             .iter()
             .filter_map(|&triangle| Some((triangle, self.weights(triangle, speed, force)?)))
             .reduce(|best, next| {

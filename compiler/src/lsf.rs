@@ -132,16 +132,21 @@ impl Sturm {
         Self { alpha }
     }
 
-    /// Of every x the number of roots with a larger one, that is with a smaller angle.
-    fn roots_beyond(&self, x: &[f64; LANES]) -> [u64; LANES] {
+    /// Of every x in [0, 1] the number of roots with a larger one, that is with a smaller
+    /// angle.
+    fn roots_beyond(&self, x: &[f64; LANES]) -> [f64; LANES] {
         let mut before = [1.0; LANES];
         let mut here = x.map(|x| 2.0 * x);
-        let mut count = here.map(|s| u64::from(s < 0.0));
+        let mut was_negative = [0.0; LANES];
+        let mut count = [0.0; LANES];
         for alpha in &self.alpha {
             for lane in 0..LANES {
                 let next = 2.0 * x[lane] * here[lane] - alpha * before[lane];
                 // A zero counts as positive: the next one has the sign opposite to the last.
-                count[lane] += u64::from((next < 0.0) != (here[lane] < 0.0));
+                // Counted in f64, for which there are lanes everywhere.
+                let negative = if next < 0.0 { 1.0 } else { 0.0_f64 };
+                count[lane] += (negative - was_negative[lane]).abs();
+                was_negative[lane] = negative;
                 before[lane] = here[lane];
                 here[lane] = next;
             }
@@ -151,9 +156,9 @@ impl Sturm {
 
     /// The angles of roots, numbered from the smallest angle.
     fn roots(&self, indices: &[usize]) -> impl Iterator<Item = f64> {
-        let mut wanted = [0; LANES];
+        let mut wanted = [0.0; LANES];
         for (wanted, &index) in wanted.iter_mut().zip(indices) {
-            *wanted = index as u64;
+            *wanted = index as f64;
         }
         let (mut low, mut high) = ([0.0; LANES], [1.0; LANES]);
         for _ in 0..HALVINGS {

@@ -89,9 +89,9 @@ impl State {
             force_n,
             ..
         } = self.grid.vertices[vertex];
-        let smaller = removed(&self.grid, vertex)?;
-        let field = Field::with_cosines(&smaller, &self.cosines_without(vertex));
-        let place = field.locate(speed_mm_s, force_n)?;
+        let Smaller { grid, filled } = removed(&self.grid, vertex)?;
+        let field = Field::with_cosines(&grid, &self.cosines_without(vertex));
+        let place = field.locate_among(&grid.triangles[filled..], speed_mm_s, force_n)?;
         let index = reference
             .at()
             .position(|other| other == (speed_mm_s, force_n))?;
@@ -100,7 +100,7 @@ impl State {
 
     /// Without a vertex; `None` where it is needed.
     fn without(&self, vertex: usize, reference: &Reference<'_>) -> Option<Self> {
-        let grid = removed(&self.grid, vertex)?;
+        let Smaller { grid, filled } = removed(&self.grid, vertex)?;
         let cosines = self.cosines_without(vertex);
         let field = Field::with_cosines(&grid, &cosines);
         let mut distances = self.distances.0.clone();
@@ -108,7 +108,7 @@ impl State {
         for (index, at) in reference.at().enumerate() {
             let place = &mut located[index];
             if place.vertices.contains(&vertex) {
-                *place = field.locate(at.0, at.1)?;
+                *place = field.locate_among(&grid.triangles[filled..], at.0, at.1)?;
                 distances[index] = reference.distance(index, &field, place);
                 if is_beyond_budget(distances[index]) {
                     return None;
@@ -128,9 +128,17 @@ impl State {
     }
 }
 
+/// A grid without one of its vertices.
+struct Smaller {
+    grid: ModelGrid,
+    /// Index of the first triangle that fills the hole; whatever lay in the vertex' triangles
+    /// lies in these.
+    filled: usize,
+}
+
 /// The grid without a vertex, its hole tiled; `None` for a corner and wherever no tiling is
 /// found.
-fn removed(grid: &ModelGrid, vertex: usize) -> Option<ModelGrid> {
+fn removed(grid: &ModelGrid, vertex: usize) -> Option<Smaller> {
     let (width, height) = mesh::corner(grid);
     let at = |v: usize| {
         let vertex = &grid.vertices[v];
@@ -151,6 +159,7 @@ fn removed(grid: &ModelGrid, vertex: usize) -> Option<ModelGrid> {
         return None;
     }
     let mut triangles: Vec<[usize; 3]> = others;
+    let filled = triangles.len();
     triangles.extend(hole);
     for triangle in &mut triangles {
         *triangle = triangle.map(|v| v - usize::from(v > vertex));
@@ -164,7 +173,10 @@ fn removed(grid: &ModelGrid, vertex: usize) -> Option<ModelGrid> {
         vertices,
         triangles,
     };
-    (mesh::corner(&smaller) == (width, height)).then_some(smaller)
+    (mesh::corner(&smaller) == (width, height)).then_some(Smaller {
+        grid: smaller,
+        filled,
+    })
 }
 
 /// The neighbours of a vertex, counter-clockwise; on a border from one end to the other.
