@@ -94,16 +94,5 @@ fn beside_the_usual_way(c: &mut Criterion) {
     }
 }
 
-fn load(c: &mut Criterion) {
-    let bytes = texture(20, Numerator::Lsf);
-    let mut slot = Box::new(HostTexture::new());
-    c.bench_function("parse and load, order 20, ARMA", |b| {
-        b.iter(|| {
-            let asset = Asset::parse(black_box(&bytes)).expect("a valid asset");
-            slot.load(&asset, 1000.0).expect("it fits");
-        });
-    });
-}
-
-criterion_group!(benches, tick, beside_the_usual_way, load);
+criterion_group!(benches, tick, beside_the_usual_way);
 criterion_main!(benches);

@@ -1,7 +1,8 @@
 //! What a tick costs: textures of a known size and scripted motions, shared by the
-//! criterion bench `tick` and the command `instructions`, and the usual way for comparison.
+//! criterion benches and the command `instructions`, and the usual way for comparison.
 #![forbid(unsafe_code)]
 
+pub mod load;
 pub mod motion;
 pub mod reference;
 pub mod texture;

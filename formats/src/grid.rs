@@ -283,8 +283,8 @@ impl<'a> Grid<'a> {
                 ));
             }
             let at = |v: u8| {
-                let vertex = self.vertex(usize::from(v));
-                (f64::from(vertex.speed_mm_s), f64::from(vertex.force_n))
+                let (speed, force) = self.place(usize::from(v)).unwrap_or_default();
+                (f64::from(speed), f64::from(force))
             };
             let ((x0, y0), (x1, y1), (x2, y2)) = (at(a), at(b), at(c));
             let twice = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
@@ -341,23 +341,38 @@ impl<'a> Grid<'a> {
 
     /// The model table.
     pub fn models(&self) -> impl ExactSizeIterator<Item = Model<'a>> + use<'a> {
-        let (lsf_len, ma_len) = (self.ar_order * 2, self.ma_order * 2);
-        let has_gain = self.numerator == Numerator::Lsf;
+        let grid = *self;
         self.models
             .chunks_exact(self.model_len())
-            .map(move |record| Model {
-                lsf: record.get(..lsf_len).unwrap_or_default(),
-                ma_lsf: record.get(lsf_len..lsf_len + ma_len).unwrap_or_default(),
-                gain: if has_gain {
-                    f16_at(record, lsf_len + ma_len)
-                } else {
-                    1.0
-                },
-            })
+            .map(move |record| grid.model_of(record))
     }
 
-    fn vertex(&self, index: usize) -> Vertex {
-        vertex(self.vertices.get(index * VERTEX_LEN..).unwrap_or_default())
+    /// One model of the table, without a look at the others.
+    #[must_use]
+    pub fn model(&self, index: usize) -> Option<Model<'a>> {
+        record(self.models, index, self.model_len()).map(|record| self.model_of(record))
+    }
+
+    #[inline]
+    fn model_of(&self, record: &'a [u8]) -> Model<'a> {
+        let (lsf_len, ma_len) = (self.ar_order * 2, self.ma_order * 2);
+        Model {
+            lsf: record.get(..lsf_len).unwrap_or_default(),
+            ma_lsf: record.get(lsf_len..lsf_len + ma_len).unwrap_or_default(),
+            gain: if self.numerator == Numerator::Lsf {
+                f16_at(record, lsf_len + ma_len)
+            } else {
+                1.0
+            },
+        }
+    }
+
+    /// Speed (mm/s) and force (N) of one vertex, without a look at the others.
+    #[inline]
+    #[must_use]
+    pub fn place(&self, vertex: usize) -> Option<(f32, f32)> {
+        let record = record(self.vertices, vertex, VERTEX_LEN)?;
+        Some((f32_at(record, 0), f32_at(record, 4)))
     }
 
     /// The vertices, in stored order.
@@ -371,6 +386,13 @@ impl<'a> Grid<'a> {
             .chunks_exact(3)
             .map(|record| array_at(record, 0))
     }
+}
+
+/// Record `index` of a table of records of `len` bytes.
+#[inline]
+fn record(table: &[u8], index: usize, len: usize) -> Option<&[u8]> {
+    let start = index.checked_mul(len)?;
+    table.get(start..start.checked_add(len)?)
 }
 
 fn vertex(record: &[u8]) -> Vertex {

@@ -99,13 +99,7 @@ impl<'a> Taps<'a> {
                 "0 to 1e6 m/s²",
             )?;
             let codes = reader.bytes("taps.trace.codes", packed_len(samples))?;
-            let trace = Trace {
-                speed_m_s: speed,
-                peak_m_s2: 0.0,
-                samples,
-                codes,
-            };
-            if let Some(at) = trace.codes().position(|code| code < -FULL_SCALE) {
+            if let Some(at) = first_below_scale(codes) {
                 return Err(FormatError::invalid(
                     "taps.trace.codes",
                     index * samples + at,
@@ -148,6 +142,22 @@ impl<'a> Taps<'a> {
                 codes: traces.get(at + 8..at + stride).unwrap_or_default(),
             }
         })
+    }
+}
+
+/// The first of packed codes that is −2048, which no sample may be.
+fn first_below_scale(codes: &[u8]) -> Option<usize> {
+    let even = |a: u8, b: u8| a == 0 && b & 0x0f == 0x08;
+    let odd = |b: u8, c: u8| b & 0xf0 == 0 && c == 0x80;
+    let (pairs, last) = codes.as_chunks::<3>();
+    let pair = pairs.iter().position(|&[a, b, c]| even(a, b) | odd(b, c));
+    match (pair, last) {
+        (Some(pair), _) => {
+            let [a, b, _] = pairs[pair];
+            Some(2 * pair + usize::from(!even(a, b)))
+        }
+        (None, &[a, b]) => even(a, b).then_some(2 * pairs.len()),
+        (None, _) => None,
     }
 }
 

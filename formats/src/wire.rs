@@ -67,6 +67,7 @@ impl<'a> Reader<'a> {
 }
 
 /// Reads `N` bytes at `at` of bytes that were validated before; zeros beyond them.
+#[inline]
 pub(crate) fn array_at<const N: usize>(bytes: &[u8], at: usize) -> [u8; N] {
     let mut out = [0; N];
     if let Some(piece) = bytes.get(at..at.saturating_add(N)) {
@@ -76,16 +77,19 @@ pub(crate) fn array_at<const N: usize>(bytes: &[u8], at: usize) -> [u8; N] {
 }
 
 /// Reads a binary16 at `at` of validated bytes.
+#[inline]
 pub(crate) fn f16_at(bytes: &[u8], at: usize) -> f32 {
     f16::from_le_bytes(array_at(bytes, at)).to_f32()
 }
 
 /// Reads a binary32 at `at` of validated bytes.
+#[inline]
 pub(crate) fn f32_at(bytes: &[u8], at: usize) -> f32 {
     f32::from_le_bytes(array_at(bytes, at))
 }
 
 /// Reads a u16 at `at` of validated bytes.
+#[inline]
 pub(crate) fn u16_at(bytes: &[u8], at: usize) -> u16 {
     u16::from_le_bytes(array_at(bytes, at))
 }

@@ -43,6 +43,12 @@ impl Crossing {
         changing: false,
     };
 
+    /// Whether the new texture's model is still made, or the old sound still fades.
+    #[inline]
+    pub(crate) fn is_under_way(&self) -> bool {
+        self.changing | (self.fading_m_s2 != 0.0)
+    }
+
     /// Goes `share` of the way to a texture's wall, gains and friction; exactly there with 1.
     #[inline]
     pub(crate) fn follow(&mut self, to: &Surface, mu: f32, share: f32) {

@@ -24,6 +24,7 @@
 //! | [`limiter`] | | peak and slew of the total force |
 //! | [`safety`] | | bad samples, safe state, ramp |
 //! | [`scene`] | | which of several surfaces is touched, the way from one to the next |
+//! | [`exchange`] | | another texture while the servo loop runs |
 //!
 //! ```
 //! use asperity_formats::Asset;
@@ -62,6 +63,7 @@
 pub mod config;
 pub mod contact;
 mod crossing;
+pub mod exchange;
 pub mod excitation;
 pub mod friction;
 mod lanes;
@@ -86,6 +88,7 @@ pub use config::{
     VibrationAxis,
 };
 pub use contact::Surface;
+pub use exchange::{Exchange, Player, PrepareError, Preparer};
 pub use locate::Barycentric;
 pub use scene::{HostScene, Scene, SceneError, SceneState};
 pub use synthesis::Filter;

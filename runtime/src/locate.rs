@@ -103,10 +103,13 @@ impl Strips {
     /// Block `block` reaches from `low` to `high`.
     fn meets(&mut self, block: usize, low: f32, high: f32) {
         let [low, high] = [low, high].map(|x| x * self.per_unit);
-        for (strip, blocks) in self.blocks.iter_mut().enumerate() {
-            let strip = strip as f32;
-            if strip >= low - (0.5 + MARGIN) && strip <= high + (0.5 + MARGIN) {
-                *blocks |= 1 << block;
+        let first = max(low - (0.5 + MARGIN), 0.0);
+        for strip in first as usize..STRIPS {
+            if strip as f32 > high + (0.5 + MARGIN) {
+                break;
+            }
+            if strip as f32 >= first {
+                self.blocks[strip] |= 1 << block;
             }
         }
     }
@@ -250,16 +253,20 @@ impl<const T: usize> Locator<T> {
     /// How many of `all` blocks a query looks at: the most that two strips share. Where they
     /// share none (the triangles leave a gap), every query looks at all.
     fn count_blocks(&mut self, all: usize) {
-        let shared = |speed: &u32| self.force_strips.blocks.map(|force| speed & force);
-        let cells = || self.speed_strips.blocks.iter().flat_map(shared);
-        if cells().any(|blocks| blocks == 0) {
+        let (mut least, mut most) = (u32::MAX, 0);
+        for speed in self.speed_strips.blocks {
+            for force in self.force_strips.blocks {
+                let shared = (speed & force).count_ones();
+                (least, most) = (least.min(shared), most.max(shared));
+            }
+        }
+        if least == 0 {
             let every = u32::MAX >> (u32::BITS as usize - all.clamp(1, 32));
             self.speed_strips.blocks = [every; STRIPS];
             self.force_strips.blocks = [every; STRIPS];
             self.blocks = all;
         } else {
-            let counts = cells().map(|blocks| blocks.count_ones() as usize);
-            self.blocks = counts.fold(0, usize::max);
+            self.blocks = most as usize;
         }
     }
 

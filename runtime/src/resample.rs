@@ -8,44 +8,47 @@
 //! of ∫a dt is given back along the filter's own response, so the impulse is exact
 //! within rounding.
 
-use crate::math::{cos_pi, exp, sin_pi};
+use crate::{
+    lanes::F4,
+    math::{cos_pi, exp, max, min, sin_pi},
+};
 
 /// Poles with Im ≥ 0 (rad per rad/s of stop edge) and residues of the prototype
-/// with unit gain at DC: `scipy.signal.cheb2ap(7, 50)`, `scipy.signal.residue`.
-const POLES: [(Complex, Complex); 4] = [
-    (
-        Complex::new(-0.113_746_65, 0.685_925_7),
-        Complex::new(0.126_536_16, 0.110_951_51),
-    ),
-    (
-        Complex::new(-0.381_229_6, 0.657_971_74),
-        Complex::new(-0.526_114_17, 0.538_351_86),
-    ),
-    (
-        Complex::new(-0.729_280_8, 0.483_387_32),
-        Complex::new(-0.969_563_66, -1.664_926),
-    ),
-    (
-        Complex::new(-0.945_731_9, 0.0),
-        Complex::new(2.760_419_4, 0.0),
-    ),
-];
+/// with unit gain at DC: `scipy.signal.cheb2ap(7, 50)`, `scipy.signal.residue`. A residue with
+/// Im > 0 is twice its own: it stands for its conjugate, too.
+const POLES: Complex4 = Complex4 {
+    re: F4::load(&[-0.113_746_65, -0.381_229_6, -0.729_280_8, -0.945_731_9]),
+    im: F4::load(&[0.685_925_7, 0.657_971_74, 0.483_387_32, 0.0]),
+};
+const RESIDUES: Complex4 = Complex4 {
+    re: F4::load(&[0.253_072_32, -1.052_228_3, -1.939_127_3, 2.760_419_4]),
+    im: F4::load(&[0.221_903_02, 1.076_703_5, -3.329_852, 0.0]),
+};
 
 /// Ticks behind the last source sample, for the filter's response to fade below
 /// 1 % of its peak.
 pub(crate) const TAIL_TICKS: usize = 16;
 
+/// Source samples that are taken in at once: a tick of 10 kHz at 1 kHz.
+const CHUNK: usize = 10;
+
+/// A sample this close to a tick belongs to it, s.
+const ROUNDING_S: f64 = 1e-9;
+
+/// Four complex numbers, one a pole.
 #[derive(Debug, Clone, Copy)]
-struct Complex {
-    re: f32,
-    im: f32,
+struct Complex4 {
+    re: F4,
+    im: F4,
 }
 
-impl Complex {
-    const fn new(re: f32, im: f32) -> Self {
-        Self { re, im }
-    }
+impl Complex4 {
+    const ZERO: Self = Self {
+        re: F4::ZERO,
+        im: F4::ZERO,
+    };
 
+    #[inline(always)]
     fn times(self, other: Self) -> Self {
         Self {
             re: self.re * other.re - self.im * other.im,
@@ -53,40 +56,52 @@ impl Complex {
         }
     }
 
+    #[inline(always)]
     fn plus(self, other: Self) -> Self {
-        Self::new(self.re + other.re, self.im + other.im)
+        Self {
+            re: self.re + other.re,
+            im: self.im + other.im,
+        }
     }
 
-    /// e^(self·x) for Re ≤ 0 and |Im·x| ≤ π.
-    fn exp(self, x: f32) -> Self {
-        let magnitude = exp(crate::math::max(self.re * x, -80.0));
-        let half_turns = crate::math::min(self.im * x * core::f32::consts::FRAC_1_PI, 1.0);
-        Self::new(
-            magnitude * cos_pi(half_turns),
-            magnitude * sin_pi(half_turns),
-        )
+    #[inline(always)]
+    fn scaled(self, by: f32) -> Self {
+        Self {
+            re: self.re * F4::splat(by),
+            im: self.im * F4::splat(by),
+        }
+    }
+
+    /// e^(pole·x) for x ≥ 0; Im·x beyond π only where nothing is left.
+    fn decay(x: f32) -> Self {
+        let (re, im) = (POLES.re.to_array(), POLES.im.to_array());
+        let size = re.map(|re| exp(max(re * x, -80.0)));
+        let half_turns = im.map(|im| min(im * x * core::f32::consts::FRAC_1_PI, 1.0));
+        Self {
+            re: F4::load(&half_turns.map(cos_pi)) * F4::load(&size),
+            im: F4::load(&half_turns.map(sin_pi)) * F4::load(&size),
+        }
+    }
+
+    /// What the filter gives of a state.
+    #[inline(always)]
+    fn response(self) -> f32 {
+        (self.re * RESIDUES.re - self.im * RESIDUES.im).sum()
     }
 }
 
-/// A conversion from `source_hz` to `servo_hz`.
+/// From which rate to which, Hz.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Resampler {
+pub(crate) struct Rates {
     source_hz: f64,
     servo_hz: f64,
-    stop_rad_s: f32,
 }
 
-impl Resampler {
+impl Rates {
     pub(crate) fn new(source_hz: f32, servo_hz: f32) -> Self {
-        let lower = if source_hz < servo_hz {
-            source_hz
-        } else {
-            servo_hz
-        };
         Self {
             source_hz: f64::from(source_hz),
             servo_hz: f64::from(servo_hz),
-            stop_rad_s: core::f32::consts::PI * lower,
         }
     }
 
@@ -108,86 +123,126 @@ impl Resampler {
         };
         (span + TAIL_TICKS as f64 * stretch) as usize + 1
     }
+}
 
-    /// Converts a trace into `out`, whose length is [`Resampler::ticks`].
-    pub(crate) fn convert(
-        &self,
-        trace: impl ExactSizeIterator<Item = f32> + Clone,
-        out: &mut [f32],
-    ) {
-        if self.is_identity() {
+/// A conversion of traces of one length.
+#[derive(Debug, Clone)]
+pub(crate) struct Resampler {
+    rates: Rates,
+    samples: usize,
+    stop_rad_s: f32,
+    /// What is left of a state after 0.. source samples.
+    powers: [Complex4; CHUNK + 1],
+    /// What is left of it after a tick.
+    tick: Complex4,
+    /// Sum of the response to an impulse over all ticks.
+    impulse: f32,
+}
+
+impl Resampler {
+    pub(crate) fn new(rates: Rates, samples: usize) -> Self {
+        let lower_hz = if rates.source_hz < rates.servo_hz {
+            rates.source_hz
+        } else {
+            rates.servo_hz
+        };
+        let stop_rad_s = core::f32::consts::PI * lower_hz as f32;
+        let after = |s: f64| Complex4::decay(s as f32 * stop_rad_s);
+        let mut powers = [Complex4::ZERO; CHUNK + 1];
+        for (k, power) in powers.iter_mut().enumerate() {
+            *power = after(k as f64 / rates.source_hz);
+        }
+        let tick = after(1.0 / rates.servo_hz);
+        let impulse = responses(tick).take(rates.ticks(samples)).sum();
+        Self {
+            rates,
+            samples,
+            stop_rad_s,
+            powers,
+            tick,
+            impulse,
+        }
+    }
+
+    /// Converts a trace into `out`, whose length is [`Rates::ticks`].
+    pub(crate) fn convert(&self, mut trace: impl Iterator<Item = f32>, out: &mut [f32]) {
+        if self.rates.is_identity() {
             for (out, a) in out.iter_mut().zip(trace) {
                 *out = a;
             }
             return;
         }
-        let wanted = trace.clone().fold(0.0, |sum, a| sum + f64::from(a)) / self.source_hz;
-        self.filter(trace, out);
-        let given = out.iter().fold(0.0, |sum, &a| sum + f64::from(a)) / self.servo_hz;
-        self.give_back(((wanted - given) * self.servo_hz) as f32, out);
-    }
-
-    /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which
-    /// moves from source sample to source sample; silence follows the last one.
-    fn filter(&self, trace: impl Iterator<Item = f32>, out: &mut [f32]) {
-        /// A sample this close to a tick belongs to it, s.
-        const ROUNDING_S: f64 = 1e-9;
-        let period_s = 1.0 / self.source_hz;
-        let gain = period_s as f32 * self.stop_rad_s;
-        let step = POLES.map(|(pole, _)| pole.exp(self.stop_rad_s * period_s as f32));
-        let mut state = [Complex::new(0.0, 0.0); POLES.len()];
-        let mut samples = trace.chain(core::iter::repeat(0.0));
-        let mut next_s = 0.0;
-        let mut taken = 0_u32;
-        for (n, out) in out.iter_mut().enumerate() {
-            let now_s = n as f64 / self.servo_hz;
-            while next_s <= now_s + ROUNDING_S {
-                let a = samples.next().unwrap_or_default();
-                for (state, step) in state.iter_mut().zip(&step) {
-                    *state = state.times(*step).plus(Complex::new(a, 0.0));
-                }
-                taken += 1;
-                next_s = f64::from(taken) * period_s;
-            }
-            let age_s = now_s - (next_s - period_s);
-            let mut y = 0.0;
-            for (state, (pole, residue)) in state.iter().zip(&POLES) {
-                let now = if age_s > ROUNDING_S {
-                    state.times(pole.exp(age_s as f32 * self.stop_rad_s))
-                } else {
-                    *state
-                };
-                // A pole with Im > 0 stands for itself and its conjugate.
-                let multiplicity = if pole.im > 0.0 { 2.0 } else { 1.0 };
-                y += multiplicity * now.times(*residue).re;
-            }
-            *out = gain * y;
-        }
-    }
-
-    /// Adds `sum` over all ticks in the shape of the response to one impulse.
-    fn give_back(&self, sum: f32, out: &mut [f32]) {
-        let ticks = out.len();
-        let tick_s = (1.0 / self.servo_hz) as f32;
-        // Two passes over a recursion instead of a buffer: first its sum, then it.
-        let response = || {
-            let mut state = POLES.map(|(_, residue)| residue);
-            let decay = POLES.map(|(pole, _)| pole.exp(self.stop_rad_s * tick_s));
-            (0..ticks).map(move |_| {
-                let mut h = 0.0;
-                for (state, ((pole, _), decay)) in state.iter_mut().zip(POLES.iter().zip(&decay)) {
-                    h += if pole.im > 0.0 { 2.0 } else { 1.0 } * state.re;
-                    *state = state.times(*decay);
-                }
-                h
-            })
+        let Rates {
+            source_hz,
+            servo_hz,
+        } = self.rates;
+        let wanted = self.filter(&mut trace, out) / source_hz;
+        let given = out.iter().fold(0.0, |sum, &a| sum + f64::from(a)) / servo_hz;
+        // What is missing of the impulse comes back along the response.
+        let missing = ((wanted - given) * servo_hz) as f32;
+        let share = if self.impulse == 0.0 {
+            0.0
+        } else {
+            missing / self.impulse
         };
-        let total: f32 = response().sum();
-        let share = if total != 0.0 { sum / total } else { 0.0 };
-        for (out, h) in out.iter_mut().zip(response()) {
+        for (out, h) in out.iter_mut().zip(responses(self.tick)) {
             *out += share * h;
         }
     }
+
+    /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which
+    /// moves by up to [`CHUNK`] source samples at once; silence follows the last one. Returns
+    /// the sum of the trace.
+    fn filter(&self, trace: &mut impl Iterator<Item = f32>, out: &mut [f32]) -> f64 {
+        let Rates {
+            source_hz,
+            servo_hz,
+        } = self.rates;
+        let samples = self.samples;
+        let (tick_s, source_s) = (1.0 / servo_hz, 1.0 / source_hz);
+        let gain = self.stop_rad_s * source_s as f32;
+        let (mut state, mut sum) = (Complex4::ZERO, 0.0);
+        let (mut now, mut taken) = (state, 0);
+        for (n, out) in out.iter_mut().enumerate() {
+            if taken < samples {
+                let now_s = n as f64 * tick_s;
+                let due = ((now_s + ROUNDING_S) * source_hz) as usize + 1;
+                while taken < due {
+                    let count = (due - taken).min(CHUNK);
+                    let mut entering = Complex4::ZERO;
+                    for (power, a) in self.powers[..count].iter().rev().zip(&mut *trace) {
+                        entering = entering.plus(power.scaled(a));
+                        sum += f64::from(a);
+                    }
+                    state = state.times(self.powers[count]).plus(entering);
+                    taken += count;
+                }
+                let age_s = now_s - (taken - 1) as f64 * source_s;
+                now = if age_s > ROUNDING_S {
+                    state.times(Complex4::decay(age_s as f32 * self.stop_rad_s))
+                } else {
+                    state
+                };
+            } else {
+                now = now.times(self.tick);
+            }
+            *out = gain * now.response();
+        }
+        sum
+    }
+}
+
+/// The response to one impulse, tick by tick, without its gain.
+fn responses(tick: Complex4) -> impl Iterator<Item = f32> {
+    let mut state = Complex4 {
+        re: F4::ONE,
+        im: F4::ZERO,
+    };
+    core::iter::repeat_with(move || {
+        let h = state.response();
+        state = state.times(tick);
+        h
+    })
 }
 
 #[cfg(test)]
@@ -198,9 +253,9 @@ mod tests {
     use std::vec::Vec;
 
     fn convert(trace: &[f32], source_hz: f32, servo_hz: f32) -> Vec<f32> {
-        let resampler = Resampler::new(source_hz, servo_hz);
-        let mut out = std::vec![0.0; resampler.ticks(trace.len())];
-        resampler.convert(trace.iter().copied(), &mut out);
+        let rates = Rates::new(source_hz, servo_hz);
+        let mut out = std::vec![0.0; rates.ticks(trace.len())];
+        Resampler::new(rates, trace.len()).convert(trace.iter().copied(), &mut out);
         out
     }
 

@@ -10,14 +10,8 @@
 //! The work is one distance a surface, and a tick.
 
 use crate::{
-    Config, Flags, LoadError, Output, Renderer, Sample, State, Surface, Texture,
-    contact::Solid,
-    crossing::Crossing,
-    lanes::F4,
-    math::{Vec3, exp},
-    safety::REACH_M,
-    tick::Felt,
-    vibration::Vibration,
+    Config, Flags, LoadError, Output, Renderer, Sample, State, Surface, Texture, contact::Solid,
+    crossing::Crossing, lanes::F4, math::Vec3, safety::REACH_M, tick::Felt, vibration::Vibration,
 };
 use asperity_formats::{Library, SceneSurface, Shape};
 use heapless::Vec;
@@ -86,8 +80,6 @@ pub struct Scene<
     placed: Vec<Placed, N>,
     first: &'a Texture<V, T, P, Q, K>,
     others: &'a [Texture<V, T, P, Q, K>],
-    /// Share of the way that wall, gains and friction go in a tick.
-    follow_share: f32,
 }
 
 /// Room for every surface that a library can hold, on [`HostTexture`](crate::HostTexture)s.
@@ -159,17 +151,10 @@ impl<
         // A scene has a surface, and that a texture.
         let loaded = slots.get(..textures).and_then(<[_]>::split_first);
         let (first, others) = loaded.ok_or(capacity("textures", textures, room))?;
-        let ticks = config.parameter_time_constant_s * config.servo_rate_hz;
-        let follow_share = if ticks > 0.1 {
-            1.0 - exp(-1.0 / ticks)
-        } else {
-            1.0
-        };
         Ok(Self {
             placed: scene.surfaces().take(N).map(Placed::new).collect(),
             first,
             others,
-            follow_share,
         })
     }
 
@@ -294,7 +279,7 @@ impl Renderer {
         }
         let texture = scene.texture(state.texture);
         let share = if state.touching {
-            scene.follow_share
+            self.texture_share
         } else {
             1.0
         };

@@ -6,7 +6,12 @@
 //! Below the slowest trace it shrinks with the speed, above the fastest it stays.
 //! After an impact the detector waits until the stylus is `rearm_m` away.
 
-use crate::{Flags, lanes::F4, math::clamp_from_zero, resample::Resampler};
+use crate::{
+    Flags,
+    lanes::F4,
+    math::clamp_from_zero,
+    resample::{Rates, Resampler},
+};
 use asperity_formats::{Taps, limits::MAX_TAPS};
 use heapless::Vec;
 
@@ -31,15 +36,16 @@ impl<const K: usize> TapBank<K> {
 
     /// Samples needed at the servo rate.
     pub(crate) fn needed(taps: &Taps<'_>, servo_rate_hz: f32) -> usize {
-        let resampler = Resampler::new(taps.sample_rate_hz(), servo_rate_hz);
-        resampler.ticks(taps.samples()) * taps.traces().len()
+        let rates = Rates::new(taps.sample_rate_hz(), servo_rate_hz);
+        rates.ticks(taps.samples()) * taps.traces().len()
     }
 
     /// Converts every trace to the servo rate; [`TapBank::needed`] is at most `K`.
     pub(crate) fn load(&mut self, taps: &Taps<'_>, servo_rate_hz: f32) {
-        *self = Self::EMPTY;
-        let resampler = Resampler::new(taps.sample_rate_hz(), servo_rate_hz);
-        let ticks = resampler.ticks(taps.samples());
+        let rates = Rates::new(taps.sample_rate_hz(), servo_rate_hz);
+        let ticks = rates.ticks(taps.samples());
+        let resampler = Resampler::new(rates, taps.samples());
+        self.speeds_m_s.clear();
         let places = self.samples_m_s2.chunks_exact_mut(max_one(ticks));
         for (trace, place) in taps.traces().zip(places) {
             // A format has at most `MAX_TAPS` traces, so there is room.

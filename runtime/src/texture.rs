@@ -5,12 +5,12 @@ use crate::{
     lanes::F4,
     locate::{Barycentric, Locator},
     lsf::{self, Pairs, Products, Shape},
-    math::cos_pi,
+    math::cos_pi_four,
     schedule::{self, Share, Shares},
     synthesis::{Lags, Line},
     tap::TapBank,
 };
-use asperity_formats::{Asset, FormatError, LsfCode, Numerator, Surface};
+use asperity_formats::{Asset, FormatError, LsfCode, Numerator, Surface, limits::MAX_ORDER};
 use thiserror::Error;
 
 /// A texture slot in caller-provided memory.
@@ -181,18 +181,15 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         self.ar_pairs.0 = [[0.0; P]; V];
         self.ma_pairs.0 = [[0.0; Q]; V];
         self.levels_m_s2 = [0.0; V];
+        let (ar, ma) = (stages(grid.ar_order()), stages(grid.ma_order()));
         for (index, vertex) in grid.vertices().enumerate().take(V) {
-            if let Some(model) = grid.models().nth(usize::from(vertex.model)) {
-                to_pairs(&mut self.ar_pairs.0[index], model.lsf());
-                to_pairs(&mut self.ma_pairs.0[index], model.ma_lsf());
+            if let Some(model) = grid.model(usize::from(vertex.model)) {
+                to_pairs(&mut self.ar_pairs.0[index], model.lsf(), &ar);
+                to_pairs(&mut self.ma_pairs.0[index], model.ma_lsf(), &ma);
                 self.levels_m_s2[index] = model.gain * vertex.sigma_m_s2;
             }
         }
-        let corner = |v: u8| {
-            grid.vertices()
-                .nth(usize::from(v))
-                .map_or((0.0, 0.0), |vertex| (vertex.speed_mm_s, vertex.force_n))
-        };
+        let corner = |v: u8| grid.place(usize::from(v)).unwrap_or_default();
         self.locator.load(
             grid.triangles(),
             corner,
@@ -313,12 +310,32 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     }
 }
 
+/// Where each LSF of an order stands in a row.
+fn stages(order: usize) -> [u8; MAX_ORDER] {
+    let mut stages = [0; MAX_ORDER];
+    for (index, stage) in stages.iter_mut().enumerate().take(order) {
+        *stage = lsf::stage(index, order) as u8;
+    }
+    stages
+}
+
 /// −2 cos ω of a model, in the order in which the conversion takes them.
-fn to_pairs(row: &mut [f32], codes: impl ExactSizeIterator<Item = LsfCode>) {
+fn to_pairs(
+    row: &mut [f32],
+    codes: impl ExactSizeIterator<Item = LsfCode>,
+    stages: &[u8; MAX_ORDER],
+) {
     let order = codes.len();
-    for (index, code) in codes.enumerate() {
-        if let Some(m) = row.get_mut(lsf::stage(index, order)) {
-            *m = -2.0 * cos_pi(code.half_turns());
+    let mut numbers = [0.0; MAX_ORDER];
+    for (number, code) in numbers.iter_mut().zip(codes) {
+        *number = code.half_turns();
+    }
+    for four in numbers.as_chunks_mut::<4>().0 {
+        *four = (F4::splat(-2.0) * cos_pi_four(F4::load(four))).to_array();
+    }
+    for (number, &stage) in numbers.iter().zip(stages).take(order) {
+        if let Some(place) = row.get_mut(usize::from(stage)) {
+            *place = *number;
         }
     }
 }

@@ -286,6 +286,8 @@ pub struct Renderer {
     rate_over_ticks: [f32; 4],
     /// Share of the way that parameters go in a cycle.
     pub(crate) follow_share: f32,
+    /// Share of the way that wall, gains and friction go in a tick, to another texture.
+    pub(crate) texture_share: f32,
     ramp_step: f32,
 }
 
@@ -297,7 +299,8 @@ impl Renderer {
     pub fn new(config: &Config) -> Result<Self, ConfigError> {
         config.check()?;
         let rate = config.servo_rate_hz;
-        let cycles = config.parameter_time_constant_s * rate / CYCLE_TICKS as f32;
+        let ticks = config.parameter_time_constant_s * rate;
+        let cycles = ticks / CYCLE_TICKS as f32;
         let [plane, normal] = [config.velocity_cutoff_hz, config.normal_cutoff_hz];
         Ok(Self {
             config: Config {
@@ -315,6 +318,11 @@ impl Renderer {
             } else {
                 1.0
             },
+            texture_share: if ticks > 0.1 {
+                1.0 - exp(-1.0 / ticks)
+            } else {
+                1.0
+            },
             ramp_step: 1.0 / max(config.safety.ramp_s * rate, 1.0),
         })
     }
@@ -323,6 +331,11 @@ impl Renderer {
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
+    }
+
+    /// What is touched.
+    pub(crate) const fn solid(&self) -> &Solid {
+        &self.solid
     }
 
     /// The wall that is rendered for an asset's: as the asset says where the device can bear

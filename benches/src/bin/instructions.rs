@@ -3,14 +3,21 @@
 //!
 //! Every scenario runs twice under `valgrind --tool=callgrind`, with n and with 2n ticks;
 //! the difference over n is one tick, without start-up. The ticks of one cycle of the
-//! parameters are also counted one by one. Needs valgrind on the PATH.
+//! parameters are also counted one by one, and loading in the same way. Needs valgrind on the PATH.
 #![forbid(unsafe_code)]
 
-use asperity_benches::{Rig, motion::Motion, texture::texture};
+use asperity_benches::{
+    Rig,
+    load::{Loading, Work},
+    motion::Motion,
+    texture::texture,
+};
 use asperity_formats::Numerator;
 use asperity_runtime::vibration::CYCLE_TICKS;
-use std::{env, hint::black_box, process::Command};
+use std::{env, error::Error, ffi::OsStr, hint::black_box, process::Command};
 
+/// First argument of the measured program that loads.
+const LOADING: &str = "load";
 const TICKS: u32 = 4000;
 /// The motion whose ticks are counted one by one.
 const STROKE: usize = 2;
@@ -21,8 +28,14 @@ const TEXTURES: [(&str, usize, Numerator); 4] = [
     ("order 4, Nyquist zero", 4, Numerator::Nyquist),
 ];
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = env::args().skip(1).collect();
+    if let [LOADING, work_index, times] =
+        arguments.iter().map(String::as_str).collect::<Vec<_>>()[..]
+    {
+        load(work_index.parse()?, times.parse()?);
+        return Ok(());
+    }
     if let [texture_index, motion_index, ticks] = arguments.as_slice() {
         run(
             texture_index.parse()?,
@@ -44,8 +57,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         print!("{label:<24}");
         let mut counts = Vec::new();
         for motion_index in 0..Motion::ALL.len() {
-            let once = count(texture_index, motion_index, TICKS)?;
-            let twice = count(texture_index, motion_index, 2 * TICKS)?;
+            let motion = |ticks| count_motion(texture_index, motion_index, ticks);
+            let (once, twice) = (motion(TICKS)?, motion(2 * TICKS)?);
             let a_tick = (twice - once) as f64 / f64::from(TICKS);
             print!("{a_tick:>9.0}");
             counts.push(a_tick);
@@ -53,15 +66,28 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let most = counts.iter().copied().fold(f64::MIN, f64::max);
         let least = counts.iter().copied().fold(f64::MAX, f64::min);
         print!("{:>8.1}%", (most / least - 1.0) * 100.0);
-        let mut before = count(texture_index, STROKE, TICKS)?;
+        let mut before = count_motion(texture_index, STROKE, TICKS)?;
         for tick in 1..=CYCLE_TICKS as u32 {
-            let now = count(texture_index, STROKE, TICKS + tick)?;
+            let now = count_motion(texture_index, STROKE, TICKS + tick)?;
             print!(" {:>5}", now - before);
             before = now;
         }
         println!();
     }
+    println!("executed instructions at load");
+    for (index, (_, label)) in Work::ALL.iter().enumerate() {
+        let load = |times: u32| count([LOADING, &index.to_string(), &times.to_string()]);
+        println!("{label:<32}{:>9}", (load(20)? - load(10)?) / 10);
+    }
     Ok(())
+}
+
+/// The measured program: loading.
+fn load(work_index: usize, times: usize) {
+    let mut loading = Loading::new();
+    for _ in 0..times {
+        black_box(loading.once(Work::ALL[work_index].0));
+    }
 }
 
 /// The measured program: ticks whose samples were made before.
@@ -76,11 +102,15 @@ fn run(texture_index: usize, motion_index: usize, ticks: u32) {
     }
 }
 
-fn count(texture: usize, motion: usize, ticks: u32) -> Result<u64, Box<dyn std::error::Error>> {
+fn count_motion(texture: usize, motion: usize, ticks: u32) -> Result<u64, Box<dyn Error>> {
+    count([texture.to_string(), motion.to_string(), ticks.to_string()])
+}
+
+fn count<A: AsRef<OsStr>>(arguments: [A; 3]) -> Result<u64, Box<dyn Error>> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(env::current_exe()?)
-        .args([texture.to_string(), motion.to_string(), ticks.to_string()])
+        .args(arguments)
         .output()
         .map_err(|error| format!("valgrind cannot be started ({error}); install it"))?;
     let log = String::from_utf8_lossy(&output.stderr);

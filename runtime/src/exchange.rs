@@ -1,0 +1,234 @@
+//! Another texture while the servo loop runs: prepared outside of it, handed over through
+//! lock-free queues, the slot before handed back.
+//!
+//! An [`Exchange`] has two halves. [`Preparer`] belongs to whoever loads textures: it fills a
+//! spare slot and sends it. [`Player`] belongs to the servo loop: it looks for a slot once a
+//! tick, and neither waits nor allocates. From one texture to the next wall, gains and friction
+//! follow within the time constant of the parameters, and the old vibration goes on until the
+//! new model is made, as between the surfaces of a [`scene`](crate::scene). A slot waits in the
+//! queue while a tap plays, which would go on with other traces, and while the model before is
+//! still made. Velocity, bristle and noise go on as they were.
+
+use crate::{
+    Flags, LoadError, Output, Renderer, Sample, State, Texture, crossing::Crossing, tick::Felt,
+    vibration::Vibration,
+};
+use asperity_formats::Asset;
+use heapless::spsc::{Consumer, Producer, Queue};
+use thiserror::Error;
+
+/// Spare slots at most, beside the one that plays.
+pub const MAX_SPARE: usize = 3;
+/// A queue holds one less than its room.
+const ROOM: usize = MAX_SPARE + 1;
+
+type Slot<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize> =
+    &'a mut Texture<V, T, P, Q, K>;
+
+/// The queues between both halves.
+#[derive(Default)]
+pub struct Exchange<
+    'a,
+    const V: usize,
+    const T: usize,
+    const P: usize,
+    const Q: usize,
+    const K: usize,
+> {
+    ready: Queue<Slot<'a, V, T, P, Q, K>, ROOM>,
+    spare: Queue<Slot<'a, V, T, P, Q, K>, ROOM>,
+}
+
+impl<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>
+    Exchange<'a, V, T, P, Q, K>
+{
+    /// Empty queues.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            ready: Queue::new(),
+            spare: Queue::new(),
+        }
+    }
+
+    /// Both halves: the first slot plays from the first tick on, the others are spare. `seed` is
+    /// that of the excitation. More than [`MAX_SPARE`] spare slots do not compile.
+    pub fn split<const N: usize>(
+        &mut self,
+        playing: Slot<'a, V, T, P, Q, K>,
+        spare: [Slot<'a, V, T, P, Q, K>; N],
+        seed: u64,
+    ) -> (
+        Preparer<'_, 'a, V, T, P, Q, K>,
+        Player<'_, 'a, V, T, P, Q, K>,
+    ) {
+        const { assert!(N <= MAX_SPARE) };
+        *self = Self::new();
+        let (to_player, ready) = self.ready.split();
+        let (mut to_preparer, returned) = self.spare.split();
+        for slot in spare {
+            // An empty queue has room for them.
+            let _ = to_preparer.enqueue(slot);
+        }
+        let preparer = Preparer {
+            spare: None,
+            returned,
+            ready: to_player,
+        };
+        let player = Player {
+            playing,
+            ready,
+            returned: to_preparer,
+            state: State::new(seed),
+            crossing: Crossing::START,
+            touching: false,
+            tapping: false,
+        };
+        (preparer, player)
+    }
+}
+
+/// Why a texture was not handed over.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PrepareError {
+    /// Every spare slot is on its way; the servo loop hands one back within some ticks, or
+    /// after a tap.
+    #[error("no slot is spare yet: try again when the servo loop has handed one back")]
+    NoneSpare,
+    /// The slot refused the texture.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+}
+
+/// The half that loads textures, outside the servo loop.
+pub struct Preparer<
+    'q,
+    'a,
+    const V: usize,
+    const T: usize,
+    const P: usize,
+    const Q: usize,
+    const K: usize,
+> {
+    /// Taken back, but not filled.
+    spare: Option<Slot<'a, V, T, P, Q, K>>,
+    returned: Consumer<'q, Slot<'a, V, T, P, Q, K>>,
+    ready: Producer<'q, Slot<'a, V, T, P, Q, K>>,
+}
+
+impl<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>
+    Preparer<'_, 'a, V, T, P, Q, K>
+{
+    /// Prepares a validated asset in a spare slot and sends it to the servo loop. What was sent
+    /// before is played before it.
+    ///
+    /// # Errors
+    /// [`PrepareError`]; nothing is sent then.
+    pub fn prepare(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), PrepareError> {
+        let spare = self.spare.take().or_else(|| self.returned.dequeue());
+        let slot = spare.ok_or(PrepareError::NoneSpare)?;
+        match slot.load(asset, servo_rate_hz) {
+            Ok(()) => {
+                // There are no more slots than places; a slot without one would be kept.
+                self.spare = self.ready.enqueue(slot).err();
+                Ok(())
+            }
+            Err(cause) => {
+                self.spare = Some(slot);
+                Err(cause.into())
+            }
+        }
+    }
+}
+
+/// The half of the servo loop: the texture that plays, and everything that changes from tick to
+/// tick.
+pub struct Player<
+    'q,
+    'a,
+    const V: usize,
+    const T: usize,
+    const P: usize,
+    const Q: usize,
+    const K: usize,
+> {
+    playing: Slot<'a, V, T, P, Q, K>,
+    ready: Consumer<'q, Slot<'a, V, T, P, Q, K>>,
+    returned: Producer<'q, Slot<'a, V, T, P, Q, K>>,
+    state: State,
+    crossing: Crossing,
+    /// In contact in the tick before.
+    touching: bool,
+    /// A tap played in the tick before.
+    tapping: bool,
+}
+
+impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>
+    Player<'_, '_, V, T, P, Q, K>
+{
+    /// The texture that plays, or is on its way in.
+    #[must_use]
+    pub fn texture(&self) -> &Texture<V, T, P, Q, K> {
+        self.playing
+    }
+
+    /// The state of the tick.
+    #[must_use]
+    pub const fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Takes the next slot, if there is one and it may begin.
+    #[inline]
+    fn poll(&mut self) {
+        if self.tapping || self.crossing.is_under_way() || !self.returned.ready() {
+            return;
+        }
+        if let Some(next) = self.ready.dequeue() {
+            let before = core::mem::replace(&mut self.playing, next);
+            // There is a place: it was asked for above.
+            let _ = self.returned.enqueue(before);
+        }
+    }
+}
+
+impl Renderer {
+    /// One servo period on what a [`Player`] plays: [`Renderer::tick`], after a look for another
+    /// texture. Infallible.
+    pub fn tick_player<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &self,
+        player: &mut Player<'_, '_, V, T, P, Q, K>,
+        sample: &Sample,
+    ) -> Output {
+        player.poll();
+        let texture = &*player.playing;
+        let share = if player.touching {
+            self.texture_share
+        } else {
+            1.0
+        };
+        let crossing = &mut player.crossing;
+        crossing.follow(&texture.surface, texture.mu, share);
+        let (surface, mu) = (crossing.surface, crossing.mu);
+        let felt = Felt {
+            solid: self.solid(),
+            surface: &surface,
+            mu,
+        };
+        crossing.prepare(&mut player.state.vibration, texture, self.follow_share);
+        let sound = |vibration: &mut Vibration, sounding| crossing.sound(vibration, sounding);
+        let output = self.tick_on(felt, texture, &mut player.state, sample, sound);
+        let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
+        player.state.vibration.query(texture, speed_mm_s, force_n);
+        player.touching = output.flags.contains(Flags::CONTACT);
+        player.tapping = output.flags.contains(Flags::TAP_ACTIVE);
+        output
+    }
+}

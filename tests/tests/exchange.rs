@@ -1,0 +1,262 @@
+//! A texture that comes while the servo loop runs makes no step that a texture alone would not
+//! make, forgets nothing, and is the one that was prepared, however fast they follow.
+
+use asperity::{
+    builtin,
+    lower::lower,
+    reduce::{Fidelity, reduce},
+};
+use asperity_formats::Asset;
+use asperity_runtime::{
+    Config, Exchange, Flags, HostTexture, Output, PrepareError, Preparer, Renderer, Sample, State,
+};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+type TestExchange<'a> = Exchange<'a, 64, 128, 24, 24, 4096>;
+type TestPreparer<'q, 'a> = Preparer<'q, 'a, 64, 128, 24, 24, 4096>;
+
+const RATE_HZ: f32 = 1000.0;
+/// Where the second texture is sent.
+const SENT: usize = 400;
+/// Ticks after it that count as the crossing.
+const AROUND: usize = 60;
+/// As many come from a thread.
+const CHANGES: usize = 300;
+/// A crossing's largest step over the larger of both textures alone.
+const ALLOWED: f32 = 1.1;
+
+/// The built-in texture; one that is softer, rougher, of lower order and stickier.
+fn textures() -> [Vec<u8>; 2] {
+    let hard = builtin::texture();
+    let mut soft = reduce(&hard, Fidelity::Order(4)).texture;
+    for vertex in &mut soft.grid.vertices {
+        vertex.sigma_m_s2 *= 2.0;
+    }
+    soft.wall.stiffness_n_m *= 0.7;
+    soft.friction.mu += 0.4;
+    [hard, soft].map(|texture| lower(&texture, None).unwrap().bytes)
+}
+
+fn slot() -> Box<HostTexture> {
+    Box::new(HostTexture::new())
+}
+
+fn loaded(bytes: &[u8]) -> Box<HostTexture> {
+    let mut slot = slot();
+    slot.load(&Asset::parse(bytes).unwrap(), RATE_HZ).unwrap();
+    slot
+}
+
+/// Down to 2 mm within 0.2 s, then along x at 100 mm/s.
+fn stroke() -> Vec<Sample> {
+    let down = (0..200).map(|n| [0.0, 0.0, 2.0e-3 - 4.0e-3 * n as f32 / 199.0]);
+    let along = (0..500).map(|n| [1.0e-4 * n as f32, 0.0, -2.0e-3]);
+    down.chain(along).map(Sample::at).collect()
+}
+
+/// Plays a texture from the start and whatever `send` prepares before each tick.
+fn play(
+    first: &[u8],
+    seed: u64,
+    samples: &[Sample],
+    mut send: impl FnMut(usize, &mut TestPreparer<'_, '_>),
+) -> (Vec<Output>, State) {
+    let renderer = Renderer::new(&Config::default()).unwrap();
+    let (mut playing, mut a, mut b) = (loaded(first), slot(), slot());
+    let mut exchange = TestExchange::new();
+    let (mut preparer, mut player) = exchange.split(&mut playing, [&mut a, &mut b], seed);
+    let outputs = samples.iter().enumerate().map(|(n, sample)| {
+        send(n, &mut preparer);
+        renderer.tick_player(&mut player, sample)
+    });
+    let outputs = outputs.collect();
+    (outputs, player.state().clone())
+}
+
+fn alone(bytes: &[u8], seed: u64, samples: &[Sample]) -> (Vec<Output>, State) {
+    let renderer = Renderer::new(&Config::default()).unwrap();
+    let (texture, mut state) = (loaded(bytes), State::new(seed));
+    let tick = |sample| renderer.tick(&texture, &mut state, sample);
+    let outputs = samples.iter().map(tick).collect();
+    (outputs, state)
+}
+
+fn largest_step_n(outputs: &[Output]) -> f32 {
+    let step_n = |pair: &[Output]| {
+        let squared = |axis: usize| (pair[1].force_n[axis] - pair[0].force_n[axis]).powi(2);
+        (squared(0) + squared(1) + squared(2)).sqrt()
+    };
+    outputs.windows(2).map(step_n).fold(0.0, f32::max)
+}
+
+#[test]
+fn another_texture_makes_no_larger_step_than_either_alone() {
+    let pair = textures();
+    let samples = stroke();
+    for [from, to] in [[0, 1], [1, 0]] {
+        let (mut crossing_n, mut alone_n) = (0.0_f32, 0.0_f32);
+        for seed in 0..200 {
+            let next = Asset::parse(&pair[to]).unwrap();
+            let (outputs, _) = play(&pair[from], seed, &samples, |n, preparer| {
+                if n == SENT {
+                    preparer.prepare(&next, RATE_HZ).unwrap();
+                }
+            });
+            let crossed = &outputs[SENT - 1..SENT + AROUND];
+            crossing_n = crossing_n.max(largest_step_n(crossed));
+            let limited = |o: &Output| o.flags.contains(Flags::SLEW_LIMITED);
+            assert!(!crossed.iter().any(limited), "the limiter had to step in");
+            for bytes in &pair {
+                let (outputs, _) = alone(bytes, seed, &samples);
+                alone_n = alone_n.max(largest_step_n(&outputs[SENT - 1..SENT + AROUND]));
+            }
+        }
+        println!("{from} to {to}: {crossing_n:.4} N across, {alone_n:.4} N alone");
+        assert!(
+            crossing_n <= ALLOWED * alone_n,
+            "{from} to {to}: {crossing_n} N across, {alone_n} N alone"
+        );
+    }
+}
+
+/// Without another texture a player gives the bits of the plain tick; with one, the sound goes
+/// on with the model at work until the new one is made, and what moves is that of the plain tick.
+#[test]
+fn nothing_is_forgotten() {
+    let pair = textures();
+    let samples = stroke();
+    let (plain, plain_state) = alone(&pair[0], 7, &samples);
+    let (kept, kept_state) = play(&pair[0], 7, &samples, |_, _| {});
+    assert_eq!(kept, plain);
+    assert_eq!(kept_state.counters(), plain_state.counters());
+
+    let next = Asset::parse(&pair[1]).unwrap();
+    let (changed, state) = play(&pair[0], 7, &samples, |n, preparer| {
+        if n == SENT {
+            preparer.prepare(&next, RATE_HZ).unwrap();
+        }
+    });
+    let sound = |outputs: &[Output]| outputs.iter().map(|o| o.vib_m_s2).collect::<Vec<_>>();
+    assert_eq!(sound(&changed[..SENT]), sound(&plain[..SENT]));
+    // On a steady stroke the model that is no longer made hardly differs from the one at work.
+    let differences = |from: usize| {
+        let pairs = changed[from..from + 5].iter().zip(&plain[from..]);
+        pairs.map(|(a, b)| (a.vib_m_s2 - b.vib_m_s2).abs())
+    };
+    assert!(differences(SENT).all(|difference| difference < 1e-3));
+    assert!(differences(SENT + 6).any(|difference| difference > 0.1));
+    let speed = |outputs: &[Output]| outputs.iter().map(|o| o.speed_mm_s).collect::<Vec<_>>();
+    assert_eq!(speed(&changed), speed(&plain));
+    assert_eq!(state.counters(), plain_state.counters());
+
+    // At its end the new texture alone is felt.
+    let (new, _) = alone(&pair[1], 7, &samples);
+    let (ours, theirs) = (changed.last().unwrap(), new.last().unwrap());
+    assert!((ours.normal_force_n - theirs.normal_force_n).abs() < 1e-5);
+    assert!((ours.friction_n - theirs.friction_n).abs() < 1e-3);
+}
+
+/// A tap plays to its end on the traces that it began with.
+#[test]
+fn a_tap_is_not_interrupted() {
+    let pair = textures();
+    let samples: Vec<_> = (0..200)
+        .map(|n| Sample::at([0.0, 0.0, (0.01 - 2.0e-4 * n as f32).max(-1.0e-3)]))
+        .collect();
+    let (plain, _) = alone(&pair[0], 3, &samples);
+    let started = |o: &Output| o.flags.contains(Flags::TAP_STARTED);
+    let start = plain.iter().position(started).expect("a tap");
+    let soft = Asset::parse(&pair[1]).unwrap();
+    let (changed, _) = play(&pair[0], 3, &samples, |n, preparer| {
+        if n == start + 2 {
+            preparer.prepare(&soft, RATE_HZ).unwrap();
+        }
+    });
+    let active = |o: &&Output| o.flags.contains(Flags::TAP_ACTIVE);
+    let end = start + plain[start..].iter().take_while(active).count();
+    assert_eq!(changed[..end], plain[..end]);
+    assert_ne!(changed[end + 1], plain[end + 1], "then the other one comes");
+}
+
+#[test]
+fn a_refused_texture_changes_nothing_and_its_slot_is_kept() {
+    let pair = textures();
+    let good = Asset::parse(&pair[1]).unwrap();
+    let samples = stroke();
+    play(&pair[0], 1, &samples[..2], |n, preparer| {
+        if n > 0 {
+            return;
+        }
+        for _ in 0..10 {
+            let refused = preparer.prepare(&good, 4000.0);
+            assert!(matches!(refused, Err(PrepareError::Load(_))), "{refused:?}");
+        }
+        preparer.prepare(&good, RATE_HZ).unwrap();
+        preparer.prepare(&good, RATE_HZ).unwrap();
+        let full = preparer.prepare(&good, RATE_HZ);
+        assert_eq!(full, Err(PrepareError::NoneSpare));
+    });
+}
+
+/// A thread prepares as fast as it can; whatever plays is one of both textures, whole, and
+/// the force stays within peak and slew.
+#[test]
+fn a_thread_that_never_stops_preparing() {
+    let pair = textures();
+    let config = Config::default();
+    let renderer = Renderer::new(&config).unwrap();
+    let whole = [loaded(&pair[0]), loaded(&pair[1])];
+    let models = whole.each_ref().map(|texture| texture.filter_at(90.0, 1.0));
+    let (mut playing, mut a, mut b) = (loaded(&pair[0]), slot(), slot());
+    let mut exchange = TestExchange::new();
+    let (mut preparer, mut player) = exchange.split(&mut playing, [&mut a, &mut b], 1);
+    let stop = AtomicBool::new(false);
+    let step_n = config.limits.slew_n_s / config.servo_rate_hz * 1.0001;
+    std::thread::scope(|scope| {
+        let sender = scope.spawn(|| {
+            let mut sent = 0;
+            while !stop.load(Relaxed) {
+                let asset = Asset::parse(&pair[(sent + 1) % 2]).unwrap();
+                match preparer.prepare(&asset, RATE_HZ) {
+                    Ok(()) => sent += 1,
+                    Err(PrepareError::NoneSpare) => std::thread::yield_now(),
+                    Err(refused) => panic!("{refused}"),
+                }
+            }
+            sent
+        });
+        let (mut at, mut changes) = (0, 0);
+        let mut before = [0.0; 3];
+        for n in 0..30_000_000 {
+            if changes >= CHANGES {
+                break;
+            }
+            let t = n as f32 * 1e-3;
+            let position_m = [
+                0.02 * (7.0 * t).sin(),
+                0.0,
+                -1.5e-3 + 1.0e-3 * (5.0 * t).sin(),
+            ];
+            let output = renderer.tick_player(&mut player, &Sample::at(position_m));
+            for (force, before) in output.force_n.iter().zip(before) {
+                assert!(force.is_finite() && (force - before).abs() <= step_n);
+            }
+            before = output.force_n;
+            let model = player.texture().filter_at(90.0, 1.0);
+            let now = models
+                .iter()
+                .position(|m| *m == model)
+                .expect("a whole texture");
+            changes += usize::from(now != at);
+            at = now;
+        }
+        stop.store(true, Relaxed);
+        let sent = sender.join().unwrap();
+        println!("{changes} changes, {sent} sent");
+        assert_eq!(changes, CHANGES, "the thread never came to prepare");
+        assert!(
+            sent <= changes + 3 && changes <= sent,
+            "{changes} of {sent} in order"
+        );
+    });
+}
