@@ -119,6 +119,36 @@ fn another_texture_makes_no_larger_step_than_either_alone() {
     }
 }
 
+/// Where nothing vibrates, nothing hides a step of wall or friction: they follow in 5 ms, so a
+/// tick takes at most 1 − e^(−1/5) of the way.
+#[test]
+fn wall_and_friction_change_little_by_little() {
+    let silent = |stiffness_n_m: f64, mu: f64| {
+        let mut texture = builtin::texture();
+        for vertex in &mut texture.grid.vertices {
+            vertex.sigma_m_s2 = 0.0;
+        }
+        texture.wall.stiffness_n_m = stiffness_n_m;
+        texture.friction.mu = mu;
+        lower(&texture, None).unwrap().bytes
+    };
+    let pair = [silent(500.0, 0.3), silent(300.0, 0.9)];
+    let samples = stroke();
+    for [from, to] in [[0, 1], [1, 0]] {
+        let next = Asset::parse(&pair[to]).unwrap();
+        let (outputs, _) = play(&pair[from], 1, &samples, |n, preparer| {
+            if n == SENT {
+                preparer.prepare(&next, RATE_HZ).unwrap();
+            }
+        });
+        let (before, after) = (&outputs[SENT - 1], &outputs[SENT + AROUND]);
+        let way_n = largest_step_n(&[*before, *after]);
+        assert!(way_n > 0.2, "{way_n} N of way");
+        let step_n = largest_step_n(&outputs[SENT - 1..SENT + AROUND]);
+        assert!(step_n <= 0.25 * way_n, "{step_n} N of {way_n} N at once");
+    }
+}
+
 /// Without another texture a player gives the bits of the plain tick; with one, the sound goes
 /// on with the model at work until the new one is made, and what moves is that of the plain tick.
 #[test]

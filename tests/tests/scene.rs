@@ -140,6 +140,30 @@ fn a_crossing_has_no_larger_step_than_its_textures() {
     crossing_is_smooth("up", &[soft, hard]);
 }
 
+/// Where nothing vibrates, nothing hides a step of wall or friction: they follow in 5 ms, so a
+/// tick takes at most 1 − e^(−1/5) of the way.
+#[test]
+fn wall_and_friction_change_little_by_little() {
+    let pair = textures().map(|mut texture| {
+        for vertex in &mut texture.grid.vertices {
+            vertex.sigma_m_s2 = 0.0;
+        }
+        bytes(&texture)
+    });
+    let surfaces = [plane(0, -FAR, BORDER_M), plane(1, BORDER_M, FAR)];
+    let scene = load(&library(&pair, &surfaces));
+    let outputs = run(&scene, 1, &stroke(100.0));
+    let border = 200 + (BORDER_M / 1.0e-4) as usize;
+    let crossed = &outputs[border - AROUND..border + 2 * AROUND];
+    let way_n = step_n(&crossed[0], &crossed[crossed.len() - 1]);
+    assert!(way_n > 0.2, "{way_n} N of way");
+    let at_once_n = largest_step_n(crossed);
+    assert!(
+        at_once_n <= 0.25 * way_n,
+        "{at_once_n} N of {way_n} N at once"
+    );
+}
+
 #[test]
 fn a_crossing_between_recorded_materials_is_smooth() {
     let files = asperity_tests::hatt::materials("crossing");
