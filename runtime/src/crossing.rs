@@ -4,7 +4,10 @@
 //! until the first model of the new texture is made; that starts from silence, and the old
 //! one's last output fades beside it: a step of the force is never more than a texture's own.
 
-use crate::{Texture, synthesis::Lags, vibration::Vibration};
+use crate::{
+    Flags, Output, Renderer, Sample, State, Texture, contact::Solid, synthesis::Lags, tick::Felt,
+    vibration::Vibration,
+};
 use asperity_formats::Surface;
 
 /// What is left a tick later of a vibration that was stopped.
@@ -16,15 +19,17 @@ const SILENCE_M_S2: f32 = 1.0e-20;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crossing {
     /// Wall and gains.
-    pub(crate) surface: Surface,
+    surface: Surface,
     /// Coefficient of kinetic friction.
-    pub(crate) mu: f32,
+    mu: f32,
     /// Of the vibration at work.
     lags: Lags,
     /// What fades of the vibration before, m/s².
     fading_m_s2: f32,
     /// The vibration at work is that of the texture before.
     changing: bool,
+    /// In contact in the tick before.
+    pub(crate) touching: bool,
 }
 
 impl Crossing {
@@ -41,6 +46,7 @@ impl Crossing {
         lags: Lags::new(0, 0),
         fading_m_s2: 0.0,
         changing: false,
+        touching: false,
     };
 
     /// Whether the new texture's model is still made, or the old sound still fades.
@@ -51,7 +57,7 @@ impl Crossing {
 
     /// Goes `share` of the way to a texture's wall, gains and friction; exactly there with 1.
     #[inline]
-    pub(crate) fn follow(&mut self, to: &Surface, mu: f32, share: f32) {
+    fn follow(&mut self, to: &Surface, mu: f32, share: f32) {
         let left = 1.0 - share;
         let mix = |from: f32, to: f32| to - left * (to - from);
         let from = &mut self.surface;
@@ -65,13 +71,7 @@ impl Crossing {
 
     /// [`Vibration::prepare`], from one texture to the next.
     #[inline]
-    pub(crate) fn prepare<
-        const V: usize,
-        const T: usize,
-        const P: usize,
-        const Q: usize,
-        const K: usize,
-    >(
+    fn prepare<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
         &mut self,
         vibration: &mut Vibration,
         texture: &Texture<V, T, P, Q, K>,
@@ -91,7 +91,7 @@ impl Crossing {
 
     /// [`Vibration::sound`], and what fades beside it.
     #[inline]
-    pub(crate) fn sound(&mut self, vibration: &mut Vibration, sounding: bool) -> (f32, bool) {
+    fn sound(&mut self, vibration: &mut Vibration, sounding: bool) -> (f32, bool) {
         let (y, clamped) = vibration.sound(self.lags, sounding);
         let faded = FADE * self.fading_m_s2;
         self.fading_m_s2 = if sounding && faded.abs() > SILENCE_M_S2 {
@@ -100,5 +100,45 @@ impl Crossing {
             0.0
         };
         (y + self.fading_m_s2, clamped)
+    }
+}
+
+impl Renderer {
+    /// [`Renderer::tick`] on a solid, on the way to a texture; without contact it is there at
+    /// once.
+    #[inline(always)]
+    pub(crate) fn tick_crossing<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &self,
+        solid: &Solid,
+        texture: &Texture<V, T, P, Q, K>,
+        crossing: &mut Crossing,
+        state: &mut State,
+        sample: &Sample,
+    ) -> Output {
+        let share = if crossing.touching {
+            self.texture_share
+        } else {
+            1.0
+        };
+        crossing.follow(&texture.surface, texture.mu, share);
+        let (surface, mu) = (crossing.surface, crossing.mu);
+        let felt = Felt {
+            solid,
+            surface: &surface,
+            mu,
+        };
+        crossing.prepare(&mut state.vibration, texture, self.follow_share);
+        let sound = |vibration: &mut Vibration, sounding| crossing.sound(vibration, sounding);
+        let output = self.tick_on(felt, texture, state, sample, sound);
+        let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
+        state.vibration.query(texture, speed_mm_s, force_n);
+        crossing.touching = output.flags.contains(Flags::CONTACT);
+        output
     }
 }

@@ -9,10 +9,7 @@
 //! queue while a tap plays, which would go on with other traces, and while the model before is
 //! still made. Velocity, bristle and noise go on as they were.
 
-use crate::{
-    Flags, LoadError, Output, Renderer, Sample, State, Texture, crossing::Crossing, tick::Felt,
-    vibration::Vibration,
-};
+use crate::{Flags, LoadError, Output, Renderer, Sample, State, Texture, crossing::Crossing};
 use asperity_formats::Asset;
 use heapless::spsc::{Consumer, Producer, Queue};
 use thiserror::Error;
@@ -81,7 +78,6 @@ impl<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K
             returned: to_preparer,
             state: State::new(seed),
             crossing: Crossing::START,
-            touching: false,
             tapping: false,
         };
         (preparer, player)
@@ -158,8 +154,6 @@ pub struct Player<
     returned: Producer<'q, Slot<'a, V, T, P, Q, K>>,
     state: State,
     crossing: Crossing,
-    /// In contact in the tick before.
-    touching: bool,
     /// A tap played in the tick before.
     tapping: bool,
 }
@@ -209,25 +203,13 @@ impl Renderer {
     ) -> Output {
         player.poll();
         let texture = &*player.playing;
-        let share = if player.touching {
-            self.texture_share
-        } else {
-            1.0
-        };
-        let crossing = &mut player.crossing;
-        crossing.follow(&texture.surface, texture.mu, share);
-        let (surface, mu) = (crossing.surface, crossing.mu);
-        let felt = Felt {
-            solid: self.solid(),
-            surface: &surface,
-            mu,
-        };
-        crossing.prepare(&mut player.state.vibration, texture, self.follow_share);
-        let sound = |vibration: &mut Vibration, sounding| crossing.sound(vibration, sounding);
-        let output = self.tick_on(felt, texture, &mut player.state, sample, sound);
-        let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
-        player.state.vibration.query(texture, speed_mm_s, force_n);
-        player.touching = output.flags.contains(Flags::CONTACT);
+        let output = self.tick_crossing(
+            self.solid(),
+            texture,
+            &mut player.crossing,
+            &mut player.state,
+            sample,
+        );
         player.tapping = output.flags.contains(Flags::TAP_ACTIVE);
         output
     }

@@ -10,8 +10,8 @@
 //! The work is one distance a surface, and a tick.
 
 use crate::{
-    Config, Flags, LoadError, Output, Renderer, Sample, State, Surface, Texture, contact::Solid,
-    crossing::Crossing, lanes::F4, math::Vec3, safety::REACH_M, tick::Felt, vibration::Vibration,
+    Config, LoadError, Output, Renderer, Sample, State, Surface, Texture, contact::Solid,
+    crossing::Crossing, lanes::F4, math::Vec3, safety::REACH_M,
 };
 use asperity_formats::{Library, SceneSurface, Shape};
 use heapless::Vec;
@@ -210,8 +210,6 @@ pub struct SceneState {
     texture: usize,
     solid: Solid,
     crossing: Crossing,
-    /// In contact in the tick before.
-    touching: bool,
 }
 
 impl SceneState {
@@ -224,7 +222,6 @@ impl SceneState {
             texture: 0,
             solid: NOWHERE,
             crossing: Crossing::START,
-            touching: false,
         }
     }
 
@@ -251,7 +248,7 @@ impl SceneState {
     /// Index of the surface in contact after the last tick.
     #[must_use]
     pub fn touched(&self) -> Option<usize> {
-        self.touching.then_some(self.at)
+        self.crossing.touching.then_some(self.at)
     }
 }
 
@@ -278,26 +275,13 @@ impl Renderer {
             }
         }
         let texture = scene.texture(state.texture);
-        let share = if state.touching {
-            self.texture_share
-        } else {
-            1.0
-        };
-        let crossing = &mut state.crossing;
-        crossing.follow(&texture.surface, texture.mu, share);
-        let (surface, mu) = (crossing.surface, crossing.mu);
-        let felt = Felt {
-            solid: &state.solid,
-            surface: &surface,
-            mu,
-        };
-        crossing.prepare(&mut state.state.vibration, texture, self.follow_share);
-        let sound = |vibration: &mut Vibration, sounding| crossing.sound(vibration, sounding);
-        let output = self.tick_on(felt, texture, &mut state.state, sample, sound);
-        let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
-        state.state.vibration.query(texture, speed_mm_s, force_n);
-        state.touching = output.flags.contains(Flags::CONTACT);
-        output
+        self.tick_crossing(
+            &state.solid,
+            texture,
+            &mut state.crossing,
+            &mut state.state,
+            sample,
+        )
     }
 }
 
