@@ -1,9 +1,12 @@
 //! Contact with a plane, a sphere or a box: signed distance and outward normal.
 
 use crate::{
+    arithmetic::{
+        Arithmetic, Float, Four, Number, Scalar as _, Zero as _,
+        units::{Metre, Unit},
+    },
     config::ConfigError,
-    lanes::F4,
-    math::{Vec3, dot, max, min, norm, rsqrt, scale, sqrt_with, sub},
+    math::{Vec3, norm, rsqrt},
 };
 
 /// A solid that the stylus touches; the texture is the same everywhere on it.
@@ -34,37 +37,110 @@ pub enum Surface {
 
 /// A [`Surface`] prepared for the tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Solid {
+pub(crate) enum Solid<A: Arithmetic = Float> {
     /// A half-space: a point, and the normal of unit length.
-    Plane { point_m: F4, normal: F4 },
-    /// The solids that are not flat.
-    Curved(Surface),
+    Plane {
+        point_m: Four<A, Metre>,
+        normal: Four<A, Unit>,
+    },
+    Sphere {
+        center_m: Four<A, Metre>,
+        radius_m: Number<A, Metre>,
+    },
+    Box {
+        center_m: Four<A, Metre>,
+        half_extents_m: Four<A, Metre>,
+    },
 }
 
-impl Solid {
-    /// Of a checked surface.
+/// Signed distance, m, and normal.
+type Touch<A> = (Number<A, Metre>, Four<A, Unit>);
+
+impl<A: Arithmetic> Solid<A> {
+    /// Of a checked surface; a plane's normal has unit length.
     #[must_use]
     pub(crate) fn new(surface: &Surface) -> Self {
+        let vec3 = |[x, y, z]: Vec3| Four::of([x, y, z, 0.0]);
         match *surface {
             Surface::Plane { point_m, normal } => Self::Plane {
-                point_m: F4::vec3(point_m),
-                normal: F4::vec3(unit(normal)),
+                point_m: vec3(point_m),
+                normal: {
+                    let [x, y, z] = unit(normal);
+                    Four::of([x, y, z, 0.0])
+                },
             },
-            curved => Self::Curved(curved),
+            Surface::Sphere { center_m, radius_m } => Self::Sphere {
+                center_m: vec3(center_m),
+                radius_m: Number::of(radius_m),
+            },
+            Surface::Box {
+                center_m,
+                half_extents_m,
+            } => Self::Box {
+                center_m: vec3(center_m),
+                half_extents_m: vec3(half_extents_m),
+            },
         }
     }
 
-    /// [`Surface::contact`] on lanes: distance, m, and normal.
+    /// Distance and normal at a position: see [`Surface::contact`].
     #[inline(always)]
-    pub(crate) fn touch(&self, position_m: F4) -> (f32, F4) {
-        match self {
-            Self::Plane { point_m, normal } => ((position_m - *point_m).dot3(*normal), *normal),
-            Self::Curved(surface) => {
-                let contact = surface.contact(position_m.xyz());
-                (contact.distance_m, F4::vec3(contact.normal))
-            }
+    pub(crate) fn touch(&self, position_m: Four<A, Metre>) -> Touch<A> {
+        match *self {
+            Self::Plane { point_m, normal } => ((position_m - point_m).dot3(normal), normal),
+            Self::Sphere { center_m, radius_m } => sphere(position_m - center_m, radius_m),
+            Self::Box {
+                center_m,
+                half_extents_m,
+            } => cuboid(position_m - center_m, half_extents_m),
         }
     }
+}
+
+#[inline]
+fn sphere<A: Arithmetic>(r: Four<A, Metre>, radius_m: Number<A, Metre>) -> Touch<A> {
+    let square = r.square();
+    let polar = A::polar(square);
+    let normal = if A::is_some(square) {
+        r.direction(polar)
+    } else {
+        Four::of([0.0, 0.0, 1.0, 0.0])
+    };
+    (
+        Number::<A, Metre>(A::exact_length(polar)) - radius_m,
+        normal,
+    )
+}
+
+#[inline]
+fn cuboid<A: Arithmetic>(r: Four<A, Metre>, half_extents_m: Four<A, Metre>) -> Touch<A> {
+    let zero = Number::<A, Metre>::ZERO;
+    let (r, half) = (r.xyz().map(Number), half_extents_m.xyz().map(Number));
+    let below = r.map(|x: Number<A, Metre>| x < zero);
+    let signed = |x: Number<A, Metre>, axis: usize| if below[axis] { -x } else { x };
+    let q = [0, 1, 2].map(|axis| signed(r[axis], axis) - half[axis]);
+    let outside = q.map(|x| x.max(zero));
+    let away = [0, 1, 2].map(|axis| signed(outside[axis], axis).0);
+    let away = Four::<A, Metre>::vec3(away);
+    let square = away.square();
+    let polar = A::polar(square);
+    let deepest = q[2].max(q[1]).max(q[0]);
+    let face = if q[0] >= deepest {
+        0
+    } else if q[1] >= deepest {
+        1
+    } else {
+        2
+    };
+    let normal = if A::is_some(square) {
+        away.direction(polar)
+    } else {
+        let mut normal = [A::Scalar::ZERO; 3];
+        normal[face] = A::Scalar::of(if below[face] { -1.0 } else { 1.0 });
+        Four::vec3(normal)
+    };
+    let length_m = Number::<A, Metre>(A::exact_length(polar));
+    (length_m + deepest.min(zero), normal)
 }
 
 /// Where the stylus is relative to a surface.
@@ -136,28 +212,10 @@ impl Surface {
     /// face, of the first axis where two are equally near.
     #[must_use]
     pub fn contact(&self, position_m: Vec3) -> Contact {
-        match *self {
-            Self::Plane { point_m, normal } => Contact {
-                distance_m: dot(sub(position_m, point_m), normal),
-                normal,
-            },
-            Self::Sphere { center_m, radius_m } => {
-                let r = sub(position_m, center_m);
-                let squared = dot(r, r);
-                let inverse = rsqrt(squared);
-                Contact {
-                    distance_m: sqrt_with(squared, inverse) - radius_m,
-                    normal: if squared > 1e-18 {
-                        scale(r, inverse)
-                    } else {
-                        [0.0, 0.0, 1.0]
-                    },
-                }
-            }
-            Self::Box {
-                center_m,
-                half_extents_m,
-            } => box_contact(sub(position_m, center_m), half_extents_m),
+        let (distance_m, normal) = Solid::<Float>::new(self).touch(Four::vec3(position_m));
+        Contact {
+            distance_m: distance_m.0,
+            normal: normal.xyz(),
         }
     }
 }
@@ -172,45 +230,12 @@ fn unit(v: Vec3) -> Vec3 {
     v.map(|x| (x * inverse) as f32)
 }
 
-fn box_contact(r: Vec3, half: Vec3) -> Contact {
-    let sign = r.map(|x| if x < 0.0 { -1.0 } else { 1.0 });
-    let q = [
-        r[0] * sign[0] - half[0],
-        r[1] * sign[1] - half[1],
-        r[2] * sign[2] - half[2],
-    ];
-    let outside = q.map(|x| max(x, 0.0));
-    let squared = dot(outside, outside);
-    let inverse = rsqrt(squared);
-    let deepest = max(max(q[2], q[1]), q[0]);
-    let face = if q[0] >= deepest {
-        [sign[0], 0.0, 0.0]
-    } else if q[1] >= deepest {
-        [0.0, sign[1], 0.0]
-    } else {
-        [0.0, 0.0, sign[2]]
-    };
-    let away = [
-        outside[0] * sign[0],
-        outside[1] * sign[1],
-        outside[2] * sign[2],
-    ];
-    let is_outside = squared > 1e-18;
-    Contact {
-        distance_m: sqrt_with(squared, inverse) + min(deepest, 0.0),
-        normal: if is_outside {
-            scale(away, inverse)
-        } else {
-            face
-        },
-    }
-}
-
 #[cfg(test)]
 #[expect(clippy::disallowed_methods, reason = "tests run on the host")]
 mod tests {
     extern crate std;
     use super::*;
+    use crate::math::sub;
 
     fn near(a: Vec3, b: Vec3) -> bool {
         norm(sub(a, b)) < 1e-5

@@ -5,46 +5,42 @@
 //! one's last output fades beside it: a step of the force is never more than a texture's own.
 
 use crate::{
-    Flags, Output, Renderer, Sample, State, Texture, contact::Solid, synthesis::Lags, tick::Felt,
+    Flags, Output, Renderer, Sample, State, Texture,
+    arithmetic::{
+        Arithmetic, Number, Point,
+        units::{Acceleration, Unit},
+    },
+    contact::Solid,
+    synthesis::Lags,
+    texture::Feel,
+    tick::Felt,
     vibration::Vibration,
 };
-use asperity_formats::Surface;
 
 /// What is left a tick later of a vibration that was stopped.
 const FADE: f32 = 0.75;
-/// Less than this is silence, m/s².
-const SILENCE_M_S2: f32 = 1.0e-20;
 
 /// What is felt on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Crossing {
-    /// Wall and gains.
-    surface: Surface,
-    /// Coefficient of kinetic friction.
-    mu: f32,
+pub(crate) struct Crossing<A: Arithmetic> {
+    /// Wall, gains and friction.
+    feel: Feel<A>,
     /// Of the vibration at work.
     lags: Lags,
     /// What fades of the vibration before, m/s².
-    fading_m_s2: f32,
+    fading_m_s2: Number<A, Acceleration>,
     /// The vibration at work is that of the texture before.
     changing: bool,
     /// In contact in the tick before.
     pub(crate) touching: bool,
 }
 
-impl Crossing {
+impl<A: Arithmetic> Crossing<A> {
     /// No wall, no friction, silence.
     pub(crate) const START: Self = Self {
-        surface: Surface {
-            stiffness_n_m: 0.0,
-            damping_n_s_m: 0.0,
-            vib_s2_m: 0.0,
-            effective_mass_kg: 0.0,
-            f_max_n: 0.0,
-        },
-        mu: 0.0,
+        feel: Feel::NONE,
         lags: Lags::new(0, 0),
-        fading_m_s2: 0.0,
+        fading_m_s2: Number::ZERO,
         changing: false,
         touching: false,
     };
@@ -52,37 +48,36 @@ impl Crossing {
     /// Whether the new texture's model is still made, or the old sound still fades.
     #[inline]
     pub(crate) fn is_under_way(&self) -> bool {
-        self.changing | (self.fading_m_s2 != 0.0)
+        self.changing | (self.fading_m_s2 != Number::ZERO)
     }
 
     /// Goes `share` of the way to a texture's wall, gains and friction; exactly there with 1.
     #[inline]
-    fn follow(&mut self, to: &Surface, mu: f32, share: f32) {
-        let left = 1.0 - share;
-        let mix = |from: f32, to: f32| to - left * (to - from);
-        let from = &mut self.surface;
-        from.stiffness_n_m = mix(from.stiffness_n_m, to.stiffness_n_m);
-        from.damping_n_s_m = mix(from.damping_n_s_m, to.damping_n_s_m);
-        from.vib_s2_m = mix(from.vib_s2_m, to.vib_s2_m);
-        from.effective_mass_kg = mix(from.effective_mass_kg, to.effective_mass_kg);
-        from.f_max_n = mix(from.f_max_n, to.f_max_n);
-        self.mu = mix(self.mu, mu);
+    fn follow(&mut self, to: &Feel<A>, share: Number<A, Unit>) {
+        let left = Number::whole(1) - share;
+        let from = &mut self.feel;
+        from.stiffness_n_m = mix(from.stiffness_n_m, to.stiffness_n_m, left);
+        from.damping_n_s_m = mix(from.damping_n_s_m, to.damping_n_s_m, left);
+        from.vib_s2_m = mix(from.vib_s2_m, to.vib_s2_m, left);
+        from.effective_mass_kg = mix(from.effective_mass_kg, to.effective_mass_kg, left);
+        from.f_max_n = mix(from.f_max_n, to.f_max_n, left);
+        from.mu = mix(from.mu, to.mu, left);
     }
 
     /// [`Vibration::prepare`], from one texture to the next.
     #[inline]
     fn prepare<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
         &mut self,
-        vibration: &mut Vibration,
-        texture: &Texture<V, T, P, Q, K>,
-        follow_share: f32,
+        vibration: &mut Vibration<A>,
+        texture: &Texture<V, T, P, Q, K, A>,
+        follow_share: Number<A, Unit>,
     ) {
         if !vibration.is_on(texture.id()) {
             vibration.begin(texture.id());
             self.changing = true;
         }
         if self.changing && vibration.is_last_of_cycle() {
-            self.fading_m_s2 += vibration.stop();
+            self.fading_m_s2 = self.fading_m_s2 + vibration.stop();
             self.lags = texture.lags();
             self.changing = false;
         }
@@ -91,19 +86,34 @@ impl Crossing {
 
     /// [`Vibration::sound`], and what fades beside it.
     #[inline]
-    fn sound(&mut self, vibration: &mut Vibration, sounding: bool) -> (f32, bool) {
+    fn sound(
+        &mut self,
+        vibration: &mut Vibration<A>,
+        sounding: bool,
+    ) -> (Number<A, Acceleration>, bool) {
         let (y, clamped) = vibration.sound(self.lags, sounding);
-        let faded = FADE * self.fading_m_s2;
-        self.fading_m_s2 = if sounding && faded.abs() > SILENCE_M_S2 {
+        let faded = Number::<A, Unit>::of(FADE).times(self.fading_m_s2);
+        let audible = faded.max(-faded) > Number::of(A::SILENCE_M_S2);
+        self.fading_m_s2 = if sounding && audible {
             faded
         } else {
-            0.0
+            Number::ZERO
         };
         (y + self.fading_m_s2, clamped)
     }
 }
 
-impl Renderer {
+/// A number, `left` of the way before its end.
+#[inline(always)]
+fn mix<A: Arithmetic, F: Point>(
+    from: Number<A, F>,
+    to: Number<A, F>,
+    left: Number<A, Unit>,
+) -> Number<A, F> {
+    to - left.times(to - from)
+}
+
+impl<A: Arithmetic> Renderer<A> {
     /// [`Renderer::tick`] on a solid, on the way to a texture; without contact it is there at
     /// once.
     #[inline(always)]
@@ -115,29 +125,27 @@ impl Renderer {
         const K: usize,
     >(
         &self,
-        solid: &Solid,
-        texture: &Texture<V, T, P, Q, K>,
-        crossing: &mut Crossing,
-        state: &mut State,
-        sample: &Sample,
-    ) -> Output {
+        solid: &Solid<A>,
+        texture: &Texture<V, T, P, Q, K, A>,
+        crossing: &mut Crossing<A>,
+        state: &mut State<A>,
+        sample: &Sample<A>,
+    ) -> Output<A> {
         let share = if crossing.touching {
             self.texture_share
         } else {
-            1.0
+            Number::whole(1)
         };
-        crossing.follow(&texture.surface, texture.mu, share);
-        let (surface, mu) = (crossing.surface, crossing.mu);
-        let felt = Felt {
-            solid,
-            surface: &surface,
-            mu,
-        };
+        crossing.follow(&texture.feel, share);
+        let feel = crossing.feel;
+        let felt = Felt { solid, feel: &feel };
         crossing.prepare(&mut state.vibration, texture, self.follow_share);
-        let sound = |vibration: &mut Vibration, sounding| crossing.sound(vibration, sounding);
+        let sound = |vibration: &mut Vibration<A>, sounding| crossing.sound(vibration, sounding);
         let output = self.tick_on(felt, texture, state, sample, sound);
         let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
-        state.vibration.query(texture, speed_mm_s, force_n);
+        state
+            .vibration
+            .query(texture, Number(speed_mm_s), Number(force_n));
         crossing.touching = output.flags.contains(Flags::CONTACT);
         output
     }

@@ -9,7 +9,11 @@
 //! queue while a tap plays, which would go on with other traces, and while the model before is
 //! still made. Velocity, bristle and noise go on as they were.
 
-use crate::{Flags, LoadError, Output, Renderer, Sample, State, Texture, crossing::Crossing};
+use crate::{
+    Flags, LoadError, Output, Renderer, Sample, State, Texture,
+    arithmetic::{Arithmetic, Float},
+    crossing::Crossing,
+};
 use asperity_formats::Asset;
 use heapless::spsc::{Consumer, Producer, Queue};
 use thiserror::Error;
@@ -19,8 +23,8 @@ pub const MAX_SPARE: usize = 3;
 /// A queue holds one less than its room.
 const ROOM: usize = MAX_SPARE + 1;
 
-type Slot<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize> =
-    &'a mut Texture<V, T, P, Q, K>;
+type Slot<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize, A> =
+    &'a mut Texture<V, T, P, Q, K, A>;
 
 /// The queues between both halves.
 #[derive(Default)]
@@ -31,13 +35,21 @@ pub struct Exchange<
     const P: usize,
     const Q: usize,
     const K: usize,
+    A: Arithmetic = Float,
 > {
-    ready: Queue<Slot<'a, V, T, P, Q, K>, ROOM>,
-    spare: Queue<Slot<'a, V, T, P, Q, K>, ROOM>,
+    ready: Queue<Slot<'a, V, T, P, Q, K, A>, ROOM>,
+    spare: Queue<Slot<'a, V, T, P, Q, K, A>, ROOM>,
 }
 
-impl<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>
-    Exchange<'a, V, T, P, Q, K>
+impl<
+    'a,
+    const V: usize,
+    const T: usize,
+    const P: usize,
+    const Q: usize,
+    const K: usize,
+    A: Arithmetic,
+> Exchange<'a, V, T, P, Q, K, A>
 {
     /// Empty queues.
     #[must_use]
@@ -52,12 +64,12 @@ impl<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K
     /// that of the excitation. More than [`MAX_SPARE`] spare slots do not compile.
     pub fn split<const N: usize>(
         &mut self,
-        playing: Slot<'a, V, T, P, Q, K>,
-        spare: [Slot<'a, V, T, P, Q, K>; N],
+        playing: Slot<'a, V, T, P, Q, K, A>,
+        spare: [Slot<'a, V, T, P, Q, K, A>; N],
         seed: u64,
     ) -> (
-        Preparer<'_, 'a, V, T, P, Q, K>,
-        Player<'_, 'a, V, T, P, Q, K>,
+        Preparer<'_, 'a, V, T, P, Q, K, A>,
+        Player<'_, 'a, V, T, P, Q, K, A>,
     ) {
         const { assert!(N <= MAX_SPARE) };
         *self = Self::new();
@@ -106,15 +118,23 @@ pub struct Preparer<
     const P: usize,
     const Q: usize,
     const K: usize,
+    A: Arithmetic = Float,
 > {
     /// Taken back, but not filled.
-    spare: Option<Slot<'a, V, T, P, Q, K>>,
-    returned: Consumer<'q, Slot<'a, V, T, P, Q, K>>,
-    ready: Producer<'q, Slot<'a, V, T, P, Q, K>>,
+    spare: Option<Slot<'a, V, T, P, Q, K, A>>,
+    returned: Consumer<'q, Slot<'a, V, T, P, Q, K, A>>,
+    ready: Producer<'q, Slot<'a, V, T, P, Q, K, A>>,
 }
 
-impl<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>
-    Preparer<'_, 'a, V, T, P, Q, K>
+impl<
+    'a,
+    const V: usize,
+    const T: usize,
+    const P: usize,
+    const Q: usize,
+    const K: usize,
+    A: Arithmetic,
+> Preparer<'_, 'a, V, T, P, Q, K, A>
 {
     /// Prepares a validated asset in a spare slot and sends it to the servo loop. What was sent
     /// before is played before it.
@@ -148,28 +168,29 @@ pub struct Player<
     const P: usize,
     const Q: usize,
     const K: usize,
+    A: Arithmetic = Float,
 > {
-    playing: Slot<'a, V, T, P, Q, K>,
-    ready: Consumer<'q, Slot<'a, V, T, P, Q, K>>,
-    returned: Producer<'q, Slot<'a, V, T, P, Q, K>>,
-    state: State,
-    crossing: Crossing,
+    playing: Slot<'a, V, T, P, Q, K, A>,
+    ready: Consumer<'q, Slot<'a, V, T, P, Q, K, A>>,
+    returned: Producer<'q, Slot<'a, V, T, P, Q, K, A>>,
+    state: State<A>,
+    crossing: Crossing<A>,
     /// A tap played in the tick before.
     tapping: bool,
 }
 
-impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>
-    Player<'_, '_, V, T, P, Q, K>
+impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize, A: Arithmetic>
+    Player<'_, '_, V, T, P, Q, K, A>
 {
     /// The texture that plays, or is on its way in.
     #[must_use]
-    pub fn texture(&self) -> &Texture<V, T, P, Q, K> {
+    pub fn texture(&self) -> &Texture<V, T, P, Q, K, A> {
         self.playing
     }
 
     /// The state of the tick.
     #[must_use]
-    pub const fn state(&self) -> &State {
+    pub const fn state(&self) -> &State<A> {
         &self.state
     }
 
@@ -187,7 +208,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     }
 }
 
-impl Renderer {
+impl<A: Arithmetic> Renderer<A> {
     /// One servo period on what a [`Player`] plays: [`Renderer::tick`], after a look for another
     /// texture. Infallible.
     pub fn tick_player<
@@ -198,9 +219,9 @@ impl Renderer {
         const K: usize,
     >(
         &self,
-        player: &mut Player<'_, '_, V, T, P, Q, K>,
-        sample: &Sample,
-    ) -> Output {
+        player: &mut Player<'_, '_, V, T, P, Q, K, A>,
+        sample: &Sample<A>,
+    ) -> Output<A> {
         player.poll();
         let texture = &*player.playing;
         let output = self.tick_crossing(

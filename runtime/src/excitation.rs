@@ -4,11 +4,10 @@
 //! `ε = s·(C1 + C3·s²)` widens its tails (after Teichroew) so that variance 1 and kurtosis 3
 //! are exact for the distribution: C1 and C3 solve the two equations in its exact moments.
 
+use crate::arithmetic::{Arithmetic, Float, Number, units::Gaussian};
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoroshiro64StarStar;
 
-const C1: f32 = 0.006_421_041;
-const C3: f32 = 5.773_954e-9;
 /// Mean of a sum of four bytes.
 const MEAN: i32 = 510;
 
@@ -34,13 +33,18 @@ impl Excitation {
     /// The next sample.
     #[inline]
     pub fn next_gaussian(&mut self) -> f32 {
+        self.draw::<Float>().0
+    }
+
+    /// The next sample, in the arithmetic of a tick.
+    #[inline(always)]
+    pub(crate) fn draw<A: Arithmetic>(&mut self) -> Number<A, Gaussian> {
         const EVEN_BYTES: u32 = 0x00ff_00ff;
         // Two sums of two bytes side by side.
         let bits = self.generator.next_u32();
         let sums = (bits & EVEN_BYTES) + ((bits >> 8) & EVEN_BYTES);
         let centred = ((sums & 0xffff) + (sums >> 16)) as i32 - MEAN;
-        let s = centred as f32;
-        s * (C1 + C3 * (s * s))
+        Number(A::gaussian(centred))
     }
 }
 
@@ -48,6 +52,7 @@ impl Excitation {
 mod tests {
     extern crate std;
     use super::*;
+    use crate::arithmetic::{C1, C3};
 
     /// The distribution of the sum, from its definition.
     fn shares() -> std::vec::Vec<f64> {

@@ -30,77 +30,92 @@
 
 use crate::{
     FrictionConfig,
-    lanes::F4,
-    math::{Vec3, clamp_from_zero, max, min, rsqrt},
+    arithmetic::{
+        Arithmetic, Float, Four, Number,
+        units::{Metre, Newton, NewtonPerMetre, Ratio, Unit},
+    },
+    math::max,
 };
 
 /// What the bristle is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bristle {
-    stiffness_n_m: f32,
-    dead_zone_m: f32,
+pub struct Bristle<A: Arithmetic = Float> {
+    stiffness_n_m: Number<A, NewtonPerMetre>,
+    dead_zone_m: Number<A, Metre>,
     /// k·v_c·T, N: with a normal force of this much, half the deflection leaks in a tick.
-    leak_n: f32,
-    lead_ticks: f32,
+    leak_n: Number<A, Newton>,
+    lead_ticks: Number<A, Ratio>,
 }
 
-impl Bristle {
+/// A deflection is no larger, and a force of the bristle no stronger, where numbers have a range.
+const FURTHEST_M: f32 = 1.0;
+const STIFFEST_N: f32 = 32_000.0;
+
+impl<A: Arithmetic> Bristle<A> {
     /// Of a loop at `rate_hz` whose force acts `delay_ticks` late.
     #[must_use]
     pub fn new(config: &FrictionConfig, delay_ticks: u32, rate_hz: f32) -> Self {
         Self {
-            stiffness_n_m: config.stiffness_n_m,
-            dead_zone_m: config.dead_zone_m,
+            stiffness_n_m: Number::of(config.stiffness_n_m),
+            dead_zone_m: Number::of(config.dead_zone_m),
             // Above zero, so that no force at all leaves no deflection.
-            leak_n: max(
+            leak_n: Number::of(max(
                 config.stiffness_n_m * config.leak_speed_m_s / rate_hz,
                 f32::MIN_POSITIVE,
-            ),
-            lead_ticks: 1.0 + delay_ticks as f32,
+            )),
+            lead_ticks: Number::of(1.0 + delay_ticks as f32),
         }
     }
 }
 
 /// Where the bristle is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FrictionState {
-    deflection_m: F4,
+pub struct FrictionState<A: Arithmetic = Float> {
+    deflection_m: Four<A, Metre>,
 }
 
-impl Default for FrictionState {
+impl<A: Arithmetic> Default for FrictionState<A> {
     fn default() -> Self {
         Self {
-            deflection_m: F4::ZERO,
+            deflection_m: Four::ZERO,
         }
     }
 }
 
 /// The bristle after the motion and the leak of a tick, before slip.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stretched {
+pub(crate) struct Stretched<A: Arithmetic> {
     /// Deflection in the tangent plane, m.
-    moved_m: F4,
+    moved_m: Four<A, Metre>,
     /// Its square, m².
-    pub(crate) squared: f32,
+    pub(crate) square: A::Square,
 }
 
-impl FrictionState {
+/// A force vector in the plane, and its size, N.
+pub type Force<A> = (
+    [<A as Arithmetic>::Scalar<Newton>; 3],
+    <A as Arithmetic>::Scalar<Newton>,
+);
+
+impl<A: Arithmetic> FrictionState<A> {
     /// One tick. `motion_m` is the displacement since the last tick, `normal_n` is F_n, 0 out
     /// of contact. Returns the force on the hand in the tangent plane and its size, N.
     #[inline]
     pub fn step(
         &mut self,
-        bristle: &Bristle,
-        motion_m: Vec3,
-        normal: Vec3,
-        normal_n: f32,
-        mu: f32,
-    ) -> (Vec3, f32) {
-        let (motion_m, normal) = (F4::vec3(motion_m), F4::vec3(normal));
+        bristle: &Bristle<A>,
+        motion_m: [A::Scalar<Metre>; 3],
+        normal: [A::Scalar<Unit>; 3],
+        normal_n: A::Scalar<Newton>,
+        mu: A::Scalar<Ratio>,
+    ) -> Force<A> {
+        let (motion_m, normal) = (Four::vec3(motion_m), Four::vec3(normal));
+        let normal_n = Number(normal_n);
         let stretched = self.stretch(bristle, motion_m, normal, normal_n);
-        let inverse = rsqrt(stretched.squared);
-        let (force, size_n) = self.slip(bristle, &stretched, inverse, motion_m, mu * normal_n);
-        (force.xyz(), size_n)
+        let polar = A::polar(stretched.square);
+        let limit_n = Number::<A, Ratio>(mu).times(normal_n);
+        let (force, size_n) = self.slip(bristle, &stretched, polar, motion_m, limit_n);
+        (force.xyz(), size_n.0)
     }
 
     /// The first half of [`FrictionState::step`]: motion and leak, which keeps nothing without
@@ -108,42 +123,47 @@ impl FrictionState {
     #[inline(always)]
     pub(crate) fn stretch(
         &self,
-        bristle: &Bristle,
-        motion_m: F4,
-        normal: F4,
-        normal_n: f32,
-    ) -> Stretched {
-        let kept = normal_n / (normal_n + bristle.leak_n);
-        let moved_m = (self.deflection_m + motion_m) * F4::splat(kept);
-        let moved_m = moved_m.tangential(normal);
+        bristle: &Bristle<A>,
+        motion_m: Four<A, Metre>,
+        normal: Four<A, Unit>,
+        normal_n: Number<A, Newton>,
+    ) -> Stretched<A> {
+        let kept: Number<A, Unit> = normal_n.over(normal_n + bristle.leak_n);
+        let moved_m = (self.deflection_m + motion_m).scaled(kept);
+        let moved_m: Four<A, Metre> = Four::tangential(moved_m, normal);
         Stretched {
             moved_m,
-            squared: moved_m.dot3(moved_m),
+            square: moved_m.square(),
         }
     }
 
-    /// The second half: slip and force; `inverse` is 1/|d|, `limit_n` is μF_n.
+    /// The second half: slip and force; `polar` is that of the deflection, `limit_n` is μF_n.
     #[inline(always)]
     pub(crate) fn slip(
         &mut self,
-        bristle: &Bristle,
-        stretched: &Stretched,
-        inverse: f32,
-        motion_m: F4,
-        limit_n: f32,
-    ) -> (F4, f32) {
-        let reach_m = limit_n / bristle.stiffness_n_m + bristle.dead_zone_m;
-        let slip = min(reach_m * inverse, 1.0);
-        self.deflection_m = stretched.moved_m * F4::splat(slip);
+        bristle: &Bristle<A>,
+        stretched: &Stretched<A>,
+        polar: A::Polar,
+        motion_m: Four<A, Metre>,
+        limit_n: Number<A, Newton>,
+    ) -> (Four<A, Newton>, Number<A, Newton>) {
+        let slipping_m: Number<A, Metre> = limit_n.over(bristle.stiffness_n_m);
+        let reach_m = slipping_m.within(FURTHEST_M) + bristle.dead_zone_m;
+        let slip = Number::<A, Unit>(A::share(reach_m.0, polar));
+        self.deflection_m = stretched.moved_m.scaled(slip);
 
-        let along = stretched.moved_m * F4::splat(inverse);
-        let stretch_m = stretched.squared * inverse * slip - bristle.dead_zone_m;
+        let along = stretched.moved_m.direction(polar);
+        let length_m = Number::<A, Metre>(A::length(polar));
+        let stretch_m = length_m.times::<_, Metre>(slip) - bristle.dead_zone_m;
         // `along` lies in the plane: the rest of the motion adds nothing.
-        let ahead_m = bristle.lead_ticks * along.dot3(motion_m);
+        let along_m: Number<A, Metre> = along.dot3(motion_m);
+        let ahead_m = bristle.lead_ticks.times_within(along_m, FURTHEST_M);
         // Inside the dead zone both are below zero, and the force is zero.
-        let lead_m = min(ahead_m, 0.5 * stretch_m);
-        let force_n = clamp_from_zero(bristle.stiffness_n_m * (stretch_m + lead_m), limit_n);
-        (along * F4::splat(-force_n), force_n)
+        let lead_m = ahead_m.min(Number::<A, Unit>::of(0.5).times(stretch_m));
+        let stretched_m = stretch_m + lead_m;
+        let force_n = bristle.stiffness_n_m.times_within(stretched_m, STIFFEST_N);
+        let force_n = force_n.clamp_from_zero(limit_n);
+        (along.scaled(-force_n), force_n)
     }
 }
 
@@ -152,7 +172,7 @@ mod tests {
     use super::*;
     use crate::math::norm;
 
-    const UP: Vec3 = [0.0, 0.0, 1.0];
+    const UP: [f32; 3] = [0.0, 0.0, 1.0];
 
     fn bristle() -> Bristle {
         Bristle::new(&crate::Config::default().friction, 0, 1000.0)
@@ -217,7 +237,7 @@ mod tests {
                 leak_speed_m_s,
                 ..crate::Config::default().friction
             };
-            let bristle = Bristle::new(&config, 0, 1000.0);
+            let bristle = Bristle::<Float>::new(&config, 0, 1000.0);
             let mut state = FrictionState::default();
             for normal_n in [0.0, 1e-40, 0.0, 1.0, 0.0] {
                 let (force, _) = state.step(&bristle, [1e-3, 0.0, 0.0], UP, normal_n, 0.5);

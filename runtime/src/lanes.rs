@@ -8,7 +8,7 @@ use wide::{CmpLe, f32x4};
 
 /// Four `f32`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct F4(f32x4);
+pub struct F4(f32x4);
 
 impl F4 {
     /// Whether registers hold four numbers; elsewhere long work costs less lane by lane.
@@ -20,7 +20,6 @@ impl F4 {
     pub(crate) const ZERO: Self = Self(f32x4::ZERO);
     pub(crate) const ONE: Self = Self(f32x4::ONE);
     pub(crate) const HALF: Self = Self(f32x4::HALF);
-    pub(crate) const TWO: Self = Self(f32x4::new([2.0; 4]));
 
     #[inline(always)]
     pub(crate) const fn load(from: &[f32; 4]) -> Self {
@@ -56,42 +55,10 @@ impl F4 {
         Self(self.0 & keep | f32x4::splat(f32::from_bits(set)))
     }
 
-    /// Three components and a zero.
-    #[inline(always)]
-    pub(crate) fn vec3([x, y, z]: [f32; 3]) -> Self {
-        Self::load(&[x, y, z, 0.0])
-    }
-
-    /// The first three and a number.
-    #[inline(always)]
-    pub(crate) fn with_fourth(self, w: f32) -> Self {
-        let [x, y, z, _] = self.to_array();
-        Self::load(&[x, y, z, w])
-    }
-
     /// The first three and a zero; the fourth is finite.
     #[inline(always)]
     pub(crate) fn first_three(self) -> Self {
         self * Self::load(&[1.0, 1.0, 1.0, 0.0])
-    }
-
-    /// One of the four.
-    #[inline(always)]
-    pub(crate) fn lane(&self, lane: usize) -> f32 {
-        self.to_array()[lane % 4]
-    }
-
-    /// The fourth.
-    #[inline(always)]
-    pub(crate) fn fourth(self) -> f32 {
-        self.to_array()[3]
-    }
-
-    /// The first three.
-    #[inline(always)]
-    pub(crate) fn xyz(self) -> [f32; 3] {
-        let [x, y, z, _] = self.to_array();
-        [x, y, z]
     }
 
     /// All four: (1st + 2nd) + (3rd + 4th).
@@ -99,12 +66,6 @@ impl F4 {
     pub(crate) fn sum(self) -> f32 {
         let [a, b, c, d] = self.to_array();
         (a + b) + (c + d)
-    }
-
-    /// What is left of the first three in the plane with unit normal `normal`.
-    #[inline(always)]
-    pub(crate) fn tangential(self, normal: Self) -> Self {
-        self - normal * Self::splat(self.dot3(normal))
     }
 
     /// Whether none of the four is beyond ±`limit` or NaN.

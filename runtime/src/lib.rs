@@ -60,6 +60,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod arithmetic;
 pub mod config;
 pub mod contact;
 mod crossing;
@@ -83,6 +84,7 @@ pub mod velocity;
 pub mod vibration;
 pub mod wall;
 
+pub use arithmetic::{Arithmetic, Fixed, Float};
 pub use config::{
     Config, ConfigError, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, TapConfig,
     VibrationAxis,

@@ -2,39 +2,40 @@
 
 use crate::{
     Flags,
-    lanes::F4,
-    math::{Vec3, min, rsqrt},
+    arithmetic::{
+        Arithmetic, Float, Four, Number,
+        units::{Newton, Unit},
+    },
 };
 
 /// The limits a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limiter {
-    peak_n: Bound,
-    step_n: Bound,
+pub struct Limiter<A: Arithmetic = Float> {
+    peak_n: Bound<A>,
+    step_n: Bound<A>,
 }
 
-/// A length, and its square.
+/// A length that rounding does not exceed, and the square of the length.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Bound {
-    longest: f32,
-    squared: f32,
+struct Bound<A: Arithmetic> {
+    longest: Number<A, Newton>,
+    square: A::Square,
 }
 
-impl Bound {
-    const fn new(longest: f32) -> Self {
+impl<A: Arithmetic> Bound<A> {
+    fn new(longest: f32) -> Self {
+        let longest = longest - A::ROUNDING_N;
         Self {
-            longest,
-            squared: longest * longest,
+            longest: Number::of(longest * MARGIN),
+            square: A::square_of::<Newton>(Number::<A, Newton>::of(longest).0),
         }
     }
 }
 
-/// Forces beyond this are errors, not forces, N.
-const SANE_N: f32 = 1e15;
 /// Keeps rounding of the approximated root from exceeding a limit.
 const MARGIN: f32 = 1.0 - 2e-6;
 
-impl Limiter {
+impl<A: Arithmetic> Limiter<A> {
     /// Limits of a device at a servo rate.
     #[must_use]
     pub fn new(limits: &crate::Limits, servo_rate_hz: f32) -> Self {
@@ -49,14 +50,22 @@ impl Limiter {
     /// [`Flags::PEAK_LIMITED`] and [`Flags::SLEW_LIMITED`] what was cut.
     #[inline]
     #[must_use]
-    pub fn step(&self, last: Vec3, wanted: Vec3) -> (Vec3, Flags) {
-        let (next, limited) = self.advance(F4::vec3(last), F4::vec3(wanted));
+    pub fn step(
+        &self,
+        last: [A::Scalar<Newton>; 3],
+        wanted: [A::Scalar<Newton>; 3],
+    ) -> ([A::Scalar<Newton>; 3], Flags) {
+        let (next, limited) = self.advance(Four::vec3(last), Four::vec3(wanted));
         (next.xyz(), limited)
     }
 
     /// [`Limiter::step`] on lanes; the fourth ones are zero.
     #[inline(always)]
-    pub(crate) fn advance(&self, last: F4, wanted: F4) -> (F4, Flags) {
+    pub(crate) fn advance(
+        &self,
+        last: Four<A, Newton>,
+        wanted: Four<A, Newton>,
+    ) -> (Four<A, Newton>, Flags) {
         let (target, peak) = shorten(wanted, &self.peak_n, Flags::PEAK_LIMITED);
         let (step, slew) = shorten(target - last, &self.step_n, Flags::SLEW_LIMITED);
         // Both ends lie in the ball of the peak, so does what lies between.
@@ -66,15 +75,19 @@ impl Limiter {
 
 /// A vector no longer than a bound, and a flag where it was longer; none for an error.
 #[inline(always)]
-fn shorten(v: F4, bound: &Bound, longer: Flags) -> (F4, Flags) {
-    let squared = v.dot3(v);
-    if squared <= bound.squared {
+fn shorten<A: Arithmetic>(
+    v: Four<A, Newton>,
+    bound: &Bound<A>,
+    longer: Flags,
+) -> (Four<A, Newton>, Flags) {
+    let square = v.square();
+    if square <= bound.square {
         (v, Flags::NONE)
-    } else if squared <= SANE_N * SANE_N {
-        let shrink = min(bound.longest * MARGIN * rsqrt(squared), 1.0);
-        (v * F4::splat(shrink), longer)
+    } else if A::is_sane(square) {
+        let shrink = Number::<A, Unit>(A::share(bound.longest.0, A::polar(square)));
+        (v.scaled(shrink), longer)
     } else {
-        (F4::ZERO, Flags::NONE)
+        (Four::ZERO, Flags::NONE)
     }
 }
 
@@ -85,7 +98,7 @@ mod tests {
 
     #[test]
     fn a_spike_is_cut_in_peak_and_slew_and_a_nan_is_no_force() {
-        let limiter = Limiter::new(&crate::Config::default().limits, 1000.0);
+        let limiter = Limiter::<Float>::new(&crate::Config::default().limits, 1000.0);
         let (a, limited) = limiter.step([0.0; 3], [0.0, 0.0, 100.0]);
         assert!(limited.contains(Flags::PEAK_LIMITED) && limited.contains(Flags::SLEW_LIMITED));
         assert!(norm(a) <= 2.0 && norm(a) > 1.999);

@@ -11,8 +11,11 @@
 //! (edge model): constant extrapolation, continuous with the inside.
 
 use crate::{
-    lanes::F4,
-    math::{clamp_from_zero, max, min},
+    arithmetic::{
+        Arithmetic, Float, Four, Number, Scalar as _, Zero as _,
+        units::{Coordinate, FAR, MillimetrePerSecond, Newton, Slope, Unit, Weight},
+    },
+    math::{max, min},
 };
 use asperity_formats::limits::MAX_TRIANGLES;
 
@@ -30,79 +33,78 @@ const MAX_REACH: f64 = 1.0e5;
 
 /// A convex mixture of three vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Barycentric {
+pub struct Barycentric<A: Arithmetic = Float> {
     /// Vertex indices.
     pub vertices: [u8; 3],
     /// Weights in [0, 1] that sum to 1 within rounding.
-    pub weights: [f32; 3],
+    pub weights: [A::Scalar<Unit>; 3],
     /// Whether the query lay outside the grid and was moved to its border.
     pub outside: bool,
 }
 
-impl Barycentric {
+impl<A: Arithmetic> Barycentric<A> {
     /// No vertex at all.
     pub(crate) const NONE: Self = Self {
         vertices: [0; 3],
-        weights: [0.0; 3],
+        weights: [A::Scalar::ZERO; 3],
         outside: false,
     };
 }
 
 /// The triangles, prepared for queries; at most `T`, a multiple of 4.
 #[derive(Debug, Clone)]
-pub(crate) struct Locator<const T: usize> {
-    pub(crate) max_speed_mm_s: f32,
-    pub(crate) max_force_n: f32,
-    speed_strips: Strips,
-    force_strips: Strips,
+pub(crate) struct Locator<const T: usize, A: Arithmetic> {
+    pub(crate) max_speed_mm_s: Number<A, MillimetrePerSecond>,
+    pub(crate) max_force_n: Number<A, Newton>,
+    speed_strips: Strips<A>,
+    force_strips: Strips<A>,
     /// Blocks of triangles that a query looks at, at most.
     blocks: usize,
     corners: [[u8; 3]; T],
-    rows: Rows<T>,
+    rows: Rows<T, A>,
 }
 
 /// The blocks that each strip of an axis meets, one bit a block. Strip i reaches half a strip
 /// to either side of i.
 #[derive(Debug, Clone)]
-struct Strips {
-    per_unit: f32,
+struct Strips<A: Arithmetic> {
+    per_unit: Number<A, Slope>,
     blocks: [u32; STRIPS],
 }
 
-impl Strips {
+impl<A: Arithmetic> Strips<A> {
     const EMPTY: Self = Self {
-        per_unit: 0.0,
+        per_unit: Number::ZERO,
         blocks: [0; STRIPS],
     };
 
     /// Of an axis from 0 to `longest`.
     fn new(longest: f32) -> Self {
+        let per_unit = if longest > 0.0 {
+            (STRIPS - 1) as f32 / longest
+        } else {
+            0.0
+        };
         Self {
-            per_unit: if longest > 0.0 {
-                (STRIPS - 1) as f32 / longest
-            } else {
-                0.0
-            },
+            per_unit: Number::of(per_unit),
             ..Self::EMPTY
         }
     }
 
     /// The strip of a number from 0 to the longest.
     #[inline(always)]
-    fn strip(&self, x: f32) -> usize {
-        /// From here on floats are whole numbers: a sum rounds to the nearest.
-        const WHOLE: f32 = (1 << 23) as f32;
-        (x * self.per_unit + WHOLE).to_bits() as usize % STRIPS
+    fn strip(&self, x: Number<A, Coordinate>) -> usize {
+        A::nearest(x.times::<Slope, Coordinate>(self.per_unit).0) as usize % STRIPS
     }
 
     #[inline(always)]
-    fn at(&self, x: f32) -> u32 {
+    fn at(&self, x: Number<A, Coordinate>) -> u32 {
         self.blocks[self.strip(x)]
     }
 
     /// Block `block` reaches from `low` to `high`.
     fn meets(&mut self, block: usize, low: f32, high: f32) {
-        let [low, high] = [low, high].map(|x| x * self.per_unit);
+        let [low, high] = [low, high].map(|x| x * self.per_unit.value());
         let first = max(low - (0.5 + MARGIN), 0.0);
         for strip in first as usize..STRIPS {
             if strip as f32 > high + (0.5 + MARGIN) {
@@ -120,22 +122,22 @@ impl Strips {
 /// and third corner are linear in the offset from the first, which keeps slivers accurate.
 #[derive(Debug, Clone)]
 #[repr(align(16))]
-struct Rows<const T: usize>([[f32; 6]; T]);
+struct Rows<const T: usize, A: Arithmetic>([[A::Scalar<Coordinate>; 6]; T]);
 
-impl<const T: usize> Rows<T> {
+impl<const T: usize, A: Arithmetic> Rows<T, A> {
     /// No triangle: its weights are far below zero for every query.
     const NEVER: Self = {
-        let mut flat = [[0.0; 6]; T];
+        let mut flat = [[A::Scalar::ZERO; 6]; T];
         let mut at = 0;
         while at < T {
             let mut lane = 0;
             while lane < 6 {
                 // Row after row of a block of four: a corner far off, and a steep weight.
-                flat[at][lane] = match (at % LANES * 6 + lane) / LANES {
-                    0 => 1.0e6,
-                    2 => 1.0e3,
-                    _ => 0.0,
-                };
+                match (at % LANES * 6 + lane) / LANES {
+                    0 => flat[at][lane] = A::FAR_OFF,
+                    2 => flat[at][lane] = A::STEEP,
+                    _ => {}
+                }
                 lane += 1;
             }
             at += 1;
@@ -146,17 +148,17 @@ impl<const T: usize> Rows<T> {
 
 /// A search under way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Search {
+pub(crate) struct Search<A: Arithmetic> {
     /// The best triangle so far in each lane: its smallest weight, whose last bits are replaced
     /// by the index of its block. Neighbours that differ by so little mix the same.
-    best: [f32; LANES],
+    best: [A::Scalar<Weight>; LANES],
     /// Blocks to look at, one bit each.
     left: u32,
 }
 
-impl Search {
+impl<A: Arithmetic> Search<A> {
     pub(crate) const NONE: Self = Self {
-        best: [0.0; LANES],
+        best: [A::Scalar::ZERO; LANES],
         left: 0,
     };
 }
@@ -164,10 +166,10 @@ impl Search {
 /// Bits that hold an index.
 const INDEX: u32 = MAX_TRIANGLES.next_power_of_two() as u32 - 1;
 
-impl<const T: usize> Locator<T> {
+impl<const T: usize, A: Arithmetic> Locator<T, A> {
     pub(crate) const EMPTY: Self = Self {
-        max_speed_mm_s: 0.0,
-        max_force_n: 0.0,
+        max_speed_mm_s: Number::ZERO,
+        max_force_n: Number::ZERO,
         speed_strips: Strips::EMPTY,
         force_strips: Strips::EMPTY,
         blocks: 0,
@@ -184,8 +186,8 @@ impl<const T: usize> Locator<T> {
         max_force_n: f32,
     ) {
         *self = Self::EMPTY;
-        self.max_speed_mm_s = max_speed_mm_s;
-        self.max_force_n = max_force_n;
+        self.max_speed_mm_s = Number::of(max_speed_mm_s);
+        self.max_force_n = Number::of(max_force_n);
         self.speed_strips = Strips::new(max_speed_mm_s);
         self.force_strips = Strips::new(max_force_n);
         let count = self.sort(triangles, &corner);
@@ -215,9 +217,10 @@ impl<const T: usize> Locator<T> {
                 let [a, b, c] = points.map(number);
                 (a + b + c) * (1.0 / 3.0)
             };
+            let [speed, force] = [centre(|(speed, _)| speed), centre(|(_, force)| force)];
             let place = interleaved(
-                self.speed_strips.strip(centre(|(speed, _)| speed)),
-                self.force_strips.strip(centre(|(_, force)| force)),
+                self.speed_strips.strip(Number::of(speed)),
+                self.force_strips.strip(Number::of(force)),
             );
             let mut t = count;
             while t > 0 && places[t - 1] > place {
@@ -235,16 +238,19 @@ impl<const T: usize> Locator<T> {
         let [(x0, y0), (x1, y1), (x2, y2)] = points.map(|(x, y)| (f64::from(x), f64::from(y)));
         let per_twice_area = 1.0 / ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0));
         let inverse = [y2 - y0, x0 - x2, y0 - y1, x1 - x0].map(|side| side * per_twice_area);
-        let reach = (inverse[0].abs() + inverse[2].abs()) * f64::from(self.max_speed_mm_s)
-            + (inverse[1].abs() + inverse[3].abs()) * f64::from(self.max_force_n);
-        // A triangle with no area, or too thin for f32 to weigh, is left out
+        let speed = f64::from(self.max_speed_mm_s.value());
+        let force = f64::from(self.max_force_n.value());
+        let reach = (inverse[0].abs() + inverse[2].abs()) * speed
+            + (inverse[1].abs() + inverse[3].abs()) * force;
+        let held = inverse.iter().all(|&x| A::Scalar::<Slope>::holds(x as f32));
+        // A triangle with no area, or too thin to weigh, is left out
         // and never chosen: its points belong to its neighbours.
-        if reach < MAX_REACH {
+        if reach < MAX_REACH && held {
             let row = [x0, y0, inverse[0], inverse[1], inverse[2], inverse[3]];
             let flat = self.rows.0.as_flattened_mut();
             for (k, x) in row.into_iter().enumerate() {
                 if let Some(place) = flat.get_mut(Self::index(t, k)) {
-                    *place = x as f32;
+                    *place = A::Scalar::of(x as f32);
                 }
             }
         }
@@ -282,27 +288,52 @@ impl<const T: usize> Locator<T> {
 
     /// Inside the grid: the nearest point of its border where the query lies outside.
     #[inline]
-    pub(crate) fn clamp(&self, speed_mm_s: f32, force_n: f32) -> (f32, f32) {
+    pub(crate) fn clamp(
+        &self,
+        speed_mm_s: Number<A, MillimetrePerSecond>,
+        force_n: Number<A, Newton>,
+    ) -> (Number<A, Coordinate>, Number<A, Coordinate>) {
         (
-            clamp_from_zero(speed_mm_s, self.max_speed_mm_s),
-            clamp_from_zero(force_n, self.max_force_n),
+            speed_mm_s.clamp_from_zero(self.max_speed_mm_s).to(),
+            force_n.clamp_from_zero(self.max_force_n).to(),
         )
+    }
+
+    /// Whether a query lies outside the grid, or is none.
+    #[inline]
+    pub(crate) fn is_outside(
+        &self,
+        speed_mm_s: Number<A, MillimetrePerSecond>,
+        force_n: Number<A, Newton>,
+    ) -> bool {
+        !(speed_mm_s <= self.max_speed_mm_s && force_n <= self.max_force_n)
     }
 
     /// Begins a search; the query lies in the grid.
     #[inline]
-    pub(crate) fn begin(&self, speed: f32, force: f32) -> Search {
+    pub(crate) fn begin(
+        &self,
+        speed: Number<A, Coordinate>,
+        force: Number<A, Coordinate>,
+    ) -> Search<A> {
         Search {
-            best: [-1.0e30; LANES],
+            best: [A::LEAST; LANES],
             left: self.speed_strips.at(speed) & self.force_strips.at(force),
         }
     }
 
     /// Looks at up to `blocks` more blocks.
     #[inline]
-    pub(crate) fn look(&self, search: &mut Search, speed: f32, force: f32, blocks: usize) {
-        let (speed, force) = (F4::splat(speed), F4::splat(force));
-        let mut best = F4::load(&search.best);
+    pub(crate) fn look(
+        &self,
+        search: &mut Search<A>,
+        speed: Number<A, Coordinate>,
+        force: Number<A, Coordinate>,
+        blocks: usize,
+    ) {
+        let (speed, force) = (Four::splat(speed), Four::splat(force));
+        let mut best = Four::<A, Weight>::load(&search.best);
+        let one = Four::splat(Number::whole(1));
         let all = self.rows.0.as_flattened().as_chunks::<LANES>().0;
         let all = all.as_chunks::<6>().0;
         for _ in 0..blocks {
@@ -311,12 +342,12 @@ impl<const T: usize> Locator<T> {
                 break;
             };
             search.left &= search.left - 1;
-            let ds = speed - F4::load(speed0);
-            let df = force - F4::load(force0);
-            let w1 = F4::load(w1s) * ds + F4::load(w1f) * df;
-            let w2 = F4::load(w2s) * ds + F4::load(w2f) * df;
-            // Zeros lose their sign, which platforms compare differently.
-            let smallest = (F4::ONE - w1 - w2).min(w1).min(w2) + F4::ZERO;
+            let ds = speed - Four::load(speed0);
+            let df = force - Four::load(force0);
+            let [w1s, w1f, w2s, w2f] = [w1s, w1f, w2s, w2f].map(Four::<A, Slope>::load);
+            let w1 = Four::<A, Weight>::sum_within([(ds, w1s), (df, w1f)], FAR);
+            let w2 = Four::<A, Weight>::sum_within([(ds, w2s), (df, w2f)], FAR);
+            let smallest = (one - w1 - w2).min(w1).min(w2);
             best = smallest.mark(INDEX, block * LANES as u32).max(best);
         }
         search.best = best.to_array();
@@ -324,33 +355,48 @@ impl<const T: usize> Locator<T> {
 
     /// The mixture of the best triangle; finite and convex for every query in the grid.
     #[inline]
-    pub(crate) fn choose(&self, search: &Search, speed: f32, force: f32) -> Barycentric {
-        let lane = |lane: usize| f32::from_bits(search.best[lane].to_bits() | lane as u32);
-        let best = max(max(lane(0), lane(1)), max(lane(2), lane(3)));
-        let t = (best.to_bits() & INDEX) as usize;
+    pub(crate) fn choose(
+        &self,
+        search: &Search<A>,
+        speed: Number<A, Coordinate>,
+        force: Number<A, Coordinate>,
+    ) -> Barycentric<A> {
+        let lane = |lane: usize| Number::<A, Weight>(A::marked(search.best[lane], lane as u32));
+        let best = (lane(0).max(lane(1))).max(lane(2).max(lane(3)));
+        let t = A::marks(best.0, INDEX) as usize;
         let flat = self.rows.0.as_flattened();
-        let number = |k: usize| flat.get(Self::index(t, k)).copied().unwrap_or_default();
+        let number =
+            |k: usize| Number::<A, Slope>(flat.get(Self::index(t, k)).copied().unwrap_or_default());
         let (ds, df) = (speed - number(0), force - number(1));
-        let w1 = number(2) * ds + number(3) * df;
-        let w2 = number(4) * ds + number(5) * df;
-        let cut = [1.0 - w1 - w2, w1, w2].map(|w| max(w, 0.0));
+        let w1 = Number::<A, Weight>::sum_within([(ds, number(2)), (df, number(3))], FAR);
+        let w2 = Number::<A, Weight>::sum_within([(ds, number(4)), (df, number(5))], FAR);
+        let one = Number::whole(1);
+        let cut = [one - w1 - w2, w1, w2].map(|w| w.max(Number::ZERO));
         let sum = cut[0] + cut[1] + cut[2];
         // Without a triangle there are no weights.
-        let scale = if sum > 0.0 { 1.0 / sum } else { 0.0 };
+        let scale = if sum > Number::ZERO {
+            one.over(sum)
+        } else {
+            Number::<A, Unit>::ZERO
+        };
         Barycentric {
             vertices: self.corners.get(t).copied().unwrap_or_default(),
-            weights: cut.map(|w| w * scale),
+            weights: cut.map(|w| w.times::<Unit, Unit>(scale).0),
             outside: false,
         }
     }
 
     /// The mixture at a speed and a force; finite and convex for every input.
-    pub(crate) fn locate(&self, speed_mm_s: f32, force_n: f32) -> Barycentric {
+    pub(crate) fn locate(
+        &self,
+        speed_mm_s: Number<A, MillimetrePerSecond>,
+        force_n: Number<A, Newton>,
+    ) -> Barycentric<A> {
         let (speed, force) = self.clamp(speed_mm_s, force_n);
         let mut search = self.begin(speed, force);
         self.look(&mut search, speed, force, self.blocks);
         Barycentric {
-            outside: !(speed == speed_mm_s && force == force_n),
+            outside: self.is_outside(speed_mm_s, force_n),
             ..self.choose(&search, speed, force)
         }
     }

@@ -12,9 +12,14 @@
 //! 0.001 dB. A low pair and a high one, a two, are multiplied in at once, Q and P of A(z) and
 //! B(z) side by side; the twos can be done one at a time.
 
-use crate::{lanes::F4, synthesis::Line};
+use crate::{
+    arithmetic::{
+        Arithmetic, Four, Number, Zero as _,
+        units::{Coefficient, Pair},
+    },
+    synthesis::Line,
+};
 use asperity_formats::limits::MAX_ORDER;
-use core::ops::{Add, Mul};
 
 /// Q and P of A(z), Q and P of B(z).
 const LANES: usize = 4;
@@ -23,23 +28,23 @@ const COEFFICIENTS: usize = MAX_ORDER / 2 + 1;
 
 /// Orders of A(z) and B(z), and what follows from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Shape {
+pub(crate) struct Shape<A: Arithmetic> {
     pub(crate) ar_order: usize,
     pub(crate) ma_order: usize,
     /// Twos that every polynomial in use has.
     full: usize,
     /// Pairs of each polynomial.
-    pairs: F4,
+    pairs: Four<A, Coefficient>,
 }
 
 /// −2 cos ω of a mixture, in [`stage`] order, 0 beyond the order.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Pairs {
-    pub(crate) ar: Line,
-    pub(crate) ma: Line,
+pub(crate) struct Pairs<A: Arithmetic> {
+    pub(crate) ar: Line<A, Pair>,
+    pub(crate) ma: Line<A, Pair>,
 }
 
-impl Pairs {
+impl<A: Arithmetic> Pairs<A> {
     pub(crate) const ZERO: Self = Self {
         ar: Line::ZERO,
         ma: Line::ZERO,
@@ -49,125 +54,152 @@ impl Pairs {
 /// Partial products, the half of each that symmetry leaves, times ½.
 #[derive(Debug, Clone, PartialEq)]
 #[repr(align(16))]
-pub(crate) struct Products([[f32; LANES]; COEFFICIENTS]);
+pub(crate) struct Products<A: Arithmetic>([[A::Scalar<Coefficient>; LANES]; COEFFICIENTS]);
 
-impl Products {
+impl<A: Arithmetic> Products<A> {
     /// No pair yet.
     pub(crate) const ONE: Self = {
-        let mut c = [[0.0; LANES]; COEFFICIENTS];
-        c[0] = [0.5; LANES];
+        let mut c = [[A::Scalar::ZERO; LANES]; COEFFICIENTS];
+        c[0] = [A::ONE_HALF; LANES];
         Self(c)
     };
 }
 
 /// The coefficients of polynomials side by side, or of one of them.
-trait Coefficients {
-    type Number: Copy + Default + Add<Output = Self::Number> + Mul<Output = Self::Number>;
+trait Polynomial<A: Arithmetic> {
+    type Number: Copy;
+    /// What multiplies them.
+    type By;
+
+    const ZERO: Self::Number;
 
     fn get(&self, k: usize) -> Self::Number;
 
     fn set(&mut self, k: usize, x: Self::Number);
+
+    /// See [`Arithmetic::extend`].
+    fn extend<const FULL: bool>(by: &Self::By, c: [Self::Number; 5]) -> Self::Number;
 }
 
-impl Coefficients for Products {
-    type Number = F4;
+impl<A: Arithmetic> Polynomial<A> for Products<A> {
+    type Number = A::Four<Coefficient>;
+    type By = Two<A::Four<Pair>>;
+
+    const ZERO: Self::Number = A::Four::ZERO;
 
     #[inline(always)]
-    fn get(&self, k: usize) -> F4 {
-        F4::load(&self.0[k])
+    fn get(&self, k: usize) -> Self::Number {
+        A::four(&self.0[k])
     }
 
     #[inline(always)]
-    fn set(&mut self, k: usize, x: F4) {
-        self.0[k] = x.to_array();
+    fn set(&mut self, k: usize, x: Self::Number) {
+        self.0[k] = A::numbers(x);
+    }
+
+    #[inline(always)]
+    fn extend<const FULL: bool>(by: &Self::By, c: [Self::Number; 5]) -> Self::Number {
+        A::extend_four::<FULL>(by, c)
     }
 }
 
 /// One polynomial: every fourth number.
-struct Lane<'a>(&'a mut [f32; LANES * (COEFFICIENTS - 1) + 1]);
+struct Lane<'a, A: Arithmetic>(&'a mut [A::Scalar<Coefficient>; LANES * (COEFFICIENTS - 1) + 1]);
 
-impl Coefficients for Lane<'_> {
-    type Number = f32;
+impl<A: Arithmetic> Polynomial<A> for Lane<'_, A> {
+    type Number = A::Scalar<Coefficient>;
+    type By = Two<A::Scalar<Pair>>;
+
+    const ZERO: Self::Number = A::Scalar::ZERO;
 
     #[inline(always)]
-    fn get(&self, k: usize) -> f32 {
+    fn get(&self, k: usize) -> Self::Number {
         self.0[LANES * k]
     }
 
     #[inline(always)]
-    fn set(&mut self, k: usize, x: f32) {
+    fn set(&mut self, k: usize, x: Self::Number) {
         self.0[LANES * k] = x;
+    }
+
+    #[inline(always)]
+    fn extend<const FULL: bool>(by: &Self::By, c: [Self::Number; 5]) -> Self::Number {
+        A::extend::<FULL>(by, c)
     }
 }
 
 /// A two: 1 + s z⁻¹ + q z⁻² + r z⁻³ + o z⁻⁴, of polynomials side by side or of one.
 #[derive(Debug, Clone, Copy)]
-struct Two<T> {
-    s: T,
-    q: T,
-    r: T,
-    o: T,
+pub struct Two<T> {
+    pub(crate) s: T,
+    pub(crate) q: T,
+    pub(crate) r: T,
+    pub(crate) o: T,
 }
 
-impl Two<F4> {
-    #[inline(always)]
-    fn lane(&self, lane: usize) -> Two<f32> {
-        Two {
-            s: self.s.lane(lane),
-            q: self.q.lane(lane),
-            r: self.r.lane(lane),
-            o: self.o.lane(lane),
-        }
+/// One of four twos.
+#[inline(always)]
+fn lane<A: Arithmetic>(by: &Two<A::Four<Pair>>, lane: usize) -> Two<A::Scalar<Pair>> {
+    let one = |four| A::numbers(four)[lane % LANES];
+    Two {
+        s: one(by.s),
+        q: one(by.q),
+        r: one(by.r),
+        o: one(by.o),
     }
 }
 
-impl<T: Copy + Default + Add<Output = T> + Mul<Output = T>> Two<T> {
-    /// Multiplies polynomials of degree 4·`two` in place; with `FULL`, r = s and o = 1.
-    #[inline(always)]
-    fn multiply<const FULL: bool>(&self, two: usize, c: &mut impl Coefficients<Number = T>) {
-        match two {
-            0 => self.extend::<FULL, 0>(c),
-            1 => self.extend::<FULL, 1>(c),
-            2 => self.extend::<FULL, 2>(c),
-            3 => self.extend::<FULL, 3>(c),
-            4 => self.extend::<FULL, 4>(c),
-            _ => self.extend::<FULL, 5>(c),
-        }
-    }
-
-    /// From the highest coefficient down, so that nothing is overwritten before it is read.
-    #[inline(always)]
-    fn extend<const FULL: bool, const TWO: usize>(&self, c: &mut impl Coefficients<Number = T>) {
-        // Symmetry gives what lies beyond the middle.
-        let old = |c: &_, k: usize| {
-            if k <= 2 * TWO {
-                Coefficients::get(c, k)
-            } else if TWO == 0 {
-                T::default()
-            } else {
-                Coefficients::get(c, 4 * TWO - k)
-            }
-        };
-        for k in (1..2 * TWO + 3).rev() {
-            let back = |by: usize| if k < by { T::default() } else { old(c, k - by) };
-            let [one, two, three, four] = [back(1), back(2), back(3), back(4)];
-            let x = if FULL {
-                (old(c, k) + four) + self.q * two + self.s * (one + three)
-            } else {
-                (old(c, k) + self.o * four) + self.q * two + (self.s * one + self.r * three)
-            };
-            c.set(k, x);
-        }
+/// Multiplies polynomials of degree 4·`two` in place; with `FULL`, r = s and o = 1.
+#[inline(always)]
+fn multiply<A: Arithmetic, const FULL: bool, C: Polynomial<A>>(by: &C::By, two: usize, c: &mut C) {
+    match two {
+        0 => extend::<A, FULL, 0, C>(by, c),
+        1 => extend::<A, FULL, 1, C>(by, c),
+        2 => extend::<A, FULL, 2, C>(by, c),
+        3 => extend::<A, FULL, 3, C>(by, c),
+        4 => extend::<A, FULL, 4, C>(by, c),
+        _ => extend::<A, FULL, 5, C>(by, c),
     }
 }
 
-impl Shape {
-    pub(crate) const fn new(ar_order: usize, ma_order: usize) -> Self {
+/// From the highest coefficient down, so that nothing is overwritten before it is read.
+#[inline(always)]
+fn extend<A: Arithmetic, const FULL: bool, const TWO: usize, C: Polynomial<A>>(
+    by: &C::By,
+    c: &mut C,
+) {
+    // Symmetry gives what lies beyond the middle.
+    let old = |c: &C, k: usize| {
+        if k <= 2 * TWO {
+            c.get(k)
+        } else if TWO == 0 {
+            C::ZERO
+        } else {
+            c.get(4 * TWO - k)
+        }
+    };
+    for k in (1..2 * TWO + 3).rev() {
+        let back = |by: usize| if k < by { C::ZERO } else { old(c, k - by) };
+        let x = C::extend::<FULL>(by, [old(c, k), back(1), back(2), back(3), back(4)]);
+        c.set(k, x);
+    }
+}
+
+impl<A: Arithmetic> Shape<A> {
+    /// Of a slot that was never loaded.
+    pub(crate) const NONE: Self = Self {
+        ar_order: 0,
+        ma_order: 0,
+        full: 0,
+        pairs: Four::ZERO,
+    };
+
+    pub(crate) fn new(ar_order: usize, ma_order: usize) -> Self {
         let pairs = [
-            ar_order.div_ceil(2) as f32,
-            (ar_order / 2) as f32,
-            ma_order.div_ceil(2) as f32,
-            (ma_order / 2) as f32,
+            ar_order.div_ceil(2),
+            ar_order / 2,
+            ma_order.div_ceil(2),
+            ma_order / 2,
         ];
         let fewest = if ma_order == 0 || ar_order < ma_order {
             ar_order / 2
@@ -178,7 +210,7 @@ impl Shape {
             ar_order,
             ma_order,
             full: fewest / 2,
-            pairs: F4::load(&pairs),
+            pairs: Four::load(&pairs.map(|pairs| A::whole(pairs as i32))),
         }
     }
 
@@ -196,7 +228,7 @@ impl Shape {
     /// numbers, else one after the other.
     #[inline(always)]
     pub(crate) const fn parts(&self) -> usize {
-        if F4::IN_REGISTERS || self.ma_order == 0 {
+        if A::IN_REGISTERS || self.ma_order == 0 {
             1
         } else {
             2
@@ -205,65 +237,73 @@ impl Shape {
 
     /// Multiplies one part of a two in, in the order of twos.
     #[inline(always)]
-    pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, part: usize) {
-        let (two, part) = (part / self.parts(), part % self.parts());
+    pub(crate) fn multiply(&self, products: &mut Products<A>, pairs: &Pairs<A>, part: usize) {
+        let parts = self.parts();
+        let (two, part) = (part / parts, part % parts);
         let (Some(ar), Some(ma)) = (pairs.ar.0.get(two), pairs.ma.0.get(two)) else {
             return;
         };
-        let low = F4::load(&[ar[0], ar[1], ma[0], ma[1]]);
-        let high = F4::load(&[ar[2], ar[3], ma[2], ma[3]]);
-        let (s, product) = (low + high, low * high);
+        let low = Four::<A, Pair>::load(&[ar[0], ar[1], ma[0], ma[1]]);
+        let high = Four::<A, Pair>::load(&[ar[2], ar[3], ma[2], ma[3]]);
+        let (s, product) = (low + high, low.times::<Pair, Pair>(high));
+        let number = |n| Four::splat(Number::whole(n));
         if two < self.full {
-            let q = F4::TWO + product;
+            let q = number(2) + product;
             let factors = Two {
-                s,
-                q,
-                r: s,
-                o: F4::ONE,
+                s: s.0,
+                q: q.0,
+                r: s.0,
+                o: number(1).0,
             };
-            self.multiply_by::<true>(products, &factors, two, part);
+            multiply_by::<A, true>(products, &factors, two, part);
         } else {
             // A polynomial may have fewer pairs than others. What it gets beyond its own middle
             // is not used.
-            let left = self.pairs - F4::splat((2 * two) as f32);
+            let left = self.pairs - Four::splat(Number::whole(2 * two as i32));
             // 1 where it has the low pair, and the high one.
-            let [first, o] = [left, left - F4::ONE].map(|x| x.max(F4::ZERO).min(F4::ONE));
-            let (q, r) = (first + o + product, s * o);
-            self.multiply_by::<false>(products, &Two { s, q, r, o }, two, part);
-        }
-    }
-
-    /// All polynomials at once, or the two of a part one by one: the bits are the same.
-    #[inline(always)]
-    fn multiply_by<const FULL: bool>(
-        &self,
-        products: &mut Products,
-        by: &Two<F4>,
-        two: usize,
-        part: usize,
-    ) {
-        if F4::IN_REGISTERS {
-            by.multiply::<FULL>(two, products);
-        } else {
-            for lane in 2 * part..2 * part + 2 {
-                let from = products.0.as_flattened_mut().get_mut(lane..);
-                if let Some(polynomial) = from.and_then(|from| from.first_chunk_mut()) {
-                    by.lane(lane).multiply::<FULL>(two, &mut Lane(polynomial));
-                }
-            }
+            let one = Four::splat(Number::whole(1));
+            let [first, o] = [left, left - one].map(|x| x.max(Four::ZERO).min(one).to::<Pair>());
+            let (q, r) = (first + o + product, s.times::<Pair, Pair>(o));
+            let factors = Two {
+                s: s.0,
+                q: q.0,
+                r: r.0,
+                o: o.0,
+            };
+            multiply_by::<A, false>(products, &factors, two, part);
         }
     }
 
     /// Coefficients of A(z).
     #[inline]
-    pub(crate) fn ar(&self, products: &Products, a: &mut Line) {
-        assemble::<0>(&products.0, self.ar_order, a);
+    pub(crate) fn ar(&self, products: &Products<A>, a: &mut Line<A>) {
+        assemble::<A, 0>(&products.0, self.ar_order, a);
     }
 
     /// Coefficients of B(z).
     #[inline]
-    pub(crate) fn ma(&self, products: &Products, b: &mut Line) {
-        assemble::<2>(&products.0, self.ma_order, b);
+    pub(crate) fn ma(&self, products: &Products<A>, b: &mut Line<A>) {
+        assemble::<A, 2>(&products.0, self.ma_order, b);
+    }
+}
+
+/// All polynomials at once, or the two of a part one by one: the bits are the same.
+#[inline(always)]
+fn multiply_by<A: Arithmetic, const FULL: bool>(
+    products: &mut Products<A>,
+    by: &Two<A::Four<Pair>>,
+    two: usize,
+    part: usize,
+) {
+    if A::IN_REGISTERS {
+        multiply::<A, FULL, _>(by, two, products);
+    } else {
+        for polynomial in 2 * part..2 * part + 2 {
+            let from = products.0.as_flattened_mut().get_mut(polynomial..);
+            if let Some(numbers) = from.and_then(|from| from.first_chunk_mut()) {
+                multiply::<A, FULL, _>(&lane::<A>(by, polynomial), two, &mut Lane(numbers));
+            }
+        }
     }
 }
 
@@ -271,7 +311,11 @@ impl Shape {
 /// and P = difference·(1 − z⁻¹) for even orders, Q = sum and P = difference·(1 − z⁻²)
 /// for odd ones. The products carry the ½.
 #[inline(always)]
-fn assemble<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], order: usize, a: &mut Line) {
+fn assemble<A: Arithmetic, const LANE: usize>(
+    c: &[[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
+    order: usize,
+    a: &mut Line<A>,
+) {
     let half = order / 2;
     let Some(a) = a.0.as_flattened_mut().get_mut(..order) else {
         return;
@@ -280,28 +324,32 @@ fn assemble<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], order: usize, a
         // The last four overlap those before where four does not divide the half.
         let last = half - LANES;
         for first in (0..last).step_by(LANES) {
-            assemble_four::<LANE>(c, first, a);
+            assemble_four::<A, LANE>(c, first, a);
         }
-        assemble_four::<LANE>(c, last, a);
+        assemble_four::<A, LANE>(c, last, a);
     } else {
-        assemble_singly::<LANE>(c, a);
+        assemble_singly::<A, LANE>(c, a);
     }
 }
 
 /// Four coefficients from `first` on and their four mirror images, of an even order.
 #[inline(always)]
-fn assemble_four<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], first: usize, a: &mut [f32]) {
+fn assemble_four<A: Arithmetic, const LANE: usize>(
+    c: &[[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
+    first: usize,
+    a: &mut [A::Scalar<Coefficient>],
+) {
     let last = a.len() - first;
     let Some(c) = c.get(first..).and_then(|c| c.first_chunk::<5>()) else {
         return;
     };
-    let alternating = F4::load(&[1.0, -1.0, 1.0, -1.0]);
-    let [c0, c1, c2, c3, c4] = c.each_ref().map(F4::load);
-    let t0 = (c1 + alternating * c0).to_array();
-    let t1 = (c2 + alternating * c1).to_array();
-    let t2 = (c3 + alternating * c2).to_array();
-    let t3 = (c4 + alternating * c3).to_array();
-    let across = |lane: usize| F4::load(&[t0[lane], t1[lane], t2[lane], t3[lane]]);
+    let [c0, c1, c2, c3, c4] = c.each_ref().map(Four::<A, Coefficient>::load);
+    let t0 = (c1 + c0.alternating()).to_array();
+    let t1 = (c2 + c1.alternating()).to_array();
+    let t2 = (c3 + c2.alternating()).to_array();
+    let t3 = (c4 + c3.alternating()).to_array();
+    let across =
+        |lane: usize| Four::<A, Coefficient>::load(&[t0[lane], t1[lane], t2[lane], t3[lane]]);
     let (q, p) = (across(LANE), across(LANE + 1));
     if let Some(place) = a.get_mut(first..first + LANES) {
         place.copy_from_slice(&(q + p).to_array());
@@ -313,10 +361,13 @@ fn assemble_four<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], first: usi
 }
 
 /// The same for every order, one after the other.
-fn assemble_singly<const LANE: usize>(c: &[[f32; LANES]; COEFFICIENTS], a: &mut [f32]) {
+fn assemble_singly<A: Arithmetic, const LANE: usize>(
+    c: &[[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
+    a: &mut [A::Scalar<Coefficient>],
+) {
     let order = a.len();
     let even = order.is_multiple_of(2);
-    let number = |k: usize, lane: usize| c.get(k).map_or(0.0, |c| c[lane]);
+    let number = |k: usize, lane: usize| c.get(k).map_or(A::Scalar::ZERO, |c| c[lane]);
     for k in 0..order / 2 {
         let (q, p) = (number(k + 1, LANE), number(k + 1, LANE + 1));
         let (q, p) = if even {
@@ -360,6 +411,7 @@ pub(crate) const fn stage(index: usize, order: usize) -> usize {
 mod tests {
     extern crate std;
     use super::*;
+    use crate::{arithmetic::Float, lanes::F4};
 
     /// The roots of Q and P, multiplied out over full length in f64.
     fn reference(omegas: &[f64]) -> std::vec::Vec<f64> {
@@ -414,7 +466,7 @@ mod tests {
                 line
             };
             let polynomials = |ar: &[f64], ma: &[f64]| {
-                let shape = Shape::new(ar.len(), ma.len());
+                let shape = Shape::<Float>::new(ar.len(), ma.len());
                 let (mut products, mut a, mut b) = (Products::ONE, Line::ZERO, Line::ZERO);
                 let pairs = Pairs {
                     ar: staged(ar),
@@ -459,20 +511,21 @@ mod tests {
             };
             let full = two % 2 == 0;
             if full {
-                by.multiply::<true>(two, &mut at_once);
+                multiply::<Float, true, _>(&by, two, &mut at_once);
             } else {
-                by.multiply::<false>(two, &mut at_once);
+                multiply::<Float, false, _>(&by, two, &mut at_once);
             }
-            for lane in 0..LANES {
-                let from = &mut singly.0.as_flattened_mut()[lane..];
-                let mut polynomial = Lane(from.first_chunk_mut().unwrap());
+            for polynomial in 0..LANES {
+                let from = &mut singly.0.as_flattened_mut()[polynomial..];
+                let mut numbers = Lane(from.first_chunk_mut().unwrap());
+                let by = lane::<Float>(&by, polynomial);
                 if full {
-                    by.lane(lane).multiply::<true>(two, &mut polynomial);
+                    multiply::<Float, true, _>(&by, two, &mut numbers);
                 } else {
-                    by.lane(lane).multiply::<false>(two, &mut polynomial);
+                    multiply::<Float, false, _>(&by, two, &mut numbers);
                 }
             }
-            let bits = |products: &Products| products.0.map(|c| c.map(f32::to_bits));
+            let bits = |products: &Products<Float>| products.0.map(|c| c.map(f32::to_bits));
             assert_eq!(bits(&at_once), bits(&singly), "two {two}");
         }
     }

@@ -9,6 +9,7 @@
 //! within rounding.
 
 use crate::{
+    arithmetic::Scalar,
     lanes::F4,
     math::{cos_pi, exp, max, min, sin_pi},
 };
@@ -165,10 +166,10 @@ impl Resampler {
     }
 
     /// Converts a trace into `out`, whose length is [`Rates::ticks`].
-    pub(crate) fn convert(&self, mut trace: impl Iterator<Item = f32>, out: &mut [f32]) {
+    pub(crate) fn convert<S: Scalar>(&self, mut trace: impl Iterator<Item = f32>, out: &mut [S]) {
         if self.rates.is_identity() {
             for (out, a) in out.iter_mut().zip(trace) {
-                *out = a;
+                *out = S::of(a);
             }
             return;
         }
@@ -177,7 +178,7 @@ impl Resampler {
             servo_hz,
         } = self.rates;
         let wanted = self.filter(&mut trace, out) / source_hz;
-        let given = out.iter().fold(0.0, |sum, &a| sum + f64::from(a)) / servo_hz;
+        let given = out.iter().fold(0.0, |sum, a| sum + f64::from(a.value())) / servo_hz;
         // What is missing of the impulse comes back along the response.
         let missing = ((wanted - given) * servo_hz) as f32;
         let share = if self.impulse == 0.0 {
@@ -186,14 +187,14 @@ impl Resampler {
             missing / self.impulse
         };
         for (out, h) in out.iter_mut().zip(responses(self.tick)) {
-            *out += share * h;
+            *out = S::of(out.value() + share * h);
         }
     }
 
     /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which
     /// moves by up to [`CHUNK`] source samples at once; silence follows the last one. Returns
     /// the sum of the trace.
-    fn filter(&self, trace: &mut impl Iterator<Item = f32>, out: &mut [f32]) -> f64 {
+    fn filter<S: Scalar>(&self, trace: &mut impl Iterator<Item = f32>, out: &mut [S]) -> f64 {
         let Rates {
             source_hz,
             servo_hz,
@@ -226,7 +227,7 @@ impl Resampler {
             } else {
                 now = now.times(self.tick);
             }
-            *out = gain * now.response();
+            *out = S::of(gain * now.response());
         }
         sum
     }

@@ -6,59 +6,78 @@
 //! caller reports as missed count like bad samples. The first good sample afterwards
 //! restarts the motion estimate, and the force comes back by a ramp.
 
-use crate::{Flags, Sample, lanes::F4};
-
-/// Positions beyond this are errors, not positions, m.
-pub const REACH_M: f32 = 1.0e4;
+use crate::{
+    Flags, Sample,
+    arithmetic::{
+        Arithmetic, Float, Four, Number,
+        units::{Metre, Unit},
+    },
+};
 
 /// The gate that every sample passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gate {
-    position_m: F4,
+pub struct Gate<A: Arithmetic = Float> {
+    position_m: Four<A, Metre>,
     /// Bad samples in a row.
     bad_in_a_row: u32,
     /// Share of the force that is let through, 0..=1.
-    gain: f32,
+    gain: Number<A, Unit>,
     /// Whether the next good sample starts anew.
     fresh: bool,
 }
 
 /// What the gate lets through.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gated {
+pub struct Gated<A: Arithmetic = Float> {
     /// Position to render, m.
-    pub(crate) position_m: F4,
+    pub(crate) position_m: Four<A, Metre>,
     /// Displacement since the position before, m; none where motion starts anew.
-    pub(crate) motion_m: F4,
+    pub(crate) motion_m: Four<A, Metre>,
     /// Periods since the last rendered position, 1..=3.
     pub elapsed_ticks: u32,
     /// Share of the force, 0..=1.
-    pub gain: f32,
+    pub(crate) gain: Number<A, Unit>,
     /// Held sample, safe state, ramp; for the other stages restart, bad sample and fault.
     pub flags: Flags,
 }
 
-impl Gate {
+/// Whether a sample may be a position.
+#[inline(always)]
+pub(crate) fn is_usable<A: Arithmetic>(sample: &Sample<A>) -> bool {
+    let p = Four::<A, Metre>::vec3(sample.position_m);
+    p.is_within(A::REACH_M) & (sample.elapsed_ticks > 0)
+}
+
+impl<A: Arithmetic> Gate<A> {
     /// Before the first sample; it is let through without a ramp.
-    pub const NEW: Self = Self {
-        position_m: F4::ZERO,
-        bad_in_a_row: 0,
-        gain: 1.0,
-        fresh: true,
-    };
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            position_m: Four::ZERO,
+            bad_in_a_row: 0,
+            gain: Number::of(1.0),
+            fresh: true,
+        }
+    }
 
     /// The last usable position, m.
-    pub(crate) const fn position_m(&self) -> F4 {
+    pub(crate) const fn position_m(&self) -> Four<A, Metre> {
         self.position_m
     }
 
     /// One sample; `ramp_step` is the gain regained a tick.
     #[inline]
-    pub fn step(&mut self, sample: &Sample, hold_ticks: u32, ramp_step: f32) -> Gated {
-        let p = F4::vec3(sample.position_m);
+    pub fn step(
+        &mut self,
+        sample: &Sample<A>,
+        hold_ticks: u32,
+        ramp_step: A::Scalar<Unit>,
+    ) -> Gated<A> {
+        let ramp_step = Number(ramp_step);
+        let p = Four::vec3(sample.position_m);
         // A stale sample counts as far too late.
         let missed = sample.elapsed_ticks.wrapping_sub(1);
-        if missed > hold_ticks || self.fresh || !p.is_within(REACH_M) {
+        if missed > hold_ticks || self.fresh || !p.is_within(A::REACH_M) {
             return self.irregular(sample, hold_ticks, ramp_step);
         }
         let motion_m = p - self.position_m;
@@ -76,21 +95,28 @@ impl Gate {
 
     /// The force comes back by one step.
     #[inline(always)]
-    fn ramp(&mut self, ramp_step: f32) -> Flags {
-        self.gain += ramp_step;
-        if self.gain < 1.0 {
+    fn ramp(&mut self, ramp_step: Number<A, Unit>) -> Flags {
+        let whole = Number::of(1.0);
+        // Both are at most 1.
+        self.gain = self.gain + ramp_step;
+        if self.gain < whole {
             Flags::RAMPING
         } else {
-            self.gain = 1.0;
+            self.gain = whole;
             Flags::NONE
         }
     }
 
     /// A bad sample, one after missed periods, or the first one.
     #[inline(always)]
-    fn irregular(&mut self, sample: &Sample, hold_ticks: u32, ramp_step: f32) -> Gated {
-        let p = F4::vec3(sample.position_m);
-        let usable = p.is_within(REACH_M) & (sample.elapsed_ticks > 0);
+    fn irregular(
+        &mut self,
+        sample: &Sample<A>,
+        hold_ticks: u32,
+        ramp_step: Number<A, Unit>,
+    ) -> Gated<A> {
+        let p = Four::vec3(sample.position_m);
+        let usable = is_usable(sample);
         let missed = sample.elapsed_ticks.saturating_sub(1);
         let gap = missed > hold_ticks && !self.fresh;
         let good = usable && !gap;
@@ -110,10 +136,10 @@ impl Gate {
         }
         self.fresh = safe && !usable;
         let flags = if safe {
-            self.gain = 0.0;
+            self.gain = Number::ZERO;
             Flags::SAFE_STATE
         } else if held {
-            Flags::HELD_SAMPLE.and(Flags::RAMPING.when(self.gain < 1.0))
+            Flags::HELD_SAMPLE.and(Flags::RAMPING.when(self.gain < Number::of(1.0)))
         } else {
             self.ramp(ramp_step)
         };
@@ -139,7 +165,7 @@ mod tests {
 
     #[test]
     fn two_bad_samples_hold_and_the_third_is_a_fault() {
-        let mut gate = Gate::NEW;
+        let mut gate = Gate::new();
         let mut step = |sample: &Sample| gate.step(sample, 2, 0.25);
         assert!(step(&GOOD).flags.contains(Flags::RESTART));
         assert!(step(&BAD).flags.contains(Flags::HELD_SAMPLE));
@@ -148,7 +174,7 @@ mod tests {
         assert!(
             third.flags.contains(Flags::SAFE_STATE)
                 && third.flags.contains(Flags::FAULT)
-                && third.gain == 0.0
+                && third.gain.0 == 0.0
         );
         let fourth = step(&BAD);
         assert!(
@@ -159,20 +185,20 @@ mod tests {
         assert!(
             back.flags.contains(Flags::RESTART)
                 && !back.flags.contains(Flags::SAFE_STATE)
-                && back.gain == 0.25
+                && back.gain.0 == 0.25
         );
         for gain in [0.5, 0.75, 1.0, 1.0] {
-            assert_eq!(step(&GOOD).gain, gain);
+            assert_eq!(step(&GOOD).gain.0, gain);
         }
     }
 
     #[test]
     fn a_held_sample_keeps_the_force() {
-        let mut gate = Gate::NEW;
+        let mut gate = Gate::new();
         gate.step(&GOOD, 2, 0.25);
-        assert_eq!(gate.step(&BAD, 2, 0.25).gain, 1.0);
+        assert_eq!(gate.step(&BAD, 2, 0.25).gain.0, 1.0);
         let good = gate.step(&GOOD, 2, 0.25);
-        assert!(good.gain == 1.0 && !good.flags.contains(Flags::RESTART));
+        assert!(good.gain.0 == 1.0 && !good.flags.contains(Flags::RESTART));
     }
 
     #[test]
@@ -181,7 +207,7 @@ mod tests {
             elapsed_ticks,
             ..GOOD
         };
-        let mut gate = Gate::NEW;
+        let mut gate = Gate::new();
         gate.step(&GOOD, 2, 0.25);
         let two_missed = gate.step(&late(3), 2, 0.25);
         assert!(!two_missed.flags.contains(Flags::SAFE_STATE) && two_missed.elapsed_ticks == 3);
@@ -191,12 +217,12 @@ mod tests {
                 && three_missed.flags.contains(Flags::SAFE_STATE)
                 && three_missed.flags.contains(Flags::RESTART)
         );
-        assert_eq!(gate.step(&GOOD, 2, 0.25).gain, 0.25);
+        assert_eq!(gate.step(&GOOD, 2, 0.25).gain.0, 0.25);
     }
 
     #[test]
     fn a_start_without_a_sample_is_safe_and_no_fault() {
-        let mut gate = Gate::NEW;
+        let mut gate = Gate::new();
         let first = gate.step(&BAD, 2, 0.25);
         assert!(
             first.flags.contains(Flags::SAFE_STATE)

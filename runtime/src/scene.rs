@@ -10,8 +10,11 @@
 //! The work is one distance a surface, and a tick.
 
 use crate::{
-    Config, LoadError, Output, Renderer, Sample, State, Surface, Texture, contact::Solid,
-    crossing::Crossing, lanes::F4, math::Vec3, safety::REACH_M,
+    Config, ConfigError, LoadError, Output, Renderer, Sample, State, Surface, Texture,
+    arithmetic::{Arithmetic, Float, Four, Number, Scalar as _, units::Metre},
+    contact::Solid,
+    crossing::Crossing,
+    safety::is_usable,
 };
 use asperity_formats::{Library, SceneSurface, Shape};
 use heapless::Vec;
@@ -24,43 +27,50 @@ pub const HYSTERESIS_M: f32 = 0.12e-3;
 /// Index of no surface.
 const NONE: usize = usize::MAX;
 /// Out of reach of every usable sample.
-const NOWHERE: Solid = Solid::Plane {
-    point_m: F4::load(&[0.0, 0.0, -10.0 * REACH_M, 0.0]),
-    normal: F4::load(&[0.0, 0.0, 1.0, 0.0]),
-};
+fn nowhere<A: Arithmetic>() -> Solid<A> {
+    Solid::Plane {
+        point_m: Four::of([0.0, 0.0, -A::OUT_OF_REACH_M, 0.0]),
+        normal: Four::of([0.0, 0.0, 1.0, 0.0]),
+    }
+}
 
 /// A solid, where it can be touched, and its texture.
 #[derive(Debug, Clone, Copy)]
-struct Placed {
+struct Placed<A: Arithmetic> {
     /// Prepared here: a plane's normal is made of unit length in f64, which a tick has no time for.
-    solid: Solid,
-    from_m: Vec3,
-    to_m: Vec3,
+    solid: Solid<A>,
+    from_m: [A::Scalar<Metre>; 3],
+    to_m: [A::Scalar<Metre>; 3],
     texture: usize,
 }
 
-impl Placed {
+impl<A: Arithmetic> Placed<A> {
     fn new(surface: SceneSurface) -> Self {
         Self {
             solid: Solid::new(&solid(surface.shape).normalised()),
-            from_m: surface.from_m,
-            to_m: surface.to_m,
+            from_m: surface.from_m.map(A::Scalar::of),
+            to_m: surface.to_m.map(A::Scalar::of),
             texture: usize::from(surface.texture),
         }
     }
 
     /// Signed distance, m; infinite outside the region widened by `margin_m`.
     #[inline]
-    fn distance_m(&self, position_m: Vec3, margin_m: f32) -> f32 {
+    fn distance_m(
+        &self,
+        position_m: [A::Scalar<Metre>; 3],
+        margin_m: Number<A, Metre>,
+    ) -> Number<A, Metre> {
+        let margin_m = margin_m.0;
         let within = |axis: usize| {
-            (position_m[axis] >= self.from_m[axis] - margin_m)
-                & (position_m[axis] <= self.to_m[axis] + margin_m)
+            (position_m[axis] >= A::plus_within(self.from_m[axis], -margin_m))
+                & (position_m[axis] <= A::plus_within(self.to_m[axis], margin_m))
         };
-        let (distance_m, _) = self.solid.touch(F4::vec3(position_m));
+        let (distance_m, _) = self.solid.touch(Four::vec3(position_m));
         if within(0) & within(1) & within(2) {
             distance_m
         } else {
-            f32::INFINITY
+            Number::FARTHEST
         }
     }
 }
@@ -76,10 +86,11 @@ pub struct Scene<
     const P: usize,
     const Q: usize,
     const K: usize,
+    A: Arithmetic = Float,
 > {
-    placed: Vec<Placed, N>,
-    first: &'a Texture<V, T, P, Q, K>,
-    others: &'a [Texture<V, T, P, Q, K>],
+    placed: Vec<Placed<A>, N>,
+    first: &'a Texture<V, T, P, Q, K, A>,
+    others: &'a [Texture<V, T, P, Q, K, A>],
 }
 
 /// Room for every surface that a library can hold, on [`HostTexture`](crate::HostTexture)s.
@@ -102,6 +113,14 @@ pub enum SceneError {
         /// What there is room for.
         capacity: usize,
     },
+    /// A surface lies out of the range of the arithmetic.
+    #[error("surface {index}: {cause}")]
+    Surface {
+        /// Index in the scene.
+        index: usize,
+        /// Why.
+        cause: ConfigError,
+    },
     /// A texture does not fit its slot.
     #[error("texture {index}: {cause}")]
     Texture {
@@ -120,7 +139,8 @@ impl<
     const P: usize,
     const Q: usize,
     const K: usize,
-> Scene<'a, N, V, T, P, Q, K>
+    A: Arithmetic,
+> Scene<'a, N, V, T, P, Q, K, A>
 {
     /// Prepares every surface of a library, and every texture in a slot of its own; allocates
     /// nothing.
@@ -130,7 +150,7 @@ impl<
     pub fn load(
         library: &Library<'_>,
         config: &Config,
-        slots: &'a mut [Texture<V, T, P, Q, K>],
+        slots: &'a mut [Texture<V, T, P, Q, K, A>],
     ) -> Result<Self, SceneError> {
         let scene = library.scene().ok_or(SceneError::NoScene)?;
         let textures = library.index().len();
@@ -141,6 +161,10 @@ impl<
         };
         if scene.len() > N {
             return Err(capacity("surfaces", scene.len(), N));
+        }
+        for (index, surface) in scene.surfaces().enumerate() {
+            A::check_surface(&solid(surface.shape))
+                .map_err(|cause| SceneError::Surface { index, cause })?;
         }
         let room = slots.len();
         for (index, slot) in slots.iter_mut().enumerate().take(textures) {
@@ -160,18 +184,23 @@ impl<
 
     /// The surface to touch at a position, [`NONE`] for none, when it was `at` before.
     #[inline]
-    fn touched(&self, at: usize, position_m: Vec3) -> usize {
-        let kept = self.placed.get(at).map_or(f32::INFINITY, |placed| {
-            let distance_m = placed.distance_m(position_m, HYSTERESIS_M);
-            distance_m - if distance_m < 0.0 { HYSTERESIS_M } else { 0.0 }
+    fn touched(&self, at: usize, position_m: [A::Scalar<Metre>; 3]) -> usize {
+        let hysteresis_m = Number::of(HYSTERESIS_M);
+        let kept = self.placed.get(at).map_or(Number::FARTHEST, |placed| {
+            let distance_m = placed.distance_m(position_m, hysteresis_m);
+            if distance_m < Number::ZERO {
+                distance_m - hysteresis_m
+            } else {
+                distance_m
+            }
         });
-        let (mut nearest, mut least_m) = if kept < f32::INFINITY {
+        let (mut nearest, mut least_m) = if kept < Number::FARTHEST {
             (at, kept)
         } else {
-            (NONE, f32::INFINITY)
+            (NONE, Number::FARTHEST)
         };
         for (index, placed) in self.placed.iter().enumerate() {
-            let distance_m = placed.distance_m(position_m, 0.0);
+            let distance_m = placed.distance_m(position_m, Number::ZERO);
             let closer = distance_m < least_m;
             nearest = if closer { index } else { nearest };
             least_m = if closer { distance_m } else { least_m };
@@ -179,7 +208,7 @@ impl<
         nearest
     }
 
-    fn texture(&self, index: usize) -> &Texture<V, T, P, Q, K> {
+    fn texture(&self, index: usize) -> &Texture<V, T, P, Q, K, A> {
         let other = index
             .checked_sub(1)
             .and_then(|other| self.others.get(other));
@@ -203,16 +232,16 @@ fn solid(shape: Shape) -> Surface {
 
 /// Everything that changes from tick to tick in a scene.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SceneState {
-    state: State,
+pub struct SceneState<A: Arithmetic = Float> {
+    state: State<A>,
     /// Surface last touched or nearest, or [`NONE`].
     at: usize,
     texture: usize,
-    solid: Solid,
-    crossing: Crossing,
+    solid: Solid<A>,
+    crossing: Crossing<A>,
 }
 
-impl SceneState {
+impl<A: Arithmetic> SceneState<A> {
     /// At rest, without force; the seed is that of the excitation.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -220,27 +249,27 @@ impl SceneState {
             state: State::new(seed),
             at: NONE,
             texture: 0,
-            solid: NOWHERE,
+            solid: nowhere(),
             crossing: Crossing::START,
         }
     }
 
     /// The state of the tick.
     #[must_use]
-    pub const fn state(&self) -> &State {
+    pub const fn state(&self) -> &State<A> {
         &self.state
     }
 
     /// Another surface is touched from here on, or none.
     #[cold]
-    fn move_to(&mut self, at: usize, surfaces: &[Placed]) {
+    fn move_to(&mut self, at: usize, surfaces: &[Placed<A>]) {
         self.at = at;
         self.solid = match surfaces.get(at) {
             Some(placed) => {
                 self.texture = placed.texture;
                 placed.solid
             }
-            None => NOWHERE,
+            None => nowhere(),
         };
         self.state.cross(&self.solid);
     }
@@ -252,7 +281,7 @@ impl SceneState {
     }
 }
 
-impl Renderer {
+impl<A: Arithmetic> Renderer<A> {
     /// One servo period in a scene: [`Renderer::tick`] on the surface that is touched, in place
     /// of the one in the configuration. Infallible.
     pub fn tick_scene<
@@ -264,10 +293,10 @@ impl Renderer {
         const K: usize,
     >(
         &self,
-        scene: &Scene<'_, N, V, T, P, Q, K>,
-        state: &mut SceneState,
-        sample: &Sample,
-    ) -> Output {
+        scene: &Scene<'_, N, V, T, P, Q, K, A>,
+        state: &mut SceneState<A>,
+        sample: &Sample<A>,
+    ) -> Output<A> {
         if is_usable(sample) {
             let at = scene.touched(state.at, sample.position_m);
             if at != state.at {
@@ -283,10 +312,4 @@ impl Renderer {
             sample,
         )
     }
-}
-
-/// Whether the gate will take a sample for a position.
-#[inline]
-fn is_usable(sample: &Sample) -> bool {
-    F4::vec3(sample.position_m).is_within(REACH_M) & (sample.elapsed_ticks > 0)
 }

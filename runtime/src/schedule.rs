@@ -5,7 +5,7 @@
 //! shares of about equal cost when a texture is loaded. What comes out does not depend on where
 //! the cuts are.
 
-use crate::{lanes::F4, lsf::Shape};
+use crate::{arithmetic::Arithmetic, lsf::Shape};
 use core::ops::Range;
 
 /// Ticks from one query to the next; a query takes effect in the last of them.
@@ -24,27 +24,29 @@ struct Costs {
 }
 
 /// On x86-64, and on a Cortex-M4F, where four lanes are four numbers.
-const COSTS: Costs = if F4::IN_REGISTERS {
-    Costs {
-        block: 35,
-        choice: 75,
-        mix: 35,
-        mix_four: 12,
-        two: 28,
-        coefficient: 11,
-        assembly_four: 30,
+const fn costs<A: Arithmetic>() -> Costs {
+    if A::IN_REGISTERS {
+        Costs {
+            block: 35,
+            choice: 75,
+            mix: 35,
+            mix_four: 12,
+            two: 28,
+            coefficient: 11,
+            assembly_four: 30,
+        }
+    } else {
+        Costs {
+            block: 45,
+            choice: 85,
+            mix: 20,
+            mix_four: 23,
+            two: 10,
+            coefficient: 22,
+            assembly_four: 14,
+        }
     }
-} else {
-    Costs {
-        block: 45,
-        choice: 85,
-        mix: 20,
-        mix_four: 23,
-        two: 10,
-        coefficient: 22,
-        assembly_four: 14,
-    }
-};
+}
 
 /// The share of one tick: blocks first, then the choice, then the mixture, then twos.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,8 +87,8 @@ impl Shares {
 }
 
 /// The shares of `blocks` blocks of triangles and the conversion of a shape.
-pub(crate) fn shares(blocks: usize, shape: &Shape) -> Shares {
-    let costs = COSTS;
+pub(crate) fn shares<A: Arithmetic>(blocks: usize, shape: &Shape<A>) -> Shares {
+    let costs = costs::<A>();
     let fours = |order: usize| order.div_ceil(4);
     let mix = costs.mix + costs.mix_four * (fours(shape.ar_order) + fours(shape.ma_order));
     let part_cost = |part: usize| {

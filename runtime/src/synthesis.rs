@@ -4,13 +4,14 @@
 //! with a numerator where the texture has one). Direct form with past inputs and
 //! outputs as state: both stay physical when the coefficients change.
 
-use crate::lanes::F4;
+use crate::arithmetic::{
+    Arithmetic, Float, Number, Point, Zero as _,
+    units::{Acceleration, Coefficient},
+};
 use asperity_formats::limits::MAX_ORDER;
 
-/// |y| never exceeds this, m/s²; a verified texture stays far below.
-pub const VIB_LIMIT_M_S2: f32 = 1.0e4;
-/// Below this a decaying output is set to zero, so that no denormal slows a tick.
-const SILENCE_M_S2: f32 = 1.0e-20;
+/// |y| never exceeds this in floats, m/s²; a verified texture stays far below.
+pub const VIB_LIMIT_M_S2: f32 = <Float as Arithmetic>::VIB_LIMIT_M_S2;
 const LANES: usize = 4;
 const BLOCKS: usize = MAX_ORDER / LANES;
 /// One block more than the lags: all move on only when four new numbers fill it.
@@ -19,16 +20,18 @@ const WINDOW: usize = BLOCKS + 1;
 /// Numbers of up to 24 lags, from lag 1 on, in blocks of four.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(16))]
-pub struct Line(pub(crate) [[f32; LANES]; BLOCKS]);
+pub struct Line<A: Arithmetic = Float, F: Point = Coefficient>(
+    pub(crate) [[A::Scalar<F>; LANES]; BLOCKS],
+);
 
-impl Line {
+impl<A: Arithmetic, F: Point> Line<A, F> {
     /// All zero.
-    pub const ZERO: Self = Self([[0.0; LANES]; BLOCKS]);
+    pub const ZERO: Self = Self([[A::Scalar::ZERO; LANES]; BLOCKS]);
 
     /// All of them.
     #[must_use]
-    pub fn to_array(&self) -> [f32; MAX_ORDER] {
-        let mut all = [0.0; MAX_ORDER];
+    pub fn to_array(&self) -> [A::Scalar<F>; MAX_ORDER] {
+        let mut all = [A::Scalar::ZERO; MAX_ORDER];
         all.copy_from_slice(self.0.as_flattened());
         all
     }
@@ -48,42 +51,33 @@ pub struct Filter {
 
 /// Past inputs and outputs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct History {
-    e: Window,
-    y: Window,
+pub struct History<A: Arithmetic = Float> {
+    e: Window<A>,
+    y: Window<A>,
     /// Where the newest stand, 0..=3.
     at: u8,
 }
 
 /// Numbers in order of age, the newest at `at` of the first block.
 #[derive(Debug, Clone, PartialEq)]
-struct Window([[f32; LANES]; WINDOW]);
+struct Window<A: Arithmetic>([[A::Scalar<Acceleration>; LANES]; WINDOW]);
 
-impl Window {
-    const ZERO: Self = Self([[0.0; LANES]; WINDOW]);
+impl<A: Arithmetic> Window<A> {
+    const ZERO: Self = Self([[A::Scalar::ZERO; LANES]; WINDOW]);
 
     /// All move on by a block, the last of them out.
     #[inline(always)]
     fn shift<const N: usize>(&mut self) {
         for block in (0..N).rev() {
-            self.0[block + 1] = F4::load(&self.0[block]).to_array();
+            self.0[block + 1] = self.0[block];
         }
     }
 
     /// Σ c_k x_k over the first `N` blocks from the newest number on, in four partial sums.
     #[inline(always)]
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "of constant length, it is unrolled"
-    )]
-    fn inner_product<const N: usize>(&self, c: &Line, at: usize) -> F4 {
+    fn inner_product<const N: usize>(&self, c: &Line<A>, at: usize) -> A::Sum {
         let past = &self.0.as_flattened()[at % LANES..];
-        let past = past.as_chunks::<LANES>().0;
-        let mut partial = F4::load(&c.0[0]) * F4::load(&past[0]);
-        for block in 1..N {
-            partial = partial + F4::load(&c.0[block]) * F4::load(&past[block]);
-        }
-        partial
+        A::inner_product::<N>(&c.0, past.as_chunks::<LANES>().0)
     }
 }
 
@@ -126,7 +120,10 @@ macro_rules! by_blocks {
     };
 }
 
-impl History {
+/// A sample, m/s², and whether it had to be clamped.
+type Sounded<A> = (Number<A, Acceleration>, bool);
+
+impl<A: Arithmetic> History<A> {
     /// Silence.
     pub const SILENT: Self = Self {
         e: Window::ZERO,
@@ -135,15 +132,36 @@ impl History {
     };
 
     /// The last output, m/s².
-    pub(crate) fn last(&self) -> f32 {
-        self.y.0[0][usize::from(self.at) % LANES]
+    pub(crate) fn last(&self) -> Number<A, Acceleration> {
+        Number(self.y.0[0][usize::from(self.at) % LANES])
     }
 
     /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags
     /// 1.., zero above the order. With `sounding` false the model is mute, and with `e` zero its
     /// history fades out within 24 samples. Returns y, m/s², and whether it had to be clamped.
     #[inline]
-    pub fn step(&mut self, a: &Line, b: &Line, lags: Lags, e: f32, sounding: bool) -> (f32, bool) {
+    pub fn step(
+        &mut self,
+        a: &Line<A>,
+        b: &Line<A>,
+        lags: Lags,
+        e: A::Scalar<Acceleration>,
+        sounding: bool,
+    ) -> (A::Scalar<Acceleration>, bool) {
+        let (y, clamped) = self.advance(a, b, lags, Number(e), sounding);
+        (y.0, clamped)
+    }
+
+    /// [`History::step`] in the types of the tick.
+    #[inline(always)]
+    pub(crate) fn advance(
+        &mut self,
+        a: &Line<A>,
+        b: &Line<A>,
+        lags: Lags,
+        e: Number<A, Acceleration>,
+        sounding: bool,
+    ) -> Sounded<A> {
         let at = usize::from(self.at) % LANES;
         if lags.numerator {
             by_blocks!(lags.blocks, self.arma(a, b, at, e, sounding))
@@ -156,13 +174,13 @@ impl History {
     #[inline(always)]
     fn arma<const N: usize>(
         &mut self,
-        a: &Line,
-        b: &Line,
+        a: &Line<A>,
+        b: &Line<A>,
         at: usize,
-        e: f32,
+        e: Number<A, Acceleration>,
         sounding: bool,
-    ) -> (f32, bool) {
-        let driven = F4::load(&[e, 0.0, 0.0, 0.0]) + self.e.inner_product::<N>(b, at);
+    ) -> Sounded<A> {
+        let driven = A::sum_of(e.0) + self.e.inner_product::<N>(b, at);
         let (y, clamped) = self.recurse::<N>(a, at, driven, sounding);
         if at == 0 {
             self.e.shift::<N>();
@@ -176,13 +194,15 @@ impl History {
     #[inline(always)]
     fn ar<const N: usize>(
         &mut self,
-        a: &Line,
-        b: &Line,
+        a: &Line<A>,
+        b: &Line<A>,
         at: usize,
-        e: f32,
+        e: Number<A, Acceleration>,
         sounding: bool,
-    ) -> (f32, bool) {
-        let driven = F4::load(&[e + b.0[0][0] * self.e.0[0][at], 0.0, 0.0, 0.0]);
+    ) -> Sounded<A> {
+        let before = Number::<A, Acceleration>(self.e.0[0][at]);
+        let first = Number::<A, Coefficient>(b.0[0][0]).times(before);
+        let driven = A::sum_of((e + first).0);
         let (y, clamped) = self.recurse::<N>(a, at, driven, sounding);
         if at == 0 {
             self.y.shift::<N>();
@@ -195,46 +215,22 @@ impl History {
     #[inline(always)]
     fn recurse<const N: usize>(
         &self,
-        a: &Line,
+        a: &Line<A>,
         at: usize,
-        driven: F4,
+        driven: A::Sum,
         sounding: bool,
-    ) -> (f32, bool) {
-        let raw = (driven - self.y.inner_product::<N>(a, at)).sum();
-        let (bounded, clamped) = if is_usual(raw) {
-            (raw, false)
-        } else {
-            bound(raw)
-        };
-        (if sounding { bounded } else { 0.0 }, clamped && sounding)
+    ) -> Sounded<A> {
+        let (y, clamped) = A::sample_of(driven - self.y.inner_product::<N>(a, at));
+        let y = if sounding { Number(y) } else { Number::ZERO };
+        (y, clamped && sounding)
     }
 
     /// The newest enter before `at`, in a circle: at the start, all others have moved.
     #[inline(always)]
-    fn push(&mut self, at: usize, e: f32, y: f32) {
+    fn push(&mut self, at: usize, e: Number<A, Acceleration>, y: Number<A, Acceleration>) {
         let at = (at + LANES - 1) % LANES;
         self.at = at as u8;
-        self.e.0[0][at] = e;
-        self.y.0[0][at] = y;
-    }
-}
-
-/// Whether an output is neither too small to matter, nor too large, nor NaN. Bits of positive
-/// numbers are in their order.
-#[inline(always)]
-fn is_usual(raw: f32) -> bool {
-    const LEAST: u32 = SILENCE_M_S2.to_bits();
-    const SPAN: u32 = VIB_LIMIT_M_S2.to_bits() - LEAST;
-    raw.abs().to_bits().wrapping_sub(LEAST) <= SPAN
-}
-
-/// An output too small to matter, too large, or NaN, which becomes silence.
-fn bound(raw: f32) -> (f32, bool) {
-    if raw > VIB_LIMIT_M_S2 {
-        (VIB_LIMIT_M_S2, true)
-    } else if raw < -VIB_LIMIT_M_S2 {
-        (-VIB_LIMIT_M_S2, true)
-    } else {
-        (0.0, raw.is_nan())
+        self.e.0[0][at] = e.0;
+        self.y.0[0][at] = y.0;
     }
 }

@@ -8,8 +8,10 @@
 
 use crate::{
     Flags,
-    lanes::F4,
-    math::clamp_from_zero,
+    arithmetic::{
+        Arithmetic, Float, Four, Number, Zero as _,
+        units::{Hertz, Metre, MetrePerSecond, Ratio, TapAcceleration, Unit},
+    },
     resample::{Rates, Resampler},
 };
 use asperity_formats::{Taps, limits::MAX_TAPS};
@@ -20,18 +22,18 @@ pub const WINDOW_TICKS: usize = 8;
 
 /// The tap bank at the servo rate, `K` samples in all.
 #[derive(Debug, Clone)]
-pub struct TapBank<const K: usize> {
+pub struct TapBank<const K: usize, A: Arithmetic = Float> {
     ticks: usize,
     /// Impact speed of each trace, ascending.
-    speeds_m_s: Vec<f32, MAX_TAPS>,
-    samples_m_s2: [f32; K],
+    speeds_m_s: Vec<Number<A, MetrePerSecond>, MAX_TAPS>,
+    samples_m_s2: [A::Scalar<TapAcceleration>; K],
 }
 
-impl<const K: usize> TapBank<K> {
+impl<const K: usize, A: Arithmetic> TapBank<K, A> {
     pub(crate) const EMPTY: Self = Self {
         ticks: 0,
         speeds_m_s: Vec::new(),
-        samples_m_s2: [0.0; K],
+        samples_m_s2: [A::Scalar::ZERO; K],
     };
 
     /// Samples needed at the servo rate.
@@ -49,7 +51,7 @@ impl<const K: usize> TapBank<K> {
         let places = self.samples_m_s2.chunks_exact_mut(max_one(ticks));
         for (trace, place) in taps.traces().zip(places) {
             // A format has at most `MAX_TAPS` traces, so there is room.
-            if self.speeds_m_s.push(trace.speed_m_s).is_ok() {
+            if self.speeds_m_s.push(Number::of(trace.speed_m_s)).is_ok() {
                 resampler.convert(trace.accel_m_s2(), place);
             }
         }
@@ -64,7 +66,8 @@ impl<const K: usize> TapBank<K> {
 
     /// Which two traces, and in which proportion, an impact speed plays.
     #[must_use]
-    pub fn select(&self, impact_speed_m_s: f32) -> Selection {
+    pub fn select(&self, impact_speed_m_s: A::Scalar<MetrePerSecond>) -> Selection<A> {
+        let impact_speed_m_s = Number(impact_speed_m_s);
         let Some(&slowest) = self.speeds_m_s.first() else {
             return Selection::SILENT;
         };
@@ -77,29 +80,41 @@ impl<const K: usize> TapBank<K> {
         }
         let (second, high) = match self.speeds_m_s.get(first + 1) {
             Some(&speed) => (first + 1, speed),
-            None => (first, f32::INFINITY),
+            None => (first, low),
         };
-        let share = clamp_from_zero((impact_speed_m_s - low) / (high - low), 1.0);
+        let whole = Number::<A, Unit>::whole(1);
+        // The fastest trace alone has no way to go.
+        let share = if high > low {
+            let share: Number<A, Unit> = (impact_speed_m_s - low).over(high - low);
+            share.clamp_from_zero(whole)
+        } else {
+            Number::ZERO
+        };
+        let shrunk: Number<A, Unit> = impact_speed_m_s.over(low);
+        let first_weight = (whole - share).times::<Unit, Unit>(shrunk.clamp_from_zero(whole));
         Selection {
             first: first as u8,
             second: second as u8,
-            first_weight: (1.0 - share) * clamp_from_zero(impact_speed_m_s / low, 1.0),
-            second_weight: share,
+            first_weight: first_weight.0,
+            second_weight: share.0,
         }
     }
 
     /// Acceleration of a transient at `tick`, m/s²; 0 beyond its end.
     #[inline]
     #[must_use]
-    pub fn accel_m_s2(&self, selection: &Selection, tick: usize) -> f32 {
+    pub fn accel_m_s2(&self, selection: &Selection<A>, tick: usize) -> A::Scalar<TapAcceleration> {
         let at = |trace: u8| {
             let inside = tick < self.ticks;
             let index = usize::from(trace) * self.ticks + if inside { tick } else { 0 };
-            let a = self.samples_m_s2.get(index).copied().unwrap_or(0.0);
-            if inside { a } else { 0.0 }
+            let a = self.samples_m_s2.get(index).copied();
+            let a = a.filter(|_| inside).unwrap_or(A::Scalar::ZERO);
+            Number::<A, TapAcceleration>(a)
         };
-        selection.first_weight * at(selection.first)
-            + selection.second_weight * at(selection.second)
+        let weight = Number::<A, Unit>;
+        let first = weight(selection.first_weight).times(at(selection.first));
+        let second = weight(selection.second_weight).times(at(selection.second));
+        (first + second).0
     }
 }
 
@@ -109,53 +124,78 @@ const fn max_one(n: usize) -> usize {
 
 /// Two traces and their weights.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Selection {
+pub struct Selection<A: Arithmetic = Float> {
     /// Index of the slower trace.
     pub first: u8,
     /// Index of the faster one.
     pub second: u8,
     /// Weight of the slower.
-    pub first_weight: f32,
+    pub first_weight: A::Scalar<Unit>,
     /// Weight of the faster.
-    pub second_weight: f32,
+    pub second_weight: A::Scalar<Unit>,
 }
 
-impl Selection {
+impl<A: Arithmetic> Selection<A> {
     /// No trace at all.
     const SILENT: Self = Self {
         first: 0,
         second: 0,
-        first_weight: 0.0,
-        second_weight: 0.0,
+        first_weight: A::Scalar::ZERO,
+        second_weight: A::Scalar::ZERO,
     };
+}
+
+/// Slope of the last distances per tick, to m/s: Σ (i − 3.5)² over eight samples is 42.
+const SPREAD: f32 = 42.0;
+/// Nothing hits faster, m/s, where numbers have a range.
+const FASTEST_M_S: f32 = 100.0;
+
+/// What counts as an impact, prepared for a servo rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Detector<A: Arithmetic = Float> {
+    rate_hz: Number<A, Hertz>,
+    min_speed_m_s: Number<A, MetrePerSecond>,
+    rearm_m: Number<A, Metre>,
+}
+
+impl<A: Arithmetic> Detector<A> {
+    /// Of a configuration.
+    #[must_use]
+    pub fn new(config: &crate::TapConfig, servo_rate_hz: f32) -> Self {
+        Self {
+            rate_hz: Number::of(servo_rate_hz * (1.0 / SPREAD)),
+            min_speed_m_s: Number::of(config.min_speed_m_s),
+            rearm_m: Number::of(config.rearm_m),
+        }
+    }
 }
 
 /// The impact detector and the transient under way.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TapState {
+pub struct TapState<A: Arithmetic = Float> {
     /// Signed distances in a ring, m.
-    distances_m: [f32; WINDOW_TICKS],
+    distances_m: [A::Scalar<Metre>; WINDOW_TICKS],
     /// Where the newest stands; the older ones follow.
     newest: u8,
     armed: bool,
     /// Next tick of the transient; at its length or above when none plays.
     tick: u32,
-    selection: Selection,
+    selection: Selection<A>,
 }
 
 /// What a tick of the tap stage gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TapOutput {
+pub struct TapOutput<A: Arithmetic = Float> {
     /// Acceleration along the normal, m/s².
-    pub accel_m_s2: f32,
+    pub accel_m_s2: A::Scalar<TapAcceleration>,
     /// Whether a transient started in this tick, and whether one is under way.
     pub flags: Flags,
 }
 
-impl TapState {
+impl<A: Arithmetic> TapState<A> {
     /// No contact seen yet: the first one is no impact.
     pub const IDLE: Self = Self {
-        distances_m: [0.0; WINDOW_TICKS],
+        distances_m: [A::Scalar::ZERO; WINDOW_TICKS],
         newest: 0,
         armed: false,
         tick: u32::MAX,
@@ -163,62 +203,61 @@ impl TapState {
     };
 
     /// Starts over at `distance_m`; a first sample inside is no impact.
-    pub fn restart(&mut self, distance_m: f32) {
+    pub fn restart(&mut self, distance_m: A::Scalar<Metre>) {
         *self = Self::IDLE;
         self.distances_m = [distance_m; WINDOW_TICKS];
     }
 
     /// Another surface, from which the last position was `distance_m` away: the slope stays,
     /// and a transient plays on. A surface that was already entered is no impact.
-    pub(crate) fn cross(&mut self, distance_m: f32) {
+    pub(crate) fn cross(&mut self, distance_m: A::Scalar<Metre>) {
         let moved_m = distance_m - self.distances_m[usize::from(self.newest) % WINDOW_TICKS];
         for past in &mut self.distances_m {
-            *past += moved_m;
+            *past = A::plus_within(*past, moved_m);
         }
-        self.armed = self.armed && distance_m > 0.0;
+        self.armed = self.armed && distance_m > A::Scalar::ZERO;
     }
 
     /// Impact speed, m/s: minus the least-squares slope of the last eight distances.
     #[inline]
-    fn approach_speed_m_s(&self, servo_rate_hz: f32) -> f32 {
-        // Σ (i − 3.5)² over eight samples.
-        const SPREAD: f32 = 42.0;
+    fn approach_speed_m_s(&self, detector: &Detector<A>) -> Number<A, MetrePerSecond> {
         let age = |i: usize| self.distances_m[(usize::from(self.newest) + i) % WINDOW_TICKS];
         // Age 0 is the newest, so a falling distance gives a positive slope.
-        let newer = F4::load(&[age(0), age(1), age(2), age(3)]);
-        let older = F4::load(&[age(4), age(5), age(6), age(7)]);
-        let products =
-            newer * F4::load(&[-3.5, -2.5, -1.5, -0.5]) + older * F4::load(&[0.5, 1.5, 2.5, 3.5]);
-        products.sum() * (servo_rate_hz * (1.0 / SPREAD))
+        let newer = Four::<A, Metre>::load(&[age(0), age(1), age(2), age(3)]);
+        let older = Four::<A, Metre>::load(&[age(4), age(5), age(6), age(7)]);
+        let before = Four::<A, Ratio>::of([-3.5, -2.5, -1.5, -0.5]);
+        let after = Four::<A, Ratio>::of([0.5, 1.5, 2.5, 3.5]);
+        // Metres, with the room of speeds.
+        let slope: Four<A, MetrePerSecond> = newer.times(before) + older.times(after);
+        slope.sum().times_within(detector.rate_hz, FASTEST_M_S)
     }
 
     /// One tick at `distance_m` from the surface (negative inside).
     #[inline]
     pub fn step<const K: usize>(
         &mut self,
-        bank: &TapBank<K>,
-        distance_m: f32,
-        servo_rate_hz: f32,
-        config: &crate::TapConfig,
-    ) -> TapOutput {
+        bank: &TapBank<K, A>,
+        distance_m: A::Scalar<Metre>,
+        detector: &Detector<A>,
+    ) -> TapOutput<A> {
         self.newest = self.newest.wrapping_sub(1) % WINDOW_TICKS as u8;
         self.distances_m[usize::from(self.newest) % WINDOW_TICKS] = distance_m;
-        let touching = distance_m < 0.0;
+        let touching = distance_m < A::Scalar::ZERO;
         let mut flags = Flags::NONE;
         if touching {
             if self.armed {
-                let speed_m_s = self.approach_speed_m_s(servo_rate_hz);
-                if speed_m_s >= config.min_speed_m_s {
-                    self.selection = bank.select(speed_m_s);
+                let speed_m_s = self.approach_speed_m_s(detector);
+                if speed_m_s >= detector.min_speed_m_s {
+                    self.selection = bank.select(speed_m_s.0);
                     self.tick = 0;
                     flags = Flags::TAP_STARTED;
                 }
             }
             self.armed = false;
-        } else if distance_m > config.rearm_m {
+        } else if distance_m > detector.rearm_m.0 {
             self.armed = true;
         }
-        let mut accel_m_s2 = 0.0;
+        let mut accel_m_s2 = A::Scalar::ZERO;
         if (self.tick as usize) < bank.ticks() {
             flags = flags.and(Flags::TAP_ACTIVE);
             accel_m_s2 = bank.accel_m_s2(&self.selection, self.tick as usize);
@@ -236,7 +275,7 @@ mod tests {
     fn bank() -> TapBank<8> {
         let mut bank = TapBank::EMPTY;
         bank.ticks = 2;
-        bank.speeds_m_s.extend([0.1, 0.2, 0.4]);
+        bank.speeds_m_s.extend([0.1, 0.2, 0.4].map(Number));
         bank.samples_m_s2[..6].copy_from_slice(&[1.0, 0.0, 2.0, 0.0, 4.0, 0.0]);
         bank
     }
@@ -264,7 +303,8 @@ mod tests {
 
     #[test]
     fn an_impact_rearms_only_at_a_distance() {
-        let (bank, config) = (bank(), crate::Config::default().tap);
+        let bank = bank();
+        let detector = Detector::new(&crate::Config::default().tap, 1000.0);
         let mut state = TapState::IDLE;
         state.restart(0.01);
         let mut starts = std::vec::Vec::new();
@@ -276,7 +316,7 @@ mod tests {
             .chain([-0.3e-3; 10])
             .chain((0..40).map(|n| 3e-3 - 0.1e-3 * n as f32));
         for (n, height) in heights.enumerate() {
-            let output = state.step(&bank, height, 1000.0, &config);
+            let output = state.step(&bank, height, &detector);
             if output.flags.contains(Flags::TAP_STARTED) {
                 starts.push((n, state.selection));
             }

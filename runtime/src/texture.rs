@@ -2,6 +2,13 @@
 
 use crate::{
     Filter,
+    arithmetic::{
+        Arithmetic, Float, Four, Number, Scalar, Zero as _,
+        units::{
+            Coefficient, Kilogram, Level, MillimetrePerSecond, Newton, NewtonPerMetre,
+            NewtonSecondPerMetre, Pair, Ratio, Unit,
+        },
+    },
     lanes::F4,
     locate::{Barycentric, Locator},
     lsf::{self, Pairs, Products, Shape},
@@ -19,29 +26,71 @@ use thiserror::Error;
 /// `Q` multiples of 4, orders at most 24), `K` tap samples at the servo rate, all traces together. One slot drives any
 /// number of [`State`](crate::State)s; a texture that does not fit is refused.
 #[derive(Debug, Clone)]
-pub struct Texture<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize> {
-    pub(crate) locator: Locator<T>,
-    pub(crate) taps: TapBank<K>,
-    pub(crate) surface: Surface,
-    pub(crate) mu: f32,
+pub struct Texture<
+    const V: usize,
+    const T: usize,
+    const P: usize,
+    const Q: usize,
+    const K: usize,
+    A: Arithmetic = Float,
+> {
+    pub(crate) locator: Locator<T, A>,
+    pub(crate) taps: TapBank<K, A>,
+    pub(crate) feel: Feel<A>,
+    surface: Surface,
     id: u32,
-    shape: Shape,
+    shape: Shape<A>,
     lags: Lags,
     shares: Shares,
     servo_rate_hz: f32,
     /// b_1 of a numerator that every model shares.
-    b1: f32,
+    b1: Number<A, Coefficient>,
     /// −2 cos ω of A(z)'s LSFs in [`lsf::stage`] order, one row a vertex.
-    ar_pairs: Rows<P, V>,
+    ar_pairs: Rows<P, V, A>,
     /// −2 cos ω of B(z)'s LSFs.
-    ma_pairs: Rows<Q, V>,
+    ma_pairs: Rows<Q, V, A>,
     /// gain·σ, m/s²: mixed linearly. Mixing σ² would be 9 dB too loud near rest.
-    levels_m_s2: [f32; V],
+    levels_m_s2: [A::Scalar<Level>; V],
 }
 
 /// Room for the largest grid, and for 16 taps of 256 ticks: 13 taps of 100 samples at 10 kHz
 /// fit at servo rates up to 10 kHz. 33 KiB, better boxed or static than on a stack.
 pub type HostTexture = Texture<64, 128, 24, 24, 4096>;
+
+/// Wall, gains and friction, as a tick computes with them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Feel<A: Arithmetic> {
+    pub(crate) stiffness_n_m: Number<A, NewtonPerMetre>,
+    pub(crate) damping_n_s_m: Number<A, NewtonSecondPerMetre>,
+    pub(crate) vib_s2_m: Number<A, Ratio>,
+    pub(crate) effective_mass_kg: Number<A, Kilogram>,
+    pub(crate) f_max_n: Number<A, Newton>,
+    /// Coefficient of kinetic friction.
+    pub(crate) mu: Number<A, Ratio>,
+}
+
+impl<A: Arithmetic> Feel<A> {
+    /// No wall, no friction, silence.
+    pub(crate) const NONE: Self = Self {
+        stiffness_n_m: Number::ZERO,
+        damping_n_s_m: Number::ZERO,
+        vib_s2_m: Number::ZERO,
+        effective_mass_kg: Number::ZERO,
+        f_max_n: Number::ZERO,
+        mu: Number::ZERO,
+    };
+
+    fn new(surface: &Surface, mu: f32) -> Self {
+        Self {
+            stiffness_n_m: Number::of(surface.stiffness_n_m),
+            damping_n_s_m: Number::of(surface.damping_n_s_m),
+            vib_s2_m: Number::of(surface.vib_s2_m),
+            effective_mass_kg: Number::of(surface.effective_mass_kg),
+            f_max_n: Number::of(surface.f_max_n),
+            mu: Number::of(mu),
+        }
+    }
+}
 
 /// Why a texture does not fit a slot.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -70,42 +119,59 @@ pub enum LoadError {
         /// Rate of the servo loop, Hz.
         servo_hz: f32,
     },
+    /// A number beyond what fixed point can hold.
+    #[error("{field} = {value}: a tick in fixed point takes {least} to {most}")]
+    Range {
+        /// Which number.
+        field: &'static str,
+        /// Its value.
+        value: f32,
+        /// The smallest that fits.
+        least: f32,
+        /// The largest that fits.
+        most: f32,
+    },
 }
+
+/// No −2 cos ω is larger.
+const WIDEST: f32 = 2.0;
 
 /// −2 cos ω in [`lsf::stage`] order, one row a vertex.
 #[derive(Debug, Clone)]
 #[repr(align(16))]
-struct Rows<const N: usize, const V: usize>([[f32; N]; V]);
+struct Rows<const N: usize, const V: usize, A: Arithmetic>([[A::Scalar<Pair>; N]; V]);
 
-impl<const N: usize, const V: usize> Rows<N, V> {
+impl<const N: usize, const V: usize, A: Arithmetic> Rows<N, V, A> {
     /// Moves numbers `share` of the way to the mixture of three rows.
     #[inline(always)]
-    fn follow(&self, line: &mut Line, query: &Barycentric, share: f32) {
+    fn follow(&self, line: &mut Line<A, Pair>, query: &Barycentric<A>, share: Number<A, Unit>) {
         let row = |corner: usize| {
             let row = self.0.get(usize::from(query.vertices[corner]));
-            row.unwrap_or(&[0.0; N]).as_chunks::<4>().0
+            row.map_or(&[][..], |row| row.as_chunks::<4>().0)
         };
-        let [wi, wj, wk] = query.weights.map(|weight| F4::splat(share * weight));
-        let kept = F4::splat(1.0 - share);
+        let weight = |weight| Four::splat(share.times::<Unit, Unit>(Number(weight)));
+        let [wi, wj, wk] = query.weights.map(weight);
+        let kept = Four::splat(Number::whole(1) - share);
         let rows = row(0).iter().zip(row(1)).zip(row(2));
         // Rows are zero beyond the order: a loop of constant length costs less than a shorter one.
         for (place, ((i, j), k)) in line.0.iter_mut().zip(rows) {
-            let mixed = wi * F4::load(i) + wj * F4::load(j) + wk * F4::load(k);
-            *place = (kept * F4::load(place) + mixed).to_array();
+            let [i, j, k, before] = [i, j, k, &*place].map(Four::<A, Pair>::load);
+            let terms = [(i, wi), (j, wj), (k, wk), (before, kept)];
+            *place = Four::<A, Pair>::sum_within(terms, WIDEST).to_array();
         }
     }
 }
 
-impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize> Default
-    for Texture<V, T, P, Q, K>
+impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize, A: Arithmetic>
+    Default for Texture<V, T, P, Q, K, A>
 {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>
-    Texture<V, T, P, Q, K>
+impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize, A: Arithmetic>
+    Texture<V, T, P, Q, K, A>
 {
     /// An empty slot: no wall, no sound.
     #[must_use]
@@ -120,16 +186,16 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
                 effective_mass_kg: 0.0,
                 f_max_n: 0.0,
             },
-            mu: 0.0,
+            feel: Feel::NONE,
             id: 0,
-            shape: Shape::new(0, 0),
+            shape: Shape::NONE,
             lags: Lags::new(0, 0),
             shares: Shares::NONE,
             servo_rate_hz: 0.0,
-            b1: 0.0,
-            ar_pairs: Rows([[0.0; P]; V]),
-            ma_pairs: Rows([[0.0; Q]; V]),
-            levels_m_s2: [0.0; V],
+            b1: Number::ZERO,
+            ar_pairs: Rows([[A::Scalar::ZERO; P]; V]),
+            ma_pairs: Rows([[A::Scalar::ZERO; Q]; V]),
+            levels_m_s2: [A::Scalar::ZERO; V],
         }
     }
 
@@ -148,7 +214,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             });
         }
         let triangle_room = T - T % 4;
-        let tap_samples = TapBank::<K>::needed(asset.taps(), servo_rate_hz);
+        let tap_samples = TapBank::<K, A>::needed(asset.taps(), servo_rate_hz);
         for (field, found, capacity) in [
             ("vertices", grid.vertices().len(), V),
             ("triangles", grid.triangles().len(), triangle_room),
@@ -164,6 +230,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
                 });
             }
         }
+        A::check(asset)?;
         // The checksums of all that is loaded.
         self.id = asset
             .sections()
@@ -171,22 +238,22 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         self.shape = Shape::new(grid.ar_order(), grid.ma_order());
         self.lags = Lags::new(grid.ar_order(), grid.ma_order());
         self.b1 = if grid.numerator() == Numerator::Nyquist {
-            1.0
+            Number::whole(1)
         } else {
-            0.0
+            Number::ZERO
         };
         self.servo_rate_hz = servo_rate_hz;
         self.surface = *asset.surface();
-        self.mu = asset.friction().mu();
-        self.ar_pairs.0 = [[0.0; P]; V];
-        self.ma_pairs.0 = [[0.0; Q]; V];
-        self.levels_m_s2 = [0.0; V];
+        self.feel = Feel::new(asset.surface(), asset.friction().mu());
+        self.ar_pairs.0 = [[A::Scalar::ZERO; P]; V];
+        self.ma_pairs.0 = [[A::Scalar::ZERO; Q]; V];
+        self.levels_m_s2 = [A::Scalar::ZERO; V];
         let (ar, ma) = (stages(grid.ar_order()), stages(grid.ma_order()));
         for (index, vertex) in grid.vertices().enumerate().take(V) {
             if let Some(model) = grid.model(usize::from(vertex.model)) {
                 to_pairs(&mut self.ar_pairs.0[index], model.lsf(), &ar);
                 to_pairs(&mut self.ma_pairs.0[index], model.ma_lsf(), &ma);
-                self.levels_m_s2[index] = model.gain * vertex.sigma_m_s2;
+                self.levels_m_s2[index] = A::Scalar::of(model.gain * vertex.sigma_m_s2);
             }
         }
         let corner = |v: u8| grid.place(usize::from(v)).unwrap_or_default();
@@ -215,20 +282,21 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
 
     /// Coefficient of kinetic friction.
     #[must_use]
-    pub const fn mu(&self) -> f32 {
-        self.mu
+    pub fn mu(&self) -> f32 {
+        self.feel.mu.value()
     }
 
     /// The tap bank at the servo rate.
     #[must_use]
-    pub const fn taps(&self) -> &TapBank<K> {
+    pub const fn taps(&self) -> &TapBank<K, A> {
         &self.taps
     }
 
     /// Triangle and weights of a query; convex and finite for every input.
     #[must_use]
-    pub fn weights_at(&self, speed_mm_s: f32, force_n: f32) -> Barycentric {
-        self.locator.locate(speed_mm_s, force_n)
+    pub fn weights_at(&self, speed_mm_s: f32, force_n: f32) -> Barycentric<A> {
+        let force_n = Number::of(force_n);
+        self.locator.locate(Number::of(speed_mm_s), force_n)
     }
 
     /// The steady model of a query: what the tick renders once speed and force rest.
@@ -236,23 +304,27 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     pub fn filter_at(&self, speed_mm_s: f32, force_n: f32) -> Filter {
         let query = self.weights_at(speed_mm_s, force_n);
         let (mut pairs, mut products) = (Pairs::ZERO, Products::ONE);
-        self.follow(&mut pairs, &query, 1.0);
+        self.follow(&mut pairs, &query, Number::whole(1));
         for part in 0..self.shape.twos() * self.shape.parts() {
             self.multiply(&mut products, &pairs, part);
         }
         let (mut a, mut b) = (Line::ZERO, Line::ZERO);
         self.coefficients(&products, &mut a, &mut b);
         Filter {
-            a: a.to_array(),
-            b: b.to_array(),
-            level_m_s2: self.level_m_s2(&query),
+            a: a.to_array().map(|a| a.value()),
+            b: b.to_array().map(|b| b.value()),
+            level_m_s2: self.level_m_s2(&query).value(),
         }
     }
 
     /// Whether an edge model answers a query.
     #[inline]
-    pub(crate) fn is_outside(&self, speed_mm_s: f32, force_n: f32) -> bool {
-        !(speed_mm_s <= self.locator.max_speed_mm_s && force_n <= self.locator.max_force_n)
+    pub(crate) fn is_outside(
+        &self,
+        speed_mm_s: Number<A, MillimetrePerSecond>,
+        force_n: Number<A, Newton>,
+    ) -> bool {
+        self.locator.is_outside(speed_mm_s, force_n)
     }
 
     /// Checksum of what was loaded; 0 for an empty slot.
@@ -275,7 +347,12 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
 
     /// Moves parameters `share` of the way to a mixture.
     #[inline]
-    pub(crate) fn follow(&self, pairs: &mut Pairs, query: &Barycentric, share: f32) {
+    pub(crate) fn follow(
+        &self,
+        pairs: &mut Pairs<A>,
+        query: &Barycentric<A>,
+        share: Number<A, Unit>,
+    ) {
         self.ar_pairs.follow(&mut pairs.ar, query, share);
         if Q > 0 && self.shape.ma_order > 0 {
             self.ma_pairs.follow(&mut pairs.ma, query, share);
@@ -284,27 +361,29 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
 
     /// Multiplies one part of a two of pairs in.
     #[inline]
-    pub(crate) fn multiply(&self, products: &mut Products, pairs: &Pairs, part: usize) {
+    pub(crate) fn multiply(&self, products: &mut Products<A>, pairs: &Pairs<A>, part: usize) {
         self.shape.multiply(products, pairs, part);
     }
 
     /// Coefficients of A(z) and B(z), all twos done.
     #[inline]
-    pub(crate) fn coefficients(&self, products: &Products, a: &mut Line, b: &mut Line) {
+    pub(crate) fn coefficients(&self, products: &Products<A>, a: &mut Line<A>, b: &mut Line<A>) {
         self.shape.ar(products, a);
         if Q > 0 && self.shape.ma_order > 0 {
             self.shape.ma(products, b);
         } else {
-            b.0[0][0] = self.b1;
+            b.0[0][0] = self.b1.0;
         }
     }
 
     /// gain·σ of a mixture, m/s².
     #[inline]
-    pub(crate) fn level_m_s2(&self, query: &Barycentric) -> f32 {
+    pub(crate) fn level_m_s2(&self, query: &Barycentric<A>) -> Number<A, Level> {
         let level = |corner: usize| {
             let vertex = usize::from(query.vertices[corner]);
-            query.weights[corner] * self.levels_m_s2.get(vertex).copied().unwrap_or_default()
+            let level = self.levels_m_s2.get(vertex).copied().unwrap_or_default();
+            let weight = Number::<A, Unit>(query.weights[corner]);
+            weight.times(Number::<A, Level>(level))
         };
         level(0) + level(1) + level(2)
     }
@@ -320,8 +399,8 @@ fn stages(order: usize) -> [u8; MAX_ORDER] {
 }
 
 /// −2 cos ω of a model, in the order in which the conversion takes them.
-fn to_pairs(
-    row: &mut [f32],
+fn to_pairs<S: Scalar>(
+    row: &mut [S],
     codes: impl ExactSizeIterator<Item = LsfCode>,
     stages: &[u8; MAX_ORDER],
 ) {
@@ -335,7 +414,7 @@ fn to_pairs(
     }
     for (number, &stage) in numbers.iter().zip(stages).take(order) {
         if let Some(place) = row.get_mut(usize::from(stage)) {
-            *place = *number;
+            *place = S::of(*number);
         }
     }
 }

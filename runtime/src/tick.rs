@@ -4,13 +4,20 @@ use asperity_formats::Surface;
 
 use crate::{
     Config, ConfigError, Texture, VibrationAxis,
+    arithmetic::{
+        Arithmetic, Float, Four, Number, Scalar as _,
+        units::{
+            Acceleration, FASTEST_M_S, Hertz, Kilogram, Metre, MetrePerSecond, MillimetrePerSecond,
+            Newton, Ratio, STRONGEST_N, TapAcceleration, Unit,
+        },
+    },
     contact::Solid,
     friction::{Bristle, FrictionState},
-    lanes::F4,
     limiter::Limiter,
-    math::{Vec3, cross, exp, max, rsqrt_pair},
+    math::{exp, max},
     safety::Gate,
-    tap::TapState,
+    tap::{Detector, TapState},
+    texture::Feel,
     velocity::{LowPass2, LowPass2State},
     vibration::{CYCLE_TICKS, Vibration},
     wall::{Passivity, Wall},
@@ -18,24 +25,26 @@ use crate::{
 
 /// Below this speed the direction of motion is the last one, m/s.
 const DIRECTION_FLOOR_M_S: f32 = 1.0e-4;
+/// A gain of the vibration is no larger where numbers have a range, kg.
+const HEAVIEST_KG: f32 = 127.0;
 /// m/s to mm/s.
-const MM: f32 = 1000.0;
+const MM: i32 = 1000;
 
 /// What the device says in one servo period.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
-    /// Stylus position in the world frame, m. Anything not finite, or beyond 10 km, is a
-    /// bad sample.
-    pub position_m: Vec3,
+pub struct Sample<A: Arithmetic = Float> {
+    /// Stylus position in the world frame, m. Anything not finite, or beyond 10 km (in fixed
+    /// point 1 m), is a bad sample.
+    pub position_m: [A::Scalar<Metre>; 3],
     /// Servo periods since the sample before: 1 in a healthy loop, more after missed
     /// periods, 0 when the device had nothing new.
     pub elapsed_ticks: u32,
 }
 
-impl Sample {
+impl<A: Arithmetic> Sample<A> {
     /// A fresh sample of a healthy loop.
     #[must_use]
-    pub const fn at(position_m: Vec3) -> Self {
+    pub const fn at(position_m: [A::Scalar<Metre>; 3]) -> Self {
         Self {
             position_m,
             elapsed_ticks: 1,
@@ -44,7 +53,7 @@ impl Sample {
 
     /// The device had nothing new, or is lost.
     pub const STALE: Self = Self {
-        position_m: [f32::NAN; 3],
+        position_m: [A::Scalar::MISSING; 3],
         elapsed_ticks: 0,
     };
 }
@@ -144,21 +153,21 @@ impl Flags {
 
 /// What a tick gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Output {
+pub struct Output<A: Arithmetic = Float> {
     /// Force on the hand in the world frame, N; finite, within peak and slew.
-    pub force_n: Vec3,
+    pub force_n: [A::Scalar<Newton>; 3],
     /// Depth inside the surface, m; 0 outside.
-    pub depth_m: f32,
+    pub depth_m: A::Scalar<Metre>,
     /// Estimated tangential speed, mm/s.
-    pub speed_mm_s: f32,
+    pub speed_mm_s: A::Scalar<MillimetrePerSecond>,
     /// k·δ, N: what looks up the grid and what friction is proportional to.
-    pub normal_force_n: f32,
+    pub normal_force_n: A::Scalar<Newton>,
     /// y\[n\] before device gain, m/s².
-    pub vib_m_s2: f32,
+    pub vib_m_s2: A::Scalar<Acceleration>,
     /// Tap force along the normal, N.
-    pub tap_n: f32,
+    pub tap_n: A::Scalar<Newton>,
     /// Magnitude of the friction force, N.
-    pub friction_n: f32,
+    pub friction_n: A::Scalar<Newton>,
     /// What happened.
     pub flags: Flags,
 }
@@ -211,31 +220,31 @@ impl Counters {
 /// Everything that changes from tick to tick. Texture and configuration are outside
 /// it, so a swap of texture copies no history.
 #[derive(Debug, Clone, PartialEq)]
-pub struct State {
-    pub(crate) vibration: Vibration,
-    gate: Gate,
-    distance_m: f32,
-    velocity: LowPass2State,
-    direction: F4,
-    tap: TapState,
-    friction: FrictionState,
-    force_n: F4,
+pub struct State<A: Arithmetic = Float> {
+    pub(crate) vibration: Vibration<A>,
+    gate: Gate<A>,
+    distance_m: Number<A, Metre>,
+    velocity: LowPass2State<A>,
+    direction: Four<A, Unit>,
+    tap: TapState<A>,
+    friction: FrictionState<A>,
+    force_n: Four<A, Newton>,
     counters: Counters,
 }
 
-impl State {
+impl<A: Arithmetic> State<A> {
     /// A state at rest, without force; the seed is that of the excitation.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
             vibration: Vibration::new(seed),
-            gate: Gate::NEW,
-            distance_m: 0.0,
+            gate: Gate::new(),
+            distance_m: Number::ZERO,
             velocity: LowPass2State::REST,
-            direction: F4::vec3([1.0, 0.0, 0.0]),
+            direction: Four::of([1.0, 0.0, 0.0, 0.0]),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
-            force_n: F4::ZERO,
+            force_n: Four::ZERO,
             counters: Counters::default(),
         }
     }
@@ -248,47 +257,47 @@ impl State {
 
     /// Another surface is touched from here on: the way there is no motion along its normal.
     #[cold]
-    pub(crate) fn cross(&mut self, solid: &Solid) {
+    pub(crate) fn cross(&mut self, solid: &Solid<A>) {
         let (distance_m, _) = solid.touch(self.gate.position_m());
         self.distance_m = distance_m;
-        self.tap.cross(distance_m);
+        self.tap.cross(distance_m.0);
     }
 
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.
     #[cold]
-    fn restart(&mut self, distance_m: f32) {
+    fn restart(&mut self, distance_m: Number<A, Metre>) {
         self.distance_m = distance_m;
         self.velocity = LowPass2State::REST;
         self.vibration.silence();
         self.friction = FrictionState::default();
-        self.tap.restart(distance_m);
+        self.tap.restart(distance_m.0);
     }
 }
 
 /// What is touched, apart from the sound of its texture.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Felt<'a> {
-    pub(crate) solid: &'a Solid,
-    pub(crate) surface: &'a Surface,
-    pub(crate) mu: f32,
+pub(crate) struct Felt<'a, A: Arithmetic> {
+    pub(crate) solid: &'a Solid<A>,
+    pub(crate) feel: &'a Feel<A>,
 }
 
 /// A checked configuration with all that follows from it.
 #[derive(Debug, Clone)]
-pub struct Renderer {
+pub struct Renderer<A: Arithmetic = Float> {
     config: Config,
-    solid: Solid,
-    velocity: LowPass2,
-    limiter: Limiter,
-    bristle: Bristle,
-    passivity: Passivity,
+    solid: Solid<A>,
+    velocity: LowPass2<A>,
+    limiter: Limiter<A>,
+    bristle: Bristle<A>,
+    passivity: Passivity<A>,
+    detector: Detector<A>,
     /// Periods per second over 0 (never), 1, 2 and 3 elapsed ticks.
-    rate_over_ticks: [f32; 4],
+    rate_over_ticks: [Number<A, Hertz>; 4],
     /// Share of the way that parameters go in a cycle.
-    pub(crate) follow_share: f32,
+    pub(crate) follow_share: Number<A, Unit>,
     /// Share of the way that wall, gains and friction go in a tick, to another texture.
-    pub(crate) texture_share: f32,
-    ramp_step: f32,
+    pub(crate) texture_share: Number<A, Unit>,
+    ramp_step: Number<A, Unit>,
 }
 
 impl Renderer {
@@ -297,7 +306,18 @@ impl Renderer {
     /// # Errors
     /// The first field out of its range.
     pub fn new(config: &Config) -> Result<Self, ConfigError> {
+        Self::prepare(config)
+    }
+}
+
+impl<A: Arithmetic> Renderer<A> {
+    /// [`Renderer::new`] for any arithmetic.
+    ///
+    /// # Errors
+    /// The first field out of its range, or out of that of the arithmetic.
+    pub fn prepare(config: &Config) -> Result<Self, ConfigError> {
         config.check()?;
+        A::check_config(config)?;
         let rate = config.servo_rate_hz;
         let ticks = config.parameter_time_constant_s * rate;
         let cycles = ticks / CYCLE_TICKS as f32;
@@ -312,18 +332,19 @@ impl Renderer {
             limiter: Limiter::new(&config.limits, rate),
             bristle: Bristle::new(&config.friction, config.mechanics.delay_ticks, rate),
             passivity: Passivity::new(&config.mechanics, rate),
-            rate_over_ticks: [rate, rate, rate / 2.0, rate / 3.0],
-            follow_share: if cycles > 0.0125 {
+            detector: Detector::new(&config.tap, rate),
+            rate_over_ticks: [rate, rate, rate / 2.0, rate / 3.0].map(Number::of),
+            follow_share: Number::of(if cycles > 0.0125 {
                 1.0 - exp(-1.0 / cycles)
             } else {
                 1.0
-            },
-            texture_share: if ticks > 0.1 {
+            }),
+            texture_share: Number::of(if ticks > 0.1 {
                 1.0 - exp(-1.0 / ticks)
             } else {
                 1.0
-            },
-            ramp_step: 1.0 / max(config.safety.ramp_s * rate, 1.0),
+            }),
+            ramp_step: Number::of(1.0 / max(config.safety.ramp_s * rate, 1.0)),
         })
     }
 
@@ -334,7 +355,7 @@ impl Renderer {
     }
 
     /// What is touched.
-    pub(crate) const fn solid(&self) -> &Solid {
+    pub(crate) const fn solid(&self) -> &Solid<A> {
         &self.solid
     }
 
@@ -342,9 +363,10 @@ impl Renderer {
     /// it.
     #[inline]
     #[must_use]
-    pub fn wall(&self, surface: &Surface) -> Wall {
+    pub fn wall(&self, surface: &Surface) -> Wall<A> {
+        let damping_n_s_m = A::Scalar::of(surface.damping_n_s_m);
         self.passivity
-            .wall(surface.stiffness_n_m, surface.damping_n_s_m)
+            .wall(A::Scalar::of(surface.stiffness_n_m), damping_n_s_m)
     }
 
     /// One servo period. Infallible: every sample gives a finite force within the
@@ -354,22 +376,23 @@ impl Renderer {
     /// F_vib = g_vib·y\[n\]·F_max.
     pub fn tick<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
         &self,
-        texture: &Texture<V, T, P, Q, K>,
-        state: &mut State,
-        sample: &Sample,
-    ) -> Output {
+        texture: &Texture<V, T, P, Q, K, A>,
+        state: &mut State<A>,
+        sample: &Sample<A>,
+    ) -> Output<A> {
         let felt = Felt {
             solid: &self.solid,
-            surface: &texture.surface,
-            mu: texture.mu,
+            feel: &texture.feel,
         };
         state.vibration.prepare(texture, self.follow_share);
         let lags = texture.lags();
-        let sound = |vibration: &mut Vibration, sounding| vibration.sound(lags, sounding);
+        let sound = |vibration: &mut Vibration<A>, sounding| vibration.sound(lags, sounding);
         let output = self.tick_on(felt, texture, state, sample, sound);
-        state
-            .vibration
-            .query(texture, output.speed_mm_s, output.normal_force_n);
+        state.vibration.query(
+            texture,
+            Number(output.speed_mm_s),
+            Number(output.normal_force_n),
+        );
         output
     }
 
@@ -385,18 +408,18 @@ impl Renderer {
         const K: usize,
     >(
         &self,
-        felt: Felt<'_>,
-        texture: &Texture<V, T, P, Q, K>,
-        state: &mut State,
-        sample: &Sample,
-        sound: impl FnOnce(&mut Vibration, bool) -> (f32, bool),
-    ) -> Output {
+        felt: Felt<'_, A>,
+        texture: &Texture<V, T, P, Q, K, A>,
+        state: &mut State<A>,
+        sample: &Sample<A>,
+        sound: impl FnOnce(&mut Vibration<A>, bool) -> (Number<A, Acceleration>, bool),
+    ) -> Output<A> {
         let config = &self.config;
-        let surface = felt.surface;
+        let feel = felt.feel;
 
         let gated = state
             .gate
-            .step(sample, config.safety.hold_ticks, self.ramp_step);
+            .step(sample, config.safety.hold_ticks, self.ramp_step.0);
         let mut flags = gated.flags;
         let (distance_m, normal) = felt.solid.touch(gated.position_m);
         if flags.contains(Flags::RESTART) {
@@ -406,44 +429,41 @@ impl Renderer {
         let motion_m = gated.motion_m;
         let rate = self.rate_over_ticks[gated.elapsed_ticks as usize % 4];
         let moved_m = motion_m.with_fourth(distance_m - state.distance_m);
-        let moving_m_s = moved_m * F4::splat(rate);
+        let moving_m_s = moved_m.scaled_within(rate, FASTEST_M_S);
         let velocity_m_s = self.velocity.advance(&mut state.velocity, moving_m_s);
-        let outward_m_s = velocity_m_s.fourth();
+        let outward_m_s: Number<A, MetrePerSecond> = velocity_m_s.fourth();
         state.distance_m = distance_m;
 
-        let depth_m = max(-distance_m, 0.0);
-        let touching = depth_m > 0.0;
+        let depth_m = (-distance_m).max(Number::ZERO);
+        let touching = depth_m > Number::ZERO;
         flags = flags.and(Flags::CONTACT.when(touching));
-        let wall = self.wall(surface);
-        let stiffness_n = wall.stiffness_n_m * depth_m;
+        let wall = self
+            .passivity
+            .wall(feel.stiffness_n_m.0, feel.damping_n_s_m.0);
+        let stiffness_n = wall.spring_n(depth_m);
 
         let slide_m_s = velocity_m_s.first_three().tangential(normal);
-        let squared = slide_m_s.dot3(slide_m_s);
         let stretched = state
             .friction
             .stretch(&self.bristle, motion_m, normal, stiffness_n);
-        let [inverse_speed, inverse_stretch] = rsqrt_pair([squared, stretched.squared]);
-        let speed_m_s = squared * inverse_speed;
-        if speed_m_s > DIRECTION_FLOOR_M_S {
-            state.direction = slide_m_s * F4::splat(inverse_speed);
+        let [sliding, stretching] = A::polar_pair([slide_m_s.square(), stretched.square]);
+        let speed_m_s = Number::<A, MetrePerSecond>(A::length(sliding));
+        if speed_m_s > Number::of(DIRECTION_FLOOR_M_S) {
+            state.direction = slide_m_s.direction(sliding);
         }
-        let speed_mm_s = speed_m_s * MM;
+        let speed_mm_s = speed_m_s.times(Number::<A, Ratio>::whole(MM));
         let outside = texture.is_outside(speed_mm_s, stiffness_n);
         flags = flags.and(Flags::OUTSIDE_GRID.when(outside));
-        let limit_n = felt.mu * stiffness_n;
-        let (friction, friction_n) = state.friction.slip(
-            &self.bristle,
-            &stretched,
-            inverse_stretch,
-            motion_m,
-            limit_n,
-        );
+        let limit_n = feel.mu.times(stiffness_n);
+        let (friction, friction_n) =
+            state
+                .friction
+                .slip(&self.bristle, &stretched, stretching, motion_m, limit_n);
 
-        let tap = state
-            .tap
-            .step(&texture.taps, distance_m, config.servo_rate_hz, &config.tap);
+        let tap = state.tap.step(&texture.taps, distance_m.0, &self.detector);
         flags = flags.and(tap.flags);
-        let tap_n = surface.effective_mass_kg * tap.accel_m_s2;
+        let tap_m_s2 = Number::<A, TapAcceleration>(tap.accel_m_s2);
+        let tap_n = feel.effective_mass_kg.times_within(tap_m_s2, STRONGEST_N);
 
         let sounding = touching && !flags.contains(Flags::SAFE_STATE);
         let (vib_m_s2, clamped) = sound(&mut state.vibration, sounding);
@@ -451,14 +471,16 @@ impl Renderer {
             flags = flags.and(Flags::VIB_CLAMPED);
         }
 
-        let normal_n = wall.force_n(stiffness_n, outward_m_s) + tap_n;
+        let pushing_n = Number::<A, Newton>(wall.force_n(stiffness_n.0, outward_m_s.0));
+        let normal_n: Number<A, Newton> = pushing_n + tap_n;
         let axis = match config.vibration_axis {
             VibrationAxis::Tangent => state.direction,
-            VibrationAxis::Binormal => F4::vec3(cross(state.direction.xyz(), normal.xyz())),
+            VibrationAxis::Binormal => state.direction.cross(normal),
         };
-        let vib_n = surface.vib_s2_m * surface.f_max_n * vib_m_s2;
-        let total_n = normal * F4::splat(normal_n) + friction + axis * F4::splat(vib_n);
-        let wanted_n = total_n * F4::splat(gated.gain);
+        let gain: Number<A, Kilogram> = feel.vib_s2_m.times_within(feel.f_max_n, HEAVIEST_KG);
+        let vib_n: Number<A, Newton> = gain.times_within(vib_m_s2, STRONGEST_N);
+        let total_n = normal.scaled(normal_n) + friction + axis.scaled(vib_n);
+        let wanted_n = total_n.scaled(gated.gain);
         let (force_n, limited) = self.limiter.advance(state.force_n, wanted_n);
         state.force_n = force_n;
         flags = flags.and(limited);
@@ -466,12 +488,12 @@ impl Renderer {
         state.counters.count(flags, sample.elapsed_ticks);
         Output {
             force_n: force_n.xyz(),
-            depth_m,
-            speed_mm_s,
-            normal_force_n: stiffness_n,
-            vib_m_s2,
-            tap_n,
-            friction_n,
+            depth_m: depth_m.0,
+            speed_mm_s: speed_mm_s.0,
+            normal_force_n: stiffness_n.0,
+            vib_m_s2: vib_m_s2.0,
+            tap_n: tap_n.0,
+            friction_n: friction_n.0,
             flags: flags.seen(),
         }
     }

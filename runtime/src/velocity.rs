@@ -1,7 +1,10 @@
 //! Velocity from positions: backward difference and second-order low-pass.
 
 use crate::{
-    lanes::F4,
+    arithmetic::{
+        Arithmetic, Float, Four,
+        units::{MetrePerSecond, Unit},
+    },
     math::{cos_pi, sin_pi},
 };
 
@@ -14,28 +17,28 @@ pub const CHANNELS: usize = 4;
 /// `y = b0·x + s1`, `s1 = 2·b0·x − a1·y + s2`, `s2 = b0·x − a2·y`, with b1 = 2·b0 and
 /// b2 = b0. Unit gain at DC; delay at low frequency √2/(2π f_c).
 #[derive(Debug, Clone, Copy)]
-pub struct LowPass2 {
-    b0: F4,
-    a1: F4,
-    a2: F4,
+pub struct LowPass2<A: Arithmetic = Float> {
+    b0: Four<A, Unit>,
+    a1: Four<A, Unit>,
+    a2: Four<A, Unit>,
 }
 
 /// State of a [`LowPass2`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LowPass2State {
-    s1: F4,
-    s2: F4,
+pub struct LowPass2State<A: Arithmetic = Float> {
+    s1: Four<A, MetrePerSecond>,
+    s2: Four<A, MetrePerSecond>,
 }
 
-impl LowPass2State {
+impl<A: Arithmetic> LowPass2State<A> {
     /// At rest.
     pub const REST: Self = Self {
-        s1: F4::ZERO,
-        s2: F4::ZERO,
+        s1: Four::ZERO,
+        s2: Four::ZERO,
     };
 }
 
-impl LowPass2 {
+impl<A: Arithmetic> LowPass2<A> {
     /// Filters with cut-offs `cutoffs_hz` (−3 dB) at `rate_hz`; 0 < cut-off < rate/2.
     #[must_use]
     pub fn new(cutoffs_hz: [f32; CHANNELS], rate_hz: f32) -> Self {
@@ -45,25 +48,33 @@ impl LowPass2 {
         });
         let norm = |k: f32| 1.0 / (1.0 + core::f32::consts::SQRT_2 * k + k * k);
         Self {
-            b0: F4::load(&k.map(|k| k * k * norm(k))),
-            a1: F4::load(&k.map(|k| 2.0 * (k * k - 1.0) * norm(k))),
-            a2: F4::load(&k.map(|k| (1.0 - core::f32::consts::SQRT_2 * k + k * k) * norm(k))),
+            b0: Four::of(k.map(|k| k * k * norm(k))),
+            a1: Four::of(k.map(|k| 2.0 * (k * k - 1.0) * norm(k))),
+            a2: Four::of(k.map(|k| (1.0 - core::f32::consts::SQRT_2 * k + k * k) * norm(k))),
         }
     }
 
     /// One step of every channel.
     #[inline]
-    pub fn step(&self, state: &mut LowPass2State, x: [f32; CHANNELS]) -> [f32; CHANNELS] {
-        self.advance(state, F4::load(&x)).to_array()
+    pub fn step(
+        &self,
+        state: &mut LowPass2State<A>,
+        x: [A::Scalar<MetrePerSecond>; CHANNELS],
+    ) -> [A::Scalar<MetrePerSecond>; CHANNELS] {
+        self.advance(state, Four::load(&x)).to_array()
     }
 
     /// [`LowPass2::step`] on lanes.
     #[inline(always)]
-    pub(crate) fn advance(&self, state: &mut LowPass2State, x: F4) -> F4 {
-        let bx = self.b0 * x;
+    pub(crate) fn advance(
+        &self,
+        state: &mut LowPass2State<A>,
+        x: Four<A, MetrePerSecond>,
+    ) -> Four<A, MetrePerSecond> {
+        let bx = self.b0.times(x);
         let y = bx + state.s1;
-        state.s1 = bx + bx - self.a1 * y + state.s2;
-        state.s2 = bx - self.a2 * y;
+        state.s1 = bx + bx - self.a1.times(y) + state.s2;
+        state.s2 = bx - self.a2.times(y);
         y
     }
 }
@@ -77,7 +88,7 @@ mod tests {
     fn a_ramp_is_followed_with_the_stated_delay() {
         let rate_hz = 1000.0;
         let cutoffs_hz = [20.0, 5.0, 40.0, 100.0];
-        let filter = LowPass2::new(cutoffs_hz, rate_hz);
+        let filter = LowPass2::<Float>::new(cutoffs_hz, rate_hz);
         let mut state = LowPass2State::REST;
         let mut y = [0.0; CHANNELS];
         for n in 0..2000 {

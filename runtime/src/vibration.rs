@@ -13,6 +13,10 @@
 pub use crate::schedule::CYCLE_TICKS;
 use crate::{
     Barycentric, Texture,
+    arithmetic::{
+        Arithmetic, Float, Number,
+        units::{Acceleration, Coordinate, Level, MillimetrePerSecond, Newton, Unit},
+    },
     excitation::Excitation,
     locate::Search,
     lsf::{Pairs, Products},
@@ -21,21 +25,21 @@ use crate::{
 
 /// State of the vibration.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Vibration {
+pub struct Vibration<A: Arithmetic = Float> {
     /// Partial products of the conversion under way.
-    products: Products,
+    products: Products<A>,
     /// Smoothed parameters.
-    pairs: Pairs,
+    pairs: Pairs<A>,
     /// Coefficients at work.
-    a: Line,
-    b: Line,
-    history: History,
-    level_m_s2: f32,
+    a: Line<A>,
+    b: Line<A>,
+    history: History<A>,
+    level_m_s2: Number<A, Level>,
     // The query of the cycle under way, and what was found.
-    speed_mm_s: f32,
-    force_n: f32,
-    search: Search,
-    found: Barycentric,
+    speed_mm_s: Number<A, Coordinate>,
+    force_n: Number<A, Coordinate>,
+    search: Search<A>,
+    found: Barycentric<A>,
     excitation: Excitation,
     texture: u32,
     phase: u8,
@@ -45,7 +49,10 @@ pub struct Vibration {
     follows: bool,
 }
 
-impl Vibration {
+/// A sample, m/s², and whether it had to be clamped.
+type Sounded<A> = (Number<A, Acceleration>, bool);
+
+impl<A: Arithmetic> Vibration<A> {
     /// Silence; the seed is that of the excitation.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -55,9 +62,9 @@ impl Vibration {
             a: Line::ZERO,
             b: Line::ZERO,
             history: History::SILENT,
-            level_m_s2: 0.0,
-            speed_mm_s: 0.0,
-            force_n: 0.0,
+            level_m_s2: Number::ZERO,
+            speed_mm_s: Number::ZERO,
+            force_n: Number::ZERO,
             search: Search::NONE,
             found: Barycentric::NONE,
             excitation: Excitation::new(seed),
@@ -76,7 +83,7 @@ impl Vibration {
 
     #[inline]
     fn leave(&mut self) {
-        self.level_m_s2 = 0.0;
+        self.level_m_s2 = Number::ZERO;
         self.in_contact = false;
         self.follows = false;
     }
@@ -112,7 +119,7 @@ impl Vibration {
 
     /// Stops what is at work. Returns its last output, m/s².
     #[cold]
-    pub(crate) fn stop(&mut self) -> f32 {
+    pub(crate) fn stop(&mut self) -> Number<A, Acceleration> {
         let last = self.history.last();
         self.history = History::SILENT;
         (self.a, self.b) = (Line::ZERO, Line::ZERO);
@@ -131,16 +138,16 @@ impl Vibration {
     #[inline]
     pub fn step<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
         &mut self,
-        texture: &Texture<V, T, P, Q, K>,
-        speed_mm_s: f32,
-        force_n: f32,
-        follow_share: f32,
+        texture: &Texture<V, T, P, Q, K, A>,
+        speed_mm_s: A::Scalar<MillimetrePerSecond>,
+        force_n: A::Scalar<Newton>,
+        follow_share: A::Scalar<Unit>,
         sounding: bool,
-    ) -> (f32, bool) {
-        self.prepare(texture, follow_share);
-        let sound = self.sound(texture.lags(), sounding);
-        self.query(texture, speed_mm_s, force_n);
-        sound
+    ) -> (A::Scalar<Acceleration>, bool) {
+        self.prepare(texture, Number(follow_share));
+        let (y, clamped) = self.sound(texture.lags(), sounding);
+        self.query(texture, Number(speed_mm_s), Number(force_n));
+        (y.0, clamped)
     }
 
     /// Begins a tick: its share of the cycle, where that is not the first one.
@@ -153,8 +160,8 @@ impl Vibration {
         const K: usize,
     >(
         &mut self,
-        texture: &Texture<V, T, P, Q, K>,
-        follow_share: f32,
+        texture: &Texture<V, T, P, Q, K, A>,
+        follow_share: Number<A, Unit>,
     ) {
         if self.texture != texture.id() {
             self.change_texture(texture.id());
@@ -168,15 +175,16 @@ impl Vibration {
 
     /// The next sample; `lags` are those of the texture at work.
     #[inline(always)]
-    pub(crate) fn sound(&mut self, lags: Lags, sounding: bool) -> (f32, bool) {
+    pub(crate) fn sound(&mut self, lags: Lags, sounding: bool) -> Sounded<A> {
         if !sounding {
             self.leave();
         }
         if self.phase == 0 {
             self.in_contact = sounding;
         }
-        let e = self.level_m_s2 * self.excitation.next_gaussian();
-        self.history.step(&self.a, &self.b, lags, e, sounding)
+        let gaussian = self.excitation.draw::<A>();
+        let e = self.level_m_s2.times_within(gaussian, A::VIB_LIMIT_M_S2);
+        self.history.advance(&self.a, &self.b, lags, e, sounding)
     }
 
     /// Ends a tick: the first one of a cycle takes the query.
@@ -189,9 +197,9 @@ impl Vibration {
         const K: usize,
     >(
         &mut self,
-        texture: &Texture<V, T, P, Q, K>,
-        speed_mm_s: f32,
-        force_n: f32,
+        texture: &Texture<V, T, P, Q, K, A>,
+        speed_mm_s: Number<A, MillimetrePerSecond>,
+        force_n: Number<A, Newton>,
     ) {
         if self.phase == 0 {
             self.begin_cycle(texture, speed_mm_s, force_n);
@@ -208,9 +216,9 @@ impl Vibration {
         const K: usize,
     >(
         &mut self,
-        texture: &Texture<V, T, P, Q, K>,
-        speed_mm_s: f32,
-        force_n: f32,
+        texture: &Texture<V, T, P, Q, K, A>,
+        speed_mm_s: Number<A, MillimetrePerSecond>,
+        force_n: Number<A, Newton>,
     ) {
         let (speed, force) = texture.locator.clamp(speed_mm_s, force_n);
         (self.speed_mm_s, self.force_n) = (speed, force);
@@ -224,8 +232,8 @@ impl Vibration {
     #[inline(always)]
     fn work<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
         &mut self,
-        texture: &Texture<V, T, P, Q, K>,
-        follow_share: f32,
+        texture: &Texture<V, T, P, Q, K, A>,
+        follow_share: Number<A, Unit>,
     ) {
         let share = texture.share(self.phase);
         let (speed, force) = (self.speed_mm_s, self.force_n);
@@ -238,7 +246,11 @@ impl Vibration {
         }
         if share.mixes {
             // A new contact starts at its own model.
-            let way = if self.follows { follow_share } else { 1.0 };
+            let way = if self.follows {
+                follow_share
+            } else {
+                Number::whole(1)
+            };
             texture.follow(&mut self.pairs, &self.found, way);
         }
         for part in share.twos() {
@@ -254,13 +266,13 @@ impl Vibration {
     #[inline(always)]
     fn finish<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
         &mut self,
-        texture: &Texture<V, T, P, Q, K>,
+        texture: &Texture<V, T, P, Q, K, A>,
     ) {
         texture.coefficients(&self.products, &mut self.a, &mut self.b);
         self.level_m_s2 = if self.in_contact {
             texture.level_m_s2(&self.found)
         } else {
-            0.0
+            Number::ZERO
         };
         self.follows = self.in_contact;
     }

@@ -16,29 +16,38 @@
 
 use crate::{
     MechanicsConfig,
-    math::{clamp_from_zero, max, min},
+    arithmetic::{
+        Arithmetic, Float, Number,
+        units::{
+            Metre, MetrePerSecond, Newton, NewtonPerMetre, NewtonSecondPerMetre, STRONGEST_N, Unit,
+        },
+    },
+    math::min,
 };
 
 /// Stiffness and damping of a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wall {
+pub struct Wall<A: Arithmetic = Float> {
     /// Stiffness K, N/m.
-    pub stiffness_n_m: f32,
+    pub stiffness_n_m: A::Scalar<NewtonPerMetre>,
     /// Rendered damping B, N·s/m.
-    pub damping_n_s_m: f32,
+    pub damping_n_s_m: A::Scalar<NewtonSecondPerMetre>,
 }
 
 /// The bound above, prepared.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Passivity {
+pub struct Passivity<A: Arithmetic = Float> {
     /// What damping may be without any stiffness, N·s/m.
-    damping_n_s_m: f32,
+    damping_n_s_m: Number<A, NewtonSecondPerMetre>,
     /// What a unit of stiffness takes of it, s.
-    stiffness_cost_s: f32,
-    stiffest_n_m: f32,
+    stiffness_cost_s: Number<A, Unit>,
+    stiffest_n_m: Number<A, NewtonPerMetre>,
 }
 
-impl Passivity {
+/// Budgets of damping are no larger, N·s/m, where numbers have a range.
+const DAMPEST_N_S_M: f32 = 16_384.0;
+
+impl<A: Arithmetic> Passivity<A> {
     /// Of a device in a loop at `rate_hz`.
     #[must_use]
     pub fn new(mechanics: &MechanicsConfig, rate_hz: f32) -> Self {
@@ -54,33 +63,56 @@ impl Passivity {
         };
         let damping_share = 1.0 / (1.0 + step_m * rate_hz * per_speed);
         Self {
-            damping_n_s_m: budget_n_s_m * damping_share,
-            stiffness_cost_s: stiffness_cost_s * damping_share,
-            stiffest_n_m: min(budget_n_s_m / stiffness_cost_s, quantised_n_m),
+            damping_n_s_m: Number::of(budget_n_s_m * damping_share),
+            stiffness_cost_s: Number::of(stiffness_cost_s * damping_share),
+            stiffest_n_m: Number::of(min(budget_n_s_m / stiffness_cost_s, quantised_n_m)),
         }
     }
 
     /// The nearest passive wall to the one of an asset.
     #[inline]
     #[must_use]
-    pub fn wall(&self, stiffness_n_m: f32, damping_n_s_m: f32) -> Wall {
-        let stiffness_n_m = min(stiffness_n_m, self.stiffest_n_m);
-        let left_n_s_m = self.damping_n_s_m - stiffness_n_m * self.stiffness_cost_s;
+    pub fn wall(
+        &self,
+        stiffness_n_m: A::Scalar<NewtonPerMetre>,
+        damping_n_s_m: A::Scalar<NewtonSecondPerMetre>,
+    ) -> Wall<A> {
+        let stiffness_n_m = Number::min(Number(stiffness_n_m), self.stiffest_n_m);
+        let taken_n_s_m = stiffness_n_m.times_within(self.stiffness_cost_s, DAMPEST_N_S_M);
+        let left_n_s_m: Number<A, NewtonSecondPerMetre> = self.damping_n_s_m - taken_n_s_m;
         Wall {
-            stiffness_n_m,
-            damping_n_s_m: clamp_from_zero(left_n_s_m, damping_n_s_m),
+            stiffness_n_m: stiffness_n_m.0,
+            damping_n_s_m: left_n_s_m.clamp_from_zero(Number(damping_n_s_m)).0,
         }
     }
 }
 
-impl Wall {
+impl<A: Arithmetic> Wall<A> {
+    /// k·δ, N, of a depth δ ≥ 0.
+    #[inline(always)]
+    pub(crate) fn spring_n(&self, depth_m: Number<A, Metre>) -> Number<A, Newton> {
+        Number(self.stiffness_n_m).times_within(depth_m, STRONGEST_N)
+    }
+
     /// Normal force `k·δ − b·ḋ`, N, never pulling: `spring_n` is k·δ (0 out of contact),
     /// `outward_m_s` is ḋ.
     #[inline]
     #[must_use]
-    pub fn force_n(&self, spring_n: f32, outward_m_s: f32) -> f32 {
-        let damped = max(spring_n - self.damping_n_s_m * outward_m_s, 0.0);
-        if spring_n > 0.0 { damped } else { 0.0 }
+    pub fn force_n(
+        &self,
+        spring_n: A::Scalar<Newton>,
+        outward_m_s: A::Scalar<MetrePerSecond>,
+    ) -> A::Scalar<Newton> {
+        let spring_n = Number::<A, Newton>(spring_n);
+        let damping_n_s_m = Number::<A, NewtonSecondPerMetre>(self.damping_n_s_m);
+        let outward_m_s = Number::<A, MetrePerSecond>(outward_m_s);
+        let damped = spring_n - damping_n_s_m.times_within(outward_m_s, STRONGEST_N);
+        let damped = damped.max(Number::ZERO);
+        if spring_n > Number::ZERO {
+            damped.0
+        } else {
+            Number::<A, Newton>::ZERO.0
+        }
     }
 }
 
@@ -121,7 +153,8 @@ mod tests {
     #[test]
     fn the_default_device_bears_the_default_wall() {
         let config = crate::Config::default();
-        let wall = Passivity::new(&config.mechanics, config.servo_rate_hz).wall(500.0, 0.1);
+        let wall =
+            Passivity::<Float>::new(&config.mechanics, config.servo_rate_hz).wall(500.0, 0.1);
         assert_eq!((wall.stiffness_n_m, wall.damping_n_s_m), (500.0, 0.1));
     }
 
@@ -132,7 +165,7 @@ mod tests {
             ..crate::Config::default().mechanics
         };
         assert_eq!(
-            Passivity::new(&mechanics, 1000.0)
+            Passivity::<Float>::new(&mechanics, 1000.0)
                 .wall(500.0, 0.1)
                 .stiffness_n_m,
             0.0
@@ -141,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_wall_never_pulls() {
-        let wall = Wall {
+        let wall = Wall::<Float> {
             stiffness_n_m: 500.0,
             damping_n_s_m: 1.0,
         };

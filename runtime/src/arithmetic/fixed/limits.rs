@@ -1,0 +1,98 @@
+//! What of a configuration and of a texture fixed point can hold; see [`units`](super::super::units).
+
+use crate::{Config, ConfigError, LoadError, Surface};
+use asperity_formats::Asset;
+
+/// Largest coordinate and size of a surface, m: as far as positions reach.
+const FARTHEST_M: f32 = 1.0;
+const STRONGEST_PEAK_N: f32 = 1000.0;
+/// A low-pass this slow, in periods, still moves by steps far below a millimetre per second.
+const SLOWEST_CUTOFF: f32 = 0.001;
+const FASTEST_GRID_MM_S: f32 = 1000.0;
+const SLOWEST_GRID_MM_S: f32 = 1.0;
+const WEAKEST_GRID_N: f32 = 0.01;
+const LOUDEST_M_S2: f32 = 500.0;
+
+/// See [`Arithmetic::check_config`](super::Arithmetic::check_config).
+pub(super) fn check_config(config: &Config) -> Result<(), ConfigError> {
+    let slowest_hz = SLOWEST_CUTOFF * config.servo_rate_hz;
+    let too_slow = "in fixed point at least 0.001 of the servo rate";
+    for (field, value, fits, rule) in [
+        (
+            "limits.peak_n",
+            config.limits.peak_n,
+            config.limits.peak_n <= STRONGEST_PEAK_N,
+            "in fixed point at most 1000 N",
+        ),
+        (
+            "velocity_cutoff_hz",
+            config.velocity_cutoff_hz,
+            config.velocity_cutoff_hz >= slowest_hz,
+            too_slow,
+        ),
+        (
+            "normal_cutoff_hz",
+            config.normal_cutoff_hz,
+            config.normal_cutoff_hz >= slowest_hz,
+            too_slow,
+        ),
+    ] {
+        if !fits {
+            return Err(ConfigError { field, value, rule });
+        }
+    }
+    check_surface(&config.surface)
+}
+
+/// See [`Arithmetic::check_surface`](super::Arithmetic::check_surface).
+pub(super) fn check_surface(surface: &Surface) -> Result<(), ConfigError> {
+    let (field, numbers) = match *surface {
+        Surface::Plane { point_m, .. } => ("surface.point_m", [point_m, [0.0; 3]]),
+        Surface::Sphere { center_m, radius_m } => ("surface.sphere", [center_m, [radius_m; 3]]),
+        Surface::Box {
+            center_m,
+            half_extents_m,
+        } => ("surface.box", [center_m, half_extents_m]),
+    };
+    let numbers = numbers.as_flattened();
+    match numbers.iter().find(|x| x.abs() > FARTHEST_M) {
+        Some(&value) => Err(ConfigError {
+            field,
+            value,
+            rule: "in fixed point at most 1 m from the origin",
+        }),
+        None => Ok(()),
+    }
+}
+
+/// See [`Arithmetic::check`](super::Arithmetic::check).
+pub(super) fn check(asset: &Asset<'_>) -> Result<(), LoadError> {
+    let grid = asset.grid();
+    let (speed, force) = (grid.max_speed_mm_s(), grid.max_force_n());
+    let range = |field, value, least, most| {
+        if value >= least && value <= most {
+            Ok(())
+        } else {
+            Err(LoadError::Range {
+                field,
+                value,
+                least,
+                most,
+            })
+        }
+    };
+    let speeds = (SLOWEST_GRID_MM_S, FASTEST_GRID_MM_S);
+    range("grid.max_speed_mm_s", speed, speeds.0, speeds.1)?;
+    range("grid.max_force_n", force, WEAKEST_GRID_N, f32::MAX)?;
+    grid.vertices().try_for_each(|vertex| {
+        let gain = grid
+            .model(usize::from(vertex.model))
+            .map_or(0.0, |model| model.gain);
+        range(
+            "grid gain·sigma_m_s2",
+            gain * vertex.sigma_m_s2,
+            0.0,
+            LOUDEST_M_S2,
+        )
+    })
+}

@@ -1,0 +1,375 @@
+//! Floating point: `f32`, and registers of four.
+
+use super::{Arithmetic, Point, Scalar, Zero};
+use crate::{
+    Config, ConfigError, LoadError, Surface,
+    lanes::F4,
+    lsf::Two,
+    math::{min, rsqrt, rsqrt_pair, sqrt_with},
+};
+use asperity_formats::Asset;
+
+/// IEEE 754 `f32`. Every operation rounds alike on every processor, and no two are fused.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Float;
+
+/// A square and the reciprocal of its root.
+#[derive(Debug, Clone, Copy)]
+pub struct FloatPolar {
+    square: f32,
+    inverse: f32,
+}
+
+/// Below this an output that decays is set to zero, so that no denormal slows a tick.
+const SILENCE_M_S2: f32 = 1.0e-20;
+/// Bound of the vibration: see [`Arithmetic::VIB_LIMIT_M_S2`].
+const VIB_LIMIT_M_S2: f32 = 1.0e4;
+/// Lengths beyond this are errors.
+const SANE: f32 = 1e15;
+/// ε = s·(C1 + C3·s²): see [`excitation`](crate::excitation).
+pub(crate) const C1: f32 = 0.006_421_041;
+pub(crate) const C3: f32 = 5.773_954e-9;
+
+impl Zero for f32 {
+    const ZERO: Self = 0.0;
+}
+
+impl Zero for F4 {
+    const ZERO: Self = Self::ZERO;
+}
+
+impl Scalar for f32 {
+    const FARTHEST: Self = Self::INFINITY;
+    const MISSING: Self = Self::NAN;
+
+    #[inline(always)]
+    fn of(value: f32) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn value(self) -> f32 {
+        self
+    }
+
+    fn holds(value: f32) -> bool {
+        !value.is_nan()
+    }
+}
+
+impl Arithmetic for Float {
+    type Scalar<F: Point> = f32;
+    type Four<F: Point> = F4;
+    type Square = f32;
+    type Polar = FloatPolar;
+    type Sum = F4;
+
+    const LEAST: f32 = -1.0e30;
+    const FAR_OFF: f32 = 1.0e6;
+    const STEEP: f32 = 1.0e3;
+    const ONE_HALF: f32 = 0.5;
+    const IN_REGISTERS: bool = F4::IN_REGISTERS;
+    const REACH_M: f32 = 1.0e4;
+    const OUT_OF_REACH_M: f32 = 1.0e5;
+    const ROUNDING_N: f32 = 0.0;
+    const VIB_LIMIT_M_S2: f32 = VIB_LIMIT_M_S2;
+    const SILENCE_M_S2: f32 = SILENCE_M_S2;
+
+    fn check_config(_: &Config) -> Result<(), ConfigError> {
+        Ok(())
+    }
+
+    fn check_surface(_: &Surface) -> Result<(), ConfigError> {
+        Ok(())
+    }
+
+    fn check(_: &Asset<'_>) -> Result<(), LoadError> {
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn whole<F: Point>(n: i32) -> f32 {
+        n as f32
+    }
+
+    #[inline(always)]
+    fn nearest<F: Point>(a: f32) -> u32 {
+        /// From here on floats are whole numbers: a sum rounds to the nearest.
+        const WHOLE: f32 = (1 << 23) as f32;
+        (a + WHOLE).to_bits() % (1 << 23)
+    }
+
+    #[inline(always)]
+    fn four_to<F: Point, G: Point>(a: F4) -> F4 {
+        a
+    }
+
+    #[inline(always)]
+    fn to<F: Point, G: Point>(a: f32) -> f32 {
+        a
+    }
+
+    #[inline(always)]
+    fn within<F: Point>(a: f32, _: f32) -> f32 {
+        a
+    }
+
+    #[inline(always)]
+    fn plus_within<F: Point>(a: f32, b: f32) -> f32 {
+        a + b
+    }
+
+    #[inline(always)]
+    fn times<F: Point, G: Point, H: Point>(a: f32, b: f32) -> f32 {
+        a * b
+    }
+
+    #[inline(always)]
+    fn times_within<F: Point, G: Point, H: Point>(a: f32, b: f32, _: f32) -> f32 {
+        a * b
+    }
+
+    #[inline(always)]
+    fn over<F: Point, G: Point, H: Point>(a: f32, b: f32) -> f32 {
+        a / b
+    }
+
+    #[inline(always)]
+    fn four<F: Point>(numbers: &[f32; 4]) -> F4 {
+        F4::load(numbers)
+    }
+
+    #[inline(always)]
+    fn numbers<F: Point>(four: F4) -> [f32; 4] {
+        four.to_array()
+    }
+
+    #[inline(always)]
+    fn four_plus<F: Point>(a: F4, b: F4) -> F4 {
+        a + b
+    }
+
+    #[inline(always)]
+    fn four_minus<F: Point>(a: F4, b: F4) -> F4 {
+        a - b
+    }
+
+    #[inline(always)]
+    fn alternating<F: Point>(a: F4) -> F4 {
+        F4::load(&[1.0, -1.0, 1.0, -1.0]) * a
+    }
+
+    #[inline(always)]
+    fn four_min<F: Point>(a: F4, b: F4) -> F4 {
+        a.min(b)
+    }
+
+    #[inline(always)]
+    fn four_max<F: Point>(a: F4, b: F4) -> F4 {
+        a.max(b)
+    }
+
+    #[inline(always)]
+    fn four_times<F: Point, G: Point, H: Point>(a: F4, b: F4) -> F4 {
+        a * b
+    }
+
+    #[inline(always)]
+    fn four_scaled<F: Point, G: Point, H: Point>(a: F4, b: f32) -> F4 {
+        a * F4::splat(b)
+    }
+
+    #[inline(always)]
+    fn four_scaled_within<F: Point, G: Point, H: Point>(a: F4, b: f32, _: f32) -> F4 {
+        a * F4::splat(b)
+    }
+
+    #[inline(always)]
+    fn four_sum_within<const N: usize, F: Point, G: Point, H: Point>(
+        terms: [(F4, F4); N],
+        _: f32,
+    ) -> F4 {
+        let products = terms.map(|(x, c)| c * x);
+        products[1..]
+            .iter()
+            .fold(products[0], |sum, &product| sum + product)
+    }
+
+    #[inline(always)]
+    fn sum_within<const N: usize, F: Point, G: Point, H: Point>(
+        terms: [(f32, f32); N],
+        _: f32,
+    ) -> f32 {
+        let products = terms.map(|(x, c)| c * x);
+        products[1..]
+            .iter()
+            .fold(products[0], |sum, &product| sum + product)
+    }
+
+    #[inline(always)]
+    fn dot3<F: Point, G: Point, H: Point>(a: F4, b: F4) -> f32 {
+        a.dot3(b)
+    }
+
+    #[inline(always)]
+    fn first_three<F: Point>(a: F4) -> F4 {
+        a.first_three()
+    }
+
+    #[inline(always)]
+    fn is_within<F: Point>(a: F4, limit: f32) -> bool {
+        a.is_within(limit)
+    }
+
+    #[inline(always)]
+    fn mark<F: Point>(a: F4, clear: u32, set: u32) -> F4 {
+        // Zeros lose their sign, which platforms compare differently.
+        (a + F4::ZERO).mark(clear, set)
+    }
+
+    #[inline(always)]
+    fn marks<F: Point>(a: f32, of: u32) -> u32 {
+        a.to_bits() & of
+    }
+
+    #[inline(always)]
+    fn marked<F: Point>(a: f32, set: u32) -> f32 {
+        f32::from_bits(a.to_bits() | set)
+    }
+
+    #[inline(always)]
+    fn square<F: Point>(a: F4) -> f32 {
+        a.dot3(a)
+    }
+
+    #[inline(always)]
+    fn square_of<F: Point>(length: f32) -> f32 {
+        length * length
+    }
+
+    #[inline(always)]
+    fn is_some(square: f32) -> bool {
+        square > 1e-18
+    }
+
+    #[inline(always)]
+    fn is_sane(square: f32) -> bool {
+        square <= SANE * SANE
+    }
+
+    #[inline(always)]
+    fn polar(square: f32) -> FloatPolar {
+        FloatPolar {
+            square,
+            inverse: rsqrt(square),
+        }
+    }
+
+    #[inline(always)]
+    fn polar_pair(squares: [f32; 2]) -> [FloatPolar; 2] {
+        let [a, b] = squares;
+        let [inverse_a, inverse_b] = rsqrt_pair(squares);
+        [
+            FloatPolar {
+                square: a,
+                inverse: inverse_a,
+            },
+            FloatPolar {
+                square: b,
+                inverse: inverse_b,
+            },
+        ]
+    }
+
+    #[inline(always)]
+    fn length<F: Point>(polar: FloatPolar) -> f32 {
+        polar.square * polar.inverse
+    }
+
+    #[inline(always)]
+    fn exact_length<F: Point>(polar: FloatPolar) -> f32 {
+        sqrt_with(polar.square, polar.inverse)
+    }
+
+    #[inline(always)]
+    fn direction<F: Point>(vector: F4, polar: FloatPolar) -> F4 {
+        vector * F4::splat(polar.inverse)
+    }
+
+    #[inline(always)]
+    fn share<F: Point>(reach: f32, polar: FloatPolar) -> f32 {
+        min(reach * polar.inverse, 1.0)
+    }
+
+    #[inline(always)]
+    fn extend<const FULL: bool>(two: &Two<f32>, [c, one, middle, three, four]: [f32; 5]) -> f32 {
+        if FULL {
+            (c + four) + two.q * middle + two.s * (one + three)
+        } else {
+            (c + two.o * four) + two.q * middle + (two.s * one + two.r * three)
+        }
+    }
+
+    #[inline(always)]
+    fn extend_four<const FULL: bool>(two: &Two<F4>, [c, one, middle, three, four]: [F4; 5]) -> F4 {
+        if FULL {
+            (c + four) + two.q * middle + two.s * (one + three)
+        } else {
+            (c + two.o * four) + two.q * middle + (two.s * one + two.r * three)
+        }
+    }
+
+    #[inline(always)]
+    fn gaussian(centred: i32) -> f32 {
+        let s = centred as f32;
+        s * (C1 + C3 * (s * s))
+    }
+
+    #[inline(always)]
+    fn sum_of(first: f32) -> F4 {
+        F4::load(&[first, 0.0, 0.0, 0.0])
+    }
+
+    #[inline(always)]
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "of constant length, it is unrolled"
+    )]
+    fn inner_product<const N: usize>(c: &[[f32; 4]], x: &[[f32; 4]]) -> F4 {
+        let mut partial = F4::load(&c[0]) * F4::load(&x[0]);
+        for block in 1..N {
+            partial = partial + F4::load(&c[block]) * F4::load(&x[block]);
+        }
+        partial
+    }
+
+    #[inline(always)]
+    fn sample_of(sum: F4) -> (f32, bool) {
+        let raw = sum.sum();
+        if is_usual(raw) {
+            (raw, false)
+        } else {
+            bound(raw)
+        }
+    }
+}
+
+/// Whether an output is neither too small to matter, nor too large, nor NaN. Bits of positive
+/// numbers are in their order.
+#[inline(always)]
+fn is_usual(raw: f32) -> bool {
+    const LEAST: u32 = SILENCE_M_S2.to_bits();
+    const SPAN: u32 = VIB_LIMIT_M_S2.to_bits() - LEAST;
+    raw.abs().to_bits().wrapping_sub(LEAST) <= SPAN
+}
+
+/// An output too small to matter, too large, or NaN, which becomes silence.
+fn bound(raw: f32) -> (f32, bool) {
+    if raw > VIB_LIMIT_M_S2 {
+        (VIB_LIMIT_M_S2, true)
+    } else if raw < -VIB_LIMIT_M_S2 {
+        (-VIB_LIMIT_M_S2, true)
+    } else {
+        (0.0, raw.is_nan())
+    }
+}
