@@ -51,6 +51,22 @@ impl<A: Arithmetic> Sample<A> {
         }
     }
 
+    /// The same in another arithmetic; what it cannot hold is no position.
+    #[must_use]
+    pub fn of(sample: &Sample) -> Self {
+        let number = |x: f32| {
+            if A::Scalar::<Metre>::holds(x) {
+                A::Scalar::of(x)
+            } else {
+                A::Scalar::MISSING
+            }
+        };
+        Self {
+            position_m: sample.position_m.map(number),
+            elapsed_ticks: sample.elapsed_ticks,
+        }
+    }
+
     /// The device had nothing new, or is lost.
     pub const STALE: Self = Self {
         position_m: [A::Scalar::MISSING; 3],

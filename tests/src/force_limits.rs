@@ -1,6 +1,6 @@
 //! The law that every tick is held to: finite, within peak, within slew.
 
-use asperity_runtime::{Config, Output};
+use asperity_runtime::{Arithmetic, Config, Output, arithmetic::Scalar as _};
 
 /// The limits of a configuration, and the force before.
 #[derive(Debug, Clone)]
@@ -40,8 +40,8 @@ impl ForceLimits {
     ///
     /// # Panics
     /// If a number is not finite, or the force leaves the limits.
-    pub fn check(&mut self, output: &Output) {
-        let force_n = output.force_n;
+    pub fn check<A: Arithmetic>(&mut self, output: &Output<A>) {
+        let force_n = output.force_n.map(|x| x.value());
         assert!(size(force_n) <= self.peak_n, "peak: {output:?}");
         let change = std::array::from_fn(|i| force_n[i] - self.last_n[i]);
         assert!(
@@ -50,12 +50,12 @@ impl ForceLimits {
             self.last_n
         );
         let numbers = [
-            output.depth_m,
-            output.speed_mm_s,
-            output.normal_force_n,
-            output.vib_m_s2,
-            output.tap_n,
-            output.friction_n,
+            output.depth_m.value(),
+            output.speed_mm_s.value(),
+            output.normal_force_n.value(),
+            output.vib_m_s2.value(),
+            output.tap_n.value(),
+            output.friction_n.value(),
         ];
         assert!(numbers.iter().all(|x| x.is_finite()), "{output:?}");
         self.last_n = force_n;

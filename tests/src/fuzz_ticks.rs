@@ -7,7 +7,13 @@ use crate::{
     texture::{Kind, random},
 };
 use asperity_formats::{Asset, Numerator};
-use asperity_runtime::{Config, HostTexture, Renderer, Sample, State, Surface, VibrationAxis};
+use asperity_runtime::{
+    Arithmetic, Config, LoadError, Renderer, Sample, State, Surface, Texture, VibrationAxis,
+    arithmetic::Scalar as _,
+};
+
+/// [`asperity_runtime::HostTexture`] in any arithmetic.
+type Slot<A> = Texture<64, 128, 24, 24, 4096, A>;
 
 /// Textures to swap between.
 const TEXTURES: u64 = 24;
@@ -33,13 +39,17 @@ pub struct Summary {
     pub hash: u64,
 }
 
-/// Runs `ticks` ticks drawn from `seed`, each held to the law of [`ForceLimits`].
+/// Runs `ticks` ticks of an arithmetic drawn from `seed`, each held to the law of [`ForceLimits`].
 ///
 /// # Panics
 /// If a tick panics, or breaks the law: the message names seed, session and tick.
 #[must_use]
-pub fn fuzz_ticks(seed: u64, ticks: u64) -> Summary {
-    let textures: Vec<_> = (0..TEXTURES).map(|index| texture(seed ^ index)).collect();
+pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
+    let textures: Vec<_> = (0..4 * TEXTURES)
+        .filter_map(|index| texture::<A>(seed ^ index))
+        .take(TEXTURES as usize)
+        .collect();
+    assert_eq!(textures.len() as u64, TEXTURES, "most textures are in range");
     let mut summary = Summary {
         hash: 0xcbf2_9ce4_8422_2325,
         ..Summary::default()
@@ -55,9 +65,14 @@ pub fn fuzz_ticks(seed: u64, ticks: u64) -> Summary {
 }
 
 /// One renderer and one state.
-fn run(draw: &mut Draw, textures: &[Box<HostTexture>], ticks: u64, summary: &mut Summary) {
+fn run<A: Arithmetic>(
+    draw: &mut Draw,
+    textures: &[Box<Slot<A>>],
+    ticks: u64,
+    summary: &mut Summary,
+) {
     let config = config(draw);
-    let renderer = Renderer::new(&config).expect("a valid configuration");
+    let renderer = Renderer::<A>::prepare(&config).expect("a valid configuration");
     let mut state = State::new(draw.bits());
     let mut limits = ForceLimits::new(&config);
     let mut motion = Motion::new(draw);
@@ -67,11 +82,11 @@ fn run(draw: &mut Draw, textures: &[Box<HostTexture>], ticks: u64, summary: &mut
             texture = &textures[draw.below(textures.len())];
             summary.swaps += 1;
         }
-        let output = renderer.tick(texture, &mut state, &motion.next(draw));
+        let output = renderer.tick(texture, &mut state, &Sample::of(&motion.next(draw)));
         limits.check(&output);
-        summary.contacts += u64::from(output.depth_m > 0.0);
+        summary.contacts += u64::from(output.depth_m.value() > 0.0);
         for force in output.force_n {
-            let word = u64::from(force.to_bits());
+            let word = u64::from(force.value().to_bits());
             summary.hash = (summary.hash ^ word).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }
@@ -82,8 +97,9 @@ fn run(draw: &mut Draw, textures: &[Box<HostTexture>], ticks: u64, summary: &mut
     summary.limited += u64::from(counters.peak_limited) + u64::from(counters.slew_limited);
 }
 
-/// A texture of any kind, some louder and stiffer than any device.
-fn texture(seed: u64) -> Box<HostTexture> {
+/// A texture of any kind, some louder and stiffer than any device; none if the arithmetic
+/// cannot hold it.
+fn texture<A: Arithmetic>(seed: u64) -> Option<Box<Slot<A>>> {
     let mut draw = Draw::new(seed);
     let mut texture = random(
         seed,
@@ -100,13 +116,14 @@ fn texture(seed: u64) -> Box<HostTexture> {
     texture.surface.stiffness_n_m = [1.0, 500.0, 1e5][draw.below(3)];
     texture.surface.damping_n_s_m = [0.0, 0.2, 1e3][draw.below(3)];
     texture.surface.effective_mass_kg = [0.01, 0.1, 100.0][draw.below(3)];
-    let mut slot = Box::new(HostTexture::new());
-    slot.load(
-        &Asset::parse(&texture.encode()).expect("a valid texture"),
-        1000.0,
-    )
-    .expect("a texture that fits");
-    slot
+    let mut slot = Box::new(Slot::new());
+    let bytes = texture.encode();
+    let asset = Asset::parse(&bytes).expect("a valid texture");
+    match slot.load(&asset, 1000.0) {
+        Ok(()) => Some(slot),
+        Err(LoadError::Range { .. }) => None,
+        Err(error) => panic!("a texture that does not fit: {error}"),
+    }
 }
 
 fn config(draw: &mut Draw) -> Config {
@@ -160,7 +177,7 @@ impl Motion {
 
     /// Starts another stretch.
     fn turn(&mut self, draw: &mut Draw) {
-        self.kind = draw.below(8);
+        self.kind = draw.below(9);
         self.left = 1 + draw.below(200);
         let mut metres = |range: f64| [0; 3].map(|_: i32| draw.range(-range, range) as f32);
         self.position_m = metres(0.01);
@@ -185,6 +202,8 @@ impl Motion {
             // Any bits at all, as position and as time.
             5 => any_bits(draw),
             6 => special(draw),
+            // Anywhere in reach of fixed point.
+            7 => Sample::at([0; 3].map(|_: i32| draw.range(-1.0, 1.0) as f32)),
             _ if draw.below(3) == 0 => Sample::STALE,
             _ => Sample {
                 position_m: self.position_m,

@@ -1,11 +1,22 @@
 //! A short run of the fuzzed ticks; `.ci/run` has a longer one, and the command
 //! `fuzz-ticks` any other.
 
+use asperity_runtime::{Arithmetic, Fixed, Float};
 use asperity_tests::fuzz_ticks::{Summary, fuzz_ticks};
 
 #[test]
 fn fuzzed_ticks_keep_the_law_and_reach_what_they_are_for() {
-    let summary = fuzz_ticks(1, 300_000);
+    fuzz::<Float>();
+}
+
+/// With debug assertions on, a number out of range panics.
+#[test]
+fn fuzzed_ticks_in_fixed_point_do_so_without_overflow() {
+    fuzz::<Fixed>();
+}
+
+fn fuzz<A: Arithmetic>() {
+    let summary = fuzz_ticks::<A>(1, 300_000);
     let Summary {
         ticks,
         swaps,
@@ -22,6 +33,6 @@ fn fuzzed_ticks_keep_the_law_and_reach_what_they_are_for() {
         taps > 50 && faults > 1000 && limited > 10_000,
         "{summary:?}"
     );
-    assert_eq!(fuzz_ticks(1, 300_000).hash, hash, "the same ticks again");
-    assert_ne!(fuzz_ticks(2, 300_000).hash, hash, "other ticks");
+    assert_eq!(fuzz_ticks::<A>(1, 300_000).hash, hash, "the same ticks again");
+    assert_ne!(fuzz_ticks::<A>(2, 300_000).hash, hash, "other ticks");
 }

@@ -60,7 +60,7 @@ pub fn laws(mu: f64, delay_ticks: u32) -> [(&'static str, Law); 3] {
 #[must_use]
 pub fn ours(mu: f64, delay_ticks: u32) -> Law {
     let rate_hz = (1.0 / TICK_S) as f32;
-    let bristle = Bristle::new(&Config::default().friction, delay_ticks, rate_hz);
+    let bristle: Bristle = Bristle::new(&Config::default().friction, delay_ticks, rate_hz);
     let mut state = FrictionState::default();
     let mut last_m = None;
     Box::new(move |x, normal_n| {

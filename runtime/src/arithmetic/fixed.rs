@@ -370,12 +370,9 @@ impl Arithmetic for Fixed {
         let m = ((square << zeros) >> 32) as u32;
         let inverse = reciprocal_root(m);
         let shift = 32 - zeros / 2;
-        let root = ((u64::from(m) * u64::from(inverse)) >> 31) as u32;
-        let length = if shift > 29 {
-            root << (shift - 29)
-        } else {
-            root >> (29 - shift)
-        };
+        // √m with 32 bits behind the point; the root of a square is below 2³².
+        let root = (u64::from(m) * u64::from(inverse)) >> 30;
+        let length = (root >> (32 - shift)) as u32;
         FixedPolar {
             length,
             inverse,

@@ -1,21 +1,32 @@
 //! Fuzzed ticks, as many as asked for: `cargo run --release -p asperity-tests --bin
-//! fuzz-ticks -- [TICKS] [SEED]`. Fails at the first tick that is not finite, leaves the
+//! fuzz-ticks -- [TICKS] [SEED] [float|fixed]`. Fails at the first tick that is not finite, leaves the
 //! limits or panics. The same ticks and seed print the same hash.
 #![forbid(unsafe_code)]
 
+use asperity_runtime::{Fixed, Float};
 use asperity_tests::fuzz_ticks::fuzz_ticks;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let mut numbers = std::env::args().skip(1).map(|text| text.parse::<u64>());
-    let (Ok(ticks), Ok(seed), None) = (
-        numbers.next().unwrap_or(Ok(30_000_000)),
-        numbers.next().unwrap_or(Ok(1)),
-        numbers.next(),
-    ) else {
-        eprintln!("usage: fuzz-ticks [TICKS] [SEED]");
-        return ExitCode::from(2);
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let number = |at: usize, default: u64| {
+        let text = arguments.get(at);
+        text.map_or(Ok(default), |text| text.parse::<u64>())
     };
-    println!("{:#?}", fuzz_ticks(seed, ticks));
+    let run = match arguments.get(2).map_or("float", String::as_str) {
+        "float" => fuzz_ticks::<Float>,
+        "fixed" => fuzz_ticks::<Fixed>,
+        _ => return usage(),
+    };
+    let (Ok(ticks), Ok(seed), 0..=3) = (number(0, 30_000_000), number(1, 1), arguments.len())
+    else {
+        return usage();
+    };
+    println!("{:#?}", run(seed, ticks));
     ExitCode::SUCCESS
+}
+
+fn usage() -> ExitCode {
+    eprintln!("usage: fuzz-ticks [TICKS] [SEED] [float|fixed]");
+    ExitCode::from(2)
 }

@@ -105,7 +105,7 @@ fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32, index: usize) {
         panel.line(canvas, line, stroke);
     }
     let ours_at = |b: f64| {
-        let passivity = Passivity::new(&Bench::viscous(b, delay).mechanics(), 1000.0);
+        let passivity: Passivity = Passivity::new(&Bench::viscous(b, delay).mechanics(), 1000.0);
         let wall = passivity.wall(REPORTED.0 as f32, REPORTED.1 as f32);
         (b, f64::from(wall.stiffness_n_m))
     };

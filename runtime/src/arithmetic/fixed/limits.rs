@@ -6,6 +6,9 @@ use asperity_formats::Asset;
 /// Largest coordinate and size of a surface, m: as far as positions reach.
 const FARTHEST_M: f32 = 1.0;
 const STRONGEST_PEAK_N: f32 = 1000.0;
+const WEAKEST_PEAK_N: f32 = 1.0e-3;
+/// A slew of six steps of a force.
+const WEAKEST_STEP_N: f32 = 1.0e-4;
 /// A low-pass this slow, in periods, still moves by steps far below a millimetre per second.
 const SLOWEST_CUTOFF: f32 = 0.001;
 const FASTEST_GRID_MM_S: f32 = 1000.0;
@@ -21,8 +24,14 @@ pub(super) fn check_config(config: &Config) -> Result<(), ConfigError> {
         (
             "limits.peak_n",
             config.limits.peak_n,
-            config.limits.peak_n <= STRONGEST_PEAK_N,
-            "in fixed point at most 1000 N",
+            (WEAKEST_PEAK_N..=STRONGEST_PEAK_N).contains(&config.limits.peak_n),
+            "in fixed point 0.001 to 1000 N",
+        ),
+        (
+            "limits.slew_n_s",
+            config.limits.slew_n_s,
+            config.limits.slew_n_s >= 0.999 * WEAKEST_STEP_N * config.servo_rate_hz,
+            "in fixed point at least 1e-4 N a tick",
         ),
         (
             "velocity_cutoff_hz",
