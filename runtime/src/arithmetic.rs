@@ -51,6 +51,9 @@ pub trait Scalar:
     /// Its value.
     fn value(self) -> f32;
 
+    /// Its bits.
+    fn bits(self) -> u32;
+
     /// Whether `value` lies in the range.
     fn holds(value: f32) -> bool;
 }

@@ -104,7 +104,7 @@ fn sphere<A: Arithmetic>(r: Four<A, Metre>, radius_m: Number<A, Metre>) -> Touch
     let normal = if A::is_some(square) {
         r.direction(polar)
     } else {
-        Four::of([0.0, 0.0, 1.0, 0.0])
+        Four::whole([0, 0, 1, 0])
     };
     (
         Number::<A, Metre>(A::exact_length(polar)) - radius_m,
@@ -136,7 +136,7 @@ fn cuboid<A: Arithmetic>(r: Four<A, Metre>, half_extents_m: Four<A, Metre>) -> T
         away.direction(polar)
     } else {
         let mut normal = [A::Scalar::ZERO; 3];
-        normal[face] = A::Scalar::of(if below[face] { -1.0 } else { 1.0 });
+        normal[face] = A::whole(if below[face] { -1 } else { 1 });
         Four::vec3(normal)
     };
     let length_m = Number::<A, Metre>(A::exact_length(polar));

@@ -10,7 +10,7 @@ use crate::{
     Flags, Sample,
     arithmetic::{
         Arithmetic, Float, Four, Number,
-        units::{Metre, Unit},
+        units::{Gain, Metre},
     },
 };
 
@@ -21,7 +21,7 @@ pub struct Gate<A: Arithmetic = Float> {
     /// Bad samples in a row.
     bad_in_a_row: u32,
     /// Share of the force that is let through, 0..=1.
-    gain: Number<A, Unit>,
+    gain: Number<A, Gain>,
     /// Whether the next good sample starts anew.
     fresh: bool,
 }
@@ -36,7 +36,7 @@ pub struct Gated<A: Arithmetic = Float> {
     /// Periods since the last rendered position, 1..=3.
     pub elapsed_ticks: u32,
     /// Share of the force, 0..=1.
-    pub(crate) gain: Number<A, Unit>,
+    pub(crate) gain: Number<A, Gain>,
     /// Held sample, safe state, ramp; for the other stages restart, bad sample and fault.
     pub flags: Flags,
 }
@@ -55,7 +55,7 @@ impl<A: Arithmetic> Gate<A> {
         Self {
             position_m: Four::ZERO,
             bad_in_a_row: 0,
-            gain: Number::of(1.0),
+            gain: Number::whole(1),
             fresh: true,
         }
     }
@@ -71,7 +71,7 @@ impl<A: Arithmetic> Gate<A> {
         &mut self,
         sample: &Sample<A>,
         hold_ticks: u32,
-        ramp_step: A::Scalar<Unit>,
+        ramp_step: A::Scalar<Gain>,
     ) -> Gated<A> {
         let ramp_step = Number(ramp_step);
         let p = Four::vec3(sample.position_m);
@@ -95,8 +95,8 @@ impl<A: Arithmetic> Gate<A> {
 
     /// The force comes back by one step.
     #[inline(always)]
-    fn ramp(&mut self, ramp_step: Number<A, Unit>) -> Flags {
-        let whole = Number::of(1.0);
+    fn ramp(&mut self, ramp_step: Number<A, Gain>) -> Flags {
+        let whole = Number::whole(1);
         // Both are at most 1.
         self.gain = self.gain + ramp_step;
         if self.gain < whole {
@@ -113,7 +113,7 @@ impl<A: Arithmetic> Gate<A> {
         &mut self,
         sample: &Sample<A>,
         hold_ticks: u32,
-        ramp_step: Number<A, Unit>,
+        ramp_step: Number<A, Gain>,
     ) -> Gated<A> {
         let p = Four::vec3(sample.position_m);
         let usable = is_usable(sample);
@@ -139,7 +139,7 @@ impl<A: Arithmetic> Gate<A> {
             self.gain = Number::ZERO;
             Flags::SAFE_STATE
         } else if held {
-            Flags::HELD_SAMPLE.and(Flags::RAMPING.when(self.gain < Number::of(1.0)))
+            Flags::HELD_SAMPLE.and(Flags::RAMPING.when(self.gain < Number::whole(1)))
         } else {
             self.ramp(ramp_step)
         };

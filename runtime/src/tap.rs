@@ -145,8 +145,8 @@ impl<A: Arithmetic> Selection<A> {
     };
 }
 
-/// Slope of the last distances per tick, to m/s: Σ (i − 3.5)² over eight samples is 42.
-const SPREAD: f32 = 42.0;
+/// Twice the slope of the last distances per tick, to m/s: Σ (i − 3.5)² over eight samples is 42.
+const SPREAD: f32 = 84.0;
 /// Nothing hits faster, m/s, where numbers have a range.
 const FASTEST_M_S: f32 = 100.0;
 
@@ -225,9 +225,9 @@ impl<A: Arithmetic> TapState<A> {
         // Age 0 is the newest, so a falling distance gives a positive slope.
         let newer = Four::<A, Metre>::load(&[age(0), age(1), age(2), age(3)]);
         let older = Four::<A, Metre>::load(&[age(4), age(5), age(6), age(7)]);
-        let before = Four::<A, Ratio>::of([-3.5, -2.5, -1.5, -0.5]);
-        let after = Four::<A, Ratio>::of([0.5, 1.5, 2.5, 3.5]);
-        // Metres, with the room of speeds.
+        let before = Four::<A, Ratio>::whole([-7, -5, -3, -1]);
+        let after = Four::<A, Ratio>::whole([1, 3, 5, 7]);
+        // Twice the slope, m, with the room of speeds.
         let slope: Four<A, MetrePerSecond> = newer.times(before) + older.times(after);
         slope.sum().times_within(detector.rate_hz, FASTEST_M_S)
     }

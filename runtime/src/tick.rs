@@ -7,8 +7,8 @@ use crate::{
     arithmetic::{
         Arithmetic, Float, Four, Number, Scalar as _,
         units::{
-            Acceleration, FASTEST_M_S, Hertz, Kilogram, Metre, MetrePerSecond, MillimetrePerSecond,
-            Newton, Ratio, STRONGEST_N, TapAcceleration, Unit,
+            Acceleration, FASTEST_M_S, Gain, Hertz, Kilogram, Metre, MetrePerSecond,
+            MillimetrePerSecond, Newton, Ratio, STRONGEST_N, TapAcceleration, Unit,
         },
     },
     contact::Solid,
@@ -257,7 +257,7 @@ impl<A: Arithmetic> State<A> {
             gate: Gate::new(),
             distance_m: Number::ZERO,
             velocity: LowPass2State::REST,
-            direction: Four::of([1.0, 0.0, 0.0, 0.0]),
+            direction: Four::whole([1, 0, 0, 0]),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
             force_n: Four::ZERO,
@@ -313,7 +313,7 @@ pub struct Renderer<A: Arithmetic = Float> {
     pub(crate) follow_share: Number<A, Unit>,
     /// Share of the way that wall, gains and friction go in a tick, to another texture.
     pub(crate) texture_share: Number<A, Unit>,
-    ramp_step: Number<A, Unit>,
+    ramp_step: Number<A, Gain>,
 }
 
 impl Renderer {

@@ -60,8 +60,10 @@ fn measure(target: &Target, toolchain: &Toolchain, case: &'static Case) -> Resul
     let path = toolchain.firmware(case.name, &[])?;
     let elf = elf::read(&path)?;
     let run = emulate::run(target, &path, Phase::ALL.len() * PHASE_TICKS as usize)?;
-    let host =
-        |profile| Ok::<_, Box<dyn std::error::Error>>((profile, host_session(case.name, profile)?));
+    let host = |profile| -> Result<_> {
+        let printed = host_session(case.name, target.arithmetic, profile)?;
+        Ok((profile, printed))
+    };
     Ok(Measured {
         case,
         reach: calls::from(&elf, TICK),

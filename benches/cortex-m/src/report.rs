@@ -6,8 +6,8 @@ use asperity_session::{PHASE_TICKS, Phase};
 /// Prints what was measured.
 pub(crate) fn print(target: &Target, measured: &[Measured]) {
     println!(
-        "{} ({}), QEMU {}",
-        target.triple, target.processor, target.machine
+        "{} ({}, {}), QEMU {}",
+        target.triple, target.processor, target.arithmetic, target.machine
     );
     println!("\nexecuted instructions a tick, min / p50 / max of {PHASE_TICKS} ticks");
     row("", measured, |m| m.case.name.to_owned());

@@ -8,6 +8,8 @@ use asperity_session::{CASES, Case};
 pub(crate) struct Target {
     pub(crate) triple: &'static str,
     pub(crate) processor: &'static str,
+    /// What the firmware computes with, as `host-session` is told.
+    pub(crate) arithmetic: &'static str,
     /// QEMU's machine; `firmware/build.rs` picks its memory map.
     pub(crate) machine: &'static str,
     /// RAM left for a slot, bytes: cases that need more are left out.
@@ -18,18 +20,21 @@ const TARGETS: [Target; 3] = [
     Target {
         triple: "thumbv7em-none-eabihf",
         processor: "Cortex-M4F",
+        arithmetic: "float",
         machine: "mps2-an386",
         slot_room: 1 << 20,
     },
     Target {
         triple: "thumbv7m-none-eabi",
-        processor: "Cortex-M3, software floats",
+        processor: "Cortex-M3",
+        arithmetic: "fixed",
         machine: "mps2-an385",
         slot_room: 1 << 20,
     },
     Target {
         triple: "thumbv6m-none-eabi",
-        processor: "Cortex-M0, software floats",
+        processor: "Cortex-M0",
+        arithmetic: "fixed",
         machine: "microbit",
         slot_room: 8 << 10,
     },

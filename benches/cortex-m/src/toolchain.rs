@@ -95,14 +95,14 @@ impl Toolchain {
 }
 
 /// What the session prints on the host, in one profile.
-pub(crate) fn host_session(case: &str, profile: &str) -> Result<String> {
+pub(crate) fn host_session(case: &str, arithmetic: &str, profile: &str) -> Result<String> {
     stdout(
         Command::new("cargo")
             .current_dir(home())
             .args(["run", "--quiet", "--locked", "--bin", "host-session"])
             .args(["--profile", profile, "--target-dir"])
             .arg(target_dir())
-            .args(["--", case]),
+            .args(["--", case, arithmetic]),
     )
 }
 

@@ -75,7 +75,8 @@ const fn shift<F: Point, G: Point, H: Point>() -> i32 {
 /// bits and a Newton step.
 #[inline(always)]
 fn reciprocal(d: u32) -> u32 {
-    let guess = (u32::MAX / (d >> 16)) << 14;
+    // The bit that is set tells the compiler that nothing is divided by zero.
+    let guess = (u32::MAX / ((d >> 16) | 0x8000)) << 14;
     let near_one = (u64::from(d) * u64::from(guess)) >> 32;
     let two = 1_u64 << 31;
     ((u64::from(guess) * (two - near_one)) >> 30) as u32
@@ -120,6 +121,11 @@ impl<F: Point> Scalar for FixedI32<F> {
     #[inline(always)]
     fn value(self) -> f32 {
         (f64::from(self.to_bits()) / scale::<F>()) as f32
+    }
+
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.to_bits() as u32
     }
 
     fn holds(value: f32) -> bool {

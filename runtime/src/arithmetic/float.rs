@@ -52,6 +52,11 @@ impl Scalar for f32 {
         self
     }
 
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.to_bits()
+    }
+
     fn holds(value: f32) -> bool {
         !value.is_nan()
     }

@@ -54,6 +54,12 @@ impl<A: Arithmetic, F: Point> Four<A, F> {
         Self::load(&values.map(A::Scalar::of))
     }
 
+    /// Whole numbers.
+    #[inline(always)]
+    pub(crate) fn whole(numbers: [i32; 4]) -> Self {
+        Self::load(&numbers.map(A::whole))
+    }
+
     #[inline(always)]
     pub(crate) fn splat(number: Number<A, F>) -> Self {
         Self::load(&[number.0; 4])

@@ -17,7 +17,7 @@
 //! | [`Hertz`] | 16 | ±32,768 Hz | 15 µHz |
 //! | [`Pair`] (−2 cos ω and sums of two) | 28 | ±8 | 4·10⁻⁹ |
 //! | [`Coefficient`] | 22 | ±512 | 2·10⁻⁷ |
-//! | [`Gaussian`] | 28 | ±8 | 4·10⁻⁹ |
+//! | [`Gaussian`], [`Gain`] | 28 | ±8 | 4·10⁻⁹ |
 //! | [`Coordinate`], [`Slope`], [`Weight`] (location) | 20 | ±2,048 | 10⁻⁶ |
 
 use fixed::types::extra::{U10, U12, U15, U16, U20, U22, U24, U28, U30};
@@ -52,6 +52,8 @@ pub type Hertz = U16;
 pub type Pair = U28;
 /// Coefficients of A(z) and B(z).
 pub type Coefficient = U22;
+/// The share of the force that is let through: a sum of two is taken.
+pub type Gain = U28;
 /// ε.
 pub type Gaussian = U28;
 /// Speed, mm/s, or force, N, of a query in the grid; the same point as [`Slope`]'s.
@@ -66,4 +68,4 @@ pub(crate) const FASTEST_M_S: f32 = 16.0;
 /// None of the forces that a tick adds up is beyond this, N.
 pub(crate) const STRONGEST_N: f32 = 2048.0;
 /// A weight does not fall further outside its triangle.
-pub(crate) const FAR: f32 = 512.0;
+pub(crate) const FAR: f32 = 256.0;

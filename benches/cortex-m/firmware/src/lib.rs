@@ -7,7 +7,7 @@
 pub mod print;
 pub mod stack;
 
-use asperity_runtime::{LoadError, Output, Renderer, Sample, State};
+use asperity_runtime::{Arithmetic, LoadError, Output, Renderer, Sample, State};
 use asperity_session::{Case, Phase, SEED, Slot};
 use cortex_m_semihosting::debug;
 
@@ -27,11 +27,18 @@ pub extern "C" fn mark_end() {
     cortex_m::asm::dmb();
 }
 
+/// What the processor computes with: floats where it has registers for them.
+#[cfg(target_abi = "eabihf")]
+pub type Native = asperity_runtime::Float;
+/// What the processor computes with: fixed point, where floats are software.
+#[cfg(not(target_abi = "eabihf"))]
+pub type Native = asperity_runtime::Fixed;
+
 /// The tick of a slot, compiled under a name of its own.
-pub type Tick<S> = fn(&Renderer, &S, &mut State, &Sample) -> Output;
+pub type Tick<S, A> = fn(&Renderer<A>, &S, &mut State<A>, &Sample<A>) -> Output<A>;
 
 /// Loads, runs the session, reports, and leaves the emulator.
-pub fn run<S: Slot>(case: &Case, slot: &mut S, tick: Tick<S>) -> ! {
+pub fn run<S: Slot, A: Arithmetic>(case: &Case, slot: &mut S, tick: Tick<S, A>) -> ! {
     stack::paint();
     let loaded = load(case, slot);
     let stack_load = stack::depth();
@@ -52,7 +59,7 @@ pub fn run<S: Slot>(case: &Case, slot: &mut S, tick: Tick<S>) -> ! {
     );
     let stack_tick = stack::depth();
     for (name, bytes) in [
-        ("state", size_of::<State>()),
+        ("state", size_of::<State<A>>()),
         ("slot", size_of_val(slot)),
         ("stack-load", stack_load),
         ("stack-tick", stack_tick),
@@ -87,19 +94,22 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 /// A firmware program: a case and the type of its slot.
 #[macro_export]
 macro_rules! firmware {
-    ($case:expr, $slot:ty) => {
+    ($case:expr, $slot:ident) => {
+        use asperity_firmware::Native;
         use asperity_runtime::{Output, Renderer, Sample, State};
+
+        type Slot = asperity_session::$slot<Native>;
 
         /// The measured tick, under a symbol of its own.
         #[allow(unsafe_code, reason = "the search for panics starts at this symbol")]
         #[unsafe(no_mangle)]
         #[inline(never)]
         fn asperity_tick(
-            renderer: &Renderer,
-            slot: &$slot,
-            state: &mut State,
-            sample: &Sample,
-        ) -> Output {
+            renderer: &Renderer<Native>,
+            slot: &Slot,
+            state: &mut State<Native>,
+            sample: &Sample<Native>,
+        ) -> Output<Native> {
             #[cfg(feature = "can-panic")]
             if sample.elapsed_ticks == 99 {
                 panic!();
@@ -109,7 +119,7 @@ macro_rules! firmware {
 
         #[cortex_m_rt::entry]
         fn main() -> ! {
-            static mut SLOT: $slot = <$slot>::new();
+            static mut SLOT: Slot = Slot::new();
             $crate::run(&$case, SLOT, asperity_tick)
         }
     };

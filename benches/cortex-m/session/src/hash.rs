@@ -1,6 +1,6 @@
 //! FNV-1a over the bits of outputs.
 
-use asperity_runtime::{Counters, Output};
+use asperity_runtime::{Arithmetic, Counters, Output, arithmetic::Scalar};
 
 /// A 64-bit FNV-1a hash under way, taken a word at a time.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +30,7 @@ impl Hash {
     }
 
     /// Takes in every bit of an output.
-    pub fn output(&mut self, output: &Output) {
+    pub fn output<A: Arithmetic>(&mut self, output: &Output<A>) {
         let Output {
             force_n: [x, y, z],
             depth_m,
@@ -41,18 +41,11 @@ impl Hash {
             friction_n,
             flags,
         } = *output;
-        for value in [
-            x,
-            y,
-            z,
-            depth_m,
-            speed_mm_s,
-            normal_force_n,
-            vib_m_s2,
-            tap_n,
-            friction_n,
-        ] {
-            self.word(value.to_bits());
+        for force in [x, y, z, normal_force_n, tap_n, friction_n] {
+            self.word(force.bits());
+        }
+        for bits in [depth_m.bits(), speed_mm_s.bits(), vib_m_s2.bits()] {
+            self.word(bits);
         }
         self.word(u32::from(flags.bits()));
     }

@@ -16,7 +16,9 @@ pub use scenes::{
 };
 
 use asperity_formats::{Asset, Library};
-use asperity_runtime::{Config, LoadError, Output, Renderer, Sample, State, Texture};
+use asperity_runtime::{
+    Arithmetic, Config, ConfigError, LoadError, Output, Renderer, Sample, State, Texture,
+};
 
 /// Seed of the excitation.
 pub const SEED: u64 = 7;
@@ -25,9 +27,16 @@ pub const SEED: u64 = 7;
 ///
 /// # Errors
 /// What the library or the slot says.
-pub fn load<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
+pub fn load<
+    const V: usize,
+    const T: usize,
+    const P: usize,
+    const Q: usize,
+    const K: usize,
+    A: Arithmetic,
+>(
     case: &Case,
-    slot: &mut Texture<V, T, P, Q, K>,
+    slot: &mut Texture<V, T, P, Q, K, A>,
 ) -> Result<(), LoadError> {
     let library = Library::parse(LIBRARY)?;
     let index = library.index().find(case.texture).unwrap_or(usize::MAX);
@@ -48,8 +57,8 @@ pub trait Slot {
 }
 
 macro_rules! slots {
-    ($($slot:ty),*) => {
-        $(impl Slot for $slot {
+    ($($slot:ident),*) => {
+        $(impl<A: Arithmetic> Slot for $slot<A> {
             #[inline(never)]
             fn load(&mut self, case: &Case) -> Result<(), LoadError> {
                 load(case, self)
@@ -62,15 +71,15 @@ slots!(Arma20, Nyquist20, Nyquist4);
 
 /// Runs every phase, [`PHASE_TICKS`] ticks each, through `tick`, and tells `report`
 /// after each the hash of all outputs and counters so far.
-pub fn run(
-    state: &mut State,
-    mut tick: impl FnMut(&mut State, &Sample) -> Output,
+pub fn run<A: Arithmetic>(
+    state: &mut State<A>,
+    mut tick: impl FnMut(&mut State<A>, &Sample<A>) -> Output<A>,
     mut report: impl FnMut(Phase, u64),
 ) {
     let mut hash = Hash::new();
     for phase in Phase::ALL {
         for n in 0..PHASE_TICKS {
-            hash.output(&tick(state, &phase.sample(n)));
+            hash.output(&tick(state, &Sample::of(&phase.sample(n))));
         }
         hash.counters(state.counters());
         report(phase, hash.value());
@@ -81,6 +90,6 @@ pub fn run(
 ///
 /// # Errors
 /// Never, while the default configuration is a valid one.
-pub fn renderer() -> Result<Renderer, asperity_runtime::ConfigError> {
-    Renderer::new(&Config::default())
+pub fn renderer<A: Arithmetic>() -> Result<Renderer<A>, ConfigError> {
+    Renderer::prepare(&Config::default())
 }

@@ -2,4 +2,4 @@
 #![no_std]
 #![no_main]
 
-asperity_firmware::firmware!(asperity_session::ARMA_20, asperity_session::Arma20);
+asperity_firmware::firmware!(asperity_session::ARMA_20, Arma20);

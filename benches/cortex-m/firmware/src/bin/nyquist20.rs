@@ -2,4 +2,4 @@
 #![no_std]
 #![no_main]
 
-asperity_firmware::firmware!(asperity_session::NYQUIST_20, asperity_session::Nyquist20);
+asperity_firmware::firmware!(asperity_session::NYQUIST_20, Nyquist20);

@@ -2,4 +2,4 @@
 #![no_std]
 #![no_main]
 
-asperity_firmware::firmware!(asperity_session::NYQUIST_4, asperity_session::Nyquist4);
+asperity_firmware::firmware!(asperity_session::NYQUIST_4, Nyquist4);
