@@ -2,7 +2,7 @@
 
 use crate::{
     arithmetic::{
-        Arithmetic, Float, Four, Number, Scalar as _, Zero as _,
+        Arithmetic, Float, Four, Number, Zero as _,
         units::{Metre, Unit},
     },
     config::ConfigError,

@@ -49,7 +49,11 @@ pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
         .filter_map(|index| texture::<A>(seed ^ index))
         .take(TEXTURES as usize)
         .collect();
-    assert_eq!(textures.len() as u64, TEXTURES, "most textures are in range");
+    assert_eq!(
+        textures.len() as u64,
+        TEXTURES,
+        "most textures are in range"
+    );
     let mut summary = Summary {
         hash: 0xcbf2_9ce4_8422_2325,
         ..Summary::default()

@@ -33,6 +33,10 @@ fn fuzz<A: Arithmetic>() {
         taps > 50 && faults > 1000 && limited > 10_000,
         "{summary:?}"
     );
-    assert_eq!(fuzz_ticks::<A>(1, 300_000).hash, hash, "the same ticks again");
+    assert_eq!(
+        fuzz_ticks::<A>(1, 300_000).hash,
+        hash,
+        "the same ticks again"
+    );
     assert_ne!(fuzz_ticks::<A>(2, 300_000).hash, hash, "other ticks");
 }

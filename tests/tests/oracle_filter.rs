@@ -1,7 +1,7 @@
 //! Location, mixture and filter are those of the f64 oracle.
 
 use asperity_formats::{Asset, Numerator};
-use asperity_runtime::HostTexture;
+use asperity_runtime::{Arithmetic, Fixed, Float, Texture as Slot, arithmetic::Scalar as _};
 use asperity_tests::{
     draw::Draw,
     oracle::{Texture, polynomial},
@@ -9,15 +9,23 @@ use asperity_tests::{
     texture::{Kind, random},
 };
 
-fn load(bytes: &[u8]) -> (Box<HostTexture>, Texture) {
+/// [`asperity_runtime::HostTexture`] in any arithmetic.
+type HostSlot<A> = Slot<64, 128, 24, 24, 4096, A>;
+
+fn load<A: Arithmetic>(bytes: &[u8]) -> (Box<HostSlot<A>>, Texture) {
     let asset = Asset::parse(bytes).unwrap();
-    let mut slot = Box::new(HostTexture::new());
+    let mut slot = Box::new(HostSlot::new());
     slot.load(&asset, asset.grid().sample_rate_hz()).unwrap();
     (slot, Texture::new(&asset))
 }
 
 /// Largest |log spectral difference| over 10 Hz to 490 Hz, dB, levels of 0 left out.
-fn spectral_error_db(slot: &HostTexture, oracle: &Texture, speed: f64, force: f64) -> f64 {
+fn spectral_error_db<A: Arithmetic>(
+    slot: &HostSlot<A>,
+    oracle: &Texture,
+    speed: f64,
+    force: f64,
+) -> f64 {
     let filter = slot.filter_at(speed as f32, force as f32);
     let model = oracle.model(f64::from(speed as f32), f64::from(force as f32));
     let wide = |c: &[f32]| -> Vec<f64> { c.iter().map(|&c| c.into()).collect() };
@@ -41,6 +49,19 @@ fn spectral_error_db(slot: &HostTexture, oracle: &Texture, speed: f64, force: f6
 
 #[test]
 fn spectra_agree_within_two_hundredths_of_a_decibel() {
+    let worst = largest_error_db::<Float>();
+    println!("largest spectral error of the runtime's filters: {worst:.5} dB");
+    assert!(worst < 0.02, "{worst} dB");
+}
+
+#[test]
+fn spectra_in_fixed_point_agree_within_a_tenth_of_a_decibel() {
+    let worst = largest_error_db::<Fixed>();
+    println!("largest spectral error in fixed point: {worst:.5} dB");
+    assert!(worst < 0.1, "{worst} dB");
+}
+
+fn largest_error_db<A: Arithmetic>() -> f64 {
     let mut worst = 0.0_f64;
     for (seed, numerator) in [Numerator::None, Numerator::Nyquist]
         .into_iter()
@@ -51,7 +72,8 @@ fn spectra_agree_within_two_hundredths_of_a_decibel() {
                 numerator,
                 ..Kind::nyquist(order)
             };
-            let (slot, oracle) = load(&random(seed as u64 * 100 + order as u64, kind).encode());
+            let bytes = random(seed as u64 * 100 + order as u64, kind).encode();
+            let (slot, oracle) = load::<A>(&bytes);
             let mut draw = Draw::new(order as u64);
             for _ in 0..200 {
                 let (speed, force) = (draw.range(1.0, 260.0), draw.range(0.05, 4.2));
@@ -59,12 +81,25 @@ fn spectra_agree_within_two_hundredths_of_a_decibel() {
             }
         }
     }
-    println!("largest spectral error of the runtime's filters: {worst:.5} dB");
-    assert!(worst < 0.02, "{worst} dB");
+    worst
 }
 
 #[test]
 fn armas_agree_too() {
+    let worst = largest_arma_error_db::<Float>();
+    println!("largest spectral error of the runtime's ARMA filters: {worst:.5} dB");
+    // Near a zero of the numerator a decibel is a small number.
+    assert!(worst < 0.05, "{worst} dB");
+}
+
+#[test]
+fn armas_in_fixed_point_agree_too() {
+    let worst = largest_arma_error_db::<Fixed>();
+    println!("largest spectral error of ARMA filters in fixed point: {worst:.5} dB");
+    assert!(worst < 0.1, "{worst} dB");
+}
+
+fn largest_arma_error_db<A: Arithmetic>() -> f64 {
     let mut worst = 0.0_f64;
     for (ar_order, ma_order) in [(20, 18), (14, 12), (24, 24), (5, 3), (6, 1)] {
         let kind = Kind {
@@ -73,30 +108,38 @@ fn armas_agree_too() {
             numerator: Numerator::Lsf,
             lattice: (7, 6),
         };
-        let (slot, oracle) = load(&random(ar_order as u64, kind).encode());
+        let (slot, oracle) = load::<A>(&random(ar_order as u64, kind).encode());
         let mut draw = Draw::new(ma_order as u64);
         for _ in 0..200 {
             let (speed, force) = (draw.range(1.0, 260.0), draw.range(0.05, 4.2));
             worst = worst.max(spectral_error_db(&slot, &oracle, speed, force));
         }
     }
-    println!("largest spectral error of the runtime's ARMA filters: {worst:.5} dB");
-    // Near a zero of the numerator a decibel is a small number.
-    assert!(worst < 0.05, "{worst} dB");
+    worst
 }
 
 /// Two triangles may share a point: what they mix there must be the same.
 #[test]
 fn the_mixture_is_the_oracles_wherever_it_is_asked() {
+    compare_mixtures::<Float>(2e-5);
+}
+
+/// Weights are computed in steps of 10⁻⁶, from slopes as coarse.
+#[test]
+fn the_mixture_in_fixed_point_is_too() {
+    compare_mixtures::<Fixed>(3e-4);
+}
+
+fn compare_mixtures<A: Arithmetic>(most: f64) {
     for seed in 0..5 {
-        let (slot, oracle) = load(&random(seed, Kind::nyquist(20)).encode());
+        let (slot, oracle) = load::<A>(&random(seed, Kind::nyquist(20)).encode());
         let mut draw = Draw::new(seed);
         let mut worst = 0.0_f64;
         let mut check = |speed: f32, force: f32| {
             let query = slot.weights_at(speed, force);
             let ours = oracle.mixture(
                 query.vertices.map(usize::from),
-                query.weights.map(f64::from),
+                query.weights.map(|weight| weight.value().into()),
             );
             let exact = oracle.model(speed.into(), force.into());
             for (a, b) in ours.cosines.iter().zip(&exact.cosines) {
@@ -122,6 +165,6 @@ fn the_mixture_is_the_oracles_wherever_it_is_asked() {
             }
         }
         println!("seed {seed}: mixtures differ by {worst:.2e} at most");
-        assert!(worst < 2e-5, "seed {seed}: {worst}");
+        assert!(worst < most, "seed {seed}: {worst}");
     }
 }
