@@ -6,6 +6,7 @@
 //! angles in (0, π) are the LSFs, the first of which belongs to Q.
 
 use crate::reflection::step_down;
+use multiversion::multiversion;
 use std::f64::consts::PI;
 
 /// The monic polynomial `[1, a_1, …, a_p]` of `p` line spectral frequencies (rad).
@@ -132,28 +133,6 @@ impl Sturm {
         Self { alpha }
     }
 
-    /// Of every x in [0, 1] the number of roots with a larger one, that is with a smaller
-    /// angle.
-    fn roots_beyond(&self, x: &[f64; LANES]) -> [f64; LANES] {
-        let mut before = [1.0; LANES];
-        let mut here = x.map(|x| 2.0 * x);
-        let mut was_negative = [0.0; LANES];
-        let mut count = [0.0; LANES];
-        for alpha in &self.alpha {
-            for lane in 0..LANES {
-                let next = 2.0 * x[lane] * here[lane] - alpha * before[lane];
-                // A zero counts as positive: the next one has the sign opposite to the last.
-                // Counted in f64, for which there are lanes everywhere.
-                let negative = if next < 0.0 { 1.0 } else { 0.0_f64 };
-                count[lane] += (negative - was_negative[lane]).abs();
-                was_negative[lane] = negative;
-                before[lane] = here[lane];
-                here[lane] = next;
-            }
-        }
-        count
-    }
-
     /// The angles of roots, numbered from the smallest angle.
     fn roots(&self, indices: &[usize]) -> impl Iterator<Item = f64> {
         let mut wanted = [0.0; LANES];
@@ -166,7 +145,7 @@ impl Sturm {
             for lane in 0..LANES {
                 middle[lane] = 0.5 * (low[lane] + high[lane]);
             }
-            let beyond = self.roots_beyond(&middle);
+            let beyond = roots_beyond(&self.alpha, &middle);
             for lane in 0..LANES {
                 let root_is_beyond = beyond[lane] > wanted[lane];
                 low[lane] = if root_is_beyond {
@@ -184,6 +163,30 @@ impl Sturm {
         let middle = move |lane: usize| 0.5 * (low[lane] + high[lane]);
         (0..indices.len()).map(move |lane| 2.0 * libm::acos(middle(lane)))
     }
+}
+
+/// Of every x in [0, 1] the number of roots with a larger one, that is with a smaller angle.
+///
+/// No lane meets another: wider registers give the same bits.
+#[multiversion(targets("x86_64+avx2"))]
+fn roots_beyond(alpha: &[f64], x: &[f64; LANES]) -> [f64; LANES] {
+    let mut before = [1.0; LANES];
+    let mut here = x.map(|x| 2.0 * x);
+    let mut was_negative = [0.0; LANES];
+    let mut count = [0.0; LANES];
+    for alpha in alpha {
+        for lane in 0..LANES {
+            let next = 2.0 * x[lane] * here[lane] - alpha * before[lane];
+            // A zero counts as positive: the next one has the sign opposite to the last.
+            // Counted in f64, for which there are lanes everywhere.
+            let negative = if next < 0.0 { 1.0 } else { 0.0_f64 };
+            count[lane] += (negative - was_negative[lane]).abs();
+            was_negative[lane] = negative;
+            before[lane] = here[lane];
+            here[lane] = next;
+        }
+    }
+    count
 }
 
 /// Whether the frequencies ascend strictly inside (0, π): the condition for the

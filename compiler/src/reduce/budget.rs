@@ -3,7 +3,7 @@
 use crate::{
     interpolate::{Field, Mixture, Place, places},
     model::{ModelGrid, Numerator},
-    spectrum::{Angles, ErrorBand, decibels},
+    spectrum::{Angles, ErrorBand, rms_db},
 };
 
 /// Largest RMS log-spectral distance over 10–450 Hz, level included, that `auto` accepts,
@@ -25,8 +25,8 @@ struct Compared {
     at: (f64, f64),
     /// Where that is in the whole grid.
     place: Place,
-    /// Reciprocal power spectrum, where it sounds.
-    inverse_power: Option<Vec<f64>>,
+    /// Power spectrum, where it sounds.
+    power: Option<Vec<f64>>,
 }
 
 /// The whole grid, at all places where another is compared with it.
@@ -41,8 +41,8 @@ pub struct Reference<'a> {
 #[derive(Debug, Clone)]
 struct Band {
     angles: Angles,
-    /// |1 + z⁻¹|² there.
-    nyquist: Vec<f64>,
+    /// 1/|1 + z⁻¹|² there.
+    inverse_nyquist: Vec<f64>,
 }
 
 /// Distances of a grid, one a place, dB; infinite where it is not stable or sounds where
@@ -87,8 +87,9 @@ impl<'a> Reference<'a> {
     #[must_use]
     pub fn new(grid: &'a ModelGrid) -> Option<Self> {
         let angles = ErrorBand::new(grid.sample_rate_hz, POINTS).angles().clone();
+        let nyquist = angles.squared_magnitudes(&[1.0, 1.0]);
         let band = Band {
-            nyquist: angles.squared_magnitudes(&[1.0, 1.0]),
+            inverse_nyquist: nyquist.into_iter().map(|zero| 1.0 / zero).collect(),
             angles,
         };
         let field = Field::new(grid);
@@ -99,14 +100,14 @@ impl<'a> Reference<'a> {
                 let place = field.locate(at.0, at.1)?;
                 let mixture = field.mixture(&place);
                 let sounds = mixture.level_m_s2 > silent_m_s2;
-                let inverse = || {
-                    let power = band.power(&mixture, grid.numerator);
-                    power.into_iter().map(|power| 1.0 / power).collect()
+                let power = || {
+                    let inverse = band.inverse_power(&mixture, grid.numerator);
+                    inverse.into_iter().map(|inverse| 1.0 / inverse).collect()
                 };
                 Some(Compared {
                     at,
                     place,
-                    inverse_power: sounds.then(inverse),
+                    power: sounds.then(power),
                 })
             })
             .collect::<Option<_>>()?;
@@ -121,15 +122,14 @@ impl<'a> Reference<'a> {
     /// Distance of a mixture from the whole grid at a place, dB.
     pub(super) fn distance(&self, index: usize, field: &Field<'_>, place: &Place) -> f64 {
         let mixture = field.mixture(place);
-        match &self.places[index].inverse_power {
+        match &self.places[index].power {
             // Ordered frequencies are a stable filter.
-            Some(inverse_power) if is_ordered(&mixture.ar_cosines) => {
-                let mut squares = self.band.power(&mixture, field.numerator());
-                for (power, inverse) in squares.iter_mut().zip(inverse_power) {
-                    let difference_db = decibels(*power * inverse);
-                    *power = difference_db * difference_db;
+            Some(power) if is_ordered(&mixture.ar_cosines) => {
+                let mut ratios = self.band.inverse_power(&mixture, field.numerator());
+                for (ratio, power) in ratios.iter_mut().zip(power) {
+                    *ratio *= power;
                 }
-                (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+                rms_db(&ratios)
             }
             Some(_) => f64::INFINITY,
             // A level counts relative to its own grid: under another numerator the same
@@ -188,21 +188,28 @@ fn is_ordered(cosines: &[f64]) -> bool {
 }
 
 impl Band {
-    /// The power spectrum of a mixture.
-    fn power(&self, mixture: &Mixture, numerator: Numerator) -> Vec<f64> {
-        let square = mixture.level_m_s2 * mixture.level_m_s2;
-        let mut power = self.angles.squared_magnitudes_of_lsf(&mixture.ar_cosines);
-        for power in &mut power {
-            *power = square / *power;
+    /// The reciprocal power spectrum of a mixture: it needs no division but for zeros of its own.
+    fn inverse_power(&self, mixture: &Mixture, numerator: Numerator) -> Vec<f64> {
+        let inverse_square = 1.0 / (mixture.level_m_s2 * mixture.level_m_s2);
+        let mut inverse = self.angles.squared_magnitudes_of_lsf(&mixture.ar_cosines);
+        match numerator {
+            Numerator::None => {
+                for inverse in &mut inverse {
+                    *inverse *= inverse_square;
+                }
+            }
+            Numerator::Nyquist => {
+                for (inverse, zero) in inverse.iter_mut().zip(&self.inverse_nyquist) {
+                    *inverse *= inverse_square * zero;
+                }
+            }
+            Numerator::Lsf => {
+                let zeros = self.angles.squared_magnitudes_of_lsf(&mixture.ma_cosines);
+                for (inverse, zero) in inverse.iter_mut().zip(zeros) {
+                    *inverse *= inverse_square / zero;
+                }
+            }
         }
-        let zeros = match numerator {
-            Numerator::None => return power,
-            Numerator::Nyquist => &self.nyquist,
-            Numerator::Lsf => &self.angles.squared_magnitudes_of_lsf(&mixture.ma_cosines),
-        };
-        for (power, zero) in power.iter_mut().zip(zeros) {
-            *power *= zero;
-        }
-        power
+        inverse
     }
 }
