@@ -205,12 +205,16 @@ fn distance_over(
 #[must_use]
 pub fn trace_centroid_hz(accel_m_s2: &[f64], sample_rate_hz: f64) -> Option<f64> {
     const BINS: usize = 512;
+    let freq_hz = |bin: usize| 0.5 * sample_rate_hz * (bin as f64 + 0.5) / BINS as f64;
+    let angles = Angles::new((0..BINS).map(|bin| TAU * freq_hz(bin) / sample_rate_hz));
     let (mut sum, mut moment) = (0.0, 0.0);
-    for bin in 0..BINS {
-        let freq_hz = 0.5 * sample_rate_hz * (bin as f64 + 0.5) / BINS as f64;
-        let power = squared_magnitude(accel_m_s2, TAU * freq_hz / sample_rate_hz);
+    for (bin, power) in angles
+        .squared_magnitudes(accel_m_s2)
+        .into_iter()
+        .enumerate()
+    {
         sum += power;
-        moment += freq_hz * power;
+        moment += freq_hz(bin) * power;
     }
     (sum > 0.0).then(|| moment / sum)
 }

@@ -237,7 +237,7 @@ fn check_query(
             weights: found.weights,
         });
     }
-    let filter = slot.filter_at(speed_mm_s, force_n);
+    let filter = slot.filter_of(&found);
     let finite = filter.b.iter().all(|b| b.is_finite())
         && filter.level_m_s2.is_finite()
         && filter.level_m_s2 >= 0.0;

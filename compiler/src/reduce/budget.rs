@@ -2,7 +2,7 @@
 
 use crate::{
     interpolate::{Field, Mixture, Place, places},
-    model::{ModelGrid, Numerator},
+    model::{GridVertex, ModelGrid, Numerator},
     spectrum::{Angles, ErrorBand, rms_db},
 };
 
@@ -66,8 +66,8 @@ impl Distances {
     /// Whether they leave room within [`BUDGET_DB`] for rounding.
     #[must_use]
     pub fn are_within_budget(&self) -> bool {
-        let (p95_db, worst_db) = self.summary();
-        p95_db <= BUDGET_DB.0 - ROOM_DB && worst_db <= BUDGET_DB.1 - ROOM_DB
+        let mut tally = Tally::of(self.0.len());
+        self.0.iter().all(|&distance_db| tally.admits(distance_db))
     }
 
     /// The distances, one a place.
@@ -77,9 +77,28 @@ impl Distances {
     }
 }
 
-/// Whether no place may be so far.
-pub(super) fn is_beyond_budget(distance_db: f64) -> bool {
-    distance_db > BUDGET_DB.1 - ROOM_DB
+/// Counts the places that only one in twenty may be.
+pub(super) struct Tally {
+    may_exceed: usize,
+}
+
+impl Tally {
+    /// For so many places.
+    pub(super) fn of(places: usize) -> Self {
+        Self {
+            may_exceed: places - (0.95 * places as f64).ceil() as usize,
+        }
+    }
+
+    /// Whether the budget still allows a place so far away, with room for rounding.
+    pub(super) fn admits(&mut self, distance_db: f64) -> bool {
+        if distance_db <= BUDGET_DB.0 - ROOM_DB {
+            return true;
+        }
+        let admitted = distance_db <= BUDGET_DB.1 - ROOM_DB && self.may_exceed > 0;
+        self.may_exceed = self.may_exceed.saturating_sub(1);
+        admitted
+    }
 }
 
 impl<'a> Reference<'a> {
@@ -112,6 +131,24 @@ impl<'a> Reference<'a> {
             })
             .collect::<Option<_>>()?;
         Some(Self { grid, band, places })
+    }
+
+    /// Where every place is in a grid; known where its triangles are those of the whole one.
+    pub(super) fn located(&self, grid: &ModelGrid, field: &Field<'_>) -> Option<Vec<Place>> {
+        let positions = |grid: &ModelGrid| -> Vec<(f64, f64)> {
+            let at = |vertex: &GridVertex| (vertex.speed_mm_s, vertex.force_n);
+            grid.vertices.iter().map(at).collect()
+        };
+        let known =
+            grid.triangles == self.grid.triangles && positions(grid) == positions(self.grid);
+        let locate = |compared: &Compared| {
+            if known {
+                Some(compared.place)
+            } else {
+                field.locate(compared.at.0, compared.at.1)
+            }
+        };
+        self.places.iter().map(locate).collect()
     }
 
     /// Speed and force of every place.
@@ -165,19 +202,10 @@ impl<'a> Reference<'a> {
     #[must_use]
     pub fn is_within_budget(&self, grid: &ModelGrid) -> bool {
         debug_assert_eq!(grid.triangles, self.grid.triangles);
-        let count = self.places.len();
-        let mut may_exceed = count - (0.95 * count as f64).ceil() as usize;
         let field = Field::new(grid);
-        for (index, compared) in self.places.iter().enumerate() {
-            let distance_db = self.distance(index, &field, &compared.place);
-            if distance_db > BUDGET_DB.0 - ROOM_DB {
-                if is_beyond_budget(distance_db) || may_exceed == 0 {
-                    return false;
-                }
-                may_exceed -= 1;
-            }
-        }
-        true
+        let mut tally = Tally::of(self.places.len());
+        let mut places = self.places.iter().enumerate();
+        places.all(|(index, compared)| tally.admits(self.distance(index, &field, &compared.place)))
     }
 }
 

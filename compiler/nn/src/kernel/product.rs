@@ -9,7 +9,7 @@ mod pack;
 mod row;
 
 use multiversion::multiversion;
-use pack::{COLUMNS, DEPTH, PANELS, Staged};
+use pack::{COLUMNS, DEPTH, PANELS, Right};
 
 /// The right-hand side, k × n.
 pub(crate) enum Matrix<'a> {
@@ -48,16 +48,17 @@ fn dispatched(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut
 fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
     let mut left = vec![0.0; padded(m) * k];
     pack::left(m, k, a, &mut left);
-    let mut panels = vec![[[0.0; COLUMNS]; DEPTH]; PANELS.min(n.div_ceil(COLUMNS))];
-    let mut staged = Staged::new(n, b);
+    let mut panels = vec![[0.0; COLUMNS]; PANELS.min(n.div_ceil(COLUMNS)) * DEPTH];
+    let (panels, _) = panels.as_chunks_mut();
+    let mut right = Right::new(k, n, b);
     // Slices of k outside: the rows of b that a slice needs lie together in memory.
     for start in (0..k).step_by(DEPTH) {
         let depth = DEPTH.min(k - start);
-        staged.take(n, b, start, depth);
+        right.stage(start, depth);
         for group in (0..n).step_by(PANELS * COLUMNS) {
             let columns = (group..n).step_by(COLUMNS).take(PANELS);
-            pack::right(k, n, b, &staged, start, group, depth, &mut panels);
-            for (column, panel) in columns.zip(&panels) {
+            right.panels(start, group, depth, panels);
+            for (column, panel) in columns.zip(&*panels) {
                 let mut left = &left[start * padded(m)..][..depth * padded(m)];
                 let width = COLUMNS.min(n - column);
                 let mut row = 0;

@@ -1,6 +1,6 @@
 //! Both sides of a product, ordered as its tiles read them.
 
-use super::{Matrix, padded, tile_rows};
+use super::{Matrix, tile_rows};
 
 /// Columns of a panel.
 pub(super) const COLUMNS: usize = 16;
@@ -10,9 +10,6 @@ pub(super) const PANELS: usize = 4;
 pub(super) const DEPTH: usize = 96;
 
 type Panel = [[f32; COLUMNS]; DEPTH];
-
-/// A row of a group of panels of int8 weights.
-type Line = [u8; PANELS * COLUMNS];
 
 /// Orders `a` as tiles read it: by slice of k, then block of rows, then k, then row.
 #[inline(always)]
@@ -36,96 +33,85 @@ pub(super) fn left(m: usize, k: usize, a: &[f32], left: &mut [f32]) {
     }
 }
 
-/// A slice of int8 weights, group by group: read row by row, as they lie in memory, which is
-/// what processors fetch ahead.
-pub(super) struct Staged {
-    /// [`DEPTH`] lines a group.
-    lines: Vec<Line>,
+/// The right-hand side, handed out panel by panel.
+pub(super) struct Right<'a> {
+    k: usize,
+    n: usize,
+    b: &'a Matrix<'a>,
+    /// A slice of int8 weights, group by group: [`DEPTH`] lines of [`PANELS`] parts each.
+    staged: Vec<[u8; COLUMNS]>,
 }
 
-impl Staged {
-    /// Room for a slice; none where `b` is not quantised.
+impl<'a> Right<'a> {
     #[inline(always)]
-    pub(super) fn new(n: usize, b: &Matrix<'_>) -> Self {
+    pub(super) fn new(k: usize, n: usize, b: &'a Matrix<'a>) -> Self {
         let groups = match b {
             Matrix::Quantized { .. } => n.div_ceil(PANELS * COLUMNS),
             _ => 0,
         };
-        Self {
-            lines: vec![[0; PANELS * COLUMNS]; groups * DEPTH],
-        }
+        let staged = vec![[0; COLUMNS]; groups * DEPTH * PANELS];
+        Self { k, n, b, staged }
     }
 
-    /// Takes `depth` rows of `b` from row `start` on.
+    /// Takes `depth` rows of int8 weights from row `start` on: in the order in which they lie in
+    /// memory, which is what processors fetch ahead.
     #[inline(always)]
-    pub(super) fn take(&mut self, n: usize, b: &Matrix<'_>, start: usize, depth: usize) {
-        let Matrix::Quantized { weights, .. } = b else {
+    pub(super) fn stage(&mut self, start: usize, depth: usize) {
+        let Matrix::Quantized { weights, .. } = self.b else {
             return;
         };
-        let rows = weights[start * n..][..depth * n].chunks_exact(n);
+        let (lines, _) = self.staged.as_chunks_mut::<PANELS>();
+        let rows = weights[start * self.n..][..depth * self.n].chunks_exact(self.n);
         for (inner, row) in rows.enumerate() {
-            let (whole, rest) = row.as_chunks();
-            let mut lines = self.lines[inner..].iter_mut().step_by(DEPTH);
-            for (part, line) in whole.iter().zip(lines.by_ref()) {
-                *line = *part;
+            let (parts, rest) = row.as_chunks();
+            let (whole, parts) = parts.as_chunks::<PANELS>();
+            let mut lines = lines[inner..].iter_mut().step_by(DEPTH);
+            for (whole, line) in whole.iter().zip(lines.by_ref()) {
+                *line = *whole;
             }
             if let Some(line) = lines.next() {
-                line[..rest.len()].copy_from_slice(rest);
+                line[..parts.len()].copy_from_slice(parts);
+                if !rest.is_empty() {
+                    line[parts.len()][..rest.len()].copy_from_slice(rest);
+                }
             }
         }
     }
 
-    /// The rows of the group that begins at a column.
+    /// Copies or expands `depth` rows of up to four panels, from row `start` and column `group`
+    /// on; columns beyond the last stay what they were: never stored. Rows of int8 weights are
+    /// those that were staged.
     #[inline(always)]
-    fn group(&self, column: usize, depth: usize) -> &[Line] {
-        &self.lines[column / (PANELS * COLUMNS) * DEPTH..][..depth]
-    }
-}
-
-/// Copies or expands `depth` rows of up to four panels of b, from row `start` and column `group`
-/// on; columns beyond the last stay what they were: never stored.
-#[inline(always)]
-#[allow(
-    clippy::too_many_arguments,
-    reason = "sizes, source and destination of a copy"
-)]
-pub(super) fn right(
-    k: usize,
-    n: usize,
-    b: &Matrix<'_>,
-    staged: &Staged,
-    start: usize,
-    group: usize,
-    depth: usize,
-    panels: &mut [Panel],
-) {
-    let end = n.min(group + PANELS * COLUMNS);
-    match *b {
-        Matrix::Rows(b) => {
-            for inner in 0..depth {
-                let row = &b[(start + inner) * n..][group..end];
-                for (part, panel) in row.chunks(COLUMNS).zip(&mut *panels) {
-                    transfer(part.len(), part, &mut panel[inner]);
+    pub(super) fn panels(&self, start: usize, group: usize, depth: usize, panels: &mut [Panel]) {
+        let end = self.n.min(group + PANELS * COLUMNS);
+        match *self.b {
+            Matrix::Rows(b) => {
+                for inner in 0..depth {
+                    let row = &b[(start + inner) * self.n..][group..end];
+                    for (part, panel) in row.chunks(COLUMNS).zip(&mut *panels) {
+                        transfer(part.len(), part, &mut panel[inner]);
+                    }
                 }
             }
-        }
-        Matrix::Columns(b) => {
-            for column in group..end {
-                let offset = column - group;
-                let panel = &mut panels[offset / COLUMNS];
-                let values = &b[column * k + start..][..depth];
-                for (slots, value) in panel.iter_mut().zip(values) {
-                    slots[offset % COLUMNS] = *value;
+            Matrix::Columns(b) => {
+                for column in group..end {
+                    let offset = column - group;
+                    let panel = &mut panels[offset / COLUMNS];
+                    let values = &b[column * self.k + start..][..depth];
+                    for (slots, value) in panel.iter_mut().zip(values) {
+                        slots[offset % COLUMNS] = *value;
+                    }
                 }
             }
-        }
-        Matrix::Quantized { scale, zero, .. } => {
-            let lines = staged.group(group, depth);
-            let columns = (group..end).step_by(COLUMNS);
-            for (index, (column, panel)) in columns.zip(panels).enumerate() {
-                let part = column..end.min(column + COLUMNS);
-                let rows = lines.iter().map(|line| &line.as_chunks().0[index]);
-                expand(rows, &scale[part.clone()], &zero[part], panel);
+            Matrix::Quantized { scale, zero, .. } => {
+                let (lines, _) = self.staged.as_chunks::<PANELS>();
+                let lines = &lines[group / (PANELS * COLUMNS) * DEPTH..][..depth];
+                let columns = (group..end).step_by(COLUMNS);
+                for (index, (column, panel)) in columns.zip(panels).enumerate() {
+                    let part = column..end.min(column + COLUMNS);
+                    let rows = lines.iter().map(|line| &line[index]);
+                    expand(rows, &scale[part.clone()], &zero[part], panel);
+                }
             }
         }
     }
@@ -155,14 +141,17 @@ fn expand<'a>(
     }
 }
 
-/// Copies `width` elements; a full row in one move rather than by a call.
+/// Copies `width` elements. A full row in one move: the compiler would make one call of this
+/// and the rest if the rest were a copy of slices.
 #[inline(always)]
 pub(super) fn transfer(width: usize, from: &[f32], to: &mut [f32]) {
-    match (
-        from.first_chunk::<COLUMNS>(),
-        to.first_chunk_mut::<COLUMNS>(),
-    ) {
-        (Some(from), Some(to)) if width == COLUMNS => *to = *from,
-        _ => to[..width].copy_from_slice(&from[..width]),
+    if width == COLUMNS
+        && let (Some(from), Some(to)) = (from.first_chunk(), to.first_chunk_mut::<COLUMNS>())
+    {
+        *to = *from;
+        return;
+    }
+    for column in 0..width {
+        to[column] = from[column];
     }
 }
