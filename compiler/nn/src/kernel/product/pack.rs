@@ -141,9 +141,12 @@ fn expand<'a>(
     }
 }
 
-/// Copies `width` elements. A full row in one move: the compiler would make one call of this
-/// and the rest if the rest were a copy of slices.
+/// Copies `width` elements; a full row in one move.
 #[inline(always)]
+#[allow(
+    clippy::manual_memcpy,
+    reason = "of a copy of slices and the move the compiler makes one call"
+)]
 pub(super) fn transfer(width: usize, from: &[f32], to: &mut [f32]) {
     if width == COLUMNS
         && let (Some(from), Some(to)) = (from.first_chunk(), to.first_chunk_mut::<COLUMNS>())
