@@ -2,7 +2,7 @@
 
 use crate::{
     model::{TextureModel, VertexKind},
-    spectrum::{ArmaModel, Vibration, trace_centroid_hz},
+    spectrum::{ArmaModel, Vibration, VibrationBand, trace_centroid_hz},
 };
 use serde::Serialize;
 
@@ -27,12 +27,16 @@ pub struct Attributes {
 /// The attributes of a texture.
 #[must_use]
 pub fn of(texture: &TextureModel) -> Attributes {
+    let band = VibrationBand::new(texture.grid.sample_rate_hz);
     let vibrations: Vec<Vibration> = texture
         .grid
         .vertices
         .iter()
         .filter(|vertex| vertex.kind == VertexKind::Interior)
-        .filter_map(|vertex| ArmaModel::at_vertex(&texture.grid, vertex).vibration())
+        .filter_map(|vertex| {
+            let model = ArmaModel::at_vertex(&texture.grid, vertex);
+            band.as_ref()?.vibration(&model)
+        })
         .collect();
     let mean = |value: fn(&Vibration) -> f64| {
         let sum: f64 = vibrations.iter().map(value).sum();

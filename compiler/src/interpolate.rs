@@ -102,9 +102,30 @@ impl<'a> Field<'a> {
             inside(speed_mm_s, self.corner.0),
             inside(force_n, self.corner.1),
         );
-        let smallest = |w: &[f64; 3]| w[0].min(w[1]).min(w[2]);
-        let (vertices, weights) = triangles
+        let near = triangles
             .iter()
+            .filter(|triangle| self.may_hold(triangle, speed, force));
+        let (vertices, weights) = self
+            .best(near, speed, force)
+            .filter(|(_, weights)| smallest(weights) >= 0.0)
+            // In a gap, or by rounding, a query is in none of them.
+            .or_else(|| self.best(triangles.iter(), speed, force))?;
+        let cut = weights.map(|w| w.max(0.0));
+        let sum: f64 = cut.iter().sum();
+        Some(Place {
+            vertices,
+            weights: cut.map(|w| w / sum),
+        })
+    }
+
+    /// The triangle whose smallest weight is largest, and the weights.
+    fn best<'t>(
+        &self,
+        triangles: impl Iterator<Item = &'t [usize; 3]>,
+        speed: f64,
+        force: f64,
+    ) -> Option<([usize; 3], [f64; 3])> {
+        triangles
             .filter_map(|&triangle| Some((triangle, self.weights(triangle, speed, force)?)))
             .reduce(|best, next| {
                 if smallest(&next.1) > smallest(&best.1) {
@@ -112,13 +133,15 @@ impl<'a> Field<'a> {
                 } else {
                     best
                 }
-            })?;
-        let cut = weights.map(|w| w.max(0.0));
-        let sum: f64 = cut.iter().sum();
-        Some(Place {
-            vertices,
-            weights: cut.map(|w| w / sum),
-        })
+            })
+    }
+
+    /// Whether a query lies between the least and the largest speed and force of a triangle:
+    /// elsewhere a weight is negative.
+    fn may_hold(&self, triangle: &[usize; 3], speed: f64, force: f64) -> bool {
+        let between = |[a, b, c]: [f64; 3], x: f64| a.min(b).min(c) <= x && x <= a.max(b).max(c);
+        let corners = triangle.map(|v| &self.grid.vertices[v]);
+        between(corners.map(|v| v.speed_mm_s), speed) && between(corners.map(|v| v.force_n), force)
     }
 
     fn weights(&self, triangle: [usize; 3], speed: f64, force: f64) -> Option<[f64; 3]> {
@@ -189,6 +212,10 @@ impl<'a> Field<'a> {
             level_m_s2: mixture.level_m_s2,
         }
     }
+}
+
+fn smallest(weights: &[f64; 3]) -> f64 {
+    weights[0].min(weights[1]).min(weights[2])
 }
 
 /// Where spectra of two grids are compared: every vertex once, the middle of every edge and

@@ -308,9 +308,14 @@ impl ModelTable {
             };
             check_gap(index, &entry.lsf)?;
             table.ma_order = table.ma_order.max(entry.ma_lsf.len());
-            table
-                .errors_db
-                .push(quantisation_error_db(&band, grid, vertex, &entry));
+            // Edge models share the frequencies of the vertex they continue, hence its error.
+            let twin = grid.vertices[..index].iter().position(|other| {
+                other.lsf_rad == vertex.lsf_rad && other.ma_lsf_rad == vertex.ma_lsf_rad
+            });
+            table.errors_db.push(match twin {
+                Some(twin) => table.errors_db[twin],
+                None => quantisation_error_db(&band, grid, vertex, &entry),
+            });
             let known = table.entries.iter().position(|other| *other == entry);
             table.model_of.push(known.unwrap_or(table.entries.len()));
             if known.is_none() {

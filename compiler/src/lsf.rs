@@ -6,6 +6,7 @@
 //! angles in (0, π) are the LSFs, the first of which belongs to Q.
 
 use crate::reflection::step_down;
+use multiversion::multiversion;
 use std::f64::consts::PI;
 
 /// The monic polynomial `[1, a_1, …, a_p]` of `p` line spectral frequencies (rad).
@@ -96,6 +97,8 @@ pub fn from_reflection(reflection: &[f64]) -> Vec<f64> {
 const LANES: usize = 8;
 /// Halvings of [0, 1]: to the last bit of a number near 1.
 const HALVINGS: usize = 54;
+/// A step that small is rounding.
+const PRECISION: f64 = f64::EPSILON;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Side {
@@ -132,58 +135,142 @@ impl Sturm {
         Self { alpha }
     }
 
-    /// Of every x in [0, 1] the number of roots with a larger one, that is with a smaller
-    /// angle.
-    fn roots_beyond(&self, x: &[f64; LANES]) -> [f64; LANES] {
-        let mut before = [1.0; LANES];
-        let mut here = x.map(|x| 2.0 * x);
-        let mut was_negative = [0.0; LANES];
-        let mut count = [0.0; LANES];
-        for alpha in &self.alpha {
-            for lane in 0..LANES {
-                let next = 2.0 * x[lane] * here[lane] - alpha * before[lane];
-                // A zero counts as positive: the next one has the sign opposite to the last.
-                // Counted in f64, for which there are lanes everywhere.
-                let negative = if next < 0.0 { 1.0 } else { 0.0_f64 };
-                count[lane] += (negative - was_negative[lane]).abs();
-                was_negative[lane] = negative;
-                before[lane] = here[lane];
-                here[lane] = next;
+    /// The angles of roots, numbered from the smallest angle.
+    ///
+    /// Halvings until every root is alone in its bracket, then Newton's method inside it.
+    fn roots(&self, indices: &[usize]) -> impl Iterator<Item = f64> {
+        let mut brackets = Brackets::around(indices);
+        for _ in 0..HALVINGS {
+            let middle = brackets.middle();
+            brackets.keep(&middle, &roots_beyond(&self.alpha, &middle));
+            if brackets.are_isolating() {
+                break;
             }
         }
-        count
+        let mut x = brackets.middle();
+        for _ in 0..HALVINGS {
+            let (value, slope) = value_and_slope(&self.alpha, &x);
+            let before = x;
+            x = brackets.newton(&x, &value, &slope);
+            if (0..LANES).all(|lane| (x[lane] - before[lane]).abs() <= PRECISION) {
+                break;
+            }
+        }
+        (0..indices.len()).map(move |lane| 2.0 * libm::acos(x[lane]))
+    }
+}
+
+/// Where the roots of [`LANES`] indices lie.
+struct Brackets {
+    index: [f64; LANES],
+    low: [f64; LANES],
+    high: [f64; LANES],
+    /// Roots beyond either end.
+    beyond_low: [f64; LANES],
+    beyond_high: [f64; LANES],
+}
+
+impl Brackets {
+    /// [0, 1] for every index; lanes without one repeat the first.
+    fn around(indices: &[usize]) -> Self {
+        let index = std::array::from_fn(|lane| indices.get(lane).map_or(indices[0], |i| *i) as f64);
+        Self {
+            index,
+            low: [0.0; LANES],
+            high: [1.0; LANES],
+            beyond_low: [f64::INFINITY; LANES],
+            beyond_high: [0.0; LANES],
+        }
     }
 
-    /// The angles of roots, numbered from the smallest angle.
-    fn roots(&self, indices: &[usize]) -> impl Iterator<Item = f64> {
-        let mut wanted = [0.0; LANES];
-        for (wanted, &index) in wanted.iter_mut().zip(indices) {
-            *wanted = index as f64;
-        }
-        let (mut low, mut high) = ([0.0; LANES], [1.0; LANES]);
-        for _ in 0..HALVINGS {
-            let mut middle = [0.0; LANES];
-            for lane in 0..LANES {
-                middle[lane] = 0.5 * (low[lane] + high[lane]);
-            }
-            let beyond = self.roots_beyond(&middle);
-            for lane in 0..LANES {
-                let root_is_beyond = beyond[lane] > wanted[lane];
-                low[lane] = if root_is_beyond {
-                    middle[lane]
-                } else {
-                    low[lane]
-                };
-                high[lane] = if root_is_beyond {
-                    high[lane]
-                } else {
-                    middle[lane]
-                };
-            }
-        }
-        let middle = move |lane: usize| 0.5 * (low[lane] + high[lane]);
-        (0..indices.len()).map(move |lane| 2.0 * libm::acos(middle(lane)))
+    fn middle(&self) -> [f64; LANES] {
+        std::array::from_fn(|lane| 0.5 * (self.low[lane] + self.high[lane]))
     }
+
+    /// Whether every bracket holds one root.
+    fn are_isolating(&self) -> bool {
+        (0..LANES).all(|lane| self.beyond_low[lane] - self.beyond_high[lane] == 1.0)
+    }
+
+    /// Keeps the side of x where the root is, given how many roots lie beyond x.
+    fn keep(&mut self, x: &[f64; LANES], beyond: &[f64; LANES]) {
+        for lane in 0..LANES {
+            if beyond[lane] > self.index[lane] {
+                (self.low[lane], self.beyond_low[lane]) = (x[lane], beyond[lane]);
+            } else {
+                (self.high[lane], self.beyond_high[lane]) = (x[lane], beyond[lane]);
+            }
+        }
+    }
+
+    /// A step of Newton's method from x; where it would leave the bracket, a halving.
+    fn newton(
+        &mut self,
+        x: &[f64; LANES],
+        value: &[f64; LANES],
+        slope: &[f64; LANES],
+    ) -> [f64; LANES] {
+        std::array::from_fn(|lane| {
+            // Positive beyond the first root, negative beyond the second, and so on.
+            let is_even = self.index[lane] % 2.0 == 0.0;
+            if (value[lane] < 0.0) == is_even {
+                self.low[lane] = x[lane];
+            } else {
+                self.high[lane] = x[lane];
+            }
+            let (low, high) = (self.low[lane], self.high[lane]);
+            let next = x[lane] - value[lane] / slope[lane];
+            if low <= next && next <= high {
+                next
+            } else {
+                0.5 * (low + high)
+            }
+        })
+    }
+}
+
+/// Of every x in [0, 1] the number of roots with a larger one, that is with a smaller angle.
+///
+/// No lane meets another: wider registers give the same bits.
+#[multiversion(targets("x86_64+avx2"))]
+fn roots_beyond(alpha: &[f64], x: &[f64; LANES]) -> [f64; LANES] {
+    let mut before = [1.0; LANES];
+    let mut here = x.map(|x| 2.0 * x);
+    let mut was_negative = [0.0; LANES];
+    let mut count = [0.0; LANES];
+    for alpha in alpha {
+        for lane in 0..LANES {
+            let next = 2.0 * x[lane] * here[lane] - alpha * before[lane];
+            // A zero counts as positive: the next one has the sign opposite to the last.
+            // Counted in f64, for which there are lanes everywhere.
+            let negative = if next < 0.0 { 1.0 } else { 0.0_f64 };
+            count[lane] += (negative - was_negative[lane]).abs();
+            was_negative[lane] = negative;
+            before[lane] = here[lane];
+            here[lane] = next;
+        }
+    }
+    count
+}
+
+/// The last of the sequence and its derivative at every x.
+#[multiversion(targets("x86_64+avx2"))]
+fn value_and_slope(alpha: &[f64], x: &[f64; LANES]) -> ([f64; LANES], [f64; LANES]) {
+    let (mut before, mut here) = ([1.0; LANES], [0.0; LANES]);
+    let (mut slope_before, mut slope) = ([0.0; LANES], [2.0; LANES]);
+    for lane in 0..LANES {
+        here[lane] = 2.0 * x[lane];
+    }
+    for alpha in alpha {
+        for lane in 0..LANES {
+            let twice = 2.0 * x[lane];
+            let next = twice * here[lane] - alpha * before[lane];
+            let next_slope = twice * slope[lane] + 2.0 * here[lane] - alpha * slope_before[lane];
+            (before[lane], here[lane]) = (here[lane], next);
+            (slope_before[lane], slope[lane]) = (slope[lane], next_slope);
+        }
+    }
+    (here, slope)
 }
 
 /// Whether the frequencies ascend strictly inside (0, π): the condition for the
@@ -252,6 +339,23 @@ mod tests {
             let scale = monic.iter().fold(1.0_f64, |m, a| m.max(a.abs()));
             for (found, expected) in to_polynomial(&lsf).iter().zip(&monic) {
                 prop_assert!((found - expected).abs() < 1e-6 * scale);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_frequency_is_where_the_count_of_roots_changes(
+            r in prop::collection::vec(-0.99_f64..0.99, 1..=24),
+        ) {
+            let lsf = from_reflection(&r);
+            for (n, omega) in lsf.iter().enumerate() {
+                let side = if n % 2 == 0 { Side::Sum } else { Side::Difference };
+                let alpha = Sturm::new(&r, side).alpha;
+                let x = libm::cos(0.5 * omega);
+                let beyond = |x: f64| roots_beyond(&alpha, &[x; LANES])[0];
+                prop_assert!(beyond(x + 1e-13) <= (n / 2) as f64, "{:?}", r);
+                prop_assert!(beyond(x - 1e-13) > (n / 2) as f64, "{:?}", r);
             }
         }
     }

@@ -1,5 +1,10 @@
 //! Reflection coefficients: the step-down recursion, and stability by it.
 
+use multiversion::multiversion;
+
+/// Polynomials that are stepped down side by side: what fits the registers of a processor.
+pub const LANES: usize = 8;
+
 /// Reflection coefficients of a monic polynomial `A(z) = 1 + Σ a_k z⁻ᵏ`, given as
 /// `[1, a_1, …, a_p]`, from the first to the last; `None` unless every root lies
 /// strictly inside the unit circle.
@@ -25,6 +30,35 @@ pub fn step_down(monic: &[f64]) -> Option<Vec<f64>> {
         }
     }
     Some(reflection)
+}
+
+/// Largest magnitude of a reflection coefficient of [`LANES`] monic polynomials, `monic[k]` being
+/// their coefficients of z⁻ᵏ; infinite for one that is not stable.
+///
+/// The recursion of [`step_down`], to the bit. No lane meets another, so wider registers give
+/// the same bits.
+#[multiversion(targets("x86_64+avx2"))]
+#[must_use]
+pub fn largest_reflections(monic: &mut [[f64; LANES]]) -> [f64; LANES] {
+    let mut largest = [0.0_f64; LANES];
+    for k in (1..monic.len()).rev() {
+        let r = monic[k];
+        let mut scale = [0.0; LANES];
+        for lane in 0..LANES {
+            let inside = r[lane].abs() < 1.0;
+            let magnitude = if inside { r[lane].abs() } else { f64::INFINITY };
+            largest[lane] = largest[lane].max(magnitude);
+            scale[lane] = 1.0 / ((1.0 - r[lane]) * (1.0 + r[lane]));
+        }
+        for i in 0..=k / 2 {
+            let (x, y) = (monic[i], monic[k - i]);
+            for lane in 0..LANES {
+                monic[i][lane] = (x[lane] - r[lane] * y[lane]) * scale[lane];
+                monic[k - i][lane] = (y[lane] - r[lane] * x[lane]) * scale[lane];
+            }
+        }
+    }
+    largest
 }
 
 /// The monic polynomial of given reflection coefficients.
@@ -62,6 +96,28 @@ mod tests {
                 prop_assert!((found - expected).abs() <= 1e-15 * (10.0 + growth));
             }
         }
+    }
+
+    #[test]
+    fn side_by_side_is_one_by_one_to_the_bit() {
+        let polynomial = |lane: usize| {
+            let radius = 0.3 + 0.1 * lane as f64;
+            step_up(&[radius, -0.7, 0.2, radius * radius, -0.4])
+        };
+        let mut together = [[0.0; LANES]; 6];
+        for (k, row) in together.iter_mut().enumerate() {
+            for (lane, coefficient) in row.iter_mut().enumerate() {
+                *coefficient = polynomial(lane)[k];
+            }
+        }
+        let largest = largest_reflections(&mut together);
+        for (lane, found) in largest.into_iter().enumerate() {
+            let expected = step_down(&polynomial(lane)).map_or(f64::INFINITY, |reflection| {
+                reflection.iter().fold(0.0, |m: f64, r| m.max(r.abs()))
+            });
+            assert_eq!(found.to_bits(), expected.to_bits(), "lane {lane}");
+        }
+        assert_eq!(largest[7], f64::INFINITY, "one of them is not stable");
     }
 
     #[test]

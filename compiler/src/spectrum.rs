@@ -1,5 +1,11 @@
 //! The power spectrum of a model, and how far two of them are apart.
 
+mod angles;
+mod decibels;
+
+pub use angles::{Angles, squared_magnitude};
+pub use decibels::{decibels, rms_db};
+
 use crate::{
     lsf,
     model::{GridVertex, ModelGrid, Numerator},
@@ -70,26 +76,7 @@ impl ArmaModel {
     /// `None` for a silent model or one whose rate leaves no such band.
     #[must_use]
     pub fn vibration(&self) -> Option<Vibration> {
-        let nyquist = 0.5 * self.sample_rate_hz;
-        let steps = ((nyquist - VIBRATION_FLOOR_HZ) / BAND_STEP_HZ).ceil();
-        if !(steps >= 1.0 && self.level_m_s2 > 0.0) {
-            return None;
-        }
-        let width = (nyquist - VIBRATION_FLOOR_HZ) / steps;
-        let (mut sum, mut moment) = (0.0, 0.0);
-        let first_hz = VIBRATION_FLOOR_HZ + 0.5 * width;
-        let omega = |n: usize| TAU * (first_hz + n as f64 * width) / self.sample_rate_hz;
-        let powers = self.powers_at(&Angles::new((0..steps as usize).map(omega)));
-        for (step, power) in powers.into_iter().enumerate() {
-            let freq_hz = first_hz + step as f64 * width;
-            sum += power;
-            moment += freq_hz * power;
-        }
-        Some(Vibration {
-            // One-sided density 2·S/fs, integrated.
-            power: sum * width * 2.0 / self.sample_rate_hz,
-            centroid_hz: moment / sum,
-        })
+        VibrationBand::new(self.sample_rate_hz)?.vibration(self)
     }
 }
 
@@ -102,134 +89,54 @@ pub struct Vibration {
     pub centroid_hz: f64,
 }
 
-/// Frequencies at which polynomials are evaluated side by side.
+/// The frequencies from [`VIBRATION_FLOOR_HZ`] to half a sample rate, for many models at it.
 #[derive(Debug, Clone)]
-pub struct Angles {
-    /// Cosine and sine of [`Angles::LANES`] frequencies together.
-    blocks: Vec<([f64; Angles::LANES], [f64; Angles::LANES])>,
-    count: usize,
+pub struct VibrationBand {
+    angles: Angles,
+    sample_rate_hz: f64,
+    first_hz: f64,
+    /// Between neighbours.
+    width_hz: f64,
 }
 
-impl Angles {
-    /// Frequencies of a block: what fits the registers of a processor.
-    const LANES: usize = 8;
-
-    /// Of frequencies in rad.
+impl VibrationBand {
+    /// Of models at a sample rate, Hz; `None` for a rate that leaves no such band.
     #[must_use]
-    pub fn new(omegas: impl Iterator<Item = f64>) -> Self {
-        let mut blocks = Vec::new();
-        let mut count = 0;
-        for omega in omegas {
-            if count % Self::LANES == 0 {
-                blocks.push(([1.0; Self::LANES], [0.0; Self::LANES]));
-            }
-            if let Some((cosines, sines)) = blocks.last_mut() {
-                let (sin, cos) = libm::sincos(omega);
-                cosines[count % Self::LANES] = cos;
-                sines[count % Self::LANES] = sin;
-            }
-            count += 1;
+    pub fn new(sample_rate_hz: f64) -> Option<Self> {
+        let nyquist = 0.5 * sample_rate_hz;
+        let steps = ((nyquist - VIBRATION_FLOOR_HZ) / BAND_STEP_HZ).ceil();
+        if steps.is_nan() || steps < 1.0 {
+            return None;
         }
-        Self { blocks, count }
+        let width_hz = (nyquist - VIBRATION_FLOOR_HZ) / steps;
+        let first_hz = VIBRATION_FLOOR_HZ + 0.5 * width_hz;
+        let omega = |n: usize| TAU * (first_hz + n as f64 * width_hz) / sample_rate_hz;
+        Some(Self {
+            angles: Angles::new((0..steps as usize).map(omega)),
+            sample_rate_hz,
+            first_hz,
+            width_hz,
+        })
     }
 
-    /// [`squared_magnitude`] at every frequency, to the bit.
+    /// [`ArmaModel::vibration`] of a model at the rate of the band.
     #[must_use]
-    pub fn squared_magnitudes(&self, coefficients: &[f64]) -> Vec<f64> {
-        let used = coefficients
-            .iter()
-            .rposition(|&c| c != 0.0)
-            .map_or(0, |last| last + 1);
-        let mut all = Vec::with_capacity(self.blocks.len() * Self::LANES);
-        for (cosines, sines) in &self.blocks {
-            let (mut re, mut im) = ([0.0; Self::LANES], [0.0; Self::LANES]);
-            for &c in coefficients[..used].iter().rev() {
-                for lane in 0..Self::LANES {
-                    let next = re[lane] * cosines[lane] + im[lane] * sines[lane] + c;
-                    im[lane] = im[lane] * cosines[lane] - re[lane] * sines[lane];
-                    re[lane] = next;
-                }
-            }
-            all.extend((0..Self::LANES).map(|lane| re[lane] * re[lane] + im[lane] * im[lane]));
+    pub fn vibration(&self, model: &ArmaModel) -> Option<Vibration> {
+        if model.level_m_s2.is_nan() || model.level_m_s2 <= 0.0 {
+            return None;
         }
-        all.truncate(self.count);
-        all
-    }
-}
-
-impl Angles {
-    /// |A|² at every frequency, of the polynomial whose LSFs have these cosines.
-    ///
-    /// The sum and the difference polynomial are in quadrature on the unit circle and known by
-    /// their roots, so |A|² = (|Q|² + |P|²)/4 needs no coefficients.
-    #[must_use]
-    pub fn squared_magnitudes_of_lsf(&self, lsf_cosines: &[f64]) -> Vec<f64> {
-        let mut all = Vec::with_capacity(self.blocks.len() * Self::LANES);
-        for (x, _) in &self.blocks {
-            let (mut sum, mut difference) = ([1.0; Self::LANES], [1.0; Self::LANES]);
-            for pair in lsf_cosines.chunks(2) {
-                for lane in 0..Self::LANES {
-                    sum[lane] *= 2.0 * (x[lane] - pair[0]);
-                }
-                if let &[_, c] = pair {
-                    for lane in 0..Self::LANES {
-                        difference[lane] *= 2.0 * (x[lane] - c);
-                    }
-                }
-            }
-            let even = lsf_cosines.len().is_multiple_of(2);
-            all.extend((0..Self::LANES).map(|lane| {
-                let x = x[lane];
-                let (q, p) = (sum[lane] * sum[lane], difference[lane] * difference[lane]);
-                if even {
-                    0.5 * ((1.0 + x) * q + (1.0 - x) * p)
-                } else {
-                    0.25 * q + (1.0 - x) * (1.0 + x) * p
-                }
-            }));
+        let (mut sum, mut moment) = (0.0, 0.0);
+        for (step, power) in model.powers_at(&self.angles).into_iter().enumerate() {
+            let freq_hz = self.first_hz + step as f64 * self.width_hz;
+            sum += power;
+            moment += freq_hz * power;
         }
-        all.truncate(self.count);
-        all
+        Some(Vibration {
+            // One-sided density 2·S/fs, integrated.
+            power: sum * self.width_hz * 2.0 / self.sample_rate_hz,
+            centroid_hz: moment / sum,
+        })
     }
-}
-
-/// `10·log10` of a positive, normal number, to 1e-11 dB; anything else gives a number without
-/// meaning, far beyond what a spectrum spans for 0, ∞ and NaN.
-///
-/// Compilers turn a loop over it into vector instructions, which they cannot for a call.
-#[inline(always)]
-#[must_use]
-pub fn decibels(power: f64) -> f64 {
-    /// Bits of √½, the least mantissa.
-    const LEAST: u64 = 0x3FE6_A09E_667F_3BCD;
-    const ONE: u64 = 0x3FF0_0000_0000_0000;
-    const MANTISSA_BITS: u32 = 52;
-    /// A number with these bits below is 2⁵² and the integer they are.
-    const TWO_52: u64 = 0x4330_0000_0000_0000;
-    let shifted = power.to_bits().wrapping_add(ONE - LEAST);
-    let exponent =
-        f64::from_bits(TWO_52 | shifted >> MANTISSA_BITS) - (f64::from_bits(TWO_52) + 1023.0);
-    let mantissa = f64::from_bits((shifted & ((1 << MANTISSA_BITS) - 1)) + LEAST);
-    // ln m = 2·artanh t, |t| ≤ 0.172.
-    let t = (mantissa - 1.0) / (mantissa + 1.0);
-    let square = t * t;
-    let mut series = 0.0;
-    for n in (0..8).rev() {
-        series = series * square + 1.0 / f64::from(2 * n + 1);
-    }
-    10.0 / std::f64::consts::LN_10 * (exponent * std::f64::consts::LN_2 + 2.0 * t * series)
-}
-
-/// `|1 + Σ c_k e^{−jkω}|²` by Horner's rule.
-#[must_use]
-pub fn squared_magnitude(coefficients: &[f64], omega: f64) -> f64 {
-    let (sin, cos) = libm::sincos(omega);
-    let (mut re, mut im) = (0.0, 0.0);
-    for &c in coefficients.iter().rev() {
-        // (re + j·im)·e^{−jω} + c
-        (re, im) = (re * cos + im * sin + c, im * cos - re * sin);
-    }
-    re * re + im * im
 }
 
 /// The uniform frequencies over [`ERROR_BAND_HZ`] at which models are compared; the band ends
@@ -285,12 +192,11 @@ fn distance_over(
         (false, false) => return 0.0,
         _ => return f64::INFINITY,
     }
-    let mut squares = x.powers_at(of_x);
-    for (x, y) in squares.iter_mut().zip(y.powers_at(of_y)) {
-        let difference_db = decibels(*x / y);
-        *x = difference_db * difference_db;
+    let mut ratios = x.powers_at(of_x);
+    for (x, y) in ratios.iter_mut().zip(y.powers_at(of_y)) {
+        *x /= y;
     }
-    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+    rms_db(&ratios)
 }
 
 /// Power-weighted mean frequency of a transient, Hz; `None` for a silent one.
@@ -299,12 +205,16 @@ fn distance_over(
 #[must_use]
 pub fn trace_centroid_hz(accel_m_s2: &[f64], sample_rate_hz: f64) -> Option<f64> {
     const BINS: usize = 512;
+    let freq_hz = |bin: usize| 0.5 * sample_rate_hz * (bin as f64 + 0.5) / BINS as f64;
+    let angles = Angles::new((0..BINS).map(|bin| TAU * freq_hz(bin) / sample_rate_hz));
     let (mut sum, mut moment) = (0.0, 0.0);
-    for bin in 0..BINS {
-        let freq_hz = 0.5 * sample_rate_hz * (bin as f64 + 0.5) / BINS as f64;
-        let power = squared_magnitude(accel_m_s2, TAU * freq_hz / sample_rate_hz);
+    for (bin, power) in angles
+        .squared_magnitudes(accel_m_s2)
+        .into_iter()
+        .enumerate()
+    {
         sum += power;
-        moment += freq_hz * power;
+        moment += freq_hz(bin) * power;
     }
     (sum > 0.0).then(|| moment / sum)
 }
@@ -358,55 +268,6 @@ mod tests {
         assert!((v.power - 9.0 * 460.0 / 500.0).abs() < 1e-9);
         assert!((v.centroid_hz - 270.0).abs() < 1e-9);
         assert_eq!(model(&[1.0], &[1.0], 0.0).vibration(), None);
-    }
-
-    #[test]
-    fn side_by_side_is_one_by_one_to_the_bit() {
-        let coefficients = [1.0, -1.3, 0.7, 0.0, 0.2, 0.0, 0.0];
-        let omegas: Vec<f64> = (0..21).map(|n| 0.15 * f64::from(n)).collect();
-        let together = Angles::new(omegas.iter().copied()).squared_magnitudes(&coefficients);
-        assert_eq!(together.len(), omegas.len());
-        for (found, omega) in together.iter().zip(&omegas) {
-            assert_eq!(
-                found.to_bits(),
-                squared_magnitude(&coefficients, *omega).to_bits()
-            );
-        }
-    }
-
-    #[test]
-    fn a_polynomial_is_known_by_its_lsf() {
-        let omegas = (0..40).map(|n| 0.08 * f64::from(n));
-        let angles = Angles::new(omegas);
-        for lsf_rad in [
-            vec![0.4],
-            vec![0.3, 0.9],
-            vec![0.2, 0.5, 1.9],
-            vec![0.1, 0.4, 1.0, 2.2],
-        ] {
-            let cosines: Vec<f64> = lsf_rad.iter().map(|w: &f64| w.cos()).collect();
-            let by_roots = angles.squared_magnitudes_of_lsf(&cosines);
-            let by_horner = angles.squared_magnitudes(&lsf::to_polynomial(&lsf_rad));
-            assert_eq!(by_roots.len(), 40);
-            for (x, y) in by_roots.iter().zip(&by_horner) {
-                assert!((x / y - 1.0).abs() < 1e-9, "{lsf_rad:?}: {x} for {y}");
-            }
-        }
-    }
-
-    #[test]
-    fn decibels_are_ten_times_the_logarithm() {
-        for n in -3000..3000 {
-            let power = 1.07_f64.powi(n);
-            assert!(
-                (decibels(power) - 10.0 * power.log10()).abs() < 1e-11,
-                "{power}"
-            );
-        }
-        assert_eq!(decibels(1.0), 0.0);
-        for odd in [0.0, f64::INFINITY, f64::NAN] {
-            assert!(decibels(odd).abs() > 3000.0);
-        }
     }
 
     #[test]

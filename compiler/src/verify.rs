@@ -4,7 +4,7 @@ use crate::{
     diagnostic::Diagnostic,
     mesh,
     model::{ModelGrid, TextureModel},
-    reflection::step_down,
+    reflection::{LANES, largest_reflections},
     spectrum::{ArmaModel, ERROR_POINTS, ErrorBand},
 };
 use asperity_formats::{Asset, FormatError};
@@ -131,10 +131,11 @@ pub fn verify(texture: &TextureModel, bytes: &[u8]) -> Result<VerifyReport, Veri
         max_reflection: 0.0,
         peak_force_n: 0.0,
     };
-    for (speed_mm_s, force_n) in queries(&texture.grid) {
-        let filter = check_query(&slot, &texture.grid, speed_mm_s, force_n)?;
-        report.queries += 1;
-        report.max_reflection = report.max_reflection.max(filter);
+    let queries = queries(&texture.grid);
+    report.queries = queries.len();
+    for together in queries.chunks(LANES) {
+        let reflection = check_queries(&slot, &texture.grid, together)?;
+        report.max_reflection = report.max_reflection.max(reflection);
     }
     report.max_db = check_spectra(&slot, &texture.grid)?;
     check_ticks(&slot, rate_hz, &mut report)?;
@@ -183,13 +184,43 @@ fn queries(grid: &ModelGrid) -> Vec<(f32, f32)> {
         .collect()
 }
 
-/// Returns the largest reflection coefficient.
+/// Checks up to [`LANES`] queries, whose filters are stepped down side by side; returns the
+/// largest reflection coefficient.
+fn check_queries(
+    slot: &HostTexture,
+    grid: &ModelGrid,
+    queries: &[(f32, f32)],
+) -> Result<f64, VerifyError> {
+    // Lanes without a query hold A(z) = 1.
+    let mut monic = vec![[0.0; LANES]; grid.order + 1];
+    monic[0] = [1.0; LANES];
+    for (lane, &(speed_mm_s, force_n)) in queries.iter().enumerate() {
+        let filter = check_query(slot, grid, speed_mm_s, force_n)?;
+        for (row, &coefficient) in monic[1..].iter_mut().zip(&filter.a) {
+            row[lane] = f64::from(coefficient);
+        }
+    }
+    let largest = largest_reflections(&mut monic);
+    if let Some((_, &(speed_mm_s, force_n))) = largest
+        .iter()
+        .zip(queries)
+        .find(|(reflection, _)| reflection.is_infinite())
+    {
+        return Err(VerifyError::Unstable {
+            speed_mm_s,
+            force_n,
+        });
+    }
+    Ok(largest.into_iter().fold(0.0, f64::max))
+}
+
+/// Checks the weights of a query and that its filter is finite.
 fn check_query(
     slot: &HostTexture,
     grid: &ModelGrid,
     speed_mm_s: f32,
     force_n: f32,
-) -> Result<f64, VerifyError> {
+) -> Result<Filter, VerifyError> {
     let found = slot.weights_at(speed_mm_s, force_n);
     let sum: f32 = found.weights.iter().sum();
     let convex = found.weights.iter().all(|w| (0.0..=1.0).contains(w))
@@ -206,18 +237,17 @@ fn check_query(
             weights: found.weights,
         });
     }
-    let filter = slot.filter_at(speed_mm_s, force_n);
+    let filter = slot.filter_of(&found);
     let finite = filter.b.iter().all(|b| b.is_finite())
         && filter.level_m_s2.is_finite()
         && filter.level_m_s2 >= 0.0;
-    let reflection = step_down(&monic(&filter.a, grid.order)).filter(|_| finite);
-    match reflection {
-        Some(reflection) => Ok(reflection.iter().fold(0.0, |m: f64, r| m.max(r.abs()))),
-        None => Err(VerifyError::Unstable {
+    if !finite {
+        return Err(VerifyError::Unstable {
             speed_mm_s,
             force_n,
-        }),
+        });
     }
+    Ok(filter)
 }
 
 fn monic(coefficients: &[f32], order: usize) -> Vec<f64> {

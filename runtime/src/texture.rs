@@ -302,9 +302,14 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     /// The steady model of a query: what the tick renders once speed and force rest.
     #[must_use]
     pub fn filter_at(&self, speed_mm_s: f32, force_n: f32) -> Filter {
-        let query = self.weights_at(speed_mm_s, force_n);
+        self.filter_of(&self.weights_at(speed_mm_s, force_n))
+    }
+
+    /// [`filter_at`](Self::filter_at) of a query that was located in this texture.
+    #[must_use]
+    pub fn filter_of(&self, query: &Barycentric<A>) -> Filter {
         let (mut pairs, mut products) = (Pairs::ZERO, Products::ONE);
-        self.follow(&mut pairs, &query, Number::whole(1));
+        self.follow(&mut pairs, query, Number::whole(1));
         for part in 0..self.shape.twos() * self.shape.parts() {
             self.multiply(&mut products, &pairs, part);
         }
@@ -313,7 +318,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         Filter {
             a: a.to_array().map(|a| a.value()),
             b: b.to_array().map(|b| b.value()),
-            level_m_s2: self.level_m_s2(&query).value(),
+            level_m_s2: self.level_m_s2(query).value(),
         }
     }
 

@@ -145,8 +145,8 @@ const FIXED: Tolerance = Tolerance {
     speed_mm_s: 0.02,
     vib: 3e-3,
     tap: 1e-3,
-    friction_n: 3e-4,
-    force_n: 6e-4,
+    friction_n: 6e-4,
+    force_n: 1e-3,
 };
 
 fn assert_close(compared: &[(Worst, Tolerance); 2], rate_hz: f32, case: &str) {

@@ -2,8 +2,8 @@
 
 use crate::{
     interpolate::{Field, Mixture, Place, places},
-    model::{ModelGrid, Numerator},
-    spectrum::{Angles, ErrorBand, decibels},
+    model::{GridVertex, ModelGrid, Numerator},
+    spectrum::{Angles, ErrorBand, rms_db},
 };
 
 /// Largest RMS log-spectral distance over 10–450 Hz, level included, that `auto` accepts,
@@ -25,8 +25,8 @@ struct Compared {
     at: (f64, f64),
     /// Where that is in the whole grid.
     place: Place,
-    /// Reciprocal power spectrum, where it sounds.
-    inverse_power: Option<Vec<f64>>,
+    /// Power spectrum, where it sounds.
+    power: Option<Vec<f64>>,
 }
 
 /// The whole grid, at all places where another is compared with it.
@@ -41,8 +41,8 @@ pub struct Reference<'a> {
 #[derive(Debug, Clone)]
 struct Band {
     angles: Angles,
-    /// |1 + z⁻¹|² there.
-    nyquist: Vec<f64>,
+    /// 1/|1 + z⁻¹|² there.
+    inverse_nyquist: Vec<f64>,
 }
 
 /// Distances of a grid, one a place, dB; infinite where it is not stable or sounds where
@@ -66,8 +66,8 @@ impl Distances {
     /// Whether they leave room within [`BUDGET_DB`] for rounding.
     #[must_use]
     pub fn are_within_budget(&self) -> bool {
-        let (p95_db, worst_db) = self.summary();
-        p95_db <= BUDGET_DB.0 - ROOM_DB && worst_db <= BUDGET_DB.1 - ROOM_DB
+        let mut tally = Tally::of(self.0.len());
+        self.0.iter().all(|&distance_db| tally.admits(distance_db))
     }
 
     /// The distances, one a place.
@@ -77,9 +77,28 @@ impl Distances {
     }
 }
 
-/// Whether no place may be so far.
-pub(super) fn is_beyond_budget(distance_db: f64) -> bool {
-    distance_db > BUDGET_DB.1 - ROOM_DB
+/// Counts the places that only one in twenty may be.
+pub(super) struct Tally {
+    may_exceed: usize,
+}
+
+impl Tally {
+    /// For so many places.
+    pub(super) fn of(places: usize) -> Self {
+        Self {
+            may_exceed: places - (0.95 * places as f64).ceil() as usize,
+        }
+    }
+
+    /// Whether the budget still allows a place so far away, with room for rounding.
+    pub(super) fn admits(&mut self, distance_db: f64) -> bool {
+        if distance_db <= BUDGET_DB.0 - ROOM_DB {
+            return true;
+        }
+        let admitted = distance_db <= BUDGET_DB.1 - ROOM_DB && self.may_exceed > 0;
+        self.may_exceed = self.may_exceed.saturating_sub(1);
+        admitted
+    }
 }
 
 impl<'a> Reference<'a> {
@@ -87,8 +106,9 @@ impl<'a> Reference<'a> {
     #[must_use]
     pub fn new(grid: &'a ModelGrid) -> Option<Self> {
         let angles = ErrorBand::new(grid.sample_rate_hz, POINTS).angles().clone();
+        let nyquist = angles.squared_magnitudes(&[1.0, 1.0]);
         let band = Band {
-            nyquist: angles.squared_magnitudes(&[1.0, 1.0]),
+            inverse_nyquist: nyquist.into_iter().map(|zero| 1.0 / zero).collect(),
             angles,
         };
         let field = Field::new(grid);
@@ -99,18 +119,36 @@ impl<'a> Reference<'a> {
                 let place = field.locate(at.0, at.1)?;
                 let mixture = field.mixture(&place);
                 let sounds = mixture.level_m_s2 > silent_m_s2;
-                let inverse = || {
-                    let power = band.power(&mixture, grid.numerator);
-                    power.into_iter().map(|power| 1.0 / power).collect()
+                let power = || {
+                    let inverse = band.inverse_power(&mixture, grid.numerator);
+                    inverse.into_iter().map(|inverse| 1.0 / inverse).collect()
                 };
                 Some(Compared {
                     at,
                     place,
-                    inverse_power: sounds.then(inverse),
+                    power: sounds.then(power),
                 })
             })
             .collect::<Option<_>>()?;
         Some(Self { grid, band, places })
+    }
+
+    /// Where every place is in a grid; known where its triangles are those of the whole one.
+    pub(super) fn located(&self, grid: &ModelGrid, field: &Field<'_>) -> Option<Vec<Place>> {
+        let positions = |grid: &ModelGrid| -> Vec<(f64, f64)> {
+            let at = |vertex: &GridVertex| (vertex.speed_mm_s, vertex.force_n);
+            grid.vertices.iter().map(at).collect()
+        };
+        let known =
+            grid.triangles == self.grid.triangles && positions(grid) == positions(self.grid);
+        let locate = |compared: &Compared| {
+            if known {
+                Some(compared.place)
+            } else {
+                field.locate(compared.at.0, compared.at.1)
+            }
+        };
+        self.places.iter().map(locate).collect()
     }
 
     /// Speed and force of every place.
@@ -121,15 +159,14 @@ impl<'a> Reference<'a> {
     /// Distance of a mixture from the whole grid at a place, dB.
     pub(super) fn distance(&self, index: usize, field: &Field<'_>, place: &Place) -> f64 {
         let mixture = field.mixture(place);
-        match &self.places[index].inverse_power {
+        match &self.places[index].power {
             // Ordered frequencies are a stable filter.
-            Some(inverse_power) if is_ordered(&mixture.ar_cosines) => {
-                let mut squares = self.band.power(&mixture, field.numerator());
-                for (power, inverse) in squares.iter_mut().zip(inverse_power) {
-                    let difference_db = decibels(*power * inverse);
-                    *power = difference_db * difference_db;
+            Some(power) if is_ordered(&mixture.ar_cosines) => {
+                let mut ratios = self.band.inverse_power(&mixture, field.numerator());
+                for (ratio, power) in ratios.iter_mut().zip(power) {
+                    *ratio *= power;
                 }
-                (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+                rms_db(&ratios)
             }
             Some(_) => f64::INFINITY,
             // A level counts relative to its own grid: under another numerator the same
@@ -165,19 +202,10 @@ impl<'a> Reference<'a> {
     #[must_use]
     pub fn is_within_budget(&self, grid: &ModelGrid) -> bool {
         debug_assert_eq!(grid.triangles, self.grid.triangles);
-        let count = self.places.len();
-        let mut may_exceed = count - (0.95 * count as f64).ceil() as usize;
         let field = Field::new(grid);
-        for (index, compared) in self.places.iter().enumerate() {
-            let distance_db = self.distance(index, &field, &compared.place);
-            if distance_db > BUDGET_DB.0 - ROOM_DB {
-                if is_beyond_budget(distance_db) || may_exceed == 0 {
-                    return false;
-                }
-                may_exceed -= 1;
-            }
-        }
-        true
+        let mut tally = Tally::of(self.places.len());
+        let mut places = self.places.iter().enumerate();
+        places.all(|(index, compared)| tally.admits(self.distance(index, &field, &compared.place)))
     }
 }
 
@@ -188,21 +216,28 @@ fn is_ordered(cosines: &[f64]) -> bool {
 }
 
 impl Band {
-    /// The power spectrum of a mixture.
-    fn power(&self, mixture: &Mixture, numerator: Numerator) -> Vec<f64> {
-        let square = mixture.level_m_s2 * mixture.level_m_s2;
-        let mut power = self.angles.squared_magnitudes_of_lsf(&mixture.ar_cosines);
-        for power in &mut power {
-            *power = square / *power;
+    /// The reciprocal power spectrum of a mixture: it needs no division but for zeros of its own.
+    fn inverse_power(&self, mixture: &Mixture, numerator: Numerator) -> Vec<f64> {
+        let inverse_square = 1.0 / (mixture.level_m_s2 * mixture.level_m_s2);
+        let mut inverse = self.angles.squared_magnitudes_of_lsf(&mixture.ar_cosines);
+        match numerator {
+            Numerator::None => {
+                for inverse in &mut inverse {
+                    *inverse *= inverse_square;
+                }
+            }
+            Numerator::Nyquist => {
+                for (inverse, zero) in inverse.iter_mut().zip(&self.inverse_nyquist) {
+                    *inverse *= inverse_square * zero;
+                }
+            }
+            Numerator::Lsf => {
+                let zeros = self.angles.squared_magnitudes_of_lsf(&mixture.ma_cosines);
+                for (inverse, zero) in inverse.iter_mut().zip(zeros) {
+                    *inverse *= inverse_square / zero;
+                }
+            }
         }
-        let zeros = match numerator {
-            Numerator::None => return power,
-            Numerator::Nyquist => &self.nyquist,
-            Numerator::Lsf => &self.angles.squared_magnitudes_of_lsf(&mixture.ma_cosines),
-        };
-        for (power, zero) in power.iter_mut().zip(zeros) {
-            *power *= zero;
-        }
-        power
+        inverse
     }
 }

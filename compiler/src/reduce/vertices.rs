@@ -5,7 +5,7 @@
 //! own model is from what the neighbours say there. Corners stay, and a vertex on the border
 //! goes only along it, so the triangles go on tiling the rectangle.
 
-use super::budget::{Distances, Reference, is_beyond_budget};
+use super::budget::{Distances, Reference, Tally};
 use crate::{
     interpolate::{Cosines, Field, Place},
     mesh,
@@ -57,10 +57,7 @@ struct State {
 impl State {
     fn of(grid: &ModelGrid, reference: &Reference<'_>) -> Option<Self> {
         let field = Field::new(grid);
-        let located: Vec<Place> = reference
-            .at()
-            .map(|(speed, force)| field.locate(speed, force))
-            .collect::<Option<_>>()?;
+        let located = reference.located(grid, &field)?;
         let distances = located
             .iter()
             .enumerate()
@@ -105,12 +102,18 @@ impl State {
         let field = Field::with_cosines(&grid, &cosines);
         let mut distances = self.distances.0.clone();
         let mut located = self.located.clone();
+        let is_moved = |place: &Place| place.vertices.contains(&vertex);
+        let mut tally = Tally::of(distances.len());
+        let stays = |(place, distance): (&Place, &f64)| is_moved(place) || tally.admits(*distance);
+        if !located.iter().zip(&distances).all(stays) {
+            return None;
+        }
         for (index, at) in reference.at().enumerate() {
             let place = &mut located[index];
-            if place.vertices.contains(&vertex) {
+            if is_moved(place) {
                 *place = field.locate_among(&grid.triangles[filled..], at.0, at.1)?;
                 distances[index] = reference.distance(index, &field, place);
-                if is_beyond_budget(distances[index]) {
+                if !tally.admits(distances[index]) {
                     return None;
                 }
             } else {
@@ -118,12 +121,11 @@ impl State {
                 place.vertices = place.vertices.map(|v| v - usize::from(v > vertex));
             }
         }
-        let distances = Distances(distances);
-        distances.are_within_budget().then_some(Self {
+        Some(Self {
             grid,
             cosines,
             located,
-            distances,
+            distances: Distances(distances),
         })
     }
 }

@@ -17,7 +17,7 @@ pub use scenes::{
 
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{
-    Arithmetic, Config, ConfigError, LoadError, Output, Renderer, Sample, State, Texture,
+    Arithmetic, Config, ConfigError, Fixed, Float, LoadError, Output, Renderer, Sample, State, Texture,
 };
 
 /// Seed of the excitation.
@@ -57,8 +57,8 @@ pub trait Slot {
 }
 
 macro_rules! slots {
-    ($($slot:ident),*) => {
-        $(impl<A: Arithmetic> Slot for $slot<A> {
+    ($($slot:ty),*) => {
+        $(impl Slot for $slot {
             #[inline(never)]
             fn load(&mut self, case: &Case) -> Result<(), LoadError> {
                 load(case, self)
@@ -67,7 +67,14 @@ macro_rules! slots {
     };
 }
 
-slots!(Arma20, Nyquist20, Nyquist4);
+slots!(
+    Arma20<Float>,
+    Nyquist20<Float>,
+    Nyquist4<Float>,
+    Arma20<Fixed>,
+    Nyquist20<Fixed>,
+    Nyquist4<Fixed>
+);
 
 /// Runs every phase, [`PHASE_TICKS`] ticks each, through `tick`, and tells `report`
 /// after each the hash of all outputs and counters so far.

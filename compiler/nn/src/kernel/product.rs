@@ -5,14 +5,11 @@
 //! rows and columns only; where a sum over k is interrupted, its value so far is stored and
 //! taken up again, which does not change it.
 
-use multiversion::multiversion;
+mod pack;
+mod row;
 
-/// Columns of a panel.
-const COLUMNS: usize = 16;
-/// Panels that are expanded together: a row of them is a cache line of int8 weights.
-const PANELS: usize = 4;
-/// Rows of b in a panel: four panels of 96 × 16 f32 are 24 KiB, which the first-level cache holds.
-const DEPTH: usize = 96;
+use multiversion::multiversion;
+use pack::{COLUMNS, DEPTH, PANELS, Right};
 
 /// The right-hand side, k × n.
 pub(crate) enum Matrix<'a> {
@@ -35,10 +32,14 @@ pub(crate) fn product(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, o
     if m == 0 || n == 0 || k == 0 {
         return;
     }
-    dispatched(m, k, n, a, b, out);
+    match b {
+        Matrix::Rows(b) if m == 1 => row::product(n, &a[..k], &b[..k * n], &mut out[..n]),
+        _ => dispatched(m, k, n, a, b, out),
+    }
 }
 
-#[multiversion(targets("x86_64+avx2"))]
+// Processors whose clock AVX-512 slows down are left out by `multiversion`.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn dispatched(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
     tiled(m, k, n, a, b, out);
 }
@@ -46,15 +47,18 @@ fn dispatched(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut
 #[inline(always)]
 fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
     let mut left = vec![0.0; padded(m) * k];
-    pack_left(m, k, a, &mut left);
-    let mut panels = vec![[[0.0; COLUMNS]; DEPTH]; PANELS.min(n.div_ceil(COLUMNS))];
+    pack::left(m, k, a, &mut left);
+    let mut panels = vec![[0.0; COLUMNS]; PANELS.min(n.div_ceil(COLUMNS)) * DEPTH];
+    let (panels, _) = panels.as_chunks_mut();
+    let mut right = Right::new(k, n, b);
     // Slices of k outside: the rows of b that a slice needs lie together in memory.
     for start in (0..k).step_by(DEPTH) {
         let depth = DEPTH.min(k - start);
+        right.stage(start, depth);
         for group in (0..n).step_by(PANELS * COLUMNS) {
             let columns = (group..n).step_by(COLUMNS).take(PANELS);
-            pack_right(k, n, b, start, group, depth, &mut panels);
-            for (column, panel) in columns.zip(&panels) {
+            right.panels(start, group, depth, panels);
+            for (column, panel) in columns.zip(&*panels) {
                 let mut left = &left[start * padded(m)..][..depth * padded(m)];
                 let width = COLUMNS.min(n - column);
                 let mut row = 0;
@@ -66,6 +70,7 @@ fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32
                     let here = rows.min(m - row);
                     match rows {
                         4 => tile::<4>(block, &panel[..depth], out, n, here, width),
+                        3 => tile::<3>(block, &panel[..depth], out, n, here, width),
                         _ => tile::<1>(block, &panel[..depth], out, n, here, width),
                     }
                     row += rows;
@@ -76,123 +81,20 @@ fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32
 }
 
 /// Rows of the tile for so many rows left: 4 × 16 sums fill half of 16 registers of 8 lanes.
-/// Two or three rows make a tile of four, padded with zeros: the compiler makes lanes of four
-/// rows and of one, and left two and three scalar, at three times the instructions.
+/// Two rows make a tile of three, padded with zeros: the compiler left two scalar.
 #[inline(always)]
 fn tile_rows(left: usize) -> usize {
-    if left == 1 { 1 } else { 4 }
+    match left {
+        1 => 1,
+        2 | 3 => 3,
+        _ => 4,
+    }
 }
 
 /// Rows of all tiles of m rows.
 #[inline(always)]
 fn padded(m: usize) -> usize {
-    if m % 4 == 1 { m } else { m.next_multiple_of(4) }
-}
-
-/// Orders `a` as tiles read it: by slice of k, then block of rows, then k, then row.
-#[inline(always)]
-fn pack_left(m: usize, k: usize, a: &[f32], left: &mut [f32]) {
-    let mut rest = left;
-    for start in (0..k).step_by(DEPTH) {
-        let end = k.min(start + DEPTH);
-        let mut row = 0;
-        while row < m {
-            let rows = tile_rows(m - row);
-            let (block, after) = rest.split_at_mut(rows * (end - start));
-            rest = after;
-            for i in 0..rows.min(m - row) {
-                let values = &a[(row + i) * k..][start..end];
-                for (slot, value) in block[i..].iter_mut().step_by(rows).zip(values) {
-                    *slot = *value;
-                }
-            }
-            row += rows;
-        }
-    }
-}
-
-type Panel = [[f32; COLUMNS]; DEPTH];
-
-/// Copies or expands `depth` rows of up to four panels of b, from row `start` and column `group`
-/// on; columns beyond the last stay what they were: never stored.
-#[inline(always)]
-fn pack_right(
-    k: usize,
-    n: usize,
-    b: &Matrix<'_>,
-    start: usize,
-    group: usize,
-    depth: usize,
-    panels: &mut [Panel],
-) {
-    let end = n.min(group + PANELS * COLUMNS);
-    match *b {
-        Matrix::Rows(b) => {
-            for inner in 0..depth {
-                let row = &b[(start + inner) * n..][group..end];
-                for (part, panel) in row.chunks(COLUMNS).zip(&mut *panels) {
-                    transfer(part.len(), part, &mut panel[inner]);
-                }
-            }
-        }
-        Matrix::Columns(b) => {
-            for column in group..end {
-                let offset = column - group;
-                let panel = &mut panels[offset / COLUMNS];
-                let values = &b[column * k + start..][..depth];
-                for (slots, value) in panel.iter_mut().zip(values) {
-                    slots[offset % COLUMNS] = *value;
-                }
-            }
-        }
-        Matrix::Quantized {
-            weights,
-            scale,
-            zero,
-        } => {
-            // Panel by panel, so that its scales stay in registers; the cache line that four
-            // panels share is fetched for the first.
-            let columns = (group..end).step_by(COLUMNS);
-            for (column, panel) in columns.zip(panels) {
-                let part = column..end.min(column + COLUMNS);
-                let rows = weights[start * n..]
-                    .chunks_exact(n)
-                    .map(|row| &row[part.clone()]);
-                let (scale, zero) = (&scale[part.clone()], &zero[part.clone()]);
-                expand(rows, scale, zero, &mut panel[..depth]);
-            }
-        }
-    }
-}
-
-/// (q − zero) · scale for the rows of a panel.
-#[inline(always)]
-fn expand<'a>(
-    rows: impl Iterator<Item = &'a [u8]>,
-    scale: &[f32],
-    zero: &[f32],
-    panel: &mut [[f32; COLUMNS]],
-) {
-    let (mut scales, mut zeros) = ([0.0; COLUMNS], [0.0; COLUMNS]);
-    transfer(scale.len(), scale, &mut scales);
-    transfer(zero.len(), zero, &mut zeros);
-    for (row, slots) in rows.zip(panel) {
-        let Some(row) = row.first_chunk::<COLUMNS>() else {
-            for (j, &q) in row.iter().enumerate() {
-                slots[j] = (f32::from(q as i8) - zeros[j]) * scales[j];
-            }
-            continue;
-        };
-        // In steps of whole rows, so that the compiler makes lanes of each.
-        let mut values = row.map(|q| f32::from(q as i8));
-        for (x, zero) in values.iter_mut().zip(zeros) {
-            *x -= zero;
-        }
-        for (x, scale) in values.iter_mut().zip(scales) {
-            *x *= scale;
-        }
-        *slots = values;
-    }
+    if m % 4 == 2 { m + 1 } else { m }
 }
 
 /// Adds R × depth times depth × 16 to the first `rows` of R rows of `out`, `n` apart, `width`
@@ -208,11 +110,11 @@ fn tile<const R: usize>(
 ) {
     let mut sums = [[0.0_f32; COLUMNS]; R];
     for (i, sums) in sums.iter_mut().enumerate().take(rows) {
-        transfer(width, &out[i * n..], sums);
+        pack::transfer(width, &out[i * n..], sums);
     }
     let sums = accumulate(sums, block.as_chunks().0, panel);
     for (i, sums) in sums.iter().enumerate().take(rows) {
-        transfer(width, sums, &mut out[i * n..]);
+        pack::transfer(width, sums, &mut out[i * n..]);
     }
 }
 
@@ -231,18 +133,6 @@ fn accumulate<const R: usize>(
         }
     }
     sums
-}
-
-/// Copies `width` elements; a full row in one move rather than by a call.
-#[inline(always)]
-fn transfer(width: usize, from: &[f32], to: &mut [f32]) {
-    match (
-        from.first_chunk::<COLUMNS>(),
-        to.first_chunk_mut::<COLUMNS>(),
-    ) {
-        (Some(from), Some(to)) if width == COLUMNS => *to = *from,
-        _ => to[..width].copy_from_slice(&from[..width]),
-    }
 }
 
 #[cfg(test)]

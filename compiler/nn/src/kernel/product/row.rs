@@ -1,0 +1,30 @@
+//! The product of one row: as much to read as to compute.
+
+use multiversion::multiversion;
+
+/// Rows of b that are added before a sum is stored.
+const TOGETHER: usize = 4;
+
+/// `out` (n, all zero before) becomes `a` (k) · `b` (k × n, row-major).
+///
+/// b is read once, from its first number to its last, as processors fetch ahead; the sums stay
+/// in the first-level cache.
+#[multiversion(targets("x86_64+avx2"))]
+pub(super) fn product(n: usize, a: &[f32], b: &[f32], out: &mut [f32]) {
+    let (fours, rest) = a.as_chunks::<TOGETHER>();
+    let mut rows = b.chunks_exact(n);
+    for factors in fours {
+        let mut next = || rows.next().unwrap_or_default();
+        let [b0, b1, b2, b3]: [&[f32]; TOGETHER] = [next(), next(), next(), next()];
+        let columns = out.iter_mut().zip(b0).zip(b1).zip(b2).zip(b3);
+        for ((((sum, b0), b1), b2), b3) in columns {
+            let begun = *sum + factors[0] * b0 + factors[1] * b1;
+            *sum = begun + factors[2] * b2 + factors[3] * b3;
+        }
+    }
+    for (factor, row) in rest.iter().zip(rows) {
+        for (sum, b) in out.iter_mut().zip(row) {
+            *sum += factor * b;
+        }
+    }
+}
