@@ -5,8 +5,8 @@
 //! one's last output fades beside it: a step of the force is never more than a texture's own.
 
 use crate::{
-    Flags, Output, Renderer, Sample, State, Texture, contact::Solid, synthesis::Lags, tick::Felt,
-    vibration::Vibration,
+    Flags, Output, Renderer, Sample, State, Texture, contact::Solid, interpolate::Interpolator,
+    synthesis::Lags, tick::Felt, vibration::Vibration,
 };
 use asperity_formats::Surface;
 
@@ -24,6 +24,10 @@ pub(crate) struct Crossing {
     mu: f32,
     /// Of the vibration at work.
     lags: Lags,
+    /// Ticks a sample of the vibration at work.
+    ticks_per_sample: u8,
+    /// Its last output, m/s².
+    heard_m_s2: f32,
     /// What fades of the vibration before, m/s².
     fading_m_s2: f32,
     /// The vibration at work is that of the texture before.
@@ -44,6 +48,8 @@ impl Crossing {
         },
         mu: 0.0,
         lags: Lags::new(0, 0),
+        ticks_per_sample: 1,
+        heard_m_s2: 0.0,
         fading_m_s2: 0.0,
         changing: false,
         touching: false,
@@ -77,12 +83,23 @@ impl Crossing {
         texture: &Texture<V, T, P, Q, K>,
         follow_share: f32,
     ) {
+        let ticks = texture.ticks_per_sample();
         if !vibration.is_on(texture.id()) {
-            vibration.begin(texture.id());
-            self.changing = true;
+            if self.ticks_per_sample == ticks {
+                vibration.begin(texture.id());
+                self.changing = true;
+            } else {
+                // Clocks of their own: the old one stops at once.
+                self.fading_m_s2 += self.heard_m_s2;
+                self.ticks_per_sample = ticks;
+                self.lags = texture.lags();
+                self.changing = false;
+            }
         }
-        if self.changing && vibration.is_last_of_cycle() {
-            self.fading_m_s2 += vibration.stop();
+        if self.changing && vibration.is_last_of_cycle(ticks) {
+            let last = vibration.stop();
+            // Between samples the low-pass gives what it holds, which fades by itself.
+            self.fading_m_s2 += if ticks > 1 { 0.0 } else { last };
             self.lags = texture.lags();
             self.changing = false;
         }
@@ -91,8 +108,14 @@ impl Crossing {
 
     /// [`Vibration::sound`], and what fades beside it.
     #[inline]
-    fn sound(&mut self, vibration: &mut Vibration, sounding: bool) -> (f32, bool) {
-        let (y, clamped) = vibration.sound(self.lags, sounding);
+    fn sound(
+        &mut self,
+        vibration: &mut Vibration,
+        interpolator: &Interpolator,
+        sounding: bool,
+    ) -> (f32, bool) {
+        let (y, clamped) = vibration.sound(self.lags, interpolator, sounding);
+        self.heard_m_s2 = y;
         let faded = FADE * self.fading_m_s2;
         self.fading_m_s2 = if sounding && faded.abs() > SILENCE_M_S2 {
             faded
@@ -133,8 +156,11 @@ impl Renderer {
             surface: &surface,
             mu,
         };
-        crossing.prepare(&mut state.vibration, texture, self.follow_share);
-        let sound = |vibration: &mut Vibration, sounding| crossing.sound(vibration, sounding);
+        let follow_share = self.follow_share(texture.ticks_per_sample());
+        crossing.prepare(&mut state.vibration, texture, follow_share);
+        let interpolator = texture.interpolator();
+        let sound =
+            |vibration: &mut Vibration, sounding| crossing.sound(vibration, interpolator, sounding);
         let output = self.tick_on(felt, texture, state, sample, sound);
         let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
         state.vibration.query(texture, speed_mm_s, force_n);

@@ -18,6 +18,7 @@
 //! | [`vibration`] | y\[n\] | the model that sounds, made in shares over six ticks |
 //! | [`excitation`] | ε | Gaussian noise |
 //! | [`synthesis`] | | the AR or ARMA recursion |
+//! | `interpolate` | | samples of the models to ticks of a faster servo loop |
 //! | [`tap`] | a_tap(t) | impact detection and transient |
 //! | [`friction`] | F_t | leaking bristle bounded by μF_n |
 //! | [`wall`] | F_n | stiffness and damping that the device can bear |
@@ -60,12 +61,14 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod complex;
 pub mod config;
 pub mod contact;
 mod crossing;
 pub mod exchange;
 pub mod excitation;
 pub mod friction;
+mod interpolate;
 mod lanes;
 pub mod limiter;
 pub mod locate;

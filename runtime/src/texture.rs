@@ -2,6 +2,7 @@
 
 use crate::{
     Filter,
+    interpolate::{Interpolator, ticks_per_sample},
     lanes::F4,
     locate::{Barycentric, Locator},
     lsf::{self, Pairs, Products, Shape},
@@ -9,6 +10,7 @@ use crate::{
     schedule::{self, Share, Shares},
     synthesis::{Lags, Line},
     tap::TapBank,
+    vibration::between::shares_of_cycle,
 };
 use asperity_formats::{Asset, FormatError, LsfCode, Numerator, Surface, limits::MAX_ORDER};
 use thiserror::Error;
@@ -28,6 +30,7 @@ pub struct Texture<const V: usize, const T: usize, const P: usize, const Q: usiz
     shape: Shape,
     lags: Lags,
     shares: Shares,
+    interpolator: Interpolator,
     servo_rate_hz: f32,
     /// b_1 of a numerator that every model shares.
     b1: f32,
@@ -60,9 +63,9 @@ pub enum LoadError {
         /// What the slot has.
         capacity: usize,
     },
-    /// The models run at another rate than the servo loop.
+    /// The servo rate is no whole multiple of the models' rate, or more than 20 times it.
     #[error(
-        "grid.sample_rate_hz: models run at {model_hz} Hz, the servo at {servo_hz} Hz; convert the texture"
+        "grid.sample_rate_hz: models run at {model_hz} Hz, the servo at {servo_hz} Hz, which must be 1 to 20 times as much, a whole number; convert the texture"
     )]
     Rate {
         /// Rate of the models, Hz.
@@ -125,6 +128,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             shape: Shape::new(0, 0),
             lags: Lags::new(0, 0),
             shares: Shares::NONE,
+            interpolator: Interpolator::NONE,
             servo_rate_hz: 0.0,
             b1: 0.0,
             ar_pairs: Rows([[0.0; P]; V]),
@@ -133,20 +137,19 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         }
     }
 
-    /// Prepares a validated asset for a servo rate; allocates nothing. A slot that
-    /// refuses keeps what it had.
+    /// Prepares a validated asset for a servo rate of 1, 2, 3, … 20 times the models' rate;
+    /// allocates nothing. A slot that refuses keeps what it had.
     ///
     /// # Errors
     /// [`LoadError::Capacity`] and [`LoadError::Rate`].
     pub fn load(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
         let grid = asset.grid();
         // Exact: a rate is a number that both sides were given, not one they measured.
-        if grid.sample_rate_hz() != servo_rate_hz {
-            return Err(LoadError::Rate {
-                model_hz: grid.sample_rate_hz(),
-                servo_hz: servo_rate_hz,
-            });
-        }
+        let ticks = ticks_per_sample(grid.sample_rate_hz(), servo_rate_hz);
+        let ticks = ticks.ok_or(LoadError::Rate {
+            model_hz: grid.sample_rate_hz(),
+            servo_hz: servo_rate_hz,
+        })?;
         let triangle_room = T - T % 4;
         let tap_samples = TapBank::<K>::needed(asset.taps(), servo_rate_hz);
         for (field, found, capacity) in [
@@ -196,7 +199,9 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             grid.max_speed_mm_s(),
             grid.max_force_n(),
         );
-        self.shares = schedule::shares(self.locator.blocks(), &self.shape);
+        let count = shares_of_cycle(ticks);
+        self.shares = schedule::shares(self.locator.blocks(), &self.shape, count);
+        self.interpolator = Interpolator::new(ticks);
         self.taps.load(asset.taps(), servo_rate_hz);
         Ok(())
     }
@@ -205,6 +210,12 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     #[must_use]
     pub const fn servo_rate_hz(&self) -> f32 {
         self.servo_rate_hz
+    }
+
+    /// Ticks that a sample of the models lasts, 1 to 20: the servo rate over theirs.
+    #[must_use]
+    pub const fn ticks_per_sample(&self) -> u8 {
+        self.interpolator.ticks()
     }
 
     /// Wall and gains.
@@ -265,6 +276,12 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     #[inline]
     pub(crate) const fn lags(&self) -> Lags {
         self.lags
+    }
+
+    /// From samples of the models to ticks.
+    #[inline]
+    pub(crate) const fn interpolator(&self) -> &Interpolator {
+        &self.interpolator
     }
 
     /// The work of a tick of the cycle.
@@ -342,11 +359,18 @@ fn to_pairs(
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
     use super::*;
 
     #[test]
     fn sizes_are_as_stated() {
         assert!(size_of::<HostTexture>() <= 33 * 1024);
+        std::eprintln!(
+            "{} {} {}",
+            size_of::<crate::State>(),
+            size_of::<HostTexture>(),
+            size_of::<crate::Renderer>()
+        );
         assert!(size_of::<crate::State>() <= 1104);
     }
 }

@@ -284,8 +284,8 @@ pub struct Renderer {
     passivity: Passivity,
     /// Periods per second over 0 (never), 1, 2 and 3 elapsed ticks.
     rate_over_ticks: [f32; 4],
-    /// Share of the way that parameters go in a cycle.
-    pub(crate) follow_share: f32,
+    /// Shares of the way that parameters go in a cycle, by ticks a sample.
+    follow_shares: [f32; 32],
     /// Share of the way that wall, gains and friction go in a tick, to another texture.
     pub(crate) texture_share: f32,
     ramp_step: f32,
@@ -300,7 +300,6 @@ impl Renderer {
         config.check()?;
         let rate = config.servo_rate_hz;
         let ticks = config.parameter_time_constant_s * rate;
-        let cycles = ticks / CYCLE_TICKS as f32;
         let [plane, normal] = [config.velocity_cutoff_hz, config.normal_cutoff_hz];
         Ok(Self {
             config: Config {
@@ -313,11 +312,14 @@ impl Renderer {
             bristle: Bristle::new(&config.friction, config.mechanics.delay_ticks, rate),
             passivity: Passivity::new(&config.mechanics, rate),
             rate_over_ticks: [rate, rate, rate / 2.0, rate / 3.0],
-            follow_share: if cycles > 0.0125 {
-                1.0 - exp(-1.0 / cycles)
-            } else {
-                1.0
-            },
+            follow_shares: core::array::from_fn(|per_sample| {
+                let cycles = ticks / (CYCLE_TICKS * per_sample.max(1)) as f32;
+                if cycles > 0.0125 {
+                    1.0 - exp(-1.0 / cycles)
+                } else {
+                    1.0
+                }
+            }),
             texture_share: if ticks > 0.1 {
                 1.0 - exp(-1.0 / ticks)
             } else {
@@ -331,6 +333,12 @@ impl Renderer {
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
+    }
+
+    /// Share of the way that parameters go in a cycle, at so many ticks a sample.
+    #[inline(always)]
+    pub(crate) fn follow_share(&self, ticks_per_sample: u8) -> f32 {
+        self.follow_shares[usize::from(ticks_per_sample % 32)]
     }
 
     /// What is touched.
@@ -363,9 +371,11 @@ impl Renderer {
             surface: &texture.surface,
             mu: texture.mu,
         };
-        state.vibration.prepare(texture, self.follow_share);
-        let lags = texture.lags();
-        let sound = |vibration: &mut Vibration, sounding| vibration.sound(lags, sounding);
+        let follow_share = self.follow_share(texture.ticks_per_sample());
+        state.vibration.prepare(texture, follow_share);
+        let (lags, interpolator) = (texture.lags(), texture.interpolator());
+        let sound =
+            |vibration: &mut Vibration, sounding| vibration.sound(lags, interpolator, sounding);
         let output = self.tick_on(felt, texture, state, sample, sound);
         state
             .vibration

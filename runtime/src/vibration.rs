@@ -9,15 +9,23 @@
 //!
 //! A contact is silent until a query that was taken in it takes effect, and starts at its own
 //! model. Out of contact the cycles go on, so that a tick always costs the same.
+//!
+//! Where the servo loop is faster than the models, a sample of theirs takes the place of a tick
+//! in all of this (`vibration/between.rs`), and a low-pass gives the ticks between them.
+
+pub(crate) mod between;
 
 pub use crate::schedule::CYCLE_TICKS;
 use crate::{
     Barycentric, Texture,
     excitation::Excitation,
+    interpolate::Interpolator,
     locate::Search,
     lsf::{Pairs, Products},
+    schedule::Share,
     synthesis::{History, Lags, Line},
 };
+use between::Between;
 
 /// State of the vibration.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +38,7 @@ pub struct Vibration {
     a: Line,
     b: Line,
     history: History,
+    between: Between,
     level_m_s2: f32,
     // The query of the cycle under way, and what was found.
     speed_mm_s: f32,
@@ -55,6 +64,7 @@ impl Vibration {
             a: Line::ZERO,
             b: Line::ZERO,
             history: History::SILENT,
+            between: Between::START,
             level_m_s2: 0.0,
             speed_mm_s: 0.0,
             force_n: 0.0,
@@ -71,6 +81,7 @@ impl Vibration {
     /// The contact ends, and what was heard of it.
     pub(crate) fn silence(&mut self) {
         self.history = History::SILENT;
+        self.between.silence();
         self.leave();
     }
 
@@ -92,6 +103,7 @@ impl Vibration {
         }
         self.texture = texture;
         self.phase = 0;
+        self.between = Between::START;
     }
 
     /// Another texture in a scene: what is at work stays until the first cycle ends.
@@ -101,16 +113,20 @@ impl Vibration {
         self.pairs = Pairs::ZERO;
         self.found = Barycentric::NONE;
         self.phase = 0;
+        self.between.begin_cycle();
         self.follows = false;
     }
 
-    /// Whether this tick puts new coefficients to work.
+    /// Whether this tick, of `ticks` a sample, puts new coefficients to work.
     #[inline]
-    pub(crate) fn is_last_of_cycle(&self) -> bool {
+    pub(crate) fn is_last_of_cycle(&self, ticks: u8) -> bool {
+        if ticks > 1 {
+            return self.finishes_next(ticks);
+        }
         usize::from(self.phase) == CYCLE_TICKS - 1
     }
 
-    /// Stops what is at work. Returns its last output, m/s².
+    /// Stops what is at work. Returns its last sample, m/s².
     #[cold]
     pub(crate) fn stop(&mut self) -> f32 {
         let last = self.history.last();
@@ -138,7 +154,7 @@ impl Vibration {
         sounding: bool,
     ) -> (f32, bool) {
         self.prepare(texture, follow_share);
-        let sound = self.sound(texture.lags(), sounding);
+        let sound = self.sound(texture.lags(), texture.interpolator(), sounding);
         self.query(texture, speed_mm_s, force_n);
         sound
     }
@@ -159,24 +175,44 @@ impl Vibration {
         if self.texture != texture.id() {
             self.change_texture(texture.id());
         }
-        if self.phase == CYCLE_TICKS as u8 {
+        let ticks = texture.interpolator().ticks();
+        if ticks > 1 {
+            self.prepare_between(texture, follow_share, ticks);
+        } else if self.phase == CYCLE_TICKS as u8 {
             self.phase = 0;
         } else if self.phase > 0 {
-            self.work(texture, follow_share);
+            self.work(texture, follow_share, texture.share(self.phase));
+            self.phase += 1;
+            if self.phase == CYCLE_TICKS as u8 {
+                self.finish(texture);
+            }
         }
     }
 
-    /// The next sample; `lags` are those of the texture at work.
+    /// The next output; `lags` and `interpolator` are those of the texture at work.
     #[inline(always)]
-    pub(crate) fn sound(&mut self, lags: Lags, sounding: bool) -> (f32, bool) {
+    pub(crate) fn sound(
+        &mut self,
+        lags: Lags,
+        interpolator: &Interpolator,
+        sounding: bool,
+    ) -> (f32, bool) {
         if !sounding {
             self.leave();
         }
         if self.phase == 0 {
             self.in_contact = sounding;
         }
-        let e = self.level_m_s2 * self.excitation.next_gaussian();
-        self.history.step(&self.a, &self.b, lags, e, sounding)
+        let between = interpolator.ticks() > 1;
+        let (mut y, mut clamped) = (0.0, false);
+        if !between || self.between.is_sample() {
+            let e = self.level_m_s2 * self.excitation.next_gaussian();
+            (y, clamped) = self.history.step(&self.a, &self.b, lags, e, sounding);
+        }
+        if between {
+            y = self.between.output(interpolator, y, sounding);
+        }
+        (y, clamped)
     }
 
     /// Ends a tick: the first one of a cycle takes the query.
@@ -195,6 +231,7 @@ impl Vibration {
     ) {
         if self.phase == 0 {
             self.begin_cycle(texture, speed_mm_s, force_n);
+            self.phase = 1;
         }
     }
 
@@ -217,7 +254,6 @@ impl Vibration {
         self.search = texture.locator.begin(speed, force);
         let blocks = texture.share(0).blocks.into();
         texture.locator.look(&mut self.search, speed, force, blocks);
-        self.phase = 1;
     }
 
     /// The share of another tick.
@@ -226,8 +262,8 @@ impl Vibration {
         &mut self,
         texture: &Texture<V, T, P, Q, K>,
         follow_share: f32,
+        share: &Share,
     ) {
-        let share = texture.share(self.phase);
         let (speed, force) = (self.speed_mm_s, self.force_n);
         if share.blocks > 0 {
             let blocks = share.blocks.into();
@@ -243,10 +279,6 @@ impl Vibration {
         }
         for part in share.twos() {
             texture.multiply(&mut self.products, &self.pairs, part);
-        }
-        self.phase += 1;
-        if self.phase == CYCLE_TICKS as u8 {
-            self.finish(texture);
         }
     }
 
