@@ -36,14 +36,18 @@ const CHUNK: usize = 10;
 /// A sample this close to a tick belongs to it, s.
 const ROUNDING_S: f64 = 1e-9;
 
-/// e^(pole·x) for x ≥ 0; Im·x beyond π only where nothing is left.
+/// e^(pole·x) for x ≥ 0; Im·x beyond 2π only where nothing is left.
 fn decay(x: f32) -> Complex4 {
     let (re, im) = (POLES.re.to_array(), POLES.im.to_array());
     let size = re.map(|re| exp(max(re * x, -80.0)));
-    let half_turns = im.map(|im| min(im * x * core::f32::consts::FRAC_1_PI, 1.0));
+    let half_turns = im.map(|im| min(im * x * core::f32::consts::FRAC_1_PI, 2.0));
+    // The second half of a turn mirrors the first.
+    let mirrored = |h: f32| if h > 1.0 { 2.0 - h } else { h };
+    let sign = half_turns.map(|h| if h > 1.0 { -1.0 } else { 1.0 });
+    let half_turns = half_turns.map(mirrored);
     Complex4 {
         re: F4::load(&half_turns.map(cos_pi)) * F4::load(&size),
-        im: F4::load(&half_turns.map(sin_pi)) * F4::load(&size),
+        im: F4::load(&half_turns.map(sin_pi)) * F4::load(&size) * F4::load(&sign),
     }
 }
 

@@ -7,7 +7,7 @@ use asperity_tests::{
     draw::Draw,
     oracle::{Oracle, Tick},
     texture::{Kind, random},
-    trajectory::strokes,
+    trajectory::{strokes, strokes_at},
 };
 
 /// Largest difference of each output.
@@ -83,23 +83,27 @@ fn kinds() -> [Kind; 5] {
 /// Rounding of f32 in positions of centimetres and in a hundred coefficients.
 fn assert_close(worst: &Worst, rate_hz: f32, case: &str) {
     println!("{case}: {worst:?}");
+    let rate = f64::from(rate_hz / 1000.0);
+    // The nearer the velocity filter's poles are to 1, the more rounding moves them: by the
+    // square of the rate, and speed decides what vibrates.
+    let growth = if rate > 4.0 { rate * rate / 4.0 } else { 1.0 };
     assert!(worst.depth_um < 0.02, "{case}: {worst:?}");
     assert!(worst.normal_force_n < 1e-5, "{case}: {worst:?}");
     // The difference of two f32 positions of 5 cm, times the rate, filtered.
     assert!(
-        worst.speed_mm_s < 0.01 * f64::from(rate_hz / 1000.0),
+        worst.speed_mm_s < 0.01 * rate.max(growth),
         "{case}: {worst:?}"
     );
     assert!(
-        worst.vib_m_s2 < 1e-3 * worst.loudest_m_s2,
+        worst.vib_m_s2 < 1e-3 * growth * worst.loudest_m_s2,
         "{case}: {worst:?}"
     );
     assert!(
         worst.tap_n < 1e-4 * worst.hardest_tap_n.max(0.1),
         "{case}: {worst:?}"
     );
-    assert!(worst.friction_n < 2e-5, "{case}: {worst:?}");
-    assert!(worst.force_n < 3e-4, "{case}: {worst:?}");
+    assert!(worst.friction_n < 2e-5 * growth, "{case}: {worst:?}");
+    assert!(worst.force_n < 3e-4 * growth, "{case}: {worst:?}");
     assert!(worst.loudest_m_s2 > 0.05, "{case} says nothing: {worst:?}");
 }
 
@@ -197,5 +201,23 @@ fn other_rates_cut_offs_and_limits() {
             &fresh(strokes(seed, 10_000)),
         );
         assert_close(&worst, rate, &format!("{rate} Hz"));
+    }
+}
+
+/// Models and taps at their own rates, the loop at a multiple of the models'.
+#[test]
+fn servo_loops_faster_than_the_models() {
+    let rates = [2000.0, 3000.0, 5000.0, 8000.0, 10_000.0];
+    for ((seed, kind), rate) in (50..).zip(kinds()).zip(rates) {
+        let config = Config {
+            servo_rate_hz: rate,
+            ..Config::default()
+        };
+        let bytes = random(seed, kind).encode();
+        let ticks = 5 * rate as usize;
+        let samples = fresh(strokes_at(rate.into(), seed, ticks));
+        let worst = compare(&bytes, &config, seed, &samples);
+        assert!(worst.hardest_tap_n > 0.1, "no tap: {worst:?}");
+        assert_close(&worst, rate, &format!("{rate} Hz, {kind:?}"));
     }
 }
