@@ -81,7 +81,7 @@ impl Crossing {
         &mut self,
         vibration: &mut Vibration,
         texture: &Texture<V, T, P, Q, K>,
-        follow_share: f32,
+        follow_share: impl Fn(u8) -> f32,
     ) {
         let ticks = texture.ticks_per_sample();
         if !vibration.is_on(texture.id()) {
@@ -156,7 +156,7 @@ impl Renderer {
             surface: &surface,
             mu,
         };
-        let follow_share = self.follow_share(texture.ticks_per_sample());
+        let follow_share = |ticks| self.follow_share(ticks);
         crossing.prepare(&mut state.vibration, texture, follow_share);
         let interpolator = texture.interpolator();
         let sound =

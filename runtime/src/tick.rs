@@ -371,7 +371,7 @@ impl Renderer {
             surface: &texture.surface,
             mu: texture.mu,
         };
-        let follow_share = self.follow_share(texture.ticks_per_sample());
+        let follow_share = |ticks| self.follow_share(ticks);
         state.vibration.prepare(texture, follow_share);
         let (lags, interpolator) = (texture.lags(), texture.interpolator());
         let sound =

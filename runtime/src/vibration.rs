@@ -153,13 +153,14 @@ impl Vibration {
         follow_share: f32,
         sounding: bool,
     ) -> (f32, bool) {
-        self.prepare(texture, follow_share);
+        self.prepare(texture, |_| follow_share);
         let sound = self.sound(texture.lags(), texture.interpolator(), sounding);
         self.query(texture, speed_mm_s, force_n);
         sound
     }
 
-    /// Begins a tick: its share of the cycle, where that is not the first one.
+    /// Begins a tick: its share of the cycle, where that is not the first one. `follow_share`
+    /// is asked with the ticks a sample of the texture.
     #[inline(always)]
     pub(crate) fn prepare<
         const V: usize,
@@ -170,18 +171,18 @@ impl Vibration {
     >(
         &mut self,
         texture: &Texture<V, T, P, Q, K>,
-        follow_share: f32,
+        follow_share: impl Fn(u8) -> f32,
     ) {
         if self.texture != texture.id() {
             self.change_texture(texture.id());
         }
         let ticks = texture.interpolator().ticks();
         if ticks > 1 {
-            self.prepare_between(texture, follow_share, ticks);
+            self.prepare_between(texture, follow_share(ticks), ticks);
         } else if self.phase == CYCLE_TICKS as u8 {
             self.phase = 0;
         } else if self.phase > 0 {
-            self.work(texture, follow_share, texture.share(self.phase));
+            self.work(texture, follow_share(1), texture.share(self.phase));
             self.phase += 1;
             if self.phase == CYCLE_TICKS as u8 {
                 self.finish(texture);
@@ -203,16 +204,11 @@ impl Vibration {
         if self.phase == 0 {
             self.in_contact = sounding;
         }
-        let between = interpolator.ticks() > 1;
-        let (mut y, mut clamped) = (0.0, false);
-        if !between || self.between.is_sample() {
-            let e = self.level_m_s2 * self.excitation.next_gaussian();
-            (y, clamped) = self.history.step(&self.a, &self.b, lags, e, sounding);
+        if interpolator.ticks() > 1 {
+            return self.sound_between(lags, interpolator, sounding);
         }
-        if between {
-            y = self.between.output(interpolator, y, sounding);
-        }
-        (y, clamped)
+        let e = self.level_m_s2 * self.excitation.next_gaussian();
+        self.history.step(&self.a, &self.b, lags, e, sounding)
     }
 
     /// Ends a tick: the first one of a cycle takes the query.

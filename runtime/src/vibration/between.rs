@@ -10,6 +10,7 @@ use super::{CYCLE_TICKS, Vibration};
 use crate::{
     Texture,
     interpolate::{Held, Interpolator},
+    synthesis::Lags,
 };
 
 /// Samples of a cycle after which work is done.
@@ -135,6 +136,22 @@ impl Vibration {
                 self.finish(texture);
             }
         }
+    }
+
+    /// [`Vibration::sound`] between samples.
+    #[inline(never)]
+    pub(super) fn sound_between(
+        &mut self,
+        lags: Lags,
+        interpolator: &Interpolator,
+        sounding: bool,
+    ) -> (f32, bool) {
+        let (mut y, mut clamped) = (0.0, false);
+        if self.between.is_sample() {
+            let e = self.level_m_s2 * self.excitation.next_gaussian();
+            (y, clamped) = self.history.step(&self.a, &self.b, lags, e, sounding);
+        }
+        (self.between.output(interpolator, y, sounding), clamped)
     }
 
     /// Whether the tick that follows puts new coefficients to work.
