@@ -256,12 +256,12 @@ impl State {
 
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.
     #[cold]
-    fn restart(&mut self, distance_m: f32) {
+    fn restart(&mut self, distance_m: f32, servo_rate_hz: f32) {
         self.distance_m = distance_m;
         self.velocity = LowPass2State::REST;
         self.vibration.silence();
         self.friction = FrictionState::default();
-        self.tap.restart(distance_m);
+        self.tap.restart(distance_m, servo_rate_hz);
     }
 }
 
@@ -410,7 +410,7 @@ impl Renderer {
         let mut flags = gated.flags;
         let (distance_m, normal) = felt.solid.touch(gated.position_m);
         if flags.contains(Flags::RESTART) {
-            state.restart(distance_m);
+            state.restart(distance_m, config.servo_rate_hz);
         }
 
         let motion_m = gated.motion_m;

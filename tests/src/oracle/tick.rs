@@ -60,6 +60,7 @@ pub struct Oracle {
     past_y: VecDeque<f64>,
     // Tap.
     distances: VecDeque<f64>,
+    place_ticks: u32,
     armed: bool,
     transient: VecDeque<f64>,
     // Friction and limits.
@@ -100,6 +101,7 @@ impl Oracle {
             past_e: VecDeque::from(vec![0.0; 24]),
             past_y: VecDeque::from(vec![0.0; 24]),
             distances: VecDeque::from(vec![0.0; 8]),
+            place_ticks: 0,
             armed: false,
             transient: VecDeque::new(),
             bristle: [0.0; 3],
@@ -211,6 +213,7 @@ impl Oracle {
         self.past_e = VecDeque::from(vec![0.0; 24]);
         self.past_y = VecDeque::from(vec![0.0; 24]);
         self.distances = VecDeque::from(vec![distance; 8]);
+        self.place_ticks = 0;
         self.armed = false;
         self.transient.clear();
         self.bristle = [0.0; 3];
@@ -296,9 +299,21 @@ impl Oracle {
 
     /// Acceleration of the transient under way, m/s².
     fn tap(&mut self, distance: f64) -> f64 {
-        self.distances.pop_front();
+        // A place lasts as many ticks as a power of two that fit in 1 ms; the newest has the last.
+        let rate = f64::from(self.config.servo_rate_hz);
+        let mut place = 1;
+        while place < 16 && 2.0 * f64::from(place) <= rate / 1000.0 {
+            place *= 2;
+        }
+        if self.place_ticks % place == 0 {
+            self.distances.pop_front();
+        } else {
+            self.distances.pop_back();
+        }
+        self.place_ticks = self.place_ticks % place + 1;
         self.distances.push_back(distance);
-        // Least squares over eight points, in distance a period.
+        let passed = f64::from(self.place_ticks) / f64::from(place);
+        // Least squares over eight points, in distance a place; the newest place may be short.
         let mean = 3.5;
         let slope: f64 = self
             .distances
@@ -307,7 +322,7 @@ impl Oracle {
             .map(|(i, d)| (i as f64 - mean) * d)
             .sum::<f64>()
             / 42.0;
-        let speed = -slope * f64::from(self.config.servo_rate_hz);
+        let speed = -slope * rate / f64::from(place) * 12.0 / (11.0 + passed);
         let touching = distance < 0.0;
         if self.armed && touching && speed >= f64::from(self.config.tap.min_speed_m_s) {
             self.transient = self.bank.transient(speed).into();
