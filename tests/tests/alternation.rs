@@ -153,4 +153,19 @@ fn every_hatt_material() {
             .reduce(Excess::default, Excess::and)
             .verdict(&format!("HaTT, {name}"));
     }
+    let (ratio, every) = (5, CYCLE_TICKS * 5 + 1);
+    files
+        .par_iter()
+        .map(|file| {
+            Excess::of(
+                &asperity::hatt::import(file, None).unwrap().bytes,
+                ratio,
+                every,
+                2,
+            )
+        })
+        .reduce(Excess::default, Excess::and)
+        .verdict(&format!(
+            "HaTT, {ratio} ticks a sample, every {every} ticks"
+        ));
 }

@@ -6,7 +6,8 @@ mod support;
 
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
-    Config, Flags, HostTexture, LoadError, Renderer, Sample, State, vibration::Vibration,
+    Config, Exchange, Flags, HostTexture, LoadError, Output, Renderer, Sample, State,
+    vibration::Vibration,
 };
 use asperity_tests::{
     draw::Draw,
@@ -199,7 +200,7 @@ fn a_tap_at_its_source_rate_plays_its_samples() {
         .map(|n| Sample::at([0.0, 0.0, 0.015 - 0.3e-4 * n as f32]))
         .map(|sample| renderer.tick(&slot, &mut state, &sample))
         .collect();
-    let started = |o: &asperity_runtime::Output| o.flags.contains(Flags::TAP_STARTED);
+    let started = |o: &Output| o.flags.contains(Flags::TAP_STARTED);
     let start = outputs.iter().position(started).expect("a tap");
     let selection = slot.taps().select(0.3);
     for (n, output) in outputs[start..start + 100].iter().enumerate() {
@@ -291,4 +292,76 @@ fn a_rate_that_is_no_multiple_is_refused_and_the_slot_kept() {
         assert_eq!((slot.ticks_per_sample(), slot.servo_rate_hz()), (5, 5000.0));
         assert_eq!(slot.filter_at(90.0, 1.0), before);
     }
+}
+
+/// Where the second texture is sent, and ticks after it that count as the crossing.
+const SENT: usize = 2000;
+const AROUND: usize = 300;
+
+/// A stroke at 100 mm/s, 2 mm deep, in a loop at 5 kHz; before tick [`SENT`] the first texture,
+/// from it on the second.
+fn crossed(from: &[u8], to: Option<&[u8]>, seed: u64) -> Vec<Output> {
+    let config = config(5);
+    let renderer = Renderer::new(&config).unwrap();
+    let slot = || Box::new(HostTexture::new());
+    let (mut playing, mut spare) = (slot(), slot());
+    let load = |bytes| Asset::parse(bytes).unwrap();
+    playing.load(&load(from), config.servo_rate_hz).unwrap();
+    let mut exchange = Exchange::<64, 128, 24, 24, 4096>::new();
+    let (mut preparer, mut player) = exchange.split(&mut playing, [&mut spare], seed);
+    let tick = |n: usize| {
+        if let (SENT, Some(to)) = (n, to) {
+            preparer.prepare(&load(to), config.servo_rate_hz).unwrap();
+        }
+        let position_m = [0.02e-3 * n as f32, 0.0, (1e-3 - 1e-5 * n as f32).max(-2e-3)];
+        renderer.tick_player(&mut player, &Sample::at(position_m))
+    };
+    (0..SENT + 2 * AROUND).map(tick).collect()
+}
+
+/// From one texture to another whose models have the same clock or one of their own: no step of
+/// the vibration that one of both would not make by itself, and in the end the second alone.
+#[test]
+fn textures_of_any_clock_follow_each_other() {
+    let mut texture = random(11, Kind::nyquist(20));
+    let one = texture.encode();
+    texture.models.reverse();
+    let two = texture.encode();
+    texture.sample_rate_hz = 5000.0;
+    let five = texture.encode();
+    let largest_step = |outputs: &[Output]| {
+        let steps = outputs
+            .windows(2)
+            .map(|pair| (pair[1].vib_m_s2 - pair[0].vib_m_s2).abs());
+        steps.fold(0.0, f32::max)
+    };
+    for (name, from, to) in [
+        ("1 to 1 kHz", &one, &two),
+        ("1 to 5 kHz", &one, &five),
+        ("5 to 1 kHz", &five, &one),
+    ] {
+        let (mut across, mut alone) = (0.0_f32, 0.0_f32);
+        for seed in 0..100 {
+            let outputs = crossed(from, Some(to), seed);
+            across = across.max(largest_step(&outputs[SENT - 1..SENT + AROUND]));
+            for bytes in [from, to] {
+                let outputs = crossed(bytes, None, seed);
+                alone = alone.max(largest_step(&outputs[SENT - 1..SENT + AROUND]));
+            }
+            let level =
+                |outputs: &[Output]| outputs.iter().map(|o| o.vib_m_s2 * o.vib_m_s2).sum::<f32>();
+            assert!(level(&outputs[SENT + AROUND..]) > 0.0);
+        }
+        println!("{name}: {across} m/s² across, {alone} alone");
+        assert!(across <= 1.1 * alone, "{name}: {across} of {alone}");
+    }
+    // While the new model is made, the old one goes on as if nothing had come.
+    let (kept, changed) = (crossed(&one, None, 7), crossed(&one, Some(&two), 7));
+    let sound = |outputs: &[Output]| -> Vec<f32> { outputs.iter().map(|o| o.vib_m_s2).collect() };
+    let differ = sound(&kept)
+        .iter()
+        .zip(sound(&changed))
+        .position(|(a, b)| (a - b).abs() > 1e-3);
+    let differ = differ.expect("another sound");
+    assert!((SENT + 20..SENT + 60).contains(&differ), "{differ}");
 }
