@@ -39,9 +39,11 @@ const RESIDUES: Complex4 = Complex4 {
     im: F4::load(&[-0.086_019_13, 0.481_816_93, -0.679_401_8, 0.0]),
 };
 
-/// Ticks of the servo loop a sample of the models: a whole number, up to [`MAX_TICKS`]. The
+/// Ticks that a sample of models at `model_hz` lasts in a servo loop at `servo_hz`: a whole
+/// number from 1 to 20, or `None` where their textures cannot be loaded for that loop. The
 /// product has one rounding, so that 1000 Hz is three times the `f32` next to 1000/3 Hz.
-pub(crate) fn ticks_per_sample(model_hz: f32, servo_hz: f32) -> Option<u8> {
+#[must_use]
+pub fn ticks_per_sample(model_hz: f32, servo_hz: f32) -> Option<u8> {
     (1..=MAX_TICKS).find(|&ticks| model_hz * f32::from(ticks) == servo_hz)
 }
 

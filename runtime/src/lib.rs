@@ -92,6 +92,7 @@ pub use config::{
 };
 pub use contact::Surface;
 pub use exchange::{Exchange, Player, PrepareError, Preparer};
+pub use interpolate::ticks_per_sample;
 pub use locate::Barycentric;
 pub use scene::{HostScene, Scene, SceneError, SceneState};
 pub use synthesis::Filter;
