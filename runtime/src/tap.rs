@@ -312,7 +312,7 @@ mod tests {
                     }
                 }
             });
-            errors.fold(0.0, f32::max)
+            errors.fold(0.0, crate::math::max)
         };
         for rate_hz in [1000.0, 2000.0, 3000.0, 5000.0, 10_000.0, 20_000.0] {
             let smooth = worst(rate_hz, 0.0);

@@ -305,7 +305,7 @@ impl Oracle {
         while place < 16 && 2.0 * f64::from(place) <= rate / 1000.0 {
             place *= 2;
         }
-        if self.place_ticks % place == 0 {
+        if self.place_ticks.is_multiple_of(place) {
             self.distances.pop_front();
         } else {
             self.distances.pop_back();
