@@ -24,16 +24,28 @@ impl Rig {
     /// When the bytes are no asset at 1 kHz: a bench of nothing must not run.
     #[must_use]
     pub fn new(bytes: &[u8]) -> Self {
-        let config = Config::default();
+        Self::at(bytes, Config::default().servo_rate_hz)
+    }
+
+    /// As [`Rig::new`], in a servo loop at a multiple of 1 kHz.
+    ///
+    /// # Panics
+    /// When the bytes are no asset, or the rate is none for it.
+    #[must_use]
+    pub fn at(bytes: &[u8], servo_rate_hz: f32) -> Self {
+        let config = Config {
+            servo_rate_hz,
+            ..Config::default()
+        };
         let mut texture = Box::new(HostTexture::new());
         texture
             .load(
                 &Asset::parse(bytes).expect("a valid asset"),
                 config.servo_rate_hz,
             )
-            .expect("a texture at 1 kHz that fits");
+            .expect("a texture that fits, at a rate that divides");
         Self {
-            renderer: Renderer::new(&config).expect("the default configuration"),
+            renderer: Renderer::new(&config).expect("a valid configuration"),
             texture,
             state: State::new(1),
         }

@@ -39,7 +39,13 @@ impl Motion {
     /// The device sample of a tick at 1 kHz.
     #[must_use]
     pub fn sample(self, tick: u32) -> Sample {
-        let t_s = (tick % 60_000) as f32 * 1e-3;
+        self.sample_at(tick, 1)
+    }
+
+    /// The device sample of a tick at `ratio` kHz.
+    #[must_use]
+    pub fn sample_at(self, tick: u32, ratio: u32) -> Sample {
+        let t_s = (tick % 60_000) as f32 * (1e-3 / ratio as f32);
         let stroke = |speed_m_s: f32, depth_m: f32| {
             // A circle keeps a constant speed inside the workspace.
             let angle = speed_m_s / 0.05 * t_s;

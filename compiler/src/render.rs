@@ -148,8 +148,16 @@ impl Diagnostic for RenderError {
                 "resample the trajectory to {rate_hz} Hz: t_s grows by {} s a row",
                 1.0 / rate_hz
             ),
+            Self::Load {
+                cause: LoadError::Rate { model_hz, .. },
+                ..
+            }
+            | Self::Scene(SceneError::Texture {
+                cause: LoadError::Rate { model_hz, .. },
+                ..
+            }) => format!("give --rate {model_hz} or 2, 3, … 20 times as much"),
             Self::Load { .. } | Self::Config { .. } => {
-                "make the texture for a servo rate of the runtime".into()
+                "give a --rate that the runtime can have, or make the texture for one".into()
             }
             Self::Scene(_) => "build the scene again".into(),
             Self::Write(error) if error.kind() == io::ErrorKind::StorageFull => {
@@ -174,7 +182,8 @@ pub struct RenderReport {
 }
 
 /// Renders the trajectory read from `input` (called `file` in errors) on the infinite
-/// plane z = 0 with the texture of `asset`, and writes one row a tick to `output`.
+/// plane z = 0 with the texture of `asset`, and writes one row a tick to `output`. The servo
+/// loop runs at `rate_hz`, or else at the texture's own rate.
 ///
 /// Same asset, trajectory and seed: same bytes. Floats are printed as the shortest text
 /// that reads back to the same bits.
@@ -184,12 +193,13 @@ pub struct RenderReport {
 /// by then, so write to something that can be abandoned.
 pub fn render(
     asset: &Asset<'_>,
+    rate_hz: Option<f32>,
     file: &Path,
     input: impl Read,
     mut output: impl Write,
     seed: u64,
 ) -> Result<RenderReport, RenderError> {
-    let rate_hz = asset.grid().sample_rate_hz();
+    let rate_hz = rate_hz.unwrap_or(asset.grid().sample_rate_hz());
     let config = Config {
         servo_rate_hz: rate_hz,
         ..Config::default()
@@ -213,13 +223,14 @@ pub fn render(
     })
 }
 
-/// As [`render`], on the surfaces of a library's scene; a row says at its end, under
-/// [`SURFACE_COLUMN`], which one is touched.
+/// As [`render`], on the surfaces of a library's scene, at the rate of its first texture if none
+/// is given; a row says at its end, under [`SURFACE_COLUMN`], which one is touched.
 ///
 /// # Errors
 /// As [`render`], and [`RenderError::Scene`].
 pub fn render_scene(
     library: &Library<'_>,
+    rate_hz: Option<f32>,
     file: &Path,
     input: impl Read,
     mut output: impl Write,
@@ -230,7 +241,7 @@ pub fn render_scene(
         RenderError::Scene(SceneError::Texture { index, cause })
     })?;
     let config = Config {
-        servo_rate_hz: first.grid().sample_rate_hz(),
+        servo_rate_hz: rate_hz.unwrap_or(first.grid().sample_rate_hz()),
         ..Config::default()
     };
     let renderer = Renderer::new(&config).map_err(|cause| RenderError::Config {
@@ -412,11 +423,20 @@ mod tests {
     use crate::{builtin, lower::lower};
 
     fn run(trajectory: &str, seed: u64) -> Result<(RenderReport, String), RenderError> {
+        run_at(None, trajectory, seed)
+    }
+
+    fn run_at(
+        rate_hz: Option<f32>,
+        trajectory: &str,
+        seed: u64,
+    ) -> Result<(RenderReport, String), RenderError> {
         let bytes = lower(&builtin::texture(), None).unwrap().bytes;
         let asset = Asset::parse(&bytes).unwrap();
         let mut output = Vec::new();
         let report = render(
             &asset,
+            rate_hz,
             Path::new("in.csv"),
             trajectory.as_bytes(),
             &mut output,
@@ -458,6 +478,30 @@ mod tests {
             vibrates |= fields[5].parse::<f32>().unwrap().abs() > 0.1;
         }
         assert!(vibrates);
+    }
+
+    #[test]
+    fn a_rate_is_a_multiple_of_the_textures_own() {
+        // Rows at 5 kHz.
+        let mut text = INPUT_COLUMNS.join(",");
+        for n in 0..500 {
+            text.push_str(&format!(
+                "\n{},{},0,-2",
+                f64::from(n) * 2e-4,
+                0.02 * f64::from(n)
+            ));
+        }
+        let (report, _) = run_at(Some(5000.0), &text, 1).unwrap();
+        assert_eq!(report.ticks, 500);
+        let refused = run_at(Some(1000.0), &text, 1).unwrap_err();
+        assert!(matches!(refused, RenderError::Rate { .. }), "{refused}");
+        let refused = run_at(Some(1500.0), &text, 1).unwrap_err();
+        assert!(refused.to_string().contains("a whole number"), "{refused}");
+        assert!(
+            refused.remedy().contains("--rate 1000"),
+            "{}",
+            refused.remedy()
+        );
     }
 
     #[test]

@@ -284,22 +284,50 @@ fn errors_name_the_file_the_field_and_the_remedy() {
 /// What `asperity render` writes of a scene is what the runtime gives, tick by tick.
 #[test]
 fn a_scene_is_rendered_on_its_surfaces() {
+    rendered(1, None);
+}
+
+/// A faster servo loop leaves the models their clock.
+#[test]
+fn a_scene_for_a_faster_loop_keeps_the_rates_of_its_textures() {
+    rendered(5, Some(5000.0));
+}
+
+/// Builds and renders the scene for a loop at `ratio` kHz.
+fn rendered(ratio: u32, rate_hz: Option<f32>) {
     let folder = folder();
-    let built = built(folder.path(), SCENE, &Budget::default()).unwrap();
+    let scene = format!("servo_rate_hz = {}\n{SCENE}", 1000 * ratio);
+    let built = built(folder.path(), &scene, &Budget::default()).unwrap();
     let library = Library::parse(&built.bytes).unwrap();
+    for index in 0..2 {
+        let rate = library.asset(index).unwrap().grid().sample_rate_hz();
+        assert_eq!(rate, 1000.0);
+    }
     // Down onto the plane, and sideways into the box.
-    let x_mm = |n: u32| -130.0 + 0.0625 * f64::from(n);
-    let z_mm = |n: u32| (2.0 - f64::from(n) / 64.0).max(-1.0);
+    let ms = |n: u32| f64::from(n) / f64::from(ratio);
+    let x_mm = |n: u32| -130.0 + 0.0625 * ms(n);
+    let z_mm = |n: u32| (2.0 - ms(n) / 64.0).max(-1.0);
     let mut trajectory = String::from("t_s,x_mm,y_mm,z_mm\n");
-    for n in 0..900 {
-        let t_s = f64::from(n) / 1000.0;
+    for n in 0..900 * ratio {
+        let t_s = ms(n) / 1000.0;
         trajectory += &format!("{t_s},{},0,{}\n", x_mm(n), z_mm(n));
     }
     let file = Path::new("stroke.csv");
     let mut table = Vec::new();
-    let report = render_scene(&library, file, trajectory.as_bytes(), &mut table, 5).unwrap();
+    let report = render_scene(
+        &library,
+        rate_hz,
+        file,
+        trajectory.as_bytes(),
+        &mut table,
+        5,
+    )
+    .unwrap();
 
-    let config = Config::default();
+    let config = Config {
+        servo_rate_hz: rate_hz.unwrap_or(1000.0),
+        ..Config::default()
+    };
     let renderer = Renderer::new(&config).unwrap();
     let mut slots = vec![HostTexture::new(); 2];
     let scene = HostScene::load(&library, &config, &mut slots).unwrap();
@@ -323,7 +351,7 @@ fn a_scene_is_rendered_on_its_surfaces() {
             seen.push(touched);
         }
     }
-    assert_eq!(report.ticks, 900);
+    assert_eq!(report.ticks, u64::from(900 * ratio));
     assert_eq!(report.taps, state.state().counters().taps);
     assert_eq!(seen, ["", "0", "1"]);
 }

@@ -11,6 +11,7 @@ use crate::{
         units::{Acceleration, Unit},
     },
     contact::Solid,
+    interpolate::Interpolator,
     synthesis::Lags,
     texture::Feel,
     tick::Felt,
@@ -27,6 +28,10 @@ pub(crate) struct Crossing<A: Arithmetic> {
     feel: Feel<A>,
     /// Of the vibration at work.
     lags: Lags,
+    /// Ticks a sample of the vibration at work.
+    ticks_per_sample: u8,
+    /// Its last output, m/s².
+    heard_m_s2: Number<A, Acceleration>,
     /// What fades of the vibration before, m/s².
     fading_m_s2: Number<A, Acceleration>,
     /// The vibration at work is that of the texture before.
@@ -40,6 +45,8 @@ impl<A: Arithmetic> Crossing<A> {
     pub(crate) const START: Self = Self {
         feel: Feel::NONE,
         lags: Lags::new(0, 0),
+        ticks_per_sample: 1,
+        heard_m_s2: Number::ZERO,
         fading_m_s2: Number::ZERO,
         changing: false,
         touching: false,
@@ -70,14 +77,27 @@ impl<A: Arithmetic> Crossing<A> {
         &mut self,
         vibration: &mut Vibration<A>,
         texture: &Texture<V, T, P, Q, K, A>,
-        follow_share: Number<A, Unit>,
+        follow_share: impl Fn(u8) -> Number<A, Unit>,
     ) {
+        let ticks = texture.ticks_per_sample();
         if !vibration.is_on(texture.id()) {
-            vibration.begin(texture.id());
-            self.changing = true;
+            if self.ticks_per_sample == ticks {
+                vibration.begin(texture.id());
+                self.changing = true;
+            } else {
+                // Clocks of their own: the old one stops at once.
+                self.fading_m_s2 = self.fading_m_s2 + self.heard_m_s2;
+                self.ticks_per_sample = ticks;
+                self.lags = texture.lags();
+                self.changing = false;
+            }
         }
-        if self.changing && vibration.is_last_of_cycle() {
-            self.fading_m_s2 = self.fading_m_s2 + vibration.stop();
+        if self.changing && vibration.is_last_of_cycle(ticks) {
+            let last = vibration.stop();
+            // Between samples the low-pass gives what it holds, which fades by itself.
+            if ticks == 1 {
+                self.fading_m_s2 = self.fading_m_s2 + last;
+            }
             self.lags = texture.lags();
             self.changing = false;
         }
@@ -89,9 +109,11 @@ impl<A: Arithmetic> Crossing<A> {
     fn sound(
         &mut self,
         vibration: &mut Vibration<A>,
+        interpolator: &Interpolator<A>,
         sounding: bool,
     ) -> (Number<A, Acceleration>, bool) {
-        let (y, clamped) = vibration.sound(self.lags, sounding);
+        let (y, clamped) = vibration.sound(self.lags, interpolator, sounding);
+        self.heard_m_s2 = y;
         let faded = Number::<A, Unit>::of(FADE).times(self.fading_m_s2);
         let audible = faded.max(-faded) > Number::of(A::SILENCE_M_S2);
         self.fading_m_s2 = if sounding && audible {
@@ -139,8 +161,12 @@ impl<A: Arithmetic> Renderer<A> {
         crossing.follow(&texture.feel, share);
         let feel = crossing.feel;
         let felt = Felt { solid, feel: &feel };
-        crossing.prepare(&mut state.vibration, texture, self.follow_share);
-        let sound = |vibration: &mut Vibration<A>, sounding| crossing.sound(vibration, sounding);
+        let follow_share = |ticks| self.follow_share(ticks);
+        crossing.prepare(&mut state.vibration, texture, follow_share);
+        let interpolator = texture.interpolator();
+        let sound = |vibration: &mut Vibration<A>, sounding| {
+            crossing.sound(vibration, interpolator, sounding)
+        };
         let output = self.tick_on(felt, texture, state, sample, sound);
         let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
         state

@@ -32,7 +32,7 @@ use crate::{
     FrictionConfig,
     arithmetic::{
         Arithmetic, Float, Four, Number,
-        units::{Metre, Newton, NewtonPerMetre, Ratio, Unit},
+        units::{Leak, Metre, Newton, NewtonPerMetre, Ratio, Unit},
     },
     math::max,
 };
@@ -43,7 +43,7 @@ pub struct Bristle<A: Arithmetic = Float> {
     stiffness_n_m: Number<A, NewtonPerMetre>,
     dead_zone_m: Number<A, Metre>,
     /// k·v_c·T, N: with a normal force of this much, half the deflection leaks in a tick.
-    leak_n: Number<A, Newton>,
+    leak_n: Number<A, Leak>,
     lead_ticks: Number<A, Ratio>,
 }
 
@@ -128,7 +128,8 @@ impl<A: Arithmetic> FrictionState<A> {
         normal: Four<A, Unit>,
         normal_n: Number<A, Newton>,
     ) -> Stretched<A> {
-        let kept: Number<A, Unit> = normal_n.over(normal_n + bristle.leak_n);
+        let loaded_n = normal_n.to::<Leak>();
+        let kept: Number<A, Unit> = loaded_n.over(loaded_n + bristle.leak_n);
         let moved_m = (self.deflection_m + motion_m).scaled(kept);
         let moved_m: Four<A, Metre> = Four::tangential(moved_m, normal);
         Stretched {

@@ -18,6 +18,7 @@
 //! | [`vibration`] | y\[n\] | the model that sounds, made in shares over six ticks |
 //! | [`excitation`] | ε | Gaussian noise |
 //! | [`synthesis`] | | the AR or ARMA recursion |
+//! | `interpolate` | | samples of the models to ticks of a faster servo loop |
 //! | [`tap`] | a_tap(t) | impact detection and transient |
 //! | [`friction`] | F_t | leaking bristle bounded by μF_n |
 //! | [`wall`] | F_n | stiffness and damping that the device can bear |
@@ -61,12 +62,14 @@
 #![forbid(unsafe_code)]
 
 pub mod arithmetic;
+mod complex;
 pub mod config;
 pub mod contact;
 mod crossing;
 pub mod exchange;
 pub mod excitation;
 pub mod friction;
+mod interpolate;
 mod lanes;
 pub mod limiter;
 pub mod locate;
@@ -91,6 +94,7 @@ pub use config::{
 };
 pub use contact::Surface;
 pub use exchange::{Exchange, Player, PrepareError, Preparer};
+pub use interpolate::ticks_per_sample;
 pub use locate::Barycentric;
 pub use scene::{HostScene, Scene, SceneError, SceneState};
 pub use synthesis::Filter;

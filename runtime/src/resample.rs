@@ -10,6 +10,7 @@
 
 use crate::{
     arithmetic::Scalar,
+    complex::Complex4,
     lanes::F4,
     math::{cos_pi, exp, max, min, sin_pi},
 };
@@ -36,58 +37,18 @@ const CHUNK: usize = 10;
 /// A sample this close to a tick belongs to it, s.
 const ROUNDING_S: f64 = 1e-9;
 
-/// Four complex numbers, one a pole.
-#[derive(Debug, Clone, Copy)]
-struct Complex4 {
-    re: F4,
-    im: F4,
-}
-
-impl Complex4 {
-    const ZERO: Self = Self {
-        re: F4::ZERO,
-        im: F4::ZERO,
-    };
-
-    #[inline(always)]
-    fn times(self, other: Self) -> Self {
-        Self {
-            re: self.re * other.re - self.im * other.im,
-            im: self.re * other.im + self.im * other.re,
-        }
-    }
-
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        Self {
-            re: self.re + other.re,
-            im: self.im + other.im,
-        }
-    }
-
-    #[inline(always)]
-    fn scaled(self, by: f32) -> Self {
-        Self {
-            re: self.re * F4::splat(by),
-            im: self.im * F4::splat(by),
-        }
-    }
-
-    /// e^(pole·x) for x ≥ 0; Im·x beyond π only where nothing is left.
-    fn decay(x: f32) -> Self {
-        let (re, im) = (POLES.re.to_array(), POLES.im.to_array());
-        let size = re.map(|re| exp(max(re * x, -80.0)));
-        let half_turns = im.map(|im| min(im * x * core::f32::consts::FRAC_1_PI, 1.0));
-        Self {
-            re: F4::load(&half_turns.map(cos_pi)) * F4::load(&size),
-            im: F4::load(&half_turns.map(sin_pi)) * F4::load(&size),
-        }
-    }
-
-    /// What the filter gives of a state.
-    #[inline(always)]
-    fn response(self) -> f32 {
-        (self.re * RESIDUES.re - self.im * RESIDUES.im).sum()
+/// e^(pole·x) for x ≥ 0; Im·x beyond 2π only where nothing is left.
+fn decay(x: f32) -> Complex4 {
+    let (re, im) = (POLES.re.to_array(), POLES.im.to_array());
+    let size = re.map(|re| exp(max(re * x, -80.0)));
+    let half_turns = im.map(|im| min(im * x * core::f32::consts::FRAC_1_PI, 2.0));
+    // The second half of a turn mirrors the first.
+    let mirrored = |h: f32| if h > 1.0 { 2.0 - h } else { h };
+    let sign = half_turns.map(|h| if h > 1.0 { -1.0 } else { 1.0 });
+    let half_turns = half_turns.map(mirrored);
+    Complex4 {
+        re: F4::load(&half_turns.map(cos_pi)) * F4::load(&size),
+        im: F4::load(&half_turns.map(sin_pi)) * F4::load(&size) * F4::load(&sign),
     }
 }
 
@@ -148,7 +109,7 @@ impl Resampler {
             rates.servo_hz
         };
         let stop_rad_s = core::f32::consts::PI * lower_hz as f32;
-        let after = |s: f64| Complex4::decay(s as f32 * stop_rad_s);
+        let after = |s: f64| decay(s as f32 * stop_rad_s);
         let mut powers = [Complex4::ZERO; CHUNK + 1];
         for (k, power) in powers.iter_mut().enumerate() {
             *power = after(k as f64 / rates.source_hz);
@@ -220,14 +181,14 @@ impl Resampler {
                 }
                 let age_s = now_s - (taken - 1) as f64 * source_s;
                 now = if age_s > ROUNDING_S {
-                    state.times(Complex4::decay(age_s as f32 * self.stop_rad_s))
+                    state.times(decay(age_s as f32 * self.stop_rad_s))
                 } else {
                     state
                 };
             } else {
                 now = now.times(self.tick);
             }
-            *out = S::of(gain * now.response());
+            *out = S::of(gain * now.response(&RESIDUES));
         }
         sum
     }
@@ -240,7 +201,7 @@ fn responses(tick: Complex4) -> impl Iterator<Item = f32> {
         im: F4::ZERO,
     };
     core::iter::repeat_with(move || {
-        let h = state.response();
+        let h = state.response(&RESIDUES);
         state = state.times(tick);
         h
     })

@@ -73,21 +73,21 @@ impl Share {
     }
 }
 
-/// The shares of all ticks, with room for any index of three bits.
+/// The shares of all ticks, with room for any index of four bits.
 #[derive(Debug, Clone)]
-pub(crate) struct Shares([Share; 8]);
+pub(crate) struct Shares([Share; 16]);
 
 impl Shares {
-    pub(crate) const NONE: Self = Self([Share::NONE; 8]);
+    pub(crate) const NONE: Self = Self([Share::NONE; 16]);
 
     #[inline(always)]
     pub(crate) fn of(&self, phase: u8) -> &Share {
-        &self.0[usize::from(phase % 8)]
+        &self.0[usize::from(phase % 16)]
     }
 }
 
-/// The shares of `blocks` blocks of triangles and the conversion of a shape.
-pub(crate) fn shares<A: Arithmetic>(blocks: usize, shape: &Shape<A>) -> Shares {
+/// The shares of `blocks` blocks of triangles and the conversion of a shape, in `count` ticks.
+pub(crate) fn shares<A: Arithmetic>(blocks: usize, shape: &Shape<A>, count: usize) -> Shares {
     let costs = costs::<A>();
     let fours = |order: usize| order.div_ceil(4);
     let mix = costs.mix + costs.mix_four * (fours(shape.ar_order) + fours(shape.ma_order));
@@ -104,9 +104,9 @@ pub(crate) fn shares<A: Arithmetic>(blocks: usize, shape: &Shape<A>) -> Shares {
     let mut spent = 0;
     // An item belongs to the tick in which its middle lies; in the first one, only blocks.
     let mut tick_of = |cost: usize, first: usize| {
-        let tick = CYCLE_TICKS * (2 * spent + cost) / (2 * total);
+        let tick = count * (2 * spent + cost) / (2 * total);
         spent += cost;
-        tick.clamp(first, CYCLE_TICKS - 1)
+        tick.clamp(first, count - 1)
     };
     for _ in 0..blocks {
         shares[tick_of(costs.block, 0)].blocks += 1;

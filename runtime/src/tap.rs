@@ -1,7 +1,9 @@
 //! Taps: impact detection and the transient that follows.
 //!
 //! The normal distance is watched over the last eight ticks; its least-squares slope
-//! when the surface is entered is the impact speed. The transient is the linear
+//! when the surface is entered is the impact speed. From 2 kHz on a place of the eight lasts 2,
+//! 4, 8 or 16 ticks, so that they span 4 ms or more and counts of position weigh no more than at
+//! 1 kHz; the newest place may have begun just now, which the slope allows for. The transient is the linear
 //! interpolation of the two traces nearest in impact speed (the paper's a_tap(t)).
 //! Below the slowest trace it shrinks with the speed, above the fastest it stays.
 //! After an impact the detector waits until the stylus is `rearm_m` away.
@@ -17,8 +19,12 @@ use crate::{
 use asperity_formats::{Taps, limits::MAX_TAPS};
 use heapless::Vec;
 
-/// Ticks of normal motion that give the impact speed.
+/// Places of normal motion that give the impact speed.
 pub const WINDOW_TICKS: usize = 8;
+/// Parts of a place: the ring's position is a byte.
+const PARTS: u8 = (256 / WINDOW_TICKS) as u8;
+/// A place lasts at least this long, s, where it is more than one tick.
+const PLACE_S: f32 = 1e-3;
 
 /// The tap bank at the servo rate, `K` samples in all.
 #[derive(Debug, Clone)]
@@ -154,6 +160,8 @@ const FASTEST_M_S: f32 = 100.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detector<A: Arithmetic = Float> {
     rate_hz: Number<A, Hertz>,
+    /// Parts of a place that a tick takes.
+    step: u8,
     min_speed_m_s: Number<A, MetrePerSecond>,
     rearm_m: Number<A, Metre>,
 }
@@ -162,8 +170,14 @@ impl<A: Arithmetic> Detector<A> {
     /// Of a configuration.
     #[must_use]
     pub fn new(config: &crate::TapConfig, servo_rate_hz: f32) -> Self {
+        let (mut step, mut ticks) = (PARTS, 2.0);
+        while step > 2 && ticks <= servo_rate_hz * PLACE_S {
+            step /= 2;
+            ticks *= 2.0;
+        }
         Self {
             rate_hz: Number::of(servo_rate_hz * (1.0 / SPREAD)),
+            step,
             min_speed_m_s: Number::of(config.min_speed_m_s),
             rearm_m: Number::of(config.rearm_m),
         }
@@ -175,7 +189,7 @@ impl<A: Arithmetic> Detector<A> {
 pub struct TapState<A: Arithmetic = Float> {
     /// Signed distances in a ring, m.
     distances_m: [A::Scalar<Metre>; WINDOW_TICKS],
-    /// Where the newest stands; the older ones follow.
+    /// Where the newest stands, in parts of a place; the older ones follow.
     newest: u8,
     armed: bool,
     /// Next tick of the transient; at its length or above when none plays.
@@ -211,17 +225,23 @@ impl<A: Arithmetic> TapState<A> {
     /// Another surface, from which the last position was `distance_m` away: the slope stays,
     /// and a transient plays on. A surface that was already entered is no impact.
     pub(crate) fn cross(&mut self, distance_m: A::Scalar<Metre>) {
-        let moved_m = distance_m - self.distances_m[usize::from(self.newest) % WINDOW_TICKS];
+        let moved_m = distance_m - self.distances_m[self.place(0)];
         for past in &mut self.distances_m {
             *past = A::plus_within(*past, moved_m);
         }
         self.armed = self.armed && distance_m > A::Scalar::ZERO;
     }
 
-    /// Impact speed, m/s: minus the least-squares slope of the last eight distances.
+    /// Where the distance of an age stands.
     #[inline]
+    const fn place(&self, age: usize) -> usize {
+        ((self.newest / PARTS) as usize + age) % WINDOW_TICKS
+    }
+
+    /// Impact speed, m/s: minus the least-squares slope of the last eight distances.
+    #[inline(never)]
     fn approach_speed_m_s(&self, detector: &Detector<A>) -> Number<A, MetrePerSecond> {
-        let age = |i: usize| self.distances_m[(usize::from(self.newest) + i) % WINDOW_TICKS];
+        let age = |i: usize| self.distances_m[self.place(i)];
         // Age 0 is the newest, so a falling distance gives a positive slope.
         let newer = Four::<A, Metre>::load(&[age(0), age(1), age(2), age(3)]);
         let older = Four::<A, Metre>::load(&[age(4), age(5), age(6), age(7)]);
@@ -229,7 +249,15 @@ impl<A: Arithmetic> TapState<A> {
         let after = Four::<A, Ratio>::whole([1, 3, 5, 7]);
         // Twice the slope, m, with the room of speeds.
         let slope: Four<A, MetrePerSecond> = newer.times(before) + older.times(after);
-        slope.sum().times_within(detector.rate_hz, FASTEST_M_S)
+        let speed_m_s: Number<A, MetrePerSecond> =
+            slope.sum().times_within(detector.rate_hz, FASTEST_M_S);
+        // Where only a share s of the newest place has passed, a constant speed gives a slope of
+        // (11 + s)/12 of it.
+        let passed = i32::from(PARTS - self.newest % PARTS);
+        let places_a_tick = Number::<A, Ratio>::whole(12 * i32::from(detector.step));
+        let share: Number<A, Ratio> =
+            places_a_tick.over(Number::<A, Ratio>::whole(11 * i32::from(PARTS) + passed));
+        speed_m_s.times(share)
     }
 
     /// One tick at `distance_m` from the surface (negative inside).
@@ -240,8 +268,8 @@ impl<A: Arithmetic> TapState<A> {
         distance_m: A::Scalar<Metre>,
         detector: &Detector<A>,
     ) -> TapOutput<A> {
-        self.newest = self.newest.wrapping_sub(1) % WINDOW_TICKS as u8;
-        self.distances_m[usize::from(self.newest) % WINDOW_TICKS] = distance_m;
+        self.newest = self.newest.wrapping_sub(detector.step);
+        self.distances_m[self.place(0)] = distance_m;
         let touching = distance_m < A::Scalar::ZERO;
         let mut flags = Flags::NONE;
         if touching {
@@ -299,6 +327,45 @@ mod tests {
             assert!((accel - peak).abs() < 1e-6, "{speed}: {accel}");
         }
         assert_eq!(bank.accel_m_s2(&bank.select(0.4), 2), 0.0);
+    }
+
+    /// An approach in counts of 0.055 mm, wherever between them it begins: as exact at 10 kHz as
+    /// at 1 kHz, and a smooth one exact.
+    #[test]
+    fn the_impact_speed_does_not_get_worse_with_the_rate() {
+        let worst = |rate_hz: f32, counts_m: f32| {
+            let speeds = (0..200).map(|n| (0.1 + 0.002 * n as f32, 1.7e-6 * n as f32));
+            let errors = speeds.map(|(speed, offset)| {
+                let detector = Detector::<Float>::new(&crate::Config::default().tap, rate_hz);
+                let mut state = TapState::IDLE;
+                state.restart(5e-3);
+                let mut n = 0;
+                loop {
+                    let exact = 5e-3 + offset - speed * n as f32 / rate_hz;
+                    let counted = if counts_m > 0.0 {
+                        ((exact / counts_m + 1000.5) as i32 - 1000) as f32 * counts_m
+                    } else {
+                        exact
+                    };
+                    state.newest = state.newest.wrapping_sub(detector.step);
+                    state.distances_m[state.place(0)] = counted;
+                    n += 1;
+                    if counted < 0.0 {
+                        break (state.approach_speed_m_s(&detector).0 / speed - 1.0).abs();
+                    }
+                }
+            });
+            errors.fold(0.0, crate::math::max)
+        };
+        for rate_hz in [1000.0, 2000.0, 3000.0, 5000.0, 10_000.0, 20_000.0] {
+            let smooth = worst(rate_hz, 0.0);
+            assert!(smooth < 1e-3, "{rate_hz}: {smooth}");
+        }
+        let own = worst(1000.0, 0.055e-3);
+        for rate_hz in [5000.0, 10_000.0] {
+            let counted = worst(rate_hz, 0.055e-3);
+            assert!(counted < 2.0 * own, "{rate_hz}: {counted}, {own} at 1 kHz");
+        }
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::{
             NewtonSecondPerMetre, Pair, Ratio, Unit,
         },
     },
+    interpolate::{Interpolator, ticks_per_sample},
     lanes::F4,
     locate::{Barycentric, Locator},
     lsf::{self, Pairs, Products, Shape},
@@ -16,6 +17,7 @@ use crate::{
     schedule::{self, Share, Shares},
     synthesis::{Lags, Line},
     tap::TapBank,
+    vibration::between::shares_of_cycle,
 };
 use asperity_formats::{Asset, FormatError, LsfCode, Numerator, Surface, limits::MAX_ORDER};
 use thiserror::Error;
@@ -42,6 +44,7 @@ pub struct Texture<
     shape: Shape<A>,
     lags: Lags,
     shares: Shares,
+    interpolator: Interpolator<A>,
     servo_rate_hz: f32,
     /// b_1 of a numerator that every model shares.
     b1: Number<A, Coefficient>,
@@ -109,9 +112,9 @@ pub enum LoadError {
         /// What the slot has.
         capacity: usize,
     },
-    /// The models run at another rate than the servo loop.
+    /// The servo rate is no whole multiple of the models' rate, or more than 20 times it.
     #[error(
-        "grid.sample_rate_hz: models run at {model_hz} Hz, the servo at {servo_hz} Hz; convert the texture"
+        "grid.sample_rate_hz: models run at {model_hz} Hz, the servo at {servo_hz} Hz, which must be 1 to 20 times as much, a whole number; convert the texture"
     )]
     Rate {
         /// Rate of the models, Hz.
@@ -191,6 +194,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             shape: Shape::NONE,
             lags: Lags::new(0, 0),
             shares: Shares::NONE,
+            interpolator: Interpolator::NONE,
             servo_rate_hz: 0.0,
             b1: Number::ZERO,
             ar_pairs: Rows([[A::Scalar::ZERO; P]; V]),
@@ -199,20 +203,19 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         }
     }
 
-    /// Prepares a validated asset for a servo rate; allocates nothing. A slot that
-    /// refuses keeps what it had.
+    /// Prepares a validated asset for a servo rate of 1, 2, 3, … 20 times the models' rate;
+    /// allocates nothing. A slot that refuses keeps what it had.
     ///
     /// # Errors
     /// [`LoadError::Capacity`] and [`LoadError::Rate`].
     pub fn load(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
         let grid = asset.grid();
         // Exact: a rate is a number that both sides were given, not one they measured.
-        if grid.sample_rate_hz() != servo_rate_hz {
-            return Err(LoadError::Rate {
-                model_hz: grid.sample_rate_hz(),
-                servo_hz: servo_rate_hz,
-            });
-        }
+        let ticks = ticks_per_sample(grid.sample_rate_hz(), servo_rate_hz);
+        let ticks = ticks.ok_or(LoadError::Rate {
+            model_hz: grid.sample_rate_hz(),
+            servo_hz: servo_rate_hz,
+        })?;
         let triangle_room = T - T % 4;
         let tap_samples = TapBank::<K, A>::needed(asset.taps(), servo_rate_hz);
         for (field, found, capacity) in [
@@ -263,7 +266,9 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             grid.max_speed_mm_s(),
             grid.max_force_n(),
         );
-        self.shares = schedule::shares(self.locator.blocks(), &self.shape);
+        let count = shares_of_cycle(ticks);
+        self.shares = schedule::shares(self.locator.blocks(), &self.shape, count);
+        self.interpolator = Interpolator::new(ticks);
         self.taps.load(asset.taps(), servo_rate_hz);
         Ok(())
     }
@@ -272,6 +277,12 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     #[must_use]
     pub const fn servo_rate_hz(&self) -> f32 {
         self.servo_rate_hz
+    }
+
+    /// Ticks that a sample of the models lasts, 1 to 20: the servo rate over theirs.
+    #[must_use]
+    pub const fn ticks_per_sample(&self) -> u8 {
+        self.interpolator.ticks()
     }
 
     /// Wall and gains.
@@ -342,6 +353,12 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     #[inline]
     pub(crate) const fn lags(&self) -> Lags {
         self.lags
+    }
+
+    /// From samples of the models to ticks.
+    #[inline]
+    pub(crate) const fn interpolator(&self) -> &Interpolator<A> {
+        &self.interpolator
     }
 
     /// The work of a tick of the cycle.
@@ -431,6 +448,6 @@ mod tests {
     #[test]
     fn sizes_are_as_stated() {
         assert!(size_of::<HostTexture>() <= 33 * 1024);
-        assert!(size_of::<crate::State>() <= 1104);
+        assert!(size_of::<crate::State>() <= 1136);
     }
 }

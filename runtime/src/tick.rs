@@ -309,8 +309,8 @@ pub struct Renderer<A: Arithmetic = Float> {
     detector: Detector<A>,
     /// Periods per second over 0 (never), 1, 2 and 3 elapsed ticks.
     rate_over_ticks: [Number<A, Hertz>; 4],
-    /// Share of the way that parameters go in a cycle.
-    pub(crate) follow_share: Number<A, Unit>,
+    /// Shares of the way that parameters go in a cycle, by ticks a sample.
+    follow_shares: [Number<A, Unit>; 32],
     /// Share of the way that wall, gains and friction go in a tick, to another texture.
     pub(crate) texture_share: Number<A, Unit>,
     ramp_step: Number<A, Gain>,
@@ -336,7 +336,6 @@ impl<A: Arithmetic> Renderer<A> {
         A::check_config(config)?;
         let rate = config.servo_rate_hz;
         let ticks = config.parameter_time_constant_s * rate;
-        let cycles = ticks / CYCLE_TICKS as f32;
         let [plane, normal] = [config.velocity_cutoff_hz, config.normal_cutoff_hz];
         Ok(Self {
             config: Config {
@@ -350,10 +349,13 @@ impl<A: Arithmetic> Renderer<A> {
             passivity: Passivity::new(&config.mechanics, rate),
             detector: Detector::new(&config.tap, rate),
             rate_over_ticks: [rate, rate, rate / 2.0, rate / 3.0].map(Number::of),
-            follow_share: Number::of(if cycles > 0.0125 {
-                1.0 - exp(-1.0 / cycles)
-            } else {
-                1.0
+            follow_shares: core::array::from_fn(|per_sample| {
+                let cycles = ticks / (CYCLE_TICKS * per_sample.max(1)) as f32;
+                Number::of(if cycles > 0.0125 {
+                    1.0 - exp(-1.0 / cycles)
+                } else {
+                    1.0
+                })
             }),
             texture_share: Number::of(if ticks > 0.1 {
                 1.0 - exp(-1.0 / ticks)
@@ -368,6 +370,12 @@ impl<A: Arithmetic> Renderer<A> {
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
+    }
+
+    /// Share of the way that parameters go in a cycle, at so many ticks a sample.
+    #[inline(always)]
+    pub(crate) fn follow_share(&self, ticks_per_sample: u8) -> Number<A, Unit> {
+        self.follow_shares[usize::from(ticks_per_sample % 32)]
     }
 
     /// What is touched.
@@ -400,9 +408,11 @@ impl<A: Arithmetic> Renderer<A> {
             solid: &self.solid,
             feel: &texture.feel,
         };
-        state.vibration.prepare(texture, self.follow_share);
-        let lags = texture.lags();
-        let sound = |vibration: &mut Vibration<A>, sounding| vibration.sound(lags, sounding);
+        let follow_share = |ticks| self.follow_share(ticks);
+        state.vibration.prepare(texture, follow_share);
+        let (lags, interpolator) = (texture.lags(), texture.interpolator());
+        let sound =
+            |vibration: &mut Vibration<A>, sounding| vibration.sound(lags, interpolator, sounding);
         let output = self.tick_on(felt, texture, state, sample, sound);
         state.vibration.query(
             texture,

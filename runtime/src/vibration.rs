@@ -9,6 +9,11 @@
 //!
 //! A contact is silent until a query that was taken in it takes effect, and starts at its own
 //! model. Out of contact the cycles go on, so that a tick always costs the same.
+//!
+//! Where the servo loop is faster than the models, a sample of theirs takes the place of a tick
+//! in all of this (`vibration/between.rs`), and a low-pass gives the ticks between them.
+
+pub(crate) mod between;
 
 pub use crate::schedule::CYCLE_TICKS;
 use crate::{
@@ -18,10 +23,13 @@ use crate::{
         units::{Acceleration, Coordinate, Level, MillimetrePerSecond, Newton, Unit},
     },
     excitation::Excitation,
+    interpolate::Interpolator,
     locate::Search,
     lsf::{Pairs, Products},
+    schedule::Share,
     synthesis::{History, Lags, Line},
 };
+use between::Between;
 
 /// State of the vibration.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +42,7 @@ pub struct Vibration<A: Arithmetic = Float> {
     a: Line<A>,
     b: Line<A>,
     history: History<A>,
+    between: Between<A>,
     level_m_s2: Number<A, Level>,
     // The query of the cycle under way, and what was found.
     speed_mm_s: Number<A, Coordinate>,
@@ -62,6 +71,7 @@ impl<A: Arithmetic> Vibration<A> {
             a: Line::ZERO,
             b: Line::ZERO,
             history: History::SILENT,
+            between: Between::START,
             level_m_s2: Number::ZERO,
             speed_mm_s: Number::ZERO,
             force_n: Number::ZERO,
@@ -78,6 +88,7 @@ impl<A: Arithmetic> Vibration<A> {
     /// The contact ends, and what was heard of it.
     pub(crate) fn silence(&mut self) {
         self.history = History::SILENT;
+        self.between.silence();
         self.leave();
     }
 
@@ -99,6 +110,7 @@ impl<A: Arithmetic> Vibration<A> {
         }
         self.texture = texture;
         self.phase = 0;
+        self.between = Between::START;
     }
 
     /// Another texture in a scene: what is at work stays until the first cycle ends.
@@ -108,16 +120,20 @@ impl<A: Arithmetic> Vibration<A> {
         self.pairs = Pairs::ZERO;
         self.found = Barycentric::NONE;
         self.phase = 0;
+        self.between.begin_cycle();
         self.follows = false;
     }
 
-    /// Whether this tick puts new coefficients to work.
+    /// Whether this tick, of `ticks` a sample, puts new coefficients to work.
     #[inline]
-    pub(crate) fn is_last_of_cycle(&self) -> bool {
+    pub(crate) fn is_last_of_cycle(&self, ticks: u8) -> bool {
+        if ticks > 1 {
+            return self.finishes_next(ticks);
+        }
         usize::from(self.phase) == CYCLE_TICKS - 1
     }
 
-    /// Stops what is at work. Returns its last output, m/s².
+    /// Stops what is at work. Returns its last sample, m/s².
     #[cold]
     pub(crate) fn stop(&mut self) -> Number<A, Acceleration> {
         let last = self.history.last();
@@ -144,13 +160,14 @@ impl<A: Arithmetic> Vibration<A> {
         follow_share: A::Scalar<Unit>,
         sounding: bool,
     ) -> (A::Scalar<Acceleration>, bool) {
-        self.prepare(texture, Number(follow_share));
-        let (y, clamped) = self.sound(texture.lags(), sounding);
+        self.prepare(texture, |_| Number(follow_share));
+        let (y, clamped) = self.sound(texture.lags(), texture.interpolator(), sounding);
         self.query(texture, Number(speed_mm_s), Number(force_n));
         (y.0, clamped)
     }
 
-    /// Begins a tick: its share of the cycle, where that is not the first one.
+    /// Begins a tick: its share of the cycle, where that is not the first one. `follow_share`
+    /// is asked with the ticks a sample of the texture.
     #[inline(always)]
     pub(crate) fn prepare<
         const V: usize,
@@ -161,30 +178,50 @@ impl<A: Arithmetic> Vibration<A> {
     >(
         &mut self,
         texture: &Texture<V, T, P, Q, K, A>,
-        follow_share: Number<A, Unit>,
+        follow_share: impl Fn(u8) -> Number<A, Unit>,
     ) {
         if self.texture != texture.id() {
             self.change_texture(texture.id());
         }
-        if self.phase == CYCLE_TICKS as u8 {
+        let ticks = texture.interpolator().ticks();
+        if ticks > 1 {
+            self.prepare_between(texture, follow_share(ticks), ticks);
+        } else if self.phase == CYCLE_TICKS as u8 {
             self.phase = 0;
         } else if self.phase > 0 {
-            self.work(texture, follow_share);
+            self.work(texture, follow_share(1), texture.share(self.phase));
+            self.phase += 1;
+            if self.phase == CYCLE_TICKS as u8 {
+                self.finish(texture);
+            }
         }
     }
 
-    /// The next sample; `lags` are those of the texture at work.
+    /// The next output; `lags` and `interpolator` are those of the texture at work.
     #[inline(always)]
-    pub(crate) fn sound(&mut self, lags: Lags, sounding: bool) -> Sounded<A> {
+    pub(crate) fn sound(
+        &mut self,
+        lags: Lags,
+        interpolator: &Interpolator<A>,
+        sounding: bool,
+    ) -> Sounded<A> {
         if !sounding {
             self.leave();
         }
         if self.phase == 0 {
             self.in_contact = sounding;
         }
-        let gaussian = self.excitation.draw::<A>();
-        let e = self.level_m_s2.times_within(gaussian, A::VIB_LIMIT_M_S2);
-        self.history.advance(&self.a, &self.b, lags, e, sounding)
+        let apart = interpolator.ticks() > 1;
+        let mut sounded = (Number::ZERO, false);
+        if !apart || self.between.is_sample() {
+            let gaussian = self.excitation.draw::<A>();
+            let e = self.level_m_s2.times_within(gaussian, A::VIB_LIMIT_M_S2);
+            sounded = self.history.advance(&self.a, &self.b, lags, e, sounding);
+        }
+        if apart {
+            sounded.0 = self.between.output(interpolator, sounded.0, sounding);
+        }
+        sounded
     }
 
     /// Ends a tick: the first one of a cycle takes the query.
@@ -203,6 +240,7 @@ impl<A: Arithmetic> Vibration<A> {
     ) {
         if self.phase == 0 {
             self.begin_cycle(texture, speed_mm_s, force_n);
+            self.phase = 1;
         }
     }
 
@@ -225,7 +263,6 @@ impl<A: Arithmetic> Vibration<A> {
         self.search = texture.locator.begin(speed, force);
         let blocks = texture.share(0).blocks.into();
         texture.locator.look(&mut self.search, speed, force, blocks);
-        self.phase = 1;
     }
 
     /// The share of another tick.
@@ -234,8 +271,8 @@ impl<A: Arithmetic> Vibration<A> {
         &mut self,
         texture: &Texture<V, T, P, Q, K, A>,
         follow_share: Number<A, Unit>,
+        share: &Share,
     ) {
-        let share = texture.share(self.phase);
         let (speed, force) = (self.speed_mm_s, self.force_n);
         if share.blocks > 0 {
             let blocks = share.blocks.into();
@@ -255,10 +292,6 @@ impl<A: Arithmetic> Vibration<A> {
         }
         for part in share.twos() {
             texture.multiply(&mut self.products, &self.pairs, part);
-        }
-        self.phase += 1;
-        if self.phase == CYCLE_TICKS as u8 {
-            self.finish(texture);
         }
     }
 

@@ -6,6 +6,12 @@ use crate::draw::Draw;
 /// over a few centimetres.
 #[must_use]
 pub fn strokes(seed: u64, ticks: usize) -> Vec<[f32; 3]> {
+    strokes_at(1000.0, seed, ticks)
+}
+
+/// [`strokes`] at another rate, Hz.
+#[must_use]
+pub fn strokes_at(rate_hz: f64, seed: u64, ticks: usize) -> Vec<[f32; 3]> {
     let mut draw = Draw::new(seed);
     let wave = |draw: &mut Draw, amplitude: f64, low_hz: f64, high_hz: f64| {
         let (hz, phase) = (
@@ -28,7 +34,7 @@ pub fn strokes(seed: u64, ticks: usize) -> Vec<[f32; 3]> {
     ];
     (0..ticks)
         .map(|n| {
-            let t = n as f64 / 1000.0;
+            let t = n as f64 / rate_hz;
             let height = z[0](t) + z[1](t);
             // Deep parts are pressed flat: 5 mm at 500 N/m would be 2.5 N.
             let height = if height < 0.0 { 0.8 * height } else { height };

@@ -1,6 +1,7 @@
 //! Speed and force that jump to and fro between two points do not make the vibration louder
 //! than its parts: built-in texture and HaTT materials, at every sample and in step with the
-//! cycles of the runtime, which then sees each point in turn.
+//! cycles of the runtime, which then sees each point in turn; in a servo loop at the models' rate,
+//! and in faster ones.
 
 mod support;
 
@@ -13,26 +14,30 @@ const RELEASE: bool = !cfg!(debug_assertions);
 const PAIRS: usize = if RELEASE { 60 } else { 4 };
 const SECOND: usize = 1000;
 const BLOCK: usize = 20;
-/// Ticks at the start that are not counted: the contact fades in.
+/// Samples at the start that are not counted: the contact fades in.
 const SETTLE: usize = 200;
 /// Share of the way in a cycle: 5 ms at 1 kHz.
 const FOLLOW: f64 = 5.0;
 
-/// RMS over a second, and of every block of 20 ms.
+/// RMS over a second, and of every block of 20 ms; `query` is asked tick by tick.
 fn levels(slot: &HostTexture, seed: u64, query: impl Fn(usize) -> (f32, f32)) -> (f64, Vec<f64>) {
     let share = (1.0 - (-(CYCLE_TICKS as f64) / FOLLOW).exp()) as f32;
     let mut vibration = Vibration::new(seed);
-    let signal: Vec<f64> = (0..SETTLE + SECOND)
+    let ticks = usize::from(slot.ticks_per_sample());
+    let signal: Vec<f64> = (0..(SETTLE + SECOND) * ticks)
         .map(|tick| {
             let (speed, force) = query(tick);
             let (y, clamped) = vibration.step(slot, speed, force, share, true);
             assert!(!clamped, "{speed} mm/s, {force} N");
             y.into()
         })
-        .skip(SETTLE)
+        .skip(SETTLE * ticks)
         .collect();
     let rms = |part: &[f64]| (part.iter().map(|y| y * y).sum::<f64>() / part.len() as f64).sqrt();
-    (rms(&signal), signal.chunks(BLOCK).map(rms).collect())
+    (
+        rms(&signal),
+        signal.chunks(BLOCK * ticks).map(rms).collect(),
+    )
 }
 
 #[derive(Default)]
@@ -50,11 +55,12 @@ fn percentile(values: &mut [f64], share: f64) -> f64 {
 }
 
 impl Excess {
-    /// Random pairs of one texture, alternating every `every` ticks.
-    fn of(bytes: &[u8], every: usize, seed: u64) -> Self {
+    /// Random pairs of one texture at `ratio` times its rate, alternating every `every` ticks.
+    fn of(bytes: &[u8], ratio: u8, every: usize, seed: u64) -> Self {
         let asset = Asset::parse(bytes).unwrap();
         let mut slot = Box::new(HostTexture::new());
-        slot.load(&asset, asset.grid().sample_rate_hz()).unwrap();
+        let servo_hz = asset.grid().sample_rate_hz() * f32::from(ratio);
+        slot.load(&asset, servo_hz).unwrap();
         let oracle = Texture::new(&asset);
         let mut draw = Draw::new(seed);
         let mut excess = Self::default();
@@ -110,7 +116,20 @@ const STEPS: [(usize, &str); 3] = [
 #[test]
 fn the_builtin_texture() {
     for (every, name) in STEPS {
-        Excess::of(&support::builtin(), every, 1).verdict(&format!("built-in, {name}"));
+        Excess::of(&support::builtin(), 1, every, 1).verdict(&format!("built-in, {name}"));
+    }
+}
+
+/// Of a loop five or ten times as fast: every tick, every sample and every cycle of the models,
+/// and a little more than one.
+#[test]
+fn faster_loops() {
+    for ratio in [5, 10] {
+        let ticks = usize::from(ratio);
+        for every in [1, ticks, CYCLE_TICKS * ticks, CYCLE_TICKS * ticks + 1] {
+            let name = format!("built-in, {ratio} ticks a sample, every {every} ticks");
+            Excess::of(&support::builtin(), ratio, every, 1).verdict(&name);
+        }
     }
 }
 
@@ -123,8 +142,30 @@ fn every_hatt_material() {
     for (every, name) in STEPS {
         files
             .par_iter()
-            .map(|file| Excess::of(&asperity::hatt::import(file, None).unwrap().bytes, every, 2))
+            .map(|file| {
+                Excess::of(
+                    &asperity::hatt::import(file, None).unwrap().bytes,
+                    1,
+                    every,
+                    2,
+                )
+            })
             .reduce(Excess::default, Excess::and)
             .verdict(&format!("HaTT, {name}"));
     }
+    let (ratio, every) = (5, CYCLE_TICKS * 5 + 1);
+    files
+        .par_iter()
+        .map(|file| {
+            Excess::of(
+                &asperity::hatt::import(file, None).unwrap().bytes,
+                ratio,
+                every,
+                2,
+            )
+        })
+        .reduce(Excess::default, Excess::and)
+        .verdict(&format!(
+            "HaTT, {ratio} ticks a sample, every {every} ticks"
+        ));
 }

@@ -218,7 +218,7 @@ fn a_refused_texture_changes_nothing_and_its_slot_is_kept() {
             return;
         }
         for _ in 0..10 {
-            let refused = preparer.prepare(&good, 4000.0);
+            let refused = preparer.prepare(&good, 1500.0);
             assert!(matches!(refused, Err(PrepareError::Load(_))), "{refused:?}");
         }
         preparer.prepare(&good, RATE_HZ).unwrap();

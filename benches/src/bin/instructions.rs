@@ -3,7 +3,8 @@
 //!
 //! Every scenario runs twice under `valgrind --tool=callgrind`, with n and with 2n ticks;
 //! the difference over n is one tick, without start-up. The ticks of one cycle of the
-//! parameters are also counted one by one, and loading in the same way. Needs valgrind on the PATH.
+//! parameters are also counted one by one, and loading in the same way; then all of it in servo
+//! loops faster than the models. Needs valgrind on the PATH.
 #![forbid(unsafe_code)]
 
 use asperity_benches::{
@@ -19,6 +20,8 @@ use std::{env, error::Error, ffi::OsStr, hint::black_box, process::Command};
 /// First argument of the measured program that loads.
 const LOADING: &str = "load";
 const TICKS: u32 = 4000;
+/// Servo rates over that of the models.
+const RATIOS: [u32; 3] = [1, 5, 10];
 /// The motion whose ticks are counted one by one.
 const STROKE: usize = 2;
 const TEXTURES: [(&str, usize, Numerator); 4] = [
@@ -36,16 +39,30 @@ fn main() -> Result<(), Box<dyn Error>> {
         load(work_index.parse()?, times.parse()?);
         return Ok(());
     }
-    if let [texture_index, motion_index, ticks] = arguments.as_slice() {
+    if let [texture_index, motion_index, ratio, ticks] = arguments.as_slice() {
         run(
             texture_index.parse()?,
             motion_index.parse()?,
+            ratio.parse()?,
             ticks.parse()?,
         );
         return Ok(());
     }
+    for ratio in RATIOS {
+        table(ratio)?;
+    }
+    println!("executed instructions at load");
+    for (index, (_, label)) in Work::ALL.iter().enumerate() {
+        let load = |times: u32| count(&[LOADING, &index.to_string(), &times.to_string()]);
+        println!("{label:<32}{:>9}", (load(20)? - load(10)?) / 10);
+    }
+    Ok(())
+}
+
+/// Every texture and motion at `ratio` kHz, models at 1 kHz.
+fn table(ratio: u32) -> Result<(), Box<dyn Error>> {
     println!(
-        "executed instructions a tick ({}, release)",
+        "executed instructions a tick at {ratio} kHz ({}, release)",
         env::consts::ARCH
     );
     print!("{:<24}", "");
@@ -57,7 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         print!("{label:<24}");
         let mut counts = Vec::new();
         for motion_index in 0..Motion::ALL.len() {
-            let motion = |ticks| count_motion(texture_index, motion_index, ticks);
+            let motion = |ticks| count_motion(texture_index, motion_index, ratio, ticks);
             let (once, twice) = (motion(TICKS)?, motion(2 * TICKS)?);
             let a_tick = (twice - once) as f64 / f64::from(TICKS);
             print!("{a_tick:>9.0}");
@@ -66,18 +83,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         let most = counts.iter().copied().fold(f64::MIN, f64::max);
         let least = counts.iter().copied().fold(f64::MAX, f64::min);
         print!("{:>8.1}%", (most / least - 1.0) * 100.0);
-        let mut before = count_motion(texture_index, STROKE, TICKS)?;
-        for tick in 1..=CYCLE_TICKS as u32 {
-            let now = count_motion(texture_index, STROKE, TICKS + tick)?;
-            print!(" {:>5}", now - before);
+        let mut before = count_motion(texture_index, STROKE, ratio, TICKS)?;
+        let mut cycle = Vec::new();
+        for tick in 1..=CYCLE_TICKS as u32 * ratio {
+            let now = count_motion(texture_index, STROKE, ratio, TICKS + tick)?;
+            cycle.push(now - before);
             before = now;
         }
-        println!();
-    }
-    println!("executed instructions at load");
-    for (index, (_, label)) in Work::ALL.iter().enumerate() {
-        let load = |times: u32| count([LOADING, &index.to_string(), &times.to_string()]);
-        println!("{label:<32}{:>9}", (load(20)? - load(10)?) / 10);
+        if ratio == 1 {
+            println!(" {cycle:?}");
+        } else {
+            cycle.sort_unstable();
+            println!(" {} to {}", cycle[0], cycle[cycle.len() - 1]);
+        }
     }
     Ok(())
 }
@@ -91,22 +109,30 @@ fn load(work_index: usize, times: usize) {
 }
 
 /// The measured program: ticks whose samples were made before.
-fn run(texture_index: usize, motion_index: usize, ticks: u32) {
+fn run(texture_index: usize, motion_index: usize, ratio: u32, ticks: u32) {
     let (_, order, numerator) = TEXTURES[texture_index];
     let motion = Motion::ALL[motion_index].0;
-    let mut rig = Rig::new(&texture(order, numerator));
+    let mut rig = Rig::at(&texture(order, numerator), 1000.0 * ratio as f32);
     // As many samples for n as for 2n ticks, so that making them cancels out.
-    let samples: Vec<_> = (0..TICKS).map(|tick| motion.sample(tick)).collect();
+    let samples: Vec<_> = (0..TICKS)
+        .map(|tick| motion.sample_at(tick, ratio))
+        .collect();
     for sample in samples.iter().cycle().take(ticks as usize) {
         black_box(&rig.tick(sample));
     }
 }
 
-fn count_motion(texture: usize, motion: usize, ticks: u32) -> Result<u64, Box<dyn Error>> {
-    count([texture.to_string(), motion.to_string(), ticks.to_string()])
+fn count_motion(
+    texture: usize,
+    motion: usize,
+    ratio: u32,
+    ticks: u32,
+) -> Result<u64, Box<dyn Error>> {
+    let numbers = [texture, motion, ratio as usize, ticks as usize];
+    count(&numbers.map(|number| number.to_string()))
 }
 
-fn count<A: AsRef<OsStr>>(arguments: [A; 3]) -> Result<u64, Box<dyn Error>> {
+fn count<A: AsRef<OsStr>>(arguments: &[A]) -> Result<u64, Box<dyn Error>> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(env::current_exe()?)

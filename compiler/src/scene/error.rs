@@ -144,7 +144,9 @@ impl Diagnostic for SceneError {
                 "swap the corners: from_m is the lower one on every axis".into()
             }
             SceneProblem::Texture(error) => error.remedy(),
-            SceneProblem::Rate { .. } => "set servo_rate_hz to the rate of the texture".into(),
+            SceneProblem::Rate { .. } => {
+                "set servo_rate_hz to the rate of the texture, or 2, 3, … 20 times as much".into()
+            }
             SceneProblem::Instructions { .. } => {
                 "give a faster clock, a larger --share or a lower servo_rate_hz, or remove surfaces"
                     .into()

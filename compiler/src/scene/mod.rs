@@ -121,7 +121,13 @@ fn at(scene: &Description, entry: &TextureEntry, problem: SceneProblem) -> Scene
     }
 }
 
-/// A texture in full, at the rate of the scene's servo loop and under its name there.
+/// Whether a servo loop at `servo_hz` leaves models at `model_hz` their own clock.
+fn is_multiple(servo_hz: f64, model_hz: f64) -> bool {
+    asperity_runtime::ticks_per_sample(model_hz as f32, servo_hz as f32).is_some()
+}
+
+/// A texture in full and under its name in the scene, at its own rate where the scene's servo loop
+/// runs at a multiple of it, else converted to the loop's.
 fn whole(
     scene: &Description,
     entry: &TextureEntry,
@@ -134,7 +140,7 @@ fn whole(
     };
     let mut texture = made.map_err(|e| at(scene, entry, SceneProblem::Texture(e)))?;
     let (from_hz, to_hz) = (texture.grid.sample_rate_hz, scene.servo_rate_hz);
-    if from_hz != to_hz {
+    if !is_multiple(to_hz, from_hz) {
         texture.grid = rerate::rerate(&texture.grid, to_hz)
             .ok_or_else(|| at(scene, entry, SceneProblem::Rate { from_hz, to_hz }))?;
     }

@@ -315,7 +315,7 @@ mod tests {
     fn a_device_with_another_rate_is_refused_with_the_remedy() {
         use asperity::diagnostic::Diagnostic as _;
         let mut wrong = options(1);
-        wrong.device.timing.servo_rate_hz = 2000.0;
+        wrong.device.timing.servo_rate_hz = 1500.0;
         let bytes = built_in();
         let asset = Asset::parse(&bytes).expect("a valid asset");
         let error = record(&asset, "built in", &wrong).expect_err("another rate");
@@ -324,6 +324,23 @@ mod tests {
             "{}",
             error.remedy()
         );
+    }
+
+    #[test]
+    fn a_faster_device_feels_the_same_texture() {
+        let level = |rate_hz: f64| {
+            let mut options = options(1);
+            options.device.timing.servo_rate_hz = rate_hz;
+            let recording = felt(&options);
+            let sounds = recording.records.iter().map(|r| &r.output);
+            let powers: Vec<f64> = sounds
+                .filter(|output| output.normal_force_n > 0.5)
+                .map(|output| f64::from(output.vib_m_s2).powi(2))
+                .collect();
+            (powers.iter().sum::<f64>() / powers.len() as f64).sqrt()
+        };
+        let (slow, fast) = (level(1000.0), level(5000.0));
+        assert!((fast / slow - 1.0).abs() < 0.15, "{slow} {fast} m/s²");
     }
 
     #[test]

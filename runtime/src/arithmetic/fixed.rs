@@ -165,7 +165,7 @@ impl Arithmetic for Fixed {
     const IN_REGISTERS: bool = false;
     const REACH_M: f32 = 1.0;
     const OUT_OF_REACH_M: f32 = 4.0;
-    const ROUNDING_N: f32 = 4.0e-5;
+    const ROUNDING_N: f32 = 2.0e-5;
     const VIB_LIMIT_M_S2: f32 = 2048.0;
     const SILENCE_M_S2: f32 = 0.0;
 

@@ -6,6 +6,7 @@
 //! | [`MetrePerSecond`] | 24 | ±128 m/s | 0.06 µm/s |
 //! | [`MillimetrePerSecond`] | 15 | ±65,536 mm/s | 0.03 µm/s |
 //! | [`Newton`] | 16 | ±32,768 N | 15 µN |
+//! | [`Leak`] (of the bristle in a tick) | 19 | ±4,096 N | 2 µN |
 //! | [`NewtonPerMetre`] | 12 | ±524,288 N/m | 0.24 mN/m |
 //! | [`NewtonSecondPerMetre`] | 16 | ±32,768 N·s/m | 15 µN·s/m |
 //! | [`Acceleration`] (vibration) | 16 | ±32,768 m/s² | 15 µm/s² |
@@ -20,7 +21,7 @@
 //! | [`Gaussian`], [`Gain`] | 28 | ±8 | 4·10⁻⁹ |
 //! | [`Coordinate`], [`Slope`], [`Weight`] (location) | 20 | ±2,048 | 10⁻⁶ |
 
-use fixed::types::extra::{U10, U12, U15, U16, U20, U22, U24, U28, U30};
+use fixed::types::extra::{U10, U12, U15, U16, U19, U20, U22, U24, U28, U30};
 
 /// Positions, distances, deflections, m.
 pub type Metre = U28;
@@ -30,6 +31,9 @@ pub type MetrePerSecond = U24;
 pub type MillimetrePerSecond = U15;
 /// Forces, N.
 pub type Newton = U16;
+/// The leak of the bristle in a tick, and the normal force beside it, N: at 10 kHz it is a tenth
+/// of a millinewton.
+pub type Leak = U19;
 /// Stiffness, N/m.
 pub type NewtonPerMetre = U12;
 /// Damping, N·s/m.
@@ -69,3 +73,5 @@ pub(crate) const FASTEST_M_S: f32 = 16.0;
 pub(crate) const STRONGEST_N: f32 = 2048.0;
 /// A weight does not fall further outside its triangle.
 pub(crate) const FAR: f32 = 256.0;
+/// What a low-pass holds and gives stays within this, m/s².
+pub(crate) const LOUDEST_M_S2: f32 = 16_000.0;

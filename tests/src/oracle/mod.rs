@@ -2,6 +2,7 @@
 
 mod bank;
 mod excitation;
+mod interpolator;
 mod motion;
 mod surface;
 mod texture;
@@ -9,6 +10,7 @@ mod tick;
 
 pub use bank::{Bank, impulse_response};
 pub use excitation::Excitation;
+pub use interpolator::Interpolator;
 pub use motion::Butterworth2;
 pub use surface::distance_and_normal;
 pub use texture::{Model, Texture, Vertex, polynomial};

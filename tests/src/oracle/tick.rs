@@ -1,8 +1,8 @@
 //! The whole tick.
 
 use super::{
-    Bank, Butterworth2, Excitation, Model, Texture, Vector, distance_and_normal, dot, norm, plus,
-    polynomial, times,
+    Bank, Butterworth2, Excitation, Interpolator, Model, Texture, Vector, distance_and_normal, dot,
+    norm, plus, polynomial, times,
 };
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Sample, VibrationAxis};
@@ -46,8 +46,11 @@ pub struct Oracle {
     last_position: Vector,
     last_distance: f64,
     direction: Vector,
-    // Vibration.
-    phase: usize,
+    // Vibration: ticks a sample, ticks since one, and the sample of a cycle.
+    ticks: usize,
+    tick: usize,
+    sample: usize,
+    interpolator: Interpolator,
     follows: bool,
     smoothed: Option<Model>,
     pending: Option<Model>,
@@ -57,6 +60,7 @@ pub struct Oracle {
     past_y: VecDeque<f64>,
     // Tap.
     distances: VecDeque<f64>,
+    place_ticks: u32,
     armed: bool,
     transient: VecDeque<f64>,
     // Friction and limits.
@@ -70,6 +74,7 @@ impl Oracle {
     pub fn new(asset: &Asset<'_>, config: &Config, seed: u64) -> Self {
         let rate = f64::from(config.servo_rate_hz);
         let velocity = Butterworth2::new(config.velocity_cutoff_hz.into(), rate);
+        let ticks = (rate / f64::from(asset.grid().sample_rate_hz())).round() as usize;
         Self {
             texture: Texture::new(asset),
             bank: Bank::new(asset.taps(), rate),
@@ -84,7 +89,10 @@ impl Oracle {
             last_position: [0.0; 3],
             last_distance: 0.0,
             direction: [1.0, 0.0, 0.0],
-            phase: 0,
+            ticks,
+            tick: 0,
+            sample: 0,
+            interpolator: Interpolator::new(ticks),
             follows: false,
             smoothed: None,
             pending: None,
@@ -93,6 +101,7 @@ impl Oracle {
             past_e: VecDeque::from(vec![0.0; 24]),
             past_y: VecDeque::from(vec![0.0; 24]),
             distances: VecDeque::from(vec![0.0; 8]),
+            place_ticks: 0,
             armed: false,
             transient: VecDeque::new(),
             bristle: [0.0; 3],
@@ -200,26 +209,29 @@ impl Oracle {
         self.outward.reset();
         (self.last_position, self.last_distance) = (self.position, distance);
         (self.follows, self.pending, self.sounds) = (false, None, None);
+        self.interpolator.reset();
         self.past_e = VecDeque::from(vec![0.0; 24]);
         self.past_y = VecDeque::from(vec![0.0; 24]);
         self.distances = VecDeque::from(vec![distance; 8]);
+        self.place_ticks = 0;
         self.armed = false;
         self.transient.clear();
         self.bristle = [0.0; 3];
     }
 
-    /// Every six ticks a query is taken; its model sounds five ticks later, if the contact
-    /// lasts. Shapes follow the query in steps of six ticks, a new contact's at once.
+    /// In every cycle of six samples a query is taken, in the last tick before the second one;
+    /// its model sounds from the sixth on, if the contact lasts. Shapes follow the query in
+    /// steps of cycles, a new contact's at once.
     fn model_at_work(&mut self, speed_mm_s: f64, force_n: f64, sounding: bool) {
         const CYCLE: usize = 6;
         if !sounding {
             (self.follows, self.pending, self.sounds) = (false, None, None);
         }
-        if self.phase == 0 {
+        if self.sample == 0 && self.tick == self.ticks - 1 {
             let target = self.texture.model(speed_mm_s, force_n);
             let steps = f64::from(self.config.parameter_time_constant_s)
                 * f64::from(self.config.servo_rate_hz)
-                / CYCLE as f64;
+                / (CYCLE * self.ticks) as f64;
             let share = if self.follows && steps > 0.0 {
                 1.0 - (-1.0 / steps).exp()
             } else {
@@ -242,16 +254,32 @@ impl Oracle {
             self.smoothed = Some(model.clone());
             self.pending = sounding.then_some(model);
         }
-        self.phase = (self.phase + 1) % CYCLE;
-        if self.phase == 0 {
+        if self.sample == CYCLE - 1 && self.tick == 0 {
             self.sounds = self.pending.take();
             self.follows = self.sounds.is_some();
         }
     }
 
-    /// y[n] = e[n] + Σ b_k e[n−k] − Σ a_k y[n−k].
+    /// A sample of the model in one of `ticks` ticks, and what the low-pass makes of it.
     fn vibration(&mut self, speed_mm_s: f64, force_n: f64, sounding: bool) -> f64 {
         self.model_at_work(speed_mm_s, force_n, sounding);
+        let y = if self.tick == 0 { self.sample() } else { 0.0 };
+        self.tick += 1;
+        if self.tick == self.ticks {
+            (self.tick, self.sample) = (0, (self.sample + 1) % 6);
+        }
+        if self.ticks == 1 {
+            return y;
+        }
+        if !sounding {
+            self.interpolator.reset();
+            return 0.0;
+        }
+        self.interpolator.step(y)
+    }
+
+    /// y[n] = e[n] + Σ b_k e[n−k] − Σ a_k y[n−k].
+    fn sample(&mut self) -> f64 {
         let epsilon = self.excitation.draw();
         let (mut e, mut y) = (0.0, 0.0);
         if let Some(model) = &self.sounds {
@@ -271,9 +299,21 @@ impl Oracle {
 
     /// Acceleration of the transient under way, m/s².
     fn tap(&mut self, distance: f64) -> f64 {
-        self.distances.pop_front();
+        // A place lasts as many ticks as a power of two that fit in 1 ms; the newest has the last.
+        let rate = f64::from(self.config.servo_rate_hz);
+        let mut place = 1;
+        while place < 16 && 2.0 * f64::from(place) <= rate / 1000.0 {
+            place *= 2;
+        }
+        if self.place_ticks.is_multiple_of(place) {
+            self.distances.pop_front();
+        } else {
+            self.distances.pop_back();
+        }
+        self.place_ticks = self.place_ticks % place + 1;
         self.distances.push_back(distance);
-        // Least squares over eight points, in distance a period.
+        let passed = f64::from(self.place_ticks) / f64::from(place);
+        // Least squares over eight points, in distance a place; the newest place may be short.
         let mean = 3.5;
         let slope: f64 = self
             .distances
@@ -282,7 +322,7 @@ impl Oracle {
             .map(|(i, d)| (i as f64 - mean) * d)
             .sum::<f64>()
             / 42.0;
-        let speed = -slope * f64::from(self.config.servo_rate_hz);
+        let speed = -slope * rate / f64::from(place) * 12.0 / (11.0 + passed);
         let touching = distance < 0.0;
         if self.armed && touching && speed >= f64::from(self.config.tap.min_speed_m_s) {
             self.transient = self.bank.transient(speed).into();

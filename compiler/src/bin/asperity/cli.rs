@@ -261,6 +261,9 @@ pub(crate) struct Render {
     /// Seed of the excitation
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
+    /// Rate of the servo loop, 1 to 20 times that of the texture [default: the texture's]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f32>,
     /// One texture of a library, by name or index from 0
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,

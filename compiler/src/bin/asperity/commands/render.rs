@@ -47,8 +47,10 @@ pub(crate) fn run(args: &Render) -> Result<(), Failures> {
     let (file, input) = (&args.trajectory, BufReader::new(trajectory));
     let rows = BufWriter::new(&mut output);
     let report = match &felt {
-        Felt::Scene(library) => render::render_scene(library, file, input, rows, args.seed),
-        Felt::Texture(asset) => render::render(asset, file, input, rows, args.seed),
+        Felt::Scene(library) => {
+            render::render_scene(library, args.rate, file, input, rows, args.seed)
+        }
+        Felt::Texture(asset) => render::render(asset, args.rate, file, input, rows, args.seed),
     }
     .map_err(|error| match error {
         RenderError::Write(source) => one(OutputError {

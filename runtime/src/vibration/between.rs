@@ -1,0 +1,156 @@
+//! Models slower than the servo loop: their clock, in ticks.
+//!
+//! A model steps in one tick of several, always the same number of them; its samples are those
+//! of a servo loop at its own rate. The cycle lasts [`CYCLE_TICKS`] samples, too: the query is
+//! taken in the last tick before the second sample and takes effect with the sixth, so that a
+//! change is heard after at most ten samples, whatever the servo rate. Shares of the work fall
+//! into ticks without a sample.
+
+use super::{CYCLE_TICKS, Vibration};
+use crate::{
+    Texture,
+    arithmetic::{
+        Arithmetic, Number,
+        units::{Acceleration, Unit},
+    },
+    interpolate::{Held, Interpolator},
+};
+
+/// Samples of a cycle after which work is done.
+const WORKING: u8 = CYCLE_TICKS as u8 - 2;
+/// Ticks after each of them that do a share, at most.
+const WORKING_TICKS: u8 = 3;
+
+/// Shares of a cycle at so many ticks a sample: one with the query, the others between samples.
+pub(crate) const fn shares_of_cycle(ticks: u8) -> usize {
+    match ticks {
+        0 | 1 => CYCLE_TICKS,
+        _ => 1 + (WORKING * working_ticks(ticks)) as usize,
+    }
+}
+
+const fn working_ticks(ticks: u8) -> u8 {
+    if ticks > WORKING_TICKS {
+        WORKING_TICKS
+    } else {
+        ticks - 1
+    }
+}
+
+/// Where in a cycle a tick is, and what the low-pass holds.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Between<A: Arithmetic> {
+    held: Held<A>,
+    /// Sample of the cycle.
+    sample: u8,
+    /// Ticks since that sample.
+    tick: u8,
+}
+
+impl<A: Arithmetic> Between<A> {
+    /// Silence before the first tick of a cycle.
+    pub(super) const START: Self = Self {
+        held: Held::SILENT,
+        sample: 0,
+        tick: u8::MAX,
+    };
+
+    /// Nothing is left to hear.
+    pub(super) fn silence(&mut self) {
+        self.held = Held::SILENT;
+    }
+
+    /// A new cycle begins with the next sample; the clock goes on.
+    pub(super) fn begin_cycle(&mut self) {
+        self.sample = CYCLE_TICKS as u8 - 1;
+    }
+
+    /// Goes on by a tick, of `ticks` a sample.
+    #[inline(always)]
+    fn advance(&mut self, ticks: u8) {
+        self.tick = self.tick.wrapping_add(1);
+        if self.tick == ticks {
+            self.tick = 0;
+            self.sample += 1;
+            if self.sample == CYCLE_TICKS as u8 {
+                self.sample = 0;
+            }
+        }
+    }
+
+    /// Whether the models have a sample in this tick.
+    #[inline(always)]
+    pub(super) const fn is_sample(&self) -> bool {
+        self.tick == 0
+    }
+
+    /// Whether the query is taken in this tick.
+    #[inline(always)]
+    const fn is_query(&self, ticks: u8) -> bool {
+        self.sample == 0 && self.tick == ticks - 1
+    }
+
+    /// The share to do in this tick, if any: 1 and more.
+    #[inline(always)]
+    const fn share(&self, ticks: u8) -> Option<u8> {
+        let working = working_ticks(ticks);
+        let in_turn = self.sample.wrapping_sub(1);
+        if in_turn < WORKING && self.tick.wrapping_sub(1) < working {
+            Some(in_turn * working + self.tick)
+        } else {
+            None
+        }
+    }
+
+    /// The output of a tick, m/s², in which `y` enters. With `sounding` false it is mute, and
+    /// nothing is left of what was.
+    #[inline(never)]
+    pub(super) fn output(
+        &mut self,
+        interpolator: &Interpolator<A>,
+        y: Number<A, Acceleration>,
+        sounding: bool,
+    ) -> Number<A, Acceleration> {
+        if !sounding {
+            self.held = Held::SILENT;
+        } else if y == Number::ZERO && self.is_sample() {
+            self.held.settle();
+        }
+        interpolator.step(&mut self.held, y)
+    }
+}
+
+impl<A: Arithmetic> Vibration<A> {
+    /// [`Vibration::prepare`] between samples, at `ticks` a sample.
+    #[inline(never)]
+    pub(super) fn prepare_between<
+        const V: usize,
+        const T: usize,
+        const P: usize,
+        const Q: usize,
+        const K: usize,
+    >(
+        &mut self,
+        texture: &Texture<V, T, P, Q, K, A>,
+        follow_share: Number<A, Unit>,
+        ticks: u8,
+    ) {
+        self.between.advance(ticks);
+        // To the rest of a tick a phase of 0 is the query's.
+        self.phase = u8::from(!self.between.is_query(ticks));
+        if let Some(share) = self.between.share(ticks) {
+            self.work(texture, follow_share, texture.share(share));
+            if usize::from(share) + 1 == shares_of_cycle(ticks) {
+                self.finish(texture);
+            }
+        }
+    }
+
+    /// Whether the tick that follows puts new coefficients to work.
+    pub(super) fn finishes_next(&self, ticks: u8) -> bool {
+        let mut next = self.between.clone();
+        next.advance(ticks);
+        next.share(ticks)
+            .is_some_and(|share| usize::from(share) + 1 == shares_of_cycle(ticks))
+    }
+}

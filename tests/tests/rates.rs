@@ -1,0 +1,367 @@
+//! The same asset in a servo loop faster than its models: the models' samples are those of a
+//! loop at their own rate, spectrum and level are kept, taps play at their source rate, and
+//! forces stay within their limits.
+
+mod support;
+
+use asperity_formats::{Asset, Numerator};
+use asperity_runtime::{
+    Config, Exchange, Flags, HostTexture, LoadError, Output, Renderer, Sample, State,
+    vibration::Vibration,
+};
+use asperity_tests::{
+    draw::Draw,
+    force_limits::ForceLimits,
+    oracle::Interpolator,
+    spectrum::{band_levels_db, periodogram, third_octaves},
+    texture::{Kind, random},
+};
+
+/// Rate of the models, Hz.
+const MODELS_HZ: f32 = 1000.0;
+const RATIOS: [u8; 6] = [2, 4, 5, 8, 10, 20];
+
+fn loaded(bytes: &[u8], ratio: u8) -> Box<HostTexture> {
+    let mut slot = Box::new(HostTexture::new());
+    let servo_hz = MODELS_HZ * f32::from(ratio);
+    slot.load(&Asset::parse(bytes).unwrap(), servo_hz).unwrap();
+    assert_eq!(slot.ticks_per_sample(), ratio);
+    slot
+}
+
+fn config(ratio: u8) -> Config {
+    Config {
+        servo_rate_hz: MODELS_HZ * f32::from(ratio),
+        ..Config::default()
+    }
+}
+
+fn kinds() -> [Kind; 3] {
+    let arma = Kind {
+        ma_order: 18,
+        numerator: Numerator::Lsf,
+        ..Kind::nyquist(20)
+    };
+    [Kind::nyquist(20), Kind::nyquist(5), arma]
+}
+
+/// Queries and contact that last a sample each: what comes out is the low-pass's answer to
+/// the very samples of a loop at the models' rate.
+#[test]
+fn samples_are_those_of_a_loop_at_the_models_rate() {
+    for (seed, kind) in (1..).zip(kinds()) {
+        let bytes = random(seed, kind).encode();
+        let slow = loaded(&bytes, 1);
+        let mut draw = Draw::new(seed);
+        let queries: Vec<(f32, f32, bool)> = (0..4000)
+            .map(|n| {
+                let query = |limit| draw.range(0.0, limit) as f32;
+                let mut query = query;
+                (query(250.0), query(4.0), n % 500 < 400)
+            })
+            .collect();
+        for ratio in RATIOS {
+            let fast = loaded(&bytes, ratio);
+            let mut models = Vibration::new(seed);
+            let mut ours = Vibration::new(seed);
+            let mut low_pass = Interpolator::new(ratio.into());
+            let (mut worst, mut loudest) = (0.0_f64, 0.0_f64);
+            for &(speed, force, sounding) in &queries {
+                let (y, _) = models.step(&slow, speed, force, 0.7, sounding);
+                for tick in 0..ratio {
+                    let entering = if tick == 0 { f64::from(y) } else { 0.0 };
+                    let exact = low_pass.step(entering);
+                    let (out, clamped) = ours.step(&fast, speed, force, 0.7, sounding);
+                    assert!(!clamped);
+                    if sounding {
+                        worst = worst.max((f64::from(out) - exact).abs());
+                        loudest = loudest.max(exact.abs());
+                    } else {
+                        assert_eq!(out, 0.0);
+                    }
+                }
+                if !sounding {
+                    low_pass.reset();
+                }
+            }
+            println!("{ratio}: {worst:.2e} of {loudest:.3} m/s²");
+            assert!(loudest > 0.1 && worst < 2e-5 * loudest, "{worst} {loudest}");
+        }
+    }
+}
+
+/// A stroke at a constant speed and depth, on a circle of 1 m, whatever the servo rate.
+fn stroke(renderer: &Renderer, slot: &HostTexture, seed: u64, seconds: f64) -> Vec<f64> {
+    let rate_hz = f64::from(renderer.config().servo_rate_hz);
+    let mut state = State::new(seed);
+    let settle = rate_hz as usize / 2;
+    let ticks = (seconds * rate_hz) as usize;
+    let all = (0..settle + ticks).map(|n| {
+        let angle = 0.1 * n as f64 / rate_hz;
+        let position_m = [angle.sin() as f32, angle.cos() as f32, -2e-3];
+        f64::from(
+            renderer
+                .tick(slot, &mut state, &Sample::at(position_m))
+                .vib_m_s2,
+        )
+    });
+    all.skip(settle).collect()
+}
+
+/// Third octaves from 10 to 450 Hz within 0.3 dB of those at the models' rate, the level with
+/// them; from 550 Hz on at least 40 dB less than in the band.
+#[test]
+fn spectrum_and_level_are_kept_and_images_are_not_felt() {
+    let textures = [support::builtin(), random(3, Kind::nyquist(20)).encode()];
+    for bytes in textures {
+        let at = |ratio: u8| {
+            let renderer = Renderer::new(&config(ratio)).unwrap();
+            stroke(&renderer, &loaded(&bytes, ratio), 5, 120.0)
+        };
+        let bands = third_octaves(10.0, 900.0);
+        let models_hz = f64::from(MODELS_HZ);
+        let levels = |power: &[f64]| band_levels_db(power, models_hz, &bands);
+        let own = levels(&periodogram(&at(1)));
+        for ratio in [5, 10] {
+            let ours = at(ratio);
+            // One output a sample: what folds back is what the images leave.
+            let folded: Vec<f64> = ours.iter().step_by(ratio.into()).copied().collect();
+            for ((band, ours), own) in bands.iter().zip(levels(&periodogram(&folded))).zip(&own) {
+                let difference = ours - own;
+                assert!(
+                    difference.abs() < 0.3,
+                    "{ratio}, {:.0} Hz: {difference} dB",
+                    band.0
+                );
+            }
+            let power = periodogram(&ours);
+            let hz = f64::from(MODELS_HZ) * f64::from(ratio) / (2 * (power.len() - 1)) as f64;
+            let sum = |low: f64, high: f64| -> f64 {
+                let inside = |&(bin, _): &(usize, &f64)| (low..high).contains(&(bin as f64 * hz));
+                let bins = power.iter().enumerate().filter(inside);
+                bins.map(|(_, power)| power).sum()
+            };
+            let images = 10.0 * (sum(550.0, f64::INFINITY) / sum(10.0, 450.0)).log10();
+            println!("{ratio}: images {images:.1} dB");
+            assert!(images < -40.0, "{ratio}: {images} dB");
+        }
+    }
+}
+
+/// A jump of the query is heard after at least four samples and at most ten.
+#[test]
+fn a_change_is_heard_within_ten_samples() {
+    let bytes = random(4, Kind::nyquist(20)).encode();
+    for ratio in [1, 2, 5, 10] {
+        let slot = loaded(&bytes, ratio);
+        let ticks = usize::from(ratio);
+        let heard = |jump: usize| {
+            let mut vibration = Vibration::new(1);
+            (0..jump + 20 * ticks)
+                .position(|tick| {
+                    // Without speed and force a texture has no level.
+                    let (speed, force) = if tick < jump {
+                        (0.0, 0.0)
+                    } else {
+                        (150.0, 2.0)
+                    };
+                    vibration.step(&slot, speed, force, 0.7, true).0 != 0.0
+                })
+                .expect("a sound")
+                - jump
+        };
+        let cycles = 60 * ticks..66 * ticks;
+        let (least, most) = cycles
+            .map(heard)
+            .fold((usize::MAX, 0), |(low, high), n| (low.min(n), high.max(n)));
+        println!("{ratio}: {least} to {most} ticks");
+        assert!(least > 4 * ticks && most == 10 * ticks, "{least} {most}");
+    }
+}
+
+/// Taps at the servo rate are the source's, to the bit; the force is theirs.
+#[test]
+fn a_tap_at_its_source_rate_plays_its_samples() {
+    let bytes = random(6, Kind::nyquist(8)).encode();
+    let asset = Asset::parse(&bytes).unwrap();
+    let slot = loaded(&bytes, 10);
+    assert_eq!(asset.taps().sample_rate_hz(), 10_000.0);
+    assert_eq!(slot.taps().ticks(), asset.taps().samples());
+    for trace in asset.taps().traces() {
+        let selection = slot.taps().select(trace.speed_m_s);
+        for (n, a) in trace.accel_m_s2().enumerate() {
+            assert_eq!(slot.taps().accel_m_s2(&selection, n), a);
+        }
+    }
+    // Down at 0.3 m/s: between two traces, or on one, within the rounding of eight heights.
+    let renderer = Renderer::new(&config(10)).unwrap();
+    let mut state = State::new(1);
+    let outputs: Vec<_> = (0..1000)
+        .map(|n| Sample::at([0.0, 0.0, 0.015 - 0.3e-4 * n as f32]))
+        .map(|sample| renderer.tick(&slot, &mut state, &sample))
+        .collect();
+    let started = |o: &Output| o.flags.contains(Flags::TAP_STARTED);
+    let start = outputs.iter().position(started).expect("a tap");
+    let selection = slot.taps().select(0.3);
+    for (n, output) in outputs[start..start + 100].iter().enumerate() {
+        let wanted = slot.surface().effective_mass_kg * slot.taps().accel_m_s2(&selection, n);
+        assert!(
+            (output.tap_n - wanted).abs() < 2e-3 * slot.surface().effective_mass_kg * 360.0,
+            "{n}: {} {wanted}",
+            output.tap_n
+        );
+    }
+}
+
+/// Whatever a device says: finite forces within peak and slew, and no force in the end.
+#[test]
+fn forces_stay_within_their_limits() {
+    let bytes = [support::builtin(), random(8, kinds()[2]).encode()];
+    for ratio in [5, 10] {
+        let config = config(ratio);
+        let renderer = Renderer::new(&config).unwrap();
+        for (seed, bytes) in (1..).zip(&bytes) {
+            let slot = loaded(bytes, ratio);
+            let (mut state, mut draw) = (State::new(seed), Draw::new(seed));
+            let mut limits = ForceLimits::new(&config);
+            let odd = [
+                f32::NAN,
+                f32::INFINITY,
+                f32::NEG_INFINITY,
+                1e30,
+                -0.0,
+                1e-40,
+            ];
+            for n in 0..100_000 {
+                let near = |draw: &mut Draw, around: f64| (around + draw.range(-1e-3, 1e-3)) as f32;
+                let t = f64::from(n) * 1e-3 / f64::from(ratio);
+                let mut position_m = [
+                    near(&mut draw, 0.03 * (9.0 * t).sin()),
+                    near(&mut draw, 0.0),
+                    near(&mut draw, 4e-3 * (20.0 * t).sin()),
+                ];
+                if draw.below(50) == 0 {
+                    position_m[draw.below(3)] = odd[draw.below(odd.len())];
+                }
+                let elapsed_ticks = if draw.below(50) == 0 {
+                    draw.below(6)
+                } else {
+                    1
+                };
+                let sample = Sample {
+                    position_m,
+                    elapsed_ticks: elapsed_ticks as u32,
+                };
+                let output = renderer.tick(&slot, &mut state, &sample);
+                limits.check(&output);
+                if !output.flags.contains(Flags::CONTACT) {
+                    assert_eq!(output.vib_m_s2, 0.0);
+                }
+            }
+            for _ in 0..1000 {
+                let away = Sample::at([0.0, 0.0, 0.1]);
+                limits.check(&renderer.tick(&slot, &mut state, &away));
+            }
+            assert!(limits.last_n().iter().all(|f| f.abs() < 1e-6));
+        }
+    }
+}
+
+/// At rest what the low-pass holds fades to nothing, not to numbers that slow a processor.
+#[test]
+fn a_stroke_that_ends_ends_in_silence() {
+    let slot = loaded(&random(9, Kind::nyquist(20)).encode(), 10);
+    let mut vibration = Vibration::new(1);
+    let mut step = |speed| vibration.step(&slot, speed, 2.0, 0.7, true).0;
+    assert!((0..2000).map(|_| step(150.0)).any(|y| y.abs() > 0.1));
+    let last: Vec<f32> = (0..100_000).map(|_| step(0.0)).collect();
+    assert!(last.iter().all(|y| *y == 0.0 || y.is_normal()));
+    assert_eq!(last.last(), Some(&0.0));
+}
+
+#[test]
+fn a_rate_that_is_no_multiple_is_refused_and_the_slot_kept() {
+    let bytes = random(1, Kind::nyquist(20)).encode();
+    let asset = Asset::parse(&bytes).unwrap();
+    let mut slot = loaded(&bytes, 5);
+    let before = slot.filter_at(90.0, 1.0);
+    for servo_hz in [500.0, 1500.0, 4800.0, 21_000.0, f32::NAN] {
+        let refused = slot.load(&asset, servo_hz).unwrap_err();
+        assert!(matches!(refused, LoadError::Rate { .. }), "{refused:?}");
+        assert!(refused.to_string().contains("a whole number"), "{refused}");
+        assert_eq!((slot.ticks_per_sample(), slot.servo_rate_hz()), (5, 5000.0));
+        assert_eq!(slot.filter_at(90.0, 1.0), before);
+    }
+}
+
+/// Where the second texture is sent, and ticks after it that count as the crossing.
+const SENT: usize = 2000;
+const AROUND: usize = 300;
+
+/// A stroke at 100 mm/s, 2 mm deep, in a loop at 5 kHz; before tick [`SENT`] the first texture,
+/// from it on the second.
+fn crossed(from: &[u8], to: Option<&[u8]>, seed: u64) -> Vec<Output> {
+    let config = config(5);
+    let renderer = Renderer::new(&config).unwrap();
+    let slot = || Box::new(HostTexture::new());
+    let (mut playing, mut spare) = (slot(), slot());
+    let load = |bytes| Asset::parse(bytes).unwrap();
+    playing.load(&load(from), config.servo_rate_hz).unwrap();
+    let mut exchange = Exchange::<64, 128, 24, 24, 4096>::new();
+    let (mut preparer, mut player) = exchange.split(&mut playing, [&mut spare], seed);
+    let tick = |n: usize| {
+        if let (SENT, Some(to)) = (n, to) {
+            preparer.prepare(&load(to), config.servo_rate_hz).unwrap();
+        }
+        let position_m = [0.02e-3 * n as f32, 0.0, (1e-3 - 1e-5 * n as f32).max(-2e-3)];
+        renderer.tick_player(&mut player, &Sample::at(position_m))
+    };
+    (0..SENT + 2 * AROUND).map(tick).collect()
+}
+
+/// From one texture to another whose models have the same clock or one of their own: no step of
+/// the vibration that one of both would not make by itself, and in the end the second alone.
+#[test]
+fn textures_of_any_clock_follow_each_other() {
+    let mut texture = random(11, Kind::nyquist(20));
+    let one = texture.encode();
+    texture.models.reverse();
+    let two = texture.encode();
+    texture.sample_rate_hz = 5000.0;
+    let five = texture.encode();
+    let largest_step = |outputs: &[Output]| {
+        let steps = outputs
+            .windows(2)
+            .map(|pair| (pair[1].vib_m_s2 - pair[0].vib_m_s2).abs());
+        steps.fold(0.0, f32::max)
+    };
+    for (name, from, to) in [
+        ("1 to 1 kHz", &one, &two),
+        ("1 to 5 kHz", &one, &five),
+        ("5 to 1 kHz", &five, &one),
+    ] {
+        let (mut across, mut alone) = (0.0_f32, 0.0_f32);
+        for seed in 0..100 {
+            let outputs = crossed(from, Some(to), seed);
+            across = across.max(largest_step(&outputs[SENT - 1..SENT + AROUND]));
+            for bytes in [from, to] {
+                let outputs = crossed(bytes, None, seed);
+                alone = alone.max(largest_step(&outputs[SENT - 1..SENT + AROUND]));
+            }
+            let level =
+                |outputs: &[Output]| outputs.iter().map(|o| o.vib_m_s2 * o.vib_m_s2).sum::<f32>();
+            assert!(level(&outputs[SENT + AROUND..]) > 0.0);
+        }
+        println!("{name}: {across} m/s² across, {alone} alone");
+        assert!(across <= 1.1 * alone, "{name}: {across} of {alone}");
+    }
+    // While the new model is made, the old one goes on as if nothing had come.
+    let (kept, changed) = (crossed(&one, None, 7), crossed(&one, Some(&two), 7));
+    let sound = |outputs: &[Output]| -> Vec<f32> { outputs.iter().map(|o| o.vib_m_s2).collect() };
+    let differ = sound(&kept)
+        .iter()
+        .zip(sound(&changed))
+        .position(|(a, b)| (a - b).abs() > 1e-3);
+    let differ = differ.expect("another sound");
+    assert!((SENT + 20..SENT + 60).contains(&differ), "{differ}");
+}
