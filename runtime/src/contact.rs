@@ -97,7 +97,7 @@ impl<A: Arithmetic> Solid<A> {
     }
 }
 
-#[inline]
+#[inline(never)]
 fn sphere<A: Arithmetic>(r: Four<A, Metre>, radius_m: Number<A, Metre>) -> Touch<A> {
     let square = r.square();
     let polar = A::polar(square);
@@ -112,7 +112,7 @@ fn sphere<A: Arithmetic>(r: Four<A, Metre>, radius_m: Number<A, Metre>) -> Touch
     )
 }
 
-#[inline]
+#[inline(never)]
 fn cuboid<A: Arithmetic>(r: Four<A, Metre>, half_extents_m: Four<A, Metre>) -> Touch<A> {
     let zero = Number::<A, Metre>::ZERO;
     let (r, half) = (r.xyz().map(Number), half_extents_m.xyz().map(Number));

@@ -9,8 +9,12 @@
 //! Time is an argument: a simulator, a servo loop and a replay drive the same
 //! function. One call is one servo period.
 //!
+//! Every stage is written once over an [`Arithmetic`]: [`Float`], the default, or [`Fixed`] for
+//! processors without an FPU.
+//!
 //! | file | the paper's | computes |
 //! |---|---|---|
+//! | [`arithmetic`] | | floats, or fixed point with a binary point a quantity |
 //! | [`velocity`] | v_t | velocity from positions |
 //! | [`contact`] | δ, n̂ | depth and normal on a plane, a sphere, a box |
 //! | [`locate`] | f–v grid | triangle and barycentric weights, edge models |

@@ -39,7 +39,6 @@ pub struct Texture<
     pub(crate) locator: Locator<T, A>,
     pub(crate) taps: TapBank<K, A>,
     pub(crate) feel: Feel<A>,
-    surface: Surface,
     id: u32,
     shape: Shape<A>,
     lags: Lags,
@@ -91,6 +90,16 @@ impl<A: Arithmetic> Feel<A> {
             effective_mass_kg: Number::of(surface.effective_mass_kg),
             f_max_n: Number::of(surface.f_max_n),
             mu: Number::of(mu),
+        }
+    }
+
+    fn surface(&self) -> Surface {
+        Surface {
+            stiffness_n_m: self.stiffness_n_m.value(),
+            damping_n_s_m: self.damping_n_s_m.value(),
+            vib_s2_m: self.vib_s2_m.value(),
+            effective_mass_kg: self.effective_mass_kg.value(),
+            f_max_n: self.f_max_n.value(),
         }
     }
 }
@@ -182,13 +191,6 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         Self {
             locator: Locator::EMPTY,
             taps: TapBank::EMPTY,
-            surface: Surface {
-                stiffness_n_m: 0.0,
-                damping_n_s_m: 0.0,
-                vib_s2_m: 0.0,
-                effective_mass_kg: 0.0,
-                f_max_n: 0.0,
-            },
             feel: Feel::NONE,
             id: 0,
             shape: Shape::NONE,
@@ -246,7 +248,6 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             Number::ZERO
         };
         self.servo_rate_hz = servo_rate_hz;
-        self.surface = *asset.surface();
         self.feel = Feel::new(asset.surface(), asset.friction().mu());
         self.ar_pairs.0 = [[A::Scalar::ZERO; P]; V];
         self.ma_pairs.0 = [[A::Scalar::ZERO; Q]; V];
@@ -287,8 +288,8 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
 
     /// Wall and gains.
     #[must_use]
-    pub const fn surface(&self) -> &Surface {
-        &self.surface
+    pub fn surface(&self) -> Surface {
+        self.feel.surface()
     }
 
     /// Coefficient of kinetic friction.

@@ -194,10 +194,8 @@ impl Arithmetic for Float {
         terms: [(F4, F4); N],
         _: f32,
     ) -> F4 {
-        let products = terms.map(|(x, c)| c * x);
-        products[1..]
-            .iter()
-            .fold(products[0], |sum, &product| sum + product)
+        let (x, c) = terms[0];
+        terms[1..].iter().fold(c * x, |sum, &(x, c)| sum + c * x)
     }
 
     #[inline(always)]
@@ -205,10 +203,8 @@ impl Arithmetic for Float {
         terms: [(f32, f32); N],
         _: f32,
     ) -> f32 {
-        let products = terms.map(|(x, c)| c * x);
-        products[1..]
-            .iter()
-            .fold(products[0], |sum, &product| sum + product)
+        let (x, c) = terms[0];
+        terms[1..].iter().fold(c * x, |sum, &(x, c)| sum + c * x)
     }
 
     #[inline(always)]
