@@ -3,7 +3,7 @@
 //! Every stage is written once, over [`Arithmetic`]. A [`Number`] carries its binary point in
 //! its type, so that a product or a quotient lands where it belongs; [`units`] gives each
 //! quantity its point, and the range that follows. Floats know no points: there a [`Number`] is an
-//! `f32`, and a [`Four`] a register of four.
+//! `f32`, and four numbers side by side a register.
 
 mod fixed;
 mod float;
@@ -88,7 +88,7 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     const REACH_M: f32;
     /// Further away than every position in reach, m.
     const OUT_OF_REACH_M: f32;
-    /// A force may miss its value by so much, N.
+    /// Forces stay so far within their limits, N, that the rounding of two steps exceeds none.
     const ROUNDING_N: f32;
     /// |y| never exceeds this, m/s²; a verified texture stays far below.
     const VIB_LIMIT_M_S2: f32;

@@ -2,7 +2,7 @@
 
 use crate::{
     arithmetic::{
-        Arithmetic, Float, Four, Number, Zero as _,
+        Arithmetic, Float, Four, Number,
         units::{Metre, Unit},
     },
     config::ConfigError,
@@ -97,7 +97,7 @@ impl<A: Arithmetic> Solid<A> {
     }
 }
 
-#[inline(never)]
+#[inline]
 fn sphere<A: Arithmetic>(r: Four<A, Metre>, radius_m: Number<A, Metre>) -> Touch<A> {
     let square = r.square();
     let polar = A::polar(square);
@@ -112,7 +112,7 @@ fn sphere<A: Arithmetic>(r: Four<A, Metre>, radius_m: Number<A, Metre>) -> Touch
     )
 }
 
-#[inline(never)]
+#[inline]
 fn cuboid<A: Arithmetic>(r: Four<A, Metre>, half_extents_m: Four<A, Metre>) -> Touch<A> {
     let zero = Number::<A, Metre>::ZERO;
     let (r, half) = (r.xyz().map(Number), half_extents_m.xyz().map(Number));
@@ -125,19 +125,17 @@ fn cuboid<A: Arithmetic>(r: Four<A, Metre>, half_extents_m: Four<A, Metre>) -> T
     let square = away.square();
     let polar = A::polar(square);
     let deepest = q[2].max(q[1]).max(q[0]);
-    let face = if q[0] >= deepest {
-        0
-    } else if q[1] >= deepest {
-        1
-    } else {
-        2
-    };
+    let first = q[0] >= deepest;
+    let second = !first && q[1] >= deepest;
+    let face = [first, second, !first && !second];
     let normal = if A::is_some(square) {
         away.direction(polar)
     } else {
-        let mut normal = [A::Scalar::ZERO; 3];
-        normal[face] = A::whole(if below[face] { -1 } else { 1 });
-        Four::vec3(normal)
+        let outward = |axis: usize| {
+            let sign = if below[axis] { -1 } else { 1 };
+            A::whole(if face[axis] { sign } else { 0 })
+        };
+        Four::vec3([0, 1, 2].map(outward))
     };
     let length_m = Number::<A, Metre>(A::exact_length(polar));
     (length_m + deepest.min(zero), normal)

@@ -68,8 +68,14 @@ impl<A: Arithmetic> Limiter<A> {
     ) -> (Four<A, Newton>, Flags) {
         let (target, peak) = shorten(wanted, &self.peak_n, Flags::PEAK_LIMITED);
         let (step, slew) = shorten(target - last, &self.step_n, Flags::SLEW_LIMITED);
-        // Both ends lie in the ball of the peak, so does what lies between.
-        (last + step, peak.and(slew))
+        // Both ends lie in the ball of the peak, so does what lies between, up to rounding.
+        let next = last + step;
+        let next = if A::ROUNDING_N > 0.0 {
+            shorten(next, &self.peak_n, Flags::NONE).0
+        } else {
+            next
+        };
+        (next, peak.and(slew))
     }
 }
 

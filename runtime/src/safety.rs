@@ -48,6 +48,12 @@ pub(crate) fn is_usable<A: Arithmetic>(sample: &Sample<A>) -> bool {
     p.is_within(A::REACH_M) & (sample.elapsed_ticks > 0)
 }
 
+impl<A: Arithmetic> Default for Gate<A> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<A: Arithmetic> Gate<A> {
     /// Before the first sample; it is let through without a ramp.
     #[must_use]

@@ -165,7 +165,7 @@ impl Arithmetic for Fixed {
     const IN_REGISTERS: bool = false;
     const REACH_M: f32 = 1.0;
     const OUT_OF_REACH_M: f32 = 4.0;
-    const ROUNDING_N: f32 = 2.0e-5;
+    const ROUNDING_N: f32 = 4.0e-5;
     const VIB_LIMIT_M_S2: f32 = 2048.0;
     const SILENCE_M_S2: f32 = 0.0;
 
@@ -412,7 +412,8 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn share<F: Point>(reach: FixedI32<F>, polar: FixedPolar) -> FixedI32<Unit> {
         let one = FixedI32::<Unit>::ONE;
-        if reach.to_bits().unsigned_abs() >= polar.length {
+        // The length is rounded down.
+        if reach.to_bits().unsigned_abs() > polar.length {
             return one;
         }
         let scaled = (i64::from(reach.to_bits()) * i64::from(polar.inverse)) >> polar.shift;
@@ -461,7 +462,7 @@ impl Arithmetic for Fixed {
         const CUBIC: i64 = (C3 as f64 * (1_u64 << 60) as f64) as i64;
         // Below 2¹⁸, so both factors fit 32 bits after the shift.
         let square = i64::from(centred * centred);
-        let slope = ((LINEAR + ((CUBIC >> 8) * square >> 8)) >> 8) as i32;
+        let slope = ((LINEAR + (((CUBIC >> 8) * square) >> 8)) >> 8) as i32;
         FixedI32::from_bits(((i64::from(slope) * i64::from(centred)) >> 8) as i32)
     }
 

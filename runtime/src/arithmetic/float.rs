@@ -332,10 +332,6 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "of constant length, it is unrolled"
-    )]
     fn inner_product<const N: usize>(c: &[[f32; 4]], x: &[[f32; 4]]) -> F4 {
         let mut partial = F4::load(&c[0]) * F4::load(&x[0]);
         for block in 1..N {
