@@ -168,7 +168,7 @@ fn failures_exit_with_1_name_the_culprit_and_leave_nothing() {
         touch.replace("0.045, 0.045", "0.045, 450.0").as_bytes(),
     );
     write("typo.toml", touch.replace("dac_bits", "dac_bit").as_bytes());
-    write("fast.toml", touch.replace("1000.0", "2000.0").as_bytes());
+    write("fast.toml", touch.replace("1000.0", "1500.0").as_bytes());
     let before = entries(folder.path());
     for (arguments, culprits) in [
         (
@@ -193,7 +193,7 @@ fn failures_exit_with_1_name_the_culprit_and_leave_nothing() {
         ),
         (
             &["feel", "--device", "fast.toml", "--csv", "o.csv"],
-            &["2000", "1000"],
+            &["1500", "1000"],
         ),
         (&["feel", "--grip", "limp"], &["limp"]),
         (

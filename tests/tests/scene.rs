@@ -10,8 +10,8 @@ use asperity::{
 };
 use asperity_formats::{Asset, Library, SceneSurface, Shape, limits::MAX_POSITION_M as FAR};
 use asperity_runtime::{
-    Config, Flags, HostTexture, Output, Renderer, Sample, Scene, SceneError, SceneState, State,
-    Surface,
+    Config, Fixed, Flags, HostTexture, Output, Renderer, Sample, Scene, SceneError, SceneState,
+    State, Surface, Texture, arithmetic::Scalar as _,
 };
 
 type TestScene<'a> = Scene<'a, 8, 64, 128, 24, 24, 4096>;
@@ -424,4 +424,51 @@ fn what_is_no_scene_or_does_not_fit_is_refused() {
     let two = library(&pair, &[plane(1, -FAR, FAR)]);
     assert_eq!(refused(&two, 1), capacity("textures", 2, 1));
     assert_eq!(refused(&two, 0), capacity("textures", 2, 0));
+}
+
+/// In fixed point: the same surfaces, crossings and taps as in floats, within a millinewton.
+#[test]
+fn a_scene_in_fixed_point_is_that_of_floats() {
+    let pair = textures().map(|texture| bytes(&texture));
+    let surfaces = [plane(0, -FAR, BORDER_M), plane(1, BORDER_M, FAR)];
+    let bytes = library(&pair, &surfaces);
+    let samples = stroke(70.0);
+    let floats = run(&load(&bytes), 5, &samples);
+
+    let mut slots = [const { Texture::<64, 128, 24, 24, 4096, Fixed>::new() }; 2];
+    let library = Library::parse(&bytes).unwrap();
+    let scene: Scene<'_, 8, 64, 128, 24, 24, 4096, Fixed> =
+        Scene::load(&library, &Config::default(), &mut slots).unwrap();
+    let renderer = Renderer::<Fixed>::prepare(&Config::default()).unwrap();
+    let mut state = SceneState::<Fixed>::new(5);
+    let mut worst_n = 0.0_f32;
+    for (sample, float) in samples.iter().zip(&floats) {
+        let fixed = renderer.tick_scene(&scene, &mut state, &Sample::of(sample));
+        assert_eq!(fixed.flags, float.flags);
+        for (a, b) in fixed.force_n.iter().zip(float.force_n) {
+            worst_n = worst_n.max((a.value() - b).abs());
+        }
+    }
+    assert_eq!(state.touched(), Some(1));
+    println!("a scene in fixed point is within {:.3} mN", 1e3 * worst_n);
+    assert!(worst_n < 1e-3, "{worst_n} N");
+}
+
+#[test]
+fn a_surface_out_of_reach_of_fixed_point_is_refused() {
+    let pair = textures().map(|texture| bytes(&texture));
+    let mut far = plane(0, -FAR, FAR);
+    far.shape = Shape::Plane {
+        point_m: [0.0, 0.0, -1.5],
+        normal: [0.0, 0.0, 1.0],
+    };
+    let bytes = library(&pair[..1], &[far]);
+    let mut slots = [const { Texture::<64, 128, 24, 24, 4096, Fixed>::new() }; 1];
+    let library = Library::parse(&bytes).unwrap();
+    let loaded =
+        Scene::<8, 64, 128, 24, 24, 4096, Fixed>::load(&library, &Config::default(), &mut slots);
+    assert!(matches!(
+        loaded,
+        Err(SceneError::Surface { index: 0, cause }) if cause.field == "surface.point_m"
+    ));
 }
