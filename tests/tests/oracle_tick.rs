@@ -146,7 +146,7 @@ const FIXED: Tolerance = Tolerance {
     vib: 3e-3,
     tap: 1e-3,
     friction_n: 6e-4,
-    force_n: 1e-3,
+    force_n: 2e-3,
 };
 
 fn assert_close(compared: &[(Worst, Tolerance); 2], rate_hz: f32, case: &str) {
