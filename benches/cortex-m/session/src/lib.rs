@@ -17,7 +17,8 @@ pub use scenes::{
 
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{
-    Arithmetic, Config, ConfigError, Fixed, Float, LoadError, Output, Renderer, Sample, State, Texture,
+    Arithmetic, Config, ConfigError, Fixed, Float, LoadError, Output, Renderer, Sample, State,
+    Texture,
 };
 
 /// Seed of the excitation.
