@@ -17,6 +17,11 @@ type Slot<A> = Texture<64, 128, 24, 24, 4096, A>;
 
 /// Textures to swap between.
 const TEXTURES: u64 = 24;
+const MODEL_RATE_HZ: f32 = 1000.0;
+/// Servo rates, in rates of the models.
+const TICKS_PER_SAMPLE: [u8; 3] = [1, 5, 10];
+/// Cut-offs in servo rates; the last is the highest there is.
+const CUTOFFS: [f32; 3] = [0.002, 0.02, 0.45];
 /// Ticks of one renderer and state.
 const SESSION_TICKS: u64 = 20_000;
 
@@ -45,15 +50,7 @@ pub struct Summary {
 /// If a tick panics, or breaks the law: the message names seed, session and tick.
 #[must_use]
 pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
-    let textures: Vec<_> = (0..4 * TEXTURES)
-        .filter_map(|index| texture::<A>(seed ^ index))
-        .take(TEXTURES as usize)
-        .collect();
-    assert_eq!(
-        textures.len() as u64,
-        TEXTURES,
-        "most textures are in range"
-    );
+    let textures = TICKS_PER_SAMPLE.map(|ticks| textures::<A>(seed, ticks));
     let mut summary = Summary {
         hash: 0xcbf2_9ce4_8422_2325,
         ..Summary::default()
@@ -62,7 +59,10 @@ pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
     while summary.ticks < ticks {
         let count = SESSION_TICKS.min(ticks - summary.ticks);
         let mut draw = Draw::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ session);
-        run(&mut draw, &textures, count, &mut summary);
+        let rate = draw.below(TICKS_PER_SAMPLE.len());
+        let servo_rate_hz = f32::from(TICKS_PER_SAMPLE[rate]) * MODEL_RATE_HZ;
+        let config = config(&mut draw, servo_rate_hz);
+        run(&mut draw, &config, &textures[rate], count, &mut summary);
         session += 1;
     }
     summary
@@ -71,14 +71,14 @@ pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
 /// One renderer and one state.
 fn run<A: Arithmetic>(
     draw: &mut Draw,
+    config: &Config,
     textures: &[Box<Slot<A>>],
     ticks: u64,
     summary: &mut Summary,
 ) {
-    let config = config(draw);
-    let renderer = Renderer::<A>::prepare(&config).expect("a valid configuration");
+    let renderer = Renderer::<A>::prepare(config).expect("a valid configuration");
     let mut state = State::new(draw.bits());
-    let mut limits = ForceLimits::new(&config);
+    let mut limits = ForceLimits::new(config);
     let mut motion = Motion::new(draw);
     let mut texture = &textures[0];
     for _ in 0..ticks {
@@ -101,9 +101,23 @@ fn run<A: Arithmetic>(
     summary.limited += u64::from(counters.peak_limited) + u64::from(counters.slew_limited);
 }
 
+/// Textures that the arithmetic can hold, for a servo loop of so many ticks a sample.
+fn textures<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Vec<Box<Slot<A>>> {
+    let textures: Vec<_> = (0..4 * TEXTURES)
+        .filter_map(|index| texture::<A>(seed ^ index, ticks_per_sample))
+        .take(TEXTURES as usize)
+        .collect();
+    assert_eq!(
+        textures.len() as u64,
+        TEXTURES,
+        "most textures are in range"
+    );
+    textures
+}
+
 /// A texture of any kind, some louder and stiffer than any device; none if the arithmetic
 /// cannot hold it.
-fn texture<A: Arithmetic>(seed: u64) -> Option<Box<Slot<A>>> {
+fn texture<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<Slot<A>>> {
     let mut draw = Draw::new(seed);
     let mut texture = random(
         seed,
@@ -123,14 +137,14 @@ fn texture<A: Arithmetic>(seed: u64) -> Option<Box<Slot<A>>> {
     let mut slot = Box::new(Slot::new());
     let bytes = texture.encode();
     let asset = Asset::parse(&bytes).expect("a valid texture");
-    match slot.load(&asset, 1000.0) {
+    match slot.load(&asset, f32::from(ticks_per_sample) * MODEL_RATE_HZ) {
         Ok(()) => Some(slot),
         Err(LoadError::Range { .. }) => None,
         Err(error) => panic!("a texture that does not fit: {error}"),
     }
 }
 
-fn config(draw: &mut Draw) -> Config {
+fn config(draw: &mut Draw, servo_rate_hz: f32) -> Config {
     let mut config = Config {
         surface: match draw.below(4) {
             0 => Surface::Sphere {
@@ -148,10 +162,14 @@ fn config(draw: &mut Draw) -> Config {
             _ => Config::default().surface,
         },
         vibration_axis: [VibrationAxis::Tangent, VibrationAxis::Binormal][draw.below(2)],
+        servo_rate_hz,
+        velocity_cutoff_hz: servo_rate_hz * CUTOFFS[draw.below(CUTOFFS.len())],
+        normal_cutoff_hz: servo_rate_hz * CUTOFFS[draw.below(CUTOFFS.len())],
         ..Config::default()
     };
     config.limits.peak_n = 10_f64.powf(draw.range(-2.0, 2.0)) as f32;
-    config.limits.slew_n_s = 10_f64.powf(draw.range(-1.0, 5.0)) as f32;
+    // By tick: what fixed point can hold, too.
+    config.limits.slew_n_s = 10_f64.powf(draw.range(-4.0, 2.0)) as f32 * servo_rate_hz;
     config.safety.hold_ticks = draw.below(3) as u32;
     config.safety.ramp_s = [0.0, 0.1, 10.0][draw.below(3)];
     config.parameter_time_constant_s = [0.0, 0.005, 0.04][draw.below(3)];
