@@ -27,6 +27,7 @@
 //! | [`friction`] | F_t | leaking bristle bounded by μF_n |
 //! | [`wall`] | F_n | stiffness and damping that the device can bear |
 //! | [`limiter`] | | peak and slew of the total force |
+//! | `events` | | what happened in a tick, as flags, and how often |
 //! | [`safety`] | | bad samples, safe state, ramp |
 //! | [`scene`] | | which of several surfaces is touched, the way from one to the next |
 //! | [`exchange`] | | another texture while the servo loop runs |
@@ -70,6 +71,7 @@ mod complex;
 pub mod config;
 pub mod contact;
 mod crossing;
+mod events;
 pub mod exchange;
 pub mod excitation;
 pub mod friction;
@@ -97,11 +99,12 @@ pub use config::{
     VibrationAxis,
 };
 pub use contact::Surface;
+pub use events::{Counters, Flags};
 pub use exchange::{Exchange, Player, PrepareError, Preparer};
 pub use interpolate::ticks_per_sample;
 pub use locate::Barycentric;
 pub use scene::{HostScene, Scene, SceneError, SceneState};
 pub use synthesis::Filter;
 pub use texture::{HostTexture, LoadError, Texture};
-pub use tick::{Counters, Flags, Output, Renderer, Sample, State};
+pub use tick::{Output, Renderer, Sample, State};
 pub use wall::{Passivity, Wall};

@@ -3,7 +3,7 @@
 use asperity_formats::Surface;
 
 use crate::{
-    Config, ConfigError, Texture, VibrationAxis,
+    Config, ConfigError, Counters, Flags, Texture, VibrationAxis,
     arithmetic::{
         Arithmetic, Float, Four, Number, Scalar as _,
         units::{
@@ -74,99 +74,6 @@ impl<A: Arithmetic> Sample<A> {
     };
 }
 
-/// What happened in a tick, as bits.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
-pub struct Flags(u32);
-
-impl Flags {
-    /// The stylus is inside the surface.
-    pub const CONTACT: Self = Self(1);
-    /// A tap transient started.
-    pub const TAP_STARTED: Self = Self(1 << 1);
-    /// A tap transient is under way.
-    pub const TAP_ACTIVE: Self = Self(1 << 2);
-    /// Speed or force lie outside the grid; an edge model answers.
-    pub const OUTSIDE_GRID: Self = Self(1 << 3);
-    /// The force was cut to the device's peak.
-    pub const PEAK_LIMITED: Self = Self(1 << 4);
-    /// The force was held back by the slew limit.
-    pub const SLEW_LIMITED: Self = Self(1 << 5);
-    /// A bad sample; the last good one was held.
-    pub const HELD_SAMPLE: Self = Self(1 << 6);
-    /// The safe state: the force goes to zero.
-    pub const SAFE_STATE: Self = Self(1 << 7);
-    /// The force comes back after a fault.
-    pub const RAMPING: Self = Self(1 << 8);
-    /// The vibration reached its bound; a verified texture never does.
-    pub const VIB_CLAMPED: Self = Self(1 << 9);
-
-    // What the stages tell each other, above the bits that callers see.
-    /// Motion starts anew.
-    pub(crate) const RESTART: Self = Self(1 << 16);
-    /// The sample was bad.
-    pub(crate) const BAD_SAMPLE: Self = Self(1 << 17);
-    /// The safe state was entered.
-    pub(crate) const FAULT: Self = Self(1 << 18);
-    /// Nothing.
-    pub(crate) const NONE: Self = Self(0);
-    /// What [`Counters`] count.
-    const COUNTED: Self = Self::BAD_SAMPLE
-        .and(Self::FAULT)
-        .and(Self::TAP_STARTED)
-        .and(Self::PEAK_LIMITED)
-        .and(Self::SLEW_LIMITED);
-
-    /// Every flag with its name.
-    pub const ALL: [(Self, &'static str); 10] = [
-        (Self::CONTACT, "contact"),
-        (Self::TAP_STARTED, "tap_started"),
-        (Self::TAP_ACTIVE, "tap_active"),
-        (Self::OUTSIDE_GRID, "outside_grid"),
-        (Self::PEAK_LIMITED, "peak_limited"),
-        (Self::SLEW_LIMITED, "slew_limited"),
-        (Self::HELD_SAMPLE, "held_sample"),
-        (Self::SAFE_STATE, "safe_state"),
-        (Self::RAMPING, "ramping"),
-        (Self::VIB_CLAMPED, "vib_clamped"),
-    ];
-
-    /// The bits, as `render` prints them.
-    #[must_use]
-    pub const fn bits(self) -> u16 {
-        self.0 as u16
-    }
-
-    /// Whether every bit of `other` is set.
-    #[must_use]
-    pub const fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    /// The bits of both.
-    #[inline(always)]
-    pub(crate) const fn and(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// These where `set`, else none.
-    #[inline(always)]
-    pub(crate) const fn when(self, set: bool) -> Self {
-        Self(if set { self.0 } else { 0 })
-    }
-
-    /// What callers see.
-    #[inline(always)]
-    const fn seen(self) -> Self {
-        Self(self.0 & 0xffff)
-    }
-
-    /// Whether any bit of `other` is set.
-    #[inline(always)]
-    const fn meets(self, other: Self) -> bool {
-        self.0 & other.0 != 0
-    }
-}
-
 /// What a tick gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Output<A: Arithmetic = Float> {
@@ -186,51 +93,6 @@ pub struct Output<A: Arithmetic = Float> {
     pub friction_n: A::Scalar<Newton>,
     /// What happened.
     pub flags: Flags,
-}
-
-/// How often what happened, since the state was made; saturating.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// Ticks.
-    pub ticks: u32,
-    /// Bad samples: stale, not finite, out of reach.
-    pub bad_samples: u32,
-    /// Servo periods that the caller reported as missed.
-    pub missed_ticks: u32,
-    /// Times the safe state was entered.
-    pub faults: u32,
-    /// Taps.
-    pub taps: u32,
-    /// Ticks whose force was cut to the peak.
-    pub peak_limited: u32,
-    /// Ticks whose force was held back by the slew limit.
-    pub slew_limited: u32,
-}
-
-impl Counters {
-    #[inline(always)]
-    fn count(&mut self, flags: Flags, elapsed_ticks: u32) {
-        if elapsed_ticks > 1 {
-            self.missed_ticks = self.missed_ticks.saturating_add(elapsed_ticks - 1);
-        }
-        // The others never exceed the count of ticks: all stop with it.
-        if self.ticks == u32::MAX {
-            return;
-        }
-        self.ticks += 1;
-        if !flags.meets(Flags::COUNTED) {
-            return;
-        }
-        for (counter, event) in [
-            (&mut self.bad_samples, Flags::BAD_SAMPLE),
-            (&mut self.faults, Flags::FAULT),
-            (&mut self.taps, Flags::TAP_STARTED),
-            (&mut self.peak_limited, Flags::PEAK_LIMITED),
-            (&mut self.slew_limited, Flags::SLEW_LIMITED),
-        ] {
-            *counter = counter.wrapping_add(u32::from(flags.meets(event)));
-        }
-    }
 }
 
 /// Everything that changes from tick to tick. Texture and configuration are outside

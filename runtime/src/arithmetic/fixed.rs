@@ -4,6 +4,7 @@
 //! on, a result out of range panics; [`units`](super::units) shows why there is none.
 
 mod limits;
+mod reciprocal;
 
 use super::{
     Arithmetic, Point, Scalar, Zero,
@@ -14,6 +15,7 @@ use crate::{Config, ConfigError, LoadError, Surface, lsf::Two};
 use asperity_formats::Asset;
 use core::array;
 use fixed::{FixedI32, types::extra::Unsigned as _};
+use reciprocal::{quotient, reciprocal_root};
 
 /// `FixedI32`, for processors without an FPU.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -69,35 +71,6 @@ fn wide<F: Point, G: Point>(a: FixedI32<F>, b: FixedI32<G>) -> i64 {
 /// From the point of a product to that of a number.
 const fn shift<F: Point, G: Point, H: Point>() -> i32 {
     F::I32 + G::I32 - H::I32
-}
-
-/// 1/d for d in [½, 1) of 32 bits, in (1, 2] with 30 bits behind the point: a guess good to 15
-/// bits and a Newton step.
-#[inline(always)]
-fn reciprocal(d: u32) -> u32 {
-    // The bit that is set tells the compiler that nothing is divided by zero.
-    let guess = (u32::MAX / ((d >> 16) | 0x8000)) << 14;
-    let near_one = (u64::from(d) * u64::from(guess)) >> 32;
-    let two = 1_u64 << 31;
-    ((u64::from(guess) * (two - near_one)) >> 30) as u32
-}
-
-/// 1/√m for m in [¼, 1) of 32 bits, in (1, 2] with 30 bits behind the point: a parabola within
-/// 2.4 %, and three Newton steps.
-#[inline(always)]
-fn reciprocal_root(m: u32) -> u32 {
-    const fn q30(x: f64) -> u32 {
-        (x * (1_u64 << 30) as f64) as u32
-    }
-    let high = |a: u32, b: u32| ((u64::from(a) * u64::from(b)) >> 32) as u32;
-    let slope = q30(3.279_408_14) - high(q30(1.634_450_86), m);
-    let mut r = q30(2.668_863_66) - high(slope, m);
-    for _ in 0..3 {
-        // r·(3 − m·r²)/2
-        let left = (3 << 28) - high(high(r, r), m);
-        r = ((u64::from(r) * u64::from(left)) >> 29) as u32;
-    }
-    r
 }
 
 impl<F: Point> Zero for FixedI32<F> {
@@ -493,29 +466,3 @@ impl Arithmetic for Fixed {
 
 /// No coefficient of a partial product is beyond this; those of real textures stay far below.
 const LARGEST_PRODUCT: f32 = 64.0;
-
-/// a/b·2^points, the end of the range beyond it, 0 for 0/0.
-#[inline(always)]
-fn quotient(a: i32, b: u32, points: i32) -> i32 {
-    if b == 0 {
-        return if a == 0 {
-            0
-        } else if a < 0 {
-            i32::MIN
-        } else {
-            i32::MAX
-        };
-    }
-    let zeros = b.leading_zeros();
-    let product = i64::from(a) * i64::from(reciprocal(b << zeros));
-    // b is d·2^(32 − zeros), 1/d has 30 bits behind the point.
-    let shift = 62 - zeros as i32 - points;
-    let shifted = if shift >= 63 {
-        0
-    } else if shift > 0 {
-        round(product, shift)
-    } else {
-        product.clamp(i32::MIN.into(), i32::MAX.into()) << (-shift).min(31)
-    };
-    shifted.clamp(i32::MIN.into(), i32::MAX.into()) as i32
-}

@@ -1,6 +1,6 @@
 //! A number with its binary point.
 
-use super::{Arithmetic, Float, Point, Scalar as _, Zero as _};
+use super::{Arithmetic, Point, Scalar as _, Zero as _};
 use core::{
     cmp::Ordering,
     ops::{Add, Neg, Sub},
@@ -74,13 +74,6 @@ impl<A: Arithmetic, F: Point> Neg for Number<A, F> {
     #[inline(always)]
     fn neg(self) -> Self {
         Self(-self.0)
-    }
-}
-
-impl<F: Point> From<f32> for Number<Float, F> {
-    #[inline(always)]
-    fn from(value: f32) -> Self {
-        Self(value)
     }
 }
 

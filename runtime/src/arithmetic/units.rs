@@ -1,4 +1,5 @@
-//! The binary point of each quantity in fixed point, and the bounds that keep every tick in range.
+//! The binary point of each quantity in fixed point. The range follows; `docs/fixed-point.md`
+//! derives why a tick stays in it.
 //!
 //! | quantity | point | range | step |
 //! |---|---|---|---|
