@@ -1,19 +1,21 @@
 //! The runtime offline: a trajectory in, what a hand would feel out.
 
-use crate::diagnostic::Diagnostic;
+mod error;
+mod trajectory;
+
+pub use error::RenderError;
+pub use trajectory::INPUT_COLUMNS;
+
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{
-    Config, ConfigError, Flags, HostScene, HostTexture, LoadError, Output, Renderer, Sample,
-    SceneError, SceneState, State,
+    Config, Flags, HostScene, HostTexture, Output, Renderer, Sample, SceneError, SceneState, State,
 };
 use std::{
-    io::{self, Read, Write},
-    path::{Path, PathBuf},
+    io::{Read, Write},
+    path::Path,
 };
-use thiserror::Error;
+use trajectory::Rows;
 
-/// Columns that a trajectory must have, one row a tick.
-pub const INPUT_COLUMNS: [&str; 4] = ["t_s", "x_mm", "y_mm", "z_mm"];
 /// Columns of the result.
 pub const OUTPUT_COLUMNS: [&str; 12] = [
     "tick",
@@ -31,143 +33,6 @@ pub const OUTPUT_COLUMNS: [&str; 12] = [
 ];
 /// One more column of a scene: the surface in contact, from 0; empty where there is none.
 pub const SURFACE_COLUMN: &str = "surface";
-/// A row's time may differ from its place by this share of a period: enough for times
-/// printed with few digits, too little for another rate to go unnoticed for long.
-const TIME_TOLERANCE: f64 = 0.25;
-
-/// Why a trajectory could not be rendered.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum RenderError {
-    /// The trajectory cannot be opened or read.
-    #[error("{file}: cannot read it: {cause}", file = file.display())]
-    Unreadable {
-        /// The file.
-        file: PathBuf,
-        /// Why.
-        cause: io::Error,
-    },
-    /// It is not CSV in UTF-8.
-    #[error("{file}: not a CSV table: {cause}", file = file.display())]
-    NotCsv {
-        /// The file.
-        file: PathBuf,
-        /// Why, with the line.
-        cause: csv::Error,
-    },
-    /// A column is missing.
-    #[error("{file}:1: column {column} is missing", file = file.display())]
-    MissingColumn {
-        /// The file.
-        file: PathBuf,
-        /// The column.
-        column: &'static str,
-    },
-    /// A column is there twice.
-    #[error("{file}:1: column {column} appears twice", file = file.display())]
-    RepeatedColumn {
-        /// The file.
-        file: PathBuf,
-        /// The column.
-        column: &'static str,
-    },
-    /// A field is not a finite number.
-    #[error("{file}:{line}: {column} = {value:?} is not a finite number", file = file.display())]
-    NotANumber {
-        /// The file.
-        file: PathBuf,
-        /// Line, 1-based.
-        line: u64,
-        /// The column.
-        column: &'static str,
-        /// The text found.
-        value: String,
-    },
-    /// A time that does not match the rate of the texture.
-    #[error(
-        "{file}:{line}: t_s = {found}, but row {row} at {rate_hz} Hz is due at {due}",
-        file = file.display()
-    )]
-    Rate {
-        /// The file.
-        file: PathBuf,
-        /// Line, 1-based.
-        line: u64,
-        /// Row, 0-based.
-        row: u64,
-        /// The time found, s.
-        found: f64,
-        /// The time due, s.
-        due: f64,
-        /// Rate of the texture, Hz.
-        rate_hz: f32,
-    },
-    /// There is no row.
-    #[error("{file}: has no row", file = file.display())]
-    Empty {
-        /// The file.
-        file: PathBuf,
-    },
-    /// The texture does not fit the runtime's slot.
-    #[error("{texture}: {cause}")]
-    Load {
-        /// Name of the texture.
-        texture: String,
-        /// Why.
-        cause: LoadError,
-    },
-    /// The library's scene cannot be rendered.
-    #[error("the scene cannot be rendered: {0}")]
-    Scene(SceneError),
-    /// The texture's rate is no servo rate.
-    #[error("{texture}: {cause}")]
-    Config {
-        /// Name of the texture.
-        texture: String,
-        /// Why.
-        cause: ConfigError,
-    },
-    /// The result could not be written.
-    #[error("cannot write the result: {0}")]
-    Write(io::Error),
-}
-
-impl Diagnostic for RenderError {
-    fn remedy(&self) -> String {
-        match self {
-            Self::Unreadable { .. } => "check the path and its permissions".into(),
-            Self::NotCsv { .. } | Self::Empty { .. } => format!(
-                "give UTF-8 text with the header {} and one row a tick",
-                INPUT_COLUMNS.join(",")
-            ),
-            Self::MissingColumn { .. } | Self::RepeatedColumn { .. } => {
-                format!("start the file with the header {}", INPUT_COLUMNS.join(","))
-            }
-            Self::NotANumber { .. } => "write a number, such as 12.5".into(),
-            Self::Rate { rate_hz, .. } => format!(
-                "resample the trajectory to {rate_hz} Hz: t_s grows by {} s a row",
-                1.0 / rate_hz
-            ),
-            Self::Load {
-                cause: LoadError::Rate { model_hz, .. },
-                ..
-            }
-            | Self::Scene(SceneError::Texture {
-                cause: LoadError::Rate { model_hz, .. },
-                ..
-            }) => format!("give --rate {model_hz} or 2, 3, … 20 times as much"),
-            Self::Load { .. } | Self::Config { .. } => {
-                "give a --rate that the runtime can have, or make the texture for one".into()
-            }
-            Self::Scene(_) => "build the scene again".into(),
-            Self::Write(error) if error.kind() == io::ErrorKind::StorageFull => {
-                "free space on the disk, or give a path on another one".into()
-            }
-            Self::Write(_) => "check the path and the disk".into(),
-        }
-    }
-}
-
 /// What a run did.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RenderReport {
@@ -308,119 +173,10 @@ fn run<R: Read>(
     Ok(report)
 }
 
-struct Row {
-    t_s: f64,
-    position_mm: [f64; 3],
-}
-
-/// Checked rows of a trajectory.
-struct Rows<'a, R> {
-    file: &'a Path,
-    reader: csv::Reader<R>,
-    columns: [usize; 4],
-    record: csv::StringRecord,
-    rate_hz: f32,
-    first_t_s: f64,
-    row: u64,
-}
-
-impl<'a, R: Read> Rows<'a, R> {
-    fn new(file: &'a Path, input: R, rate_hz: f32) -> Result<Self, RenderError> {
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .from_reader(input);
-        let headers = reader.headers().map_err(|e| csv_error(file, e))?;
-        let mut columns = [0; 4];
-        for (place, column) in columns.iter_mut().zip(INPUT_COLUMNS) {
-            let is_it = |name: &str| name.trim_start_matches('\u{feff}') == column;
-            let mut found = headers.iter().enumerate().filter(|(_, name)| is_it(name));
-            *place = found
-                .next()
-                .ok_or_else(|| RenderError::MissingColumn {
-                    file: file.to_owned(),
-                    column,
-                })?
-                .0;
-            if found.next().is_some() {
-                return Err(RenderError::RepeatedColumn {
-                    file: file.to_owned(),
-                    column,
-                });
-            }
-        }
-        Ok(Self {
-            file,
-            reader,
-            columns,
-            record: csv::StringRecord::new(),
-            rate_hz,
-            first_t_s: 0.0,
-            row: 0,
-        })
-    }
-
-    fn next(&mut self) -> Result<Option<Row>, RenderError> {
-        let more = self
-            .reader
-            .read_record(&mut self.record)
-            .map_err(|e| csv_error(self.file, e))?;
-        if !more {
-            return Ok(None);
-        }
-        let line = self.record.position().map_or(0, csv::Position::line);
-        let mut values = [0.0; 4];
-        for (k, value) in values.iter_mut().enumerate() {
-            let text = self.record.get(self.columns[k]).unwrap_or_default();
-            *value = text
-                .parse()
-                .ok()
-                .filter(|value: &f64| value.is_finite())
-                .ok_or_else(|| RenderError::NotANumber {
-                    file: self.file.to_owned(),
-                    line,
-                    column: INPUT_COLUMNS[k],
-                    value: text.chars().take(40).collect(),
-                })?;
-        }
-        let [t_s, x, y, z] = values;
-        if self.row == 0 {
-            self.first_t_s = t_s;
-        }
-        let due = self.first_t_s + self.row as f64 / f64::from(self.rate_hz);
-        let slack = TIME_TOLERANCE / f64::from(self.rate_hz) + 1e-12 * due.abs();
-        if (t_s - due).abs() > slack {
-            return Err(RenderError::Rate {
-                file: self.file.to_owned(),
-                line,
-                row: self.row,
-                found: t_s,
-                due,
-                rate_hz: self.rate_hz,
-            });
-        }
-        self.row += 1;
-        Ok(Some(Row {
-            t_s,
-            position_mm: [x, y, z],
-        }))
-    }
-}
-
-fn csv_error(file: &Path, error: csv::Error) -> RenderError {
-    let file = file.to_owned();
-    match error.kind() {
-        csv::ErrorKind::Io(cause) => RenderError::Unreadable {
-            file,
-            cause: io::Error::new(cause.kind(), cause.to_string()),
-        },
-        _ => RenderError::NotCsv { file, cause: error },
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{builtin, lower::lower};
+    use crate::{builtin, diagnostic::Diagnostic as _, lower::lower};
 
     fn run(trajectory: &str, seed: u64) -> Result<(RenderReport, String), RenderError> {
         run_at(None, trajectory, seed)

@@ -4,16 +4,13 @@
 use crate::{
     draw::Draw,
     force_limits::ForceLimits,
-    texture::{Kind, random},
+    texture::{HostSlot, Kind, random},
 };
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
-    Arithmetic, Config, LoadError, Renderer, Sample, State, Surface, Texture, VibrationAxis,
+    Arithmetic, Config, LoadError, Renderer, Sample, State, Surface, VibrationAxis,
     arithmetic::Scalar as _,
 };
-
-/// [`asperity_runtime::HostTexture`] in any arithmetic.
-type Slot<A> = Texture<64, 128, 24, 24, 4096, A>;
 
 /// Textures to swap between.
 const TEXTURES: u64 = 24;
@@ -72,7 +69,7 @@ pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
 fn run<A: Arithmetic>(
     draw: &mut Draw,
     config: &Config,
-    textures: &[Box<Slot<A>>],
+    textures: &[Box<HostSlot<A>>],
     ticks: u64,
     summary: &mut Summary,
 ) {
@@ -102,7 +99,7 @@ fn run<A: Arithmetic>(
 }
 
 /// Textures that the arithmetic can hold, for a servo loop of so many ticks a sample.
-fn textures<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Vec<Box<Slot<A>>> {
+fn textures<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Vec<Box<HostSlot<A>>> {
     let textures: Vec<_> = (0..4 * TEXTURES)
         .filter_map(|index| texture::<A>(seed ^ index, ticks_per_sample))
         .take(TEXTURES as usize)
@@ -117,7 +114,7 @@ fn textures<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Vec<Box<Slot<A>>>
 
 /// A texture of any kind, some louder and stiffer than any device; none if the arithmetic
 /// cannot hold it.
-fn texture<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<Slot<A>>> {
+fn texture<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<HostSlot<A>>> {
     let mut draw = Draw::new(seed);
     let mut texture = random(
         seed,
@@ -134,7 +131,7 @@ fn texture<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<Slot<A>
     texture.surface.stiffness_n_m = [1.0, 500.0, 1e5][draw.below(3)];
     texture.surface.damping_n_s_m = [0.0, 0.2, 1e3][draw.below(3)];
     texture.surface.effective_mass_kg = [0.01, 0.1, 100.0][draw.below(3)];
-    let mut slot = Box::new(Slot::new());
+    let mut slot = Box::new(HostSlot::new());
     let bytes = texture.encode();
     let asset = Asset::parse(&bytes).expect("a valid texture");
     match slot.load(&asset, f32::from(ticks_per_sample) * MODEL_RATE_HZ) {

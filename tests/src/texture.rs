@@ -6,6 +6,9 @@ use asperity_formats::{
     Vertex, VertexKind, encode,
 };
 
+/// [`asperity_runtime::HostTexture`] in any arithmetic.
+pub type HostSlot<A> = asperity_runtime::Texture<64, 128, 24, 24, 4096, A>;
+
 /// LSFs (codes of π/65536), MA LSFs and gain of a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {

@@ -3,7 +3,7 @@
 
 use asperity_formats::Asset;
 use asperity_runtime::{
-    Arithmetic, Fixed, Float, Texture as Slot,
+    Arithmetic, Fixed, Float,
     arithmetic::Scalar,
     vibration::{CYCLE_TICKS, Vibration},
 };
@@ -12,12 +12,11 @@ use asperity_tests::{
     hatt,
     oracle::{Texture, polynomial},
     spectrum::{band_levels_db, model_power, periodogram, third_octaves},
+    texture::HostSlot,
 };
 use rayon::prelude::*;
 
 mod support;
-
-type HostSlot<A> = Slot<64, 128, 24, 24, 4096, A>;
 
 /// Queries of a material.
 const QUERIES: usize = if cfg!(debug_assertions) { 10 } else { 200 };

@@ -1,16 +1,13 @@
 //! Location, mixture and filter are those of the f64 oracle.
 
 use asperity_formats::{Asset, Numerator};
-use asperity_runtime::{Arithmetic, Fixed, Float, Texture as Slot, arithmetic::Scalar as _};
+use asperity_runtime::{Arithmetic, Fixed, Float, arithmetic::Scalar as _};
 use asperity_tests::{
     draw::Draw,
     oracle::{Texture, polynomial},
     spectrum::model_power,
-    texture::{Kind, random},
+    texture::{HostSlot, Kind, random},
 };
-
-/// [`asperity_runtime::HostTexture`] in any arithmetic.
-type HostSlot<A> = Slot<64, 128, 24, 24, 4096, A>;
 
 fn load<A: Arithmetic>(bytes: &[u8]) -> (Box<HostSlot<A>>, Texture) {
     let asset = Asset::parse(bytes).unwrap();

@@ -3,13 +3,13 @@
 
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
-    Arithmetic, Config, Fixed, Float, Renderer, Sample, State, Surface, Texture, VibrationAxis,
+    Arithmetic, Config, Fixed, Float, Renderer, Sample, State, Surface, VibrationAxis,
     arithmetic::Scalar as _,
 };
 use asperity_tests::{
     draw::Draw,
     oracle::{Oracle, Tick},
-    texture::{Kind, random},
+    texture::{HostSlot, Kind, random},
     trajectory::{strokes, strokes_at},
 };
 
@@ -49,7 +49,7 @@ fn compare_in<A: Arithmetic>(
 ) -> Worst {
     let asset = Asset::parse(bytes).unwrap();
     let renderer = Renderer::<A>::prepare(config).unwrap();
-    let mut texture = Box::new(Texture::<64, 128, 24, 24, 4096, A>::new());
+    let mut texture = Box::new(HostSlot::<A>::new());
     texture.load(&asset, config.servo_rate_hz).unwrap();
     let mut state = State::new(seed);
     let mut oracle = Oracle::new(&asset, config, seed);

@@ -11,8 +11,9 @@ use asperity::{
 use asperity_formats::{Asset, Library, SceneSurface, Shape, limits::MAX_POSITION_M as FAR};
 use asperity_runtime::{
     Config, Fixed, Flags, HostTexture, Output, Renderer, Sample, Scene, SceneError, SceneState,
-    State, Surface, Texture, arithmetic::Scalar as _,
+    State, Surface, arithmetic::Scalar as _,
 };
+use asperity_tests::texture::HostSlot;
 
 type TestScene<'a> = Scene<'a, 8, 64, 128, 24, 24, 4096>;
 
@@ -435,7 +436,7 @@ fn a_scene_in_fixed_point_is_that_of_floats() {
     let samples = stroke(70.0);
     let floats = run(&load(&bytes), 5, &samples);
 
-    let mut slots = [const { Texture::<64, 128, 24, 24, 4096, Fixed>::new() }; 2];
+    let mut slots = [const { HostSlot::<Fixed>::new() }; 2];
     let library = Library::parse(&bytes).unwrap();
     let scene: Scene<'_, 8, 64, 128, 24, 24, 4096, Fixed> =
         Scene::load(&library, &Config::default(), &mut slots).unwrap();
@@ -463,7 +464,7 @@ fn a_surface_out_of_reach_of_fixed_point_is_refused() {
         normal: [0.0, 0.0, 1.0],
     };
     let bytes = library(&pair[..1], &[far]);
-    let mut slots = [const { Texture::<64, 128, 24, 24, 4096, Fixed>::new() }; 1];
+    let mut slots = [const { HostSlot::<Fixed>::new() }; 1];
     let library = Library::parse(&bytes).unwrap();
     let loaded =
         Scene::<8, 64, 128, 24, 24, 4096, Fixed>::load(&library, &Config::default(), &mut slots);
