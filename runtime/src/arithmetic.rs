@@ -119,9 +119,6 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// The nearest whole number, of one from 0 to 32.
     fn nearest<F: Point>(a: Self::Scalar<F>) -> u32;
 
-    /// Four numbers at another point.
-    fn four_to<F: Point, G: Point>(a: Self::Four<F>) -> Self::Four<G>;
-
     /// A number at another point.
     fn to<F: Point, G: Point>(a: Self::Scalar<F>) -> Self::Scalar<G>;
 
@@ -250,17 +247,17 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// `reach` over the length, at most 1.
     fn share<F: Point>(reach: Self::Scalar<F>, polar: Self::Polar) -> Self::Scalar<Unit>;
 
-    /// Coefficient `k` of a polynomial times a two, from those of `k`, `k − 1` … `k − 4`; with
-    /// `FULL`, r = s and o = 1.
+    /// Coefficient `k` of a polynomial times a two, from those of `k`, `k − 1` … `k − 4` that there
+    /// are; with `FULL`, o = 1.
     fn extend<const FULL: bool>(
         two: &Two<Self::Scalar<Pair>>,
-        c: [Self::Scalar<Coefficient>; 5],
+        c: [Option<Self::Scalar<Coefficient>>; 5],
     ) -> Self::Scalar<Coefficient>;
 
     /// [`Arithmetic::extend`] of four polynomials.
     fn extend_four<const FULL: bool>(
         two: &Two<Self::Four<Pair>>,
-        c: [Self::Four<Coefficient>; 5],
+        c: [Option<Self::Four<Coefficient>>; 5],
     ) -> Self::Four<Coefficient>;
 
     /// ε of a centred sum of four bytes: see [`excitation`](crate::excitation).

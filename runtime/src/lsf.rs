@@ -12,29 +12,29 @@
 //! 0.001 dB. A low pair and a high one, a two, are multiplied in at once, Q and P of A(z) and
 //! B(z) side by side; the twos can be done one at a time.
 
+mod assembly;
+mod product;
+
+pub(crate) use product::{Products, Two};
+
 use crate::{
-    arithmetic::{
-        Arithmetic, Four, Number, Zero as _,
-        units::{Coefficient, Pair},
-    },
+    arithmetic::{Arithmetic, Four, Number, units::Pair},
     synthesis::Line,
 };
-use asperity_formats::limits::MAX_ORDER;
+use product::Polynomial as _;
 
 /// Q and P of A(z), Q and P of B(z).
 const LANES: usize = 4;
-/// Coefficients 0..=12 of symmetric polynomials of degree up to 24.
-const COEFFICIENTS: usize = MAX_ORDER / 2 + 1;
 
 /// Orders of A(z) and B(z), and what follows from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Shape<A: Arithmetic> {
-    pub(crate) ar_order: usize,
-    pub(crate) ma_order: usize,
-    /// Twos that every polynomial in use has.
-    full: usize,
+pub(crate) struct Shape {
+    ar_order: u8,
+    ma_order: u8,
     /// Pairs of each polynomial.
-    pairs: Four<A, Coefficient>,
+    pairs: [u8; LANES],
+    /// The fewest of those in use.
+    fewest: u8,
 }
 
 /// −2 cos ω of a mixture, in [`stage`] order, 0 beyond the order.
@@ -51,183 +51,62 @@ impl<A: Arithmetic> Pairs<A> {
     };
 }
 
-/// Partial products, the half of each that symmetry leaves, times ½.
-#[derive(Debug, Clone, PartialEq)]
-#[repr(align(16))]
-pub(crate) struct Products<A: Arithmetic>([[A::Scalar<Coefficient>; LANES]; COEFFICIENTS]);
-
-impl<A: Arithmetic> Products<A> {
-    /// No pair yet.
-    pub(crate) const ONE: Self = {
-        let mut c = [[A::Scalar::ZERO; LANES]; COEFFICIENTS];
-        c[0] = [A::ONE_HALF; LANES];
-        Self(c)
-    };
-}
-
-/// The coefficients of polynomials side by side, or of one of them.
-trait Polynomial<A: Arithmetic> {
-    type Number: Copy;
-    /// What multiplies them.
-    type By;
-
-    const ZERO: Self::Number;
-
-    fn get(&self, k: usize) -> Self::Number;
-
-    fn set(&mut self, k: usize, x: Self::Number);
-
-    /// See [`Arithmetic::extend`].
-    fn extend<const FULL: bool>(by: &Self::By, c: [Self::Number; 5]) -> Self::Number;
-}
-
-impl<A: Arithmetic> Polynomial<A> for Products<A> {
-    type Number = A::Four<Coefficient>;
-    type By = Two<A::Four<Pair>>;
-
-    const ZERO: Self::Number = A::Four::ZERO;
-
-    #[inline(always)]
-    fn get(&self, k: usize) -> Self::Number {
-        A::four(&self.0[k])
-    }
-
-    #[inline(always)]
-    fn set(&mut self, k: usize, x: Self::Number) {
-        self.0[k] = A::numbers(x);
-    }
-
-    #[inline(always)]
-    fn extend<const FULL: bool>(by: &Self::By, c: [Self::Number; 5]) -> Self::Number {
-        A::extend_four::<FULL>(by, c)
-    }
-}
-
-/// One polynomial: every fourth number.
-struct Lane<'a, A: Arithmetic>(&'a mut [A::Scalar<Coefficient>; LANES * (COEFFICIENTS - 1) + 1]);
-
-impl<A: Arithmetic> Polynomial<A> for Lane<'_, A> {
-    type Number = A::Scalar<Coefficient>;
-    type By = Two<A::Scalar<Pair>>;
-
-    const ZERO: Self::Number = A::Scalar::ZERO;
-
-    #[inline(always)]
-    fn get(&self, k: usize) -> Self::Number {
-        self.0[LANES * k]
-    }
-
-    #[inline(always)]
-    fn set(&mut self, k: usize, x: Self::Number) {
-        self.0[LANES * k] = x;
-    }
-
-    #[inline(always)]
-    fn extend<const FULL: bool>(by: &Self::By, c: [Self::Number; 5]) -> Self::Number {
-        A::extend::<FULL>(by, c)
-    }
-}
-
-/// A two: 1 + s z⁻¹ + q z⁻² + r z⁻³ + o z⁻⁴, of polynomials side by side or of one.
-#[derive(Debug, Clone, Copy)]
-pub struct Two<T> {
-    pub(crate) s: T,
-    pub(crate) q: T,
-    pub(crate) r: T,
-    pub(crate) o: T,
-}
-
-/// One of four twos.
-#[inline(always)]
-fn lane<A: Arithmetic>(by: &Two<A::Four<Pair>>, lane: usize) -> Two<A::Scalar<Pair>> {
-    let one = |four| A::numbers(four)[lane % LANES];
-    Two {
-        s: one(by.s),
-        q: one(by.q),
-        r: one(by.r),
-        o: one(by.o),
-    }
-}
-
-/// Multiplies polynomials of degree 4·`two` in place; with `FULL`, r = s and o = 1.
-#[inline(always)]
-fn multiply<A: Arithmetic, const FULL: bool, C: Polynomial<A>>(by: &C::By, two: usize, c: &mut C) {
-    match two {
-        0 => extend::<A, FULL, 0, C>(by, c),
-        1 => extend::<A, FULL, 1, C>(by, c),
-        2 => extend::<A, FULL, 2, C>(by, c),
-        3 => extend::<A, FULL, 3, C>(by, c),
-        4 => extend::<A, FULL, 4, C>(by, c),
-        _ => extend::<A, FULL, 5, C>(by, c),
-    }
-}
-
-/// From the highest coefficient down, so that nothing is overwritten before it is read.
-#[inline(always)]
-fn extend<A: Arithmetic, const FULL: bool, const TWO: usize, C: Polynomial<A>>(
-    by: &C::By,
-    c: &mut C,
-) {
-    // Symmetry gives what lies beyond the middle.
-    let old = |c: &C, k: usize| {
-        if k <= 2 * TWO {
-            c.get(k)
-        } else if TWO == 0 {
-            C::ZERO
-        } else {
-            c.get(4 * TWO - k)
-        }
-    };
-    for k in (1..2 * TWO + 3).rev() {
-        let back = |by: usize| if k < by { C::ZERO } else { old(c, k - by) };
-        let x = C::extend::<FULL>(by, [old(c, k), back(1), back(2), back(3), back(4)]);
-        c.set(k, x);
-    }
-}
-
-impl<A: Arithmetic> Shape<A> {
+impl Shape {
     /// Of a slot that was never loaded.
     pub(crate) const NONE: Self = Self {
         ar_order: 0,
         ma_order: 0,
-        full: 0,
-        pairs: Four::ZERO,
+        pairs: [0; LANES],
+        fewest: 0,
     };
 
-    pub(crate) fn new(ar_order: usize, ma_order: usize) -> Self {
-        let pairs = [
-            ar_order.div_ceil(2),
-            ar_order / 2,
-            ma_order.div_ceil(2),
-            ma_order / 2,
-        ];
-        let fewest = if ma_order == 0 || ar_order < ma_order {
-            ar_order / 2
+    /// Of orders that are at most [`MAX_ORDER`](asperity_formats::limits::MAX_ORDER).
+    pub(crate) const fn new(ar_order: usize, ma_order: usize) -> Self {
+        let (ar_order, ma_order) = (ar_order as u8, ma_order as u8);
+        let shorter = if ma_order == 0 || ar_order < ma_order {
+            ar_order
         } else {
-            ma_order / 2
+            ma_order
         };
         Self {
             ar_order,
             ma_order,
-            full: fewest / 2,
-            pairs: Four::load(&pairs.map(|pairs| A::whole(pairs as i32))),
+            pairs: [
+                ar_order.div_ceil(2),
+                ar_order / 2,
+                ma_order.div_ceil(2),
+                ma_order / 2,
+            ],
+            fewest: shorter / 2,
         }
+    }
+
+    /// Order of A(z).
+    #[inline(always)]
+    pub(crate) const fn ar_order(&self) -> usize {
+        self.ar_order as usize
+    }
+
+    /// Order of B(z).
+    #[inline(always)]
+    pub(crate) const fn ma_order(&self) -> usize {
+        self.ma_order as usize
     }
 
     /// Twos of pairs of the longest polynomial.
     pub(crate) const fn twos(&self) -> usize {
-        let order = if self.ar_order > self.ma_order {
+        let longer = if self.ar_order > self.ma_order {
             self.ar_order
         } else {
             self.ma_order
         };
-        order.div_ceil(4)
+        longer.div_ceil(4) as usize
     }
 
     /// Parts in which a two is multiplied in: A(z) and B(z) at once where registers hold four
     /// numbers, else one after the other.
     #[inline(always)]
-    pub(crate) const fn parts(&self) -> usize {
+    pub(crate) const fn parts<A: Arithmetic>(&self) -> usize {
         if A::IN_REGISTERS || self.ma_order == 0 {
             1
         } else {
@@ -237,153 +116,35 @@ impl<A: Arithmetic> Shape<A> {
 
     /// Multiplies one part of a two in, in the order of twos.
     #[inline(always)]
-    pub(crate) fn multiply(&self, products: &mut Products<A>, pairs: &Pairs<A>, part: usize) {
-        let parts = self.parts();
+    pub(crate) fn multiply<A: Arithmetic>(
+        &self,
+        products: &mut Products<A>,
+        pairs: &Pairs<A>,
+        part: usize,
+    ) {
+        let parts = self.parts::<A>();
         let (two, part) = (part / parts, part % parts);
-        let (Some(ar), Some(ma)) = (pairs.ar.0.get(two), pairs.ma.0.get(two)) else {
+        if A::IN_REGISTERS {
+            let (Some(ar), Some(ma)) = (pairs.ar.0.get(two), pairs.ma.0.get(two)) else {
+                return;
+            };
+            let low = Four::<A, Pair>::load(&[ar[0], ar[1], ma[0], ma[1]]);
+            let high = Four::<A, Pair>::load(&[ar[2], ar[3], ma[2], ma[3]]);
+            products.multiply(two, [low, high], self.pairs, self.fewest);
+            return;
+        }
+        let line = if part == 0 { &pairs.ar } else { &pairs.ma };
+        let Some(row) = line.0.get(two) else {
             return;
         };
-        let low = Four::<A, Pair>::load(&[ar[0], ar[1], ma[0], ma[1]]);
-        let high = Four::<A, Pair>::load(&[ar[2], ar[3], ma[2], ma[3]]);
-        let (s, product) = (low + high, low.times::<Pair, Pair>(high));
-        let number = |n| Four::splat(Number::whole(n));
-        if two < self.full {
-            let q = number(2) + product;
-            let factors = Two {
-                s: s.0,
-                q: q.0,
-                r: s.0,
-                o: number(1).0,
-            };
-            multiply_by::<A, true>(products, &factors, two, part);
-        } else {
-            // A polynomial may have fewer pairs than others. What it gets beyond its own middle
-            // is not used.
-            let left = self.pairs - Four::splat(Number::whole(2 * two as i32));
-            // 1 where it has the low pair, and the high one.
-            let one = Four::splat(Number::whole(1));
-            let [first, o] = [left, left - one].map(|x| x.max(Four::ZERO).min(one).to::<Pair>());
-            let (q, r) = (first + o + product, s.times::<Pair, Pair>(o));
-            let factors = Two {
-                s: s.0,
-                q: q.0,
-                r: r.0,
-                o: o.0,
-            };
-            multiply_by::<A, false>(products, &factors, two, part);
-        }
-    }
-
-    /// Coefficients of A(z).
-    #[inline]
-    pub(crate) fn ar(&self, products: &Products<A>, a: &mut Line<A>) {
-        assemble::<A, 0>(&products.0, self.ar_order, a);
-    }
-
-    /// Coefficients of B(z).
-    #[inline]
-    pub(crate) fn ma(&self, products: &Products<A>, b: &mut Line<A>) {
-        assemble::<A, 2>(&products.0, self.ma_order, b);
-    }
-}
-
-/// All polynomials at once, or the two of a part one by one: the bits are the same.
-#[inline(always)]
-fn multiply_by<A: Arithmetic, const FULL: bool>(
-    products: &mut Products<A>,
-    by: &Two<A::Four<Pair>>,
-    two: usize,
-    part: usize,
-) {
-    if A::IN_REGISTERS {
-        multiply::<A, FULL, _>(by, two, products);
-    } else {
-        for polynomial in 2 * part..2 * part + 2 {
-            let from = products.0.as_flattened_mut().get_mut(polynomial..);
-            if let Some(numbers) = from.and_then(|from| from.first_chunk_mut()) {
-                multiply::<A, FULL, _>(&lane::<A>(by, polynomial), two, &mut Lane(numbers));
+        for side in 0..2 {
+            let cosines = [Number(row[side]), Number(row[side + 2])];
+            let polynomial = (2 * part + side) % LANES;
+            if let Some(mut lane) = products.lane(polynomial) {
+                let pairs = self.pairs[polynomial];
+                lane.multiply(two, cosines, pairs, pairs);
             }
         }
-    }
-}
-
-/// a_k = (q_k + p_k)/2 and, by symmetry, a_{p+1−k} = (q_k − p_k)/2, where Q = sum·(1 + z⁻¹)
-/// and P = difference·(1 − z⁻¹) for even orders, Q = sum and P = difference·(1 − z⁻²)
-/// for odd ones. The products carry the ½.
-#[inline(always)]
-fn assemble<A: Arithmetic, const LANE: usize>(
-    c: &[[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
-    order: usize,
-    a: &mut Line<A>,
-) {
-    let half = order / 2;
-    let Some(a) = a.0.as_flattened_mut().get_mut(..order) else {
-        return;
-    };
-    if order.is_multiple_of(2) && half >= LANES {
-        // The last four overlap those before where four does not divide the half.
-        let last = half - LANES;
-        for first in (0..last).step_by(LANES) {
-            assemble_four::<A, LANE>(c, first, a);
-        }
-        assemble_four::<A, LANE>(c, last, a);
-    } else {
-        assemble_singly::<A, LANE>(c, a);
-    }
-}
-
-/// Four coefficients from `first` on and their four mirror images, of an even order.
-#[inline(always)]
-fn assemble_four<A: Arithmetic, const LANE: usize>(
-    c: &[[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
-    first: usize,
-    a: &mut [A::Scalar<Coefficient>],
-) {
-    let last = a.len() - first;
-    let Some(c) = c.get(first..).and_then(|c| c.first_chunk::<5>()) else {
-        return;
-    };
-    let [c0, c1, c2, c3, c4] = c.each_ref().map(Four::<A, Coefficient>::load);
-    let t0 = (c1 + c0.alternating()).to_array();
-    let t1 = (c2 + c1.alternating()).to_array();
-    let t2 = (c3 + c2.alternating()).to_array();
-    let t3 = (c4 + c3.alternating()).to_array();
-    let across =
-        |lane: usize| Four::<A, Coefficient>::load(&[t0[lane], t1[lane], t2[lane], t3[lane]]);
-    let (q, p) = (across(LANE), across(LANE + 1));
-    if let Some(place) = a.get_mut(first..first + LANES) {
-        place.copy_from_slice(&(q + p).to_array());
-    }
-    if let Some(place) = a.get_mut(last - LANES..last) {
-        let [a0, a1, a2, a3] = (q - p).to_array();
-        place.copy_from_slice(&[a3, a2, a1, a0]);
-    }
-}
-
-/// The same for every order, one after the other.
-fn assemble_singly<A: Arithmetic, const LANE: usize>(
-    c: &[[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
-    a: &mut [A::Scalar<Coefficient>],
-) {
-    let order = a.len();
-    let even = order.is_multiple_of(2);
-    let number = |k: usize, lane: usize| c.get(k).map_or(A::Scalar::ZERO, |c| c[lane]);
-    for k in 0..order / 2 {
-        let (q, p) = (number(k + 1, LANE), number(k + 1, LANE + 1));
-        let (q, p) = if even {
-            (q + number(k, LANE), p - number(k, LANE + 1))
-        } else {
-            (q, p - number(k.wrapping_sub(1), LANE + 1))
-        };
-        if let Some(low) = a.get_mut(k) {
-            *low = q + p;
-        }
-        if let Some(high) = a.get_mut(order - 1 - k) {
-            *high = q - p;
-        }
-    }
-    if !even && let Some(middle) = a.get_mut(order / 2) {
-        *middle = number(order / 2 + 1, LANE);
     }
 }
 
@@ -407,11 +168,11 @@ pub(crate) const fn stage(index: usize, order: usize) -> usize {
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "tests run on the host")]
 mod tests {
     extern crate std;
     use super::*;
-    use crate::{arithmetic::Float, lanes::F4};
+    use crate::arithmetic::Float;
+    use asperity_formats::limits::MAX_ORDER;
 
     /// The roots of Q and P, multiplied out over full length in f64.
     fn reference(omegas: &[f64]) -> std::vec::Vec<f64> {
@@ -466,13 +227,13 @@ mod tests {
                 line
             };
             let polynomials = |ar: &[f64], ma: &[f64]| {
-                let shape = Shape::<Float>::new(ar.len(), ma.len());
-                let (mut products, mut a, mut b) = (Products::ONE, Line::ZERO, Line::ZERO);
+                let shape = Shape::new(ar.len(), ma.len());
+                let (mut products, mut a, mut b) = (Products::<Float>::ONE, Line::ZERO, Line::ZERO);
                 let pairs = Pairs {
                     ar: staged(ar),
                     ma: staged(ma),
                 };
-                for part in 0..shape.twos() * shape.parts() {
+                for part in 0..shape.twos() * shape.parts::<Float>() {
                     shape.multiply(&mut products, &pairs, part);
                 }
                 shape.ar(&products, &mut a);
@@ -494,39 +255,6 @@ mod tests {
                 assert!((f64::from(*ours) - exact).abs() < 1e-2 * exact.abs().max(1.0));
             }
             assert!(b[order / 2..].iter().all(|&b| b == 0.0));
-        }
-    }
-
-    /// Processors without registers of four numbers take the lanes one by one.
-    #[test]
-    fn one_polynomial_at_a_time_gives_the_same_bits() {
-        let number = |k: usize| F4::load(&[1, 2, 3, 4].map(|lane| ((7 * k + lane) as f32).sin()));
-        let (mut at_once, mut singly) = (Products::ONE, Products::ONE);
-        for two in 0..MAX_ORDER / 4 {
-            let by = Two {
-                s: number(two),
-                q: number(two + 10),
-                r: number(two + 20),
-                o: number(two + 30),
-            };
-            let full = two % 2 == 0;
-            if full {
-                multiply::<Float, true, _>(&by, two, &mut at_once);
-            } else {
-                multiply::<Float, false, _>(&by, two, &mut at_once);
-            }
-            for polynomial in 0..LANES {
-                let from = &mut singly.0.as_flattened_mut()[polynomial..];
-                let mut numbers = Lane(from.first_chunk_mut().unwrap());
-                let by = lane::<Float>(&by, polynomial);
-                if full {
-                    multiply::<Float, true, _>(&by, two, &mut numbers);
-                } else {
-                    multiply::<Float, false, _>(&by, two, &mut numbers);
-                }
-            }
-            let bits = |products: &Products<Float>| products.0.map(|c| c.map(f32::to_bits));
-            assert_eq!(bits(&at_once), bits(&singly), "two {two}");
         }
     }
 }

@@ -87,16 +87,16 @@ impl Shares {
 }
 
 /// The shares of `blocks` blocks of triangles and the conversion of a shape, in `count` ticks.
-pub(crate) fn shares<A: Arithmetic>(blocks: usize, shape: &Shape<A>, count: usize) -> Shares {
+pub(crate) fn shares<A: Arithmetic>(blocks: usize, shape: &Shape, count: usize) -> Shares {
     let costs = costs::<A>();
     let fours = |order: usize| order.div_ceil(4);
-    let mix = costs.mix + costs.mix_four * (fours(shape.ar_order) + fours(shape.ma_order));
+    let mix = costs.mix + costs.mix_four * (fours(shape.ar_order()) + fours(shape.ma_order()));
     let part_cost = |part: usize| {
-        let two = part / shape.parts();
+        let two = part / shape.parts::<A>();
         costs.two + costs.coefficient * 2 * (two + 1)
     };
-    let halves = fours(shape.ar_order.div_ceil(2)) + fours(shape.ma_order.div_ceil(2));
-    let parts = shape.twos() * shape.parts();
+    let halves = fours(shape.ar_order().div_ceil(2)) + fours(shape.ma_order().div_ceil(2));
+    let parts = shape.twos() * shape.parts::<A>();
     let twos: usize = (0..parts).map(part_cost).sum();
     let total = costs.block * blocks + costs.choice + mix + twos + costs.assembly_four * halves;
 

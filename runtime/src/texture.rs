@@ -40,7 +40,7 @@ pub struct Texture<
     pub(crate) taps: TapBank<K, A>,
     pub(crate) feel: Feel<A>,
     id: u32,
-    shape: Shape<A>,
+    shape: Shape,
     lags: Lags,
     shares: Shares,
     interpolator: Interpolator<A>,
@@ -252,7 +252,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         self.ar_pairs.0 = [[A::Scalar::ZERO; P]; V];
         self.ma_pairs.0 = [[A::Scalar::ZERO; Q]; V];
         self.levels_m_s2 = [A::Scalar::ZERO; V];
-        let (ar, ma) = (stages(grid.ar_order()), stages(grid.ma_order()));
+        let (ar, ma) = (places(grid.ar_order()), places(grid.ma_order()));
         for (index, vertex) in grid.vertices().enumerate().take(V) {
             if let Some(model) = grid.model(usize::from(vertex.model)) {
                 to_pairs(&mut self.ar_pairs.0[index], model.lsf(), &ar);
@@ -268,7 +268,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             grid.max_force_n(),
         );
         let count = shares_of_cycle(ticks);
-        self.shares = schedule::shares(self.locator.blocks(), &self.shape, count);
+        self.shares = schedule::shares::<A>(self.locator.blocks(), &self.shape, count);
         self.interpolator = Interpolator::new(ticks);
         self.taps.load(asset.taps(), servo_rate_hz);
         Ok(())
@@ -322,7 +322,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     pub fn filter_of(&self, query: &Barycentric<A>) -> Filter {
         let (mut pairs, mut products) = (Pairs::ZERO, Products::ONE);
         self.follow(&mut pairs, query, Number::whole(1));
-        for part in 0..self.shape.twos() * self.shape.parts() {
+        for part in 0..self.shape.twos() * self.shape.parts::<A>() {
             self.multiply(&mut products, &pairs, part);
         }
         let (mut a, mut b) = (Line::ZERO, Line::ZERO);
@@ -377,7 +377,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         share: Number<A, Unit>,
     ) {
         self.ar_pairs.follow(&mut pairs.ar, query, share);
-        if Q > 0 && self.shape.ma_order > 0 {
+        if Q > 0 && self.shape.ma_order() > 0 {
             self.ma_pairs.follow(&mut pairs.ma, query, share);
         }
     }
@@ -392,7 +392,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     #[inline]
     pub(crate) fn coefficients(&self, products: &Products<A>, a: &mut Line<A>, b: &mut Line<A>) {
         self.shape.ar(products, a);
-        if Q > 0 && self.shape.ma_order > 0 {
+        if Q > 0 && self.shape.ma_order() > 0 {
             self.shape.ma(products, b);
         } else {
             b.0[0][0] = self.b1.0;
@@ -413,19 +413,19 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
 }
 
 /// Where each LSF of an order stands in a row.
-fn stages(order: usize) -> [u8; MAX_ORDER] {
-    let mut stages = [0; MAX_ORDER];
-    for (index, stage) in stages.iter_mut().enumerate().take(order) {
-        *stage = lsf::stage(index, order) as u8;
+fn places(order: usize) -> [u8; MAX_ORDER] {
+    let mut places = [0; MAX_ORDER];
+    for (index, place) in places.iter_mut().enumerate().take(order) {
+        *place = lsf::stage(index, order) as u8;
     }
-    stages
+    places
 }
 
 /// −2 cos ω of a model, in the order in which the conversion takes them.
 fn to_pairs<S: Scalar>(
     row: &mut [S],
     codes: impl ExactSizeIterator<Item = LsfCode>,
-    stages: &[u8; MAX_ORDER],
+    places: &[u8; MAX_ORDER],
 ) {
     let order = codes.len();
     let mut numbers = [0.0; MAX_ORDER];
@@ -435,8 +435,8 @@ fn to_pairs<S: Scalar>(
     for four in numbers.as_chunks_mut::<4>().0 {
         *four = (F4::splat(-2.0) * cos_pi_four(F4::load(four))).to_array();
     }
-    for (number, &stage) in numbers.iter().zip(stages).take(order) {
-        if let Some(place) = row.get_mut(usize::from(stage)) {
+    for (number, &at) in numbers.iter().zip(places).take(order) {
+        if let Some(place) = row.get_mut(usize::from(at)) {
             *place = S::of(*number);
         }
     }

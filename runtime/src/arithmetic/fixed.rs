@@ -165,11 +165,6 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn four_to<F: Point, G: Point>(a: Four<F>) -> Four<G> {
-        a.map(Self::to)
-    }
-
-    #[inline(always)]
     fn to<F: Point, G: Point>(a: FixedI32<F>) -> FixedI32<G> {
         narrow(i64::from(a.to_bits()), F::I32 - G::I32)
     }
@@ -396,35 +391,35 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn extend<const FULL: bool>(
         two: &Two<FixedI32<Pair>>,
-        [c, one, middle, three, four]: [FixedI32<Coefficient>; 5],
+        c: [Option<FixedI32<Coefficient>>; 5],
     ) -> FixedI32<Coefficient> {
-        let sum = if FULL {
-            (i64::from((c + four).to_bits()) << Pair::I32)
-                + wide(two.q, middle)
-                + wide(two.s, one + three)
-        } else {
-            (i64::from(c.to_bits()) << Pair::I32)
-                + wide(two.o, four)
-                + wide(two.q, middle)
-                + wide(two.s, one)
-                + wide(two.r, three)
+        let [c, one, middle, three, four] = c.map(Option::unwrap_or_default);
+        // o is 0 or 1.
+        let shown = |x: FixedI32<Coefficient>| {
+            if FULL || two.o.is_positive() {
+                x
+            } else {
+                FixedI32::ZERO
+            }
         };
+        let sum = (i64::from((c + shown(four)).to_bits()) << Pair::I32)
+            + wide(two.q, middle)
+            + wide(two.s, one + shown(three));
         narrow_within(sum, Pair::I32, bits_of::<Coefficient>(LARGEST_PRODUCT))
     }
 
     #[inline(always)]
     fn extend_four<const FULL: bool>(
         two: &Two<Four<Pair>>,
-        c: [Four<Coefficient>; 5],
+        c: [Option<Four<Coefficient>>; 5],
     ) -> Four<Coefficient> {
         array::from_fn(|lane| {
             let two = Two {
                 s: two.s[lane],
                 q: two.q[lane],
-                r: two.r[lane],
                 o: two.o[lane],
             };
-            Self::extend::<FULL>(&two, c.map(|c| c[lane]))
+            Self::extend::<FULL>(&two, c.map(|c| c.map(|c| c[lane])))
         })
     }
 

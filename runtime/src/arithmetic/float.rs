@@ -8,6 +8,7 @@ use crate::{
     math::{min, rsqrt, rsqrt_pair, sqrt_with},
 };
 use asperity_formats::Asset;
+use core::ops::{Add, Mul};
 
 /// IEEE 754 `f32`. Every operation rounds alike on every processor, and no two are fused.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -102,11 +103,6 @@ impl Arithmetic for Float {
         /// From here on floats are whole numbers: a sum rounds to the nearest.
         const WHOLE: f32 = (1 << 23) as f32;
         (a + WHOLE).to_bits() % (1 << 23)
-    }
-
-    #[inline(always)]
-    fn four_to<F: Point, G: Point>(a: F4) -> F4 {
-        a
     }
 
     #[inline(always)]
@@ -303,21 +299,13 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
-    fn extend<const FULL: bool>(two: &Two<f32>, [c, one, middle, three, four]: [f32; 5]) -> f32 {
-        if FULL {
-            (c + four) + two.q * middle + two.s * (one + three)
-        } else {
-            (c + two.o * four) + two.q * middle + (two.s * one + two.r * three)
-        }
+    fn extend<const FULL: bool>(two: &Two<f32>, c: [Option<f32>; 5]) -> f32 {
+        extended::<FULL, f32>(two, c).unwrap_or(0.0)
     }
 
     #[inline(always)]
-    fn extend_four<const FULL: bool>(two: &Two<F4>, [c, one, middle, three, four]: [F4; 5]) -> F4 {
-        if FULL {
-            (c + four) + two.q * middle + two.s * (one + three)
-        } else {
-            (c + two.o * four) + two.q * middle + (two.s * one + two.r * three)
-        }
+    fn extend_four<const FULL: bool>(two: &Two<F4>, c: [Option<F4>; 5]) -> F4 {
+        extended::<FULL, F4>(two, c).unwrap_or(F4::ZERO)
     }
 
     #[inline(always)]
@@ -349,6 +337,22 @@ impl Arithmetic for Float {
             bound(raw)
         }
     }
+}
+
+/// See [`Arithmetic::extend`]: what is not there takes no operation.
+#[inline(always)]
+fn extended<const FULL: bool, T: Copy + Add<Output = T> + Mul<Output = T>>(
+    two: &Two<T>,
+    [c, one, middle, three, four]: [Option<T>; 5],
+) -> Option<T> {
+    let plus = |a: Option<T>, b: Option<T>| match (a, b) {
+        (Some(a), Some(b)) => Some(a + b),
+        (a, b) => a.or(b),
+    };
+    let times = |factor: T, x: Option<T>| x.map(|x| factor * x);
+    let shown = |x: Option<T>| if FULL { x } else { times(two.o, x) };
+    let ends = plus(plus(c, shown(four)), times(two.q, middle));
+    plus(ends, times(two.s, plus(one, shown(three))))
 }
 
 /// Whether an output is neither too small to matter, nor too large, nor NaN. Bits of positive

@@ -127,12 +127,6 @@ impl<A: Arithmetic, F: Point> Four<A, F> {
         Self(A::four_max(self.0, other.0))
     }
 
-    /// At another point.
-    #[inline(always)]
-    pub(crate) fn to<G: Point>(self) -> Four<A, G> {
-        Four(A::four_to(self.0))
-    }
-
     /// The second and the fourth with the other sign.
     #[inline(always)]
     pub(crate) fn alternating(self) -> Self {

@@ -1,0 +1,283 @@
+//! Twos of zero pairs multiplied into polynomials, four side by side or one by itself.
+
+use super::LANES;
+use crate::arithmetic::{
+    Arithmetic, Four, Number, Zero as _,
+    units::{Coefficient, Pair},
+};
+use asperity_formats::limits::MAX_ORDER;
+use core::ops::{Add, Sub};
+
+/// Coefficients 0..=12 of symmetric polynomials of degree up to 24.
+pub(super) const COEFFICIENTS: usize = MAX_ORDER / 2 + 1;
+
+/// Partial products, the half of each that symmetry leaves, times ½.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
+pub(crate) struct Products<A: Arithmetic>(
+    pub(super) [[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
+);
+
+/// One of them: every fourth number.
+pub(super) struct Lane<'a, A: Arithmetic>(
+    &'a mut [A::Scalar<Coefficient>; LANES * (COEFFICIENTS - 1) + 1],
+);
+
+impl<A: Arithmetic> Products<A> {
+    /// No pair yet.
+    pub(crate) const ONE: Self = {
+        let mut c = [[A::Scalar::ZERO; LANES]; COEFFICIENTS];
+        c[0] = [A::ONE_HALF; LANES];
+        Self(c)
+    };
+
+    /// One polynomial by itself.
+    #[inline(always)]
+    pub(super) fn lane(&mut self, polynomial: usize) -> Option<Lane<'_, A>> {
+        let from = self.0.as_flattened_mut().get_mut(polynomial..)?;
+        from.first_chunk_mut().map(Lane)
+    }
+}
+
+/// A two: 1 + s z⁻¹ + q z⁻² + os z⁻³ + o z⁻⁴. Without a high pair o is 0.
+#[derive(Debug, Clone, Copy)]
+pub struct Two<T> {
+    pub(crate) s: T,
+    pub(crate) q: T,
+    pub(crate) o: T,
+}
+
+/// −2 cos ω of one pair of each polynomial.
+pub trait Cosines: Copy + Add<Output = Self> + Sub<Output = Self> {
+    /// A whole number.
+    fn whole(n: i32) -> Self;
+
+    /// Product.
+    fn times(self, other: Self) -> Self;
+}
+
+impl<A: Arithmetic> Cosines for Four<A, Pair> {
+    #[inline(always)]
+    fn whole(n: i32) -> Self {
+        Self::splat(Number::whole(n))
+    }
+
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        self.times::<Pair, Pair>(other)
+    }
+}
+
+impl<A: Arithmetic> Cosines for Number<A, Pair> {
+    #[inline(always)]
+    fn whole(n: i32) -> Self {
+        Self::whole(n)
+    }
+
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        self.times::<Pair, Pair>(other)
+    }
+}
+
+impl<T: Cosines> Two<T> {
+    /// Of a low pair and a high one.
+    #[inline(always)]
+    fn of([low, high]: [T; 2]) -> Self {
+        Self {
+            s: low + high,
+            q: T::whole(2) + low.times(high),
+            o: T::whole(1),
+        }
+    }
+
+    /// Where polynomials may lack the high pair, or both: those are 0, and so is `has`.
+    #[inline(always)]
+    fn of_some([low, high]: [T; 2], [has_low, has_high]: [T; 2]) -> Self {
+        Self {
+            s: low + high,
+            q: has_low + has_high + low.times(high),
+            o: has_high,
+        }
+    }
+}
+
+/// Polynomials side by side, or one by itself.
+pub(super) trait Polynomial<A: Arithmetic> {
+    type Cosines: Cosines;
+    type Number: Copy;
+    /// A number of pairs of each.
+    type Count: Copy;
+
+    fn get(&self, k: usize) -> Self::Number;
+
+    fn set(&mut self, k: usize, x: Self::Number);
+
+    /// 1 where a count is above a number, else 0.
+    fn is_above(count: Self::Count, number: usize) -> Self::Cosines;
+
+    /// See [`Arithmetic::extend`].
+    fn extend<const FULL: bool>(
+        by: &Two<Self::Cosines>,
+        c: [Option<Self::Number>; 5],
+    ) -> Self::Number;
+
+    /// Multiplies in place, from degree 4·`two`, by a low pair and a high one. Of `pairs` pairs
+    /// that a polynomial has, all of them `fewest` at least; what it gets beyond its own middle
+    /// is not used.
+    #[inline(always)]
+    fn multiply(
+        &mut self,
+        two: usize,
+        cosines: [Self::Cosines; 2],
+        pairs: Self::Count,
+        fewest: u8,
+    ) {
+        if two < usize::from(fewest / 2) {
+            by_two::<A, Self, true>(self, two, &Two::of(cosines));
+        } else {
+            let has = [2 * two, 2 * two + 1].map(|slot| Self::is_above(pairs, slot));
+            by_two::<A, Self, false>(self, two, &Two::of_some(cosines, has));
+        }
+    }
+}
+
+impl<A: Arithmetic> Polynomial<A> for Products<A> {
+    type Cosines = Four<A, Pair>;
+    type Number = Four<A, Coefficient>;
+    type Count = [u8; LANES];
+
+    #[inline(always)]
+    fn get(&self, k: usize) -> Self::Number {
+        Four::load(&self.0[k])
+    }
+
+    #[inline(always)]
+    fn set(&mut self, k: usize, x: Self::Number) {
+        self.0[k] = x.to_array();
+    }
+
+    #[inline(always)]
+    fn is_above(count: Self::Count, number: usize) -> Self::Cosines {
+        let left = count.map(|count| {
+            let left = Number::<A, Coefficient>::whole(i32::from(count) - number as i32);
+            left.clamp_from_zero(Number::whole(1)).to::<Pair>().0
+        });
+        Four::load(&left)
+    }
+
+    #[inline(always)]
+    fn extend<const FULL: bool>(
+        by: &Two<Self::Cosines>,
+        c: [Option<Self::Number>; 5],
+    ) -> Self::Number {
+        let by = Two {
+            s: by.s.0,
+            q: by.q.0,
+            o: by.o.0,
+        };
+        Four(A::extend_four::<FULL>(&by, c.map(|c| c.map(|c| c.0))))
+    }
+}
+
+impl<A: Arithmetic> Polynomial<A> for Lane<'_, A> {
+    type Cosines = Number<A, Pair>;
+    type Number = Number<A, Coefficient>;
+    type Count = u8;
+
+    #[inline(always)]
+    fn get(&self, k: usize) -> Self::Number {
+        Number(self.0[LANES * k])
+    }
+
+    #[inline(always)]
+    fn set(&mut self, k: usize, x: Self::Number) {
+        self.0[LANES * k] = x.0;
+    }
+
+    #[inline(always)]
+    fn is_above(count: u8, number: usize) -> Self::Cosines {
+        Number::whole(i32::from(usize::from(count) > number))
+    }
+
+    #[inline(always)]
+    fn extend<const FULL: bool>(
+        by: &Two<Self::Cosines>,
+        c: [Option<Self::Number>; 5],
+    ) -> Self::Number {
+        let by = Two {
+            s: by.s.0,
+            q: by.q.0,
+            o: by.o.0,
+        };
+        Number(A::extend::<FULL>(&by, c.map(|c| c.map(|c| c.0))))
+    }
+}
+
+/// Multiplies polynomials of degree 4·`two` in place; with `FULL`, o = 1.
+#[inline(always)]
+fn by_two<A: Arithmetic, C: Polynomial<A> + ?Sized, const FULL: bool>(
+    c: &mut C,
+    two: usize,
+    by: &Two<C::Cosines>,
+) {
+    match two {
+        0 => extend::<A, C, FULL, 0>(c, by),
+        1 => extend::<A, C, FULL, 1>(c, by),
+        2 => extend::<A, C, FULL, 2>(c, by),
+        3 => extend::<A, C, FULL, 3>(c, by),
+        4 => extend::<A, C, FULL, 4>(c, by),
+        _ => extend::<A, C, FULL, 5>(c, by),
+    }
+}
+
+/// From the highest coefficient down, so that nothing is overwritten before it is read.
+#[inline(always)]
+fn extend<A: Arithmetic, C: Polynomial<A> + ?Sized, const FULL: bool, const TWO: usize>(
+    c: &mut C,
+    by: &Two<C::Cosines>,
+) {
+    // Symmetry gives what lies beyond the middle.
+    let old = |c: &C, k: usize| {
+        let k = if k <= 2 * TWO {
+            k
+        } else {
+            (4 * TWO).checked_sub(k)?
+        };
+        Some(c.get(k))
+    };
+    for k in (1..2 * TWO + 3).rev() {
+        let back = |by: usize| k.checked_sub(by).and_then(|k| old(c, k));
+        let x = C::extend::<FULL>(by, [old(c, k), back(1), back(2), back(3), back(4)]);
+        c.set(k, x);
+    }
+}
+
+#[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests run on the host")]
+mod tests {
+    use super::*;
+    use crate::arithmetic::Float;
+
+    /// Processors without registers of four numbers take the lanes one by one.
+    #[test]
+    fn one_polynomial_by_itself_gives_the_same_bits() {
+        let number = |k: usize| [1, 2, 3, 4].map(|lane| ((7 * k + lane) as f32).sin());
+        for pairs in [[12; 4], [12, 11, 10, 9], [8, 12, 0, 11]] {
+            let (mut at_once, mut singly) = (Products::<Float>::ONE, Products::<Float>::ONE);
+            for two in 0..MAX_ORDER / 4 {
+                let cosines = [number(two), number(two + 10)];
+                let fours = cosines.map(|four| Four::load(&four));
+                at_once.multiply(two, fours, pairs, *pairs.iter().min().unwrap());
+                for polynomial in 0..LANES {
+                    let cosines = cosines.map(|four| Number(four[polynomial]));
+                    let mut lane = singly.lane(polynomial).unwrap();
+                    let pairs = pairs[polynomial];
+                    lane.multiply(two, cosines, pairs, pairs);
+                }
+                let bits = |products: &Products<Float>| products.0.map(|c| c.map(f32::to_bits));
+                assert_eq!(bits(&at_once), bits(&singly), "two {two}");
+            }
+        }
+    }
+}
