@@ -160,7 +160,11 @@ impl<A: Arithmetic> Renderer<A> {
         };
         crossing.follow(&texture.feel, share);
         let feel = crossing.feel;
-        let felt = Felt { solid, feel: &feel };
+        let felt = Felt {
+            solid,
+            feel: &feel,
+            rendered: self.rendered(&feel),
+        };
         let follow_share = |ticks| self.follow_share(ticks);
         crossing.prepare(&mut state.vibration, texture, follow_share);
         let interpolator = texture.interpolator();

@@ -58,7 +58,11 @@ impl F4 {
     /// The first three and a zero; the fourth is finite.
     #[inline(always)]
     pub(crate) fn first_three(self) -> Self {
-        self * Self::load(&[1.0, 1.0, 1.0, 0.0])
+        if Self::IN_REGISTERS {
+            return self * Self::load(&[1.0, 1.0, 1.0, 0.0]);
+        }
+        let [x, y, z, _] = self.to_array();
+        Self::load(&[x, y, z, 0.0])
     }
 
     /// All four: (1st + 2nd) + (3rd + 4th).
@@ -71,7 +75,12 @@ impl F4 {
     /// Whether none of the four is beyond ±`limit` or NaN.
     #[inline(always)]
     pub(crate) fn is_within(self, limit: f32) -> bool {
-        self.0.abs().cmp_le(f32x4::splat(limit)).all()
+        if Self::IN_REGISTERS {
+            return self.0.abs().cmp_le(f32x4::splat(limit)).all();
+        }
+        // Bits of positive numbers are in their order, those of NaN above.
+        let within = |x: f32| x.abs().to_bits() <= limit.to_bits();
+        self.to_array().into_iter().all(within)
     }
 
     /// Inner product of the first three.

@@ -107,6 +107,7 @@ pub struct State<A: Arithmetic = Float> {
     tap: TapState<A>,
     friction: FrictionState<A>,
     force_n: Four<A, Newton>,
+    rendered: Rendered<A>,
     counters: Counters,
 }
 
@@ -123,6 +124,7 @@ impl<A: Arithmetic> State<A> {
             tap: TapState::IDLE,
             friction: FrictionState::default(),
             force_n: Four::ZERO,
+            rendered: Rendered::NONE,
             counters: Counters::default(),
         }
     }
@@ -157,6 +159,23 @@ impl<A: Arithmetic> State<A> {
 pub(crate) struct Felt<'a, A: Arithmetic> {
     pub(crate) solid: &'a Solid<A>,
     pub(crate) feel: &'a Feel<A>,
+    pub(crate) rendered: Rendered<A>,
+}
+
+/// What the device makes of a texture's feel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Rendered<A: Arithmetic> {
+    wall: Wall<A>,
+    /// Of the vibration.
+    gain_kg: Number<A, Kilogram>,
+}
+
+impl<A: Arithmetic> Rendered<A> {
+    /// No wall, silence.
+    const NONE: Self = Self {
+        wall: Wall::NONE,
+        gain_kg: Number::ZERO,
+    };
 }
 
 /// A checked configuration with all that follows from it.
@@ -240,6 +259,17 @@ impl<A: Arithmetic> Renderer<A> {
         self.follow_shares[usize::from(ticks_per_sample % 32)]
     }
 
+    /// What the device makes of a texture's feel.
+    #[inline(always)]
+    pub(crate) fn rendered(&self, feel: &Feel<A>) -> Rendered<A> {
+        Rendered {
+            wall: self
+                .passivity
+                .wall(feel.stiffness_n_m.0, feel.damping_n_s_m.0),
+            gain_kg: feel.vib_s2_m.times_within(feel.f_max_n, HEAVIEST_KG),
+        }
+    }
+
     /// What is touched.
     pub(crate) const fn solid(&self) -> &Solid<A> {
         &self.solid
@@ -266,12 +296,15 @@ impl<A: Arithmetic> Renderer<A> {
         state: &mut State<A>,
         sample: &Sample<A>,
     ) -> Output<A> {
+        let follow_share = |ticks| self.follow_share(ticks);
+        if state.vibration.prepare(texture, follow_share) {
+            state.rendered = self.rendered(&texture.feel);
+        }
         let felt = Felt {
             solid: &self.solid,
             feel: &texture.feel,
+            rendered: state.rendered,
         };
-        let follow_share = |ticks| self.follow_share(ticks);
-        state.vibration.prepare(texture, follow_share);
         let (lags, interpolator) = (texture.lags(), texture.interpolator());
         let sound =
             |vibration: &mut Vibration<A>, sounding| vibration.sound(lags, interpolator, sounding);
@@ -325,9 +358,7 @@ impl<A: Arithmetic> Renderer<A> {
         let depth_m = (-distance_m).max(Number::ZERO);
         let touching = depth_m > Number::ZERO;
         flags = flags.and(Flags::CONTACT.when(touching));
-        let wall = self
-            .passivity
-            .wall(feel.stiffness_n_m.0, feel.damping_n_s_m.0);
+        let wall = felt.rendered.wall;
         let stiffness_n = wall.spring_n(depth_m);
 
         let slide_m_s = velocity_m_s.first_three().tangential(normal);
@@ -365,8 +396,7 @@ impl<A: Arithmetic> Renderer<A> {
             VibrationAxis::Tangent => state.direction,
             VibrationAxis::Binormal => state.direction.cross(normal),
         };
-        let gain: Number<A, Kilogram> = feel.vib_s2_m.times_within(feel.f_max_n, HEAVIEST_KG);
-        let vib_n: Number<A, Newton> = gain.times_within(vib_m_s2, STRONGEST_N);
+        let vib_n: Number<A, Newton> = felt.rendered.gain_kg.times_within(vib_m_s2, STRONGEST_N);
         let total_n = normal.scaled(normal_n) + friction + axis.scaled(vib_n);
         let wanted_n = total_n.scaled(gated.gain);
         let (force_n, limited) = self.limiter.advance(state.force_n, wanted_n);

@@ -167,7 +167,8 @@ impl<A: Arithmetic> Vibration<A> {
     }
 
     /// Begins a tick: its share of the cycle, where that is not the first one. `follow_share`
-    /// is asked with the ticks a sample of the texture.
+    /// is asked with the ticks a sample of the texture. Returns whether a cycle begins, or another
+    /// texture.
     #[inline(always)]
     pub(crate) fn prepare<
         const V: usize,
@@ -179,8 +180,9 @@ impl<A: Arithmetic> Vibration<A> {
         &mut self,
         texture: &Texture<V, T, P, Q, K, A>,
         follow_share: impl Fn(u8) -> Number<A, Unit>,
-    ) {
-        if self.texture != texture.id() {
+    ) -> bool {
+        let changes = self.texture != texture.id();
+        if changes {
             self.change_texture(texture.id());
         }
         let ticks = texture.interpolator().ticks();
@@ -195,6 +197,7 @@ impl<A: Arithmetic> Vibration<A> {
                 self.finish(texture);
             }
         }
+        changes || self.phase == 0
     }
 
     /// The next output; `lags` and `interpolator` are those of the texture at work.

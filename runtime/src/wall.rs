@@ -17,7 +17,7 @@
 use crate::{
     MechanicsConfig,
     arithmetic::{
-        Arithmetic, Float, Number,
+        Arithmetic, Float, Number, Zero as _,
         units::{
             Metre, MetrePerSecond, Newton, NewtonPerMetre, NewtonSecondPerMetre, STRONGEST_N, Unit,
         },
@@ -88,6 +88,12 @@ impl<A: Arithmetic> Passivity<A> {
 }
 
 impl<A: Arithmetic> Wall<A> {
+    /// None at all.
+    pub(crate) const NONE: Self = Self {
+        stiffness_n_m: A::Scalar::ZERO,
+        damping_n_s_m: A::Scalar::ZERO,
+    };
+
     /// k·δ, N, of a depth δ ≥ 0.
     #[inline(always)]
     pub(crate) fn spring_n(&self, depth_m: Number<A, Metre>) -> Number<A, Newton> {
