@@ -90,6 +90,7 @@ impl<A: Arithmetic> Crossing<A> {
                 self.ticks_per_sample = ticks;
                 self.lags = texture.lags();
                 self.changing = false;
+                vibration.change_texture(texture.id());
             }
         }
         if self.changing && vibration.is_last_of_cycle(ticks) {
@@ -172,10 +173,11 @@ impl<A: Arithmetic> Renderer<A> {
             crossing.sound(vibration, interpolator, sounding)
         };
         let output = self.tick_on(felt, texture, state, sample, sound);
-        let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
-        state
-            .vibration
-            .query(texture, Number(speed_mm_s), Number(force_n));
+        if state.vibration.takes_query() {
+            let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
+            let vibration = &mut state.vibration;
+            vibration.query(texture, Number(speed_mm_s), Number(force_n));
+        }
         crossing.touching = output.flags.contains(Flags::CONTACT);
         output
     }

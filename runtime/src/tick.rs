@@ -143,6 +143,13 @@ impl<A: Arithmetic> State<A> {
         self.tap.cross(distance_m.0);
     }
 
+    /// Another texture, on the same surface.
+    #[cold]
+    fn change_texture(&mut self, texture: u32, rendered: Rendered<A>) {
+        self.vibration.change_texture(texture);
+        self.rendered = rendered;
+    }
+
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.
     #[cold]
     fn restart(&mut self, distance_m: Number<A, Metre>) {
@@ -296,10 +303,11 @@ impl<A: Arithmetic> Renderer<A> {
         state: &mut State<A>,
         sample: &Sample<A>,
     ) -> Output<A> {
-        let follow_share = |ticks| self.follow_share(ticks);
-        if state.vibration.prepare(texture, follow_share) {
-            state.rendered = self.rendered(&texture.feel);
+        if !state.vibration.is_on(texture.id()) {
+            state.change_texture(texture.id(), self.rendered(&texture.feel));
         }
+        let follow_share = |ticks| self.follow_share(ticks);
+        state.vibration.prepare(texture, follow_share);
         let felt = Felt {
             solid: &self.solid,
             feel: &texture.feel,
@@ -309,11 +317,12 @@ impl<A: Arithmetic> Renderer<A> {
         let sound =
             |vibration: &mut Vibration<A>, sounding| vibration.sound(lags, interpolator, sounding);
         let output = self.tick_on(felt, texture, state, sample, sound);
-        state.vibration.query(
-            texture,
-            Number(output.speed_mm_s),
-            Number(output.normal_force_n),
-        );
+        if state.vibration.takes_query() {
+            state.rendered = self.rendered(&texture.feel);
+            let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
+            let vibration = &mut state.vibration;
+            vibration.query(texture, Number(speed_mm_s), Number(force_n));
+        }
         output
     }
 

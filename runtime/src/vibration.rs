@@ -101,7 +101,7 @@ impl<A: Arithmetic> Vibration<A> {
 
     /// Another texture: a cycle begun on one is not finished on the other.
     #[cold]
-    fn change_texture(&mut self, texture: u32) {
+    pub(crate) fn change_texture(&mut self, texture: u32) {
         // A new state has nothing to forget.
         if self.texture != 0 {
             self.silence();
@@ -160,15 +160,19 @@ impl<A: Arithmetic> Vibration<A> {
         follow_share: A::Scalar<Unit>,
         sounding: bool,
     ) -> (A::Scalar<Acceleration>, bool) {
+        if !self.is_on(texture.id()) {
+            self.change_texture(texture.id());
+        }
         self.prepare(texture, |_| Number(follow_share));
         let (y, clamped) = self.sound(texture.lags(), texture.interpolator(), sounding);
-        self.query(texture, Number(speed_mm_s), Number(force_n));
+        if self.takes_query() {
+            self.query(texture, Number(speed_mm_s), Number(force_n));
+        }
         (y.0, clamped)
     }
 
-    /// Begins a tick: its share of the cycle, where that is not the first one. `follow_share`
-    /// is asked with the ticks a sample of the texture. Returns whether a cycle begins, or another
-    /// texture.
+    /// Begins a tick on the texture of [`Vibration::is_on`]: its share of the cycle, where that is
+    /// not the first one. `follow_share` is asked with the ticks a sample of the texture.
     #[inline(always)]
     pub(crate) fn prepare<
         const V: usize,
@@ -180,11 +184,7 @@ impl<A: Arithmetic> Vibration<A> {
         &mut self,
         texture: &Texture<V, T, P, Q, K, A>,
         follow_share: impl Fn(u8) -> Number<A, Unit>,
-    ) -> bool {
-        let changes = self.texture != texture.id();
-        if changes {
-            self.change_texture(texture.id());
-        }
+    ) {
         let ticks = texture.interpolator().ticks();
         if ticks > 1 {
             self.prepare_between(texture, follow_share(ticks), ticks);
@@ -197,7 +197,6 @@ impl<A: Arithmetic> Vibration<A> {
                 self.finish(texture);
             }
         }
-        changes || self.phase == 0
     }
 
     /// The next output; `lags` and `interpolator` are those of the texture at work.
@@ -227,29 +226,15 @@ impl<A: Arithmetic> Vibration<A> {
         sounded
     }
 
-    /// Ends a tick: the first one of a cycle takes the query.
+    /// Whether this tick ends with a query.
     #[inline(always)]
-    pub(crate) fn query<
-        const V: usize,
-        const T: usize,
-        const P: usize,
-        const Q: usize,
-        const K: usize,
-    >(
-        &mut self,
-        texture: &Texture<V, T, P, Q, K, A>,
-        speed_mm_s: Number<A, MillimetrePerSecond>,
-        force_n: Number<A, Newton>,
-    ) {
-        if self.phase == 0 {
-            self.begin_cycle(texture, speed_mm_s, force_n);
-            self.phase = 1;
-        }
+    pub(crate) const fn takes_query(&self) -> bool {
+        self.phase == 0
     }
 
-    /// The first share of a cycle.
+    /// Ends a tick that takes a query, with the first share of a cycle.
     #[inline(never)]
-    fn begin_cycle<
+    pub(crate) fn query<
         const V: usize,
         const T: usize,
         const P: usize,
@@ -266,6 +251,7 @@ impl<A: Arithmetic> Vibration<A> {
         self.search = texture.locator.begin(speed, force);
         let blocks = texture.share(0).blocks.into();
         texture.locator.look(&mut self.search, speed, force, blocks);
+        self.phase = 1;
     }
 
     /// The share of another tick.
