@@ -13,7 +13,7 @@ pub mod units;
 
 #[cfg(test)]
 pub(crate) use self::float::{C1, C3};
-pub(crate) use self::four::Four;
+pub(crate) use self::four::{Four, Three};
 pub use self::{fixed::Fixed, float::Float, number::Number};
 
 use self::units::{Acceleration, Coefficient, Coordinate, Gaussian, Pair, Slope, Unit, Weight};
@@ -67,6 +67,8 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     type Scalar<F: Point>: Scalar;
     /// Four numbers.
     type Four<F: Point>: Zero;
+    /// Three components of a vector as a state keeps them.
+    type Three<F: Point>: Zero;
     /// The square of a length.
     type Square: Copy + Debug + PartialOrd;
     /// What a length and a direction are made of.
@@ -149,6 +151,12 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
 
     /// Four numbers.
     fn four<F: Point>(numbers: &[Self::Scalar<F>; 4]) -> Self::Four<F>;
+
+    /// The first three of four.
+    fn three<F: Point>(four: Self::Four<F>) -> Self::Three<F>;
+
+    /// Three components and a number that means nothing.
+    fn four_of_three<F: Point>(three: Self::Three<F>) -> Self::Four<F>;
 
     /// The numbers of four.
     fn numbers<F: Point>(four: Self::Four<F>) -> [Self::Scalar<F>; 4];

@@ -31,7 +31,7 @@
 use crate::{
     FrictionConfig,
     arithmetic::{
-        Arithmetic, Float, Four, Number,
+        Arithmetic, Float, Four, Number, Three,
         units::{Leak, Metre, Newton, NewtonPerMetre, Ratio, Unit},
     },
     math::max,
@@ -71,13 +71,13 @@ impl<A: Arithmetic> Bristle<A> {
 /// Where the bristle is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionState<A: Arithmetic = Float> {
-    deflection_m: Four<A, Metre>,
+    deflection_m: Three<A, Metre>,
 }
 
 impl<A: Arithmetic> Default for FrictionState<A> {
     fn default() -> Self {
         Self {
-            deflection_m: Four::ZERO,
+            deflection_m: Three::ZERO,
         }
     }
 }
@@ -130,7 +130,7 @@ impl<A: Arithmetic> FrictionState<A> {
     ) -> Stretched<A> {
         let loaded_n = normal_n.to::<Leak>();
         let kept: Number<A, Unit> = loaded_n.over(loaded_n + bristle.leak_n);
-        let moved_m = (self.deflection_m + motion_m).scaled(kept);
+        let moved_m = (self.deflection_m.four() + motion_m).scaled(kept);
         let moved_m: Four<A, Metre> = Four::tangential(moved_m, normal);
         Stretched {
             moved_m,
@@ -151,7 +151,7 @@ impl<A: Arithmetic> FrictionState<A> {
         let slipping_m: Number<A, Metre> = limit_n.over(bristle.stiffness_n_m);
         let reach_m = slipping_m.within(FURTHEST_M) + bristle.dead_zone_m;
         let slip = Number::<A, Unit>(A::share(reach_m.0, polar));
-        self.deflection_m = stretched.moved_m.scaled(slip);
+        self.deflection_m = Three::of(stretched.moved_m.scaled(slip));
 
         let along = stretched.moved_m.direction(polar);
         let length_m = Number::<A, Metre>(A::length(polar));

@@ -10,6 +10,33 @@ use wide::{CmpLe, f32x4};
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct F4(f32x4);
 
+/// Numbers that a state keeps of a vector.
+const KEPT: usize = if F4::IN_REGISTERS { 4 } else { 3 };
+
+/// Three components as a state keeps them: all of a register where there are some.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
+pub struct F3([f32; KEPT]);
+
+impl F3 {
+    pub(crate) const ZERO: Self = Self([0.0; KEPT]);
+
+    #[inline(always)]
+    pub(crate) fn of(four: F4) -> Self {
+        let mut kept = [0.0; KEPT];
+        kept.copy_from_slice(&four.to_array()[..KEPT]);
+        Self(kept)
+    }
+
+    /// Where there are no registers, with a zero.
+    #[inline(always)]
+    pub(crate) fn four(&self) -> F4 {
+        let mut four = [0.0; 4];
+        four[..KEPT].copy_from_slice(&self.0);
+        F4::load(&four)
+    }
+}
+
 impl F4 {
     /// Whether registers hold four numbers; elsewhere long work costs less lane by lane.
     pub(crate) const IN_REGISTERS: bool = cfg!(any(

@@ -121,7 +121,7 @@ impl<A: Arithmetic> Strips<A> {
 /// speed and force, and the rows of the inverse of the edge matrix. Weights of the second
 /// and third corner are linear in the offset from the first, which keeps slivers accurate.
 #[derive(Debug, Clone)]
-#[repr(align(16))]
+#[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
 struct Rows<const T: usize, A: Arithmetic>([[A::Scalar<Coordinate>; 6]; T]);
 
 impl<const T: usize, A: Arithmetic> Rows<T, A> {

@@ -9,7 +9,7 @@
 use crate::{
     Flags, Sample,
     arithmetic::{
-        Arithmetic, Float, Four, Number,
+        Arithmetic, Float, Four, Number, Three,
         units::{Gain, Metre},
     },
 };
@@ -17,7 +17,7 @@ use crate::{
 /// The gate that every sample passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gate<A: Arithmetic = Float> {
-    position_m: Four<A, Metre>,
+    position_m: Three<A, Metre>,
     /// Bad samples in a row.
     bad_in_a_row: u32,
     /// Share of the force that is let through, 0..=1.
@@ -59,7 +59,7 @@ impl<A: Arithmetic> Gate<A> {
     #[must_use]
     pub fn new() -> Self {
         Self {
-            position_m: Four::ZERO,
+            position_m: Three::ZERO,
             bad_in_a_row: 0,
             gain: Number::whole(1),
             fresh: true,
@@ -67,8 +67,9 @@ impl<A: Arithmetic> Gate<A> {
     }
 
     /// The last usable position, m.
-    pub(crate) const fn position_m(&self) -> Four<A, Metre> {
-        self.position_m
+    #[inline(always)]
+    pub(crate) fn position_m(&self) -> Four<A, Metre> {
+        self.position_m.four()
     }
 
     /// One sample; `ramp_step` is the gain regained a tick.
@@ -86,8 +87,8 @@ impl<A: Arithmetic> Gate<A> {
         if missed > hold_ticks || self.fresh || !p.is_within(A::REACH_M) {
             return self.irregular(sample, hold_ticks, ramp_step);
         }
-        let motion_m = p - self.position_m;
-        self.position_m = p;
+        let motion_m = p - self.position_m();
+        self.position_m = Three::of(p);
         self.bad_in_a_row = 0;
         let flags = self.ramp(ramp_step);
         Gated {
@@ -136,9 +137,9 @@ impl<A: Arithmetic> Gate<A> {
         let safe = !good && !held;
         let fault = safe && (gap || !self.fresh);
         let restart = usable && (self.fresh || gap);
-        let before = if restart { p } else { self.position_m };
+        let before = if restart { p } else { self.position_m() };
         if usable {
-            self.position_m = p;
+            self.position_m = Three::of(p);
         }
         self.fresh = safe && !usable;
         let flags = if safe {
@@ -150,8 +151,8 @@ impl<A: Arithmetic> Gate<A> {
             self.ramp(ramp_step)
         };
         Gated {
-            position_m: self.position_m,
-            motion_m: self.position_m - before,
+            position_m: self.position_m(),
+            motion_m: self.position_m() - before,
             elapsed_ticks: if good && !restart { missed + 1 } else { 1 },
             gain: self.gain,
             flags: flags

@@ -19,7 +19,7 @@ const WINDOW: usize = BLOCKS + 1;
 
 /// Numbers of up to 24 lags, from lag 1 on, in blocks of four.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(align(16))]
+#[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
 pub struct Line<A: Arithmetic = Float, F: Point = Coefficient>(
     pub(crate) [[A::Scalar<F>; LANES]; BLOCKS],
 );

@@ -150,7 +150,7 @@ const WIDEST: f32 = 2.0;
 
 /// −2 cos ω in [`lsf::stage`] order, one row a vertex.
 #[derive(Debug, Clone)]
-#[repr(align(16))]
+#[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
 struct Rows<const N: usize, const V: usize, A: Arithmetic>([[A::Scalar<Pair>; N]; V]);
 
 impl<const N: usize, const V: usize, A: Arithmetic> Rows<N, V, A> {

@@ -5,7 +5,7 @@ use asperity_formats::Surface;
 use crate::{
     Config, ConfigError, Counters, Flags, Texture, VibrationAxis,
     arithmetic::{
-        Arithmetic, Float, Four, Number, Scalar as _,
+        Arithmetic, Float, Four, Number, Scalar as _, Three,
         units::{
             Acceleration, FASTEST_M_S, Gain, Hertz, Kilogram, Metre, MetrePerSecond,
             MillimetrePerSecond, Newton, Ratio, STRONGEST_N, TapAcceleration, Unit,
@@ -103,10 +103,10 @@ pub struct State<A: Arithmetic = Float> {
     gate: Gate<A>,
     distance_m: Number<A, Metre>,
     velocity: LowPass2State<A>,
-    direction: Four<A, Unit>,
+    direction: Three<A, Unit>,
     tap: TapState<A>,
     friction: FrictionState<A>,
-    force_n: Four<A, Newton>,
+    force_n: Three<A, Newton>,
     rendered: Rendered<A>,
     counters: Counters,
 }
@@ -120,10 +120,10 @@ impl<A: Arithmetic> State<A> {
             gate: Gate::new(),
             distance_m: Number::ZERO,
             velocity: LowPass2State::REST,
-            direction: Four::whole([1, 0, 0, 0]),
+            direction: Three::of(Four::whole([1, 0, 0, 0])),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
-            force_n: Four::ZERO,
+            force_n: Three::ZERO,
             rendered: Rendered::NONE,
             counters: Counters::default(),
         }
@@ -377,7 +377,7 @@ impl<A: Arithmetic> Renderer<A> {
         let [sliding, stretching] = A::polar_pair([slide_m_s.square(), stretched.square]);
         let speed_m_s = Number::<A, MetrePerSecond>(A::length(sliding));
         if speed_m_s > Number::of(DIRECTION_FLOOR_M_S) {
-            state.direction = slide_m_s.direction(sliding);
+            state.direction = Three::of(slide_m_s.direction(sliding));
         }
         let speed_mm_s = speed_m_s.times(Number::<A, Ratio>::whole(MM));
         let outside = texture.is_outside(speed_mm_s, stiffness_n);
@@ -402,14 +402,14 @@ impl<A: Arithmetic> Renderer<A> {
         let pushing_n = Number::<A, Newton>(wall.force_n(stiffness_n.0, outward_m_s.0));
         let normal_n: Number<A, Newton> = pushing_n + tap_n;
         let axis = match config.vibration_axis {
-            VibrationAxis::Tangent => state.direction,
-            VibrationAxis::Binormal => state.direction.cross(normal),
+            VibrationAxis::Tangent => state.direction.four(),
+            VibrationAxis::Binormal => state.direction.four().cross(normal),
         };
         let vib_n: Number<A, Newton> = felt.rendered.gain_kg.times_within(vib_m_s2, STRONGEST_N);
         let total_n = normal.scaled(normal_n) + friction + axis.scaled(vib_n);
         let wanted_n = total_n.scaled(gated.gain);
-        let (force_n, limited) = self.limiter.advance(state.force_n, wanted_n);
-        state.force_n = force_n;
+        let (force_n, limited) = self.limiter.advance(state.force_n.four(), wanted_n);
+        state.force_n = Three::of(force_n);
         flags = flags.and(limited);
 
         state.counters.count(flags, sample.elapsed_ticks);

@@ -77,8 +77,8 @@ impl<F: Point> Zero for FixedI32<F> {
     const ZERO: Self = Self::ZERO;
 }
 
-impl<F: Point> Zero for Four<F> {
-    const ZERO: Self = [FixedI32::ZERO; 4];
+impl<F: Point, const N: usize> Zero for [FixedI32<F>; N] {
+    const ZERO: Self = [FixedI32::ZERO; N];
 }
 
 impl<F: Point> Scalar for FixedI32<F> {
@@ -127,6 +127,7 @@ const fn bits_of<F: Point>(limit: f32) -> i32 {
 impl Arithmetic for Fixed {
     type Scalar<F: Point> = FixedI32<F>;
     type Four<F: Point> = Four<F>;
+    type Three<F: Point> = [FixedI32<F>; 3];
     type Square = u64;
     type Polar = FixedPolar;
     type Sum = i64;
@@ -205,6 +206,16 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn four<F: Point>(numbers: &Four<F>) -> Four<F> {
         *numbers
+    }
+
+    #[inline(always)]
+    fn three<F: Point>([x, y, z, _]: Four<F>) -> [FixedI32<F>; 3] {
+        [x, y, z]
+    }
+
+    #[inline(always)]
+    fn four_of_three<F: Point>([x, y, z]: [FixedI32<F>; 3]) -> Four<F> {
+        [x, y, z, FixedI32::ZERO]
     }
 
     #[inline(always)]

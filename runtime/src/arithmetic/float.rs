@@ -3,7 +3,7 @@
 use super::{Arithmetic, Point, Scalar, Zero};
 use crate::{
     Config, ConfigError, LoadError, Surface,
-    lanes::F4,
+    lanes::{F3, F4},
     lsf::Two,
     math::{min, rsqrt, rsqrt_pair, sqrt_with},
 };
@@ -39,6 +39,10 @@ impl Zero for F4 {
     const ZERO: Self = Self::ZERO;
 }
 
+impl Zero for F3 {
+    const ZERO: Self = Self::ZERO;
+}
+
 impl Scalar for f32 {
     const FARTHEST: Self = Self::INFINITY;
     const MISSING: Self = Self::NAN;
@@ -66,6 +70,7 @@ impl Scalar for f32 {
 impl Arithmetic for Float {
     type Scalar<F: Point> = f32;
     type Four<F: Point> = F4;
+    type Three<F: Point> = F3;
     type Square = f32;
     type Polar = FloatPolar;
     type Sum = F4;
@@ -138,6 +143,16 @@ impl Arithmetic for Float {
     #[inline(always)]
     fn four<F: Point>(numbers: &[f32; 4]) -> F4 {
         F4::load(numbers)
+    }
+
+    #[inline(always)]
+    fn three<F: Point>(four: F4) -> F3 {
+        F3::of(four)
+    }
+
+    #[inline(always)]
+    fn four_of_three<F: Point>(three: F3) -> F4 {
+        three.four()
     }
 
     #[inline(always)]

@@ -7,6 +7,43 @@ use core::ops::{Add, Sub};
 #[derive(Debug)]
 pub(crate) struct Four<A: Arithmetic, F: Point>(pub(crate) A::Four<F>);
 
+/// A vector as a state keeps it.
+#[derive(Debug)]
+pub(crate) struct Three<A: Arithmetic, F: Point>(A::Three<F>);
+
+impl<A: Arithmetic, F: Point> Clone for Three<A, F> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<A: Arithmetic, F: Point> Copy for Three<A, F> {}
+
+impl<A: Arithmetic, F: Point> PartialEq for Three<A, F> {
+    #[inline(always)]
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl<A: Arithmetic, F: Point> Three<A, F> {
+    /// Nothing.
+    pub(crate) const ZERO: Self = Self(A::Three::ZERO);
+
+    /// The first three.
+    #[inline(always)]
+    pub(crate) fn of(four: Four<A, F>) -> Self {
+        Self(A::three(four.0))
+    }
+
+    /// With a fourth that means nothing.
+    #[inline(always)]
+    pub(crate) fn four(self) -> Four<A, F> {
+        Four(A::four_of_three(self.0))
+    }
+}
+
 impl<A: Arithmetic, F: Point> Clone for Four<A, F> {
     #[inline(always)]
     fn clone(&self) -> Self {
