@@ -69,6 +69,8 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     type Four<F: Point>: Zero;
     /// Three components of a vector as a state keeps them.
     type Three<F: Point>: Zero;
+    /// The largest of many weights, or of those in each lane.
+    type Best: Copy + Debug + PartialEq;
     /// The square of a length.
     type Square: Copy + Debug + PartialOrd;
     /// What a length and a direction are made of.
@@ -77,7 +79,7 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     type Sum: Copy + Add<Output = Self::Sum> + Sub<Output = Self::Sum>;
 
     /// Less than every weight.
-    const LEAST: Self::Scalar<Weight>;
+    const WORST: Self::Best;
     /// A coordinate beyond every grid, and a slope that makes a weight there less than any.
     const FAR_OFF: Self::Scalar<Coordinate>;
     /// See [`Arithmetic::FAR_OFF`].
@@ -173,9 +175,6 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// The smaller of each two.
     fn four_min<F: Point>(a: Self::Four<F>, b: Self::Four<F>) -> Self::Four<F>;
 
-    /// The larger of each two.
-    fn four_max<F: Point>(a: Self::Four<F>, b: Self::Four<F>) -> Self::Four<F>;
-
     /// The products of each two.
     fn four_times<F: Point, G: Point, H: Point>(
         a: Self::Four<F>,
@@ -216,14 +215,12 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// Whether none of the four is beyond ±`limit`, or no number.
     fn is_within<F: Point>(a: Self::Four<F>, limit: f32) -> bool;
 
-    /// Replaces the last bits of each, those of `clear`, by `set`.
-    fn mark<F: Point>(a: Self::Four<F>, clear: u32, set: u32) -> Self::Four<F>;
+    /// The best so far of weights whose last bits, those of `bits`, are replaced by their index;
+    /// four come from `index` on.
+    fn better(best: Self::Best, four: Self::Four<Weight>, bits: u32, index: u32) -> Self::Best;
 
-    /// The last bits of a number, those of `of`.
-    fn marks<F: Point>(a: Self::Scalar<F>, of: u32) -> u32;
-
-    /// A number with more bits set.
-    fn marked<F: Point>(a: Self::Scalar<F>, set: u32) -> Self::Scalar<F>;
+    /// The index of the best one.
+    fn best(best: Self::Best, bits: u32) -> u32;
 
     /// The square of the length of the first three.
     fn square<F: Point>(a: Self::Four<F>) -> Self::Square;

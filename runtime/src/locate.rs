@@ -42,15 +42,6 @@ pub struct Barycentric<A: Arithmetic = Float> {
     pub outside: bool,
 }
 
-impl<A: Arithmetic> Barycentric<A> {
-    /// No vertex at all.
-    pub(crate) const NONE: Self = Self {
-        vertices: [0; 3],
-        weights: [A::Scalar::ZERO; 3],
-        outside: false,
-    };
-}
-
 /// The triangles, prepared for queries; at most `T`, a multiple of 4.
 #[derive(Debug, Clone)]
 pub(crate) struct Locator<const T: usize, A: Arithmetic> {
@@ -149,16 +140,16 @@ impl<const T: usize, A: Arithmetic> Rows<T, A> {
 /// A search under way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Search<A: Arithmetic> {
-    /// The best triangle so far in each lane: its smallest weight, whose last bits are replaced
-    /// by the index of its block. Neighbours that differ by so little mix the same.
-    best: [A::Scalar<Weight>; LANES],
+    /// The best triangle so far: its smallest weight, whose last bits are replaced by its index.
+    /// Neighbours that differ by so little mix the same.
+    best: A::Best,
     /// Blocks to look at, one bit each.
     left: u32,
 }
 
 impl<A: Arithmetic> Search<A> {
     pub(crate) const NONE: Self = Self {
-        best: [A::Scalar::ZERO; LANES],
+        best: A::WORST,
         left: 0,
     };
 }
@@ -317,7 +308,7 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
         force: Number<A, Coordinate>,
     ) -> Search<A> {
         Search {
-            best: [A::LEAST; LANES],
+            best: A::WORST,
             left: self.speed_strips.at(speed) & self.force_strips.at(force),
         }
     }
@@ -332,7 +323,7 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
         blocks: usize,
     ) {
         let (speed, force) = (Four::splat(speed), Four::splat(force));
-        let mut best = Four::<A, Weight>::load(&search.best);
+        let mut best = search.best;
         let one = Four::splat(Number::whole(1));
         let all = self.rows.0.as_flattened().as_chunks::<LANES>().0;
         let all = all.as_chunks::<6>().0;
@@ -348,9 +339,9 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
             let w1 = Four::<A, Weight>::sum_within([(ds, w1s), (df, w1f)], FAR);
             let w2 = Four::<A, Weight>::sum_within([(ds, w2s), (df, w2f)], FAR);
             let smallest = (one - w1 - w2).min(w1).min(w2);
-            best = smallest.mark(INDEX, block * LANES as u32).max(best);
+            best = A::better(best, smallest.0, INDEX, block * LANES as u32);
         }
-        search.best = best.to_array();
+        search.best = best;
     }
 
     /// The mixture of the best triangle; finite and convex for every query in the grid.
@@ -361,9 +352,7 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
         speed: Number<A, Coordinate>,
         force: Number<A, Coordinate>,
     ) -> Barycentric<A> {
-        let lane = |lane: usize| Number::<A, Weight>(A::marked(search.best[lane], lane as u32));
-        let best = (lane(0).max(lane(1))).max(lane(2).max(lane(3)));
-        let t = A::marks(best.0, INDEX) as usize;
+        let t = A::best(search.best, INDEX) as usize;
         let flat = self.rows.0.as_flattened();
         let number =
             |k: usize| Number::<A, Slope>(flat.get(Self::index(t, k)).copied().unwrap_or_default());

@@ -1,6 +1,6 @@
 //! Which share of location and conversion each tick of a cycle does.
 //!
-//! Location looks at triangles in blocks of four and chooses, a mixture is made, and conversion
+//! Location looks at triangles in blocks of four, the best makes a mixture, and conversion
 //! multiplies two pairs of zeros at a time: a fixed list of items, cut into [`CYCLE_TICKS`]
 //! shares of about equal cost when a texture is loaded. What comes out does not depend on where
 //! the cuts are.
@@ -14,7 +14,7 @@ pub const CYCLE_TICKS: usize = 6;
 /// What each item costs, in executed instructions; only ratios matter.
 struct Costs {
     block: usize,
-    choice: usize,
+    /// The choice of a triangle, and its mixture.
     mix: usize,
     mix_four: usize,
     /// A two, and each of the coefficients that it makes.
@@ -27,33 +27,30 @@ struct Costs {
 const fn costs<A: Arithmetic>() -> Costs {
     if A::IN_REGISTERS {
         Costs {
-            block: 35,
-            choice: 75,
-            mix: 35,
+            block: 33,
+            mix: 140,
             mix_four: 12,
             two: 28,
-            coefficient: 11,
-            assembly_four: 30,
+            coefficient: 10,
+            assembly_four: 37,
         }
     } else {
         Costs {
-            block: 45,
-            choice: 85,
-            mix: 20,
-            mix_four: 23,
-            two: 10,
-            coefficient: 22,
-            assembly_four: 14,
+            block: 65,
+            mix: 150,
+            mix_four: 50,
+            two: 40,
+            coefficient: 14,
+            assembly_four: 44,
         }
     }
 }
 
-/// The share of one tick: blocks first, then the choice, then the mixture, then twos.
+/// The share of one tick: blocks first, then the mixture, then twos.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Share {
     /// Blocks of triangles to look at.
     pub(crate) blocks: u8,
-    pub(crate) chooses: bool,
     pub(crate) mixes: bool,
     twos: (u8, u8),
 }
@@ -61,7 +58,6 @@ pub(crate) struct Share {
 impl Share {
     pub(crate) const NONE: Self = Self {
         blocks: 0,
-        chooses: false,
         mixes: false,
         twos: (0, 0),
     };
@@ -98,7 +94,7 @@ pub(crate) fn shares<A: Arithmetic>(blocks: usize, shape: &Shape, count: usize) 
     let halves = fours(shape.ar_order().div_ceil(2)) + fours(shape.ma_order().div_ceil(2));
     let parts = shape.twos() * shape.parts::<A>();
     let twos: usize = (0..parts).map(part_cost).sum();
-    let total = costs.block * blocks + costs.choice + mix + twos + costs.assembly_four * halves;
+    let total = costs.block * blocks + mix + twos + costs.assembly_four * halves;
 
     let mut shares = Shares::NONE.0;
     let mut spent = 0;
@@ -111,7 +107,6 @@ pub(crate) fn shares<A: Arithmetic>(blocks: usize, shape: &Shape, count: usize) 
     for _ in 0..blocks {
         shares[tick_of(costs.block, 0)].blocks += 1;
     }
-    shares[tick_of(costs.choice, 1)].chooses = true;
     shares[tick_of(mix, 1)].mixes = true;
     for part in 0..parts {
         let range = &mut shares[tick_of(part_cost(part), 1)].twos;

@@ -17,7 +17,7 @@ pub(crate) mod between;
 
 pub use crate::schedule::CYCLE_TICKS;
 use crate::{
-    Barycentric, Texture,
+    Texture,
     arithmetic::{
         Arithmetic, Float, Number,
         units::{Acceleration, Coordinate, Level, MillimetrePerSecond, Newton, Unit},
@@ -44,11 +44,11 @@ pub struct Vibration<A: Arithmetic = Float> {
     history: History<A>,
     between: Between<A>,
     level_m_s2: Number<A, Level>,
-    // The query of the cycle under way, and what was found.
+    // The query of the cycle under way, and the level found.
     speed_mm_s: Number<A, Coordinate>,
     force_n: Number<A, Coordinate>,
     search: Search<A>,
-    found: Barycentric<A>,
+    next_level_m_s2: Number<A, Level>,
     excitation: Excitation,
     texture: u32,
     phase: u8,
@@ -76,7 +76,7 @@ impl<A: Arithmetic> Vibration<A> {
             speed_mm_s: Number::ZERO,
             force_n: Number::ZERO,
             search: Search::NONE,
-            found: Barycentric::NONE,
+            next_level_m_s2: Number::ZERO,
             excitation: Excitation::new(seed),
             texture: 0,
             phase: 0,
@@ -118,7 +118,7 @@ impl<A: Arithmetic> Vibration<A> {
     pub(crate) fn begin(&mut self, texture: u32) {
         self.texture = texture;
         self.pairs = Pairs::ZERO;
-        self.found = Barycentric::NONE;
+        self.next_level_m_s2 = Number::ZERO;
         self.phase = 0;
         self.between.begin_cycle();
         self.follows = false;
@@ -267,17 +267,16 @@ impl<A: Arithmetic> Vibration<A> {
             let blocks = share.blocks.into();
             texture.locator.look(&mut self.search, speed, force, blocks);
         }
-        if share.chooses {
-            self.found = texture.locator.choose(&self.search, speed, force);
-        }
         if share.mixes {
+            let found = texture.locator.choose(&self.search, speed, force);
+            self.next_level_m_s2 = texture.level_m_s2(&found);
             // A new contact starts at its own model.
             let way = if self.follows {
                 follow_share
             } else {
                 Number::whole(1)
             };
-            texture.follow(&mut self.pairs, &self.found, way);
+            texture.follow(&mut self.pairs, &found, way);
         }
         for part in share.twos() {
             texture.multiply(&mut self.products, &self.pairs, part);
@@ -292,7 +291,7 @@ impl<A: Arithmetic> Vibration<A> {
     ) {
         texture.coefficients(&self.products, &mut self.a, &mut self.b);
         self.level_m_s2 = if self.in_contact {
-            texture.level_m_s2(&self.found)
+            self.next_level_m_s2
         } else {
             Number::ZERO
         };

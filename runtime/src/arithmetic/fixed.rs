@@ -128,11 +128,12 @@ impl Arithmetic for Fixed {
     type Scalar<F: Point> = FixedI32<F>;
     type Four<F: Point> = Four<F>;
     type Three<F: Point> = [FixedI32<F>; 3];
+    type Best = FixedI32<Weight>;
     type Square = u64;
     type Polar = FixedPolar;
     type Sum = i64;
 
-    const LEAST: FixedI32<Weight> = FixedI32::MIN;
+    const WORST: FixedI32<Weight> = FixedI32::MIN;
     const FAR_OFF: FixedI32<Coordinate> = FixedI32::from_bits(1500 << Coordinate::U32);
     const STEEP: FixedI32<Slope> = FixedI32::from_bits(1000 << Slope::U32);
     const ONE_HALF: FixedI32<Coefficient> = FixedI32::from_bits(1 << (Coefficient::I32 - 1));
@@ -244,11 +245,6 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn four_max<F: Point>(a: Four<F>, b: Four<F>) -> Four<F> {
-        array::from_fn(|lane| a[lane].max(b[lane]))
-    }
-
-    #[inline(always)]
     fn four_times<F: Point, G: Point, H: Point>(a: Four<F>, b: Four<G>) -> Four<H> {
         array::from_fn(|lane| Self::times(a[lane], b[lane]))
     }
@@ -307,18 +303,22 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn mark<F: Point>(a: Four<F>, clear: u32, set: u32) -> Four<F> {
-        a.map(|a| FixedI32::from_bits(a.to_bits() & !clear as i32 | set as i32))
+    fn better(
+        best: FixedI32<Weight>,
+        four: Four<Weight>,
+        bits: u32,
+        index: u32,
+    ) -> FixedI32<Weight> {
+        let marked = |x: FixedI32<Weight>, index: u32| {
+            FixedI32::from_bits(x.to_bits() & !bits as i32 | index as i32)
+        };
+        let lanes = four.into_iter().zip(index..);
+        lanes.fold(best, |best, (x, index)| marked(x, index).max(best))
     }
 
     #[inline(always)]
-    fn marks<F: Point>(a: FixedI32<F>, of: u32) -> u32 {
-        a.to_bits() as u32 & of
-    }
-
-    #[inline(always)]
-    fn marked<F: Point>(a: FixedI32<F>, set: u32) -> FixedI32<F> {
-        FixedI32::from_bits(a.to_bits() | set as i32)
+    fn best(best: FixedI32<Weight>, bits: u32) -> u32 {
+        best.to_bits() as u32 & bits
     }
 
     #[inline(always)]

@@ -5,7 +5,7 @@ use crate::{
     Config, ConfigError, LoadError, Surface,
     lanes::{F3, F4},
     lsf::Two,
-    math::{min, rsqrt, rsqrt_pair, sqrt_with},
+    math::{max, min, rsqrt, rsqrt_pair, sqrt_with},
 };
 use asperity_formats::Asset;
 use core::ops::{Add, Mul};
@@ -13,6 +13,29 @@ use core::ops::{Add, Mul};
 /// IEEE 754 `f32`. Every operation rounds alike on every processor, and no two are fused.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Float;
+
+/// Weights that a search keeps.
+const BEST: usize = if F4::IN_REGISTERS { 4 } else { 1 };
+
+/// The best of all weights so far, or the best in each lane of a register.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Best([f32; BEST]);
+
+impl Best {
+    #[inline(always)]
+    fn of(lanes: F4) -> Self {
+        let mut best = [0.0; BEST];
+        best.copy_from_slice(&lanes.to_array()[..BEST]);
+        Self(best)
+    }
+
+    #[inline(always)]
+    fn lanes(self) -> F4 {
+        let mut lanes = [0.0; 4];
+        lanes[..BEST].copy_from_slice(&self.0);
+        F4::load(&lanes)
+    }
+}
 
 /// A square and the reciprocal of its root.
 #[derive(Debug, Clone, Copy)]
@@ -71,11 +94,12 @@ impl Arithmetic for Float {
     type Scalar<F: Point> = f32;
     type Four<F: Point> = F4;
     type Three<F: Point> = F3;
+    type Best = Best;
     type Square = f32;
     type Polar = FloatPolar;
     type Sum = F4;
 
-    const LEAST: f32 = -1.0e30;
+    const WORST: Best = Best([-1.0e30; BEST]);
     const FAR_OFF: f32 = 1.0e6;
     const STEEP: f32 = 1.0e3;
     const ONE_HALF: f32 = 0.5;
@@ -181,11 +205,6 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
-    fn four_max<F: Point>(a: F4, b: F4) -> F4 {
-        a.max(b)
-    }
-
-    #[inline(always)]
     fn four_times<F: Point, G: Point, H: Point>(a: F4, b: F4) -> F4 {
         a * b
     }
@@ -234,19 +253,26 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
-    fn mark<F: Point>(a: F4, clear: u32, set: u32) -> F4 {
+    fn better(best: Best, four: F4, bits: u32, index: u32) -> Best {
         // Zeros lose their sign, which platforms compare differently.
-        (a + F4::ZERO).mark(clear, set)
+        let four = four + F4::ZERO;
+        if F4::IN_REGISTERS {
+            return Best::of(four.mark(bits, index).max(best.lanes()));
+        }
+        let marked = |x: f32, index: u32| f32::from_bits(x.to_bits() & !bits | index);
+        let lanes = four.to_array().into_iter().zip(index..);
+        let least = best.lanes().to_array()[0];
+        Best([lanes.fold(least, |best, (x, index)| max(marked(x, index), best)); BEST])
     }
 
     #[inline(always)]
-    fn marks<F: Point>(a: f32, of: u32) -> u32 {
-        a.to_bits() & of
-    }
-
-    #[inline(always)]
-    fn marked<F: Point>(a: f32, set: u32) -> f32 {
-        f32::from_bits(a.to_bits() | set)
+    fn best(best: Best, bits: u32) -> u32 {
+        if !F4::IN_REGISTERS {
+            return best.0[0].to_bits() & bits;
+        }
+        let lanes = best.lanes().to_array();
+        let lane = |lane: usize| f32::from_bits(lanes[lane].to_bits() | lane as u32);
+        max(max(lane(0), lane(1)), max(lane(2), lane(3))).to_bits() & bits
     }
 
     #[inline(always)]

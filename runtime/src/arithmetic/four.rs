@@ -158,12 +158,6 @@ impl<A: Arithmetic, F: Point> Four<A, F> {
         Self(A::four_min(self.0, other.0))
     }
 
-    /// The larger of each two; nothing is NaN.
-    #[inline(always)]
-    pub(crate) fn max(self, other: Self) -> Self {
-        Self(A::four_max(self.0, other.0))
-    }
-
     /// The second and the fourth with the other sign.
     #[inline(always)]
     pub(crate) fn alternating(self) -> Self {
@@ -183,12 +177,6 @@ impl<A: Arithmetic, F: Point> Four<A, F> {
         limit: f32,
     ) -> Self {
         Self(A::four_sum_within(terms.map(|(x, c)| (x.0, c.0)), limit))
-    }
-
-    /// Replaces the last bits of each, those of `clear`, by `set`.
-    #[inline(always)]
-    pub(crate) fn mark(self, clear: u32, set: u32) -> Self {
-        Self(A::mark(self.0, clear, set))
     }
 
     /// Multiples.
