@@ -4,7 +4,7 @@ use crate::{
     FormatError, LsfCode,
     error::in_range,
     limits,
-    wire::{Reader, array_at, f16_at, f32_at, u16_at},
+    wire::{Reader, array_at, f16_at, f32_at},
 };
 
 pub(crate) const VERTEX_LEN: usize = 12;
@@ -66,9 +66,8 @@ impl<'a> Model<'a> {
 }
 
 fn codes(bytes: &[u8]) -> impl ExactSizeIterator<Item = LsfCode> + use<'_> {
-    bytes
-        .chunks_exact(2)
-        .map(|pair| LsfCode::from_bits(u16_at(pair, 0)))
+    let pairs = bytes.as_chunks().0.iter();
+    pairs.map(|&pair| LsfCode::from_bits(u16::from_le_bytes(pair)))
 }
 
 /// The grid: models at vertices, joined by triangles that tile the rectangle

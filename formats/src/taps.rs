@@ -1,5 +1,7 @@
 //! TAPS: the tap bank, traces at their own rate, twelve bits a sample.
 
+use core::slice;
+
 use crate::{
     FormatError,
     error::in_range,
@@ -147,41 +149,78 @@ impl<'a> Taps<'a> {
 
 /// The first of packed codes that is −2048, which no sample may be.
 fn first_below_scale(codes: &[u8]) -> Option<usize> {
-    let even = |a: u8, b: u8| a == 0 && b & 0x0f == 0x08;
-    let odd = |b: u8, c: u8| b & 0xf0 == 0 && c == 0x80;
-    let (pairs, last) = codes.as_chunks::<3>();
-    let pair = pairs.iter().position(|&[a, b, c]| even(a, b) | odd(b, c));
-    match (pair, last) {
-        (Some(pair), _) => {
-            let [a, b, _] = pairs[pair];
-            Some(2 * pair + usize::from(!even(a, b)))
-        }
-        (None, &[a, b]) => even(a, b).then_some(2 * pairs.len()),
-        (None, _) => None,
+    const BELOW: u32 = 0x800;
+    let bits = |[a, b, c]: [u8; 3]| u32::from_le_bytes([a, b, c, 0]);
+    let (pairs, last) = codes.as_chunks();
+    let is_below = |&pair: &[u8; 3]| (bits(pair) & 0xfff == BELOW) | (bits(pair) >> 12 == BELOW);
+    if let Some(pair) = pairs.iter().position(is_below) {
+        return Some(2 * pair + usize::from(bits(pairs[pair]) & 0xfff != BELOW));
+    }
+    match *last {
+        [a, b] if bits([a, b, 0]) & 0xfff == BELOW => Some(2 * pairs.len()),
+        _ => None,
     }
 }
 
+/// Two codes of twelve bits, the first one in the low bits.
+#[inline]
+const fn two_codes([a, b, c]: [u8; 3]) -> [i32; 2] {
+    let bits = u32::from_le_bytes([0, a, b, c]) as i32;
+    [(bits << 12) >> 20, bits >> 20]
+}
+
+/// Codes, −2047..=2047.
+#[derive(Debug, Clone)]
+struct Codes<'a> {
+    pairs: slice::Iter<'a, [u8; 3]>,
+    /// What a last code without a second one leaves of the bytes.
+    last: &'a [u8],
+    second: Option<i32>,
+    left: usize,
+}
+
+impl Iterator for Codes<'_> {
+    type Item = i32;
+
+    #[inline]
+    fn next(&mut self) -> Option<i32> {
+        self.left = self.left.checked_sub(1)?;
+        if let Some(second) = self.second.take() {
+            return Some(second);
+        }
+        let pair = match (self.pairs.next(), self.last) {
+            (Some(&pair), _) => pair,
+            (None, &[a, b]) => [a, b, 0],
+            (None, _) => [0; 3],
+        };
+        let [first, second] = two_codes(pair);
+        self.second = Some(second);
+        Some(first)
+    }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.left, Some(self.left))
+    }
+}
+
+impl ExactSizeIterator for Codes<'_> {}
+
 impl<'a> Trace<'a> {
     /// Stored codes, −2047..=2047.
-    fn codes(&self) -> impl ExactSizeIterator<Item = i16> + Clone + use<'a> {
-        let codes = self.codes;
-        (0..self.samples).map(move |index| {
-            let at = index / 2 * 3;
-            let byte = |k: usize| i16::from(codes.get(at + k).copied().unwrap_or(0));
-            // Two samples in three bytes, the even one in the low twelve bits.
-            let code = if index % 2 == 0 {
-                byte(0) | (byte(1) & 0x0f) << 8
-            } else {
-                byte(1) >> 4 | byte(2) << 4
-            };
-            // Sign of twelve bits.
-            (code << 4) >> 4
-        })
+    fn codes(&self) -> Codes<'a> {
+        let (pairs, last) = self.codes.as_chunks();
+        Codes {
+            pairs: pairs.iter(),
+            last,
+            second: None,
+            left: self.samples,
+        }
     }
 
     /// Accelerations, m/s², at the bank's sample rate.
     pub fn accel_m_s2(&self) -> impl ExactSizeIterator<Item = f32> + Clone + use<'a> {
         let step = self.peak_m_s2 / f32::from(FULL_SCALE);
-        self.codes().map(move |code| f32::from(code) * step)
+        self.codes().map(move |code| code as f32 * step)
     }
 }

@@ -96,13 +96,13 @@ impl<A: Arithmetic> Strips<A> {
     /// Block `block` reaches from `low` to `high`.
     fn meets(&mut self, block: usize, low: f32, high: f32) {
         let [low, high] = [low, high].map(|x| x * self.per_unit.value());
+        // The first strip at or above, and the last one at or below; the cast rounds down.
         let first = max(low - (0.5 + MARGIN), 0.0);
-        for strip in first as usize..STRIPS {
-            if strip as f32 > high + (0.5 + MARGIN) {
-                break;
-            }
-            if strip as f32 >= first {
-                self.blocks[strip] |= 1 << block;
+        let first = first as usize + usize::from(first > first as usize as f32);
+        let last = max(high + (0.5 + MARGIN), 0.0) as usize;
+        if let Some(strips) = self.blocks.get_mut(first..=last.min(STRIPS - 1)) {
+            for strip in strips {
+                *strip |= 1 << block;
             }
         }
     }
@@ -251,8 +251,8 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
     /// share none (the triangles leave a gap), every query looks at all.
     fn count_blocks(&mut self, all: usize) {
         let (mut least, mut most) = (u32::MAX, 0);
-        for speed in self.speed_strips.blocks {
-            for force in self.force_strips.blocks {
+        for speed in distinct(&self.speed_strips.blocks) {
+            for force in distinct(&self.force_strips.blocks) {
                 let shared = (speed & force).count_ones();
                 (least, most) = (least.min(shared), most.max(shared));
             }
@@ -389,6 +389,13 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
             ..self.choose(&search, speed, force)
         }
     }
+}
+
+/// Each number that is not the one before.
+fn distinct(numbers: &[u32]) -> impl Iterator<Item = u32> {
+    let before = core::iter::once(None).chain(numbers.iter().map(Some));
+    let pairs = numbers.iter().zip(before);
+    pairs.filter_map(|(number, before)| (Some(number) != before).then_some(*number))
 }
 
 fn least(x: [f32; 3]) -> f32 {

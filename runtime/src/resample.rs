@@ -171,11 +171,16 @@ impl Resampler {
                 let due = ((now_s + ROUNDING_S) * source_hz) as usize + 1;
                 while taken < due {
                     let count = (due - taken).min(CHUNK);
-                    let mut entering = Complex4::ZERO;
-                    for (power, a) in self.powers[..count].iter().rev().zip(&mut *trace) {
-                        entering = entering.plus(power.scaled(a));
+                    let mut chunk = [0.0; CHUNK];
+                    for (place, a) in chunk[..count].iter_mut().zip(&mut *trace) {
+                        *place = a;
                         sum += f64::from(a);
                     }
+                    let entering = if count == CHUNK {
+                        entering(&self.powers, &chunk)
+                    } else {
+                        entering(&self.powers[..=count], &chunk[..count])
+                    };
                     state = state.times(self.powers[count]).plus(entering);
                     taken += count;
                 }
@@ -192,6 +197,14 @@ impl Resampler {
         }
         sum
     }
+}
+
+/// What samples leave in a state after the last of them; there is one power more.
+#[inline(always)]
+fn entering(powers: &[Complex4], samples: &[f32]) -> Complex4 {
+    let ages = powers.iter().rev().skip(1);
+    let terms = ages.zip(samples).map(|(power, &a)| power.scaled(a));
+    terms.fold(Complex4::ZERO, Complex4::plus)
 }
 
 /// The response to one impulse, tick by tick, without its gain.

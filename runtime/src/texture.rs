@@ -421,24 +421,24 @@ fn places(order: usize) -> [u8; MAX_ORDER] {
     places
 }
 
-/// −2 cos ω of a model, in the order in which the conversion takes them.
+/// −2 cos ω of a model, in the order in which the conversion takes them; the rest is 0.
 fn to_pairs<S: Scalar>(
     row: &mut [S],
     codes: impl ExactSizeIterator<Item = LsfCode>,
-    places: &[u8; MAX_ORDER],
+    stages: &[u8; MAX_ORDER],
 ) {
     let order = codes.len();
-    let mut numbers = [0.0; MAX_ORDER];
-    for (number, code) in numbers.iter_mut().zip(codes) {
-        *number = code.half_turns();
-    }
-    for four in numbers.as_chunks_mut::<4>().0 {
-        *four = (F4::splat(-2.0) * cos_pi_four(F4::load(four))).to_array();
-    }
-    for (number, &at) in numbers.iter().zip(places).take(order) {
-        if let Some(place) = row.get_mut(usize::from(at)) {
-            *place = S::of(*number);
+    let mut angles = [0.5; MAX_ORDER];
+    for (code, &stage) in codes.zip(stages) {
+        if let Some(place) = angles.get_mut(usize::from(stage)) {
+            *place = code.half_turns();
         }
+    }
+    let fours = row.as_chunks_mut::<4>().0.iter_mut();
+    for (place, four) in fours.zip(angles.as_chunks::<4>().0).take(order.div_ceil(4)) {
+        // Adding nothing takes its sign from a zero.
+        let cosines = F4::splat(-2.0) * cos_pi_four(F4::load(four)) + F4::ZERO;
+        *place = cosines.to_array().map(S::of);
     }
 }
 
