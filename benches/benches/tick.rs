@@ -1,11 +1,11 @@
 //! Nanoseconds of the full tick: device sample in, limited force out.
 //!
 //! `cargo bench -p asperity-benches --bench tick`. Results are checked before they are
-//! timed. Machines differ: quote ratios within one run.
+//! timed. Machines differ, and change while they run: `paired` compares in turns.
 
-use asperity_benches::{Rig, motion::Motion, reference::Reference, texture::texture};
-use asperity_formats::{Asset, Numerator};
-use asperity_runtime::{Flags, HostTexture, Sample, vibration::Vibration};
+use asperity_benches::{Rig, motion::Motion, texture::texture};
+use asperity_formats::Numerator;
+use asperity_runtime::{Flags, Sample};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -50,49 +50,5 @@ fn tick(c: &mut Criterion) {
     }
 }
 
-/// The usual way and ours on the same queries, locating, converting and one sample; ours with
-/// the whole tick around it, too.
-fn beside_the_usual_way(c: &mut Criterion) {
-    for (label, numerator) in [("ARMA", Numerator::Lsf), ("AR", Numerator::None)] {
-        let bytes = texture(20, numerator);
-        let asset = Asset::parse(&bytes).expect("a valid asset");
-        let mut slot = Box::new(HostTexture::new());
-        slot.load(&asset, 1000.0).expect("it fits");
-        let queries: Vec<(f32, f32)> = (0..2000)
-            .map(|n| {
-                let t = n as f32 * 1e-3;
-                (
-                    140.0 + 130.0 * (9.0 * t).sin(),
-                    2.0 + 1.9 * (14.0 * t).cos(),
-                )
-            })
-            .collect();
-        let mut group = c.benchmark_group(format!("beside the usual way, order 20, {label}"));
-        let mut reference = Reference::new(&asset);
-        let mut next = queries.iter().cycle();
-        group.bench_function("usual: locate, convert, one sample", |b| {
-            b.iter(|| {
-                let &(speed, force) = next.next().unwrap_or(&(0.0, 0.0));
-                reference.tick(black_box(speed).into(), black_box(force).into(), 0.5)
-            });
-        });
-        let mut vibration = Vibration::new(1);
-        let mut next = queries.iter().cycle();
-        group.bench_function("ours: locate, convert, one sample", |b| {
-            b.iter(|| {
-                let &(speed, force) = next.next().unwrap_or(&(0.0, 0.0));
-                vibration.step(&slot, black_box(speed), black_box(force), 0.7, true)
-            });
-        });
-        let samples = samples(Motion::Stroke);
-        let mut rig = Rig::new(&bytes);
-        let mut next = samples.iter().cycle();
-        group.bench_function("ours: the whole tick", |b| {
-            b.iter(|| rig.tick(black_box(next.next().unwrap_or(&Sample::STALE))));
-        });
-        group.finish();
-    }
-}
-
-criterion_group!(benches, tick, beside_the_usual_way);
+criterion_group!(benches, tick);
 criterion_main!(benches);

@@ -163,7 +163,7 @@ fn first_below_scale(codes: &[u8]) -> Option<usize> {
 }
 
 /// Two codes of twelve bits, the first one in the low bits.
-#[inline]
+#[inline(always)]
 const fn two_codes([a, b, c]: [u8; 3]) -> [i32; 2] {
     let bits = u32::from_le_bytes([0, a, b, c]) as i32;
     [(bits << 12) >> 20, bits >> 20]
@@ -220,7 +220,42 @@ impl<'a> Trace<'a> {
 
     /// Accelerations, m/s², at the bank's sample rate.
     pub fn accel_m_s2(&self) -> impl ExactSizeIterator<Item = f32> + Clone + use<'a> {
-        let step = self.peak_m_s2 / f32::from(FULL_SCALE);
+        let step = self.step_m_s2();
         self.codes().map(move |code| code as f32 * step)
+    }
+
+    /// The same from sample `from` on, m/s², as many as there is room for; 0 beyond the last.
+    #[inline]
+    pub fn read(&self, from: usize, accel_m_s2: &mut [f32]) {
+        let step = self.step_m_s2();
+        let pair = |bytes: [u8; 3]| two_codes(bytes).map(|code| code as f32 * step);
+        let (pairs, last) = self
+            .codes
+            .get(from / 2 * 3..)
+            .unwrap_or_default()
+            .as_chunks();
+        let mut last = match *last {
+            // Behind the last code there is nothing.
+            [a, b] => Some([a, b & 0x0f, 0]),
+            _ => None,
+        };
+        let mut pairs = pairs.iter().copied();
+        let mut next = || pair(pairs.next().or_else(|| last.take()).unwrap_or([0; 3]));
+        let (second, rest) = accel_m_s2.split_at_mut((from % 2).min(accel_m_s2.len()));
+        if let [place] = second {
+            [_, *place] = next();
+        }
+        let (places, odd) = rest.as_chunks_mut();
+        for place in places {
+            *place = next();
+        }
+        if let [place] = odd {
+            [*place, _] = next();
+        }
+    }
+
+    /// Acceleration of a code of 1, m/s².
+    fn step_m_s2(&self) -> f32 {
+        self.peak_m_s2 / f32::from(FULL_SCALE)
     }
 }

@@ -32,7 +32,16 @@ fn walk(bytes: &[u8], asset: &Asset<'_>) {
         assert_eq!((model.lsf().len(), model.ma_lsf().len()), orders);
     }
     for trace in asset.taps().traces() {
-        assert_eq!(trace.accel_m_s2().count(), asset.taps().samples());
+        let all: Vec<f32> = trace.accel_m_s2().collect();
+        assert_eq!(all.len(), asset.taps().samples());
+        for (from, room) in (0..all.len() + 3).flat_map(|from| (0..6).map(move |room| (from, room)))
+        {
+            let mut read = vec![f32::NAN; room];
+            trace.read(from, &mut read);
+            let expected = all.iter().copied().chain([0.0; 9]).skip(from).take(room);
+            let expected: Vec<f32> = expected.collect();
+            assert_eq!(read, expected, "{room} from {from}");
+        }
     }
     assert!(asset.friction().anchors().all(|a| !a.name.is_empty()));
     let mut end = None;

@@ -82,7 +82,8 @@ impl<A: Arithmetic> Default for FrictionState<A> {
     }
 }
 
-/// The bristle after the motion and the leak of a tick, before slip.
+/// The bristle after the motion of a tick, before leak and slip: its length, which takes the
+/// longest to compute, does not wait for the normal force.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretched<A: Arithmetic> {
     /// Deflection in the tangent plane, m.
@@ -111,26 +112,17 @@ impl<A: Arithmetic> FrictionState<A> {
     ) -> Force<A> {
         let (motion_m, normal) = (Four::vec3(motion_m), Four::vec3(normal));
         let normal_n = Number(normal_n);
-        let stretched = self.stretch(bristle, motion_m, normal, normal_n);
+        let stretched = self.stretch(motion_m, normal);
         let polar = A::polar(stretched.square);
         let limit_n = Number::<A, Ratio>(mu).times(normal_n);
-        let (force, size_n) = self.slip(bristle, &stretched, polar, motion_m, limit_n);
+        let (force, size_n) = self.slip(bristle, &stretched, polar, motion_m, normal_n, limit_n);
         (force.xyz(), size_n.0)
     }
 
-    /// The first half of [`FrictionState::step`]: motion and leak, which keeps nothing without
-    /// a normal force. Fourth lanes are zero.
+    /// The first half of [`FrictionState::step`]: motion. Fourth lanes mean nothing.
     #[inline(always)]
-    pub(crate) fn stretch(
-        &self,
-        bristle: &Bristle<A>,
-        motion_m: Four<A, Metre>,
-        normal: Four<A, Unit>,
-        normal_n: Number<A, Newton>,
-    ) -> Stretched<A> {
-        let loaded_n = normal_n.to::<Leak>();
-        let kept: Number<A, Unit> = loaded_n.over(loaded_n + bristle.leak_n);
-        let moved_m = (self.deflection_m.four() + motion_m).scaled(kept);
+    pub(crate) fn stretch(&self, motion_m: Four<A, Metre>, normal: Four<A, Unit>) -> Stretched<A> {
+        let moved_m = self.deflection_m.four() + motion_m;
         let moved_m: Four<A, Metre> = Four::tangential(moved_m, normal);
         Stretched {
             moved_m,
@@ -138,7 +130,8 @@ impl<A: Arithmetic> FrictionState<A> {
         }
     }
 
-    /// The second half: slip and force; `polar` is that of the deflection, `limit_n` is μF_n.
+    /// The second half: leak, which keeps nothing without a normal force, slip and force; `polar`
+    /// is that of the deflection, `normal_n` is F_n and `limit_n` is μF_n.
     #[inline(always)]
     pub(crate) fn slip(
         &mut self,
@@ -146,16 +139,20 @@ impl<A: Arithmetic> FrictionState<A> {
         stretched: &Stretched<A>,
         polar: A::Polar,
         motion_m: Four<A, Metre>,
+        normal_n: Number<A, Newton>,
         limit_n: Number<A, Newton>,
     ) -> (Four<A, Newton>, Number<A, Newton>) {
+        let loaded_n = normal_n.to::<Leak>();
+        let leaked: Number<A, Unit> = loaded_n.over(loaded_n + bristle.leak_n);
         let slipping_m: Number<A, Metre> = limit_n.over(bristle.stiffness_n_m);
         let reach_m = slipping_m.within(FURTHEST_M) + bristle.dead_zone_m;
-        let slip = Number::<A, Unit>(A::share(reach_m.0, polar));
-        self.deflection_m = Three::of(stretched.moved_m.scaled(slip));
+        // What is left of the length: after the leak, and at most the reach.
+        let kept = Number::<A, Unit>(A::share(reach_m.0, polar)).min(leaked);
+        self.deflection_m = Three::of(stretched.moved_m.scaled(kept));
 
         let along = stretched.moved_m.direction(polar);
         let length_m = Number::<A, Metre>(A::length(polar));
-        let stretch_m = length_m.times::<_, Metre>(slip) - bristle.dead_zone_m;
+        let stretch_m = length_m.times::<_, Metre>(kept) - bristle.dead_zone_m;
         // `along` lies in the plane: the rest of the motion adds nothing.
         let along_m: Number<A, Metre> = along.dot3(motion_m);
         let ahead_m = bristle.lead_ticks.times_within(along_m, FURTHEST_M);

@@ -126,11 +126,17 @@ impl Resampler {
         }
     }
 
-    /// Converts a trace into `out`, whose length is [`Rates::ticks`].
-    pub(crate) fn convert<S: Scalar>(&self, mut trace: impl Iterator<Item = f32>, out: &mut [S]) {
+    /// Converts a trace into `out`, whose length is [`Rates::ticks`]; `read` gives samples from
+    /// the stated one on.
+    pub(crate) fn convert<S: Scalar>(&self, read: impl Fn(usize, &mut [f32]), out: &mut [S]) {
         if self.rates.is_identity() {
-            for (out, a) in out.iter_mut().zip(trace) {
-                *out = S::of(a);
+            for (n, chunk) in out.chunks_mut(CHUNK).enumerate() {
+                let mut samples = [0.0; CHUNK];
+                let samples = &mut samples[..chunk.len()];
+                read(n * CHUNK, samples);
+                for (out, &mut a) in chunk.iter_mut().zip(samples) {
+                    *out = S::of(a);
+                }
             }
             return;
         }
@@ -138,7 +144,7 @@ impl Resampler {
             source_hz,
             servo_hz,
         } = self.rates;
-        let wanted = self.filter(&mut trace, out) / source_hz;
+        let wanted = self.filter(read, out) / source_hz;
         let given = out.iter().fold(0.0, |sum, a| sum + f64::from(a.value())) / servo_hz;
         // What is missing of the impulse comes back along the response.
         let missing = ((wanted - given) * servo_hz) as f32;
@@ -155,7 +161,7 @@ impl Resampler {
     /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which
     /// moves by up to [`CHUNK`] source samples at once; silence follows the last one. Returns
     /// the sum of the trace.
-    fn filter<S: Scalar>(&self, trace: &mut impl Iterator<Item = f32>, out: &mut [S]) -> f64 {
+    fn filter<S: Scalar>(&self, read: impl Fn(usize, &mut [f32]), out: &mut [S]) -> f64 {
         let Rates {
             source_hz,
             servo_hz,
@@ -172,15 +178,15 @@ impl Resampler {
                 while taken < due {
                     let count = (due - taken).min(CHUNK);
                     let mut chunk = [0.0; CHUNK];
-                    for (place, a) in chunk[..count].iter_mut().zip(&mut *trace) {
-                        *place = a;
-                        sum += f64::from(a);
-                    }
                     let entering = if count == CHUNK {
+                        read(taken, &mut chunk);
                         entering(&self.powers, &chunk)
                     } else {
+                        read(taken, &mut chunk[..count]);
                         entering(&self.powers[..=count], &chunk[..count])
                     };
+                    // A number beyond `count` is 0.
+                    sum = chunk.iter().fold(sum, |sum, &a| sum + f64::from(a));
                     state = state.times(self.powers[count]).plus(entering);
                     taken += count;
                 }
@@ -230,7 +236,12 @@ mod tests {
     fn convert(trace: &[f32], source_hz: f32, servo_hz: f32) -> Vec<f32> {
         let rates = Rates::new(source_hz, servo_hz);
         let mut out = std::vec![0.0; rates.ticks(trace.len())];
-        Resampler::new(rates, trace.len()).convert(trace.iter().copied(), &mut out);
+        let read = |from: usize, samples: &mut [f32]| {
+            for (place, a) in samples.iter_mut().zip(trace.iter().skip(from)) {
+                *place = *a;
+            }
+        };
+        Resampler::new(rates, trace.len()).convert(read, &mut out);
         out
     }
 

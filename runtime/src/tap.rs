@@ -58,7 +58,7 @@ impl<const K: usize, A: Arithmetic> TapBank<K, A> {
         for (trace, place) in taps.traces().zip(places) {
             // A format has at most `MAX_TAPS` traces, so there is room.
             if self.speeds_m_s.push(Number::of(trace.speed_m_s)).is_ok() {
-                resampler.convert(trace.accel_m_s2(), place);
+                resampler.convert(|from, samples| trace.read(from, samples), place);
             }
         }
         self.ticks = ticks;

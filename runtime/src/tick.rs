@@ -371,9 +371,7 @@ impl<A: Arithmetic> Renderer<A> {
         let stiffness_n = wall.spring_n(depth_m);
 
         let slide_m_s = velocity_m_s.first_three().tangential(normal);
-        let stretched = state
-            .friction
-            .stretch(&self.bristle, motion_m, normal, stiffness_n);
+        let stretched = state.friction.stretch(motion_m, normal);
         let [sliding, stretching] = A::polar_pair([slide_m_s.square(), stretched.square]);
         let speed_m_s = Number::<A, MetrePerSecond>(A::length(sliding));
         if speed_m_s > Number::of(DIRECTION_FLOOR_M_S) {
@@ -383,10 +381,14 @@ impl<A: Arithmetic> Renderer<A> {
         let outside = texture.is_outside(speed_mm_s, stiffness_n);
         flags = flags.and(Flags::OUTSIDE_GRID.when(outside));
         let limit_n = feel.mu.times(stiffness_n);
-        let (friction, friction_n) =
-            state
-                .friction
-                .slip(&self.bristle, &stretched, stretching, motion_m, limit_n);
+        let (friction, friction_n) = state.friction.slip(
+            &self.bristle,
+            &stretched,
+            stretching,
+            motion_m,
+            stiffness_n,
+            limit_n,
+        );
 
         let tap = state.tap.step(&texture.taps, distance_m.0, &self.detector);
         flags = flags.and(tap.flags);

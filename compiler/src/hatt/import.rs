@@ -12,7 +12,6 @@ use crate::{
     verify::{self, VerifyError},
 };
 use asperity_formats::Asset;
-use crc::{CRC_32_ISO_HDLC, Crc};
 use rayon::prelude::*;
 use std::{
     collections::HashMap,
@@ -238,7 +237,7 @@ pub fn import_at(
 ) -> Result<Imported, ImportError> {
     let source = xml::read(file)?;
     let material = material::parse(file, &source)?;
-    let source_crc32 = Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(&source);
+    let source_crc32 = crc32fast::hash(&source);
     let source_name = file.file_name().unwrap_or_default().to_string_lossy();
     let mut full = to_model(&material, &source_name, source_crc32);
     if let Some(model) = completer {
