@@ -2,7 +2,7 @@
 //!
 //! Location looks at triangles in blocks of four, the best makes a mixture, and conversion
 //! multiplies two pairs of zeros at a time: a fixed list of items, cut into [`CYCLE_TICKS`]
-//! shares of about equal cost when a texture is loaded. What comes out does not depend on where
+//! shares when a texture is loaded, such that the dearest one costs least. What comes out does not depend on where
 //! the cuts are.
 
 use crate::{arithmetic::Arithmetic, lsf::Shape};
@@ -13,6 +13,8 @@ pub const CYCLE_TICKS: usize = 6;
 
 /// What each item costs, in executed instructions; only ratios matter.
 struct Costs {
+    /// The query, before the first block.
+    begin: usize,
     block: usize,
     /// The choice of a triangle, and its mixture.
     mix: usize,
@@ -27,6 +29,7 @@ struct Costs {
 const fn costs<A: Arithmetic>() -> Costs {
     if A::IN_REGISTERS {
         Costs {
+            begin: 40,
             block: 33,
             mix: 140,
             mix_four: 12,
@@ -36,9 +39,10 @@ const fn costs<A: Arithmetic>() -> Costs {
         }
     } else {
         Costs {
+            begin: 45,
             block: 65,
             mix: 150,
-            mix_four: 50,
+            mix_four: 36,
             two: 40,
             coefficient: 14,
             assembly_four: 44,
@@ -82,38 +86,100 @@ impl Shares {
     }
 }
 
-/// The shares of `blocks` blocks of triangles and the conversion of a shape, in `count` ticks.
-pub(crate) fn shares<A: Arithmetic>(blocks: usize, shape: &Shape, count: usize) -> Shares {
+/// Work in order, and what each item of it costs.
+struct Items {
+    blocks: usize,
+    block: usize,
+    mix: usize,
+    parts: usize,
+    parts_of_two: usize,
+    two: usize,
+    coefficient: usize,
+    /// What the first tick and the last one do in any case.
+    begin: usize,
+    assembly: usize,
+}
+
+impl Items {
+    const fn count(&self) -> usize {
+        self.blocks + 1 + self.parts
+    }
+
+    const fn cost(&self, item: usize) -> usize {
+        if item < self.blocks {
+            self.block
+        } else if item == self.blocks {
+            self.mix
+        } else {
+            let two = (item - self.blocks - 1) / self.parts_of_two;
+            self.two + self.coefficient * 2 * (two + 1)
+        }
+    }
+
+    /// Gives each item in turn to the tick under way, or to the next one where that would cost
+    /// more than `limit`; the first one looks at blocks only. Returns what the dearest tick costs.
+    fn cut(&self, ticks: usize, limit: usize, mut give: impl FnMut(usize, usize)) -> usize {
+        let (mut tick, mut spent, mut most) = (0, self.begin, 0);
+        for item in 0..self.count() {
+            let cost = self.cost(item);
+            let only_blocks = tick == 0 && item >= self.blocks;
+            if tick + 1 < ticks && (spent + cost > limit || only_blocks) {
+                (tick, spent) = (tick + 1, 0);
+                if tick + 1 == ticks {
+                    spent = self.assembly;
+                }
+            }
+            spent += cost;
+            most = most.max(spent);
+            give(item, tick);
+        }
+        most.max(self.assembly)
+    }
+}
+
+/// The shares of `blocks` blocks of triangles, a mixture of rows of `fours` fours and the
+/// conversion of a shape, in `ticks` ticks whose dearest one costs as little as can be.
+pub(crate) fn shares<A: Arithmetic>(
+    blocks: usize,
+    fours: usize,
+    shape: &Shape,
+    ticks: usize,
+) -> Shares {
     let costs = costs::<A>();
-    let fours = |order: usize| order.div_ceil(4);
-    let mix = costs.mix + costs.mix_four * (fours(shape.ar_order()) + fours(shape.ma_order()));
-    let part_cost = |part: usize| {
-        let two = part / shape.parts::<A>();
-        costs.two + costs.coefficient * 2 * (two + 1)
+    let halves = [shape.ar_order(), shape.ma_order()].map(|order| order.div_ceil(2).div_ceil(4));
+    let items = Items {
+        blocks,
+        block: costs.block,
+        mix: costs.mix + costs.mix_four * fours,
+        parts: shape.twos() * shape.parts::<A>(),
+        parts_of_two: shape.parts::<A>(),
+        two: costs.two,
+        coefficient: costs.coefficient,
+        begin: costs.begin,
+        assembly: costs.assembly_four * (halves[0] + halves[1]),
     };
-    let halves = fours(shape.ar_order().div_ceil(2)) + fours(shape.ma_order().div_ceil(2));
-    let parts = shape.twos() * shape.parts::<A>();
-    let twos: usize = (0..parts).map(part_cost).sum();
-    let total = costs.block * blocks + mix + twos + costs.assembly_four * halves;
+    let mut limit = 0;
+    while items.cut(ticks, limit, |_, _| ()) > limit {
+        limit += STEP;
+    }
 
     let mut shares = Shares::NONE.0;
-    let mut spent = 0;
-    // An item belongs to the tick in which its middle lies; in the first one, only blocks.
-    let mut tick_of = |cost: usize, first: usize| {
-        let tick = count * (2 * spent + cost) / (2 * total);
-        spent += cost;
-        tick.clamp(first, count - 1)
-    };
-    for _ in 0..blocks {
-        shares[tick_of(costs.block, 0)].blocks += 1;
-    }
-    shares[tick_of(mix, 1)].mixes = true;
-    for part in 0..parts {
-        let range = &mut shares[tick_of(part_cost(part), 1)].twos;
-        if range.1 == 0 {
-            range.0 = part as u8;
+    items.cut(ticks, limit, |item, tick| {
+        let share = &mut shares[tick % 16];
+        if item < blocks {
+            share.blocks += 1;
+        } else if item == blocks {
+            share.mixes = true;
+        } else {
+            let part = (item - blocks - 1) as u8;
+            if share.twos.1 == 0 {
+                share.twos.0 = part;
+            }
+            share.twos.1 = part + 1;
         }
-        range.1 = part as u8 + 1;
-    }
+    });
     Shares(shares)
 }
+
+/// Limits are tried so far apart, in instructions.
+const STEP: usize = 16;

@@ -268,7 +268,9 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             grid.max_force_n(),
         );
         let count = shares_of_cycle(ticks);
-        self.shares = schedule::shares::<A>(self.locator.blocks(), &self.shape, count);
+        // Rows are mixed as a whole.
+        let fours = P / 4 + if grid.ma_order() > 0 { Q / 4 } else { 0 };
+        self.shares = schedule::shares::<A>(self.locator.blocks(), fours, &self.shape, count);
         self.interpolator = Interpolator::new(ticks);
         self.taps.load(asset.taps(), servo_rate_hz);
         Ok(())
