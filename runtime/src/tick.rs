@@ -96,7 +96,8 @@ pub struct Output<A: Arithmetic = Float> {
 }
 
 /// Everything that changes from tick to tick. Texture and configuration are outside
-/// it, so a swap of texture copies no history.
+/// it, so a swap of texture copies no history. Under another renderer the wall is the new one's
+/// from the next query on, at most six samples of the models later.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State<A: Arithmetic = Float> {
     pub(crate) vibration: Vibration<A>,
