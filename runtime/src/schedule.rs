@@ -116,6 +116,21 @@ impl Items {
         }
     }
 
+    fn total(&self) -> usize {
+        let items: usize = (0..self.count()).map(|item| self.cost(item)).sum();
+        self.begin + items + self.assembly
+    }
+
+    /// What the dearest tick has to be allowed, within [`STEP`].
+    fn limit(&self, ticks: usize) -> usize {
+        // No less will do.
+        let mut limit = self.total() / ticks / STEP * STEP;
+        while self.cut(ticks, limit, |_, _| ()) > limit {
+            limit += STEP;
+        }
+        limit
+    }
+
     /// Gives each item in turn to the tick under way, or to the next one where that would cost
     /// more than `limit`; the first one looks at blocks only. Returns what the dearest tick costs.
     fn cut(&self, ticks: usize, limit: usize, mut give: impl FnMut(usize, usize)) -> usize {
@@ -158,10 +173,7 @@ pub(crate) fn shares<A: Arithmetic>(
         begin: costs.begin,
         assembly: costs.assembly_four * (halves[0] + halves[1]),
     };
-    let mut limit = 0;
-    while items.cut(ticks, limit, |_, _| ()) > limit {
-        limit += STEP;
-    }
+    let limit = items.limit(ticks);
 
     let mut shares = Shares::NONE.0;
     items.cut(ticks, limit, |item, tick| {
@@ -183,3 +195,56 @@ pub(crate) fn shares<A: Arithmetic>(
 
 /// Limits are tried so far apart, in instructions.
 const STEP: usize = 16;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the dearest tick costs at least, from tick `tick` and item `from` on, by trying all.
+    fn least(items: &Items, ticks: usize, tick: usize, from: usize) -> usize {
+        let run = |to: usize| (from..to).map(|item| items.cost(item)).sum::<usize>();
+        if tick + 1 == ticks {
+            return items.assembly + run(items.count());
+        }
+        let last = if tick == 0 {
+            items.blocks
+        } else {
+            items.count()
+        };
+        let begin = if tick == 0 { items.begin } else { 0 };
+        let ends = from..=last;
+        let dearest = ends.map(|to| (begin + run(to)).max(least(items, ticks, tick + 1, to)));
+        dearest.min().unwrap_or(usize::MAX)
+    }
+
+    #[test]
+    fn no_cut_is_cheaper_by_a_step_and_every_item_is_done_once_in_turn() {
+        for (blocks, parts, mix, ticks) in [
+            (6, 10, 340, 6),
+            (1, 1, 150, 6),
+            (12, 5, 260, 4),
+            (3, 12, 40, 5),
+            (0, 6, 900, 6),
+        ] {
+            let items = Items {
+                blocks,
+                block: 65,
+                mix,
+                parts,
+                parts_of_two: 2,
+                two: 40,
+                coefficient: 14,
+                begin: 45,
+                assembly: 130,
+            };
+            let limit = items.limit(ticks);
+            assert!(limit < least(&items, ticks, 0, 0) + STEP, "{limit}");
+            let (mut next, mut last) = (0, 0);
+            items.cut(ticks, limit, |item, tick| {
+                assert!(item == next && tick >= last && tick < ticks);
+                (next, last) = (next + 1, tick);
+            });
+            assert_eq!(next, items.count());
+        }
+    }
+}
