@@ -8,7 +8,8 @@ pub mod reference;
 pub mod texture;
 
 use asperity_formats::Asset;
-use asperity_runtime::{Config, HostTexture, Output, Renderer, Sample, State};
+use asperity_runtime::{Config, Flags, HostTexture, Output, Renderer, Sample, State};
+use motion::Motion;
 
 /// A renderer, a loaded texture and a state, ready to tick.
 pub struct Rig {
@@ -56,4 +57,20 @@ impl Rig {
     pub fn tick(&mut self, sample: &Sample) -> Output {
         self.renderer.tick(&self.texture, &mut self.state, sample)
     }
+}
+
+/// A stroke sounds, and every force is finite and within 3.3 N: what is timed is a tick.
+///
+/// # Panics
+/// When it is not so.
+pub fn check(bytes: &[u8]) {
+    let mut rig = Rig::new(bytes);
+    let mut loudest = 0.0_f32;
+    for sample in (0..2000).map(|tick| Motion::Stroke.sample(tick)) {
+        let output = rig.tick(&sample);
+        assert!(output.force_n.iter().all(|f| f.abs() <= 3.3));
+        assert!(output.flags.contains(Flags::CONTACT));
+        loudest = loudest.max(output.vib_m_s2.abs());
+    }
+    assert!(loudest > 0.1, "the stroke must sound: {loudest}");
 }

@@ -1,7 +1,5 @@
 //! TAPS: the tap bank, traces at their own rate, twelve bits a sample.
 
-use core::slice;
-
 use crate::{
     FormatError,
     error::in_range,
@@ -169,65 +167,21 @@ const fn two_codes([a, b, c]: [u8; 3]) -> [i32; 2] {
     [(bits << 12) >> 20, bits >> 20]
 }
 
-/// Codes, −2047..=2047.
-#[derive(Debug, Clone)]
-struct Codes<'a> {
-    pairs: slice::Iter<'a, [u8; 3]>,
-    /// What a last code without a second one leaves of the bytes.
-    last: &'a [u8],
-    second: Option<i32>,
-    left: usize,
-}
-
-impl Iterator for Codes<'_> {
-    type Item = i32;
-
-    #[inline]
-    fn next(&mut self) -> Option<i32> {
-        self.left = self.left.checked_sub(1)?;
-        if let Some(second) = self.second.take() {
-            return Some(second);
-        }
-        let pair = match (self.pairs.next(), self.last) {
-            (Some(&pair), _) => pair,
-            (None, &[a, b]) => [a, b, 0],
-            (None, _) => [0; 3],
-        };
-        let [first, second] = two_codes(pair);
-        self.second = Some(second);
-        Some(first)
-    }
-
-    #[inline]
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        (self.left, Some(self.left))
-    }
-}
-
-impl ExactSizeIterator for Codes<'_> {}
-
 impl<'a> Trace<'a> {
-    /// Stored codes, −2047..=2047.
-    fn codes(&self) -> Codes<'a> {
-        let (pairs, last) = self.codes.as_chunks();
-        Codes {
-            pairs: pairs.iter(),
-            last,
-            second: None,
-            left: self.samples,
-        }
-    }
-
     /// Accelerations, m/s², at the bank's sample rate.
     pub fn accel_m_s2(&self) -> impl ExactSizeIterator<Item = f32> + Clone + use<'a> {
-        let step = self.step_m_s2();
-        self.codes().map(move |code| code as f32 * step)
+        let trace = *self;
+        (0..self.samples).map(move |index| {
+            let mut one = [0.0];
+            trace.read(index, &mut one);
+            one[0]
+        })
     }
 
     /// The same from sample `from` on, m/s², as many as there is room for; 0 beyond the last.
     #[inline]
     pub fn read(&self, from: usize, accel_m_s2: &mut [f32]) {
-        let step = self.step_m_s2();
+        let step = self.peak_m_s2 / f32::from(FULL_SCALE);
         let pair = |bytes: [u8; 3]| two_codes(bytes).map(|code| code as f32 * step);
         let (pairs, last) = self
             .codes
@@ -252,10 +206,5 @@ impl<'a> Trace<'a> {
         if let [place] = odd {
             [*place, _] = next();
         }
-    }
-
-    /// Acceleration of a code of 1, m/s².
-    fn step_m_s2(&self) -> f32 {
-        self.peak_m_s2 / f32::from(FULL_SCALE)
     }
 }

@@ -88,15 +88,12 @@ impl Shares {
 
 /// Work in order, and what each item of it costs.
 struct Items {
+    costs: Costs,
     blocks: usize,
-    block: usize,
     mix: usize,
     parts: usize,
     parts_of_two: usize,
-    two: usize,
-    coefficient: usize,
-    /// What the first tick and the last one do in any case.
-    begin: usize,
+    /// What the last tick does in any case.
     assembly: usize,
 }
 
@@ -107,18 +104,18 @@ impl Items {
 
     const fn cost(&self, item: usize) -> usize {
         if item < self.blocks {
-            self.block
+            self.costs.block
         } else if item == self.blocks {
             self.mix
         } else {
             let two = (item - self.blocks - 1) / self.parts_of_two;
-            self.two + self.coefficient * 2 * (two + 1)
+            self.costs.two + self.costs.coefficient * 2 * (two + 1)
         }
     }
 
     fn total(&self) -> usize {
         let items: usize = (0..self.count()).map(|item| self.cost(item)).sum();
-        self.begin + items + self.assembly
+        self.costs.begin + items + self.assembly
     }
 
     /// What the dearest tick has to be allowed, within [`STEP`].
@@ -134,7 +131,7 @@ impl Items {
     /// Gives each item in turn to the tick under way, or to the next one where that would cost
     /// more than `limit`; the first one looks at blocks only. Returns what the dearest tick costs.
     fn cut(&self, ticks: usize, limit: usize, mut give: impl FnMut(usize, usize)) -> usize {
-        let (mut tick, mut spent, mut most) = (0, self.begin, 0);
+        let (mut tick, mut spent, mut most) = (0, self.costs.begin, 0);
         for item in 0..self.count() {
             let cost = self.cost(item);
             let only_blocks = tick == 0 && item >= self.blocks;
@@ -164,14 +161,11 @@ pub(crate) fn shares<A: Arithmetic>(
     let halves = [shape.ar_order(), shape.ma_order()].map(|order| order.div_ceil(2).div_ceil(4));
     let items = Items {
         blocks,
-        block: costs.block,
         mix: costs.mix + costs.mix_four * fours,
         parts: shape.twos() * shape.parts::<A>(),
         parts_of_two: shape.parts::<A>(),
-        two: costs.two,
-        coefficient: costs.coefficient,
-        begin: costs.begin,
         assembly: costs.assembly_four * (halves[0] + halves[1]),
+        costs,
     };
     let limit = items.limit(ticks);
 
@@ -199,6 +193,7 @@ const STEP: usize = 16;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arithmetic::Fixed;
 
     /// What the dearest tick costs at least, from tick `tick` and item `from` on, by trying all.
     fn least(items: &Items, ticks: usize, tick: usize, from: usize) -> usize {
@@ -211,7 +206,7 @@ mod tests {
         } else {
             items.count()
         };
-        let begin = if tick == 0 { items.begin } else { 0 };
+        let begin = if tick == 0 { items.costs.begin } else { 0 };
         let ends = from..=last;
         let dearest = ends.map(|to| (begin + run(to)).max(least(items, ticks, tick + 1, to)));
         dearest.min().unwrap_or(usize::MAX)
@@ -227,14 +222,11 @@ mod tests {
             (0, 6, 900, 6),
         ] {
             let items = Items {
+                costs: costs::<Fixed>(),
                 blocks,
-                block: 65,
                 mix,
                 parts,
                 parts_of_two: 2,
-                two: 40,
-                coefficient: 14,
-                begin: 45,
                 assembly: 130,
             };
             let limit = items.limit(ticks);

@@ -6,7 +6,7 @@
 //! this run.
 #![forbid(unsafe_code)]
 
-use asperity_benches::{Rig, motion::Motion, reference::Reference, texture::texture};
+use asperity_benches::{Rig, check, motion::Motion, reference::Reference, texture::texture};
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{HostTexture, Sample, vibration::Vibration};
 use std::{hint::black_box, time::Instant};
@@ -22,7 +22,9 @@ fn main() {
         ("order 20, ARMA", Numerator::Lsf),
         ("order 20, AR", Numerator::None),
     ] {
-        compare(label, &texture(20, numerator));
+        let bytes = texture(20, numerator);
+        check(&bytes);
+        compare(label, &bytes);
     }
 }
 

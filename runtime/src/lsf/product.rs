@@ -47,6 +47,18 @@ pub struct Two<T> {
     pub(crate) o: T,
 }
 
+impl<T> Two<T> {
+    /// Each factor made something else.
+    #[inline(always)]
+    fn map<U>(self, f: impl Fn(T) -> U) -> Two<U> {
+        Two {
+            s: f(self.s),
+            q: f(self.q),
+            o: f(self.o),
+        }
+    }
+}
+
 /// −2 cos ω of one pair of each polynomial.
 pub trait Cosines: Copy + Add<Output = Self> + Sub<Output = Self> {
     /// A whole number.
@@ -171,11 +183,7 @@ impl<A: Arithmetic> Polynomial<A> for Products<A> {
         by: &Two<Self::Cosines>,
         c: [Option<Self::Number>; 5],
     ) -> Self::Number {
-        let by = Two {
-            s: by.s.0,
-            q: by.q.0,
-            o: by.o.0,
-        };
+        let by = by.map(|factor| factor.0);
         Four(A::extend_four::<FULL>(&by, c.map(|c| c.map(|c| c.0))))
     }
 }
@@ -205,11 +213,7 @@ impl<A: Arithmetic> Polynomial<A> for Lane<'_, A> {
         by: &Two<Self::Cosines>,
         c: [Option<Self::Number>; 5],
     ) -> Self::Number {
-        let by = Two {
-            s: by.s.0,
-            q: by.q.0,
-            o: by.o.0,
-        };
+        let by = by.map(|factor| factor.0);
         Number(A::extend::<FULL>(&by, c.map(|c| c.map(|c| c.0))))
     }
 }
