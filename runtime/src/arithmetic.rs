@@ -243,9 +243,6 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// The length.
     fn length<F: Point>(polar: Self::Polar) -> Self::Scalar<F>;
 
-    /// The length within a few units in the last place.
-    fn exact_length<F: Point>(polar: Self::Polar) -> Self::Scalar<F>;
-
     /// A vector of that length at length 1; something finite if it has none.
     fn direction<F: Point>(vector: Self::Four<F>, polar: Self::Polar) -> Self::Four<Unit>;
 

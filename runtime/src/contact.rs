@@ -6,7 +6,7 @@ use crate::{
         units::{Metre, Unit},
     },
     config::ConfigError,
-    math::{Vec3, norm, rsqrt},
+    math::{Vec3, norm, sqrt},
 };
 
 /// A solid that the stylus touches; the texture is the same everywhere on it.
@@ -106,10 +106,7 @@ fn sphere<A: Arithmetic>(r: Four<A, Metre>, radius_m: Number<A, Metre>) -> Touch
     } else {
         Four::whole([0, 0, 1, 0])
     };
-    (
-        Number::<A, Metre>(A::exact_length(polar)) - radius_m,
-        normal,
-    )
+    (Number::<A, Metre>(A::length(polar)) - radius_m, normal)
 }
 
 #[inline]
@@ -137,7 +134,7 @@ fn cuboid<A: Arithmetic>(r: Four<A, Metre>, half_extents_m: Four<A, Metre>) -> T
         };
         Four::vec3([0, 1, 2].map(outward))
     };
-    let length_m = Number::<A, Metre>(A::exact_length(polar));
+    let length_m = Number::<A, Metre>(A::length(polar));
     (length_m + deepest.min(zero), normal)
 }
 
@@ -222,8 +219,8 @@ impl Surface {
 fn unit(v: Vec3) -> Vec3 {
     let v = v.map(f64::from);
     let squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    // The guess is good to 5e-7; one Newton step squares that.
-    let guess = f64::from(rsqrt(squared as f32));
+    // The guess is good to 1e-7; one Newton step squares that.
+    let guess = 1.0 / f64::from(sqrt(squared as f32));
     let inverse = guess * (1.5 - 0.5 * squared * guess * guess);
     v.map(|x| (x * inverse) as f32)
 }

@@ -110,6 +110,23 @@ impl F4 {
         self.to_array().into_iter().all(within)
     }
 
+    /// The roots of two, correctly rounded, in the first two lanes.
+    #[inline(always)]
+    pub(crate) fn sqrt_pair([a, b]: [f32; 2]) -> Self {
+        #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
+        let [a, b] = asperity_vfp::sqrt_pair([a, b]);
+        let pair = f32x4::new([a, b, 1.0, 1.0]);
+        #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
+        let pair = pair.sqrt();
+        Self(pair)
+    }
+
+    /// 1 over each.
+    #[inline(always)]
+    pub(crate) fn reciprocal(self) -> Self {
+        Self(f32x4::ONE / self.0)
+    }
+
     /// Inner product of the first three.
     #[inline(always)]
     pub(crate) fn dot3(self, other: Self) -> f32 {

@@ -32,7 +32,7 @@ impl<A: Arithmetic> Bound<A> {
     }
 }
 
-/// Keeps rounding of the approximated root from exceeding a limit.
+/// Keeps rounding from exceeding a limit.
 const MARGIN: f32 = 1.0 - 2e-6;
 
 impl<A: Arithmetic> Limiter<A> {

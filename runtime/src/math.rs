@@ -1,4 +1,4 @@
-//! Approximations from + − × ÷ alone, so that every platform gives the same bits.
+//! Approximations from + − × ÷ and √ alone, so that every platform gives the same bits.
 //!
 //! Coefficients are Chebyshev interpolants; the errors stated were measured over
 //! the whole range by the tests below.
@@ -75,48 +75,11 @@ pub fn clamp_from_zero(x: f32, limit: f32) -> f32 {
     min(max(x, 0.0), limit)
 }
 
-/// 1/√x for x in [1e-37, 3e38], relative error below 5e-7; finite for smaller x,
-/// 0 included.
-#[inline]
-#[must_use]
-pub fn rsqrt(x: f32) -> f32 {
-    let y = rsqrt_guess(x);
-    let y = y * (0.703_952_25 * (2.389_244_6 - x * y * y));
-    y * (1.500_000_3 - 0.5 * x * y * y)
-}
-
-/// The exponent's half as a first guess; a Newton step with constants that balance its
-/// error (Kadlec's, 6.5e-4), and a plain one whose one-sided error is halved, follow.
+/// √x, correctly rounded; NaN below zero.
 #[inline(always)]
-fn rsqrt_guess(x: f32) -> f32 {
-    f32::from_bits(0x5f1f_fff9_u32.wrapping_sub(x.to_bits() >> 1))
-}
-
-/// [`rsqrt`] of two numbers side by side.
-#[inline(always)]
-#[must_use]
-pub(crate) fn rsqrt_pair([a, b]: [f32; 2]) -> [f32; 2] {
-    let x = F4::load(&[a, b, 0.0, 0.0]);
-    let y = F4::load(&[rsqrt_guess(a), rsqrt_guess(b), 0.0, 0.0]);
-    let y = y * (F4::splat(0.703_952_25) * (F4::splat(2.389_244_6) - x * y * y));
-    let y = y * (F4::splat(1.500_000_3) - F4::HALF * x * y * y);
-    let [a, b, ..] = y.to_array();
-    [a, b]
-}
-
-/// √x for x in [0, 3e38], relative error below 5e-7.
-#[inline]
 #[must_use]
 pub fn sqrt(x: f32) -> f32 {
-    x * rsqrt(x)
-}
-
-/// √x from its reciprocal root with one Newton step more: within a few units in the last place.
-#[inline]
-#[must_use]
-pub fn sqrt_with(x: f32, inverse: f32) -> f32 {
-    let y = x * inverse;
-    y + 0.5 * inverse * (x - y * y)
+    F4::sqrt_pair([x, 1.0]).to_array()[0]
 }
 
 /// Length of a vector whose components are below 1e18.
@@ -224,15 +187,27 @@ mod tests {
                 |_| 1.0
             ) < 1e-5
         );
-        for exponent in -120..120 {
-            let x = 1.37 * (f64::from(exponent)).exp2();
-            let relative = f64::from(rsqrt(x as f32)) * x.sqrt() - 1.0;
-            assert!(relative.abs() < 5e-7, "{x}: {relative}");
-            let pair = rsqrt_pair([x as f32, 0.7]);
-            assert_eq!(pair, [rsqrt(x as f32), rsqrt(0.7)]);
-        }
         assert_eq!(sqrt(0.0), 0.0);
         assert!(norm([1e-30, 0.0, 0.0]).is_finite());
+    }
+
+    /// The root of a platform is the one that IEEE 754 asks for: no number is nearer.
+    #[test]
+    fn roots_are_correctly_rounded() {
+        let mut bits = 1_u32;
+        while bits < f32::INFINITY.to_bits() {
+            let x = f32::from_bits(bits);
+            let [root, other, ..] = F4::sqrt_pair([x, 2.0]).to_array();
+            assert!(root == sqrt(x) && other == core::f32::consts::SQRT_2);
+            let exact = f64::from(x).sqrt();
+            let miss = |root: f32| (f64::from(root) - exact).abs();
+            let step = |by: i32| f32::from_bits(root.to_bits().wrapping_add_signed(by));
+            assert!(
+                miss(root) <= miss(step(1)) && miss(root) <= miss(step(-1)),
+                "{x}"
+            );
+            bits += 4099;
+        }
     }
 
     #[test]

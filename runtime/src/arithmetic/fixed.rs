@@ -376,11 +376,6 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn exact_length<F: Point>(polar: FixedPolar) -> FixedI32<F> {
-        Self::length(polar)
-    }
-
-    #[inline(always)]
     fn direction<F: Point>(vector: Four<F>, polar: FixedPolar) -> Four<Unit> {
         vector.map(|x| {
             let scaled = (i64::from(x.to_bits()) * i64::from(polar.inverse)) >> polar.shift;

@@ -5,7 +5,7 @@ use crate::{
     Config, ConfigError, LoadError, Surface,
     lanes::{F3, F4},
     lsf::Two,
-    math::{max, min, rsqrt, rsqrt_pair, sqrt_with},
+    math::{max, min, sqrt},
 };
 use asperity_formats::Asset;
 use core::ops::{Add, Mul};
@@ -37,11 +37,31 @@ impl Best {
     }
 }
 
-/// A square and the reciprocal of its root.
+/// A length and its reciprocal.
 #[derive(Debug, Clone, Copy)]
 pub struct FloatPolar {
-    square: f32,
+    length: f32,
     inverse: f32,
+}
+
+impl FloatPolar {
+    /// Adds nothing to a length in use, and makes the reciprocal of none finite.
+    const NO_LENGTH: f32 = 1.0e-18;
+
+    #[inline(always)]
+    fn of(length: f32) -> Self {
+        Self {
+            length,
+            inverse: 1.0 / (length + Self::NO_LENGTH),
+        }
+    }
+
+    #[inline(always)]
+    fn of_pair(lengths: F4) -> [Self; 2] {
+        let inverses = (lengths + F4::splat(Self::NO_LENGTH)).reciprocal();
+        let ([a, b, ..], [inverse_a, inverse_b, ..]) = (lengths.to_array(), inverses.to_array());
+        [(a, inverse_a), (b, inverse_b)].map(|(length, inverse)| Self { length, inverse })
+    }
 }
 
 /// Below this an output that decays is set to zero, so that no denormal slows a tick.
@@ -297,36 +317,17 @@ impl Arithmetic for Float {
 
     #[inline(always)]
     fn polar(square: f32) -> FloatPolar {
-        FloatPolar {
-            square,
-            inverse: rsqrt(square),
-        }
+        FloatPolar::of(sqrt(square))
     }
 
     #[inline(always)]
     fn polar_pair(squares: [f32; 2]) -> [FloatPolar; 2] {
-        let [a, b] = squares;
-        let [inverse_a, inverse_b] = rsqrt_pair(squares);
-        [
-            FloatPolar {
-                square: a,
-                inverse: inverse_a,
-            },
-            FloatPolar {
-                square: b,
-                inverse: inverse_b,
-            },
-        ]
+        FloatPolar::of_pair(F4::sqrt_pair(squares))
     }
 
     #[inline(always)]
     fn length<F: Point>(polar: FloatPolar) -> f32 {
-        polar.square * polar.inverse
-    }
-
-    #[inline(always)]
-    fn exact_length<F: Point>(polar: FloatPolar) -> f32 {
-        sqrt_with(polar.square, polar.inverse)
+        polar.length
     }
 
     #[inline(always)]
