@@ -246,7 +246,14 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// A vector of that length at length 1; something finite if it has none.
     fn direction<F: Point>(vector: Self::Four<F>, polar: Self::Polar) -> Self::Four<Unit>;
 
-    /// `reach` over the length, at most 1.
+    /// What a vector has along another one, to which `polar` belongs.
+    fn along<F: Point>(
+        vector: Self::Four<F>,
+        other: Self::Four<F>,
+        polar: Self::Polar,
+    ) -> Self::Scalar<F>;
+
+    /// `reach` over the length; 1 or more where it reaches further.
     fn share<F: Point>(reach: Self::Scalar<F>, polar: Self::Polar) -> Self::Scalar<Unit>;
 
     /// Coefficient `k` of a polynomial times a two, from those of `k`, `k − 1` … `k − 4` that there

@@ -41,6 +41,8 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bristle<A: Arithmetic = Float> {
     stiffness_n_m: Number<A, NewtonPerMetre>,
+    /// 1/k, m/N.
+    compliance_m_n: Number<A, Unit>,
     dead_zone_m: Number<A, Metre>,
     /// k·v_c·T, N: with a normal force of this much, half the deflection leaks in a tick.
     leak_n: Number<A, Leak>,
@@ -57,6 +59,7 @@ impl<A: Arithmetic> Bristle<A> {
     pub fn new(config: &FrictionConfig, delay_ticks: u32, rate_hz: f32) -> Self {
         Self {
             stiffness_n_m: Number::of(config.stiffness_n_m),
+            compliance_m_n: Number::of(1.0 / config.stiffness_n_m),
             dead_zone_m: Number::of(config.dead_zone_m),
             // Above zero, so that no force at all leaves no deflection.
             leak_n: Number::of(max(
@@ -115,7 +118,8 @@ impl<A: Arithmetic> FrictionState<A> {
         let stretched = self.stretch(motion_m, normal);
         let polar = A::polar(stretched.square);
         let limit_n = Number::<A, Ratio>(mu).times(normal_n);
-        let (force, size_n) = self.slip(bristle, &stretched, polar, motion_m, normal_n, limit_n);
+        let (along, size_n) = self.slip(bristle, &stretched, polar, motion_m, normal_n, limit_n);
+        let force: Four<A, Newton> = along.scaled(-size_n);
         (force.xyz(), size_n.0)
     }
 
@@ -131,7 +135,8 @@ impl<A: Arithmetic> FrictionState<A> {
     }
 
     /// The second half: leak, which keeps nothing without a normal force, slip and force; `polar`
-    /// is that of the deflection, `normal_n` is F_n and `limit_n` is μF_n.
+    /// is that of the deflection, `normal_n` is F_n and `limit_n` is μF_n. Returns the direction
+    /// of the deflection and the size of the force against it, N.
     #[inline(always)]
     pub(crate) fn slip(
         &mut self,
@@ -141,27 +146,29 @@ impl<A: Arithmetic> FrictionState<A> {
         motion_m: Four<A, Metre>,
         normal_n: Number<A, Newton>,
         limit_n: Number<A, Newton>,
-    ) -> (Four<A, Newton>, Number<A, Newton>) {
+    ) -> (Four<A, Unit>, Number<A, Newton>) {
         let loaded_n = normal_n.to::<Leak>();
         let leaked: Number<A, Unit> = loaded_n.over(loaded_n + bristle.leak_n);
-        let slipping_m: Number<A, Metre> = limit_n.over(bristle.stiffness_n_m);
-        let reach_m = slipping_m.within(FURTHEST_M) + bristle.dead_zone_m;
+        let slipping_m: Number<A, Metre> = limit_n.times_within(bristle.compliance_m_n, FURTHEST_M);
+        let reach_m = slipping_m + bristle.dead_zone_m;
         // What is left of the length: after the leak, and at most the reach.
         let kept = Number::<A, Unit>(A::share(reach_m.0, polar)).min(leaked);
         self.deflection_m = Three::of(stretched.moved_m.scaled(kept));
 
-        let along = stretched.moved_m.direction(polar);
+        // The same length, without waiting for its reciprocal.
         let length_m = Number::<A, Metre>(A::length(polar));
-        let stretch_m = length_m.times::<_, Metre>(kept) - bristle.dead_zone_m;
-        // `along` lies in the plane: the rest of the motion adds nothing.
-        let along_m: Number<A, Metre> = along.dot3(motion_m);
+        let stretch_m = length_m.times::<_, Metre>(leaked).min(reach_m) - bristle.dead_zone_m;
+        // The deflection lies in the plane: the rest of the motion adds nothing.
+        let along_m = Number::<A, Metre>(A::along(motion_m.0, stretched.moved_m.0, polar));
         let ahead_m = bristle.lead_ticks.times_within(along_m, FURTHEST_M);
         // Inside the dead zone both are below zero, and the force is zero.
         let lead_m = ahead_m.min(Number::<A, Unit>::of(0.5).times(stretch_m));
         let stretched_m = stretch_m + lead_m;
         let force_n = bristle.stiffness_n_m.times_within(stretched_m, STIFFEST_N);
-        let force_n = force_n.clamp_from_zero(limit_n);
-        (along.scaled(-force_n), force_n)
+        (
+            stretched.moved_m.direction(polar),
+            force_n.clamp_from_zero(limit_n),
+        )
     }
 }
 

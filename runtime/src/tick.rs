@@ -382,7 +382,7 @@ impl<A: Arithmetic> Renderer<A> {
         let outside = texture.is_outside(speed_mm_s, stiffness_n);
         flags = flags.and(Flags::OUTSIDE_GRID.when(outside));
         let limit_n = feel.mu.times(stiffness_n);
-        let (friction, friction_n) = state.friction.slip(
+        let (along, friction_n) = state.friction.slip(
             &self.bristle,
             &stretched,
             stretching,
@@ -409,7 +409,9 @@ impl<A: Arithmetic> Renderer<A> {
             VibrationAxis::Binormal => state.direction.four().cross(normal),
         };
         let vib_n: Number<A, Newton> = felt.rendered.gain_kg.times_within(vib_m_s2, STRONGEST_N);
-        let total_n = normal.scaled(normal_n) + friction + axis.scaled(vib_n);
+        let friction: Four<A, Newton> = along.scaled(friction_n);
+        // What is known last comes last.
+        let total_n = normal.scaled(normal_n) + axis.scaled(vib_n) - friction;
         let wanted_n = total_n.scaled(gated.gain);
         let (force_n, limited) = self.limiter.advance(state.force_n.four(), wanted_n);
         state.force_n = Three::of(force_n);

@@ -384,6 +384,11 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn along<F: Point>(vector: Four<F>, other: Four<F>, polar: FixedPolar) -> FixedI32<F> {
+        Self::dot3(Self::direction(other, polar), vector)
+    }
+
+    #[inline(always)]
     fn share<F: Point>(reach: FixedI32<F>, polar: FixedPolar) -> FixedI32<Unit> {
         let one = FixedI32::<Unit>::ONE;
         // The length is rounded down.

@@ -5,7 +5,7 @@ use crate::{
     Config, ConfigError, LoadError, Surface,
     lanes::{F3, F4},
     lsf::Two,
-    math::{max, min, sqrt},
+    math::{max, sqrt},
 };
 use asperity_formats::Asset;
 use core::ops::{Add, Mul};
@@ -336,8 +336,13 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
+    fn along<F: Point>(vector: F4, other: F4, polar: FloatPolar) -> f32 {
+        vector.dot3(other) * polar.inverse
+    }
+
+    #[inline(always)]
     fn share<F: Point>(reach: f32, polar: FloatPolar) -> f32 {
-        min(reach * polar.inverse, 1.0)
+        reach * polar.inverse
     }
 
     #[inline(always)]
