@@ -209,7 +209,7 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// x + y + z of the products of each two.
     fn dot3<F: Point, G: Point, H: Point>(a: Self::Four<F>, b: Self::Four<G>) -> Self::Scalar<H>;
 
-    /// The first three and a zero.
+    /// The first three and a number that means nothing, a zero where numbers have a range.
     fn first_three<F: Point>(a: Self::Four<F>) -> Self::Four<F>;
 
     /// Whether none of the four is beyond ±`limit`, or no number.
@@ -237,8 +237,15 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// What belongs to a square.
     fn polar(square: Self::Square) -> Self::Polar;
 
-    /// [`Arithmetic::polar`] of two.
-    fn polar_pair(squares: [Self::Square; 2]) -> [Self::Polar; 2];
+    /// What belongs to the first three of two vectors.
+    fn polar_pair<F: Point, G: Point>(a: Self::Four<F>, b: Self::Four<G>) -> [Self::Polar; 2];
+
+    /// What is left of the first three of two vectors in the plane with unit normal `normal`.
+    fn tangential_pair<F: Point, G: Point>(
+        a: Self::Four<F>,
+        b: Self::Four<G>,
+        normal: Self::Four<Unit>,
+    ) -> (Self::Four<F>, Self::Four<G>);
 
     /// The length.
     fn length<F: Point>(polar: Self::Polar) -> Self::Scalar<F>;

@@ -85,14 +85,13 @@ impl<A: Arithmetic> Default for FrictionState<A> {
     }
 }
 
-/// The bristle after the motion of a tick, before leak and slip: its length, which takes the
-/// longest to compute, does not wait for the normal force.
+/// The bristle after the motion of a tick, before leak and slip.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretched<A: Arithmetic> {
-    /// Deflection in the tangent plane, m.
-    moved_m: Four<A, Metre>,
-    /// Its square, m².
-    pub(crate) square: A::Square,
+    /// Deflection in the tangent plane, m; the fourth lane means nothing.
+    pub(crate) moved_m: Four<A, Metre>,
+    /// What belongs to it.
+    pub(crate) polar: A::Polar,
 }
 
 /// A force vector in the plane, and its size, N.
@@ -115,34 +114,32 @@ impl<A: Arithmetic> FrictionState<A> {
     ) -> Force<A> {
         let (motion_m, normal) = (Four::vec3(motion_m), Four::vec3(normal));
         let normal_n = Number(normal_n);
-        let stretched = self.stretch(motion_m, normal);
-        let polar = A::polar(stretched.square);
+        let none = Four::<A, Metre>::ZERO;
+        let (moved_m, _) = self.moved(motion_m).tangential_pair(none, normal);
         let limit_n = Number::<A, Ratio>(mu).times(normal_n);
-        let (along, size_n) = self.slip(bristle, &stretched, polar, motion_m, normal_n, limit_n);
+        let stretched = Stretched {
+            moved_m,
+            polar: A::polar(moved_m.square()),
+        };
+        let (along, size_n) = self.slip(bristle, stretched, motion_m, normal_n, limit_n);
         let force: Four<A, Newton> = along.scaled(-size_n);
         (force.xyz(), size_n.0)
     }
 
-    /// The first half of [`FrictionState::step`]: motion. Fourth lanes mean nothing.
+    /// The deflection with the motion of a tick, not yet in the tangent plane, m.
     #[inline(always)]
-    pub(crate) fn stretch(&self, motion_m: Four<A, Metre>, normal: Four<A, Unit>) -> Stretched<A> {
-        let moved_m = self.deflection_m.four() + motion_m;
-        let moved_m: Four<A, Metre> = Four::tangential(moved_m, normal);
-        Stretched {
-            moved_m,
-            square: moved_m.square(),
-        }
+    pub(crate) fn moved(&self, motion_m: Four<A, Metre>) -> Four<A, Metre> {
+        self.deflection_m.four() + motion_m
     }
 
-    /// The second half: leak, which keeps nothing without a normal force, slip and force; `polar`
-    /// is that of the deflection, `normal_n` is F_n and `limit_n` is μF_n. Returns the direction
-    /// of the deflection and the size of the force against it, N.
+    /// Leak, which keeps nothing without a normal force, slip and force: `normal_n` is F_n and
+    /// `limit_n` is μF_n. Returns the direction of the deflection and the size of the force against
+    /// it, N.
     #[inline(always)]
     pub(crate) fn slip(
         &mut self,
         bristle: &Bristle<A>,
-        stretched: &Stretched<A>,
-        polar: A::Polar,
+        Stretched { moved_m, polar }: Stretched<A>,
         motion_m: Four<A, Metre>,
         normal_n: Number<A, Newton>,
         limit_n: Number<A, Newton>,
@@ -153,22 +150,19 @@ impl<A: Arithmetic> FrictionState<A> {
         let reach_m = slipping_m + bristle.dead_zone_m;
         // What is left of the length: after the leak, and at most the reach.
         let kept = Number::<A, Unit>(A::share(reach_m.0, polar)).min(leaked);
-        self.deflection_m = Three::of(stretched.moved_m.scaled(kept));
+        self.deflection_m = Three::of(moved_m.scaled(kept));
 
         // The same length, without waiting for its reciprocal.
         let length_m = Number::<A, Metre>(A::length(polar));
         let stretch_m = length_m.times::<_, Metre>(leaked).min(reach_m) - bristle.dead_zone_m;
         // The deflection lies in the plane: the rest of the motion adds nothing.
-        let along_m = Number::<A, Metre>(A::along(motion_m.0, stretched.moved_m.0, polar));
+        let along_m = Number::<A, Metre>(A::along(motion_m.0, moved_m.0, polar));
         let ahead_m = bristle.lead_ticks.times_within(along_m, FURTHEST_M);
         // Inside the dead zone both are below zero, and the force is zero.
         let lead_m = ahead_m.min(Number::<A, Unit>::of(0.5).times(stretch_m));
         let stretched_m = stretch_m + lead_m;
         let force_n = bristle.stiffness_n_m.times_within(stretched_m, STIFFEST_N);
-        (
-            stretched.moved_m.direction(polar),
-            force_n.clamp_from_zero(limit_n),
-        )
+        (moved_m.direction(polar), force_n.clamp_from_zero(limit_n))
     }
 }
 

@@ -82,16 +82,6 @@ impl F4 {
         Self(self.0 & keep | f32x4::splat(f32::from_bits(set)))
     }
 
-    /// The first three and a zero; the fourth is finite.
-    #[inline(always)]
-    pub(crate) fn first_three(self) -> Self {
-        if Self::IN_REGISTERS {
-            return self * Self::load(&[1.0, 1.0, 1.0, 0.0]);
-        }
-        let [x, y, z, _] = self.to_array();
-        Self::load(&[x, y, z, 0.0])
-    }
-
     /// All four: (1st + 2nd) + (3rd + 4th).
     #[inline(always)]
     pub(crate) fn sum(self) -> f32 {
@@ -110,15 +100,17 @@ impl F4 {
         self.to_array().into_iter().all(within)
     }
 
-    /// The roots of two, correctly rounded, in the first two lanes.
+    /// The roots of the first two, correctly rounded, in their place.
     #[inline(always)]
-    pub(crate) fn sqrt_pair([a, b]: [f32; 2]) -> Self {
+    pub(crate) fn sqrt_pair(self) -> Self {
         #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
-        let [a, b] = asperity_vfp::sqrt_pair([a, b]);
-        let pair = f32x4::new([a, b, 1.0, 1.0]);
+        {
+            let [a, b, ..] = self.to_array();
+            let [a, b] = asperity_vfp::sqrt_pair([a, b]);
+            Self::load(&[a, b, 0.0, 0.0])
+        }
         #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
-        let pair = pair.sqrt();
-        Self(pair)
+        Self(self.0.sqrt())
     }
 
     /// 1 over each.
@@ -131,6 +123,18 @@ impl F4 {
     #[inline(always)]
     pub(crate) fn dot3(self, other: Self) -> f32 {
         let [x, y, z, _] = (self * other).to_array();
+        x + y + z
+    }
+
+    /// Inner products of the first three of two pairs, in the first two lanes.
+    #[inline(always)]
+    pub(crate) fn dot3_pair([a, b]: [(Self, Self); 2]) -> Self {
+        let [ax, ay, az, aw] = (a.0 * a.1).to_array();
+        let [bx, by, bz, bw] = (b.0 * b.1).to_array();
+        // Two moves a line in registers; the last two lanes mean nothing.
+        let x = Self::load(&[ax, bx, ay, by]);
+        let y = Self::load(&[ay, by, ay, by]);
+        let z = Self::load(&[az, bz, aw, bw]);
         x + y + z
     }
 }

@@ -12,7 +12,7 @@ use crate::{
         },
     },
     contact::Solid,
-    friction::{Bristle, FrictionState},
+    friction::{Bristle, FrictionState, Stretched},
     limiter::Limiter,
     math::{exp, max},
     safety::Gate,
@@ -371,9 +371,11 @@ impl<A: Arithmetic> Renderer<A> {
         let wall = felt.rendered.wall;
         let stiffness_n = wall.spring_n(depth_m);
 
-        let slide_m_s = velocity_m_s.first_three().tangential(normal);
-        let stretched = state.friction.stretch(motion_m, normal);
-        let [sliding, stretching] = A::polar_pair([slide_m_s.square(), stretched.square]);
+        // Two vectors in the tangent plane, side by side.
+        let moved_m = state.friction.moved(motion_m);
+        let (moved_m, slide_m_s) = moved_m.tangential_pair(velocity_m_s.first_three(), normal);
+        let [polar, sliding] = A::polar_pair(moved_m.0, slide_m_s.0);
+        let stretched = Stretched { moved_m, polar };
         let speed_m_s = Number::<A, MetrePerSecond>(A::length(sliding));
         if speed_m_s > Number::of(DIRECTION_FLOOR_M_S) {
             state.direction = Three::of(slide_m_s.direction(sliding));
@@ -382,14 +384,10 @@ impl<A: Arithmetic> Renderer<A> {
         let outside = texture.is_outside(speed_mm_s, stiffness_n);
         flags = flags.and(Flags::OUTSIDE_GRID.when(outside));
         let limit_n = feel.mu.times(stiffness_n);
-        let (along, friction_n) = state.friction.slip(
-            &self.bristle,
-            &stretched,
-            stretching,
-            motion_m,
-            stiffness_n,
-            limit_n,
-        );
+        let (along, friction_n) =
+            state
+                .friction
+                .slip(&self.bristle, stretched, motion_m, stiffness_n, limit_n);
 
         let tap = state.tap.step(&texture.taps, distance_m.0, &self.detector);
         flags = flags.and(tap.flags);

@@ -73,6 +73,13 @@ const fn shift<F: Point, G: Point, H: Point>() -> i32 {
     F::I32 + G::I32 - H::I32
 }
 
+/// What is left of a vector in a plane.
+#[inline(always)]
+fn tangential<F: Point>(vector: Four<F>, normal: Four<Unit>) -> Four<F> {
+    let along: FixedI32<F> = Fixed::dot3(vector, normal);
+    Fixed::four_minus(vector, Fixed::four_scaled(normal, along))
+}
+
 impl<F: Point> Zero for FixedI32<F> {
     const ZERO: Self = Self::ZERO;
 }
@@ -366,8 +373,17 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn polar_pair(squares: [u64; 2]) -> [FixedPolar; 2] {
-        squares.map(Self::polar)
+    fn polar_pair<F: Point, G: Point>(a: Four<F>, b: Four<G>) -> [FixedPolar; 2] {
+        [Self::square(a), Self::square(b)].map(Self::polar)
+    }
+
+    #[inline(always)]
+    fn tangential_pair<F: Point, G: Point>(
+        a: Four<F>,
+        b: Four<G>,
+        normal: Four<Unit>,
+    ) -> (Four<F>, Four<G>) {
+        (tangential(a, normal), tangential(b, normal))
     }
 
     #[inline(always)]

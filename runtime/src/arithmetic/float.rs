@@ -264,7 +264,7 @@ impl Arithmetic for Float {
 
     #[inline(always)]
     fn first_three<F: Point>(a: F4) -> F4 {
-        a.first_three()
+        a
     }
 
     #[inline(always)]
@@ -321,8 +321,17 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
-    fn polar_pair(squares: [f32; 2]) -> [FloatPolar; 2] {
-        FloatPolar::of_pair(F4::sqrt_pair(squares))
+    fn polar_pair<F: Point, G: Point>(a: F4, b: F4) -> [FloatPolar; 2] {
+        FloatPolar::of_pair(F4::dot3_pair([(a, a), (b, b)]).sqrt_pair())
+    }
+
+    #[inline(always)]
+    fn tangential_pair<F: Point, G: Point>(a: F4, b: F4, normal: F4) -> (F4, F4) {
+        let [along_a, along_b, ..] = F4::dot3_pair([(a, normal), (b, normal)]).to_array();
+        (
+            a - normal * F4::splat(along_a),
+            b - normal * F4::splat(along_b),
+        )
     }
 
     #[inline(always)]

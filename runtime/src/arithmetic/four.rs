@@ -127,7 +127,7 @@ impl<A: Arithmetic, F: Point> Four<A, F> {
         Self::load(&[x, y, z, w.0])
     }
 
-    /// The first three and a zero; the fourth is finite.
+    /// The first three and a number that means nothing.
     #[inline(always)]
     pub(crate) fn first_three(self) -> Self {
         Self(A::first_three(self.0))
@@ -201,10 +201,16 @@ impl<A: Arithmetic, F: Point> Four<A, F> {
         Number(A::dot3(self.0, other.0))
     }
 
-    /// What is left of the first three in the plane with unit normal `normal`.
+    /// What is left of the first three in the plane with unit normal `normal`; the same of
+    /// another vector.
     #[inline(always)]
-    pub(crate) fn tangential(self, normal: Four<A, Unit>) -> Self {
-        self - normal.scaled(self.dot3::<Unit, F>(normal))
+    pub(crate) fn tangential_pair<G: Point>(
+        self,
+        other: Four<A, G>,
+        normal: Four<A, Unit>,
+    ) -> (Self, Four<A, G>) {
+        let (a, b) = A::tangential_pair(self.0, other.0, normal.0);
+        (Self(a), Four(b))
     }
 
     /// Cross product of the first three with a vector of length 1.
