@@ -187,11 +187,11 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
         b: Self::Scalar<G>,
     ) -> Self::Four<H>;
 
-    /// Multiples, each at most `limit` in size.
-    fn four_scaled_within<F: Point, G: Point, H: Point>(
+    /// The products of each two, each at most that of `limits` in size.
+    fn four_times_within<F: Point, G: Point, H: Point>(
         a: Self::Four<F>,
-        b: Self::Scalar<G>,
-        limit: f32,
+        b: Self::Four<G>,
+        limits: Self::Four<H>,
     ) -> Self::Four<H>;
 
     /// Σ xᵢ·cᵢ, first to last, each at most `limit` in size.

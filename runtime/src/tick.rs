@@ -7,8 +7,8 @@ use crate::{
     arithmetic::{
         Arithmetic, Float, Four, Number, Scalar as _, Three,
         units::{
-            Acceleration, FASTEST_M_S, Gain, Hertz, Kilogram, Metre, MetrePerSecond,
-            MillimetrePerSecond, Newton, Ratio, STRONGEST_N, TapAcceleration, Unit,
+            Acceleration, Gain, Kilogram, Metre, MetrePerSecond, MillimetrePerSecond, Newton,
+            Ratio, STRONGEST_N, TapAcceleration, Unit,
         },
     },
     contact::Solid,
@@ -18,7 +18,7 @@ use crate::{
     safety::Gate,
     tap::{Detector, TapState},
     texture::Feel,
-    velocity::{LowPass2, LowPass2State},
+    velocity::{VelocityEstimator, VelocityState},
     vibration::{CYCLE_TICKS, Vibration},
     wall::{Passivity, Wall},
 };
@@ -103,7 +103,7 @@ pub struct State<A: Arithmetic = Float> {
     pub(crate) vibration: Vibration<A>,
     gate: Gate<A>,
     distance_m: Number<A, Metre>,
-    velocity: LowPass2State<A>,
+    velocity: VelocityState<A>,
     direction: Three<A, Unit>,
     tap: TapState<A>,
     friction: FrictionState<A>,
@@ -120,7 +120,7 @@ impl<A: Arithmetic> State<A> {
             vibration: Vibration::new(seed),
             gate: Gate::new(),
             distance_m: Number::ZERO,
-            velocity: LowPass2State::REST,
+            velocity: VelocityState::REST,
             direction: Three::of(Four::whole([1, 0, 0, 0])),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
@@ -155,7 +155,7 @@ impl<A: Arithmetic> State<A> {
     #[cold]
     fn restart(&mut self, distance_m: Number<A, Metre>) {
         self.distance_m = distance_m;
-        self.velocity = LowPass2State::REST;
+        self.velocity = VelocityState::REST;
         self.vibration.silence();
         self.friction = FrictionState::default();
         self.tap.restart(distance_m.0);
@@ -191,13 +191,11 @@ impl<A: Arithmetic> Rendered<A> {
 pub struct Renderer<A: Arithmetic = Float> {
     config: Config,
     solid: Solid<A>,
-    velocity: LowPass2<A>,
+    velocity: VelocityEstimator<A>,
     limiter: Limiter<A>,
     bristle: Bristle<A>,
     passivity: Passivity<A>,
     detector: Detector<A>,
-    /// Periods per second over 0 (never), 1, 2 and 3 elapsed ticks.
-    rate_over_ticks: [Number<A, Hertz>; 4],
     /// Shares of the way that parameters go in a cycle, by ticks a sample.
     follow_shares: [Number<A, Unit>; 32],
     /// Share of the way that wall, gains and friction go in a tick, to another texture.
@@ -232,12 +230,11 @@ impl<A: Arithmetic> Renderer<A> {
                 ..config.clone()
             },
             solid: Solid::new(&config.surface),
-            velocity: LowPass2::new([plane, plane, plane, normal], rate),
+            velocity: VelocityEstimator::new([plane, plane, plane, normal], rate),
             limiter: Limiter::new(&config.limits, rate),
             bristle: Bristle::new(&config.friction, config.mechanics.delay_ticks, rate),
             passivity: Passivity::new(&config.mechanics, rate),
             detector: Detector::new(&config.tap, rate),
-            rate_over_ticks: [rate, rate, rate / 2.0, rate / 3.0].map(Number::of),
             follow_shares: core::array::from_fn(|per_sample| {
                 let cycles = ticks / (CYCLE_TICKS * per_sample.max(1)) as f32;
                 Number::of(if cycles > 0.0125 {
@@ -358,10 +355,9 @@ impl<A: Arithmetic> Renderer<A> {
         }
 
         let motion_m = gated.motion_m;
-        let rate = self.rate_over_ticks[gated.elapsed_ticks as usize % 4];
-        let moved_m = motion_m.with_fourth(distance_m - state.distance_m);
-        let moving_m_s = moved_m.scaled_within(rate, FASTEST_M_S);
-        let velocity_m_s = self.velocity.advance(&mut state.velocity, moving_m_s);
+        let motions_m = motion_m.with_fourth(distance_m - state.distance_m);
+        let (filters, elapsed_ticks) = (&self.velocity, gated.elapsed_ticks);
+        let velocity_m_s = filters.advance(&mut state.velocity, motions_m, elapsed_ticks);
         let outward_m_s: Number<A, MetrePerSecond> = velocity_m_s.fourth();
         state.distance_m = distance_m;
 

@@ -262,12 +262,15 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn four_scaled_within<F: Point, G: Point, H: Point>(
+    fn four_times_within<F: Point, G: Point, H: Point>(
         a: Four<F>,
-        b: FixedI32<G>,
-        limit: f32,
+        b: Four<G>,
+        limits: Four<H>,
     ) -> Four<H> {
-        a.map(|a| Self::times_within(a, b, limit))
+        array::from_fn(|lane| {
+            let limit = limits[lane].to_bits();
+            narrow_within(wide(a[lane], b[lane]), shift::<F, G, H>(), limit)
+        })
     }
 
     #[inline(always)]

@@ -235,8 +235,8 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
-    fn four_scaled_within<F: Point, G: Point, H: Point>(a: F4, b: f32, _: f32) -> F4 {
-        a * F4::splat(b)
+    fn four_times_within<F: Point, G: Point, H: Point>(a: F4, b: F4, _: F4) -> F4 {
+        a * b
     }
 
     #[inline(always)]

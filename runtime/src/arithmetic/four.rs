@@ -185,14 +185,14 @@ impl<A: Arithmetic, F: Point> Four<A, F> {
         Four(A::four_scaled(self.0, by.0))
     }
 
-    /// Multiples, each at most `limit` in size.
+    /// The products of each two, each at most that of `limits` in size.
     #[inline(always)]
-    pub(crate) fn scaled_within<G: Point, H: Point>(
+    pub(crate) fn times_within<G: Point, H: Point>(
         self,
-        by: Number<A, G>,
-        limit: f32,
+        other: Four<A, G>,
+        limits: Four<A, H>,
     ) -> Four<A, H> {
-        Four(A::four_scaled_within(self.0, by.0, limit))
+        Four(A::four_times_within(self.0, other.0, limits.0))
     }
 
     /// Inner product of the first three.

@@ -4,31 +4,29 @@
 //! renderer does: viscous below v = μ/0.004 mm/s, Coulomb above. Both see the velocity
 //! through the reference's second-order low-pass at 20 Hz.
 
-use asperity_runtime::velocity::{LowPass2, LowPass2State};
+use asperity_runtime::velocity::{VelocityEstimator, VelocityState};
 
 /// A velocity in one dimension, m/s, from positions.
 #[derive(Debug, Clone)]
 struct Velocity {
-    filter: LowPass2,
-    state: LowPass2State,
+    filter: VelocityEstimator,
+    state: VelocityState,
     last_m: Option<f64>,
-    rate_hz: f64,
 }
 
 impl Velocity {
     fn new(rate_hz: f64) -> Self {
         Self {
-            filter: LowPass2::new([20.0; 4], rate_hz as f32),
-            state: LowPass2State::REST,
+            filter: VelocityEstimator::new([20.0; 4], rate_hz as f32),
+            state: VelocityState::REST,
             last_m: None,
-            rate_hz,
         }
     }
 
     fn step(&mut self, position_m: f64) -> f64 {
         let motion_m = position_m - self.last_m.replace(position_m).unwrap_or(position_m);
-        let raw = (motion_m * self.rate_hz) as f32;
-        f64::from(self.filter.step(&mut self.state, [raw; 4])[0])
+        let motions_m = [motion_m as f32; 4];
+        f64::from(self.filter.step(&mut self.state, motions_m, 1)[0])
     }
 }
 
