@@ -127,14 +127,21 @@ impl Counters {
         if !flags.meets(Flags::COUNTED) {
             return;
         }
-        for (counter, event) in [
-            (&mut self.bad_samples, Flags::BAD_SAMPLE),
-            (&mut self.faults, Flags::FAULT),
-            (&mut self.taps, Flags::TAP_STARTED),
-            (&mut self.peak_limited, Flags::PEAK_LIMITED),
-            (&mut self.slew_limited, Flags::SLEW_LIMITED),
-        ] {
-            *counter = counter.wrapping_add(u32::from(flags.meets(event)));
+        // Few of them happen, and seldom two at once.
+        if flags.meets(Flags::BAD_SAMPLE) {
+            self.bad_samples = self.bad_samples.wrapping_add(1);
+        }
+        if flags.meets(Flags::FAULT.and(Flags::TAP_STARTED)) {
+            let faults = u32::from(flags.meets(Flags::FAULT));
+            self.faults = self.faults.wrapping_add(faults);
+            let taps = u32::from(flags.meets(Flags::TAP_STARTED));
+            self.taps = self.taps.wrapping_add(taps);
+        }
+        if flags.meets(Flags::PEAK_LIMITED.and(Flags::SLEW_LIMITED)) {
+            let peak_limited = u32::from(flags.meets(Flags::PEAK_LIMITED));
+            self.peak_limited = self.peak_limited.wrapping_add(peak_limited);
+            let slew_limited = u32::from(flags.meets(Flags::SLEW_LIMITED));
+            self.slew_limited = self.slew_limited.wrapping_add(slew_limited);
         }
     }
 }

@@ -84,8 +84,9 @@ impl<A: Arithmetic> Gate<A> {
         let p = Four::vec3(sample.position_m);
         // A stale sample counts as far too late.
         let missed = sample.elapsed_ticks.wrapping_sub(1);
-        if missed > hold_ticks || self.fresh || !p.is_within(A::REACH_M) {
-            return self.irregular(sample, hold_ticks, ramp_step);
+        let within = p.is_within(A::REACH_M);
+        if missed > hold_ticks || self.fresh || !within {
+            return self.irregular(sample, within, hold_ticks, ramp_step);
         }
         let motion_m = p - self.position_m();
         self.position_m = Three::of(p);
@@ -119,11 +120,12 @@ impl<A: Arithmetic> Gate<A> {
     fn irregular(
         &mut self,
         sample: &Sample<A>,
+        within: bool,
         hold_ticks: u32,
         ramp_step: Number<A, Gain>,
     ) -> Gated<A> {
         let p = Four::vec3(sample.position_m);
-        let usable = is_usable(sample);
+        let usable = within & (sample.elapsed_ticks > 0);
         let missed = sample.elapsed_ticks.saturating_sub(1);
         let gap = missed > hold_ticks && !self.fresh;
         let good = usable && !gap;

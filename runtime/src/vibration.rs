@@ -52,7 +52,7 @@ pub struct Vibration<A: Arithmetic = Float> {
     excitation: Excitation,
     texture: u32,
     phase: u8,
-    /// In contact since the query was taken.
+    /// In contact in every tick since the query is taken, that one included.
     in_contact: bool,
     /// The parameters at work belong to this contact.
     follows: bool,
@@ -80,7 +80,7 @@ impl<A: Arithmetic> Vibration<A> {
             excitation: Excitation::new(seed),
             texture: 0,
             phase: 0,
-            in_contact: false,
+            in_contact: true,
             follows: false,
         }
     }
@@ -90,6 +90,8 @@ impl<A: Arithmetic> Vibration<A> {
         self.history = History::SILENT;
         self.between.silence();
         self.leave();
+        // A query of this tick follows.
+        self.in_contact = self.takes_query();
     }
 
     #[inline]
@@ -110,6 +112,7 @@ impl<A: Arithmetic> Vibration<A> {
         }
         self.texture = texture;
         self.phase = 0;
+        self.in_contact = true;
         self.between = Between::START;
     }
 
@@ -120,6 +123,7 @@ impl<A: Arithmetic> Vibration<A> {
         self.pairs = Pairs::ZERO;
         self.next_level_m_s2 = Number::ZERO;
         self.phase = 0;
+        self.in_contact = true;
         self.between.begin_cycle();
         self.follows = false;
     }
@@ -190,6 +194,7 @@ impl<A: Arithmetic> Vibration<A> {
             self.prepare_between(texture, follow_share(ticks), ticks);
         } else if self.phase == CYCLE_TICKS as u8 {
             self.phase = 0;
+            self.in_contact = true;
         } else if self.phase > 0 {
             self.work(texture, follow_share(1), texture.share(self.phase));
             self.phase += 1;
@@ -210,20 +215,18 @@ impl<A: Arithmetic> Vibration<A> {
         if !sounding {
             self.leave();
         }
-        if self.phase == 0 {
-            self.in_contact = sounding;
+        if interpolator.ticks() > 1 {
+            return self.sound_between(lags, interpolator, sounding);
         }
-        let apart = interpolator.ticks() > 1;
-        let mut sounded = (Number::ZERO, false);
-        if !apart || self.between.is_sample() {
-            let gaussian = self.excitation.draw::<A>();
-            let e = self.level_m_s2.times_within(gaussian, A::VIB_LIMIT_M_S2);
-            sounded = self.history.advance(&self.a, &self.b, lags, e, sounding);
-        }
-        if apart {
-            sounded.0 = self.between.output(interpolator, sounded.0, sounding);
-        }
-        sounded
+        self.sample(lags, sounding)
+    }
+
+    /// The next sample of the model.
+    #[inline(always)]
+    pub(super) fn sample(&mut self, lags: Lags, sounding: bool) -> Sounded<A> {
+        let gaussian = self.excitation.draw::<A>();
+        let e = self.level_m_s2.times_within(gaussian, A::VIB_LIMIT_M_S2);
+        self.history.advance(&self.a, &self.b, lags, e, sounding)
     }
 
     /// Whether this tick ends with a query.

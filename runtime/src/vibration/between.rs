@@ -6,7 +6,7 @@
 //! change is heard after at most ten samples, whatever the servo rate. Shares of the work fall
 //! into ticks without a sample.
 
-use super::{CYCLE_TICKS, Vibration};
+use super::{CYCLE_TICKS, Sounded, Vibration};
 use crate::{
     Texture,
     arithmetic::{
@@ -14,6 +14,7 @@ use crate::{
         units::{Acceleration, Unit},
     },
     interpolate::{Held, Interpolator},
+    synthesis::Lags,
 };
 
 /// Samples of a cycle after which work is done.
@@ -104,7 +105,7 @@ impl<A: Arithmetic> Between<A> {
 
     /// The output of a tick, m/s², in which `y` enters. With `sounding` false it is mute, and
     /// nothing is left of what was.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn output(
         &mut self,
         interpolator: &Interpolator<A>,
@@ -138,12 +139,29 @@ impl<A: Arithmetic> Vibration<A> {
         self.between.advance(ticks);
         // To the rest of a tick a phase of 0 is the query's.
         self.phase = u8::from(!self.between.is_query(ticks));
+        self.in_contact |= self.takes_query();
         if let Some(share) = self.between.share(ticks) {
             self.work(texture, follow_share, texture.share(share));
             if usize::from(share) + 1 == shares_of_cycle(ticks) {
                 self.finish(texture);
             }
         }
+    }
+
+    /// [`Vibration::sound`] between samples.
+    #[inline(never)]
+    pub(super) fn sound_between(
+        &mut self,
+        lags: Lags,
+        interpolator: &Interpolator<A>,
+        sounding: bool,
+    ) -> Sounded<A> {
+        let (y, clamped) = if self.between.is_sample() {
+            self.sample(lags, sounding)
+        } else {
+            (Number::ZERO, false)
+        };
+        (self.between.output(interpolator, y, sounding), clamped)
     }
 
     /// Whether the tick that follows puts new coefficients to work.
