@@ -86,7 +86,8 @@ impl F4 {
     #[inline(always)]
     pub(crate) fn sum(self) -> f32 {
         let [a, b, c, d] = self.to_array();
-        (a + b) + (c + d)
+        let [ab, _, cd, _] = (self + Self::load(&[b, a, d, c])).to_array();
+        ab + cd
     }
 
     /// Whether none of the four is beyond ±`limit` or NaN.
@@ -100,14 +101,14 @@ impl F4 {
         self.to_array().into_iter().all(within)
     }
 
-    /// The roots of the first two, correctly rounded, in their place.
+    /// The roots of the first and the third, correctly rounded, in their place.
     #[inline(always)]
     pub(crate) fn sqrt_pair(self) -> Self {
         #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
         {
-            let [a, b, ..] = self.to_array();
+            let [a, _, b, _] = self.to_array();
             let [a, b] = asperity_vfp::sqrt_pair([a, b]);
-            Self::load(&[a, b, 0.0, 0.0])
+            Self::load(&[a, a, b, b])
         }
         #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
         Self(self.0.sqrt())
@@ -126,15 +127,15 @@ impl F4 {
         x + y + z
     }
 
-    /// Inner products of the first three of two pairs, in the first two lanes.
+    /// Inner products of the first three of two pairs, in the first and the third lane.
     #[inline(always)]
     pub(crate) fn dot3_pair([a, b]: [(Self, Self); 2]) -> Self {
-        let [ax, ay, az, aw] = (a.0 * a.1).to_array();
-        let [bx, by, bz, bw] = (b.0 * b.1).to_array();
-        // Two moves a line in registers; the last two lanes mean nothing.
-        let x = Self::load(&[ax, bx, ay, by]);
-        let y = Self::load(&[ay, by, ay, by]);
-        let z = Self::load(&[az, bz, aw, bw]);
+        let [ax, ay, az, _] = (a.0 * a.1).to_array();
+        let [bx, by, bz, _] = (b.0 * b.1).to_array();
+        // One move a line in registers.
+        let x = Self::load(&[ax, ax, bx, bx]);
+        let y = Self::load(&[ay, ay, by, by]);
+        let z = Self::load(&[az, az, bz, bz]);
         x + y + z
     }
 }

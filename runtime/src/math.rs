@@ -79,7 +79,7 @@ pub fn clamp_from_zero(x: f32, limit: f32) -> f32 {
 #[inline(always)]
 #[must_use]
 pub fn sqrt(x: f32) -> f32 {
-    F4::splat(x).sqrt_pair().to_array()[0]
+    F4::load(&[x, 0.0, 0.0, 0.0]).sqrt_pair().to_array()[0]
 }
 
 /// Length of a vector whose components are below 1e18.
@@ -197,7 +197,7 @@ mod tests {
         let mut bits = 1_u32;
         while bits < f32::INFINITY.to_bits() {
             let x = f32::from_bits(bits);
-            let [root, other, ..] = F4::load(&[x, 2.0, 0.0, 0.0]).sqrt_pair().to_array();
+            let [root, _, other, _] = F4::load(&[x, 0.0, 2.0, 0.0]).sqrt_pair().to_array();
             assert!(root == sqrt(x) && other == core::f32::consts::SQRT_2);
             let exact = f64::from(x).sqrt();
             let miss = |root: f32| (f64::from(root) - exact).abs();

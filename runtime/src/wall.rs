@@ -110,14 +110,13 @@ impl<A: Arithmetic> Wall<A> {
         outward_m_s: A::Scalar<MetrePerSecond>,
     ) -> A::Scalar<Newton> {
         let spring_n = Number::<A, Newton>(spring_n);
-        let damping_n_s_m = Number::<A, NewtonSecondPerMetre>(self.damping_n_s_m);
-        let outward_m_s = Number::<A, MetrePerSecond>(outward_m_s);
-        let damped = spring_n - damping_n_s_m.times_within(outward_m_s, STRONGEST_N);
-        let damped = damped.max(Number::ZERO);
         if spring_n > Number::ZERO {
-            damped.0
+            let outward_m_s = Number::<A, MetrePerSecond>(outward_m_s);
+            let damping_n_s_m = Number::<A, NewtonSecondPerMetre>(self.damping_n_s_m);
+            let damped_n = damping_n_s_m.times_within(outward_m_s, STRONGEST_N);
+            (spring_n - damped_n).max(Number::ZERO).0
         } else {
-            Number::<A, Newton>::ZERO.0
+            A::Scalar::ZERO
         }
     }
 }

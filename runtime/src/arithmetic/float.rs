@@ -56,10 +56,12 @@ impl FloatPolar {
         }
     }
 
+    /// Of the first and the third.
     #[inline(always)]
     fn of_pair(lengths: F4) -> [Self; 2] {
         let inverses = (lengths + F4::splat(Self::NO_LENGTH)).reciprocal();
-        let ([a, b, ..], [inverse_a, inverse_b, ..]) = (lengths.to_array(), inverses.to_array());
+        let ([a, _, b, _], [inverse_a, _, inverse_b, _]) =
+            (lengths.to_array(), inverses.to_array());
         [(a, inverse_a), (b, inverse_b)].map(|(length, inverse)| Self { length, inverse })
     }
 }
@@ -327,7 +329,7 @@ impl Arithmetic for Float {
 
     #[inline(always)]
     fn tangential_pair<F: Point, G: Point>(a: F4, b: F4, normal: F4) -> (F4, F4) {
-        let [along_a, along_b, ..] = F4::dot3_pair([(a, normal), (b, normal)]).to_array();
+        let [along_a, _, along_b, _] = F4::dot3_pair([(a, normal), (b, normal)]).to_array();
         (
             a - normal * F4::splat(along_a),
             b - normal * F4::splat(along_b),
