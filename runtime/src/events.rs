@@ -132,16 +132,15 @@ impl Counters {
             self.bad_samples = self.bad_samples.wrapping_add(1);
         }
         if flags.meets(Flags::FAULT.and(Flags::TAP_STARTED)) {
-            let faults = u32::from(flags.meets(Flags::FAULT));
-            self.faults = self.faults.wrapping_add(faults);
-            let taps = u32::from(flags.meets(Flags::TAP_STARTED));
-            self.taps = self.taps.wrapping_add(taps);
+            let [fault, tap] = [Flags::FAULT, Flags::TAP_STARTED].map(|event| flags.meets(event));
+            self.faults = self.faults.wrapping_add(fault.into());
+            self.taps = self.taps.wrapping_add(tap.into());
         }
-        if flags.meets(Flags::PEAK_LIMITED.and(Flags::SLEW_LIMITED)) {
-            let peak_limited = u32::from(flags.meets(Flags::PEAK_LIMITED));
-            self.peak_limited = self.peak_limited.wrapping_add(peak_limited);
-            let slew_limited = u32::from(flags.meets(Flags::SLEW_LIMITED));
-            self.slew_limited = self.slew_limited.wrapping_add(slew_limited);
+        if flags.meets(Flags::PEAK_LIMITED) {
+            self.peak_limited = self.peak_limited.wrapping_add(1);
+        }
+        if flags.meets(Flags::SLEW_LIMITED) {
+            self.slew_limited = self.slew_limited.wrapping_add(1);
         }
     }
 }

@@ -424,7 +424,9 @@ fn is_usual(raw: f32) -> bool {
 
 /// An output too small to matter, too large, or NaN, which becomes silence.
 fn bound(raw: f32) -> (f32, bool) {
-    if raw > VIB_LIMIT_M_S2 {
+    if raw.abs() < SILENCE_M_S2 {
+        (0.0, false)
+    } else if raw > VIB_LIMIT_M_S2 {
         (VIB_LIMIT_M_S2, true)
     } else if raw < -VIB_LIMIT_M_S2 {
         (-VIB_LIMIT_M_S2, true)
