@@ -147,6 +147,9 @@ impl<'a> Taps<'a> {
 
 /// The first of packed codes that is −2048, which no sample may be.
 fn first_below_scale(codes: &[u8]) -> Option<usize> {
+    if !any_below_scale(codes) {
+        return None;
+    }
     const BELOW: u32 = 0x800;
     let bits = |[a, b, c]: [u8; 3]| u32::from_le_bytes([a, b, c, 0]);
     let (pairs, last) = codes.as_chunks();
@@ -158,6 +161,26 @@ fn first_below_scale(codes: &[u8]) -> Option<usize> {
         [a, b] if bits([a, b, 0]) & 0xfff == BELOW => Some(2 * pairs.len()),
         _ => None,
     }
+}
+
+/// Whether one of packed codes is −2048: four at a time, without a branch for each.
+fn any_below_scale(codes: &[u8]) -> bool {
+    const ONES: u64 = 0x001_001_001_001;
+    const SIGNS: u64 = 0x800_800_800_800;
+    // Where a code is its sign alone, what is left of it is 0, and 1 less borrows. A borrow
+    // reaches a neighbour only from such a code.
+    let mark = |[a, b, c, d, e, f]: [u8; 6]| {
+        let four = u64::from_le_bytes([a, b, c, d, e, f, 0, 0]);
+        (four ^ SIGNS).wrapping_sub(ONES) & four
+    };
+    let (fours, rest) = codes.as_chunks();
+    // Zeros are valid codes, and so are four bits behind the last one.
+    let mut last = [0; 6];
+    last.iter_mut().zip(rest).for_each(|(to, from)| *to = *from);
+    let marks = fours
+        .iter()
+        .fold(mark(last), |marks, &four| marks | mark(four));
+    marks & SIGNS != 0
 }
 
 /// Two codes of twelve bits, the first one in the low bits.
