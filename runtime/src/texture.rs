@@ -249,10 +249,8 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         };
         self.servo_rate_hz = servo_rate_hz;
         self.feel = Feel::new(asset.surface(), asset.friction().mu());
-        self.ar_pairs.0 = [[A::Scalar::ZERO; P]; V];
-        self.ma_pairs.0 = [[A::Scalar::ZERO; Q]; V];
-        self.levels_m_s2 = [A::Scalar::ZERO; V];
-        let (ar, ma) = (places(grid.ar_order()), places(grid.ma_order()));
+        let (ar, ma) = (sources(grid.ar_order()), sources(grid.ma_order()));
+        // No triangle has a corner in the rows behind the last vertex, so they may hold anything.
         for (index, vertex) in grid.vertices().enumerate().take(V) {
             if let Some(model) = grid.model(usize::from(vertex.model)) {
                 to_pairs(&mut self.ar_pairs.0[index], model.lsf(), &ar);
@@ -414,33 +412,42 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     }
 }
 
-/// Where each LSF of an order stands in a row.
-fn places(order: usize) -> [u8; MAX_ORDER] {
-    let mut places = [0; MAX_ORDER];
-    for (index, place) in places.iter_mut().enumerate().take(order) {
-        *place = lsf::stage(index, order) as u8;
+/// Room for the LSFs of an order, and for nothing behind them; a power of 2, so that a mask keeps
+/// every index inside.
+const CODES: usize = (MAX_ORDER + 1).next_power_of_two();
+
+/// Which LSF of an order stands at each place of a row; behind the last one, nothing.
+fn sources(order: usize) -> [u8; MAX_ORDER] {
+    let mut sources = [CODES as u8 - 1; MAX_ORDER];
+    for index in 0..order {
+        if let Some(source) = sources.get_mut(lsf::stage(index, order)) {
+            *source = index as u8;
+        }
     }
-    places
+    sources
 }
 
 /// −2 cos ω of a model, in the order in which the conversion takes them; the rest is 0.
 fn to_pairs<S: Scalar>(
     row: &mut [S],
     codes: impl ExactSizeIterator<Item = LsfCode>,
-    stages: &[u8; MAX_ORDER],
+    sources: &[u8; MAX_ORDER],
 ) {
-    let order = codes.len();
-    let mut angles = [0.5; MAX_ORDER];
-    for (code, &stage) in codes.zip(stages) {
-        if let Some(place) = angles.get_mut(usize::from(stage)) {
-            *place = code.half_turns();
-        }
+    let fours = codes.len().div_ceil(4);
+    // Nothing is a right angle, whose cosine is 0.
+    let mut angles = [0.5; CODES];
+    for (angle, code) in angles.iter_mut().zip(codes) {
+        *angle = code.half_turns();
     }
-    let fours = row.as_chunks_mut::<4>().0.iter_mut();
-    for (place, four) in fours.zip(angles.as_chunks::<4>().0).take(order.div_ceil(4)) {
+    let mut places = row.as_chunks_mut::<4>().0.iter_mut();
+    for (place, sources) in places.by_ref().zip(sources.as_chunks::<4>().0).take(fours) {
+        let four = sources.map(|source| angles[usize::from(source) % CODES]);
         // Adding nothing takes its sign from a zero.
-        let cosines = F4::splat(-2.0) * cos_pi_four(F4::load(four)) + F4::ZERO;
+        let cosines = F4::splat(-2.0) * cos_pi_four(F4::load(&four)) + F4::ZERO;
         *place = cosines.to_array().map(S::of);
+    }
+    for place in places {
+        *place = [S::ZERO; 4];
     }
 }
 
