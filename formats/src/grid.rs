@@ -61,6 +61,18 @@ impl<'a> Model<'a> {
         codes(self.lsf)
     }
 
+    /// [`Model::lsf`] as stored, little-endian, for those who take several at once.
+    #[must_use]
+    pub fn stored_lsf(&self) -> &'a [[u8; 2]] {
+        stored(self.lsf)
+    }
+
+    /// [`Model::ma_lsf`] as stored.
+    #[must_use]
+    pub fn stored_ma_lsf(&self) -> &'a [[u8; 2]] {
+        stored(self.ma_lsf)
+    }
+
     /// LSFs of B(z), ascending; empty unless [`Numerator::Lsf`].
     pub fn ma_lsf(
         &self,
@@ -69,11 +81,16 @@ impl<'a> Model<'a> {
     }
 }
 
+/// Codes as they are stored.
+fn stored(bytes: &[u8]) -> &[[u8; 2]] {
+    bytes.as_chunks().0
+}
+
 fn codes(
     bytes: &[u8],
 ) -> impl DoubleEndedIterator<Item = LsfCode> + ExactSizeIterator + Clone + use<'_> {
-    let pairs = bytes.as_chunks().0.iter();
-    pairs.map(|&pair| LsfCode::from_bits(u16::from_le_bytes(pair)))
+    let codes = stored(bytes).iter();
+    codes.map(|&pair| LsfCode::from_bits(u16::from_le_bytes(pair)))
 }
 
 /// The grid: models at vertices, joined by triangles that tile the rectangle
