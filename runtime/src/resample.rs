@@ -16,7 +16,7 @@ use crate::{
     arithmetic::Scalar,
     complex::Complex4,
     lanes::F4,
-    math::{cos_pi, exp, max, min, sin_pi},
+    math::{cos_pi_four, exp, max},
 };
 use asperity_formats::{limits::MAX_TAPS, taps::BLOCK};
 use core::array;
@@ -45,16 +45,18 @@ const ROUNDING_S: f64 = 1e-9;
 
 /// e^(pole·x) for x ≥ 0; Im·x beyond 2π only where nothing is left.
 fn decay(x: f32) -> Complex4 {
-    let (re, im) = (POLES.re.to_array(), POLES.im.to_array());
-    let size = re.map(|re| exp(max(re * x, -80.0)));
-    let half_turns = im.map(|im| min(im * x * core::f32::consts::FRAC_1_PI, 2.0));
-    // The second half of a turn mirrors the first.
-    let mirrored = |h: f32| if h > 1.0 { 2.0 - h } else { h };
-    let sign = half_turns.map(|h| if h > 1.0 { -1.0 } else { 1.0 });
-    let half_turns = half_turns.map(mirrored);
+    let size = POLES.re.to_array().map(|re| exp(max(re * x, -80.0)));
+    let half_turns = POLES.im * F4::splat(x) * F4::splat(core::f32::consts::FRAC_1_PI);
+    let half_turns = half_turns.min(F4::splat(2.0));
+    // The second half of a turn mirrors the first, and sines are cosines a quarter later.
+    let mirrored = half_turns.min(F4::splat(2.0) - half_turns);
+    let quarter = (mirrored - F4::HALF).max(F4::HALF - mirrored);
+    let sign = half_turns
+        .to_array()
+        .map(|h| if h > 1.0 { -1.0 } else { 1.0 });
     Complex4 {
-        re: F4::load(&half_turns.map(cos_pi)) * F4::load(&size),
-        im: F4::load(&half_turns.map(sin_pi)) * F4::load(&size) * F4::load(&sign),
+        re: cos_pi_four(mirrored) * F4::load(&size),
+        im: cos_pi_four(quarter) * F4::load(&size) * F4::load(&sign),
     }
 }
 
