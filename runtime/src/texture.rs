@@ -420,10 +420,14 @@ fn to_pairs<S: Scalar>(row: &mut [S], codes: &[[u8; 2]]) {
     let mut places = row.as_chunks_mut::<4>().0.iter_mut();
     let whole = front.iter().zip(back).take(order / 4);
     for ((&[a, b], &[c, d]), place) in whole.zip(places.by_ref()) {
-        let [c, d] = if order % 2 == 0 { [c, d] } else { [d, c] };
+        let [c, d] = if order.is_multiple_of(2) {
+            [c, d]
+        } else {
+            [d, c]
+        };
         *place = pairs([a, b, c, d]);
     }
-    if order % 4 > 0
+    if !order.is_multiple_of(4)
         && let Some(place) = places.next()
     {
         let mut middle = [RIGHT_ANGLE; 4];
