@@ -55,19 +55,42 @@ pub struct Model<'a> {
 
 impl<'a> Model<'a> {
     /// LSFs of A(z), strictly ascending.
-    pub fn lsf(&self) -> impl ExactSizeIterator<Item = LsfCode> + use<'a> {
+    pub fn lsf(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = LsfCode> + ExactSizeIterator + Clone + use<'a> {
         codes(self.lsf)
     }
 
+    /// [`Model::lsf`] as stored, little-endian, for those who take several at once.
+    #[must_use]
+    pub fn stored_lsf(&self) -> &'a [[u8; 2]] {
+        stored(self.lsf)
+    }
+
+    /// [`Model::ma_lsf`] as stored.
+    #[must_use]
+    pub fn stored_ma_lsf(&self) -> &'a [[u8; 2]] {
+        stored(self.ma_lsf)
+    }
+
     /// LSFs of B(z), ascending; empty unless [`Numerator::Lsf`].
-    pub fn ma_lsf(&self) -> impl ExactSizeIterator<Item = LsfCode> + use<'a> {
+    pub fn ma_lsf(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = LsfCode> + ExactSizeIterator + Clone + use<'a> {
         codes(self.ma_lsf)
     }
 }
 
-fn codes(bytes: &[u8]) -> impl ExactSizeIterator<Item = LsfCode> + use<'_> {
-    let pairs = bytes.as_chunks().0.iter();
-    pairs.map(|&pair| LsfCode::from_bits(u16::from_le_bytes(pair)))
+/// Codes as they are stored.
+fn stored(bytes: &[u8]) -> &[[u8; 2]] {
+    bytes.as_chunks().0
+}
+
+fn codes(
+    bytes: &[u8],
+) -> impl DoubleEndedIterator<Item = LsfCode> + ExactSizeIterator + Clone + use<'_> {
+    let codes = stored(bytes).iter();
+    codes.map(|&pair| LsfCode::from_bits(u16::from_le_bytes(pair)))
 }
 
 /// The grid: models at vertices, joined by triangles that tile the rectangle
@@ -160,39 +183,29 @@ impl<'a> Grid<'a> {
                 (0.0, limits::MAX_GAIN),
                 "0 to 1e4",
             )?;
-            let gap = u32::from(limits::MIN_LSF_GAP_CODES);
-            let mut floor = 0;
-            for code in model.lsf().map(LsfCode::to_bits) {
-                if u32::from(code) < floor + gap {
-                    return Err(FormatError::invalid(
-                        "grid.model.lsf",
-                        index,
-                        f64::from(code),
-                        "LSF codes must ascend by 100 or more, and stay 100 from both ends",
-                    ));
-                }
-                floor = u32::from(code);
-            }
-            if floor + gap > 65536 {
+            let gap = limits::MIN_LSF_GAP_CODES;
+            let lsf = model.lsf().map(LsfCode::to_bits);
+            let last = lsf
+                .clone()
+                .next_back()
+                .filter(|&last| last > gap.wrapping_neg());
+            if let Some(code) = first_too_low(lsf, 0, gap).or(last) {
                 return Err(FormatError::invalid(
                     "grid.model.lsf",
                     index,
-                    f64::from(floor),
+                    f64::from(code),
                     "LSF codes must ascend by 100 or more, and stay 100 from both ends",
                 ));
             }
             // Zeros may lie on the unit circle, so equal neighbours are allowed.
-            let mut floor = 1;
-            for code in model.ma_lsf().map(LsfCode::to_bits) {
-                if code < floor {
-                    return Err(FormatError::invalid(
-                        "grid.model.ma_lsf",
-                        index,
-                        f64::from(code),
-                        "MA LSF codes must not descend and are at least 1",
-                    ));
-                }
-                floor = code;
+            let ma_lsf = model.ma_lsf().map(LsfCode::to_bits);
+            if let Some(code) = first_too_low(ma_lsf, 1, 0) {
+                return Err(FormatError::invalid(
+                    "grid.model.ma_lsf",
+                    index,
+                    f64::from(code),
+                    "MA LSF codes must not descend and are at least 1",
+                ));
             }
         }
         Ok(())
@@ -385,6 +398,21 @@ impl<'a> Grid<'a> {
             .chunks_exact(3)
             .map(|record| array_at(record, 0))
     }
+}
+
+/// The first code that is not at least `gap` above the one before, or, the very first, above `floor`.
+fn first_too_low(codes: impl Iterator<Item = u16> + Clone, floor: u16, gap: u16) -> Option<u16> {
+    // By how much a code is too low. None is above 65535, where a sum ends: the caller looks there.
+    let missing = |code: u16, floor: u16| floor.saturating_add(gap).saturating_sub(code);
+    // Gathered without a branch a code: nearly all are high enough.
+    let gather = |(all, floor), code| (all | missing(code, floor), code);
+    let (all, _) = codes.clone().fold((0, floor), gather);
+    if all == 0 {
+        return None;
+    }
+    let floors = core::iter::once(floor).chain(codes.clone());
+    let mut pairs = codes.zip(floors);
+    pairs.find_map(|(code, floor)| (missing(code, floor) > 0).then_some(code))
 }
 
 /// Record `index` of a table of records of `len` bytes.

@@ -30,7 +30,7 @@ mod lsf;
 mod provenance;
 pub mod scene;
 mod surface;
-mod taps;
+pub mod taps;
 mod wire;
 
 pub use asset::Asset;

@@ -6,6 +6,7 @@ use crate::{
     limits,
     wire::{Reader, f32_at},
 };
+use core::array;
 
 const FIXED_LEN: usize = 8;
 /// Largest code of a sample.
@@ -28,7 +29,8 @@ pub struct Trace<'a> {
     /// Acceleration of full scale, m/s².
     pub peak_m_s2: f32,
     samples: usize,
-    codes: &'a [u8],
+    /// The codes, and the byte before them.
+    packed: &'a [u8],
 }
 
 /// Bytes of `samples` packed codes.
@@ -139,7 +141,7 @@ impl<'a> Taps<'a> {
                 speed_m_s: f32_at(traces, at),
                 peak_m_s2: f32_at(traces, at + 4),
                 samples,
-                codes: traces.get(at + 8..at + stride).unwrap_or_default(),
+                packed: traces.get(at + 7..at + stride).unwrap_or_default(),
             }
         })
     }
@@ -147,6 +149,9 @@ impl<'a> Taps<'a> {
 
 /// The first of packed codes that is −2048, which no sample may be.
 fn first_below_scale(codes: &[u8]) -> Option<usize> {
+    if !any_below_scale(codes) {
+        return None;
+    }
     const BELOW: u32 = 0x800;
     let bits = |[a, b, c]: [u8; 3]| u32::from_le_bytes([a, b, c, 0]);
     let (pairs, last) = codes.as_chunks();
@@ -160,11 +165,78 @@ fn first_below_scale(codes: &[u8]) -> Option<usize> {
     }
 }
 
-/// Two codes of twelve bits, the first one in the low bits.
+/// Whether one of packed codes is −2048: four at a time, without a branch for each.
+fn any_below_scale(codes: &[u8]) -> bool {
+    const ONES: u64 = 0x001_001_001_001;
+    const SIGNS: u64 = 0x800_800_800_800;
+    // Where a code is its sign alone, what is left of it is 0, and 1 less borrows. A borrow
+    // reaches a neighbour only from such a code.
+    let mark = |[a, b, c, d, e, f]: [u8; 6]| {
+        let four = u64::from_le_bytes([a, b, c, d, e, f, 0, 0]);
+        (four ^ SIGNS).wrapping_sub(ONES) & four
+    };
+    let (fours, rest) = codes.as_chunks();
+    // Zeros are valid codes, and so are four bits behind the last one.
+    let mut last = [0; 6];
+    last.iter_mut().zip(rest).for_each(|(to, from)| *to = *from);
+    let marks = fours
+        .iter()
+        .fold(mark(last), |marks, &four| marks | mark(four));
+    marks & SIGNS != 0
+}
+
+/// Samples of a trace that [`side_by_side`] reads at once.
+pub const BLOCK: usize = 12;
+
+/// Packed codes of a block, and the byte before them: a pair is read as a word with it in front.
+type Packed = [u8; 1 + packed_len(BLOCK)];
+
+/// The codes of pair `pair` of a block.
 #[inline(always)]
-const fn two_codes([a, b, c]: [u8; 3]) -> [i32; 2] {
-    let bits = u32::from_le_bytes([0, a, b, c]) as i32;
+fn two_codes(packed: &Packed, pair: usize) -> [i32; 2] {
+    let word = packed.get(3 * pair..).and_then(<[u8]>::first_chunk);
+    let bits = i32::from_le_bytes(*word.unwrap_or(&[0; 4]));
     [(bits << 12) >> 20, bits >> 20]
+}
+
+/// Accelerations of traces from sample `first` on, which is even, m/s²: one row a sample, one
+/// column a trace; 0 beyond the last one.
+#[must_use]
+pub fn side_by_side<const N: usize>(traces: &[Trace<'_>; N], first: usize) -> [[f32; N]; BLOCK] {
+    let traces = traces.each_ref();
+    let steps = traces.map(Trace::step);
+    let rest = traces.map(|trace| trace.rest(first));
+    let whole = rest.map(<[u8]>::first_chunk);
+    if whole.iter().all(Option::is_some) {
+        return decode(whole.map(|packed| packed.unwrap_or(&[0; _])), steps);
+    }
+    decode(rest.map(padded).each_ref(), steps)
+}
+
+#[inline(always)]
+fn decode<const N: usize>(packed: [&Packed; N], steps: [f32; N]) -> [[f32; N]; BLOCK] {
+    let mut samples = [[0.0; N]; BLOCK];
+    let pairs = samples.as_chunks_mut().0.iter_mut();
+    for (pair, rows) in pairs.enumerate() {
+        let codes = packed.map(|packed| two_codes(packed, pair));
+        let row = |of: usize| array::from_fn(|column| codes[column][of] as f32 * steps[column]);
+        *rows = [row(0), row(1)];
+    }
+    samples
+}
+
+/// The last codes of a trace with the byte before them, and zeros.
+fn padded(rest: &[u8]) -> Packed {
+    let mut packed = [0; _];
+    packed
+        .iter_mut()
+        .zip(rest)
+        .for_each(|(to, from)| *to = *from);
+    // Behind an odd last code there is nothing.
+    if let (0, Some(last)) = (rest.len() % 3, packed.get_mut(rest.len().wrapping_sub(1))) {
+        *last &= 0x0f;
+    }
+    packed
 }
 
 impl<'a> Trace<'a> {
@@ -172,39 +244,20 @@ impl<'a> Trace<'a> {
     pub fn accel_m_s2(&self) -> impl ExactSizeIterator<Item = f32> + Clone + use<'a> {
         let trace = *self;
         (0..self.samples).map(move |index| {
-            let mut one = [0.0];
-            trace.read(index, &mut one);
-            one[0]
+            let packed = padded(trace.rest(index - index % 2));
+            two_codes(&packed, 0)[index % 2] as f32 * trace.step()
         })
     }
 
-    /// The same from sample `from` on, m/s², as many as there is room for; 0 beyond the last.
+    /// Codes from sample `first` on, which is even, with the byte before them.
     #[inline]
-    pub fn read(&self, from: usize, accel_m_s2: &mut [f32]) {
-        let step = self.peak_m_s2 / f32::from(FULL_SCALE);
-        let pair = |bytes: [u8; 3]| two_codes(bytes).map(|code| code as f32 * step);
-        let (pairs, last) = self
-            .codes
-            .get(from / 2 * 3..)
-            .unwrap_or_default()
-            .as_chunks();
-        let mut last = match *last {
-            // Behind the last code there is nothing.
-            [a, b] => Some([a, b & 0x0f, 0]),
-            _ => None,
-        };
-        let mut pairs = pairs.iter().copied();
-        let mut next = || pair(pairs.next().or_else(|| last.take()).unwrap_or([0; 3]));
-        let (second, rest) = accel_m_s2.split_at_mut((from % 2).min(accel_m_s2.len()));
-        if let [place] = second {
-            [_, *place] = next();
-        }
-        let (places, odd) = rest.as_chunks_mut();
-        for place in places {
-            *place = next();
-        }
-        if let [place] = odd {
-            [*place, _] = next();
-        }
+    fn rest(&self, first: usize) -> &'a [u8] {
+        self.packed.get(first / 2 * 3..).unwrap_or_default()
+    }
+
+    /// Acceleration of one code, m/s².
+    #[inline]
+    fn step(&self) -> f32 {
+        self.peak_m_s2 / f32::from(FULL_SCALE)
     }
 }

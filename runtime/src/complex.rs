@@ -10,32 +10,11 @@ pub(crate) struct Complex4 {
 }
 
 impl Complex4 {
-    pub(crate) const ZERO: Self = Self {
-        re: F4::ZERO,
-        im: F4::ZERO,
-    };
-
     #[inline(always)]
     pub(crate) fn times(self, other: Self) -> Self {
         Self {
             re: self.re * other.re - self.im * other.im,
             im: self.re * other.im + self.im * other.re,
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn plus(self, other: Self) -> Self {
-        Self {
-            re: self.re + other.re,
-            im: self.im + other.im,
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn scaled(self, by: f32) -> Self {
-        Self {
-            re: self.re * F4::splat(by),
-            im: self.im * F4::splat(by),
         }
     }
 

@@ -8,12 +8,18 @@
 //! of ∫a dt is given back along the filter's own response, so the impulse is exact
 //! within rounding.
 
+mod poles;
+
+pub(crate) use self::poles::Lanes;
+use self::poles::Poles;
 use crate::{
     arithmetic::Scalar,
     complex::Complex4,
     lanes::F4,
-    math::{cos_pi, exp, max, min, sin_pi},
+    math::{cos_pi_four, exp, max},
 };
+use asperity_formats::{limits::MAX_TAPS, taps::BLOCK};
+use core::array;
 
 /// Poles with Im ≥ 0 (rad per rad/s of stop edge) and residues of the prototype
 /// with unit gain at DC: `scipy.signal.cheb2ap(7, 50)`, `scipy.signal.residue`. A residue with
@@ -39,16 +45,18 @@ const ROUNDING_S: f64 = 1e-9;
 
 /// e^(pole·x) for x ≥ 0; Im·x beyond 2π only where nothing is left.
 fn decay(x: f32) -> Complex4 {
-    let (re, im) = (POLES.re.to_array(), POLES.im.to_array());
-    let size = re.map(|re| exp(max(re * x, -80.0)));
-    let half_turns = im.map(|im| min(im * x * core::f32::consts::FRAC_1_PI, 2.0));
-    // The second half of a turn mirrors the first.
-    let mirrored = |h: f32| if h > 1.0 { 2.0 - h } else { h };
-    let sign = half_turns.map(|h| if h > 1.0 { -1.0 } else { 1.0 });
-    let half_turns = half_turns.map(mirrored);
+    let size = POLES.re.to_array().map(|re| exp(max(re * x, -80.0)));
+    let half_turns = POLES.im * F4::splat(x) * F4::splat(core::f32::consts::FRAC_1_PI);
+    let half_turns = half_turns.min(F4::splat(2.0));
+    // The second half of a turn mirrors the first, and sines are cosines a quarter later.
+    let mirrored = half_turns.min(F4::splat(2.0) - half_turns);
+    let quarter = (mirrored - F4::HALF).max(F4::HALF - mirrored);
+    let sign = half_turns
+        .to_array()
+        .map(|h| if h > 1.0 { -1.0 } else { 1.0 });
     Complex4 {
-        re: F4::load(&half_turns.map(cos_pi)) * F4::load(&size),
-        im: F4::load(&half_turns.map(sin_pi)) * F4::load(&size) * F4::load(&sign),
+        re: cos_pi_four(mirrored) * F4::load(&size),
+        im: cos_pi_four(quarter) * F4::load(&size) * F4::load(&sign),
     }
 }
 
@@ -87,21 +95,19 @@ impl Rates {
     }
 }
 
-/// A conversion of traces of one length.
+/// A conversion of traces of one length, `N` side by side.
 #[derive(Debug, Clone)]
-pub(crate) struct Resampler {
+pub(crate) struct Resampler<L, const N: usize> {
     rates: Rates,
     samples: usize,
     stop_rad_s: f32,
     /// What is left of a state after 0.. source samples.
-    powers: [Complex4; CHUNK + 1],
+    powers: [Poles<L, N>; CHUNK + 1],
     /// What is left of it after a tick.
     tick: Complex4,
-    /// Sum of the response to an impulse over all ticks.
-    impulse: f32,
 }
 
-impl Resampler {
+impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
     pub(crate) fn new(rates: Rates, samples: usize) -> Self {
         let lower_hz = if rates.source_hz < rates.servo_hz {
             rates.source_hz
@@ -110,107 +116,133 @@ impl Resampler {
         };
         let stop_rad_s = core::f32::consts::PI * lower_hz as f32;
         let after = |s: f64| decay(s as f32 * stop_rad_s);
-        let mut powers = [Complex4::ZERO; CHUNK + 1];
-        for (k, power) in powers.iter_mut().enumerate() {
-            *power = after(k as f64 / rates.source_hz);
-        }
-        let tick = after(1.0 / rates.servo_hz);
-        let impulse = responses(tick).take(rates.ticks(samples)).sum();
         Self {
             rates,
             samples,
             stop_rad_s,
-            powers,
-            tick,
-            impulse,
+            powers: array::from_fn(|k| Poles::new(after(k as f64 / rates.source_hz))),
+            tick: after(1.0 / rates.servo_hz),
         }
     }
 
-    /// Converts a trace into `out`, whose length is [`Rates::ticks`]; `read` gives samples from
-    /// the stated one on.
-    pub(crate) fn convert<S: Scalar>(&self, read: impl Fn(usize, &mut [f32]), out: &mut [S]) {
+    /// Converts traces into `out`, [`Rates::ticks`] each, one after the other. Every `N` have a
+    /// reader, which gives a block of their samples from an even one on, one column a trace.
+    pub(crate) fn convert<S: Scalar, R: Fn(usize) -> [[f32; N]; BLOCK]>(
+        &self,
+        readers: impl Iterator<Item = R>,
+        out: &mut [S],
+    ) {
+        let ticks = self.rates.ticks(self.samples).max(1);
+        let rows = readers.zip(out.chunks_mut(N * ticks));
         if self.rates.is_identity() {
-            for (n, chunk) in out.chunks_mut(CHUNK).enumerate() {
-                let mut samples = [0.0; CHUNK];
-                let samples = &mut samples[..chunk.len()];
-                read(n * CHUNK, samples);
-                for (out, &mut a) in chunk.iter_mut().zip(samples) {
-                    *out = S::of(a);
+            for (read, out) in rows {
+                for first in (0..ticks).step_by(BLOCK) {
+                    for (n, row) in (first..ticks).zip(read(first)) {
+                        put(out, ticks, n, row.map(S::of));
+                    }
                 }
             }
             return;
         }
-        let Rates {
-            source_hz,
-            servo_hz,
-        } = self.rates;
-        let wanted = self.filter(read, out) / source_hz;
-        let given = out.iter().fold(0.0, |sum, a| sum + f64::from(a.value())) / servo_hz;
-        // What is missing of the impulse comes back along the response.
-        let missing = ((wanted - given) * servo_hz) as f32;
-        let share = if self.impulse == 0.0 {
-            0.0
-        } else {
-            missing / self.impulse
+        let mut missing = [0.0; MAX_TAPS];
+        for ((read, out), missing) in rows.zip(missing.as_chunks_mut().0) {
+            *missing = self.filter(read, ticks, out);
+        }
+        // What is missing of an impulse comes back along the response.
+        let impulse: f32 = responses(self.tick).take(ticks).sum();
+        let share = |missing: f32| {
+            if impulse == 0.0 {
+                0.0
+            } else {
+                missing / impulse
+            }
         };
-        for (out, h) in out.iter_mut().zip(responses(self.tick)) {
-            *out = S::of(out.value() + share * h);
+        let shares = missing.map(share);
+        let mut responses = responses(self.tick);
+        for first in (0..ticks).step_by(BLOCK) {
+            let block: [f32; BLOCK] = array::from_fn(|_| responses.next().unwrap_or_default());
+            for (trace, share) in out.chunks_mut(ticks).zip(shares) {
+                for (out, h) in trace.iter_mut().skip(first).zip(block) {
+                    *out = S::of(out.value() + share * h);
+                }
+            }
         }
     }
 
     /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which
     /// moves by up to [`CHUNK`] source samples at once; silence follows the last one. Returns
-    /// the sum of the trace.
-    fn filter<S: Scalar>(&self, read: impl Fn(usize, &mut [f32]), out: &mut [S]) -> f64 {
+    /// what is missing of the sum of each trace, in ticks.
+    fn filter<S: Scalar>(
+        &self,
+        read: impl Fn(usize) -> [[f32; N]; BLOCK],
+        ticks: usize,
+        out: &mut [S],
+    ) -> [f32; N] {
         let Rates {
             source_hz,
             servo_hz,
         } = self.rates;
-        let samples = self.samples;
         let (tick_s, source_s) = (1.0 / servo_hz, 1.0 / source_hz);
-        let gain = self.stop_rad_s * source_s as f32;
-        let (mut state, mut sum) = (Complex4::ZERO, 0.0);
-        let (mut now, mut taken) = (state, 0);
-        for (n, out) in out.iter_mut().enumerate() {
-            if taken < samples {
+        let gain = L::splat(self.stop_rad_s * source_s as f32);
+        let tick = Poles::new(self.tick);
+        let (mut sums, mut given) = ([0.0; N], [0.0; N]);
+        let (mut first, mut block) = (0, read(0));
+        let (mut states, mut taken) = (Poles::zero(), 0);
+        let mut now = states;
+        for n in 0..ticks {
+            if taken < self.samples {
                 let now_s = n as f64 * tick_s;
                 let due = ((now_s + ROUNDING_S) * source_hz) as usize + 1;
                 while taken < due {
                     let count = (due - taken).min(CHUNK);
-                    let mut chunk = [0.0; CHUNK];
-                    let entering = if count == CHUNK {
-                        read(taken, &mut chunk);
-                        entering(&self.powers, &chunk)
-                    } else {
-                        read(taken, &mut chunk[..count]);
-                        entering(&self.powers[..=count], &chunk[..count])
-                    };
-                    // A number beyond `count` is 0.
-                    sum = chunk.iter().fold(sum, |sum, &a| sum + f64::from(a));
-                    state = state.times(self.powers[count]).plus(entering);
+                    if taken + count > first + BLOCK {
+                        first = taken - taken % 2;
+                        block = read(first);
+                    }
+                    let samples = block.get(taken - first..).unwrap_or_default();
+                    let left = self.powers.get(..count).unwrap_or_default();
+                    let mut entering = Poles::zero();
+                    for (sample, left) in samples.iter().zip(left.iter().rev()) {
+                        entering.add(L::load(sample), left);
+                        add(&mut sums, sample);
+                    }
+                    states = states.times(&self.powers[count]).plus(&entering);
                     taken += count;
                 }
                 let age_s = now_s - (taken - 1) as f64 * source_s;
                 now = if age_s > ROUNDING_S {
-                    state.times(decay(age_s as f32 * self.stop_rad_s))
+                    states.times(&Poles::new(decay(age_s as f32 * self.stop_rad_s)))
                 } else {
-                    state
+                    states
                 };
             } else {
-                now = now.times(self.tick);
+                now = now.times(&tick);
             }
-            *out = S::of(gain * now.response(&RESIDUES));
+            let row = (gain * now.response(&RESIDUES)).to_array().map(S::of);
+            add(&mut given, &row.map(S::value));
+            put(out, ticks, n, row);
         }
-        sum
+        array::from_fn(|trace| {
+            ((sums[trace] / source_hz - given[trace] / servo_hz) * servo_hz) as f32
+        })
     }
 }
 
-/// What samples leave in a state after the last of them; there is one power more.
+/// Tick `n` of traces side by side, of as many as there are.
 #[inline(always)]
-fn entering(powers: &[Complex4], samples: &[f32]) -> Complex4 {
-    let ages = powers.iter().rev().skip(1);
-    let terms = ages.zip(samples).map(|(power, &a)| power.scaled(a));
-    terms.fold(Complex4::ZERO, Complex4::plus)
+fn put<S, const N: usize>(out: &mut [S], ticks: usize, n: usize, row: [S; N]) {
+    for (trace, a) in row.into_iter().enumerate() {
+        if let Some(place) = out.get_mut(trace * ticks + n) {
+            *place = a;
+        }
+    }
+}
+
+#[inline(always)]
+fn add<const N: usize>(sums: &mut [f64; N], row: &[f32; N]) {
+    for (sum, &a) in sums.iter_mut().zip(row) {
+        *sum += f64::from(a);
+    }
 }
 
 /// The response to one impulse, tick by tick, without its gain.
@@ -236,12 +268,20 @@ mod tests {
     fn convert(trace: &[f32], source_hz: f32, servo_hz: f32) -> Vec<f32> {
         let rates = Rates::new(source_hz, servo_hz);
         let mut out = std::vec![0.0; rates.ticks(trace.len())];
-        let read = |from: usize, samples: &mut [f32]| {
-            for (place, a) in samples.iter_mut().zip(trace.iter().skip(from)) {
-                *place = *a;
-            }
-        };
-        Resampler::new(rates, trace.len()).convert(read, &mut out);
+        let at = |i: usize| trace.get(i).copied().unwrap_or_default();
+        let read = |first: usize| array::from_fn(|i| [at(first + i)]);
+        Resampler::<f32, 1>::new(rates, trace.len()).convert(core::iter::once(read), &mut out);
+        // Four side by side have the same bits.
+        let read = |first: usize| array::from_fn(|i| [0.0, 7.0, at(first + i), 0.0]);
+        let mut four = std::vec![0.0; 4 * out.len()];
+        Resampler::<F4, 4>::new(rates, trace.len()).convert(core::iter::once(read), &mut four);
+        let place = 2 * out.len()..3 * out.len();
+        assert!(
+            four[place]
+                .iter()
+                .zip(&out)
+                .all(|(a, b)| a.to_bits() == b.to_bits())
+        );
         out
     }
 

@@ -11,12 +11,13 @@
 use crate::{
     Flags,
     arithmetic::{
-        Arithmetic, Float, Four, Number, Zero as _,
+        Arithmetic, Float, Four, Number, Scalar, Zero as _,
         units::{Hertz, Metre, MetrePerSecond, Ratio, TapAcceleration, Unit},
     },
-    resample::{Rates, Resampler},
+    lanes::F4,
+    resample::{Lanes, Rates, Resampler},
 };
-use asperity_formats::{Taps, limits::MAX_TAPS};
+use asperity_formats::{Taps, limits::MAX_TAPS, taps::side_by_side};
 use heapless::Vec;
 
 /// Places of normal motion that give the impact speed.
@@ -52,14 +53,15 @@ impl<const K: usize, A: Arithmetic> TapBank<K, A> {
     pub(crate) fn load(&mut self, taps: &Taps<'_>, servo_rate_hz: f32) {
         let rates = Rates::new(taps.sample_rate_hz(), servo_rate_hz);
         let ticks = rates.ticks(taps.samples());
-        let resampler = Resampler::new(rates, taps.samples());
-        self.speeds_m_s.clear();
-        let places = self.samples_m_s2.chunks_exact_mut(max_one(ticks));
-        for (trace, place) in taps.traces().zip(places) {
-            // A format has at most `MAX_TAPS` traces, so there is room.
-            if self.speeds_m_s.push(Number::of(trace.speed_m_s)).is_ok() {
-                resampler.convert(|from, samples| trace.read(from, samples), place);
-            }
+        // A format has at most `MAX_TAPS` traces, so there is room.
+        let speeds = taps.traces().map(|trace| Number::of(trace.speed_m_s));
+        self.speeds_m_s = speeds.take(MAX_TAPS).collect();
+        let room = ticks * self.speeds_m_s.len();
+        let out = self.samples_m_s2.get_mut(..room).unwrap_or_default();
+        if F4::IN_REGISTERS {
+            convert::<_, F4, 4>(taps, rates, out);
+        } else {
+            convert::<_, f32, 1>(taps, rates, out);
         }
         self.ticks = ticks;
     }
@@ -124,8 +126,18 @@ impl<const K: usize, A: Arithmetic> TapBank<K, A> {
     }
 }
 
-const fn max_one(n: usize) -> usize {
-    if n == 0 { 1 } else { n }
+/// Every trace, one after the other, `N` side by side.
+fn convert<S: Scalar, L: Lanes<N>, const N: usize>(taps: &Taps<'_>, rates: Rates, out: &mut [S]) {
+    let mut traces = taps.traces();
+    let readers = core::iter::from_fn(|| {
+        // A lane without a trace repeats one.
+        let mut lanes = [traces.next()?; N];
+        for (lane, trace) in lanes.iter_mut().skip(1).zip(traces.by_ref()) {
+            *lane = trace;
+        }
+        Some(move |first| side_by_side(&lanes, first))
+    });
+    Resampler::<L, N>::new(rates, taps.samples()).convert(readers, out);
 }
 
 /// Two traces and their weights.

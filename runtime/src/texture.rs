@@ -249,14 +249,11 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         };
         self.servo_rate_hz = servo_rate_hz;
         self.feel = Feel::new(asset.surface(), asset.friction().mu());
-        self.ar_pairs.0 = [[A::Scalar::ZERO; P]; V];
-        self.ma_pairs.0 = [[A::Scalar::ZERO; Q]; V];
-        self.levels_m_s2 = [A::Scalar::ZERO; V];
-        let (ar, ma) = (places(grid.ar_order()), places(grid.ma_order()));
+        // No triangle has a corner in the rows behind the last vertex, so they may hold anything.
         for (index, vertex) in grid.vertices().enumerate().take(V) {
             if let Some(model) = grid.model(usize::from(vertex.model)) {
-                to_pairs(&mut self.ar_pairs.0[index], model.lsf(), &ar);
-                to_pairs(&mut self.ma_pairs.0[index], model.ma_lsf(), &ma);
+                to_pairs(&mut self.ar_pairs.0[index], model.stored_lsf());
+                to_pairs(&mut self.ma_pairs.0[index], model.stored_ma_lsf());
                 self.levels_m_s2[index] = A::Scalar::of(model.gain * vertex.sigma_m_s2);
             }
         }
@@ -414,35 +411,72 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     }
 }
 
-/// Where each LSF of an order stands in a row.
-fn places(order: usize) -> [u8; MAX_ORDER] {
-    let mut places = [0; MAX_ORDER];
-    for (index, place) in places.iter_mut().enumerate().take(order) {
-        *place = lsf::stage(index, order) as u8;
+/// −2 cos ω of a model, in [`lsf::stage`] order; the rest is 0. Four places take two codes from
+/// either end; those that are left in the middle come last.
+fn to_pairs<S: Scalar>(row: &mut [S], codes: &[[u8; 2]]) {
+    let order = codes.len();
+    let front = codes.as_chunks::<2>().0;
+    let back = codes.as_rchunks::<2>().1.iter().rev();
+    let mut places = row.as_chunks_mut::<4>().0.iter_mut();
+    let whole = front.iter().zip(back).take(order / 4);
+    for ((&[a, b], &[c, d]), place) in whole.zip(places.by_ref()) {
+        let [c, d] = if order.is_multiple_of(2) {
+            [c, d]
+        } else {
+            [d, c]
+        };
+        *place = pairs([a, b, c, d]);
     }
-    places
+    if !order.is_multiple_of(4)
+        && let Some(place) = places.next()
+    {
+        let mut middle = [RIGHT_ANGLE; 4];
+        let left = codes.iter().skip(order / 4 * 2).take(order % 4);
+        middle
+            .iter_mut()
+            .zip(left)
+            .for_each(|(to, code)| *to = *code);
+        *place = pairs(middle);
+    }
+    for place in places {
+        *place = [S::ZERO; 4];
+    }
 }
 
-/// −2 cos ω of a model, in the order in which the conversion takes them; the rest is 0.
-fn to_pairs<S: Scalar>(
-    row: &mut [S],
-    codes: impl ExactSizeIterator<Item = LsfCode>,
-    stages: &[u8; MAX_ORDER],
-) {
-    let order = codes.len();
-    let mut angles = [0.5; MAX_ORDER];
-    for (code, &stage) in codes.zip(stages) {
-        if let Some(place) = angles.get_mut(usize::from(stage)) {
-            *place = code.half_turns();
-        }
-    }
-    let fours = row.as_chunks_mut::<4>().0.iter_mut();
-    for (place, four) in fours.zip(angles.as_chunks::<4>().0).take(order.div_ceil(4)) {
-        // Adding nothing takes its sign from a zero.
-        let cosines = F4::splat(-2.0) * cos_pi_four(F4::load(four)) + F4::ZERO;
-        *place = cosines.to_array().map(S::of);
+/// A code whose cosine is 0.
+const RIGHT_ANGLE: [u8; 2] = 0x8000_u16.to_le_bytes();
+
+#[inline(always)]
+fn pairs<S: Scalar>(codes: [[u8; 2]; 4]) -> [S; 4] {
+    let angle = |code| LsfCode::from_bits(u16::from_le_bytes(code)).half_turns();
+    let four = F4::load(&codes.map(angle));
+    // Adding nothing takes its sign from a zero.
+    let cosines = F4::splat(-2.0) * cos_pi_four(four) + F4::ZERO;
+    cosines.to_array().map(S::of)
+}
+
+/// Which code [`to_pairs`] puts at a place.
+const fn source(place: usize, order: usize) -> usize {
+    let (four, lane) = (place / 4, place % 4);
+    if lane < 2 || four == order / 4 {
+        2 * four + lane
+    } else {
+        order - 2 - 2 * four + (lane + order) % 2
     }
 }
+
+// That order is the one in which conversion multiplies.
+const _: () = {
+    let mut order = 1;
+    while order <= MAX_ORDER {
+        let mut place = 0;
+        while place < order {
+            assert!(lsf::stage(source(place, order), order) == place);
+            place += 1;
+        }
+        order += 1;
+    }
+};
 
 #[cfg(test)]
 mod tests {
