@@ -93,17 +93,37 @@ impl<A: Arithmetic> Strips<A> {
         self.blocks[self.strip(x)]
     }
 
-    /// Block `block` reaches from `low` to `high`.
+    /// Block `block` reaches from `low` to `high`. Before [`Strips::turn`] a block stands where
+    /// a strip does after it, and has a bit a strip.
     fn meets(&mut self, block: usize, low: f32, high: f32) {
         let [low, high] = [low, high].map(|x| x * self.per_unit.value());
         // The first strip at or above, and the last one at or below; the cast rounds down.
         let first = max(low - (0.5 + MARGIN), 0.0);
         let first = first as usize + usize::from(first > first as usize as f32);
         let last = max(high + (0.5 + MARGIN), 0.0) as usize;
-        if let Some(strips) = self.blocks.get_mut(first..=last.min(STRIPS - 1)) {
-            for strip in strips {
-                *strip |= 1 << block;
+        let from = u32::MAX << first.min(STRIPS - 1);
+        let to = u32::MAX >> (STRIPS - 1 - last.min(STRIPS - 1));
+        if let Some(strips) = self.blocks.get_mut(block) {
+            *strips |= from & to;
+        }
+    }
+
+    /// A bit a strip of each block to a bit a block of each strip: a transposition, halves of
+    /// halves changing places (after Warren's "Hacker's Delight", 7-3).
+    fn turn(&mut self) {
+        let bits = &mut self.blocks;
+        let (mut apart, mut low) = (STRIPS / 2, u32::MAX >> (STRIPS / 2));
+        while apart > 0 {
+            for pair in bits.chunks_exact_mut(2 * apart) {
+                let (above, below) = pair.split_at_mut(apart);
+                for (above, below) in above.iter_mut().zip(below) {
+                    let exchanged = ((*above >> apart) ^ *below) & low;
+                    *below ^= exchanged;
+                    *above ^= exchanged << apart;
+                }
             }
+            apart /= 2;
+            low ^= low << apart;
         }
     }
 }
@@ -191,6 +211,8 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
             self.force_strips
                 .meets(t / LANES, least(forces), most(forces));
         }
+        self.speed_strips.turn();
+        self.force_strips.turn();
         self.count_blocks(count.div_ceil(LANES));
     }
 
@@ -250,9 +272,11 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
     /// How many of `all` blocks a query looks at: the most that two strips share. Where they
     /// share none (the triangles leave a gap), every query looks at all.
     fn count_blocks(&mut self, all: usize) {
+        let (speeds, speed_count) = distinct(&self.speed_strips.blocks);
+        let (forces, force_count) = distinct(&self.force_strips.blocks);
         let (mut least, mut most) = (u32::MAX, 0);
-        for speed in distinct(&self.speed_strips.blocks) {
-            for force in distinct(&self.force_strips.blocks) {
+        for speed in &speeds[..speed_count] {
+            for force in &forces[..force_count] {
                 let shared = (speed & force).count_ones();
                 (least, most) = (least.min(shared), most.max(shared));
             }
@@ -391,11 +415,16 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
     }
 }
 
-/// Each number that is not the one before.
-fn distinct(numbers: &[u32]) -> impl Iterator<Item = u32> {
-    let before = core::iter::once(None).chain(numbers.iter().map(Some));
-    let pairs = numbers.iter().zip(before);
-    pairs.filter_map(|(number, before)| (Some(number) != before).then_some(*number))
+/// Each number that is not the one before, and how many there are.
+fn distinct(numbers: &[u32; STRIPS]) -> ([u32; STRIPS], usize) {
+    let (mut found, mut count) = ([0; STRIPS], 0);
+    let mut before = !numbers[0];
+    for &number in numbers {
+        found[count % STRIPS] = number;
+        count += usize::from(number != before);
+        before = number;
+    }
+    (found, count.min(STRIPS))
 }
 
 fn least(x: [f32; 3]) -> f32 {
@@ -411,4 +440,39 @@ fn interleaved(x: usize, y: usize) -> usize {
     (0..5).fold(0, |z, bit| {
         z | (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::Float;
+
+    #[test]
+    fn each_strip_knows_the_blocks_that_meet_it() {
+        let mut strips = Strips::<Float>::new((STRIPS - 1) as f32);
+        let span = |block: usize| {
+            let low = (block * 7 % 29) as f32 + 0.3;
+            (low, low + (block % 5) as f32)
+        };
+        for block in 0..MAX_TRIANGLES / LANES {
+            let (low, high) = span(block);
+            strips.meets(block, low, high);
+            strips.meets(block, high, high + 0.5);
+        }
+        strips.turn();
+        for (strip, blocks) in strips.blocks.iter().enumerate() {
+            for block in 0..MAX_TRIANGLES / LANES {
+                let (low, high) = span(block);
+                let reach = 0.5 + MARGIN;
+                let met = low - reach <= strip as f32 && strip as f32 <= high + 0.5 + reach;
+                assert_eq!(
+                    blocks >> block & 1 == 1,
+                    met,
+                    "strip {strip}, block {block}"
+                );
+            }
+        }
+        let (found, count) = distinct(&strips.blocks);
+        assert!(count > 1 && found[..count].windows(2).all(|pair| pair[0] != pair[1]));
+    }
 }
