@@ -1,39 +1,88 @@
 //! Ours beside the usual way, in turns of a tenth of a millisecond, so that both meet the same
-//! machine: `cargo run --release -p asperity-benches --bin paired`.
+//! machine: `cargo run --release -p asperity-benches --bin paired [-- ASSET…]`.
 //!
 //! What is compared is the ratio of neighbouring turns; its median over all rounds is what a
 //! machine that changes its speed from second to second leaves alone. Nanoseconds are those of
-//! this run.
+//! this run. Without assets, the two textures of the other benches.
 #![forbid(unsafe_code)]
 
 use asperity_benches::{Rig, check, motion::Motion, reference::Reference, texture::texture};
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{HostTexture, Sample, vibration::Vibration};
-use std::{hint::black_box, time::Instant};
+use std::{env, error::Error, fs, hint::black_box, time::Instant};
 
 /// Ticks a turn, and turns of each.
 const TICKS: usize = 500;
 const ROUNDS: usize = 2000;
+/// Rounds of each of several assets.
+const ROUNDS_OF_MANY: usize = 200;
 /// Rounds at the start that do not count.
-const WARM_UP: usize = 100;
+const WARM_UP: usize = 20;
 
-fn main() {
-    for (label, numerator) in [
-        ("order 20, ARMA", Numerator::Lsf),
-        ("order 20, AR", Numerator::None),
-    ] {
-        let bytes = texture(20, numerator);
-        check(&bytes);
-        compare(label, &bytes);
+fn main() -> Result<(), Box<dyn Error>> {
+    let files: Vec<String> = env::args().skip(1).collect();
+    if files.is_empty() {
+        for (label, numerator) in [
+            ("order 20, ARMA", Numerator::Lsf),
+            ("order 20, AR", Numerator::None),
+        ] {
+            let bytes = texture(20, numerator);
+            check(&bytes);
+            println!(
+                "{label}: nanoseconds over turns of {TICKS} ticks, least / p10 / median / p90"
+            );
+            print(&compare(&bytes, ROUNDS));
+        }
+        return Ok(());
     }
+    many(&files)
+}
+
+/// Medians of each asset, a line each, and their quantiles.
+fn many(files: &[String]) -> Result<(), Box<dyn Error>> {
+    println!("medians, ns: usual, ours the same, ours the whole tick; usual over the whole tick");
+    let mut columns = [const { Vec::new() }; 4];
+    for file in files {
+        let bytes = fs::read(file).map_err(|error| format!("{file}: {error}"))?;
+        let asset = Asset::parse(&bytes).map_err(|error| format!("{file}: {error}"))?;
+        let grid = asset.grid();
+        let orders = [grid.ar_order(), grid.ma_order()];
+        let rounds = compare(&bytes, ROUNDS_OF_MANY);
+        let median = |value: &dyn Fn(&[f64; 3]) -> f64| {
+            quantiles(&mut rounds.iter().map(value).collect::<Vec<_>>())[2]
+        };
+        let row = [
+            median(&|round| round[0]),
+            median(&|round| round[1]),
+            median(&|round| round[2]),
+            median(&|round| round[0] / round[2]),
+        ];
+        let [usual, same, whole, ratio] = row;
+        println!("{usual:>8.0}{same:>8.0}{whole:>8.0}{ratio:>8.1}  orders {orders:?}  {file}");
+        for (column, value) in columns.iter_mut().zip(row) {
+            column.push(value);
+        }
+    }
+    let [usual, same, whole, ratio] = columns.map(|mut column| quantiles(&mut column));
+    println!("over assets, least / p10 / median / p90");
+    for (name, quantiles) in NAMES.into_iter().zip([usual, same, whole]) {
+        print_row(name, quantiles, 0);
+    }
+    print_row("usual over ours: the whole tick", ratio, 1);
+    Ok(())
 }
 
 /// Speeds, mm/s, and forces, N, that cross the grid.
-fn queries() -> Vec<(f32, f32)> {
+fn queries(asset: &Asset<'_>) -> Vec<(f32, f32)> {
+    let grid = asset.grid();
+    let (speed_mm_s, force_n) = (grid.max_speed_mm_s(), grid.max_force_n());
     let query = |n: usize| {
         let t = n as f32 * 1e-3;
-        let speed_mm_s = 140.0 + 130.0 * (9.0 * t).sin();
-        (speed_mm_s, 2.0 + 1.9 * (14.0 * t).cos())
+        let across = |x: f32| 0.5 + 0.48 * x;
+        (
+            speed_mm_s * across((9.0 * t).sin()),
+            force_n * across((14.0 * t).cos()),
+        )
     };
     (0..2000).map(query).collect()
 }
@@ -47,22 +96,28 @@ fn turn(mut call: impl FnMut()) -> f64 {
     start.elapsed().as_secs_f64() * 1e9 / TICKS as f64
 }
 
-/// Prints nanoseconds of each, and how many times as fast ours is.
-fn compare(label: &str, bytes: &[u8]) {
+const NAMES: [&str; 3] = [
+    "usual: locate, convert, one sample",
+    "ours: the same",
+    "ours: the whole tick",
+];
+
+/// Nanoseconds of each of [`NAMES`], round by round.
+fn compare(bytes: &[u8], rounds: usize) -> Vec<[f64; 3]> {
     let asset = Asset::parse(bytes).expect("a valid asset");
     let mut slot = Box::new(HostTexture::new());
     slot.load(&asset, 1000.0).expect("it fits");
     let mut reference = Reference::new(&asset);
     let mut vibration = Vibration::new(1);
     let mut rig = Rig::new(bytes);
-    let queries = queries();
+    let queries = queries(&asset);
     let samples: Vec<Sample> = (0..2000).map(|n| Motion::Stroke.sample(n)).collect();
     let mut query = queries.iter().copied().cycle();
     let mut other_query = queries.iter().copied().cycle();
     let mut sample = samples.iter().cycle();
 
-    let mut rounds = Vec::with_capacity(ROUNDS);
-    for round in 0..WARM_UP + ROUNDS {
+    let mut found = Vec::with_capacity(rounds);
+    for round in 0..WARM_UP + rounds {
         let usual = turn(|| {
             let (speed, force) = query.next().unwrap_or_default();
             black_box(reference.tick(black_box(speed).into(), black_box(force).into(), 0.5));
@@ -77,25 +132,30 @@ fn compare(label: &str, bytes: &[u8]) {
             black_box(rig.tick(black_box(sample)));
         });
         if round >= WARM_UP {
-            rounds.push([usual, ours, whole]);
+            found.push([usual, ours, whole]);
         }
     }
-    println!("{label}: nanoseconds over turns of {TICKS} ticks, least / p10 / median / p90");
-    let names = [
-        "usual: locate, convert, one sample",
-        "ours: the same",
-        "ours: the whole tick",
-    ];
-    for (k, name) in names.into_iter().enumerate() {
+    found
+}
+
+/// Prints nanoseconds of each, and how many times as fast ours is.
+fn print(rounds: &[[f64; 3]]) {
+    for (k, name) in NAMES.into_iter().enumerate() {
         let mut nanoseconds: Vec<f64> = rounds.iter().map(|round| round[k]).collect();
-        let [least, low, middle, high] = quantiles(&mut nanoseconds);
-        println!("  {name:<36}{least:>8.0}{low:>8.0}{middle:>8.0}{high:>8.0}");
+        print_row(name, quantiles(&mut nanoseconds), 0);
     }
-    for (k, name) in names.into_iter().enumerate().skip(1) {
+    for (k, name) in NAMES.into_iter().enumerate().skip(1) {
         let mut ratios: Vec<f64> = rounds.iter().map(|round| round[0] / round[k]).collect();
-        let [_, low, middle, high] = quantiles(&mut ratios);
-        println!("  usual over {name:<25}{middle:>8.1} times (p10 {low:.1}, p90 {high:.1})");
+        print_row(&format!("usual over {name}"), quantiles(&mut ratios), 1);
     }
+}
+
+fn print_row(name: &str, quantiles: [f64; 4], decimals: usize) {
+    print!("  {name:<36}");
+    for number in quantiles {
+        print!("{number:>8.decimals$}");
+    }
+    println!();
 }
 
 /// Least, p10, median and p90.
