@@ -282,8 +282,9 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// A sum that begins with a sample.
     fn sum_of(first: Self::Scalar<Acceleration>) -> Self::Sum;
 
-    /// Σ c_k x_k over the first `N` blocks.
-    fn inner_product<const N: usize>(
+    /// Σ c_k x_k over the first `blocks` blocks.
+    fn inner_product(
+        blocks: usize,
         c: &[[Self::Scalar<Coefficient>; 4]],
         x: &[[Self::Scalar<Acceleration>; 4]],
     ) -> Self::Sum;

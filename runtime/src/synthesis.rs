@@ -67,17 +67,23 @@ impl<A: Arithmetic> Window<A> {
 
     /// All move on by a block, the last of them out.
     #[inline(always)]
-    fn shift<const N: usize>(&mut self) {
-        for block in (0..N).rev() {
+    fn shift(&mut self, blocks: usize) {
+        let blocks = blocks.min(BLOCKS);
+        if A::IN_REGISTERS {
+            self.0.copy_within(..blocks, 1);
+            return;
+        }
+        // Elsewhere a copy by itself is a call.
+        for block in (0..blocks).rev() {
             self.0[block + 1] = self.0[block];
         }
     }
 
-    /// Σ c_k x_k over the first `N` blocks from the newest number on, in four partial sums.
+    /// Σ c_k x_k over the first `blocks` blocks from the newest number on, in four partial sums.
     #[inline(always)]
-    fn inner_product<const N: usize>(&self, c: &Line<A>, at: usize) -> A::Sum {
+    fn inner_product(&self, blocks: usize, c: &Line<A>, at: usize) -> A::Sum {
         let past = &self.0.as_flattened()[at % LANES..];
-        A::inner_product::<N>(&c.0, past.as_chunks::<LANES>().0)
+        A::inner_product(blocks, &c.0, past.as_chunks::<LANES>().0)
     }
 }
 
@@ -100,22 +106,26 @@ impl Lags {
             ma_order
         };
         Self {
-            blocks: longer.div_ceil(LANES) as u8,
+            blocks: if longer == 0 {
+                1
+            } else {
+                longer.div_ceil(LANES) as u8
+            },
             numerator: ma_order > 0,
         }
     }
 }
 
-/// Calls a method generic over a number of blocks.
-macro_rules! by_blocks {
+/// Calls a method with a number of blocks that is constant in each arm, so that no sum is a loop.
+macro_rules! unrolled {
     ($blocks:expr, $history:ident.$f:ident($($argument:expr),*)) => {
         match $blocks {
-            0 | 1 => $history.$f::<1>($($argument),*),
-            2 => $history.$f::<2>($($argument),*),
-            3 => $history.$f::<3>($($argument),*),
-            4 => $history.$f::<4>($($argument),*),
-            5 => $history.$f::<5>($($argument),*),
-            _ => $history.$f::<6>($($argument),*),
+            0 | 1 => $history.$f(1, $($argument),*),
+            2 => $history.$f(2, $($argument),*),
+            3 => $history.$f(3, $($argument),*),
+            4 => $history.$f(4, $($argument),*),
+            5 => $history.$f(5, $($argument),*),
+            _ => $history.$f(6, $($argument),*),
         }
     };
 }
@@ -164,27 +174,43 @@ impl<A: Arithmetic> History<A> {
     ) -> Sounded<A> {
         let at = usize::from(self.at) % LANES;
         if lags.numerator {
-            by_blocks!(lags.blocks, self.arma(a, b, at, e, sounding))
+            unrolled!(lags.blocks, self.arma(a, b, at, e, sounding))
         } else {
-            by_blocks!(lags.blocks, self.ar(a, b, at, e, sounding))
+            unrolled!(lags.blocks, self.ar(a, b, at, e, sounding))
         }
     }
 
-    /// Both sums over `N` blocks of lags; the newest of the past stand at `at`.
+    /// [`History::advance`] in loops, with a numerator that may be zero beyond its first lag: the
+    /// same bits in a tenth of the code.
     #[inline(always)]
-    fn arma<const N: usize>(
+    pub(crate) fn advance_in_loops(
         &mut self,
+        a: &Line<A>,
+        b: &Line<A>,
+        lags: Lags,
+        e: Number<A, Acceleration>,
+        sounding: bool,
+    ) -> Sounded<A> {
+        let at = usize::from(self.at) % LANES;
+        self.arma(lags.blocks.into(), a, b, at, e, sounding)
+    }
+
+    /// Both sums over `blocks` blocks of lags; the newest of the past stand at `at`.
+    #[inline(always)]
+    fn arma(
+        &mut self,
+        blocks: usize,
         a: &Line<A>,
         b: &Line<A>,
         at: usize,
         e: Number<A, Acceleration>,
         sounding: bool,
     ) -> Sounded<A> {
-        let driven = A::sum_of(e.0) + self.e.inner_product::<N>(b, at);
-        let (y, clamped) = self.recurse::<N>(a, at, driven, sounding);
+        let driven = A::sum_of(e.0) + self.e.inner_product(blocks, b, at);
+        let (y, clamped) = self.recurse(blocks, a, at, driven, sounding);
         if at == 0 {
-            self.e.shift::<N>();
-            self.y.shift::<N>();
+            self.e.shift(blocks);
+            self.y.shift(blocks);
         }
         self.push(at, e, y);
         (y, clamped)
@@ -192,8 +218,9 @@ impl<A: Arithmetic> History<A> {
 
     /// With a numerator of one lag.
     #[inline(always)]
-    fn ar<const N: usize>(
+    fn ar(
         &mut self,
+        blocks: usize,
         a: &Line<A>,
         b: &Line<A>,
         at: usize,
@@ -203,9 +230,9 @@ impl<A: Arithmetic> History<A> {
         let before = Number::<A, Acceleration>(self.e.0[0][at]);
         let first = Number::<A, Coefficient>(b.0[0][0]).times(before);
         let driven = A::sum_of((e + first).0);
-        let (y, clamped) = self.recurse::<N>(a, at, driven, sounding);
+        let (y, clamped) = self.recurse(blocks, a, at, driven, sounding);
         if at == 0 {
-            self.y.shift::<N>();
+            self.y.shift(blocks);
         }
         self.push(at, e, y);
         (y, clamped)
@@ -213,14 +240,15 @@ impl<A: Arithmetic> History<A> {
 
     /// The output from what the numerator gives.
     #[inline(always)]
-    fn recurse<const N: usize>(
+    fn recurse(
         &self,
+        blocks: usize,
         a: &Line<A>,
         at: usize,
         driven: A::Sum,
         sounding: bool,
     ) -> Sounded<A> {
-        let (y, clamped) = A::sample_of(driven - self.y.inner_product::<N>(a, at));
+        let (y, clamped) = A::sample_of(driven - self.y.inner_product(blocks, a, at));
         let y = if sounding { Number(y) } else { Number::ZERO };
         (y, clamped && sounding)
     }

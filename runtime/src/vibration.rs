@@ -218,15 +218,15 @@ impl<A: Arithmetic> Vibration<A> {
         if interpolator.ticks() > 1 {
             return self.sound_between(lags, interpolator, sounding);
         }
-        self.sample(lags, sounding)
+        let e = self.draw();
+        self.history.advance(&self.a, &self.b, lags, e, sounding)
     }
 
-    /// The next sample of the model.
+    /// The next excitation, m/s².
     #[inline(always)]
-    pub(super) fn sample(&mut self, lags: Lags, sounding: bool) -> Sounded<A> {
+    pub(super) fn draw(&mut self) -> Number<A, Acceleration> {
         let gaussian = self.excitation.draw::<A>();
-        let e = self.level_m_s2.times_within(gaussian, A::VIB_LIMIT_M_S2);
-        self.history.advance(&self.a, &self.b, lags, e, sounding)
+        self.level_m_s2.times_within(gaussian, A::VIB_LIMIT_M_S2)
     }
 
     /// Whether this tick ends with a query.

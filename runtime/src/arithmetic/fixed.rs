@@ -470,11 +470,12 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn inner_product<const N: usize>(
+    fn inner_product(
+        blocks: usize,
         c: &[[FixedI32<Coefficient>; 4]],
         x: &[[FixedI32<Acceleration>; 4]],
     ) -> i64 {
-        let products = c.iter().zip(x).take(N);
+        let products = c.iter().zip(x).take(blocks);
         let block = |(c, x): (&Four<Coefficient>, &Four<Acceleration>)| {
             wide(c[0], x[0]) + wide(c[1], x[1]) + wide(c[2], x[2]) + wide(c[3], x[3])
         };

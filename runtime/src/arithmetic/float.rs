@@ -378,12 +378,11 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
-    fn inner_product<const N: usize>(c: &[[f32; 4]], x: &[[f32; 4]]) -> F4 {
-        let mut partial = F4::load(&c[0]) * F4::load(&x[0]);
-        for block in 1..N {
-            partial = partial + F4::load(&c[block]) * F4::load(&x[block]);
-        }
-        partial
+    fn inner_product(blocks: usize, c: &[[f32; 4]], x: &[[f32; 4]]) -> F4 {
+        let products = c.iter().zip(x).take(blocks);
+        let mut products = products.map(|(c, x)| F4::load(c) * F4::load(x));
+        let first = products.next().unwrap_or(F4::ZERO);
+        products.fold(first, |partial, product| partial + product)
     }
 
     #[inline(always)]

@@ -157,7 +157,9 @@ impl<A: Arithmetic> Vibration<A> {
         sounding: bool,
     ) -> Sounded<A> {
         let (y, clamped) = if self.between.is_sample() {
-            self.sample(lags, sounding)
+            let e = self.draw();
+            let (a, b) = (&self.a, &self.b);
+            self.history.advance_in_loops(a, b, lags, e, sounding)
         } else {
             (Number::ZERO, false)
         };
