@@ -184,12 +184,9 @@ impl<'a> Grid<'a> {
                 "0 to 1e4",
             )?;
             let gap = limits::MIN_LSF_GAP_CODES;
-            let lsf = model.lsf().map(LsfCode::to_bits);
-            let last = lsf
-                .clone()
-                .next_back()
-                .filter(|&last| last > gap.wrapping_neg());
-            if let Some(code) = first_too_low(lsf, 0, gap).or(last) {
+            let last = model.lsf().next_back().map(LsfCode::to_bits);
+            let last = last.filter(|&last| last > gap.wrapping_neg());
+            if let Some(code) = first_too_low(model.stored_lsf(), 0, gap).or(last) {
                 return Err(FormatError::invalid(
                     "grid.model.lsf",
                     index,
@@ -198,8 +195,7 @@ impl<'a> Grid<'a> {
                 ));
             }
             // Zeros may lie on the unit circle, so equal neighbours are allowed.
-            let ma_lsf = model.ma_lsf().map(LsfCode::to_bits);
-            if let Some(code) = first_too_low(ma_lsf, 1, 0) {
+            if let Some(code) = first_too_low(model.stored_ma_lsf(), 1, 0) {
                 return Err(FormatError::invalid(
                     "grid.model.ma_lsf",
                     index,
@@ -401,17 +397,19 @@ impl<'a> Grid<'a> {
 }
 
 /// The first code that is not at least `gap` above the one before, or, the very first, above `floor`.
-fn first_too_low(codes: impl Iterator<Item = u16> + Clone, floor: u16, gap: u16) -> Option<u16> {
+fn first_too_low(codes: &[[u8; 2]], floor: u16, gap: u16) -> Option<u16> {
+    let code = |&pair: &[u8; 2]| u16::from_le_bytes(pair);
+    let (first, others) = codes.split_first()?;
     // By how much a code is too low. None is above 65535, where a sum ends: the caller looks there.
     let missing = |code: u16, floor: u16| floor.saturating_add(gap).saturating_sub(code);
-    // Gathered without a branch a code: nearly all are high enough.
-    let gather = |(all, floor), code| (all | missing(code, floor), code);
-    let (all, _) = codes.clone().fold((0, floor), gather);
-    if all == 0 {
+    // Gathered side by side, without a branch a code: nearly all are high enough.
+    let gather = |all, (above, below)| all | missing(code(above), code(below));
+    let all = others.iter().zip(codes).fold(0, gather);
+    if all | missing(code(first), floor) == 0 {
         return None;
     }
-    let floors = core::iter::once(floor).chain(codes.clone());
-    let mut pairs = codes.zip(floors);
+    let floors = core::iter::once(floor).chain(codes.iter().map(code));
+    let mut pairs = codes.iter().map(code).zip(floors);
     pairs.find_map(|(code, floor)| (missing(code, floor) > 0).then_some(code))
 }
 
