@@ -55,9 +55,7 @@ pub struct Model<'a> {
 
 impl<'a> Model<'a> {
     /// LSFs of A(z), strictly ascending.
-    pub fn lsf(
-        &self,
-    ) -> impl DoubleEndedIterator<Item = LsfCode> + ExactSizeIterator + Clone + use<'a> {
+    pub fn lsf(&self) -> impl ExactSizeIterator<Item = LsfCode> + use<'a> {
         codes(self.lsf)
     }
 
@@ -74,9 +72,7 @@ impl<'a> Model<'a> {
     }
 
     /// LSFs of B(z), ascending; empty unless [`Numerator::Lsf`].
-    pub fn ma_lsf(
-        &self,
-    ) -> impl DoubleEndedIterator<Item = LsfCode> + ExactSizeIterator + Clone + use<'a> {
+    pub fn ma_lsf(&self) -> impl ExactSizeIterator<Item = LsfCode> + use<'a> {
         codes(self.ma_lsf)
     }
 }
@@ -86,9 +82,7 @@ fn stored(bytes: &[u8]) -> &[[u8; 2]] {
     bytes.as_chunks().0
 }
 
-fn codes(
-    bytes: &[u8],
-) -> impl DoubleEndedIterator<Item = LsfCode> + ExactSizeIterator + Clone + use<'_> {
+fn codes(bytes: &[u8]) -> impl ExactSizeIterator<Item = LsfCode> + use<'_> {
     let codes = stored(bytes).iter();
     codes.map(|&pair| LsfCode::from_bits(u16::from_le_bytes(pair)))
 }
@@ -184,7 +178,8 @@ impl<'a> Grid<'a> {
                 "0 to 1e4",
             )?;
             let gap = limits::MIN_LSF_GAP_CODES;
-            let last = model.lsf().next_back().map(LsfCode::to_bits);
+            let last = model.stored_lsf().last();
+            let last = last.map(|&code| u16::from_le_bytes(code));
             let last = last.filter(|&last| last > gap.wrapping_neg());
             if let Some(code) = first_too_low(model.stored_lsf(), 0, gap).or(last) {
                 return Err(FormatError::invalid(

@@ -126,9 +126,6 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// A number at another point.
     fn to<F: Point, G: Point>(a: Self::Scalar<F>) -> Self::Scalar<G>;
 
-    /// A number, at most `limit` in size.
-    fn within<F: Point>(a: Self::Scalar<F>, limit: f32) -> Self::Scalar<F>;
-
     /// a + b, at the end of the range beyond it.
     fn plus_within<F: Point>(a: Self::Scalar<F>, b: Self::Scalar<F>) -> Self::Scalar<F>;
 

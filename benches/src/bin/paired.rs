@@ -8,7 +8,7 @@
 
 use asperity_benches::{Rig, check, motion::Motion, reference::Reference, texture::texture};
 use asperity_formats::{Asset, Numerator};
-use asperity_runtime::{HostTexture, Sample, vibration::Vibration};
+use asperity_runtime::{HostTexture, LoadError, Sample, vibration::Vibration};
 use std::{env, error::Error, fs, hint::black_box, time::Instant};
 
 /// Ticks a turn, and turns of each.
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!(
                 "{label}: nanoseconds over turns of {TICKS} ticks, least / p10 / median / p90"
             );
-            print(&compare(&bytes, ROUNDS));
+            print(&compare(&bytes, ROUNDS)?);
         }
         return Ok(());
     }
@@ -47,7 +47,7 @@ fn many(files: &[String]) -> Result<(), Box<dyn Error>> {
         let asset = Asset::parse(&bytes).map_err(|error| format!("{file}: {error}"))?;
         let grid = asset.grid();
         let orders = [grid.ar_order(), grid.ma_order()];
-        let rounds = compare(&bytes, ROUNDS_OF_MANY);
+        let rounds = compare(&bytes, ROUNDS_OF_MANY).map_err(|error| format!("{file}: {error}"))?;
         let median = |value: &dyn Fn(&[f64; 3]) -> f64| {
             quantiles(&mut rounds.iter().map(value).collect::<Vec<_>>())[2]
         };
@@ -103,10 +103,10 @@ const NAMES: [&str; 3] = [
 ];
 
 /// Nanoseconds of each of [`NAMES`], round by round.
-fn compare(bytes: &[u8], rounds: usize) -> Vec<[f64; 3]> {
-    let asset = Asset::parse(bytes).expect("a valid asset");
+fn compare(bytes: &[u8], rounds: usize) -> Result<Vec<[f64; 3]>, LoadError> {
+    let asset = Asset::parse(bytes)?;
     let mut slot = Box::new(HostTexture::new());
-    slot.load(&asset, 1000.0).expect("it fits");
+    slot.load(&asset, 1000.0)?;
     let mut reference = Reference::new(&asset);
     let mut vibration = Vibration::new(1);
     let mut rig = Rig::new(bytes);
@@ -135,7 +135,7 @@ fn compare(bytes: &[u8], rounds: usize) -> Vec<[f64; 3]> {
             found.push([usual, ours, whole]);
         }
     }
-    found
+    Ok(found)
 }
 
 /// Prints nanoseconds of each, and how many times as fast ours is.

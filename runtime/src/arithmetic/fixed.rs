@@ -179,11 +179,6 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn within<F: Point>(a: FixedI32<F>, limit: f32) -> FixedI32<F> {
-        narrow_within(i64::from(a.to_bits()), 0, bits_of::<F>(limit))
-    }
-
-    #[inline(always)]
     fn plus_within<F: Point>(a: FixedI32<F>, b: FixedI32<F>) -> FixedI32<F> {
         a.saturating_add(b)
     }

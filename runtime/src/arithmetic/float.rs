@@ -162,11 +162,6 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
-    fn within<F: Point>(a: f32, _: f32) -> f32 {
-        a
-    }
-
-    #[inline(always)]
     fn plus_within<F: Point>(a: f32, b: f32) -> f32 {
         a + b
     }

@@ -125,13 +125,6 @@ impl<A: Arithmetic, F: Point> Number<A, F> {
         Number(A::times_within(self.0, other.0, limit))
     }
 
-    /// At most `limit` in size if numbers have a range.
-    #[inline(always)]
-    #[must_use]
-    pub fn within(self, limit: f32) -> Self {
-        Self(A::within(self.0, limit))
-    }
-
     /// Σ xᵢ·cᵢ, first to last, at most `limit` in size if numbers have a range.
     #[inline(always)]
     #[must_use]
