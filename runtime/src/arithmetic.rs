@@ -54,6 +54,9 @@ pub trait Scalar:
     /// Its bits.
     fn bits(self) -> u32;
 
+    /// Of these bits.
+    fn from_bits(bits: u32) -> Self;
+
     /// Whether `value` lies in the range.
     fn holds(value: f32) -> bool;
 }
@@ -215,6 +218,12 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// The best so far of weights whose last bits, those of `bits`, are replaced by their index;
     /// four come from `index` on.
     fn better(best: Self::Best, four: Self::Four<Weight>, bits: u32, index: u32) -> Self::Best;
+
+    /// The best one as bits, where it does not fill all of them beside what they are.
+    fn keep_best(best: Self::Best, bits: &mut [u32; 4]);
+
+    /// The best one of those bits.
+    fn kept_best(bits: &[u32; 4]) -> Self::Best;
 
     /// The index of the best one.
     fn best(best: Self::Best, bits: u32) -> u32;

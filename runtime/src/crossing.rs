@@ -65,9 +65,11 @@ impl<A: Arithmetic> Crossing<A> {
         let from = &mut self.feel;
         from.stiffness_n_m = mix(from.stiffness_n_m, to.stiffness_n_m, left);
         from.damping_n_s_m = mix(from.damping_n_s_m, to.damping_n_s_m, left);
-        from.vib_s2_m = mix(from.vib_s2_m, to.vib_s2_m, left);
         from.effective_mass_kg = mix(from.effective_mass_kg, to.effective_mass_kg, left);
-        from.f_max_n = mix(from.f_max_n, to.f_max_n, left);
+        from.set_gain(
+            mix(from.vib_s2_m, to.vib_s2_m, left),
+            mix(from.f_max_n, to.f_max_n, left),
+        );
         from.mu = mix(from.mu, to.mu, left);
     }
 
@@ -164,7 +166,7 @@ impl<A: Arithmetic> Renderer<A> {
         let felt = Felt {
             solid,
             feel: &feel,
-            rendered: self.rendered(&feel),
+            wall: self.wall_of(&feel),
         };
         let follow_share = |ticks| self.follow_share(ticks);
         crossing.prepare(&mut state.vibration, texture, follow_share);

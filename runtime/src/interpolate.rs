@@ -124,7 +124,7 @@ impl<A: Arithmetic> Interpolator<A> {
             LOUDEST_M_S2 / 2.0,
         );
         let turned = Four::sum_within([(im, pole), (re, pole_im)], LOUDEST_M_S2);
-        *held = Held([next + Four::splat(y), turned].map(Four::to_array));
+        *held = Held::of(next + Four::splat(y), turned);
         let now = self.direct.times_within(y, LOUDEST_M_S2 / 2.0);
         // A verified texture comes nowhere near.
         let limit = Number::of(A::VIB_LIMIT_M_S2);
@@ -135,14 +135,29 @@ impl<A: Arithmetic> Interpolator<A> {
 
 /// What a low-pass holds: a complex number a pole, real and imaginary parts, m/s².
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Held<A: Arithmetic>([[A::Scalar<Acceleration>; 4]; 2]);
+pub(crate) struct Held<A: Arithmetic> {
+    re: [A::Scalar<Acceleration>; 4],
+    /// That of the last pole, which is real, is zero.
+    im: [A::Scalar<Acceleration>; 3],
+}
 
 impl<A: Arithmetic> Held<A> {
-    pub(crate) const SILENT: Self = Self([[A::Scalar::ZERO; 4]; 2]);
+    pub(crate) const SILENT: Self = Self {
+        re: [A::Scalar::ZERO; 4],
+        im: [A::Scalar::ZERO; 3],
+    };
+
+    #[inline(always)]
+    fn of(re: Four<A, Acceleration>, im: Four<A, Acceleration>) -> Self {
+        Self {
+            re: re.to_array(),
+            im: im.xyz(),
+        }
+    }
 
     #[inline(always)]
     fn lanes(&self) -> [Four<A, Acceleration>; 2] {
-        self.0.each_ref().map(Four::load)
+        [Four::load(&self.re), Four::vec3(self.im)]
     }
 
     /// Ends what no one feels, so that no denormal slows a tick.

@@ -92,6 +92,7 @@ mod tick;
 pub mod velocity;
 pub mod vibration;
 pub mod wall;
+mod workspace;
 
 pub use arithmetic::{Arithmetic, Fixed, Float};
 pub use config::{

@@ -16,6 +16,7 @@ use crate::{
         units::{Coordinate, FAR, MillimetrePerSecond, Newton, Slope, Unit, Weight},
     },
     math::{max, min},
+    workspace::Workspace,
 };
 use asperity_formats::limits::MAX_TRIANGLES;
 
@@ -157,9 +158,11 @@ impl<const T: usize, A: Arithmetic> Rows<T, A> {
     };
 }
 
-/// A search under way.
+/// A search under way, of a query in the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Search<A: Arithmetic> {
+    speed: Number<A, Coordinate>,
+    force: Number<A, Coordinate>,
     /// The best triangle so far: its smallest weight, whose last bits are replaced by its index.
     /// Neighbours that differ by so little mix the same.
     best: A::Best,
@@ -168,10 +171,25 @@ pub(crate) struct Search<A: Arithmetic> {
 }
 
 impl<A: Arithmetic> Search<A> {
-    pub(crate) const NONE: Self = Self {
-        best: A::WORST,
-        left: 0,
-    };
+    /// As bits.
+    #[inline(always)]
+    pub(crate) fn keep(&self, workspace: &mut Workspace) {
+        let [best, rest, ..] = &mut workspace.0;
+        A::keep_best(self.best, best);
+        [rest[0], rest[1], rest[2]] = [self.left, self.speed.0.bits(), self.force.0.bits()];
+    }
+
+    /// Of those bits.
+    #[inline(always)]
+    pub(crate) fn kept(workspace: &Workspace) -> Self {
+        let [best, [left, speed, force, _], ..] = &workspace.0;
+        Self {
+            speed: Number(A::Scalar::from_bits(*speed)),
+            force: Number(A::Scalar::from_bits(*force)),
+            best: A::kept_best(best),
+            left: *left,
+        }
+    }
 }
 
 /// Bits that hold an index.
@@ -301,19 +319,6 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
         self.blocks
     }
 
-    /// Inside the grid: the nearest point of its border where the query lies outside.
-    #[inline]
-    pub(crate) fn clamp(
-        &self,
-        speed_mm_s: Number<A, MillimetrePerSecond>,
-        force_n: Number<A, Newton>,
-    ) -> (Number<A, Coordinate>, Number<A, Coordinate>) {
-        (
-            speed_mm_s.clamp_from_zero(self.max_speed_mm_s).to(),
-            force_n.clamp_from_zero(self.max_force_n).to(),
-        )
-    }
-
     /// Whether a query lies outside the grid, or is none.
     #[inline]
     pub(crate) fn is_outside(
@@ -324,14 +329,18 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
         !(speed_mm_s <= self.max_speed_mm_s && force_n <= self.max_force_n)
     }
 
-    /// Begins a search; the query lies in the grid.
+    /// Begins a search: for the nearest point of the grid's border where the query lies outside.
     #[inline]
     pub(crate) fn begin(
         &self,
-        speed: Number<A, Coordinate>,
-        force: Number<A, Coordinate>,
+        speed_mm_s: Number<A, MillimetrePerSecond>,
+        force_n: Number<A, Newton>,
     ) -> Search<A> {
+        let speed = speed_mm_s.clamp_from_zero(self.max_speed_mm_s).to();
+        let force = force_n.clamp_from_zero(self.max_force_n).to();
         Search {
+            speed,
+            force,
             best: A::WORST,
             left: self.speed_strips.at(speed) & self.force_strips.at(force),
         }
@@ -339,14 +348,8 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
 
     /// Looks at up to `blocks` more blocks.
     #[inline]
-    pub(crate) fn look(
-        &self,
-        search: &mut Search<A>,
-        speed: Number<A, Coordinate>,
-        force: Number<A, Coordinate>,
-        blocks: usize,
-    ) {
-        let (speed, force) = (Four::splat(speed), Four::splat(force));
+    pub(crate) fn look(&self, search: &mut Search<A>, blocks: usize) {
+        let (speed, force) = (Four::splat(search.speed), Four::splat(search.force));
         let mut best = search.best;
         let one = Four::splat(Number::whole(1));
         let all = self.rows.0.as_flattened().as_chunks::<LANES>().0;
@@ -370,17 +373,12 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
 
     /// The mixture of the best triangle; finite and convex for every query in the grid.
     #[inline]
-    pub(crate) fn choose(
-        &self,
-        search: &Search<A>,
-        speed: Number<A, Coordinate>,
-        force: Number<A, Coordinate>,
-    ) -> Barycentric<A> {
+    pub(crate) fn choose(&self, search: &Search<A>) -> Barycentric<A> {
         let t = A::best(search.best, INDEX) as usize;
         let flat = self.rows.0.as_flattened();
         let number =
             |k: usize| Number::<A, Slope>(flat.get(Self::index(t, k)).copied().unwrap_or_default());
-        let (ds, df) = (speed - number(0), force - number(1));
+        let (ds, df) = (search.speed - number(0), search.force - number(1));
         let w1 = Number::<A, Weight>::sum_within([(ds, number(2)), (df, number(3))], FAR);
         let w2 = Number::<A, Weight>::sum_within([(ds, number(4)), (df, number(5))], FAR);
         let one = Number::whole(1);
@@ -405,12 +403,11 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
         speed_mm_s: Number<A, MillimetrePerSecond>,
         force_n: Number<A, Newton>,
     ) -> Barycentric<A> {
-        let (speed, force) = self.clamp(speed_mm_s, force_n);
-        let mut search = self.begin(speed, force);
-        self.look(&mut search, speed, force, self.blocks);
+        let mut search = self.begin(speed_mm_s, force_n);
+        self.look(&mut search, self.blocks);
         Barycentric {
             outside: self.is_outside(speed_mm_s, force_n),
-            ..self.choose(&search, speed, force)
+            ..self.choose(&search)
         }
     }
 }

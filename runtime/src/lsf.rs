@@ -15,23 +15,21 @@
 mod assembly;
 mod product;
 
-pub(crate) use product::{Products, Two};
+pub(crate) use product::Two;
 
 use crate::{
     arithmetic::{Arithmetic, Four, Number, units::Pair},
     synthesis::Line,
+    workspace::{LANES, Workspace},
 };
-use product::Polynomial as _;
-
-/// Q and P of A(z), Q and P of B(z).
-const LANES: usize = 4;
+use product::{Lane, Polynomial as _, Products};
 
 /// Orders of A(z) and B(z), and what follows from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Shape {
     ar_order: u8,
     ma_order: u8,
-    /// Pairs of each polynomial.
+    /// Pairs of each polynomial: Q and P of A(z), Q and P of B(z).
     pairs: [u8; LANES],
     /// The fewest of those in use.
     fewest: u8,
@@ -118,7 +116,7 @@ impl Shape {
     #[inline(always)]
     pub(crate) fn multiply<A: Arithmetic>(
         &self,
-        products: &mut Products<A>,
+        workspace: &mut Workspace,
         pairs: &Pairs<A>,
         part: usize,
     ) {
@@ -130,7 +128,7 @@ impl Shape {
             };
             let low = Four::<A, Pair>::load(&[ar[0], ar[1], ma[0], ma[1]]);
             let high = Four::<A, Pair>::load(&[ar[2], ar[3], ma[2], ma[3]]);
-            products.multiply(two, [low, high], self.pairs, self.fewest);
+            Products::<A>::of(workspace).multiply(two, [low, high], self.pairs, self.fewest);
             return;
         }
         let line = if part == 0 { &pairs.ar } else { &pairs.ma };
@@ -140,7 +138,7 @@ impl Shape {
         for side in 0..2 {
             let cosines = [Number(row[side]), Number(row[side + 2])];
             let polynomial = (2 * part + side) % LANES;
-            if let Some(mut lane) = products.lane(polynomial) {
+            if let Some(mut lane) = Lane::<A>::of(workspace, polynomial) {
                 let pairs = self.pairs[polynomial];
                 lane.multiply(two, cosines, pairs, pairs);
             }
@@ -219,7 +217,7 @@ mod tests {
                 })
                 .collect();
             let staged = |omegas: &[f64]| {
-                let mut line = Line::ZERO;
+                let mut line = Line::<Float, _>::ZERO;
                 for (index, omega) in omegas.iter().enumerate() {
                     line.0.as_flattened_mut()[stage(index, omegas.len())] =
                         (-2.0 * omega.cos()) as f32;
@@ -228,16 +226,17 @@ mod tests {
             };
             let polynomials = |ar: &[f64], ma: &[f64]| {
                 let shape = Shape::new(ar.len(), ma.len());
-                let (mut products, mut a, mut b) = (Products::<Float>::ONE, Line::ZERO, Line::ZERO);
+                let mut workspace = Workspace::IDLE;
+                let (mut a, mut b) = (Line::<Float>::ZERO, Line::<Float>::ZERO);
                 let pairs = Pairs {
                     ar: staged(ar),
                     ma: staged(ma),
                 };
                 for part in 0..shape.twos() * shape.parts::<Float>() {
-                    shape.multiply(&mut products, &pairs, part);
+                    shape.multiply(&mut workspace, &pairs, part);
                 }
-                shape.ar(&products, &mut a);
-                shape.ma(&products, &mut b);
+                shape.ar(&workspace, &mut a);
+                shape.ma(&workspace, &mut b);
                 (a.to_array(), b.to_array())
             };
             let shorter = &omegas[..order / 2];

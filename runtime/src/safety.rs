@@ -18,12 +18,10 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gate<A: Arithmetic = Float> {
     position_m: Three<A, Metre>,
-    /// Bad samples in a row.
+    /// Bad samples in a row: with more than are held, the next good one starts anew.
     bad_in_a_row: u32,
     /// Share of the force that is let through, 0..=1.
     gain: Number<A, Gain>,
-    /// Whether the next good sample starts anew.
-    fresh: bool,
 }
 
 /// What the gate lets through.
@@ -60,9 +58,8 @@ impl<A: Arithmetic> Gate<A> {
     pub fn new() -> Self {
         Self {
             position_m: Three::ZERO,
-            bad_in_a_row: 0,
+            bad_in_a_row: u32::MAX,
             gain: Number::whole(1),
-            fresh: true,
         }
     }
 
@@ -85,7 +82,7 @@ impl<A: Arithmetic> Gate<A> {
         // A stale sample counts as far too late.
         let missed = sample.elapsed_ticks.wrapping_sub(1);
         let within = p.is_within(A::REACH_M);
-        if missed > hold_ticks || self.fresh || !within {
+        if missed > hold_ticks || self.bad_in_a_row > hold_ticks || !within {
             return self.irregular(sample, within, hold_ticks, ramp_step);
         }
         let motion_m = p - self.position_m();
@@ -124,44 +121,47 @@ impl<A: Arithmetic> Gate<A> {
         hold_ticks: u32,
         ramp_step: Number<A, Gain>,
     ) -> Gated<A> {
-        let p = Four::vec3(sample.position_m);
-        let usable = within & (sample.elapsed_ticks > 0);
-        let missed = sample.elapsed_ticks.saturating_sub(1);
-        let gap = missed > hold_ticks && !self.fresh;
-        let good = usable && !gap;
-
-        self.bad_in_a_row = if usable {
-            0
-        } else {
-            self.bad_in_a_row.saturating_add(1)
-        };
-        let held = !usable && !self.fresh && self.bad_in_a_row <= hold_ticks;
-        let safe = !good && !held;
-        let fault = safe && (gap || !self.fresh);
-        let restart = usable && (self.fresh || gap);
-        let before = if restart { p } else { self.position_m() };
-        if usable {
+        let fresh = self.bad_in_a_row > hold_ticks;
+        let (before, mut elapsed_ticks) = (self.position_m(), 1);
+        let mut motion_m = Four::ZERO;
+        let flags = if within && sample.elapsed_ticks > 0 {
+            let p = Four::vec3(sample.position_m);
             self.position_m = Three::of(p);
-        }
-        self.fresh = safe && !usable;
-        let flags = if safe {
-            self.gain = Number::ZERO;
-            Flags::SAFE_STATE
-        } else if held {
-            Flags::HELD_SAMPLE.and(Flags::RAMPING.when(self.gain < Number::whole(1)))
+            self.bad_in_a_row = 0;
+            if fresh {
+                Flags::RESTART.and(self.ramp(ramp_step))
+            } else if sample.elapsed_ticks - 1 > hold_ticks {
+                Flags::RESTART.and(self.fault())
+            } else {
+                (motion_m, elapsed_ticks) = (p - before, sample.elapsed_ticks);
+                self.ramp(ramp_step)
+            }
         } else {
-            self.ramp(ramp_step)
+            self.bad_in_a_row = self.bad_in_a_row.saturating_add(1);
+            let flags = if self.bad_in_a_row <= hold_ticks {
+                Flags::HELD_SAMPLE.and(Flags::RAMPING.when(self.gain < Number::whole(1)))
+            } else if fresh {
+                self.gain = Number::ZERO;
+                Flags::SAFE_STATE
+            } else {
+                self.fault()
+            };
+            flags.and(Flags::BAD_SAMPLE)
         };
         Gated {
             position_m: self.position_m(),
-            motion_m: self.position_m() - before,
-            elapsed_ticks: if good && !restart { missed + 1 } else { 1 },
+            motion_m,
+            elapsed_ticks,
             gain: self.gain,
-            flags: flags
-                .and(Flags::RESTART.when(restart))
-                .and(Flags::FAULT.when(fault))
-                .and(Flags::BAD_SAMPLE.when(!usable)),
+            flags,
         }
+    }
+
+    /// The safe state begins.
+    #[inline(always)]
+    fn fault(&mut self) -> Flags {
+        self.gain = Number::ZERO;
+        Flags::SAFE_STATE.and(Flags::FAULT)
     }
 }
 

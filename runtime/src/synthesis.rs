@@ -14,8 +14,8 @@ use asperity_formats::limits::MAX_ORDER;
 pub const VIB_LIMIT_M_S2: f32 = <Float as Arithmetic>::VIB_LIMIT_M_S2;
 const LANES: usize = 4;
 const BLOCKS: usize = MAX_ORDER / LANES;
-/// One block more than the lags: all move on only when four new numbers fill it.
-const WINDOW: usize = BLOCKS + 1;
+/// As many as the lags, and room for three new numbers: all move on only with the fourth.
+const WINDOW: usize = MAX_ORDER + LANES - 1;
 
 /// Numbers of up to 24 lags, from lag 1 on, in blocks of four.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,31 +58,38 @@ pub struct History<A: Arithmetic = Float> {
     at: u8,
 }
 
-/// Numbers in order of age, the newest at `at` of the first block.
+/// Numbers in order of age, the newest at `at` of the first four.
 #[derive(Debug, Clone, PartialEq)]
-struct Window<A: Arithmetic>([[A::Scalar<Acceleration>; LANES]; WINDOW]);
+struct Window<A: Arithmetic>([A::Scalar<Acceleration>; WINDOW]);
 
 impl<A: Arithmetic> Window<A> {
-    const ZERO: Self = Self([[A::Scalar::ZERO; LANES]; WINDOW]);
+    const ZERO: Self = Self([A::Scalar::ZERO; WINDOW]);
 
     /// All move on by a block, the last of them out.
     #[inline(always)]
     fn shift(&mut self, blocks: usize) {
-        let blocks = blocks.min(BLOCKS);
+        let kept = (blocks * LANES).min(WINDOW - LANES);
         if A::IN_REGISTERS {
-            self.0.copy_within(..blocks, 1);
+            self.0.copy_within(..kept, LANES);
             return;
         }
         // Elsewhere a copy by itself is a call.
-        for block in (0..blocks).rev() {
-            self.0[block + 1] = self.0[block];
+        for block in (0..blocks.min(BLOCKS)).rev() {
+            let (before, after) = self.0.split_at_mut((block + 1) * LANES);
+            let moved = before.last_chunk::<LANES>().copied();
+            for (place, x) in after
+                .iter_mut()
+                .zip(moved.unwrap_or([A::Scalar::ZERO; LANES]))
+            {
+                *place = x;
+            }
         }
     }
 
     /// Σ c_k x_k over the first `blocks` blocks from the newest number on, in four partial sums.
     #[inline(always)]
     fn inner_product(&self, blocks: usize, c: &Line<A>, at: usize) -> A::Sum {
-        let past = &self.0.as_flattened()[at % LANES..];
+        let past = &self.0[at % LANES..];
         A::inner_product(blocks, &c.0, past.as_chunks::<LANES>().0)
     }
 }
@@ -143,7 +150,7 @@ impl<A: Arithmetic> History<A> {
 
     /// The last output, m/s².
     pub(crate) fn last(&self) -> Number<A, Acceleration> {
-        Number(self.y.0[0][usize::from(self.at) % LANES])
+        Number(self.y.0[usize::from(self.at) % LANES])
     }
 
     /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags
@@ -227,7 +234,7 @@ impl<A: Arithmetic> History<A> {
         e: Number<A, Acceleration>,
         sounding: bool,
     ) -> Sounded<A> {
-        let before = Number::<A, Acceleration>(self.e.0[0][at]);
+        let before = Number::<A, Acceleration>(self.e.0[at]);
         let first = Number::<A, Coefficient>(b.0[0][0]).times(before);
         let driven = A::sum_of((e + first).0);
         let (y, clamped) = self.recurse(blocks, a, at, driven, sounding);
@@ -258,7 +265,7 @@ impl<A: Arithmetic> History<A> {
     fn push(&mut self, at: usize, e: Number<A, Acceleration>, y: Number<A, Acceleration>) {
         let at = (at + LANES - 1) % LANES;
         self.at = at as u8;
-        self.e.0[0][at] = e.0;
-        self.y.0[0][at] = y.0;
+        self.e.0[at] = e.0;
+        self.y.0[at] = y.0;
     }
 }

@@ -101,10 +101,8 @@ impl<const K: usize, A: Arithmetic> TapBank<K, A> {
         let shrunk: Number<A, Unit> = impact_speed_m_s.over(low);
         let first_weight = (whole - share).times::<Unit, Unit>(shrunk.clamp_from_zero(whole));
         Selection {
-            first: first as u8,
-            second: second as u8,
-            first_weight: first_weight.0,
-            second_weight: share.0,
+            traces: [first as u8, second as u8],
+            weights: [first_weight.0, share.0],
         }
     }
 
@@ -120,8 +118,9 @@ impl<const K: usize, A: Arithmetic> TapBank<K, A> {
             Number::<A, TapAcceleration>(a)
         };
         let weight = Number::<A, Unit>;
-        let first = weight(selection.first_weight).times(at(selection.first));
-        let second = weight(selection.second_weight).times(at(selection.second));
+        let [slower, faster] = selection.traces.map(at);
+        let first = weight(selection.weights[0]).times(slower);
+        let second = weight(selection.weights[1]).times(faster);
         (first + second).0
     }
 }
@@ -143,23 +142,17 @@ fn convert<S: Scalar, L: Lanes<N>, const N: usize>(taps: &Taps<'_>, rates: Rates
 /// Two traces and their weights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Selection<A: Arithmetic = Float> {
-    /// Index of the slower trace.
-    pub first: u8,
-    /// Index of the faster one.
-    pub second: u8,
-    /// Weight of the slower.
-    pub first_weight: A::Scalar<Unit>,
-    /// Weight of the faster.
-    pub second_weight: A::Scalar<Unit>,
+    /// Indices of the slower trace and of the faster one.
+    pub traces: [u8; 2],
+    /// Their weights.
+    pub weights: [A::Scalar<Unit>; 2],
 }
 
 impl<A: Arithmetic> Selection<A> {
     /// No trace at all.
     const SILENT: Self = Self {
-        first: 0,
-        second: 0,
-        first_weight: A::Scalar::ZERO,
-        second_weight: A::Scalar::ZERO,
+        traces: [0; 2],
+        weights: [A::Scalar::ZERO; 2],
     };
 }
 
@@ -206,7 +199,9 @@ pub struct TapState<A: Arithmetic = Float> {
     armed: bool,
     /// Next tick of the transient; at its length or above when none plays.
     tick: u32,
-    selection: Selection<A>,
+    // What it plays: a [`Selection`], without its padding.
+    traces: [u8; 2],
+    weights: [A::Scalar<Unit>; 2],
 }
 
 /// What a tick of the tap stage gives.
@@ -225,7 +220,8 @@ impl<A: Arithmetic> TapState<A> {
         newest: 0,
         armed: false,
         tick: u32::MAX,
-        selection: Selection::SILENT,
+        traces: [0; 2],
+        weights: [A::Scalar::ZERO; 2],
     };
 
     /// Starts over at `distance_m`; a first sample inside is no impact.
@@ -241,7 +237,14 @@ impl<A: Arithmetic> TapState<A> {
         for past in &mut self.distances_m {
             *past = A::plus_within(*past, moved_m);
         }
+        self.distances_m[self.place(0)] = distance_m;
         self.armed = self.armed && distance_m > A::Scalar::ZERO;
+    }
+
+    /// The last distance, m.
+    #[inline(always)]
+    pub(crate) fn distance_m(&self) -> Number<A, Metre> {
+        Number(self.distances_m[self.place(0)])
     }
 
     /// Where the distance of an age stands.
@@ -288,7 +291,9 @@ impl<A: Arithmetic> TapState<A> {
             if self.armed {
                 let speed_m_s = self.approach_speed_m_s(detector);
                 if speed_m_s >= detector.min_speed_m_s {
-                    self.selection = bank.select(speed_m_s.0);
+                    let selection = bank.select(speed_m_s.0);
+                    self.traces = selection.traces;
+                    self.weights = selection.weights;
                     self.tick = 0;
                     flags = Flags::TAP_STARTED;
                 }
@@ -300,7 +305,11 @@ impl<A: Arithmetic> TapState<A> {
         let mut accel_m_s2 = A::Scalar::ZERO;
         if (self.tick as usize) < bank.ticks() {
             flags = flags.and(Flags::TAP_ACTIVE);
-            accel_m_s2 = bank.accel_m_s2(&self.selection, self.tick as usize);
+            let selection = Selection {
+                traces: self.traces,
+                weights: self.weights,
+            };
+            accel_m_s2 = bank.accel_m_s2(&selection, self.tick as usize);
             self.tick += 1;
         }
         TapOutput { accel_m_s2, flags }
@@ -397,12 +406,12 @@ mod tests {
         for (n, height) in heights.enumerate() {
             let output = state.step(&bank, height, &detector);
             if output.flags.contains(Flags::TAP_STARTED) {
-                starts.push((n, state.selection));
+                starts.push((n, state.traces[0], state.weights[0]));
             }
         }
         assert_eq!(starts.len(), 2, "{starts:?}");
         assert_eq!(starts[0].0, 31);
         // The trace of 0.2 m/s alone, within the rounding of eight heights.
-        assert!(starts[0].1.first == 1 && starts[0].1.first_weight > 0.999);
+        assert!(starts[0].1 == 1 && starts[0].2 > 0.999);
     }
 }

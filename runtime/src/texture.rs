@@ -12,12 +12,13 @@ use crate::{
     interpolate::{Interpolator, ticks_per_sample},
     lanes::F4,
     locate::{Barycentric, Locator},
-    lsf::{self, Pairs, Products, Shape},
+    lsf::{self, Pairs, Shape},
     math::cos_pi_four,
     schedule::{self, Share, Shares},
     synthesis::{Lags, Line},
     tap::TapBank,
     vibration::between::shares_of_cycle,
+    workspace::Workspace,
 };
 use asperity_formats::{Asset, FormatError, LsfCode, Numerator, Surface, limits::MAX_ORDER};
 use thiserror::Error;
@@ -59,6 +60,9 @@ pub struct Texture<
 /// fit at servo rates up to 10 kHz. 33 KiB, better boxed or static than on a stack.
 pub type HostTexture = Texture<64, 128, 24, 24, 4096>;
 
+/// A gain of the vibration is no larger where numbers have a range, kg.
+const HEAVIEST_KG: f32 = 127.0;
+
 /// Wall, gains and friction, as a tick computes with them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Feel<A: Arithmetic> {
@@ -67,6 +71,8 @@ pub(crate) struct Feel<A: Arithmetic> {
     pub(crate) vib_s2_m: Number<A, Ratio>,
     pub(crate) effective_mass_kg: Number<A, Kilogram>,
     pub(crate) f_max_n: Number<A, Newton>,
+    /// Of the vibration: the product of both.
+    pub(crate) gain_kg: Number<A, Kilogram>,
     /// Coefficient of kinetic friction.
     pub(crate) mu: Number<A, Ratio>,
 }
@@ -79,18 +85,27 @@ impl<A: Arithmetic> Feel<A> {
         vib_s2_m: Number::ZERO,
         effective_mass_kg: Number::ZERO,
         f_max_n: Number::ZERO,
+        gain_kg: Number::ZERO,
         mu: Number::ZERO,
     };
 
     fn new(surface: &Surface, mu: f32) -> Self {
-        Self {
+        let mut feel = Self {
             stiffness_n_m: Number::of(surface.stiffness_n_m),
             damping_n_s_m: Number::of(surface.damping_n_s_m),
-            vib_s2_m: Number::of(surface.vib_s2_m),
             effective_mass_kg: Number::of(surface.effective_mass_kg),
-            f_max_n: Number::of(surface.f_max_n),
             mu: Number::of(mu),
-        }
+            ..Self::NONE
+        };
+        feel.set_gain(Number::of(surface.vib_s2_m), Number::of(surface.f_max_n));
+        feel
+    }
+
+    /// The gain of the vibration, of two factors.
+    #[inline]
+    pub(crate) fn set_gain(&mut self, vib_s2_m: Number<A, Ratio>, f_max_n: Number<A, Newton>) {
+        (self.vib_s2_m, self.f_max_n) = (vib_s2_m, f_max_n);
+        self.gain_kg = vib_s2_m.times_within(f_max_n, HEAVIEST_KG);
     }
 
     fn surface(&self) -> Surface {
@@ -319,13 +334,13 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     /// [`filter_at`](Self::filter_at) of a query that was located in this texture.
     #[must_use]
     pub fn filter_of(&self, query: &Barycentric<A>) -> Filter {
-        let (mut pairs, mut products) = (Pairs::ZERO, Products::ONE);
+        let (mut pairs, mut workspace) = (Pairs::ZERO, Workspace::IDLE);
         self.follow(&mut pairs, query, Number::whole(1));
         for part in 0..self.shape.twos() * self.shape.parts::<A>() {
-            self.multiply(&mut products, &pairs, part);
+            self.multiply(&mut workspace, &pairs, part);
         }
         let (mut a, mut b) = (Line::ZERO, Line::ZERO);
-        self.coefficients(&products, &mut a, &mut b);
+        self.coefficients(&workspace, &mut a, &mut b);
         Filter {
             a: a.to_array().map(|a| a.value()),
             b: b.to_array().map(|b| b.value()),
@@ -383,13 +398,13 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
 
     /// Multiplies one part of a two of pairs in.
     #[inline]
-    pub(crate) fn multiply(&self, products: &mut Products<A>, pairs: &Pairs<A>, part: usize) {
+    pub(crate) fn multiply(&self, products: &mut Workspace, pairs: &Pairs<A>, part: usize) {
         self.shape.multiply(products, pairs, part);
     }
 
     /// Coefficients of A(z) and B(z), all twos done.
     #[inline]
-    pub(crate) fn coefficients(&self, products: &Products<A>, a: &mut Line<A>, b: &mut Line<A>) {
+    pub(crate) fn coefficients(&self, products: &Workspace, a: &mut Line<A>, b: &mut Line<A>) {
         self.shape.ar(products, a);
         if Q > 0 && self.shape.ma_order() > 0 {
             self.shape.ma(products, b);

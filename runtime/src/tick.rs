@@ -7,8 +7,8 @@ use crate::{
     arithmetic::{
         Arithmetic, Float, Four, Number, Scalar as _, Three,
         units::{
-            Acceleration, Gain, Kilogram, Metre, MetrePerSecond, MillimetrePerSecond, Newton,
-            Ratio, STRONGEST_N, TapAcceleration, Unit,
+            Acceleration, Gain, Metre, MetrePerSecond, MillimetrePerSecond, Newton, Ratio,
+            STRONGEST_N, TapAcceleration, Unit,
         },
     },
     contact::Solid,
@@ -25,8 +25,6 @@ use crate::{
 
 /// Below this speed the direction of motion is the last one, m/s.
 const DIRECTION_FLOOR_M_S: f32 = 1.0e-4;
-/// A gain of the vibration is no larger where numbers have a range, kg.
-const HEAVIEST_KG: f32 = 127.0;
 /// m/s to mm/s.
 const MM: i32 = 1000;
 
@@ -102,13 +100,13 @@ pub struct Output<A: Arithmetic = Float> {
 pub struct State<A: Arithmetic = Float> {
     pub(crate) vibration: Vibration<A>,
     gate: Gate<A>,
-    distance_m: Number<A, Metre>,
     velocity: VelocityState<A>,
     direction: Three<A, Unit>,
     tap: TapState<A>,
     friction: FrictionState<A>,
     force_n: Three<A, Newton>,
-    rendered: Rendered<A>,
+    /// What the device can bear of the texture's.
+    wall: Wall<A>,
     counters: Counters,
 }
 
@@ -119,13 +117,12 @@ impl<A: Arithmetic> State<A> {
         Self {
             vibration: Vibration::new(seed),
             gate: Gate::new(),
-            distance_m: Number::ZERO,
             velocity: VelocityState::REST,
             direction: Three::of(Four::whole([1, 0, 0, 0])),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
             force_n: Three::ZERO,
-            rendered: Rendered::NONE,
+            wall: Wall::NONE,
             counters: Counters::default(),
         }
     }
@@ -140,21 +137,19 @@ impl<A: Arithmetic> State<A> {
     #[cold]
     pub(crate) fn cross(&mut self, solid: &Solid<A>) {
         let (distance_m, _) = solid.touch(self.gate.position_m());
-        self.distance_m = distance_m;
         self.tap.cross(distance_m.0);
     }
 
     /// Another texture, on the same surface.
     #[cold]
-    fn change_texture(&mut self, texture: u32, rendered: Rendered<A>) {
+    fn change_texture(&mut self, texture: u32, wall: Wall<A>) {
         self.vibration.change_texture(texture);
-        self.rendered = rendered;
+        self.wall = wall;
     }
 
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.
     #[cold]
     fn restart(&mut self, distance_m: Number<A, Metre>) {
-        self.distance_m = distance_m;
         self.velocity = VelocityState::REST;
         self.vibration.silence();
         self.friction = FrictionState::default();
@@ -167,23 +162,8 @@ impl<A: Arithmetic> State<A> {
 pub(crate) struct Felt<'a, A: Arithmetic> {
     pub(crate) solid: &'a Solid<A>,
     pub(crate) feel: &'a Feel<A>,
-    pub(crate) rendered: Rendered<A>,
-}
-
-/// What the device makes of a texture's feel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Rendered<A: Arithmetic> {
-    wall: Wall<A>,
-    /// Of the vibration.
-    gain_kg: Number<A, Kilogram>,
-}
-
-impl<A: Arithmetic> Rendered<A> {
-    /// No wall, silence.
-    const NONE: Self = Self {
-        wall: Wall::NONE,
-        gain_kg: Number::ZERO,
-    };
+    /// What the device can bear of the feel's.
+    pub(crate) wall: Wall<A>,
 }
 
 /// A checked configuration with all that follows from it.
@@ -264,15 +244,11 @@ impl<A: Arithmetic> Renderer<A> {
         self.follow_shares[usize::from(ticks_per_sample % 32)]
     }
 
-    /// What the device makes of a texture's feel.
+    /// What the device can bear of a wall.
     #[inline(always)]
-    pub(crate) fn rendered(&self, feel: &Feel<A>) -> Rendered<A> {
-        Rendered {
-            wall: self
-                .passivity
-                .wall(feel.stiffness_n_m.0, feel.damping_n_s_m.0),
-            gain_kg: feel.vib_s2_m.times_within(feel.f_max_n, HEAVIEST_KG),
-        }
+    pub(crate) fn wall_of(&self, feel: &Feel<A>) -> Wall<A> {
+        let (stiffness_n_m, damping_n_s_m) = (feel.stiffness_n_m, feel.damping_n_s_m);
+        self.passivity.wall(stiffness_n_m.0, damping_n_s_m.0)
     }
 
     /// What is touched.
@@ -302,21 +278,21 @@ impl<A: Arithmetic> Renderer<A> {
         sample: &Sample<A>,
     ) -> Output<A> {
         if !state.vibration.is_on(texture.id()) {
-            state.change_texture(texture.id(), self.rendered(&texture.feel));
+            state.change_texture(texture.id(), self.wall_of(&texture.feel));
         }
         let follow_share = |ticks| self.follow_share(ticks);
         state.vibration.prepare(texture, follow_share);
         let felt = Felt {
             solid: &self.solid,
             feel: &texture.feel,
-            rendered: state.rendered,
+            wall: state.wall,
         };
         let (lags, interpolator) = (texture.lags(), texture.interpolator());
         let sound =
             |vibration: &mut Vibration<A>, sounding| vibration.sound(lags, interpolator, sounding);
         let output = self.tick_on(felt, texture, state, sample, sound);
         if state.vibration.takes_query() {
-            state.rendered = self.rendered(&texture.feel);
+            state.wall = self.wall_of(&texture.feel);
             let (speed_mm_s, force_n) = (output.speed_mm_s, output.normal_force_n);
             let vibration = &mut state.vibration;
             vibration.query(texture, Number(speed_mm_s), Number(force_n));
@@ -355,16 +331,15 @@ impl<A: Arithmetic> Renderer<A> {
         }
 
         let motion_m = gated.motion_m;
-        let motions_m = motion_m.with_fourth(distance_m - state.distance_m);
+        let motions_m = motion_m.with_fourth(distance_m - state.tap.distance_m());
         let (filters, elapsed_ticks) = (&self.velocity, gated.elapsed_ticks);
         let velocity_m_s = filters.advance(&mut state.velocity, motions_m, elapsed_ticks);
         let outward_m_s: Number<A, MetrePerSecond> = velocity_m_s.fourth();
-        state.distance_m = distance_m;
 
         let depth_m = (-distance_m).max(Number::ZERO);
         let touching = depth_m > Number::ZERO;
         flags = flags.and(Flags::CONTACT.when(touching));
-        let wall = felt.rendered.wall;
+        let wall = felt.wall;
         let stiffness_n = wall.spring_n(depth_m);
 
         // Two vectors in the tangent plane, side by side.
@@ -402,7 +377,7 @@ impl<A: Arithmetic> Renderer<A> {
             VibrationAxis::Tangent => state.direction.four(),
             VibrationAxis::Binormal => state.direction.four().cross(normal),
         };
-        let vib_n: Number<A, Newton> = felt.rendered.gain_kg.times_within(vib_m_s2, STRONGEST_N);
+        let vib_n: Number<A, Newton> = feel.gain_kg.times_within(vib_m_s2, STRONGEST_N);
         let friction: Four<A, Newton> = along.scaled(friction_n);
         // What is known last comes last.
         let total_n = normal.scaled(normal_n) + axis.scaled(vib_n) - friction;

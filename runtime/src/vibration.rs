@@ -20,42 +20,59 @@ use crate::{
     Texture,
     arithmetic::{
         Arithmetic, Float, Number,
-        units::{Acceleration, Coordinate, Level, MillimetrePerSecond, Newton, Unit},
+        units::{Acceleration, Level, MillimetrePerSecond, Newton, Unit},
     },
     excitation::Excitation,
-    interpolate::Interpolator,
+    interpolate::{Held, Interpolator},
     locate::Search,
-    lsf::{Pairs, Products},
+    lsf::Pairs,
     schedule::Share,
     synthesis::{History, Lags, Line},
+    workspace::Workspace,
 };
-use between::Between;
+use between::Clock;
 
 /// State of the vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vibration<A: Arithmetic = Float> {
-    /// Partial products of the conversion under way.
-    products: Products<A>,
+    /// The search, then the conversion under way.
+    workspace: Workspace,
     /// Smoothed parameters.
     pairs: Pairs<A>,
     /// Coefficients at work.
     a: Line<A>,
     b: Line<A>,
     history: History<A>,
-    between: Between<A>,
+    held: Held<A>,
     level_m_s2: Number<A, Level>,
-    // The query of the cycle under way, and the level found.
-    speed_mm_s: Number<A, Coordinate>,
-    force_n: Number<A, Coordinate>,
-    search: Search<A>,
+    /// That of the mixture found.
     next_level_m_s2: Number<A, Level>,
     excitation: Excitation,
     texture: u32,
     phase: u8,
-    /// In contact in every tick since the query is taken, that one included.
-    in_contact: bool,
-    /// The parameters at work belong to this contact.
-    follows: bool,
+    clock: Clock,
+    contact: Contact,
+}
+
+/// What of a cycle was in contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Contact {
+    /// Not all of it.
+    Left,
+    /// Every tick since its query, that one included.
+    Begun,
+    /// The same, and the parameters at work belong to this contact.
+    Followed,
+}
+
+impl Contact {
+    /// A query is taken.
+    #[inline(always)]
+    fn begin_cycle(&mut self) {
+        if *self == Self::Left {
+            *self = Self::Begun;
+        }
+    }
 }
 
 /// A sample, m/s², and whether it had to be clamped.
@@ -66,39 +83,37 @@ impl<A: Arithmetic> Vibration<A> {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
-            products: Products::ONE,
+            workspace: Workspace::IDLE,
             pairs: Pairs::ZERO,
             a: Line::ZERO,
             b: Line::ZERO,
             history: History::SILENT,
-            between: Between::START,
+            held: Held::SILENT,
             level_m_s2: Number::ZERO,
-            speed_mm_s: Number::ZERO,
-            force_n: Number::ZERO,
-            search: Search::NONE,
             next_level_m_s2: Number::ZERO,
             excitation: Excitation::new(seed),
             texture: 0,
             phase: 0,
-            in_contact: true,
-            follows: false,
+            clock: Clock::START,
+            contact: Contact::Begun,
         }
     }
 
     /// The contact ends, and what was heard of it.
     pub(crate) fn silence(&mut self) {
         self.history = History::SILENT;
-        self.between.silence();
+        self.held = Held::SILENT;
         self.leave();
         // A query of this tick follows.
-        self.in_contact = self.takes_query();
+        if self.takes_query() {
+            self.contact.begin_cycle();
+        }
     }
 
     #[inline]
     fn leave(&mut self) {
         self.level_m_s2 = Number::ZERO;
-        self.in_contact = false;
-        self.follows = false;
+        self.contact = Contact::Left;
     }
 
     /// Another texture: a cycle begun on one is not finished on the other.
@@ -112,8 +127,9 @@ impl<A: Arithmetic> Vibration<A> {
         }
         self.texture = texture;
         self.phase = 0;
-        self.in_contact = true;
-        self.between = Between::START;
+        self.contact.begin_cycle();
+        self.held = Held::SILENT;
+        self.clock = Clock::START;
     }
 
     /// Another texture in a scene: what is at work stays until the first cycle ends.
@@ -123,9 +139,8 @@ impl<A: Arithmetic> Vibration<A> {
         self.pairs = Pairs::ZERO;
         self.next_level_m_s2 = Number::ZERO;
         self.phase = 0;
-        self.in_contact = true;
-        self.between.begin_cycle();
-        self.follows = false;
+        self.contact = Contact::Begun;
+        self.clock.begin_cycle();
     }
 
     /// Whether this tick, of `ticks` a sample, puts new coefficients to work.
@@ -194,7 +209,7 @@ impl<A: Arithmetic> Vibration<A> {
             self.prepare_between(texture, follow_share(ticks), ticks);
         } else if self.phase == CYCLE_TICKS as u8 {
             self.phase = 0;
-            self.in_contact = true;
+            self.contact.begin_cycle();
         } else if self.phase > 0 {
             self.work(texture, follow_share(1), texture.share(self.phase));
             self.phase += 1;
@@ -249,11 +264,10 @@ impl<A: Arithmetic> Vibration<A> {
         speed_mm_s: Number<A, MillimetrePerSecond>,
         force_n: Number<A, Newton>,
     ) {
-        let (speed, force) = texture.locator.clamp(speed_mm_s, force_n);
-        (self.speed_mm_s, self.force_n) = (speed, force);
-        self.search = texture.locator.begin(speed, force);
+        let mut search = texture.locator.begin(speed_mm_s, force_n);
         let blocks = texture.share(0).blocks.into();
-        texture.locator.look(&mut self.search, speed, force, blocks);
+        texture.locator.look(&mut search, blocks);
+        search.keep(&mut self.workspace);
         self.phase = 1;
     }
 
@@ -265,16 +279,16 @@ impl<A: Arithmetic> Vibration<A> {
         follow_share: Number<A, Unit>,
         share: &Share,
     ) {
-        let (speed, force) = (self.speed_mm_s, self.force_n);
         if share.blocks > 0 {
-            let blocks = share.blocks.into();
-            texture.locator.look(&mut self.search, speed, force, blocks);
+            let mut search = Search::kept(&self.workspace);
+            texture.locator.look(&mut search, share.blocks.into());
+            search.keep(&mut self.workspace);
         }
         if share.mixes {
-            let found = texture.locator.choose(&self.search, speed, force);
+            let found = texture.locator.choose(&Search::kept(&self.workspace));
             self.next_level_m_s2 = texture.level_m_s2(&found);
             // A new contact starts at its own model.
-            let way = if self.follows {
+            let way = if self.contact == Contact::Followed {
                 follow_share
             } else {
                 Number::whole(1)
@@ -282,7 +296,7 @@ impl<A: Arithmetic> Vibration<A> {
             texture.follow(&mut self.pairs, &found, way);
         }
         for part in share.twos() {
-            texture.multiply(&mut self.products, &self.pairs, part);
+            texture.multiply(&mut self.workspace, &self.pairs, part);
         }
     }
 
@@ -292,12 +306,12 @@ impl<A: Arithmetic> Vibration<A> {
         &mut self,
         texture: &Texture<V, T, P, Q, K, A>,
     ) {
-        texture.coefficients(&self.products, &mut self.a, &mut self.b);
-        self.level_m_s2 = if self.in_contact {
-            self.next_level_m_s2
-        } else {
+        texture.coefficients(&self.workspace, &mut self.a, &mut self.b);
+        self.level_m_s2 = if self.contact == Contact::Left {
             Number::ZERO
+        } else {
+            self.contact = Contact::Followed;
+            self.next_level_m_s2
         };
-        self.follows = self.in_contact;
     }
 }

@@ -108,6 +108,11 @@ impl<F: Point> Scalar for FixedI32<F> {
         self.to_bits() as u32
     }
 
+    #[inline(always)]
+    fn from_bits(bits: u32) -> Self {
+        Self::from_bits(bits as i32)
+    }
+
     fn holds(value: f32) -> bool {
         (f64::from(value) * scale::<F>()).abs() <= f64::from(i32::MAX)
     }
@@ -319,6 +324,16 @@ impl Arithmetic for Fixed {
         };
         let lanes = four.into_iter().zip(index..);
         lanes.fold(best, |best, (x, index)| marked(x, index).max(best))
+    }
+
+    #[inline(always)]
+    fn keep_best(best: FixedI32<Weight>, bits: &mut [u32; 4]) {
+        bits[0] = best.bits();
+    }
+
+    #[inline(always)]
+    fn kept_best(bits: &[u32; 4]) -> FixedI32<Weight> {
+        Scalar::from_bits(bits[0])
     }
 
     #[inline(always)]

@@ -107,6 +107,11 @@ impl Scalar for f32 {
         self.to_bits()
     }
 
+    #[inline(always)]
+    fn from_bits(bits: u32) -> Self {
+        Self::from_bits(bits)
+    }
+
     fn holds(value: f32) -> bool {
         !value.is_nan()
     }
@@ -280,6 +285,22 @@ impl Arithmetic for Float {
         let lanes = four.to_array().into_iter().zip(index..);
         let least = best.lanes().to_array()[0];
         Best([lanes.fold(least, |best, (x, index)| max(marked(x, index), best)); BEST])
+    }
+
+    #[inline(always)]
+    fn keep_best(best: Best, bits: &mut [u32; 4]) {
+        for (bits, lane) in bits.iter_mut().zip(best.0) {
+            *bits = lane.to_bits();
+        }
+    }
+
+    #[inline(always)]
+    fn kept_best(bits: &[u32; 4]) -> Best {
+        let mut best = [0.0; BEST];
+        for (lane, bits) in best.iter_mut().zip(bits) {
+            *lane = f32::from_bits(*bits);
+        }
+        Best(best)
     }
 
     #[inline(always)]

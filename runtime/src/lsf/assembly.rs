@@ -4,61 +4,63 @@
 //! and P = difference·(1 − z⁻¹) for even orders, Q = sum and P = difference·(1 − z⁻²)
 //! for odd ones. The products carry the ½.
 
-use super::{LANES, Products, Shape, product::COEFFICIENTS};
+use super::Shape;
 use crate::{
-    arithmetic::{Arithmetic, Four, Zero as _, units::Coefficient},
+    arithmetic::{Arithmetic, Four, Number, Scalar as _, Zero as _, units::Coefficient},
     synthesis::Line,
+    workspace::{LANES, Workspace, numbers},
 };
 
 impl Shape {
     /// Coefficients of A(z).
     #[inline]
-    pub(crate) fn ar<A: Arithmetic>(&self, products: &Products<A>, a: &mut Line<A>) {
-        assemble::<A, 0>(&products.0, self.ar_order(), a);
+    pub(crate) fn ar<A: Arithmetic>(&self, products: &Workspace, a: &mut Line<A>) {
+        assemble::<A, 0>(products, self.ar_order(), a);
     }
 
     /// Coefficients of B(z).
     #[inline]
-    pub(crate) fn ma<A: Arithmetic>(&self, products: &Products<A>, b: &mut Line<A>) {
-        assemble::<A, 2>(&products.0, self.ma_order(), b);
+    pub(crate) fn ma<A: Arithmetic>(&self, products: &Workspace, b: &mut Line<A>) {
+        assemble::<A, 2>(products, self.ma_order(), b);
     }
 }
 
 /// Coefficients of the polynomial whose lanes begin at `LANE`.
 #[inline(always)]
-fn assemble<A: Arithmetic, const LANE: usize>(
-    c: &[[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
-    order: usize,
-    a: &mut Line<A>,
-) {
+fn assemble<A: Arithmetic, const LANE: usize>(products: &Workspace, order: usize, a: &mut Line<A>) {
     let half = order / 2;
     let Some(a) = a.0.as_flattened_mut().get_mut(..order) else {
         return;
     };
     if order.is_multiple_of(2) && half >= LANES {
-        // The last four overlap those before where four does not divide the half.
-        let last = half - LANES;
+        let (last, mut before) = (half - LANES, Four::splat(Number(A::ONE_HALF)));
         for first in (0..last).step_by(LANES) {
-            assemble_four::<A, LANE>(c, first, a);
+            before = assemble_four::<A, LANE>(products, first, before, a);
         }
-        assemble_four::<A, LANE>(c, last, a);
+        // The last four overlap those before where four does not divide the half.
+        if let Some(row) = last.checked_sub(1).and_then(|row| products.0.get(row)) {
+            before = Four::load(&numbers(row));
+        }
+        assemble_four::<A, LANE>(products, last, before, a);
     } else {
-        assemble_singly::<A, LANE>(c, a);
+        assemble_singly::<A, LANE>(products, a);
     }
 }
 
-/// Four coefficients from `first` on and their four mirror images, of an even order.
+/// Four coefficients from `first` on and their four mirror images, of an even order; `c0` is what
+/// stands before them. Returns what stands before the next four.
 #[inline(always)]
 fn assemble_four<A: Arithmetic, const LANE: usize>(
-    c: &[[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
+    products: &Workspace,
     first: usize,
+    c0: Four<A, Coefficient>,
     a: &mut [A::Scalar<Coefficient>],
-) {
+) -> Four<A, Coefficient> {
     let last = a.len() - first;
-    let Some(c) = c.get(first..).and_then(|c| c.first_chunk::<5>()) else {
-        return;
+    let Some(c) = products.0.get(first..).and_then(|c| c.first_chunk::<4>()) else {
+        return c0;
     };
-    let [c0, c1, c2, c3, c4] = c.each_ref().map(Four::<A, Coefficient>::load);
+    let [c1, c2, c3, c4] = c.each_ref().map(|row| Four::<A, Coefficient>::load(&numbers(row)));
     let t0 = (c1 + c0.alternating()).to_array();
     let t1 = (c2 + c1.alternating()).to_array();
     let t2 = (c3 + c2.alternating()).to_array();
@@ -73,22 +75,29 @@ fn assemble_four<A: Arithmetic, const LANE: usize>(
         let [a0, a1, a2, a3] = (q - p).to_array();
         place.copy_from_slice(&[a3, a2, a1, a0]);
     }
+    c4
 }
 
 /// The same for every order, one after the other.
 fn assemble_singly<A: Arithmetic, const LANE: usize>(
-    c: &[[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
+    products: &Workspace,
     a: &mut [A::Scalar<Coefficient>],
 ) {
     let order = a.len();
     let even = order.is_multiple_of(2);
-    let number = |k: usize, lane: usize| c.get(k).map_or(A::Scalar::ZERO, |c| c[lane]);
+    let number = |k: usize, lane: usize| match k.checked_sub(1) {
+        None => A::ONE_HALF,
+        Some(row) => {
+            let row = products.0.get(row);
+            row.map_or(A::Scalar::ZERO, |row| A::Scalar::from_bits(row[lane]))
+        }
+    };
     for k in 0..order / 2 {
         let (q, p) = (number(k + 1, LANE), number(k + 1, LANE + 1));
         let (q, p) = if even {
             (q + number(k, LANE), p - number(k, LANE + 1))
         } else {
-            (q, p - number(k.wrapping_sub(1), LANE + 1))
+            (q, k.checked_sub(1).map_or(p, |k| p - number(k, LANE + 1)))
         };
         if let Some(low) = a.get_mut(k) {
             *low = q + p;

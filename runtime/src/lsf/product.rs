@@ -1,41 +1,37 @@
 //! Twos of zero pairs multiplied into polynomials, four side by side or one by itself.
 
-use super::LANES;
-use crate::arithmetic::{
-    Arithmetic, Four, Number, Zero as _,
-    units::{Coefficient, Pair},
+use crate::{
+    arithmetic::{
+        Arithmetic, Four, Number, Scalar as _,
+        units::{Coefficient, Pair},
+    },
+    workspace::{LANES, ROWS, Workspace, bits, numbers},
 };
-use asperity_formats::limits::MAX_ORDER;
-use core::ops::{Add, Sub};
+use core::{
+    marker::PhantomData,
+    ops::{Add, Sub},
+};
 
-/// Coefficients 0..=12 of symmetric polynomials of degree up to 24.
-pub(super) const COEFFICIENTS: usize = MAX_ORDER / 2 + 1;
-
-/// Partial products, the half of each that symmetry leaves, times ½.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
-pub(crate) struct Products<A: Arithmetic>(
-    pub(super) [[A::Scalar<Coefficient>; LANES]; COEFFICIENTS],
-);
+/// Partial products in a [`Workspace`], times ½: coefficients 1..=12 of each, the half that
+/// symmetry leaves. The first coefficient is ½ itself.
+pub(super) struct Products<'a, A>(&'a mut Workspace, PhantomData<A>);
 
 /// One of them: every fourth number.
-pub(super) struct Lane<'a, A: Arithmetic>(
-    &'a mut [A::Scalar<Coefficient>; LANES * (COEFFICIENTS - 1) + 1],
-);
+pub(super) struct Lane<'a, A>(&'a mut [u32; LANES * (ROWS - 1) + 1], PhantomData<A>);
 
-impl<A: Arithmetic> Products<A> {
-    /// No pair yet.
-    pub(crate) const ONE: Self = {
-        let mut c = [[A::Scalar::ZERO; LANES]; COEFFICIENTS];
-        c[0] = [A::ONE_HALF; LANES];
-        Self(c)
-    };
+impl<'a, A: Arithmetic> Products<'a, A> {
+    #[inline(always)]
+    pub(super) fn of(workspace: &'a mut Workspace) -> Self {
+        Self(workspace, PhantomData)
+    }
+}
 
+impl<'a, A: Arithmetic> Lane<'a, A> {
     /// One polynomial by itself.
     #[inline(always)]
-    pub(super) fn lane(&mut self, polynomial: usize) -> Option<Lane<'_, A>> {
-        let from = self.0.as_flattened_mut().get_mut(polynomial..)?;
-        from.first_chunk_mut().map(Lane)
+    pub(super) fn of(workspace: &'a mut Workspace, polynomial: usize) -> Option<Self> {
+        let from = workspace.0.as_flattened_mut().get_mut(polynomial..)?;
+        from.first_chunk_mut().map(|lane| Self(lane, PhantomData))
     }
 }
 
@@ -154,19 +150,20 @@ pub(super) trait Polynomial<A: Arithmetic> {
     }
 }
 
-impl<A: Arithmetic> Polynomial<A> for Products<A> {
+impl<A: Arithmetic> Polynomial<A> for Products<'_, A> {
     type Cosines = Four<A, Pair>;
     type Number = Four<A, Coefficient>;
     type Count = [u8; LANES];
 
     #[inline(always)]
     fn get(&self, k: usize) -> Self::Number {
-        Four::load(&self.0[k])
+        let row = k.checked_sub(1).map(|row| numbers(&self.0.0[row]));
+        Four::load(&row.unwrap_or([A::ONE_HALF; LANES]))
     }
 
     #[inline(always)]
     fn set(&mut self, k: usize, x: Self::Number) {
-        self.0[k] = x.to_array();
+        self.0.0[k - 1] = bits(x.to_array());
     }
 
     #[inline(always)]
@@ -195,12 +192,13 @@ impl<A: Arithmetic> Polynomial<A> for Lane<'_, A> {
 
     #[inline(always)]
     fn get(&self, k: usize) -> Self::Number {
-        Number(self.0[LANES * k])
+        let number = k.checked_sub(1).map(|row| self.0[LANES * row]);
+        Number(number.map_or(A::ONE_HALF, A::Scalar::from_bits))
     }
 
     #[inline(always)]
     fn set(&mut self, k: usize, x: Self::Number) {
-        self.0[LANES * k] = x.0;
+        self.0[LANES * (k - 1)] = x.0.bits();
     }
 
     #[inline(always)]
@@ -268,19 +266,19 @@ mod tests {
     fn one_polynomial_by_itself_gives_the_same_bits() {
         let number = |k: usize| [1, 2, 3, 4].map(|lane| ((7 * k + lane) as f32).sin());
         for pairs in [[12; 4], [12, 11, 10, 9], [8, 12, 0, 11]] {
-            let (mut at_once, mut singly) = (Products::<Float>::ONE, Products::<Float>::ONE);
-            for two in 0..MAX_ORDER / 4 {
+            let (mut at_once, mut singly) = (Workspace::IDLE, Workspace::IDLE);
+            for two in 0..ROWS / 2 {
                 let cosines = [number(two), number(two + 10)];
                 let fours = cosines.map(|four| Four::load(&four));
-                at_once.multiply(two, fours, pairs, *pairs.iter().min().unwrap());
+                let fewest = *pairs.iter().min().unwrap();
+                Products::<Float>::of(&mut at_once).multiply(two, fours, pairs, fewest);
                 for polynomial in 0..LANES {
                     let cosines = cosines.map(|four| Number(four[polynomial]));
-                    let mut lane = singly.lane(polynomial).unwrap();
+                    let mut lane = Lane::<Float>::of(&mut singly, polynomial).unwrap();
                     let pairs = pairs[polynomial];
                     lane.multiply(two, cosines, pairs, pairs);
                 }
-                let bits = |products: &Products<Float>| products.0.map(|c| c.map(f32::to_bits));
-                assert_eq!(bits(&at_once), bits(&singly), "two {two}");
+                assert_eq!(at_once, singly, "two {two}");
             }
         }
     }

@@ -9,10 +9,7 @@
 use super::{CYCLE_TICKS, Sounded, Vibration};
 use crate::{
     Texture,
-    arithmetic::{
-        Arithmetic, Number,
-        units::{Acceleration, Unit},
-    },
+    arithmetic::{Arithmetic, Number, units::Unit},
     interpolate::{Held, Interpolator},
     synthesis::Lags,
 };
@@ -38,28 +35,21 @@ const fn working_ticks(ticks: u8) -> u8 {
     }
 }
 
-/// Where in a cycle a tick is, and what the low-pass holds.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Between<A: Arithmetic> {
-    held: Held<A>,
+/// Where in a cycle a tick is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Clock {
     /// Sample of the cycle.
     sample: u8,
     /// Ticks since that sample.
     tick: u8,
 }
 
-impl<A: Arithmetic> Between<A> {
-    /// Silence before the first tick of a cycle.
+impl Clock {
+    /// Before the first tick of a cycle.
     pub(super) const START: Self = Self {
-        held: Held::SILENT,
         sample: 0,
         tick: u8::MAX,
     };
-
-    /// Nothing is left to hear.
-    pub(super) fn silence(&mut self) {
-        self.held = Held::SILENT;
-    }
 
     /// A new cycle begins with the next sample; the clock goes on.
     pub(super) fn begin_cycle(&mut self) {
@@ -102,23 +92,6 @@ impl<A: Arithmetic> Between<A> {
             None
         }
     }
-
-    /// The output of a tick, m/s², in which `y` enters. With `sounding` false it is mute, and
-    /// nothing is left of what was.
-    #[inline(always)]
-    pub(super) fn output(
-        &mut self,
-        interpolator: &Interpolator<A>,
-        y: Number<A, Acceleration>,
-        sounding: bool,
-    ) -> Number<A, Acceleration> {
-        if !sounding {
-            self.held = Held::SILENT;
-        } else if y == Number::ZERO && self.is_sample() {
-            self.held.settle();
-        }
-        interpolator.step(&mut self.held, y)
-    }
 }
 
 impl<A: Arithmetic> Vibration<A> {
@@ -136,11 +109,13 @@ impl<A: Arithmetic> Vibration<A> {
         follow_share: Number<A, Unit>,
         ticks: u8,
     ) {
-        self.between.advance(ticks);
+        self.clock.advance(ticks);
         // To the rest of a tick a phase of 0 is the query's.
-        self.phase = u8::from(!self.between.is_query(ticks));
-        self.in_contact |= self.takes_query();
-        if let Some(share) = self.between.share(ticks) {
+        self.phase = u8::from(!self.clock.is_query(ticks));
+        if self.takes_query() {
+            self.contact.begin_cycle();
+        }
+        if let Some(share) = self.clock.share(ticks) {
             self.work(texture, follow_share, texture.share(share));
             if usize::from(share) + 1 == shares_of_cycle(ticks) {
                 self.finish(texture);
@@ -148,7 +123,8 @@ impl<A: Arithmetic> Vibration<A> {
         }
     }
 
-    /// [`Vibration::sound`] between samples.
+    /// [`Vibration::sound`] between samples. With `sounding` false nothing is left of what the
+    /// low-pass holds.
     #[inline(never)]
     pub(super) fn sound_between(
         &mut self,
@@ -156,19 +132,25 @@ impl<A: Arithmetic> Vibration<A> {
         interpolator: &Interpolator<A>,
         sounding: bool,
     ) -> Sounded<A> {
-        let (y, clamped) = if self.between.is_sample() {
+        let is_sample = self.clock.is_sample();
+        let (y, clamped) = if is_sample {
             let e = self.draw();
             let (a, b) = (&self.a, &self.b);
             self.history.advance_in_loops(a, b, lags, e, sounding)
         } else {
             (Number::ZERO, false)
         };
-        (self.between.output(interpolator, y, sounding), clamped)
+        if !sounding {
+            self.held = Held::SILENT;
+        } else if is_sample && y == Number::ZERO {
+            self.held.settle();
+        }
+        (interpolator.step(&mut self.held, y), clamped)
     }
 
     /// Whether the tick that follows puts new coefficients to work.
     pub(super) fn finishes_next(&self, ticks: u8) -> bool {
-        let mut next = self.between.clone();
+        let mut next = self.clock;
         next.advance(ticks);
         next.share(ticks)
             .is_some_and(|share| usize::from(share) + 1 == shares_of_cycle(ticks))
