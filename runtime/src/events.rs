@@ -127,20 +127,23 @@ impl Counters {
         if !flags.meets(Flags::COUNTED) {
             return;
         }
-        // Few of them happen, and seldom two at once.
-        if flags.meets(Flags::BAD_SAMPLE) {
-            self.bad_samples = self.bad_samples.wrapping_add(1);
-        }
-        if flags.meets(Flags::FAULT.and(Flags::TAP_STARTED)) {
-            let [fault, tap] = [Flags::FAULT, Flags::TAP_STARTED].map(|event| flags.meets(event));
-            self.faults = self.faults.wrapping_add(fault.into());
-            self.taps = self.taps.wrapping_add(tap.into());
-        }
+        // The most frequent first; few of the others happen, and seldom two at once.
         if flags.meets(Flags::PEAK_LIMITED) {
             self.peak_limited = self.peak_limited.wrapping_add(1);
         }
         if flags.meets(Flags::SLEW_LIMITED) {
             self.slew_limited = self.slew_limited.wrapping_add(1);
+        }
+        if flags.meets(Flags::BAD_SAMPLE.and(Flags::FAULT).and(Flags::TAP_STARTED)) {
+            if flags.meets(Flags::BAD_SAMPLE) {
+                self.bad_samples = self.bad_samples.wrapping_add(1);
+            }
+            if flags.meets(Flags::FAULT) {
+                self.faults = self.faults.wrapping_add(1);
+            }
+            if flags.meets(Flags::TAP_STARTED) {
+                self.taps = self.taps.wrapping_add(1);
+            }
         }
     }
 }

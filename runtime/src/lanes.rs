@@ -10,30 +10,44 @@ use wide::{CmpLe, f32x4};
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct F4(f32x4);
 
-/// Numbers that a state keeps of a vector.
-const KEPT: usize = if F4::IN_REGISTERS { 4 } else { 3 };
-
-/// Three components as a state keeps them: all of a register where there are some.
+/// Three components as a state keeps them; with a fourth number where memory is not scarce.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
-pub struct F3([f32; KEPT]);
+pub struct F3(Kept);
 
+#[cfg(target_arch = "arm")]
+type Kept = [f32; 3];
+#[cfg(not(target_arch = "arm"))]
+type Kept = F4;
+
+#[cfg(target_arch = "arm")]
 impl F3 {
-    pub(crate) const ZERO: Self = Self([0.0; KEPT]);
+    pub(crate) const ZERO: Self = Self([0.0; 3]);
 
     #[inline(always)]
     pub(crate) fn of(four: F4) -> Self {
-        let mut kept = [0.0; KEPT];
-        kept.copy_from_slice(&four.to_array()[..KEPT]);
-        Self(kept)
+        let [x, y, z, _] = four.to_array();
+        Self([x, y, z])
     }
 
-    /// Where there are no registers, with a zero.
     #[inline(always)]
-    pub(crate) fn four(&self) -> F4 {
-        let mut four = [0.0; 4];
-        four[..KEPT].copy_from_slice(&self.0);
-        F4::load(&four)
+    pub(crate) fn four(self) -> F4 {
+        let [x, y, z] = self.0;
+        F4::load(&[x, y, z, 0.0])
+    }
+}
+
+#[cfg(not(target_arch = "arm"))]
+impl F3 {
+    pub(crate) const ZERO: Self = Self(F4::ZERO);
+
+    #[inline(always)]
+    pub(crate) fn of(four: F4) -> Self {
+        Self(four)
+    }
+
+    #[inline(always)]
+    pub(crate) fn four(self) -> F4 {
+        self.0
     }
 }
 

@@ -82,7 +82,8 @@ impl<A: Arithmetic> Gate<A> {
         // A stale sample counts as far too late.
         let missed = sample.elapsed_ticks.wrapping_sub(1);
         let within = p.is_within(A::REACH_M);
-        if missed > hold_ticks || self.bad_in_a_row > hold_ticks || !within {
+        // The union is no less than either; what it calls irregular need not be.
+        if missed | self.bad_in_a_row > hold_ticks || !within {
             return self.irregular(sample, within, hold_ticks, ramp_step);
         }
         let motion_m = p - self.position_m();
@@ -102,14 +103,15 @@ impl<A: Arithmetic> Gate<A> {
     #[inline(always)]
     fn ramp(&mut self, ramp_step: Number<A, Gain>) -> Flags {
         let whole = Number::whole(1);
-        // Both are at most 1.
-        self.gain = self.gain + ramp_step;
         if self.gain < whole {
-            Flags::RAMPING
-        } else {
+            // Both are at most 1.
+            self.gain = self.gain + ramp_step;
+            if self.gain < whole {
+                return Flags::RAMPING;
+            }
             self.gain = whole;
-            Flags::NONE
         }
+        Flags::NONE
     }
 
     /// A bad sample, one after missed periods, or the first one.

@@ -94,14 +94,13 @@ impl<A: Arithmetic> Window<A> {
     }
 }
 
-/// Length and kind of a recursion.
+/// Length and kind of a recursion: 0..=5 for one to six blocks of four lags, those of the longer
+/// one of A(z) and B(z), 6..=9 for three to six where B(z) has more than its first lag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Lags {
-    /// Lags in blocks of four, of the longer one of A(z) and B(z), 1..=6.
-    blocks: u8,
-    /// Whether B(z) has more than its first lag.
-    numerator: bool,
-}
+pub struct Lags(u8);
+
+/// Short recursions with an MA part are rare, and not worth code of their own.
+const FEWEST_WITH_MA: usize = 3;
 
 impl Lags {
     /// As many as the orders need; orders are at most 24.
@@ -112,29 +111,24 @@ impl Lags {
         } else {
             ma_order
         };
-        Self {
-            blocks: if longer == 0 {
-                1
-            } else {
-                longer.div_ceil(LANES) as u8
-            },
-            numerator: ma_order > 0,
+        let blocks = longer.div_ceil(LANES);
+        Self(if ma_order > 0 {
+            (BLOCKS + blocks.saturating_sub(FEWEST_WITH_MA)) as u8
+        } else {
+            blocks.saturating_sub(1) as u8
+        })
+    }
+
+    /// Blocks of four.
+    #[inline(always)]
+    const fn blocks(self) -> usize {
+        let kind = self.0 as usize;
+        if kind < BLOCKS {
+            kind + 1
+        } else {
+            kind - BLOCKS + FEWEST_WITH_MA
         }
     }
-}
-
-/// Calls a method with a number of blocks that is constant in each arm, so that no sum is a loop.
-macro_rules! unrolled {
-    ($blocks:expr, $history:ident.$f:ident($($argument:expr),*)) => {
-        match $blocks {
-            0 | 1 => $history.$f(1, $($argument),*),
-            2 => $history.$f(2, $($argument),*),
-            3 => $history.$f(3, $($argument),*),
-            4 => $history.$f(4, $($argument),*),
-            5 => $history.$f(5, $($argument),*),
-            _ => $history.$f(6, $($argument),*),
-        }
-    };
 }
 
 /// A sample, m/s², and whether it had to be clamped.
@@ -180,10 +174,18 @@ impl<A: Arithmetic> History<A> {
         sounding: bool,
     ) -> Sounded<A> {
         let at = usize::from(self.at) % LANES;
-        if lags.numerator {
-            unrolled!(lags.blocks, self.arma(a, b, at, e, sounding))
-        } else {
-            unrolled!(lags.blocks, self.ar(a, b, at, e, sounding))
+        // Constant in each arm, so that no sum is a loop.
+        match lags.0 {
+            0 => self.ar(1, a, b, at, e, sounding),
+            1 => self.ar(2, a, b, at, e, sounding),
+            2 => self.ar(3, a, b, at, e, sounding),
+            3 => self.ar(4, a, b, at, e, sounding),
+            4 => self.ar(5, a, b, at, e, sounding),
+            5 => self.ar(6, a, b, at, e, sounding),
+            6 => self.arma(3, a, b, at, e, sounding),
+            7 => self.arma(4, a, b, at, e, sounding),
+            8 => self.arma(5, a, b, at, e, sounding),
+            _ => self.arma(6, a, b, at, e, sounding),
         }
     }
 
@@ -199,7 +201,7 @@ impl<A: Arithmetic> History<A> {
         sounding: bool,
     ) -> Sounded<A> {
         let at = usize::from(self.at) % LANES;
-        self.arma(lags.blocks.into(), a, b, at, e, sounding)
+        self.arma(lags.blocks(), a, b, at, e, sounding)
     }
 
     /// Both sums over `blocks` blocks of lags; the newest of the past stand at `at`.

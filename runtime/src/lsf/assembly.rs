@@ -60,7 +60,9 @@ fn assemble_four<A: Arithmetic, const LANE: usize>(
     let Some(c) = products.0.get(first..).and_then(|c| c.first_chunk::<4>()) else {
         return c0;
     };
-    let [c1, c2, c3, c4] = c.each_ref().map(|row| Four::<A, Coefficient>::load(&numbers(row)));
+    let [c1, c2, c3, c4] = c
+        .each_ref()
+        .map(|row| Four::<A, Coefficient>::load(&numbers(row)));
     let t0 = (c1 + c0.alternating()).to_array();
     let t1 = (c2 + c1.alternating()).to_array();
     let t2 = (c3 + c2.alternating()).to_array();
