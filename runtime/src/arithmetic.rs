@@ -61,6 +61,11 @@ pub trait Scalar:
     fn holds(value: f32) -> bool;
 }
 
+/// A point whose smallest weight is this, −2⁻¹⁴, or more, lies in a triangle, nearly at least: a
+/// search for a point of the border ends with it. The last bits, where a weight has an index, are
+/// set, so that no index decides.
+pub(crate) const NEARLY_INSIDE: f32 = f32::from_bits(0xb880_007f);
+
 /// A kind of arithmetic.
 ///
 /// What a function does beyond a range says its name: `…_within` stays within a limit, the others
@@ -218,6 +223,9 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// The best so far of weights whose last bits, those of `bits`, are replaced by their index;
     /// four come from `index` on.
     fn better(best: Self::Best, four: Self::Four<Weight>, bits: u32, index: u32) -> Self::Best;
+
+    /// Whether the best one is that of a point in its triangle, or nearly: [`NEARLY_INSIDE`].
+    fn is_inside(best: Self::Best) -> bool;
 
     /// The best one as bits, where it does not fill all of them beside what they are.
     fn keep_best(best: Self::Best, bits: &mut [u32; 4]);

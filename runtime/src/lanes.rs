@@ -115,6 +115,12 @@ impl F4 {
         self.to_array().into_iter().all(within)
     }
 
+    /// Whether one of the four is `least` or more; nothing is NaN.
+    #[inline(always)]
+    pub(crate) fn reaches(self, least: f32) -> bool {
+        f32x4::splat(least).cmp_le(self.0).any()
+    }
+
     /// The roots of the first and the third, correctly rounded, in their place.
     #[inline(always)]
     pub(crate) fn sqrt_pair(self) -> Self {

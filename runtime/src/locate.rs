@@ -2,9 +2,10 @@
 //!
 //! Triangles stand in blocks of four neighbours. Each axis is cut into strips, and each strip
 //! knows the blocks that it meets: those that both strips of a query meet are looked at, with
-//! no path to walk, so nothing can hang on an edge. The winner is the triangle whose
-//! smallest barycentric weight is largest; on a shared edge or vertex either
-//! neighbour wins and both give the same mixture. Weights that rounding left below
+//! no path to walk, so nothing can hang on an edge, the block of the triangle before first, until
+//! one has a triangle with the query in it. Where none has it (the triangles leave a gap), the winner is the
+//! triangle whose smallest barycentric weight is largest. On a shared edge or vertex either
+//! neighbour wins and both give the same mixture. Weights that are below
 //! zero are cut, so the mixture is convex whatever the query.
 //!
 //! Outside the measured range the query is moved to the nearest point of the border
@@ -166,28 +167,48 @@ pub(crate) struct Search<A: Arithmetic> {
     /// The best triangle so far: its smallest weight, whose last bits are replaced by its index.
     /// Neighbours that differ by so little mix the same.
     best: A::Best,
-    /// Blocks to look at, one bit each.
+    /// Blocks to look at, one bit each, the first of them last.
     left: u32,
+    /// The block to begin with.
+    first: u32,
 }
 
 impl<A: Arithmetic> Search<A> {
+    /// The best triangle so far.
+    #[inline(always)]
+    fn triangle(&self) -> usize {
+        A::best(self.best, INDEX) as usize
+    }
+
+    /// Its block.
+    #[inline(always)]
+    pub(crate) fn block(&self) -> u8 {
+        (self.triangle() / LANES) as u8
+    }
+
     /// As bits.
     #[inline(always)]
     pub(crate) fn keep(&self, workspace: &mut Workspace) {
         let [best, rest, ..] = &mut workspace.0;
         A::keep_best(self.best, best);
-        [rest[0], rest[1], rest[2]] = [self.left, self.speed.0.bits(), self.force.0.bits()];
+        *rest = [
+            self.left,
+            self.first,
+            self.speed.0.bits(),
+            self.force.0.bits(),
+        ];
     }
 
     /// Of those bits.
     #[inline(always)]
     pub(crate) fn kept(workspace: &Workspace) -> Self {
-        let [best, [left, speed, force, _], ..] = &workspace.0;
+        let [best, [left, first, speed, force], ..] = &workspace.0;
         Self {
             speed: Number(A::Scalar::from_bits(*speed)),
             force: Number(A::Scalar::from_bits(*force)),
             best: A::kept_best(best),
             left: *left,
+            first: *first,
         }
     }
 }
@@ -330,23 +351,27 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
     }
 
     /// Begins a search: for the nearest point of the grid's border where the query lies outside.
+    /// It begins with block `first`, if that is one to look at.
     #[inline]
     pub(crate) fn begin(
         &self,
         speed_mm_s: Number<A, MillimetrePerSecond>,
         force_n: Number<A, Newton>,
+        first: u8,
     ) -> Search<A> {
+        let first = u32::from(first);
         let speed = speed_mm_s.clamp_from_zero(self.max_speed_mm_s).to();
         let force = force_n.clamp_from_zero(self.max_force_n).to();
         Search {
             speed,
             force,
             best: A::WORST,
-            left: self.speed_strips.at(speed) & self.force_strips.at(force),
+            left: (self.speed_strips.at(speed) & self.force_strips.at(force)).rotate_right(first),
+            first,
         }
     }
 
-    /// Looks at up to `blocks` more blocks.
+    /// Looks at up to `blocks` more blocks, until a triangle has the query.
     #[inline]
     pub(crate) fn look(&self, search: &mut Search<A>, blocks: usize) {
         let (speed, force) = (Four::splat(search.speed), Four::splat(search.force));
@@ -355,7 +380,10 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
         let all = self.rows.0.as_flattened().as_chunks::<LANES>().0;
         let all = all.as_chunks::<6>().0;
         for _ in 0..blocks {
-            let block = search.left.trailing_zeros();
+            if search.left == 0 {
+                break;
+            }
+            let block = (search.left.trailing_zeros() + search.first) % u32::BITS;
             let Some([speed0, force0, w1s, w1f, w2s, w2f]) = all.get(block as usize) else {
                 break;
             };
@@ -367,6 +395,9 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
             let w2 = Four::<A, Weight>::sum_within([(ds, w2s), (df, w2f)], FAR);
             let smallest = (one - w1 - w2).min(w1).min(w2);
             best = A::better(best, smallest.0, INDEX, block * LANES as u32);
+            if A::is_inside(best) {
+                search.left = 0;
+            }
         }
         search.best = best;
     }
@@ -374,7 +405,7 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
     /// The mixture of the best triangle; finite and convex for every query in the grid.
     #[inline]
     pub(crate) fn choose(&self, search: &Search<A>) -> Barycentric<A> {
-        let t = A::best(search.best, INDEX) as usize;
+        let t = search.triangle();
         let flat = self.rows.0.as_flattened();
         let number =
             |k: usize| Number::<A, Slope>(flat.get(Self::index(t, k)).copied().unwrap_or_default());
@@ -403,7 +434,7 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
         speed_mm_s: Number<A, MillimetrePerSecond>,
         force_n: Number<A, Newton>,
     ) -> Barycentric<A> {
-        let mut search = self.begin(speed_mm_s, force_n);
+        let mut search = self.begin(speed_mm_s, force_n, 0);
         self.look(&mut search, self.blocks);
         Barycentric {
             outside: self.is_outside(speed_mm_s, force_n),

@@ -54,8 +54,6 @@ pub struct Filter {
 pub struct History<A: Arithmetic = Float> {
     e: Window<A>,
     y: Window<A>,
-    /// Where the newest stand, 0..=3.
-    at: u8,
 }
 
 /// Numbers in order of age, the newest at `at` of the first four.
@@ -139,27 +137,28 @@ impl<A: Arithmetic> History<A> {
     pub const SILENT: Self = Self {
         e: Window::ZERO,
         y: Window::ZERO,
-        at: 0,
     };
 
     /// The last output, m/s².
-    pub(crate) fn last(&self) -> Number<A, Acceleration> {
-        Number(self.y.0[usize::from(self.at) % LANES])
+    pub(crate) fn last(&self, newest: u8) -> Number<A, Acceleration> {
+        Number(self.y.0[usize::from(newest) % LANES])
     }
 
     /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags
     /// 1.., zero above the order. With `sounding` false the model is mute, and with `e` zero its
-    /// history fades out within 24 samples. Returns y, m/s², and whether it had to be clamped.
+    /// history fades out within 24 samples. `newest` says where the newest of the history stand; 0
+    /// to begin with. Returns y, m/s², and whether it had to be clamped.
     #[inline]
     pub fn step(
         &mut self,
+        newest: &mut u8,
         a: &Line<A>,
         b: &Line<A>,
         lags: Lags,
         e: A::Scalar<Acceleration>,
         sounding: bool,
     ) -> (A::Scalar<Acceleration>, bool) {
-        let (y, clamped) = self.advance(a, b, lags, Number(e), sounding);
+        let (y, clamped) = self.advance(newest, a, b, lags, Number(e), sounding);
         (y.0, clamped)
     }
 
@@ -167,13 +166,15 @@ impl<A: Arithmetic> History<A> {
     #[inline(always)]
     pub(crate) fn advance(
         &mut self,
+        newest: &mut u8,
         a: &Line<A>,
         b: &Line<A>,
         lags: Lags,
         e: Number<A, Acceleration>,
         sounding: bool,
     ) -> Sounded<A> {
-        let at = usize::from(self.at) % LANES;
+        let at = usize::from(*newest) % LANES;
+        *newest = before(at) as u8;
         // Constant in each arm, so that no sum is a loop.
         match lags.0 {
             0 => self.ar(1, a, b, at, e, sounding),
@@ -194,13 +195,15 @@ impl<A: Arithmetic> History<A> {
     #[inline(always)]
     pub(crate) fn advance_in_loops(
         &mut self,
+        newest: &mut u8,
         a: &Line<A>,
         b: &Line<A>,
         lags: Lags,
         e: Number<A, Acceleration>,
         sounding: bool,
     ) -> Sounded<A> {
-        let at = usize::from(self.at) % LANES;
+        let at = usize::from(*newest) % LANES;
+        *newest = before(at) as u8;
         self.arma(lags.blocks(), a, b, at, e, sounding)
     }
 
@@ -265,9 +268,14 @@ impl<A: Arithmetic> History<A> {
     /// The newest enter before `at`, in a circle: at the start, all others have moved.
     #[inline(always)]
     fn push(&mut self, at: usize, e: Number<A, Acceleration>, y: Number<A, Acceleration>) {
-        let at = (at + LANES - 1) % LANES;
-        self.at = at as u8;
+        let at = before(at);
         self.e.0[at] = e.0;
         self.y.0[at] = y.0;
     }
+}
+
+/// The place before one of the first four, in a circle.
+#[inline(always)]
+const fn before(at: usize) -> usize {
+    (at + LANES - 1) % LANES
 }

@@ -52,6 +52,10 @@ pub struct Vibration<A: Arithmetic = Float> {
     phase: u8,
     clock: Clock,
     contact: Contact,
+    /// Where the newest of the history stand, 0..=3.
+    newest: u8,
+    /// That of the triangle found last.
+    block: u8,
 }
 
 /// What of a cycle was in contact.
@@ -96,6 +100,8 @@ impl<A: Arithmetic> Vibration<A> {
             phase: 0,
             clock: Clock::START,
             contact: Contact::Begun,
+            newest: 0,
+            block: 0,
         }
     }
 
@@ -155,7 +161,7 @@ impl<A: Arithmetic> Vibration<A> {
     /// Stops what is at work. Returns its last sample, m/s².
     #[cold]
     pub(crate) fn stop(&mut self) -> Number<A, Acceleration> {
-        let last = self.history.last();
+        let last = self.history.last(self.newest);
         self.history = History::SILENT;
         (self.a, self.b) = (Line::ZERO, Line::ZERO);
         last
@@ -234,7 +240,9 @@ impl<A: Arithmetic> Vibration<A> {
             return self.sound_between(lags, interpolator, sounding);
         }
         let e = self.draw();
-        self.history.advance(&self.a, &self.b, lags, e, sounding)
+        let (a, b) = (&self.a, &self.b);
+        self.history
+            .advance(&mut self.newest, a, b, lags, e, sounding)
     }
 
     /// The next excitation, m/s².
@@ -264,7 +272,7 @@ impl<A: Arithmetic> Vibration<A> {
         speed_mm_s: Number<A, MillimetrePerSecond>,
         force_n: Number<A, Newton>,
     ) {
-        let mut search = texture.locator.begin(speed_mm_s, force_n);
+        let mut search = texture.locator.begin(speed_mm_s, force_n, self.block);
         let blocks = texture.share(0).blocks.into();
         texture.locator.look(&mut search, blocks);
         search.keep(&mut self.workspace);
@@ -285,7 +293,9 @@ impl<A: Arithmetic> Vibration<A> {
             search.keep(&mut self.workspace);
         }
         if share.mixes {
-            let found = texture.locator.choose(&Search::kept(&self.workspace));
+            let search = Search::kept(&self.workspace);
+            self.block = search.block();
+            let found = texture.locator.choose(&search);
             self.next_level_m_s2 = texture.level_m_s2(&found);
             // A new contact starts at its own model.
             let way = if self.contact == Contact::Followed {

@@ -7,7 +7,7 @@ mod limits;
 mod reciprocal;
 
 use super::{
-    Arithmetic, Point, Scalar, Zero,
+    Arithmetic, NEARLY_INSIDE, Point, Scalar, Zero,
     float::{C1, C3},
     units::{Acceleration, Coefficient, Coordinate, Gaussian, Pair, Slope, Unit, Weight},
 };
@@ -324,6 +324,11 @@ impl Arithmetic for Fixed {
         };
         let lanes = four.into_iter().zip(index..);
         lanes.fold(best, |best, (x, index)| marked(x, index).max(best))
+    }
+
+    #[inline(always)]
+    fn is_inside(best: FixedI32<Weight>) -> bool {
+        best >= <FixedI32<Weight> as Scalar>::of(NEARLY_INSIDE)
     }
 
     #[inline(always)]

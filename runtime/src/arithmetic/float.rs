@@ -1,6 +1,6 @@
 //! Floating point: `f32`, and registers of four.
 
-use super::{Arithmetic, Point, Scalar, Zero};
+use super::{Arithmetic, NEARLY_INSIDE, Point, Scalar, Zero};
 use crate::{
     Config, ConfigError, LoadError, Surface,
     lanes::{F3, F4},
@@ -285,6 +285,14 @@ impl Arithmetic for Float {
         let lanes = four.to_array().into_iter().zip(index..);
         let least = best.lanes().to_array()[0];
         Best([lanes.fold(least, |best, (x, index)| max(marked(x, index), best)); BEST])
+    }
+
+    #[inline(always)]
+    fn is_inside(best: Best) -> bool {
+        if F4::IN_REGISTERS {
+            return best.lanes().reaches(NEARLY_INSIDE);
+        }
+        best.0[0] >= NEARLY_INSIDE
     }
 
     #[inline(always)]

@@ -136,7 +136,8 @@ impl<A: Arithmetic> Vibration<A> {
         let (y, clamped) = if is_sample {
             let e = self.draw();
             let (a, b) = (&self.a, &self.b);
-            self.history.advance_in_loops(a, b, lags, e, sounding)
+            self.history
+                .advance_in_loops(&mut self.newest, a, b, lags, e, sounding)
         } else {
             (Number::ZERO, false)
         };
