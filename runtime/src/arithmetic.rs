@@ -61,10 +61,10 @@ pub trait Scalar:
     fn holds(value: f32) -> bool;
 }
 
-/// A point whose smallest weight is this, −2⁻¹⁴, or more, lies in a triangle, nearly at least: a
-/// search for a point of the border ends with it. The last bits, where a weight has an index, are
-/// set, so that no index decides.
-pub(crate) const NEARLY_INSIDE: f32 = f32::from_bits(0xb880_007f);
+/// A point whose smallest weight is this, −2⁻²³, or more, lies in a triangle: what rounding leaves
+/// of a zero. More would be felt beside slivers, whose mixtures change within a hair. The last bits,
+/// where a weight has an index, are set, so that no index decides.
+pub(crate) const NEARLY_INSIDE: f32 = f32::from_bits(0xb400_007f);
 
 /// A kind of arithmetic.
 ///
@@ -224,7 +224,7 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// four come from `index` on.
     fn better(best: Self::Best, four: Self::Four<Weight>, bits: u32, index: u32) -> Self::Best;
 
-    /// Whether the best one is that of a point in its triangle, or nearly: [`NEARLY_INSIDE`].
+    /// Whether the best one has its point: [`NEARLY_INSIDE`].
     fn is_inside(best: Self::Best) -> bool;
 
     /// The best one as bits, where it does not fill all of them beside what they are.
