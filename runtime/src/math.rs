@@ -119,6 +119,20 @@ pub(crate) fn cos_pi_four(x: F4) -> F4 {
     t * (number(core::f32::consts::PI) + u * series)
 }
 
+/// −2 cos(πx) of four numbers in [0, 1], −2 times [`cos_pi_four`] to the bit (and 0 instead of −0):
+/// powers of two in other places.
+#[inline(always)]
+#[must_use]
+pub(crate) fn minus_two_cos_pi_four(x: F4) -> F4 {
+    let t = x + x - F4::ONE;
+    let u = t * t;
+    let number = F4::splat;
+    let series = number(0.082_050_35 / 256.0) + u * number(-0.007_028_295_6 / 1024.0);
+    let series = number(-0.599_252_2 / 64.0) + u * series;
+    let series = number(-5.167_712_7 / 4.0) + u * (number(2.550_163_3 / 16.0) + u * series);
+    t * (number(core::f32::consts::PI) + u * series)
+}
+
 /// sin(πx) for x in [0, 1], absolute error below 2e-7.
 #[inline]
 #[must_use]

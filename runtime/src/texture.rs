@@ -13,7 +13,7 @@ use crate::{
     lanes::F4,
     locate::{Barycentric, Locator},
     lsf::{self, Pairs, Products, Shape},
-    math::cos_pi_four,
+    math::minus_two_cos_pi_four,
     schedule::{self, Share, Shares},
     synthesis::{Lags, Line},
     tap::TapBank,
@@ -259,7 +259,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         }
         let corner = |v: u8| grid.place(usize::from(v)).unwrap_or_default();
         self.locator.load(
-            grid.triangles(),
+            grid.stored_triangles(),
             corner,
             grid.max_speed_mm_s(),
             grid.max_force_n(),
@@ -417,15 +417,12 @@ fn to_pairs<S: Scalar>(row: &mut [S], codes: &[[u8; 2]]) {
     let order = codes.len();
     let front = codes.as_chunks::<2>().0;
     let back = codes.as_rchunks::<2>().1.iter().rev();
+    // An odd order takes the upper of two first.
+    let turn = u16::BITS * (order as u32 % 2);
     let mut places = row.as_chunks_mut::<4>().0.iter_mut();
     let whole = front.iter().zip(back).take(order / 4);
-    for ((&[a, b], &[c, d]), place) in whole.zip(places.by_ref()) {
-        let [c, d] = if order.is_multiple_of(2) {
-            [c, d]
-        } else {
-            [d, c]
-        };
-        *place = pairs([a, b, c, d]);
+    for ((&front, &back), place) in whole.zip(places.by_ref()) {
+        *place = pairs(two(front), two(back).rotate_left(turn));
     }
     if !order.is_multiple_of(4)
         && let Some(place) = places.next()
@@ -436,7 +433,8 @@ fn to_pairs<S: Scalar>(row: &mut [S], codes: &[[u8; 2]]) {
             .iter_mut()
             .zip(left)
             .for_each(|(to, code)| *to = *code);
-        *place = pairs(middle);
+        let [a, b, c, d] = middle;
+        *place = pairs(two([a, b]), two([c, d]));
     }
     for place in places {
         *place = [S::ZERO; 4];
@@ -446,13 +444,22 @@ fn to_pairs<S: Scalar>(row: &mut [S], codes: &[[u8; 2]]) {
 /// A code whose cosine is 0.
 const RIGHT_ANGLE: [u8; 2] = 0x8000_u16.to_le_bytes();
 
+/// Two codes, the first in the lower half.
+fn two([[a, b], [c, d]]: [[u8; 2]; 2]) -> u32 {
+    u32::from_le_bytes([a, b, c, d])
+}
+
 #[inline(always)]
-fn pairs<S: Scalar>(codes: [[u8; 2]; 4]) -> [S; 4] {
-    let angle = |code| LsfCode::from_bits(u16::from_le_bytes(code)).half_turns();
-    let four = F4::load(&codes.map(angle));
-    // Adding nothing takes its sign from a zero.
-    let cosines = F4::splat(-2.0) * cos_pi_four(four) + F4::ZERO;
-    cosines.to_array().map(S::of)
+fn pairs<S: Scalar>(front: u32, back: u32) -> [S; 4] {
+    let angle = |code| LsfCode::from_bits(code).half_turns();
+    let four = [
+        front as u16,
+        (front >> 16) as u16,
+        back as u16,
+        (back >> 16) as u16,
+    ]
+    .map(angle);
+    minus_two_cos_pi_four(F4::load(&four)).to_array().map(S::of)
 }
 
 /// Which code [`to_pairs`] puts at a place.
