@@ -13,7 +13,7 @@ use crate::{
     lanes::F4,
     locate::{Barycentric, Locator},
     lsf::{self, Pairs, Products, Shape},
-    math::minus_two_cos_pi_four,
+    math::minus_two_cos_pi,
     schedule::{self, Share, Shares},
     synthesis::{Lags, Line},
     tap::TapBank,
@@ -411,6 +411,9 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     }
 }
 
+/// Fours of cosines that are taken side by side: none waits for another.
+const SIDE_BY_SIDE: usize = if F4::IN_REGISTERS { 3 } else { 1 };
+
 /// −2 cos ω of a model, in [`lsf::stage`] order; the rest is 0. Four places take two codes from
 /// either end; those that are left in the middle come last.
 fn to_pairs<S: Scalar>(row: &mut [S], codes: &[[u8; 2]]) {
@@ -419,25 +422,29 @@ fn to_pairs<S: Scalar>(row: &mut [S], codes: &[[u8; 2]]) {
     let back = codes.as_rchunks::<2>().1.iter().rev();
     // An odd order takes the upper of two first.
     let turn = u16::BITS * (order as u32 % 2);
-    let mut places = row.as_chunks_mut::<4>().0.iter_mut();
+    // The cosine of half of a half turn is 0.
+    let mut angles = [F4::HALF; MAX_ORDER / 4];
+    let mut places = angles.iter_mut();
     let whole = front.iter().zip(back).take(order / 4);
     for ((&front, &back), place) in whole.zip(places.by_ref()) {
-        *place = pairs(two(front), two(back).rotate_left(turn));
+        *place = half_turns(two(front), two(back).rotate_left(turn));
     }
-    if !order.is_multiple_of(4)
-        && let Some(place) = places.next()
-    {
-        let mut middle = [RIGHT_ANGLE; 4];
-        let left = codes.iter().skip(order / 4 * 2).take(order % 4);
-        middle
-            .iter_mut()
-            .zip(left)
-            .for_each(|(to, code)| *to = *code);
-        let [a, b, c, d] = middle;
-        *place = pairs(two([a, b]), two([c, d]));
+    let left = codes.get(order / 4 * 2..).unwrap_or_default();
+    let left = match *left.get(..order % 4).unwrap_or_default() {
+        [a] => Some([[a, RIGHT_ANGLE], [RIGHT_ANGLE; 2]]),
+        [a, b] => Some([[a, b], [RIGHT_ANGLE; 2]]),
+        [a, b, c] => Some([[a, b], [c, RIGHT_ANGLE]]),
+        _ => None,
+    };
+    if let (Some([front, back]), Some(place)) = (left, places.next()) {
+        *place = half_turns(two(front), two(back));
     }
-    for place in places {
-        *place = [S::ZERO; 4];
+    let angles = angles.as_chunks::<SIDE_BY_SIDE>().0;
+    for (places, &angles) in row.chunks_mut(4 * SIDE_BY_SIDE).zip(angles) {
+        let pairs = minus_two_cos_pi(angles);
+        for (place, pairs) in places.as_chunks_mut().0.iter_mut().zip(pairs) {
+            *place = pairs.to_array().map(S::of);
+        }
     }
 }
 
@@ -449,17 +456,11 @@ fn two([[a, b], [c, d]]: [[u8; 2]; 2]) -> u32 {
     u32::from_le_bytes([a, b, c, d])
 }
 
+/// ω / π of four codes.
 #[inline(always)]
-fn pairs<S: Scalar>(front: u32, back: u32) -> [S; 4] {
-    let angle = |code| LsfCode::from_bits(code).half_turns();
-    let four = [
-        front as u16,
-        (front >> 16) as u16,
-        back as u16,
-        (back >> 16) as u16,
-    ]
-    .map(angle);
-    minus_two_cos_pi_four(F4::load(&four)).to_array().map(S::of)
+fn half_turns(front: u32, back: u32) -> F4 {
+    let half_turns = |code: u32| LsfCode::from_bits(code as u16).half_turns();
+    F4::load(&[front, front >> 16, back, back >> 16].map(half_turns))
 }
 
 /// Which code [`to_pairs`] puts at a place.
