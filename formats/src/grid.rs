@@ -60,12 +60,14 @@ impl<'a> Model<'a> {
     }
 
     /// [`Model::lsf`] as stored, little-endian, for those who take several at once.
+    #[inline]
     #[must_use]
     pub fn stored_lsf(&self) -> &'a [[u8; 2]] {
         stored(self.lsf)
     }
 
     /// [`Model::ma_lsf`] as stored.
+    #[inline]
     #[must_use]
     pub fn stored_ma_lsf(&self) -> &'a [[u8; 2]] {
         stored(self.ma_lsf)
@@ -78,6 +80,7 @@ impl<'a> Model<'a> {
 }
 
 /// Codes as they are stored.
+#[inline]
 fn stored(bytes: &[u8]) -> &[[u8; 2]] {
     bytes.as_chunks().0
 }
@@ -161,6 +164,7 @@ impl<'a> Grid<'a> {
         Ok(grid)
     }
 
+    #[inline]
     const fn model_len(&self) -> usize {
         let gain = if matches!(self.numerator, Numerator::Lsf) {
             2
@@ -353,6 +357,7 @@ impl<'a> Grid<'a> {
     }
 
     /// One model of the table, without a look at the others.
+    #[inline]
     #[must_use]
     pub fn model(&self, index: usize) -> Option<Model<'a>> {
         record(self.models, index, self.model_len()).map(|record| self.model_of(record))
@@ -381,6 +386,7 @@ impl<'a> Grid<'a> {
     }
 
     /// The vertices, in stored order.
+    #[inline]
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = Vertex> + use<'a> {
         self.vertices.iter().map(vertex)
     }
