@@ -10,6 +10,8 @@
 //! Outside the measured range the query is moved to the nearest point of the border
 //! (edge model): constant extrapolation, continuous with the inside.
 
+mod order;
+
 use crate::{
     arithmetic::{
         Arithmetic, Float, Four, Number, Scalar as _, Zero as _,
@@ -242,24 +244,13 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
             let [a, b, c] = points(triangle);
             let speed = Number::of((a.0 + b.0 + c.0) * (1.0 / 3.0));
             let force = Number::of((a.1 + b.1 + c.1) * (1.0 / 3.0));
-            *place = interleaved(
+            *place = order::interleaved(
                 self.speed_strips.strip(speed),
                 self.force_strips.strip(force),
             );
         }
-        // By one half of their places, then by the other: no comparison, so none is foreseen wrong.
-        let count = triangles.len().min(T);
-        let places = places.get(..count).unwrap_or_default();
-        let mut order = [0; T];
-        let lower = places.iter().map(|&place| usize::from(place));
-        sort_by_digit(lower.zip(0..), &mut order);
-        let order = order.get(..count).unwrap_or_default();
-        let upper = order.iter().filter_map(|&t: &u8| {
-            let t = usize::from(t);
-            Some((usize::from(*places.get(t)?) / STRIPS, *triangles.get(t)?))
-        });
-        sort_by_digit(upper, &mut self.corners);
-        count
+        order::sort(triangles, &places, &mut self.corners);
+        triangles.len().min(T)
     }
 
     /// How many of `all` blocks a query looks at: the most that two strips share. Where they
@@ -420,25 +411,6 @@ fn distinct(numbers: &[u32; STRIPS]) -> ([u32; STRIPS], usize) {
     (found, count.min(STRIPS))
 }
 
-/// Items in ascending order of a digit below [`STRIPS`]; those of one digit keep theirs.
-fn sort_by_digit<I>(items: impl Iterator<Item = (usize, I)> + Clone, sorted: &mut [I]) {
-    let mut places = [0_u8; STRIPS];
-    for (digit, _) in items.clone() {
-        places[digit % STRIPS] += 1;
-    }
-    let mut before = 0;
-    for place in &mut places {
-        (*place, before) = (before, before + *place);
-    }
-    for (digit, item) in items {
-        let place = &mut places[digit % STRIPS];
-        if let Some(sorted) = sorted.get_mut(usize::from(*place)) {
-            *sorted = item;
-        }
-        *place += 1;
-    }
-}
-
 /// The numbers of a triangle with these corners, in a grid that reaches so far. A triangle with
 /// no area, or too thin to weigh, has none and is never chosen: its points belong to its neighbours.
 fn row<A: Arithmetic>(
@@ -462,21 +434,6 @@ fn least(x: [f32; 3]) -> f32 {
 
 fn most(x: [f32; 3]) -> f32 {
     max(max(x[0], x[1]), x[2])
-}
-
-/// The bits of two numbers below [`STRIPS`] in turn.
-fn interleaved(x: usize, y: usize) -> u16 {
-    /// The bits of a number, each with a zero before it.
-    const SPREAD: [u16; STRIPS] = {
-        let mut spread = [0; STRIPS];
-        let mut x = 1;
-        while x < STRIPS {
-            spread[x] = spread[x / 2] << 2 | x as u16 % 2;
-            x += 1;
-        }
-        spread
-    };
-    SPREAD[x % STRIPS] | SPREAD[y % STRIPS] << 1
 }
 
 #[cfg(test)]

@@ -1,5 +1,8 @@
 //! The slot: one texture, decoded and prepared for the tick.
 
+mod codes;
+
+use self::codes::to_pairs;
 use crate::{
     Filter,
     arithmetic::{
@@ -10,16 +13,14 @@ use crate::{
         },
     },
     interpolate::{Interpolator, ticks_per_sample},
-    lanes::F4,
     locate::{Barycentric, Locator},
-    lsf::{self, Pairs, Products, Shape},
-    math::minus_two_cos_pi,
+    lsf::{Pairs, Products, Shape},
     schedule::{self, Share, Shares},
     synthesis::{Lags, Line},
     tap::TapBank,
     vibration::between::shares_of_cycle,
 };
-use asperity_formats::{Asset, FormatError, LsfCode, Numerator, Surface, limits::MAX_ORDER};
+use asperity_formats::{Asset, FormatError, Numerator, Surface};
 use thiserror::Error;
 
 /// A texture slot in caller-provided memory.
@@ -47,7 +48,7 @@ pub struct Texture<
     servo_rate_hz: f32,
     /// b_1 of a numerator that every model shares.
     b1: Number<A, Coefficient>,
-    /// −2 cos ω of A(z)'s LSFs in [`lsf::stage`] order, one row a vertex.
+    /// −2 cos ω of A(z)'s LSFs in [`crate::lsf::stage`] order, one row a vertex.
     ar_pairs: Rows<P, V, A>,
     /// −2 cos ω of B(z)'s LSFs.
     ma_pairs: Rows<Q, V, A>,
@@ -148,7 +149,7 @@ pub enum LoadError {
 /// No −2 cos ω is larger.
 const WIDEST: f32 = 2.0;
 
-/// −2 cos ω in [`lsf::stage`] order, one row a vertex.
+/// −2 cos ω in [`crate::lsf::stage`] order, one row a vertex.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
 struct Rows<const N: usize, const V: usize, A: Arithmetic>([[A::Scalar<Pair>; N]; V]);
@@ -410,81 +411,6 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         level(0) + level(1) + level(2)
     }
 }
-
-/// Fours of cosines that are taken side by side: none waits for another.
-const SIDE_BY_SIDE: usize = if F4::IN_REGISTERS { 3 } else { 1 };
-
-/// −2 cos ω of a model, in [`lsf::stage`] order; the rest is 0. Four places take two codes from
-/// either end; those that are left in the middle come last.
-fn to_pairs<S: Scalar>(row: &mut [S], codes: &[[u8; 2]]) {
-    let order = codes.len();
-    let front = codes.as_chunks::<2>().0;
-    let back = codes.as_rchunks::<2>().1.iter().rev();
-    // An odd order takes the upper of two first.
-    let turn = u16::BITS * (order as u32 % 2);
-    // The cosine of half of a half turn is 0.
-    let mut angles = [F4::HALF; MAX_ORDER / 4];
-    let mut places = angles.iter_mut();
-    let whole = front.iter().zip(back).take(order / 4);
-    for ((&front, &back), place) in whole.zip(places.by_ref()) {
-        *place = half_turns(two(front), two(back).rotate_left(turn));
-    }
-    let left = codes.get(order / 4 * 2..).unwrap_or_default();
-    let left = match *left.get(..order % 4).unwrap_or_default() {
-        [a] => Some([[a, RIGHT_ANGLE], [RIGHT_ANGLE; 2]]),
-        [a, b] => Some([[a, b], [RIGHT_ANGLE; 2]]),
-        [a, b, c] => Some([[a, b], [c, RIGHT_ANGLE]]),
-        _ => None,
-    };
-    if let (Some([front, back]), Some(place)) = (left, places.next()) {
-        *place = half_turns(two(front), two(back));
-    }
-    let angles = angles.as_chunks::<SIDE_BY_SIDE>().0;
-    for (places, &angles) in row.chunks_mut(4 * SIDE_BY_SIDE).zip(angles) {
-        let pairs = minus_two_cos_pi(angles);
-        for (place, pairs) in places.as_chunks_mut().0.iter_mut().zip(pairs) {
-            *place = pairs.to_array().map(S::of);
-        }
-    }
-}
-
-/// A code whose cosine is 0.
-const RIGHT_ANGLE: [u8; 2] = 0x8000_u16.to_le_bytes();
-
-/// Two codes, the first in the lower half.
-fn two([[a, b], [c, d]]: [[u8; 2]; 2]) -> u32 {
-    u32::from_le_bytes([a, b, c, d])
-}
-
-/// ω / π of four codes.
-#[inline(always)]
-fn half_turns(front: u32, back: u32) -> F4 {
-    let half_turns = |code: u32| LsfCode::from_bits(code as u16).half_turns();
-    F4::load(&[front, front >> 16, back, back >> 16].map(half_turns))
-}
-
-/// Which code [`to_pairs`] puts at a place.
-const fn source(place: usize, order: usize) -> usize {
-    let (four, lane) = (place / 4, place % 4);
-    if lane < 2 || four == order / 4 {
-        2 * four + lane
-    } else {
-        order - 2 - 2 * four + (lane + order) % 2
-    }
-}
-
-// That order is the one in which conversion multiplies.
-const _: () = {
-    let mut order = 1;
-    while order <= MAX_ORDER {
-        let mut place = 0;
-        while place < order {
-            assert!(lsf::stage(source(place, order), order) == place);
-            place += 1;
-        }
-        order += 1;
-    }
-};
 
 #[cfg(test)]
 mod tests {
