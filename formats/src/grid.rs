@@ -4,7 +4,7 @@ use crate::{
     FormatError, LsfCode,
     error::in_range,
     limits,
-    wire::{Reader, array_at, f16_at, f32_at},
+    wire::{Reader, f16_at, f32_at},
 };
 
 pub(crate) const VERTEX_LEN: usize = 12;
@@ -60,12 +60,14 @@ impl<'a> Model<'a> {
     }
 
     /// [`Model::lsf`] as stored, little-endian, for those who take several at once.
+    #[inline]
     #[must_use]
     pub fn stored_lsf(&self) -> &'a [[u8; 2]] {
         stored(self.lsf)
     }
 
     /// [`Model::ma_lsf`] as stored.
+    #[inline]
     #[must_use]
     pub fn stored_ma_lsf(&self) -> &'a [[u8; 2]] {
         stored(self.ma_lsf)
@@ -78,6 +80,7 @@ impl<'a> Model<'a> {
 }
 
 /// Codes as they are stored.
+#[inline]
 fn stored(bytes: &[u8]) -> &[[u8; 2]] {
     bytes.as_chunks().0
 }
@@ -98,8 +101,8 @@ pub struct Grid<'a> {
     max_speed_mm_s: f32,
     max_force_n: f32,
     models: &'a [u8],
-    vertices: &'a [u8],
-    triangles: &'a [u8],
+    vertices: &'a [[u8; VERTEX_LEN]],
+    triangles: &'a [[u8; 3]],
 }
 
 impl<'a> Grid<'a> {
@@ -150,8 +153,10 @@ impl<'a> Grid<'a> {
             triangles: &[],
         };
         grid.models = reader.bytes("grid.models", models * grid.model_len())?;
-        grid.vertices = reader.bytes("grid.vertices", vertices * VERTEX_LEN)?;
-        grid.triangles = reader.bytes("grid.triangles", triangles * 3)?;
+        let records = reader.bytes("grid.vertices", vertices * VERTEX_LEN)?;
+        grid.vertices = records.as_chunks().0;
+        let records = reader.bytes("grid.triangles", triangles * 3)?;
+        grid.triangles = records.as_chunks().0;
         reader.finish("grid")?;
         grid.check_models()?;
         grid.check_vertices()?;
@@ -159,6 +164,7 @@ impl<'a> Grid<'a> {
         Ok(grid)
     }
 
+    #[inline]
     const fn model_len(&self) -> usize {
         let gain = if matches!(self.numerator, Numerator::Lsf) {
             2
@@ -204,7 +210,7 @@ impl<'a> Grid<'a> {
 
     fn check_vertices(&mut self) -> Result<(), FormatError> {
         let models = self.models().len();
-        for (index, record) in self.vertices.chunks_exact(VERTEX_LEN).enumerate() {
+        for (index, record) in self.vertices.iter().enumerate() {
             let speed = in_range(
                 "grid.vertex.speed_mm_s",
                 index,
@@ -265,9 +271,9 @@ impl<'a> Grid<'a> {
     /// triangles do not overlap is the compiler's business: a query of an
     /// overlapping grid is still a convex mixture, hence stable.
     fn check_triangles(&self) -> Result<(), FormatError> {
-        let count = self.vertices().len();
+        let count = self.vertices.len();
         let mut area = 0.0;
-        for (index, triangle) in self.triangles().enumerate() {
+        for (index, &triangle) in self.triangles.iter().enumerate() {
             let [a, b, c] = triangle;
             if let Some(out) = triangle.iter().find(|&&v| usize::from(v) >= count) {
                 return Err(FormatError::invalid(
@@ -351,6 +357,7 @@ impl<'a> Grid<'a> {
     }
 
     /// One model of the table, without a look at the others.
+    #[inline]
     #[must_use]
     pub fn model(&self, index: usize) -> Option<Model<'a>> {
         record(self.models, index, self.model_len()).map(|record| self.model_of(record))
@@ -374,20 +381,25 @@ impl<'a> Grid<'a> {
     #[inline]
     #[must_use]
     pub fn place(&self, vertex: usize) -> Option<(f32, f32)> {
-        let record = record(self.vertices, vertex, VERTEX_LEN)?;
+        let record = self.vertices.get(vertex)?;
         Some((f32_at(record, 0), f32_at(record, 4)))
     }
 
     /// The vertices, in stored order.
+    #[inline]
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = Vertex> + use<'a> {
-        self.vertices.chunks_exact(VERTEX_LEN).map(vertex)
+        self.vertices.iter().map(vertex)
     }
 
     /// The triangles, three vertex indices each, any orientation.
     pub fn triangles(&self) -> impl ExactSizeIterator<Item = [u8; 3]> + use<'a> {
+        self.triangles.iter().copied()
+    }
+
+    /// [`Grid::triangles`] as stored, for those who take them in another order.
+    #[must_use]
+    pub const fn stored_triangles(&self) -> &'a [[u8; 3]] {
         self.triangles
-            .chunks_exact(3)
-            .map(|record| array_at(record, 0))
     }
 }
 
@@ -415,8 +427,9 @@ fn record(table: &[u8], index: usize, len: usize) -> Option<&[u8]> {
     table.get(start..start.checked_add(len)?)
 }
 
-fn vertex(record: &[u8]) -> Vertex {
-    let [model, kind] = array_at(record, 10);
+#[inline]
+fn vertex(record: &[u8; VERTEX_LEN]) -> Vertex {
+    let [.., model, kind] = *record;
     Vertex {
         speed_mm_s: f32_at(record, 0),
         force_n: f32_at(record, 4),

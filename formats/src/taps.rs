@@ -185,8 +185,9 @@ fn any_below_scale(codes: &[u8]) -> bool {
     marks & SIGNS != 0
 }
 
-/// Samples of a trace that [`side_by_side`] reads at once.
-pub const BLOCK: usize = 12;
+/// Samples of a trace that [`side_by_side`] reads at once: two ticks of 10 kHz at 1 kHz, and one
+/// before and behind, since it begins at an even one.
+pub const BLOCK: usize = 22;
 
 /// Packed codes of a block, and the byte before them: a pair is read as a word with it in front.
 type Packed = [u8; 1 + packed_len(BLOCK)];

@@ -11,6 +11,8 @@
 //! Outside the measured range the query is moved to the nearest point of the border
 //! (edge model): constant extrapolation, continuous with the inside.
 
+mod order;
+
 use crate::{
     arithmetic::{
         Arithmetic, Float, Four, Number, Scalar as _, Zero as _,
@@ -23,6 +25,8 @@ use asperity_formats::limits::MAX_TRIANGLES;
 
 /// Triangles evaluated side by side.
 const LANES: usize = 4;
+/// Numbers of a block.
+const BLOCK: usize = 6 * LANES;
 /// Strips of an axis.
 const STRIPS: usize = 32;
 /// A block meets strips this much beyond it, in strips: far more than rounding, and than what
@@ -99,12 +103,12 @@ impl<A: Arithmetic> Strips<A> {
     /// a strip does after it, and has a bit a strip.
     fn meets(&mut self, block: usize, low: f32, high: f32) {
         let [low, high] = [low, high].map(|x| x * self.per_unit.value());
-        // The first strip at or above, and the last one at or below; the cast rounds down.
-        let first = max(low - (0.5 + MARGIN), 0.0);
-        let first = first as usize + usize::from(first > first as usize as f32);
-        let last = max(high + (0.5 + MARGIN), 0.0) as usize;
-        let from = u32::MAX << first.min(STRIPS - 1);
-        let to = u32::MAX >> (STRIPS - 1 - last.min(STRIPS - 1));
+        // The first strip at or above, and the last one at or below; a cast to a byte rounds down
+        // to 0 and up, and costs less than one to a word.
+        let [first, last] =
+            [low - (0.5 + MARGIN), high + (0.5 + MARGIN)].map(|x| min(x, (STRIPS - 1) as f32));
+        let from = u32::MAX << (first as u8 + u8::from(first > f32::from(first as u8)));
+        let to = u32::MAX >> (STRIPS as u8 - 1 - last as u8);
         if let Some(strips) = self.blocks.get_mut(block) {
             *strips |= from & to;
         }
@@ -138,21 +142,23 @@ impl<A: Arithmetic> Strips<A> {
 struct Rows<const T: usize, A: Arithmetic>([[A::Scalar<Coordinate>; 6]; T]);
 
 impl<const T: usize, A: Arithmetic> Rows<T, A> {
-    /// No triangle: its weights are far below zero for every query.
-    const NEVER: Self = {
+    /// A block of no triangles: weights far below zero for every query, of a corner far off and
+    /// a steep slope.
+    const NEVER: [A::Scalar<Coordinate>; BLOCK] = {
+        let mut rows = [A::Scalar::ZERO; BLOCK];
+        let mut lane = 0;
+        while lane < LANES {
+            rows[lane] = A::FAR_OFF;
+            rows[2 * LANES + lane] = A::STEEP;
+            lane += 1;
+        }
+        rows
+    };
+    const EMPTY: Self = {
         let mut flat = [[A::Scalar::ZERO; 6]; T];
         let mut at = 0;
-        while at < T {
-            let mut lane = 0;
-            while lane < 6 {
-                // Row after row of a block of four: a corner far off, and a steep weight.
-                match (at % LANES * 6 + lane) / LANES {
-                    0 => flat[at][lane] = A::FAR_OFF,
-                    2 => flat[at][lane] = A::STEEP,
-                    _ => {}
-                }
-                lane += 1;
-            }
+        while at < 6 * T {
+            flat[at / 6][at % 6] = Self::NEVER[at % BLOCK];
             at += 1;
         }
         Self(flat)
@@ -224,31 +230,41 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
         force_strips: Strips::EMPTY,
         blocks: 0,
         corners: [[0; 3]; T],
-        rows: Rows::NEVER,
+        rows: Rows::EMPTY,
     };
 
     /// Prepares triangles; `corner` gives (speed, force) of a vertex.
     pub(crate) fn load(
         &mut self,
-        triangles: impl ExactSizeIterator<Item = [u8; 3]>,
+        triangles: &[[u8; 3]],
         corner: impl Fn(u8) -> (f32, f32),
         max_speed_mm_s: f32,
         max_force_n: f32,
     ) {
-        *self = Self::EMPTY;
         self.max_speed_mm_s = Number::of(max_speed_mm_s);
         self.max_force_n = Number::of(max_force_n);
         self.speed_strips = Strips::new(max_speed_mm_s);
         self.force_strips = Strips::new(max_force_n);
-        let count = self.sort(triangles, &corner);
-        for t in 0..count {
-            let points = self.corners[t].map(&corner);
-            self.prepare(t, points);
-            let [speeds, forces] = [points.map(|(speed, _)| speed), points.map(|(_, f)| f)];
-            self.speed_strips
-                .meets(t / LANES, least(speeds), most(speeds));
-            self.force_strips
-                .meets(t / LANES, least(forces), most(forces));
+        self.corners = [[0; 3]; T];
+        let extent = [self.max_speed_mm_s.value(), self.max_force_n.value()];
+        let points = |[a, b, c]: [u8; 3]| [corner(a), corner(b), corner(c)];
+        let count = self.sort(triangles, points);
+        let corners = self.corners.get(..count).unwrap_or_default();
+        let rows = self.rows.0.as_flattened_mut().as_chunks_mut::<BLOCK>().0;
+        // What is left of earlier triangles is not in any strip.
+        for (block, (corners, rows)) in corners.chunks(LANES).zip(rows).enumerate() {
+            *rows = Rows::<T, A>::NEVER;
+            for (lane, &corners) in corners.iter().enumerate() {
+                let points = points(corners);
+                if let Some(row) = row::<A>(points, extent) {
+                    for (numbers, x) in rows.as_chunks_mut::<LANES>().0.iter_mut().zip(row) {
+                        numbers[lane % LANES] = x;
+                    }
+                }
+                let [speeds, forces] = [points.map(|(s, _)| s), points.map(|(_, f)| f)];
+                self.speed_strips.meets(block, least(speeds), most(speeds));
+                self.force_strips.meets(block, least(forces), most(forces));
+            }
         }
         self.speed_strips.turn();
         self.force_strips.turn();
@@ -259,53 +275,21 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
     /// a Z curve through their centres. Returns how many.
     fn sort(
         &mut self,
-        triangles: impl Iterator<Item = [u8; 3]>,
-        corner: &impl Fn(u8) -> (f32, f32),
+        triangles: &[[u8; 3]],
+        points: impl Fn([u8; 3]) -> [(f32, f32); 3],
     ) -> usize {
-        let (mut places, mut count) = ([0; T], 0);
-        for triangle in triangles.take(T) {
-            let points = triangle.map(corner);
-            let centre = |number: fn((f32, f32)) -> f32| {
-                let [a, b, c] = points.map(number);
-                (a + b + c) * (1.0 / 3.0)
-            };
-            let [speed, force] = [centre(|(speed, _)| speed), centre(|(_, force)| force)];
-            let place = interleaved(
-                self.speed_strips.strip(Number::of(speed)),
-                self.force_strips.strip(Number::of(force)),
+        let mut places = [0; T];
+        for (place, &triangle) in places.iter_mut().zip(triangles) {
+            let [a, b, c] = points(triangle);
+            let speed = Number::of((a.0 + b.0 + c.0) * (1.0 / 3.0));
+            let force = Number::of((a.1 + b.1 + c.1) * (1.0 / 3.0));
+            *place = order::interleaved(
+                self.speed_strips.strip(speed),
+                self.force_strips.strip(force),
             );
-            let mut t = count;
-            while t > 0 && places[t - 1] > place {
-                (places[t], self.corners[t]) = (places[t - 1], self.corners[t - 1]);
-                t -= 1;
-            }
-            (places[t], self.corners[t]) = (place, triangle);
-            count += 1;
         }
-        count
-    }
-
-    /// Rows of triangle `t` with these corners.
-    fn prepare(&mut self, t: usize, points: [(f32, f32); 3]) {
-        let [(x0, y0), (x1, y1), (x2, y2)] = points.map(|(x, y)| (f64::from(x), f64::from(y)));
-        let per_twice_area = 1.0 / ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0));
-        let inverse = [y2 - y0, x0 - x2, y0 - y1, x1 - x0].map(|side| side * per_twice_area);
-        let speed = f64::from(self.max_speed_mm_s.value());
-        let force = f64::from(self.max_force_n.value());
-        let reach = (inverse[0].abs() + inverse[2].abs()) * speed
-            + (inverse[1].abs() + inverse[3].abs()) * force;
-        let held = inverse.iter().all(|&x| A::Scalar::<Slope>::holds(x as f32));
-        // A triangle with no area, or too thin to weigh, is left out
-        // and never chosen: its points belong to its neighbours.
-        if reach < MAX_REACH && held {
-            let row = [x0, y0, inverse[0], inverse[1], inverse[2], inverse[3]];
-            let flat = self.rows.0.as_flattened_mut();
-            for (k, x) in row.into_iter().enumerate() {
-                if let Some(place) = flat.get_mut(Self::index(t, k)) {
-                    *place = A::Scalar::of(x as f32);
-                }
-            }
-        }
+        order::sort(triangles, &places, &mut self.corners);
+        triangles.len().min(T)
     }
 
     /// How many of `all` blocks a query looks at: the most that two strips share. Where they
@@ -455,19 +439,29 @@ fn distinct(numbers: &[u32; STRIPS]) -> ([u32; STRIPS], usize) {
     (found, count.min(STRIPS))
 }
 
+/// The numbers of a triangle with these corners, in a grid that reaches so far. A triangle with
+/// no area, or too thin to weigh, has none and is never chosen: its points belong to its neighbours.
+fn row<A: Arithmetic>(
+    points: [(f32, f32); 3],
+    extent: [f32; 2],
+) -> Option<[A::Scalar<Coordinate>; 6]> {
+    let [(x0, y0), (x1, y1), (x2, y2)] = points.map(|(x, y)| (f64::from(x), f64::from(y)));
+    let per_twice_area = 1.0 / ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0));
+    let inverse = [y2 - y0, x0 - x2, y0 - y1, x1 - x0].map(|side| side * per_twice_area);
+    let [speed, force] = extent.map(f64::from);
+    let reach = (inverse[0].abs() + inverse[2].abs()) * speed
+        + (inverse[1].abs() + inverse[3].abs()) * force;
+    let held = inverse.iter().all(|&x| A::Scalar::<Slope>::holds(x as f32));
+    let row = [x0, y0, inverse[0], inverse[1], inverse[2], inverse[3]];
+    (reach < MAX_REACH && held).then(|| row.map(|x| A::Scalar::of(x as f32)))
+}
+
 fn least(x: [f32; 3]) -> f32 {
     min(min(x[0], x[1]), x[2])
 }
 
 fn most(x: [f32; 3]) -> f32 {
     max(max(x[0], x[1]), x[2])
-}
-
-/// The bits of two numbers below [`STRIPS`] in turn.
-fn interleaved(x: usize, y: usize) -> usize {
-    (0..5).fold(0, |z, bit| {
-        z | (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1)
-    })
 }
 
 #[cfg(test)]

@@ -119,6 +119,32 @@ pub(crate) fn cos_pi_four(x: F4) -> F4 {
     t * (number(core::f32::consts::PI) + u * series)
 }
 
+/// −2 cos(πx) for x in [0, 1], −2 times [`cos_pi_four`] to the bit but for the sign of 0: powers
+/// of two stand elsewhere.
+#[inline(always)]
+#[must_use]
+pub(crate) fn minus_two_cos_pi<const N: usize>(x: [F4; N]) -> [F4; N] {
+    let number = F4::splat;
+    let t = x.map(|x| x + x - F4::ONE);
+    let u = t.map(|t| t * t);
+    let mut series = [number(-0.007_028_295_6 / 1024.0); N];
+    for c in [
+        0.082_050_35 / 256.0,
+        -0.599_252_2 / 64.0,
+        2.550_163_3 / 16.0,
+        -5.167_712_7 / 4.0,
+        core::f32::consts::PI,
+    ] {
+        for (series, &u) in series.iter_mut().zip(&u) {
+            *series = number(c) + u * *series;
+        }
+    }
+    for (series, t) in series.iter_mut().zip(t) {
+        *series = t * *series;
+    }
+    series
+}
+
 /// sin(πx) for x in [0, 1], absolute error below 2e-7.
 #[inline]
 #[must_use]

@@ -40,6 +40,9 @@ pub(crate) const TAIL_TICKS: usize = 16;
 /// Source samples that are taken in at once: a tick of 10 kHz at 1 kHz.
 const CHUNK: usize = 10;
 
+/// Ticks of the filter's response that are at hand at once: 100 samples at 10 kHz become 26 at 1 kHz.
+const RESPONSES: usize = 32;
+
 /// A sample this close to a tick belongs to it, s.
 const ROUNDING_S: f64 = 1e-9;
 
@@ -101,10 +104,11 @@ pub(crate) struct Resampler<L, const N: usize> {
     rates: Rates,
     samples: usize,
     stop_rad_s: f32,
-    /// What is left of a state after 0.. source samples.
+    /// What is left of a state after [`CHUNK`] source samples, after one less, …, after none.
     powers: [Poles<L, N>; CHUNK + 1],
     /// What is left of it after a tick.
     tick: Complex4,
+    residues: Poles<L, N>,
 }
 
 impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
@@ -120,8 +124,9 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
             rates,
             samples,
             stop_rad_s,
-            powers: array::from_fn(|k| Poles::new(after(k as f64 / rates.source_hz))),
+            powers: array::from_fn(|k| Poles::new(after((CHUNK - k) as f64 / rates.source_hz))),
             tick: after(1.0 / rates.servo_hz),
+            residues: Poles::new(RESIDUES),
         }
     }
 
@@ -159,10 +164,15 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
         };
         let shares = missing.map(share);
         let mut responses = responses(self.tick);
-        for first in (0..ticks).step_by(BLOCK) {
-            let block: [f32; BLOCK] = array::from_fn(|_| responses.next().unwrap_or_default());
+        for first in (0..ticks).step_by(RESPONSES) {
+            let mut block = [0.0; RESPONSES];
+            block
+                .iter_mut()
+                .zip(responses.by_ref())
+                .for_each(|(to, h)| *to = h);
             for (trace, share) in out.chunks_mut(ticks).zip(shares) {
-                for (out, h) in trace.iter_mut().skip(first).zip(block) {
+                let trace = trace.get_mut(first..).unwrap_or_default();
+                for (out, h) in trace.iter_mut().zip(&block) {
                     *out = S::of(out.value() + share * h);
                 }
             }
@@ -200,13 +210,15 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
                         block = read(first);
                     }
                     let samples = block.get(taken - first..).unwrap_or_default();
-                    let left = self.powers.get(..count).unwrap_or_default();
-                    let mut entering = Poles::zero();
-                    for (sample, left) in samples.iter().zip(left.iter().rev()) {
-                        entering.add(L::load(sample), left);
-                        add(&mut sums, sample);
+                    let powers = self.powers.get(CHUNK - count..).unwrap_or_default();
+                    if let Some((before, left)) = powers.split_first() {
+                        let mut entering = Poles::zero();
+                        for (sample, left) in samples.iter().zip(left) {
+                            entering.add(L::load(sample), left);
+                            add(&mut sums, sample);
+                        }
+                        states = states.times(before).plus(&entering);
                     }
-                    states = states.times(&self.powers[count]).plus(&entering);
                     taken += count;
                 }
                 let age_s = now_s - (taken - 1) as f64 * source_s;
@@ -218,7 +230,7 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
             } else {
                 now = now.times(&tick);
             }
-            let row = (gain * now.response(&RESIDUES)).to_array().map(S::of);
+            let row = (gain * now.response(&self.residues)).to_array().map(S::of);
             add(&mut given, &row.map(S::value));
             put(out, ticks, n, row);
         }

@@ -113,15 +113,14 @@ impl Items {
         }
     }
 
-    fn total(&self) -> usize {
-        let items: usize = (0..self.count()).map(|item| self.cost(item)).sum();
-        self.costs.begin + items + self.assembly
-    }
-
     /// What the dearest tick has to be allowed, within [`STEP`].
     fn limit(&self, ticks: usize) -> usize {
-        // No less will do.
-        let mut limit = self.total() / ticks / STEP * STEP;
+        // Less than the mean or the dearest item will not do.
+        let (mut total, mut dearest) = (self.costs.begin + self.assembly, 0);
+        for cost in (0..self.count()).map(|item| self.cost(item)) {
+            (total, dearest) = (total + cost, dearest.max(cost));
+        }
+        let mut limit = dearest.max(total / ticks) / STEP * STEP;
         while self.cut(ticks, limit, |_, _| ()) > limit {
             limit += STEP;
         }

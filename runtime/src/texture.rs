@@ -1,5 +1,8 @@
 //! The slot: one texture, decoded and prepared for the tick.
 
+mod codes;
+
+use self::codes::to_pairs;
 use crate::{
     Filter,
     arithmetic::{
@@ -10,17 +13,15 @@ use crate::{
         },
     },
     interpolate::{Interpolator, ticks_per_sample},
-    lanes::F4,
     locate::{Barycentric, Locator},
-    lsf::{self, Pairs, Shape},
-    math::cos_pi_four,
+    lsf::{Pairs, Shape},
     schedule::{self, Share, Shares},
     synthesis::{Lags, Line},
     tap::TapBank,
     vibration::between::shares_of_cycle,
     workspace::Workspace,
 };
-use asperity_formats::{Asset, FormatError, LsfCode, Numerator, Surface, limits::MAX_ORDER};
+use asperity_formats::{Asset, FormatError, Numerator, Surface};
 use thiserror::Error;
 
 /// A texture slot in caller-provided memory.
@@ -48,7 +49,7 @@ pub struct Texture<
     servo_rate_hz: f32,
     /// b_1 of a numerator that every model shares.
     b1: Number<A, Coefficient>,
-    /// −2 cos ω of A(z)'s LSFs in [`lsf::stage`] order, one row a vertex.
+    /// −2 cos ω of A(z)'s LSFs in [`crate::lsf::stage`] order, one row a vertex.
     ar_pairs: Rows<P, V, A>,
     /// −2 cos ω of B(z)'s LSFs.
     ma_pairs: Rows<Q, V, A>,
@@ -163,7 +164,7 @@ pub enum LoadError {
 /// No −2 cos ω is larger.
 const WIDEST: f32 = 2.0;
 
-/// −2 cos ω in [`lsf::stage`] order, one row a vertex.
+/// −2 cos ω in [`crate::lsf::stage`] order, one row a vertex.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
 struct Rows<const N: usize, const V: usize, A: Arithmetic>([[A::Scalar<Pair>; N]; V]);
@@ -274,7 +275,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         }
         let corner = |v: u8| grid.place(usize::from(v)).unwrap_or_default();
         self.locator.load(
-            grid.triangles(),
+            grid.stored_triangles(),
             corner,
             grid.max_speed_mm_s(),
             grid.max_force_n(),
@@ -425,73 +426,6 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         level(0) + level(1) + level(2)
     }
 }
-
-/// −2 cos ω of a model, in [`lsf::stage`] order; the rest is 0. Four places take two codes from
-/// either end; those that are left in the middle come last.
-fn to_pairs<S: Scalar>(row: &mut [S], codes: &[[u8; 2]]) {
-    let order = codes.len();
-    let front = codes.as_chunks::<2>().0;
-    let back = codes.as_rchunks::<2>().1.iter().rev();
-    let mut places = row.as_chunks_mut::<4>().0.iter_mut();
-    let whole = front.iter().zip(back).take(order / 4);
-    for ((&[a, b], &[c, d]), place) in whole.zip(places.by_ref()) {
-        let [c, d] = if order.is_multiple_of(2) {
-            [c, d]
-        } else {
-            [d, c]
-        };
-        *place = pairs([a, b, c, d]);
-    }
-    if !order.is_multiple_of(4)
-        && let Some(place) = places.next()
-    {
-        let mut middle = [RIGHT_ANGLE; 4];
-        let left = codes.iter().skip(order / 4 * 2).take(order % 4);
-        middle
-            .iter_mut()
-            .zip(left)
-            .for_each(|(to, code)| *to = *code);
-        *place = pairs(middle);
-    }
-    for place in places {
-        *place = [S::ZERO; 4];
-    }
-}
-
-/// A code whose cosine is 0.
-const RIGHT_ANGLE: [u8; 2] = 0x8000_u16.to_le_bytes();
-
-#[inline(always)]
-fn pairs<S: Scalar>(codes: [[u8; 2]; 4]) -> [S; 4] {
-    let angle = |code| LsfCode::from_bits(u16::from_le_bytes(code)).half_turns();
-    let four = F4::load(&codes.map(angle));
-    // Adding nothing takes its sign from a zero.
-    let cosines = F4::splat(-2.0) * cos_pi_four(four) + F4::ZERO;
-    cosines.to_array().map(S::of)
-}
-
-/// Which code [`to_pairs`] puts at a place.
-const fn source(place: usize, order: usize) -> usize {
-    let (four, lane) = (place / 4, place % 4);
-    if lane < 2 || four == order / 4 {
-        2 * four + lane
-    } else {
-        order - 2 - 2 * four + (lane + order) % 2
-    }
-}
-
-// That order is the one in which conversion multiplies.
-const _: () = {
-    let mut order = 1;
-    while order <= MAX_ORDER {
-        let mut place = 0;
-        while place < order {
-            assert!(lsf::stage(source(place, order), order) == place);
-            place += 1;
-        }
-        order += 1;
-    }
-};
 
 #[cfg(test)]
 mod tests {

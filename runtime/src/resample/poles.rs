@@ -54,8 +54,6 @@ impl Lanes<1> for f32 {
 pub(super) struct Poles<L, const N: usize>([L; PARTS]);
 
 const PARTS: usize = 7;
-/// Of the first imaginary part.
-const IM: usize = 4;
 
 impl<L: Lanes<N>, const N: usize> Poles<L, N> {
     /// The same for every trace.
@@ -102,9 +100,8 @@ impl<L: Lanes<N>, const N: usize> Poles<L, N> {
 
     /// What the filter with these residues gives.
     #[inline(always)]
-    pub(super) fn response(&self, residues: &Complex4) -> L {
-        let [re, im] = [residues.re, residues.im].map(|four| four.to_array().map(L::splat));
-        let complex = |pole: usize| self.0[pole] * re[pole] - self.0[pole + IM] * im[pole];
-        (complex(0) + complex(1)) + (complex(2) + self.0[IM - 1] * re[IM - 1])
+    pub(super) fn response(&self, residues: &Self) -> L {
+        let ([a, b, c, d, e, f, g], [p, q, r, s, t, u, v]) = (self.0, residues.0);
+        ((a * p - e * t) + (b * q - f * u)) + ((c * r - g * v) + d * s)
     }
 }

@@ -1,0 +1,79 @@
+//! From the codes of a model to what a tick mixes.
+
+use crate::{arithmetic::Scalar, lanes::F4, lsf::stage, math::minus_two_cos_pi};
+use asperity_formats::{LsfCode, limits::MAX_ORDER};
+
+/// Fours of cosines that are taken side by side: none waits for another.
+const SIDE_BY_SIDE: usize = if F4::IN_REGISTERS { 3 } else { 1 };
+
+/// −2 cos ω of a model, in [`stage`] order; the rest is 0. Four places take two codes from
+/// either end; those that are left in the middle come last.
+pub(super) fn to_pairs<S: Scalar, const P: usize>(row: &mut [S; P], codes: &[[u8; 2]]) {
+    let order = codes.len();
+    let front = codes.as_chunks::<2>().0;
+    let back = codes.as_rchunks::<2>().1.iter().rev();
+    // An odd order takes the upper of two first.
+    let turn = u16::BITS * (order as u32 % 2);
+    // The cosine of half of a half turn is 0.
+    let mut angles = [F4::HALF; MAX_ORDER / 4];
+    let mut places = angles.iter_mut();
+    let whole = front.iter().zip(back).take(order / 4);
+    for ((&front, &back), place) in whole.zip(places.by_ref()) {
+        *place = half_turns(two(front), two(back).rotate_left(turn));
+    }
+    let left = codes.get(order / 4 * 2..).unwrap_or_default();
+    let left = match *left.get(..order % 4).unwrap_or_default() {
+        [a] => Some([[a, RIGHT_ANGLE], [RIGHT_ANGLE; 2]]),
+        [a, b] => Some([[a, b], [RIGHT_ANGLE; 2]]),
+        [a, b, c] => Some([[a, b], [c, RIGHT_ANGLE]]),
+        _ => None,
+    };
+    if let (Some([front, back]), Some(place)) = (left, places.next()) {
+        *place = half_turns(two(front), two(back));
+    }
+    let angles = angles.as_chunks::<SIDE_BY_SIDE>().0;
+    for (places, &angles) in row.chunks_mut(4 * SIDE_BY_SIDE).zip(angles) {
+        let pairs = minus_two_cos_pi(angles);
+        for (place, pairs) in places.as_chunks_mut().0.iter_mut().zip(pairs) {
+            *place = pairs.to_array().map(S::of);
+        }
+    }
+}
+
+/// A code whose cosine is 0.
+const RIGHT_ANGLE: [u8; 2] = 0x8000_u16.to_le_bytes();
+
+/// Two codes, the first in the lower half.
+fn two([[a, b], [c, d]]: [[u8; 2]; 2]) -> u32 {
+    u32::from_le_bytes([a, b, c, d])
+}
+
+/// ω / π of four codes.
+#[inline(always)]
+fn half_turns(front: u32, back: u32) -> F4 {
+    let half_turns = |code: u32| LsfCode::from_bits(code as u16).half_turns();
+    F4::load(&[front, front >> 16, back, back >> 16].map(half_turns))
+}
+
+/// Which code [`to_pairs`] puts at a place.
+const fn source(place: usize, order: usize) -> usize {
+    let (four, lane) = (place / 4, place % 4);
+    if lane < 2 || four == order / 4 {
+        2 * four + lane
+    } else {
+        order - 2 - 2 * four + (lane + order) % 2
+    }
+}
+
+// That order is the one in which conversion multiplies.
+const _: () = {
+    let mut order = 1;
+    while order <= MAX_ORDER {
+        let mut place = 0;
+        while place < order {
+            assert!(stage(source(place, order), order) == place);
+            place += 1;
+        }
+        order += 1;
+    }
+};
