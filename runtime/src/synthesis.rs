@@ -73,13 +73,12 @@ impl<A: Arithmetic> Window<A> {
         }
         // Elsewhere a copy by itself is a call.
         for block in (0..blocks.min(BLOCKS)).rev() {
-            let (before, after) = self.0.split_at_mut((block + 1) * LANES);
-            let moved = before.last_chunk::<LANES>().copied();
-            for (place, x) in after
-                .iter_mut()
-                .zip(moved.unwrap_or([A::Scalar::ZERO; LANES]))
-            {
-                *place = x;
+            let Some((before, after)) = self.0.split_at_mut_checked((block + 1) * LANES) else {
+                continue;
+            };
+            let last = before.last_chunk::<LANES>().into_iter().flatten();
+            for (place, x) in after.iter_mut().zip(last) {
+                *place = *x;
             }
         }
     }

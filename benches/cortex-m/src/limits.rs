@@ -10,6 +10,7 @@ use std::{collections::BTreeMap, fs, path::Path};
 pub(crate) struct Limit {
     instructions: u64,
     flash_bytes: u64,
+    tick_code_bytes: u64,
     state_bytes: u64,
     slot_bytes: u64,
     stack_bytes: u64,
@@ -43,6 +44,11 @@ pub(crate) fn exceeded(limits: &BTreeMap<String, Limit>, measured: &[Measured]) 
         for (what, found, most) in [
             ("instructions", m.worst(), limit.instructions),
             ("flash_bytes", m.elf.flash_bytes, limit.flash_bytes),
+            (
+                "tick_code_bytes",
+                m.reach.code_bytes as u64,
+                limit.tick_code_bytes,
+            ),
             ("state_bytes", m.state_bytes, limit.state_bytes),
             ("slot_bytes", m.slot_bytes, limit.slot_bytes),
             ("stack_bytes", stack_bytes, limit.stack_bytes),
