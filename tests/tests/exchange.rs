@@ -8,12 +8,15 @@ use asperity::{
 };
 use asperity_formats::Asset;
 use asperity_runtime::{
-    Config, Exchange, Flags, HostTexture, Output, PrepareError, Preparer, Renderer, Sample, State,
+    Arithmetic, Config, Exchange, Fixed, Flags, Float, Output, PrepareError, Preparer, Renderer,
+    Sample, State, Texture,
+    arithmetic::{Point, Scalar as _},
 };
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-type TestExchange<'a> = Exchange<'a, 64, 128, 24, 24, 4096>;
-type TestPreparer<'q, 'a> = Preparer<'q, 'a, 64, 128, 24, 24, 4096>;
+type Slot<A> = Texture<64, 128, 24, 24, 4096, A>;
+type TestExchange<'a, A> = Exchange<'a, 64, 128, 24, 24, 4096, A>;
+type TestPreparer<'q, 'a, A> = Preparer<'q, 'a, 64, 128, 24, 24, 4096, A>;
 
 const RATE_HZ: f32 = 1000.0;
 /// Where the second texture is sent.
@@ -37,11 +40,11 @@ fn textures() -> [Vec<u8>; 2] {
     [hard, soft].map(|texture| lower(&texture, None).unwrap().bytes)
 }
 
-fn slot() -> Box<HostTexture> {
-    Box::new(HostTexture::new())
+fn slot<A: Arithmetic>() -> Box<Slot<A>> {
+    Box::new(Slot::new())
 }
 
-fn loaded(bytes: &[u8]) -> Box<HostTexture> {
+fn loaded<A: Arithmetic>(bytes: &[u8]) -> Box<Slot<A>> {
     let mut slot = slot();
     slot.load(&Asset::parse(bytes).unwrap(), RATE_HZ).unwrap();
     slot
@@ -55,35 +58,42 @@ fn stroke() -> Vec<Sample> {
 }
 
 /// Plays a texture from the start and whatever `send` prepares before each tick.
-fn play(
+fn play<A: Arithmetic>(
     first: &[u8],
     seed: u64,
     samples: &[Sample],
-    mut send: impl FnMut(usize, &mut TestPreparer<'_, '_>),
-) -> (Vec<Output>, State) {
-    let renderer = Renderer::new(&Config::default()).unwrap();
+    mut send: impl FnMut(usize, &mut TestPreparer<'_, '_, A>),
+) -> (Vec<Output<A>>, State<A>) {
+    let renderer = Renderer::prepare(&Config::default()).unwrap();
     let (mut playing, mut a, mut b) = (loaded(first), slot(), slot());
     let mut exchange = TestExchange::new();
     let (mut preparer, mut player) = exchange.split(&mut playing, [&mut a, &mut b], seed);
     let outputs = samples.iter().enumerate().map(|(n, sample)| {
         send(n, &mut preparer);
-        renderer.tick_player(&mut player, sample)
+        renderer.tick_player(&mut player, &Sample::of(sample))
     });
     let outputs = outputs.collect();
     (outputs, player.state().clone())
 }
 
-fn alone(bytes: &[u8], seed: u64, samples: &[Sample]) -> (Vec<Output>, State) {
-    let renderer = Renderer::new(&Config::default()).unwrap();
+fn alone<A: Arithmetic>(bytes: &[u8], seed: u64, samples: &[Sample]) -> (Vec<Output<A>>, State<A>) {
+    let renderer = Renderer::prepare(&Config::default()).unwrap();
     let (texture, mut state) = (loaded(bytes), State::new(seed));
-    let tick = |sample| renderer.tick(&texture, &mut state, sample);
+    let tick = |sample| renderer.tick(&texture, &mut state, &Sample::of(sample));
     let outputs = samples.iter().map(tick).collect();
     (outputs, state)
 }
 
-fn largest_step_n(outputs: &[Output]) -> f32 {
-    let step_n = |pair: &[Output]| {
-        let squared = |axis: usize| (pair[1].force_n[axis] - pair[0].force_n[axis]).powi(2);
+fn difference<A: Arithmetic, F: Point>(a: A::Scalar<F>, b: A::Scalar<F>) -> f32 {
+    (a.value() - b.value()).abs()
+}
+
+fn largest_step_n<A: Arithmetic>(outputs: &[Output<A>]) -> f32 {
+    let step_n = |pair: &[Output<A>]| {
+        let squared = |axis: usize| {
+            let (before, after) = (pair[0].force_n[axis], pair[1].force_n[axis]);
+            difference::<A, _>(after, before).powi(2)
+        };
         (squared(0) + squared(1) + squared(2)).sqrt()
     };
     outputs.windows(2).map(step_n).fold(0.0, f32::max)
@@ -91,23 +101,28 @@ fn largest_step_n(outputs: &[Output]) -> f32 {
 
 #[test]
 fn another_texture_makes_no_larger_step_than_either_alone() {
+    crossing::<Float>();
+    crossing::<Fixed>();
+}
+
+fn crossing<A: Arithmetic>() {
     let pair = textures();
     let samples = stroke();
     for [from, to] in [[0, 1], [1, 0]] {
         let (mut crossing_n, mut alone_n) = (0.0_f32, 0.0_f32);
         for seed in 0..200 {
             let next = Asset::parse(&pair[to]).unwrap();
-            let (outputs, _) = play(&pair[from], seed, &samples, |n, preparer| {
+            let (outputs, _) = play::<A>(&pair[from], seed, &samples, |n, preparer| {
                 if n == SENT {
                     preparer.prepare(&next, RATE_HZ).unwrap();
                 }
             });
             let crossed = &outputs[SENT - 1..SENT + AROUND];
             crossing_n = crossing_n.max(largest_step_n(crossed));
-            let limited = |o: &Output| o.flags.contains(Flags::SLEW_LIMITED);
+            let limited = |o: &Output<A>| o.flags.contains(Flags::SLEW_LIMITED);
             assert!(!crossed.iter().any(limited), "the limiter had to step in");
             for bytes in &pair {
-                let (outputs, _) = alone(bytes, seed, &samples);
+                let (outputs, _) = alone::<A>(bytes, seed, &samples);
                 alone_n = alone_n.max(largest_step_n(&outputs[SENT - 1..SENT + AROUND]));
             }
         }
@@ -123,6 +138,11 @@ fn another_texture_makes_no_larger_step_than_either_alone() {
 /// tick takes at most 1 − e^(−1/5) of the way.
 #[test]
 fn wall_and_friction_change_little_by_little() {
+    change::<Float>();
+    change::<Fixed>();
+}
+
+fn change<A: Arithmetic>() {
     let silent = |stiffness_n_m: f64, mu: f64| {
         let mut texture = builtin::texture();
         for vertex in &mut texture.grid.vertices {
@@ -136,7 +156,7 @@ fn wall_and_friction_change_little_by_little() {
     let samples = stroke();
     for [from, to] in [[0, 1], [1, 0]] {
         let next = Asset::parse(&pair[to]).unwrap();
-        let (outputs, _) = play(&pair[from], 1, &samples, |n, preparer| {
+        let (outputs, _) = play::<A>(&pair[from], 1, &samples, |n, preparer| {
             if n == SENT {
                 preparer.prepare(&next, RATE_HZ).unwrap();
             }
@@ -153,9 +173,14 @@ fn wall_and_friction_change_little_by_little() {
 /// on with the model at work until the new one is made, and what moves is that of the plain tick.
 #[test]
 fn nothing_is_forgotten() {
+    memory::<Float>();
+    memory::<Fixed>();
+}
+
+fn memory<A: Arithmetic>() {
     let pair = textures();
     let samples = stroke();
-    let (plain, plain_state) = alone(&pair[0], 7, &samples);
+    let (plain, plain_state) = alone::<A>(&pair[0], 7, &samples);
     let (kept, kept_state) = play(&pair[0], 7, &samples, |_, _| {});
     assert_eq!(kept, plain);
     assert_eq!(kept_state.counters(), plain_state.counters());
@@ -166,24 +191,25 @@ fn nothing_is_forgotten() {
             preparer.prepare(&next, RATE_HZ).unwrap();
         }
     });
-    let sound = |outputs: &[Output]| outputs.iter().map(|o| o.vib_m_s2).collect::<Vec<_>>();
+    let sound = |outputs: &[Output<A>]| outputs.iter().map(|o| o.vib_m_s2).collect::<Vec<_>>();
     assert_eq!(sound(&changed[..SENT]), sound(&plain[..SENT]));
     // On a steady stroke the model that is no longer made hardly differs from the one at work.
     let differences = |from: usize| {
         let pairs = changed[from..from + 5].iter().zip(&plain[from..]);
-        pairs.map(|(a, b)| (a.vib_m_s2 - b.vib_m_s2).abs())
+        pairs.map(|(a, b)| difference::<A, _>(a.vib_m_s2, b.vib_m_s2))
     };
     assert!(differences(SENT).all(|difference| difference < 1e-3));
     assert!(differences(SENT + 6).any(|difference| difference > 0.1));
-    let speed = |outputs: &[Output]| outputs.iter().map(|o| o.speed_mm_s).collect::<Vec<_>>();
+    let speed = |outputs: &[Output<A>]| outputs.iter().map(|o| o.speed_mm_s).collect::<Vec<_>>();
     assert_eq!(speed(&changed), speed(&plain));
     assert_eq!(state.counters(), plain_state.counters());
 
     // At its end the new texture alone is felt.
-    let (new, _) = alone(&pair[1], 7, &samples);
+    let (new, _) = alone::<A>(&pair[1], 7, &samples);
     let (ours, theirs) = (changed.last().unwrap(), new.last().unwrap());
-    assert!((ours.normal_force_n - theirs.normal_force_n).abs() < 1e-5);
-    assert!((ours.friction_n - theirs.friction_n).abs() < 1e-3);
+    let apart_n = difference::<A, _>(ours.normal_force_n, theirs.normal_force_n);
+    assert!(apart_n < 5e-5, "{apart_n} N");
+    assert!(difference::<A, _>(ours.friction_n, theirs.friction_n) < 1e-3);
 }
 
 /// A tap plays to its end on the traces that it began with.
@@ -193,11 +219,11 @@ fn a_tap_is_not_interrupted() {
     let samples: Vec<_> = (0..200)
         .map(|n| Sample::at([0.0, 0.0, (0.01 - 2.0e-4 * n as f32).max(-1.0e-3)]))
         .collect();
-    let (plain, _) = alone(&pair[0], 3, &samples);
+    let (plain, _) = alone::<Float>(&pair[0], 3, &samples);
     let started = |o: &Output| o.flags.contains(Flags::TAP_STARTED);
     let start = plain.iter().position(started).expect("a tap");
     let soft = Asset::parse(&pair[1]).unwrap();
-    let (changed, _) = play(&pair[0], 3, &samples, |n, preparer| {
+    let (changed, _) = play::<Float>(&pair[0], 3, &samples, |n, preparer| {
         if n == start + 2 {
             preparer.prepare(&soft, RATE_HZ).unwrap();
         }
@@ -210,10 +236,15 @@ fn a_tap_is_not_interrupted() {
 
 #[test]
 fn a_refused_texture_changes_nothing_and_its_slot_is_kept() {
+    refusal::<Float>();
+    refusal::<Fixed>();
+}
+
+fn refusal<A: Arithmetic>() {
     let pair = textures();
     let good = Asset::parse(&pair[1]).unwrap();
     let samples = stroke();
-    play(&pair[0], 1, &samples[..2], |n, preparer| {
+    play::<A>(&pair[0], 1, &samples[..2], |n, preparer| {
         if n > 0 {
             return;
         }
@@ -235,10 +266,10 @@ fn a_thread_that_never_stops_preparing() {
     let pair = textures();
     let config = Config::default();
     let renderer = Renderer::new(&config).unwrap();
-    let whole = [loaded(&pair[0]), loaded(&pair[1])];
+    let whole = [loaded::<Float>(&pair[0]), loaded(&pair[1])];
     let models = whole.each_ref().map(|texture| texture.filter_at(90.0, 1.0));
     let (mut playing, mut a, mut b) = (loaded(&pair[0]), slot(), slot());
-    let mut exchange = TestExchange::new();
+    let mut exchange = TestExchange::<Float>::new();
     let (mut preparer, mut player) = exchange.split(&mut playing, [&mut a, &mut b], 1);
     let stop = AtomicBool::new(false);
     let step_n = config.limits.slew_n_s / config.servo_rate_hz * 1.0001;
