@@ -1,12 +1,12 @@
 //! Which triangle of the speed–force grid a query falls into, and its weights.
 //!
 //! Triangles stand in blocks of four neighbours. Each axis is cut into strips, and each strip
-//! knows the blocks that it meets: those that both strips of a query meet are looked at, with
-//! no path to walk, so nothing can hang on an edge, the block of the triangle before first, until
-//! one has a triangle with the query in it. Where none has it (the triangles leave a gap), the winner is the
-//! triangle whose smallest barycentric weight is largest. On a shared edge or vertex either
-//! neighbour wins and both give the same mixture. Weights that are below
-//! zero are cut, so the mixture is convex whatever the query.
+//! knows the blocks that it meets: those that both strips of a query meet are looked at, from that
+//! of the triangle found last on, until one has a triangle with the query in it. There is no path
+//! to walk, so nothing can hang on an edge. On a shared edge or vertex either neighbour wins and
+//! both give the same mixture; where the triangles leave a gap, the one whose smallest barycentric
+//! weight is largest wins, where they overlap, the first. Weights below zero are cut, so the
+//! mixture is convex whatever the query.
 //!
 //! Outside the measured range the query is moved to the nearest point of the border
 //! (edge model): constant extrapolation, continuous with the inside.
@@ -173,9 +173,8 @@ pub(crate) struct Search<A: Arithmetic> {
     /// The best triangle so far: its smallest weight, whose last bits are replaced by its index.
     /// Neighbours that differ by so little mix the same.
     best: A::Best,
-    /// Blocks to look at, one bit each, the first of them last.
+    /// Blocks to look at, one bit each: the last bit is that of block `first`.
     left: u32,
-    /// The block to begin with.
     first: u32,
 }
 
@@ -367,7 +366,7 @@ impl<const T: usize, A: Arithmetic> Locator<T, A> {
             if search.left == 0 {
                 break;
             }
-            let block = (search.left.trailing_zeros() + search.first) % u32::BITS;
+            let block = search.left.trailing_zeros().wrapping_add(search.first) % u32::BITS;
             let Some([speed0, force0, w1s, w1f, w2s, w2f]) = all.get(block as usize) else {
                 break;
             };

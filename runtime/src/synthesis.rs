@@ -51,7 +51,7 @@ pub struct Filter {
 
 /// Past inputs and outputs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct History<A: Arithmetic = Float> {
+pub(crate) struct History<A: Arithmetic> {
     e: Window<A>,
     y: Window<A>,
 }
@@ -133,7 +133,7 @@ type Sounded<A> = (Number<A, Acceleration>, bool);
 
 impl<A: Arithmetic> History<A> {
     /// Silence.
-    pub const SILENT: Self = Self {
+    pub(crate) const SILENT: Self = Self {
         e: Window::ZERO,
         y: Window::ZERO,
     };
@@ -147,21 +147,6 @@ impl<A: Arithmetic> History<A> {
     /// 1.., zero above the order. With `sounding` false the model is mute, and with `e` zero its
     /// history fades out within 24 samples. `newest` says where the newest of the history stand; 0
     /// to begin with. Returns y, m/s², and whether it had to be clamped.
-    #[inline]
-    pub fn step(
-        &mut self,
-        newest: &mut u8,
-        a: &Line<A>,
-        b: &Line<A>,
-        lags: Lags,
-        e: A::Scalar<Acceleration>,
-        sounding: bool,
-    ) -> (A::Scalar<Acceleration>, bool) {
-        let (y, clamped) = self.advance(newest, a, b, lags, Number(e), sounding);
-        (y.0, clamped)
-    }
-
-    /// [`History::step`] in the types of the tick.
     #[inline(always)]
     pub(crate) fn advance(
         &mut self,

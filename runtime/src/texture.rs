@@ -252,10 +252,10 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             }
         }
         A::check(asset)?;
-        // The checksums of all that is loaded.
-        self.id = asset
-            .sections()
-            .fold(1, |id, section| id.rotate_left(5) ^ section.crc32);
+        // The checksums of all that is loaded, and how it is clocked.
+        self.id = asset.sections().fold(ticks.into(), |id: u32, section| {
+            id.rotate_left(5) ^ section.crc32
+        });
         self.shape = Shape::new(grid.ar_order(), grid.ma_order());
         self.lags = Lags::new(grid.ar_order(), grid.ma_order());
         self.b1 = if grid.numerator() == Numerator::Nyquist {

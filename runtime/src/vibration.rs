@@ -43,6 +43,7 @@ pub struct Vibration<A: Arithmetic = Float> {
     a: Line<A>,
     b: Line<A>,
     history: History<A>,
+    /// What the low-pass between samples holds.
     held: Held<A>,
     level_m_s2: Number<A, Level>,
     /// That of the mixture found.
@@ -54,7 +55,7 @@ pub struct Vibration<A: Arithmetic = Float> {
     contact: Contact,
     /// Where the newest of the history stand, 0..=3.
     newest: u8,
-    /// That of the triangle found last.
+    /// Block of the triangle found last.
     block: u8,
 }
 

@@ -365,3 +365,28 @@ fn textures_of_any_clock_follow_each_other() {
     let differ = differ.expect("another sound");
     assert!((SENT + 20..SENT + 60).contains(&differ), "{differ}");
 }
+
+/// Two slots of one asset for two servo rates are two textures to a state: each begins with a
+/// query of its own, whatever the other one was about.
+#[test]
+fn one_asset_at_two_rates_is_two_textures() {
+    let bytes = random(9, Kind::nyquist(20)).encode();
+    let slots = [1, 5].map(|ratio| loaded(&bytes, ratio));
+    let mut vibration = Vibration::new(9);
+    let mut draw = Draw::new(9);
+    let mut heard = 0;
+    for _ in 0..2000 {
+        for slot in &slots {
+            let ticks = draw.range(1.0, 80.0) as usize;
+            for tick in 0..ticks {
+                let (speed, force) = (draw.range(0.0, 250.0) as f32, draw.range(0.0, 4.0) as f32);
+                let (y, clamped) = vibration.step(slot, speed, force, 0.7, true);
+                assert!(y.is_finite() && !clamped);
+                let begun = tick >= 5 * usize::from(slot.ticks_per_sample());
+                assert!(begun || y == 0.0, "tick {tick}: {y} m/s²");
+                heard += usize::from(y != 0.0);
+            }
+        }
+    }
+    assert!(heard > 10_000, "{heard} ticks");
+}
