@@ -64,7 +64,7 @@ pub trait Scalar:
 /// A point whose smallest weight is this, −2⁻²³, or more, lies in a triangle: what rounding leaves
 /// of a zero. More would be felt beside slivers, whose mixtures change within a hair. The last bits,
 /// where a weight has an index, are set, so that no index decides.
-pub(crate) const NEARLY_INSIDE: f32 = f32::from_bits(0xb400_007f);
+pub const NEARLY_INSIDE: f32 = f32::from_bits(0xb400_007f);
 
 /// A kind of arithmetic.
 ///
