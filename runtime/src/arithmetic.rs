@@ -227,7 +227,7 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// Whether the best one has its point: [`NEARLY_INSIDE`].
     fn is_inside(best: Self::Best) -> bool;
 
-    /// The best one as bits, where it does not fill all of them beside what they are.
+    /// The best one as bits; where it is a single number, in the first of them.
     fn keep_best(best: Self::Best, bits: &mut [u32; 4]);
 
     /// The best one of those bits.

@@ -110,17 +110,13 @@ pub fn cos_pi(x: f32) -> f32 {
 #[inline(always)]
 #[must_use]
 pub(crate) fn cos_pi_four(x: F4) -> F4 {
-    let t = F4::HALF - x;
-    let u = t * t;
-    let number = F4::splat;
-    let series = number(0.082_050_35) + u * number(-0.007_028_295_6);
-    let series = number(-0.599_252_2) + u * series;
-    let series = number(-5.167_712_7) + u * (number(2.550_163_3) + u * series);
-    t * (number(core::f32::consts::PI) + u * series)
+    let [twice] = minus_two_cos_pi([x]);
+    // Adding nothing takes its sign from a zero.
+    F4::splat(-0.5) * twice + F4::ZERO
 }
 
-/// −2 cos(πx) for x in [0, 1], −2 times [`cos_pi_four`] to the bit but for the sign of 0: powers
-/// of two stand elsewhere.
+/// −2 cos(πx) for x in [0, 1], of fours side by side: none waits for another. −2 times [`cos_pi`]
+/// to the bit, but for the sign of 0: the powers of two stand in the coefficients.
 #[inline(always)]
 #[must_use]
 pub(crate) fn minus_two_cos_pi<const N: usize>(x: [F4; N]) -> [F4; N] {

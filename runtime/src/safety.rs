@@ -82,7 +82,7 @@ impl<A: Arithmetic> Gate<A> {
         // A stale sample counts as far too late.
         let missed = sample.elapsed_ticks.wrapping_sub(1);
         let within = p.is_within(A::REACH_M);
-        // The union is no less than either; what it calls irregular need not be.
+        // The union is no less than either; at worst, a regular sample takes the longer way.
         if missed | self.bad_in_a_row > hold_ticks || !within {
             return self.irregular(sample, within, hold_ticks, ramp_step);
         }

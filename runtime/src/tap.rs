@@ -237,6 +237,7 @@ impl<A: Arithmetic> TapState<A> {
         for past in &mut self.distances_m {
             *past = A::plus_within(*past, moved_m);
         }
+        // Motion is counted from here: without rounding.
         self.distances_m[self.place(0)] = distance_m;
         self.armed = self.armed && distance_m > A::Scalar::ZERO;
     }

@@ -135,7 +135,6 @@ impl<A: Arithmetic> Vibration<A> {
         self.texture = texture;
         self.phase = 0;
         self.contact.begin_cycle();
-        self.held = Held::SILENT;
         self.clock = Clock::START;
     }
 

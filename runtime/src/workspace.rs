@@ -9,7 +9,7 @@ pub(crate) const LANES: usize = 4;
 pub(crate) const ROWS: usize = MAX_ORDER / 2;
 
 /// Bits of numbers: of the [`Search`](crate::locate::Search) until the mixture is made, then of
-/// the products of conversion, which begin with what does not depend on them.
+/// the products of conversion. Whatever stands here, a conversion begins anew.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
 pub(crate) struct Workspace(pub(crate) [[u32; LANES]; ROWS]);
