@@ -52,6 +52,12 @@ impl Rig {
         }
     }
 
+    /// Samples of a cycle of the texture.
+    #[must_use]
+    pub const fn cycle_samples(&self) -> u8 {
+        self.texture.cycle_samples()
+    }
+
     /// One tick.
     #[inline(never)]
     pub fn tick(&mut self, sample: &Sample) -> Output {

@@ -254,12 +254,8 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// What belongs to the first three of two vectors.
     fn polar_pair<F: Point, G: Point>(a: Self::Four<F>, b: Self::Four<G>) -> [Self::Polar; 2];
 
-    /// What is left of the first three of two vectors in the plane with unit normal `normal`.
-    fn tangential_pair<F: Point, G: Point>(
-        a: Self::Four<F>,
-        b: Self::Four<G>,
-        normal: Self::Four<Unit>,
-    ) -> (Self::Four<F>, Self::Four<G>);
+    /// What is left of the first three of a vector in the plane with unit normal `normal`.
+    fn tangential<F: Point>(vector: Self::Four<F>, normal: Self::Four<Unit>) -> Self::Four<F>;
 
     /// The length.
     fn length<F: Point>(polar: Self::Polar) -> Self::Scalar<F>;
@@ -267,15 +263,21 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// A vector of that length at length 1; something finite if it has none.
     fn direction<F: Point>(vector: Self::Four<F>, polar: Self::Polar) -> Self::Four<Unit>;
 
-    /// What a vector has along another one, to which `polar` belongs.
-    fn along<F: Point>(
+    /// What a vector has along another one, to which `polar` belongs, times `factor`; at most
+    /// `limit` in size if numbers have a range.
+    fn along<F: Point, G: Point, H: Point>(
         vector: Self::Four<F>,
         other: Self::Four<F>,
         polar: Self::Polar,
-    ) -> Self::Scalar<F>;
+        factor: Self::Scalar<G>,
+        limit: f32,
+    ) -> Self::Scalar<H>;
 
     /// `reach` over the length; 1 or more where it reaches further.
     fn share<F: Point>(reach: Self::Scalar<F>, polar: Self::Polar) -> Self::Scalar<Unit>;
+
+    /// `reach` over the root of a square that is not smaller.
+    fn over_root<F: Point>(reach: Self::Scalar<F>, square: Self::Square) -> Self::Scalar<Unit>;
 
     /// Coefficient `k` of a polynomial times a two, from those of `k`, `k − 1` … `k − 4` that there
     /// are; with `FULL`, o = 1.

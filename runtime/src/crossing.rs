@@ -11,6 +11,7 @@ use crate::{
         units::{Acceleration, Unit},
     },
     contact::Solid,
+    cycle::Cycle,
     interpolate::Interpolator,
     synthesis::Lags,
     texture::Feel,
@@ -79,12 +80,12 @@ impl<A: Arithmetic> Crossing<A> {
         &mut self,
         vibration: &mut Vibration<A>,
         texture: &Texture<V, T, P, Q, K, A>,
-        follow_share: impl Fn(u8) -> Number<A, Unit>,
+        follow_share: impl Fn(u8, Cycle) -> Number<A, Unit>,
     ) {
         let ticks = texture.ticks_per_sample();
         if !vibration.is_on(texture.id()) {
             if self.ticks_per_sample == ticks {
-                vibration.begin(texture.id());
+                vibration.begin(texture.id(), texture.cycle());
                 self.changing = true;
             } else {
                 // Clocks of their own: the old one stops at once.
@@ -95,7 +96,7 @@ impl<A: Arithmetic> Crossing<A> {
                 vibration.change_texture(texture.id());
             }
         }
-        if self.changing && vibration.is_last_of_cycle(ticks) {
+        if self.changing && vibration.finishes(ticks, texture.cycle()) {
             let last = vibration.stop();
             // Between samples the low-pass gives what it holds, which fades by itself.
             if ticks == 1 {
@@ -168,7 +169,7 @@ impl<A: Arithmetic> Renderer<A> {
             feel: &feel,
             wall: self.wall_of(&feel),
         };
-        let follow_share = |ticks| self.follow_share(ticks);
+        let follow_share = |ticks, cycle| self.follow_share(ticks, cycle);
         crossing.prepare(&mut state.vibration, texture, follow_share);
         let interpolator = texture.interpolator();
         let sound = |vibration: &mut Vibration<A>, sounding| {

@@ -35,11 +35,14 @@ impl Flags {
     pub(crate) const FAULT: Self = Self(1 << 18);
     /// Nothing.
     pub(crate) const NONE: Self = Self(0);
+    /// The force is let through in part, or not at all.
+    pub(crate) const LOWERED: Self = Self::SAFE_STATE.and(Self::RAMPING);
     /// What [`Counters`] count.
-    const COUNTED: Self = Self::BAD_SAMPLE
+    const COUNTED: Self = Self::RARE.and(Self::PEAK_LIMITED);
+    /// Those that come seldom.
+    const RARE: Self = Self::BAD_SAMPLE
         .and(Self::FAULT)
         .and(Self::TAP_STARTED)
-        .and(Self::PEAK_LIMITED)
         .and(Self::SLEW_LIMITED);
 
     /// Every flag with its name.
@@ -86,9 +89,15 @@ impl Flags {
         Self(self.0 & 0xffff)
     }
 
+    /// Those bits of `other` that are set.
+    #[inline(always)]
+    pub(crate) const fn of(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
     /// Whether any bit of `other` is set.
     #[inline(always)]
-    const fn meets(self, other: Self) -> bool {
+    pub(crate) const fn meets(self, other: Self) -> bool {
         self.0 & other.0 != 0
     }
 }
@@ -127,23 +136,24 @@ impl Counters {
         if !flags.meets(Flags::COUNTED) {
             return;
         }
-        // The most frequent first; few of the others happen, and seldom two at once.
+        // The most frequent first.
         if flags.meets(Flags::PEAK_LIMITED) {
             self.peak_limited = self.peak_limited.wrapping_add(1);
+        }
+        if !flags.meets(Flags::RARE) {
+            return;
         }
         if flags.meets(Flags::SLEW_LIMITED) {
             self.slew_limited = self.slew_limited.wrapping_add(1);
         }
-        if flags.meets(Flags::BAD_SAMPLE.and(Flags::FAULT).and(Flags::TAP_STARTED)) {
-            if flags.meets(Flags::BAD_SAMPLE) {
-                self.bad_samples = self.bad_samples.wrapping_add(1);
-            }
-            if flags.meets(Flags::FAULT) {
-                self.faults = self.faults.wrapping_add(1);
-            }
-            if flags.meets(Flags::TAP_STARTED) {
-                self.taps = self.taps.wrapping_add(1);
-            }
+        if flags.meets(Flags::BAD_SAMPLE) {
+            self.bad_samples = self.bad_samples.wrapping_add(1);
+        }
+        if flags.meets(Flags::FAULT) {
+            self.faults = self.faults.wrapping_add(1);
+        }
+        if flags.meets(Flags::TAP_STARTED) {
+            self.taps = self.taps.wrapping_add(1);
         }
     }
 }

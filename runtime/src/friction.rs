@@ -46,7 +46,8 @@ pub struct Bristle<A: Arithmetic = Float> {
     dead_zone_m: Number<A, Metre>,
     /// k·v_c·T, N: with a normal force of this much, half the deflection leaks in a tick.
     leak_n: Number<A, Leak>,
-    lead_ticks: Number<A, Ratio>,
+    /// k times the ticks that the force is taken ahead, N/m.
+    lead_n_m: Number<A, NewtonPerMetre>,
 }
 
 /// A deflection is no larger, and a force of the bristle no stronger, where numbers have a range.
@@ -66,7 +67,7 @@ impl<A: Arithmetic> Bristle<A> {
                 config.stiffness_n_m * config.leak_speed_m_s / rate_hz,
                 f32::MIN_POSITIVE,
             )),
-            lead_ticks: Number::of(1.0 + delay_ticks as f32),
+            lead_n_m: Number::of(config.stiffness_n_m * (1.0 + delay_ticks as f32)),
         }
     }
 }
@@ -114,8 +115,7 @@ impl<A: Arithmetic> FrictionState<A> {
     ) -> Force<A> {
         let (motion_m, normal) = (Four::vec3(motion_m), Four::vec3(normal));
         let normal_n = Number(normal_n);
-        let none = Four::<A, Metre>::ZERO;
-        let (moved_m, _) = self.moved(motion_m).tangential_pair(none, normal);
+        let moved_m = self.moved(motion_m).tangential(normal);
         let limit_n = Number::<A, Ratio>(mu).times(normal_n);
         let stretched = Stretched {
             moved_m,
@@ -155,14 +155,15 @@ impl<A: Arithmetic> FrictionState<A> {
         // The same length, without waiting for its reciprocal.
         let length_m = Number::<A, Metre>(A::length(polar));
         let stretch_m = length_m.times::<_, Metre>(leaked).min(reach_m) - bristle.dead_zone_m;
+        let stretch_n: Number<A, Newton> =
+            bristle.stiffness_n_m.times_within(stretch_m, STIFFEST_N);
+        let half_n = Number::<A, Unit>::of(0.5).times(stretch_n);
+        let most_n = half_n.min(limit_n - stretch_n);
         // The deflection lies in the plane: the rest of the motion adds nothing.
-        let along_m = Number::<A, Metre>(A::along(motion_m.0, moved_m.0, polar));
-        let ahead_m = bristle.lead_ticks.times_within(along_m, FURTHEST_M);
-        // Inside the dead zone both are below zero, and the force is zero.
-        let lead_m = ahead_m.min(Number::<A, Unit>::of(0.5).times(stretch_m));
-        let stretched_m = stretch_m + lead_m;
-        let force_n = bristle.stiffness_n_m.times_within(stretched_m, STIFFEST_N);
-        (moved_m.direction(polar), force_n.clamp_from_zero(limit_n))
+        let ahead_n = A::along(motion_m.0, moved_m.0, polar, bristle.lead_n_m.0, STIFFEST_N);
+        // From zero to the limit; inside the dead zone the stretch is below zero, and this ends it.
+        let lead_n = Number::<A, Newton>(ahead_n).min(most_n).max(-stretch_n);
+        (moved_m.direction(polar), stretch_n + lead_n)
     }
 }
 

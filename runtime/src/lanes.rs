@@ -121,41 +121,17 @@ impl F4 {
         f32x4::splat(least).cmp_le(self.0).any()
     }
 
-    /// The roots of the first and the third, correctly rounded, in their place.
+    /// The root of each, correctly rounded; where registers hold four numbers.
+    #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
     #[inline(always)]
-    pub(crate) fn sqrt_pair(self) -> Self {
-        #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
-        {
-            let [a, _, b, _] = self.to_array();
-            let [a, b] = asperity_vfp::sqrt_pair([a, b]);
-            Self::load(&[a, a, b, b])
-        }
-        #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
+    pub(crate) fn sqrt(self) -> Self {
         Self(self.0.sqrt())
-    }
-
-    /// 1 over each.
-    #[inline(always)]
-    pub(crate) fn reciprocal(self) -> Self {
-        Self(f32x4::ONE / self.0)
     }
 
     /// Inner product of the first three.
     #[inline(always)]
     pub(crate) fn dot3(self, other: Self) -> f32 {
         let [x, y, z, _] = (self * other).to_array();
-        x + y + z
-    }
-
-    /// Inner products of the first three of two pairs, in the first and the third lane.
-    #[inline(always)]
-    pub(crate) fn dot3_pair([a, b]: [(Self, Self); 2]) -> Self {
-        let [ax, ay, az, _] = (a.0 * a.1).to_array();
-        let [bx, by, bz, _] = (b.0 * b.1).to_array();
-        // One move a line in registers.
-        let x = Self::load(&[ax, ax, bx, bx]);
-        let y = Self::load(&[ay, ay, by, by]);
-        let z = Self::load(&[az, az, bz, bz]);
         x + y + z
     }
 }

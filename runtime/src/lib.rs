@@ -71,6 +71,7 @@ mod complex;
 pub mod config;
 pub mod contact;
 mod crossing;
+mod cycle;
 mod events;
 pub mod exchange;
 pub mod excitation;

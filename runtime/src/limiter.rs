@@ -67,7 +67,11 @@ impl<A: Arithmetic> Limiter<A> {
         wanted: Four<A, Newton>,
     ) -> (Four<A, Newton>, Flags) {
         let (target, peak) = shorten(wanted, &self.peak_n, Flags::PEAK_LIMITED);
-        let (step, slew) = shorten(target - last, &self.step_n, Flags::SLEW_LIMITED);
+        let way = target - last;
+        if way.square() <= self.step_n.square {
+            return (target, peak);
+        }
+        let (step, slew) = shorten(way, &self.step_n, Flags::SLEW_LIMITED);
         // Both ends lie in the ball of the peak, so does what lies between, up to rounding.
         let next = last + step;
         let next = if A::ROUNDING_N > 0.0 {
@@ -90,7 +94,7 @@ fn shorten<A: Arithmetic>(
     if square <= bound.square {
         (v, Flags::NONE)
     } else if A::is_sane(square) {
-        let shrink = Number::<A, Unit>(A::share(bound.longest.0, A::polar(square)));
+        let shrink = Number::<A, Unit>(A::over_root(bound.longest.0, square));
         (v.scaled(shrink), longer)
     } else {
         (Four::ZERO, Flags::NONE)

@@ -204,6 +204,13 @@ impl<A: Arithmetic> Search<A> {
         ];
     }
 
+    /// Whether those bits are of a search that has blocks left.
+    #[inline(always)]
+    pub(crate) fn goes_on(workspace: &Workspace) -> bool {
+        let [_, [left, ..], ..] = &workspace.0;
+        *left != 0
+    }
+
     /// Of those bits.
     #[inline(always)]
     pub(crate) fn kept(workspace: &Workspace) -> Self {

@@ -105,11 +105,17 @@ impl Shape {
     /// numbers, else one after the other.
     #[inline(always)]
     pub(crate) const fn parts<A: Arithmetic>(&self) -> usize {
-        if A::IN_REGISTERS || self.ma_order == 0 {
+        if A::IN_REGISTERS {
             1
         } else {
-            2
+            self.parts_one_by_one()
         }
+    }
+
+    /// [`Shape::parts`] without such registers.
+    #[inline(always)]
+    pub(crate) const fn parts_one_by_one(&self) -> usize {
+        if self.ma_order == 0 { 1 } else { 2 }
     }
 
     /// Multiplies one part of a two in, in the order of twos.

@@ -1,17 +1,14 @@
 //! Which share of location and conversion each tick of a cycle does.
 //!
 //! Location looks at triangles in blocks of four, the best makes a mixture, and conversion
-//! multiplies two pairs of zeros at a time: a fixed list of items, cut into [`CYCLE_TICKS`]
-//! shares when a texture is loaded, such that the dearest one costs least. What comes out does not depend on where
-//! the cuts are.
+//! multiplies two pairs of zeros at a time: a fixed list of items, cut into shares when a texture
+//! is loaded, such that the dearest one costs least. What comes out does not depend on where the
+//! cuts are, but it does on how many shares a cycle has: that is the same everywhere ([`cycle`]).
 
-use crate::{arithmetic::Arithmetic, lsf::Shape};
+use crate::{arithmetic::Arithmetic, cycle::Cycle, lsf::Shape};
 use core::ops::Range;
 
-/// Ticks from one query to the next; a query takes effect in the last of them.
-pub const CYCLE_TICKS: usize = 6;
-
-/// What each item costs, in executed instructions; only ratios matter.
+/// What each item costs, in executed instructions; only ratios matter to the cuts.
 struct Costs {
     /// The query, before the first block.
     begin: usize,
@@ -25,30 +22,29 @@ struct Costs {
     assembly_four: usize,
 }
 
-/// On x86-64, and on a Cortex-M4F, where four lanes are four numbers.
-const fn costs<A: Arithmetic>() -> Costs {
-    if A::IN_REGISTERS {
-        Costs {
-            begin: 40,
-            block: 33,
-            mix: 140,
-            mix_four: 12,
-            two: 28,
-            coefficient: 10,
-            assembly_four: 37,
-        }
-    } else {
-        Costs {
-            begin: 45,
-            block: 65,
-            mix: 150,
-            mix_four: 36,
-            two: 40,
-            coefficient: 14,
-            assembly_four: 44,
-        }
-    }
-}
+/// On x86-64.
+const IN_REGISTERS: Costs = Costs {
+    begin: 40,
+    block: 33,
+    mix: 140,
+    mix_four: 16,
+    two: 28,
+    coefficient: 10,
+    assembly_four: 37,
+};
+/// On a Cortex-M4F, where four lanes are four numbers.
+const ONE_BY_ONE: Costs = Costs {
+    begin: 110,
+    block: 145,
+    mix: 190,
+    mix_four: 38,
+    two: 45,
+    coefficient: 14,
+    assembly_four: 50,
+};
+/// No share costs more there, where that can be: a tick of order 20 with an MA part then takes
+/// some 1,400 instructions.
+const DEAREST: usize = 640;
 
 /// The share of one tick: blocks first, then the mixture, then twos.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,6 +94,19 @@ struct Items {
 }
 
 impl Items {
+    fn new(costs: Costs, blocks: usize, fours: usize, shape: &Shape, parts: usize) -> Self {
+        let halves =
+            [shape.ar_order(), shape.ma_order()].map(|order| order.div_ceil(2).div_ceil(4));
+        Self {
+            blocks,
+            mix: costs.mix + costs.mix_four * fours,
+            parts: shape.twos() * parts,
+            parts_of_two: parts,
+            assembly: costs.assembly_four * (halves[0] + halves[1]),
+            costs,
+        }
+    }
+
     const fn count(&self) -> usize {
         self.blocks + 1 + self.parts
     }
@@ -113,26 +122,57 @@ impl Items {
         }
     }
 
-    /// What the dearest tick has to be allowed, within [`STEP`].
-    fn limit(&self, ticks: usize) -> usize {
+    /// What the dearest tick has to be allowed, and what those after the blocks have to be, within
+    /// [`STEP`].
+    fn limits(&self, ticks: usize) -> Limits {
         // Less than the mean or the dearest item will not do.
-        let (mut total, mut dearest) = (self.costs.begin + self.assembly, 0);
-        for cost in (0..self.count()).map(|item| self.cost(item)) {
+        let (mut total, mut dearest) = (self.costs.begin + self.assembly, self.assembly);
+        let mut dearest_later = dearest;
+        for item in 0..self.count() {
+            let cost = self.cost(item);
             (total, dearest) = (total + cost, dearest.max(cost));
+            if item >= self.blocks {
+                dearest_later = dearest_later.max(cost);
+            }
         }
-        let mut limit = dearest.max(total / ticks) / STEP * STEP;
-        while self.cut(ticks, limit, |_, _| ()) > limit {
+        let any = self.least(dearest.max(total / ticks), |limit| {
+            self.cut(
+                ticks,
+                Limits {
+                    any: limit,
+                    later: limit,
+                },
+                |_, _| (),
+            )
+        });
+        // A search seldom looks at all of its blocks: then these are the dearest.
+        let later = self.least(dearest_later, |later| {
+            self.cut(ticks, Limits { any, later }, |_, _| ())
+        });
+        Limits { any, later }
+    }
+
+    /// The least limit from `from` on that fits, within [`STEP`].
+    fn least(&self, from: usize, fits: impl Fn(usize) -> bool) -> usize {
+        let mut limit = from / STEP * STEP;
+        while !fits(limit) {
             limit += STEP;
         }
         limit
     }
 
     /// Gives each item in turn to the tick under way, or to the next one where that would cost
-    /// more than `limit`; the first one looks at blocks only. Returns what the dearest tick costs.
-    fn cut(&self, ticks: usize, limit: usize, mut give: impl FnMut(usize, usize)) -> usize {
-        let (mut tick, mut spent, mut most) = (0, self.costs.begin, 0);
+    /// more than its limit; the first one looks at blocks only. Returns whether no tick costs more.
+    fn cut(&self, ticks: usize, limits: Limits, mut give: impl FnMut(usize, usize)) -> bool {
+        let (mut tick, mut spent) = (0, self.costs.begin);
+        let mut fits = true;
         for item in 0..self.count() {
             let cost = self.cost(item);
+            let limit = if item < self.blocks {
+                limits.any
+            } else {
+                limits.later
+            };
             let only_blocks = tick == 0 && item >= self.blocks;
             if tick + 1 < ticks && (spent + cost > limit || only_blocks) {
                 (tick, spent) = (tick + 1, 0);
@@ -141,11 +181,30 @@ impl Items {
                 }
             }
             spent += cost;
-            most = most.max(spent);
+            fits &= spent <= limit;
             give(item, tick);
         }
-        most.max(self.assembly)
+        fits & (self.assembly <= limits.later)
     }
+}
+
+/// What a tick may cost.
+#[derive(Debug, Clone, Copy)]
+struct Limits {
+    /// Any of them.
+    any: usize,
+    /// One that mixes, multiplies or assembles.
+    later: usize,
+}
+
+/// The cycle of a texture with `blocks` blocks of triangles to look at: as short a way from query
+/// to effect as leaves no share dearer on a Cortex-M4F than it may be. The same on every processor.
+pub(crate) fn cycle(blocks: usize, shape: &Shape) -> Cycle {
+    let fours = [shape.ar_order(), shape.ma_order()].map(|order| order.div_ceil(4));
+    let parts = shape.parts_one_by_one();
+    let items = Items::new(ONE_BY_ONE, blocks, fours[0] + fours[1], shape, parts);
+    let fits = |cycle: &Cycle| items.limits(cycle.working().into()).any <= DEAREST;
+    Cycle::ALL.into_iter().find(fits).unwrap_or(Cycle::SLOWEST)
 }
 
 /// The shares of `blocks` blocks of triangles, a mixture of rows of `fours` fours and the
@@ -156,20 +215,16 @@ pub(crate) fn shares<A: Arithmetic>(
     shape: &Shape,
     ticks: usize,
 ) -> Shares {
-    let costs = costs::<A>();
-    let halves = [shape.ar_order(), shape.ma_order()].map(|order| order.div_ceil(2).div_ceil(4));
-    let items = Items {
-        blocks,
-        mix: costs.mix + costs.mix_four * fours,
-        parts: shape.twos() * shape.parts::<A>(),
-        parts_of_two: shape.parts::<A>(),
-        assembly: costs.assembly_four * (halves[0] + halves[1]),
-        costs,
+    let costs = if A::IN_REGISTERS {
+        IN_REGISTERS
+    } else {
+        ONE_BY_ONE
     };
-    let limit = items.limit(ticks);
+    let items = Items::new(costs, blocks, fours, shape, shape.parts::<A>());
+    let limits = items.limits(ticks);
 
     let mut shares = Shares::NONE.0;
-    items.cut(ticks, limit, |item, tick| {
+    items.cut(ticks, limits, |item, tick| {
         let share = &mut shares[tick % 16];
         if item < blocks {
             share.blocks += 1;
@@ -192,7 +247,6 @@ const STEP: usize = 16;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::Fixed;
 
     /// What the dearest tick costs at least, from tick `tick` and item `from` on, by trying all.
     fn least(items: &Items, ticks: usize, tick: usize, from: usize) -> usize {
@@ -221,20 +275,28 @@ mod tests {
             (0, 6, 900, 6),
         ] {
             let items = Items {
-                costs: costs::<Fixed>(),
+                costs: ONE_BY_ONE,
                 blocks,
                 mix,
                 parts,
                 parts_of_two: 2,
                 assembly: 130,
             };
-            let limit = items.limit(ticks);
-            assert!(limit < least(&items, ticks, 0, 0) + STEP, "{limit}");
+            let limits = items.limits(ticks);
+            let dearest = least(&items, ticks, 0, 0);
+            assert!(limits.any < dearest + STEP && limits.later <= limits.any);
             let (mut next, mut last) = (0, 0);
-            items.cut(ticks, limit, |item, tick| {
+            let mut spent = [0; 6];
+            spent[0] = items.costs.begin;
+            spent[ticks - 1] += items.assembly;
+            let fits = items.cut(ticks, limits, |item, tick| {
                 assert!(item == next && tick >= last && tick < ticks);
                 (next, last) = (next + 1, tick);
+                spent[tick] += items.cost(item);
+                let is_block = item < blocks;
+                assert!(spent[tick] <= if is_block { limits.any } else { limits.later });
             });
+            assert!(fits);
             assert_eq!(next, items.count());
         }
     }

@@ -12,6 +12,7 @@ use crate::{
             NewtonSecondPerMetre, Pair, Ratio, Unit,
         },
     },
+    cycle::Cycle,
     interpolate::{Interpolator, ticks_per_sample},
     locate::{Barycentric, Locator},
     lsf::{Pairs, Shape},
@@ -44,6 +45,7 @@ pub struct Texture<
     id: u32,
     shape: Shape,
     lags: Lags,
+    cycle: Cycle,
     shares: Shares,
     interpolator: Interpolator<A>,
     servo_rate_hz: f32,
@@ -211,6 +213,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             id: 0,
             shape: Shape::NONE,
             lags: Lags::new(0, 0),
+            cycle: Cycle::SLOWEST,
             shares: Shares::NONE,
             interpolator: Interpolator::NONE,
             servo_rate_hz: 0.0,
@@ -280,7 +283,8 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
             grid.max_speed_mm_s(),
             grid.max_force_n(),
         );
-        let count = shares_of_cycle(ticks);
+        self.cycle = schedule::cycle(self.locator.blocks(), &self.shape);
+        let count = shares_of_cycle(ticks, self.cycle);
         // Rows are mixed as a whole.
         let fours = P / 4 + if grid.ma_order() > 0 { Q / 4 } else { 0 };
         self.shares = schedule::shares::<A>(self.locator.blocks(), fours, &self.shape, count);
@@ -299,6 +303,13 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     #[must_use]
     pub const fn ticks_per_sample(&self) -> u8 {
         self.interpolator.ticks()
+    }
+
+    /// Samples of the models from one query of speed and force to the next, 6 to 9: a larger
+    /// texture takes more ticks to answer, and is asked more often.
+    #[must_use]
+    pub const fn cycle_samples(&self) -> u8 {
+        self.cycle.ticks()
     }
 
     /// Wall and gains.
@@ -375,6 +386,12 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     #[inline]
     pub(crate) const fn interpolator(&self) -> &Interpolator<A> {
         &self.interpolator
+    }
+
+    /// How long a cycle lasts.
+    #[inline]
+    pub(crate) const fn cycle(&self) -> Cycle {
+        self.cycle
     }
 
     /// The work of a tick of the cycle.

@@ -12,6 +12,7 @@ use crate::{
         },
     },
     contact::Solid,
+    cycle::Cycle,
     friction::{Bristle, FrictionState, Stretched},
     limiter::Limiter,
     math::{exp, max},
@@ -19,7 +20,7 @@ use crate::{
     tap::{Detector, TapState},
     texture::Feel,
     velocity::{VelocityEstimator, VelocityState},
-    vibration::{CYCLE_TICKS, Vibration},
+    vibration::Vibration,
     wall::{Passivity, Wall},
 };
 
@@ -27,6 +28,16 @@ use crate::{
 const DIRECTION_FLOOR_M_S: f32 = 1.0e-4;
 /// m/s to mm/s.
 const MM: i32 = 1000;
+
+/// Share of its way that a one-pole of time constant `constant` goes in a time.
+fn share_after<A: Arithmetic>(time: f32, constant: f32) -> Number<A, Unit> {
+    let constants = constant / time;
+    Number::of(if constants > 0.0125 {
+        1.0 - exp(-1.0 / constants)
+    } else {
+        1.0
+    })
+}
 
 /// What the device says in one servo period.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,7 +106,7 @@ pub struct Output<A: Arithmetic = Float> {
 
 /// Everything that changes from tick to tick. Texture and configuration are outside
 /// it, so a swap of texture copies no history. Under another renderer the wall is the new one's
-/// from the next query on, at most six samples of the models later.
+/// from the next query on, at most eight samples of the models later.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State<A: Arithmetic = Float> {
     pub(crate) vibration: Vibration<A>,
@@ -176,8 +187,8 @@ pub struct Renderer<A: Arithmetic = Float> {
     bristle: Bristle<A>,
     passivity: Passivity<A>,
     detector: Detector<A>,
-    /// Shares of the way that parameters go in a cycle, by ticks a sample.
-    follow_shares: [Number<A, Unit>; 32],
+    /// Shares of the way that parameters go in a cycle, by ticks a sample and kind of cycle.
+    follow_shares: [[Number<A, Unit>; Cycle::KINDS]; 32],
     /// Share of the way that wall, gains and friction go in a tick, to another texture.
     pub(crate) texture_share: Number<A, Unit>,
     ramp_step: Number<A, Gain>,
@@ -216,18 +227,14 @@ impl<A: Arithmetic> Renderer<A> {
             passivity: Passivity::new(&config.mechanics, rate),
             detector: Detector::new(&config.tap, rate),
             follow_shares: core::array::from_fn(|per_sample| {
-                let cycles = ticks / (CYCLE_TICKS * per_sample.max(1)) as f32;
-                Number::of(if cycles > 0.0125 {
-                    1.0 - exp(-1.0 / cycles)
-                } else {
-                    1.0
-                })
+                let mut shares = [Number::ZERO; Cycle::KINDS];
+                for cycle in Cycle::ALL {
+                    let cycle_ticks = usize::from(cycle.ticks()) * per_sample.max(1);
+                    shares[cycle.kind()] = share_after(cycle_ticks as f32, ticks);
+                }
+                shares
             }),
-            texture_share: Number::of(if ticks > 0.1 {
-                1.0 - exp(-1.0 / ticks)
-            } else {
-                1.0
-            }),
+            texture_share: share_after(1.0, ticks),
             ramp_step: Number::of(1.0 / max(config.safety.ramp_s * rate, 1.0)),
         })
     }
@@ -240,8 +247,8 @@ impl<A: Arithmetic> Renderer<A> {
 
     /// Share of the way that parameters go in a cycle, at so many ticks a sample.
     #[inline(always)]
-    pub(crate) fn follow_share(&self, ticks_per_sample: u8) -> Number<A, Unit> {
-        self.follow_shares[usize::from(ticks_per_sample % 32)]
+    pub(crate) fn follow_share(&self, ticks_per_sample: u8, cycle: Cycle) -> Number<A, Unit> {
+        self.follow_shares[usize::from(ticks_per_sample % 32)][cycle.kind()]
     }
 
     /// What the device can bear of a wall.
@@ -280,7 +287,7 @@ impl<A: Arithmetic> Renderer<A> {
         if !state.vibration.is_on(texture.id()) {
             state.change_texture(texture.id(), self.wall_of(&texture.feel));
         }
-        let follow_share = |ticks| self.follow_share(ticks);
+        let follow_share = |ticks, cycle| self.follow_share(ticks, cycle);
         state.vibration.prepare(texture, follow_share);
         let felt = Felt {
             solid: &self.solid,
@@ -342,9 +349,9 @@ impl<A: Arithmetic> Renderer<A> {
         let wall = felt.wall;
         let stiffness_n = wall.spring_n(depth_m);
 
-        // Two vectors in the tangent plane, side by side.
-        let moved_m = state.friction.moved(motion_m);
-        let (moved_m, slide_m_s) = moved_m.tangential_pair(velocity_m_s.first_three(), normal);
+        // The deflection waits for motion alone, not for velocities.
+        let moved_m = state.friction.moved(motion_m).tangential(normal);
+        let slide_m_s = velocity_m_s.first_three().tangential(normal);
         let [polar, sliding] = A::polar_pair(moved_m.0, slide_m_s.0);
         let stretched = Stretched { moved_m, polar };
         let speed_m_s = Number::<A, MetrePerSecond>(A::length(sliding));
@@ -365,7 +372,7 @@ impl<A: Arithmetic> Renderer<A> {
         let tap_m_s2 = Number::<A, TapAcceleration>(tap.accel_m_s2);
         let tap_n = feel.effective_mass_kg.times_within(tap_m_s2, STRONGEST_N);
 
-        let sounding = touching && !flags.contains(Flags::SAFE_STATE);
+        let sounding = flags.of(Flags::CONTACT.and(Flags::SAFE_STATE)) == Flags::CONTACT;
         let (vib_m_s2, clamped) = sound(&mut state.vibration, sounding);
         if clamped {
             flags = flags.and(Flags::VIB_CLAMPED);
@@ -381,7 +388,11 @@ impl<A: Arithmetic> Renderer<A> {
         let friction: Four<A, Newton> = along.scaled(friction_n);
         // What is known last comes last.
         let total_n = normal.scaled(normal_n) + axis.scaled(vib_n) - friction;
-        let wanted_n = total_n.scaled(gated.gain);
+        let wanted_n = if flags.meets(Flags::LOWERED) {
+            total_n.scaled(gated.gain)
+        } else {
+            total_n
+        };
         let (force_n, limited) = self.limiter.advance(state.force_n.four(), wanted_n);
         state.force_n = Three::of(force_n);
         flags = flags.and(limited);

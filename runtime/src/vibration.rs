@@ -1,11 +1,12 @@
 //! The vibration y\[n\]: parameters that follow speed and force, and the next sample.
 //!
-//! The model at a speed and a force is made in cycles of [`CYCLE_TICKS`] ticks. The first
-//! tick of a cycle ends with a query and the first share of location, mixture and conversion;
-//! the others begin with a share each, the last of which puts the new coefficients and level to
-//! work. A change of speed or force is thus heard after 5 to 10 ticks. Between cycles the shape of the spectrum follows
-//! its target as a one-pole, which keeps the recursion bounded when speed or force jump; the
-//! level is the target's.
+//! The model at a speed and a force is made in cycles ([`Texture::cycle_samples`]). The first
+//! tick of a cycle ends with a query and the first share of location, mixture and conversion; two
+//! to five more, as many as the texture's size asks for, begin with a share each, the last of
+//! which puts the new coefficients and level to work. The others do nothing of this: the next
+//! query is taken as late as lets a change of speed or force be heard within [`LAG_SAMPLES`].
+//! Between cycles the shape of the spectrum follows its target as a one-pole, which keeps the
+//! recursion bounded when speed or force jump; the level is the target's.
 //!
 //! A contact is silent until a query that was taken in it takes effect, and starts at its own
 //! model. Out of contact the cycles go on, so that a tick always costs the same.
@@ -15,13 +16,14 @@
 
 pub(crate) mod between;
 
-pub use crate::schedule::CYCLE_TICKS;
+pub use crate::cycle::LAG_SAMPLES;
 use crate::{
     Texture,
     arithmetic::{
         Arithmetic, Float, Number,
         units::{Acceleration, Level, MillimetrePerSecond, Newton, Unit},
     },
+    cycle::Cycle,
     excitation::Excitation,
     interpolate::{Held, Interpolator},
     locate::Search,
@@ -140,22 +142,22 @@ impl<A: Arithmetic> Vibration<A> {
 
     /// Another texture in a scene: what is at work stays until the first cycle ends.
     #[cold]
-    pub(crate) fn begin(&mut self, texture: u32) {
+    pub(crate) fn begin(&mut self, texture: u32, cycle: Cycle) {
         self.texture = texture;
         self.pairs = Pairs::ZERO;
         self.next_level_m_s2 = Number::ZERO;
         self.phase = 0;
         self.contact = Contact::Begun;
-        self.clock.begin_cycle();
+        self.clock.begin_cycle(cycle);
     }
 
-    /// Whether this tick, of `ticks` a sample, puts new coefficients to work.
+    /// Whether the tick that begins, of `ticks` a sample, puts new coefficients to work.
     #[inline]
-    pub(crate) fn is_last_of_cycle(&self, ticks: u8) -> bool {
+    pub(crate) fn finishes(&self, ticks: u8, cycle: Cycle) -> bool {
         if ticks > 1 {
-            return self.finishes_next(ticks);
+            return self.finishes_between(ticks, cycle);
         }
-        usize::from(self.phase) == CYCLE_TICKS - 1
+        self.phase + 1 == cycle.working()
     }
 
     /// Stops what is at work. Returns its last sample, m/s².
@@ -173,8 +175,8 @@ impl<A: Arithmetic> Vibration<A> {
         self.texture == texture
     }
 
-    /// One tick by itself. `follow_share` is the share of the way that parameters go in a cycle;
-    /// with `sounding` false the vibration is mute. Returns y, m/s², and whether it had to be
+    /// One tick by itself. `follow_share` is the share of the way that parameters go in a cycle
+    /// ([`Texture::cycle_samples`]); with `sounding` false the vibration is mute. Returns y, m/s², and whether it had to be
     /// clamped.
     #[inline]
     pub fn step<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize>(
@@ -188,7 +190,7 @@ impl<A: Arithmetic> Vibration<A> {
         if !self.is_on(texture.id()) {
             self.change_texture(texture.id());
         }
-        self.prepare(texture, |_| Number(follow_share));
+        self.prepare(texture, |_, _| Number(follow_share));
         let (y, clamped) = self.sound(texture.lags(), texture.interpolator(), sounding);
         if self.takes_query() {
             self.query(texture, Number(speed_mm_s), Number(force_n));
@@ -197,7 +199,8 @@ impl<A: Arithmetic> Vibration<A> {
     }
 
     /// Begins a tick on the texture of [`Vibration::is_on`]: its share of the cycle, where that is
-    /// not the first one. `follow_share` is asked with the ticks a sample of the texture.
+    /// not the first one. `follow_share` is asked with the ticks a sample of the texture and its
+    /// cycle.
     #[inline(always)]
     pub(crate) fn prepare<
         const V: usize,
@@ -208,19 +211,23 @@ impl<A: Arithmetic> Vibration<A> {
     >(
         &mut self,
         texture: &Texture<V, T, P, Q, K, A>,
-        follow_share: impl Fn(u8) -> Number<A, Unit>,
+        follow_share: impl Fn(u8, Cycle) -> Number<A, Unit>,
     ) {
-        let ticks = texture.interpolator().ticks();
+        let (ticks, cycle) = (texture.interpolator().ticks(), texture.cycle());
         if ticks > 1 {
-            self.prepare_between(texture, follow_share(ticks), ticks);
-        } else if self.phase == CYCLE_TICKS as u8 {
+            self.prepare_between(texture, follow_share(ticks, cycle), ticks);
+        } else if self.phase == Cycle::OVER {
             self.phase = 0;
             self.contact.begin_cycle();
-        } else if self.phase > 0 {
-            self.work(texture, follow_share(1), texture.share(self.phase));
+        } else if self.phase >= cycle.working() {
             self.phase += 1;
-            if self.phase == CYCLE_TICKS as u8 {
+        } else if self.phase > 0 {
+            let share = texture.share(self.phase);
+            self.work(texture, follow_share(1, cycle), share);
+            self.phase += 1;
+            if self.phase == cycle.working() {
                 self.finish(texture);
+                self.phase = cycle.rest();
             }
         }
     }
@@ -287,7 +294,7 @@ impl<A: Arithmetic> Vibration<A> {
         follow_share: Number<A, Unit>,
         share: &Share,
     ) {
-        if share.blocks > 0 {
+        if share.blocks > 0 && Search::<A>::goes_on(&self.workspace) {
             let mut search = Search::kept(&self.workspace);
             texture.locator.look(&mut search, share.blocks.into());
             search.keep(&mut self.workspace);

@@ -6,7 +6,7 @@
 mod support;
 
 use asperity_formats::Asset;
-use asperity_runtime::{HostTexture, vibration::CYCLE_TICKS, vibration::Vibration};
+use asperity_runtime::{HostTexture, vibration::Vibration};
 use asperity_tests::{draw::Draw, hatt, oracle::Texture};
 use rayon::prelude::*;
 
@@ -21,7 +21,7 @@ const FOLLOW: f64 = 5.0;
 
 /// RMS over a second, and of every block of 20 ms; `query` is asked tick by tick.
 fn levels(slot: &HostTexture, seed: u64, query: impl Fn(usize) -> (f32, f32)) -> (f64, Vec<f64>) {
-    let share = (1.0 - (-(CYCLE_TICKS as f64) / FOLLOW).exp()) as f32;
+    let share = (1.0 - (-f64::from(slot.cycle_samples()) / FOLLOW).exp()) as f32;
     let mut vibration = Vibration::new(seed);
     let ticks = usize::from(slot.ticks_per_sample());
     let signal: Vec<f64> = (0..(SETTLE + SECOND) * ticks)
@@ -55,12 +55,13 @@ fn percentile(values: &mut [f64], share: f64) -> f64 {
 }
 
 impl Excess {
-    /// Random pairs of one texture at `ratio` times its rate, alternating every `every` ticks.
-    fn of(bytes: &[u8], ratio: u8, every: usize, seed: u64) -> Self {
+    /// Random pairs of one texture at `ratio` times its rate, alternating in a step.
+    fn of(bytes: &[u8], ratio: u8, step: Step, seed: u64) -> Self {
         let asset = Asset::parse(bytes).unwrap();
         let mut slot = Box::new(HostTexture::new());
         let servo_hz = asset.grid().sample_rate_hz() * f32::from(ratio);
         slot.load(&asset, servo_hz).unwrap();
+        let every = step.ticks(&slot);
         let oracle = Texture::new(&asset);
         let mut draw = Draw::new(seed);
         let mut excess = Self::default();
@@ -107,16 +108,32 @@ impl Excess {
     }
 }
 
-const STEPS: [(usize, &str); 3] = [
-    (1, "every sample"),
-    (CYCLE_TICKS, "every cycle"),
-    (CYCLE_TICKS + 1, "every seven samples"),
-];
+/// How often the query goes from one point to the other.
+#[derive(Debug, Clone, Copy)]
+enum Step {
+    Tick,
+    Sample,
+    /// A cycle and so many ticks.
+    Cycle(usize),
+}
+
+impl Step {
+    const AT_ONE_KHZ: [Self; 3] = [Self::Sample, Self::Cycle(0), Self::Cycle(1)];
+
+    fn ticks(self, slot: &HostTexture) -> usize {
+        let sample = usize::from(slot.ticks_per_sample());
+        match self {
+            Self::Tick => 1,
+            Self::Sample => sample,
+            Self::Cycle(more) => usize::from(slot.cycle_samples()) * sample + more,
+        }
+    }
+}
 
 #[test]
 fn the_builtin_texture() {
-    for (every, name) in STEPS {
-        Excess::of(&support::builtin(), 1, every, 1).verdict(&format!("built-in, {name}"));
+    for step in Step::AT_ONE_KHZ {
+        Excess::of(&support::builtin(), 1, step, 1).verdict(&format!("built-in, {step:?}"));
     }
 }
 
@@ -125,10 +142,9 @@ fn the_builtin_texture() {
 #[test]
 fn faster_loops() {
     for ratio in [5, 10] {
-        let ticks = usize::from(ratio);
-        for every in [1, ticks, CYCLE_TICKS * ticks, CYCLE_TICKS * ticks + 1] {
-            let name = format!("built-in, {ratio} ticks a sample, every {every} ticks");
-            Excess::of(&support::builtin(), ratio, every, 1).verdict(&name);
+        for step in [Step::Tick, Step::Sample, Step::Cycle(0), Step::Cycle(1)] {
+            let name = format!("built-in, {ratio} ticks a sample, {step:?}");
+            Excess::of(&support::builtin(), ratio, step, 1).verdict(&name);
         }
     }
 }
@@ -139,33 +155,31 @@ fn every_hatt_material() {
     if files.is_empty() {
         return;
     }
-    for (every, name) in STEPS {
+    for step in Step::AT_ONE_KHZ {
         files
             .par_iter()
             .map(|file| {
                 Excess::of(
                     &asperity::hatt::import(file, None).unwrap().bytes,
                     1,
-                    every,
+                    step,
                     2,
                 )
             })
             .reduce(Excess::default, Excess::and)
-            .verdict(&format!("HaTT, {name}"));
+            .verdict(&format!("HaTT, {step:?}"));
     }
-    let (ratio, every) = (5, CYCLE_TICKS * 5 + 1);
+    let (ratio, step) = (5, Step::Cycle(1));
     files
         .par_iter()
         .map(|file| {
             Excess::of(
                 &asperity::hatt::import(file, None).unwrap().bytes,
                 ratio,
-                every,
+                step,
                 2,
             )
         })
         .reduce(Excess::default, Excess::and)
-        .verdict(&format!(
-            "HaTT, {ratio} ticks a sample, every {every} ticks"
-        ));
+        .verdict(&format!("HaTT, {ratio} ticks a sample, {step:?}"));
 }

@@ -2,11 +2,7 @@
 //! of the f64 oracle's, and a vibration whose bands are those of floats.
 
 use asperity_formats::Asset;
-use asperity_runtime::{
-    Arithmetic, Fixed, Float,
-    arithmetic::Scalar,
-    vibration::{CYCLE_TICKS, Vibration},
-};
+use asperity_runtime::{Arithmetic, Fixed, Float, arithmetic::Scalar, vibration::Vibration};
 use asperity_tests::{
     draw::Draw,
     hatt,
@@ -71,7 +67,7 @@ fn spectral_error_db(bytes: &[u8]) -> f64 {
 /// Levels of a steady vibration in third octaves, dB.
 fn bands_db<A: Arithmetic>(bytes: &[u8], (speed, force): (f32, f32)) -> Vec<f64> {
     let slot = load::<A>(bytes);
-    let share = 1.0 - (-(CYCLE_TICKS as f64) / 5.0).exp();
+    let share = 1.0 - (-f64::from(slot.cycle_samples()) / 5.0).exp();
     let mut vibration = Vibration::<A>::new(3);
     let signal: Vec<f64> = (0..TICKS)
         .map(|_| {

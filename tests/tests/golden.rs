@@ -85,7 +85,10 @@ fn the_committed_render_is_the_oracles() {
     }
     let bytes = committed("assets/builtin-v1.asp");
     let asset = Asset::parse(&bytes).unwrap();
-    let mut oracle = Oracle::new(&asset, &asperity_runtime::Config::default(), 7);
+    let config = asperity_runtime::Config::default();
+    let mut slot = Box::new(asperity_runtime::HostTexture::new());
+    slot.load(&asset, config.servo_rate_hz).unwrap();
+    let mut oracle = Oracle::new(&asset, slot.cycle_samples(), &config, 7);
     let numbers = |name| -> Vec<Vec<f64>> {
         String::from_utf8(committed(name))
             .unwrap()

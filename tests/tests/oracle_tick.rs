@@ -52,7 +52,7 @@ fn compare_in<A: Arithmetic>(
     let mut texture = Box::new(HostSlot::<A>::new());
     texture.load(&asset, config.servo_rate_hz).unwrap();
     let mut state = State::new(seed);
-    let mut oracle = Oracle::new(&asset, config, seed);
+    let mut oracle = Oracle::new(&asset, texture.cycle_samples(), config, seed);
     let mut worst = Worst::default();
     for sample in samples {
         let ours = renderer.tick(&texture, &mut state, &Sample::of(sample));

@@ -7,7 +7,7 @@ mod support;
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
     Config, Exchange, Flags, HostTexture, LoadError, Output, Renderer, Sample, State,
-    vibration::Vibration,
+    vibration::{LAG_SAMPLES, Vibration},
 };
 use asperity_tests::{
     draw::Draw,
@@ -148,35 +148,55 @@ fn spectrum_and_level_are_kept_and_images_are_not_felt() {
     }
 }
 
-/// A jump of the query is heard after at least four samples and at most ten.
+/// Samples from a query to the first one of its model.
+fn samples_to_effect(slot: &HostTexture) -> usize {
+    LAG_SAMPLES + 1 - usize::from(slot.cycle_samples())
+}
+
+/// A jump of the query is heard after at most ten samples, and sooner where the texture is small:
+/// 3 to 10 (order 4), 5 to 10 (with an MA part).
 #[test]
 fn a_change_is_heard_within_ten_samples() {
-    let bytes = random(4, Kind::nyquist(20)).encode();
-    for ratio in [1, 2, 5, 10] {
-        let slot = loaded(&bytes, ratio);
-        let ticks = usize::from(ratio);
-        let heard = |jump: usize| {
-            let mut vibration = Vibration::new(1);
-            (0..jump + 20 * ticks)
-                .position(|tick| {
-                    // Without speed and force a texture has no level.
-                    let (speed, force) = if tick < jump {
-                        (0.0, 0.0)
-                    } else {
-                        (150.0, 2.0)
-                    };
-                    vibration.step(&slot, speed, force, 0.7, true).0 != 0.0
-                })
-                .expect("a sound")
-                - jump
-        };
-        let cycles = 60 * ticks..66 * ticks;
-        let (least, most) = cycles
-            .map(heard)
-            .fold((usize::MAX, 0), |(low, high), n| (low.min(n), high.max(n)));
-        println!("{ratio}: {least} to {most} ticks");
-        assert!(least > 4 * ticks && most == 10 * ticks, "{least} {most}");
+    let arma = Kind {
+        ma_order: 20,
+        numerator: Numerator::Lsf,
+        ..Kind::nyquist(20)
+    };
+    let mut cycles = Vec::new();
+    for kind in [Kind::nyquist(4), Kind::nyquist(20), arma] {
+        let bytes = random(4, kind).encode();
+        for ratio in [1, 2, 5, 10] {
+            let slot = loaded(&bytes, ratio);
+            let (ticks, cycle) = (usize::from(ratio), usize::from(slot.cycle_samples()));
+            let heard = |jump: usize| {
+                let mut vibration = Vibration::new(1);
+                (0..jump + 20 * ticks)
+                    .position(|tick| {
+                        // Without speed and force a texture has no level.
+                        let (speed, force) = if tick < jump {
+                            (0.0, 0.0)
+                        } else {
+                            (150.0, 2.0)
+                        };
+                        vibration.step(&slot, speed, force, 0.7, true).0 != 0.0
+                    })
+                    .expect("a sound")
+                    - jump
+            };
+            let whole_cycle = 60 * ticks..(60 + cycle) * ticks;
+            let (least, most) = whole_cycle
+                .map(heard)
+                .fold((usize::MAX, 0), |(low, high), n| (low.min(n), high.max(n)));
+            println!("{cycle} samples a cycle, {ratio}: {least} to {most} ticks");
+            let soonest = (samples_to_effect(&slot) - 1) * ticks + 1;
+            assert!(
+                least == soonest && most == LAG_SAMPLES * ticks,
+                "{least} {most}"
+            );
+            cycles.push(cycle);
+        }
     }
+    assert_eq!(cycles, [8, 8, 8, 8, 8, 8, 8, 8, 6, 6, 6, 6]);
 }
 
 /// Taps at the servo rate are the source's, to the bit; the force is theirs.
@@ -363,7 +383,8 @@ fn textures_of_any_clock_follow_each_other() {
         .zip(sound(&changed))
         .position(|(a, b)| (a - b).abs() > 1e-3);
     let differ = differ.expect("another sound");
-    assert!((SENT + 20..SENT + 60).contains(&differ), "{differ}");
+    let soonest = SENT + 5 * samples_to_effect(&loaded(&two, 5));
+    assert!((soonest..soonest + 45).contains(&differ), "{differ}");
 }
 
 /// Two slots of one asset for two servo rates are two textures to a state: each begins with a
@@ -382,7 +403,7 @@ fn one_asset_at_two_rates_is_two_textures() {
                 let (speed, force) = (draw.range(0.0, 250.0) as f32, draw.range(0.0, 4.0) as f32);
                 let (y, clamped) = vibration.step(slot, speed, force, 0.7, true);
                 assert!(y.is_finite() && !clamped);
-                let begun = tick >= 5 * usize::from(slot.ticks_per_sample());
+                let begun = tick >= samples_to_effect(slot) * usize::from(slot.ticks_per_sample());
                 assert!(begun || y == 0.0, "tick {tick}: {y} m/s²");
                 heard += usize::from(y != 0.0);
             }

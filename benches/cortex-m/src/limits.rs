@@ -9,6 +9,7 @@ use std::{collections::BTreeMap, fs, path::Path};
 #[serde(deny_unknown_fields)]
 pub(crate) struct Limit {
     instructions: u64,
+    median_instructions: u64,
     flash_bytes: u64,
     tick_code_bytes: u64,
     state_bytes: u64,
@@ -43,6 +44,7 @@ pub(crate) fn exceeded(limits: &BTreeMap<String, Limit>, measured: &[Measured]) 
         let stack_bytes = m.stack_load_bytes.max(m.stack_tick_bytes);
         for (what, found, most) in [
             ("instructions", m.worst(), limit.instructions),
+            ("median_instructions", m.median(), limit.median_instructions),
             ("flash_bytes", m.elf.flash_bytes, limit.flash_bytes),
             (
                 "tick_code_bytes",

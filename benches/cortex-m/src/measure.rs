@@ -40,6 +40,19 @@ impl Measured {
         counts
     }
 
+    /// Executed instructions of every tick, ascending.
+    pub(crate) fn session(&self) -> Vec<u64> {
+        let mut counts = self.run.instructions.clone();
+        counts.sort_unstable();
+        counts
+    }
+
+    /// What half of the ticks do not exceed.
+    pub(crate) fn median(&self) -> u64 {
+        let counts = self.session();
+        counts.get(counts.len() / 2).copied().unwrap_or(0)
+    }
+
     /// The costliest tick.
     pub(crate) fn worst(&self) -> u64 {
         self.run.instructions.iter().copied().max().unwrap_or(0)

@@ -14,10 +14,10 @@ pub(crate) fn print(target: &Target, measured: &[Measured]) {
     for (index, phase) in Phase::ALL.iter().enumerate() {
         row(phase.name(), measured, |m| spread(&m.phase(index)));
     }
-    row("all", measured, |m| {
-        let mut counts = m.run.instructions.clone();
-        counts.sort_unstable();
-        spread(&counts)
+    row("all", measured, |m| spread(&m.session()));
+    row("mean of all", measured, |m| {
+        let counts = m.session();
+        (counts.iter().sum::<u64>() / counts.len().max(1) as u64).to_string()
     });
     println!("\nbytes");
     row("code, constants", measured, |m| {

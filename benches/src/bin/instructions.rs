@@ -14,7 +14,6 @@ use asperity_benches::{
     texture::texture,
 };
 use asperity_formats::Numerator;
-use asperity_runtime::vibration::CYCLE_TICKS;
 use std::{env, error::Error, ffi::OsStr, hint::black_box, process::Command};
 
 /// First argument of the measured program that loads.
@@ -70,7 +69,7 @@ fn table(ratio: u32) -> Result<(), Box<dyn Error>> {
         print!("{motion:>9}");
     }
     println!("{:>9}  ticks of a cycle, stroke", "spread");
-    for (texture_index, (label, ..)) in TEXTURES.iter().enumerate() {
+    for (texture_index, &(label, order, numerator)) in TEXTURES.iter().enumerate() {
         print!("{label:<24}");
         let mut counts = Vec::new();
         for motion_index in 0..Motion::ALL.len() {
@@ -85,7 +84,8 @@ fn table(ratio: u32) -> Result<(), Box<dyn Error>> {
         print!("{:>8.1}%", (most / least - 1.0) * 100.0);
         let mut before = count_motion(texture_index, STROKE, ratio, TICKS)?;
         let mut cycle = Vec::new();
-        for tick in 1..=CYCLE_TICKS as u32 * ratio {
+        let cycle_samples = Rig::new(&texture(order, numerator)).cycle_samples();
+        for tick in 1..=u32::from(cycle_samples) * ratio {
             let now = count_motion(texture_index, STROKE, ratio, TICKS + tick)?;
             cycle.push(now - before);
             before = now;

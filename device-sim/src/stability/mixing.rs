@@ -2,7 +2,7 @@
 
 use asperity::lsf;
 use asperity_runtime::excitation::Excitation;
-use asperity_runtime::vibration::{CYCLE_TICKS, Vibration};
+use asperity_runtime::vibration::Vibration;
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -112,7 +112,7 @@ fn turns(seed: u64) -> impl Iterator<Item = usize> {
 
 /// The vibration of the runtime while speed and force take turns.
 fn runtime(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
-    let follow_share = 1.0 - (-(CYCLE_TICKS as f64) / FOLLOW_TICKS).exp();
+    let follow_share = 1.0 - (-f64::from(material.slot.cycle_samples()) / FOLLOW_TICKS).exp();
     let mut vibration = Vibration::new(seed);
     turns(seed)
         .map(|turn| {

@@ -73,13 +73,6 @@ const fn shift<F: Point, G: Point, H: Point>() -> i32 {
     F::I32 + G::I32 - H::I32
 }
 
-/// What is left of a vector in a plane.
-#[inline(always)]
-fn tangential<F: Point>(vector: Four<F>, normal: Four<Unit>) -> Four<F> {
-    let along: FixedI32<F> = Fixed::dot3(vector, normal);
-    Fixed::four_minus(vector, Fixed::four_scaled(normal, along))
-}
-
 impl<F: Point> Zero for FixedI32<F> {
     const ZERO: Self = Self::ZERO;
 }
@@ -396,12 +389,9 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn tangential_pair<F: Point, G: Point>(
-        a: Four<F>,
-        b: Four<G>,
-        normal: Four<Unit>,
-    ) -> (Four<F>, Four<G>) {
-        (tangential(a, normal), tangential(b, normal))
+    fn tangential<F: Point>(vector: Four<F>, normal: Four<Unit>) -> Four<F> {
+        let along: FixedI32<F> = Self::dot3(vector, normal);
+        Self::four_minus(vector, Self::four_scaled(normal, along))
     }
 
     #[inline(always)]
@@ -418,8 +408,15 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn along<F: Point>(vector: Four<F>, other: Four<F>, polar: FixedPolar) -> FixedI32<F> {
-        Self::dot3(Self::direction(other, polar), vector)
+    fn along<F: Point, G: Point, H: Point>(
+        vector: Four<F>,
+        other: Four<F>,
+        polar: FixedPolar,
+        factor: FixedI32<G>,
+        limit: f32,
+    ) -> FixedI32<H> {
+        let along: FixedI32<F> = Self::dot3(Self::direction::<F>(other, polar), vector);
+        Self::times_within(along, factor, limit)
     }
 
     #[inline(always)]
@@ -431,6 +428,11 @@ impl Arithmetic for Fixed {
         }
         let scaled = (i64::from(reach.to_bits()) * i64::from(polar.inverse)) >> polar.shift;
         FixedI32::from_bits(scaled as i32).min(one)
+    }
+
+    #[inline(always)]
+    fn over_root<F: Point>(reach: FixedI32<F>, square: u64) -> FixedI32<Unit> {
+        Self::share(reach, Self::polar(square))
     }
 
     #[inline(always)]

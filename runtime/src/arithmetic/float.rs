@@ -5,7 +5,7 @@ use crate::{
     Config, ConfigError, LoadError, Surface,
     lanes::{F3, F4},
     lsf::Two,
-    math::{max, sqrt},
+    math::{max, sqrt, sqrt_pair},
 };
 use asperity_formats::Asset;
 use core::ops::{Add, Mul};
@@ -45,24 +45,15 @@ pub struct FloatPolar {
 }
 
 impl FloatPolar {
-    /// Adds nothing to a length in use, and makes the reciprocal of none finite.
-    const NO_LENGTH: f32 = 1.0e-18;
+    /// Adds nothing to the square of a length in use, and makes the reciprocal of none finite.
+    const LEAST: f32 = 1.0e-36;
 
     #[inline(always)]
     fn of(length: f32) -> Self {
         Self {
             length,
-            inverse: 1.0 / (length + Self::NO_LENGTH),
+            inverse: 1.0 / length,
         }
-    }
-
-    /// Of the first and the third.
-    #[inline(always)]
-    fn of_pair(lengths: F4) -> [Self; 2] {
-        let inverses = (lengths + F4::splat(Self::NO_LENGTH)).reciprocal();
-        let ([a, _, b, _], [inverse_a, _, inverse_b, _]) =
-            (lengths.to_array(), inverses.to_array());
-        [(a, inverse_a), (b, inverse_b)].map(|(length, inverse)| Self { length, inverse })
     }
 }
 
@@ -343,21 +334,22 @@ impl Arithmetic for Float {
 
     #[inline(always)]
     fn polar(square: f32) -> FloatPolar {
-        FloatPolar::of(sqrt(square))
+        FloatPolar::of(sqrt(square + FloatPolar::LEAST))
     }
 
     #[inline(always)]
     fn polar_pair<F: Point, G: Point>(a: F4, b: F4) -> [FloatPolar; 2] {
-        FloatPolar::of_pair(F4::dot3_pair([(a, a), (b, b)]).sqrt_pair())
+        let square = |v: F4| {
+            let [x, y, z, _] = (v * v).to_array();
+            // The two sums wait for each other only at the end.
+            (x + y) + (z + FloatPolar::LEAST)
+        };
+        sqrt_pair([square(a), square(b)]).map(FloatPolar::of)
     }
 
     #[inline(always)]
-    fn tangential_pair<F: Point, G: Point>(a: F4, b: F4, normal: F4) -> (F4, F4) {
-        let [along_a, _, along_b, _] = F4::dot3_pair([(a, normal), (b, normal)]).to_array();
-        (
-            a - normal * F4::splat(along_a),
-            b - normal * F4::splat(along_b),
-        )
+    fn tangential<F: Point>(vector: F4, normal: F4) -> F4 {
+        vector - normal * F4::splat(vector.dot3(normal))
     }
 
     #[inline(always)]
@@ -371,13 +363,25 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
-    fn along<F: Point>(vector: F4, other: F4, polar: FloatPolar) -> f32 {
-        vector.dot3(other) * polar.inverse
+    fn along<F: Point, G: Point, H: Point>(
+        vector: F4,
+        other: F4,
+        polar: FloatPolar,
+        factor: f32,
+        _: f32,
+    ) -> f32 {
+        // The reciprocal is known last.
+        vector.dot3(other) * factor * polar.inverse
     }
 
     #[inline(always)]
     fn share<F: Point>(reach: f32, polar: FloatPolar) -> f32 {
         reach * polar.inverse
+    }
+
+    #[inline(always)]
+    fn over_root<F: Point>(reach: f32, square: f32) -> f32 {
+        reach / sqrt(square)
     }
 
     #[inline(always)]

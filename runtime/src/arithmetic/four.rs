@@ -201,16 +201,10 @@ impl<A: Arithmetic, F: Point> Four<A, F> {
         Number(A::dot3(self.0, other.0))
     }
 
-    /// What is left of the first three in the plane with unit normal `normal`; the same of
-    /// another vector.
+    /// What is left of the first three in the plane with unit normal `normal`.
     #[inline(always)]
-    pub(crate) fn tangential_pair<G: Point>(
-        self,
-        other: Four<A, G>,
-        normal: Four<A, Unit>,
-    ) -> (Self, Four<A, G>) {
-        let (a, b) = A::tangential_pair(self.0, other.0, normal.0);
-        (Self(a), Four(b))
+    pub(crate) fn tangential(self, normal: Four<A, Unit>) -> Self {
+        Self(A::tangential(self.0, normal.0))
     }
 
     /// Cross product of the first three with a vector of length 1.

@@ -1,30 +1,35 @@
 //! Models slower than the servo loop: their clock, in ticks.
 //!
 //! A model steps in one tick of several, always the same number of them; its samples are those
-//! of a servo loop at its own rate. The cycle lasts [`CYCLE_TICKS`] samples, too: the query is
-//! taken in the last tick before the second sample and takes effect with the sixth, so that a
-//! change is heard after at most ten samples, whatever the servo rate. Shares of the work fall
-//! into ticks without a sample.
+//! of a servo loop at its own rate. A cycle lasts as many samples as ticks there: the query is
+//! taken in the last tick before the second sample, and takes effect with the sample in whose
+//! place it would there, so that a change is heard after at most as many samples, whatever the
+//! servo rate. Shares of the work fall into ticks without a sample.
 
-use super::{CYCLE_TICKS, Sounded, Vibration};
+use super::{Sounded, Vibration};
 use crate::{
     Texture,
     arithmetic::{Arithmetic, Number, units::Unit},
+    cycle::Cycle,
     interpolate::{Held, Interpolator},
     synthesis::Lags,
 };
 
-/// Samples of a cycle after which work is done.
-const WORKING: u8 = CYCLE_TICKS as u8 - 2;
-/// Ticks after each of them that do a share, at most.
+/// Ticks after a sample that do a share, at most.
 const WORKING_TICKS: u8 = 3;
 
 /// Shares of a cycle at so many ticks a sample: one with the query, the others between samples.
-pub(crate) const fn shares_of_cycle(ticks: u8) -> usize {
+pub(crate) const fn shares_of_cycle(ticks: u8, cycle: Cycle) -> usize {
     match ticks {
-        0 | 1 => CYCLE_TICKS,
-        _ => 1 + (WORKING * working_ticks(ticks)) as usize,
+        0 | 1 => cycle.working() as usize,
+        _ => 1 + (working_samples(cycle) * working_ticks(ticks)) as usize,
     }
+}
+
+/// Samples of a cycle after which work is done: all between that of the query and that of the
+/// effect.
+const fn working_samples(cycle: Cycle) -> u8 {
+    cycle.working() - 2
 }
 
 const fn working_ticks(ticks: u8) -> u8 {
@@ -52,18 +57,18 @@ impl Clock {
     };
 
     /// A new cycle begins with the next sample; the clock goes on.
-    pub(super) fn begin_cycle(&mut self) {
-        self.sample = CYCLE_TICKS as u8 - 1;
+    pub(super) fn begin_cycle(&mut self, cycle: Cycle) {
+        self.sample = cycle.ticks() - 1;
     }
 
     /// Goes on by a tick, of `ticks` a sample.
     #[inline(always)]
-    fn advance(&mut self, ticks: u8) {
+    fn advance(&mut self, ticks: u8, cycle: Cycle) {
         self.tick = self.tick.wrapping_add(1);
         if self.tick == ticks {
             self.tick = 0;
             self.sample += 1;
-            if self.sample == CYCLE_TICKS as u8 {
+            if self.sample >= cycle.ticks() {
                 self.sample = 0;
             }
         }
@@ -83,10 +88,10 @@ impl Clock {
 
     /// The share to do in this tick, if any: 1 and more.
     #[inline(always)]
-    const fn share(&self, ticks: u8) -> Option<u8> {
+    const fn share(&self, ticks: u8, cycle: Cycle) -> Option<u8> {
         let working = working_ticks(ticks);
         let in_turn = self.sample.wrapping_sub(1);
-        if in_turn < WORKING && self.tick.wrapping_sub(1) < working {
+        if in_turn < working_samples(cycle) && self.tick.wrapping_sub(1) < working {
             Some(in_turn * working + self.tick)
         } else {
             None
@@ -109,15 +114,16 @@ impl<A: Arithmetic> Vibration<A> {
         follow_share: Number<A, Unit>,
         ticks: u8,
     ) {
-        self.clock.advance(ticks);
+        let cycle = texture.cycle();
+        self.clock.advance(ticks, cycle);
         // To the rest of a tick a phase of 0 is the query's.
         self.phase = u8::from(!self.clock.is_query(ticks));
         if self.takes_query() {
             self.contact.begin_cycle();
         }
-        if let Some(share) = self.clock.share(ticks) {
+        if let Some(share) = self.clock.share(ticks, cycle) {
             self.work(texture, follow_share, texture.share(share));
-            if usize::from(share) + 1 == shares_of_cycle(ticks) {
+            if usize::from(share) + 1 == shares_of_cycle(ticks, cycle) {
                 self.finish(texture);
             }
         }
@@ -149,11 +155,11 @@ impl<A: Arithmetic> Vibration<A> {
         (interpolator.step(&mut self.held, y), clamped)
     }
 
-    /// Whether the tick that follows puts new coefficients to work.
-    pub(super) fn finishes_next(&self, ticks: u8) -> bool {
+    /// [`Vibration::finishes`] between samples.
+    pub(super) fn finishes_between(&self, ticks: u8, cycle: Cycle) -> bool {
         let mut next = self.clock;
-        next.advance(ticks);
-        next.share(ticks)
-            .is_some_and(|share| usize::from(share) + 1 == shares_of_cycle(ticks))
+        next.advance(ticks, cycle);
+        next.share(ticks, cycle)
+            .is_some_and(|share| usize::from(share) + 1 == shares_of_cycle(ticks, cycle))
     }
 }

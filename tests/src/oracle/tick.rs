@@ -5,7 +5,7 @@ use super::{
     norm, plus, polynomial, times,
 };
 use asperity_formats::Asset;
-use asperity_runtime::{Config, Sample, VibrationAxis};
+use asperity_runtime::{Config, Sample, VibrationAxis, vibration::LAG_SAMPLES};
 use std::collections::VecDeque;
 
 /// What a tick gives.
@@ -46,7 +46,8 @@ pub struct Oracle {
     last_position: Vector,
     last_distance: f64,
     direction: Vector,
-    // Vibration: ticks a sample, ticks since one, and the sample of a cycle.
+    // Vibration: samples of a cycle, ticks a sample, ticks since one, and the sample of the cycle.
+    cycle: usize,
     ticks: usize,
     tick: usize,
     sample: usize,
@@ -69,9 +70,9 @@ pub struct Oracle {
 }
 
 impl Oracle {
-    /// At rest.
+    /// At rest; a query is taken every `cycle_samples` samples.
     #[must_use]
-    pub fn new(asset: &Asset<'_>, config: &Config, seed: u64) -> Self {
+    pub fn new(asset: &Asset<'_>, cycle_samples: u8, config: &Config, seed: u64) -> Self {
         let rate = f64::from(config.servo_rate_hz);
         let velocity = Butterworth2::new(config.velocity_cutoff_hz.into(), rate);
         let ticks = (rate / f64::from(asset.grid().sample_rate_hz())).round() as usize;
@@ -89,6 +90,7 @@ impl Oracle {
             last_position: [0.0; 3],
             last_distance: 0.0,
             direction: [1.0, 0.0, 0.0],
+            cycle: cycle_samples.into(),
             ticks,
             tick: 0,
             sample: 0,
@@ -219,11 +221,10 @@ impl Oracle {
         self.bristle = [0.0; 3];
     }
 
-    /// In every cycle of six samples a query is taken, in the last tick before the second one;
-    /// its model sounds from the sixth on, if the contact lasts. Shapes follow the query in
-    /// steps of cycles, a new contact's at once.
+    /// In every cycle a query is taken, in the last tick before the second sample; its model
+    /// sounds as late as makes a change wait ten samples at most, if the contact lasts. Shapes
+    /// follow the query in steps of cycles, a new contact's at once.
     fn model_at_work(&mut self, speed_mm_s: f64, force_n: f64, sounding: bool) {
-        const CYCLE: usize = 6;
         if !sounding {
             (self.follows, self.pending, self.sounds) = (false, None, None);
         }
@@ -231,7 +232,7 @@ impl Oracle {
             let target = self.texture.model(speed_mm_s, force_n);
             let steps = f64::from(self.config.parameter_time_constant_s)
                 * f64::from(self.config.servo_rate_hz)
-                / (CYCLE * self.ticks) as f64;
+                / (self.cycle * self.ticks) as f64;
             let share = if self.follows && steps > 0.0 {
                 1.0 - (-1.0 / steps).exp()
             } else {
@@ -254,7 +255,7 @@ impl Oracle {
             self.smoothed = Some(model.clone());
             self.pending = sounding.then_some(model);
         }
-        if self.sample == CYCLE - 1 && self.tick == 0 {
+        if self.sample == LAG_SAMPLES + 1 - self.cycle && self.tick == 0 {
             self.sounds = self.pending.take();
             self.follows = self.sounds.is_some();
         }
@@ -266,7 +267,7 @@ impl Oracle {
         let y = if self.tick == 0 { self.sample() } else { 0.0 };
         self.tick += 1;
         if self.tick == self.ticks {
-            (self.tick, self.sample) = (0, (self.sample + 1) % 6);
+            (self.tick, self.sample) = (0, (self.sample + 1) % self.cycle);
         }
         if self.ticks == 1 {
             return y;

@@ -1,0 +1,57 @@
+//! How long a cycle of the parameters lasts.
+//!
+//! A query takes effect in the last of the ticks that its work takes, and the next one follows as
+//! late as lets no change be heard later than it may: a small texture follows sooner, and works
+//! less often.
+
+/// A change of speed or force is heard after at most so many samples of the models.
+pub const LAG_SAMPLES: usize = 10;
+const LAG: u8 = LAG_SAMPLES as u8;
+
+/// The cycle of a texture, in ticks; where the models are slower than the servo loop, in samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Cycle {
+    /// From the query's tick to that in which it takes effect, both included.
+    working: u8,
+}
+
+impl Cycle {
+    /// Every cycle, shortest way first.
+    pub(crate) const ALL: [Self; 3] = [Self::of(4), Self::of(5), Self::SLOWEST];
+    /// That of the largest textures: its last tick puts to work what the first asked for.
+    pub(crate) const SLOWEST: Self = Self::of(LAG / 2 + 1);
+
+    pub(crate) const KINDS: usize = 4;
+    /// A cycle is over; above every count of working ticks.
+    pub(crate) const OVER: u8 = LAG + 2;
+
+    const fn of(working: u8) -> Self {
+        Self { working }
+    }
+
+    /// Ticks that work, that of the query included; the last of them ends with a new model.
+    #[inline(always)]
+    pub(crate) const fn working(self) -> u8 {
+        self.working
+    }
+
+    /// Ticks from one query to the next.
+    #[inline(always)]
+    pub(crate) const fn ticks(self) -> u8 {
+        // What changes just after a query waits for the next one and its work.
+        LAG + 2 - self.working
+    }
+
+    /// What a count of ticks is set to when the work is done, to be [`Cycle::OVER`] when the next
+    /// query is due.
+    #[inline(always)]
+    pub(crate) const fn rest(self) -> u8 {
+        Self::OVER - (self.ticks() - self.working)
+    }
+
+    /// A number below [`Cycle::KINDS`], of its own.
+    #[inline(always)]
+    pub(crate) const fn kind(self) -> usize {
+        self.working as usize % Self::KINDS
+    }
+}
