@@ -19,7 +19,7 @@
 //! | [`contact`] | δ, n̂ | depth and normal on a plane, a sphere, a box |
 //! | [`locate`] | f–v grid | triangle and barycentric weights, edge models |
 //! | `lsf` | a_k(F_n, v_t) | mixed LSFs to direct-form coefficients |
-//! | [`vibration`] | y\[n\] | the model that sounds, made in shares over six ticks |
+//! | [`vibration`] | y\[n\] | the model that sounds, made in shares over four to six ticks |
 //! | [`excitation`] | ε | Gaussian noise |
 //! | [`synthesis`] | | the AR or ARMA recursion |
 //! | `interpolate` | | samples of the models to ticks of a faster servo loop |
