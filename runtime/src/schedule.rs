@@ -203,7 +203,11 @@ pub(crate) fn cycle(blocks: usize, shape: &Shape) -> Cycle {
     let fours = [shape.ar_order(), shape.ma_order()].map(|order| order.div_ceil(4));
     let parts = shape.parts_one_by_one();
     let items = Items::new(ONE_BY_ONE, blocks, fours[0] + fours[1], shape, parts);
-    let fits = |cycle: &Cycle| items.limits(cycle.working().into()).any <= DEAREST;
+    let limits = Limits {
+        any: DEAREST,
+        later: DEAREST,
+    };
+    let fits = |cycle: &Cycle| items.cut(cycle.working().into(), limits, |_, _| ());
     Cycle::ALL.into_iter().find(fits).unwrap_or(Cycle::SLOWEST)
 }
 
