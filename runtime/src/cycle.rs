@@ -21,6 +21,7 @@ impl Cycle {
     /// That of the largest textures: its last tick puts to work what the first asked for.
     pub(crate) const SLOWEST: Self = Self::of(LAG / 2 + 1);
 
+    /// Kinds are told apart by a number below this.
     pub(crate) const KINDS: usize = 4;
     /// A cycle is over; above every count of working ticks.
     pub(crate) const OVER: u8 = LAG + 2;
@@ -49,7 +50,7 @@ impl Cycle {
         Self::OVER - (self.ticks() - self.working)
     }
 
-    /// A number below [`Cycle::KINDS`], of its own.
+    /// What it is among [`Cycle::KINDS`].
     #[inline(always)]
     pub(crate) const fn kind(self) -> usize {
         self.working as usize % Self::KINDS

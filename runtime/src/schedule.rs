@@ -136,14 +136,7 @@ impl Items {
             }
         }
         let any = self.least(dearest.max(total / ticks), |limit| {
-            self.cut(
-                ticks,
-                Limits {
-                    any: limit,
-                    later: limit,
-                },
-                |_, _| (),
-            )
+            self.cut(ticks, Limits::of_all(limit), |_, _| ())
         });
         // A search seldom looks at all of its blocks: then these are the dearest.
         let later = self.least(dearest_later, |later| {
@@ -197,17 +190,25 @@ struct Limits {
     later: usize,
 }
 
+impl Limits {
+    const fn of_all(limit: usize) -> Self {
+        Self {
+            any: limit,
+            later: limit,
+        }
+    }
+}
+
 /// The cycle of a texture with `blocks` blocks of triangles to look at: as short a way from query
 /// to effect as leaves no share dearer on a Cortex-M4F than it may be. The same on every processor.
 pub(crate) fn cycle(blocks: usize, shape: &Shape) -> Cycle {
     let fours = [shape.ar_order(), shape.ma_order()].map(|order| order.div_ceil(4));
     let parts = shape.parts_one_by_one();
     let items = Items::new(ONE_BY_ONE, blocks, fours[0] + fours[1], shape, parts);
-    let limits = Limits {
-        any: DEAREST,
-        later: DEAREST,
+    let fits = |cycle: &Cycle| {
+        let ticks = cycle.working().into();
+        items.cut(ticks, Limits::of_all(DEAREST), |_, _| ())
     };
-    let fits = |cycle: &Cycle| items.cut(cycle.working().into(), limits, |_, _| ());
     Cycle::ALL.into_iter().find(fits).unwrap_or(Cycle::SLOWEST)
 }
 

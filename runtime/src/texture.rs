@@ -305,7 +305,7 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
         self.interpolator.ticks()
     }
 
-    /// Samples of the models from one query of speed and force to the next, 6 to 9: a larger
+    /// Samples of the models from one query of speed and force to the next, 6 to 8: a larger
     /// texture takes more ticks to answer, and is asked more often.
     #[must_use]
     pub const fn cycle_samples(&self) -> u8 {

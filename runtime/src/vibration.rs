@@ -1,7 +1,7 @@
 //! The vibration y\[n\]: parameters that follow speed and force, and the next sample.
 //!
 //! The model at a speed and a force is made in cycles ([`Texture::cycle_samples`]). The first
-//! tick of a cycle ends with a query and the first share of location, mixture and conversion; two
+//! tick of a cycle ends with a query and the first share of location, mixture and conversion; three
 //! to five more, as many as the texture's size asks for, begin with a share each, the last of
 //! which puts the new coefficients and level to work. The others do nothing of this: the next
 //! query is taken as late as lets a change of speed or force be heard within [`LAG_SAMPLES`].
