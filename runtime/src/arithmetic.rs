@@ -150,6 +150,9 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
         limit: f32,
     ) -> Self::Scalar<H>;
 
+    /// a − b, not below zero; zero where a is.
+    fn left_of<F: Point>(a: Self::Scalar<F>, b: Self::Scalar<F>) -> Self::Scalar<F>;
+
     /// a/b for b ≥ 0; the end of the range beyond it, 0 for 0/0.
     fn over<F: Point, G: Point, H: Point>(
         a: Self::Scalar<F>,

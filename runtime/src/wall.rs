@@ -110,14 +110,10 @@ impl<A: Arithmetic> Wall<A> {
         outward_m_s: A::Scalar<MetrePerSecond>,
     ) -> A::Scalar<Newton> {
         let spring_n = Number::<A, Newton>(spring_n);
-        if spring_n > Number::ZERO {
-            let outward_m_s = Number::<A, MetrePerSecond>(outward_m_s);
-            let damping_n_s_m = Number::<A, NewtonSecondPerMetre>(self.damping_n_s_m);
-            let damped_n = damping_n_s_m.times_within(outward_m_s, STRONGEST_N);
-            (spring_n - damped_n).max(Number::ZERO).0
-        } else {
-            A::Scalar::ZERO
-        }
+        let outward_m_s = Number::<A, MetrePerSecond>(outward_m_s);
+        let damping_n_s_m = Number::<A, NewtonSecondPerMetre>(self.damping_n_s_m);
+        let damped_n = damping_n_s_m.times_within(outward_m_s, STRONGEST_N);
+        A::left_of(spring_n.0, damped_n.0)
     }
 }
 

@@ -10,6 +10,7 @@ use std::{collections::BTreeMap, fs, path::Path};
 pub(crate) struct Limit {
     instructions: u64,
     median_instructions: u64,
+    spread_percent: u64,
     flash_bytes: u64,
     tick_code_bytes: u64,
     state_bytes: u64,
@@ -45,6 +46,11 @@ pub(crate) fn exceeded(limits: &BTreeMap<String, Limit>, measured: &[Measured]) 
         for (what, found, most) in [
             ("instructions", m.worst(), limit.instructions),
             ("median_instructions", m.median(), limit.median_instructions),
+            (
+                "spread_percent",
+                m.spread_percent().ceil() as u64,
+                limit.spread_percent,
+            ),
             ("flash_bytes", m.elf.flash_bytes, limit.flash_bytes),
             (
                 "tick_code_bytes",

@@ -53,6 +53,16 @@ impl Measured {
         counts.get(counts.len() / 2).copied().unwrap_or(0)
     }
 
+    /// By how much the costliest phase exceeds the cheapest, in the mean of its ticks.
+    pub(crate) fn spread_percent(&self) -> f64 {
+        let sum = |index: usize| self.phase(index).iter().sum::<u64>() as f64;
+        let sums = (0..Phase::ALL.len()).map(sum);
+        let (least, most) = sums.fold((f64::MAX, 0.0), |(least, most): (f64, f64), sum| {
+            (least.min(sum), most.max(sum))
+        });
+        (most / least - 1.0) * 100.0
+    }
+
     /// The costliest tick.
     pub(crate) fn worst(&self) -> u64 {
         self.run.instructions.iter().copied().max().unwrap_or(0)

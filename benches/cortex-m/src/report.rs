@@ -19,6 +19,9 @@ pub(crate) fn print(target: &Target, measured: &[Measured]) {
         let counts = m.session();
         (counts.iter().sum::<u64>() / counts.len().max(1) as u64).to_string()
     });
+    row("means of phases", measured, |m| {
+        format!("within {:.1} %", m.spread_percent())
+    });
     println!("\nbytes");
     row("code, constants", measured, |m| {
         m.elf.flash_bytes.to_string()

@@ -196,6 +196,17 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn left_of<F: Point>(a: FixedI32<F>, b: FixedI32<F>) -> FixedI32<F> {
+        // Products are dear here: b is made in any case, so that a tick always costs the same.
+        let left = (a - b).max(FixedI32::ZERO);
+        if a > FixedI32::<F>::ZERO {
+            left
+        } else {
+            FixedI32::ZERO
+        }
+    }
+
+    #[inline(always)]
     fn over<F: Point, G: Point, H: Point>(a: FixedI32<F>, b: FixedI32<G>) -> FixedI32<H> {
         FixedI32::from_bits(quotient(
             a.to_bits(),
@@ -361,23 +372,18 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn polar(square: u64) -> FixedPolar {
-        if square == 0 {
-            // No length, and everything reaches it.
-            return FixedPolar {
-                length: 0,
-                inverse: 0,
-                shift: 0,
-            };
-        }
-        let zeros = square.leading_zeros() & !1;
-        let m = ((square << zeros) >> 32) as u32;
+        // No length takes as long as any.
+        let some = square.max(1);
+        let zeros = some.leading_zeros() & !1;
+        let m = ((some << zeros) >> 32) as u32;
         let inverse = reciprocal_root(m);
         let shift = 32 - zeros / 2;
         // √m with 32 bits behind the point; the root of a square is below 2³².
         let root = (u64::from(m) * u64::from(inverse)) >> 30;
         let length = (root >> (32 - shift)) as u32;
         FixedPolar {
-            length,
+            // Everything reaches a length of zero.
+            length: if square == 0 { 0 } else { length },
             inverse,
             shift,
         }
@@ -422,17 +428,21 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn share<F: Point>(reach: FixedI32<F>, polar: FixedPolar) -> FixedI32<Unit> {
         let one = FixedI32::<Unit>::ONE;
+        let scaled = (i64::from(reach.to_bits()) * i64::from(polar.inverse)) >> polar.shift;
         // The length is rounded down.
         if reach.to_bits().unsigned_abs() > polar.length {
-            return one;
+            one
+        } else {
+            FixedI32::from_bits(scaled as i32).min(one)
         }
-        let scaled = (i64::from(reach.to_bits()) * i64::from(polar.inverse)) >> polar.shift;
-        FixedI32::from_bits(scaled as i32).min(one)
     }
 
     #[inline(always)]
     fn over_root<F: Point>(reach: FixedI32<F>, square: u64) -> FixedI32<Unit> {
-        Self::share(reach, Self::polar(square))
+        // The length itself is not asked for: it is not below the reach.
+        let polar = Self::polar(square);
+        let scaled = (i64::from(reach.to_bits()) * i64::from(polar.inverse)) >> polar.shift;
+        FixedI32::from_bits(scaled as i32).min(FixedI32::ONE)
     }
 
     #[inline(always)]

@@ -173,6 +173,11 @@ impl Arithmetic for Float {
     }
 
     #[inline(always)]
+    fn left_of<F: Point>(a: f32, b: f32) -> f32 {
+        if a > 0.0 { max(a - b, 0.0) } else { 0.0 }
+    }
+
+    #[inline(always)]
     fn over<F: Point, G: Point, H: Point>(a: f32, b: f32) -> f32 {
         a / b
     }
