@@ -254,7 +254,8 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// What belongs to a square.
     fn polar(square: Self::Square) -> Self::Polar;
 
-    /// What belongs to the first three of two vectors.
+    /// What belongs to the first three of two vectors. The length of the first may be 10⁻¹⁸ where
+    /// it has none; the second has no direction where it has no length.
     fn polar_pair<F: Point, G: Point>(a: Self::Four<F>, b: Self::Four<G>) -> [Self::Polar; 2];
 
     /// What is left of the first three of a vector in the plane with unit normal `normal`.

@@ -121,7 +121,7 @@ impl F4 {
         f32x4::splat(least).cmp_le(self.0).any()
     }
 
-    /// The root of each, correctly rounded; where registers hold four numbers.
+    /// The root of each, correctly rounded; ARM's FPUs have theirs in `asperity-vfp`.
     #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {

@@ -29,6 +29,15 @@ pub struct FixedPolar {
     shift: u32,
 }
 
+impl FixedPolar {
+    /// A number over the length, which it does not exceed.
+    #[inline(always)]
+    fn under<F: Point>(self, number: FixedI32<F>) -> FixedI32<Unit> {
+        let scaled = (i64::from(number.to_bits()) * i64::from(self.inverse)) >> self.shift;
+        FixedI32::from_bits(scaled as i32)
+    }
+}
+
 type Four<F> = [FixedI32<F>; 4];
 
 /// `wide`·2^−shift in range.
@@ -407,10 +416,7 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn direction<F: Point>(vector: Four<F>, polar: FixedPolar) -> Four<Unit> {
-        vector.map(|x| {
-            let scaled = (i64::from(x.to_bits()) * i64::from(polar.inverse)) >> polar.shift;
-            FixedI32::from_bits(scaled as i32)
-        })
+        vector.map(|x| polar.under(x))
     }
 
     #[inline(always)]
@@ -428,21 +434,19 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn share<F: Point>(reach: FixedI32<F>, polar: FixedPolar) -> FixedI32<Unit> {
         let one = FixedI32::<Unit>::ONE;
-        let scaled = (i64::from(reach.to_bits()) * i64::from(polar.inverse)) >> polar.shift;
+        let under = polar.under(reach).min(one);
         // The length is rounded down.
         if reach.to_bits().unsigned_abs() > polar.length {
             one
         } else {
-            FixedI32::from_bits(scaled as i32).min(one)
+            under
         }
     }
 
     #[inline(always)]
     fn over_root<F: Point>(reach: FixedI32<F>, square: u64) -> FixedI32<Unit> {
         // The length itself is not asked for: it is not below the reach.
-        let polar = Self::polar(square);
-        let scaled = (i64::from(reach.to_bits()) * i64::from(polar.inverse)) >> polar.shift;
-        FixedI32::from_bits(scaled as i32).min(FixedI32::ONE)
+        Self::polar(square).under(reach).min(FixedI32::ONE)
     }
 
     #[inline(always)]

@@ -45,16 +45,10 @@ pub struct FloatPolar {
 }
 
 impl FloatPolar {
-    /// Adds nothing to the square of a length in use, and makes the reciprocal of none finite.
+    /// Adds nothing to a length in use, and makes the reciprocal of none finite.
+    const NO_LENGTH: f32 = 1.0e-18;
+    /// Its square.
     const LEAST: f32 = 1.0e-36;
-
-    #[inline(always)]
-    fn of(length: f32) -> Self {
-        Self {
-            length,
-            inverse: 1.0 / length,
-        }
-    }
 }
 
 /// Below this an output that decays is set to zero, so that no denormal slows a tick.
@@ -339,17 +333,22 @@ impl Arithmetic for Float {
 
     #[inline(always)]
     fn polar(square: f32) -> FloatPolar {
-        FloatPolar::of(sqrt(square + FloatPolar::LEAST))
+        let length = sqrt(square);
+        FloatPolar {
+            length,
+            inverse: 1.0 / (length + FloatPolar::NO_LENGTH),
+        }
     }
 
     #[inline(always)]
     fn polar_pair<F: Point, G: Point>(a: F4, b: F4) -> [FloatPolar; 2] {
-        let square = |v: F4| {
-            let [x, y, z, _] = (v * v).to_array();
-            // The two sums wait for each other only at the end.
-            (x + y) + (z + FloatPolar::LEAST)
-        };
-        sqrt_pair([square(a), square(b)]).map(FloatPolar::of)
+        let [x, y, z, _] = (a * a).to_array();
+        // No sum waits for what keeps the reciprocal finite.
+        let square = (x + y) + (z + FloatPolar::LEAST);
+        sqrt_pair([square, b.dot3(b)]).map(|length| FloatPolar {
+            length,
+            inverse: 1.0 / length,
+        })
     }
 
     #[inline(always)]
