@@ -10,7 +10,7 @@ use crate::{
 };
 use asperity_formats as formats;
 use asperity_formats::{
-    Anchor, AssetParts, EncodeError, FrictionParts, GridParts, LsfCode, ModelParts, Surface,
+    Anchor, AssetParts, Coupling, EncodeError, FrictionParts, GridParts, LsfCode, ModelParts,
     TapParts, limits,
 };
 use thiserror::Error;
@@ -199,7 +199,7 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
             mu: texture.friction.mu as f32,
             anchors: &anchors,
         },
-        surface: Surface {
+        coupling: Coupling {
             stiffness_n_m: texture.wall.stiffness_n_m as f32,
             damping_n_s_m: texture.wall.damping_n_s_m as f32,
             vib_s2_m: texture.gains.vib_s2_m as f32,

@@ -2,7 +2,7 @@
 
 use super::counted::COSTS;
 use crate::model::{ModelGrid, Numerator};
-use asperity_formats::Shape;
+use asperity_formats::Solid;
 use std::{fmt, str::FromStr};
 
 /// Executed instructions of the costliest tick on a processor: a sum over what texture and
@@ -30,13 +30,13 @@ pub struct Surfaces([usize; 3]);
 impl Surfaces {
     /// How many of each there are.
     #[must_use]
-    pub fn of(shapes: impl IntoIterator<Item = Shape>) -> Self {
+    pub fn of(solids: impl IntoIterator<Item = Solid>) -> Self {
         let mut counts = Self::default();
-        for shape in shapes {
-            counts.0[match shape {
-                Shape::Plane { .. } => 0,
-                Shape::Sphere { .. } => 1,
-                Shape::Box { .. } => 2,
+        for solid in solids {
+            counts.0[match solid {
+                Solid::Plane { .. } => 0,
+                Solid::Sphere { .. } => 1,
+                Solid::Box { .. } => 2,
             }] += 1;
         }
         counts

@@ -77,7 +77,7 @@ pub fn build(
         .iter()
         .map(|entry| whole(scene, entry, prompter))
         .collect::<Result<Vec<_>, _>>()?;
-    let surfaces = Surfaces::of(scene.surfaces.iter().map(|surface| surface.shape));
+    let surfaces = Surfaces::of(scene.surfaces.iter().map(|surface| surface.solid));
     let tried: Vec<_> = wholes
         .par_iter()
         .map(|texture| fidelity::candidates(texture, &target, surfaces))
@@ -228,7 +228,7 @@ fn encode(
         .surfaces
         .iter()
         .map(|surface| SceneSurface {
-            shape: surface.shape,
+            solid: surface.solid,
             from_m: surface.from_m,
             to_m: surface.to_m,
             // Checked when it was read; there are at most as many textures as surfaces.
