@@ -1,9 +1,33 @@
-//! Which fidelity each texture gets.
+//! What a scene may cost, and which fidelity each texture gets.
 
-use super::fidelity::Candidate;
+use super::{fidelity::Candidate, target::Target};
 use thiserror::Error;
 
+/// Share of a target's clocks that a tick may take unless told otherwise.
+pub const DEFAULT_SHARE: f64 = 0.5;
+
 /// What a scene may cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Budget {
+    /// Where it runs; without one, instructions are counted and not limited.
+    pub target: Option<Target>,
+    /// Share of the target's clocks that a tick may take, above 0 and at most 1.
+    pub share: f64,
+    /// Bytes of the library.
+    pub bytes: Option<u64>,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self {
+            target: None,
+            share: DEFAULT_SHARE,
+            bytes: None,
+        }
+    }
+}
+
+/// The budget in numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Limits {
     /// Executed instructions a tick, of every texture by itself: one is rendered at a time.
@@ -74,7 +98,7 @@ fn fewest(candidates: &[Candidate], of: impl Fn(&Candidate) -> u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::builtin;
+    use crate::front_ends::builtin;
 
     fn texture(figures: &[(u64, usize, f64)]) -> Vec<Candidate> {
         figures

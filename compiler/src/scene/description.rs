@@ -1,9 +1,9 @@
 //! `scene.toml`: surfaces, and the textures they wear.
 
 use super::error::{SceneError, SceneProblem};
-use crate::rerate;
+use crate::passes::rerate;
 use asperity_formats::{
-    Shape,
+    Shape as Solid,
     limits::{MAX_NAME_BYTES, MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
 };
 use serde::Deserialize;
@@ -50,7 +50,7 @@ pub enum Origin {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceEntry {
     /// The solid.
-    pub shape: Shape,
+    pub solid: Solid,
     /// Lower corner of the region, m.
     pub from_m: [f32; 3],
     /// Upper corner of the region, m.
@@ -216,21 +216,21 @@ impl RawSurface {
         let field = |name: &str| format!("surface[{index}].{name}");
         let place = |name: &str, v: [f64; 3]| vector(&field(name), v, -f64::from(MAX_POSITION_M));
         let size = |name: &str, v: [f64; 3]| vector(&field(name), v, f64::from(MIN_SOLID_M));
-        let shape = match (self.plane, self.sphere, self.cuboid) {
+        let solid = match (self.plane, self.sphere, self.cuboid) {
             (Some(plane), None, None) => {
                 let normal = place("plane.normal", plane.normal)?;
                 let longest = normal.into_iter().map(f32::abs).fold(0.0, f32::max);
                 size("plane.normal length", [f64::from(longest); 3])?;
-                Shape::Plane {
+                Solid::Plane {
                     point_m: place("plane.point_m", plane.point_m)?,
                     normal,
                 }
             }
-            (None, Some(sphere), None) => Shape::Sphere {
+            (None, Some(sphere), None) => Solid::Sphere {
                 center_m: place("sphere.center_m", sphere.center_m)?,
                 radius_m: size("sphere.radius_m", [sphere.radius_m; 3])?[0],
             },
-            (None, None, Some(cuboid)) => Shape::Box {
+            (None, None, Some(cuboid)) => Solid::Box {
                 center_m: place("box.center_m", cuboid.center_m)?,
                 half_extents_m: size("box.half_extents_m", cuboid.half_extents_m)?,
             },
@@ -245,7 +245,7 @@ impl RawSurface {
             }
         }
         Ok(SurfaceEntry {
-            shape,
+            solid,
             from_m,
             to_m,
             texture: self.texture,

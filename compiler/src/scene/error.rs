@@ -1,8 +1,8 @@
 //! Why a scene cannot be built.
 
-use super::cost::Target;
+use super::target::Target;
+use crate::back_end::library::LibraryError;
 use crate::diagnostic::Diagnostic;
-use crate::library::LibraryError;
 use std::{io, path::PathBuf};
 use thiserror::Error;
 

@@ -1,6 +1,11 @@
 //! How the budget was spent.
 
-use super::{Budget, Description, Target, TextureEntry, fidelity::Candidate};
+use super::{
+    budget::Budget,
+    description::{Description, TextureEntry},
+    fidelity::Candidate,
+    target::Target,
+};
 use serde::Serialize;
 use std::fmt;
 
