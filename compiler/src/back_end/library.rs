@@ -1,4 +1,4 @@
-//! Many assets into one library.
+//! Packs many assets into one library.
 
 use crate::diagnostic::Diagnostic;
 use asperity_formats::{EncodeError, SceneSurface, library, scene};

@@ -1,4 +1,4 @@
-//! An asset back to the f64 model, as a reader of its bytes gets it.
+//! The way back: the f64 model that the bytes of an asset describe.
 
 use crate::model::{
     Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,

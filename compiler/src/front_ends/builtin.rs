@@ -1,9 +1,9 @@
 //! The built-in texture: grit under a stylus, made from a small model of its physics.
 //!
-//! Grains of spacing λ pass the tip at `v/λ` per second; their impacts are a line at
-//! that frequency with a weaker harmonic, widened by the irregular spacing. The stylus
-//! resonates; a broad floor falls with frequency. Level grows with speed and force as
-//! powers below one, as real textures do. No recording went into it.
+//! Grains at a distance λ pass the tip `v/λ` times a second. Their impacts give a spectral line at
+//! that frequency and a weaker harmonic, both widened by the irregular spacing. The stylus adds a
+//! resonance, and a broad floor falls with frequency. The level grows with powers of speed and force
+//! below one, as that of real textures does. No recording went into it.
 
 use crate::{
     model::{
@@ -32,7 +32,7 @@ const GRAIN_SPACING_MM: f64 = 0.9;
 const SPACING_SPREAD: f64 = 0.16;
 /// Power of the second harmonic relative to the first.
 const SECOND_HARMONIC: f64 = 0.15;
-/// Resonance of the stylus, Hz, its quality factor and its share of power.
+/// Resonance of the stylus, Hz, its quality factor, and its power relative to the line.
 const STYLUS_HZ: f64 = 330.0;
 const STYLUS_Q: f64 = 5.0;
 const STYLUS_SHARE: f64 = 0.04;
@@ -96,7 +96,7 @@ fn vertices() -> Vec<GridVertex> {
         .enumerate()
         .flat_map(|(row, &force_n)| {
             SPEEDS_MM_S.iter().enumerate().map(move |(column, &speed)| {
-                // Staggered, as measured points never lie on a lattice.
+                // Measured points never lie on a lattice, so these do not either.
                 let speed_mm_s = speed + [6.0, -5.0, 2.0][(row + column) % 3];
                 let force_n = force_n * [1.0, 1.12, 0.9][(row + 2 * column) % 3];
                 interior_vertex(speed_mm_s, force_n)
@@ -142,7 +142,7 @@ fn interior_vertex(speed_mm_s: f64, force_n: f64) -> GridVertex {
         spectrum(freq_hz, speed_mm_s)
     };
     let (monic, unscaled_sigma) = levinson::all_pole(ORDER, shape);
-    // Mean of |1 + z⁻¹|²·shape over frequency: the variance at unscaled σ.
+    // The mean of |1 + z⁻¹|²·shape over frequency is the variance at the unscaled σ.
     const POINTS: usize = 2048;
     let variance = (0..POINTS)
         .map(|point| (point as f64 + 0.5) * PI / POINTS as f64)
@@ -169,7 +169,7 @@ fn interior_vertex(speed_mm_s: f64, force_n: f64) -> GridVertex {
 fn spectrum(freq_hz: f64, speed_mm_s: f64) -> f64 {
     let grains_hz = speed_mm_s / GRAIN_SPACING_MM;
     let line = |center_hz: f64| {
-        // A floor of 12 Hz: the slow grid still has a finite line width.
+        // Slow strokes, too, give a line of some width.
         let width_hz = (SPACING_SPREAD * center_hz).max(12.0);
         let offset = (freq_hz - center_hz) / width_hz;
         1.0 / (1.0 + offset * offset * offset * offset)

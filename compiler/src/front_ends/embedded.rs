@@ -1,4 +1,4 @@
-//! The model inside the binary: what a prompt needs without any file.
+//! The networks inside the binary: a prompt needs no file.
 
 use crate::front_ends::{
     inference::Backend,

@@ -9,8 +9,8 @@ use serde::Serialize;
 /// Lowest rate of a trace whose centroid counts as hardness, Hz.
 const MIN_TAP_RATE_HZ: f64 = 5000.0;
 
-/// Objective attributes. One that a texture does not define, for it has no taps or no
-/// interior vertex that sounds, is `None`.
+/// Objective attributes. An attribute is `None` where a texture does not define it, because it
+/// has no taps, or no interior vertex that sounds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Attributes {
     /// Mean over interior vertices of the level above 40 Hz, excitation included,

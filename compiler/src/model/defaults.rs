@@ -1,10 +1,12 @@
-//! Values that no source states. Unconfirmed on a device: a front end may set others.
+//! Values for what no source states. Nobody confirmed them on a device, and a front end may set
+//! others.
 
 use crate::model::{Gains, Wall};
 
 /// Stiffness of the wall, N/m: the driver of the 3D Systems Touch reports 0.5 N/mm.
 pub const STIFFNESS_N_M: f64 = 500.0;
-/// Rendered damping, N·s/m: little, as it raises the damping a stable wall needs.
+/// Rendered damping, N·s/m. It is small, because rendered damping raises the damping that the
+/// device must have for a stable wall.
 pub const DAMPING_N_S_M: f64 = 0.1;
 /// Peak force of the 3D Systems Touch, N.
 pub const F_MAX_N: f64 = 3.3;

@@ -4,7 +4,7 @@ use crate::model::ModelGrid;
 use std::collections::HashMap;
 use thiserror::Error;
 
-/// Relative slack of the area sum: coordinates are printed with six decimals.
+/// Relative tolerance of the area sum, because sources print coordinates with six decimals.
 const AREA_TOLERANCE: f64 = 1e-6;
 
 /// Why the triangles do not tile `[0, max_speed] × [0, max_force]`.

@@ -1,7 +1,7 @@
-//! What a grid renders at a speed and a force, in f64: the twin of the runtime's mixture.
+//! The barycentric mixture on the grid, in f64: what the runtime renders at a speed and a force.
 //!
-//! Line spectral frequencies are mixed as cos ω and levels as gain·σ with the barycentric
-//! weights of the triangle around the query; a query outside is moved to the border.
+//! Line spectral frequencies are mixed as cos ω, and levels as gain·σ, with the barycentric
+//! weights of the triangle around the query. A query outside the grid is moved to its border.
 
 use crate::{
     model::{ModelGrid, Numerator, mesh},
@@ -25,7 +25,7 @@ pub(crate) struct Cosines {
     ma: Vec<f64>,
 }
 
-/// A mixture as it is made, before conversion to coefficients.
+/// A mixture of models before its conversion to coefficients.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mixture {
     /// cos ω of A(z).
@@ -40,13 +40,13 @@ pub struct Mixture {
 #[derive(Debug, Clone)]
 pub struct Field<'a> {
     grid: &'a ModelGrid,
-    /// One a vertex.
+    /// One entry for each vertex.
     cosines: Vec<Rc<Cosines>>,
     corner: (f64, f64),
 }
 
 impl<'a> Field<'a> {
-    /// Prepares a grid; the triangles must tile it.
+    /// Prepares a grid, whose triangles must tile it.
     #[must_use]
     pub fn new(grid: &'a ModelGrid) -> Self {
         let cosines = |angles: &[f64]| angles.iter().map(|&w| libm::cos(w)).collect();
@@ -67,7 +67,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Prepares a grid whose cosines are known, one entry a vertex.
+    /// Prepares a grid whose cosines are known, one entry for each vertex.
     pub(crate) fn with_cosines(grid: &'a ModelGrid, cosines: &[Rc<Cosines>]) -> Self {
         Self {
             grid,
@@ -76,7 +76,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The cosines, one entry a vertex.
+    /// The cosines, one entry for each vertex.
     pub(crate) fn cosines(&self) -> &[Rc<Cosines>] {
         &self.cosines
     }
@@ -88,14 +88,14 @@ impl<'a> Field<'a> {
         self.locate_among(&self.grid.triangles, speed_mm_s, force_n)
     }
 
-    /// [`Field::locate`] where only some triangles come into question.
+    /// [`Field::locate`] among some of the triangles.
     pub(crate) fn locate_among(
         &self,
         triangles: &[[usize; 3]],
         speed_mm_s: f64,
         force_n: f64,
     ) -> Option<Place> {
-        // A NaN goes to rest.
+        // A NaN counts as rest.
         let inside = |x: f64, max: f64| if x > 0.0 { x.min(max) } else { 0.0 };
         let (speed, force) = (
             inside(speed_mm_s, self.corner.0),
@@ -107,7 +107,7 @@ impl<'a> Field<'a> {
         let (vertices, weights) = self
             .best(near, speed, force)
             .filter(|(_, weights)| smallest(weights) >= 0.0)
-            // In a gap, or by rounding, a query is in none of them.
+            // A query in a gap, or on an edge by rounding, lies in none of them.
             .or_else(|| self.best(triangles.iter(), speed, force))?;
         let cut = weights.map(|w| w.max(0.0));
         let sum: f64 = cut.iter().sum();
@@ -135,8 +135,8 @@ impl<'a> Field<'a> {
             })
     }
 
-    /// Whether a query lies between the least and the largest speed and force of a triangle:
-    /// elsewhere a weight is negative.
+    /// Whether a query lies between the least and the largest speed and force of a triangle. Where
+    /// it does not, one of its weights is negative.
     fn may_hold(&self, triangle: &[usize; 3], speed: f64, force: f64) -> bool {
         let between = |[a, b, c]: [f64; 3], x: f64| a.min(b).min(c) <= x && x <= a.max(b).max(c);
         let corners = triangle.map(|v| &self.grid.vertices[v]);
@@ -271,7 +271,7 @@ mod tests {
                 level_m_s2: f64::from(filter.level_m_s2),
                 ..ours.clone()
             };
-            // Near rest f32 leaves a level of rounding where there is none.
+            // Near rest, rounding in f32 leaves a small level where there is none.
             if ours.level_m_s2 > 1e-4 {
                 let distance_db = log_spectral_distance_db(&ours, &runtime);
                 assert!(

@@ -1,11 +1,8 @@
-//! The intermediate representation: one texture in f64 and SI units.
-//!
-//! Every front end (import, prompt, edit) ends here and every back end (lowering,
-//! plots, verification) starts here.
+//! The types of a texture model, in f64 and SI units.
 
 use serde::{Deserialize, Serialize};
 
-/// A texture before quantisation: what every front end produces.
+/// A texture before quantisation, as every front end makes it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureModel {
     /// Name, unique within a library; 1..=64 bytes of UTF-8.
@@ -33,9 +30,9 @@ pub struct ModelGrid {
     pub sample_rate_hz: f64,
     /// AR order `p`, the same at every vertex.
     pub order: usize,
-    /// What stands above A(z).
+    /// The numerator of every model.
     pub numerator: Numerator,
-    /// One model a vertex.
+    /// The vertices, each with a model of its own.
     pub vertices: Vec<GridVertex>,
     /// Vertex indices, any orientation.
     pub triangles: Vec<[usize; 3]>,
@@ -83,7 +80,7 @@ pub struct GridVertex {
     pub sigma_m_s2: f64,
 }
 
-/// Tapping transients, one trace an impact speed.
+/// Tapping transients, with one trace for every impact speed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TapBank {
     /// Sample rate of every trace, Hz.
@@ -118,7 +115,7 @@ pub struct FrictionAnchor {
     pub name: String,
     /// Its coefficient of kinetic friction.
     pub mu: f64,
-    /// Its share in the texture's μ, 0..=1.
+    /// Its weight in the texture's μ, 0..=1.
     pub weight: f64,
 }
 

@@ -1,7 +1,7 @@
-//! A grid at another sample rate: a conversion, never a relabelling.
+//! Converts a grid to another sample rate.
 //!
-//! Every model is fitted anew to its own power spectrum at the new rate; what lay
-//! above half the old rate is nothing, down to a floor that keeps the fit regular.
+//! Every model is fitted again to its own power spectrum at the new rate. Above half the old rate
+//! there was no power, except for a floor that keeps the fit regular.
 
 use crate::{
     model::{GridVertex, ModelGrid, Numerator},
@@ -15,8 +15,8 @@ use std::f64::consts::TAU;
 
 /// Rates that a grid can be converted to, Hz.
 ///
-/// Twice the decoder's rate is the most that an order of 24 can follow; faster loops
-/// keep the clock of the models and interpolate.
+/// An order of 24 can follow at most twice the decoder's rate. In faster servo loops the models
+/// keep their own rate, and the runtime's upsampler gives the ticks between.
 pub const RATE_RANGE_HZ: (f64, f64) = (500.0, 2000.0);
 /// Power above half the old rate, relative to the peak.
 const FLOOR: f64 = 1e-4;
@@ -25,9 +25,9 @@ const POINTS: usize = 2048;
 
 /// The grid at `rate_hz`; `None` for a rate outside [`RATE_RANGE_HZ`].
 ///
-/// The order grows towards the format's limit with the rate: the same band takes a
-/// smaller share of the unit circle. The numerator stays; a grid with a numerator of its own gets 1 + z⁻¹. The power
-/// in the band that both rates have is kept.
+/// The order grows with the rate, up to the format's limit, because the same band takes a smaller
+/// part of the unit circle. A numerator 1 or 1 + z⁻¹ stays, and a numerator of a model's own becomes
+/// 1 + z⁻¹. The power in the band that both rates have is kept.
 #[must_use]
 pub fn rerate(grid: &ModelGrid, rate_hz: f64) -> Option<ModelGrid> {
     let (low, high) = RATE_RANGE_HZ;
@@ -64,7 +64,7 @@ fn convert(
     order: usize,
     rate_hz: f64,
 ) -> Option<GridVertex> {
-    // The shape of a silent vertex counts: its neighbours are mixed with it.
+    // The spectrum of a silent vertex matters, because its neighbours are mixed with it.
     let model = ArmaModel {
         level_m_s2: 1.0,
         ..ArmaModel::at_vertex(grid, vertex)
@@ -83,7 +83,7 @@ fn convert(
         };
         let zero = match numerator {
             Numerator::None => 1.0,
-            // Half the new rate itself is never asked for.
+            // No frequency here is half the new rate itself.
             _ => squared_magnitude(&[1.0, 1.0], omega).max(1e-3),
         };
         (power + FLOOR * peak) / zero

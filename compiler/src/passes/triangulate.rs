@@ -1,9 +1,9 @@
-//! Triangles for vertices that have none.
+//! Triangulates vertices that a front end gives without triangles.
 
 use crate::model::GridVertex;
 use delaunator::Point;
 
-/// Delaunay triangles of the vertices, both axes scaled to 0..1 so that neither unit
+/// The Delaunay triangles of the vertices, with both axes scaled to 0..1 so that neither unit
 /// counts for more. The same vertices give the same triangles.
 ///
 /// They tile the rectangle from (0, 0) if its four corners are among the vertices.

@@ -1,4 +1,5 @@
-//! From a description to a library: every texture in full, its fidelities, the choice among them.
+//! From a description to a library: makes every texture in full, tries its fidelities, and packs
+//! the ones that the budget allows.
 
 use super::{
     budget::{self, Budget, Excess, Limits},

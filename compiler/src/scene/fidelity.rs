@@ -72,7 +72,7 @@ pub(super) fn candidates(
             all.extend(candidate);
         }
     }
-    // Stable: of equals the whole texture stays first.
+    // The sort is stable: of equals the whole texture stays first.
     all.sort_by(|a, b| a.error_db.total_cmp(&b.error_db));
     let mut kept: Vec<Candidate> = Vec::new();
     for candidate in all {

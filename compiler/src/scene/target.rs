@@ -35,8 +35,8 @@ impl Target {
         self.cost.above_percent
     }
 
-    /// Instructions a tick may take: those stated, or a share of the clocks of a period, one
-    /// instruction a clock.
+    /// Instructions that a tick may take: those stated, or this share of the clocks of a period, at
+    /// one instruction a clock.
     #[must_use]
     pub fn budget(&self, servo_rate_hz: f64, share: f64) -> u64 {
         match self.supply {

@@ -5,21 +5,22 @@ use crate::signal::{lsf, reflection};
 /// RMS of `(1 + z⁻¹)/A(z)` driven by unit white noise.
 #[must_use]
 pub fn nyquist_rms(lsf_rad: &[f64]) -> f64 {
-    // Ordered LSFs are stable; what rounding spoils beyond that counts as loud.
+    // Ordered LSFs are stable. A filter that rounding makes unstable counts as infinitely loud.
     reflection::step_down(&lsf::to_polynomial(lsf_rad))
         .map_or(f64::INFINITY, |reflection| nyquist_rms_of(&reflection))
 }
 
-/// [`nyquist_rms`] of the filter with these reflection coefficients: of 1/A alone the variance
-/// is r₀ and the next lag r₁ = −k₁r₀; the numerator adds a sample to its predecessor:
-/// 2(r₀ + r₁).
+/// [`nyquist_rms`] of the filter with these reflection coefficients.
+///
+/// The autocorrelation of 1/A begins with r₀ and r₁ = −k₁r₀. The numerator adds every sample to
+/// its predecessor, so the variance is 2(r₀ + r₁).
 #[must_use]
 pub fn nyquist_rms_of(reflection: &[f64]) -> f64 {
     let first = reflection.first().copied().unwrap_or(0.0);
     (2.0 * all_pole_variance(reflection) * (1.0 - first)).sqrt()
 }
 
-/// Variance of `1/A(z)` driven by unit white noise: Π 1/(1 − k²).
+/// Variance of `1/A(z)` driven by unit white noise, which is Π 1/(1 − k²).
 #[must_use]
 pub fn all_pole_variance(reflection: &[f64]) -> f64 {
     let factors = reflection.iter().map(|k| 1.0 / ((1.0 - k) * (1.0 + k)));

@@ -2,7 +2,7 @@
 
 use multiversion::multiversion;
 
-/// Polynomials that are stepped down side by side: what fits the registers of a processor.
+/// Number of polynomials that are stepped down side by side, as many as fit a register.
 pub const LANES: usize = 8;
 
 /// Reflection coefficients of a monic polynomial `A(z) = 1 + Σ a_k z⁻ᵏ`, given as
@@ -22,7 +22,7 @@ pub fn step_down(monic: &[f64]) -> Option<Vec<f64>> {
         }
         reflection[k - 1] = r;
         let scale = 1.0 / ((1.0 - r) * (1.0 + r));
-        // Pairs i and k − i need each other, and nobody else: in place.
+        // The entries i and k − i depend on each other alone, so they are replaced in place.
         for i in 0..=k / 2 {
             let (x, y) = (current[i], current[k - i]);
             current[i] = (x - r * y) * scale;
@@ -32,10 +32,10 @@ pub fn step_down(monic: &[f64]) -> Option<Vec<f64>> {
     Some(reflection)
 }
 
-/// Largest magnitude of a reflection coefficient of [`LANES`] monic polynomials, `monic[k]` being
-/// their coefficients of z⁻ᵏ; infinite for one that is not stable.
+/// The largest magnitude of a reflection coefficient of each of [`LANES`] monic polynomials, where
+/// `monic[k]` are their coefficients of z⁻ᵏ. It is infinite for a polynomial that is not stable.
 ///
-/// The recursion of [`step_down`], to the bit. No lane meets another, so wider registers give
+/// This is the recursion of [`step_down`], to the bit. Lanes never mix, so wider registers give
 /// the same bits.
 #[multiversion(targets("x86_64+avx2"))]
 #[must_use]
@@ -90,7 +90,7 @@ mod tests {
         fn step_down_inverts_step_up(r in prop::collection::vec(-0.95_f64..0.95, 1..=24)) {
             let monic = step_up(&r);
             let back = step_down(&monic).expect("reflection coefficients below one are stable");
-            // The recursion divides by 1 − r² at every step: the error grows by their product.
+            // The recursion divides by 1 − r² at every step, so the error grows by their product.
             let growth: f64 = r.iter().map(|r| (1.0 + r.abs()) / (1.0 - r.abs())).product();
             for (found, expected) in back.iter().zip(&r) {
                 prop_assert!((found - expected).abs() <= 1e-15 * (10.0 + growth));

@@ -1,11 +1,10 @@
-//! Tap transients for a source that has none: decaying sinusoids with a stated
-//! impulse.
+//! Tap transients for a source that has none: decaying sinusoids with a given impulse.
 //!
-//! `a(t) = A·v·e^(−t/τ)·sin(2πft)` with impact speed v: amplitude linear in v, as
-//! Okamura, Cutkosky and Dennerlein ("Reality-based models for vibration feedback
-//! in virtual environments", 2001) measured. The frequency follows the texture:
-//! a surface that vibrates brighter taps harder. Both are a guess at the material,
-//! so such a bank is marked synthetic.
+//! At the impact speed v a transient is `a(t) = A·v·e^(−t/τ)·sin(2πft)`. Its amplitude is linear
+//! in v, as Okamura, Cutkosky and Dennerlein measured ("Reality-based models for vibration
+//! feedback in virtual environments", 2001). Its frequency follows the texture: a surface that
+//! vibrates at higher frequencies taps harder. Both are guesses at the material, so such a bank
+//! is marked synthetic.
 
 use crate::model::{Gains, ModelGrid, TapBank, TapTrace, VertexKind};
 use crate::signal::spectrum::ArmaModel;
@@ -28,7 +27,7 @@ pub const DECAY_S: f64 = 0.002;
 pub const FREQ_RANGE_HZ: (f64, f64) = (80.0, 350.0);
 /// Samples over which the end of a trace is faded to zero.
 const FADE_SAMPLES: usize = 20;
-/// Share of the device's force that the strongest tap may take.
+/// Fraction of the device's force that the strongest tap may take.
 const PEAK_SHARE: f64 = 0.9;
 
 /// Frequency of the synthesised taps, Hz: 1.5 times the mean spectral centroid above

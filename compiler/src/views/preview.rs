@@ -1,8 +1,8 @@
-//! A plain preview: a piece of the surface as its own vibration describes it.
+//! A preview that is drawn from the vibration of a texture, not from a photograph.
 //!
-//! Waves of random direction and phase, their lengths v/f drawn from the spectrum at
-//! the middle of the grid, make a relief under one light; its depth follows the level,
-//! its tint the families of the nearest materials. It shows no photograph.
+//! The picture is a relief under one light: a sum of waves with random directions and phases,
+//! whose lengths v/f are drawn from the spectrum at the middle of the grid. The depth of the relief
+//! follows the level, and its tint the families of the nearest materials.
 
 use crate::model::{ModelGrid, VertexKind};
 use crate::signal::spectrum::ArmaModel;
@@ -13,11 +13,11 @@ use thiserror::Error;
 
 /// Width and height, pixels.
 pub const SIZE: usize = 192;
-/// Width of the piece, mm.
+/// Width of the piece of surface that is shown, mm.
 const PATCH_MM: f64 = 14.0;
 /// Waves that make the relief.
 const WAVES: usize = 96;
-/// Speed at which frequencies become lengths, mm/s, where the grid has no middle.
+/// Frequencies between which the waves are drawn, Hz.
 const BAND_HZ: (f64, f64) = (20.0, 450.0);
 /// Levels between which the relief grows from flat to steep, dB re 1 m/s².
 const LEVELS_DB: (f64, f64) = (-24.0, 16.0);
@@ -49,7 +49,7 @@ const TINTS: [(&str, [f64; 3]); 20] = [
     ("woods", [0.68, 0.50, 0.32]),
 ];
 
-/// A picture that could not be written as PNG.
+/// The picture could not be encoded as PNG.
 #[derive(Debug, Error)]
 #[error("the preview: {0}")]
 pub struct PreviewError(#[from] png::EncodingError);
@@ -77,7 +77,7 @@ pub fn png(grid: &ModelGrid, families: &[(&str, f64)], seed: u64) -> Result<Vec<
     Ok(bytes)
 }
 
-/// Heights, row by row, their RMS growing with the level.
+/// Heights, row by row. Their RMS grows with the level.
 fn relief(grid: &ModelGrid, seed: u64) -> Vec<f64> {
     let mut heights = vec![0.0; SIZE * SIZE];
     let interior = || {
@@ -108,7 +108,7 @@ fn relief(grid: &ModelGrid, seed: u64) -> Vec<f64> {
         let (sin, cos) = libm::sincos(TAU * uniform());
         let (step_x, step_y) = (per_pixel * cos, per_pixel * sin);
         let phase = TAU * uniform();
-        // cos(a + b) of row and column: one product each instead of a cosine a pixel.
+        // By the addition theorem a pixel takes two products instead of a cosine.
         let columns: Vec<(f64, f64)> = (0..SIZE)
             .map(|x| libm::sincos(step_x * x as f64 + phase))
             .collect();
@@ -175,7 +175,7 @@ fn shade(heights: &[f64], tint: [f64; 3]) -> Vec<u8> {
     let mut pixels = Vec::with_capacity(3 * SIZE * SIZE);
     for y in 0..SIZE {
         for x in 0..SIZE {
-            // The last column and row lean on their neighbours before.
+            // The last column and row take the slope of the ones before them.
             let (x0, y0) = (x.min(SIZE - 2), y.min(SIZE - 2));
             let slope = at(x0 + 1, y0) - at(x0, y0) + at(x0, y0 + 1) - at(x0, y0);
             let light = AMBIENT - 0.55 * slope + 0.10 * at(x, y);

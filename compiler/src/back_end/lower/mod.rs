@@ -1,5 +1,4 @@
-//! The back end: a [`TextureModel`] to the bytes of an asset, with the error of what
-//! was rounded.
+//! Lowers a [`TextureModel`] to the bytes of an asset, and measures what rounding costs.
 
 mod error;
 mod loss;

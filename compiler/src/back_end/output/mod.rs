@@ -1,4 +1,4 @@
-//! Outputs that are there in full or not at all.
+//! Writes outputs in full or not at all.
 //!
 //! A file is written beside its target and renamed over it. What is not committed is
 //! removed, on an error and on an interrupt.

@@ -1,4 +1,4 @@
-//! Opening what other commands wrote: an asset, or one texture of a library.
+//! Opens what other commands wrote: an asset, or one texture of a library.
 
 mod error;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The gate before an asset is written: the real runtime, driven over the whole domain.
+//! The gate before an asset is written: the runtime itself renders it over its whole domain.
 
 mod error;
 mod queries;
@@ -12,7 +12,7 @@ use crate::model::TextureModel;
 use asperity_formats::Asset;
 use asperity_runtime::HostTexture;
 
-/// What the gate saw.
+/// What verification found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VerifyReport {
     /// Queries of speed and force.
@@ -27,8 +27,8 @@ pub struct VerifyReport {
     pub peak_force_n: f32,
 }
 
-/// Loads the asset into the runtime and drives it over vertices, edges, a grid, the
-/// border, beyond it, NaN and infinities, then through a script of ticks.
+/// Loads the asset into the runtime, queries it at vertices, on edges, over a grid, along the border,
+/// beyond it, and at NaN and infinities, then runs it through a script of ticks.
 ///
 /// `texture` is what the asset was made from.
 ///

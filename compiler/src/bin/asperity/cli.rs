@@ -1,4 +1,4 @@
-//! What the command understands.
+//! The command line: commands, arguments, help.
 
 use asperity::{inference::BackendName, reduce::Fidelity, scene::Target, text::TextEncoderChoice};
 use clap::{Args, Parser, Subcommand};

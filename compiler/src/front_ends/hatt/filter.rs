@@ -1,4 +1,5 @@
-//! A polynomial that the source gives twice, and which of the two is used.
+//! A polynomial that the source states twice, as coefficients and as LSFs, and the choice between
+//! the two.
 
 use crate::signal::{
     lsf,

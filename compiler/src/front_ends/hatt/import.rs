@@ -1,4 +1,4 @@
-//! From files to verified assets, with one line of error statistics a material.
+//! From files to verified assets, with the distance of each from its source.
 
 use super::{
     error::{HattError, Problem},

@@ -1,4 +1,4 @@
-//! A HaTT material as its file states it, every claim checked.
+//! A HaTT material as its file states it, with every statement checked.
 
 use super::{
     error::{HattError, Problem},

@@ -1,5 +1,4 @@
-//! Reading numbers and lists out of an untrusted XML document, with the line of
-//! whatever is wrong.
+//! Reads numbers and lists from an untrusted XML document, and names the line of what is wrong.
 
 use super::error::{HattError, Problem};
 use roxmltree::{Document, Node, ParsingOptions};

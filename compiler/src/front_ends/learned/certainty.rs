@@ -1,4 +1,4 @@
-//! How far a prompt lies from anything trained.
+//! How certain a texture is, from the distance of its prompt to anything trained.
 
 use super::description::CertaintyCurve;
 

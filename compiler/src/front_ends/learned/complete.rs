@@ -1,4 +1,4 @@
-//! Cross-modal completion: what one modality is known of decides the other.
+//! Cross-modal completion: the latent of one modality decodes to the other.
 
 use super::{
     description::{GridDescription, TapDescription},
@@ -19,7 +19,7 @@ use std::f64::consts::{PI, TAU};
 const POINTS: usize = 512;
 /// Power floor relative to the peak, before the zero at half the rate is divided out.
 const FLOOR: f64 = 1e-6;
-/// |1 + z⁻¹|² counts at least this: at half the rate itself it is nothing.
+/// Least value of |1 + z⁻¹|² that a spectrum is divided by; at half the rate it is zero.
 const LEAST_ZERO: f64 = 1e-3;
 
 /// A tap bank decoded from an AR grid.

@@ -1,4 +1,4 @@
-//! What a learned model says of itself: everything that is not a network.
+//! The description of a learned model: everything in its folder that is not a network.
 
 use serde::{Deserialize, Serialize};
 

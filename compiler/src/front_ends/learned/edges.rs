@@ -1,12 +1,12 @@
-//! Edge models: what lies between the bins and the borders of the rectangle.
+//! Edge models: they close the grid between its bins and the borders of the rectangle.
 //!
-//! Every point of the hull of the bins that looks towards a border is copied onto it,
-//! the corners too. The shape of the spectrum stays; the level goes on as the power of
-//! speed and force that the grid itself shows, and is nothing at rest or without touch.
+//! Every vertex of the bins' hull that faces a border is copied onto that border, and onto the
+//! corners. The copy keeps the shape of the spectrum. Its level follows the powers of speed and
+//! force that the grid itself shows, and is zero at rest and without touch.
 
 use crate::model::{GridVertex, VertexKind};
 
-/// Exponents beyond these come from noise.
+/// Range of the exponents; what lies beyond comes from noise.
 const EXPONENTS: (f64, f64) = (0.0, 2.0);
 
 /// The interior vertices followed by the edge models that close

@@ -9,7 +9,7 @@ pub struct Neighbour {
     pub index: usize,
     /// Cosine between its latent and the query.
     pub cosine: f64,
-    /// Its share, 0..=1; the shares sum to one.
+    /// Its weight, 0..=1; the weights of all neighbours sum to one.
     pub weight: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The networks of a model folder, loaded once and asked often.
+//! A learned model: its networks, loaded once, and what they are asked.
 
 use super::{
     check::check,

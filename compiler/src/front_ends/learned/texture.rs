@@ -1,4 +1,4 @@
-//! What a latent decodes to, as a texture.
+//! Builds a texture from what a latent decodes to.
 
 use super::{
     description::ModelDescription,
@@ -18,16 +18,16 @@ use std::f64::consts::PI;
 
 /// Neighbouring LSFs keep at least this distance, rad: twice what an asset demands.
 const LEAST_GAP_RAD: f64 = 0.01;
-/// RMS gain of a filter whose neighbours may be anything: twice what trained materials have.
-/// Very different models of a larger gain that take turns within a stroke can ring.
+/// Largest RMS gain of a filter, twice that of trained materials. Very different models of a
+/// larger gain that take turns within a stroke can ring.
 const LARGEST_GAIN: f64 = 8.0;
 /// Levels of a bin are kept in this range, dB re 1 m/s², whatever a decoder says: at
 /// the default gain 20 dB are 0.5 N RMS.
 const LEVEL_RANGE_DB: (f64, f64) = (-60.0, 20.0);
-/// Level of an edge model at most, dB: levels grow towards fast and hard strokes by the power
-/// that the bins show, which of far latents may be anything.
+/// Largest level of an edge model, dB re 1 m/s². Levels grow towards fast and hard strokes with
+/// the powers that the bins show, and those of a far latent may be anything.
 const LARGEST_EDGE_DB: f64 = 32.0;
-/// Samples of a trace keep below this share of the device's force over `m_eff`.
+/// Samples of a trace stay below this fraction of the device's force over `m_eff`.
 const TAP_SHARE: f64 = 0.95;
 
 /// A texture of decoded parameters.
@@ -142,7 +142,7 @@ fn tamed(lsf_rad: Vec<f64>) -> Vec<f64> {
         .unwrap_or(lsf_rad)
 }
 
-/// LSFs in order and at least [`LEAST_GAP_RAD`] apart, moved as little as it takes.
+/// The LSFs in order and at least [`LEAST_GAP_RAD`] apart, moved no further than needed.
 fn spread(raw: &[f32]) -> Vec<f64> {
     let count = raw.len();
     let mut lsf: Vec<f64> = raw

@@ -1,4 +1,4 @@
-//! What a person, and a machine, wants to know of a compiled prompt.
+//! The report of a compiled prompt, as text and as JSON.
 
 use super::{Authored, LOW_CERTAINTY};
 use serde_json::{Value, json};

@@ -1,9 +1,8 @@
 //! CLIP's text tower from a user's own ONNX export: 77 tokens, any width.
 //!
-//! Weights of CLIP are not ours to ship. The folder holds `text_model.onnx` (or
-//! `model.onnx`): one input of ids, int32 or int64 `[1, 77]`, possibly an attention
-//! mask of the same shape, and an output `[1, width]`, `text_embeds` where there are
-//! several.
+//! The weights of CLIP are not shipped. A folder holds `text_model.onnx` or `model.onnx`, with an
+//! input of ids, int32 or int64 `[1, 77]`, possibly an attention mask of the same shape, and an
+//! output `[1, width]`. Where there are several outputs, it is `text_embeds`.
 
 use super::encoder::{Encoded, TextEncoder, TextError, unit};
 use crate::front_ends::inference::Backend;

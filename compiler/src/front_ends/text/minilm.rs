@@ -1,4 +1,4 @@
-//! all-MiniLM-L6-v2: 384 numbers a sentence, WordPiece tokens, lower case.
+//! all-MiniLM-L6-v2: WordPiece tokens in lower case to a vector of 384 numbers.
 
 use super::encoder::{Encoded, TextEncoder, TextError, unit};
 use asperity_nn::{Session, Tensor};

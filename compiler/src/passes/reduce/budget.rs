@@ -8,16 +8,15 @@ use crate::{
     signal::spectrum::{Angles, ErrorBand, rms_db},
 };
 
-/// Largest RMS log-spectral distance over 10–450 Hz, level included, that `auto` accepts,
-/// dB: at 95 % of the places, and at the worst. Silent places count as without error. An
-/// amplitude is told from another at 1.6 dB by the best of observers, and at 2.2 to 2.5 dB by
-/// most.
+/// Largest RMS log-spectral distance over 10–450 Hz, level included, that `auto` accepts, dB:
+/// at 95 % of the places, and at the worst place. Silent places count as without error. The best
+/// observers tell two amplitudes apart at 1.6 dB, most at 2.2 to 2.5 dB.
 pub const BUDGET_DB: (f64, f64) = (0.5, 1.0);
-/// Kept below the budget for what lowering rounds, dB.
+/// Part of the budget that is left for rounding in the back end, dB.
 const ROOM_DB: f64 = 0.01;
 /// Frequencies at which spectra are compared: four hertz apart.
 const POINTS: usize = 111;
-/// Quieter than the loudest vertex by this, a place is silent: 40 dB.
+/// A place is silent if its level, relative to the loudest vertex, is below this: 40 dB down.
 const SILENT: f64 = 0.01;
 
 /// Where a grid is compared with another.
@@ -47,13 +46,13 @@ struct Band {
     inverse_nyquist: Vec<f64>,
 }
 
-/// Distances of a grid, one a place, dB; infinite where it is not stable or sounds where
-/// there is silence.
+/// Distances of a grid from the whole one, dB, one for each place. A distance is infinite where
+/// the grid is not stable, or sounds where the whole one is silent.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Distances(pub(super) Vec<f64>);
 
 impl Distances {
-    /// The distance that 95 % of the places keep, and the largest, dB.
+    /// The 95 % quantile and the largest of the distances, dB.
     #[must_use]
     pub fn summary(&self) -> (f64, f64) {
         let mut sorted = self.0.clone();
@@ -65,7 +64,7 @@ impl Distances {
         (at(0.95), at(1.0))
     }
 
-    /// Whether they leave room within [`BUDGET_DB`] for rounding.
+    /// Whether the distances are within [`BUDGET_DB`], with room for rounding.
     #[must_use]
     pub fn are_within_budget(&self) -> bool {
         let mut tally = Tally::of(self.0.len());
@@ -79,20 +78,20 @@ impl Distances {
     }
 }
 
-/// Counts the places that only one in twenty may be.
+/// Counts the places beyond the 95 % budget, which at most one place in twenty may be.
 pub(super) struct Tally {
     may_exceed: usize,
 }
 
 impl Tally {
-    /// For so many places.
+    /// A tally for this many places.
     pub(super) fn of(places: usize) -> Self {
         Self {
             may_exceed: places - (0.95 * places as f64).ceil() as usize,
         }
     }
 
-    /// Whether the budget still allows a place so far away, with room for rounding.
+    /// Whether the budget still allows another place at this distance, with room for rounding.
     pub(super) fn admits(&mut self, distance_db: f64) -> bool {
         if distance_db <= BUDGET_DB.0 - ROOM_DB {
             return true;
@@ -104,7 +103,7 @@ impl Tally {
 }
 
 impl<'a> Reference<'a> {
-    /// Prepares a grid; `None` for one without area.
+    /// Prepares a grid. `None` for a grid without area.
     #[must_use]
     pub fn new(grid: &'a ModelGrid) -> Option<Self> {
         let angles = ErrorBand::new(grid.sample_rate_hz, POINTS).angles().clone();
@@ -135,7 +134,8 @@ impl<'a> Reference<'a> {
         Some(Self { grid, band, places })
     }
 
-    /// Where every place is in a grid; known where its triangles are those of the whole one.
+    /// The triangle and the weights of every place in a grid. They are known where the grid has
+    /// the triangles of the whole one.
     pub(super) fn located(&self, grid: &ModelGrid, field: &Field<'_>) -> Option<Vec<Place>> {
         let positions = |grid: &ModelGrid| -> Vec<(f64, f64)> {
             let at = |vertex: &GridVertex| (vertex.speed_mm_s, vertex.force_n);
@@ -162,7 +162,7 @@ impl<'a> Reference<'a> {
     pub(super) fn distance(&self, index: usize, field: &Field<'_>, place: &Place) -> f64 {
         let mixture = field.mixture(place);
         match &self.places[index].power {
-            // Ordered frequencies are a stable filter.
+            // Only ordered frequencies give a stable filter.
             Some(power) if is_ordered(&mixture.ar_cosines) => {
                 let mut ratios = self.band.inverse_power(&mixture, field.numerator());
                 for (ratio, power) in ratios.iter_mut().zip(power) {
@@ -171,8 +171,8 @@ impl<'a> Reference<'a> {
                 rms_db(&ratios)
             }
             Some(_) => f64::INFINITY,
-            // A level counts relative to its own grid: under another numerator the same
-            // vibration has another.
+            // A level is compared with the levels of its own grid, because the same vibration has
+            // another level under another numerator.
             None if mixture.level_m_s2 <= 2.0 * SILENT * field.loudest_m_s2() => 0.0,
             None => f64::INFINITY,
         }
@@ -199,8 +199,8 @@ impl<'a> Reference<'a> {
             .map(Distances)
     }
 
-    /// Whether a grid with the same vertices and triangles stays within the budget; gives up
-    /// at the first place that decides against it.
+    /// Whether a grid with the same vertices and triangles stays within the budget. The search
+    /// stops at the first place that decides against it.
     #[must_use]
     pub fn is_within_budget(&self, grid: &ModelGrid) -> bool {
         debug_assert_eq!(grid.triangles, self.grid.triangles);
@@ -218,7 +218,8 @@ fn is_ordered(cosines: &[f64]) -> bool {
 }
 
 impl Band {
-    /// The reciprocal power spectrum of a mixture: it needs no division but for zeros of its own.
+    /// The reciprocal power spectrum of a mixture, which takes no division unless the mixture has
+    /// zeros of its own.
     fn inverse_power(&self, mixture: &Mixture, numerator: Numerator) -> Vec<f64> {
         let inverse_square = 1.0 / (mixture.level_m_s2 * mixture.level_m_s2);
         let mut inverse = self.angles.squared_magnitudes_of_lsf(&mixture.ar_cosines);

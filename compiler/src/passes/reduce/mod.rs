@@ -1,9 +1,9 @@
 //! Fidelity: how much of a texture an asset keeps.
 //!
-//! `auto` keeps what can be told apart by spectrum: the smallest order with the cheapest
-//! numerator ([`order`]), the fewest vertices ([`vertices`]), and of the taps what the hand
-//! can feel ([`taps`]). What is measured is what the grid renders, at every vertex, in the
-//! middle of every edge and triangle, against the whole texture.
+//! `auto` leaves out what cannot be told apart by spectrum. It takes the smallest order with the
+//! cheapest numerator ([`order`]), the fewest vertices ([`vertices`]), and the part of the taps that
+//! a hand can feel ([`taps`]). The measure is what the grid renders at every vertex and in the
+//! middle of every edge and triangle, compared with the whole texture.
 
 mod budget;
 pub mod order;
@@ -22,9 +22,9 @@ use std::{fmt, str::FromStr};
 pub enum Fidelity {
     /// Everything.
     Full,
-    /// The least within [`BUDGET_DB`].
+    /// As little as stays within [`BUDGET_DB`].
     Auto,
-    /// This AR order; a numerator of its own becomes 1 + z⁻¹ where that lowers the order.
+    /// This AR order. Where the order is lowered, a numerator of the models' own becomes 1 + z⁻¹.
     Order(usize),
 }
 
@@ -76,8 +76,8 @@ pub struct Report {
     pub triangles: Change,
     /// Samples of a tap trace.
     pub tap_samples: Change,
-    /// RMS log-spectral distance from the whole texture over 10–450 Hz, level included,
-    /// that 95 % of the places keep, dB.
+    /// 95 % quantile, over the places, of the RMS log-spectral distance from the whole texture
+    /// over 10–450 Hz, level included, dB.
     pub p95_db: f64,
     /// The largest, dB.
     pub worst_db: f64,
@@ -119,8 +119,8 @@ pub struct Reduction {
     pub report: Report,
 }
 
-/// The texture at a fidelity. Its grid must be tiled; one that is not comes back whole, for
-/// lowering to refuse.
+/// The texture at a fidelity. Its grid must be tiled: a grid that is not comes back whole, and
+/// lowering refuses it.
 #[must_use]
 pub fn reduce(texture: &TextureModel, fidelity: Fidelity) -> Reduction {
     let mut kept = texture.clone();
@@ -153,11 +153,11 @@ pub fn reduce(texture: &TextureModel, fidelity: Fidelity) -> Reduction {
     }
 }
 
-/// The grid with the fewest poles, and with the cheapest numerator among those, that stays
-/// within the budget; the grid itself where none does.
+/// The grid with the fewest poles that stays within the budget, and with the cheapest numerator
+/// among those. Where no such grid does, it is the grid itself.
 #[must_use]
 pub fn least_order(grid: &ModelGrid, reference: &Reference<'_>) -> ModelGrid {
-    // A zero at half the rate is worth eight poles: without it nothing gets cheaper.
+    // A zero at half the rate replaces eight poles, so giving it up would cost more than it saves.
     let numerators: &[Numerator] = match grid.numerator {
         Numerator::Nyquist => &[Numerator::Nyquist],
         Numerator::None | Numerator::Lsf => &[Numerator::None, Numerator::Nyquist],
@@ -173,7 +173,7 @@ pub fn least_order(grid: &ModelGrid, reference: &Reference<'_>) -> ModelGrid {
         } else {
             grid.order
         };
-        // What is found below stays below; of equal orders the first numerator wins.
+        // The next numerator must need fewer poles than the one before.
         let largest = best.as_ref().map_or(largest, |found| found.order - 1);
         let (mut low, mut high) = (1, largest.min(fits.largest()) + 1);
         while low < high {

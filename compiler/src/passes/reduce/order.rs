@@ -1,10 +1,10 @@
-//! A grid of lower order: fewer poles where fewer do, and a numerator that costs nothing.
+//! Lowers the order of a grid, and replaces its numerator by one that costs nothing.
 //!
-//! Where the numerator stays 1 or 1 + z⁻¹, the autocorrelation of 1/A is kept up to the new
-//! order: Levinson's recursion on it has the same first reflection coefficients, so the
-//! reduction is to leave out the last ones. Where the numerator changes, the poles are
-//! fitted anew to the power spectrum over the new numerator, once, at the largest order;
-//! lower orders are then its first reflection coefficients. The level is kept.
+//! Where the numerator stays 1 or 1 + z⁻¹, a lower order keeps the autocorrelation of 1/A up to
+//! that order. Levinson's recursion on it has the same first reflection coefficients, so the
+//! reduction leaves out the last ones. Where the numerator changes, the poles are fitted once to
+//! the power spectrum over the new numerator, at the largest order; lower orders are its first
+//! reflection coefficients. The level is kept.
 
 use crate::{
     model::{GridVertex, ModelGrid, Numerator},
@@ -16,7 +16,7 @@ use crate::{
 use asperity_formats::limits;
 use std::{collections::HashMap, f64::consts::PI};
 
-/// Power under a fit, relative to the peak: 60 dB down.
+/// Floor of the power under a fit, relative to the peak: 60 dB down.
 const FLOOR: f64 = 1e-6;
 /// Least |1 + z⁻¹|² that a spectrum is divided by.
 const LEAST_ZERO: f64 = 1e-4;
@@ -28,15 +28,15 @@ const POINTS: u32 = 2048;
 pub struct Fits<'a> {
     grid: &'a ModelGrid,
     numerator: Numerator,
-    /// Of every distinct model: reflection coefficients and RMS at unit level.
+    /// Reflection coefficients, and RMS at unit level, of every distinct model.
     shapes: Vec<(Vec<f64>, f64)>,
-    /// Shape of every vertex.
+    /// Index of the model of every vertex.
     shape_of: Vec<usize>,
 }
 
 impl<'a> Fits<'a> {
-    /// Prepares a grid; `None` for a numerator of its own, which has no fit, and for models
-    /// that are not stable.
+    /// Prepares a grid. `None` for a numerator of a model's own, to which nothing is fitted, and
+    /// for models that are not stable.
     #[must_use]
     pub fn new(grid: &'a ModelGrid, numerator: Numerator) -> Option<Self> {
         if numerator == Numerator::Lsf {
@@ -76,7 +76,7 @@ impl<'a> Fits<'a> {
         self.shapes.iter().map(|(r, _)| r.len()).min().unwrap_or(0)
     }
 
-    /// The grid at an order; `None` above the largest one.
+    /// The grid at an order. `None` above the largest order.
     #[must_use]
     pub fn at(&self, order: usize) -> Option<ModelGrid> {
         if order == 0 || order > self.largest() {

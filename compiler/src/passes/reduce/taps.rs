@@ -1,17 +1,16 @@
-//! Taps as long as the hand feels them.
+//! Cuts tap traces where a hand no longer feels them.
 //!
-//! A tail is left out where no sample of it reaches 3 % of its trace's peak: force is told
-//! from force at 6 to 10 %, of which the project allows half. The impulse ∫a dt stays exact:
-//! what the tail held is put back in proportion, which must not change the rest by more than
-//! the same 3 %.
+//! A tail is left out if none of its samples reaches 3 % of the trace's peak. People tell forces
+//! apart at 6 to 10 %, and the project allows half of that. The impulse ∫a dt stays exact: what the
+//! tail held is put back in proportion, which must not change the rest by more than the same 3 %.
 
 use crate::model::{TapBank, TapTrace};
 
-/// Share of a force that is not felt: half of the smallest just noticeable difference of a
-/// texture's force, 6 %.
+/// Fraction of a force that is not felt: half of 6 %, the smallest just noticeable difference of
+/// a texture's force.
 pub const UNFELT: f64 = 0.03;
 
-/// The bank without its tails; all traces stay of one length.
+/// The bank without its tails. All traces keep one length.
 #[must_use]
 pub fn audible(bank: &TapBank) -> TapBank {
     let samples = bank.traces.iter().map(|t| t.accel_m_s2.len()).max();
@@ -23,7 +22,7 @@ pub fn audible(bank: &TapBank) -> TapBank {
     let (Some(samples), Some(length)) = (samples, length) else {
         return bank.clone();
     };
-    // The longest trace decides; the others must be cut as well there.
+    // The trace that is felt longest decides, and the others must be fit to be cut there.
     let Some(length) = (length..=samples).find(|&n| {
         bank.traces
             .iter()
@@ -51,7 +50,7 @@ pub fn audible(bank: &TapBank) -> TapBank {
     }
 }
 
-/// Samples up to the last one that is felt, at least one.
+/// Number of samples up to the last one that is felt, at least one.
 fn felt(accel_m_s2: &[f64]) -> usize {
     let peak = accel_m_s2.iter().fold(0.0_f64, |peak, a| peak.max(a.abs()));
     accel_m_s2
@@ -106,7 +105,7 @@ mod tests {
         };
         let steady = bank(vec![1.0; 50]);
         assert_eq!(audible(&steady), steady);
-        // Alternating: its impulse is all in the tail.
+        // The samples alternate, so that the impulse is all in the tail.
         let mut odd = vec![1.0, -1.0, 1.0, -1.0];
         odd.extend([0.02; 20]);
         assert_eq!(audible(&bank(odd.clone())), bank(odd));

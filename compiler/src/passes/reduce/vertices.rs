@@ -1,9 +1,9 @@
-//! Fewer vertices: those go whose neighbours say the same.
+//! Removes vertices that their neighbours can stand for.
 //!
-//! One after the other, the least missed first, a vertex goes if the grid stays within the
-//! budget without it; the hole is tiled by its neighbours. How much it is missed is how far its
-//! own model is from what the neighbours say there. Corners stay, and a vertex on the border
-//! goes only along it, so the triangles go on tiling the rectangle.
+//! Vertices are tried one after the other, in ascending order of the distance between their own
+//! model and what the neighbours give there. A vertex is removed if the grid stays within the budget
+//! without it, and its neighbours tile the hole. Corners stay, and a vertex on the border is replaced
+//! by an edge along it, so the triangles always tile the rectangle.
 
 use super::budget::{Distances, Reference, Tally};
 use crate::model::{
@@ -12,10 +12,10 @@ use crate::model::{
 };
 use std::rc::Rc;
 
-/// Difference of areas that is rounding, of a rectangle of area 1.
+/// Difference of areas that is rounding, for a rectangle of area 1.
 const AREA_TOLERANCE: f64 = 1e-9;
 
-/// The grid with the vertices that the budget asks for.
+/// The grid with as few vertices as the budget allows.
 #[must_use]
 pub fn fewest(grid: &ModelGrid, reference: &Reference<'_>) -> ModelGrid {
     fewer(grid, reference)
@@ -31,7 +31,7 @@ fn fewer(grid: &ModelGrid, reference: &Reference<'_>) -> Option<ModelGrid> {
     let mut order: Vec<(f64, usize)> = (0..grid.vertices.len())
         .filter_map(|vertex| Some((state.missed(vertex, reference)?, vertex)))
         .collect();
-    // Stable: of equals the first goes first, so the same grid gives the same grid.
+    // The sort is stable, so the same grid always loses the same vertices.
     order.sort_by(|x, y| x.0.total_cmp(&y.0));
     let mut here: Vec<usize> = (0..grid.vertices.len()).collect();
     for (_, vertex) in order {
@@ -77,8 +77,8 @@ impl State {
         cosines
     }
 
-    /// Distance between the model of a vertex and what the grid says there without it, dB;
-    /// `None` for one that cannot go.
+    /// Distance between the model of a vertex and what the grid gives there without it, dB. `None`
+    /// for a vertex that cannot be removed.
     fn missed(&self, vertex: usize, reference: &Reference<'_>) -> Option<f64> {
         let GridVertex {
             speed_mm_s,
@@ -94,7 +94,7 @@ impl State {
         Some(reference.distance(index, &field, &place))
     }
 
-    /// Without a vertex; `None` where it is needed.
+    /// The state without a vertex. `None` where the vertex is needed.
     fn without(&self, vertex: usize, reference: &Reference<'_>) -> Option<Self> {
         let Smaller { grid, filled } = removed(&self.grid, vertex)?;
         let cosines = self.cosines_without(vertex);
@@ -116,7 +116,7 @@ impl State {
                     return None;
                 }
             } else {
-                // Those behind it move up.
+                // The vertices after it move up by one.
                 place.vertices = place.vertices.map(|v| v - usize::from(v > vertex));
             }
         }
@@ -132,12 +132,12 @@ impl State {
 /// A grid without one of its vertices.
 struct Smaller {
     grid: ModelGrid,
-    /// Index of the first triangle that fills the hole; whatever lay in the vertex' triangles
+    /// Index of the first triangle that fills the hole. Whatever lay in the triangles of the vertex
     /// lies in these.
     filled: usize,
 }
 
-/// The grid without a vertex, its hole tiled; `None` for a corner and wherever no tiling is
+/// The grid without a vertex, with the hole tiled. `None` for a corner, and where no tiling is
 /// found.
 fn removed(grid: &ModelGrid, vertex: usize) -> Option<Smaller> {
     let (width, height) = mesh::corner(grid);
@@ -196,7 +196,7 @@ fn ring(
             (a, b)
         };
         let turn = cross(at(vertex), at(from), at(to));
-        // Slivers have no side to speak of.
+        // A sliver has no side that could be told.
         if turn.abs() < 1e-12 {
             return None;
         }
@@ -220,7 +220,7 @@ fn ring(
     links.is_empty().then_some(polygon)
 }
 
-/// Triangles of a simple polygon: of all ears, the roundest first.
+/// Triangles of a simple polygon. Ears are cut off, the roundest first.
 fn tiled(polygon: &[usize], at: &impl Fn(usize) -> (f64, f64)) -> Option<Vec<[usize; 3]>> {
     let mut left = polygon.to_vec();
     let mut triangles = Vec::new();
@@ -252,7 +252,7 @@ fn tiled(polygon: &[usize], at: &impl Fn(usize) -> (f64, f64)) -> Option<Vec<[us
                 triangles.push(corner(i));
                 left.remove(i);
             }
-            // What is left has no area: a border that has become straight.
+            // The rest has no area: it is a border that has become straight.
             None => {
                 let flat = (0..count).all(|i| {
                     let [a, b, c] = corner(i);

@@ -6,11 +6,11 @@
 
 use multiversion::multiversion;
 
-/// Roots that are sought side by side: what fits the registers of a processor.
+/// Number of roots that are sought side by side, as many as fit the registers of a processor.
 pub(super) const LANES: usize = 8;
-/// Halvings of [0, 1]: to the last bit of a number near 1.
+/// Halvings of [0, 1], which reach the last bit of a number near 1.
 const HALVINGS: usize = 54;
-/// A step that small is rounding.
+/// A Newton step as small as this is rounding.
 const PRECISION: f64 = f64::EPSILON;
 
 /// Which of the two polynomials.
@@ -146,9 +146,9 @@ impl Brackets {
     }
 }
 
-/// Of every x in [0, 1] the number of roots with a larger one, that is with a smaller angle.
+/// For every x in [0, 1] the number of roots beyond it, which are those with a smaller angle.
 ///
-/// No lane meets another: wider registers give the same bits.
+/// Lanes never mix, so wider registers give the same bits.
 #[multiversion(targets("x86_64+avx2"))]
 fn roots_beyond(alpha: &[f64], x: &[f64; LANES]) -> [f64; LANES] {
     let mut before = [1.0; LANES];

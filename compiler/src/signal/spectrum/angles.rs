@@ -1,13 +1,13 @@
 //! Polynomials on the unit circle, at many frequencies side by side.
 //!
-//! No frequency meets another, so wider registers give the same bits.
+//! Lanes never mix, so wider registers give the same bits.
 
 use multiversion::multiversion;
 
-/// Frequencies of a block: what fits the registers of a processor.
+/// Number of frequencies in a block, as many as fit the registers of a processor.
 const LANES: usize = 8;
 
-/// One number of every frequency of a block.
+/// One number for every frequency of a block.
 type Lanes = [f64; LANES];
 
 /// Frequencies at which polynomials are evaluated side by side.

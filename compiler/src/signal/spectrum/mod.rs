@@ -17,7 +17,7 @@ pub const ERROR_BAND_HZ: (f64, f64) = (10.0, 450.0);
 /// Points of the uniform frequency grid over [`ERROR_BAND_HZ`], both ends included:
 /// half a hertz apart.
 pub const ERROR_POINTS: usize = 881;
-/// Below it, motion of the hand rather than texture: excluded from attributes, Hz.
+/// Lowest frequency that counts for attributes, Hz. What lies below is motion of the hand.
 pub const VIBRATION_FLOOR_HZ: f64 = 40.0;
 /// Spacing of the frequencies that band powers are summed over, Hz.
 const BAND_STEP_HZ: f64 = 0.25;
@@ -53,8 +53,8 @@ impl ArmaModel {
         }
     }
 
-    /// Power spectrum `(gain·σ)²·|B|²/|A|²` at a frequency, (m/s²)²: its mean over
-    /// all frequencies is the variance of the vibration.
+    /// Power spectrum `(gain·σ)²·|B|²/|A|²` at a frequency, (m/s²)². Its mean over all
+    /// frequencies is the variance of the vibration.
     #[must_use]
     pub fn power(&self, freq_hz: f64) -> f64 {
         let omega = TAU * freq_hz / self.sample_rate_hz;
@@ -80,7 +80,7 @@ impl ArmaModel {
     }
 }
 
-/// What a model makes above [`VIBRATION_FLOOR_HZ`].
+/// The vibration of a model above [`VIBRATION_FLOOR_HZ`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vibration {
     /// Mean square, (m/s²)².
@@ -89,18 +89,18 @@ pub struct Vibration {
     pub centroid_hz: f64,
 }
 
-/// The frequencies from [`VIBRATION_FLOOR_HZ`] to half a sample rate, for many models at it.
+/// The frequencies from [`VIBRATION_FLOOR_HZ`] to half a sample rate, for many models at that rate.
 #[derive(Debug, Clone)]
 pub struct VibrationBand {
     angles: Angles,
     sample_rate_hz: f64,
     first_hz: f64,
-    /// Between neighbours.
+    /// Distance between neighbours, Hz.
     width_hz: f64,
 }
 
 impl VibrationBand {
-    /// Of models at a sample rate, Hz; `None` for a rate that leaves no such band.
+    /// The band of models at a sample rate, Hz. `None` for a rate that leaves no such band.
     #[must_use]
     pub fn new(sample_rate_hz: f64) -> Option<Self> {
         let nyquist = 0.5 * sample_rate_hz;
@@ -145,7 +145,7 @@ impl VibrationBand {
 pub struct ErrorBand(Angles);
 
 impl ErrorBand {
-    /// Of models at a sample rate, Hz, at so many frequencies, both ends included.
+    /// The band of models at a sample rate, Hz, with this many frequencies, both ends included.
     #[must_use]
     pub fn new(sample_rate_hz: f64, points: usize) -> Self {
         Self::up_to(0.45 * sample_rate_hz, sample_rate_hz, points)

@@ -1,4 +1,4 @@
-//! A surface of a scene, as it is shown.
+//! How a surface of a scene is shown.
 
 use asperity_formats::{SceneSurface, Shape, limits::MAX_POSITION_M};
 use serde::Serialize;

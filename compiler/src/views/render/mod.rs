@@ -1,4 +1,4 @@
-//! The runtime offline: a trajectory in, what a hand would feel out.
+//! Running the runtime offline: from a trajectory to what a hand would feel.
 
 mod columns;
 mod error;
