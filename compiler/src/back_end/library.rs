@@ -36,7 +36,7 @@ pub fn encode(assets: &[NamedAsset<'_>]) -> Result<Vec<u8>, LibraryError> {
     Ok(bytes)
 }
 
-/// Bytes of a library with a scene; textures count in order of name.
+/// Bytes of a library with a scene, whose textures are numbered in order of name.
 ///
 /// # Errors
 /// As [`encode`], and for a surface that the format refuses.
@@ -51,7 +51,7 @@ pub fn encode_scene(
     Ok(bytes)
 }
 
-/// Bytes of a library with a scene beside its assets.
+/// Number of bytes that a library with a scene takes besides its assets.
 #[must_use]
 pub fn scene_len(names: &[&str], surfaces: usize) -> usize {
     let empty: Vec<(&str, &[u8])> = names.iter().map(|name| (*name, &[][..])).collect();

@@ -1,7 +1,7 @@
 //! What an import gives: an asset, and how far it is from its source.
 
 use crate::{
-    back_end::lower::Error3,
+    back_end::lower::ErrorSummary,
     model::{ModelGrid, TextureModel},
     passes::reduce::{self, Fidelity, Reference},
     pipeline::{Compiled, Timings},
@@ -32,7 +32,7 @@ pub struct Report {
     /// else on what the whole grid renders, at the places of [`mixture::places`].
     ///
     /// [`mixture::places`]: crate::model::mixture::places
-    pub error: Error3,
+    pub error: ErrorSummary,
     /// Vertices or places that were compared.
     pub compared: usize,
     /// All vertices.
@@ -77,7 +77,7 @@ impl Report {
         let (texture, lowered) = (&compiled.texture, &compiled.lowered);
         Self {
             name: texture.name.clone(),
-            error: Error3::of(errors_db),
+            error: ErrorSummary::of(errors_db),
             compared: errors_db.len(),
             vertices: texture.grid.vertices.len(),
             triangles: texture.grid.triangles.len(),

@@ -6,13 +6,13 @@ use asperity_onnxruntime::OnnxRuntime;
 use std::{borrow::Cow, fmt, str::FromStr};
 use thiserror::Error;
 
-/// A back end.
+/// What runs the networks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Backend {
-    /// Our engine: the same bits on every machine.
+    /// The project's own engine, which gives the same bits on every machine.
     #[default]
     Portable,
-    /// ONNX Runtime, found at run time; faster, equal within 1e-5, not to the bit.
+    /// ONNX Runtime, if it is found at run time. It is faster, and equal within 1e-5, not to the bit.
     OnnxRuntime,
 }
 

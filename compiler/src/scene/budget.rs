@@ -9,7 +9,7 @@ pub const DEFAULT_SHARE: f64 = 0.5;
 /// What a scene may cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
-    /// Where it runs; without one, instructions are counted and not limited.
+    /// Where the scene runs. Without a target, instructions are counted and not limited.
     pub target: Option<Target>,
     /// Share of the target's clocks that a tick may take, above 0 and at most 1.
     pub share: f64,
@@ -30,7 +30,8 @@ impl Default for Budget {
 /// The budget in numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Limits {
-    /// Executed instructions a tick, of every texture by itself: one is rendered at a time.
+    /// Executed instructions of a tick. They limit every texture by itself, because one is rendered at
+    /// a time.
     pub(super) instructions: u64,
     /// Bytes of all assets.
     pub(super) bytes: u64,
@@ -55,8 +56,8 @@ pub(super) enum Excess {
     },
 }
 
-/// A candidate for each texture. From the best within the instructions, fidelity is lowered
-/// where it costs the least error per byte, until the bytes hold.
+/// Chooses a candidate for each texture: first the best one within the instructions. Then fidelity
+/// is lowered where it costs the least error per byte, until all fit the bytes.
 pub(super) fn choose(textures: &[Vec<Candidate>], limits: Limits) -> Result<Vec<usize>, Excess> {
     let fits = |c: &Candidate| c.instructions <= limits.instructions;
     let mut chosen = Vec::with_capacity(textures.len());

@@ -28,15 +28,15 @@ pub struct Built {
     pub bytes: Vec<u8>,
     /// How the budget was spent.
     pub report: Report,
-    /// The time of every pass, except for what the prompter did.
+    /// The time of every pass, without those of the prompter.
     pub timings: Timings,
 }
 
 /// Makes a texture of a prompt and a seed.
 pub type Prompter<'a> = dyn FnMut(&str, u64) -> Result<TextureModel, Box<dyn Diagnostic>> + 'a;
 
-/// Builds a scene; the same files give the same bytes, whatever the thread count. `prompter`
-/// is asked once a prompt.
+/// Builds a scene. The same files give the same bytes, whatever the thread count. `prompter` is
+/// asked once for every prompt.
 ///
 /// # Errors
 /// [`SceneError`] for a texture that cannot be made or a budget that cannot hold.
@@ -110,13 +110,13 @@ fn at(scene: &Description, entry: &TextureEntry, problem: SceneProblem) -> Scene
     }
 }
 
-/// Whether a servo loop at `servo_hz` leaves models at `model_hz` their own clock.
+/// Whether models at `model_hz` keep their own rate in a servo loop at `servo_hz`.
 fn is_multiple(servo_hz: f64, model_hz: f64) -> bool {
     asperity_runtime::ticks_per_sample(model_hz as f32, servo_hz as f32).is_some()
 }
 
-/// A texture in full and under its name in the scene, at its own rate where the scene's servo loop
-/// runs at a multiple of it, else converted to the loop's.
+/// A texture in full and under its name in the scene. It keeps its own rate where the scene's servo
+/// loop runs at a multiple of it, and is converted to the loop's rate elsewhere.
 fn whole(
     scene: &Description,
     entry: &TextureEntry,
@@ -143,7 +143,7 @@ fn whole(
 fn imported(file: &Path, pipeline: &mut Pipeline) -> Result<TextureModel, Box<dyn Diagnostic>> {
     let imported = hatt::import(file, None).map_err(boxed)?;
     pipeline.merge(&imported.timings);
-    // Verified by the import: the bytes parse.
+    // The import verified the bytes, so they parse.
     let asset = Asset::parse(&imported.bytes).map_err(|e| boxed(verify::VerifyError::from(e)))?;
     Ok(raise(&asset))
 }
@@ -159,7 +159,7 @@ fn boxed(error: impl Diagnostic + 'static) -> Box<dyn Diagnostic> {
     Box::new(error)
 }
 
-/// The candidates that the budget allows, one a texture.
+/// The candidate that the budget allows for every texture.
 fn chosen<'a>(
     scene: &Description,
     order: &[&TextureEntry],
@@ -224,7 +224,7 @@ fn encode(
             shape: surface.solid,
             from_m: surface.from_m,
             to_m: surface.to_m,
-            // Checked when it was read; there are at most as many textures as surfaces.
+            // The name was checked on reading, and there are at most as many textures as surfaces.
             texture: index(&surface.texture).unwrap_or(0) as u16,
         })
         .collect();

@@ -3,30 +3,32 @@
 use crate::model::{ModelGrid, Numerator};
 use asperity_formats::Shape as Solid;
 
-/// Executed instructions of the costliest tick on a processor: a sum over what texture and
-/// scene have, never below what was counted.
+/// A model of the executed instructions of the costliest tick on a processor: a sum over poles,
+/// zeros, triangles and surfaces that is never below what was counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cost {
     /// Name of the processor.
     pub(super) processor: &'static str,
-    /// Everything that is always the same.
+    /// What every tick takes.
     pub(super) base: f64,
+    /// What a pole adds.
     pub(super) pole: f64,
-    /// A zero of a numerator that is mixed and converted; 1 + z⁻¹ costs nothing.
+    /// What a zero adds that is mixed and converted; 1 + z⁻¹ costs nothing.
     pub(super) zero: f64,
+    /// What a triangle adds.
     pub(super) triangle: f64,
-    /// A plane's distance, a sphere's, a box's.
+    /// What the distance to a plane, a sphere and a box adds.
     pub(super) surfaces: [f64; 3],
     /// The most that the sum is above a count, percent.
     pub(super) above_percent: f64,
 }
 
-/// Planes, spheres and boxes of a scene.
+/// The number of planes, spheres and boxes of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Surfaces(pub(super) [usize; 3]);
 
 impl Surfaces {
-    /// How many of each there are.
+    /// Counts solids.
     #[must_use]
     pub fn of(solids: impl IntoIterator<Item = Solid>) -> Self {
         let mut counts = Self::default();
@@ -58,7 +60,7 @@ impl Cost {
     }
 }
 
-/// Zeros that are mixed and converted.
+/// Number of zeros of a grid that are mixed and converted.
 #[must_use]
 pub(super) fn zeros(grid: &ModelGrid) -> usize {
     match grid.numerator {

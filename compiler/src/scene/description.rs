@@ -35,7 +35,7 @@ pub struct TextureEntry {
     pub index: usize,
 }
 
-/// Where a texture comes from; paths as they can be opened.
+/// Where a texture comes from. Paths are such that they can be opened.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Origin {
     /// A prompt and a seed.

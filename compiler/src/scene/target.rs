@@ -45,7 +45,7 @@ impl Target {
         }
     }
 
-    /// Cost without a limit.
+    /// The first processor of the table, without a limit.
     #[must_use]
     pub fn unlimited() -> Self {
         Self {
@@ -118,7 +118,7 @@ mod tests {
             let cost = cost.expect("an entry");
             let surfaces = Surfaces([planes, spheres, boxes]);
             let modelled = cost.instructions([poles, zeros, triangles], surfaces);
-            // Both are rounded up to a whole instruction.
+            // Both sides are rounded up to a whole instruction.
             let most = (count as f64 * (1.0 + cost.above_percent / 100.0)).ceil() as u64;
             assert!(
                 (count..=most).contains(&modelled),

@@ -11,7 +11,7 @@ pub enum LowerError {
     /// The triangles do not tile the grid.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// A line spectral frequency is no angle.
+    /// A line spectral frequency is not in (0, π).
     #[error("vertex {vertex}: {field}[{index}] = {value} rad is not in (0, π)")]
     Frequency {
         /// Index of the vertex.
@@ -33,7 +33,7 @@ pub enum LowerError {
         /// Smallest gap allowed, rad.
         least_rad: f64,
     },
-    /// More than the format counts.
+    /// There is more of something than the format can count.
     #[error("{what}: {found}, an asset holds {limit}")]
     TooMany {
         /// What there is too much of.

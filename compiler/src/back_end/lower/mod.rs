@@ -1,14 +1,14 @@
 //! Lowers a [`TextureModel`] to the bytes of an asset, and measures what rounding costs.
 
 mod error;
-mod loss;
+mod summary;
 mod table;
 #[cfg(test)]
 mod tests;
 mod trace;
 
 pub use error::LowerError;
-pub use loss::Error3;
+pub use summary::ErrorSummary;
 
 use crate::model::{Numerator, TextureModel, VertexKind, mesh};
 use asperity_formats as formats;
@@ -22,7 +22,7 @@ use trace::quantise_trace;
 /// Room for every section but the preview at its largest.
 const BUFFER_BYTES: usize = 128 * 1024;
 
-/// An asset and what its making lost.
+/// An asset, and what rounding cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lowered {
     /// The asset.
@@ -32,7 +32,7 @@ pub struct Lowered {
     /// Distinct models.
     pub models: usize,
     /// RMS log-spectral error of LSF quantisation alone, dB.
-    pub lsf_error: Error3,
+    pub lsf_error: ErrorSummary,
 }
 
 /// Lowers a texture to an asset; `preview_png` goes last.
@@ -94,7 +94,7 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
             weight: anchor.weight as f32,
         })
         .collect();
-    let lsf_error = Error3::of(&table.errors_db);
+    let lsf_error = ErrorSummary::of(&table.errors_db);
     let provenance = &texture.provenance;
     let parts = AssetParts {
         name: &texture.name,
@@ -153,7 +153,7 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
     })
 }
 
-/// Counts that a byte of the format would silently wrap.
+/// Checks the counts that a byte of the format would silently wrap.
 fn check_counts(texture: &TextureModel) -> Result<(), LowerError> {
     let samples = texture
         .taps

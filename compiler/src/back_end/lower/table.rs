@@ -56,7 +56,7 @@ impl ModelTable {
             };
             check_gap(index, &entry.lsf)?;
             table.ma_order = table.ma_order.max(entry.ma_lsf.len());
-            // Edge models share the frequencies of the vertex they continue, hence its error.
+            // An edge model has the frequencies of the vertex that it continues, hence its error.
             let twin = grid.vertices[..index].iter().position(|other| {
                 other.lsf_rad == vertex.lsf_rad && other.ma_lsf_rad == vertex.ma_lsf_rad
             });

@@ -5,12 +5,12 @@ use crate::model::TapTrace;
 /// Largest code of a tap sample.
 const TAP_FULL_SCALE: f64 = 2047.0;
 
-/// The trace on the grid of its codes, its impulse kept to half a step: samples are
-/// rounded, then those nearest to the other neighbour are moved until the sum fits.
+/// The trace rounded to its codes, with its impulse kept to half a step. Samples are rounded first;
+/// then those that were nearest to being rounded the other way are, until the sum fits.
 pub(super) fn quantise_trace(trace: &TapTrace) -> Vec<f32> {
     let accel = &trace.accel_m_s2;
     let peak = accel.iter().fold(0.0_f64, |peak, a| peak.max(a.abs())) as f32;
-    // Silent, NaN or infinite: the format decides.
+    // The encoder decides on traces that are silent, NaN or infinite.
     if !(peak > 0.0 && peak.is_finite()) {
         return accel.iter().map(|&a| a as f32).collect();
     }
@@ -27,7 +27,7 @@ pub(super) fn quantise_trace(trace: &TapTrace) -> Vec<f32> {
         let residue = |k: usize| (scaled[k] - codes[k]) * direction;
         residue(j).total_cmp(&residue(i)).then(i.cmp(&j))
     });
-    // The peak's own code sets the scale and stays.
+    // The code of the peak sets the scale, so it stays.
     let movable = order
         .into_iter()
         .filter(|&k| codes[k].abs() < TAP_FULL_SCALE)

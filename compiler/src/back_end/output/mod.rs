@@ -55,9 +55,9 @@ impl Diagnostic for OutputError {
     }
 }
 
-/// A file under way: write to it, then [`commit`](AtomicFile::commit).
+/// A file that is being written: write to it, then [`commit`](AtomicFile::commit).
 ///
-/// Dropped without that, it leaves the target as it was. A target that is no regular
+/// If it is dropped before, the target stays as it was. A target that is no regular
 /// file (a pipe, `/dev/stdout`) cannot be replaced and is written to directly.
 #[derive(Debug)]
 pub struct AtomicFile {
@@ -97,7 +97,7 @@ impl AtomicFile {
                 place: Place::Direct(file),
             });
         }
-        // Through a symbolic link, the file it points to is replaced.
+        // Of a symbolic link, the file that it points to is replaced.
         let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
         let folder = match target.parent() {
             Some(parent) if parent != Path::new("") => parent,
@@ -109,7 +109,7 @@ impl AtomicFile {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt as _;
-            // As any new file: what the umask leaves.
+            // The permissions of any new file: what the umask leaves.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
         // Under the lock, so that an interrupt sees every file that is there.
@@ -155,7 +155,7 @@ impl AtomicFile {
             Place::Direct(file) => file.flush().map_err(fail),
             Place::Beside(file, path) => {
                 file.flush().map_err(fail)?;
-                // Also on Windows, where the standard rename replaces.
+                // The standard rename replaces the target on Windows, too.
                 fs::rename(&*path, &self.target).map_err(fail)
             }
         }
@@ -173,7 +173,7 @@ fn strip_path(error: &io::Error) -> io::Error {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         if let Place::Beside(_, path) = &self.place {
-            // Gone before it is forgotten; after a commit there is nothing to remove.
+            // Removed before it leaves the list. After a commit there is nothing to remove.
             let mut list = unfinished();
             let _ = fs::remove_file(path);
             list.retain(|other| other != &**path);
@@ -206,7 +206,7 @@ pub fn write_atomic(target: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 /// Writes several files. All of them are complete before the first appears under its name.
 ///
 /// # Errors
-/// [`OutputError`]; unless the last step failed, a renaming, every target is then as it was.
+/// [`OutputError`]. Every target is then as it was, unless it was the renaming that failed.
 pub fn write_all(files: &[(&Path, &[u8])]) -> Result<(), OutputError> {
     let mut staged = Vec::with_capacity(files.len());
     for (target, bytes) in files {
@@ -264,7 +264,7 @@ pub fn write_folder(folder: &Path, files: &[(String, &[u8])]) -> Result<(), Outp
     Ok(())
 }
 
-/// A folder that goes again unless it is kept; only ever removed empty.
+/// A folder that is removed again, if it is empty, unless it is kept.
 struct MadeFolder<'a>(&'a Path);
 
 impl MadeFolder<'_> {

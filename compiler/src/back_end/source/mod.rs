@@ -163,8 +163,8 @@ impl Source {
         has_scene.then(|| self.read(0, self.len, None)).transpose()
     }
 
-    /// Bytes of the one texture meant by `wanted`, a name or an index of a library. Not
-    /// needed for an asset or a library of one; then given, it must still fit.
+    /// Bytes of the one texture that `wanted` means, a name or an index of a library. An asset and a
+    /// library of one texture need no `wanted`, but one that is given must fit.
     ///
     /// # Errors
     /// [`SourceError`] for a texture that is not there, or none chosen of several.
@@ -194,7 +194,7 @@ impl Source {
         self.texture(index)
     }
 
-    /// Bytes of a library's texture at `index`, unchecked; the others are not read.
+    /// Bytes of a library's texture at `index`, unchecked. The others are not read.
     ///
     /// # Errors
     /// [`SourceError`] for an index that is not there, or a failed read.

@@ -46,17 +46,17 @@ fn places(grid: &ModelGrid) -> Vec<(f32, f32)> {
     let (width, height) = mesh::corner(grid);
     for i in 0..=GRID_STEPS {
         for j in 0..=GRID_STEPS {
-            let share = |k: usize| 1.5 * k as f64 / GRID_STEPS as f64 - 0.25;
-            places.push((share(i) * width, share(j) * height));
+            let fraction = |k: usize| 1.5 * k as f64 / GRID_STEPS as f64 - 0.25;
+            places.push((fraction(i) * width, fraction(j) * height));
         }
     }
     for step in 0..=BORDER_STEPS {
-        let share = step as f64 / BORDER_STEPS as f64;
+        let fraction = step as f64 / BORDER_STEPS as f64;
         places.extend([
-            (share * width, 0.0),
-            (share * width, height),
-            (0.0, share * height),
-            (width, share * height),
+            (fraction * width, 0.0),
+            (fraction * width, height),
+            (0.0, fraction * height),
+            (width, fraction * height),
         ]);
     }
     let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, -1.0, 1e30];

@@ -19,10 +19,10 @@ fn script(rate_hz: f32) -> Vec<Sample> {
     let stroke = seconds(1.0);
     let mut x = 0.0;
     for n in 0..stroke {
-        let share = n as f32 / stroke as f32;
-        x += 0.4 * share / rate_hz;
-        // Every eighth of a second deeper and back: 0 to 8 mm.
-        let press = (8.0 * share).fract();
+        let fraction = n as f32 / stroke as f32;
+        x += 0.4 * fraction / rate_hz;
+        // From 0 to 8 mm deep, eight times a second.
+        let press = (8.0 * fraction).fract();
         samples.push(Sample::at([x, 0.0, -0.008 * press * (2.0 - press)]));
     }
     let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30];

@@ -2,9 +2,9 @@
 
 use super::description::CertaintyCurve;
 
-/// Certainty, 0..=1, of a prompt whose largest cosine with a material's mean caption
-/// is `similarity`: piecewise linear, falling to zero below the first knot, flat beyond the
-/// last.
+/// Certainty, 0..=1, of a prompt whose largest cosine with a material's mean caption is
+/// `similarity`. It is piecewise linear, falls to zero below the first knot, and is constant beyond
+/// the last.
 #[must_use]
 pub fn certainty(curve: &CertaintyCurve, similarity: f64) -> f64 {
     let (x, y) = (&curve.similarity, &curve.certainty);

@@ -50,8 +50,8 @@ pub fn grid_of_taps(model: &LearnedModel, taps: &TapBank) -> Result<ModelGrid, M
 
 /// What the AR encoder sees of a grid: 21 LSFs and the level in every bin.
 ///
-/// Within the grid the log spectra of the three corners are mixed as the triangle says;
-/// bins beyond its rectangle are moved onto the border. Silent corners do not count.
+/// Within the grid the log spectra of a triangle's corners are mixed with their barycentric weights.
+/// Bins beyond its rectangle are moved onto the border. Silent corners do not count.
 #[must_use]
 pub fn ar_channels(bins: &GridDescription, grid: &ModelGrid) -> Vec<f32> {
     let mut channels = Vec::with_capacity(bins.speeds_mm_s.len() * (bins.order + 1));
@@ -104,7 +104,7 @@ fn at(grid: &ModelGrid, speed_mm_s: f64, force_n: f64, bins: &GridDescription) -
         })
         .collect();
     let (monic, _) = levinson::from_autocorrelation(&autocorrelation);
-    // A silent grid has no shape: evenly spaced frequencies, that is white noise.
+    // A silent grid has no spectrum. Evenly spaced frequencies are white noise.
     let flat = || {
         (1..=bins.order)
             .map(|k| k as f64 * PI / (bins.order + 1) as f64)
@@ -118,8 +118,8 @@ fn at(grid: &ModelGrid, speed_mm_s: f64, force_n: f64, bins: &GridDescription) -
     (lsf::from_polynomial(&monic).unwrap_or_else(flat), level_db)
 }
 
-/// The triangle around a point with its barycentric weights; where rounding leaves a
-/// point outside all, the nearest vertex.
+/// The triangle around a point with its barycentric weights, or the nearest vertex where rounding
+/// leaves the point outside all triangles.
 fn corners(grid: &ModelGrid, speed_mm_s: f64, force_n: f64) -> Vec<(usize, f64)> {
     let place = |v: usize| (grid.vertices[v].speed_mm_s, grid.vertices[v].force_n);
     for &[a, b, c] in &grid.triangles {
@@ -142,8 +142,8 @@ fn corners(grid: &ModelGrid, speed_mm_s: f64, force_n: f64) -> Vec<(usize, f64)>
         .unwrap_or_default()
 }
 
-/// What the tap encoder sees of a bank: traces at its speeds, linear between the two
-/// nearest and in proportion to speed beyond the ends, at its rate and length.
+/// What the tap encoder sees of a bank: traces at the encoder's speeds, rate and length. They are
+/// interpolated linearly between the two nearest, and proportional to speed beyond the ends.
 #[must_use]
 pub fn tap_channels(wanted: &TapDescription, taps: &TapBank) -> Vec<f32> {
     let mut channels = Vec::with_capacity(wanted.speeds_m_s.len() * wanted.samples);
@@ -208,7 +208,7 @@ mod tests {
         let channels = ar_channels(&bins, &texture.grid);
         for (vertex, found) in interior.iter().zip(channels.chunks(bins.order + 1)) {
             for (expected, found) in vertex.lsf_rad.iter().zip(found) {
-                // Next to half the rate the floor under the zero decides.
+                // Near half the rate the floor under the zero decides.
                 if *expected > 2.8 {
                     continue;
                 }

@@ -27,14 +27,14 @@ pub struct ModelDescription {
     pub taps: TapDescription,
     /// How μ is read from the anchors.
     pub friction: FrictionDescription,
-    /// One a training material: friction anchor and landmark of the latent.
+    /// The training materials: friction anchors and landmarks of the latent.
     pub anchors: Vec<Anchor>,
     /// Directions of the latent along which an objective attribute grows.
     pub axes: Vec<AttributeAxis>,
-    /// Standard deviation of instances about the mean of their material, [`LATENT`]
-    /// numbers: how far a seed may move a latent.
+    /// Standard deviation of instances about the mean of their material, [`LATENT`] numbers. A seed
+    /// moves a latent as far as this.
     pub spread: Vec<f32>,
-    /// From similarity to certainty.
+    /// The certainty of a prompt as a function of its similarity.
     pub certainty: CertaintyCurve,
 }
 
@@ -70,9 +70,9 @@ pub struct GridDescription {
     pub order: usize,
     /// Rate of the models, Hz.
     pub sample_rate_hz: f64,
-    /// Tangential speed a bin, mm/s.
+    /// Tangential speed of every bin, mm/s.
     pub speeds_mm_s: Vec<f64>,
-    /// Normal force a bin, N.
+    /// Normal force of every bin, N.
     pub forces_n: Vec<f64>,
     /// Right border, mm/s.
     pub max_speed_mm_s: f64,
@@ -88,7 +88,7 @@ pub struct TapDescription {
     pub sample_rate_hz: f64,
     /// Impact speeds, m/s, ascending.
     pub speeds_m_s: Vec<f64>,
-    /// Samples a trace.
+    /// Samples of a trace.
     pub samples: usize,
 }
 
@@ -128,7 +128,7 @@ pub struct AttributeAxis {
     pub offset: f64,
     /// Gradient, [`LATENT`] numbers.
     pub direction: Vec<f32>,
-    /// Share of the variance over the training materials that the line explains.
+    /// Part of the variance over the training materials that the line explains, 0..=1.
     pub r_squared: f64,
 }
 

@@ -16,7 +16,7 @@ pub enum ModelError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// The description is no description.
+    /// The description lacks something, or contradicts itself.
     #[error("{file}: {message}")]
     Description {
         /// The file.
@@ -24,7 +24,7 @@ pub enum ModelError {
         /// Field and fault.
         message: String,
     },
-    /// A network cannot be loaded or run, or has another signature.
+    /// A network cannot be loaded or run, or has unexpected inputs or outputs.
     #[error("{file}: {message}")]
     Network {
         /// The file.

@@ -2,7 +2,7 @@
 
 use super::description::{Anchor, FrictionDescription};
 
-/// An anchor that counts, and how much.
+/// An anchor near a latent, and its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Neighbour {
     /// Index of the anchor.
@@ -16,8 +16,8 @@ pub struct Neighbour {
 /// The top-k anchors of z with the paper's weights,
 /// `w_i = exp(cos(z, z_i)/τ) / Σ_top-k exp(cos(z, z_j)/τ)`, heaviest first.
 ///
-/// Anchors of equal cosine keep their order. A latent of length zero is equally far
-/// from all: the first k count alike.
+/// Anchors of equal cosine keep their order. A latent of length zero is equally far from all
+/// anchors, so the first k have equal weights.
 #[must_use]
 pub fn neighbours(z: &[f32], anchors: &[Anchor], how: FrictionDescription) -> Vec<Neighbour> {
     let mut all: Vec<Neighbour> = anchors
@@ -43,7 +43,7 @@ pub fn neighbours(z: &[f32], anchors: &[Anchor], how: FrictionDescription) -> Ve
     all
 }
 
-/// Σ w_i μ_i.
+/// Σ w_i μ_i: the mean coefficient of friction.
 #[must_use]
 pub fn mu(neighbours: &[Neighbour], anchors: &[Anchor]) -> f64 {
     neighbours
@@ -52,7 +52,7 @@ pub fn mu(neighbours: &[Neighbour], anchors: &[Anchor]) -> f64 {
         .sum()
 }
 
-/// The same mean of the walls' stiffness, N/m.
+/// Σ w_i k_i: the mean stiffness of the walls, N/m.
 #[must_use]
 pub fn stiffness_n_m(neighbours: &[Neighbour], anchors: &[Anchor]) -> f64 {
     neighbours

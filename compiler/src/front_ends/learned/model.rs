@@ -14,7 +14,7 @@ use std::{borrow::Cow, sync::OnceLock};
 /// A latent code.
 pub type Latent = [f32; LATENT];
 
-/// What the text says of the latent.
+/// The latent of a text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Projected {
     /// The latent.
@@ -28,7 +28,7 @@ pub struct Projected {
 pub struct Decoded {
     /// LSFs, rad, `bins × order`.
     pub lsf_rad: Vec<f32>,
-    /// RMS of the vibration, dB re 1 m/s², one a bin.
+    /// RMS of the vibration in every bin, dB re 1 m/s².
     pub level_db: Vec<f32>,
     /// Traces, m/s², `speeds × samples`.
     pub taps_m_s2: Vec<f32>,
@@ -37,7 +37,7 @@ pub struct Decoded {
 /// Which modalities an encoder is given; the other is decoded from the latent.
 #[derive(Debug, Clone, Copy)]
 pub enum Present<'a> {
-    /// LSFs and levels a bin: `bins × (order + 1)`, LSFs in rad, then dB.
+    /// LSFs in rad and the level in dB of every bin: `bins × (order + 1)`.
     Ar(&'a [f32]),
     /// Traces, m/s², `speeds × samples`.
     Taps(&'a [f32]),
@@ -51,7 +51,7 @@ pub struct LearnedModel {
     text_projection: Box<dyn Session>,
     ar_decoder: Box<dyn Session>,
     tap_decoder: Box<dyn Session>,
-    /// Loaded when first asked: a prompt needs no encoder.
+    /// Loaded on first use, because a prompt needs no encoder.
     encoder: OnceLock<Box<dyn Session>>,
     encoder_bytes: Cow<'static, [u8]>,
     backend: Backend,
@@ -88,13 +88,13 @@ impl LearnedModel {
         })
     }
 
-    /// What the model says of itself.
+    /// The description of the model.
     #[must_use]
     pub fn description(&self) -> &ModelDescription {
         &self.description
     }
 
-    /// A text vector to a latent.
+    /// The latent of a text vector.
     ///
     /// # Errors
     /// [`ModelError`] for a vector of another width, or when the network fails.
@@ -118,8 +118,8 @@ impl LearnedModel {
         })
     }
 
-    /// A latent to parameters. Latents beyond ±10³ are clamped, NaN becomes zero: the
-    /// decoders' bounds hold for whatever is left.
+    /// The parameters that a latent decodes to. Components beyond ±10³ are clamped and NaN becomes
+    /// zero, so that the decoders' bounds hold.
     ///
     /// # Errors
     /// [`ModelError::Network`] when a network fails.
@@ -147,7 +147,7 @@ impl LearnedModel {
         })
     }
 
-    /// The mean of the posterior of what is known of a texture.
+    /// The mean of the posterior, given the modalities that are present.
     ///
     /// # Errors
     /// [`ModelError::Network`] when the network fails.

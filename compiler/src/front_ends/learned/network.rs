@@ -3,7 +3,7 @@
 use super::error::ModelError;
 use asperity_nn::{Session, Tensor};
 
-/// Runs a network on named inputs of a shape.
+/// Runs a network on inputs, each with a name, a shape and its numbers.
 ///
 /// # Errors
 /// [`ModelError::Network`] with its file.
@@ -29,7 +29,7 @@ pub(super) fn run(
     })
 }
 
-/// The output of a name, all finite and as long as it should be.
+/// The output of this name, which must be finite and of this length.
 ///
 /// # Errors
 /// [`ModelError::Network`] with its file.

@@ -21,8 +21,8 @@ const LEAST_GAP_RAD: f64 = 0.01;
 /// Largest RMS gain of a filter, twice that of trained materials. Very different models of a
 /// larger gain that take turns within a stroke can ring.
 const LARGEST_GAIN: f64 = 8.0;
-/// Levels of a bin are kept in this range, dB re 1 m/s², whatever a decoder says: at
-/// the default gain 20 dB are 0.5 N RMS.
+/// Range of the level of a bin, dB re 1 m/s², whatever a decoder says. At the default gain, 20 dB
+/// are 0.5 N RMS.
 const LEVEL_RANGE_DB: (f64, f64) = (-60.0, 20.0);
 /// Largest level of an edge model, dB re 1 m/s². Levels grow towards fast and hard strokes with
 /// the powers that the bins show, and those of a far latent may be anything.
@@ -30,10 +30,10 @@ const LARGEST_EDGE_DB: f64 = 32.0;
 /// Samples of a trace stay below this fraction of the device's force over `m_eff`.
 const TAP_SHARE: f64 = 0.95;
 
-/// A texture of decoded parameters.
+/// The texture of decoded parameters, and the friction anchors that are nearest to `z`.
 ///
-/// Stable and within bounds whatever the parameters: LSFs are put in order and apart,
-/// levels and traces are limited. `z` finds the friction anchors.
+/// It is stable and within bounds whatever the parameters: LSFs are sorted and moved apart, and
+/// levels and traces are limited.
 #[must_use]
 pub fn build(
     description: &ModelDescription,

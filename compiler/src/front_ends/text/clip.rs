@@ -17,7 +17,7 @@ pub const FILES: [&str; 2] = ["text_model.onnx", "model.onnx"];
 /// Outputs that are preferred, in this order.
 const OUTPUTS: [&str; 3] = ["text_embeds", "embedding", "pooler_output"];
 
-/// The encoder over a back end.
+/// The encoder on a back end.
 pub struct Clip {
     session: Box<dyn Session>,
     tokeniser: Tokenizer,
@@ -100,12 +100,12 @@ impl Clip {
             output,
             width: 0,
         };
-        // Exports often leave the width open: ask the network.
+        // Exports often leave the width open, so the network is asked.
         clip.width = clip.run(&clip.tokens("surface").0)?.len();
         Ok(clip)
     }
 
-    /// [`CONTEXT`] ids, how many of them are text and marks, and how many were cut off.
+    /// The [`CONTEXT`] ids, how many of them are text and marks, and how many tokens were cut off.
     fn tokens(&self, text: &str) -> (Vec<i64>, usize, usize) {
         let mut found = Vec::new();
         self.tokeniser.encode(text, &mut found);
@@ -117,7 +117,7 @@ impl Clip {
         ids.extend(found.into_iter().map(id));
         ids.push(id(self.tokeniser.end_of_text()));
         let used = ids.len();
-        // The tower looks at the end mark, the largest id: padding is never seen.
+        // The tower reads its vector at the end mark, which has the largest id, and ignores padding.
         ids.resize(CONTEXT, 0);
         (ids, used, cut)
     }

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 /// A frozen text encoder.
 pub trait TextEncoder: Send + Sync {
-    /// `minilm` or `clip`: what a model description calls it.
+    /// The name that a model description uses: `minilm` or `clip`.
     fn name(&self) -> &str;
     /// Width of its vectors.
     fn width(&self) -> usize;
@@ -37,7 +37,7 @@ pub enum TextError {
     /// The network cannot be loaded or failed.
     #[error("text encoder: {0}")]
     Network(String),
-    /// The network is none of a text encoder.
+    /// The network does not have the inputs and outputs of a text encoder.
     #[error("text encoder: {field}: {found}, expected {expected}")]
     Signature {
         /// The input or output.
@@ -47,7 +47,7 @@ pub enum TextError {
         /// What it should be.
         expected: String,
     },
-    /// The network answered with something that is no direction.
+    /// The network answered with a vector that has no direction.
     #[error("text encoder: its vector for this text has length {0}")]
     NoDirection(f32),
 }

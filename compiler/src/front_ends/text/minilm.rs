@@ -13,17 +13,17 @@ pub const WIDTH: usize = 384;
 /// Tokens it reads at most, `[CLS]` and `[SEP]` included.
 pub const MAX_TOKENS: usize = 128;
 
-/// The encoder over a back end.
+/// The encoder on a back end.
 pub struct MiniLm {
     session: Box<dyn Session>,
-    // The parts rather than `rten_text::Tokenizer`, which threads cannot share.
+    // These are the parts of `rten_text::Tokenizer`, which threads cannot share.
     normaliser: normalizers::Bert,
     words: pre_tokenizers::Bert,
     pieces: WordPiece,
 }
 
 impl MiniLm {
-    /// An encoder from its network and its vocabulary, one word piece a line.
+    /// An encoder of its network and its vocabulary, which has one word piece a line.
     #[must_use]
     pub fn new(session: Box<dyn Session>, vocabulary: &str) -> Self {
         let vocabulary = vocabulary

@@ -29,9 +29,9 @@ pub struct Fits<'a> {
     grid: &'a ModelGrid,
     numerator: Numerator,
     /// Reflection coefficients, and RMS at unit level, of every distinct model.
-    shapes: Vec<(Vec<f64>, f64)>,
+    fits: Vec<(Vec<f64>, f64)>,
     /// Index of the model of every vertex.
-    shape_of: Vec<usize>,
+    fit_of: Vec<usize>,
 }
 
 impl<'a> Fits<'a> {
@@ -43,24 +43,24 @@ impl<'a> Fits<'a> {
             return None;
         }
         let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
-        let mut shapes = Vec::new();
-        let mut shape_of = Vec::new();
+        let mut fits = Vec::new();
+        let mut fit_of = Vec::new();
         for vertex in &grid.vertices {
             // Edge models share the frequencies of the vertex they continue.
             let ma = vertex.ma_lsf_rad.as_deref().unwrap_or_default();
             let bits = vertex.lsf_rad.iter().chain(ma).map(|x| x.to_bits());
-            let next = shapes.len();
+            let next = fits.len();
             let index = *known.entry(bits.collect()).or_insert(next);
             if index == next {
-                shapes.push(shape(grid, vertex, numerator)?);
+                fits.push(fit(grid, vertex, numerator)?);
             }
-            shape_of.push(index);
+            fit_of.push(index);
         }
         Some(Self {
             grid,
             numerator,
-            shapes,
-            shape_of,
+            fits,
+            fit_of,
         })
     }
 
@@ -73,7 +73,7 @@ impl<'a> Fits<'a> {
     /// Largest order there is.
     #[must_use]
     pub fn largest(&self) -> usize {
-        self.shapes.iter().map(|(r, _)| r.len()).min().unwrap_or(0)
+        self.fits.iter().map(|(r, _)| r.len()).min().unwrap_or(0)
     }
 
     /// The grid at an order. `None` above the largest order.
@@ -83,7 +83,7 @@ impl<'a> Fits<'a> {
             return None;
         }
         let reduced = self
-            .shapes
+            .fits
             .iter()
             .map(|(reflection, rms)| {
                 let reflection = &reflection[..order];
@@ -95,12 +95,12 @@ impl<'a> Fits<'a> {
             .grid
             .vertices
             .iter()
-            .zip(&self.shape_of)
-            .map(|(vertex, &shape)| GridVertex {
-                lsf_rad: reduced[shape].0.clone(),
+            .zip(&self.fit_of)
+            .map(|(vertex, &fit)| GridVertex {
+                lsf_rad: reduced[fit].0.clone(),
                 ma_lsf_rad: None,
                 gain: 1.0,
-                sigma_m_s2: vertex.gain * vertex.sigma_m_s2 * reduced[shape].1,
+                sigma_m_s2: vertex.gain * vertex.sigma_m_s2 * reduced[fit].1,
                 ..vertex.clone()
             })
             .collect();
@@ -114,7 +114,7 @@ impl<'a> Fits<'a> {
 }
 
 /// Reflection coefficients under a numerator, and the RMS of the model at unit level.
-fn shape(grid: &ModelGrid, vertex: &GridVertex, numerator: Numerator) -> Option<(Vec<f64>, f64)> {
+fn fit(grid: &ModelGrid, vertex: &GridVertex, numerator: Numerator) -> Option<(Vec<f64>, f64)> {
     let model = ArmaModel {
         level_m_s2: 1.0,
         ..ArmaModel::at_vertex(grid, vertex)

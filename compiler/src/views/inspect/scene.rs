@@ -1,6 +1,6 @@
 //! How a surface of a scene is shown.
 
-use asperity_formats::{SceneSurface, Shape, limits::MAX_POSITION_M};
+use asperity_formats::{SceneSurface, Shape as Stored, limits::MAX_POSITION_M};
 use serde::Serialize;
 use std::fmt;
 
@@ -44,9 +44,9 @@ impl SurfaceDocument {
         Self {
             texture: name.cloned().unwrap_or_default(),
             solid: match surface.shape {
-                Shape::Plane { point_m, normal } => Solid::Plane { point_m, normal },
-                Shape::Sphere { center_m, radius_m } => Solid::Sphere { center_m, radius_m },
-                Shape::Box {
+                Stored::Plane { point_m, normal } => Solid::Plane { point_m, normal },
+                Stored::Sphere { center_m, radius_m } => Solid::Sphere { center_m, radius_m },
+                Stored::Box {
                     center_m,
                     half_extents_m,
                 } => Solid::Box {

@@ -1,10 +1,10 @@
-//! What quantisation costs.
+//! Largest, mean and RMS of a list of errors.
 
 use serde::Serialize;
 
 /// An error over the vertices, dB.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-pub struct Error3 {
+pub struct ErrorSummary {
     /// Largest.
     pub max_db: f64,
     /// Mean.
@@ -13,8 +13,8 @@ pub struct Error3 {
     pub rms_db: f64,
 }
 
-impl Error3 {
-    /// Of a list of errors; zero for none.
+impl ErrorSummary {
+    /// The summary of a list of errors; zero for an empty list.
     #[must_use]
     pub fn of(errors_db: &[f64]) -> Self {
         let count = errors_db.len().max(1) as f64;
