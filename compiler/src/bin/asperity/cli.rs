@@ -34,7 +34,7 @@ pub(crate) enum Command {
     Compile(Compile),
     /// Pack what a scene touches, within a budget
     Build(Build),
-    /// Import recorded textures
+    /// Import recorded textures, and models of one's own
     #[command(subcommand)]
     Import(Import),
     /// Write the built-in synthetic texture
