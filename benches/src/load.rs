@@ -6,7 +6,7 @@ use asperity_formats::{
     Asset, Numerator,
     library::{LibraryIndex, encode_library, encoded_len},
 };
-use asperity_runtime::HostTexture;
+use asperity_runtime::{HostTexture, quantity::Quantity};
 
 /// Textures of the library.
 pub const TEXTURES: usize = 1000;
@@ -98,8 +98,10 @@ impl Loading {
         let loudest = self.slot.filter_at(140.0, 2.0).level_m_s2;
         assert!(loudest > 0.1, "the middle of the grid sounds: {loudest}");
         let taps = self.slot.taps();
-        let impact = taps.select(0.4);
-        let impulse: f32 = (0..taps.ticks()).map(|n| taps.accel_m_s2(&impact, n)).sum();
+        let impact = taps.select(Quantity::of(0.4));
+        let impulse: f32 = (0..taps.ticks())
+            .map(|n| taps.acceleration(&impact, n).value())
+            .sum();
         assert!(impulse.abs() > 0.1, "a tap has an impulse: {impulse}");
     }
 }

@@ -2,7 +2,7 @@
 //! 13 taps of 100 samples at 10 kHz. Synthetic; only their sizes matter here.
 
 use asperity_formats::{
-    Anchor, AssetParts, FrictionParts, GridParts, LsfCode, ModelParts, Numerator, Surface,
+    Anchor, AssetParts, Coupling, FrictionParts, GridParts, LsfCode, ModelParts, Numerator,
     TapParts, Vertex, VertexKind, encode,
 };
 
@@ -84,7 +84,7 @@ pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usiz
                 weight: 1.0,
             }],
         },
-        surface: Surface {
+        coupling: Coupling {
             stiffness_n_m: 500.0,
             damping_n_s_m: 0.1,
             vib_s2_m: 0.05 / 3.3,

@@ -1,7 +1,7 @@
 //! The asset: one texture, as a validated view of its bytes.
 
 use crate::{
-    FormatError, Friction, Grid, Provenance, SectionInfo, Surface, Taps,
+    Coupling, FormatError, Friction, Grid, Provenance, SectionInfo, Taps,
     checksum::crc32,
     friction::text,
     header::{self, HAPTIC, Header},
@@ -18,7 +18,7 @@ pub struct Asset<'a> {
     grid: Grid<'a>,
     taps: Taps<'a>,
     friction: Friction<'a>,
-    surface: Surface,
+    coupling: Coupling,
     provenance: Option<Provenance<'a>>,
 }
 
@@ -97,7 +97,7 @@ impl<'a> Asset<'a> {
             grid: Grid::parse(haptic(header::GRID))?,
             taps: Taps::parse(haptic(header::TAPS))?,
             friction: Friction::parse(haptic(header::FRICTION))?,
-            surface: Surface::parse(haptic(header::SURFACE))?,
+            coupling: Coupling::parse(haptic(header::SURFACE))?,
             provenance: find(header::PROVENANCE)
                 .map(Provenance::parse)
                 .transpose()?,
@@ -146,8 +146,8 @@ impl<'a> Asset<'a> {
 
     /// Wall and gains.
     #[must_use]
-    pub const fn surface(&self) -> &Surface {
-        &self.surface
+    pub const fn coupling(&self) -> &Coupling {
+        &self.coupling
     }
 
     /// Provenance; absent after [`Asset::parse_haptic`].

@@ -1,7 +1,7 @@
 //! Writing an asset into a caller's buffer.
 
 use crate::{
-    Anchor, Asset, FormatError, LsfCode, Numerator, Provenance, Surface, Vertex, VertexKind,
+    Anchor, Asset, Coupling, FormatError, LsfCode, Numerator, Provenance, Vertex, VertexKind,
     checksum::crc32,
     header::{self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION},
     taps::FULL_SCALE,
@@ -21,7 +21,7 @@ pub struct AssetParts<'a> {
     /// Friction.
     pub friction: FrictionParts<'a>,
     /// Wall and gains.
-    pub surface: Surface,
+    pub coupling: Coupling,
     /// Where the texture comes from.
     pub provenance: Option<Provenance<'a>>,
     /// PNG.
@@ -135,7 +135,7 @@ pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeErr
     table.close(out, header::TAPS, end)?;
     let end = write_friction(&parts.friction, Writer::new(out, table.section))?;
     table.close(out, header::FRICTION, end)?;
-    let end = write_surface(&parts.surface, Writer::new(out, table.section))?;
+    let end = write_coupling(&parts.coupling, Writer::new(out, table.section))?;
     table.close(out, header::SURFACE, end)?;
     let haptic_len = end;
     if let Some(provenance) = &parts.provenance {
@@ -328,7 +328,7 @@ fn write_friction(
     Ok(writer.position())
 }
 
-fn write_surface(surface: &Surface, mut writer: Writer<'_>) -> Result<usize, EncodeError> {
+fn write_coupling(surface: &Coupling, mut writer: Writer<'_>) -> Result<usize, EncodeError> {
     for value in [
         surface.stiffness_n_m,
         surface.damping_n_s_m,

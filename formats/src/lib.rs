@@ -19,6 +19,7 @@
 
 mod asset;
 mod checksum;
+mod coupling;
 mod encode;
 mod error;
 mod friction;
@@ -29,11 +30,12 @@ pub mod limits;
 mod lsf;
 mod provenance;
 pub mod scene;
-mod surface;
+mod solid;
 pub mod taps;
 mod wire;
 
 pub use asset::Asset;
+pub use coupling::Coupling;
 pub use encode::{AssetParts, EncodeError, FrictionParts, GridParts, ModelParts, TapParts, encode};
 pub use error::FormatError;
 pub use friction::{Anchor, Friction};
@@ -42,6 +44,6 @@ pub use header::{SectionInfo, VERSION};
 pub use library::Library;
 pub use lsf::LsfCode;
 pub use provenance::Provenance;
-pub use scene::{Scene, SceneSurface, Shape};
-pub use surface::Surface;
+pub use scene::{Scene, SceneSurface};
+pub use solid::Solid;
 pub use taps::{Taps, Trace};

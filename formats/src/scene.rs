@@ -1,7 +1,7 @@
 //! SCEN: which surfaces a scene has, where they are, and which texture each one wears.
 
 use crate::{
-    FormatError,
+    FormatError, Solid,
     checksum::crc32,
     error::in_range,
     limits,
@@ -15,37 +15,11 @@ const COUNT_LEN: usize = 4;
 const RECORD_LEN: usize = 52;
 const TAG: [u8; 4] = *b"SCEN";
 
-/// A solid, in the world frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
-    /// A half-space.
-    Plane {
-        /// A point of the plane, m.
-        point_m: [f32; 3],
-        /// Outward normal, any length above 1e-6.
-        normal: [f32; 3],
-    },
-    /// A ball, touched from outside.
-    Sphere {
-        /// Centre, m.
-        center_m: [f32; 3],
-        /// Radius, m, above 1e-6.
-        radius_m: f32,
-    },
-    /// A box along the world's axes, touched from outside.
-    Box {
-        /// Centre, m.
-        center_m: [f32; 3],
-        /// Half the edge lengths, m, above 1e-6.
-        half_extents_m: [f32; 3],
-    },
-}
-
 /// A solid that wears a texture, within a region along the world's axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneSurface {
     /// The solid.
-    pub shape: Shape,
+    pub solid: Solid,
     /// Lower corner of the region in which it can be touched, m.
     pub from_m: [f32; 3],
     /// Upper corner of that region, m.
@@ -165,16 +139,16 @@ fn read(record: &[u8]) -> SceneSurface {
     let vector = |at: usize| [0, 4, 8].map(|k| f32_at(record, at + k));
     let (a, b) = (vector(4), vector(16));
     SceneSurface {
-        shape: match record.first() {
-            Some(0) => Shape::Plane {
+        solid: match record.first() {
+            Some(0) => Solid::Plane {
                 point_m: a,
                 normal: b,
             },
-            Some(1) => Shape::Sphere {
+            Some(1) => Solid::Sphere {
                 center_m: a,
                 radius_m: b[0],
             },
-            _ => Shape::Box {
+            _ => Solid::Box {
                 center_m: a,
                 half_extents_m: b,
             },
@@ -205,18 +179,18 @@ impl SceneSurface {
             let range = (limits::MIN_SOLID_M, limits::MAX_POSITION_M);
             in_range(field, index, v, range, "1e-6 to 1e4").map(drop)
         };
-        match self.shape {
-            Shape::Plane { point_m, normal } => {
+        match self.solid {
+            Solid::Plane { point_m, normal } => {
                 place("scene.surface.point_m", point_m)?;
                 place("scene.surface.normal", normal)?;
                 let longest = normal.into_iter().map(f32::abs).fold(0.0, f32::max);
                 size("scene.surface.normal length", longest)?;
             }
-            Shape::Sphere { center_m, radius_m } => {
+            Solid::Sphere { center_m, radius_m } => {
                 place("scene.surface.center_m", center_m)?;
                 size("scene.surface.radius_m", radius_m)?;
             }
-            Shape::Box {
+            Solid::Box {
                 center_m,
                 half_extents_m,
             } => {
@@ -242,10 +216,10 @@ impl SceneSurface {
     }
 
     fn write(&self, writer: &mut Writer<'_>) -> Result<(), crate::EncodeError> {
-        let (kind, a, b) = match self.shape {
-            Shape::Plane { point_m, normal } => (0, point_m, normal),
-            Shape::Sphere { center_m, radius_m } => (1, center_m, [radius_m, 0.0, 0.0]),
-            Shape::Box {
+        let (kind, a, b) = match self.solid {
+            Solid::Plane { point_m, normal } => (0, point_m, normal),
+            Solid::Sphere { center_m, radius_m } => (1, center_m, [radius_m, 0.0, 0.0]),
+            Solid::Box {
                 center_m,
                 half_extents_m,
             } => (2, center_m, half_extents_m),

@@ -69,7 +69,7 @@ fn a_prefix_of_haptic_len_bytes_is_enough_for_a_runtime() {
     let whole = Asset::parse(&bytes).unwrap();
     let haptic = Asset::parse_haptic(&bytes[..whole.haptic_len()]).expect("haptic prefix");
     assert_eq!(haptic.name(), whole.name());
-    assert_eq!(haptic.surface(), whole.surface());
+    assert_eq!(haptic.coupling(), whole.coupling());
     assert_eq!(haptic.friction().mu(), whole.friction().mu());
     assert!(haptic.grid().vertices().eq(whole.grid().vertices()));
     assert!(haptic.grid().triangles().eq(whole.grid().triangles()));

@@ -3,7 +3,7 @@
 
 mod common;
 
-use asperity_formats::{Asset, EncodeError, FormatError, Numerator, Surface, Vertex, VertexKind};
+use asperity_formats::{Asset, Coupling, EncodeError, FormatError, Numerator, Vertex, VertexKind};
 use common::{Parts, full, lattice, small, spec_reader};
 use proptest::{collection::vec, prelude::*};
 
@@ -120,7 +120,7 @@ prop_compose! {
         (parts.grid_rate_hz, parts.tap_rate_hz) = rates;
         parts.mu = mu;
         parts.anchors = anchors;
-        parts.surface = Surface {
+        parts.coupling = Coupling {
             stiffness_n_m: surface.0,
             damping_n_s_m: surface.1,
             vib_s2_m: surface.2,
@@ -144,7 +144,7 @@ prop_compose! {
 /// What the crate reads, in the words of the plain reader.
 fn as_plain(bytes: &[u8]) -> spec_reader::Plain {
     let asset = Asset::parse(bytes).expect("a valid asset");
-    let (grid, taps, surface) = (asset.grid(), asset.taps(), asset.surface());
+    let (grid, taps, surface) = (asset.grid(), asset.taps(), asset.coupling());
     let lsf = |code: asperity_formats::LsfCode| code.to_rad();
     spec_reader::Plain {
         name: asset.name().into(),
@@ -183,7 +183,7 @@ fn as_plain(bytes: &[u8]) -> spec_reader::Plain {
             .anchors()
             .map(|a| (a.name.into(), a.mu, a.weight))
             .collect(),
-        surface: [
+        coupling: [
             surface.stiffness_n_m,
             surface.damping_n_s_m,
             surface.vib_s2_m,

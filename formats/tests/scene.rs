@@ -3,7 +3,7 @@
 mod common;
 
 use asperity_formats::{
-    EncodeError, FormatError, Library, SceneSurface, Shape,
+    EncodeError, FormatError, Library, SceneSurface, Solid,
     library::{encode_library, encode_scene, encoded_len},
     scene,
 };
@@ -11,9 +11,9 @@ use common::{put, small};
 
 const EVERYWHERE: ([f32; 3], [f32; 3]) = ([-1.0; 3], [1.0; 3]);
 
-fn surface(shape: Shape, texture: u16) -> SceneSurface {
+fn surface(solid: Solid, texture: u16) -> SceneSurface {
     SceneSurface {
-        shape,
+        solid,
         from_m: EVERYWHERE.0,
         to_m: EVERYWHERE.1,
         texture,
@@ -25,7 +25,7 @@ fn surfaces() -> [SceneSurface; 3] {
         SceneSurface {
             to_m: [0.0, 0.5, 0.25],
             ..surface(
-                Shape::Plane {
+                Solid::Plane {
                     point_m: [0.0, 0.0, 0.125],
                     normal: [0.0, 0.0, 2.0],
                 },
@@ -33,14 +33,14 @@ fn surfaces() -> [SceneSurface; 3] {
             )
         },
         surface(
-            Shape::Sphere {
+            Solid::Sphere {
                 center_m: [0.5, 0.25, 0.0],
                 radius_m: 0.0625,
             },
             0,
         ),
         surface(
-            Shape::Box {
+            Solid::Box {
                 center_m: [-0.5, 0.25, 0.0],
                 half_extents_m: [0.25, 0.5, 0.125],
             },

@@ -10,9 +10,16 @@
 //! still made. Velocity, bristle and noise go on as they were.
 
 use crate::{
-    Flags, LoadError, Output, Renderer, Sample, State, Texture,
-    arithmetic::{Arithmetic, Float},
+    arithmetic::Float,
+    capacity::{Capacity, HostCapacities},
     crossing::Crossing,
+    events::Flags,
+    load_error::LoadError,
+    render_arithmetic::RenderArithmetic,
+    renderer::Renderer,
+    sample::{Output, Sample},
+    state::State,
+    texture::Texture,
 };
 use asperity_formats::Asset;
 use heapless::spsc::{Consumer, Producer, Queue};
@@ -23,34 +30,16 @@ pub const MAX_SPARE: usize = 3;
 /// A queue holds one less than its room.
 const ROOM: usize = MAX_SPARE + 1;
 
-type Slot<'a, const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize, A> =
-    &'a mut Texture<V, T, P, Q, K, A>;
+type Slot<'a, S, A> = &'a mut Texture<S, A>;
 
 /// The queues between both halves.
 #[derive(Default)]
-pub struct Exchange<
-    'a,
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-    A: Arithmetic = Float,
-> {
-    ready: Queue<Slot<'a, V, T, P, Q, K, A>, ROOM>,
-    spare: Queue<Slot<'a, V, T, P, Q, K, A>, ROOM>,
+pub struct Exchange<'a, S: Capacity = HostCapacities, A: RenderArithmetic = Float> {
+    ready: Queue<Slot<'a, S, A>, ROOM>,
+    spare: Queue<Slot<'a, S, A>, ROOM>,
 }
 
-impl<
-    'a,
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-    A: Arithmetic,
-> Exchange<'a, V, T, P, Q, K, A>
-{
+impl<'a, S: Capacity, A: RenderArithmetic> Exchange<'a, S, A> {
     /// Empty queues.
     #[must_use]
     pub const fn new() -> Self {
@@ -64,13 +53,10 @@ impl<
     /// that of the excitation. More than [`MAX_SPARE`] spare slots do not compile.
     pub fn split<const N: usize>(
         &mut self,
-        playing: Slot<'a, V, T, P, Q, K, A>,
-        spare: [Slot<'a, V, T, P, Q, K, A>; N],
+        playing: Slot<'a, S, A>,
+        spare: [Slot<'a, S, A>; N],
         seed: u64,
-    ) -> (
-        Preparer<'_, 'a, V, T, P, Q, K, A>,
-        Player<'_, 'a, V, T, P, Q, K, A>,
-    ) {
+    ) -> (Preparer<'_, 'a, S, A>, Player<'_, 'a, S, A>) {
         const { assert!(N <= MAX_SPARE) };
         *self = Self::new();
         let (to_player, ready) = self.ready.split();
@@ -110,32 +96,14 @@ pub enum PrepareError {
 }
 
 /// The half that loads textures, outside the servo loop.
-pub struct Preparer<
-    'q,
-    'a,
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-    A: Arithmetic = Float,
-> {
+pub struct Preparer<'q, 'a, S: Capacity = HostCapacities, A: RenderArithmetic = Float> {
     /// Taken back, but not filled.
-    spare: Option<Slot<'a, V, T, P, Q, K, A>>,
-    returned: Consumer<'q, Slot<'a, V, T, P, Q, K, A>>,
-    ready: Producer<'q, Slot<'a, V, T, P, Q, K, A>>,
+    spare: Option<Slot<'a, S, A>>,
+    returned: Consumer<'q, Slot<'a, S, A>>,
+    ready: Producer<'q, Slot<'a, S, A>>,
 }
 
-impl<
-    'a,
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-    A: Arithmetic,
-> Preparer<'_, 'a, V, T, P, Q, K, A>
-{
+impl<'a, S: Capacity, A: RenderArithmetic> Preparer<'_, 'a, S, A> {
     /// Prepares a validated asset in a spare slot and sends it to the servo loop. What was sent
     /// before is played before it.
     ///
@@ -160,31 +128,20 @@ impl<
 
 /// The half of the servo loop: the texture that plays, and everything that changes from tick to
 /// tick.
-pub struct Player<
-    'q,
-    'a,
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-    A: Arithmetic = Float,
-> {
-    playing: Slot<'a, V, T, P, Q, K, A>,
-    ready: Consumer<'q, Slot<'a, V, T, P, Q, K, A>>,
-    returned: Producer<'q, Slot<'a, V, T, P, Q, K, A>>,
+pub struct Player<'q, 'a, S: Capacity = HostCapacities, A: RenderArithmetic = Float> {
+    playing: Slot<'a, S, A>,
+    ready: Consumer<'q, Slot<'a, S, A>>,
+    returned: Producer<'q, Slot<'a, S, A>>,
     state: State<A>,
     crossing: Crossing<A>,
     /// A tap played in the tick before.
     tapping: bool,
 }
 
-impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: usize, A: Arithmetic>
-    Player<'_, '_, V, T, P, Q, K, A>
-{
+impl<S: Capacity, A: RenderArithmetic> Player<'_, '_, S, A> {
     /// The texture that plays, or is on its way in.
     #[must_use]
-    pub fn texture(&self) -> &Texture<V, T, P, Q, K, A> {
+    pub fn texture(&self) -> &Texture<S, A> {
         self.playing
     }
 
@@ -208,24 +165,18 @@ impl<const V: usize, const T: usize, const P: usize, const Q: usize, const K: us
     }
 }
 
-impl<A: Arithmetic> Renderer<A> {
+impl<A: RenderArithmetic> Renderer<A> {
     /// One servo period on what a [`Player`] plays: [`Renderer::tick`], after a look for another
     /// texture. Infallible.
-    pub fn tick_player<
-        const V: usize,
-        const T: usize,
-        const P: usize,
-        const Q: usize,
-        const K: usize,
-    >(
+    pub fn tick_player<S: Capacity>(
         &self,
-        player: &mut Player<'_, '_, V, T, P, Q, K, A>,
+        player: &mut Player<'_, '_, S, A>,
         sample: &Sample<A>,
     ) -> Output<A> {
         player.poll();
         let texture = &*player.playing;
         let output = self.tick_crossing(
-            self.solid(),
+            &self.field,
             texture,
             &mut player.crossing,
             &mut player.state,

@@ -9,28 +9,22 @@
 //! Time is an argument: a simulator, a servo loop and a replay drive the same
 //! function. One call is one servo period.
 //!
-//! Every stage is written once over an [`Arithmetic`]: [`Float`], the default, or [`Fixed`] for
-//! processors without an FPU.
+//! Every stage is written once over a [`RenderArithmetic`]: [`Float`], the default, or [`Fixed`]
+//! for processors without an FPU.
 //!
-//! | file | the paper's | computes |
-//! |---|---|---|
-//! | [`arithmetic`] | | floats, or fixed point with a binary point a quantity |
-//! | [`velocity`] | v_t | velocity from positions |
-//! | [`contact`] | δ, n̂ | depth and normal on a plane, a sphere, a box |
-//! | [`locate`] | f–v grid | triangle and barycentric weights, edge models |
-//! | `lsf` | a_k(F_n, v_t) | mixed LSFs to direct-form coefficients |
-//! | [`vibration`] | y\[n\] | the model that sounds, made in shares over four to six ticks |
-//! | [`excitation`] | ε | Gaussian noise |
-//! | [`synthesis`] | | the AR or ARMA recursion |
-//! | `interpolate` | | samples of the models to ticks of a faster servo loop |
-//! | [`tap`] | a_tap(t) | impact detection and transient |
-//! | [`friction`] | F_t | leaking bristle bounded by μF_n |
-//! | [`wall`] | F_n | stiffness and damping that the device can bear |
-//! | [`limiter`] | | peak and slew of the total force |
-//! | `events` | | what happened in a tick, as flags, and how often |
-//! | [`safety`] | | bad samples, safe state, ramp |
-//! | [`scene`] | | which of several surfaces is touched, the way from one to the next |
-//! | [`exchange`] | | another texture while the servo loop runs |
+//! | folder or file | what it holds |
+//! |---|---|
+//! | [`quantity`] | numbers with a unit; which product gives which unit |
+//! | [`arithmetic`] | floats, or fixed point with a binary point a unit |
+//! | `model` | the paper's parameters at a speed and a force: edge models, barycentric weights, mixture, LSF → AR |
+//! | `update` | the same, cut into slices over ticks |
+//! | [`stage`] | gate, contact, velocity, wall, friction, tap, vibration (excitation, recursion, upsampling), limiter |
+//! | [`tick`] | the sum of the stages: the paper's force equation |
+//! | `texture` | the slot: an asset prepared for the tick |
+//! | [`scene`] | which of several surfaces is touched |
+//! | [`exchange`] | another texture while the servo loop runs |
+//!
+//! `docs/reading.md` follows a sample through these files.
 //!
 //! ```
 //! use asperity_formats::Asset;
@@ -67,46 +61,48 @@
 #![forbid(unsafe_code)]
 
 pub mod arithmetic;
+mod capacity;
 mod complex;
 pub mod config;
-pub mod contact;
+mod coupling;
 mod crossing;
-mod cycle;
 mod events;
 pub mod exchange;
-pub mod excitation;
-pub mod friction;
-mod interpolate;
 mod lanes;
-pub mod limiter;
-pub mod locate;
-mod lsf;
+mod load_error;
 pub mod math;
-mod resample;
-pub mod safety;
+mod model;
+pub mod quantity;
+mod range;
+mod render_arithmetic;
+mod renderer;
+mod sample;
 pub mod scene;
-mod schedule;
-pub mod synthesis;
-pub mod tap;
+pub mod stage;
+mod state;
 mod texture;
-mod tick;
-pub mod velocity;
-pub mod vibration;
-pub mod wall;
-mod workspace;
+pub mod tick;
+mod update;
 
 pub use arithmetic::{Arithmetic, Fixed, Float};
+pub use asperity_formats::Solid;
+pub use capacity::{Capacities, Capacity, HostCapacities};
 pub use config::{
     Config, ConfigError, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, TapConfig,
     VibrationAxis,
 };
-pub use contact::Surface;
 pub use events::{Counters, Flags};
 pub use exchange::{Exchange, Player, PrepareError, Preparer};
-pub use interpolate::ticks_per_sample;
-pub use locate::Barycentric;
+pub use load_error::LoadError;
+pub use model::{
+    barycentric::{Barycentric, WeightSearch},
+    filter::Filter,
+    section_pair::{SectionPair, SectionProduct},
+};
+pub use render_arithmetic::RenderArithmetic;
+pub use renderer::Renderer;
+pub use sample::{Output, Sample};
 pub use scene::{HostScene, Scene, SceneError, SceneState};
-pub use synthesis::Filter;
-pub use texture::{HostTexture, LoadError, Texture};
-pub use tick::{Output, Renderer, Sample, State};
-pub use wall::{Passivity, Wall};
+pub use stage::upsample::ticks_per_sample;
+pub use state::State;
+pub use texture::{HostTexture, Texture};

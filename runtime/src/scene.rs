@@ -10,13 +10,20 @@
 //! The work is one distance a surface, and a tick.
 
 use crate::{
-    Config, ConfigError, LoadError, Output, Renderer, Sample, State, Surface, Texture,
-    arithmetic::{Arithmetic, Float, Four, Number, Scalar as _, units::Metre},
-    contact::Solid,
+    arithmetic::Float,
+    capacity::{Capacity, HostCapacities},
+    config::{Config, ConfigError},
     crossing::Crossing,
-    safety::is_usable,
+    load_error::LoadError,
+    quantity::{Quantity, Vector, unit::Metre},
+    render_arithmetic::RenderArithmetic,
+    renderer::Renderer,
+    sample::{Output, Sample},
+    stage::{contact::DistanceField, gate::is_usable},
+    state::State,
+    texture::Texture,
 };
-use asperity_formats::{Library, SceneSurface, Shape};
+use asperity_formats::{Library, SceneSurface};
 use heapless::Vec;
 use thiserror::Error;
 
@@ -27,50 +34,49 @@ pub const HYSTERESIS_M: f32 = 0.12e-3;
 /// Index of no surface.
 const NONE: usize = usize::MAX;
 /// Out of reach of every usable sample.
-fn nowhere<A: Arithmetic>() -> Solid<A> {
-    Solid::Plane {
-        point_m: Four::of([0.0, 0.0, -A::OUT_OF_REACH_M, 0.0]),
-        normal: Four::of([0.0, 0.0, 1.0, 0.0]),
+fn nowhere<A: RenderArithmetic>() -> DistanceField<A> {
+    DistanceField::Plane {
+        point: Vector::of([0.0, 0.0, -A::OUT_OF_REACH_M]),
+        normal: Vector::whole([0, 0, 1]),
     }
 }
 
 /// A solid, where it can be touched, and its texture.
 #[derive(Debug, Clone, Copy)]
-struct Placed<A: Arithmetic> {
-    /// Prepared here: a plane's normal is made of unit length in f64, which a tick has no time for.
-    solid: Solid<A>,
-    from_m: [A::Scalar<Metre>; 3],
-    to_m: [A::Scalar<Metre>; 3],
+struct Placed<A: RenderArithmetic> {
+    field: DistanceField<A>,
+    from: [Quantity<A, Metre>; 3],
+    to: [Quantity<A, Metre>; 3],
     texture: usize,
 }
 
-impl<A: Arithmetic> Placed<A> {
+impl<A: RenderArithmetic> Placed<A> {
     fn new(surface: SceneSurface) -> Self {
         Self {
-            solid: Solid::new(&solid(surface.shape).normalised()),
-            from_m: surface.from_m.map(A::Scalar::of),
-            to_m: surface.to_m.map(A::Scalar::of),
+            field: DistanceField::new(&surface.solid),
+            from: surface.from_m.map(Quantity::of),
+            to: surface.to_m.map(Quantity::of),
             texture: usize::from(surface.texture),
         }
     }
 
-    /// Signed distance, m; infinite outside the region widened by `margin_m`.
+    /// Signed distance, m; infinite outside the region widened by a margin, m.
     #[inline]
-    fn distance_m(
+    fn distance(
         &self,
-        position_m: [A::Scalar<Metre>; 3],
-        margin_m: Number<A, Metre>,
-    ) -> Number<A, Metre> {
-        let margin_m = margin_m.0;
+        position: Vector<A, Metre>,
+        margin: Quantity<A, Metre>,
+    ) -> Quantity<A, Metre> {
+        let at = position.components();
         let within = |axis: usize| {
-            (position_m[axis] >= A::plus_within(self.from_m[axis], -margin_m))
-                & (position_m[axis] <= A::plus_within(self.to_m[axis], margin_m))
+            (at[axis] >= self.from[axis].saturating_add(-margin))
+                & (at[axis] <= self.to[axis].saturating_add(margin))
         };
-        let (distance_m, _) = self.solid.touch(Four::vec3(position_m));
+        let contact = self.field.step(position);
         if within(0) & within(1) & within(2) {
-            distance_m
+            contact.distance
         } else {
-            Number::FARTHEST
+            Quantity::FARTHEST
         }
     }
 }
@@ -78,23 +84,14 @@ impl<A: Arithmetic> Placed<A> {
 /// A scene with room for `N` surfaces, on textures in caller-provided slots of the capacities of
 /// [`Texture`]. One scene drives any number of [`SceneState`]s.
 #[derive(Debug, Clone)]
-pub struct Scene<
-    'a,
-    const N: usize,
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-    A: Arithmetic = Float,
-> {
+pub struct Scene<'a, const N: usize, S: Capacity = HostCapacities, A: RenderArithmetic = Float> {
     placed: Vec<Placed<A>, N>,
-    first: &'a Texture<V, T, P, Q, K, A>,
-    others: &'a [Texture<V, T, P, Q, K, A>],
+    first: &'a Texture<S, A>,
+    others: &'a [Texture<S, A>],
 }
 
 /// Room for every surface that a library can hold, on [`HostTexture`](crate::HostTexture)s.
-pub type HostScene<'a> = Scene<'a, 64, 64, 128, 24, 24, 4096>;
+pub type HostScene<'a> = Scene<'a, 64, HostCapacities>;
 
 /// Why a library cannot be rendered as a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -131,17 +128,7 @@ pub enum SceneError {
     },
 }
 
-impl<
-    'a,
-    const N: usize,
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-    A: Arithmetic,
-> Scene<'a, N, V, T, P, Q, K, A>
-{
+impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
     /// Prepares every surface of a library, and every texture in a slot of its own; allocates
     /// nothing.
     ///
@@ -150,7 +137,7 @@ impl<
     pub fn load(
         library: &Library<'_>,
         config: &Config,
-        slots: &'a mut [Texture<V, T, P, Q, K, A>],
+        slots: &'a mut [Texture<S, A>],
     ) -> Result<Self, SceneError> {
         let scene = library.scene().ok_or(SceneError::NoScene)?;
         let textures = library.index().len();
@@ -163,8 +150,7 @@ impl<
             return Err(capacity("surfaces", scene.len(), N));
         }
         for (index, surface) in scene.surfaces().enumerate() {
-            A::check_surface(&solid(surface.shape))
-                .map_err(|cause| SceneError::Surface { index, cause })?;
+            A::check_solid(&surface.solid).map_err(|cause| SceneError::Surface { index, cause })?;
         }
         let room = slots.len();
         for (index, slot) in slots.iter_mut().enumerate().take(textures) {
@@ -184,31 +170,31 @@ impl<
 
     /// The surface to touch at a position, [`NONE`] for none, when it was `at` before.
     #[inline]
-    fn touched(&self, at: usize, position_m: [A::Scalar<Metre>; 3]) -> usize {
-        let hysteresis_m = Number::of(HYSTERESIS_M);
-        let kept = self.placed.get(at).map_or(Number::FARTHEST, |placed| {
-            let distance_m = placed.distance_m(position_m, hysteresis_m);
-            if distance_m < Number::ZERO {
-                distance_m - hysteresis_m
+    fn touched(&self, at: usize, position: Vector<A, Metre>) -> usize {
+        let hysteresis = Quantity::of(HYSTERESIS_M);
+        let kept = self.placed.get(at).map_or(Quantity::FARTHEST, |placed| {
+            let distance = placed.distance(position, hysteresis);
+            if distance < Quantity::ZERO {
+                distance - hysteresis
             } else {
-                distance_m
+                distance
             }
         });
-        let (mut nearest, mut least_m) = if kept < Number::FARTHEST {
+        let (mut nearest, mut least) = if kept < Quantity::FARTHEST {
             (at, kept)
         } else {
-            (NONE, Number::FARTHEST)
+            (NONE, Quantity::FARTHEST)
         };
         for (index, placed) in self.placed.iter().enumerate() {
-            let distance_m = placed.distance_m(position_m, Number::ZERO);
-            let closer = distance_m < least_m;
+            let distance = placed.distance(position, Quantity::ZERO);
+            let closer = distance < least;
             nearest = if closer { index } else { nearest };
-            least_m = if closer { distance_m } else { least_m };
+            least = if closer { distance } else { least };
         }
         nearest
     }
 
-    fn texture(&self, index: usize) -> &Texture<V, T, P, Q, K, A> {
+    fn texture(&self, index: usize) -> &Texture<S, A> {
         let other = index
             .checked_sub(1)
             .and_then(|other| self.others.get(other));
@@ -216,32 +202,18 @@ impl<
     }
 }
 
-fn solid(shape: Shape) -> Surface {
-    match shape {
-        Shape::Plane { point_m, normal } => Surface::Plane { point_m, normal },
-        Shape::Sphere { center_m, radius_m } => Surface::Sphere { center_m, radius_m },
-        Shape::Box {
-            center_m,
-            half_extents_m,
-        } => Surface::Box {
-            center_m,
-            half_extents_m,
-        },
-    }
-}
-
 /// Everything that changes from tick to tick in a scene.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SceneState<A: Arithmetic = Float> {
+pub struct SceneState<A: RenderArithmetic = Float> {
     state: State<A>,
     /// Surface last touched or nearest, or [`NONE`].
     at: usize,
     texture: usize,
-    solid: Solid<A>,
+    field: DistanceField<A>,
     crossing: Crossing<A>,
 }
 
-impl<A: Arithmetic> SceneState<A> {
+impl<A: RenderArithmetic> SceneState<A> {
     /// At rest, without force; the seed is that of the excitation.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -249,7 +221,7 @@ impl<A: Arithmetic> SceneState<A> {
             state: State::new(seed),
             at: NONE,
             texture: 0,
-            solid: nowhere(),
+            field: nowhere(),
             crossing: Crossing::START,
         }
     }
@@ -264,14 +236,14 @@ impl<A: Arithmetic> SceneState<A> {
     #[cold]
     fn move_to(&mut self, at: usize, surfaces: &[Placed<A>]) {
         self.at = at;
-        self.solid = match surfaces.get(at) {
+        self.field = match surfaces.get(at) {
             Some(placed) => {
                 self.texture = placed.texture;
-                placed.solid
+                placed.field
             }
             None => nowhere(),
         };
-        self.state.cross(&self.solid);
+        self.state.cross(&self.field);
     }
 
     /// Index of the surface in contact after the last tick.
@@ -281,31 +253,24 @@ impl<A: Arithmetic> SceneState<A> {
     }
 }
 
-impl<A: Arithmetic> Renderer<A> {
+impl<A: RenderArithmetic> Renderer<A> {
     /// One servo period in a scene: [`Renderer::tick`] on the surface that is touched, in place
     /// of the one in the configuration. Infallible.
-    pub fn tick_scene<
-        const N: usize,
-        const V: usize,
-        const T: usize,
-        const P: usize,
-        const Q: usize,
-        const K: usize,
-    >(
+    pub fn tick_scene<const N: usize, S: Capacity>(
         &self,
-        scene: &Scene<'_, N, V, T, P, Q, K, A>,
+        scene: &Scene<'_, N, S, A>,
         state: &mut SceneState<A>,
         sample: &Sample<A>,
     ) -> Output<A> {
         if is_usable(sample) {
-            let at = scene.touched(state.at, sample.position_m);
+            let at = scene.touched(state.at, Vector::load(sample.position_m));
             if at != state.at {
                 state.move_to(at, &scene.placed);
             }
         }
         let texture = scene.texture(state.texture);
         self.tick_crossing(
-            &state.solid,
+            &state.field,
             texture,
             &mut state.crossing,
             &mut state.state,

@@ -3,7 +3,7 @@
 //! interpreter, which takes fewer ticks.
 
 use asperity_formats::Asset;
-use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
+use asperity_runtime::{Config, HostTexture, Renderer, Sample, State, quantity::Quantity};
 use std::sync::OnceLock;
 
 const ASSET: &[u8] = include_bytes!("../../tests/tests/assets/builtin-v1.asp");
@@ -82,10 +82,10 @@ fn transients_are_read_inside_the_bank() {
         9.0,
         f32::INFINITY,
     ] {
-        let chosen = taps.select(speed_m_s);
+        let chosen = taps.select(Quantity(speed_m_s));
         for tick in [0, ticks - 1, ticks, u32::MAX as usize, usize::MAX] {
             assert!(
-                taps.accel_m_s2(&chosen, tick).is_finite(),
+                taps.acceleration(&chosen, tick).value().is_finite(),
                 "{speed_m_s} m/s, tick {tick}"
             );
         }
@@ -116,7 +116,10 @@ fn queries_name_vertices_that_are_there() {
             let query = texture.weights_at(speed, force);
             assert!(query.vertices.iter().all(|v| usize::from(*v) < vertices));
             assert!(
-                query.weights.iter().all(|w| (0.0..=1.0).contains(w)),
+                query
+                    .weights
+                    .iter()
+                    .all(|w| (0.0..=1.0).contains(&w.value())),
                 "{query:?}"
             );
         }

@@ -10,7 +10,7 @@ use asperity_formats::{Asset, LsfCode};
 /// The texture that an asset holds.
 #[must_use]
 pub fn raise(asset: &Asset<'_>) -> TextureModel {
-    let surface = asset.surface();
+    let coupling = asset.coupling();
     TextureModel {
         name: asset.name().to_owned(),
         grid: grid(asset.grid()),
@@ -38,13 +38,13 @@ pub fn raise(asset: &Asset<'_>) -> TextureModel {
                 .collect(),
         },
         wall: Wall {
-            stiffness_n_m: f64::from(surface.stiffness_n_m),
-            damping_n_s_m: f64::from(surface.damping_n_s_m),
+            stiffness_n_m: f64::from(coupling.stiffness_n_m),
+            damping_n_s_m: f64::from(coupling.damping_n_s_m),
         },
         gains: Gains {
-            vib_s2_m: f64::from(surface.vib_s2_m),
-            effective_mass_kg: f64::from(surface.effective_mass_kg),
-            f_max_n: f64::from(surface.f_max_n),
+            vib_s2_m: f64::from(coupling.vib_s2_m),
+            effective_mass_kg: f64::from(coupling.effective_mass_kg),
+            f_max_n: f64::from(coupling.f_max_n),
         },
         provenance: asset.provenance().map(provenance).unwrap_or_default(),
     }

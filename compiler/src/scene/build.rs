@@ -221,7 +221,7 @@ fn encode(
         .surfaces
         .iter()
         .map(|surface| SceneSurface {
-            shape: surface.solid,
+            solid: surface.solid,
             from_m: surface.from_m,
             to_m: surface.to_m,
             // The name was checked on reading, and there are at most as many textures as surfaces.

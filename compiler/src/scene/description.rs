@@ -3,7 +3,7 @@
 use super::error::{SceneError, SceneProblem};
 use crate::passes::rerate;
 use asperity_formats::{
-    Shape as Solid,
+    Solid,
     limits::{MAX_NAME_BYTES, MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
 };
 use serde::Deserialize;

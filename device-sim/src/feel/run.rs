@@ -58,12 +58,12 @@ pub fn record(
     let slew_limit_n_s = f64::from(config.limits.slew_n_s);
     let renderer = Renderer::new(&config)?;
     let mut facts = facts(asset, origin);
-    let wall = renderer.wall(asset.surface());
-    if wall.stiffness_n_m < asset.surface().stiffness_n_m {
+    let wall = renderer.wall(asset.coupling());
+    if wall.stiffness_n_m < asset.coupling().stiffness_n_m {
         facts.stiffness_n_m = f64::from(wall.stiffness_n_m);
         facts.caveats.push(format!(
             "the wall is lowered from {:.0} to {:.0} N/m, what the device can bear",
-            asset.surface().stiffness_n_m,
+            asset.coupling().stiffness_n_m,
             wall.stiffness_n_m
         ));
     }
@@ -89,7 +89,7 @@ pub fn record(
 }
 
 fn facts(asset: &Asset<'_>, origin: &str) -> TextureFacts {
-    let surface = asset.surface();
+    let coupling = asset.coupling();
     let mut caveats = Vec::new();
     if let Some(provenance) = asset.provenance() {
         if provenance.taps_synthetic {

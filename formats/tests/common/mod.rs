@@ -9,8 +9,8 @@
 pub mod spec_reader;
 
 use asperity_formats::{
-    Anchor, AssetParts, EncodeError, FrictionParts, GridParts, LsfCode, ModelParts, Numerator,
-    Provenance, Surface, TapParts, Vertex, VertexKind, encode,
+    Anchor, AssetParts, Coupling, EncodeError, FrictionParts, GridParts, LsfCode, ModelParts,
+    Numerator, Provenance, TapParts, Vertex, VertexKind, encode,
 };
 
 /// LSF codes, MA LSF codes and gain.
@@ -29,7 +29,7 @@ pub struct Parts {
     pub traces: Vec<(f32, Vec<f32>)>,
     pub mu: f32,
     pub anchors: Vec<(String, f32, f32)>,
-    pub surface: Surface,
+    pub coupling: Coupling,
     pub provenance: Option<Provenance<'static>>,
     pub preview_png: Option<Vec<u8>>,
 }
@@ -78,7 +78,7 @@ pub fn small() -> Parts {
         traces: vec![(0.1, vec![10.0, -5.0, 0.0]), (0.3, vec![40.0, -20.0, 0.25])],
         mu: 0.5,
         anchors: vec![("Cork 1".into(), 0.5, 1.0)],
-        surface: Surface {
+        coupling: Coupling {
             stiffness_n_m: 500.0,
             damping_n_s_m: 0.5,
             vib_s2_m: 0.0625,
@@ -202,7 +202,7 @@ impl Parts {
                 mu: self.mu,
                 anchors: &anchors,
             },
-            surface: self.surface,
+            coupling: self.coupling,
             provenance: self.provenance,
             preview_png: self.preview_png.as_deref(),
         };

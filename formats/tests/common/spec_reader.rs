@@ -19,7 +19,7 @@ pub struct Plain {
     pub traces: Vec<(f32, Vec<f64>)>,
     pub mu: f32,
     pub anchors: Vec<(String, f32, f32)>,
-    pub surface: [f32; 5],
+    pub coupling: [f32; 5],
     pub provenance: Option<PlainProvenance>,
     pub preview_png: Option<Vec<u8>>,
 }
@@ -167,7 +167,7 @@ pub fn read(asset: &[u8]) -> Plain {
         traces,
         mu,
         anchors,
-        surface: std::array::from_fn(|_| surface.f32()),
+        coupling: std::array::from_fn(|_| surface.f32()),
         provenance: ancillary(b"prov").map(|mut prov| PlainProvenance {
             generator: prov.postcard_text(),
             source: prov.postcard_text(),

@@ -1,14 +1,20 @@
-//! From the codes of a model to what a tick mixes.
+//! From the codes of a model's LSFs to the −2 cos ω that a tick mixes.
 
-use crate::{arithmetic::Scalar, lanes::F4, lsf::stage, math::minus_two_cos_pi};
+use crate::{
+    arithmetic::{Arithmetic, Scalar as _},
+    lanes::F4,
+    math::minus_two_cos_pi,
+    model::lsf_to_ar::place,
+    quantity::{Raw, unit::LineCosine},
+};
 use asperity_formats::{LsfCode, limits::MAX_ORDER};
 
 /// Fours of cosines that are taken side by side: none waits for another.
 const SIDE_BY_SIDE: usize = if F4::IN_REGISTERS { 3 } else { 1 };
 
-/// −2 cos ω of a model, in [`stage`] order; the rest is 0. Four places take two codes from
+/// −2 cos ω of a model, in the order of [`place`]; the rest is 0. Four places take two codes from
 /// either end; those that are left in the middle come last.
-pub(super) fn to_pairs<S: Scalar, const P: usize>(row: &mut [S; P], codes: &[[u8; 2]]) {
+pub(super) fn to_cosines<A: Arithmetic>(row: &mut [Raw<A, LineCosine>], codes: &[[u8; 2]]) {
     let order = codes.len();
     let front = codes.as_chunks::<2>().0;
     let back = codes.as_rchunks::<2>().1.iter().rev();
@@ -33,9 +39,9 @@ pub(super) fn to_pairs<S: Scalar, const P: usize>(row: &mut [S; P], codes: &[[u8
     }
     let angles = angles.as_chunks::<SIDE_BY_SIDE>().0;
     for (places, &angles) in row.chunks_mut(4 * SIDE_BY_SIDE).zip(angles) {
-        let pairs = minus_two_cos_pi(angles);
-        for (place, pairs) in places.as_chunks_mut().0.iter_mut().zip(pairs) {
-            *place = pairs.to_array().map(S::of);
+        let cosines = minus_two_cos_pi(angles);
+        for (place, four) in places.as_chunks_mut().0.iter_mut().zip(cosines) {
+            *place = four.to_array().map(A::Scalar::of);
         }
     }
 }
@@ -55,7 +61,7 @@ fn half_turns(front: u32, back: u32) -> F4 {
     F4::load(&[front, front >> 16, back, back >> 16].map(half_turns))
 }
 
-/// Which code [`to_pairs`] puts at a place.
+/// Which code [`to_cosines`] puts at a place.
 const fn source(place: usize, order: usize) -> usize {
     let (four, lane) = (place / 4, place % 4);
     if lane < 2 || four == order / 4 {
@@ -69,10 +75,10 @@ const fn source(place: usize, order: usize) -> usize {
 const _: () = {
     let mut order = 1;
     while order <= MAX_ORDER {
-        let mut place = 0;
-        while place < order {
-            assert!(stage(source(place, order), order) == place);
-            place += 1;
+        let mut at = 0;
+        while at < order {
+            assert!(place(source(at, order), order) == at);
+            at += 1;
         }
         order += 1;
     }

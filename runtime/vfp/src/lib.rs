@@ -4,32 +4,29 @@
 #![no_std]
 #![cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 
-/// √a and √b, correctly rounded as IEEE 754 asks, so that they have the bits of every other
-/// processor; NaN below zero.
+/// √x, correctly rounded as IEEE 754 asks, so that it has the bits of every other processor; NaN
+/// below zero.
 #[inline(always)]
 #[must_use]
 #[expect(unsafe_code, reason = "an instruction without a name in `core`")]
-pub fn sqrt_pair([a, b]: [f32; 2]) -> [f32; 2] {
-    let (mut a, mut b) = (a.to_bits(), b.to_bits());
-    // Where an FPU has no doubles, assembly cannot ask the compiler for registers of floats: it
-    // borrows two.
+pub fn sqrt(x: f32) -> f32 {
+    let mut bits = x.to_bits();
+    // Where an FPU has no doubles, assembly cannot ask the compiler for a register of a float: it
+    // borrows one.
     //
-    // SAFETY: every FPU of this ABI has the instructions. They touch four core registers, which
-    // the compiler gives, and s0 and s1, which are put back.
+    // SAFETY: every FPU of this ABI has the instructions. They touch two core registers, which
+    // the compiler gives, and s0, which is put back.
     unsafe {
         core::arch::asm!(
-            "vmov {kept_a}, {kept_b}, s0, s1",
-            "vmov s0, s1, {a}, {b}",
+            "vmov {kept}, s0",
+            "vmov s0, {bits}",
             "vsqrt.f32 s0, s0",
-            "vsqrt.f32 s1, s1",
-            "vmov {a}, {b}, s0, s1",
-            "vmov s0, s1, {kept_a}, {kept_b}",
-            a = inout(reg) a,
-            b = inout(reg) b,
-            kept_a = out(reg) _,
-            kept_b = out(reg) _,
+            "vmov {bits}, s0",
+            "vmov s0, {kept}",
+            bits = inout(reg) bits,
+            kept = out(reg) _,
             options(pure, nomem, nostack, preserves_flags),
         );
     }
-    [f32::from_bits(a), f32::from_bits(b)]
+    f32::from_bits(bits)
 }

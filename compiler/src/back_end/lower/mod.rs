@@ -13,8 +13,8 @@ pub use summary::ErrorSummary;
 use crate::model::{Numerator, TextureModel, VertexKind, mesh};
 use asperity_formats as formats;
 use asperity_formats::{
-    Anchor, AssetParts, EncodeError, FrictionParts, GridParts, ModelParts, Surface as Coupling,
-    TapParts, limits,
+    Anchor, AssetParts, Coupling, EncodeError, FrictionParts, GridParts, ModelParts, TapParts,
+    limits,
 };
 use table::ModelTable;
 use trace::quantise_trace;
@@ -119,7 +119,7 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
             mu: texture.friction.mu as f32,
             anchors: &anchors,
         },
-        surface: Coupling {
+        coupling: Coupling {
             stiffness_n_m: texture.wall.stiffness_n_m as f32,
             damping_n_s_m: texture.wall.damping_n_s_m as f32,
             vib_s2_m: texture.gains.vib_s2_m as f32,

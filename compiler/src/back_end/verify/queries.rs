@@ -109,8 +109,8 @@ fn check_query(
     force_n: f32,
 ) -> Result<Filter, VerifyError> {
     let found = slot.weights_at(speed_mm_s, force_n);
-    let sum: f32 = found.weights.iter().sum();
-    let convex = found.weights.iter().all(|w| (0.0..=1.0).contains(w))
+    let sum: f32 = found.values().iter().sum();
+    let convex = found.values().iter().all(|w| (0.0..=1.0).contains(w))
         && (sum - 1.0).abs() <= SUM_TOLERANCE
         && found
             .vertices
@@ -121,7 +121,7 @@ fn check_query(
             speed_mm_s,
             force_n,
             vertices: found.vertices,
-            weights: found.weights,
+            weights: found.values(),
         });
     }
     let filter = slot.filter_of(&found);

@@ -1,6 +1,6 @@
 //! How a surface of a scene is shown.
 
-use asperity_formats::{SceneSurface, Shape as Stored, limits::MAX_POSITION_M};
+use asperity_formats::{self as formats, SceneSurface, limits::MAX_POSITION_M};
 use serde::Serialize;
 use std::fmt;
 
@@ -43,10 +43,12 @@ impl SurfaceDocument {
         let name = names.get(usize::from(surface.texture));
         Self {
             texture: name.cloned().unwrap_or_default(),
-            solid: match surface.shape {
-                Stored::Plane { point_m, normal } => Solid::Plane { point_m, normal },
-                Stored::Sphere { center_m, radius_m } => Solid::Sphere { center_m, radius_m },
-                Stored::Box {
+            solid: match surface.solid {
+                formats::Solid::Plane { point_m, normal } => Solid::Plane { point_m, normal },
+                formats::Solid::Sphere { center_m, radius_m } => {
+                    Solid::Sphere { center_m, radius_m }
+                }
+                formats::Solid::Box {
                     center_m,
                     half_extents_m,
                 } => Solid::Box {

@@ -1,0 +1,64 @@
+//! Edge models: what answers outside the measured range.
+//!
+//! A query outside the grid is moved to the nearest point of its border, whose edge models the
+//! mixture there consists of: constant extrapolation, continuous with the inside. LSFs are never
+//! extrapolated; weights outside a triangle would make unstable filters.
+
+use crate::{
+    arithmetic::Arithmetic,
+    quantity::{
+        Quantity,
+        unit::{Coordinate, MillimetrePerSecond, Newton},
+    },
+};
+
+/// The measured range: speeds and forces from 0 to these.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Extent<A: Arithmetic> {
+    max_speed: Quantity<A, MillimetrePerSecond>,
+    max_force: Quantity<A, Newton>,
+}
+
+impl<A: Arithmetic> Extent<A> {
+    /// No range.
+    pub(crate) const NONE: Self = Self {
+        max_speed: Quantity::ZERO,
+        max_force: Quantity::ZERO,
+    };
+
+    /// Of a grid up to a speed, mm/s, and a force, N.
+    pub(crate) fn new(max_speed_mm_s: f32, max_force_n: f32) -> Self {
+        Self {
+            max_speed: Quantity::of(max_speed_mm_s),
+            max_force: Quantity::of(max_force_n),
+        }
+    }
+
+    /// The largest speed, mm/s, and force, N, as the arithmetic holds them.
+    pub(crate) fn values(&self) -> [f32; 2] {
+        [self.max_speed.value(), self.max_force.value()]
+    }
+
+    /// Whether a query lies outside, or is none.
+    #[inline]
+    pub(crate) fn is_outside(
+        &self,
+        speed: Quantity<A, MillimetrePerSecond>,
+        force: Quantity<A, Newton>,
+    ) -> bool {
+        !(speed <= self.max_speed && force <= self.max_force)
+    }
+
+    /// The nearest point of the range, as coordinates of the grid.
+    #[inline(always)]
+    pub(crate) fn nearest(
+        &self,
+        speed: Quantity<A, MillimetrePerSecond>,
+        force: Quantity<A, Newton>,
+    ) -> [Quantity<A, Coordinate>; 2] {
+        [
+            speed.clamp_from_zero(self.max_speed).to(),
+            force.clamp_from_zero(self.max_force).to(),
+        ]
+    }
+}

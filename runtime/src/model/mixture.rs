@@ -1,0 +1,88 @@
+//! The mixture of three vertices: line spectra and levels.
+//!
+//! −2 cos ω and gain·σ are mixed linearly with the barycentric weights. A convex mixture of ordered
+//! LSFs is ordered, so its filter is stable. Levels are mixed as RMS: mixing σ² would be 9 dB
+//! (median) too loud near zero speed or force, where the edge models are silent.
+
+use super::{barycentric::Barycentric, lsf_to_ar::LineSpectrum, row::PaddedRow};
+use crate::{
+    arithmetic::{Arithmetic, Cut, Zero as _},
+    capacity::Capacity,
+    quantity::{
+        Four, Quantity, Raw,
+        unit::{ExcitationLevel, Fraction, LineCosine},
+    },
+};
+
+/// No −2 cos ω is larger.
+const WIDEST: Cut = Cut::At(2.0);
+
+/// What is mixed, one row a vertex.
+#[derive(Debug, Clone)]
+#[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
+pub(crate) struct Vertices<S: Capacity, A: Arithmetic> {
+    /// −2 cos ω of A(z)'s LSFs in the order of [`place`](super::lsf_to_ar::place).
+    pub(crate) ar: S::Vertices<S::ArOrder<Raw<A, LineCosine>>>,
+    /// −2 cos ω of B(z)'s LSFs.
+    pub(crate) ma: S::Vertices<S::MaOrder<Raw<A, LineCosine>>>,
+    /// gain·σ, m/s².
+    pub(crate) levels: S::Vertices<Raw<A, ExcitationLevel>>,
+}
+
+impl<S: Capacity, A: Arithmetic> Vertices<S, A> {
+    /// None.
+    pub(crate) const EMPTY: Self = Self {
+        ar: S::Vertices::ZERO,
+        ma: S::Vertices::ZERO,
+        levels: S::Vertices::ZERO,
+    };
+
+    /// Moves a line spectrum a `fraction` of the way to a mixture; with B(z) where there is one.
+    #[inline]
+    pub(crate) fn follow(
+        &self,
+        spectrum: &mut LineSpectrum<A>,
+        mixture: &Barycentric<A>,
+        fraction: Quantity<A, Fraction>,
+        has_ma: bool,
+    ) {
+        follow(self.ar.as_ref(), &mut spectrum.ar, mixture, fraction);
+        if S::MA_ORDER > 0 && has_ma {
+            follow(self.ma.as_ref(), &mut spectrum.ma, mixture, fraction);
+        }
+    }
+
+    /// gain·σ of a mixture, m/s².
+    #[inline]
+    pub(crate) fn level(&self, mixture: &Barycentric<A>) -> Quantity<A, ExcitationLevel> {
+        let level = |corner: usize| {
+            let vertex = usize::from(mixture.vertices[corner]);
+            let level = self.levels.as_ref().get(vertex).copied();
+            mixture.weights[corner] * Quantity(level.unwrap_or_default())
+        };
+        level(0) + level(1) + level(2)
+    }
+}
+
+/// Moves a row a `fraction` of the way to the mixture of three rows.
+#[inline(always)]
+fn follow<A: Arithmetic, R: AsRef<[Raw<A, LineCosine>]>>(
+    rows: &[R],
+    row: &mut PaddedRow<A, LineCosine>,
+    mixture: &Barycentric<A>,
+    fraction: Quantity<A, Fraction>,
+) {
+    let corner = |corner: usize| {
+        let row = rows.get(usize::from(mixture.vertices[corner]));
+        row.map_or(&[][..], |row| row.as_ref().as_chunks::<4>().0)
+    };
+    let [wi, wj, wk] = mixture.weights.map(|weight| Four::splat(fraction * weight));
+    let kept = Four::splat(Quantity::<A, Fraction>::whole(1) - fraction);
+    let corners = corner(0).iter().zip(corner(1)).zip(corner(2));
+    // Rows are zero beyond the order: a loop of constant length costs less than a shorter one.
+    for (place, ((i, j), k)) in row.0.iter_mut().zip(corners) {
+        let [i, j, k, before] = [i, j, k, &*place].map(Four::<A, LineCosine>::load);
+        let terms = [(i, wi), (j, wj), (k, wk), (before, kept)];
+        *place = Four::<A, LineCosine>::sum_of_products(terms, WIDEST).to_array();
+    }
+}

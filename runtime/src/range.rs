@@ -1,0 +1,160 @@
+//! What of a configuration, a solid and a texture an arithmetic can hold.
+//!
+//! Floats hold everything that is valid. Fixed point is narrower: see
+//! [units](crate::quantity::unit).
+
+use crate::{
+    arithmetic::{Arithmetic, Fixed, Float},
+    config::{Config, ConfigError},
+    load_error::LoadError,
+};
+use asperity_formats::{Asset, Solid};
+
+/// Checks against the range of an arithmetic.
+pub trait Checked: Arithmetic {
+    /// Whether a configuration lies in the range.
+    ///
+    /// # Errors
+    /// The first field that does not.
+    fn check_config(config: &Config) -> Result<(), ConfigError>;
+
+    /// Whether a solid lies in the range.
+    ///
+    /// # Errors
+    /// The first field that does not.
+    fn check_solid(solid: &Solid) -> Result<(), ConfigError>;
+
+    /// Whether a texture lies in the range.
+    ///
+    /// # Errors
+    /// [`LoadError::Range`] with the first field that does not.
+    fn check_asset(asset: &Asset<'_>) -> Result<(), LoadError>;
+}
+
+impl Checked for Float {
+    fn check_config(_: &Config) -> Result<(), ConfigError> {
+        Ok(())
+    }
+
+    fn check_solid(_: &Solid) -> Result<(), ConfigError> {
+        Ok(())
+    }
+
+    fn check_asset(_: &Asset<'_>) -> Result<(), LoadError> {
+        Ok(())
+    }
+}
+
+impl Checked for Fixed {
+    fn check_config(config: &Config) -> Result<(), ConfigError> {
+        check_config(config)
+    }
+
+    fn check_solid(solid: &Solid) -> Result<(), ConfigError> {
+        check_solid(solid)
+    }
+
+    fn check_asset(asset: &Asset<'_>) -> Result<(), LoadError> {
+        check_asset(asset)
+    }
+}
+
+/// Largest coordinate and size of a surface, m: as far as positions reach.
+const FARTHEST_M: f32 = 1.0;
+const STRONGEST_PEAK_N: f32 = 1000.0;
+const WEAKEST_PEAK_N: f32 = 1.0e-3;
+/// A slew of six steps of a force.
+const WEAKEST_STEP_N: f32 = 1.0e-4;
+/// A low-pass this slow, in periods, still moves by steps far below a millimetre per second.
+const SLOWEST_CUTOFF: f32 = 0.001;
+const FASTEST_GRID_MM_S: f32 = 1000.0;
+const SLOWEST_GRID_MM_S: f32 = 1.0;
+const WEAKEST_GRID_N: f32 = 0.01;
+const LOUDEST_M_S2: f32 = 500.0;
+
+fn check_config(config: &Config) -> Result<(), ConfigError> {
+    let slowest_hz = SLOWEST_CUTOFF * config.servo_rate_hz;
+    let too_slow = "in fixed point at least 0.001 of the servo rate";
+    for (field, value, fits, rule) in [
+        (
+            "limits.peak_n",
+            config.limits.peak_n,
+            (WEAKEST_PEAK_N..=STRONGEST_PEAK_N).contains(&config.limits.peak_n),
+            "in fixed point 0.001 to 1000 N",
+        ),
+        (
+            "limits.slew_n_s",
+            config.limits.slew_n_s,
+            config.limits.slew_n_s >= 0.999 * WEAKEST_STEP_N * config.servo_rate_hz,
+            "in fixed point at least 1e-4 N a tick",
+        ),
+        (
+            "velocity_cutoff_hz",
+            config.velocity_cutoff_hz,
+            config.velocity_cutoff_hz >= slowest_hz,
+            too_slow,
+        ),
+        (
+            "normal_cutoff_hz",
+            config.normal_cutoff_hz,
+            config.normal_cutoff_hz >= slowest_hz,
+            too_slow,
+        ),
+    ] {
+        if !fits {
+            return Err(ConfigError { field, value, rule });
+        }
+    }
+    check_solid(&config.solid)
+}
+
+fn check_solid(solid: &Solid) -> Result<(), ConfigError> {
+    let (field, numbers) = match *solid {
+        Solid::Plane { point_m, .. } => ("surface.point_m", [point_m, [0.0; 3]]),
+        Solid::Sphere { center_m, radius_m } => ("surface.sphere", [center_m, [radius_m; 3]]),
+        Solid::Box {
+            center_m,
+            half_extents_m,
+        } => ("surface.box", [center_m, half_extents_m]),
+    };
+    let numbers = numbers.as_flattened();
+    match numbers.iter().find(|x| x.abs() > FARTHEST_M) {
+        Some(&value) => Err(ConfigError {
+            field,
+            value,
+            rule: "in fixed point at most 1 m from the origin",
+        }),
+        None => Ok(()),
+    }
+}
+
+fn check_asset(asset: &Asset<'_>) -> Result<(), LoadError> {
+    let grid = asset.grid();
+    let (speed, force) = (grid.max_speed_mm_s(), grid.max_force_n());
+    let range = |field, value, least, most| {
+        if value >= least && value <= most {
+            Ok(())
+        } else {
+            Err(LoadError::Range {
+                field,
+                value,
+                least,
+                most,
+            })
+        }
+    };
+    let speeds = (SLOWEST_GRID_MM_S, FASTEST_GRID_MM_S);
+    range("grid.max_speed_mm_s", speed, speeds.0, speeds.1)?;
+    range("grid.max_force_n", force, WEAKEST_GRID_N, f32::MAX)?;
+    grid.vertices().try_for_each(|vertex| {
+        let gain = grid
+            .model(usize::from(vertex.model))
+            .map_or(0.0, |model| model.gain);
+        range(
+            "grid gain·sigma_m_s2",
+            gain * vertex.sigma_m_s2,
+            0.0,
+            LOUDEST_M_S2,
+        )
+    })
+}

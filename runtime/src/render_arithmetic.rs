@@ -1,0 +1,27 @@
+//! An arithmetic with everything that the stages of a tick need.
+
+use crate::{
+    arithmetic::{Fixed, Float},
+    model::{barycentric::WeightSearch, section_pair::SectionProduct},
+    range::Checked,
+    stage::{
+        excitation::GaussianCubic, gate::Positions, limiter::Shortening, recursion::InnerProduct,
+        velocity::Differences,
+    },
+};
+
+/// [`Arithmetic`](crate::Arithmetic) and the traits beside the stages: [`Float`] or [`Fixed`].
+pub trait RenderArithmetic:
+    Checked
+    + Positions
+    + Differences
+    + WeightSearch
+    + SectionProduct
+    + GaussianCubic
+    + InnerProduct
+    + Shortening
+{
+}
+
+impl RenderArithmetic for Float {}
+impl RenderArithmetic for Fixed {}

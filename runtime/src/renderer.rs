@@ -1,0 +1,113 @@
+//! A checked configuration with all that follows from it.
+
+use crate::{
+    arithmetic::Float,
+    config::{Config, ConfigError},
+    coupling::Coupling,
+    quantity::{Quantity, unit::Fraction},
+    render_arithmetic::RenderArithmetic,
+    stage::{
+        contact::{DistanceField, unit},
+        friction::Bristle,
+        gate::Gate,
+        limiter::Limiter,
+        passivity::Passivity,
+        tap::impact::Detector,
+        velocity::VelocityEstimator,
+        wall::Wall,
+    },
+    update::follower::{Following, fraction_after},
+};
+use asperity_formats::{self as formats, Solid};
+
+/// A checked configuration with all that follows from it.
+#[derive(Debug, Clone)]
+pub struct Renderer<A: RenderArithmetic = Float> {
+    config: Config,
+    pub(crate) gate: Gate<A>,
+    pub(crate) field: DistanceField<A>,
+    pub(crate) velocity: VelocityEstimator<A>,
+    pub(crate) bristle: Bristle<A>,
+    pub(crate) detector: Detector<A>,
+    passivity: Passivity<A>,
+    pub(crate) limiter: Limiter<A>,
+    /// How far a line spectrum goes in a cycle.
+    pub(crate) following: Following<A>,
+    /// How far wall, gains and friction go in a tick, to another texture.
+    pub(crate) coupling_fraction: Quantity<A, Fraction>,
+}
+
+impl Renderer {
+    /// Checks a configuration and prepares it.
+    ///
+    /// # Errors
+    /// The first field out of its range.
+    pub fn new(config: &Config) -> Result<Self, ConfigError> {
+        Self::prepare(config)
+    }
+}
+
+impl<A: RenderArithmetic> Renderer<A> {
+    /// [`Renderer::new`] for any arithmetic.
+    ///
+    /// # Errors
+    /// The first field out of its range, or out of that of the arithmetic.
+    pub fn prepare(config: &Config) -> Result<Self, ConfigError> {
+        config.check()?;
+        A::check_config(config)?;
+        let rate_hz = config.servo_rate_hz;
+        let constant_ticks = config.parameter_time_constant_s * rate_hz;
+        let delay_ticks = config.mechanics.delay_ticks;
+        Ok(Self {
+            config: Config {
+                solid: normalised(config.solid),
+                ..config.clone()
+            },
+            gate: Gate::new(&config.safety, rate_hz),
+            field: DistanceField::new(&config.solid),
+            velocity: VelocityEstimator::new(
+                config.velocity_cutoff_hz,
+                config.normal_cutoff_hz,
+                rate_hz,
+            ),
+            bristle: Bristle::new(&config.friction, delay_ticks, rate_hz),
+            detector: Detector::new(&config.tap, rate_hz),
+            passivity: Passivity::new(&config.mechanics, rate_hz),
+            limiter: Limiter::new(&config.limits, rate_hz),
+            following: Following::new(constant_ticks),
+            coupling_fraction: Quantity::of(fraction_after(1.0, constant_ticks)),
+        })
+    }
+
+    /// The configuration, a plane's normal of unit length.
+    #[must_use]
+    pub const fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// The wall that is rendered for an asset's: as the asset says where the device can bear
+    /// it.
+    #[inline]
+    #[must_use]
+    pub fn wall(&self, coupling: &formats::Coupling) -> Wall<A> {
+        let asked = Wall::of(coupling.stiffness_n_m, coupling.damping_n_s_m);
+        self.passivity.bear(asked)
+    }
+
+    /// What the device can bear of a wall.
+    #[inline(always)]
+    pub(crate) fn wall_of(&self, coupling: &Coupling<A>) -> Wall<A> {
+        self.passivity.bear(coupling.wall)
+    }
+}
+
+/// With a plane's normal of unit length.
+fn normalised(solid: Solid) -> Solid {
+    match solid {
+        Solid::Plane { point_m, normal } => Solid::Plane {
+            point_m,
+            normal: unit(normal),
+        },
+        other => other,
+    }
+}

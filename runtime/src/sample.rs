@@ -1,0 +1,75 @@
+//! What goes into a tick, and what comes out.
+
+use crate::{
+    arithmetic::{Arithmetic, Float, Scalar as _},
+    events::Flags,
+    quantity::{
+        Raw,
+        unit::{Metre, MillimetrePerSecond, Newton, VibrationAcceleration},
+    },
+};
+
+/// What the device says in one servo period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample<A: Arithmetic = Float> {
+    /// Stylus position in the world frame, m. Anything not finite, or beyond 10 km (in fixed
+    /// point 1 m), is a bad sample.
+    pub position_m: [Raw<A, Metre>; 3],
+    /// Servo periods since the sample before: 1 in a healthy loop, more after missed
+    /// periods, 0 when the device had nothing new.
+    pub elapsed_ticks: u32,
+}
+
+impl<A: Arithmetic> Sample<A> {
+    /// A fresh sample of a healthy loop.
+    #[must_use]
+    pub const fn at(position_m: [Raw<A, Metre>; 3]) -> Self {
+        Self {
+            position_m,
+            elapsed_ticks: 1,
+        }
+    }
+
+    /// The same in another arithmetic; what it cannot hold is no position.
+    #[must_use]
+    pub fn of(sample: &Sample) -> Self {
+        let number = |x: f32| {
+            if Raw::<A, Metre>::holds(x) {
+                A::Scalar::of(x)
+            } else {
+                A::Scalar::MISSING
+            }
+        };
+        Self {
+            position_m: sample.position_m.map(number),
+            elapsed_ticks: sample.elapsed_ticks,
+        }
+    }
+
+    /// The device had nothing new, or is lost.
+    pub const STALE: Self = Self {
+        position_m: [A::Scalar::MISSING; 3],
+        elapsed_ticks: 0,
+    };
+}
+
+/// What a tick gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Output<A: Arithmetic = Float> {
+    /// Force on the hand in the world frame, N; finite, within peak and slew.
+    pub force_n: [Raw<A, Newton>; 3],
+    /// Depth inside the surface, m; 0 outside.
+    pub depth_m: Raw<A, Metre>,
+    /// Estimated tangential speed, mm/s.
+    pub speed_mm_s: Raw<A, MillimetrePerSecond>,
+    /// k·δ, N: what looks up the grid and what friction is proportional to.
+    pub normal_force_n: Raw<A, Newton>,
+    /// y\[n\] before device gain, m/s².
+    pub vib_m_s2: Raw<A, VibrationAcceleration>,
+    /// Tap force along the normal, N.
+    pub tap_n: Raw<A, Newton>,
+    /// Magnitude of the friction force, N.
+    pub friction_n: Raw<A, Newton>,
+    /// What happened.
+    pub flags: Flags,
+}

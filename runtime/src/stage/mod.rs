@@ -1,0 +1,18 @@
+//! The stages of a tick, each with its equation, its bound and one `step`, which the tick calls.
+//!
+//! A stage is a configuration, which does not change, and a small state, which does:
+//! `configuration.step(&mut state, …)`. A `step` is infallible and takes nearly the same time
+//! whatever its input.
+
+pub mod contact;
+pub mod excitation;
+pub mod friction;
+pub mod gate;
+pub mod limiter;
+pub mod passivity;
+pub mod recursion;
+pub mod tap;
+pub(crate) mod upsample;
+pub mod velocity;
+pub mod vibration;
+pub mod wall;

@@ -1,0 +1,81 @@
+//! Everything that changes from tick to tick.
+
+use crate::{
+    arithmetic::Float,
+    events::Counters,
+    quantity::{
+        Quantity, StoredVector, Vector,
+        unit::{Fraction, Metre, Newton},
+    },
+    render_arithmetic::RenderArithmetic,
+    stage::{
+        contact::DistanceField, friction::FrictionState, gate::GateState, tap::TapState,
+        velocity::VelocityState, vibration::Vibration, wall::Wall,
+    },
+};
+
+/// Everything that changes from tick to tick. Texture and configuration are outside
+/// it, so a swap of texture copies no history. Under another renderer the wall is the new one's
+/// from the next query on, at most eight samples of the models later.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State<A: RenderArithmetic = Float> {
+    pub(crate) vibration: Vibration<A>,
+    pub(crate) gate: GateState<A>,
+    pub(crate) velocity: VelocityState<A>,
+    /// Direction t̂ of the last motion in the tangent plane.
+    pub(crate) direction: StoredVector<A, Fraction>,
+    pub(crate) tap: TapState<A>,
+    pub(crate) friction: FrictionState<A>,
+    /// The last force, N.
+    pub(crate) force: StoredVector<A, Newton>,
+    /// What the device can bear of the texture's wall.
+    pub(crate) wall: Wall<A>,
+    pub(crate) counters: Counters,
+}
+
+impl<A: RenderArithmetic> State<A> {
+    /// A state at rest, without force; the seed is that of the excitation.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self {
+            vibration: Vibration::new(seed),
+            gate: GateState::new(),
+            velocity: VelocityState::REST,
+            direction: Vector::whole([1, 0, 0]).into(),
+            tap: TapState::IDLE,
+            friction: FrictionState::default(),
+            force: StoredVector::ZERO,
+            wall: Wall::NONE,
+            counters: Counters::default(),
+        }
+    }
+
+    /// How often what happened.
+    #[must_use]
+    pub const fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Another surface is touched from here on: the way there is no motion along its normal.
+    #[cold]
+    pub(crate) fn cross(&mut self, field: &DistanceField<A>) {
+        let contact = field.step(self.gate.position());
+        self.tap.cross(contact.distance);
+    }
+
+    /// Another texture, on the same solid.
+    #[cold]
+    pub(crate) fn change_texture(&mut self, texture: u32, wall: Wall<A>) {
+        self.vibration.change_texture(texture);
+        self.wall = wall;
+    }
+
+    /// Motion starts anew: no velocity, no bristle, no impact, no sound.
+    #[cold]
+    pub(crate) fn restart(&mut self, distance: Quantity<A, Metre>) {
+        self.velocity = VelocityState::REST;
+        self.vibration.silence();
+        self.friction = FrictionState::default();
+        self.tap.restart(distance);
+    }
+}

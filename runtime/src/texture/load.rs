@@ -1,0 +1,93 @@
+//! From a validated asset to a slot.
+
+use super::{Texture, codes::to_cosines};
+use crate::{
+    capacity::Capacity,
+    coupling::Coupling,
+    load_error::LoadError,
+    model::orders::Orders,
+    quantity::{Quantity, unit::ExcitationLevel},
+    render_arithmetic::RenderArithmetic,
+    stage::{
+        recursion::Recursion,
+        tap::interpolation::TapBank,
+        upsample::{Upsampler, ticks_per_sample},
+    },
+    update::follower::Plan,
+};
+use asperity_formats::{Asset, Grid, Numerator};
+
+impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
+    /// Prepares a validated asset for a servo rate of 1, 2, 3, … 20 times the models' rate;
+    /// allocates nothing. A slot that refuses keeps what it had.
+    ///
+    /// # Errors
+    /// [`LoadError::Capacity`], [`LoadError::Rate`] and, in fixed point, [`LoadError::Range`].
+    pub fn load(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
+        let grid = asset.grid();
+        // Exact: a rate is a number that both sides were given, not one they measured.
+        let ticks = ticks_per_sample(grid.sample_rate_hz(), servo_rate_hz);
+        let ticks = ticks.ok_or(LoadError::Rate {
+            model_hz: grid.sample_rate_hz(),
+            servo_hz: servo_rate_hz,
+        })?;
+        let tap_samples = TapBank::<S, A>::needed(asset.taps(), servo_rate_hz);
+        for (field, found, capacity) in [
+            ("vertices", grid.vertices().len(), S::VERTICES),
+            ("triangles", grid.triangles().len(), S::TRIANGLES),
+            ("ar_order", grid.ar_order(), S::AR_ORDER),
+            ("ma_order", grid.ma_order(), S::MA_ORDER),
+            ("tap samples", tap_samples, S::TAP_SAMPLES),
+        ] {
+            if found > capacity {
+                return Err(LoadError::Capacity {
+                    field,
+                    found,
+                    capacity,
+                });
+            }
+        }
+        A::check_asset(asset)?;
+        // The checksums of all that is loaded, and how it is clocked.
+        self.id = asset.sections().fold(ticks.into(), |id: u32, section| {
+            id.rotate_left(5) ^ section.crc32
+        });
+        self.servo_rate_hz = servo_rate_hz;
+        self.coupling = Coupling::new(asset.coupling(), asset.friction().mu());
+        self.recursion = Recursion::new(grid.ar_order(), grid.ma_order());
+        self.load_models(grid);
+        self.plan = Plan::new(&self.models, ticks);
+        self.upsampler = Upsampler::new(ticks);
+        self.taps.load(asset.taps(), servo_rate_hz);
+        Ok(())
+    }
+
+    fn load_models(&mut self, grid: &Grid<'_>) {
+        let models = &mut self.models;
+        models.orders = Orders::new(grid.ar_order(), grid.ma_order());
+        models.b1 = if grid.numerator() == Numerator::Nyquist {
+            Quantity::whole(1)
+        } else {
+            Quantity::ZERO
+        };
+        // No triangle has a corner in the rows behind the last vertex, so they may hold anything.
+        let rows = &mut models.vertices;
+        let rows = (rows.ar.as_mut().iter_mut())
+            .zip(rows.ma.as_mut())
+            .zip(rows.levels.as_mut());
+        for (vertex, ((ar, ma), level)) in grid.vertices().zip(rows) {
+            if let Some(model) = grid.model(usize::from(vertex.model)) {
+                to_cosines::<A>(ar.as_mut(), model.stored_lsf());
+                to_cosines::<A>(ma.as_mut(), model.stored_ma_lsf());
+                *level = Quantity::<A, ExcitationLevel>::of(model.gain * vertex.sigma_m_s2).0;
+            }
+        }
+        let corner = |v: u8| grid.place(usize::from(v)).unwrap_or_default();
+        models.grid.load(
+            grid.stored_triangles(),
+            corner,
+            grid.max_speed_mm_s(),
+            grid.max_force_n(),
+        );
+    }
+}

@@ -1,0 +1,153 @@
+//! The slot: one texture, decoded and prepared for the tick.
+
+mod codes;
+mod load;
+
+use crate::{
+    arithmetic::Float,
+    capacity::{Capacity, HostCapacities},
+    coupling::Coupling,
+    model::{
+        barycentric::{Barycentric, WeightSearch},
+        filter::{Filter, Models},
+        section_pair::SectionProduct,
+    },
+    quantity::{
+        Quantity,
+        unit::{MillimetrePerSecond, Newton},
+    },
+    stage::{
+        recursion::{InnerProduct, Recursion},
+        tap::interpolation::TapBank,
+        upsample::Upsampler,
+    },
+    update::follower::Plan,
+};
+use asperity_formats as formats;
+
+/// A texture slot in caller-provided memory.
+///
+/// `S` are its [capacities](crate::Capacities). One slot drives any number of
+/// [`State`](crate::State)s; a texture that does not fit is refused.
+#[derive(Debug, Clone)]
+pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
+    pub(crate) models: Models<S, A>,
+    pub(crate) plan: Plan,
+    pub(crate) taps: TapBank<S, A>,
+    pub(crate) coupling: Coupling<A>,
+    id: u32,
+    recursion: Recursion,
+    upsampler: Upsampler<A>,
+    servo_rate_hz: f32,
+}
+
+/// A slot for any texture. 33 KiB, better boxed or static than on a stack.
+pub type HostTexture = Texture<HostCapacities>;
+
+impl<S: Capacity, A: WeightSearch + SectionProduct + InnerProduct> Default for Texture<S, A> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<S: Capacity, A: WeightSearch + SectionProduct + InnerProduct> Texture<S, A> {
+    /// An empty slot: no wall, no sound.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            models: Models::EMPTY,
+            plan: Plan::NONE,
+            taps: TapBank::EMPTY,
+            coupling: Coupling::NONE,
+            id: 0,
+            recursion: Recursion::new(0, 0),
+            upsampler: Upsampler::NONE,
+            servo_rate_hz: 0.0,
+        }
+    }
+
+    /// Rate that the slot was loaded for, Hz; 0 for an empty slot.
+    #[must_use]
+    pub const fn servo_rate_hz(&self) -> f32 {
+        self.servo_rate_hz
+    }
+
+    /// Ticks that a sample of the models lasts, 1 to 20: the servo rate over theirs.
+    #[must_use]
+    pub const fn ticks_per_sample(&self) -> u8 {
+        self.upsampler.ticks()
+    }
+
+    /// Samples of the models from one query of speed and force to the next, 6 to 8: a larger
+    /// texture takes more ticks to answer, and is asked more often.
+    #[must_use]
+    pub const fn cycle_samples(&self) -> u8 {
+        self.plan.cycle.samples()
+    }
+
+    /// Wall and gains.
+    #[must_use]
+    pub fn coupling(&self) -> formats::Coupling {
+        self.coupling.values()
+    }
+
+    /// Coefficient of kinetic friction.
+    #[must_use]
+    pub fn mu(&self) -> f32 {
+        self.coupling.mu.value()
+    }
+
+    /// The tap bank at the servo rate.
+    #[must_use]
+    pub const fn taps(&self) -> &TapBank<S, A> {
+        &self.taps
+    }
+
+    /// Triangle and weights of a query; convex and finite for every input.
+    #[must_use]
+    pub fn weights_at(&self, speed_mm_s: f32, force_n: f32) -> Barycentric<A> {
+        let force = Quantity::of(force_n);
+        self.models.grid.locate(Quantity::of(speed_mm_s), force)
+    }
+
+    /// The steady model of a query: what the tick renders once speed and force rest.
+    #[must_use]
+    pub fn filter_at(&self, speed_mm_s: f32, force_n: f32) -> Filter {
+        let force = Quantity::of(force_n);
+        self.models.model_at(Quantity::of(speed_mm_s), force).into()
+    }
+
+    /// [`filter_at`](Self::filter_at) of a query that was located in this texture.
+    #[must_use]
+    pub fn filter_of(&self, query: &Barycentric<A>) -> Filter {
+        self.models.model_of(query).into()
+    }
+
+    /// Whether an edge model answers a query.
+    #[inline]
+    pub(crate) fn is_outside(
+        &self,
+        speed: Quantity<A, MillimetrePerSecond>,
+        force: Quantity<A, Newton>,
+    ) -> bool {
+        self.models.grid.extent.is_outside(speed, force)
+    }
+
+    /// Checksum of what was loaded; 0 for an empty slot.
+    #[inline]
+    pub(crate) const fn id(&self) -> u32 {
+        self.id
+    }
+
+    /// Length and kind of the recursion.
+    #[inline]
+    pub(crate) const fn recursion(&self) -> Recursion {
+        self.recursion
+    }
+
+    /// From samples of the models to ticks.
+    #[inline]
+    pub(crate) const fn upsampler(&self) -> &Upsampler<A> {
+        &self.upsampler
+    }
+}

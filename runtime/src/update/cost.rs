@@ -1,0 +1,233 @@
+//! What the work of a cycle costs, and where it is cut into slices.
+//!
+//! The work is a fixed list of items: blocks of triangles to look at, the mixture, section pairs to
+//! multiply in. Each goes to the tick under way or to the next one, such that the dearest tick
+//! costs least.
+
+use crate::model::orders::Orders;
+
+/// What each item costs, in executed instructions; only ratios matter to the cuts.
+pub(super) struct Costs {
+    /// The query, before the first block.
+    begin: usize,
+    block: usize,
+    /// The choice of a triangle, and its mixture.
+    mix: usize,
+    mix_four: usize,
+    /// A section pair, and each of the coefficients that it makes.
+    pair: usize,
+    coefficient: usize,
+    assembly_four: usize,
+}
+
+/// On x86-64.
+pub(super) const IN_REGISTERS: Costs = Costs {
+    begin: 40,
+    block: 33,
+    mix: 140,
+    mix_four: 16,
+    pair: 28,
+    coefficient: 10,
+    assembly_four: 37,
+};
+/// On a Cortex-M4F, where four lanes are four numbers.
+pub(super) const ONE_BY_ONE: Costs = Costs {
+    begin: 110,
+    block: 145,
+    mix: 190,
+    mix_four: 38,
+    pair: 45,
+    coefficient: 14,
+    assembly_four: 50,
+};
+/// No slice costs more there, where that can be: a tick of order 20 with an MA part then takes
+/// some 1,400 instructions.
+pub(super) const DEAREST: usize = 640;
+
+/// Work in order, and what each item of it costs.
+pub(super) struct Items {
+    costs: Costs,
+    blocks: usize,
+    mix: usize,
+    parts: usize,
+    parts_of_pair: usize,
+    /// What the last tick does in any case.
+    assembly: usize,
+}
+
+impl Items {
+    pub(super) fn new(
+        costs: Costs,
+        blocks: usize,
+        fours: usize,
+        orders: &Orders,
+        parts: usize,
+    ) -> Self {
+        let halves = [orders.ar(), orders.ma()].map(|order| order.div_ceil(2).div_ceil(4));
+        Self {
+            blocks,
+            mix: costs.mix + costs.mix_four * fours,
+            parts: orders.section_pairs() * parts,
+            parts_of_pair: parts,
+            assembly: costs.assembly_four * (halves[0] + halves[1]),
+            costs,
+        }
+    }
+
+    pub(super) const fn count(&self) -> usize {
+        self.blocks + 1 + self.parts
+    }
+
+    pub(super) const fn cost(&self, item: usize) -> usize {
+        if item < self.blocks {
+            self.costs.block
+        } else if item == self.blocks {
+            self.mix
+        } else {
+            let pair = (item - self.blocks - 1) / self.parts_of_pair;
+            self.costs.pair + self.costs.coefficient * 2 * (pair + 1)
+        }
+    }
+
+    /// What the dearest tick has to be allowed, and what those after the blocks have to be, within
+    /// [`STEP`].
+    pub(super) fn limits(&self, ticks: usize) -> Limits {
+        // Less than the mean or the dearest item will not do.
+        let (mut total, mut dearest) = (self.costs.begin + self.assembly, self.assembly);
+        let mut dearest_later = dearest;
+        for item in 0..self.count() {
+            let cost = self.cost(item);
+            (total, dearest) = (total + cost, dearest.max(cost));
+            if item >= self.blocks {
+                dearest_later = dearest_later.max(cost);
+            }
+        }
+        let any = self.least(dearest.max(total / ticks), |limit| {
+            self.cut(ticks, Limits::of_all(limit), |_, _| ())
+        });
+        // A search seldom looks at all of its blocks: then these are the dearest.
+        let later = self.least(dearest_later, |later| {
+            self.cut(ticks, Limits { any, later }, |_, _| ())
+        });
+        Limits { any, later }
+    }
+
+    /// The least limit from `from` on that fits, within [`STEP`].
+    pub(super) fn least(&self, from: usize, fits: impl Fn(usize) -> bool) -> usize {
+        let mut limit = from / STEP * STEP;
+        while !fits(limit) {
+            limit += STEP;
+        }
+        limit
+    }
+
+    /// Gives each item in turn to the tick under way, or to the next one where that would cost
+    /// more than its limit; the first one looks at blocks only. Returns whether no tick costs more.
+    pub(super) fn cut(
+        &self,
+        ticks: usize,
+        limits: Limits,
+        mut give: impl FnMut(usize, usize),
+    ) -> bool {
+        let (mut tick, mut spent) = (0, self.costs.begin);
+        let mut fits = true;
+        for item in 0..self.count() {
+            let cost = self.cost(item);
+            let limit = if item < self.blocks {
+                limits.any
+            } else {
+                limits.later
+            };
+            let only_blocks = tick == 0 && item >= self.blocks;
+            if tick + 1 < ticks && (spent + cost > limit || only_blocks) {
+                (tick, spent) = (tick + 1, 0);
+                if tick + 1 == ticks {
+                    spent = self.assembly;
+                }
+            }
+            spent += cost;
+            fits &= spent <= limit;
+            give(item, tick);
+        }
+        fits & (self.assembly <= limits.later)
+    }
+}
+
+/// What a tick may cost.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    /// Any of them.
+    any: usize,
+    /// One that mixes, multiplies or assembles.
+    later: usize,
+}
+
+impl Limits {
+    pub(super) const fn of_all(limit: usize) -> Self {
+        Self {
+            any: limit,
+            later: limit,
+        }
+    }
+}
+
+/// Limits are tried so far apart, in instructions.
+const STEP: usize = 16;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the dearest tick costs at least, from tick `tick` and item `from` on, by trying all.
+    fn least(items: &Items, ticks: usize, tick: usize, from: usize) -> usize {
+        let run = |to: usize| (from..to).map(|item| items.cost(item)).sum::<usize>();
+        if tick + 1 == ticks {
+            return items.assembly + run(items.count());
+        }
+        let last = if tick == 0 {
+            items.blocks
+        } else {
+            items.count()
+        };
+        let begin = if tick == 0 { items.costs.begin } else { 0 };
+        let ends = from..=last;
+        let dearest = ends.map(|to| (begin + run(to)).max(least(items, ticks, tick + 1, to)));
+        dearest.min().unwrap_or(usize::MAX)
+    }
+
+    #[test]
+    fn no_cut_is_cheaper_by_a_step_and_every_item_is_done_once_in_turn() {
+        for (blocks, parts, mix, ticks) in [
+            (6, 10, 340, 6),
+            (1, 1, 150, 6),
+            (12, 5, 260, 4),
+            (3, 12, 40, 5),
+            (0, 6, 900, 6),
+        ] {
+            let items = Items {
+                costs: ONE_BY_ONE,
+                blocks,
+                mix,
+                parts,
+                parts_of_pair: 2,
+                assembly: 130,
+            };
+            let limits = items.limits(ticks);
+            let dearest = least(&items, ticks, 0, 0);
+            assert!(limits.any < dearest + STEP && limits.later <= limits.any);
+            let (mut next, mut last) = (0, 0);
+            let mut spent = [0; 6];
+            spent[0] = items.costs.begin;
+            spent[ticks - 1] += items.assembly;
+            let fits = items.cut(ticks, limits, |item, tick| {
+                assert!(item == next && tick >= last && tick < ticks);
+                (next, last) = (next + 1, tick);
+                spent[tick] += items.cost(item);
+                let is_block = item < blocks;
+                assert!(spent[tick] <= if is_block { limits.any } else { limits.later });
+            });
+            assert!(fits);
+            assert_eq!(next, items.count());
+        }
+    }
+}
