@@ -1,6 +1,7 @@
 //! The Asperity compiler: textures in, compact and verified haptic assets out.
 //!
-//! The source folders are the stages of a compiler, in the order in which a texture meets them:
+//! A texture passes the source folders from a front end over the model and the passes to the back
+//! end; the other two serve all of them:
 //!
 //! | folder | holds |
 //! |---|---|
@@ -28,7 +29,7 @@ pub mod plot;
 pub mod progress;
 pub mod scene;
 
-// Outside, a module goes by its own name: which stage it belongs to is our concern.
+// Users name a module without its folder, so that files can move between the stages.
 pub use back_end::{library, lower, output, raise, source, verify};
 pub use front_ends::{
     builtin, embedded, hatt, imported, inference, learned, model_file, prompt, text,
