@@ -1,4 +1,4 @@
-//! One style for everything a user reads when something fails: what, then the remedy.
+//! One style for every failure that a user reads: what is wrong, then the remedy.
 
 use std::{error::Error, fmt::Write as _};
 

@@ -1,42 +1,40 @@
 //! The Asperity compiler: textures in, compact and verified haptic assets out.
 //!
-//! A front end ([`hatt`], [`builtin`]) makes a [`model::TextureModel`] in f64 and SI
-//! units; [`lower`] quantises it into the bytes of an asset and reports the error;
-//! [`verify`] drives the real runtime over the whole domain before anything is
-//! written. [`raise`] goes back, for [`inspect`] and [`plot`]; [`render`] runs a
-//! trajectory through the runtime; [`scene`] packs what a scene touches within a budget.
+//! A texture passes the source folders from a front end over the model and the passes to the back
+//! end; the other two serve all of them:
+//!
+//! | folder | holds |
+//! |---|---|
+//! | `front_ends/` | what makes a texture: [`prompt`] with its [`text`] encoders and the [`learned`] model, [`hatt`], [`model_file`], [`builtin`] |
+//! | `model/` | the [`model`] between the ends: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
+//! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
+//! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`library`], [`output`], [`source`], [`raise`] |
+//! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`spectrum`], [`tap_synthesis`] |
+//! | `views/` | what a person looks at: [`inspect`], [`preview`], [`render`]; [`plot`] |
+//!
+//! [`pipeline`] runs the passes and the back end, and times them: every command that makes an
+//! asset takes this one way. [`scene`] packs several textures within a budget.
 #![forbid(unsafe_code)]
 
-pub mod attributes;
-pub mod builtin;
-pub mod defaults;
+mod back_end;
+mod front_ends;
+mod passes;
+mod signal;
+mod views;
+
 pub mod diagnostic;
-pub mod embedded;
-pub mod hatt;
-pub mod inference;
-pub mod inspect;
-pub mod interpolate;
-pub mod learned;
-pub mod levinson;
-pub mod library;
-pub mod lower;
-pub mod lsf;
-pub mod mesh;
 pub mod model;
-pub mod output;
+pub mod pipeline;
 pub mod plot;
-pub mod preview;
 pub mod progress;
-pub mod prompt;
-pub mod raise;
-pub mod reduce;
-pub mod reflection;
-pub mod render;
-pub mod rerate;
 pub mod scene;
-pub mod source;
-pub mod spectrum;
-pub mod tap_synthesis;
-pub mod text;
-pub mod triangulate;
-pub mod verify;
+
+// Users name a module without its folder, so that files can move between the stages.
+pub use back_end::{library, lower, output, raise, source, verify};
+pub use front_ends::{
+    builtin, embedded, hatt, imported, inference, learned, model_file, prompt, text,
+};
+pub use model::{attributes, defaults, mesh, mixture};
+pub use passes::{reduce, rerate, stabilise, triangulate};
+pub use signal::{level, levinson, lsf, reflection, spectrum, tap_synthesis};
+pub use views::{inspect, preview, render};

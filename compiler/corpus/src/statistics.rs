@@ -1,7 +1,7 @@
 //! What a texture is like as a whole: the quantities that the generator is calibrated by.
 
 use crate::{Corpus, Instance};
-use asperity::learned::level::nyquist_rms;
+use asperity::level::nyquist_rms;
 use asperity::{
     model::{GridVertex, ModelGrid, Numerator, VertexKind},
     reflection,

@@ -1,12 +1,37 @@
-//! Which fidelity each texture gets.
+//! What a scene may cost, and which fidelity each texture gets.
 
-use super::fidelity::Candidate;
+use super::{fidelity::Candidate, target::Target};
 use thiserror::Error;
 
+/// Share of a target's clocks that a tick may take unless told otherwise.
+pub const DEFAULT_SHARE: f64 = 0.5;
+
 /// What a scene may cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Budget {
+    /// Where the scene runs. Without a target, instructions are counted and not limited.
+    pub target: Option<Target>,
+    /// Share of the target's clocks that a tick may take, above 0 and at most 1.
+    pub share: f64,
+    /// Bytes of the library.
+    pub bytes: Option<u64>,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self {
+            target: None,
+            share: DEFAULT_SHARE,
+            bytes: None,
+        }
+    }
+}
+
+/// The budget in numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Limits {
-    /// Executed instructions a tick, of every texture by itself: one is rendered at a time.
+    /// Executed instructions of a tick. They limit every texture by itself, because one is rendered at
+    /// a time.
     pub(super) instructions: u64,
     /// Bytes of all assets.
     pub(super) bytes: u64,
@@ -31,8 +56,8 @@ pub(super) enum Excess {
     },
 }
 
-/// A candidate for each texture. From the best within the instructions, fidelity is lowered
-/// where it costs the least error per byte, until the bytes hold.
+/// Chooses a candidate for each texture: first the best one within the instructions. Then fidelity
+/// is lowered where it costs the least error per byte, until all fit the bytes.
 pub(super) fn choose(textures: &[Vec<Candidate>], limits: Limits) -> Result<Vec<usize>, Excess> {
     let fits = |c: &Candidate| c.instructions <= limits.instructions;
     let mut chosen = Vec::with_capacity(textures.len());
@@ -74,7 +99,7 @@ fn fewest(candidates: &[Candidate], of: impl Fn(&Candidate) -> u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::builtin;
+    use crate::front_ends::builtin;
 
     fn texture(figures: &[(u64, usize, f64)]) -> Vec<Candidate> {
         figures

@@ -1,7 +1,7 @@
 //! `scene.toml`: surfaces, and the textures they wear.
 
 use super::error::{SceneError, SceneProblem};
-use crate::rerate;
+use crate::passes::rerate;
 use asperity_formats::{
     Solid,
     limits::{MAX_NAME_BYTES, MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
@@ -35,7 +35,7 @@ pub struct TextureEntry {
     pub index: usize,
 }
 
-/// Where a texture comes from; paths as they can be opened.
+/// Where a texture comes from. Paths are such that they can be opened.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Origin {
     /// A prompt and a seed.

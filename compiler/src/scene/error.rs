@@ -1,8 +1,8 @@
 //! Why a scene cannot be built.
 
-use super::cost::Target;
+use super::target::Target;
+use crate::back_end::library::LibraryError;
 use crate::diagnostic::Diagnostic;
-use crate::library::LibraryError;
 use std::{io, path::PathBuf};
 use thiserror::Error;
 
@@ -28,7 +28,7 @@ pub enum SceneProblem {
     /// It is not TOML, or a field is missing, unknown or of another type.
     #[error("{}", .0.trim_end())]
     Syntax(String),
-    /// Nothing to touch.
+    /// The scene has no surface.
     #[error("the scene has no surface")]
     NoSurface,
     /// More surfaces than a library holds.
@@ -48,13 +48,13 @@ pub enum SceneProblem {
     /// A name that an asset cannot hold.
     #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
     Name(String),
-    /// No source, or several.
+    /// The texture has no source, or several.
     #[error("{0:?} needs one of `prompt`, `import` and `asset`")]
     Origin(String),
-    /// A seed for something that draws nothing.
+    /// A seed is given for something other than a prompt.
     #[error("only a prompt has a seed")]
     SeedWithoutPrompt,
-    /// No solid, or several.
+    /// The surface has no solid, or several.
     #[error("a surface is one of `plane`, `sphere` and `box`")]
     Solid,
     /// A number out of its range.
@@ -67,7 +67,7 @@ pub enum SceneProblem {
         /// The most.
         high: f64,
     },
-    /// A region turned inside out.
+    /// A region whose corners are swapped.
     #[error("{to} m is not above {from} m of from_m")]
     Region {
         /// Coordinate of the lower corner, m.

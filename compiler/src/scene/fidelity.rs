@@ -1,10 +1,13 @@
 //! What a texture costs at each fidelity, and which fidelities are worth having.
 
-use super::cost::{Surfaces, Target, zeros};
+use super::{
+    cost::{Surfaces, zeros},
+    target::Target,
+};
 use crate::{
-    lower::{self, LowerError},
     model::TextureModel,
-    reduce::{Fidelity, Reference, reduce},
+    passes::reduce::{Fidelity, Reference},
+    pipeline::{Pass, Pipeline, PipelineError},
 };
 use rayon::prelude::*;
 
@@ -31,34 +34,45 @@ pub(super) fn candidates(
     texture: &TextureModel,
     target: &Target,
     surfaces: Surfaces,
-) -> Result<Vec<Candidate>, LowerError> {
-    let lowered = |fidelity: String, mut texture: TextureModel, error_db| {
-        texture.provenance.fidelity.clone_from(&fidelity);
-        let bytes = lower::lower(&texture, None)?.bytes;
-        Ok::<_, LowerError>(Candidate {
-            fidelity,
-            instructions: target.instructions(&texture.grid, surfaces),
-            texture,
-            bytes,
-            error_db,
-        })
-    };
-    let mut all = vec![lowered(Fidelity::Full.to_string(), texture.clone(), 0.0)?];
+    pipeline: &mut Pipeline,
+) -> Result<Vec<Candidate>, PipelineError> {
+    let lowered =
+        |pipeline: &mut Pipeline, fidelity: String, mut texture: TextureModel, error_db| {
+            texture.provenance.fidelity.clone_from(&fidelity);
+            let bytes = pipeline.lower(&texture, None)?.bytes;
+            Ok::<_, PipelineError>(Candidate {
+                fidelity,
+                instructions: target.instructions(&texture.grid, surfaces),
+                texture,
+                bytes,
+                error_db,
+            })
+        };
+    let full = Fidelity::Full.to_string();
+    let mut all = vec![lowered(pipeline, full, texture.clone(), 0.0)?];
     if let Some(reference) = Reference::new(&texture.grid) {
-        let reduced: Vec<_> = reduced(texture)
+        let tried: Vec<(Option<Candidate>, Pipeline)> = reduced(texture, pipeline)
             .into_par_iter()
-            .filter_map(|(fidelity, kept)| {
-                let (_, worst_db) = reference.distances(&kept.grid)?.summary();
-                // A low order can move LSFs too close together: then it is none to choose.
-                let candidate = worst_db
-                    .is_finite()
-                    .then(|| lowered(fidelity, kept, worst_db));
-                candidate?.ok()
+            .map(|(fidelity, kept)| {
+                let mut own = Pipeline::default();
+                let distances = own.run(Pass::Compare, || reference.distances(&kept.grid));
+                let candidate = distances.and_then(|distances| {
+                    let (_, worst_db) = distances.summary();
+                    // A low order can move LSFs too close together: then it cannot be chosen.
+                    let lowered = worst_db
+                        .is_finite()
+                        .then(|| lowered(&mut own, fidelity, kept, worst_db));
+                    lowered?.ok()
+                });
+                (candidate, own)
             })
             .collect();
-        all.extend(reduced);
+        for (candidate, own) in tried {
+            pipeline.merge(own.timings());
+            all.extend(candidate);
+        }
     }
-    // Stable: of equals the whole texture stays first.
+    // The sort is stable: of equals the whole texture stays first.
     all.sort_by(|a, b| a.error_db.total_cmp(&b.error_db));
     let mut kept: Vec<Candidate> = Vec::new();
     for candidate in all {
@@ -74,20 +88,27 @@ pub(super) fn candidates(
 }
 
 /// `auto`, and every lower order of both `auto` and the whole texture.
-fn reduced(texture: &TextureModel) -> Vec<(String, TextureModel)> {
-    let auto = reduce(texture, Fidelity::Auto).texture;
+fn reduced(texture: &TextureModel, pipeline: &mut Pipeline) -> Vec<(String, TextureModel)> {
+    let auto = pipeline.reduce(texture, Fidelity::Auto).texture;
     let orders = |of: &TextureModel| (1..of.grid.order).rev();
-    let of_whole = orders(texture).map(|order| (texture, order, String::new()));
-    let of_auto = orders(&auto).map(|order| (&auto, order, "auto+".to_owned()));
-    let mut all: Vec<(String, TextureModel)> = of_whole
+    let of_whole = orders(texture).map(|order| (texture, order, ""));
+    let of_auto = orders(&auto).map(|order| (&auto, order, "auto+"));
+    let lower: Vec<(String, TextureModel, Pipeline)> = of_whole
         .chain(of_auto)
         .collect::<Vec<_>>()
         .into_par_iter()
         .map(|(of, order, prefix)| {
+            let mut own = Pipeline::default();
             let fidelity = Fidelity::Order(order);
-            (format!("{prefix}{fidelity}"), reduce(of, fidelity).texture)
+            let reduced = own.reduce(of, fidelity).texture;
+            (format!("{prefix}{fidelity}"), reduced, own)
         })
         .collect();
+    let mut all = Vec::with_capacity(lower.len() + 1);
+    for (fidelity, reduced, own) in lower {
+        pipeline.merge(own.timings());
+        all.push((fidelity, reduced));
+    }
     all.push((Fidelity::Auto.to_string(), auto));
     all
 }

@@ -1,6 +1,11 @@
 //! How the budget was spent.
 
-use super::{Budget, Description, Target, TextureEntry, fidelity::Candidate};
+use super::{
+    budget::Budget,
+    description::{Description, TextureEntry},
+    fidelity::Candidate,
+    target::Target,
+};
 use serde::Serialize;
 use std::fmt;
 
@@ -19,7 +24,8 @@ pub struct Report {
     pub instructions_budget: Option<u64>,
     /// Instructions of the costliest texture's tick.
     pub instructions: u64,
-    /// The most that counts of instructions are above what was measured, percent; never below.
+    /// How far the counts of instructions may be above what was measured, percent. They are never
+    /// below.
     pub instructions_above_percent: f64,
     /// Bytes the library may take.
     pub bytes_budget: Option<u64>,
@@ -27,9 +33,9 @@ pub struct Report {
     pub bytes: usize,
     /// Surfaces.
     pub surfaces: usize,
-    /// One row a texture, by name.
+    /// The textures in order of name.
     pub textures: Vec<Row>,
-    /// Textures that no surface wears; left out.
+    /// Textures that were left out, because no surface wears them.
     pub unused: Vec<String>,
 }
 

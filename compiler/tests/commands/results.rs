@@ -49,13 +49,14 @@ fn wrong_usage_exits_with_2_and_every_command_has_examples() {
         );
         assert_eq!(entries(folder.path()), ["two"]);
     }
-    let commands: [&[&str]; 6] = [
+    let commands: [&[&str]; 7] = [
         &[],
         &["builtin"],
         &["inspect"],
         &["plot"],
         &["render"],
         &["import", "hatt"],
+        &["import", "model"],
     ];
     for command in commands {
         let output = asperity(folder.path(), &[command, &["--help"]].concat());

@@ -2,10 +2,11 @@
 
 use super::AUTHOR;
 use asperity::{
-    learned::{Latent, level, texture},
-    lsf,
+    learned::{Latent, texture},
+    level, lsf,
     model::Provenance,
-    prompt::{Clock, Options, finish::finish},
+    pipeline::{Pipeline, Settings},
+    reduce::Fidelity,
 };
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -37,7 +38,7 @@ fn any_latent_is_a_stable_texture_within_bounds() {
     let model = AUTHOR.model();
     let asked = std::env::var("ASPERITY_LATENTS").ok();
     let latents = asked.map_or(LATENTS, |count| count.parse().expect("a number"));
-    let calmed = AtomicUsize::new(0);
+    let stabilised = AtomicUsize::new(0);
     (0..latents).into_par_iter().for_each(|number| {
         let z = latent(number);
         let decoded = model.decode(&z).unwrap();
@@ -68,19 +69,20 @@ fn any_latent_is_a_stable_texture_within_bounds() {
             "{number}"
         );
         if number.is_multiple_of(VERIFIED_EVERY) {
-            let options = Options {
-                preview: false,
-                ..Options::default()
+            let settings = Settings {
+                fidelity: Fidelity::Auto,
+                stabilise: true,
+                ..Settings::default()
             };
-            let finished = finish(&texture, &[], &options, &mut Clock::default());
-            let finished = finished.unwrap_or_else(|error| panic!("{number}: {error}"));
-            if finished.calmed > 0.0 {
-                calmed.fetch_add(1, Ordering::Relaxed);
+            let compiled = Pipeline::default().compile(texture, &settings);
+            let compiled = compiled.unwrap_or_else(|error| panic!("{number}: {error}"));
+            if compiled.stabilised > 0.0 {
+                stabilised.fetch_add(1, Ordering::Relaxed);
             }
         }
     });
-    let calmed = calmed.into_inner();
+    let stabilised = stabilised.into_inner();
     let verified = latents.div_ceil(VERIFIED_EVERY);
-    println!("{calmed} of {verified} verified textures had to be calmed");
-    assert!(calmed * 10 <= verified, "{calmed} of {verified}");
+    println!("{stabilised} of {verified} verified textures had to be stabilised");
+    assert!(stabilised * 10 <= verified, "{stabilised} of {verified}");
 }

@@ -5,6 +5,7 @@ use asperity::{
     attributes::{self, Attributes},
     learned::texture,
     model::Provenance,
+    pipeline::PipelineError,
     prompt::{Options, PromptError},
     reduce::Fidelity,
 };
@@ -140,7 +141,7 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
     };
     assert!(matches!(
         AUTHOR.author("denim", &absurd),
-        Err(PromptError::Rate(_))
+        Err(PromptError::Pipeline(PipelineError::Rate(_)))
     ));
 }
 

@@ -6,7 +6,7 @@
 //! nothing is like a text, it falls back to the mean. Vectors are kept in 8 bits, and the
 //! coefficients are fitted to what is kept.
 
-use crate::{config::Memory, network::matrix, trained::numbers};
+use crate::{config::Memory, network::matrix, parameters::numbers};
 use asperity::learned::description::LATENT;
 use burn_tensor::{Device, Tensor};
 

@@ -105,6 +105,11 @@ pub(crate) fn read<const D: usize>(tensor: Tensor<D>) -> Option<Vec<f32>> {
     tensor.into_data().try_into_vec::<f32>().ok()
 }
 
+/// Numbers of a tensor that was made of f32.
+pub(crate) fn numbers(tensor: Tensor<2>) -> Vec<f32> {
+    read(tensor).unwrap_or_default()
+}
+
 /// An affine layer `x·W + b`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Linear {

@@ -6,7 +6,7 @@ use crate::{
     memory::TextMemory,
     network::{Mode, Network, TextProjection, matrix},
     normaliser::{AR, Coded, LSFS, Normaliser, TAP_VALUES},
-    parameters::{Bound, Parameters, read},
+    parameters::{Bound, Parameters, numbers, read},
     progress::EpochLoss,
     vae::decode,
 };
@@ -236,11 +236,6 @@ fn posterior_chunk(
     pairs
         .map(|(mean, log_variance)| Gaussian { mean, log_variance })
         .collect()
-}
-
-/// Numbers of a tensor that was made of f32.
-pub(crate) fn numbers(tensor: Tensor<2>) -> Vec<f32> {
-    read(tensor).unwrap_or_default()
 }
 
 fn rows(values: &[f32]) -> Vec<[f32; LATENT]> {

@@ -5,7 +5,7 @@ use super::kernel::Kernel;
 use super::noise::{gaussian, uniform};
 use super::statistics;
 use asperity::{
-    interpolate::{Field, Place, places},
+    mixture::{Field, Place, places},
     model::ModelGrid,
     reflection,
     spectrum::{ArmaModel, ErrorBand},

@@ -9,7 +9,7 @@
 use super::accuracy::{Band, Difference};
 use super::kernel::Kernel;
 use asperity::{
-    interpolate::{Field, Place},
+    mixture::{Field, Place},
     learned::edges,
     model::{GridVertex, ModelGrid, VertexKind},
     reflection,

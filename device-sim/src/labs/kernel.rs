@@ -1,7 +1,7 @@
 //! The kernels on the compiler's models.
 
 use asperity::{
-    interpolate::Place,
+    mixture::Place,
     model::{self, ModelGrid},
     spectrum::ArmaModel,
 };

@@ -3,7 +3,8 @@
 use asperity::{
     defaults,
     hatt::{self, HattError},
-    learned::{edges, level::nyquist_rms},
+    learned::edges,
+    level::nyquist_rms,
     model::{
         Friction, GridVertex, ModelGrid, Numerator, Provenance, TapBank, TapTrace, TextureModel,
         VertexKind, Wall,

@@ -1,4 +1,4 @@
-//! What the command understands.
+//! The command line: commands, arguments, help.
 
 use asperity::{inference::BackendName, reduce::Fidelity, scene::Target, text::TextEncoderChoice};
 use clap::{Args, Parser, Subcommand};
@@ -15,6 +15,7 @@ use std::path::PathBuf;
   asperity inspect grit.asp
   asperity plot grit.asp -o grit.png
   asperity import hatt Models_Cork.xml -o cork.asp
+  asperity import model bench.json -o bench.asp
   asperity build desk.toml -o desk.aspl --target cortex-m4f@16MHz
 
 Exit status: 0 success, 1 failure, 2 wrong usage."
@@ -33,7 +34,7 @@ pub(crate) enum Command {
     Compile(Compile),
     /// Pack what a scene touches, within a budget
     Build(Build),
-    /// Import recorded textures
+    /// Import recorded textures, and models of one's own
     #[command(subcommand)]
     Import(Import),
     /// Write the built-in synthetic texture
@@ -58,7 +59,8 @@ Examples:
   asperity compile \"rough abrasive sheet with gritty particles\" -o sandpaper.asp --plot sandpaper.png
   asperity compile \"wet ice\" -o ice.asp --no-preview --json
   asperity compile \"cork\" -o cork.asp --fidelity 8 --seed 3
-  asperity compile \"felt\" -o felt.asp --text-encoder clip:./clip --model ./clip-model"
+  asperity compile \"felt\" -o felt.asp --text-encoder clip:./clip --model ./clip-model
+  asperity compile \"felt\" -o felt.asp --emit-model felt.json --timings"
 )]
 pub(crate) struct Compile {
     /// What the surface feels like, looks like, is made of or is for
@@ -83,9 +85,15 @@ pub(crate) struct Compile {
     /// Draw the texture on one sheet, as `asperity plot` does
     #[arg(long, value_name = "FILE.png")]
     pub(crate) plot: Option<PathBuf>,
+    /// Write the texture before its reduction as JSON, for `asperity import model`
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) emit_model: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
+    /// Print on standard error how long each pass took
+    #[arg(long)]
+    pub(crate) timings: bool,
 }
 
 #[derive(Debug, Args)]
@@ -121,6 +129,9 @@ pub(crate) struct Build {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
+    /// Print on standard error how long each pass took
+    #[arg(long)]
+    pub(crate) timings: bool,
 }
 
 fn percent(text: &str) -> Result<f64, String> {
@@ -158,6 +169,8 @@ pub(crate) struct Doctor {
 pub(crate) enum Import {
     /// Import materials of the Penn Haptic Texture Toolkit
     Hatt(ImportHatt),
+    /// Import a model of one's own, or one that --emit-model wrote
+    Model(ImportModel),
 }
 
 #[derive(Debug, Args)]
@@ -189,14 +202,64 @@ pub(crate) struct ImportHatt {
     /// A model folder that `asperity-train fit` wrote, instead of the embedded one
     #[arg(long, value_name = "DIR", requires = "complete_taps")]
     pub(crate) model: Option<PathBuf>,
+    /// Write the texture before its reduction as JSON; takes a single material
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) emit_model: Option<PathBuf>,
+    /// Print on standard error how long each pass took
+    #[arg(long)]
+    pub(crate) timings: bool,
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  asperity builtin -o grit.asp")]
+#[command(
+    after_help = "The file states AR or ARMA models over speed and force, and may state taps, \
+wall, gains and where they come from; docs/model.md lists every key. It goes the way of every \
+other texture: reduced, verified by the runtime itself and written. Prints the distance of the \
+log spectra from the file over 10–450 Hz, level included, and the size.
+
+Examples:
+  asperity import model bench.json -o bench.asp
+  asperity import model bench.json -o bench.asp --fidelity auto --json
+  asperity builtin -o grit.asp --emit-model grit.json
+  asperity import model grit.json -o again.asp --no-preview"
+)]
+pub(crate) struct ImportModel {
+    /// The model (.json)
+    pub(crate) input: PathBuf,
+    /// The asset to write
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// How much of the model is kept: all, the least within 0.5 dB, or an AR order
+    #[arg(long, default_value = "full", value_name = "full|auto|ORDER")]
+    pub(crate) fidelity: Fidelity,
+    /// Rate of the AR models, Hz: that of the servo loop [default: the file's]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
+    /// Draw no preview
+    #[arg(long)]
+    pub(crate) no_preview: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print on standard error how long each pass took
+    #[arg(long)]
+    pub(crate) timings: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  asperity builtin -o grit.asp
+  asperity builtin -o grit.asp --emit-model grit.json")]
 pub(crate) struct Builtin {
     /// The asset to write
     #[arg(short, long)]
     pub(crate) output: PathBuf,
+    /// Write the texture before its reduction as JSON, for `asperity import model`
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) emit_model: Option<PathBuf>,
+    /// Print on standard error how long each pass took
+    #[arg(long)]
+    pub(crate) timings: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,7 +1,7 @@
 //! Results on stdout.
 
 use crate::failure::{Failures, one};
-use asperity::output::OutputError;
+use asperity::{output::OutputError, pipeline::Timings};
 use std::io::{self, Write as _};
 
 /// Writes a result. A reader that has gone away, as `head` does, is no failure.
@@ -17,5 +17,12 @@ pub(crate) fn print(text: &str) -> Result<(), Failures> {
             source,
         })),
         _ => Ok(()),
+    }
+}
+
+/// Prints how long each pass took, where that was asked for.
+pub(crate) fn print_timings(wanted: bool, timings: &Timings) {
+    if wanted {
+        eprint!("{timings}");
     }
 }

@@ -1,4 +1,4 @@
-//! The command `asperity`: author time.
+//! The command `asperity`.
 
 mod cli;
 mod commands;

@@ -1,7 +1,7 @@
 //! What is compared of a texture: spectra, levels, transients and objective attributes.
 
 use asperity::{
-    learned::level::nyquist_rms,
+    level::nyquist_rms,
     lsf,
     spectrum::{ArmaModel, squared_magnitude, trace_centroid_hz},
 };

@@ -1,7 +1,7 @@
 //! Objective attributes of an instance, as the compiler defines them for a texture.
 
 use asperity::{
-    learned::level::nyquist_rms,
+    level::nyquist_rms,
     lsf,
     spectrum::{ArmaModel, trace_centroid_hz},
 };

@@ -4,7 +4,7 @@ use super::super::noise::gaussian;
 use super::Kernel;
 use asperity::{
     builtin,
-    interpolate::{Field, Place},
+    mixture::{Field, Place},
     lsf,
     model::{ModelGrid, Numerator},
     reduce::order::Fits,

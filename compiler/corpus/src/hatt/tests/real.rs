@@ -8,7 +8,7 @@ use crate::{
 };
 use asperity::{
     hatt,
-    learned::level::nyquist_rms,
+    level::nyquist_rms,
     lsf,
     spectrum::{ArmaModel, log_spectral_distance_db},
 };

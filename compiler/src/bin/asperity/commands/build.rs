@@ -9,7 +9,7 @@ use crate::{
 use asperity::{
     diagnostic::Diagnostic,
     model::TextureModel,
-    output,
+    pipeline::{Pipeline, Timings},
     prompt::{Author, Options},
     reduce::Fidelity,
     scene::{self, Budget, Description, Origin, Prompter},
@@ -29,12 +29,20 @@ pub(crate) fn run(args: &Build, quiet: bool) -> Result<(), Failures> {
         share: args.share / 100.0,
         bytes: args.budget_bytes,
     };
+    let mut pipeline = Pipeline::default();
     let prompter: &mut Prompter<'_> = &mut |prompt, seed| match &author {
-        Some(author) => whole(author, prompt, seed),
+        Some(author) => {
+            let (texture, timings) = whole(author, prompt, seed)?;
+            pipeline.merge(&timings);
+            Ok(texture)
+        }
         None => Err(Box::new(asperity::prompt::PromptError::Empty)),
     };
     let built = scene::build(&description, &budget, prompter).map_err(one)?;
-    output::write_atomic(&args.output, &built.bytes).map_err(one)?;
+    pipeline.merge(&built.timings);
+    pipeline
+        .write(&[(&args.output, &built.bytes)])
+        .map_err(one)?;
     if !quiet {
         for name in &built.report.unused {
             eprintln!("warning: no surface wears {name:?}; it was left out");
@@ -43,13 +51,20 @@ pub(crate) fn run(args: &Build, quiet: bool) -> Result<(), Failures> {
     if args.json {
         // Plain structures of numbers and strings always serialise.
         let json = serde_json::to_string(&built.report).unwrap_or_default();
-        return console::print(&format!("{json}\n"));
+        console::print(&format!("{json}\n"))?;
+    } else {
+        console::print(&format!("{}\n{}", args.output.display(), built.report))?;
     }
-    console::print(&format!("{}\n{}", args.output.display(), built.report))
+    console::print_timings(args.timings, pipeline.timings());
+    Ok(())
 }
 
 /// A prompt's texture with everything the decoder gave.
-fn whole(author: &Author, prompt: &str, seed: u64) -> Result<TextureModel, Box<dyn Diagnostic>> {
+fn whole(
+    author: &Author,
+    prompt: &str,
+    seed: u64,
+) -> Result<(TextureModel, Timings), Box<dyn Diagnostic>> {
     let options = Options {
         seed,
         fidelity: Fidelity::Full,
@@ -57,7 +72,7 @@ fn whole(author: &Author, prompt: &str, seed: u64) -> Result<TextureModel, Box<d
         preview: false,
     };
     match author.author(prompt, &options) {
-        Ok(authored) => Ok(authored.texture),
+        Ok(authored) => Ok((authored.texture, authored.timings)),
         Err(error) => Err(Box::new(error)),
     }
 }

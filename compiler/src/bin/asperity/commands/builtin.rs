@@ -1,19 +1,31 @@
 //! `asperity builtin`.
 
+use super::outputs::Outputs;
 use crate::failure::{Failures, one};
 use crate::{cli::Builtin, console};
-use asperity::{builtin, lower, output, verify};
+use asperity::{
+    builtin,
+    pipeline::{Pass, Pipeline, Settings},
+};
 
 pub(crate) fn run(args: &Builtin) -> Result<(), Failures> {
-    let texture = builtin::texture();
-    let lowered = lower::lower(&texture, None).map_err(one)?;
-    verify::verify(&texture, &lowered.bytes).map_err(one)?;
-    output::write_atomic(&args.output, &lowered.bytes).map_err(one)?;
+    let mut outputs = Outputs::with_model(&args.output, args.emit_model.as_deref());
+    outputs.check(&[], None)?;
+    let mut pipeline = Pipeline::default();
+    let texture = pipeline.run(Pass::Generate, builtin::texture);
+    let compiled = pipeline
+        .compile(texture, &Settings::default())
+        .map_err(one)?;
+    outputs.model(&compiled.whole);
+    outputs.write(&compiled.lowered.bytes, &mut pipeline)?;
+    let lowered = &compiled.lowered;
     console::print(&format!(
         "{}: {} haptic bytes, {} in all, {:.4} dB RMS from LSF quantisation\n",
-        texture.name,
+        compiled.texture.name,
         lowered.haptic_bytes,
         lowered.bytes.len(),
         lowered.lsf_error.rms_db
-    ))
+    ))?;
+    console::print_timings(args.timings, pipeline.timings());
+    Ok(())
 }

@@ -1,12 +1,14 @@
-//! One file a command.
+//! The commands, each in a file of its own.
 
 mod build;
 mod builtin;
 mod compile;
 mod doctor;
-mod import;
+mod import_hatt;
+mod import_model;
 mod inference;
 mod inspect;
+mod outputs;
 mod plot;
 mod render;
 
@@ -17,7 +19,8 @@ use crate::{
 
 pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     match cli.command {
-        Command::Import(Import::Hatt(args)) => import::hatt(&args, cli.quiet),
+        Command::Import(Import::Hatt(args)) => import_hatt::run(&args, cli.quiet),
+        Command::Import(Import::Model(args)) => import_model::run(&args),
         Command::Build(args) => build::run(&args, cli.quiet),
         Command::Compile(args) => compile::run(&args, cli.quiet),
         Command::Doctor(args) => doctor::run(&args),

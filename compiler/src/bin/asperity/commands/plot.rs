@@ -10,7 +10,6 @@ use asperity::{
     source::Source,
 };
 use asperity_formats::Asset;
-use std::path::Path;
 use thiserror::Error;
 
 /// The sheet could not be drawn.
@@ -29,15 +28,14 @@ pub(crate) fn run(args: &Plot) -> Result<(), Failures> {
     let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
     let asset =
         Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
-    draw(&asset, &args.output)
+    output::write_atomic(&args.output, &drawn(&asset)?).map_err(one)
 }
 
-/// Draws the sheet of an asset.
-pub(super) fn draw(asset: &Asset<'_>, file: &Path) -> Result<(), Failures> {
+/// The sheet of an asset as PNG.
+pub(super) fn drawn(asset: &Asset<'_>) -> Result<Vec<u8>, Failures> {
     let sizes = AssetBytes {
         haptic: asset.haptic_len(),
         total: asset.total_len(),
     };
-    let png = plot::sheet(&raise(asset), Some(sizes)).map_err(|e| one(DrawError(e)))?;
-    output::write_atomic(file, &png).map_err(one)
+    plot::sheet(&raise(asset), Some(sizes)).map_err(|e| one(DrawError(e)))
 }

@@ -1,6 +1,5 @@
 //! How wrong a prediction is, in every unit that matters.
 
-use super::fold::within_tolerance;
 use crate::evaluate::signature::{Objective, Signature};
 use serde::{Deserialize, Serialize};
 
@@ -58,4 +57,13 @@ pub(super) fn errors(said: &Signature, truth: &Signature) -> [f64; METRICS] {
         (x.mu - y.mu).abs(),
         (x_even[3] - y_even[3]).abs(),
     ]
+}
+
+/// Whether attributes are as near to the truth as a prompt may expect: 6 dB of
+/// roughness, a quarter of the hardness, and a factor of e^0.35 in μ.
+fn within_tolerance(said: &Objective, truth: &Objective) -> bool {
+    let (said_even, truth_even) = (said.even(), truth.even());
+    (said.rough_db - truth.rough_db).abs() < 6.0
+        && (said.hard_hz / truth.hard_hz - 1.0).abs() < 0.25
+        && (said_even[3] - truth_even[3]).abs() < 0.35
 }

@@ -253,12 +253,3 @@ fn mean_texture(corpus: &Corpus, training: &[usize]) -> Signature {
     let mu: Vec<f64> = training.iter().map(|&m| corpus.materials[m].mu).collect();
     Signature::of(&instance, &corpus.tap_speeds_m_s, mean(&mu))
 }
-
-/// Whether attributes are as near to the truth as a prompt may expect: 6 dB of
-/// roughness, a quarter of the hardness, and a factor of e^0.35 in μ.
-pub(super) fn within_tolerance(said: &Objective, truth: &Objective) -> bool {
-    let (said_even, truth_even) = (said.even(), truth.even());
-    (said.rough_db - truth.rough_db).abs() < 6.0
-        && (said.hard_hz / truth.hard_hz - 1.0).abs() < 0.25
-        && (said_even[3] - truth_even[3]).abs() < 0.35
-}

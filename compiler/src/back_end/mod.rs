@@ -1,0 +1,9 @@
+//! Everything that knows the bytes: models into assets, the gate before they are written,
+//! files, and the way back.
+
+pub mod library;
+pub mod lower;
+pub mod output;
+pub mod raise;
+pub mod source;
+pub mod verify;

@@ -1,0 +1,89 @@
+//! Why a file cannot be used as a texture.
+
+use crate::diagnostic::Diagnostic;
+use asperity_formats::FormatError;
+use std::{io, path::PathBuf};
+use thiserror::Error;
+
+/// Largest single asset read, bytes: far above any texture with its preview.
+pub(super) const MAX_ASSET_BYTES: u64 = 256 * 1024 * 1024;
+
+/// Why a file cannot be used as a texture.
+#[derive(Debug, Error)]
+#[error("{path}{texture}: {problem}", path = path.display(), texture = Named(texture.as_deref()))]
+pub struct SourceError {
+    /// The file.
+    pub path: PathBuf,
+    /// The texture of the library at fault, where it is one.
+    pub texture: Option<String>,
+    /// What is wrong.
+    pub problem: SourceProblem,
+}
+
+struct Named<'a>(Option<&'a str>);
+
+impl std::fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0
+            .map_or(Ok(()), |name| write!(f, ": texture {name:?}"))
+    }
+}
+
+/// What is wrong with the file.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SourceProblem {
+    /// It cannot be read.
+    #[error("cannot read it: {0}")]
+    Unreadable(#[from] io::Error),
+    /// Its bytes are not valid.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// It is neither an asset nor a library.
+    #[error("neither an asset (.asp) nor a library (.aspl)")]
+    WrongKind,
+    /// It is larger than any asset.
+    #[error("{bytes} bytes, an asset has {MAX_ASSET_BYTES} at most")]
+    TooLarge {
+        /// Its size.
+        bytes: u64,
+    },
+    /// The library holds several textures and none was chosen.
+    #[error("a library of {count} textures, and none was chosen")]
+    NoneChosen {
+        /// Textures it holds.
+        count: usize,
+    },
+    /// The library has no such texture.
+    #[error("no texture {wanted:?} among {count}")]
+    NoSuchTexture {
+        /// What was asked for.
+        wanted: String,
+        /// Textures it holds.
+        count: usize,
+    },
+}
+
+impl Diagnostic for SourceError {
+    fn is_usage(&self) -> bool {
+        matches!(self.problem, SourceProblem::NoneChosen { .. })
+    }
+
+    fn remedy(&self) -> String {
+        match &self.problem {
+            SourceProblem::Unreadable(_) => "check the path and its permissions".into(),
+            SourceProblem::Format(FormatError::Version { .. }) => {
+                "update asperity, or make the file again with this version".into()
+            }
+            SourceProblem::Format(_) => "make the file again from its source".into(),
+            SourceProblem::WrongKind | SourceProblem::TooLarge { .. } => {
+                "give a file that `asperity import` or `asperity builtin` wrote".into()
+            }
+            SourceProblem::NoneChosen { .. } => "choose one with --texture NAME or INDEX".into(),
+            SourceProblem::NoSuchTexture { .. } => format!(
+                "list the names with `asperity inspect {:?}`",
+                self.path.display()
+            ),
+        }
+    }
+}

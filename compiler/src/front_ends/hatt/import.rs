@@ -1,0 +1,222 @@
+//! From files to verified assets, with the distance of each from its source.
+
+use super::{
+    error::{HattError, Problem},
+    import_error::{BUDGET_DB, ImportError},
+    material::{self, Material, SourceModel},
+    texture::to_model,
+    xml,
+};
+use crate::{
+    back_end::{raise::raise, verify::VerifyError},
+    front_ends::{
+        imported::{Imported, Report, errors_over_grid},
+        learned::{LearnedModel, ModelError, complete},
+    },
+    model::{ModelGrid, TextureModel},
+    passes::reduce::Fidelity,
+    pipeline::{Compiled, Pass, Pipeline, Settings},
+    signal::spectrum::{ArmaModel, log_spectral_distance_db},
+};
+use asperity_formats::Asset;
+use rayon::prelude::*;
+use std::{
+    collections::HashMap,
+    path::{Path, PathBuf},
+};
+
+/// The HaTT files of a path: itself, or every `.xml` file of a folder in order of name.
+///
+/// # Errors
+/// [`HattError`] for a path that cannot be read or a folder without such files.
+pub fn files(path: &Path) -> Result<Vec<PathBuf>, HattError> {
+    let fail = |problem| HattError {
+        file: path.to_owned(),
+        line: None,
+        problem,
+    };
+    let metadata = std::fs::metadata(path).map_err(|e| fail(Problem::Unreadable(e)))?;
+    if !metadata.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(path).map_err(|e| fail(Problem::Unreadable(e)))? {
+        let file = entry.map_err(|e| fail(Problem::Unreadable(e)))?.path();
+        let is_xml = file
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("xml"));
+        if is_xml && file.is_file() {
+            found.push(file);
+        }
+    }
+    if found.is_empty() {
+        return Err(fail(Problem::EmptyFolder));
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Imports files in parallel at a fidelity; results in the order of the files, whatever the
+/// thread count. `done` is called once a file, from any thread.
+///
+/// `completer` decodes the taps that HaTT lacks from the AR grid; without one they are
+/// synthesised.
+pub fn import_all(
+    files: &[PathBuf],
+    completer: Option<&LearnedModel>,
+    fidelity: Fidelity,
+    done: impl Fn() + Sync,
+) -> Vec<Result<Imported, ImportError>> {
+    let mut results: Vec<_> = files
+        .par_iter()
+        .map(|file| {
+            let result = import_at(file, completer, fidelity);
+            done();
+            result
+        })
+        .collect();
+    let mut first_with: HashMap<String, &Path> = HashMap::new();
+    for (file, result) in files.iter().zip(&mut results) {
+        let Ok(imported) = result else { continue };
+        let name = &imported.report.name;
+        if let Some(other) = first_with.get(name) {
+            *result = Err(ImportError::Hatt(HattError {
+                file: file.clone(),
+                line: None,
+                problem: Problem::SameMaterial {
+                    name: name.clone(),
+                    other: other.display().to_string(),
+                },
+            }));
+        } else {
+            first_with.insert(name.clone(), file);
+        }
+    }
+    results
+}
+
+/// Imports one file in full: parse, complete, lower, compare with the source, verify.
+///
+/// # Errors
+/// [`ImportError`]; nothing is written either way.
+pub fn import(file: &Path, completer: Option<&LearnedModel>) -> Result<Imported, ImportError> {
+    import_at(file, completer, Fidelity::Full)
+}
+
+/// [`import`] at a fidelity.
+///
+/// # Errors
+/// [`ImportError`]; nothing is written either way.
+pub fn import_at(
+    file: &Path,
+    completer: Option<&LearnedModel>,
+    fidelity: Fidelity,
+) -> Result<Imported, ImportError> {
+    let mut pipeline = Pipeline::default();
+    let (material, mut whole) = pipeline.run(Pass::Read, || read(file))?;
+    if let Some(model) = completer {
+        pipeline
+            .run(Pass::Complete, || complete(&mut whole, model))
+            .map_err(|cause| ImportError::Complete {
+                file: file.to_owned(),
+                cause,
+            })?;
+    }
+    let settings = Settings {
+        fidelity,
+        ..Settings::default()
+    };
+    let mut compiled =
+        pipeline
+            .compile(whole, &settings)
+            .map_err(|cause| ImportError::Pipeline {
+                file: file.to_owned(),
+                cause,
+            })?;
+    let errors_db = pipeline.run(Pass::Compare, || {
+        compare(file, &material, &mut compiled, fidelity)
+    })?;
+    let recomputed = |m: &SourceModel| usize::from(m.ar.recomputed) + usize::from(m.ma.recomputed);
+    let report = Report {
+        recomputed: material.models.iter().map(recomputed).sum(),
+        ..Report::new(&compiled, fidelity, &errors_db)
+    };
+    Ok(Imported {
+        bytes: compiled.lowered.bytes,
+        report,
+        whole: compiled.whole,
+        timings: pipeline.timings().clone(),
+    })
+}
+
+fn read(file: &Path) -> Result<(Material, TextureModel), HattError> {
+    let source = xml::read(file)?;
+    let material = material::parse(file, &source)?;
+    let source_name = file.file_name().unwrap_or_default().to_string_lossy();
+    let whole = to_model(&material, &source_name, crc32fast::hash(&source));
+    Ok((material, whole))
+}
+
+/// Taps from the AR grid, by the learned model.
+fn complete(texture: &mut TextureModel, model: &LearnedModel) -> Result<(), ModelError> {
+    texture.taps = complete::taps_of_grid(model, &texture.grid, &texture.gains)?;
+    texture.provenance.notes = format!(
+        "Taps decoded from the AR grid by the learned model {} (trained on synthetic taps). {}",
+        model.description().name,
+        texture.provenance.notes
+    );
+    Ok(())
+}
+
+/// Distances of the asset from its source, dB: in full from the coefficients of the material,
+/// else from what the whole grid renders. The latter are also what the reduction cost.
+fn compare(
+    file: &Path,
+    material: &Material,
+    compiled: &mut Compiled,
+    fidelity: Fidelity,
+) -> Result<Vec<f64>, ImportError> {
+    let asset = Asset::parse(&compiled.lowered.bytes).map_err(|e| ImportError::Pipeline {
+        file: file.to_owned(),
+        cause: VerifyError::from(e).into(),
+    })?;
+    let stored = raise(&asset).grid;
+    if fidelity == Fidelity::Full {
+        return errors_at_vertices(file, material, &stored);
+    }
+    let (errors_db, (p95_db, worst_db)) = errors_over_grid(&compiled.whole.grid, &stored);
+    compiled.reduction.p95_db = p95_db;
+    compiled.reduction.worst_db = worst_db;
+    Ok(errors_db)
+}
+
+/// Distance of every sounding vertex from the coefficients of its source, dB.
+fn errors_at_vertices(
+    file: &Path,
+    material: &Material,
+    stored: &ModelGrid,
+) -> Result<Vec<f64>, ImportError> {
+    let mut errors_db = Vec::new();
+    for (index, (model, vertex)) in material.models.iter().zip(&stored.vertices).enumerate() {
+        if model.variance == 0.0 {
+            continue;
+        }
+        let truth = ArmaModel {
+            sample_rate_hz: material.sample_rate_hz,
+            a: model.ar.monic.clone(),
+            b: model.ma.monic.clone(),
+            level_m_s2: model.gain * model.variance.sqrt(),
+        };
+        let distance_db = log_spectral_distance_db(&truth, &ArmaModel::at_vertex(stored, vertex));
+        // A NaN fails too.
+        if distance_db.is_nan() || distance_db > BUDGET_DB {
+            return Err(ImportError::Budget {
+                file: file.to_owned(),
+                model: index + 1,
+                distance_db,
+            });
+        }
+        errors_db.push(distance_db);
+    }
+    Ok(errors_db)
+}

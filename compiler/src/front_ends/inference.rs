@@ -1,0 +1,99 @@
+//! Where networks run: the portable engine, or ONNX Runtime where it is installed.
+
+use crate::diagnostic::Diagnostic;
+use asperity_nn::{Bytes, Portable, Session};
+use asperity_onnxruntime::OnnxRuntime;
+use std::{borrow::Cow, fmt, str::FromStr};
+use thiserror::Error;
+
+/// What runs the networks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Backend {
+    /// The project's own engine, which gives the same bits on every machine.
+    #[default]
+    Portable,
+    /// ONNX Runtime, if it is found at run time. It is faster, and equal within 1e-5, not to the bit.
+    OnnxRuntime,
+}
+
+/// The name of a back end, as a user gives it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BackendName {
+    /// `portable`
+    #[default]
+    Portable,
+    /// `onnxruntime`
+    OnnxRuntime,
+}
+
+impl FromStr for BackendName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "portable" => Ok(Self::Portable),
+            "onnxruntime" => Ok(Self::OnnxRuntime),
+            _ => Err("`portable` or `onnxruntime`".into()),
+        }
+    }
+}
+
+impl fmt::Display for BackendName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Portable => "portable",
+            Self::OnnxRuntime => "onnxruntime",
+        })
+    }
+}
+
+/// ONNX Runtime was asked for and is not installed.
+#[derive(Debug, Error)]
+#[error("ONNX Runtime: {0}")]
+pub struct BackendError(#[from] asperity_onnxruntime::NotFound);
+
+impl Diagnostic for BackendError {
+    fn remedy(&self) -> String {
+        format!(
+            "{}, or leave --backend out for the portable engine",
+            self.0.remedy()
+        )
+    }
+}
+
+impl Backend {
+    /// The back end of a name.
+    ///
+    /// # Errors
+    /// [`BackendError`] when ONNX Runtime is asked for and not installed.
+    pub fn open(name: BackendName) -> Result<Self, BackendError> {
+        match name {
+            BackendName::Portable => Ok(Self::Portable),
+            BackendName::OnnxRuntime => {
+                OnnxRuntime::library()?;
+                Ok(Self::OnnxRuntime)
+            }
+        }
+    }
+
+    /// Loads a network.
+    ///
+    /// # Errors
+    /// What the back end says of it.
+    pub fn session(&self, bytes: Cow<'static, [u8]>) -> Result<Box<dyn Session>, String> {
+        match self {
+            Self::Portable => {
+                let shared = match bytes {
+                    Cow::Borrowed(bytes) => Bytes::from_static(bytes),
+                    Cow::Owned(bytes) => Bytes::from(bytes),
+                };
+                let session = Portable::from_shared(shared).map_err(|error| error.to_string())?;
+                Ok(Box::new(session))
+            }
+            Self::OnnxRuntime => {
+                let session = OnnxRuntime::from_bytes(&bytes).map_err(|error| error.to_string())?;
+                Ok(Box::new(session))
+            }
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The files of a learned model, embedded or read from a folder.
+
+use super::error::ModelError;
+use std::{borrow::Cow, path::Path};
+
+/// The files of a model folder, embedded or read.
+#[derive(Debug, Clone)]
+pub struct Files {
+    /// `model.json`.
+    pub description: Cow<'static, str>,
+    /// `text_projection.onnx`.
+    pub text_projection: Cow<'static, [u8]>,
+    /// `ar_decoder.onnx`.
+    pub ar_decoder: Cow<'static, [u8]>,
+    /// `tap_decoder.onnx`.
+    pub tap_decoder: Cow<'static, [u8]>,
+    /// `encoder.onnx`.
+    pub encoder: Cow<'static, [u8]>,
+}
+
+impl Files {
+    /// Reads a model folder.
+    ///
+    /// # Errors
+    /// [`ModelError::Unreadable`] with the file.
+    pub fn read(folder: &Path) -> Result<Self, ModelError> {
+        let bytes = |name: &str| {
+            let path = folder.join(name);
+            std::fs::read(&path).map_err(|source| ModelError::Unreadable { path, source })
+        };
+        let path = folder.join("model.json");
+        let description = std::fs::read_to_string(&path)
+            .map_err(|source| ModelError::Unreadable { path, source })?;
+        Ok(Self {
+            description: description.into(),
+            text_projection: bytes("text_projection.onnx")?.into(),
+            ar_decoder: bytes("ar_decoder.onnx")?.into(),
+            tap_decoder: bytes("tap_decoder.onnx")?.into(),
+            encoder: bytes("encoder.onnx")?.into(),
+        })
+    }
+}

@@ -1,0 +1,304 @@
+//! A document as a model: every value in its range, every list of its length, in its order.
+
+use super::{
+    error::{Fault, ModelFileProblem as Problem},
+    schema::{Document, Friction, Grid, Taps, Vertex},
+};
+use crate::{
+    model::{
+        self, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace, TextureModel, Wall,
+        defaults, mesh,
+    },
+    passes::triangulate,
+    signal::tap_synthesis,
+};
+use asperity_formats::limits;
+use std::f64::consts::PI;
+
+/// The model of a document.
+///
+/// # Errors
+/// The first field that an asset could not hold.
+pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
+    name("name", &document.name)?;
+    let grid = grid(document.grid)?;
+    let taps = taps(document.taps)?;
+    let friction = friction(document.friction)?;
+    let provenance = document.provenance;
+    let mut notes = provenance.notes;
+    let mut assume = |what: &str| {
+        let space = if notes.is_empty() { "" } else { " " };
+        notes = format!("{notes}{space}{what} unconfirmed defaults.");
+    };
+    let wall = match document.wall {
+        Some(stated) => wall(stated)?,
+        None => {
+            assume("Stiffness and damping of the wall are");
+            defaults::wall()
+        }
+    };
+    let gains = match document.gains {
+        Some(stated) => gains(stated)?,
+        None => {
+            assume("Gains and masses are");
+            defaults::gains()
+        }
+    };
+    Ok(TextureModel {
+        name: document.name,
+        grid,
+        taps,
+        friction,
+        wall,
+        gains,
+        provenance: model::Provenance {
+            generator: provenance.generator,
+            source: provenance.source,
+            source_crc32: provenance.source_crc32,
+            prompt: provenance.prompt,
+            seed: provenance.seed,
+            taps_synthetic: provenance.taps_synthetic,
+            notes,
+            // The pipeline states the rest.
+            ..model::Provenance::default()
+        },
+    })
+}
+
+fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
+    let numerator = stated.numerator;
+    in_range("grid.sample_rate_hz", stated.sample_rate_hz, rate())?;
+    length(
+        "grid.vertices",
+        stated.vertices.len(),
+        3,
+        limits::MAX_VERTICES,
+    )?;
+    let order = stated.vertices[0].lsf_rad.len();
+    length("grid.vertices[0].lsf_rad", order, 1, limits::MAX_ORDER)?;
+    let ma_order = stated.vertices[0].ma_lsf_rad.as_ref().map_or(0, Vec::len);
+    if numerator == Numerator::Lsf {
+        length(
+            "grid.vertices[0].ma_lsf_rad",
+            ma_order,
+            1,
+            limits::MAX_ORDER,
+        )?;
+    }
+    let vertices = stated
+        .vertices
+        .into_iter()
+        .enumerate()
+        .map(|(index, vertex)| self::vertex(index, vertex, numerator, (order, ma_order)))
+        .collect::<Result<Vec<_>, _>>()?;
+    let is_stated = stated.triangles.is_some();
+    let triangles = match stated.triangles {
+        Some(triangles) => {
+            length("grid.triangles", triangles.len(), 1, limits::MAX_TRIANGLES)?;
+            triangles
+        }
+        None => triangulate::delaunay(&vertices),
+    };
+    let grid = ModelGrid {
+        sample_rate_hz: stated.sample_rate_hz,
+        order,
+        numerator,
+        vertices,
+        triangles,
+    };
+    mesh::check(&grid).map_err(|cause| {
+        let field = if is_stated {
+            "grid.triangles"
+        } else {
+            "grid.vertices"
+        };
+        let stated = is_stated;
+        (field.into(), Problem::Mesh { cause, stated })
+    })?;
+    Ok(grid)
+}
+
+fn vertex(
+    index: usize,
+    stated: Vertex,
+    numerator: Numerator,
+    (order, ma_order): (usize, usize),
+) -> Result<GridVertex, Fault> {
+    let field = |name: &str| format!("grid.vertices[{index}].{name}");
+    let up_to = |name: &str, value, high: f32| in_range(&field(name), value, (0.0, high));
+    up_to("speed_mm_s", stated.speed_mm_s, limits::MAX_SPEED_MM_S)?;
+    up_to("force_n", stated.force_n, limits::MAX_FORCE_N)?;
+    up_to("sigma_m_s2", stated.sigma_m_s2, limits::MAX_SIGMA_M_S2)?;
+    frequencies(&field("lsf_rad"), &stated.lsf_rad, order)?;
+    let fault = |name: &str, what| Err((field(name), Problem::Numerator(what)));
+    match (numerator, &stated.ma_lsf_rad, stated.gain) {
+        (Numerator::Lsf, None, _) => {
+            return fault("ma_lsf_rad", "is absent, but grid.numerator is \"lsf\"");
+        }
+        (Numerator::Lsf, Some(zeros), gain) => {
+            frequencies(&field("ma_lsf_rad"), zeros, ma_order)?;
+            up_to("gain", gain.unwrap_or(1.0), limits::MAX_GAIN)?;
+        }
+        (_, Some(_), _) => {
+            return fault("ma_lsf_rad", "is given, but grid.numerator is not \"lsf\"");
+        }
+        (_, None, Some(gain)) if gain != 1.0 => {
+            return fault("gain", "is not 1, but grid.numerator is not \"lsf\"");
+        }
+        _ => {}
+    }
+    Ok(GridVertex {
+        speed_mm_s: stated.speed_mm_s,
+        force_n: stated.force_n,
+        kind: stated.kind,
+        lsf_rad: stated.lsf_rad,
+        ma_lsf_rad: stated.ma_lsf_rad,
+        gain: stated.gain.unwrap_or(1.0),
+        sigma_m_s2: stated.sigma_m_s2,
+    })
+}
+
+/// Line spectral frequencies: as many as those of the first vertex, ascending in (0, π).
+fn frequencies(field: &str, lsf_rad: &[f64], order: usize) -> Result<(), Fault> {
+    if lsf_rad.len() != order {
+        let rule = format!("{order} as at vertex 0");
+        let found = lsf_rad.len();
+        return Err((field.into(), Problem::Length { found, rule }));
+    }
+    for (index, &omega) in lsf_rad.iter().enumerate() {
+        if !(omega > 0.0 && omega < PI) {
+            return Err((format!("{field}[{index}]"), Problem::Frequency(omega)));
+        }
+    }
+    ascending(lsf_rad.iter().copied(), |index| format!("{field}[{index}]"))
+}
+
+fn taps(stated: Option<Taps>) -> Result<TapBank, Fault> {
+    let Some(stated) = stated else {
+        return Ok(TapBank {
+            // An asset without taps states a rate all the same.
+            sample_rate_hz: tap_synthesis::SAMPLE_RATE_HZ,
+            traces: Vec::new(),
+        });
+    };
+    in_range("taps.sample_rate_hz", stated.sample_rate_hz, rate())?;
+    length("taps.traces", stated.traces.len(), 0, limits::MAX_TAPS)?;
+    let samples = stated.traces.first().map_or(0, |t| t.accel_m_s2.len());
+    let highest = limits::MAX_TAP_ACCEL_M_S2;
+    for (index, trace) in stated.traces.iter().enumerate() {
+        let field = |name: &str| format!("taps.traces[{index}].{name}");
+        let speeds = (f32::MIN_POSITIVE, limits::MAX_IMPACT_SPEED_M_S);
+        in_range(&field("speed_m_s"), trace.speed_m_s, speeds)?;
+        let found = trace.accel_m_s2.len();
+        length(&field("accel_m_s2"), found, 1, limits::MAX_TAP_SAMPLES)?;
+        if found != samples {
+            let rule = format!("{samples} as in trace 0");
+            return Err((field("accel_m_s2"), Problem::Length { found, rule }));
+        }
+        for (sample, &accel) in trace.accel_m_s2.iter().enumerate() {
+            let place = field(&format!("accel_m_s2[{sample}]"));
+            in_range(&place, accel, (-highest, highest))?;
+        }
+    }
+    let speeds = stated.traces.iter().map(|trace| trace.speed_m_s);
+    ascending(speeds, |index| format!("taps.traces[{index}].speed_m_s"))?;
+    Ok(TapBank {
+        sample_rate_hz: stated.sample_rate_hz,
+        traces: stated
+            .traces
+            .into_iter()
+            .map(|trace| TapTrace {
+                speed_m_s: trace.speed_m_s,
+                accel_m_s2: trace.accel_m_s2,
+            })
+            .collect(),
+    })
+}
+
+fn friction(stated: Friction) -> Result<model::Friction, Fault> {
+    in_range("friction.mu", stated.mu, (0.0, limits::MAX_MU))?;
+    length(
+        "friction.anchors",
+        stated.anchors.len(),
+        0,
+        limits::MAX_ANCHORS,
+    )?;
+    for (index, anchor) in stated.anchors.iter().enumerate() {
+        let field = |key: &str| format!("friction.anchors[{index}].{key}");
+        name(&field("name"), &anchor.name)?;
+        in_range(&field("mu"), anchor.mu, (0.0, limits::MAX_MU))?;
+        in_range(&field("weight"), anchor.weight, (0.0, 1.0))?;
+    }
+    Ok(model::Friction {
+        mu: stated.mu,
+        anchors: stated.anchors,
+    })
+}
+
+fn wall(stated: Wall) -> Result<Wall, Fault> {
+    let stiffness = (f32::MIN_POSITIVE, limits::MAX_STIFFNESS_N_M);
+    in_range("wall.stiffness_n_m", stated.stiffness_n_m, stiffness)?;
+    let damping = (0.0, limits::MAX_DAMPING_N_S_M);
+    in_range("wall.damping_n_s_m", stated.damping_n_s_m, damping)?;
+    Ok(stated)
+}
+
+fn gains(stated: Gains) -> Result<Gains, Fault> {
+    let vibration = (0.0, limits::MAX_VIB_GAIN_S2_M);
+    in_range("gains.vib_s2_m", stated.vib_s2_m, vibration)?;
+    let mass = (0.0, limits::MAX_EFFECTIVE_MASS_KG);
+    in_range("gains.effective_mass_kg", stated.effective_mass_kg, mass)?;
+    let force = (f32::MIN_POSITIVE, limits::MAX_DEVICE_FORCE_N);
+    in_range("gains.f_max_n", stated.f_max_n, force)?;
+    Ok(stated)
+}
+
+fn rate() -> (f32, f32) {
+    limits::SAMPLE_RATE_HZ
+}
+
+fn name(field: &str, text: &str) -> Result<(), Fault> {
+    let fits = (1..=limits::MAX_NAME_BYTES).contains(&text.len());
+    if fits && !text.chars().any(char::is_control) {
+        Ok(())
+    } else {
+        let shown = text.chars().take(limits::MAX_NAME_BYTES).collect();
+        Err((field.into(), Problem::Name(shown)))
+    }
+}
+
+/// A number within a range of the format; one that an asset would round to infinity is outside.
+fn in_range(field: &str, value: f64, (low, high): (f32, f32)) -> Result<(), Fault> {
+    // A NaN is in no range.
+    if (f64::from(low)..=f64::from(high)).contains(&value) {
+        return Ok(());
+    }
+    let rule = if low == f32::MIN_POSITIVE {
+        format!("above 0 and at most {high}")
+    } else {
+        format!("from {low} to {high}")
+    };
+    Err((field.into(), Problem::Value { value, rule }))
+}
+
+fn length(field: &str, found: usize, low: usize, high: usize) -> Result<(), Fault> {
+    if (low..=high).contains(&found) {
+        return Ok(());
+    }
+    let rule = format!("{low} to {high}");
+    Err((field.into(), Problem::Length { found, rule }))
+}
+
+fn ascending(
+    values: impl Iterator<Item = f64>,
+    field: impl Fn(usize) -> String,
+) -> Result<(), Fault> {
+    let mut previous = f64::NEG_INFINITY;
+    for (index, value) in values.enumerate() {
+        if value <= previous {
+            return Err((field(index), Problem::Order { value, previous }));
+        }
+        previous = value;
+    }
+    Ok(())
+}

@@ -1,0 +1,83 @@
+//! From a model file to a verified asset.
+
+use super::{error::ModelFileError, read::read};
+use crate::{
+    back_end::{raise::raise, verify::VerifyError},
+    front_ends::imported::{Imported, Report, errors_at_vertices, errors_over_grid},
+    model::TextureModel,
+    passes::reduce::Fidelity,
+    pipeline::{Compiled, Pass, Pipeline, PipelineError, Preview, Settings},
+};
+use asperity_formats::Asset;
+use std::path::Path;
+
+/// What a user can ask of an import.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// How much of the model the asset keeps.
+    pub fidelity: Fidelity,
+    /// Rate of the AR models, Hz; that of the file if `None`.
+    pub rate_hz: Option<f64>,
+    /// Whether a preview is drawn.
+    pub preview: bool,
+}
+
+/// Imports a model: read, check, compile, compare with the source.
+///
+/// # Errors
+/// [`ModelFileError`]; nothing is written either way.
+pub fn import(file: &Path, options: &Options) -> Result<Imported, ModelFileError> {
+    let mut pipeline = Pipeline::default();
+    let whole = pipeline.run(Pass::Read, || read(file))?;
+    let whole = with_source(whole, file);
+    let settings = Settings {
+        rate_hz: options.rate_hz,
+        fidelity: options.fidelity,
+        preview: options.preview.then_some(Preview {
+            families: &[],
+            seed: whole.provenance.seed,
+        }),
+        stabilise: false,
+    };
+    let fail = |cause: PipelineError| ModelFileError {
+        file: file.to_owned(),
+        field: String::new(),
+        problem: cause.into(),
+    };
+    let mut compiled = pipeline.compile(whole, &settings).map_err(fail)?;
+    let errors_db = pipeline
+        .run(Pass::Compare, || compare(&mut compiled, options.fidelity))
+        .map_err(fail)?;
+    let report = Report::new(&compiled, options.fidelity, &errors_db);
+    Ok(Imported {
+        bytes: compiled.lowered.bytes,
+        report,
+        whole: compiled.whole,
+        timings: pipeline.timings().clone(),
+    })
+}
+
+/// The asset says which file it was made of; prompt, seed and notes are those of the file.
+fn with_source((mut texture, crc32): (TextureModel, u32), file: &Path) -> TextureModel {
+    let provenance = &mut texture.provenance;
+    provenance.generator = format!("asperity {} import model", env!("CARGO_PKG_VERSION"));
+    provenance.source = file
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    provenance.source_crc32 = crc32;
+    texture
+}
+
+fn compare(compiled: &mut Compiled, fidelity: Fidelity) -> Result<Vec<f64>, PipelineError> {
+    let asset = Asset::parse(&compiled.lowered.bytes).map_err(VerifyError::from)?;
+    let stored = raise(&asset).grid;
+    if fidelity == Fidelity::Full {
+        return Ok(errors_at_vertices(&compiled.whole.grid, &stored));
+    }
+    let (errors_db, (p95_db, worst_db)) = errors_over_grid(&compiled.whole.grid, &stored);
+    compiled.reduction.p95_db = p95_db;
+    compiled.reduction.worst_db = worst_db;
+    Ok(errors_db)
+}

@@ -1,0 +1,209 @@
+//! From a prompt to a verified texture.
+
+use super::{
+    Authored, Nearest, Options, PromptError,
+    name::{shortened, title},
+    variation::varied,
+};
+use crate::{
+    front_ends::{
+        embedded,
+        inference::Backend,
+        learned::{self, Files, Latent, LearnedModel, ModelError, friction::Neighbour, texture},
+        text::TextEncoder,
+    },
+    model::{Provenance, TextureModel, attributes},
+    pipeline::{Compiled, Pass, Pipeline, Preview, Settings},
+};
+use std::path::Path;
+
+/// Bytes of a prompt that the provenance keeps.
+const KEPT_PROMPT_BYTES: usize = 2048;
+
+/// Everything that turns prompts into textures; loaded once, asked often.
+pub struct Author {
+    text: Box<dyn TextEncoder>,
+    model: LearnedModel,
+}
+
+impl Author {
+    /// An author of a text encoder and a model trained with it.
+    ///
+    /// # Errors
+    /// [`ModelError::Width`] when they do not belong together.
+    pub fn new(text: Box<dyn TextEncoder>, model: LearnedModel) -> Result<Self, ModelError> {
+        let expected = model.description().text_encoder.width;
+        if text.width() == expected {
+            Ok(Self { text, model })
+        } else {
+            Err(ModelError::Width {
+                expected,
+                found: text.width(),
+            })
+        }
+    }
+
+    /// The embedded model on a back end.
+    ///
+    /// # Errors
+    /// [`ModelError`] when the back end refuses a network.
+    pub fn embedded(backend: &Backend) -> Result<Self, ModelError> {
+        let text = embedded::text_encoder(backend)?;
+        let model = LearnedModel::load(embedded::model(), backend)?;
+        Self::new(Box::new(text), model)
+    }
+
+    /// An author of a model folder.
+    ///
+    /// # Errors
+    /// As [`Author::new`], and [`ModelError`] for a folder that is none.
+    pub fn with_folder(
+        text: Box<dyn TextEncoder>,
+        folder: &Path,
+        backend: &Backend,
+    ) -> Result<Self, ModelError> {
+        Self::new(text, LearnedModel::load(Files::read(folder)?, backend)?)
+    }
+
+    /// The learned model.
+    #[must_use]
+    pub fn model(&self) -> &LearnedModel {
+        &self.model
+    }
+
+    /// The latent of a prompt before a seed moves it.
+    ///
+    /// # Errors
+    /// [`PromptError`] for an empty prompt or a failing network.
+    pub fn project(&self, prompt: &str) -> Result<Prompted, PromptError> {
+        let prompt = prompt.trim();
+        if prompt.is_empty() {
+            return Err(PromptError::Empty);
+        }
+        let encoded = self.text.encode(prompt)?;
+        let projected = self.model.project(&encoded.vector)?;
+        let similarity = projected
+            .similarity
+            .iter()
+            .fold(f64::NEG_INFINITY, |best, &s| best.max(f64::from(s)));
+        Ok(Prompted {
+            z: projected.z,
+            similarity,
+            certainty: learned::certainty(&self.model.description().certainty, similarity),
+            tokens: (encoded.tokens, encoded.cut),
+        })
+    }
+
+    /// The texture of a prompt, verified.
+    ///
+    /// # Errors
+    /// [`PromptError`] with the stage that failed.
+    pub fn author(&self, prompt: &str, options: &Options) -> Result<Authored, PromptError> {
+        let mut pipeline = Pipeline::default();
+        let prompt = prompt.trim();
+        let prompted = pipeline.run(Pass::Text, || self.project(prompt))?;
+        let spread = &self.model.description().spread;
+        let z = varied(prompted.z, spread, options.seed);
+        let (texture, neighbours) =
+            pipeline.run(Pass::Decode, || self.decode(&z, prompt, options.seed))?;
+        let nearest = self.nearest(&neighbours);
+        let families: Vec<(&str, f64)> = nearest
+            .iter()
+            .map(|near| (near.family.as_str(), near.weight))
+            .collect();
+        let settings = Settings {
+            rate_hz: options.rate_hz,
+            fidelity: options.fidelity,
+            preview: options.preview.then_some(Preview {
+                families: &families,
+                seed: options.seed,
+            }),
+            // Latents far from anything trained can decode to models that ring.
+            stabilise: true,
+        };
+        let Compiled {
+            whole,
+            texture,
+            reduction,
+            preview,
+            lowered,
+            verified,
+            stabilised,
+        } = pipeline.compile(texture, &settings)?;
+        Ok(Authored {
+            attributes: attributes::of(&texture),
+            whole,
+            texture,
+            lowered,
+            preview,
+            z,
+            nearest,
+            certainty: prompted.certainty,
+            similarity: prompted.similarity,
+            tokens: prompted.tokens,
+            reduction,
+            verified,
+            stabilised,
+            timings: pipeline.timings().clone(),
+        })
+    }
+
+    fn decode(
+        &self,
+        z: &Latent,
+        prompt: &str,
+        seed: u64,
+    ) -> Result<(TextureModel, Vec<Neighbour>), PromptError> {
+        let description = self.model.description();
+        let decoded = self.model.decode(z)?;
+        let synthetic = if description.corpus.taps_synthetic {
+            "Trained on synthetic taps. "
+        } else {
+            ""
+        };
+        let provenance = Provenance {
+            generator: format!("asperity {} compile", env!("CARGO_PKG_VERSION")),
+            source: format!("model {}", description.name),
+            source_crc32: description.corpus.crc32,
+            prompt: Some(shortened(prompt, KEPT_PROMPT_BYTES).to_owned()),
+            seed,
+            taps_synthetic: true,
+            notes: format!(
+                "Decoded from a learned model of the {} corpus, text encoder {}. {synthetic}Gains and wall are unconfirmed defaults.",
+                description.corpus.name, description.text_encoder.name
+            ),
+            // The pipeline states the rest.
+            ..Provenance::default()
+        };
+        let name = title(prompt);
+        Ok(texture::build(description, &decoded, z, name, provenance))
+    }
+
+    fn nearest(&self, neighbours: &[Neighbour]) -> Vec<Nearest> {
+        neighbours
+            .iter()
+            .map(|neighbour| {
+                let anchor = &self.model.description().anchors[neighbour.index];
+                Nearest {
+                    name: anchor.name.clone(),
+                    family: anchor.family.clone(),
+                    mu: anchor.mu,
+                    weight: neighbour.weight,
+                }
+            })
+            .collect()
+    }
+}
+
+/// A prompt in the latent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prompted {
+    /// The latent.
+    pub z: Latent,
+    /// Largest cosine with a material's mean caption.
+    pub similarity: f64,
+    /// Certainty, 0..=1.
+    pub certainty: f64,
+    /// Tokens read, and cut off.
+    pub tokens: (usize, usize),
+}

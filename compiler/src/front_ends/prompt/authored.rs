@@ -1,0 +1,84 @@
+//! What can be asked of a prompt's texture, and what there is to know of it.
+
+use crate::{
+    back_end::{lower::Lowered, verify::VerifyReport},
+    front_ends::learned::Latent,
+    model::{TextureModel, attributes::Attributes},
+    passes::reduce::{self, Fidelity},
+    pipeline::Timings,
+};
+
+/// Below it a prompt is far from anything the model was trained on.
+pub const LOW_CERTAINTY: f64 = 0.2;
+
+/// What a user can ask of a texture besides its prompt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// 0 for the texture that the prompt means. Other seeds give variations of it, as another
+    /// piece of the same material varies.
+    pub seed: u64,
+    /// How much of the model the asset keeps.
+    pub fidelity: Fidelity,
+    /// Rate of the AR models, Hz; the decoder's own if `None`.
+    pub rate_hz: Option<f64>,
+    /// Whether a preview is drawn.
+    pub preview: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            seed: 0,
+            fidelity: Fidelity::Auto,
+            rate_hz: None,
+            preview: true,
+        }
+    }
+}
+
+/// A texture made of a prompt.
+#[derive(Debug, Clone)]
+pub struct Authored {
+    /// The whole texture before reduction, at its rate, and stabilised where it had to be.
+    pub whole: TextureModel,
+    /// The texture as it was verified.
+    pub texture: TextureModel,
+    /// The asset.
+    pub lowered: Lowered,
+    /// The preview, if one was asked for.
+    pub preview: Option<Vec<u8>>,
+    /// The latent it was decoded from.
+    pub z: Latent,
+    /// The nearest materials, which friction is interpolated from.
+    pub nearest: Vec<Nearest>,
+    /// Objective attributes.
+    pub attributes: Attributes,
+    /// Certainty, 0..=1.
+    pub certainty: f64,
+    /// Largest cosine between the prompt and a material's mean caption.
+    pub similarity: f64,
+    /// Tokens read, and cut off.
+    pub tokens: (usize, usize),
+    /// What the fidelity left out, and what that cost.
+    pub reduction: reduce::Report,
+    /// What verification saw.
+    pub verified: VerifyReport,
+    /// The fraction of the way to white noise that the models were moved so that they pass,
+    /// 0..=1. It is 0 except for latents far from anything trained.
+    pub stabilised: f64,
+    /// The time of every pass.
+    pub timings: Timings,
+}
+
+/// A material near the prompt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nearest {
+    /// Its name.
+    pub name: String,
+    /// Its family.
+    pub family: String,
+    /// Its coefficient of friction.
+    pub mu: f64,
+    /// Its weight, 0..=1.
+    pub weight: f64,
+}

@@ -1,0 +1,11 @@
+//! Text to vectors: frozen sentence encoders with their tokenisers.
+//!
+//! [`minilm`] is embedded. [`clip`] runs a user's export of CLIP's text tower.
+
+mod choice;
+pub mod clip;
+mod encoder;
+pub mod minilm;
+
+pub use choice::TextEncoderChoice;
+pub use encoder::{Encoded, TextEncoder, TextError};

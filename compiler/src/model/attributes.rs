@@ -1,0 +1,82 @@
+//! Objective attributes of a texture: what rough, sharp, hard and slippery mean here.
+
+use crate::{
+    model::{TextureModel, VertexKind},
+    signal::spectrum::{ArmaModel, Vibration, VibrationBand, trace_centroid_hz},
+};
+use serde::Serialize;
+
+/// Lowest rate of a trace whose centroid counts as hardness, Hz.
+const MIN_TAP_RATE_HZ: f64 = 5000.0;
+
+/// Objective attributes. An attribute is `None` where a texture does not define it, because it
+/// has no taps, or no interior vertex that sounds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Attributes {
+    /// Mean over interior vertices of the level above 40 Hz, excitation included,
+    /// before device gain, dB re 1 (m/s²)². Silent vertices do not count.
+    pub rough_db: Option<f64>,
+    /// Mean over the same of the power-weighted spectral centroid above 40 Hz, Hz.
+    pub sharp_hz: Option<f64>,
+    /// Power-weighted spectral centroid of the fastest trace, Hz.
+    pub hard_hz: Option<f64>,
+    /// Coefficient of kinetic friction; slipperiness is −μ.
+    pub mu: f64,
+}
+
+/// The attributes of a texture.
+#[must_use]
+pub fn of(texture: &TextureModel) -> Attributes {
+    let band = VibrationBand::new(texture.grid.sample_rate_hz);
+    let vibrations: Vec<Vibration> = texture
+        .grid
+        .vertices
+        .iter()
+        .filter(|vertex| vertex.kind == VertexKind::Interior)
+        .filter_map(|vertex| {
+            let model = ArmaModel::at_vertex(&texture.grid, vertex);
+            band.as_ref()?.vibration(&model)
+        })
+        .collect();
+    let mean = |value: fn(&Vibration) -> f64| {
+        let sum: f64 = vibrations.iter().map(value).sum();
+        (!vibrations.is_empty()).then(|| sum / vibrations.len() as f64)
+    };
+    let taps = &texture.taps;
+    Attributes {
+        rough_db: mean(|v| 10.0 * libm::log10(v.power)),
+        sharp_hz: mean(|v| v.centroid_hz),
+        hard_hz: taps
+            .traces
+            .last()
+            .filter(|_| taps.sample_rate_hz >= MIN_TAP_RATE_HZ)
+            .and_then(|trace| trace_centroid_hz(&trace.accel_m_s2, taps.sample_rate_hz)),
+        mu: texture.friction.mu,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front_ends::builtin;
+
+    #[test]
+    fn twice_the_excitation_is_six_db_rougher_and_no_sharper() {
+        let quiet = builtin::texture();
+        let mut loud = quiet.clone();
+        for vertex in &mut loud.grid.vertices {
+            vertex.sigma_m_s2 *= 2.0;
+        }
+        let (quiet, loud) = (of(&quiet), of(&loud));
+        let rise_db = loud.rough_db.unwrap() - quiet.rough_db.unwrap();
+        assert!((rise_db - 20.0 * 2.0_f64.log10()).abs() < 1e-9);
+        assert!((loud.sharp_hz.unwrap() - quiet.sharp_hz.unwrap()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_texture_without_taps_has_no_hardness() {
+        let mut texture = builtin::texture();
+        texture.taps.traces.clear();
+        assert_eq!(of(&texture).hard_hz, None);
+    }
+}

@@ -1,0 +1,14 @@
+//! The intermediate model: one texture in f64 and SI units, and what follows from it alone.
+//!
+//! Every front end ends here, and every back end and view starts here.
+
+pub mod attributes;
+pub mod defaults;
+pub mod mesh;
+pub mod mixture;
+mod texture;
+
+pub use texture::{
+    Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,
+    TapTrace, TextureModel, VertexKind, Wall,
+};

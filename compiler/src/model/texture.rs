@@ -1,0 +1,165 @@
+//! The types of a texture model, in f64 and SI units.
+
+use serde::{Deserialize, Serialize};
+
+/// A texture before quantisation, as every front end makes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TextureModel {
+    /// Name, unique within a library; 1..=64 bytes of UTF-8.
+    pub name: String,
+    /// The force–speed conditioned AR or ARMA models.
+    pub grid: ModelGrid,
+    /// Recorded or synthesised tapping transients; may be empty.
+    pub taps: TapBank,
+    /// Coulomb friction and the anchors it was interpolated from.
+    pub friction: Friction,
+    /// The virtual wall.
+    pub wall: Wall,
+    /// From accelerations to forces on the device.
+    pub gains: Gains,
+    /// Where the texture comes from.
+    pub provenance: Provenance,
+}
+
+/// AR or ARMA models over the speed–force plane, joined by triangles.
+///
+/// The triangles tile the rectangle `[0, max_speed_mm_s] × [0, max_force_n]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelGrid {
+    /// Sample rate of every model, Hz.
+    pub sample_rate_hz: f64,
+    /// AR order `p`, the same at every vertex.
+    pub order: usize,
+    /// The numerator of every model.
+    pub numerator: Numerator,
+    /// The vertices, each with a model of its own.
+    pub vertices: Vec<GridVertex>,
+    /// Vertex indices, any orientation.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// The numerator B(z) of a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Numerator {
+    /// B = 1.
+    None,
+    /// B = 1 + z⁻¹, not normalised.
+    Nyquist,
+    /// B monic, of the order given by `ma_lsf_rad`, with a gain.
+    Lsf,
+}
+
+/// Whether a vertex was measured or closes the grid at its border.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum VertexKind {
+    /// A measured or generated operating point.
+    Interior,
+    /// An edge model: on the border of the rectangle.
+    Edge,
+}
+
+/// One vertex: power spectrum `(gain·σ)²·|B|²/|A|²`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GridVertex {
+    /// Tangential speed, mm/s, ≥ 0.
+    pub speed_mm_s: f64,
+    /// Normal force, N, ≥ 0.
+    pub force_n: f64,
+    /// Interior or edge.
+    pub kind: VertexKind,
+    /// Line spectral frequencies of A(z), rad, strictly ascending in (0, π); the
+    /// first belongs to the sum polynomial.
+    pub lsf_rad: Vec<f64>,
+    /// Line spectral frequencies of B(z), only with [`Numerator::Lsf`].
+    pub ma_lsf_rad: Option<Vec<f64>>,
+    /// Gain of the numerator; 1 unless [`Numerator::Lsf`].
+    pub gain: f64,
+    /// Standard deviation of the excitation before numerator and gain, m/s².
+    pub sigma_m_s2: f64,
+}
+
+/// Tapping transients, with one trace for every impact speed.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TapBank {
+    /// Sample rate of every trace, Hz.
+    pub sample_rate_hz: f64,
+    /// Traces in ascending order of impact speed, all of one length.
+    pub traces: Vec<TapTrace>,
+}
+
+/// The acceleration transient of one impact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TapTrace {
+    /// Impact speed, m/s, > 0.
+    pub speed_m_s: f64,
+    /// Acceleration along the surface normal, m/s².
+    pub accel_m_s2: Vec<f64>,
+}
+
+/// Coulomb friction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Friction {
+    /// Coefficient of kinetic friction, ≥ 0.
+    pub mu: f64,
+    /// What μ was interpolated from.
+    pub anchors: Vec<FrictionAnchor>,
+}
+
+/// A named reference material with a known μ.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionAnchor {
+    /// Material name.
+    pub name: String,
+    /// Its coefficient of kinetic friction.
+    pub mu: f64,
+    /// Its weight in the texture's μ, 0..=1.
+    pub weight: f64,
+}
+
+/// The virtual wall `F = k·δ − b·ḋ`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// Stiffness, N/m.
+    pub stiffness_n_m: f64,
+    /// Rendered damping, N·s/m.
+    pub damping_n_s_m: f64,
+}
+
+/// Gains from accelerations to device forces.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gains {
+    /// `g_vib` in F_vib = g_vib · y · F_max, s²/m.
+    pub vib_s2_m: f64,
+    /// `m_eff` in F_tap = m_eff · a_tap, kg.
+    pub effective_mass_kg: f64,
+    /// Force that `vib_s2_m` is relative to, N.
+    pub f_max_n: f64,
+}
+
+/// Where a texture comes from; written into the asset, never read by the runtime.
+#[derive(Debug, Clone, PartialEq, Serialize, Default)]
+pub struct Provenance {
+    /// What made it, e.g. `asperity 0.1.0 import hatt`.
+    pub generator: String,
+    /// File or corpus entry it was made from; no folder.
+    pub source: String,
+    /// CRC-32 of the source's bytes, 0 when there is no file.
+    pub source_crc32: u32,
+    /// The prompt, for a texture that has one.
+    pub prompt: Option<String>,
+    /// Seed of everything random in its making.
+    pub seed: u64,
+    /// Requested fidelity: `full`, `auto` or an order.
+    pub fidelity: String,
+    /// Whether the taps were synthesised rather than recorded.
+    pub taps_synthetic: bool,
+    /// RMS spectral error of LSF quantisation, dB, as the encoder measured it.
+    pub lsf_error_db: f32,
+    /// What a reader should know: synthetic parts, unconfirmed defaults.
+    pub notes: String,
+}

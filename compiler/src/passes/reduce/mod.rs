@@ -1,0 +1,276 @@
+//! Fidelity: how much of a texture an asset keeps.
+//!
+//! `auto` leaves out what cannot be told apart by spectrum. It takes the smallest order with the
+//! cheapest numerator ([`order`]), the fewest vertices ([`vertices`]), and the part of the taps that
+//! a hand can feel ([`taps`]). The measure is what the grid renders at every vertex and in the
+//! middle of every edge and triangle, compared with the whole texture.
+
+mod budget;
+pub mod order;
+pub mod taps;
+pub mod vertices;
+
+pub use budget::{BUDGET_DB, Reference};
+
+use crate::model::{ModelGrid, Numerator, TextureModel};
+use order::Fits;
+use serde::Serialize;
+use std::{fmt, str::FromStr};
+
+/// How much of a model an asset keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fidelity {
+    /// Everything.
+    Full,
+    /// As little as stays within [`BUDGET_DB`].
+    Auto,
+    /// This AR order. Where the order is lowered, a numerator of the models' own becomes 1 + z⁻¹.
+    Order(usize),
+}
+
+impl FromStr for Fidelity {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        const MAX: usize = asperity_formats::limits::MAX_ORDER;
+        match text {
+            "full" => Ok(Self::Full),
+            "auto" => Ok(Self::Auto),
+            _ => match text.parse() {
+                Ok(order) if (1..=MAX).contains(&order) => Ok(Self::Order(order)),
+                _ => Err(format!("`full`, `auto` or an order from 1 to {MAX}")),
+            },
+        }
+    }
+}
+
+impl fmt::Display for Fidelity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Full => f.write_str("full"),
+            Self::Auto => f.write_str("auto"),
+            Self::Order(order) => write!(f, "{order}"),
+        }
+    }
+}
+
+/// A count before and after.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Change {
+    /// Of the whole texture.
+    pub full: usize,
+    /// Of what is kept.
+    pub kept: usize,
+}
+
+/// What was dropped, and what it cost.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Report {
+    /// Poles.
+    pub order: Change,
+    /// Zeros that are mixed and converted; 1 + z⁻¹ counts as none.
+    pub zeros: Change,
+    /// Vertices of the grid.
+    pub vertices: Change,
+    /// Triangles of the grid.
+    pub triangles: Change,
+    /// Samples of a tap trace.
+    pub tap_samples: Change,
+    /// 95 % quantile, over the places, of the RMS log-spectral distance from the whole texture
+    /// over 10–450 Hz, level included, dB.
+    pub p95_db: f64,
+    /// The largest, dB.
+    pub worst_db: f64,
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut first = true;
+        for (what, change) in [
+            ("poles", self.order),
+            ("zeros", self.zeros),
+            ("vertices", self.vertices),
+            ("triangles", self.triangles),
+            ("tap samples", self.tap_samples),
+        ] {
+            if change.full != change.kept {
+                let comma = if first { "" } else { ", " };
+                write!(f, "{comma}{} of {} {what}", change.kept, change.full)?;
+                first = false;
+            }
+        }
+        if first {
+            return f.write_str("everything kept");
+        }
+        write!(
+            f,
+            "; {:.2} dB at 95 % of the places, {:.2} dB at worst",
+            self.p95_db, self.worst_db
+        )
+    }
+}
+
+/// A texture at some fidelity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reduction {
+    /// The texture.
+    pub texture: TextureModel,
+    /// What was dropped.
+    pub report: Report,
+}
+
+/// The texture at a fidelity. Its grid must be tiled: a grid that is not comes back whole, and
+/// lowering refuses it.
+#[must_use]
+pub fn reduce(texture: &TextureModel, fidelity: Fidelity) -> Reduction {
+    let mut kept = texture.clone();
+    let reference = (fidelity != Fidelity::Full)
+        .then(|| Reference::new(&texture.grid))
+        .flatten();
+    let mut distance = (0.0, 0.0);
+    if let Some(reference) = reference {
+        match fidelity {
+            Fidelity::Full => {}
+            Fidelity::Order(order) => {
+                if let Some(grid) = with_order(&texture.grid, order) {
+                    kept.grid = grid;
+                }
+            }
+            Fidelity::Auto => {
+                kept.grid = least_order(&texture.grid, &reference);
+                kept.grid = vertices::fewest(&kept.grid, &reference);
+                kept.taps = taps::audible(&texture.taps);
+            }
+        }
+        distance = reference
+            .distances(&kept.grid)
+            .map_or(distance, |d| d.summary());
+    }
+    let report = report(texture, &kept, distance);
+    Reduction {
+        texture: kept,
+        report,
+    }
+}
+
+/// The grid with the fewest poles that stays within the budget, and with the cheapest numerator
+/// among those. Where no such grid does, it is the grid itself.
+#[must_use]
+pub fn least_order(grid: &ModelGrid, reference: &Reference<'_>) -> ModelGrid {
+    // A zero at half the rate replaces eight poles, so giving it up would cost more than it saves.
+    let numerators: &[Numerator] = match grid.numerator {
+        Numerator::Nyquist => &[Numerator::Nyquist],
+        Numerator::None | Numerator::Lsf => &[Numerator::None, Numerator::Nyquist],
+    };
+    let within = |fits: &Fits<'_>, order: usize| {
+        fits.at(order)
+            .filter(|reduced| reference.is_within_budget(reduced))
+    };
+    let mut best: Option<ModelGrid> = None;
+    for fits in numerators.iter().filter_map(|&n| Fits::new(grid, n)) {
+        let largest = if fits.numerator() == grid.numerator {
+            grid.order - 1
+        } else {
+            grid.order
+        };
+        // The next numerator must need fewer poles than the one before.
+        let largest = best.as_ref().map_or(largest, |found| found.order - 1);
+        let (mut low, mut high) = (1, largest.min(fits.largest()) + 1);
+        while low < high {
+            let order = low.midpoint(high);
+            match within(&fits, order) {
+                Some(found) => {
+                    best = Some(found);
+                    high = order;
+                }
+                None => low = order + 1,
+            }
+        }
+    }
+    best.unwrap_or_else(|| grid.clone())
+}
+
+fn with_order(grid: &ModelGrid, order: usize) -> Option<ModelGrid> {
+    if order >= grid.order {
+        return None;
+    }
+    let numerator = match grid.numerator {
+        Numerator::Lsf => Numerator::Nyquist,
+        other => other,
+    };
+    Fits::new(grid, numerator)?.at(order)
+}
+
+fn report(full: &TextureModel, kept: &TextureModel, (p95_db, worst_db): (f64, f64)) -> Report {
+    let change = |count: fn(&TextureModel) -> usize| Change {
+        full: count(full),
+        kept: count(kept),
+    };
+    Report {
+        order: change(|t| t.grid.order),
+        zeros: change(|t| match (t.grid.numerator, t.grid.vertices.first()) {
+            (Numerator::Lsf, Some(vertex)) => vertex.ma_lsf_rad.as_ref().map_or(0, Vec::len),
+            _ => 0,
+        }),
+        vertices: change(|t| t.grid.vertices.len()),
+        triangles: change(|t| t.grid.triangles.len()),
+        tap_samples: change(|t| {
+            t.taps
+                .traces
+                .first()
+                .map_or(0, |trace| trace.accel_m_s2.len())
+        }),
+        p95_db,
+        worst_db,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        back_end::{lower, verify},
+        front_ends::builtin,
+        model::mesh,
+    };
+
+    #[test]
+    fn auto_is_within_its_budget_tiled_and_renders() {
+        let full = builtin::texture();
+        let Reduction { texture, report } = reduce(&full, Fidelity::Auto);
+        assert!(report.p95_db <= BUDGET_DB.0 && report.worst_db <= BUDGET_DB.1);
+        assert!(report.order.kept < report.order.full, "{report}");
+        assert_eq!(mesh::check(&texture.grid), Ok(()));
+        let lowered = lower::lower(&texture, None).unwrap();
+        verify::verify(&texture, &lowered.bytes).unwrap();
+    }
+
+    #[test]
+    fn no_smaller_order_is_within_the_budget() {
+        let full = builtin::texture().grid;
+        let reference = Reference::new(&full).unwrap();
+        let least = least_order(&full, &reference);
+        for numerator in [Numerator::None, Numerator::Nyquist] {
+            let fits = Fits::new(&full, numerator).unwrap();
+            for order in 1..least.order {
+                let reduced = fits.at(order).unwrap();
+                assert!(
+                    !reference.is_within_budget(&reduced),
+                    "order {order} would do"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn full_is_the_texture_itself_and_a_number_is_that_order() {
+        let full = builtin::texture();
+        let same = reduce(&full, Fidelity::Full);
+        assert_eq!(same.texture, full);
+        assert_eq!(same.report.to_string(), "everything kept");
+        let five = reduce(&full, Fidelity::Order(5));
+        assert_eq!(five.texture.grid.order, 5);
+        assert_eq!(five.texture.taps, full.taps);
+        assert!(five.report.worst_db > 0.0);
+    }
+}

@@ -1,0 +1,245 @@
+//! The one way from a texture model to verified bytes.
+//!
+//! A front end makes a [`TextureModel`]; [`Pipeline::compile`] takes it through the passes
+//!
+//! ```text
+//! rerate → reduce → preview → lower → verify
+//! ```
+//!
+//! each of which is a method, so that a search over fidelities, as for a [scene](crate::scene),
+//! runs the same passes in another order. Every pass is named and timed.
+//!
+//! ```
+//! use asperity::{builtin, pipeline::{Pipeline, Settings}};
+//!
+//! let mut pipeline = Pipeline::default();
+//! let compiled = pipeline.compile(builtin::texture(), &Settings::default())?;
+//! assert_eq!(&compiled.lowered.bytes[..4], b"ASPT");
+//! let passes: Vec<&str> = pipeline.timings().iter().map(|(pass, _)| pass.name()).collect();
+//! assert_eq!(passes, ["reduce", "lower", "verify"]);
+//! # Ok::<(), asperity::pipeline::PipelineError>(())
+//! ```
+
+mod error;
+mod timings;
+
+pub use error::PipelineError;
+pub use timings::{Pass, Timings};
+
+use crate::{
+    back_end::{
+        lower::{self, Lowered},
+        output::{self, OutputError},
+        verify::{self, VerifyReport},
+    },
+    model::TextureModel,
+    passes::{
+        reduce::{self, Fidelity, Reduction},
+        rerate,
+        stabilise::stabilise,
+    },
+    views::preview,
+};
+use std::path::Path;
+
+/// Fractions of the way to white noise that are tried in turn on a texture that rings.
+const STABILISED: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// What a user can ask of a compilation, whatever the front end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings<'a> {
+    /// Rate of the models, Hz; that of the source if `None`.
+    pub rate_hz: Option<f64>,
+    /// How much of the model the asset keeps.
+    pub fidelity: Fidelity,
+    /// What the preview shows; none is drawn if `None`.
+    pub preview: Option<Preview<'a>>,
+    /// Whether a texture that rings without bound in motion is stabilised rather than refused.
+    /// The numerator has to be 1 + z⁻¹.
+    pub stabilise: bool,
+}
+
+impl Default for Settings<'_> {
+    fn default() -> Self {
+        Self {
+            rate_hz: None,
+            fidelity: Fidelity::Full,
+            preview: None,
+            stabilise: false,
+        }
+    }
+}
+
+/// What a preview shows besides the grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Preview<'a> {
+    /// Families of the nearest materials with their weights; they tint the picture.
+    pub families: &'a [(&'a str, f64)],
+    /// Seed of the relief.
+    pub seed: u64,
+}
+
+/// A texture that passed verification.
+#[derive(Debug, Clone)]
+pub struct Compiled {
+    /// The whole texture before reduction, at its rate, and stabilised where it had to be.
+    pub whole: TextureModel,
+    /// The texture that the asset holds.
+    pub texture: TextureModel,
+    /// What the fidelity left out, and what that cost.
+    pub reduction: reduce::Report,
+    /// The preview, if one was asked for.
+    pub preview: Option<Vec<u8>>,
+    /// The asset.
+    pub lowered: Lowered,
+    /// What verification saw.
+    pub verified: VerifyReport,
+    /// The fraction of the way to white noise that the models were moved, 0..=1.
+    pub stabilised: f64,
+}
+
+/// Runs passes and times them.
+#[derive(Debug, Clone, Default)]
+pub struct Pipeline {
+    timings: Timings,
+}
+
+impl Pipeline {
+    /// Takes a model through all passes; the same model and settings give the same bytes.
+    ///
+    /// # Errors
+    /// [`PipelineError`] with the pass that failed.
+    pub fn compile(
+        &mut self,
+        mut whole: TextureModel,
+        settings: &Settings<'_>,
+    ) -> Result<Compiled, PipelineError> {
+        whole.provenance.fidelity = settings.fidelity.to_string();
+        if let Some(rate_hz) = settings.rate_hz {
+            whole = self.rerate(whole, rate_hz)?;
+        }
+        if !settings.stabilise {
+            return self.attempt(whole, 0.0, settings);
+        }
+        let mut result = self.attempt(whole.clone(), 0.0, settings);
+        for fraction in STABILISED {
+            match &result {
+                Err(error) if error.rings() => {
+                    let stabilised = self.stabilise(&whole, fraction);
+                    result = self.attempt(stabilised, fraction, settings);
+                }
+                _ => break,
+            }
+        }
+        result
+    }
+
+    fn attempt(
+        &mut self,
+        whole: TextureModel,
+        stabilised: f64,
+        settings: &Settings<'_>,
+    ) -> Result<Compiled, PipelineError> {
+        let Reduction { texture, report } = self.reduce(&whole, settings.fidelity);
+        let preview = match &settings.preview {
+            Some(preview) => Some(self.preview(&texture, preview)?),
+            None => None,
+        };
+        let lowered = self.lower(&texture, preview.as_deref())?;
+        let verified = self.verify(&texture, &lowered.bytes)?;
+        Ok(Compiled {
+            whole,
+            texture,
+            reduction: report,
+            preview,
+            lowered,
+            verified,
+            stabilised,
+        })
+    }
+
+    /// The texture with its models at another rate.
+    ///
+    /// # Errors
+    /// [`PipelineError::Rate`] for a rate that the models cannot have.
+    pub fn rerate(
+        &mut self,
+        mut texture: TextureModel,
+        rate_hz: f64,
+    ) -> Result<TextureModel, PipelineError> {
+        let grid = self.run(Pass::Rerate, || rerate::rerate(&texture.grid, rate_hz));
+        texture.grid = grid.ok_or(PipelineError::Rate(rate_hz))?;
+        Ok(texture)
+    }
+
+    /// The texture with its models moved this fraction of the way to white noise.
+    pub fn stabilise(&mut self, texture: &TextureModel, fraction: f64) -> TextureModel {
+        self.run(Pass::Stabilise, || stabilise(texture, fraction))
+    }
+
+    /// The texture at a fidelity.
+    pub fn reduce(&mut self, texture: &TextureModel, fidelity: Fidelity) -> Reduction {
+        self.run(Pass::Reduce, || reduce::reduce(texture, fidelity))
+    }
+
+    /// A preview of the texture as PNG.
+    ///
+    /// # Errors
+    /// [`PipelineError::Preview`] when the encoder fails.
+    pub fn preview(
+        &mut self,
+        texture: &TextureModel,
+        preview: &Preview<'_>,
+    ) -> Result<Vec<u8>, PipelineError> {
+        let draw = || preview::png(&texture.grid, preview.families, preview.seed);
+        Ok(self.run(Pass::Preview, draw)?)
+    }
+
+    /// The texture as the bytes of an asset.
+    ///
+    /// # Errors
+    /// [`PipelineError::Lower`] for a texture that does not fit an asset.
+    pub fn lower(
+        &mut self,
+        texture: &TextureModel,
+        preview_png: Option<&[u8]>,
+    ) -> Result<Lowered, PipelineError> {
+        Ok(self.run(Pass::Lower, || lower::lower(texture, preview_png))?)
+    }
+
+    /// What the runtime makes of the bytes of a texture.
+    ///
+    /// # Errors
+    /// [`PipelineError::Verify`] for an asset that is not fit to be felt.
+    pub fn verify(
+        &mut self,
+        texture: &TextureModel,
+        bytes: &[u8],
+    ) -> Result<VerifyReport, PipelineError> {
+        Ok(self.run(Pass::Verify, || verify::verify(texture, bytes))?)
+    }
+
+    /// Writes files, all or none.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the file; the targets are then as they were.
+    pub fn write(&mut self, files: &[(&Path, &[u8])]) -> Result<(), OutputError> {
+        self.run(Pass::Write, || output::write_all(files))
+    }
+
+    /// Does what a front end calls a pass.
+    pub fn run<T>(&mut self, pass: Pass, work: impl FnOnce() -> T) -> T {
+        self.timings.time(pass, work)
+    }
+
+    /// Adds the times of another pipeline, such as that of another thread.
+    pub fn merge(&mut self, other: &Timings) {
+        self.timings.merge(other);
+    }
+
+    /// The passes that ran, with their times.
+    #[must_use]
+    pub fn timings(&self) -> &Timings {
+        &self.timings
+    }
+}

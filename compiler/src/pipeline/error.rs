@@ -1,0 +1,51 @@
+//! Why a model did not become an asset.
+
+use crate::{
+    back_end::{lower::LowerError, verify::VerifyError},
+    diagnostic::Diagnostic,
+    passes::rerate,
+    views::preview::PreviewError,
+};
+use thiserror::Error;
+
+/// The pass that failed, and why.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PipelineError {
+    /// The models cannot be converted to the rate.
+    #[error("--rate {0} Hz: not in {min}..={max} Hz", min = rerate::RATE_RANGE_HZ.0, max = rerate::RATE_RANGE_HZ.1)]
+    Rate(f64),
+    /// The preview cannot be drawn.
+    #[error(transparent)]
+    Preview(#[from] PreviewError),
+    /// The texture does not fit an asset.
+    #[error(transparent)]
+    Lower(#[from] LowerError),
+    /// The runtime would not render the asset faithfully.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
+}
+
+impl PipelineError {
+    /// Whether the texture rings without bound in motion, which stabilising mends.
+    #[must_use]
+    pub fn rings(&self) -> bool {
+        use VerifyError::{Tick, Unstable};
+        matches!(self, Self::Verify(Tick { .. } | Unstable { .. }))
+    }
+}
+
+impl Diagnostic for PipelineError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Rate(_) => "give the rate of the servo loop, e.g. --rate 1000".into(),
+            Self::Preview(error) => error.remedy(),
+            Self::Lower(error) => error.remedy(),
+            Self::Verify(error) => error.remedy(),
+        }
+    }
+
+    fn is_usage(&self) -> bool {
+        matches!(self, Self::Rate(_))
+    }
+}

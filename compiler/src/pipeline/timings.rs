@@ -1,0 +1,151 @@
+//! Which passes ran, and how long each took.
+
+use serde_json::{Map, Value, json};
+use std::{
+    fmt,
+    time::{Duration, Instant},
+};
+
+/// A step on the way from a source to a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Pass {
+    /// A built-in texture is computed.
+    Generate,
+    /// A file becomes a model.
+    Read,
+    /// A prompt becomes a text vector and a latent.
+    Text,
+    /// A latent becomes a model.
+    Decode,
+    /// What one modality lacks is decoded from the other.
+    Complete,
+    /// The models are converted to another rate.
+    Rerate,
+    /// The models are moved towards white noise.
+    Stabilise,
+    /// What the fidelity does not ask for is left out.
+    Reduce,
+    /// The preview is drawn.
+    Preview,
+    /// The model becomes the bytes of an asset.
+    Lower,
+    /// The runtime renders the asset over its whole domain.
+    Verify,
+    /// The asset is compared with its source.
+    Compare,
+    /// A fidelity is chosen for every texture of a scene, and the library is packed.
+    Pack,
+    /// Files are written.
+    Write,
+}
+
+impl Pass {
+    /// The name that reports use.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Generate => "generate",
+            Self::Read => "read",
+            Self::Text => "text",
+            Self::Decode => "decode",
+            Self::Complete => "complete",
+            Self::Rerate => "rerate",
+            Self::Stabilise => "stabilise",
+            Self::Reduce => "reduce",
+            Self::Preview => "preview",
+            Self::Lower => "lower",
+            Self::Verify => "verify",
+            Self::Compare => "compare",
+            Self::Pack => "pack",
+            Self::Write => "write",
+        }
+    }
+}
+
+/// The time each pass took, in the order in which the passes first ran.
+///
+/// A pass that runs several times counts with the sum. Of work on several threads the times of
+/// all threads are added, so the total can exceed the time on the clock. Nothing that is
+/// compiled depends on these numbers.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Timings(Vec<(Pass, Duration)>);
+
+impl Timings {
+    /// Does the work and adds its time to a pass.
+    pub fn time<T>(&mut self, pass: Pass, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let result = work();
+        self.add(pass, start.elapsed());
+        result
+    }
+
+    /// Adds the times of other work.
+    pub fn merge(&mut self, other: &Self) {
+        for (pass, took) in other.iter() {
+            self.add(pass, took);
+        }
+    }
+
+    /// The passes with their times.
+    pub fn iter(&self) -> impl Iterator<Item = (Pass, Duration)> + '_ {
+        self.0.iter().copied()
+    }
+
+    /// The times in milliseconds, by the names of the passes.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let entry = |(pass, took): (Pass, Duration)| {
+            let ms = json!(1e3 * took.as_secs_f64());
+            (pass.name().to_owned(), ms)
+        };
+        self.iter().map(entry).collect::<Map<_, _>>().into()
+    }
+
+    fn add(&mut self, pass: Pass, took: Duration) {
+        match self.0.iter_mut().find(|(known, _)| *known == pass) {
+            Some((_, sum)) => *sum += took,
+            None => self.0.push((pass, took)),
+        }
+    }
+}
+
+/// A table with one line a pass, in milliseconds.
+impl fmt::Display for Timings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut line = |name: &str, took: Duration| {
+            writeln!(f, "  {name:<10} {:>10.3} ms", 1e3 * took.as_secs_f64())
+        };
+        for (pass, took) in self.iter() {
+            line(pass.name(), took)?;
+        }
+        line("total", self.iter().map(|(_, took)| took).sum())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pass_that_runs_twice_counts_once_with_the_sum() {
+        let mut timings = Timings::default();
+        let pause = Duration::from_millis(2);
+        for pass in [Pass::Reduce, Pass::Lower, Pass::Reduce] {
+            timings.time(pass, || std::thread::sleep(pause));
+        }
+        let mut both = timings.clone();
+        both.merge(&timings);
+        let passes: Vec<Pass> = both.iter().map(|(pass, _)| pass).collect();
+        assert_eq!(passes, [Pass::Reduce, Pass::Lower]);
+        for ((_, once), (_, twice)) in timings.iter().zip(both.iter()) {
+            assert_eq!(2 * once, twice);
+        }
+        assert!(timings.iter().all(|(_, took)| took >= pause));
+        assert!(
+            timings
+                .iter()
+                .next()
+                .is_some_and(|(_, took)| took >= 2 * pause)
+        );
+    }
+}

@@ -1,0 +1,8 @@
+//! The mathematics of the models: filters, their line spectral frequencies, their spectra.
+
+pub mod level;
+pub mod levinson;
+pub mod lsf;
+pub mod reflection;
+pub mod spectrum;
+pub mod tap_synthesis;

@@ -1,0 +1,242 @@
+//! The contract of `inspect --json`.
+
+use super::scene::SurfaceDocument;
+use crate::{
+    back_end::raise::raise,
+    model::{
+        FrictionAnchor, Gains, Numerator, Provenance, VertexKind, Wall,
+        attributes::{self, Attributes},
+    },
+};
+use asperity_formats::Asset;
+use serde::Serialize;
+
+/// One texture. Field names and their meaning are a contract.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Document {
+    /// Version of the format that the asset was written in.
+    pub format_version: u16,
+    /// Name of the texture.
+    pub name: String,
+    /// The prompt; null for a texture that has none.
+    pub prompt: Option<String>,
+    /// The grid of models.
+    pub ar: Ar,
+    /// The tap bank.
+    pub taps: Taps,
+    /// Friction.
+    pub friction: Friction,
+    /// The wall.
+    pub wall: Wall,
+    /// From accelerations to forces.
+    pub gains: Gains,
+    /// Objective attributes.
+    pub attributes: Attributes,
+    /// Sizes.
+    pub bytes: Bytes,
+    /// Where the texture comes from.
+    pub provenance: Provenance,
+}
+
+/// The grid of models.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Ar {
+    /// Order of A(z).
+    pub order: usize,
+    /// Sample rate of every model, Hz.
+    pub sample_rate_hz: f64,
+    /// What stands above A(z).
+    pub numerator: Numerator,
+    /// Vertices.
+    pub vertices: Vec<Vertex>,
+    /// Vertex indices.
+    pub triangles: Vec<[usize; 3]>,
+    /// Right border, mm/s.
+    pub max_speed_mm_s: f64,
+    /// Upper border, N.
+    pub max_force_n: f64,
+}
+
+/// One vertex: power spectrum (gain·σ)²·|B|²/|A|².
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Vertex {
+    /// Tangential speed, mm/s.
+    pub speed_mm_s: f64,
+    /// Normal force, N.
+    pub force_n: f64,
+    /// Interior or edge.
+    pub kind: VertexKind,
+    /// LSFs of A(z), rad.
+    pub lsf_rad: Vec<f64>,
+    /// LSFs of B(z), rad; left out unless the numerator is `lsf`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ma_lsf_rad: Option<Vec<f64>>,
+    /// Gain; left out where it is 1.
+    #[serde(skip_serializing_if = "is_one")]
+    pub gain: f64,
+    /// Standard deviation of ε before numerator and gain, m/s².
+    pub sigma_m_s2: f64,
+}
+
+// serde hands the field over by reference.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+fn is_one(gain: &f64) -> bool {
+    *gain == 1.0
+}
+
+/// The tap bank.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Taps {
+    /// Sample rate of every trace, Hz.
+    pub sample_rate_hz: f64,
+    /// Impact speeds, m/s, ascending.
+    pub speeds_m_s: Vec<f64>,
+    /// One trace an impact speed, m/s².
+    pub traces_m_s2: Vec<Vec<f64>>,
+}
+
+/// Friction.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Friction {
+    /// Coefficient of kinetic friction.
+    pub mu: f64,
+    /// What it was interpolated from.
+    pub anchors: Vec<FrictionAnchor>,
+}
+
+/// Sizes, bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Bytes {
+    /// Everything but preview, provenance, latent and history.
+    pub haptic: usize,
+    /// The preview image, 0 without one.
+    pub preview: usize,
+    /// The whole asset.
+    pub total: usize,
+}
+
+impl Document {
+    /// The document of an asset.
+    #[must_use]
+    pub fn of(asset: &Asset<'_>) -> Self {
+        let texture = raise(asset);
+        let attributes = attributes::of(&texture);
+        let (speeds_m_s, traces_m_s2) = texture
+            .taps
+            .traces
+            .into_iter()
+            .map(|trace| (trace.speed_m_s, trace.accel_m_s2))
+            .unzip();
+        Self {
+            format_version: asset.version(),
+            name: texture.name,
+            prompt: texture.provenance.prompt.clone(),
+            ar: Ar {
+                order: texture.grid.order,
+                sample_rate_hz: texture.grid.sample_rate_hz,
+                numerator: texture.grid.numerator,
+                vertices: texture
+                    .grid
+                    .vertices
+                    .into_iter()
+                    .map(|vertex| Vertex {
+                        speed_mm_s: vertex.speed_mm_s,
+                        force_n: vertex.force_n,
+                        kind: vertex.kind,
+                        lsf_rad: vertex.lsf_rad,
+                        ma_lsf_rad: vertex.ma_lsf_rad,
+                        gain: vertex.gain,
+                        sigma_m_s2: vertex.sigma_m_s2,
+                    })
+                    .collect(),
+                triangles: texture.grid.triangles,
+                max_speed_mm_s: f64::from(asset.grid().max_speed_mm_s()),
+                max_force_n: f64::from(asset.grid().max_force_n()),
+            },
+            taps: Taps {
+                sample_rate_hz: texture.taps.sample_rate_hz,
+                speeds_m_s,
+                traces_m_s2,
+            },
+            friction: Friction {
+                mu: texture.friction.mu,
+                anchors: texture.friction.anchors,
+            },
+            wall: texture.wall,
+            gains: texture.gains,
+            attributes,
+            bytes: Bytes {
+                haptic: asset.haptic_len(),
+                preview: asset.preview_png().map_or(0, <[u8]>::len),
+                total: asset.total_len(),
+            },
+            provenance: texture.provenance,
+        }
+    }
+}
+
+/// A library: its textures in order of name, each as [`Document`] has it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LibraryDocument {
+    /// Version of the library format.
+    pub format_version: u16,
+    /// Every texture.
+    pub textures: Vec<Document>,
+    /// Surfaces of the scene, if there is one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub surfaces: Vec<SurfaceDocument>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{back_end::lower::lower, front_ends::builtin};
+
+    #[test]
+    fn the_contract_names_are_there_and_a_gain_of_one_is_not() {
+        let bytes = lower(&builtin::texture(), None).unwrap().bytes;
+        let asset = Asset::parse(&bytes).unwrap();
+        let json = serde_json::to_value(Document::of(&asset)).unwrap();
+        for path in [
+            "/format_version",
+            "/name",
+            "/prompt",
+            "/ar/order",
+            "/ar/sample_rate_hz",
+            "/ar/numerator",
+            "/ar/vertices/0/speed_mm_s",
+            "/ar/vertices/0/force_n",
+            "/ar/vertices/0/kind",
+            "/ar/vertices/0/lsf_rad/0",
+            "/ar/vertices/0/sigma_m_s2",
+            "/ar/triangles/0/2",
+            "/ar/max_speed_mm_s",
+            "/ar/max_force_n",
+            "/taps/sample_rate_hz",
+            "/taps/speeds_m_s/12",
+            "/taps/traces_m_s2/12/99",
+            "/friction/mu",
+            "/friction/anchors/0/name",
+            "/friction/anchors/0/mu",
+            "/friction/anchors/0/weight",
+            "/wall/stiffness_n_m",
+            "/wall/damping_n_s_m",
+            "/gains/vib_s2_m",
+            "/gains/effective_mass_kg",
+            "/gains/f_max_n",
+            "/attributes/rough_db",
+            "/attributes/sharp_hz",
+            "/attributes/hard_hz",
+            "/attributes/mu",
+            "/bytes/haptic",
+            "/bytes/preview",
+            "/bytes/total",
+            "/provenance/taps_synthetic",
+        ] {
+            assert!(json.pointer(path).is_some(), "{path}");
+        }
+        assert_eq!(json["ar"]["numerator"], "nyquist");
+        assert!(json.pointer("/ar/vertices/0/gain").is_none());
+        assert!(json.pointer("/ar/vertices/0/ma_lsf_rad").is_none());
+    }
+}

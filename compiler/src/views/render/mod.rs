@@ -1,0 +1,301 @@
+//! Running the runtime offline: from a trajectory to what a hand would feel.
+
+mod columns;
+mod error;
+mod trajectory;
+
+pub use columns::{INPUT_COLUMNS, OUTPUT_COLUMNS, SURFACE_COLUMN};
+pub use error::RenderError;
+
+use asperity_formats::{Asset, Library};
+use asperity_runtime::{
+    Config, Flags, HostScene, HostTexture, Output, Renderer, Sample, SceneError, SceneState, State,
+};
+use std::{
+    io::{Read, Write},
+    path::Path,
+};
+use trajectory::Rows;
+
+/// What a run did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RenderReport {
+    /// Rows rendered.
+    pub ticks: u64,
+    /// Rows in contact.
+    pub contact_ticks: u64,
+    /// Taps.
+    pub taps: u32,
+    /// Largest force, N.
+    pub peak_force_n: f32,
+}
+
+/// Renders the trajectory read from `input` (called `file` in errors) on the infinite
+/// plane z = 0 with the texture of `asset`, and writes one row a tick to `output`. The servo
+/// loop runs at `rate_hz`, or else at the texture's own rate.
+///
+/// Same asset, trajectory and seed: same bytes. Floats are printed as the shortest text
+/// that reads back to the same bits.
+///
+/// # Errors
+/// [`RenderError`] with line and column of what is wrong; rows may have been written
+/// by then, so write to something that can be abandoned.
+pub fn render(
+    asset: &Asset<'_>,
+    rate_hz: Option<f32>,
+    file: &Path,
+    input: impl Read,
+    mut output: impl Write,
+    seed: u64,
+) -> Result<RenderReport, RenderError> {
+    let rate_hz = rate_hz.unwrap_or(asset.grid().sample_rate_hz());
+    let config = Config {
+        servo_rate_hz: rate_hz,
+        ..Config::default()
+    };
+    let texture = || asset.name().to_owned();
+    let renderer = Renderer::new(&config).map_err(|cause| RenderError::Config {
+        texture: texture(),
+        cause,
+    })?;
+    let mut slot = Box::new(HostTexture::new());
+    slot.load(asset, rate_hz)
+        .map_err(|cause| RenderError::Load {
+            texture: texture(),
+            cause,
+        })?;
+    let mut state = State::new(seed);
+    let rows = Rows::new(file, input, rate_hz)?;
+    writeln!(output, "{}", OUTPUT_COLUMNS.join(",")).map_err(RenderError::Write)?;
+    run(rows, output, |sample| {
+        (renderer.tick(&slot, &mut state, sample), String::new())
+    })
+}
+
+/// As [`render`], on the surfaces of a library's scene, at the rate of its first texture if none
+/// is given; a row says at its end, under [`SURFACE_COLUMN`], which one is touched.
+///
+/// # Errors
+/// As [`render`], and [`RenderError::Scene`].
+pub fn render_scene(
+    library: &Library<'_>,
+    rate_hz: Option<f32>,
+    file: &Path,
+    input: impl Read,
+    mut output: impl Write,
+    seed: u64,
+) -> Result<RenderReport, RenderError> {
+    let first = library.asset(0).map_err(|cause| {
+        let (index, cause) = (0, cause.into());
+        RenderError::Scene(SceneError::Texture { index, cause })
+    })?;
+    let config = Config {
+        servo_rate_hz: rate_hz.unwrap_or(first.grid().sample_rate_hz()),
+        ..Config::default()
+    };
+    let renderer = Renderer::new(&config).map_err(|cause| RenderError::Config {
+        texture: first.name().to_owned(),
+        cause,
+    })?;
+    let mut slots = vec![HostTexture::new(); library.index().len()];
+    let scene = HostScene::load(library, &config, &mut slots).map_err(RenderError::Scene)?;
+    let mut state = SceneState::new(seed);
+    let rows = Rows::new(file, input, config.servo_rate_hz)?;
+    writeln!(output, "{},{SURFACE_COLUMN}", OUTPUT_COLUMNS.join(","))
+        .map_err(RenderError::Write)?;
+    run(rows, output, |sample| {
+        let felt = renderer.tick_scene(&scene, &mut state, sample);
+        let touched = state.touched().map(|index| index.to_string());
+        (felt, format!(",{}", touched.unwrap_or_default()))
+    })
+}
+
+/// Every row through `tick`, which may add columns.
+fn run<R: Read>(
+    mut rows: Rows<'_, R>,
+    mut output: impl Write,
+    mut tick: impl FnMut(&Sample) -> (Output, String),
+) -> Result<RenderReport, RenderError> {
+    let mut report = RenderReport {
+        ticks: 0,
+        contact_ticks: 0,
+        taps: 0,
+        peak_force_n: 0.0,
+    };
+    while let Some(row) = rows.next()? {
+        // Millimetres to metres in f64, so that only one rounding is left.
+        let position_m = row.position_mm.map(|mm| (mm / 1000.0) as f32);
+        let (out, more) = tick(&Sample::at(position_m));
+        let [fx, fy, fz] = out.force_n;
+        writeln!(
+            output,
+            "{},{},{},{},{},{},{},{},{fx},{fy},{fz},{}{more}",
+            report.ticks,
+            row.t_s,
+            out.depth_m * 1000.0,
+            out.speed_mm_s,
+            out.normal_force_n,
+            out.vib_m_s2,
+            out.tap_n,
+            out.friction_n,
+            out.flags.bits(),
+        )
+        .map_err(RenderError::Write)?;
+        report.ticks += 1;
+        report.contact_ticks += u64::from(out.depth_m > 0.0);
+        report.taps += u32::from(out.flags.contains(Flags::TAP_STARTED));
+        report.peak_force_n = report
+            .peak_force_n
+            .max((fx * fx + fy * fy + fz * fz).sqrt());
+    }
+    output.flush().map_err(RenderError::Write)?;
+    if report.ticks == 0 {
+        return Err(RenderError::Empty {
+            file: rows.file.to_owned(),
+        });
+    }
+    Ok(report)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{back_end::lower::lower, diagnostic::Diagnostic as _, front_ends::builtin};
+
+    fn run(trajectory: &str, seed: u64) -> Result<(RenderReport, String), RenderError> {
+        run_at(None, trajectory, seed)
+    }
+
+    fn run_at(
+        rate_hz: Option<f32>,
+        trajectory: &str,
+        seed: u64,
+    ) -> Result<(RenderReport, String), RenderError> {
+        let bytes = lower(&builtin::texture(), None).unwrap().bytes;
+        let asset = Asset::parse(&bytes).unwrap();
+        let mut output = Vec::new();
+        let report = render(
+            &asset,
+            rate_hz,
+            Path::new("in.csv"),
+            trajectory.as_bytes(),
+            &mut output,
+            seed,
+        )?;
+        Ok((report, String::from_utf8(output).unwrap()))
+    }
+
+    /// A stroke at 100 mm/s, 2 mm deep, `rows` long.
+    fn stroke(rows: usize) -> String {
+        let mut text = INPUT_COLUMNS.join(",");
+        for n in 0..rows {
+            let t_s = n as f64 / 1000.0;
+            text.push_str(&format!("\n{t_s:.3},{:.4},0,-2", 100.0 * t_s));
+        }
+        text
+    }
+
+    #[test]
+    fn every_row_has_its_tick_and_floats_read_back() {
+        let (report, text) = run(&stroke(500), 3).unwrap();
+        assert_eq!(
+            (report.ticks, report.contact_ticks, report.taps),
+            (500, 500, 0)
+        );
+        let mut lines = text.lines();
+        assert_eq!(lines.next().unwrap(), OUTPUT_COLUMNS.join(","));
+        let mut vibrates = false;
+        for (tick, line) in lines.enumerate() {
+            let fields: Vec<&str> = line.split(',').collect();
+            assert_eq!(fields.len(), OUTPUT_COLUMNS.len());
+            assert_eq!(fields[0], tick.to_string());
+            for field in &fields[2..11] {
+                let value: f32 = field.parse().unwrap();
+                assert_eq!(value.to_string(), *field);
+            }
+            let depth_mm: f32 = fields[2].parse().unwrap();
+            assert!((depth_mm - 2.0).abs() < 1e-6);
+            vibrates |= fields[5].parse::<f32>().unwrap().abs() > 0.1;
+        }
+        assert!(vibrates);
+    }
+
+    #[test]
+    fn a_rate_is_a_multiple_of_the_textures_own() {
+        // Rows at 5 kHz.
+        let mut text = INPUT_COLUMNS.join(",");
+        for n in 0..500 {
+            text.push_str(&format!(
+                "\n{},{},0,-2",
+                f64::from(n) * 2e-4,
+                0.02 * f64::from(n)
+            ));
+        }
+        let (report, _) = run_at(Some(5000.0), &text, 1).unwrap();
+        assert_eq!(report.ticks, 500);
+        let refused = run_at(Some(1000.0), &text, 1).unwrap_err();
+        assert!(matches!(refused, RenderError::Rate { .. }), "{refused}");
+        let refused = run_at(Some(1500.0), &text, 1).unwrap_err();
+        assert!(refused.to_string().contains("a whole number"), "{refused}");
+        assert!(
+            refused.remedy().contains("--rate 1000"),
+            "{}",
+            refused.remedy()
+        );
+    }
+
+    #[test]
+    fn the_seed_decides_the_noise_and_nothing_else_does() {
+        let once = run(&stroke(300), 3).unwrap();
+        assert_eq!(once, run(&stroke(300), 3).unwrap());
+        assert_ne!(once.1, run(&stroke(300), 4).unwrap().1);
+    }
+
+    #[test]
+    fn bad_tables_are_refused_with_line_and_column() {
+        let message = |text: &str| run(text, 0).unwrap_err().to_string();
+        let head = INPUT_COLUMNS.join(",");
+        for (text, expected) in [
+            (
+                "t_s,x_mm,z_mm\n0,0,0".to_owned(),
+                "in.csv:1: column y_mm is missing",
+            ),
+            (
+                format!("{head},x_mm\n0,0,0,0,0"),
+                "in.csv:1: column x_mm appears twice",
+            ),
+            (
+                format!("{head}\n0,0,0,0\n0.001,0,up,0"),
+                "in.csv:3: y_mm = \"up\" is not",
+            ),
+            (
+                format!("{head}\n0,0,0,NaN"),
+                "in.csv:2: z_mm = \"NaN\" is not",
+            ),
+            (
+                format!("{head}\n0,0,0,inf"),
+                "in.csv:2: z_mm = \"inf\" is not",
+            ),
+            (format!("{head}\n0,0,0,"), "in.csv:2: z_mm = \"\" is not"),
+            (
+                format!("{head}\n0,0,0,0\n0.002,0,0,0"),
+                "in.csv:3: t_s = 0.002, but row 1 at 1000 Hz",
+            ),
+            (format!("{head}\n0,0,0,0\n0.001,0,0"), "not a CSV table"),
+            (head.clone(), "has no row"),
+            (String::new(), "column t_s is missing"),
+        ] {
+            assert!(
+                message(&text).contains(expected),
+                "{text:?}: {}",
+                message(&text)
+            );
+        }
+    }
+
+    #[test]
+    fn times_with_few_digits_and_other_columns_are_accepted() {
+        let text = "note,z_mm,y_mm,x_mm,t_s\na,1,0,0,5.0000\nb,1,0,0,5.0011\n";
+        assert_eq!(run(text, 0).unwrap().0.ticks, 2);
+    }
+}

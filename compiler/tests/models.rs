@@ -1,0 +1,177 @@
+//! A model that is emitted and imported gives the bytes that its own front end gives, except for
+//! the provenance; the example of `docs/model.md` is one.
+
+use asperity::{
+    embedded, hatt,
+    inference::Backend,
+    model::{Provenance, TextureModel},
+    model_file::{self, Options},
+    pipeline::{Pipeline, Settings},
+    prompt::{self, Author},
+    raise::raise,
+    reduce::Fidelity,
+};
+use asperity_formats::Asset;
+use std::{
+    fs,
+    io::Write as _,
+    path::{Path, PathBuf},
+};
+
+/// The model in a file, as bytes that say what `direct` says of where they come from.
+fn through_a_file(whole: &TextureModel, settings: &Settings<'_>) -> Vec<u8> {
+    let read = model_file::from_json(&model_file::to_json(whole)).expect("an emitted model");
+    let compiled = Pipeline::default().compile(read, settings);
+    compiled
+        .expect("a model that compiled before")
+        .lowered
+        .bytes
+}
+
+/// What an asset holds but where it comes from.
+fn content(bytes: &[u8]) -> TextureModel {
+    TextureModel {
+        provenance: Provenance::default(),
+        ..raise(&Asset::parse(bytes).expect("an asset"))
+    }
+}
+
+/// Imports a model as a user does.
+fn imported(folder: &Path, whole: &TextureModel, options: &Options) -> hatt::Imported {
+    let file = folder.join("model.json");
+    fs::write(&file, model_file::to_json(whole)).expect("a file");
+    model_file::import(&file, options).expect("an emitted model")
+}
+
+#[test]
+fn a_prompt_gives_the_same_bytes_through_a_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let author = Author::embedded(&Backend::Portable).expect("the shipped model");
+    for (prompt, seed, fidelity, rate_hz) in [
+        ("wet ice", 0, Fidelity::Auto, None),
+        ("coarse sandpaper", 3, Fidelity::Full, None),
+        ("cork", 0, Fidelity::Order(8), Some(1500.0)),
+    ] {
+        let options = prompt::Options {
+            seed,
+            fidelity,
+            rate_hz,
+            preview: false,
+        };
+        let authored = author.author(prompt, &options).expect("a texture");
+        let settings = Settings {
+            rate_hz,
+            fidelity,
+            ..Settings::default()
+        };
+        let again = through_a_file(&authored.whole, &settings);
+        assert_eq!(again, authored.lowered.bytes, "{prompt}");
+        let options = Options {
+            fidelity,
+            rate_hz,
+            preview: false,
+        };
+        let imported = imported(folder.path(), &authored.whole, &options);
+        assert_eq!(content(&imported.bytes), content(&authored.lowered.bytes));
+        let asset = Asset::parse(&imported.bytes).expect("an asset");
+        let provenance = asset.provenance().expect("provenance");
+        assert_eq!(provenance.prompt, Some(prompt));
+        assert_eq!((provenance.seed, provenance.source), (seed, "model.json"));
+        assert!(provenance.generator.ends_with("import model"));
+    }
+}
+
+/// The latent is far outside the prior, so that the decoded models ring until they are moved
+/// towards white noise: the file holds them as they were verified.
+#[test]
+fn a_stabilised_texture_is_emitted_as_it_was_verified() {
+    let text = Box::new(embedded::text_encoder(&Backend::Portable).expect("the encoder"));
+    let model = asperity::learned::LearnedModel::load(embedded::model(), &Backend::Portable);
+    let author = Author::new(text, model.expect("the shipped model")).expect("they fit");
+    let model = author.model();
+    let settings = Settings {
+        stabilise: true,
+        ..Settings::default()
+    };
+    let found = (0..4000_u32).find_map(|number| {
+        let z = std::array::from_fn(|k| {
+            let mixed = (number * 31 + k as u32).wrapping_mul(2_654_435_761);
+            2000.0 * (mixed as f32 / u32::MAX as f32 - 0.5)
+        });
+        let decoded = model.decode(&z).expect("a texture");
+        let (texture, _) = asperity::learned::texture::build(
+            model.description(),
+            &decoded,
+            &z,
+            "far".into(),
+            Provenance::default(),
+        );
+        let compiled = Pipeline::default().compile(texture, &settings);
+        compiled.ok().filter(|compiled| compiled.stabilised > 0.0)
+    });
+    let compiled = found.expect("a latent that rings");
+    let again = through_a_file(&compiled.whole, &Settings::default());
+    assert_eq!(again, compiled.lowered.bytes);
+}
+
+/// The first files of the HaTT; none, and said so past the harness, where there is no copy.
+fn materials(test: &str) -> Vec<PathBuf> {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/hatt/models");
+    let folder = std::env::var_os("ASPERITY_HATT").map_or(beside, PathBuf::from);
+    let mut files = hatt::files(&folder).unwrap_or_else(|_| {
+        // One write, so that tests in parallel do not interleave.
+        let line = format!(
+            "SKIPPED {test}: no HaTT materials in {}; set ASPERITY_HATT to their folder\n",
+            folder.display()
+        );
+        let _ = std::io::stderr().write_all(line.as_bytes());
+        Vec::new()
+    });
+    files.truncate(5);
+    files
+}
+
+#[test]
+fn a_material_gives_the_same_bytes_through_a_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for file in materials("a_material_gives_the_same_bytes_through_a_file") {
+        for fidelity in [Fidelity::Full, Fidelity::Order(7)] {
+            let direct = hatt::import_at(&file, None, fidelity).expect("a material");
+            let settings = Settings {
+                fidelity,
+                ..Settings::default()
+            };
+            let again = through_a_file(&direct.whole, &settings);
+            assert_eq!(again, direct.bytes, "{}", file.display());
+            let options = Options {
+                fidelity,
+                rate_hz: None,
+                preview: false,
+            };
+            let imported = imported(folder.path(), &direct.whole, &options);
+            assert_eq!(content(&imported.bytes), content(&direct.bytes));
+        }
+    }
+}
+
+#[test]
+fn the_example_of_the_documentation_compiles() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/data/corduroy.json");
+    for (fidelity, preview) in [(Fidelity::Full, true), (Fidelity::Auto, false)] {
+        let options = Options {
+            fidelity,
+            rate_hz: None,
+            preview,
+        };
+        let imported = model_file::import(Path::new(file), &options).expect("the example");
+        let limit_db = if fidelity == Fidelity::Full { 0.1 } else { 1.0 };
+        assert!(
+            imported.report.error.max_db < limit_db,
+            "{}",
+            imported.report
+        );
+        let asset = Asset::parse(&imported.bytes).expect("an asset");
+        assert_eq!(asset.name(), "Corduroy by hand");
+        assert_eq!(asset.preview_png().is_some(), preview);
+    }
+}
