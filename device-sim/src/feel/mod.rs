@@ -126,7 +126,7 @@ pub enum FeelError {
     Config(#[from] asperity_runtime::ConfigError),
     /// The sheet could not be drawn.
     #[error(transparent)]
-    Plot(#[from] asperity::plot::theme::PlotError),
+    Plot(#[from] asperity_plot::PlotError),
     /// The sound could not be encoded.
     #[error("cannot encode the sound as WAV: {0}")]
     Wav(#[from] hound::Error),

@@ -37,7 +37,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use asperity::diagnostic::Diagnostic;
-use asperity::plot::theme::PlotError;
+use asperity_plot::PlotError;
 use serde::Serialize;
 
 pub use material::Material;

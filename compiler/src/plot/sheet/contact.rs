@@ -1,8 +1,8 @@
 //! Friction over normal force with its anchors, and the wall over displacement.
 
-use super::reach;
+use super::layout::reach;
 use crate::model::{Friction, FrictionAnchor, TextureModel};
-use crate::plot::theme::{
+use asperity_plot::{
     Align, Axis, Canvas, Color, Key, Margins, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
     size,
 };

@@ -1,6 +1,6 @@
 //! The distinct filters of a grid: edge models mostly repeat interior ones.
 
-use super::level;
+use super::level::level;
 use crate::model::{GridVertex, ModelGrid, VertexKind};
 
 /// One vertex a distinct filter, interior ones first, each group in file order.

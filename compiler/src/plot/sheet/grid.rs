@@ -1,8 +1,9 @@
 //! The speed–force grid: triangles, vertices, and the level between them.
 
-use super::{level, level_scale, margins, reach};
+use super::layout::{margins, reach};
+use super::level::{level, level_scale};
 use crate::model::{GridVertex, ModelGrid, VertexKind};
-use crate::plot::theme::{Axis, Canvas, Color, Key, Marker, Panel, Rect, Stroke, ink, legend};
+use asperity_plot::{Axis, Canvas, Color, Key, Marker, Panel, Rect, Stroke, ink, legend};
 
 const INTERIOR_RADIUS: f32 = 11.0;
 const EDGE_RADIUS: f32 = 8.5;

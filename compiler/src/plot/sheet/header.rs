@@ -1,8 +1,16 @@
 //! Name, structure, sizes and provenance.
 
-use super::AssetBytes;
 use crate::model::{Numerator, TextureModel, VertexKind};
-use crate::plot::theme::{Align, Canvas, Rect, Stroke, TextStyle, VAlign, ink, size};
+use asperity_plot::{Align, Canvas, Rect, Stroke, TextStyle, VAlign, ink, size};
+
+/// Sizes of the asset that a sheet is drawn from, bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AssetBytes {
+    /// Everything that a tick needs.
+    pub haptic: usize,
+    /// The whole file.
+    pub total: usize,
+}
 
 const LEFT: f32 = 40.0;
 

@@ -3,14 +3,15 @@
 use std::f64::consts::PI;
 
 use super::distinct::distinct_models;
-use super::{level, level_scale, margins};
+use super::layout::margins;
+use super::level::{level, level_scale};
 use crate::model::{ModelGrid, Numerator};
 use crate::plot::roots::roots_of;
-use crate::plot::theme::{
+use crate::spectrum::ArmaModel;
+use asperity_plot::{
     Align, Axis, Canvas, Color, Key, Marker, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
     size,
 };
-use crate::spectrum::ArmaModel;
 
 /// Half the width of the picture, in radii: the circle and its frequencies.
 const REACH: f64 = 1.13;

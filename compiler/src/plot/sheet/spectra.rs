@@ -1,13 +1,14 @@
 //! Power spectral densities of the distinct models: force by column, speed by colour.
 
 use super::distinct::distinct_models;
-use super::{level, margins, reach};
+use super::layout::{margins, reach};
+use super::level::level;
 use crate::model::{GridVertex, ModelGrid};
-use crate::plot::theme::{
+use crate::spectrum::ArmaModel;
+use asperity_plot::{
     Align, Axis, Canvas, ColorMap, ColorScale, Key, Panel, Rect, Stroke, TextStyle, VAlign, ink,
     legend, size,
 };
-use crate::spectrum::ArmaModel;
 
 const POINTS: usize = 600;
 const COLUMN_GAP: f32 = 40.0;

@@ -1,8 +1,8 @@
 //! The tap bank: traces in time, and their peaks over impact speed.
 
-use super::margins;
+use super::layout::margins;
 use crate::model::{TapBank, TapTrace};
-use crate::plot::theme::{
+use asperity_plot::{
     Align, Axis, Canvas, ColorMap, ColorScale, Key, Marker, Panel, Rect, Stroke, TextStyle, VAlign,
     ink, legend, size,
 };

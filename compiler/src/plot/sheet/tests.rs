@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::model::{
-    Friction, FrictionAnchor, Gains, ModelGrid, Numerator, Provenance, TapBank, TapTrace,
-    VertexKind, Wall,
+    Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,
+    TapTrace, VertexKind, Wall,
 };
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! The lower row: one tap close up, and the spectra of the strokes.
 
-use asperity::plot::theme::{Axis, Canvas, Panel, Rect, Stroke, ink, size};
+use asperity_plot::{Axis, Canvas, Panel, Rect, Stroke, ink, size};
 
 use super::super::{FeelError, Recording, spectrogram::spectrogram, stroke::steady_part, taps};
 use super::{Entry, legend};
@@ -112,7 +112,7 @@ pub(super) fn spectra(
     .letter('g')
     .title("Spectra of the strokes");
     panel.draw_frame(canvas);
-    let key = asperity::plot::theme::TextStyle::new(size::TICK);
+    let key = asperity_plot::TextStyle::new(size::TICK);
     let area = panel.area();
     for (index, (name, curve)) in curves.into_iter().enumerate() {
         let stroke = Stroke::new(ink::category(index), size::LINE);

@@ -5,7 +5,7 @@ mod closeup;
 mod phases;
 mod timeline;
 
-use asperity::plot::theme::{Axis, Canvas, Margins, Panel, Rect, Stroke, TextStyle, ink, size};
+use asperity_plot::{Axis, Canvas, Margins, Panel, Rect, Stroke, TextStyle, ink, size};
 
 use super::{FeelError, Recording};
 

@@ -1,6 +1,6 @@
 //! The strip above the panels that names the script's motions, and their edges.
 
-use asperity::plot::theme::{Align, Canvas, Color, Panel, Rect, Stroke, TextStyle, VAlign, ink};
+use asperity_plot::{Align, Canvas, Color, Panel, Rect, Stroke, TextStyle, VAlign, ink};
 
 use super::{Recording, TIME_MARGINS, time_axis};
 use crate::hand::Motion;

@@ -1,6 +1,6 @@
 //! Panels over time.
 
-use asperity::plot::theme::{
+use asperity_plot::{
     Axis, Canvas, ColorMap, ColorScale, Margins, Marker, Panel, Rect, Stroke, ink, size,
 };
 
@@ -121,7 +121,7 @@ pub(super) fn height(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
         ],
     );
     let key = panel.area();
-    let style = asperity::plot::theme::TextStyle::new(size::TICK);
+    let style = asperity_plot::TextStyle::new(size::TICK);
     let (x, y) = (key.right() + 24.0, key.y + 24.0);
     canvas.marker((x, y), Marker::Triangle, 11.0, Some(ink::VERMILION), edge);
     canvas.text("tap", (x + 20.0, y + 8.0), &style);

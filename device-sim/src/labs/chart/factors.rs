@@ -4,9 +4,9 @@ use super::super::pareto::{Results, Summary};
 use super::front::mark_at;
 use super::labels::Labels;
 use super::{BUDGET, Costs, Picture, error_axis, finished, within};
-use asperity::plot::theme::{Canvas, Marker, Panel, PlotError, Rect, ink};
 use asperity::reduce::BUDGET_DB;
 use asperity_kernels::design::Factor;
+use asperity_plot::{Canvas, Marker, Panel, PlotError, Rect, ink};
 
 const SIZE: (f32, f32) = (2200.0, 2720.0);
 const COLUMNS: usize = 2;

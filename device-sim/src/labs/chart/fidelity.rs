@@ -2,10 +2,8 @@
 
 use super::super::pareto::{Kept, Results};
 use super::{BUDGET, Picture, finished};
-use asperity::plot::theme::{
-    Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend,
-};
 use asperity::reduce::BUDGET_DB;
+use asperity_plot::{Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend};
 
 const SIZE: (u32, u32) = (2200, 860);
 

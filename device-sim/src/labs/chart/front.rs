@@ -3,9 +3,9 @@
 use super::super::pareto::{Results, Summary, on_front};
 use super::labels::Labels;
 use super::{BUDGET, Costs, Picture, color, error_axis, finished, larger_error};
-use asperity::plot::theme::{Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend};
 use asperity::reduce::BUDGET_DB;
 use asperity_kernels::design::{Factor, Order};
+use asperity_plot::{Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend};
 
 const SIZE: (u32, u32) = (2000, 1300);
 

@@ -5,8 +5,8 @@ use super::super::statistics::Spread;
 use super::super::table::HeldOut;
 use super::rows::{self, Row};
 use super::{Picture, finished};
-use asperity::plot::theme::{Canvas, Color, PlotError, Rect, ink};
 use asperity_kernels::design::{Level, Shape};
+use asperity_plot::{Canvas, Color, PlotError, Rect, ink};
 
 const SIZE: (u32, u32) = (2200, 1500);
 

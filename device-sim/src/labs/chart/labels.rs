@@ -1,6 +1,6 @@
 //! Names beside points, none over another.
 
-use asperity::plot::theme::{Align, Canvas, Color, Rect, TextStyle, VAlign, size};
+use asperity_plot::{Align, Canvas, Color, Rect, TextStyle, VAlign, size};
 
 /// Where names stand so far.
 pub(super) struct Labels {

@@ -9,7 +9,7 @@ mod rows;
 
 use super::pareto::{Results, Summary};
 use super::table::HeldOut;
-use asperity::plot::theme::{Axis, Canvas, Color, PlotError, Stroke, ink};
+use asperity_plot::{Axis, Canvas, Color, PlotError, Stroke, ink};
 
 /// One picture.
 pub struct Picture {

@@ -6,7 +6,7 @@ mod waveforms;
 pub use wall_map::wall_map;
 pub use waveforms::waveforms;
 
-use asperity::plot::theme::{Canvas, Key, Panel, TextStyle, ink, legend, size};
+use asperity_plot::{Canvas, Key, Panel, TextStyle, ink, legend, size};
 
 const WIDTH_PX: f32 = 2400.0;
 

@@ -1,6 +1,6 @@
 //! Stiffness against physical damping, for some delays: what was measured, and the bound.
 
-use asperity::plot::theme::{
+use asperity_plot::{
     Axis, Canvas, ColorMap, ColorScale, Key, Margins, Marker, Panel, Rect, Stroke, ink, size,
 };
 use asperity_runtime::{Passivity, Wall};

@@ -1,6 +1,6 @@
 //! The worst cases as waveforms: ours and others in the same scenario.
 
-use asperity::plot::theme::{Axis, Canvas, Key, Margins, Panel, Rect, Stroke, ink, size};
+use asperity_plot::{Axis, Canvas, Key, Margins, Panel, Rect, Stroke, ink, size};
 
 use super::super::friction::{self, Law};
 use super::super::wall::{self, Bench};

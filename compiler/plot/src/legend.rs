@@ -1,8 +1,11 @@
 //! A legend: keys and their names on one line.
 
-use super::canvas::{Align, Canvas, Marker, Stroke, TextStyle, VAlign};
-use super::color::{Color, ink};
-use super::size;
+use crate::canvas::Canvas;
+use crate::color::{Color, ink};
+use crate::marker::Marker;
+use crate::size;
+use crate::stroke::Stroke;
+use crate::text_style::{Align, TextStyle, VAlign};
 
 /// The sign that stands before a name.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,13 +14,14 @@ pub enum Key {
     Line(Stroke),
     /// A data point: shape, radius, fill and outline.
     Point(Marker, f32, Option<Color>, Option<Stroke>),
-    /// No sign: a remark.
+    /// No sign: the name is a remark.
     Text,
 }
 
-/// Sets keys and names from left to right, `at` being the left end at half the
-/// height of the text; entries that would pass `right` are left out. Gives the
-/// position of the right end.
+/// Sets keys and names from left to right and returns the position of the right end.
+///
+/// `at` is the left end, at half the height of the text. Entries that would pass `right` are
+/// left out.
 pub fn legend(canvas: &mut Canvas, at: (f32, f32), right: f32, entries: &[(Key, &str)]) -> f32 {
     let style = TextStyle::new(size::TICK)
         .color(ink::GREY)

@@ -3,16 +3,16 @@
 use tiny_skia::{Path, PathBuilder};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-use super::PlotError;
+use crate::error::PlotError;
 
 /// Regular and bold.
-pub(super) struct Fonts {
+pub(crate) struct Fonts {
     regular: Face<'static>,
     bold: Face<'static>,
 }
 
 impl Fonts {
-    pub(super) fn embedded() -> Result<Self, PlotError> {
+    pub(crate) fn embedded() -> Result<Self, PlotError> {
         let face = |bytes| Face::parse(bytes, 0).map_err(PlotError::Font);
         Ok(Self {
             regular: face(dejavu::sans::regular())?,
@@ -25,13 +25,13 @@ impl Fonts {
     }
 
     /// Width of a line of text at `size_px`, pixels.
-    pub(super) fn width(&self, text: &str, bold: bool, size_px: f32) -> f32 {
+    pub(crate) fn width(&self, text: &str, bold: bool, size_px: f32) -> f32 {
         let face = self.face(bold);
         layout(face, text, |_, _| {}) * scale(face, size_px)
     }
 
     /// The outline of a line of text, its baseline starting at the origin, y downwards.
-    pub(super) fn outline(&self, text: &str, bold: bool, size_px: f32) -> Option<Path> {
+    pub(crate) fn outline(&self, text: &str, bold: bool, size_px: f32) -> Option<Path> {
         let face = self.face(bold);
         let scale = scale(face, size_px);
         let mut pen = Pen {
