@@ -18,7 +18,8 @@
 //!
 //! Numbers read back to the same bits.
 
-use super::{FeelError, Recording};
+use super::error::FeelError;
+use super::recording::Recording;
 
 /// Names of the columns, in order.
 pub const COLUMNS: [&str; 26] = [

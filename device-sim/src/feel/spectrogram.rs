@@ -2,7 +2,7 @@
 
 use realfft::RealFftPlanner;
 
-use super::FeelError;
+use super::error::FeelError;
 
 /// A one-sided power spectral density per window.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,8 @@
 
 use asperity_runtime::Flags;
 
-use super::percentile::{mean, rms};
-use super::{Recording, Span};
+use super::recording::{Recording, Span};
+use super::statistics::{mean, rms};
 use crate::hand::Motion;
 use crate::session::Record;
 

@@ -4,8 +4,10 @@ use std::fmt;
 
 use asperity_runtime::Flags;
 
-use super::percentile::{mean, peak, percentile, rms};
-use super::{Recording, StrokeReport, Taps, strokes, taps};
+use super::recording::Recording;
+use super::statistics::{mean, peak, percentile, rms};
+use super::stroke::{StrokeReport, strokes};
+use super::tap::{Taps, taps};
 use crate::device::norm;
 use crate::session::Record;
 

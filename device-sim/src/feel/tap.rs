@@ -2,7 +2,7 @@
 
 use asperity_runtime::Flags;
 
-use super::Recording;
+use super::recording::Recording;
 use crate::hand::Motion;
 
 /// One scripted tap.
@@ -58,7 +58,7 @@ pub fn taps(recording: &Recording) -> Taps {
             scripted_m_s: speed_m_s,
             true_m_s: met.map_or(0.0, |(_, true_m_s)| true_m_s),
             delay_s: None,
-            peak_n: super::percentile::peak(span.records.iter().map(|r| f64::from(r.output.tap_n))),
+            peak_n: super::statistics::peak(span.records.iter().map(|r| f64::from(r.output.tap_n))),
         };
         for record in started {
             match report.impact_s {

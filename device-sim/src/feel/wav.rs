@@ -2,8 +2,9 @@
 
 use std::io::Cursor;
 
+use super::error::FeelError;
+use super::recording::Recording;
 use super::resample::upsample;
-use super::{FeelError, Recording};
 
 /// Sample rate that a sound comes closest to, Hz.
 const RATE_HZ: f64 = 48_000.0;
@@ -32,7 +33,7 @@ pub fn encode(recording: &Recording) -> Result<Sound, FeelError> {
     let factor = (RATE_HZ / servo_rate_hz).round().max(1.0);
     let sample_rate_hz = (servo_rate_hz * factor).round() as u32;
     let raised = upsample(&recording.vibration_m_s2(), factor as usize);
-    let peak = super::percentile::peak(raised.iter().copied());
+    let peak = super::statistics::peak(raised.iter().copied());
     let gain_per_m_s2 = if peak > 0.0 { CEILING / peak } else { 0.0 };
 
     let spec = hound::WavSpec {

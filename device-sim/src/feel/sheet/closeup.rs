@@ -1,9 +1,13 @@
 //! The lower row: one tap close up, and the spectra of the strokes.
 
-use asperity_plot::{Axis, Canvas, Panel, Rect, Stroke, ink, size};
+use asperity_plot::{Axis, Canvas, Panel, Rect, Stroke, TextStyle, ink, size};
 
-use super::super::{FeelError, Recording, spectrogram::spectrogram, stroke::steady_part, taps};
-use super::{Entry, legend};
+use super::legend::{Entry, legend};
+use crate::feel::error::FeelError;
+use crate::feel::recording::Recording;
+use crate::feel::spectrogram::spectrogram;
+use crate::feel::stroke::steady_part;
+use crate::feel::tap::taps;
 
 /// Time shown before and after an impact, ms.
 const BEFORE_MS: f64 = 10.0;
@@ -112,7 +116,7 @@ pub(super) fn spectra(
     .letter('g')
     .title("Spectra of the strokes");
     panel.draw_frame(canvas);
-    let key = asperity_plot::TextStyle::new(size::TICK);
+    let key = TextStyle::new(size::TICK);
     let area = panel.area();
     for (index, (name, curve)) in curves.into_iter().enumerate() {
         let stroke = Stroke::new(ink::category(index), size::LINE);

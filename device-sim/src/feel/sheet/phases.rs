@@ -2,7 +2,8 @@
 
 use asperity_plot::{Align, Canvas, Color, Panel, Rect, Stroke, TextStyle, VAlign, ink};
 
-use super::{Recording, TIME_MARGINS, time_axis};
+use super::time::{TIME_MARGINS, time_axis};
+use crate::feel::recording::{Recording, Span};
 use crate::hand::Motion;
 
 /// Height of the strip.
@@ -64,7 +65,7 @@ pub(super) fn shade(canvas: &mut Canvas, recording: &Recording, panel: &Panel) {
 /// Start, end and kind of every motion, s.
 fn edges(recording: &Recording) -> Vec<(f64, f64, Motion)> {
     let tick_s = recording.tick_s();
-    let ends = |span: super::super::Span<'_>| {
+    let ends = |span: Span<'_>| {
         let start_s = span.records.first()?.t_s;
         Some((start_s, span.records.last()?.t_s + tick_s, span.motion))
     };

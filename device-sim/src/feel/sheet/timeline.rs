@@ -1,11 +1,17 @@
 //! Panels over time.
 
 use asperity_plot::{
-    Axis, Canvas, ColorMap, ColorScale, Margins, Marker, Panel, Rect, Stroke, ink, size,
+    Axis, Canvas, ColorMap, ColorScale, Margins, Marker, Panel, Rect, Stroke, TextStyle, ink, size,
 };
 
-use super::super::{FeelError, spectrogram::spectrogram as transform, taps};
-use super::{Entry, Recording, TIME_MARGINS, legend, phases, time_axis};
+use super::legend::{Entry, legend};
+use super::phases;
+use super::time::{TIME_MARGINS, time_axis};
+use crate::feel::error::FeelError;
+use crate::feel::recording::Recording;
+use crate::feel::spectrogram::spectrogram as transform;
+use crate::feel::statistics::peak;
+use crate::feel::tap::taps;
 use crate::session::Record;
 
 /// Levels below the loudest that a spectrogram still shows, dB.
@@ -121,7 +127,7 @@ pub(super) fn height(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
         ],
     );
     let key = panel.area();
-    let style = asperity_plot::TextStyle::new(size::TICK);
+    let style = TextStyle::new(size::TICK);
     let (x, y) = (key.right() + 24.0, key.y + 24.0);
     canvas.marker((x, y), Marker::Triangle, 11.0, Some(ink::VERMILION), edge);
     canvas.text("tap", (x + 20.0, y + 8.0), &style);
@@ -177,7 +183,7 @@ pub(super) fn force(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
 /// The vibration's waveform.
 pub(super) fn vibration(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
     let data = recording.vibration_m_s2();
-    let peak = super::super::percentile::peak(data.iter().copied());
+    let peak = peak(data.iter().copied());
     let axis = Axis::covering("Vibration (m/s²)", [-peak, peak]).ticks_about(5);
     let title = "Vibration before device gain";
     let panel = framed(canvas, recording, outer, axis, 'd', title);
