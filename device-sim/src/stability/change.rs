@@ -4,8 +4,10 @@ use asperity::lsf;
 use asperity_runtime::{Config, Renderer, Sample, State, excitation::Excitation};
 
 use super::coefficients::resonant;
+use super::error::StabilityError;
+use super::material::Material;
 use super::methods::AllPole;
-use super::{Material, Row, StabilityError, Words};
+use super::row::{Row, Words};
 
 /// Ticks between changes.
 const PERIOD: usize = 500;
@@ -108,8 +110,8 @@ fn faded(textures: &[Material; 2], seed: u64) -> Vec<f64> {
     (0..PERIOD * CHANGES)
         .map(|n| {
             let (now, before) = (&models[n / PERIOD % 2], &models[(n / PERIOD + 1) % 2]);
-            let share = ((n % PERIOD) as f64 / 20.0).min(1.0);
-            let mix = |a: f64, b: f64| share * a + (1.0 - share) * b;
+            let faded = ((n % PERIOD) as f64 / 20.0).min(1.0);
+            let mix = |a: f64, b: f64| faded * a + (1.0 - faded) * b;
             let monic: Vec<f64> = now
                 .0
                 .iter()

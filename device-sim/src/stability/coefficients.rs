@@ -7,10 +7,11 @@ use asperity::model::{GridVertex, Numerator, VertexKind};
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+use super::material::Material;
 use super::methods::all_pole::is_stable;
 use super::methods::fixed_point::{block_16, q1_15};
-use super::mixing::random_lsf;
-use super::{Material, Row, Words};
+use super::random::random_lsf;
+use super::row::{Row, Words};
 
 /// Random filters tried.
 const FILTERS: usize = 200;

@@ -2,8 +2,10 @@
 
 use asperity_runtime::{Config, Renderer, Sample, State};
 
+use super::error::StabilityError;
+use super::material::Material;
 use super::methods::Regularised;
-use super::{Material, Row, StabilityError, Words};
+use super::row::{Row, Words};
 
 /// Tick of the fault in a stroke of a second.
 const FAULT: usize = 300;

@@ -1,17 +1,14 @@
 //! Queries where grids end: on vertices and edges, on the border and beyond.
 
 use asperity::model::ModelGrid;
-use rand_core::{Rng, SeedableRng};
+use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+use super::material::Material;
 use super::methods::all_pole::{is_stable, mixed, polynomials};
 use super::methods::walk::{Walk, walk};
-use super::{Material, Row, Words};
-
-/// Uniform in 0..1.
-pub(super) fn unit(rng: &mut Xoshiro256PlusPlus) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-}
+use super::random::unit;
+use super::row::{Row, Words};
 
 /// Every vertex, and five points of every edge.
 fn on_edges(grid: &ModelGrid) -> Vec<(f64, f64)> {

@@ -6,7 +6,7 @@ use asperity::model::{GridVertex, TextureModel, VertexKind};
 use asperity_formats::Asset;
 use asperity_runtime::HostTexture;
 
-use super::StabilityError;
+use super::error::StabilityError;
 
 /// Materials whose mixtures are known to fail, and their neighbours in kind: the rows name
 /// them one by one.

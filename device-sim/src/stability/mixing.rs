@@ -6,11 +6,12 @@ use asperity_runtime::vibration::Vibration;
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::grid::unit;
 use super::material::HARD;
+use super::material::Material;
 use super::methods::AllPole;
 use super::methods::all_pole::{is_stable, mixed, polynomials};
-use super::{Material, Row, Words};
+use super::random::{random_lsf, unit};
+use super::row::{Row, Words};
 
 /// Points a material, and pairs of random filters.
 const POINTS: usize = 20_000;
@@ -46,22 +47,6 @@ fn unstable(material: &Material, seed: u64) -> [f64; 2] {
         count[1] += usize::from(!is_stable(&mixed(corners, w)));
     }
     count.map(|n| 100.0 * n as f64 / POINTS as f64)
-}
-
-/// Random line spectral frequencies of an order, at least `gap` rad apart.
-pub(super) fn random_lsf(rng: &mut Xoshiro256PlusPlus, order: usize, gap: f64) -> Vec<f64> {
-    // Steps uneven by ten to one.
-    let steps: Vec<f64> = (0..=order).map(|_| 0.2 + 1.8 * unit(rng)).collect();
-    let room = std::f64::consts::PI - gap * (order + 1) as f64;
-    let total: f64 = steps.iter().sum();
-    let mut at = 0.0;
-    steps[..order]
-        .iter()
-        .map(|step| {
-            at += gap + room * step / total;
-            at
-        })
-        .collect()
 }
 
 /// Share of unstable halfway mixtures, %, of random pairs of filters of order 20: of LSFs'
@@ -112,13 +97,13 @@ fn turns(seed: u64) -> impl Iterator<Item = usize> {
 
 /// The vibration of the runtime while speed and force take turns.
 fn runtime(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
-    let follow_share = 1.0 - (-f64::from(material.slot.cycle_samples()) / FOLLOW_TICKS).exp();
+    let fraction = 1.0 - (-f64::from(material.slot.cycle_samples()) / FOLLOW_TICKS).exp();
     let mut vibration = Vibration::new(seed);
     turns(seed)
         .map(|turn| {
             let (speed_mm_s, force_n) = places[turn];
-            let share = follow_share as f32;
-            let (y, _) = vibration.step(&material.slot, speed_mm_s, force_n, share, true);
+            let follow = fraction as f32;
+            let (y, _) = vibration.step(&material.slot, speed_mm_s, force_n, follow, true);
             f64::from(y)
         })
         .skip(SETTLE)

@@ -2,7 +2,9 @@
 
 use asperity_runtime::{Config, Renderer, Sample, State};
 
-use super::{Material, Row, StabilityError, Words};
+use super::error::StabilityError;
+use super::material::Material;
+use super::row::{Row, Words};
 
 /// What a trajectory of heights does to the tap stage.
 struct Felt {

@@ -5,9 +5,9 @@ use asperity_plot::{
 };
 use asperity_runtime::{Passivity, Wall};
 
-use super::super::StabilityError;
-use super::super::wall::{Bench, REPORTED, ROUNDING_J, law_j};
-use super::{WIDTH_PX, heading, keys};
+use super::layout::{WIDTH_PX, heading, keys};
+use crate::stability::error::StabilityError;
+use crate::stability::wall::{Bench, REPORTED, ROUNDING_J, law_j};
 
 const HEIGHT_PX: f32 = 1010.0;
 const HEADING_PX: f32 = 130.0;

@@ -2,10 +2,13 @@
 
 use asperity_plot::{Axis, Canvas, Key, Margins, Panel, Rect, Stroke, ink, size};
 
-use super::super::friction::{self, Law};
-use super::super::wall::{self, Bench};
-use super::super::{Material, StabilityError, StabilityOptions, fault, mixing, tap};
-use super::{WIDTH_PX, heading, keys};
+use super::layout::{WIDTH_PX, heading, keys};
+use crate::stability::error::StabilityError;
+use crate::stability::friction::{self, Law};
+use crate::stability::material::Material;
+use crate::stability::table::StabilityOptions;
+use crate::stability::wall::{self, Bench};
+use crate::stability::{fault, mixing, tap};
 
 const HEADING_PX: f32 = 130.0;
 const ROW_PX: f32 = 620.0;
