@@ -1,13 +1,14 @@
 //! A kernel of any [`Design`].
 //!
-//! One generic kernel: what differs is looked up in the design, what does not is shared, so
-//! that a difference between two designs is theirs.
+//! There is one generic kernel. It looks up in the design what differs and shares the rest,
+//! so a difference between two kernels comes from their designs alone.
 
+use crate::coefficients::Coefficients;
 use crate::convert::{self, Row};
 use crate::design::{Arithmetic, Design, Level, Shape, Structure, Transition};
-use crate::line::{Coefficients, Line};
 use crate::number::{Fixed16, Fixed32, Number, Rounds};
-use crate::parameters::{Parameters, parameters};
+use crate::parameters::{Parameters, coefficients, cosines, parameters, reflections};
+use crate::synthesis::Synthesis;
 use crate::texture::{Filter, Numerator, Place, Texture};
 use alloc::{boxed::Box, vec::Vec};
 use asperity_formats::limits::MAX_ORDER;
@@ -70,9 +71,9 @@ struct Kernel<P, S> {
     /// Orders rounded up to lanes of four.
     used: (usize, usize),
     vertices: Vec<Vertex<P>>,
-    /// Share of the way that parameters go in one update.
-    share: P,
-    /// Share of a crossfade that has passed in each tick of a cycle.
+    /// Fraction of the way to their target that parameters go in one update.
+    fraction: P,
+    /// Fraction of a crossfade that has passed at each tick between two updates.
     ramp: Vec<S>,
     /// m/s² of a signal of 1.
     scale: f64,
@@ -82,7 +83,7 @@ struct Kernel<P, S> {
     to: Coefficients<S>,
     now: Coefficients<S>,
     level: P,
-    line: Line<S>,
+    synthesis: Synthesis<S>,
 }
 
 impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
@@ -115,7 +116,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
                 })
             })
             .collect::<Option<Vec<_>>>()?;
-        let constants = design.every as f64 / (SMOOTHING_S * texture.sample_rate_hz);
+        let constants = design.update_ticks as f64 / (SMOOTHING_S * texture.sample_rate_hz);
         Some(Self {
             design: *design,
             numerator: texture.numerator,
@@ -123,9 +124,9 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
             ma_order,
             used: (order.next_multiple_of(4), ma_order.next_multiple_of(4)),
             vertices,
-            share: P::of(1.0 - libm::exp(-constants)),
-            ramp: (1..=design.every)
-                .map(|tick| S::of(tick as f64 / design.every as f64))
+            fraction: P::of(1.0 - libm::exp(-constants)),
+            ramp: (1..=design.update_ticks)
+                .map(|tick| S::of(tick as f64 / design.update_ticks as f64))
                 .collect(),
             scale,
             tick: 0,
@@ -137,7 +138,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
             to: Coefficients::zero(),
             now: Coefficients::zero(),
             level: P::ZERO,
-            line: Line::silent(),
+            synthesis: Synthesis::silent(),
         })
     }
 
@@ -173,14 +174,14 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
 
     #[inline]
     fn follow(&mut self, target: &Parameters<P>) {
-        let step = |x: &mut Row<P>, target: &Row<P>, used: usize, share: P| {
+        let step = |x: &mut Row<P>, target: &Row<P>, used: usize, fraction: P| {
             for (x, t) in x.iter_mut().zip(target).take(used) {
-                *x = x.plus(share.times(t.minus(*x)));
+                *x = x.plus(fraction.times(t.minus(*x)));
             }
         };
-        step(&mut self.mixed.ar, &target.ar, self.used.0, self.share);
+        step(&mut self.mixed.ar, &target.ar, self.used.0, self.fraction);
         if self.numerator == Numerator::Lsf {
-            step(&mut self.mixed.ma, &target.ma, self.used.1, self.share);
+            step(&mut self.mixed.ma, &target.ma, self.used.1, self.fraction);
         }
     }
 
@@ -237,7 +238,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
 
     #[inline]
     fn step(&mut self, mix: &Mix<P>, epsilon: P) -> S {
-        let phase = self.tick % self.design.every;
+        let phase = self.tick % self.design.update_ticks;
         if phase == 0 {
             self.update(mix);
         }
@@ -248,15 +249,18 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
         self.level = self.mix_level(mix);
         let e: S = self.level.times(epsilon).rounded();
         match self.design.structure {
-            Structure::Direct => self.line.direct(&self.now, self.used, e),
+            Structure::Direct => self.synthesis.direct(&self.now, self.used, e),
             Structure::DirectLsp => {
                 let chain = (self.used.1, self.numerator == Numerator::Lsf);
                 let orders = (self.order, self.ma_order);
-                self.line.lsp(&self.now, orders, chain, e)
+                self.synthesis.lsp(&self.now, orders, chain, e)
             }
-            Structure::Lattice => self.line.lattice(&self.now, self.order, self.used.1, e),
+            Structure::Lattice => self
+                .synthesis
+                .lattice(&self.now, self.order, self.used.1, e),
             Structure::NormalisedLattice => {
-                self.line.normalised(&self.now, self.order, self.used.1, e)
+                self.synthesis
+                    .normalised(&self.now, self.order, self.used.1, e)
             }
         }
     }
@@ -277,7 +281,7 @@ impl<P: Number + Rounds<S>, S: Number> Rendering for Kernel<P, S> {
         self.now = self.convert();
         (self.from, self.to) = (self.now.clone(), self.now.clone());
         self.level = self.mix_level(&mix);
-        self.line = Line::silent();
+        self.synthesis = Synthesis::silent();
         self.tick = 0;
     }
 
@@ -344,7 +348,7 @@ fn scale(design: &Design, texture: &Texture<'_>) -> Option<f64> {
     }
     // The energy of an impulse response: a filter that is converted once and held.
     let exact = Design {
-        every: RESPONSE,
+        update_ticks: RESPONSE,
         transition: Transition::Hold,
         ..Design::ORACLE
     };
@@ -362,45 +366,4 @@ fn scale(design: &Design, texture: &Texture<'_>) -> Option<f64> {
     };
     let largest = (0..texture.vertices.len()).map(energy).fold(0.0, f64::max);
     (largest > 0.0 && largest.is_finite()).then(|| libm::sqrt(largest))
-}
-
-#[inline]
-fn cosines<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
-    let mut row = *mixed;
-    if shape == Shape::LsfOmega {
-        for x in row.iter_mut().take(order) {
-            *x = convert::cosine(*x);
-        }
-    }
-    row
-}
-
-#[inline]
-fn coefficients<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
-    match shape {
-        Shape::Coefficients => *mixed,
-        Shape::LsfOmega | Shape::LsfCosine => {
-            convert::from_cosines(&cosines(shape, mixed, order), order)
-        }
-        Shape::Reflection | Shape::LogArea => {
-            convert::step_up(&reflections(shape, mixed, order), order)
-        }
-    }
-}
-
-#[inline]
-fn reflections<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
-    match shape {
-        Shape::Reflection => *mixed,
-        Shape::LogArea => {
-            let mut row = *mixed;
-            for x in row.iter_mut().take(order) {
-                *x = convert::from_log_area(*x);
-            }
-            row
-        }
-        Shape::Coefficients | Shape::LsfOmega | Shape::LsfCosine => {
-            convert::step_down(&coefficients(shape, mixed, order), order)
-        }
-    }
 }

@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn a_counted_run_is_whole_cycles_of_every_design() {
         for variant in variants() {
-            assert_eq!(TICKS % variant.design.every, 0, "{}", variant.name);
+            assert_eq!(TICKS % variant.design.update_ticks, 0, "{}", variant.name);
         }
     }
 
@@ -140,10 +140,10 @@ mod tests {
 
     #[test]
     fn a_crossfade_ends_on_what_is_held() {
-        let at = |transition, every| {
+        let at = |transition, update_ticks| {
             let design = Design {
                 transition,
-                every,
+                update_ticks,
                 ..Design::DEFAULT
             };
             let orders = Orders {
@@ -153,7 +153,7 @@ mod tests {
             };
             let mut kernel = kernel_of(&design, orders).expect("it has a filter");
             // Two cycles: the first begins where it settled.
-            Workload::default().run(kernel.as_mut(), 2 * every);
+            Workload::default().run(kernel.as_mut(), 2 * update_ticks);
             kernel.filter().a
         };
         let (faded, held) = (at(Transition::Crossfade, 8), at(Transition::Hold, 8));

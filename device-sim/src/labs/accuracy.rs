@@ -1,6 +1,7 @@
 //! How far a design is from the f64 oracle: at rest over the whole grid, moving, and under
 //! alternation between any two vertices.
 
+use super::difference::{Band, Difference};
 use super::kernel::Kernel;
 use super::noise::{gaussian, uniform};
 use super::statistics;
@@ -8,15 +9,13 @@ use asperity::{
     interpolate::{Field, Place, places},
     model::ModelGrid,
     reflection,
-    spectrum::{ArmaModel, ErrorBand},
+    spectrum::ArmaModel,
 };
 use asperity_kernels::design::Design;
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
 
-/// Frequencies at which spectra are compared: four hertz apart.
-const POINTS: usize = 111;
 /// Quieter than the loudest vertex by this, a place or a block is silent: 40 dB.
 const SILENT: f64 = 0.01;
 /// A block of the moving comparison, s: what the hand does not resolve in time.
@@ -45,62 +44,6 @@ pub struct Errors {
     pub unstable: usize,
     /// Places in all, silent ones included.
     pub places: usize,
-}
-
-/// Log spectra at fixed frequencies.
-pub struct Band(ErrorBand);
-
-impl Band {
-    /// The band of all spectral errors at a sample rate.
-    #[must_use]
-    pub fn new(sample_rate_hz: f64) -> Self {
-        Self(ErrorBand::new(sample_rate_hz, POINTS))
-    }
-
-    /// Powers of a model, (m/s²)².
-    #[must_use]
-    pub fn powers(&self, model: &ArmaModel) -> Vec<f64> {
-        let square = model.level_m_s2 * model.level_m_s2;
-        let angles = self.0.angles();
-        angles
-            .squared_magnitudes(&model.b)
-            .into_iter()
-            .zip(angles.squared_magnitudes(&model.a))
-            .map(|(b, a)| square * b / a)
-            .collect()
-    }
-}
-
-/// How two power spectra differ.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Difference {
-    /// RMS of the difference of their logarithms, dB.
-    pub distortion_db: f64,
-    /// The same without its mean: shape alone, dB.
-    pub shape_db: f64,
-    /// Power of the second over the first, dB.
-    pub level_db: f64,
-}
-
-impl Difference {
-    /// Of two lists of powers at the same frequencies.
-    #[must_use]
-    pub fn of(truth: &[f64], found: &[f64]) -> Self {
-        let count = truth.len() as f64;
-        let (mut sum, mut squares) = (0.0, 0.0);
-        for (truth, found) in truth.iter().zip(found) {
-            let db = 10.0 * libm::log10(found / truth);
-            sum += db;
-            squares += db * db;
-        }
-        let mean = sum / count;
-        let total = |powers: &[f64]| powers.iter().sum::<f64>();
-        Self {
-            distortion_db: (squares / count).sqrt(),
-            shape_db: (squares / count - mean * mean).max(0.0).sqrt(),
-            level_db: 10.0 * libm::log10(total(found) / total(truth)),
-        }
-    }
 }
 
 /// A material, and what the oracle makes of it.

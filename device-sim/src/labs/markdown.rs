@@ -1,16 +1,18 @@
 //! The comparison as the documentation prints it.
 
-use super::held_out::Region;
-use super::pareto::{Results, Summary};
+use super::cortex_m::CortexM;
+use super::held_out::{MethodSummary, Region};
+use super::kept::Kept;
+use super::pareto::Results;
 use super::statistics::{Spread, percentile};
-use super::table::{CortexM, HeldOut};
+use super::summary::VariantSummary;
 use asperity::reduce::Change;
 use asperity_kernels::design::Factor;
 use std::fmt::Write as _;
 
 /// Markdown of every table: designs by factor, predictions by region, what `auto` keeps.
 #[must_use]
-pub fn tables(results: &Results, held_out: &[HeldOut], cortex_m: &CortexM) -> String {
+pub fn tables(results: &Results, held_out: &[MethodSummary], cortex_m: &CortexM) -> String {
     let mut text = String::new();
     for group in results
         .summaries
@@ -49,7 +51,7 @@ fn number(value: Option<f64>, decimals: usize) -> String {
 fn designs<'a>(
     text: &mut String,
     factor: Factor,
-    rows: impl Iterator<Item = &'a Summary>,
+    rows: impl Iterator<Item = &'a VariantSummary>,
     cortex_m: &CortexM,
 ) {
     // Writing to a string cannot fail.
@@ -94,8 +96,8 @@ fn designs<'a>(
     text.push('\n');
 }
 
-fn predictions(text: &mut String, region: Region, held_out: &[HeldOut]) {
-    let rows: Vec<&HeldOut> = held_out.iter().filter(|row| row.region == region).collect();
+fn predictions(text: &mut String, region: Region, held_out: &[MethodSummary]) {
+    let rows: Vec<&MethodSummary> = held_out.iter().filter(|row| row.region == region).collect();
     let models = rows.iter().map(|row| row.models).max().unwrap_or(0);
     let _ = write!(
         text,
@@ -124,7 +126,7 @@ fn kept(text: &mut String, results: &Results) {
     let kept = &results.kept;
     let median = |values: Vec<f64>| number(percentile(&values, 0.5).map(|x| 100.0 * x), 0);
     let share = |change: fn(&asperity::reduce::Report) -> Change| {
-        let of = |kept: &super::pareto::Kept| {
+        let of = |kept: &Kept| {
             let Change { full, kept } = change(&kept.report);
             (full > 0).then(|| kept as f64 / full as f64)
         };
@@ -151,7 +153,7 @@ fn kept(text: &mut String, results: &Results) {
         largest(|r| r.p95_db),
         largest(|r| r.worst_db),
     );
-    let names = |wanted: &dyn Fn(&super::pareto::Kept) -> bool| -> String {
+    let names = |wanted: &dyn Fn(&Kept) -> bool| -> String {
         let some = results
             .materials
             .iter()

@@ -1,6 +1,6 @@
 //! A panel with a row a name: median, 95th percentile and largest error of each.
 
-use super::super::statistics::Spread;
+use crate::labs::statistics::Spread;
 use asperity_plot::{
     Align, Axis, Canvas, Color, Marker, Panel, Rect, Stroke, TextStyle, VAlign, ink, size,
 };

@@ -133,9 +133,9 @@ fn smoothing_closes_two_thirds_of_a_step_in_its_time_constant() {
     let grid = builtin::texture().grid;
     let at = |speed_mm_s| Field::new(&grid).locate(speed_mm_s, 1.0).unwrap();
     let (slow, fast) = (at(40.0), at(200.0));
-    for every in [1, 5] {
+    for update_ticks in [1, 5] {
         let design = Design {
-            every,
+            update_ticks,
             ..Design::ORACLE
         };
         let mut smoothed = Kernel::new(&design, &grid).unwrap();

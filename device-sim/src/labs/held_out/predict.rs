@@ -1,13 +1,9 @@
-//! Against what was measured: every interior model predicted from the others.
-//!
-//! A measured model is taken out with all its copies; the others, and the silent models on
-//! the axes v = 0 and F = 0, are triangulated anew, and the gap is filled by each
-//! interpolation. Where a corner of the triangle is silent the level is predicted *towards
-//! rest*, else *inside*. A model outside the triangles is predicted from the nearest point
-//! of their border as an edge model would be, its level raised by powers of speed and force.
+//! Every measured model, predicted from the others.
 
-use super::accuracy::{Band, Difference};
-use super::kernel::Kernel;
+use super::locate::located;
+use super::method::{Exponents, Method, Prediction, Region};
+use crate::labs::difference::{Band, Difference};
+use crate::labs::kernel::Kernel;
 use asperity::{
     interpolate::{Field, Place},
     learned::edges,
@@ -17,90 +13,6 @@ use asperity::{
     triangulate,
 };
 use asperity_kernels::design::{Arithmetic, Design, Level, Shape};
-
-/// Where a model lies among the others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Region {
-    /// Between measured models.
-    Inside,
-    /// Between measured models and silence.
-    TowardsRest,
-    /// Beyond them, where an edge model goes on.
-    Beyond,
-}
-
-impl Region {
-    /// Its name in tables.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Inside => "inside",
-            Self::TowardsRest => "towards rest",
-            Self::Beyond => "beyond",
-        }
-    }
-}
-
-/// What a prediction was made by.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Method {
-    /// An interpolation of shape; levels as RMS.
-    Shape(Shape),
-    /// An interpolation of level; shapes in cos ω.
-    Level(Level),
-    /// The model at the nearest neighbour as it is.
-    Nearest,
-    /// Powers of speed and force beyond the border.
-    Powers(Exponents),
-}
-
-/// How the level of an edge model grows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Exponents {
-    /// As the others grow, within 0 to 2: what the compiler does.
-    Fitted,
-    /// These, for speed and force.
-    Fixed(f64, f64),
-}
-
-impl Exponents {
-    /// What is compared.
-    pub const ALL: [Self; 5] = [
-        Self::Fitted,
-        Self::Fixed(0.0, 0.0),
-        Self::Fixed(0.5, 0.5),
-        Self::Fixed(1.0, 0.5),
-        Self::Fixed(1.0, 1.0),
-    ];
-}
-
-impl Method {
-    /// What it varies, and its name, for tables.
-    #[must_use]
-    pub fn names(self) -> (&'static str, String) {
-        match self {
-            Self::Shape(shape) => ("shape", shape.name().into()),
-            Self::Level(level) => ("level", level.name().into()),
-            Self::Nearest => ("floor", "nearest neighbour".into()),
-            Self::Powers(Exponents::Fitted) => ("edge exponents", "fitted".into()),
-            Self::Powers(Exponents::Fixed(v, f)) => ("edge exponents", format!("v^{v} F^{f}")),
-        }
-    }
-}
-
-/// One prediction of one model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Prediction {
-    /// Which model of the grid, counted among those that were measured.
-    pub model: usize,
-    /// By what.
-    pub method: Method,
-    /// Where.
-    pub region: Region,
-    /// How far from the measured one; `None` where the filter is not stable or the level
-    /// is nothing.
-    pub difference: Option<Difference>,
-}
 
 /// Exponents of speed and force that the measured levels of a grid show, within 0 to 2.
 #[must_use]
@@ -282,66 +194,6 @@ fn mixed(grid: &ModelGrid, place: &Place, shape: Shape, level: Level) -> Option<
     let mut kernel = Kernel::new(&design, grid)?;
     kernel.settle(place);
     Some(kernel.model())
-}
-
-/// The mixture at a vertex's position, or at the nearest point of the triangles' border,
-/// and that point.
-fn located(grid: &ModelGrid, target: &GridVertex) -> (Option<Place>, (f64, f64)) {
-    let (width, height) = asperity::mesh::corner(grid);
-    let at = |v: usize| {
-        let vertex = &grid.vertices[v];
-        (vertex.speed_mm_s, vertex.force_n)
-    };
-    let goal = (target.speed_mm_s, target.force_n);
-    let mut best: Option<(f64, Place, (f64, f64))> = None;
-    for &triangle in &grid.triangles {
-        let corners = triangle.map(at);
-        if let Some(weights) = weights_inside(corners, goal) {
-            let place = Place {
-                vertices: triangle,
-                weights,
-            };
-            return (Some(place), goal);
-        }
-        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            let (p, q) = (corners[i], corners[j]);
-            let (dx, dy) = ((q.0 - p.0) / width, (q.1 - p.1) / height);
-            let (gx, gy) = ((goal.0 - p.0) / width, (goal.1 - p.1) / height);
-            let square = dx * dx + dy * dy;
-            if square == 0.0 {
-                continue;
-            }
-            let t = ((gx * dx + gy * dy) / square).clamp(0.0, 1.0);
-            let (rx, ry) = (gx - t * dx, gy - t * dy);
-            let distance = rx * rx + ry * ry;
-            if best.as_ref().is_none_or(|(least, ..)| distance < *least) {
-                let mut weights = [0.0; 3];
-                (weights[i], weights[j]) = (1.0 - t, t);
-                let place = Place {
-                    vertices: triangle,
-                    weights,
-                };
-                let point = (p.0 + t * (q.0 - p.0), p.1 + t * (q.1 - p.1));
-                best = Some((distance, place, point));
-            }
-        }
-    }
-    match best {
-        Some((_, place, point)) => (Some(place), point),
-        None => (None, goal),
-    }
-}
-
-fn weights_inside(corners: [(f64, f64); 3], (x, y): (f64, f64)) -> Option<[f64; 3]> {
-    let [(x0, y0), (x1, y1), (x2, y2)] = corners;
-    let twice_area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
-    if twice_area == 0.0 {
-        return None;
-    }
-    let w1 = ((y2 - y0) * (x - x0) + (x0 - x2) * (y - y0)) / twice_area;
-    let w2 = ((y0 - y1) * (x - x0) + (x1 - x0) * (y - y0)) / twice_area;
-    let weights = [1.0 - w1 - w2, w1, w2];
-    weights.iter().all(|w| *w >= 0.0).then_some(weights)
 }
 
 #[cfg(test)]
