@@ -30,7 +30,7 @@ pub struct AxisParams {
 
 /// A spring and damper that pulls the axis to a moving target.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Coupling {
+pub struct Pull {
     /// Spring stiffness, N/m.
     pub stiffness_n_m: f64,
     /// Damping relative to the target's velocity, N·s/m.
@@ -53,9 +53,9 @@ pub struct AxisState {
 }
 
 impl AxisState {
-    /// Advances by `step_s` under the device's force and the hand's coupling.
+    /// Advances by `step_s` under the device's force and the hand's pull.
     #[must_use]
-    pub fn step(self, params: &AxisParams, force_n: f64, hand: &Coupling, step_s: f64) -> Self {
+    pub fn step(self, params: &AxisParams, force_n: f64, hand: &Pull, step_s: f64) -> Self {
         let pull_n = force_n
             + hand.force_n
             + hand.stiffness_n_m * (hand.target_m - self.position_m)
@@ -101,7 +101,7 @@ mod tests {
         let accel_m_s2 = force_n / FREE.mass_kg;
         let mut state = AxisState::default();
         for n in 1..=16_000 {
-            state = state.step(&FREE, force_n, &Coupling::default(), STEP_S);
+            state = state.step(&FREE, force_n, &Pull::default(), STEP_S);
             let t_s = f64::from(n) * STEP_S;
             assert!((state.velocity_m_s - accel_m_s2 * t_s).abs() < 1e-9);
             // Backward Euler leads the parabola by exactly a·h·t/2.
@@ -119,7 +119,7 @@ mod tests {
         };
         let mut state = AxisState::default();
         for n in 1..=8_000 {
-            state = state.step(&params, 1.0, &Coupling::default(), STEP_S);
+            state = state.step(&params, 1.0, &Pull::default(), STEP_S);
             let t_s = f64::from(n) * STEP_S;
             let exact = 2.0 * (1.0 - (-t_s * 0.5 / FREE.mass_kg).exp());
             assert!((state.velocity_m_s - exact).abs() < 1e-3, "{n}");
@@ -138,7 +138,7 @@ mod tests {
         };
         for n in 0..100_000 {
             let force_n = if n % 2 == 0 { 0.2599 } else { -0.2599 };
-            state = state.step(&params, force_n, &Coupling::default(), STEP_S);
+            state = state.step(&params, force_n, &Pull::default(), STEP_S);
             assert_eq!(
                 state,
                 AxisState {
@@ -147,7 +147,7 @@ mod tests {
                 }
             );
         }
-        let moved = state.step(&params, 0.2601, &Coupling::default(), STEP_S);
+        let moved = state.step(&params, 0.2601, &Pull::default(), STEP_S);
         assert!(moved.velocity_m_s > 0.0);
     }
 
@@ -163,7 +163,7 @@ mod tests {
         };
         let mut steps = 0;
         while state.velocity_m_s > 0.0 {
-            state = state.step(&params, 0.0, &Coupling::default(), STEP_S);
+            state = state.step(&params, 0.0, &Pull::default(), STEP_S);
             steps += 1;
         }
         let exact_s = FREE.mass_kg * 0.3 / 0.26;
@@ -179,9 +179,9 @@ mod tests {
                 damping_n_s_m: 0.1,
                 ..FREE
             };
-            let wall = Coupling {
+            let wall = Pull {
                 stiffness_n_m,
-                ..Coupling::default()
+                ..Pull::default()
             };
             let energy = |s: &AxisState| {
                 0.5 * params.mass_kg * s.velocity_m_s.powi(2)

@@ -117,7 +117,7 @@ impl<S: Servo> Session<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hand::{GripPreset, Motion, Stroke};
+    use crate::hand::{GripPreset, Motion, StrokePath};
     use crate::servo::silence;
 
     /// A wall with viscous-regularised friction of μ = 0.5.
@@ -200,7 +200,7 @@ mod tests {
                 let body: Vec<&Record> = records.iter().filter(|r| r.intent.in_body).collect();
                 let from_m = body[0].intent.target_m;
                 let distance_m = (to_m[0] - from_m[0]).hypot(to_m[1] - from_m[1]);
-                let (start_s, end_s) = Stroke::new(distance_m, speed_m_s).steady_s();
+                let (start_s, end_s) = StrokePath::new(distance_m, speed_m_s).steady_s();
                 // The hand lags by its damping over its stiffness, then is steady.
                 let steady = body.iter().filter(|r| {
                     let t_s = r.t_s - body[0].t_s;

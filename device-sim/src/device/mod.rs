@@ -8,7 +8,7 @@ pub use config::{Actuator, DeviceConfig, Mechanics, Sensor, Timing, Workspace};
 pub use delay::Delay;
 pub use quantise::{converter_step, to_step};
 
-use crate::axis::{AxisParams, AxisState, Coupling};
+use crate::axis::{AxisParams, AxisState, Pull};
 
 /// Integration steps a servo tick. At 16 kHz the contact itself (a spring held
 /// for a whole tick by the servo) limits stability, not the integrator.
@@ -125,7 +125,7 @@ impl Device {
     pub fn advance(
         &mut self,
         tick_s: f64,
-        mut hand: impl FnMut(f64, &[AxisState; 3]) -> [Coupling; 3],
+        mut hand: impl FnMut(f64, &[AxisState; 3]) -> [Pull; 3],
     ) {
         let step_s = tick_s / f64::from(SUBSTEPS);
         let mut stopped = false;
@@ -155,8 +155,8 @@ mod tests {
         DeviceConfig::touch().expect("built-in file")
     }
 
-    fn nobody(_: f64, _: &[AxisState; 3]) -> [Coupling; 3] {
-        [Coupling::default(); 3]
+    fn nobody(_: f64, _: &[AxisState; 3]) -> [Pull; 3] {
+        [Pull::default(); 3]
     }
 
     #[test]
@@ -216,8 +216,8 @@ mod tests {
                 let depth_m = (-device.measured_m()[2]).max(0.0);
                 device.command([0.0, 0.0, stiffness_n_m * depth_m]);
                 device.advance(1e-3, |_, _| {
-                    let mut pull = [Coupling::default(); 3];
-                    pull[2] = Coupling {
+                    let mut pull = [Pull::default(); 3];
+                    pull[2] = Pull {
                         damping_n_s_m: 4.0,
                         force_n: -1.0,
                         ..pull[2]

@@ -142,12 +142,12 @@ fn smoothing_closes_two_thirds_of_a_step_in_its_time_constant() {
         smoothed.settle(&slow);
         // Five ticks of 1 ms.
         smoothed.render(&[fast; 5], &[0.0; 5]);
-        let share = |model: &ArmaModel, index: usize| {
+        let covered = |model: &ArmaModel, index: usize| {
             let value = |model: &ArmaModel| lsf::from_polynomial(&model.a).unwrap()[index].cos();
             let ends = [slow, fast].map(|place| value(&Field::new(&grid).model(&place)));
             (value(model) - ends[0]) / (ends[1] - ends[0])
         };
-        let found = share(&smoothed.model(), 2);
+        let found = covered(&smoothed.model(), 2);
         assert!((found - (1.0 - (-1.0_f64).exp())).abs() < 1e-6, "{found}");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, TICK_S, as_given, told};
 use super::sweep::rendered;
-use crate::axis::Coupling;
+use crate::axis::Pull;
 use crate::device::{Device, DeviceConfig};
 use crate::stability::error::StabilityError;
 use crate::stability::material::Material;
@@ -32,7 +32,7 @@ pub fn dropped(
     };
     let mut servo = rendered(&renderer, material);
     let mut stylus = Device::new(&device, 0.0, [0.0, 0.0, DROP_M]);
-    let mut press = [Coupling::default(); 3];
+    let mut press = [Pull::default(); 3];
     press[2].force_n = -0.5;
     Ok((0..5000)
         .map(|_| {
