@@ -25,7 +25,7 @@ pub struct Axis {
     pub scale: Scale,
     /// About how many ticks to draw.
     pub tick_count: usize,
-    /// Whether ticks carry numbers; panels that share an axis switch them off.
+    /// Whether ticks carry numbers; of panels that share an axis only one needs them.
     pub numbered: bool,
 }
 
@@ -44,16 +44,16 @@ impl Axis {
         }
     }
 
-    /// A linear axis over all finite values, with 5 % of air at both ends.
+    /// A linear axis over all finite values, with 5 % of space at both ends.
     #[must_use]
     pub fn covering(label: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
         let (min, max) = extent(values).unwrap_or((0.0, 1.0));
         let (min, max) = widened(min, max);
-        let air = 0.05 * (max - min);
-        Self::new(label, min - air, max + air)
+        let space = 0.05 * (max - min);
+        Self::new(label, min - space, max + space)
     }
 
-    /// A logarithmic axis; ends that are not positive become 1 and 10.
+    /// A logarithmic axis. An empty range, or one that is not positive, becomes 1 to 10.
     #[must_use]
     pub fn log(label: impl Into<String>, min: f64, max: f64) -> Self {
         let (min, max) = if min > 0.0 && max > min && max.is_finite() {
@@ -85,7 +85,7 @@ impl Axis {
         }
     }
 
-    /// Position of a value: 0 at `min`, 1 at `max`, beyond them outside.
+    /// Position of a value: 0 at `min`, 1 at `max`. Values outside the range lie outside 0..=1.
     #[must_use]
     pub fn fraction(&self, value: f64) -> f64 {
         match self.scale {
@@ -94,8 +94,10 @@ impl Axis {
         }
     }
 
-    /// Ticks inside the range with their numbers, ascending. Very small and very large
-    /// numbers are divided by a power of ten that [`Axis::full_label`] names.
+    /// Ticks inside the range with their numbers, ascending.
+    ///
+    /// Very small and very large numbers are divided by a power of ten, which
+    /// [`Axis::full_label`] states.
     #[must_use]
     pub fn ticks(&self) -> Vec<(f64, String)> {
         match self.scale {
@@ -110,7 +112,7 @@ impl Axis {
         }
     }
 
-    /// The label, with the power of ten that the numbers at the ticks leave out.
+    /// The label, with the power of ten that the numbers at the ticks are divided by.
     #[must_use]
     pub fn full_label(&self) -> String {
         match self.exponent() {
@@ -119,7 +121,8 @@ impl Axis {
         }
     }
 
-    /// The power of ten to divide by, so that numbers have few digits; mostly 0.
+    /// The exponent of ten that the numbers at the ticks are divided by; 0 for ranges that need
+    /// no scaling.
     fn exponent(&self) -> i32 {
         let largest = self.min.abs().max(self.max.abs());
         let exponent = largest.log10().floor() as i32;
@@ -158,7 +161,7 @@ mod tests {
         }
     }
 
-    /// Claim: what stands at the ticks times what the label says is the value.
+    /// Claim: the number at a tick times the power of ten in the label is the value.
     #[test]
     fn powers_of_ten_move_into_the_label() {
         let faint = Axis::new("Level (m/s²)", 0.0, 1.2e-4);

@@ -61,7 +61,7 @@ impl Canvas {
         Some(recorder.document(self.pixmap.width(), self.pixmap.height()))
     }
 
-    /// The whole canvas.
+    /// The rectangle of the whole canvas, pixels.
     #[must_use]
     pub fn bounds(&self) -> Rect {
         Rect::new(

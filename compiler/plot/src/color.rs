@@ -1,4 +1,4 @@
-//! Colours: inks for lines, perceptually uniform maps for values.
+//! Colours, and the inks that every picture draws with.
 
 /// An opaque or translucent sRGB colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl Color {
     }
 }
 
-/// Inks that stay apart for colour-blind readers (Okabe and Ito, 2008), and greys.
+/// Inks that colour-blind readers can tell apart (Okabe and Ito, 2008), and greys.
 pub mod ink {
     use super::Color;
 
@@ -61,7 +61,7 @@ pub mod ink {
     /// Okabe–Ito sky blue.
     pub const SKY: Color = Color::rgb(86, 180, 233);
 
-    /// Categories in the order to use them; wraps around.
+    /// The colour of category `index`, counted from 0; six colours repeat.
     #[must_use]
     pub const fn category(index: usize) -> Color {
         const CATEGORIES: [Color; 6] = [BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY];

@@ -6,9 +6,9 @@ use crate::range::widened;
 /// A perceptually uniform, colour-blind safe map from 0..=1 to colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColorMap {
-    /// For levels of a texture; without its palest end, so that points show on white.
+    /// For levels of a texture. The palest end is left out, so that points show on white.
     Viridis,
-    /// For speeds; without its palest end, so that lines show on white.
+    /// For speeds. The palest end is left out, so that lines show on white.
     Plasma,
     /// For spectrograms.
     Inferno,

@@ -84,8 +84,8 @@ impl Panel {
         });
     }
 
-    /// Colours the frame from a function of data coordinates, sampled at the centres
-    /// of squares of `square_px`.
+    /// Colours the frame from a function of data coordinates, which is sampled at the centres of
+    /// squares of `square_px`. Squares without a colour stay as they are.
     pub fn field(
         &self,
         canvas: &mut Canvas,

@@ -5,7 +5,7 @@ use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 use crate::error::PlotError;
 
-/// Regular and bold.
+/// The type face, regular and bold.
 pub(crate) struct Fonts {
     regular: Face<'static>,
     bold: Face<'static>,

@@ -11,7 +11,7 @@ use crate::rect::Rect;
 pub struct Margins {
     /// For tick numbers and the label of the vertical axis.
     pub left: f32,
-    /// For a colour bar, if any.
+    /// For a colour bar, where there is one.
     pub right: f32,
     /// For the title.
     pub top: f32,

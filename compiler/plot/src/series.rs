@@ -50,7 +50,7 @@ impl Panel {
     }
 }
 
-/// The vertical extremes of one pixel column, in the order they occurred.
+/// What one column of pixels shows: first, smallest, largest and last value.
 struct Extremes {
     first: f32,
     last: f32,

@@ -16,7 +16,7 @@ impl Canvas {
         self.fonts.width(text, style.bold, style.size)
     }
 
-    /// The longest beginning of `text` that fits `max_width`, with an ellipsis if cut.
+    /// The longest beginning of `text` that fits `max_width` pixels; an ellipsis marks a cut.
     #[must_use]
     pub fn fitted(&self, text: &str, style: &TextStyle, max_width: f32) -> String {
         if self.text_width(text, style) <= max_width {
@@ -32,7 +32,7 @@ impl Canvas {
         String::new()
     }
 
-    /// Sets one line of text.
+    /// Sets one line of text with its anchor at a point.
     pub fn text(&mut self, text: &str, (x, y): (f32, f32), style: &TextStyle) {
         if !(x.is_finite() && y.is_finite()) {
             return;

@@ -1,5 +1,6 @@
 //! Round numbers along an axis, and how they are written.
 
+/// About `count` round values in a range, with their numbers.
 pub(crate) fn linear_ticks(min: f64, max: f64, count: usize) -> Vec<(f64, String)> {
     let rough = (max - min) / count.max(1) as f64;
     let decade = 10_f64.powi(rough.log10().floor() as i32);
@@ -19,6 +20,7 @@ pub(crate) fn linear_ticks(min: f64, max: f64, count: usize) -> Vec<(f64, String
         .collect()
 }
 
+/// Powers of ten in a range, with 2 and 5 between them where there are few.
 pub(crate) fn log_ticks(min: f64, max: f64) -> Vec<(f64, String)> {
     let decades = (max / min).log10();
     let mantissas: &[f64] = if decades <= 3.0 {
@@ -41,7 +43,7 @@ pub(crate) fn log_ticks(min: f64, max: f64) -> Vec<(f64, String)> {
     ticks
 }
 
-/// Decimals that show every multiple of `step` exactly.
+/// How many decimals show every multiple of `step` exactly.
 fn decimals_of(step: f64) -> usize {
     (0..12)
         .find(|&decimals| {
@@ -51,6 +53,7 @@ fn decimals_of(step: f64) -> usize {
         .map_or(12, |decimals| decimals as usize)
 }
 
+/// An exponent in superscript digits.
 pub(crate) fn superscript(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     exponent
@@ -60,7 +63,7 @@ pub(crate) fn superscript(exponent: i32) -> String {
         .collect()
 }
 
-/// A number with a true minus sign; long ones in scientific notation.
+/// A number with a true minus sign; one that would be long is in scientific notation.
 fn number(value: f64, decimals: usize) -> String {
     let text = if decimals > 4 || value.abs() >= 1e6 {
         format!("{value:.1e}")

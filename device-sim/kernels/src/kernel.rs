@@ -17,27 +17,28 @@ use asperity_formats::limits::MAX_ORDER;
 const SMOOTHING_S: f64 = 0.005;
 /// Floor of a mixed logarithm relative to the loudest vertex: −60 dB.
 const LOG_FLOOR: f64 = 1e-3;
-/// Samples of an impulse response: the slowest poles that are known fall by 100 dB in 800.
+/// Samples of an impulse response. The slowest poles of known materials decay by 100 dB in 800.
 const RESPONSE: usize = 2048;
 
-/// A kernel of some arithmetic.
+/// A kernel, whatever its arithmetic.
 pub trait Rendering: Send {
-    /// Starts at a place: its model, at once, from silence.
+    /// Starts from silence with the model at a place.
     fn settle(&mut self, place: &Place);
-    /// What is rendered with now.
+    /// The filter that is rendered with now.
     fn filter(&self) -> Filter;
-    /// Samples, m/s², one a place and an excitation.
+    /// Renders one sample, m/s², for each place and excitation.
     fn render(&mut self, places: &[Place], epsilon: &[f64]) -> Vec<f64>;
-    /// Renders `ticks` samples over and over the same places; the last of them. Everything
-    /// but the ticks costs the same for any number of them.
+    /// Renders `ticks` samples, cycling over the places, and returns the last one.
+    ///
+    /// All work besides the ticks themselves costs the same for any number of ticks.
     fn repeat(&mut self, places: &[Place], epsilon: &[f64], ticks: usize) -> f64;
 }
 
-/// The kernel of a design for a texture, its LSFs rounded as the design says; `None` where
-/// rounding leaves no filter, for a direct LSP form of anything but LSFs, and for orders
-/// above [`MAX_ORDER`].
+/// The kernel of a design for a texture, with LSFs rounded as the design says.
 ///
-/// The order is the texture's: [`Design::order`] is applied before.
+/// `None` where rounding leaves no filter, for a direct LSP form of anything but LSFs, and for
+/// orders above [`MAX_ORDER`]. The order is the texture's: the caller has applied
+/// [`Design::order`] already.
 #[must_use]
 pub fn kernel(design: &Design, texture: &Texture<'_>) -> Option<Box<dyn Rendering>> {
     let of_lsfs = matches!(design.shape, Shape::LsfOmega | Shape::LsfCosine);
@@ -75,7 +76,7 @@ struct Kernel<P, S> {
     fraction: P,
     /// Fraction of a crossfade that has passed at each tick between two updates.
     ramp: Vec<S>,
-    /// m/s² of a signal of 1.
+    /// How many m/s² a signal of 1 stands for.
     scale: f64,
     tick: usize,
     mixed: Parameters<P>,
@@ -341,12 +342,13 @@ fn rounded<P: Number + Rounds<S>, S: Number>(out: &mut Row<S>, row: &Row<P>, ord
     }
 }
 
-/// m/s² of a signal of 1: fixed point runs relative to the loudest vertex's RMS.
+/// How many m/s² a signal of 1 stands for: 1 in floating point, the loudest vertex's RMS in
+/// fixed point.
 fn scale(design: &Design, texture: &Texture<'_>) -> Option<f64> {
     if matches!(design.arithmetic, Arithmetic::F64 | Arithmetic::F32) {
         return Some(1.0);
     }
-    // The energy of an impulse response: a filter that is converted once and held.
+    // The energy of an impulse response, by a filter that is converted once and held.
     let exact = Design {
         update_ticks: RESPONSE,
         transition: Transition::Hold,

@@ -21,7 +21,7 @@ pub enum FeelError {
     /// The table could not be encoded.
     #[error("cannot encode the table as CSV: {0}")]
     Csv(#[from] ::csv::Error),
-    /// A transform of the wrong size.
+    /// The Fourier transform failed.
     #[error("cannot transform the vibration: {0}")]
     Transform(#[from] realfft::FftError),
 }

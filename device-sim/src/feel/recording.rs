@@ -9,15 +9,15 @@ use crate::session::Record;
 /// Every tick of a session, and what the reports say about it.
 #[derive(Debug, Clone)]
 pub struct Recording {
-    /// What was touched.
+    /// The texture that was touched.
     pub texture: TextureFacts,
-    /// With what.
+    /// The device.
     pub device: DeviceConfig,
-    /// By whom.
+    /// The grip.
     pub grip: Grip,
     /// Seed of script and excitation.
     pub seed: u64,
-    /// The script; a record refers to it by index.
+    /// The motions of the script; a record names its motion by index.
     pub motions: Vec<Motion>,
     /// Every tick.
     pub records: Vec<Record>,
@@ -40,15 +40,15 @@ pub struct TextureFacts {
     pub mu: f64,
     /// Wall stiffness, N/m.
     pub stiffness_n_m: f64,
-    /// Force a unit of vibration, N per m/s².
+    /// Force per vibration, N per m/s².
     pub vib_n_per_m_s2: f64,
     /// Fastest speed and largest force of its grid, mm/s and N.
     pub grid: (f64, f64),
-    /// What a reader must know: synthetic parts, unconfirmed defaults.
+    /// Remarks that a reader must know: synthetic parts, unconfirmed defaults.
     pub caveats: Vec<String>,
 }
 
-/// A span of one motion of the script, in ticks.
+/// The ticks of one motion of the script.
 #[derive(Debug, Clone, Copy)]
 pub struct Span<'a> {
     /// Index in the script.

@@ -2,13 +2,13 @@
 
 use std::collections::HashMap;
 
-/// Counts of a firmware bench: instructions a tick by factor and name of the design.
+/// Instructions a tick, by factor and name of the design.
 pub type CortexM = HashMap<(String, String), f64>;
 
-/// Reads `factor,name,instructions`.
+/// Reads a CSV table with the columns `factor,name,instructions`.
 ///
 /// # Errors
-/// The parser's for a file that is no such table.
+/// The CSV parser's error for a file that is not such a table.
 pub fn read(bytes: &[u8]) -> Result<CortexM, csv::Error> {
     let mut reader = csv::Reader::from_reader(bytes);
     reader

@@ -5,17 +5,17 @@ use asperity::spectrum::{ArmaModel, ErrorBand};
 /// How many frequencies spectra are compared at, four hertz apart.
 const POINTS: usize = 111;
 
-/// Log spectra at fixed frequencies.
+/// The frequencies at which spectra are compared.
 pub struct Band(ErrorBand);
 
 impl Band {
-    /// The band of all spectral errors at a sample rate.
+    /// The frequencies for all spectral errors at a sample rate.
     #[must_use]
     pub fn new(sample_rate_hz: f64) -> Self {
         Self(ErrorBand::new(sample_rate_hz, POINTS))
     }
 
-    /// Powers of a model, (m/s²)².
+    /// Powers of a model at these frequencies, (m/s²)².
     #[must_use]
     pub fn powers(&self, model: &ArmaModel) -> Vec<f64> {
         let square = model.level_m_s2 * model.level_m_s2;
@@ -32,16 +32,16 @@ impl Band {
 /// How two power spectra differ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// RMS of the difference of their logarithms, dB.
+    /// RMS of the difference of their logarithms, level included, dB.
     pub distortion_db: f64,
-    /// The same without its mean: shape alone, dB.
+    /// RMS of that difference without its mean, which leaves the shape alone, dB.
     pub shape_db: f64,
-    /// Power of the second over the first, dB.
+    /// Total power of the second relative to the first, dB.
     pub level_db: f64,
 }
 
 impl Difference {
-    /// Of two lists of powers at the same frequencies.
+    /// The difference between two lists of powers at the same frequencies.
     #[must_use]
     pub fn of(truth: &[f64], found: &[f64]) -> Self {
         let count = truth.len() as f64;

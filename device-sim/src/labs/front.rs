@@ -1,10 +1,11 @@
 //! The Pareto front: points that no other point beats.
 
-/// Smaller differences are none: 2 %.
+/// Coordinates whose ratio is smaller than this count as equal: 2 %.
 const TIE: f64 = 1.02;
 
-/// Whether no other point is as small in both coordinates and smaller in one, ties within
-/// 2 % apart.
+/// Whether no other point is at most as large in both coordinates and smaller in one.
+///
+/// Coordinates within 2 % of each other count as equal.
 #[must_use]
 pub fn on_front(points: &[(f64, f64)], index: usize) -> bool {
     let (x, y) = points[index];

@@ -6,7 +6,7 @@ use asperity::{
 };
 use asperity_kernels::design::Order;
 
-/// A grid at every order that is compared.
+/// A grid, prepared for every order.
 pub(super) struct Grids<'a> {
     full: &'a ModelGrid,
     with_zero: Option<Fits<'a>>,

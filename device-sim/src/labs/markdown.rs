@@ -1,4 +1,4 @@
-//! The comparison as the documentation prints it.
+//! The comparison as tables of the documentation.
 
 use super::cortex_m::CortexM;
 use super::held_out::{MethodSummary, Region};
@@ -39,7 +39,7 @@ pub fn tables(results: &Results, held_out: &[MethodSummary], cortex_m: &CortexM)
     text
 }
 
-/// A number with so many decimals, or a dash.
+/// A number with `decimals` decimals, or a dash.
 fn number(value: Option<f64>, decimals: usize) -> String {
     match value {
         None => "–".into(),

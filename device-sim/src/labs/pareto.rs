@@ -1,4 +1,4 @@
-//! Every variant on every material, in parallel, and what that amounts to.
+//! Every variant on every material, measured in parallel, and the summaries.
 
 use super::accuracy::{Errors, Truth};
 use super::cost::{self, CountError, Counter};
@@ -22,15 +22,15 @@ use std::collections::HashMap;
 pub struct Options {
     /// Seed of motions, excitations and pairs.
     pub seed: u64,
-    /// Motion a material and design, s.
+    /// Length of the motion that each design renders on each material, s.
     pub seconds: f64,
     /// Whether instructions are counted.
     pub instructions: bool,
-    /// Whether kernels are timed beside the default.
+    /// Whether kernels are timed against the default.
     pub time: bool,
 }
 
-/// All of it.
+/// Everything that was measured.
 pub struct Results {
     /// Names of the materials.
     pub materials: Vec<String>,
@@ -38,26 +38,27 @@ pub struct Results {
     pub rows: Vec<Measurement>,
     /// Every variant over all materials, in the order of [`variants`].
     pub summaries: Vec<VariantSummary>,
-    /// Predictions of held-out models, a list a material.
+    /// Predictions of held-out models, one list for each material.
     pub held_out: Vec<Vec<Prediction>>,
-    /// Exponents of speed and force, one pair a material.
+    /// Exponents of speed and force, one pair for each material.
     pub exponents: Vec<(f64, f64)>,
-    /// What `auto` keeps, one a material.
+    /// What `auto` keeps of each material.
     pub kept: Vec<Kept>,
     /// The orders that instructions were counted at.
     pub common: Orders,
-    /// Why no instructions were counted, where they were wanted.
+    /// Why instructions were not counted although they were wanted.
     pub not_counted: Option<String>,
 }
 
-/// How many times `done` is called by [`measure`].
+/// How many times [`measure`] calls `done`.
 #[must_use]
 pub fn steps(materials: usize) -> usize {
     materials + variants().len()
 }
 
-/// Measures every variant on every texture; `done` is called once a material and once a
-/// variant, from any thread.
+/// Measures every variant on every texture.
+///
+/// `done` is called once for each material and once for each variant, from any thread.
 #[must_use]
 pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + Sync) -> Results {
     let variants = variants();
@@ -121,7 +122,7 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
     }
 }
 
-/// Of one material.
+/// What was measured on one material.
 struct Measured {
     rows: Vec<Measurement>,
     held_out: Vec<Prediction>,
@@ -172,7 +173,7 @@ impl Measured {
     }
 }
 
-/// Orders that most materials have; of several such, the largest.
+/// The orders that most materials have; where several are equally common, the largest.
 fn commonest(textures: &[TextureModel]) -> Orders {
     let mut counts: HashMap<Orders, usize> = HashMap::new();
     for texture in textures {

@@ -25,12 +25,12 @@ pub struct Measurement {
 pub struct VariantSummary {
     /// The variant.
     pub variant: Variant,
-    /// Executed instructions a tick of mixing, conversion and synthesis: at the commonest
-    /// orders, of `auto` the mean over the materials.
+    /// Executed instructions a tick of mixing, conversion and synthesis. They are counted at the
+    /// commonest orders; for `auto` they are the mean over the materials.
     pub instructions: Option<f64>,
-    /// Time over that of the default.
+    /// Time divided by that of the default.
     pub time_ratio: Option<f64>,
-    /// Bytes of an asset, the median.
+    /// Median of the bytes of an asset.
     pub bytes: Option<usize>,
     /// RMS log-spectral distortion at rest, dB.
     pub distortion_db: Option<Spread>,
@@ -38,26 +38,26 @@ pub struct VariantSummary {
     pub level_db: Option<Spread>,
     /// Absolute level error of blocks while moving, dB.
     pub moving_level_db: Option<Spread>,
-    /// Difference of samples while moving, relative, dB; over the materials.
+    /// RMS of the difference of samples while moving, relative to the oracle, dB.
     pub moving_error_db: Option<Spread>,
-    /// RMS under alternation above the louder model, dB.
+    /// RMS under alternation relative to the louder model, dB.
     pub alternation_db: Option<Spread>,
-    /// Share of places whose filter is not stable.
+    /// Fraction of places whose filter is unstable.
     pub unstable: f64,
-    /// Materials with such a place.
+    /// Number of materials with such a place.
     pub unstable_materials: usize,
 }
 
 impl VariantSummary {
-    /// Whether it stays within the budget at rest: stable everywhere, and 95 % of all
-    /// places within 0.5 dB.
+    /// Whether the variant is within the budget at rest: stable everywhere, and within 0.5 dB at
+    /// 95 % of all places.
     #[must_use]
     pub fn is_within_budget(&self) -> bool {
         self.unstable == 0.0 && self.distortion_db.is_some_and(|d| d.p95 <= BUDGET_DB.0)
     }
 }
 
-/// Summary of a variant's rows. Instructions and time are left out: they are counted apart.
+/// Summarises a variant's rows, without instructions and time, which are measured elsewhere.
 pub(super) fn summarised(variant: Variant, rows: &[&Measurement]) -> VariantSummary {
     let all = |list: fn(&Errors) -> &Vec<f64>| -> Option<Spread> {
         let values: Vec<f64> = rows

@@ -1,10 +1,10 @@
-//! The CSV files of a comparison: one fact a cell, a header, empty where nothing is known.
+//! The CSV files of a comparison. A cell is empty where its value is not known.
 //!
-//! | file | a row is | columns |
+//! | file | each row | columns |
 //! |---|---|---|
-//! | `summary.csv` | a design over all materials | factor, name, the eight settings; instructions a tick, Cortex-M4F instructions where given, time ratio, bytes; median, p95 and max (dB) of distortion, level, moving level, moving error and alternation; unstable share, materials with an unstable place |
-//! | `designs.csv` | a design on a material | factor, name, material, poles, zeros, bytes; the same errors; unstable places of how many |
-//! | `held-out.csv` | a method in a region over all materials | what is varied, method, region, models, refused; median, p95, max of distortion, of shape alone and of the absolute level error, median of the signed one (dB); share of models to which it is nearer than the product's way |
+//! | `summary.csv` | a design over all materials | factor, name, the eight settings; instructions a tick, Cortex-M4F instructions where given, time ratio, bytes; median, p95 and max (dB) of distortion, level, moving level, moving error and alternation; fraction of unstable places, number of materials with an unstable place |
+//! | `designs.csv` | a design on a material | factor, name, material, poles, zeros, bytes; the same errors; number of unstable places and of all places |
+//! | `held-out.csv` | a method in a region over all materials | what is varied, method, region, models, refused; median, p95, max of distortion, of shape alone and of the absolute level error, median of the signed one (dB); fraction of models to which it is nearer than the product's method |
 //! | `fidelity.csv` | what `auto` keeps of a material | material, poles, zeros, vertices, triangles, tap samples, instructions and bytes, each whole and kept; ratio of instructions; p95 and worst (dB) |
 
 use super::accuracy::Errors;
@@ -48,7 +48,7 @@ fn texts<const N: usize>(names: [&str; N]) -> Vec<String> {
 /// `summary.csv`.
 ///
 /// # Errors
-/// None that a buffer in memory has.
+/// The CSV writer's error; none occurs with a buffer in memory.
 pub fn summary(results: &Results, cortex_m: &CortexM) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = texts([
@@ -125,7 +125,7 @@ fn settings(design: &Design) -> [String; 8] {
 /// `designs.csv`.
 ///
 /// # Errors
-/// None that a buffer in memory has.
+/// The CSV writer's error; none occurs with a buffer in memory.
 pub fn designs(results: &Results) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = texts(["factor", "name", "material", "poles", "zeros", "bytes"]);
@@ -170,7 +170,7 @@ pub fn designs(results: &Results) -> Result<Vec<u8>, csv::Error> {
 /// `held-out.csv`.
 ///
 /// # Errors
-/// None that a buffer in memory has.
+/// The CSV writer's error; none occurs with a buffer in memory.
 pub fn held_out(summary: &[MethodSummary]) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = texts(["varied", "method", "region", "models", "refused"]);
@@ -201,7 +201,7 @@ pub fn held_out(summary: &[MethodSummary]) -> Result<Vec<u8>, csv::Error> {
 /// `fidelity.csv`.
 ///
 /// # Errors
-/// None that a buffer in memory has.
+/// The CSV writer's error; none occurs with a buffer in memory.
 pub fn fidelity(results: &Results) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = texts(["material"]);

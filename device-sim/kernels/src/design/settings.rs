@@ -123,10 +123,10 @@ pub enum Arithmetic {
     F64,
     /// Single precision.
     F32,
-    /// 32 bits, 24 after the point, products summed in 64 bits.
+    /// 32 bits with 24 after the binary point; products are summed in 64 bits.
     Fixed32,
-    /// Parameters in 32 bits; coefficients and signals in 16 bits, 12 after the point,
-    /// products summed in 32 bits.
+    /// Parameters in 32 bits; coefficients and signals in 16 bits with 12 after the binary
+    /// point; products are summed in 32 bits.
     Fixed16,
 }
 
@@ -148,7 +148,7 @@ impl Arithmetic {
 pub enum Transition {
     /// Coefficients are held.
     Hold,
-    /// Parameters pass a one-pole of 5 ms before conversion; coefficients are held.
+    /// Parameters pass a one-pole filter of 5 ms before conversion; coefficients are held.
     Smooth,
     /// Coefficients are ramped from one conversion to the next.
     Crossfade,

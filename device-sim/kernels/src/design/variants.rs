@@ -72,7 +72,7 @@ pub struct Variant {
     pub design: Design,
 }
 
-/// The default, every factor varied alone, and the named crosses.
+/// The default, every factor varied alone, and named combinations.
 #[must_use]
 pub fn variants() -> Vec<Variant> {
     const D: Design = Design::DEFAULT;
@@ -118,7 +118,7 @@ pub fn variants() -> Vec<Variant> {
     }
     for transition in [Transition::Hold, Transition::Smooth, Transition::Crossfade] {
         for update_ticks in [1, 2, 4, 6, 8, 16] {
-            // Nothing lies between two conversions that follow each other.
+            // With a conversion at every tick there is nothing to crossfade.
             if (transition, update_ticks) != (Transition::Crossfade, 1) {
                 add(
                     Factor::Update,
@@ -145,7 +145,7 @@ pub fn variants() -> Vec<Variant> {
     all
 }
 
-/// Combinations that somebody would build.
+/// Combinations that one might build.
 fn crosses() -> [(&'static str, Design); 7] {
     const D: Design = Design::DEFAULT;
     let paper = Design {

@@ -25,7 +25,7 @@ impl Costs {
         value.unwrap_or(f64::NAN)
     }
 
-    /// Around some designs.
+    /// An axis that covers the costs of some designs.
     pub(super) fn axis<'a>(&self, designs: impl IntoIterator<Item = &'a VariantSummary>) -> Axis {
         let values: Vec<f64> = designs
             .into_iter()

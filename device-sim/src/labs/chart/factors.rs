@@ -1,4 +1,4 @@
-//! One panel a factor: its variants among all others.
+//! One panel for each factor: its variants among all others.
 
 use super::costs::Costs;
 use super::errors::{BUDGET, error_axis, within};
@@ -14,7 +14,7 @@ use asperity_plot::{Canvas, Marker, Panel, PlotError, Rect, ink};
 const SIZE: (f32, f32) = (2200.0, 2720.0);
 const COLUMNS: usize = 2;
 
-/// What tells the variants of a factor apart.
+/// The error by which the variants of a factor differ.
 #[derive(Clone, Copy)]
 enum Measure {
     Rest,

@@ -1,4 +1,4 @@
-//! All designs in one panel, and the front of those that nothing beats.
+//! All designs in one panel, with the Pareto front.
 
 use super::costs::Costs;
 use super::errors::{BUDGET, error_axis, larger_error};
@@ -82,7 +82,7 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
             || front.iter().any(|&i| std::ptr::eq(stable[i], s))
     };
     let mut order: Vec<&VariantSummary> = results.summaries.iter().filter(|s| named(s)).collect();
-    // Those that matter most take their place first.
+    // The most important names are placed first.
     order.sort_by_key(|s| (!default(s), s.variant.design.order != Order::Auto));
     for summary in order {
         let at = panel.position(costs.value(summary), larger_error(summary));

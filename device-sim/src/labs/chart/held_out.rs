@@ -1,4 +1,4 @@
-//! Measured models, predicted from the others.
+//! How well each method predicts measured models from the others.
 
 use super::picture::{Picture, finished};
 use super::rows::{self, Row};

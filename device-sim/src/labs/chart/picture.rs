@@ -2,14 +2,15 @@
 
 use asperity_plot::{Canvas, PlotError};
 
-/// One picture.
+/// One picture in two formats.
 pub struct Picture {
-    /// Scalable.
+    /// The picture as SVG.
     pub svg: String,
-    /// Pixels.
+    /// The bytes of a PNG.
     pub png: Vec<u8>,
 }
 
+/// The picture on a canvas that records.
 pub(super) fn finished(canvas: &Canvas) -> Result<Picture, PlotError> {
     Ok(Picture {
         svg: canvas.svg().unwrap_or_default(),

@@ -5,8 +5,8 @@ use asperity::{
     model::{GridVertex, ModelGrid},
 };
 
-/// The mixture at a vertex's position, or at the nearest point of the triangles' border,
-/// and that point.
+/// The mixture at a vertex's position, or at the nearest point of the triangles' border, and
+/// that point in mm/s and N.
 pub(super) fn located(grid: &ModelGrid, target: &GridVertex) -> (Option<Place>, (f64, f64)) {
     let (width, height) = asperity::mesh::corner(grid);
     let at = |v: usize| {

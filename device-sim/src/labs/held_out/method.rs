@@ -1,4 +1,4 @@
-//! What a prediction is made by, where, and what comes of it.
+//! A prediction: its method, the region of the model, and its error.
 
 use crate::labs::difference::Difference;
 use asperity_kernels::design::{Level, Shape};
@@ -10,7 +10,7 @@ pub enum Region {
     Inside,
     /// Between measured models and silence.
     TowardsRest,
-    /// Beyond them, where an edge model goes on.
+    /// Beyond the measured models, where edge models are extrapolated.
     Beyond,
 }
 
@@ -26,30 +26,30 @@ impl Region {
     }
 }
 
-/// What a prediction was made by.
+/// How a prediction was made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// An interpolation of shape; levels as RMS.
+    /// An interpolation of shape; levels are mixed as RMS.
     Shape(Shape),
-    /// An interpolation of level; shapes in cos ω.
+    /// An interpolation of level; shapes are mixed in cos ω.
     Level(Level),
-    /// The model at the nearest neighbour as it is.
+    /// The nearest neighbour's model, unchanged.
     Nearest,
-    /// Powers of speed and force beyond the border.
+    /// The nearest model on the border, its level raised by powers of speed and force.
     Powers(Exponents),
 }
 
-/// How the level of an edge model grows.
+/// How the level of an edge model grows with speed and force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Exponents {
-    /// As the others grow, within 0 to 2: what the compiler does.
+    /// With the exponents that fit the other models, within 0 to 2, as the compiler does.
     Fitted,
-    /// These, for speed and force.
+    /// With these exponents of speed and force.
     Fixed(f64, f64),
 }
 
 impl Exponents {
-    /// What is compared.
+    /// All that are compared.
     pub const ALL: [Self; 5] = [
         Self::Fitted,
         Self::Fixed(0.0, 0.0),
@@ -60,7 +60,7 @@ impl Exponents {
 }
 
 impl Method {
-    /// What it varies, and its name, for tables.
+    /// What the method varies, and its name, for tables.
     #[must_use]
     pub fn names(self) -> (&'static str, String) {
         match self {
@@ -76,13 +76,13 @@ impl Method {
 /// One prediction of one model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// Which model of the grid, counted among those that were measured.
+    /// Index of the model among the grid's measured ones.
     pub model: usize,
-    /// By what.
+    /// How it was predicted.
     pub method: Method,
-    /// Where.
+    /// Where it lies.
     pub region: Region,
-    /// How far from the measured one; `None` where the filter is not stable or the level
-    /// is nothing.
+    /// How far the prediction is from the measured model; `None` where the filter is unstable or
+    /// the level is 0.
     pub difference: Option<Difference>,
 }

@@ -1,10 +1,11 @@
-//! Against what was measured: every interior model predicted from the others.
+//! How well an interpolation predicts a measured model that it has not seen.
 //!
-//! A measured model is taken out with all its copies; the others, and the silent models on
-//! the axes v = 0 and F = 0, are triangulated anew, and the gap is filled by each
-//! interpolation. Where a corner of the triangle is silent the level is predicted *towards
-//! rest*, else *inside*. A model outside the triangles is predicted from the nearest point
-//! of their border as an edge model would be, its level raised by powers of speed and force.
+//! Every interior model is taken out in turn, with all its copies. The other models and the
+//! silent ones on the axes v = 0 and F = 0 are triangulated anew, and each interpolation
+//! predicts the missing model. Its region is *towards rest* where a corner of its triangle is
+//! silent, and *inside* elsewhere. A model outside the triangles lies *beyond*: it is predicted
+//! like an edge model, from the nearest point of their border, with its level raised by powers
+//! of speed and force.
 
 mod locate;
 mod method;

@@ -1,4 +1,4 @@
-//! Every measured model, predicted from the others.
+//! The predictions of every measured model from the others.
 
 use super::locate::located;
 use super::method::{Exponents, Method, Prediction, Region};
@@ -14,7 +14,7 @@ use asperity::{
 };
 use asperity_kernels::design::{Arithmetic, Design, Level, Shape};
 
-/// Exponents of speed and force that the measured levels of a grid show, within 0 to 2.
+/// Exponents of speed and force that fit the measured levels of a grid, within 0 to 2.
 #[must_use]
 pub fn exponents(grid: &ModelGrid) -> (f64, f64) {
     edges::growth(&with_levels(&measured(grid)))
@@ -35,7 +35,7 @@ pub fn predictions(grid: &ModelGrid) -> Vec<Prediction> {
         .collect()
 }
 
-/// Interior models that sound, each shape once.
+/// Interior models that vibrate, each filter once.
 fn measured(grid: &ModelGrid) -> Vec<GridVertex> {
     let mut distinct: Vec<GridVertex> = Vec::new();
     for vertex in &grid.vertices {
@@ -51,7 +51,7 @@ fn same_shape(x: &GridVertex, y: &GridVertex) -> bool {
     x.lsf_rad == y.lsf_rad && x.ma_lsf_rad == y.ma_lsf_rad
 }
 
-/// gain·σ as σ, for fits of the level.
+/// The vertices with a gain of 1 and gain·σ as σ, for fits of the level.
 fn with_levels(vertices: &[GridVertex]) -> Vec<GridVertex> {
     vertices
         .iter()
@@ -96,7 +96,7 @@ fn predict(
     }
     let mut vertices = others.clone();
     for edge in silent {
-        // The shape of an edge model is a copy, perhaps of the model that is out.
+        // An edge model copies an interior filter, perhaps of the very model that is left out.
         if let Some(like) = nearest_to(edge) {
             vertices.push(GridVertex {
                 speed_mm_s: edge.speed_mm_s,
@@ -172,7 +172,7 @@ fn predict(
         );
     }
     for level in Level::ALL {
-        // Of silence there is no logarithm.
+        // Silence has no logarithm.
         if region == Region::Inside || level != Level::Log {
             add(
                 Method::Level(level),
@@ -183,7 +183,7 @@ fn predict(
     all
 }
 
-/// The kernels' own mixture, in f64.
+/// The mixture that a kernel renders, in f64.
 fn mixed(grid: &ModelGrid, place: &Place, shape: Shape, level: Level) -> Option<ArmaModel> {
     let design = Design {
         shape,
@@ -214,7 +214,7 @@ mod tests {
                 })
                 .collect();
             vertex.sigma_m_s2 = vertex.speed_mm_s * 0.01 + vertex.force_n;
-            // Interior models count once; all of them sound.
+            // Each interior model counts once, and all of them vibrate.
             vertex.kind = if index % 2 == 0 {
                 VertexKind::Interior
             } else {
@@ -243,7 +243,7 @@ mod tests {
         let mut grid = linear();
         let same = grid.vertices[0].lsf_rad.clone();
         for (index, vertex) in grid.vertices.iter_mut().enumerate() {
-            // Shapes apart by a hair: distinct, and equal to the ear.
+            // The shapes differ by far less than can be heard, but they are distinct.
             vertex.lsf_rad = same.iter().map(|w| w + 1e-9 * index as f64).collect();
             let speed = vertex.speed_mm_s.max(1.0);
             vertex.sigma_m_s2 = speed.powf(1.0) * vertex.force_n.max(0.01).powf(0.5);

@@ -8,13 +8,13 @@ use asperity_kernels::design::{Level, Shape};
 /// One method in one region over all materials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MethodSummary {
-    /// By what.
+    /// How the models were predicted.
     pub method: Method,
-    /// Where.
+    /// Where they lie.
     pub region: Region,
     /// Models that were predicted.
     pub models: usize,
-    /// Of these, predictions that were no stable, sounding filter.
+    /// How many predictions gave no stable filter with a level.
     pub refused: usize,
     /// Distortion, level included.
     pub distortion_db: Option<Spread>,
@@ -24,8 +24,8 @@ pub struct MethodSummary {
     pub level_db: Option<Spread>,
     /// Median of the signed level error.
     pub bias_db: Option<f64>,
-    /// Share of the models to which it comes nearer than the product's way: in shape where
-    /// that is varied, else in level. Ties count half.
+    /// Fraction of the models to which this method comes nearer than the product's method does.
+    /// The shape is compared where the method varies it, else the level. Ties count half.
     pub nearer: Option<f64>,
 }
 
@@ -65,7 +65,7 @@ pub fn summaries(predictions: &[Vec<Prediction>]) -> Vec<MethodSummary> {
         .collect()
 }
 
-/// The product's way where a method is compared.
+/// The product's method, which another one is compared with.
 fn chosen(method: Method, region: Region) -> Method {
     match (method, region) {
         (Method::Powers(_), _) | (_, Region::Beyond) => Method::Powers(Exponents::Fitted),

@@ -14,7 +14,7 @@ use asperity_kernels::design::{Design, Order, Shape, Structure, variants};
 use rand_core::SeedableRng as _;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// A texture with a numerator of its own: the built-in one, its zeros from its poles.
+/// The built-in texture with a numerator of its own, whose zeros are made from its poles.
 fn arma() -> ModelGrid {
     let mut grid = builtin::texture().grid;
     grid.numerator = Numerator::Lsf;
