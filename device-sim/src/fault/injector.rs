@@ -14,10 +14,10 @@ pub struct FaultInjector<S> {
     plan: FaultPlan,
     rng: Xoshiro256PlusPlus,
     running: Option<(Fault, u32)>,
-    /// Last sample that the servo was given in good order.
+    /// Last sample that the servo was given without a fault.
     last: Sample,
     output: Output,
-    /// Ticks gone by since the servo last saw a fresh sample.
+    /// Ticks that passed since the servo last saw a fresh sample.
     missed_ticks: u32,
     counts: FaultCounts,
 }
@@ -26,7 +26,7 @@ impl<S: Servo> FaultInjector<S> {
     /// Puts `inner` behind the faults of `plan`.
     ///
     /// # Errors
-    /// [`FaultPlanError`] for a plan that makes no sense.
+    /// [`FaultPlanError`], as [`FaultPlan::check`].
     pub fn new(inner: S, plan: FaultPlan, seed: u64) -> Result<Self, FaultPlanError> {
         plan.check()?;
         Ok(Self {
@@ -41,7 +41,7 @@ impl<S: Servo> FaultInjector<S> {
         })
     }
 
-    /// Ticks that each kind took so far.
+    /// How many ticks each kind has taken so far.
     #[must_use]
     pub fn counts(&self) -> FaultCounts {
         self.counts
@@ -53,7 +53,7 @@ impl<S: Servo> FaultInjector<S> {
         &self.inner
     }
 
-    /// Starts a fault now, for `ticks` ticks, in place of one that runs.
+    /// Starts a fault for `ticks` ticks; it replaces one that runs.
     pub fn start(&mut self, fault: Fault, ticks: u32) {
         self.running = (ticks > 0).then_some((fault, ticks));
     }
@@ -84,7 +84,7 @@ impl<S: Servo> FaultInjector<S> {
         Some(fault)
     }
 
-    /// A value that is no position.
+    /// A coordinate that is NaN or infinite.
     fn not_finite(&mut self) -> f32 {
         [f32::NAN, f32::INFINITY, f32::NEG_INFINITY][(self.rng.next_u64() % 3) as usize]
     }
@@ -136,7 +136,7 @@ impl<S: Servo> Servo for FaultInjector<S> {
 mod tests {
     use super::*;
 
-    /// Writes down what it is given.
+    /// Records the samples that it is given.
     #[derive(Debug, Default)]
     struct Recorder(Vec<Sample>);
 
@@ -241,7 +241,7 @@ mod tests {
             (Fault::Stale, 2000.0),
             (Fault::Dropped, 5000.0),
         ] {
-            // Five standard deviations of a binomial count.
+            // The bound is five standard deviations of a binomial count.
             let count = servo.counts().of(fault) as f64;
             assert!(
                 (count - expected).abs() < 5.0 * f64::sqrt(expected),

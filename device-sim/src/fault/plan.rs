@@ -7,11 +7,11 @@ pub enum Fault {
     NotFinite,
     /// The servo misses its tick; the device keeps the last force.
     Dropped,
-    /// The last sample comes again, marked as such.
+    /// The last sample comes again and is marked as old.
     Stale,
-    /// The position freezes, unmarked.
+    /// The position freezes, and nothing marks it.
     Stuck,
-    /// Nothing new for some ticks, then the sample with the time that passed.
+    /// No new sample comes for some ticks, then one with the time that passed.
     Late,
 }
 
@@ -31,14 +31,14 @@ impl Fault {
 pub struct FaultRate {
     /// Probability that it starts in a tick without a fault, 0..=1.
     pub probability: f64,
-    /// Longest run, ticks; the length is uniform in 1..=this.
+    /// Longest duration, ticks; durations are uniform in 1..=this.
     pub longest_ticks: u32,
 }
 
-/// Rates of every kind; the default is no faults.
+/// The rate of every kind of fault; the default has no faults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaultPlan {
-    /// One rate a kind, in the order of [`Fault::ALL`].
+    /// One rate for each kind, in the order of [`Fault::ALL`].
     pub kinds: [FaultRate; 5],
 }
 
@@ -54,7 +54,7 @@ impl Default for FaultPlan {
 }
 
 impl FaultPlan {
-    /// The plan with one kind's rate set.
+    /// The plan with another rate for one kind.
     #[must_use]
     pub fn with(mut self, fault: Fault, probability: f64, longest_ticks: u32) -> Self {
         self.kinds[fault as usize] = FaultRate {
@@ -89,7 +89,7 @@ impl FaultPlan {
     }
 }
 
-/// A plan that makes no sense.
+/// Why a plan was refused.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum FaultPlanError {
     /// A probability outside 0..=1.
@@ -106,7 +106,7 @@ pub enum FaultPlanError {
         /// Their sum.
         value: f64,
     },
-    /// A run of no ticks.
+    /// A longest duration of 0 ticks.
     #[error("longest run of {fault:?} is 0 ticks; it must be at least 1")]
     EmptyRun {
         /// Which fault.

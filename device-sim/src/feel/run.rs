@@ -1,4 +1,4 @@
-//! A texture, a device and a hand in; a recording out.
+//! Runs a session of a hand on a texture and returns its recording.
 
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Limits, Renderer};
@@ -10,11 +10,11 @@ use crate::hand::{Grip, Script};
 use crate::servo::RenderedTexture;
 use crate::session::Session;
 
-/// Shortest time that one cycle of the exploration takes, s; bounds how many
-/// cycles a given time can need.
+/// Shortest time that one cycle of the exploration takes, s. It bounds how many cycles a given
+/// time can need.
 const CYCLE_S: f64 = 6.0;
 
-/// Who feels with what, for how long.
+/// The device, the grip, the seed and the length of a session.
 #[derive(Debug, Clone)]
 pub struct FeelOptions {
     /// The device.
@@ -23,12 +23,14 @@ pub struct FeelOptions {
     pub grip: Grip,
     /// Seed of the script's variations and of the texture's excitation.
     pub seed: u64,
-    /// Virtual time to run, s; `None` is one whole exploration.
+    /// Virtual time to run, s; `None` for one whole exploration.
     pub seconds: Option<f64>,
 }
 
-/// Lets a hand explore a texture over the plane z = 0. Limits, rate and mechanics of the
-/// renderer are those of the device. `origin` says where the asset came from.
+/// Lets a hand explore a texture on the plane z = 0.
+///
+/// The renderer is given the limits, the rate and the mechanics of the device. `origin` says
+/// where the asset came from.
 ///
 /// # Errors
 /// [`FeelError::Load`] for a texture that does not fit the slot or the device's

@@ -1,6 +1,6 @@
-//! Order statistics and moments of a handful of numbers.
+//! Mean, RMS, peak and percentiles of a list of numbers.
 
-/// Mean; 0 of nothing.
+/// Mean; 0 for an empty list.
 pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     let (sum, count) = values
         .into_iter()
@@ -8,17 +8,17 @@ pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     if count == 0 { 0.0 } else { sum / count as f64 }
 }
 
-/// Root mean square; 0 of nothing.
+/// Root mean square; 0 for an empty list.
 pub(super) fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
     mean(values.into_iter().map(|v| v * v)).sqrt()
 }
 
-/// Largest magnitude; 0 of nothing.
+/// Largest magnitude; 0 for an empty list.
 pub(super) fn peak(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |max: f64, v| max.max(v.abs()))
 }
 
-/// The value below which a share `p` of them lies (nearest rank); 0 of nothing.
+/// The value below which a fraction `p` of the list lies, by nearest rank; 0 for an empty list.
 pub(super) fn percentile(sorted: &[f64], p: f64) -> f64 {
     let last = sorted.len().saturating_sub(1);
     let rank = (p.clamp(0.0, 1.0) * last as f64).round() as usize;

@@ -146,7 +146,7 @@ fn a_burst_of_nan_lets_the_force_fall_to_zero_within_the_slew_and_come_back() {
         })
         .collect();
     assert!(during[0] > 1.5, "two bad samples hold the last good one");
-    // Held for two ticks, then at most |F| / slew ticks down to nothing.
+    // The force is held for two ticks, then falls to 0 within |F| / slew ticks.
     let falls = 2 + (during[0] / slew_n).ceil() as usize;
     assert!(during[falls..].iter().all(|&f| f == 0.0), "{during:?}");
     for pair in during.windows(2) {
@@ -279,7 +279,7 @@ fn the_sound_is_the_vibration_at_the_stated_scale() {
         .map(|s| f64::from(*s).abs())
         .fold(0.0, f64::max);
     assert!((loudest / full_scale - 0.891).abs() < 1e-4);
-    // The power in m/s² is that of the vibration, but for what lies above 430 Hz.
+    // The sound has the power of the vibration, apart from frequencies above 430 Hz.
     let power = |x: &mut dyn Iterator<Item = f64>| x.map(|v| v * v).sum::<f64>();
     let scale = sound.gain_per_m_s2 * full_scale;
     let heard = power(&mut samples.iter().map(|s| f64::from(*s) / scale)) / 48.0;

@@ -1,4 +1,4 @@
-//! The hand at work: from its script to its intent, a tick at a time.
+//! The hand at work: it turns its script into one intent each tick.
 
 use super::grip::Grip;
 use super::intent::Intent;
@@ -7,32 +7,31 @@ use super::path::{StrokePath, TapPath, min_jerk, scrub_m};
 use super::script::Script;
 use crate::axis::{AxisParams, AxisState};
 
-/// Height from which the hand feels its way down, m.
+/// Height from which the hand approaches the surface slowly, m.
 const FEELER_M: f64 = 0.001;
-/// Speed at which it does, m/s; below any tap.
+/// Speed of that approach, m/s; slower than any tap.
 const LANDING_M_S: f64 = 0.008;
-/// Time to get down to the feeler height, s.
+/// Time of the descent to that height, s.
 const DESCENT_S: f64 = 0.2;
 /// Force at which the hand notices that it has landed, N.
 const NOTICED_N: f64 = 0.05;
-/// How deep below the surface a landing may go before the hand takes it that
-/// nothing is there, m.
+/// Depth at which the hand stops looking for a surface and goes on with its script, m.
 const DEEPEST_M: f64 = 0.02;
 /// Time over which the wanted force changes between motions, s.
 const FORCE_RAMP_S: f64 = 0.15;
 /// Time constant of what the hand feels, s.
 const FELT_TIME_S: f64 = 0.02;
-/// Errors of force the hand lets be, N.
+/// Errors of force that the hand does not correct, N.
 const FORCE_DEAD_BAND_N: f64 = 0.02;
-/// Felt force above which the hand learns how far the surface yields, N.
+/// Felt force above which the hand learns the compliance of the surface, N.
 const LEARNING_N: f64 = 0.2;
 /// Time constant of that learning, s.
 const LEARNING_S: f64 = 0.05;
-/// Softest surface it can learn, m/N.
+/// Largest compliance that the hand can learn, m/N.
 const SOFTEST_M_N: f64 = 0.01;
-/// Most that the hand's correction adds, N.
+/// Largest correction that the hand adds, N.
 const CORRECTION_N: f64 = 1.5;
-/// Force that a tap means to reach against the grip's spring, N.
+/// Force of the grip's spring at the deepest intended point of a tap, N.
 const TAP_FORCE_N: f64 = 1.0;
 
 /// How the current motion governs the height.
@@ -40,11 +39,11 @@ const TAP_FORCE_N: f64 = 1.0;
 enum Stage {
     /// Through the air down to the feeler height.
     Descent { from_m: f64 },
-    /// Slowly down until something is felt.
+    /// Slowly down until the hand feels a force.
     Landing,
-    /// In contact, the wanted force changing.
+    /// In contact, while the wanted force changes.
     Settle { from_n: f64 },
-    /// The motion proper.
+    /// The motion itself.
     Body,
 }
 
@@ -60,7 +59,7 @@ pub struct Hand {
     origin_m: [f64; 3],
     target_m: [f64; 3],
     felt_n: f64,
-    /// How far the surface yields, as learned, m/N.
+    /// Compliance of the surface, as learned, m/N.
     compliance_m_n: f64,
     holding: Option<Holding>,
 }
@@ -104,9 +103,10 @@ impl Hand {
         &self.script
     }
 
-    /// Plans the next tick of `tick_s`, given the stylus, its mechanics (the
-    /// hand's mass included) and the force that the device exerts on it along +z.
-    /// `None` once the script has ended.
+    /// Plans the next tick, which lasts `tick_s`; `None` once the script has ended.
+    ///
+    /// The hand knows the stylus's height, its mechanics with the hand's own mass, and the force
+    /// that the device exerts on it along +z.
     pub fn plan(
         &mut self,
         tick_s: f64,
@@ -138,7 +138,7 @@ impl Hand {
             intent.feed_forward_n[2] = 0.0;
             intent.wanted_n = Some(wanted_n);
         } else if matches!(motion, Motion::Tap { .. }) && now[2] < 0.0 {
-            // Below the surface the grip alone meets the wall.
+            // Below the surface the grip's spring alone acts against the wall.
             intent.feed_forward_n[2] = 0.0;
         }
         self.target_m = intent.target_m;
@@ -146,14 +146,14 @@ impl Hand {
         Some(intent)
     }
 
-    /// Moves on to the stage and motion that are due.
+    /// Advances to the stage and the motion that are due, and returns the motion.
     fn current(&mut self, stylus_z: &AxisState) -> Option<Motion> {
         loop {
             let motion = *self.script.motions().get(self.index)?;
             let next = match self.stage {
                 Stage::Descent { .. } if self.stage_s >= DESCENT_S => Stage::Landing,
                 Stage::Landing if self.felt_n > NOTICED_N || stylus_z.position_m < -DEEPEST_M => {
-                    // The target stays where it is, whatever carries it.
+                    // The correction starts so that the target does not jump.
                     let free_n = self.grip.stiffness_n_m
                         * (-self.target_m[2] - self.felt_n * self.compliance_m_n)
                         - self.felt_n;
@@ -201,7 +201,7 @@ impl Hand {
         }
     }
 
-    /// Duration of the motion proper, s.
+    /// Duration of the motion itself, s.
     fn body_s(&self, motion: &Motion) -> f64 {
         match *motion {
             Motion::Approach { duration_s, .. }

@@ -6,22 +6,22 @@ use crate::axis::Pull;
 /// What the hand wants during one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Intent {
-    /// Where it means to be at the start of the tick, m.
+    /// Intended position at the start of the tick, m.
     pub target_m: [f64; 3],
-    /// How it means to move, m/s.
+    /// Intended velocity, m/s.
     pub target_m_s: [f64; 3],
-    /// Force it adds against the inertia and friction it knows, N.
+    /// Force that the hand adds to overcome the inertia and friction it knows, N.
     pub feed_forward_n: [f64; 3],
-    /// Normal force it means to hold, N, when it holds one.
+    /// Normal force that the hand means to hold, N; `None` while it holds none.
     pub wanted_n: Option<f64>,
     /// Index of the motion in the script.
     pub motion: usize,
-    /// Whether the motion proper runs: false while landing or settling.
+    /// Whether the motion itself runs; false while the hand lands or settles.
     pub in_body: bool,
 }
 
 impl Intent {
-    /// The pull on each axis, `t_s` into the tick.
+    /// The pull on each axis, `t_s` seconds into the tick.
     #[must_use]
     pub fn pull(&self, grip: &Grip, t_s: f64) -> [Pull; 3] {
         std::array::from_fn(|i| Pull {

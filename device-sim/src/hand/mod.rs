@@ -1,11 +1,10 @@
 //! A virtual hand: a grip on the stylus and a script of intentions.
 //!
-//! The grip's spring and damper pull the stylus to where the hand means to be. In
-//! the air the hand also feeds forward the inertia and friction it knows of, as a
-//! practised hand does, so that it is where it means to be. In contact it holds a
-//! normal force instead of a height: the spring is loaded by the wanted force, the
-//! hand sinks as far as it has learned that the surface yields, and an integrator
-//! corrects what is felt in the stylus, at the grip's bandwidth.
+//! The grip's spring and damper pull the stylus towards the intended position. In the air the
+//! hand also feeds forward the inertia and friction that it knows, as a practised hand does, so
+//! that it reaches that position. In contact it holds a normal force instead of a height: it
+//! loads the spring by the wanted force, sinks by the compliance of the surface that it has
+//! learned, and corrects the force that it feels with an integrator of the grip's bandwidth.
 
 mod controller;
 mod grip;

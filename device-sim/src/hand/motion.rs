@@ -33,7 +33,7 @@ pub enum Motion {
         /// Normal force, N.
         force_n: f64,
     },
-    /// Slide to and fro along x, sinusoidally.
+    /// Slide back and forth along x, sinusoidally.
     Scrub {
         /// Half the stroke, m.
         amplitude_m: f64,

@@ -3,7 +3,7 @@
 /// Time a stroke takes to reach its speed and to stop, s.
 const STROKE_RAMP_S: f64 = 0.06;
 
-/// Minimum-jerk blend of 0 to 1 over `s` in 0..=1: `10 s³ − 15 s⁴ + 6 s⁵`.
+/// Minimum-jerk blend from 0 to 1 over `s` in 0..=1: `10 s³ − 15 s⁴ + 6 s⁵`.
 #[must_use]
 pub fn min_jerk(s: f64) -> f64 {
     let s = s.clamp(0.0, 1.0);
@@ -42,7 +42,7 @@ impl StrokePath {
         }
     }
 
-    /// When it runs at its full speed, s after its start.
+    /// The beginning and the end of its full speed, s after its start.
     #[must_use]
     pub fn steady_s(&self) -> (f64, f64) {
         (self.ramp_s, self.duration_s() - self.ramp_s)
@@ -89,7 +89,7 @@ pub struct TapPath {
     sink_s: f64,
 }
 
-/// Time a tap takes to get ready and to come back up, s.
+/// Time that a tap takes to reach its starting height and to come back up, s.
 const TAP_TRAVEL_S: f64 = 0.18;
 /// Longest time that the hand goes on below the surface, s.
 const TAP_SINK_S: f64 = 0.04;
@@ -101,8 +101,7 @@ const TAP_DWELL_S: f64 = 0.03;
 const TAP_MIN_HEIGHT_M: f64 = 0.005;
 
 impl TapPath {
-    /// A tap from `start_m` above the surface that intends to go no deeper than
-    /// `depth_m`.
+    /// A tap from `start_m` above the surface with an intended depth of at most `depth_m`.
     #[must_use]
     pub fn new(start_m: f64, speed_m_s: f64, depth_m: f64) -> Self {
         Self {

@@ -13,7 +13,7 @@ use super::methods::fixed_point::{block_16, q1_15};
 use super::random::random_lsf;
 use super::row::{Row, Words};
 
-/// Random filters tried.
+/// How many random filters are tried.
 const FILTERS: usize = 200;
 
 /// |A(e^{jω})|².
@@ -26,8 +26,8 @@ fn squared(monic: &[f64], omega: f64) -> f64 {
     re * re + im * im
 }
 
-/// Largest difference of two all-pole spectra over 10–490 Hz, dB; infinite if the second is
-/// not stable.
+/// Largest difference of two all-pole spectra over 10–490 Hz, dB; infinite if the second filter
+/// is unstable.
 fn distance_db(exact: &[f64], found: &[f64]) -> f64 {
     if !is_stable(found) {
         return f64::INFINITY;
@@ -58,7 +58,7 @@ fn rendered(lsf_rad: &[f64]) -> Vec<f64> {
         .monic(77.0, 1.3)
 }
 
-/// A filter of order 20 with a pole pair of radius 0.986 at `hz`, its other poles at 0.6.
+/// A filter of order 20 with a pole pair of radius 0.986 at `hz`; its other poles have radius 0.6.
 pub(super) fn resonant(hz: f64) -> Vec<f64> {
     let mut monic = vec![1.0];
     let mut pair = |radius: f64, omega: f64| {
@@ -78,7 +78,8 @@ pub(super) fn resonant(hz: f64) -> Vec<f64> {
     monic
 }
 
-/// Largest error, dB, of each method over a set of filters: ours, Q1.15, 16 bits in blocks.
+/// Largest error over a set of filters, dB: of ours, of Q1.15, and of 16 bits with a common
+/// exponent.
 fn worst(filters: &[Vec<f64>]) -> [f64; 3] {
     let mut worst = [0.0_f64; 3];
     for lsf_rad in filters {

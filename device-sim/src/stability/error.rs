@@ -1,9 +1,9 @@
-//! Why the table could not be made.
+//! What can go wrong while the table or its pictures are made.
 
 use asperity::diagnostic::Diagnostic;
 use asperity_plot::PlotError;
 
-/// Why the table could not be made.
+/// Why the table or a picture could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum StabilityError {
     /// A HaTT folder was refused.

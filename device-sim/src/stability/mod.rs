@@ -1,8 +1,8 @@
-//! Where methods fail: a table of scenarios with the figure of ours and of others.
+//! Where methods fail: a table of scenarios with the figures of our method and of others.
 //!
-//! Every row states a figure that must not exceed a limit. Ours comes from the runtime
-//! itself; the others ([`methods`]) follow the paper, the reference renderer or the textbook
-//! as published descriptions have them. Everything is seeded and runs in virtual time.
+//! The figure of a row must not exceed a limit. Ours is measured on the runtime itself. The
+//! other methods ([`methods`]) follow published descriptions of the paper, of the reference
+//! renderer or of the textbook. Everything is seeded and runs in virtual time.
 //!
 //! | file | tries |
 //! |---|---|
@@ -12,8 +12,8 @@
 //! | [`friction`] | rest, ramps, reversal, closed paths |
 //! | [`wall`] | stiff walls, delay, lost samples, counts, grips |
 //! | [`tap`] | bouncing, grazing, sliding, taps in close succession |
-//! | [`change`] | another texture in mid-stroke |
-//! | [`fault`] | NaN, stuck samples |
+//! | [`change`] | a change of the texture in the middle of a stroke |
+//! | [`fault`] | NaN, infinity, positions that stick |
 //!
 //! [`observer`] measures energy; [`sheet`] draws the map of stable walls and the worst
 //! waveforms; [`markdown`] prints the tables of the documentation.

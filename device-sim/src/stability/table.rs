@@ -1,4 +1,4 @@
-//! Every row of the table, and how it is made.
+//! The table: all rows, and how they are made.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use super::error::StabilityError;
 use super::row::{Row, Verdict};
 use super::{change, coefficients, fault, friction, grid, material, mixing, tap, wall};
 
-/// What to try, and with what.
+/// Which materials to try, and the seed.
 #[derive(Debug, Clone, Default)]
 pub struct StabilityOptions {
     /// Folder of HaTT XML files, for the rows that need real materials.
@@ -18,7 +18,7 @@ pub struct StabilityOptions {
     pub seed: u64,
 }
 
-/// Every row.
+/// All rows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Table {
     /// The rows, theme by theme.
@@ -26,7 +26,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// How many rows pass, fail, were skipped.
+    /// How many rows pass, fail and were skipped.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         let count = |wanted: fn(&Verdict) -> bool| {
@@ -39,7 +39,7 @@ impl Table {
         ]
     }
 
-    /// The last line of the table.
+    /// The last line of the table, with the counts.
     #[must_use]
     pub fn summary(&self) -> String {
         let [passed, failed, skipped] = self.counts();

@@ -1,4 +1,4 @@
-//! `asperity-lab pareto`: what every way to render costs, and what it loses.
+//! `asperity-lab pareto`: cost and error of every way to render.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -137,7 +137,7 @@ fn write(folder: &Path, results: &Results, cortex_m: &CortexM) -> Result<(), Fai
     output::write_folder(folder, &named).map_err(boxed)
 }
 
-/// What a person wants to know at once.
+/// A short report for a person.
 fn report(results: &Results) -> String {
     use std::fmt::Write as _;
     let mut text = format!(

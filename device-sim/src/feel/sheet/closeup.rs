@@ -14,10 +14,10 @@ const BEFORE_MS: f64 = 10.0;
 const AFTER_MS: f64 = 60.0;
 /// Levels shown below the loudest, dB.
 const RANGE_DB: f64 = 35.0;
-/// Room above it for the legend, dB.
+/// Space above the loudest for the legend, dB.
 const HEADROOM_DB: f64 = 15.0;
 
-/// The fastest tap: normal force, and the transient that is part of it.
+/// The fastest tap: the normal force, and the part of it that is the transient.
 pub(super) fn tap(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
     let taps = taps(recording);
     let fastest = taps
@@ -96,7 +96,7 @@ pub(super) fn spectra(
             curves.push((span.motion.to_string(), curve));
         }
     }
-    // One cycle of the script: more curves than inks would say nothing.
+    // The strokes of one cycle of the script; more curves could not be told apart.
     curves.truncate(4);
     let loudest = curves
         .iter()

@@ -8,7 +8,7 @@ pub(super) struct Entry {
     pub(super) stroke: Stroke,
 }
 
-/// Names the lines of a panel, right of its title.
+/// Names the lines of a panel at the right end of its title.
 pub(super) fn legend(canvas: &mut Canvas, panel: &Panel, entries: &[Entry]) {
     let style = TextStyle::new(size::TICK);
     let area = panel.area();

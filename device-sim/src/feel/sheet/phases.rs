@@ -1,4 +1,5 @@
-//! The strip above the panels that names the script's motions, and their edges.
+//! The strip above the panels that names the script's motions, and the shading of every other
+//! motion in the panels.
 
 use asperity_plot::{Align, Canvas, Color, Panel, Rect, Stroke, TextStyle, VAlign, ink};
 
@@ -34,7 +35,7 @@ pub(super) fn draw(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
         let fits = |canvas: &Canvas, line: &str| canvas.text_width(line, &style) < x1 - x0 - 4.0;
         let text = motion.to_string();
         let mut lines = vec![motion.name().to_owned()];
-        // Pairs of number and unit, on two lines where one is too narrow.
+        // A number and its unit stand on two lines where one line is too narrow.
         let words: Vec<&str> = text.split(' ').skip(1).collect();
         for pair in words.chunks(2) {
             let whole = pair.join(" ");

@@ -12,7 +12,7 @@ pub(super) const TIME_MARGINS: Margins = Margins {
     bottom: 14.0,
 };
 
-/// The shared time axis.
+/// The shared axis of time; only the lowest panel numbers its ticks.
 pub(super) fn time_axis(recording: &Recording, numbered: bool) -> Axis {
     let axis = Axis::new("", 0.0, recording.duration_s()).ticks_about(12);
     if numbered {

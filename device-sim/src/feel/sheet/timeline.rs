@@ -1,4 +1,4 @@
-//! Panels over time.
+//! The panels whose horizontal axis is time.
 
 use asperity_plot::{
     Axis, Canvas, ColorMap, ColorScale, Margins, Marker, Panel, Rect, Stroke, TextStyle, ink, size,
@@ -14,9 +14,9 @@ use crate::feel::statistics::peak;
 use crate::feel::tap::taps;
 use crate::session::Record;
 
-/// Levels below the loudest that a spectrogram still shows, dB.
+/// Range of levels that the spectrogram shows, below the loudest, dB.
 const RANGE_DB: f64 = 50.0;
-/// Length of a window, s: bins of about 8 Hz.
+/// Length of a window, s; it gives bins of about 8 Hz.
 const WINDOW_S: f64 = 0.128;
 
 fn values(recording: &Recording, value: impl Fn(&Record) -> f64) -> Vec<f64> {
@@ -27,7 +27,7 @@ fn line(canvas: &mut Canvas, panel: &Panel, recording: &Recording, data: &[f64],
     panel.series(canvas, 0.0, recording.tick_s(), data, stroke);
 }
 
-/// A panel with frame and shades, ready for data.
+/// A panel with frame and shaded motions, ready for data.
 fn framed(
     canvas: &mut Canvas,
     recording: &Recording,
@@ -196,7 +196,7 @@ pub(super) fn vibration(canvas: &mut Canvas, recording: &Recording, outer: Rect)
     );
 }
 
-/// Its spectrogram.
+/// The vibration's spectrogram.
 pub(super) fn spectrogram(
     canvas: &mut Canvas,
     recording: &Recording,
@@ -204,7 +204,7 @@ pub(super) fn spectrogram(
 ) -> Result<(), FeelError> {
     let rate_hz = recording.device.timing.servo_rate_hz;
     let length = ((WINDOW_S * rate_hz).round() as usize).max(2);
-    // At most one window a pixel of the widest panel.
+    // No more windows than the widest panel has pixels.
     let hop = (length / 8).max(recording.records.len() / 2000).max(1);
     let power = transform(&recording.vibration_m_s2(), rate_hz, length, hop)?;
     let level_db = |psd: f64| 10.0 * psd.max(1e-30).log10();

@@ -1,22 +1,23 @@
-//! Energy that a law of friction gives off over cycles.
+//! Energy that a law of friction gives off over periodic motion.
 
 use std::f64::consts::TAU;
 
 use super::law::{Law, TICK_S};
 use crate::stability::observer::{Absorber, Observer};
 
-/// Fastest stroke, m/s, and largest acceleration, m/s², that count: 100 m/s² is what 8.5 N
-/// give to stylus and light grip.
-pub(super) const POSSIBLE: (f64, f64) = (0.65, 100.0);
-/// Half the strokes, m: from below the dead zone to far beyond slip.
-pub(super) const AMPLITUDES_M: [f64; 16] = [
+/// Fastest stroke, m/s, and largest acceleration, m/s², that a hand can make. A force of 8.5 N
+/// accelerates stylus and light grip by 100 m/s².
+const POSSIBLE: (f64, f64) = (0.65, 100.0);
+/// Amplitudes, m, from inside the dead zone to far beyond slip.
+const AMPLITUDES_M: [f64; 16] = [
     1.0e-4, 1.2e-4, 1.3e-4, 1.5e-4, 1.8e-4, 2.2e-4, 3e-4, 4e-4, 5e-4, 7e-4, 1e-3, 1.5e-3, 2e-3,
     3e-3, 5e-3, 1e-2,
 ];
 
-/// Largest energy that a law gives off over cycles of a sinusoid beyond what the device
-/// absorbs, J, at any time: pressed steadily or harder at one phase, all amplitudes that a
-/// hand can make at these frequencies.
+/// Largest energy that a law gives off beyond what the device absorbs, J, at any time.
+///
+/// The motion is a sinusoid of each frequency with every amplitude that a hand can make. It is
+/// pressed steadily, or harder at one phase.
 #[must_use]
 pub fn energy_of_cycles(
     law: impl Fn() -> Law,

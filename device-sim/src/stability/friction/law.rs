@@ -8,10 +8,10 @@ use crate::stability::methods::{Regularised, Sign};
 /// Servo period, s.
 pub(super) const TICK_S: f64 = 1e-3;
 
-/// Position along an axis and normal force in, friction force out.
+/// A law of friction: from position along an axis, m, and normal force, N, to friction force, N.
 pub type Law = Box<dyn FnMut(f64, f64) -> f64>;
 
-/// The three laws, ours first, at rest.
+/// The three laws at rest with their names, ours first.
 #[must_use]
 pub fn laws(mu: f64, delay_ticks: u32) -> [(&'static str, Law); 3] {
     [
@@ -27,7 +27,7 @@ pub fn laws(mu: f64, delay_ticks: u32) -> [(&'static str, Law); 3] {
     ]
 }
 
-/// The runtime's bristle along one axis.
+/// The runtime's bristle along one axis, for a loop with `delay_ticks` of delay.
 #[must_use]
 pub fn ours(mu: f64, delay_ticks: u32) -> Law {
     let rate_hz = (1.0 / TICK_S) as f32;

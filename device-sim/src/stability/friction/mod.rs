@@ -1,4 +1,4 @@
-//! Friction: rest, ramps, reversal, closed paths, by law and in a hand.
+//! Friction: rest, ramps, reversal and closed paths, by the law alone and in a hand.
 
 mod energy;
 mod law;
@@ -21,10 +21,10 @@ use law::TICK_S;
 use ramp::{departure_of_all, lacking, steepest_of_all};
 use rest::{flips_at_rest, not_finite_at_rest, rest_in_a_hand, wall_with};
 
-/// Coefficient of friction of the rows that vary nothing.
+/// Coefficient of friction of the rows that do not vary it.
 const MU: f64 = 0.7;
 
-/// A device that absorbs nothing: the strictest.
+/// A device that absorbs nothing, the strictest case.
 const NOTHING: Absorber = Absorber {
     damping_n_s_m: 0.0,
     coulomb_n: 0.0,
@@ -34,12 +34,12 @@ const TOUCH: Absorber = Absorber {
     damping_n_s_m: 0.1,
     coulomb_n: 0.26,
 };
-/// Frequencies that no hand reaches by itself, and slower ones for late forces, Hz.
+/// Frequencies, Hz, up to those that no hand reaches by itself. The slow ones test late forces.
 const FAST_HZ: [f64; 11] = [
     0.5, 2.0, 5.0, 12.0, 20.0, 35.0, 50.0, 75.0, 100.0, 125.0, 150.0,
 ];
 
-/// Runs a row's figure with each law.
+/// A row whose figure is measured with each law.
 fn by_law(
     words: Words,
     scenario: &str,

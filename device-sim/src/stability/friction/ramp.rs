@@ -24,7 +24,7 @@ pub fn forces(
 /// Ticks of steady speed before a ramp.
 pub const SETTLE: usize = 15_000;
 
-/// Speeds, m/s, a tick each: steady at −`top`, then a ramp at `accel`, m/s², to `top`.
+/// Speeds at each tick, m/s: steady at −`top`, then a ramp at `accel`, m/s², up to `top`.
 #[must_use]
 pub fn ramp(accel: f64, top: f64) -> Vec<f64> {
     let ticks = (2.0 * top / (accel * TICK_S)).ceil() as usize;
@@ -49,7 +49,7 @@ pub fn steepest(law: &mut Law, normal_n: f64, accel: f64, top: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The steepest over forces and accelerations.
+/// The largest [`steepest`] over forces and accelerations.
 pub(super) fn steepest_of_all(law: impl Fn() -> Law) -> f64 {
     let mut worst = 0.0_f64;
     for normal_n in [0.05, 0.2, 1.0, 3.0] {
@@ -68,13 +68,13 @@ pub(super) fn steepest_of_all(law: impl Fn() -> Law) -> f64 {
     worst
 }
 
-/// Largest departure of F_t/F_n from its steady value, per 0.1 mm/s of the largest departure
-/// of the speed, while the speed wanders at random.
+/// Largest deviation of F_t/F_n from its steady value while the speed varies at random, per
+/// 0.1 mm/s of the largest deviation of the speed.
 #[must_use]
 pub fn departure(law: &mut Law, normal_n: f64, steady: f64, within: f64, seed: u64) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let settle = 8000;
-    // Jumps at random times, so that slow and fast wandering both occur.
+    // The speed jumps at random times, so slow and fast variation both occur.
     let mut speeds = Vec::with_capacity(settle + 8000);
     speeds.resize(settle, steady);
     while speeds.len() < settle + 8000 {
@@ -98,6 +98,7 @@ pub fn departure(law: &mut Law, normal_n: f64, steady: f64, within: f64, seed: u
     far * 0.1e-3 / largest
 }
 
+/// The largest [`departure`] over forces, speeds and ranges of variation.
 pub(super) fn departure_of_all(law: impl Fn() -> Law, seed: u64) -> f64 {
     let mut worst = 0.0_f64;
     for normal_n in [0.05, 0.3, 2.0] {
@@ -110,7 +111,7 @@ pub(super) fn departure_of_all(law: impl Fn() -> Law, seed: u64) -> f64 {
     worst
 }
 
-/// Largest lack of μF_n in a steady stroke at 10 mm/s, %.
+/// How much of μF_n is missing at most in a steady stroke at 10 mm/s, %.
 pub(super) fn lacking(mu: f64, law: impl Fn() -> Law) -> f64 {
     [0.1, 0.3, 1.0, 3.0]
         .into_iter()

@@ -25,7 +25,7 @@ pub fn stroke_and_rest(seed: u64, ticks: usize) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Changes of sign a second over 10 s of rest with noise of ±1 count, after a stroke.
+/// Changes of sign per second over 10 s of rest with noise of ±1 count, after a stroke.
 pub(super) fn flips_at_rest(law: &mut Law, seed: u64) -> f64 {
     let (mut sign, mut flips) = (0.0, 0);
     for (n, x) in stroke_and_rest(seed, 10_500).enumerate() {
@@ -38,13 +38,13 @@ pub(super) fn flips_at_rest(law: &mut Law, seed: u64) -> f64 {
     f64::from(flips) / 10.0
 }
 
-/// Forces that are not finite over a second of rest at exactly zero speed.
+/// How many of 1000 forces at exactly zero speed are not finite.
 pub(super) fn not_finite_at_rest(mut law: impl FnMut(f64) -> f64) -> f64 {
     (0..1000).filter(|_| !law(0.0).is_finite()).count() as f64
 }
 
-/// Root mean square of the stylus's speed along the stroke about its mean over 50 ms, mm/s,
-/// while a light grip rests after a stroke.
+/// RMS of the stylus's speed along the stroke about its mean over 50 ms, mm/s, while a light
+/// grip rests after a stroke.
 pub(super) fn rest_in_a_hand<S: Servo>(servo: S) -> Result<f64, StabilityError> {
     let device = DeviceConfig::touch()?;
     let grip = Grip::preset(GripPreset::Light)?;

@@ -1,4 +1,4 @@
-//! Width, heading and legends that the sheets share.
+//! The width, headings and legends that the sheets share.
 
 use asperity_plot::{Canvas, Key, Panel, TextStyle, ink, legend, size};
 
@@ -12,7 +12,7 @@ pub(super) fn heading(canvas: &mut Canvas, title: &str, below: &str) {
     canvas.text(&line, (30.0, 106.0), &style);
 }
 
-/// Keys between a panel's title and its frame.
+/// A legend between a panel's title and its frame.
 pub(super) fn keys(canvas: &mut Canvas, panel: &Panel, entries: &[(Key, &str)]) {
     let area = panel.area();
     legend(canvas, (area.x, area.y - 22.0), area.right(), entries);

@@ -1,4 +1,4 @@
-//! The worst cases as waveforms: ours and others in the same scenario.
+//! The worst cases as waveforms, of our method and of others in the same scenario.
 
 use asperity_plot::{Axis, Canvas, Key, Margins, Panel, Rect, Stroke, ink, size};
 

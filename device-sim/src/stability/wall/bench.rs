@@ -6,11 +6,11 @@ use crate::stability::observer::Absorber;
 
 /// Servo period, s.
 pub const TICK_S: f64 = 1e-3;
-/// The wall that the driver of the Touch reports, N/m, and our default damping, N·s/m.
+/// The stiffness that the driver of the Touch reports, N/m, and our default damping, N·s/m.
 pub const REPORTED: (f64, f64) = (500.0, 0.1);
 /// Physical damping over which walls are tried, N·s/m.
 pub const DAMPINGS_N_S_M: [f64; 9] = [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 1.0];
-/// Rounding of f32 forces over a second of motion, J.
+/// Energy error from rounding f32 forces over a second of motion, J.
 pub const ROUNDING_J: f64 = 2e-8;
 
 /// A device as the sweeps vary it.
@@ -27,7 +27,7 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// Viscous damping alone: the strictest case.
+    /// A device with viscous damping alone, the strictest case.
     #[must_use]
     pub fn viscous(damping_n_s_m: f64, delay_ticks: u32) -> Self {
         Self {
@@ -38,7 +38,7 @@ impl Bench {
         }
     }
 
-    /// What the runtime is told.
+    /// The mechanics that the runtime is told.
     #[must_use]
     pub fn mechanics(&self) -> MechanicsConfig {
         MechanicsConfig {
@@ -58,7 +58,7 @@ impl Bench {
     }
 }
 
-/// A renderer that is told nothing of limits: the wall as the asset gives it.
+/// A renderer that does not limit the wall, because it takes the device for heavily damped.
 pub(super) fn as_given() -> Renderer {
     let mut config = Config::default();
     config.mechanics.damping_n_s_m = 1000.0;
@@ -67,7 +67,7 @@ pub(super) fn as_given() -> Renderer {
     Renderer::new(&config).expect("in range")
 }
 
-/// A renderer that knows the device.
+/// A renderer that knows the device's mechanics.
 pub(super) fn told(mechanics: MechanicsConfig) -> Renderer {
     let config = Config {
         mechanics,

@@ -10,8 +10,8 @@ use crate::stability::material::Material;
 /// Height from which the stylus is dropped, m.
 const DROP_M: f64 = 2e-3;
 
-/// Heights, m, of a stylus of the Touch's mass that nobody holds, dropped onto the wall under a
-/// constant 0.5 N, a tick each for 5 s.
+/// Heights at each tick, m, of a stylus of the Touch's mass that nobody holds. It is dropped onto
+/// the wall under a constant 0.5 N, for 5 s.
 ///
 /// # Errors
 /// None for the built-in device.
@@ -45,7 +45,7 @@ pub fn dropped(
         .collect())
 }
 
-/// Highest rebound over the height of the drop.
+/// Highest rebound divided by the height of the drop.
 pub(super) fn rebound(height_m: &[f64]) -> f64 {
     let met = height_m.iter().position(|&z| z < 0.0).unwrap_or(0);
     height_m[met..].iter().copied().fold(0.0, f64::max) / DROP_M

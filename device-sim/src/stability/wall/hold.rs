@@ -9,7 +9,7 @@ use crate::session::{Record, Session};
 use crate::stability::error::StabilityError;
 use crate::stability::observer::{Absorber, Observer};
 
-/// Net energy along z of a recorded session, J: the device's force against its motion.
+/// Largest net energy that the device's force gave off along z in a session, J.
 fn net_j(device: &DeviceConfig, records: &[Record]) -> f64 {
     let absorber = Absorber {
         damping_n_s_m: device.mechanics.damping_n_s_m[2],
@@ -23,7 +23,7 @@ fn net_j(device: &DeviceConfig, records: &[Record]) -> f64 {
     observer.worst_j
 }
 
-/// The Touch's mass on a device that absorbs next to nothing, with a perfect sensor.
+/// A device of the Touch's mass with almost no damping, no friction and a perfect sensor.
 pub(super) fn frictionless() -> Result<DeviceConfig, StabilityError> {
     let mut device = DeviceConfig::touch()?;
     device.mechanics.damping_n_s_m = [0.02; 3];
@@ -32,7 +32,7 @@ pub(super) fn frictionless() -> Result<DeviceConfig, StabilityError> {
     Ok(device)
 }
 
-/// Taps, a press and a rest of a hand on the simulated Touch, behind faults.
+/// Largest net energy, J, over taps, a press and a rest of a hand, with faults.
 pub(super) fn in_a_hand<S: Servo>(
     device: &DeviceConfig,
     preset: GripPreset,

@@ -1,4 +1,5 @@
-//! Stiff walls: against the passivity bound, late, with samples lost, by counts, in hands.
+//! Stiff walls against the passivity bound: with delay, lost samples, counts of position, and in
+//! a hand.
 
 mod bench;
 mod drop;

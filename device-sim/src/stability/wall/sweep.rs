@@ -1,4 +1,4 @@
-//! The worst of many hands: energy that a wall gives off along closed paths.
+//! Energy that a wall gives off to the worst of many hands, along closed paths.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -14,10 +14,11 @@ use crate::stability::observer::Observer;
 const FREQUENCIES_HZ: [f64; 12] = [
     1.0, 3.0, 10.0, 20.0, 40.0, 70.0, 110.0, 170.0, 230.0, 300.0, 380.0, 460.0,
 ];
-/// Depth about which it moves, m; at the surface it leaves and enters.
+/// Depths about which it moves, m. About 0 it leaves the surface and comes back.
 const DEPTHS_M: [f64; 2] = [2.5e-3, 0.0];
-/// Lets a hand move the stylus along `path` (height in m at a tick) whatever the force, and
-/// observes the energy. `servo` answers a measured height with a normal force.
+/// Moves the stylus along `path` whatever the force, and observes the energy.
+///
+/// `path` gives the height at a tick, m. `servo` answers a measured height with a normal force.
 fn observe(
     bench: &Bench,
     ticks: usize,
@@ -34,7 +35,8 @@ fn observe(
     observer
 }
 
-/// Down from 1 mm above, a second of sinusoid about `-depth_m`, and up again: a closed path.
+/// A closed path: down from 1 mm above the surface, a second of sinusoid about `-depth_m`, and
+/// up again. Returns its ticks and its height at a tick, m.
 fn sinusoid(depth_m: f64, frequency_hz: f64, fastest_m_s: f64) -> (usize, impl Fn(usize) -> f64) {
     let amplitude_m = (0.9 * fastest_m_s / (TAU * frequency_hz)).min(2.4e-3);
     let (approach, cycles) = (200, 1000);
@@ -60,8 +62,9 @@ fn sinusoid(depth_m: f64, frequency_hz: f64, fastest_m_s: f64) -> (usize, impl F
     (2 * approach + cycles + 1, height)
 }
 
-/// Largest energy that the worst of the hands gets out of the wall, net of what the device
-/// absorbed, J; `servo` makes a fresh one for every path.
+/// Largest energy that any of the hands gets out of the wall, less what the device absorbed, J.
+///
+/// `servo` makes a new servo for every path.
 fn worst_j<S: FnMut(f64) -> f64>(bench: &Bench, servo: impl Fn() -> S) -> f64 {
     let fastest = f64::from(Config::default().mechanics.fastest_m_s);
     let mut worst = 0.0_f64;
@@ -86,7 +89,7 @@ pub(super) fn rendered<'a>(
     }
 }
 
-/// The law of the wall alone, without filters and limits around it.
+/// The law of the wall alone, without the filters and limits of the tick.
 fn law(wall: Wall) -> impl FnMut(f64) -> f64 {
     let mut last = None;
     move |z| {
@@ -116,8 +119,8 @@ pub fn law_j(bench: &Bench, wall: Wall) -> f64 {
     worst_j(bench, || law(wall))
 }
 
-/// How many walls of the viscous sweep are lowered, and how many of these stay passive if made
-/// 5 % stiffer.
+/// How many walls of the viscous sweep are lowered, and how many of these would stay passive if
+/// they were 5 % stiffer.
 #[must_use]
 pub fn lowered_walls() -> (usize, usize) {
     let (mut lowered, mut slack) = (0, 0);
