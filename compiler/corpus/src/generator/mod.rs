@@ -1,7 +1,7 @@
-//! The physically grounded generator: six physical parameters to a texture.
+//! The generator: it makes a texture from six physical parameters.
 //!
-//! 1. [`surface`]: the spectrum of heights along the stroke, and the stylus tip that
-//!    cannot follow what is finer than its contact.
+//! 1. [`surface`]: the spectrum of heights along the stroke, filtered by the stylus tip, which
+//!    cannot follow relief that is finer than its contact.
 //! 2. [`transfer`]: heights at speed v become frequencies v·k; two derivatives make
 //!    them accelerations; the stylus on its contact is a damped resonator.
 //! 3. [`level`]: RMS acceleration at 100 mm/s and 1 N from height, wavelength and
