@@ -31,6 +31,8 @@ pub mod fault;
 pub mod feel;
 pub mod hand;
 pub mod labs;
+mod random;
 pub mod servo;
 pub mod session;
+mod signal;
 pub mod stability;

@@ -5,6 +5,7 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::plan::{Fault, FaultCounts, FaultPlan, FaultPlanError};
+use crate::random::unit;
 use crate::servo::{Servo, silence};
 
 /// A servo behind faults.
@@ -67,7 +68,7 @@ impl<S: Servo> FaultInjector<S> {
     /// The fault of this tick, if any.
     fn draw(&mut self) -> Option<Fault> {
         if self.running.is_none() {
-            let mut left = (self.rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+            let mut left = unit(&mut self.rng);
             for (fault, rate) in Fault::ALL.into_iter().zip(self.plan.kinds) {
                 if left < rate.probability {
                     let span = u64::from(rate.longest_ticks);

@@ -1,9 +1,10 @@
 //! A seeded script: the motions of a user who explores a surface.
 
-use rand_core::{Rng, SeedableRng};
+use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::motion::Motion;
+use crate::random::unit;
 
 /// Height at which the hand hovers, m.
 pub const HOVER_M: f64 = 0.012;
@@ -50,8 +51,7 @@ struct Vary(Xoshiro256PlusPlus);
 impl Vary {
     /// Uniform in −1..1.
     fn signed(&mut self) -> f64 {
-        let unit = (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-        2.0 * unit - 1.0
+        2.0 * unit(&mut self.0) - 1.0
     }
 
     /// `value` within ± 10 %.

@@ -4,7 +4,8 @@
 use super::difference::{Band, Difference};
 use super::kernel::Kernel;
 use super::noise::{gaussian, uniform};
-use super::statistics;
+use super::statistics::model_rms;
+use crate::signal::rms;
 use asperity::{
     interpolate::{Field, Place, places},
     model::ModelGrid,
@@ -221,7 +222,7 @@ fn pairs(grid: &ModelGrid, loudest: f64, random: &mut Xoshiro256PlusPlus) -> Vec
     if sounding.is_empty() {
         return Vec::new();
     }
-    let rms = |v: usize| statistics::rms(&ArmaModel::at_vertex(grid, &grid.vertices[v]));
+    let level = |v: usize| model_rms(&ArmaModel::at_vertex(grid, &grid.vertices[v]));
     let mut pairs = Vec::new();
     for _ in 0..PAIRS {
         let mut draw = || sounding[(random.next_u64() % sounding.len() as u64) as usize];
@@ -231,16 +232,11 @@ fn pairs(grid: &ModelGrid, loudest: f64, random: &mut Xoshiro256PlusPlus) -> Vec
                 places: (0..ALTERNATIONS)
                     .map(|_| at(if uniform(random) < 0.5 { a } else { b }))
                     .collect(),
-                louder_rms: rms(a).max(rms(b)),
+                louder_rms: level(a).max(level(b)),
             });
         }
     }
     pairs
-}
-
-fn rms(signal: &[f64]) -> f64 {
-    let squares: f64 = signal.iter().map(|x| x * x).sum();
-    (squares / signal.len().max(1) as f64).sqrt()
 }
 
 /// Decibels of a ratio of amplitudes; infinite for a ratio that is not finite.
@@ -255,11 +251,12 @@ fn decibels(ratio: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::labs::statistics::Spread;
     use asperity::builtin;
     use asperity_kernels::design::Shape;
 
-    fn spread(values: &[f64]) -> statistics::Spread {
-        statistics::Spread::of(values).expect("not empty")
+    fn spread(values: &[f64]) -> Spread {
+        Spread::of(values).expect("not empty")
     }
 
     #[test]

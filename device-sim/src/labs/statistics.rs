@@ -7,7 +7,7 @@ const POINTS: u32 = 1024;
 
 /// RMS of a model's vibration over all frequencies, m/s².
 #[must_use]
-pub fn rms(model: &ArmaModel) -> f64 {
+pub fn model_rms(model: &ArmaModel) -> f64 {
     let step = 0.5 * model.sample_rate_hz / f64::from(POINTS);
     let sum: f64 = (0..POINTS)
         .map(|n| model.power((f64::from(n) + 0.5) * step))
@@ -73,6 +73,6 @@ mod tests {
             b: vec![1.0, 1.0],
             level_m_s2: 3.0,
         };
-        assert!((rms(&model) - 3.0 * 2.0_f64.sqrt()).abs() < 1e-9);
+        assert!((model_rms(&model) - 3.0 * 2.0_f64.sqrt()).abs() < 1e-9);
     }
 }

@@ -3,11 +3,12 @@
 use asperity::lsf;
 use asperity_runtime::{Config, Renderer, Sample, State, excitation::Excitation};
 
-use super::coefficients::resonant;
 use super::error::StabilityError;
+use super::filters::resonant;
 use super::material::Material;
 use super::methods::AllPole;
 use super::row::{Row, Words};
+use crate::signal::rms;
 
 /// Ticks between changes.
 const PERIOD: usize = 500;
@@ -31,10 +32,6 @@ fn textures() -> Result<[Material; 2], StabilityError> {
 fn impulse_response(monic: &[f64]) -> impl Iterator<Item = f64> {
     let mut filter = AllPole::default();
     (0..4000).map(move |n| filter.step(monic, if n == 0 { 1.0 } else { 0.0 }))
-}
-
-fn rms(signal: &[f64]) -> f64 {
-    (signal.iter().map(|y| y * y).sum::<f64>() / signal.len() as f64).sqrt()
 }
 
 /// Loudest 20 ms after a change relative to the loudest 20 ms elsewhere, dB. The texture of

@@ -7,10 +7,10 @@ use asperity::model::{GridVertex, Numerator, VertexKind};
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+use super::filters::{random_lsf, resonant};
 use super::material::Material;
 use super::methods::all_pole::is_stable;
 use super::methods::fixed_point::{block_16, q1_15};
-use super::random::random_lsf;
 use super::row::{Row, Words};
 
 /// How many random filters are tried.
@@ -56,26 +56,6 @@ fn rendered(lsf_rad: &[f64]) -> Vec<f64> {
     Material::constant(&like, &vertex)
         .expect("a texture of one filter")
         .monic(77.0, 1.3)
-}
-
-/// A filter of order 20 with a pole pair of radius 0.986 at `hz`; its other poles have radius 0.6.
-pub(super) fn resonant(hz: f64) -> Vec<f64> {
-    let mut monic = vec![1.0];
-    let mut pair = |radius: f64, omega: f64| {
-        let factor = [1.0, -2.0 * radius * omega.cos(), radius * radius];
-        let mut next = vec![0.0; monic.len() + 2];
-        for (i, a) in monic.iter().enumerate() {
-            for (j, f) in factor.iter().enumerate() {
-                next[i + j] += a * f;
-            }
-        }
-        monic = next;
-    };
-    pair(0.986, PI * hz / 500.0);
-    for n in 0..9 {
-        pair(0.6, PI * (f64::from(n) + 0.5) / 9.0);
-    }
-    monic
 }
 
 /// Largest error over a set of filters, dB: of ours, of Q1.15, and of 16 bits with a common

@@ -7,8 +7,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::material::Material;
 use super::methods::all_pole::{is_stable, mixed, polynomials};
 use super::methods::walk::{Walk, walk};
-use super::random::unit;
 use super::row::{Row, Words};
+use crate::random::unit;
 
 /// Every vertex, and five points of every edge.
 fn on_edges(grid: &ModelGrid) -> Vec<(f64, f64)> {

@@ -6,12 +6,13 @@ use asperity_runtime::vibration::Vibration;
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::material::HARD;
-use super::material::Material;
+use super::filters::random_lsf;
+use super::material::{HARD, Material};
 use super::methods::AllPole;
 use super::methods::all_pole::{is_stable, mixed, polynomials};
-use super::random::{random_lsf, unit};
 use super::row::{Row, Words};
+use crate::random::unit;
+use crate::signal::rms;
 
 /// Number of points in each material, and of pairs of random filters.
 const POINTS: usize = 20_000;
@@ -70,16 +71,7 @@ fn unstable_pairs(seed: u64) -> [f64; 2] {
 
 /// RMS of the loudest block.
 fn loudest(signal: &[f64]) -> f64 {
-    signal
-        .chunks_exact(BLOCK)
-        .map(|block| (block.iter().map(|y| y * y).sum::<f64>() / BLOCK as f64).sqrt())
-        .fold(0.0, f64::max)
-}
-
-/// Root mean square.
-#[must_use]
-pub fn rms(signal: &[f64]) -> f64 {
-    (signal.iter().map(|y| y * y).sum::<f64>() / signal.len() as f64).sqrt()
+    signal.chunks_exact(BLOCK).map(rms).fold(0.0, f64::max)
 }
 
 /// A query: speed, mm/s, and force, N.

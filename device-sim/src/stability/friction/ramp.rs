@@ -4,6 +4,7 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::law::{Law, TICK_S};
+use crate::random::unit;
 
 /// Force at each tick of a motion whose speed is `speed(n)`, m/s.
 pub fn forces(
@@ -78,7 +79,7 @@ pub fn departure(law: &mut Law, normal_n: f64, steady: f64, within: f64, seed: u
     let mut speeds = Vec::with_capacity(settle + 8000);
     speeds.resize(settle, steady);
     while speeds.len() < settle + 8000 {
-        let unit = (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        let unit = unit(&mut rng);
         let stretch = 1 + rng.next_u64() as usize % 400;
         speeds.extend(std::iter::repeat_n(
             steady + within * (2.0 * unit - 1.0),

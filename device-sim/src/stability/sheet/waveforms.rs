@@ -3,6 +3,7 @@
 use asperity_plot::{Axis, Canvas, Key, Margins, Panel, Rect, Stroke, ink, size};
 
 use super::layout::{WIDTH_PX, heading, keys};
+use crate::signal::rms;
 use crate::stability::error::StabilityError;
 use crate::stability::friction::{self, Law};
 use crate::stability::material::Material;
@@ -170,7 +171,7 @@ fn alternation(canvas: &mut Canvas, outer: Rect, seed: u64) -> Result<(), Stabil
             .chunks_exact(mixing::BLOCK)
             .enumerate()
             .map(|(n, block)| {
-                let db = 20.0 * mixing::rms(block).max(1e-12).log10();
+                let db = 20.0 * rms(block).max(1e-12).log10();
                 ((n * mixing::BLOCK) as f64, db)
             })
             .collect()
