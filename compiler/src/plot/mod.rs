@@ -1,6 +1,6 @@
 //! A picture of a whole texture on one page, deterministic to the byte.
 //!
-//! `asperity-plot` has the look that it shares with every Asperity picture.
+//! It is drawn with `asperity-plot`, like every Asperity picture.
 
 mod roots;
 mod sheet;

@@ -4,7 +4,7 @@ use asperity_plot::Margins;
 
 use crate::model::GridVertex;
 
-/// Margins with room for a line of legend between title and frame.
+/// Margins with room for a legend between title and frame.
 pub(super) fn margins(right: f32) -> Margins {
     Margins {
         top: 96.0,

@@ -4,12 +4,12 @@ use asperity_plot::{ColorMap, ColorScale};
 
 use crate::model::GridVertex;
 
-/// Standard deviation of the excitation with its gain, m/s².
+/// Standard deviation of the excitation times the gain, m/s².
 pub(super) fn level(vertex: &GridVertex) -> f64 {
     vertex.gain * vertex.sigma_m_s2
 }
 
-/// Colours of levels, from silence to the loudest vertex.
+/// A scale of colours from silence to the loudest vertex.
 pub(super) fn level_scale(vertices: &[GridVertex]) -> ColorScale {
     let loudest = vertices
         .iter()
