@@ -29,7 +29,7 @@ pub fn encode(results: &Results) -> serde_json::Value {
         .collect();
     let exponent = |of: fn(&(f64, f64)) -> f64| {
         let values: Vec<f64> = results.exponents.iter().map(of).collect();
-        [0.25, 0.5, 0.75].map(|share| percentile(&values, share))
+        [0.25, 0.5, 0.75].map(|fraction| percentile(&values, fraction))
     };
     let halved = results
         .kept

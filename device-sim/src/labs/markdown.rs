@@ -116,7 +116,7 @@ fn predictions(text: &mut String, region: Region, held_out: &[MethodSummary]) {
             pair(row.shape_db),
             pair(row.level_db),
             number(row.bias_db, 2),
-            number(row.nearer.map(|share| 100.0 * share), 0)
+            number(row.nearer.map(|fraction| 100.0 * fraction), 0)
         );
     }
     text.push('\n');
@@ -125,7 +125,7 @@ fn predictions(text: &mut String, region: Region, held_out: &[MethodSummary]) {
 fn kept(text: &mut String, results: &Results) {
     let kept = &results.kept;
     let median = |values: Vec<f64>| number(percentile(&values, 0.5).map(|x| 100.0 * x), 0);
-    let share = |change: fn(&asperity::reduce::Report) -> Change| {
+    let percent_kept = |change: fn(&asperity::reduce::Report) -> Change| {
         let of = |kept: &Kept| {
             let Change { full, kept } = change(&kept.report);
             (full > 0).then(|| kept as f64 / full as f64)
@@ -147,8 +147,8 @@ fn kept(text: &mut String, results: &Results) {
         kept.iter().filter(|k| k.is_within_budget()).count(),
         ratios.iter().filter(|ratio| **ratio <= 0.5).count(),
         median(ratios.clone()),
-        share(|r| r.vertices),
-        share(|r| r.tap_samples),
+        percent_kept(|r| r.vertices),
+        percent_kept(|r| r.tap_samples),
         median(bytes.collect()),
         largest(|r| r.p95_db),
         largest(|r| r.worst_db),
@@ -173,7 +173,7 @@ fn kept(text: &mut String, results: &Results) {
     let quartiles = |of: fn(&(f64, f64)) -> f64| -> String {
         let values: Vec<f64> = results.exponents.iter().map(of).collect();
         [0.25, 0.5, 0.75]
-            .map(|share| number(percentile(&values, share), 2))
+            .map(|fraction| number(percentile(&values, fraction), 2))
             .join(", ")
     };
     let _ = write!(
