@@ -92,7 +92,7 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     exit(match arguments.command.as_str() {
-        "library" => library::write(home()),
+        "library" => library::write(&home().join("../session")),
         "costs" => costs(arguments.build_core),
         "designs" => designs(&arguments),
         _ => run(&arguments.triple, arguments.build_core),
