@@ -49,7 +49,7 @@ fn home() -> &'static Path {
 
 /// Where everything is built.
 fn target_dir() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| home().join("target"), PathBuf::from)
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| home().join("../../target"), PathBuf::from)
 }
 
 /// What is asked for.
