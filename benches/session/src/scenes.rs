@@ -11,7 +11,7 @@ use asperity_formats::{
 use asperity_runtime::{Config, Output, Renderer, Sample, Scene, SceneError, SceneState, Texture};
 
 /// The textures; `cortex-m library` writes it.
-static TEXTURES: &[u8] = include_bytes!("../../costs.aspl");
+static TEXTURES: &[u8] = include_bytes!("../costs.aspl");
 /// Texture of the raised strip.
 const OTHER: &str = "other";
 /// Surfaces that are touched: the plane and the strip.

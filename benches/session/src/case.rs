@@ -3,7 +3,7 @@
 use asperity_runtime::{Float, Texture};
 
 /// The library that the firmware carries; `cortex-m library` writes it.
-pub static LIBRARY: &[u8] = include_bytes!("../../textures.aspl");
+pub static LIBRARY: &[u8] = include_bytes!("../textures.aspl");
 
 /// 40 vertices, 56 triangles, 13 taps; orders in multiples of 4.
 pub type Arma20<A = Float> = Texture<40, 56, 20, 20, TAP_SAMPLES, A>;
