@@ -125,7 +125,10 @@ fn compare(mark: &str, expected: &str) {
     let start = spec.find(&open).expect("opening mark") + open.len();
     let end = start + spec[start..].find(&close).expect("closing mark");
     if std::env::var_os("ASPERITY_BLESS").is_some() {
-        fs::write(SPEC, [&spec[..start], expected, &spec[end..]].concat()).unwrap();
+        // Renamed into place, since another test reads the file meanwhile.
+        let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md.new");
+        fs::write(beside, [&spec[..start], expected, &spec[end..]].concat()).unwrap();
+        fs::rename(beside, SPEC).unwrap();
         return;
     }
     assert!(
