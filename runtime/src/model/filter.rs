@@ -62,6 +62,7 @@ pub struct Filter {
     pub level_m_s2: f32,
 }
 
+// Where flash is scarce, both callers of a slice share one copy of its code.
 impl<S: Capacity, A: WeightSearch + SectionProduct> Models<S, A> {
     /// No models.
     pub(crate) const EMPTY: Self = Self {
@@ -85,7 +86,7 @@ impl<S: Capacity, A: WeightSearch + SectionProduct> Models<S, A> {
         let (mut spectrum, mut scratch) = (LineSpectrum::ZERO, Scratch::IDLE);
         self.follow(&mut spectrum, mixture, Quantity::whole(1));
         for part in 0..self.orders.section_pairs() * self.orders.parts::<A>() {
-            spectrum.multiply(&self.orders, &mut scratch, part);
+            self.multiply(&mut scratch, &spectrum, part);
         }
         let mut model = Model::SILENT;
         self.coefficients(&scratch, &mut model);
@@ -94,7 +95,8 @@ impl<S: Capacity, A: WeightSearch + SectionProduct> Models<S, A> {
     }
 
     /// Moves a line spectrum a `fraction` of the way to a mixture.
-    #[inline]
+    #[cfg_attr(target_arch = "arm", inline(never))]
+    #[cfg_attr(not(target_arch = "arm"), inline)]
     pub(crate) fn follow(
         &self,
         spectrum: &mut LineSpectrum<A>,
@@ -105,8 +107,16 @@ impl<S: Capacity, A: WeightSearch + SectionProduct> Models<S, A> {
         self.vertices.follow(spectrum, mixture, fraction, has_ma);
     }
 
+    /// Multiplies one part of a section pair of a line spectrum into the products.
+    #[cfg_attr(target_arch = "arm", inline(never))]
+    #[cfg_attr(not(target_arch = "arm"), inline)]
+    pub(crate) fn multiply(&self, products: &mut Scratch, spectrum: &LineSpectrum<A>, part: usize) {
+        spectrum.multiply(&self.orders, products, part);
+    }
+
     /// Coefficients of A(z) and B(z), all section pairs multiplied in.
-    #[inline]
+    #[cfg_attr(target_arch = "arm", inline(never))]
+    #[cfg_attr(not(target_arch = "arm"), inline)]
     pub(crate) fn coefficients(&self, products: &Scratch, model: &mut Model<A>) {
         assembly::ar(&self.orders, products, &mut model.a);
         if S::MA_ORDER > 0 && self.orders.ma() > 0 {

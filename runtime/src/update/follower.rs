@@ -268,8 +268,7 @@ impl<A: WeightSearch + SectionProduct> Follower<A> {
             models.follow(&mut self.spectrum, &mixture, fraction);
         }
         for part in slice.section_pairs() {
-            let scratch = &mut self.scratch;
-            self.spectrum.multiply(&models.orders, scratch, part);
+            models.multiply(&mut self.scratch, &self.spectrum, part);
         }
     }
 

@@ -161,7 +161,8 @@ impl<S: Capacity, A: WeightSearch> Grid<S, A> {
     }
 
     /// Looks at up to `blocks` more blocks, until a triangle has the query.
-    #[inline]
+    #[cfg_attr(target_arch = "arm", inline(never))]
+    #[cfg_attr(not(target_arch = "arm"), inline)]
     pub(crate) fn look(&self, search: &mut Search<A>, blocks: usize) {
         let (speed, force) = (Four::splat(search.speed), Four::splat(search.force));
         let mut best = search.best;
