@@ -1,5 +1,5 @@
-//! A prompt through the library, everything loaded: text, decoding, reduction, lowering,
-//! verification; no preview.
+//! Time from a prompt to verified bytes with everything loaded: text, decoding, reduction,
+//! lowering and verification, without a preview.
 //!
 //! `cargo bench -p asperity-benches --bench prompt`. The texture is checked before it is
 //! timed.

@@ -1,7 +1,7 @@
 //! Nanoseconds of the full tick: device sample in, limited force out.
 //!
 //! `cargo bench -p asperity-benches --bench tick`. Results are checked before they are
-//! timed. Machines differ, and change while they run: `paired` compares in turns.
+//! timed. A machine's speed changes while it runs: `paired` compares in turns.
 
 use asperity_benches::{Rig, check, motion::Motion, texture::texture};
 use asperity_formats::Numerator;

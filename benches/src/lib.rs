@@ -1,5 +1,5 @@
-//! What a tick costs: textures of a known size and scripted motions, shared by the
-//! criterion benches and the command `instructions`, and the usual way for comparison.
+//! What a tick costs: textures of a known size, scripted motions, and a reference to compare
+//! with. The criterion benches and the commands `instructions` and `paired` share them.
 #![forbid(unsafe_code)]
 
 pub mod load;
@@ -22,7 +22,7 @@ impl Rig {
     /// The default renderer (Touch, 1 kHz, plane z = 0) on the bytes of an asset.
     ///
     /// # Panics
-    /// When the bytes are no asset at 1 kHz: a bench of nothing must not run.
+    /// If the bytes are not an asset at 1 kHz, since a bench of nothing must not run.
     #[must_use]
     pub fn new(bytes: &[u8]) -> Self {
         Self::at(bytes, Config::default().servo_rate_hz)
@@ -31,7 +31,7 @@ impl Rig {
     /// As [`Rig::new`], in a servo loop at a multiple of 1 kHz.
     ///
     /// # Panics
-    /// When the bytes are no asset, or the rate is none for it.
+    /// If the bytes are not an asset, or the asset cannot run at this rate.
     #[must_use]
     pub fn at(bytes: &[u8], servo_rate_hz: f32) -> Self {
         let config = Config {
@@ -65,10 +65,11 @@ impl Rig {
     }
 }
 
-/// A stroke sounds, and every force is finite and within 3.3 N: what is timed is a tick.
+/// Checks that a stroke sounds and that every force is finite and within 3.3 N, so that what is
+/// timed is a tick.
 ///
 /// # Panics
-/// When it is not so.
+/// If one of these does not hold.
 pub fn check(bytes: &[u8]) {
     let mut rig = Rig::new(bytes);
     let mut loudest = 0.0_f32;

@@ -1,5 +1,5 @@
-//! What happens once a texture, at load: bytes checked, a slot prepared. And the index of a
-//! library, checked before any of its textures is found.
+//! The work of loading: the bytes of a texture are checked and a slot is prepared. The index of
+//! a library is checked before a texture is looked up.
 
 use crate::texture::texture;
 use asperity_formats::{
@@ -23,7 +23,7 @@ pub enum Work {
 }
 
 impl Work {
-    /// All of it with its name.
+    /// Every kind of work with its name.
     pub const ALL: [(Self, &'static str); 3] = [
         (Self::Parse, "parse, order 20, ARMA"),
         (Self::Load, "parse and load, order 20, ARMA"),
@@ -45,10 +45,10 @@ impl Default for Loading {
 }
 
 impl Loading {
-    /// Makes them.
+    /// Makes the bytes and an empty slot.
     ///
     /// # Panics
-    /// When the format refuses them.
+    /// If the format refuses the bytes.
     #[must_use]
     pub fn new() -> Self {
         let small = texture(4, Numerator::Nyquist);
@@ -66,10 +66,10 @@ impl Loading {
         }
     }
 
-    /// Does it once. Returns how many vertices, transient ticks or textures came of it.
+    /// Does the work once, and returns the number of vertices, transient ticks or textures.
     ///
     /// # Panics
-    /// When something is refused.
+    /// If the bytes are refused.
     #[inline(never)]
     pub fn once(&mut self, work: Work) -> usize {
         let asset = || Asset::parse(&self.asset).expect("a valid asset");
@@ -87,10 +87,10 @@ impl Loading {
         }
     }
 
-    /// A loaded slot has what was asked for.
+    /// Checks that a loaded slot has what the asset has.
     ///
     /// # Panics
-    /// When it has not.
+    /// If it has not.
     pub fn check(&mut self) {
         assert_eq!(self.once(Work::Parse), 40);
         assert_eq!(self.once(Work::Index), TEXTURES);

@@ -1,8 +1,8 @@
-//! Scripted motions over the plane z = 0: what the tick meets in use and at its edges.
+//! Scripted motions over the plane z = 0: everyday use and extreme cases.
 
 use asperity_runtime::Sample;
 
-/// A motion, a pure function of the tick.
+/// A motion as a pure function of the tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Motion {
     /// 5 mm above the surface.

@@ -1,16 +1,16 @@
-//! The usual way, for comparison: what the HaTT's published renderer does a tick, written from
+//! A reference to compare with: what the HaTT's published renderer does in a tick, written from
 //! its description.
 //!
-//! Location walks from the last triangle across the edge with the most negative weight; who
-//! lies across is known before. Mixed LSFs become coefficients by multiplying out the complex
+//! Location walks from the last triangle across the edge with the most negative weight, to a
+//! neighbour that a table names. Mixed LSFs become coefficients by multiplying out the complex
 //! conjugate roots of P and Q in f64, in ascending order, one root at a time and in place,
-//! without an allocation. The recursion runs in f64. The walk is bounded here; the original's is
-//! not, and can run for ever on an edge.
+//! without an allocation. The recursion runs in f64. The walk is bounded here. The original's is
+//! not: on an edge it can run for ever.
 
 use asperity_formats::{Asset, Numerator};
 use std::f64::consts::PI;
 
-/// Steps of the walk at most.
+/// The most steps that a walk may take.
 const STEPS: usize = 128;
 
 #[derive(Debug, Clone, Copy)]
@@ -40,7 +40,7 @@ struct Vertex {
 pub struct Reference {
     vertices: Vec<Vertex>,
     triangles: Vec<[usize; 3]>,
-    /// Across the edge opposite each corner.
+    /// The triangle across the edge opposite each corner.
     neighbours: Vec<[Option<usize>; 3]>,
     numerator: Numerator,
     at: usize,

@@ -1,5 +1,5 @@
 //! Textures of the size of a typical imported material: 40 vertices, 56 triangles,
-//! 13 taps of 100 samples at 10 kHz. Synthetic; only their sizes matter here.
+//! 13 taps of 100 samples at 10 kHz. They are synthetic: only their sizes matter.
 
 use asperity_formats::{
     Anchor, AssetParts, Coupling, FrictionParts, GridParts, LsfCode, ModelParts, Numerator,
@@ -17,16 +17,16 @@ pub const MAX_FORCE_N: f32 = 4.0;
 /// two lower, as in the HaTT.
 ///
 /// # Panics
-/// When the format refuses the texture.
+/// If the format refuses the texture.
 #[must_use]
 pub fn texture(order: usize, numerator: Numerator) -> Vec<u8> {
     texture_on(order, numerator, COLUMNS, ROWS)
 }
 
-/// [`texture`] on a grid of its own: `columns` × `rows` vertices, two triangles a field.
+/// [`texture`] on a grid of its own: `columns` × `rows` vertices, two triangles to each rectangle.
 ///
 /// # Panics
-/// When the format refuses the texture.
+/// If the format refuses the texture.
 #[must_use]
 pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usize) -> Vec<u8> {
     let ma_order = if numerator == Numerator::Lsf {

@@ -5,17 +5,16 @@
 //! m·v̇ = F + k·(x_t − x) + b_t·(v_t − v) − b·v − f_c·sgn(v),   ẋ = v
 //! ```
 //!
-//! One step of backward Euler, with `sgn` the set-valued sign, has a closed form:
-//! with `p = m·v + h·(F + k·(x_t − x) + b_t·v_t)` and `M = m + h·(b + b_t) + h²·k`,
+//! `sgn` is the set-valued sign. One step of backward Euler then has a closed form. With
+//! `p = m·v + h·(F + k·(x_t − x) + b_t·v_t)` and `M = m + h·(b + b_t) + h²·k`,
 //!
 //! ```text
 //! v' = sgn(p)·max(|p| − h·f_c, 0) / M,   x' = x + h·v'
 //! ```
 //!
-//! At rest below breakaway `v'` is exactly zero: friction holds without chatter or
-//! drift. Backward Euler only ever takes energy out, whatever `h` and `k`; its own
-//! damping ratio for a mode of frequency ω is `ω·h/2`, 0.3 % at 100 rad/s and the
-//! sub-step used here.
+//! At rest below breakaway `v'` is exactly zero: friction holds without chatter or drift.
+//! Backward Euler only removes energy, whatever `h` and `k` are. It adds a damping ratio of
+//! `ω·h/2` to a mode of frequency ω, which is 0.3 % at 100 rad/s with the sub-step used here.
 
 /// Passive parameters of one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,18 +27,18 @@ pub struct AxisParams {
     pub coulomb_n: f64,
 }
 
-/// A spring and damper that pulls the axis to a moving target.
+/// How a hand pulls an axis: by a spring and a damper to a moving target, and by a force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Coupling {
+pub struct Pull {
     /// Spring stiffness, N/m.
     pub stiffness_n_m: f64,
     /// Damping relative to the target's velocity, N·s/m.
     pub damping_n_s_m: f64,
-    /// Where the target is, m.
+    /// Position of the target, m.
     pub target_m: f64,
-    /// How fast the target moves, m/s.
+    /// Velocity of the target, m/s.
     pub target_m_s: f64,
-    /// Force the hand adds on its own account, N.
+    /// Force that the hand adds, N.
     pub force_n: f64,
 }
 
@@ -53,9 +52,9 @@ pub struct AxisState {
 }
 
 impl AxisState {
-    /// Advances by `step_s` under the device's force and the hand's coupling.
+    /// Advances by `step_s` under the device's force and the hand's pull.
     #[must_use]
-    pub fn step(self, params: &AxisParams, force_n: f64, hand: &Coupling, step_s: f64) -> Self {
+    pub fn step(self, params: &AxisParams, force_n: f64, hand: &Pull, step_s: f64) -> Self {
         let pull_n = force_n
             + hand.force_n
             + hand.stiffness_n_m * (hand.target_m - self.position_m)
@@ -72,8 +71,7 @@ impl AxisState {
         }
     }
 
-    /// Stops the axis at `±limit_m`, as an end stop that gives nothing back.
-    /// Returns whether it was hit.
+    /// Stops the axis at `±limit_m`, an inelastic end stop. Returns whether it was hit.
     pub fn stop_at(&mut self, limit_m: f64) -> bool {
         if self.position_m.abs() <= limit_m {
             return false;
@@ -101,10 +99,10 @@ mod tests {
         let accel_m_s2 = force_n / FREE.mass_kg;
         let mut state = AxisState::default();
         for n in 1..=16_000 {
-            state = state.step(&FREE, force_n, &Coupling::default(), STEP_S);
+            state = state.step(&FREE, force_n, &Pull::default(), STEP_S);
             let t_s = f64::from(n) * STEP_S;
             assert!((state.velocity_m_s - accel_m_s2 * t_s).abs() < 1e-9);
-            // Backward Euler leads the parabola by exactly a·h·t/2.
+            // Backward Euler is ahead of the parabola by exactly a·h·t/2.
             let exact_m = 0.5 * accel_m_s2 * t_s * t_s;
             let lead_m = 0.5 * accel_m_s2 * STEP_S * t_s;
             assert!((state.position_m - exact_m - lead_m).abs() < 1e-9);
@@ -119,7 +117,7 @@ mod tests {
         };
         let mut state = AxisState::default();
         for n in 1..=8_000 {
-            state = state.step(&params, 1.0, &Coupling::default(), STEP_S);
+            state = state.step(&params, 1.0, &Pull::default(), STEP_S);
             let t_s = f64::from(n) * STEP_S;
             let exact = 2.0 * (1.0 - (-t_s * 0.5 / FREE.mass_kg).exp());
             assert!((state.velocity_m_s - exact).abs() < 1e-3, "{n}");
@@ -138,7 +136,7 @@ mod tests {
         };
         for n in 0..100_000 {
             let force_n = if n % 2 == 0 { 0.2599 } else { -0.2599 };
-            state = state.step(&params, force_n, &Coupling::default(), STEP_S);
+            state = state.step(&params, force_n, &Pull::default(), STEP_S);
             assert_eq!(
                 state,
                 AxisState {
@@ -147,7 +145,7 @@ mod tests {
                 }
             );
         }
-        let moved = state.step(&params, 0.2601, &Coupling::default(), STEP_S);
+        let moved = state.step(&params, 0.2601, &Pull::default(), STEP_S);
         assert!(moved.velocity_m_s > 0.0);
     }
 
@@ -163,7 +161,7 @@ mod tests {
         };
         let mut steps = 0;
         while state.velocity_m_s > 0.0 {
-            state = state.step(&params, 0.0, &Coupling::default(), STEP_S);
+            state = state.step(&params, 0.0, &Pull::default(), STEP_S);
             steps += 1;
         }
         let exact_s = FREE.mass_kg * 0.3 / 0.26;
@@ -179,9 +177,9 @@ mod tests {
                 damping_n_s_m: 0.1,
                 ..FREE
             };
-            let wall = Coupling {
+            let wall = Pull {
                 stiffness_n_m,
-                ..Coupling::default()
+                ..Pull::default()
             };
             let energy = |s: &AxisState| {
                 0.5 * params.mass_kg * s.velocity_m_s.powi(2)
@@ -201,7 +199,7 @@ mod tests {
                 );
                 last = now;
             }
-            // It rests where the spring cannot beat the friction.
+            // It rests where the spring is weaker than the friction.
             assert!(state.position_m.abs() * stiffness_n_m <= 0.26 + 1e-9);
             assert_eq!(state.velocity_m_s, 0.0);
         }

@@ -1,4 +1,4 @@
-//! TOML files of the simulator: read, parsed strictly, checked value by value.
+//! TOML files of the simulator: they are parsed strictly, and every value is checked.
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};

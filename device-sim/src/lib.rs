@@ -1,27 +1,27 @@
 //! A simulated Touch, a virtual hand and faults, in virtual time.
 //!
-//! A [`Session`](session::Session) closes the loop that a person closes on a desk:
-//! a [`Hand`](hand::Hand) pulls the stylus of a [`Device`](device::Device), a
-//! [`Servo`](servo::Servo) (a renderer, possibly behind a
-//! [`FaultInjector`](fault::FaultInjector)) answers every measured position with a
-//! force. Nothing here reads a clock: time passes when the caller says so, and the
-//! same seed gives the same bytes.
+//! A [`Session`](session::Session) closes the loop that a person closes on a desk. A
+//! [`Hand`](hand::Hand) pulls the stylus of a [`Device`](device::Device). A
+//! [`Servo`](servo::Servo), which is a renderer, possibly behind a
+//! [`FaultInjector`](fault::FaultInjector), answers every measured position with a force.
+//! Nothing here reads a clock: time passes when the caller says so, and the same seed gives the
+//! same bytes.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`axis`] | one axis: mass, friction, a hand's spring, implicit integration |
-//! | [`device`] | the device: quantisation, delay, limits, workspace; its TOML |
+//! | [`axis`] | one axis: mass, friction, a hand's pull, implicit integration |
+//! | [`device`] | the device: quantisation, delay, limits, workspace, and its TOML file |
 //! | [`hand`] | grip, motions, seeded script |
-//! | [`servo`] | what stands between a position and a force |
-//! | [`fault`] | NaN, dropped, stale, stuck and late samples, stackable |
+//! | [`servo`] | whatever answers a position with a force |
+//! | [`fault`] | NaN, dropped, stale, stuck and late samples |
 //! | [`session`] | the loop, and the record of every tick |
-//! | [`feel`] | what a session amounts to: summary, CSV, sheet, sound |
-//! | [`labs`] | alternatives to the tick, for charts alone |
-//! | [`stability`] | where methods fail: a table of ours against others |
+//! | [`feel`] | a session on a texture, with its summary, CSV, sheet and sound |
+//! | [`labs`] | alternatives to the tick, which only the charts need |
+//! | [`stability`] | where methods fail: a table of our method and others |
 //!
-//! Not modelled, on purpose: the kinematics of the arm (axes are independent and
-//! Cartesian), gravity (taken as compensated), the stylus's orientation, motor
-//! heat (force is reported against the continuous limit), structural resonances.
+//! The simulator deliberately leaves out the kinematics of the arm (its axes are independent and
+//! Cartesian), gravity (which counts as compensated), the stylus's orientation, motor heat (the
+//! reports compare the force with the continuous limit) and structural resonances.
 #![forbid(unsafe_code)]
 
 pub mod axis;
@@ -31,6 +31,8 @@ pub mod fault;
 pub mod feel;
 pub mod hand;
 pub mod labs;
+mod random;
 pub mod servo;
 pub mod session;
+mod signal;
 pub mod stability;

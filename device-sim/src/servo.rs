@@ -1,11 +1,13 @@
-//! What stands between a measured position and a force.
+//! Servos: whatever answers a measured position with a force.
 
 use asperity_runtime::{Flags, HostTexture, Output, Renderer, Sample, State};
 
-/// Answers one sample with one output, once a servo tick. Implementations stack:
-/// a [`FaultInjector`](crate::fault::FaultInjector) is a servo around a servo.
+/// Answers one sample with one output, once in a servo tick.
+///
+/// Implementations stack: a [`FaultInjector`](crate::fault::FaultInjector) is a servo around a
+/// servo.
 pub trait Servo {
-    /// One tick. `sample.elapsed_ticks` is 0 for a sample that is not new.
+    /// Answers one tick. `sample.elapsed_ticks` is 0 for a sample that is not new.
     fn tick(&mut self, sample: &Sample) -> Output;
 }
 
@@ -15,7 +17,7 @@ impl<F: FnMut(&Sample) -> Output> Servo for F {
     }
 }
 
-/// The runtime with a texture in its slot: what runs on a desk.
+/// The runtime with a texture in its slot, as it runs on a desk.
 #[derive(Debug)]
 pub struct RenderedTexture<'a> {
     renderer: Renderer,
@@ -24,7 +26,7 @@ pub struct RenderedTexture<'a> {
 }
 
 impl<'a> RenderedTexture<'a> {
-    /// A renderer at rest; `seed` is that of the texture's excitation.
+    /// A renderer at rest; `seed` is the seed of the texture's excitation.
     #[must_use]
     pub fn new(renderer: Renderer, texture: &'a HostTexture, seed: u64) -> Self {
         Self {

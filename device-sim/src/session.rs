@@ -1,4 +1,4 @@
-//! The loop of device, servo and hand in virtual time, and its record.
+//! The loop of device, servo and hand in virtual time, and the record of each tick.
 
 use asperity_runtime::{Output, Sample};
 
@@ -6,8 +6,10 @@ use crate::device::{Device, DeviceConfig, DeviceCounts};
 use crate::hand::{Grip, HOVER_M, Hand, Intent, Script};
 use crate::servo::Servo;
 
-/// Everything about one tick. Positions and the output belong to the tick's
-/// start; the device force is the one held during the tick.
+/// Everything about one tick.
+///
+/// Positions and the output belong to the start of the tick; the device's force is the one held
+/// during the tick.
 #[derive(Debug, Clone, Copy)]
 pub struct Record {
     /// Virtual time, s.
@@ -93,7 +95,7 @@ impl<S: Servo> Session<S> {
         records
     }
 
-    /// What the device did to commands.
+    /// How often the device changed a command or hit a stop.
     pub fn device_counts(&self) -> DeviceCounts {
         self.device.counts()
     }
@@ -108,7 +110,7 @@ impl<S: Servo> Session<S> {
         &self.servo
     }
 
-    /// The servo, e.g. to start a fault.
+    /// The servo, for example to start a fault.
     pub fn servo_mut(&mut self) -> &mut S {
         &mut self.servo
     }
@@ -117,7 +119,7 @@ impl<S: Servo> Session<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hand::{GripPreset, Motion, Stroke};
+    use crate::hand::{GripPreset, Motion, StrokePath};
     use crate::servo::silence;
 
     /// A wall with viscous-regularised friction of μ = 0.5.
@@ -156,8 +158,8 @@ mod tests {
         sum / count
     }
 
-    /// Every motion of a script with its records, for both grips, soft and stiff
-    /// walls and some seeds.
+    /// Calls `check` for every motion of a script with its records, for both grips, soft and
+    /// stiff walls and some seeds.
     fn each_motion(mut check: impl FnMut(&Motion, &[Record], f64)) {
         for preset in [GripPreset::Light, GripPreset::Firm] {
             for seed in 1..=6 {
@@ -200,7 +202,7 @@ mod tests {
                 let body: Vec<&Record> = records.iter().filter(|r| r.intent.in_body).collect();
                 let from_m = body[0].intent.target_m;
                 let distance_m = (to_m[0] - from_m[0]).hypot(to_m[1] - from_m[1]);
-                let (start_s, end_s) = Stroke::new(distance_m, speed_m_s).steady_s();
+                let (start_s, end_s) = StrokePath::new(distance_m, speed_m_s).steady_s();
                 // The hand lags by its damping over its stiffness, then is steady.
                 let steady = body.iter().filter(|r| {
                     let t_s = r.t_s - body[0].t_s;
@@ -224,7 +226,7 @@ mod tests {
             Motion::Rest { force_n, .. } => {
                 let late = &records[records.len() - 100..];
                 let held = mean(late.iter().map(|r| r.device_n[2]));
-                // One count of position is k·Δ of force, and the hand lets 0.02 N be.
+                // One count of position is k·Δ of force, and the hand leaves 0.02 N uncorrected.
                 let grain_n = stiffness_n_m * 0.055e-3 + 0.02;
                 assert!((held - force_n).abs() <= grain_n, "{motion}: {held}");
             }

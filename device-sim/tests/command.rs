@@ -1,4 +1,4 @@
-//! `asperity-lab` as a user meets it: outputs, exit status, errors, nothing left over.
+//! `asperity-lab` as a user sees it: outputs, exit status, errors, and no files left behind.
 
 use std::fs;
 use std::path::Path;
@@ -269,7 +269,7 @@ fn an_interrupt_leaves_nothing_behind() {
         .current_dir(folder.path())
         .spawn()
         .expect("the command runs");
-    // The outputs under way appear before the work begins.
+    // The temporary outputs appear before the work begins.
     while entries(folder.path()).is_empty() {
         std::thread::sleep(std::time::Duration::from_millis(2));
     }

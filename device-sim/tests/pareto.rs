@@ -1,4 +1,4 @@
-//! `asperity-lab pareto`: what it writes, and that it can be trusted to repeat it.
+//! `asperity-lab pareto`: the files it writes, and that it writes the same ones again.
 
 use std::fs;
 use std::path::Path;

@@ -1,5 +1,5 @@
-//! The runtime's wall gives off no energy beyond what the device absorbs, whatever the
-//! device's damping, delay, friction and counts; and it is no softer than it need be.
+//! The runtime's wall gives off no more energy than the device absorbs, whatever the device's
+//! damping, delay, friction and counts. It is no softer than that requires.
 
 use asperity_runtime::{Float, Passivity};
 use asperity_sim::stability::Material;
@@ -22,7 +22,7 @@ fn our_wall_is_passive_over_the_sweep_and_the_one_as_given_is_not() {
             assert!(energy_j <= ROUNDING_J, "{bench:?}: {energy_j} J");
             active += usize::from(given_j(&bench, &material) > ROUNDING_J);
         }
-        // Without delay 500 N/m ask for 0.25 N·s/m, with 1 tick for 0.75, with 2 for 1.25.
+        // 500 N/m need 0.25 N·s/m without delay, 0.75 with 1 tick and 1.25 with 2 ticks.
         assert_eq!(active, [6, 8, 9][delay as usize], "{delay} ticks");
     }
 }

@@ -1,4 +1,4 @@
-//! What later files may add without an old reader failing.
+//! A reader of version 1 accepts what later files may add.
 
 mod common;
 
@@ -76,6 +76,6 @@ fn a_prefix_of_haptic_len_bytes_is_enough_for_a_runtime() {
     assert!(haptic.provenance().is_none(), "not read");
     assert!(haptic.preview_png().is_none(), "not read");
     assert_eq!(haptic.version(), VERSION);
-    // With everything there, the haptic reader still takes only its part.
+    // With the whole file at hand, the haptic reader still reads only its part.
     assert!(Asset::parse_haptic(&bytes).unwrap().preview_png().is_none());
 }

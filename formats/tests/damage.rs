@@ -1,11 +1,11 @@
-//! Truncated at any byte or with any bit flipped, a file is a typed error.
+//! A file that is truncated at any byte, or that has any bit flipped, gives a typed error.
 
 mod common;
 
 use asperity_formats::{Asset, FormatError, Library, library};
 use common::{full, small};
 
-/// Parsing everything there is: the whole asset, and what a runtime reads.
+/// Parses the whole asset, and the part that a runtime reads.
 fn read(bytes: &[u8]) -> (Result<(), FormatError>, Result<(), FormatError>) {
     (
         Asset::parse(bytes).map(drop),

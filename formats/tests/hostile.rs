@@ -1,4 +1,4 @@
-//! Lengths and counts that promise more than there is, and checks in their order.
+//! Lengths and counts that exceed the file are refused, and the checks run in their order.
 
 mod common;
 
@@ -26,7 +26,7 @@ fn a_section_of_four_gigabytes_is_refused_by_the_sum() {
 
 #[test]
 fn lengths_whose_sum_wraps_are_refused() {
-    // 2³² bytes more in two sections: the sum in 32 bits would be right.
+    // Two sections claim 2³² bytes too many: a sum in 32 bits would come out right.
     let mut bytes = small().encode();
     for section in [0, 1] {
         let (_, len) = span(&bytes, section);
@@ -84,8 +84,8 @@ fn more_than_sixteen_sections_are_refused() {
     );
 }
 
-/// Breaks one thing more at every step, from the last check to the first: the
-/// error must always be the one of the check that comes first.
+/// Every step breaks one more thing, from the last check to the first. The error must
+/// always be that of the first check that fails.
 #[test]
 fn the_first_check_that_fails_is_the_one_that_speaks() {
     let mut bytes = full().encode();
@@ -206,7 +206,7 @@ fn read_all(asset: &Asset<'_>) -> f64 {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// With every CRC made right again, so that what lies behind them is reached.
+    /// All CRCs are recomputed, so that the checks behind them are reached.
     #[test]
     fn sealed_damage_is_rejected_or_reads_as_finite_numbers(
         patches in vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),

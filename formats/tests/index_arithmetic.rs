@@ -1,6 +1,6 @@
-//! Offsets, lengths and indices, exhaustively: every byte of a small asset and of a small
-//! library's index takes every value, checksums made right, so that only the arithmetic
-//! stands between the bytes and a read outside of them. Under Miri, a few values of each.
+//! Offsets, lengths and indices, exhaustively. Every byte of a small asset, and of the index
+//! of a small library, takes every value. The checksums are recomputed, so that only the
+//! arithmetic prevents a read out of bounds. Under Miri each byte takes a few values.
 
 mod common;
 
@@ -10,17 +10,17 @@ use asperity_formats::{
 };
 use common::{crc32, put, seal, seal_header, section, small, span};
 
-/// Bytes to try: all, or those where carries and signs happen.
+/// Bytes to try: all of them, or those next to a carry or a change of sign.
 fn values() -> impl Iterator<Item = u8> {
     (0..=u8::MAX).filter(|value| !cfg!(miri) || [0, 1, 127, 255].contains(value))
 }
 
-/// Offsets to try: all, or one in a few.
+/// Offsets to try: all of them, or every fifth.
 fn places(count: usize) -> impl Iterator<Item = usize> {
     (0..count).filter(|place| !cfg!(miri) || place % 5 == 0)
 }
 
-/// Reads all that indexes something, and checks the indices.
+/// Reads everything that holds an index, and checks the index.
 fn walk(bytes: &[u8], asset: &Asset<'_>) {
     let grid = asset.grid();
     let (models, vertices) = (grid.models().len(), grid.vertices().len());

@@ -1,4 +1,4 @@
-//! A library gives one texture without touching the others.
+//! One texture of a library is read without reading the others.
 
 mod common;
 
@@ -109,7 +109,7 @@ impl Counted {
 fn one_texture_is_read_from_a_file_without_the_rest() {
     let bytes = three();
     let mut file = tempfile::tempfile().unwrap();
-    // The other assets are not even there: what is not needed is not read.
+    // The other assets are missing, which shows that nothing else is read.
     let entry_span = {
         let index = LibraryIndex::parse(&bytes).unwrap();
         let entry = index.get(1).unwrap();
@@ -136,7 +136,7 @@ fn one_texture_is_read_from_a_file_without_the_rest() {
 
 #[test]
 fn a_library_in_flash_is_read_in_place() {
-    // What `include_bytes!` gives: a static of no particular alignment.
+    // As `include_bytes!` gives it: a static without a particular alignment.
     static FLASH: &[u8] = include_bytes!("data/two-v1.aspl");
     let library: Library<'static> = Library::parse(FLASH).expect("the committed library");
     let names: Vec<&'static str> = library.index().entries().map(|e| e.name).collect();
@@ -258,7 +258,7 @@ fn every_field_of_the_index_is_checked() {
         else {
             panic!("byte {offset} = {piece:02x?}: {error:?}");
         };
-        // The offset that a wrong length shifts is the one of the entry behind it.
+        // A wrong length shifts the offset of the entry behind it.
         let value = if offset == at(1, 8) { v } else { value };
         assert_eq!(
             (f, i, v),
@@ -284,7 +284,7 @@ fn every_field_of_the_index_is_checked() {
             } => {
                 assert_eq!((i, r), (index, reason));
             }
-            // A name that takes its neighbour's first byte leaves the next one behind.
+            // A name that takes the first byte of its neighbour shifts the next one.
             FormatError::Invalid {
                 field: "library.entry.name_offset",
                 index: 1,
@@ -315,7 +315,7 @@ fn every_field_of_the_index_is_checked() {
     );
 }
 
-/// The index alone cannot tell; the asset can.
+/// The index cannot show this damage, but the asset can.
 #[test]
 fn a_haptic_length_that_is_not_the_assets_is_found_when_it_is_read() {
     let mut bytes = three();

@@ -1,5 +1,5 @@
-//! What is written is what is read, by the crate and by a reader written from
-//! `SPEC.md`, for any valid parts.
+//! Any valid parts are read back as they were written, by the crate and by a reader that was
+//! written from `SPEC.md`.
 
 mod common;
 
@@ -7,7 +7,7 @@ use asperity_formats::{Asset, Coupling, EncodeError, FormatError, Numerator, Ver
 use common::{Parts, full, lattice, small, spec_reader};
 use proptest::{collection::vec, prelude::*};
 
-/// Strictly ascending codes, `gap` apart and from both ends.
+/// Strictly ascending codes, at least `gap` apart and `gap` away from both ends.
 fn ascending(order: usize, gap: u16) -> impl Strategy<Value = Vec<u16>> {
     vec(1_u32..1000, order + 1).prop_map(move |steps| {
         let room = 65536 - u32::from(gap) * steps.len() as u32;
@@ -141,7 +141,7 @@ prop_compose! {
     }
 }
 
-/// What the crate reads, in the words of the plain reader.
+/// What the crate reads, in the types of the plain reader.
 fn as_plain(bytes: &[u8]) -> spec_reader::Plain {
     let asset = Asset::parse(bytes).expect("a valid asset");
     let (grid, taps, surface) = (asset.grid(), asset.taps(), asset.coupling());
@@ -241,7 +241,7 @@ proptest! {
             };
             prop_assert_eq!(&bits(&read.0), ar);
             prop_assert_eq!(&bits(&read.1), ma);
-            // Half a unit of the eleven bits of binary16, or of its smallest step.
+            // Half a unit in the last place of binary16 (eleven bits), or half its smallest step.
             let gain = f64::from(*gain);
             prop_assert!((read.2 - gain).abs() <= gain * 2.0_f64.powi(-11) + 2.0_f64.powi(-25));
         }
@@ -255,7 +255,7 @@ proptest! {
             prop_assert_eq!(read.0, *speed_m_s);
             let peak = trace.iter().fold(0.0_f64, |peak, a| peak.max(f64::from(a.abs())));
             for (a, b) in read.1.iter().zip(trace) {
-                // Half a code, and the rounding of f32 around it.
+                // Half a code, plus rounding in f32.
                 prop_assert!((a - f64::from(*b)).abs() <= peak / 2047.0 * 0.501);
             }
         }
@@ -333,7 +333,7 @@ fn lists_that_do_not_match_are_named() {
     );
 }
 
-/// Quantised, it would silently become silence.
+/// Quantisation would turn it into silence without a warning.
 #[test]
 fn a_tap_sample_that_is_no_number_is_refused() {
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {

@@ -79,7 +79,7 @@ fn what_is_written_is_read() {
     assert!(library.asset(1).is_ok());
 }
 
-/// The offsets that SPEC.md states, read by hand.
+/// Reads at the offsets that `SPEC.md` states, without the crate.
 #[test]
 fn bytes_lie_where_the_specification_says() {
     let bytes = scene_library();

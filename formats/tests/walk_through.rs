@@ -1,4 +1,4 @@
-//! The hex walk-through in `SPEC.md` is what the writer writes.
+//! The walk-through in `SPEC.md` shows the bytes that the writer writes.
 
 mod common;
 
@@ -8,7 +8,7 @@ use std::{fmt::Write, fs};
 
 const SPEC: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md");
 
-/// Bytes of each piece of [`small`], and what they say.
+/// Length of each piece of [`small`], and its meaning.
 const ASSET: &[(usize, &str)] = &[
     (4, "magic ASPT"),
     (2, "version 1"),
@@ -85,7 +85,7 @@ const ASSET: &[(usize, &str)] = &[
     (8, "prev: the signature of a PNG"),
 ];
 
-/// The same of a library's index.
+/// The same for the index of a library.
 const LIBRARY: &[(usize, &str)] = &[
     (4, "magic ASPL"),
     (2, "version 1"),
@@ -125,7 +125,10 @@ fn compare(mark: &str, expected: &str) {
     let start = spec.find(&open).expect("opening mark") + open.len();
     let end = start + spec[start..].find(&close).expect("closing mark");
     if std::env::var_os("ASPERITY_BLESS").is_some() {
-        fs::write(SPEC, [&spec[..start], expected, &spec[end..]].concat()).unwrap();
+        // Renamed into place, since another test reads the file meanwhile.
+        let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md.new");
+        fs::write(beside, [&spec[..start], expected, &spec[end..]].concat()).unwrap();
+        fs::rename(beside, SPEC).unwrap();
         return;
     }
     assert!(

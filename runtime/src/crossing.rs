@@ -72,7 +72,7 @@ impl<A: RenderArithmetic> Crossing<A> {
         &mut self,
         vibration: &mut Vibration<A>,
         texture: &Texture<S, A>,
-        fraction: Quantity<A, Fraction>,
+        fraction: impl Fn() -> Quantity<A, Fraction>,
     ) {
         let ticks = texture.ticks_per_sample();
         if !vibration.is_on(texture.id()) {
@@ -148,7 +148,7 @@ impl<A: RenderArithmetic> Renderer<A> {
             coupling: &coupling,
             wall: self.wall_of(&coupling),
         };
-        let following = self.following.of(&texture.plan);
+        let following = || self.following.of(&texture.plan);
         crossing.prepare(&mut state.vibration, texture, following);
         let upsampler = texture.upsampler();
         let sound =

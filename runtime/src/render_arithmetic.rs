@@ -6,7 +6,7 @@ use crate::{
     range::Checked,
     stage::{
         excitation::GaussianCubic, gate::Positions, limiter::Shortening, recursion::InnerProduct,
-        velocity::Differences,
+        velocity::Differences, wall::Pushing,
     },
 };
 
@@ -20,6 +20,7 @@ pub trait RenderArithmetic:
     + GaussianCubic
     + InnerProduct
     + Shortening
+    + Pushing
 {
 }
 

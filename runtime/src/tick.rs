@@ -47,7 +47,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         if !state.vibration.is_on(texture.id()) {
             state.change_texture(texture.id(), self.wall_of(&texture.coupling));
         }
-        let fraction = self.following.of(&texture.plan);
+        let fraction = || self.following.of(&texture.plan);
         state.vibration.prepare(texture, fraction);
         let touched = Touched {
             field: &self.field,

@@ -1,4 +1,4 @@
-/* Every misuse that can be told is a status, and leaves things as they were.
+/* Every misuse that can be detected gives a status and changes nothing.
  *
  *   misuse LIBRARY.aspl, whose textures are for 1 kHz */
 #include "asperity.h"
@@ -112,7 +112,7 @@ static void of_objects(unsigned char *library, size_t len) {
   library[len - 1] ^= 1;
   library[len / 2] ^= 1;
 
-  /* What was loaded before all that still works. */
+  /* The texture that was loaded before still works. */
   EXPECT(OK, asperity_tick(renderer, texture, state, &pressed, &output));
   CHECK(output.force_n[2] > 0.0f && (output.flags & ASPERITY_FLAG_CONTACT) != 0);
 
@@ -130,7 +130,7 @@ static void of_objects(unsigned char *library, size_t len) {
   EXPECT(OK, asperity_state_counters(state, &counters));
   CHECK(counters.ticks == 1);
 
-  /* Any sample is a good call. */
+  /* Every sample is a valid call. */
   const float odd[] = {NAN, INFINITY, -INFINITY, 1e38f, -0.0f};
   for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
     const AsperitySample sample = {{odd[i], 0.0f, odd[i]}, (uint32_t)(i * 1000000000u)};

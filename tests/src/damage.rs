@@ -1,7 +1,6 @@
-//! Damage to an asset that leaves its checksums right, so that what lies behind them is
-//! reached.
+//! Recomputes the checksums of a damaged asset, so that the checks behind them are reached.
 
-/// CRC-32 bit by bit, as `formats/SPEC.md` words it.
+/// CRC-32 bit by bit, as `formats/SPEC.md` defines it.
 fn crc32(bytes: impl IntoIterator<Item = u8>) -> u32 {
     !bytes.into_iter().fold(!0_u32, |crc, byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| {
@@ -16,7 +15,7 @@ fn u32_at(bytes: &[u8], at: usize) -> usize {
     })
 }
 
-/// Recomputes every CRC of an asset; does nothing where there is no whole table.
+/// Recomputes every CRC of an asset. Does nothing if the section table is incomplete.
 pub fn seal(asset: &mut [u8]) {
     let table_end = 20 + 12 * usize::from(asset.get(6).copied().unwrap_or(0));
     if asset.len() < table_end {

@@ -1,14 +1,14 @@
-//! Seeded draws.
+//! Seeded random numbers.
 
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// A seeded stream of draws; the same seed gives the same draws everywhere.
+/// A seeded stream of random numbers. The same seed gives the same numbers on every machine.
 #[derive(Debug, Clone)]
 pub struct Draw(Xoshiro256PlusPlus);
 
 impl Draw {
-    /// A stream.
+    /// The stream of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(Xoshiro256PlusPlus::seed_from_u64(seed))
@@ -24,7 +24,7 @@ impl Draw {
         low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    /// Uniform below `count`, which is above 0.
+    /// Uniform in `0..count`; `count` must be above 0.
     pub fn below(&mut self, count: usize) -> usize {
         (self.bits() % count as u64) as usize
     }

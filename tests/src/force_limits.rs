@@ -1,8 +1,8 @@
-//! The law that every tick is held to: finite, within peak, within slew.
+//! The law that holds for every tick: the force is finite, and within peak and slew.
 
 use asperity_runtime::{Arithmetic, Config, Output, arithmetic::Scalar as _};
 
-/// The limits of a configuration, and the force before.
+/// The limits of a configuration, and the force of the previous tick.
 #[derive(Debug, Clone)]
 pub struct ForceLimits {
     peak_n: f64,
@@ -24,19 +24,19 @@ impl ForceLimits {
         let exact = f64::from(config.limits.slew_n_s) / f64::from(config.servo_rate_hz);
         Self {
             peak_n,
-            // The exact slew, and the rounding of the two forces it lies between.
+            // The exact slew, plus the rounding of both forces.
             step_n: exact + 2.0 * peak_n * f64::from(f32::EPSILON),
             last_n: [0.0; 3],
         }
     }
 
-    /// The force of the tick before, N.
+    /// The force of the previous tick, N.
     #[must_use]
     pub fn last_n(&self) -> [f32; 3] {
         self.last_n
     }
 
-    /// Looks at the next tick.
+    /// Checks the next tick.
     ///
     /// # Panics
     /// If a number is not finite, or the force leaves the limits.

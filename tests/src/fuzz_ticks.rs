@@ -1,5 +1,5 @@
-//! Any number of ticks that nobody would make on purpose: random bits as samples, faults,
-//! textures swapped under a running state, configurations at their bounds.
+//! Fuzzed ticks: random bits as samples, faults, textures swapped under a running state,
+//! configurations at their bounds.
 
 use crate::{
     draw::Draw,
@@ -15,14 +15,14 @@ use asperity_runtime::{
 /// Textures to swap between.
 const TEXTURES: u64 = 24;
 const MODEL_RATE_HZ: f32 = 1000.0;
-/// Servo rates, in rates of the models.
+/// Servo rates as multiples of the rate of the models.
 const TICKS_PER_SAMPLE: [u8; 3] = [1, 5, 10];
-/// Cut-offs in servo rates; the last is the highest there is.
+/// Cut-offs as fractions of the servo rate; the last one is the highest that is allowed.
 const CUTOFFS: [f32; 3] = [0.002, 0.02, 0.45];
-/// Ticks of one renderer and state.
+/// Ticks for which one renderer and one state are kept.
 const SESSION_TICKS: u64 = 20_000;
 
-/// What was run.
+/// Counts of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Summary {
     /// Ticks.
@@ -37,14 +37,16 @@ pub struct Summary {
     pub faults: u64,
     /// Ticks whose force was cut or held back.
     pub limited: u64,
-    /// FNV-1a of the forces' bits: the same ticks and seed give the same.
+    /// FNV-1a hash of the bits of every force. The same number of ticks and the same seed give
+    /// the same hash.
     pub hash: u64,
 }
 
-/// Runs `ticks` ticks of an arithmetic drawn from `seed`, each held to the law of [`ForceLimits`].
+/// Runs `ticks` ticks that are drawn from `seed`, in the arithmetic `A`. Each of them must obey
+/// the law of [`ForceLimits`].
 ///
 /// # Panics
-/// If a tick panics, or breaks the law: the message names seed, session and tick.
+/// If a tick panics or breaks the law. The message names seed, session and tick.
 #[must_use]
 pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
     let textures = TICKS_PER_SAMPLE.map(|ticks| textures::<A>(seed, ticks));
@@ -65,7 +67,7 @@ pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
     summary
 }
 
-/// One renderer and one state.
+/// Ticks of one renderer and one state.
 fn run<A: Arithmetic>(
     draw: &mut Draw,
     config: &Config,
@@ -98,7 +100,7 @@ fn run<A: Arithmetic>(
     summary.limited += u64::from(counters.peak_limited) + u64::from(counters.slew_limited);
 }
 
-/// Textures that the arithmetic can hold, for a servo loop of so many ticks a sample.
+/// Textures that the arithmetic can hold, for a servo loop of `ticks_per_sample`.
 fn textures<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Vec<Box<HostSlot<A>>> {
     let textures: Vec<_> = (0..4 * TEXTURES)
         .filter_map(|index| texture::<A>(seed ^ index, ticks_per_sample))
@@ -112,8 +114,8 @@ fn textures<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Vec<Box<HostSlot<
     textures
 }
 
-/// A texture of any kind, some louder and stiffer than any device; none if the arithmetic
-/// cannot hold it.
+/// A texture of any kind. Some are louder and stiffer than any device. `None` if the
+/// arithmetic cannot hold it.
 fn texture<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<HostSlot<A>>> {
     let mut draw = Draw::new(seed);
     let mut texture = random(
@@ -165,7 +167,7 @@ fn config(draw: &mut Draw, servo_rate_hz: f32) -> Config {
         ..Config::default()
     };
     config.limits.peak_n = 10_f64.powf(draw.range(-2.0, 2.0)) as f32;
-    // By tick: what fixed point can hold, too.
+    // Drawn per tick: fixed point refuses less than 10⁻⁴ N a tick.
     config.limits.slew_n_s = 10_f64.powf(draw.range(-4.0, 2.0)) as f32 * servo_rate_hz;
     config.safety.hold_ticks = draw.below(3) as u32;
     config.safety.ramp_s = [0.0, 0.1, 10.0][draw.below(3)];
@@ -174,7 +176,7 @@ fn config(draw: &mut Draw, servo_rate_hz: f32) -> Config {
     config
 }
 
-/// Stretches of one kind of motion after the other.
+/// A motion made of stretches, each of one kind.
 struct Motion {
     kind: usize,
     left: usize,
@@ -194,7 +196,7 @@ impl Motion {
         motion
     }
 
-    /// Starts another stretch.
+    /// Starts the next stretch.
     fn turn(&mut self, draw: &mut Draw) {
         self.kind = draw.below(9);
         self.left = 1 + draw.below(200);
@@ -218,10 +220,10 @@ impl Motion {
             }
             3 => Sample::at(self.position_m.map(|x| x + draw.range(-1e-3, 1e-3) as f32)),
             4 => Sample::at(self.position_m),
-            // Any bits at all, as position and as time.
+            // Random bits as position and as elapsed time.
             5 => any_bits(draw),
             6 => special(draw),
-            // Anywhere in reach of fixed point.
+            // Any position within the reach of fixed point.
             7 => Sample::at([0; 3].map(|_: i32| draw.range(-1.0, 1.0) as f32)),
             _ if draw.below(3) == 0 => Sample::STALE,
             _ => Sample {

@@ -1,13 +1,14 @@
-//! The HaTT materials, where they are present: for tests only, nothing of them is
-//! kept here.
+//! Finds and reads the HaTT materials where a copy is present. They are used by tests only,
+//! and no part of them is kept in this repository.
 
 use std::{
     io::Write as _,
     path::{Path, PathBuf},
 };
 
-/// The XML files of the materials, sorted, from the folder in `ASPERITY_HATT`, or from
-/// `../shared/hatt/models` beside the workspace. Empty, and said so, where there is none.
+/// The sorted XML files of the materials, from the folder in `ASPERITY_HATT` or from
+/// `../shared/hatt/models` beside the workspace. Without such a folder the list is empty, and
+/// the test `test` is reported as skipped.
 #[must_use]
 pub fn materials(test: &str) -> Vec<PathBuf> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/hatt/models");
@@ -34,12 +35,13 @@ pub fn materials(test: &str) -> Vec<PathBuf> {
     files
 }
 
-/// Says that a test was skipped, past the harness, which hides what a passing test prints.
+/// Reports that a test was skipped. The report bypasses the harness, which hides what a passing
+/// test prints.
 pub fn skipped(test: &str, why: &str) {
     let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {why}");
 }
 
-/// What a material's file says, read by searching its text.
+/// The contents of a material's file, found by searching its text.
 #[derive(Debug)]
 pub struct Source {
     /// Name.
@@ -88,7 +90,7 @@ fn list(text: &str, tag: &str) -> Option<Vec<f64>> {
         .collect()
 }
 
-/// Reads a material; `None` if it is not as HaTT writes it.
+/// Reads a material. `None` if the file is not in the form of the HaTT.
 #[must_use]
 pub fn read(path: &Path) -> Option<Source> {
     let text = std::fs::read_to_string(path).ok()?;
@@ -98,7 +100,7 @@ pub fn read(path: &Path) -> Option<Source> {
         .map(|model| {
             let mut a = list(model, "ARcoeff")?;
             let mut b = list(model, "MAcoeff")?;
-            // Both start with their leading 1.
+            // Both lists begin with the leading coefficient 1.
             (a.remove(0) == 1.0 && b.remove(0) == 1.0).then_some(())?;
             Some(SourceModel {
                 a,

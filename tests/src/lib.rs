@@ -1,9 +1,9 @@
-//! What the tests share: an f64 oracle of the tick, textures to test with,
-//! trajectories, spectra, and the search for the HaTT materials.
+//! Parts that the tests share: an f64 oracle of the tick, textures, trajectories, spectra, and
+//! the search for the HaTT materials.
 //!
-//! The oracle is written from the documents (the equations of the runtime's doc
-//! comments, `formats/SPEC.md`), with other methods than the runtime's and without its
-//! code: what both get wrong, they must get wrong twice.
+//! The oracle is written from the documents (the equations in the runtime's doc comments and
+//! `formats/SPEC.md`). It uses other methods than the runtime and none of its code, so a mistake
+//! goes unnoticed only if it was made twice.
 
 pub mod damage;
 pub mod draw;

@@ -1,10 +1,10 @@
-//! The target of the fuzzer: any bytes as an asset, any numbers as samples.
+//! The target of the fuzzer: any bytes as an asset, and any numbers as samples.
 
 use crate::{damage::seal, force_limits::ForceLimits};
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 
-/// What became of a case.
+/// Result of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// The bytes were refused.
@@ -13,12 +13,12 @@ pub enum Outcome {
     Rendered(usize),
 }
 
-/// Reads `data` as a library and as an asset (its CRCs made right if the first byte is
-/// odd), loads it and renders samples made of its bytes.
+/// Reads `data` as a library and as an asset, loads it, and renders samples that are made of
+/// its bytes. If the first byte is odd, the CRCs of the asset are recomputed before.
 ///
 /// # Panics
 /// If a force leaves the limits, a weight leaves [0, 1], or the force does not come back
-/// after good samples: what the fuzzer looks for.
+/// after good samples. The fuzzer looks for such panics.
 pub fn load_then_tick(data: &[u8]) -> Outcome {
     let Some((&first, asset)) = data.split_first() else {
         return Outcome::Refused;
@@ -60,7 +60,7 @@ pub fn load_then_tick(data: &[u8]) -> Outcome {
             f32::from_le_bytes(bits)
         };
         let wild = chunk[12] % 4 == 0;
-        // Most samples stay near the surface, where everything happens.
+        // Most samples stay near the surface, where there are contacts and taps.
         let near = |i: usize| f32::from(chunk[i] as i8) * 1e-4;
         let sample = Sample {
             position_m: if wild {
@@ -73,7 +73,7 @@ pub fn load_then_tick(data: &[u8]) -> Outcome {
         render(&mut state, &sample);
         rendered += 1;
     }
-    // Whatever came before, good samples out of contact end in no force.
+    // After any samples, good samples out of contact lead to zero force.
     let step_n = config.limits.slew_n_s / config.servo_rate_hz;
     let ticks = (config.limits.peak_n / step_n) as usize + texture.taps().ticks() + 10;
     for _ in 0..ticks {

@@ -1,13 +1,13 @@
-//! Levels in third octaves: of a model, and of a signal.
+//! Levels of a model and of a signal in third octaves.
 
 use realfft::RealFftPlanner;
 use std::f64::consts::{PI, TAU};
 
-/// Bins of the averaged spectrum.
+/// Length of a block of the averaged spectrum, samples.
 const BLOCK: usize = 2048;
 
-/// Bands of a third of an octave: (centre, lower edge, upper edge), Hz, from the first
-/// band of 4 bins or more up to the last one that ends below half the rate.
+/// Bands of a third of an octave, as (centre, lower edge, upper edge) in Hz: from the first
+/// band with at least 4 bins to the last one that ends below half the rate.
 #[must_use]
 pub fn third_octaves(low_hz: f64, rate_hz: f64) -> Vec<(f64, f64, f64)> {
     (-20..30)
@@ -23,8 +23,8 @@ pub fn third_octaves(low_hz: f64, rate_hz: f64) -> Vec<(f64, f64, f64)> {
         .collect()
 }
 
-/// Welch's averaged periodogram: Hann window, half overlap. Two-sided power a bin, for the
-/// bins 0..=BLOCK/2, so that white noise of variance 1 gives 1.
+/// Welch's averaged periodogram with a Hann window and half overlap. Gives two-sided power per
+/// bin for the bins `0..=BLOCK/2`, scaled so that white noise of variance 1 gives 1.
 #[must_use]
 pub fn periodogram(signal: &[f64]) -> Vec<f64> {
     let fft = RealFftPlanner::<f64>::new().plan_fft_forward(BLOCK);

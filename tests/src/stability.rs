@@ -1,10 +1,10 @@
-//! Whether a filter is stable, by the step-down recursion.
+//! The stability of a filter, by the step-down recursion.
 
-/// Largest |reflection coefficient| of A(z) = 1 + Σ a_k z⁻ᵏ: the filter is stable exactly
-/// if it is below 1. NaN and infinities give infinity.
+/// Largest magnitude of the reflection coefficients of A(z) = 1 + Σ a_k z⁻ᵏ. The filter is
+/// stable if and only if it is below 1. NaN and infinities give infinity.
 ///
 /// # Panics
-/// Above order 24.
+/// If the order exceeds 24.
 #[must_use]
 pub fn largest_reflection(coefficients: &[f32]) -> f64 {
     let mut a = [0.0; 24];
@@ -36,7 +36,7 @@ mod tests {
     #[test]
     fn the_unit_circle_is_the_border() {
         for radius in [0.5_f32, 0.9, 0.99, 0.999] {
-            // A pole pair at ±60°, and its mirror outside.
+            // A pole pair at ±60°, and its mirror image outside the unit circle.
             assert!(largest_reflection(&[-radius, radius * radius]) < 1.0);
             let outside = 1.0 / radius;
             assert!(largest_reflection(&[-outside, outside * outside]) > 1.0);

@@ -1,4 +1,4 @@
-//! Textures to test with, written without the compiler.
+//! Random textures for the tests, made without the compiler.
 
 use crate::draw::Draw;
 use asperity_formats::{
@@ -43,7 +43,7 @@ pub struct Texture {
     pub surface: Surface,
 }
 
-/// What to draw.
+/// Kind of a random texture.
 #[derive(Debug, Clone, Copy)]
 pub struct Kind {
     /// Order of A(z).
@@ -83,8 +83,8 @@ fn ascending(draw: &mut Draw, order: usize, gap: f64) -> Vec<u16> {
         .collect()
 }
 
-/// A random texture: a lattice over 250 mm/s × 4 N, its interior vertices moved, σ
-/// growing from 0 at the axes, 13 taps at 10 kHz.
+/// A random texture: a lattice over 250 mm/s × 4 N whose interior vertices are moved, σ that
+/// grows from 0 at the axes, and 13 taps at 10 kHz.
 #[must_use]
 pub fn random(seed: u64, kind: Kind) -> Texture {
     let mut draw = Draw::new(seed);
@@ -184,7 +184,7 @@ impl Texture {
     /// The bytes of the texture as an asset.
     ///
     /// # Panics
-    /// If the parts are no valid asset.
+    /// If the parts are not a valid asset.
     #[must_use]
     pub fn encode(&self) -> Vec<u8> {
         let codes = |bits: &[u16]| -> Vec<LsfCode> {

@@ -2,8 +2,8 @@
 
 use crate::draw::Draw;
 
-/// Positions at 1 kHz, m: the stylus hovers, taps, strokes and scrubs the plane z = 0
-/// over a few centimetres.
+/// Positions at 1 kHz, m. The stylus hovers over the plane z = 0, and taps, strokes and scrubs
+/// it over a few centimetres.
 #[must_use]
 pub fn strokes(seed: u64, ticks: usize) -> Vec<[f32; 3]> {
     strokes_at(1000.0, seed, ticks)
@@ -36,7 +36,7 @@ pub fn strokes_at(rate_hz: f64, seed: u64, ticks: usize) -> Vec<[f32; 3]> {
         .map(|n| {
             let t = n as f64 / rate_hz;
             let height = z[0](t) + z[1](t);
-            // Deep parts are pressed flat: 5 mm at 500 N/m would be 2.5 N.
+            // Depth is compressed: 5 mm at 500 N/m would be 2.5 N.
             let height = if height < 0.0 { 0.8 * height } else { height };
             [
                 (x[0](t) + x[1](t)) as f32,
@@ -49,8 +49,8 @@ pub fn strokes_at(rate_hz: f64, seed: u64, ticks: usize) -> Vec<[f32; 3]> {
 
 /// A straight stroke along x at a constant speed and depth, m, at 1 kHz.
 pub fn steady(speed_mm_s: f64, depth_m: f64, ticks: usize) -> impl Iterator<Item = [f32; 3]> {
-    // Back and forth would change the direction: a circle of 1 m keeps the speed and
-    // keeps positions small enough for f32.
+    // Strokes back and forth would change the direction. A circle of 1 m keeps the speed, and
+    // its positions are small enough for f32.
     let radius_m = 1.0;
     (0..ticks).map(move |n| {
         let angle = speed_mm_s * 1e-6 * n as f64 / radius_m;

@@ -1,7 +1,7 @@
-//! Speed and force that jump to and fro between two points do not make the vibration louder
-//! than its parts: built-in texture and HaTT materials, at every sample and in step with the
-//! cycles of the runtime, which then sees each point in turn; in a servo loop at the models' rate,
-//! and in faster ones.
+//! Speed and force that jump back and forth between two points do not make the vibration louder
+//! than it is at the louder point. The jumps come at every sample, and in step with the cycles of
+//! the runtime, which then sees each point in turn. Textures are the built-in one and HaTT
+//! materials, servo loops run at the rate of the models and faster.
 
 mod support;
 
@@ -14,12 +14,12 @@ const RELEASE: bool = !cfg!(debug_assertions);
 const PAIRS: usize = if RELEASE { 60 } else { 4 };
 const SECOND: usize = 1000;
 const BLOCK: usize = 20;
-/// Samples at the start that are not counted: the contact fades in.
+/// Samples at the start that are not counted, because the contact fades in.
 const SETTLE: usize = 200;
-/// Share of the way in a cycle: 5 ms at 1 kHz.
+/// Fraction of the way that parameters go in a cycle, for 5 ms at 1 kHz.
 const FOLLOW: f64 = 5.0;
 
-/// RMS over a second, and of every block of 20 ms; `query` is asked tick by tick.
+/// RMS over a second, and of every block of 20 ms. `query` gives speed and force of each tick.
 fn levels(slot: &HostTexture, seed: u64, query: impl Fn(usize) -> (f32, f32)) -> (f64, Vec<f64>) {
     let share = (1.0 - (-f64::from(slot.cycle_samples()) / FOLLOW).exp()) as f32;
     let mut vibration = Vibration::new(seed);
@@ -42,9 +42,9 @@ fn levels(slot: &HostTexture, seed: u64, query: impl Fn(usize) -> (f32, f32)) ->
 
 #[derive(Default)]
 struct Excess {
-    /// Of a second over the louder stationary one, dB.
+    /// RMS of a second relative to that at the louder point alone, dB.
     seconds: Vec<f64>,
-    /// Of blocks of 20 ms over the same, dB.
+    /// RMS of blocks of 20 ms relative to the same, dB.
     blocks: Vec<f64>,
 }
 
@@ -55,7 +55,8 @@ fn percentile(values: &mut [f64], share: f64) -> f64 {
 }
 
 impl Excess {
-    /// Random pairs of one texture at `ratio` times its rate, alternating in a step.
+    /// Random pairs of points of one texture that alternate every `step`, in a loop at `ratio`
+    /// times the rate of the models.
     fn of(bytes: &[u8], ratio: u8, step: Step, seed: u64) -> Self {
         let asset = Asset::parse(bytes).unwrap();
         let mut slot = Box::new(HostTexture::new());
@@ -108,12 +109,12 @@ impl Excess {
     }
 }
 
-/// How often the query goes from one point to the other.
+/// How often the query jumps from one point to the other.
 #[derive(Debug, Clone, Copy)]
 enum Step {
     Tick,
     Sample,
-    /// A cycle and so many ticks.
+    /// Every cycle plus a number of ticks.
     Cycle(usize),
 }
 
@@ -137,8 +138,8 @@ fn the_builtin_texture() {
     }
 }
 
-/// Of a loop five or ten times as fast: every tick, every sample and every cycle of the models,
-/// and a little more than one.
+/// Jumps in a loop five or ten times as fast: in every tick, sample and cycle of the models, and
+/// a little less often than every cycle.
 #[test]
 fn faster_loops() {
     for ratio in [5, 10] {

@@ -1,5 +1,5 @@
-//! The C face: the programs of `tests/c/`, built as a user would build them, with and
-//! without the sanitizers, give Rust's bits and a status for every misuse.
+//! The programs of `tests/c/`, built as a user builds them, with and without the sanitizers,
+//! give the same bits as Rust, and a status for every misuse.
 
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
@@ -84,7 +84,7 @@ fn program(name: &str, flags: &[&str]) -> PathBuf {
     path
 }
 
-/// A library of two textures, also as a file.
+/// A library of two textures, as bytes and as a file.
 fn shelf() -> (Vec<u8>, PathBuf) {
     let textures = [
         random(1, Kind::nyquist(20)).encode(),
@@ -106,7 +106,7 @@ fn positions() -> Vec<[f32; 3]> {
     positions
 }
 
-/// What Rust gives, as bits.
+/// Bits of the forces that Rust computes.
 fn expected(library: &[u8], name: &str) -> Vec<[u32; 3]> {
     let library = Library::parse(library).unwrap();
     let index = library.index().find(name).unwrap();

@@ -1,5 +1,6 @@
-//! A texture that comes while the servo loop runs makes no step that a texture alone would not
-//! make, forgets nothing, and is the one that was prepared, however fast they follow.
+//! A texture that arrives while the servo loop runs makes no larger step than a texture alone.
+//! The state is kept, and whatever plays is exactly what was prepared, however fast textures
+//! follow each other.
 
 use asperity::{
     builtin,
@@ -23,16 +24,16 @@ type TestExchange<'a, A> = Exchange<'a, 64, 128, 24, 24, 4096, A>;
 type TestPreparer<'q, 'a, A> = Preparer<'q, 'a, 64, 128, 24, 24, 4096, A>;
 
 const RATE_HZ: f32 = 1000.0;
-/// Where the second texture is sent.
+/// Tick in which the second texture is sent.
 const SENT: usize = 400;
-/// Ticks after it that count as the crossing.
+/// Ticks after that one that count as the crossing.
 const AROUND: usize = 60;
-/// As many come from a thread.
+/// Number of textures that a thread sends.
 const CHANGES: usize = 300;
-/// A crossing's largest step over the larger of both textures alone.
+/// Largest step of a crossing, relative to the larger one of both textures alone.
 const ALLOWED: f32 = 1.1;
 
-/// The built-in texture; one that is softer, rougher, of lower order and stickier.
+/// The built-in texture, and one that is softer, rougher, stickier and of lower order.
 fn textures() -> [Vec<u8>; 2] {
     let hard = builtin::texture();
     let mut soft = reduce(&hard, Fidelity::Order(4)).texture;
@@ -61,7 +62,7 @@ fn stroke() -> Vec<Sample> {
     down.chain(along).map(Sample::at).collect()
 }
 
-/// Plays a texture from the start and whatever `send` prepares before each tick.
+/// Plays a texture, and then whatever `send` prepares before each tick.
 fn play<A: Arithmetic>(
     first: &[u8],
     seed: u64,
@@ -138,8 +139,8 @@ fn crossing<A: Arithmetic>() {
     }
 }
 
-/// Where nothing vibrates, nothing hides a step of wall or friction: they follow in 5 ms, so a
-/// tick takes at most 1 − e^(−1/5) of the way.
+/// Without vibration a step of wall or friction could not hide. Both follow in 5 ms, so a tick
+/// goes at most 1 − e^(−1/5) of the way.
 #[test]
 fn wall_and_friction_change_little_by_little() {
     change::<Float>();
@@ -173,8 +174,8 @@ fn change<A: Arithmetic>() {
     }
 }
 
-/// Without another texture a player gives the bits of the plain tick; with one, the sound goes
-/// on with the model at work until the new one is made, and what moves is that of the plain tick.
+/// Without another texture a player gives the bits of the plain tick. With one, the model at
+/// work keeps sounding until the new one is made, and the motion is that of the plain tick.
 #[test]
 fn nothing_is_forgotten() {
     memory::<Float>();
@@ -197,7 +198,7 @@ fn memory<A: Arithmetic>() {
     });
     let sound = |outputs: &[Output<A>]| outputs.iter().map(|o| o.vib_m_s2).collect::<Vec<_>>();
     assert_eq!(sound(&changed[..SENT]), sound(&plain[..SENT]));
-    // On a steady stroke the model that is no longer made hardly differs from the one at work.
+    // On a steady stroke the old texture's next model would hardly differ from the one at work.
     let effect = SENT + LAG_SAMPLES + 1 - usize::from(loaded::<A>(&pair[1]).cycle_samples());
     let differences = |ticks: Range<usize>| {
         let pairs = changed[ticks.clone()].iter().zip(&plain[ticks]);
@@ -209,7 +210,7 @@ fn memory<A: Arithmetic>() {
     assert_eq!(speed(&changed), speed(&plain));
     assert_eq!(state.counters(), plain_state.counters());
 
-    // At its end the new texture alone is felt.
+    // At the end only the new texture is felt.
     let (new, _) = alone::<A>(&pair[1], 7, &samples);
     let (ours, theirs) = (changed.last().unwrap(), new.last().unwrap());
     let apart_n = difference::<A, _>(ours.normal_force_n, theirs.normal_force_n);
@@ -264,8 +265,8 @@ fn refusal<A: Arithmetic>() {
     });
 }
 
-/// A thread prepares as fast as it can; whatever plays is one of both textures, whole, and
-/// the force stays within peak and slew.
+/// A thread prepares textures as fast as it can. Whatever plays is one of both textures,
+/// complete, and the force stays within peak and slew.
 #[test]
 fn a_thread_that_never_stops_preparing() {
     let pair = textures();

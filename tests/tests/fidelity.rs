@@ -1,5 +1,5 @@
-//! What `--fidelity auto` keeps of every HaTT material renders like the whole material: the
-//! oracle's mixtures over the grid, which know nothing of the reducer's own measure.
+//! What `--fidelity auto` keeps of a HaTT material renders like the whole material. The oracle
+//! compares mixtures over the grid, independently of the reducer's own measure.
 
 use asperity::reduce::Fidelity;
 use asperity_formats::Asset;
@@ -30,7 +30,7 @@ fn log_spectrum(texture: &Texture, model: &Model) -> Vec<f64> {
         .collect()
 }
 
-/// Vertices, middles of edges and centroids.
+/// Vertices, midpoints of edges, and centroids.
 fn places(texture: &Texture) -> Vec<(f64, f64)> {
     let at = |v: usize| (texture.vertices[v].speed_mm_s, texture.vertices[v].force_n);
     let mean = |points: &[(f64, f64)]| {
@@ -50,7 +50,7 @@ fn places(texture: &Texture) -> Vec<(f64, f64)> {
     all
 }
 
-/// Ordered cosines: the condition for a stable filter.
+/// Whether the cosines are ordered, the condition for a stable filter.
 fn is_stable(model: &Model) -> bool {
     model.cosines.iter().all(|x| x.abs() < 1.0) && model.cosines.windows(2).all(|p| p[0] > p[1])
 }
@@ -76,7 +76,7 @@ fn what_auto_keeps_is_within_its_budget_for_every_material() {
             for (speed, force) in places(&full) {
                 let (exact, found) = (full.model(speed, force), kept.model(speed, force));
                 assert!(is_stable(&found), "{}: {speed}, {force}", report.name);
-                // 40 dB below the loudest vertex it counts as silence: a place without error.
+                // A place 40 dB below the loudest vertex counts as silence, and as free of error.
                 if exact.level_m_s2 > 0.01 * loudest {
                     let (x, y) = (log_spectrum(&full, &exact), log_spectrum(&kept, &found));
                     let squares: f64 = x.iter().zip(&y).map(|(x, y)| (x - y).powi(2)).sum();
@@ -88,7 +88,7 @@ fn what_auto_keeps_is_within_its_budget_for_every_material() {
             distances.sort_by(f64::total_cmp);
             let rank = (0.95 * distances.len() as f64).ceil() as usize;
             let (p95, worst) = (distances[rank - 1], distances[distances.len() - 1]);
-            // The frequencies are other ones than the reducer's.
+            // The frequencies differ from those of the reducer.
             assert!(p95 <= 0.51, "{}: {p95} dB at 95 %", report.name);
             assert!(worst <= 1.01, "{}: {worst} dB at worst", report.name);
             assert!(report.haptic_bytes < whole.haptic_bytes);

@@ -1,5 +1,5 @@
-//! Fixed point on real materials: models that no range cuts, spectra within a tenth of a decibel
-//! of the f64 oracle's, and a vibration whose bands are those of floats.
+//! Fixed point on real materials. No range cuts a model, spectra are within a tenth of a decibel
+//! of those of the f64 oracle, and the bands of the vibration are those of floats.
 
 use asperity_formats::Asset;
 use asperity_runtime::{Arithmetic, Fixed, Float, arithmetic::Scalar, vibration::Vibration};
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 mod support;
 
-/// Queries of a material.
+/// Queries per material.
 const QUERIES: usize = if cfg!(debug_assertions) { 10 } else { 200 };
 /// Ticks of a vibration.
 const TICKS: usize = if cfg!(debug_assertions) {
@@ -38,7 +38,7 @@ fn point(draw: &mut Draw, oracle: &Texture) -> (f32, f32) {
     )
 }
 
-/// Largest RMS difference of log spectra, 10 Hz to 450 Hz, dB, level included.
+/// Largest RMS difference of log spectra from 10 Hz to 450 Hz, level included, dB.
 fn spectral_error_db(bytes: &[u8]) -> f64 {
     let slot = load::<Fixed>(bytes);
     let oracle = Texture::new(&Asset::parse(bytes).unwrap());
@@ -83,7 +83,7 @@ fn bands_db<A: Arithmetic>(bytes: &[u8], (speed, force): (f32, f32)) -> Vec<f64>
     band_levels_db(&periodogram(&signal), RATE_HZ, &bands)
 }
 
-/// Largest difference between both arithmetics, dB.
+/// Largest difference of a band between both arithmetics, dB.
 fn band_error_db(bytes: &[u8]) -> f64 {
     let oracle = Texture::new(&Asset::parse(bytes).unwrap());
     let at = point(&mut Draw::new(2), &oracle);

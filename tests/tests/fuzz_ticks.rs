@@ -1,5 +1,5 @@
-//! A short run of the fuzzed ticks; `.ci/run` has a longer one, and the command
-//! `fuzz-ticks` any other.
+//! A short run of the fuzzed ticks. `.ci/run` has a longer one, and the command `fuzz-ticks` runs
+//! any number.
 
 use asperity_runtime::{Arithmetic, Fixed, Float};
 use asperity_tests::fuzz_ticks::{Summary, fuzz_ticks};
@@ -9,7 +9,7 @@ fn fuzzed_ticks_keep_the_law_and_reach_what_they_are_for() {
     fuzz::<Float>();
 }
 
-/// With debug assertions on, a number out of range panics.
+/// Under debug assertions a number out of range panics.
 #[test]
 fn fuzzed_ticks_in_fixed_point_do_so_without_overflow() {
     fuzz::<Fixed>();
@@ -27,7 +27,7 @@ fn fuzz<A: Arithmetic>() {
         hash,
     } = summary;
     assert_eq!(ticks, 300_000);
-    // Nothing that the fuzzer is for has become rare.
+    // The run reaches everything that the fuzzer looks for.
     assert!(swaps > 500 && contacts > ticks / 20, "{summary:?}");
     assert!(
         taps > 50 && faults > 1000 && limited > 10_000,

@@ -1,6 +1,6 @@
-//! Goldens: the committed asset of format version 1 and its committed render.
+//! Goldens: the committed asset of format version 1, and its committed render.
 //!
-//! `assets/builtin-v1.asp` is what `asperity builtin` wrote in format version 1. It stays,
+//! `assets/builtin-v1.asp` was written by `asperity builtin` in format version 1. It is kept
 //! whatever later versions write, and must stay readable.
 
 mod support;
@@ -77,7 +77,7 @@ fn the_render_of_the_builtin_texture_is_the_committed_one() {
     );
 }
 
-/// The golden itself is no accident: it is what the oracle says.
+/// The committed render agrees with the oracle.
 #[test]
 fn the_committed_render_is_the_oracles() {
     if blessing() {
@@ -150,12 +150,12 @@ fn the_asset_of_version_1_stays_readable() {
     );
     let provenance = asset.provenance().expect("provenance");
     assert!(provenance.taps_synthetic && provenance.lsf_error_db <= 0.03);
-    // Reading in every way there is.
+    // Read through every function of the view.
     assert!(Asset::parse_haptic(&bytes[..asset.haptic_len()]).is_ok());
     assert!(Texture::new(&asset).vertices.len() >= 18);
 }
 
-/// While version 1 is the current one, the compiler still writes it to the byte.
+/// As long as version 1 is current, the compiler writes the same bytes.
 #[test]
 fn the_builtin_texture_is_written_to_the_byte() {
     let current = support::builtin();

@@ -1,6 +1,6 @@
-//! Every HaTT material imports, keeps every vertex and triangle, and every sounding vertex is
-//! within 0.5 dB RMS (10–450 Hz, level included) of the coefficients in its file, which are
-//! read here by other means than the importer's.
+//! Every HaTT material is imported with every vertex and triangle. Every sounding vertex is
+//! within 0.5 dB RMS (10–450 Hz, level included) of the coefficients in its file, which this
+//! test reads without the importer.
 
 use asperity::reduce::Fidelity;
 use asperity_formats::Asset;
@@ -11,7 +11,7 @@ use asperity_tests::{
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// RMS difference of two log spectra over 10–450 Hz at 1 Hz steps, dB.
+/// RMS difference of two log spectra from 10 to 450 Hz in steps of 1 Hz, dB.
 fn rms_db(exact: impl Fn(f64) -> f64, found: impl Fn(f64) -> f64) -> f64 {
     let squares: f64 = (10..=450)
         .map(|hz| {
@@ -80,7 +80,7 @@ fn every_material_is_within_half_a_decibel_of_its_file() {
             let errors = errors(&source, &asset);
             let worst = errors.iter().copied().fold(0.0, f64::max);
             assert!(worst < 0.5, "{}: {worst} dB", source.name);
-            // What the importer prints is what is measured here, but for the grid of
+            // The importer prints the error that is measured here, except for the different
             // frequencies near zeros of the numerator.
             assert!(
                 (imported.report.error.max_db - worst).abs() < 0.05,

@@ -1,5 +1,5 @@
-//! Whatever the samples, the force is finite and within peak and slew; the same input
-//! gives the same bits; good samples bring it back.
+//! For any samples the force is finite and within peak and slew. The same input gives the same
+//! bits, and good samples bring the force back.
 
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, State, Surface};
@@ -52,7 +52,7 @@ fn sample() -> impl Strategy<Value = Sample> {
     })
 }
 
-/// Stretches of motion with bad samples between them.
+/// Stretches of motion, with bad samples between them.
 fn samples() -> impl Strategy<Value = Vec<Sample>> {
     let stretch = (
         sample(),
@@ -114,7 +114,7 @@ proptest! {
         prop_assert_eq!(state, twin);
     }
 
-    /// After any samples at all: in contact at rest the force is the wall's, out of contact
+    /// After any samples, the force at rest in contact is that of the wall, and out of contact
     /// there is none.
     #[test]
     fn good_samples_bring_the_force_back(samples in samples(), seed in any::<u64>()) {

@@ -1,4 +1,4 @@
-//! Friction as a law: no sign at rest, no step in speed, no energy from closed paths.
+//! Laws of friction: no change of sign at rest, no step over speed, no energy from closed paths.
 
 use std::f64::consts::TAU;
 
@@ -50,8 +50,8 @@ impl Axis {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Wherever a stroke ended and however hard the stylus is pressed: counts of ±1 about a
-    /// place never turn the force round.
+    /// Wherever a stroke ended and however hard the stylus is pressed, noise of ±1 count never
+    /// reverses the force.
     #[test]
     fn noise_at_rest_never_turns_the_force_round(
         counts in prop::collection::vec(-1_i8..=1, 3000),
@@ -69,7 +69,7 @@ proptest! {
         }
     }
 
-    /// A ramp of any acceleration, from rest or from a steady speed, through zero or not:
+    /// In a ramp of any acceleration, from rest or from a steady speed, through zero or not,
     /// |ΔF_t|/F_n is at most 0.03 per 0.1 mm/s.
     #[test]
     fn a_ramp_of_any_acceleration_has_no_step(
@@ -92,7 +92,7 @@ proptest! {
             x += (start_m_s + accel * TICK_S * n as f64) * TICK_S;
             force.push(axis.step(x, normal_n));
         }
-        // A tick may be more than 0.1 mm/s, then so much more is allowed.
+        // If a tick changes the speed by more than 0.1 mm/s, the bound grows in proportion.
         let allowed = 0.03 * (accel * TICK_S * window as f64 / 1e-4).max(1.0);
         for pair in force.windows(window + 1) {
             let change = (pair[window] - pair[0]).abs() / normal_n;
@@ -100,7 +100,8 @@ proptest! {
         }
     }
 
-    /// However the speed wanders about a steady one, the force stays as near to its own.
+    /// While the speed wanders about a steady one, the force stays correspondingly near to its
+    /// steady value.
     #[test]
     fn the_force_stays_as_near_as_the_speed(
         steps in prop::collection::vec((-1.0_f64..1.0, 1_usize..300), 1..30),
@@ -124,8 +125,9 @@ proptest! {
         }
     }
 
-    /// Work on the hand over closed paths of a hand's own speed, the force of a tick held to
-    /// the next, nothing absorbed on the way, pressed differently there and back.
+    /// No work is done on the hand over closed paths. Speeds are those of a hand, the force of a
+    /// tick is held until the next, the device absorbs nothing, and the stylus is pressed
+    /// differently on the way back.
     #[test]
     fn no_closed_path_gains_energy(
         amplitude_m in 1e-5_f64..0.02,
@@ -148,7 +150,7 @@ proptest! {
     }
 }
 
-/// Steady friction from nothing to μF_n, and μF_n from a few mm/s on.
+/// Steady friction grows from zero to μF_n, and stays there from a few mm/s on.
 #[test]
 fn steady_friction_is_mu_times_the_normal_force_above_some_millimetres_a_second() {
     for (normal_n, mu) in [(0.1, 0.2_f32), (0.5, 0.7), (1.0, 0.7), (3.0, 1.4)] {
@@ -163,7 +165,7 @@ fn steady_friction_is_mu_times_the_normal_force_above_some_millimetres_a_second(
         };
         let full_n = f64::from(mu) * normal_n;
         assert!((steady(0.02) - full_n).abs() < 1e-4 * full_n);
-        // F_n·v/v_c − kh, and the lead of one tick.
+        // F_n·v/v_c − kh, plus the lead of one tick.
         let (k, h) = (
             f64::from(config.stiffness_n_m),
             f64::from(config.dead_zone_m),

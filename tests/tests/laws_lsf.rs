@@ -5,8 +5,8 @@ use asperity_tests::oracle::polynomial;
 use proptest::{collection::vec, prelude::*};
 use std::f64::consts::PI;
 
-/// Ordered frequencies, neighbours 0.013 rad apart or more: closer ones are as stable, but
-/// f64 coefficients no longer show it.
+/// Ordered frequencies whose neighbours are at least 0.013 rad apart. Closer ones are just as
+/// stable, but coefficients in f64 cannot show it.
 fn ordered(order: usize) -> impl Strategy<Value = Vec<f64>> {
     vec(prop_oneof![0.1_f64..0.2, 0.2_f64..1.0], order + 1).prop_map(move |steps| {
         let sum: f64 = steps.iter().sum();
@@ -84,7 +84,8 @@ proptest! {
     }
 }
 
-/// The law is about convexity: with weights outside [0, 1] it fails, so the check can.
+/// The law needs convexity. It fails for weights outside [0, 1], which shows that the check
+/// can fail.
 #[test]
 fn extrapolation_breaks_the_order_and_the_filter() {
     let lists = [

@@ -1,5 +1,5 @@
-//! For any speed and force, bits at random, weights are convex and filters finite and
-//! stable, on random textures of every kind.
+//! On random textures of every kind, weights are convex and filters are finite and stable, for
+//! any bits as speed and force.
 
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::HostTexture;
@@ -17,7 +17,7 @@ fn load(texture: &Texture) -> Box<HostTexture> {
     slot
 }
 
-/// Panics with the query where one is wrong.
+/// Panics if a query is wrong, and names it.
 fn check(slot: &HostTexture, order: usize, speed: f32, force: f32) {
     let query = slot.weights_at(speed, force);
     let sum: f32 = query.weights.iter().sum();
@@ -65,7 +65,8 @@ proptest! {
     }
 }
 
-/// Triangles as thin as rounding allows, and vertices a denormal apart: valid assets.
+/// Valid assets whose triangles are as thin as rounding allows, or whose vertices are a denormal
+/// apart.
 #[test]
 fn slivers_of_any_thinness_give_convex_weights() {
     for thickness in [
@@ -92,7 +93,7 @@ fn slivers_of_any_thinness_give_convex_weights() {
                 );
                 for (index, vertex) in texture.vertices.iter_mut().enumerate() {
                     let (column, row) = (index % 4, index / 4);
-                    // The second line of vertices lies a hair from the first or the last.
+                    // The second line of vertices nearly touches the first or the last one.
                     let place = |at: usize, max: f32| match (at, from_far) {
                         (1, false) => thickness,
                         (1, true) => max - thickness,
@@ -123,8 +124,8 @@ fn slivers_of_any_thinness_give_convex_weights() {
     }
 }
 
-/// A triangle too thin for f32 must not answer with rounding noise: along a hair-thin row of
-/// vertices the mixture stays the one of the exact position.
+/// A triangle that is too thin for f32 must not answer with rounding noise. Along a hair-thin
+/// row of triangles the mixture stays that of the exact position.
 #[test]
 fn slivers_of_any_thinness_mix_what_their_neighbours_mix() {
     use asperity_tests::oracle;
@@ -142,7 +143,7 @@ fn slivers_of_any_thinness_mix_what_their_neighbours_mix() {
             let (column, row) = (index % 4, index / 4);
             vertex.speed_mm_s = 250.0 * column as f32 / 3.0;
             vertex.force_n = [0.0, 2.0, 2.0 + 4.0 * thickness, 4.0][row];
-            // Nothing jumps across the hair.
+            // The mixture does not jump across the row.
             vertex.sigma_m_s2 = 0.1 * (1 + column) as f32 * [1.0, 2.0, 2.0, 3.0][row];
         }
         let bytes = texture.encode();

@@ -1,5 +1,5 @@
-//! The vibration of a steady stroke of 60 s has the model's levels in third octaves within
-//! 1 dB: at vertices and between them, built-in texture and HaTT materials.
+//! In a steady stroke of 60 s the third octaves of the vibration are within 1 dB of the model's,
+//! at vertices and between them, for the built-in texture and HaTT materials.
 
 mod support;
 
@@ -14,7 +14,8 @@ use asperity_tests::{
 use rayon::prelude::*;
 
 const SECONDS: usize = 60;
-/// Below, a band of 60 s holds too few independent samples to tell 1 dB from chance.
+/// Below this frequency 60 s of a band hold too few independent samples to tell 1 dB from
+/// chance.
 const LOW_HZ: f64 = 25.0;
 
 /// Largest difference over the bands, dB, and the centre of that band, Hz.
@@ -79,7 +80,7 @@ fn places(bytes: &[u8]) -> [Vec<(f64, f64)>; 2] {
     [vertices, centroids]
 }
 
-/// Every `stride`th place of each kind; the worst difference.
+/// The worst difference over every `stride`th place of each kind.
 fn check(name: &str, bytes: &[u8], places_a_kind: usize) -> f64 {
     let [vertices, centroids] = places(bytes);
     let some = |places: Vec<(f64, f64)>| {

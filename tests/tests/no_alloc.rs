@@ -13,7 +13,7 @@ use std::{
     cell::Cell,
 };
 
-/// The system's allocator, counting what a thread asks of it.
+/// The system's allocator, which counts the calls of each thread.
 struct Counting;
 
 thread_local! {
@@ -21,12 +21,12 @@ thread_local! {
 }
 
 fn count() {
-    // Fails only while the thread ends.
+    // This fails only while the thread ends.
     let _ = CALLS.try_with(|calls| calls.set(calls.get() + 1));
 }
 
-// SAFETY: every call is passed on as it came to the system's allocator, which keeps the
-// contract; counting touches a thread-local without a destructor and does not allocate.
+// SAFETY: every call is passed on unchanged to the system's allocator, which keeps the
+// contract. Counting uses a thread-local without a destructor and does not allocate.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count();
@@ -44,7 +44,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// What `f` gives, and how often it allocated or freed.
+/// The result of `f`, and how often `f` allocated or freed.
 fn calls_of<T>(f: impl FnOnce() -> T) -> (T, u64) {
     let before = CALLS.get();
     let result = f();

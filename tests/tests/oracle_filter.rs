@@ -1,4 +1,4 @@
-//! Location, mixture and filter are those of the f64 oracle.
+//! Location, mixture and filter agree with the f64 oracle.
 
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{Arithmetic, Fixed, Float, arithmetic::Scalar as _};
@@ -16,7 +16,7 @@ fn load<A: Arithmetic>(bytes: &[u8]) -> (Box<HostSlot<A>>, Texture) {
     (slot, Texture::new(&asset))
 }
 
-/// Largest |log spectral difference| over 10 Hz to 490 Hz, dB, levels of 0 left out.
+/// Largest difference of log spectra from 10 Hz to 490 Hz, dB; levels of 0 are left out.
 fn spectral_error_db<A: Arithmetic>(
     slot: &HostSlot<A>,
     oracle: &Texture,
@@ -85,7 +85,7 @@ fn largest_error_db<A: Arithmetic>() -> f64 {
 fn armas_agree_too() {
     let worst = largest_arma_error_db::<Float>();
     println!("largest spectral error of the runtime's ARMA filters: {worst:.5} dB");
-    // Near a zero of the numerator a decibel is a small number.
+    // Near a zero of the numerator a decibel is a small difference.
     assert!(worst < 0.05, "{worst} dB");
 }
 
@@ -115,13 +115,13 @@ fn largest_arma_error_db<A: Arithmetic>() -> f64 {
     worst
 }
 
-/// Two triangles may share a point: what they mix there must be the same.
+/// Two triangles may share a point, and must give the same mixture there.
 #[test]
 fn the_mixture_is_the_oracles_wherever_it_is_asked() {
     compare_mixtures::<Float>(2e-5);
 }
 
-/// Weights are computed in steps of 10⁻⁶, from slopes as coarse.
+/// Fixed point computes weights in steps of 10⁻⁶, from slopes that are as coarse.
 #[test]
 fn the_mixture_in_fixed_point_is_too() {
     compare_mixtures::<Fixed>(3e-4);

@@ -1,5 +1,5 @@
-//! Every output of the tick is that of the f64 oracle, within the stated tolerances, on
-//! seeded trajectories over plane, sphere and box, bad samples included.
+//! Every output of the tick agrees with the f64 oracle within the stated tolerances, on seeded
+//! trajectories over plane, sphere and box, bad samples included.
 
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
@@ -23,7 +23,7 @@ struct Worst {
     vib_m_s2: f64,
     tap_n: f64,
     friction_n: f64,
-    /// Of the oracle, so that silence is no agreement.
+    /// Loudest sample of the oracle, so that silence does not count as agreement.
     loudest_m_s2: f64,
     hardest_tap_n: f64,
 }
@@ -110,22 +110,22 @@ fn kinds() -> [Kind; 5] {
     ]
 }
 
-/// What an output may miss the oracle's by.
+/// Largest difference of each output from the oracle.
 #[derive(Debug, Clone, Copy)]
 struct Tolerance {
     depth_um: f64,
     normal_force_n: f64,
     /// At 1 kHz.
     speed_mm_s: f64,
-    /// Of the loudest sample.
+    /// Relative to the loudest sample.
     vib: f64,
-    /// Of the hardest tap, or of 0.1 N.
+    /// Relative to the hardest tap, or to 0.1 N.
     tap: f64,
     friction_n: f64,
     force_n: f64,
 }
 
-/// Rounding of f32 in positions of centimetres and in a hundred coefficients.
+/// Rounding of f32, in positions of centimetres and in a hundred coefficients.
 const FLOAT: Tolerance = Tolerance {
     depth_um: 0.02,
     normal_force_n: 1e-5,
@@ -137,8 +137,8 @@ const FLOAT: Tolerance = Tolerance {
     force_n: 3e-4,
 };
 
-/// Steps of 15 µN and 15 µm/s², the latter through the resonances of a model; the limiter stays
-/// a step within its limits, which a slow slew adds up.
+/// Steps of 15 µN and of 15 µm/s², which the resonances of a model amplify. The limiter stays a
+/// step within its limits, and a slow slew adds these steps up.
 const FIXED: Tolerance = Tolerance {
     depth_um: 0.02,
     normal_force_n: 3e-5,
@@ -153,8 +153,8 @@ fn assert_close(compared: &[(Worst, Tolerance); 2], rate_hz: f32, case: &str) {
     for (worst, within) in compared {
         println!("{case}: {worst:?}");
         let rate = f64::from(rate_hz / 1000.0);
-        // The nearer the velocity filter's poles are to 1, the more rounding moves them: by the
-        // square of the rate, and speed decides what vibrates.
+        // The nearer the poles of the velocity filter are to 1, the more rounding moves them: with
+        // the square of the rate. Speed decides what vibrates.
         let growth = if rate > 4.0 { rate * rate / 4.0 } else { 1.0 };
         let hardest_n = worst.hardest_tap_n.max(0.1);
         for (found, most) in [
@@ -269,7 +269,7 @@ fn other_rates_cut_offs_and_limits() {
     }
 }
 
-/// Models and taps at their own rates, the loop at a multiple of the models'.
+/// Models and taps keep their own rates; the loop runs at a multiple of that of the models.
 #[test]
 fn servo_loops_faster_than_the_models() {
     let rates = [2000.0, 3000.0, 5000.0, 8000.0, 10_000.0];

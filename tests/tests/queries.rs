@@ -1,8 +1,8 @@
-//! Every vertex, every edge midpoint, a thousand single-precision points on every edge, a
-//! fine walk along the border and random queries give convex weights, finite and stable
-//! filters and the oracle's mixture: built-in texture and HaTT materials.
+//! Convex weights, finite and stable filters and the mixture of the oracle, on the built-in
+//! texture and HaTT materials: at every vertex, every midpoint of an edge, a thousand
+//! single-precision points on every edge, along the border, and at random queries.
 //!
-//! The random queries over all materials are 10⁷ in a release build, fewer otherwise.
+//! A release build takes 10⁷ random queries over all materials, other builds fewer.
 
 mod support;
 
@@ -48,7 +48,7 @@ impl Checked {
         }
     }
 
-    /// Convex, finite, stable.
+    /// Checks that the weights are convex and the filter is finite and stable.
     fn query(&mut self, speed: f32, force: f32) {
         let query = self.slot.weights_at(speed, force);
         let sum: f32 = query.weights.iter().sum();
@@ -66,7 +66,7 @@ impl Checked {
         self.reflection = self.reflection.max(reflection);
     }
 
-    /// As the oracle has it, too: two triangles at one point must agree.
+    /// Checks the mixture against the oracle, too. Two triangles at one point must agree.
     fn query_exactly(&mut self, speed: f32, force: f32) {
         self.query(speed, force);
         let exact = self.oracle.model(speed.into(), force.into()).level_m_s2;
@@ -149,8 +149,8 @@ impl Checked {
     }
 }
 
-/// Good samples after every kind of bad ones, at no speed and no force: a finite force, and
-/// the wall's within the ramp.
+/// Good samples after every kind of bad ones, at zero speed and zero force: the force is finite,
+/// and that of the wall after the ramp.
 fn rest_and_recover(bytes: &[u8]) {
     let asset = Asset::parse(bytes).unwrap();
     let rate = asset.grid().sample_rate_hz();
@@ -164,7 +164,7 @@ fn rest_and_recover(bytes: &[u8]) {
     let depth_m = 1.0 / asset.surface().stiffness_n_m;
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30] {
         let mut state = State::new(1);
-        // Zero force: on the surface. Zero speed: at rest. Then a bad sample or five.
+        // On the surface the force is zero, at rest the speed. Then come one to five bad samples.
         for z in [0.0, -f32::MIN_POSITIVE, -depth_m] {
             for _ in 0..200 {
                 let output = renderer.tick(&slot, &mut state, &Sample::at([0.0, 0.0, z]));
@@ -220,7 +220,7 @@ fn every_hatt_material() {
     println!("{} materials, {queries} queries", files.len());
 }
 
-/// A point on an edge where the reference renderer never returns.
+/// A point on an edge for which the reference renderer never returns.
 #[test]
 fn the_point_of_bubble_envelope_that_hangs_the_reference() {
     const TEST: &str = "the_point_of_bubble_envelope_that_hangs_the_reference";

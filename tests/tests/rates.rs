@@ -1,6 +1,6 @@
-//! The same asset in a servo loop faster than its models: the models' samples are those of a
-//! loop at their own rate, spectrum and level are kept, taps play at their source rate, and
-//! forces stay within their limits.
+//! The same asset in a servo loop that is faster than its models. The samples of the models are
+//! those of a loop at their own rate, spectrum and level are kept, taps play at their source
+//! rate, and forces stay within their limits.
 
 mod support;
 
@@ -45,8 +45,8 @@ fn kinds() -> [Kind; 3] {
     [Kind::nyquist(20), Kind::nyquist(5), arma]
 }
 
-/// Queries and contact that last a sample each: what comes out is the low-pass's answer to
-/// the very samples of a loop at the models' rate.
+/// Every query and contact lasts one sample. The output is the response of the low-pass to
+/// exactly the samples of a loop at the rate of the models.
 #[test]
 fn samples_are_those_of_a_loop_at_the_models_rate() {
     for (seed, kind) in (1..).zip(kinds()) {
@@ -90,7 +90,7 @@ fn samples_are_those_of_a_loop_at_the_models_rate() {
     }
 }
 
-/// A stroke at a constant speed and depth, on a circle of 1 m, whatever the servo rate.
+/// A stroke at a constant speed and depth on a circle of 1 m, for any servo rate.
 fn stroke(renderer: &Renderer, slot: &HostTexture, seed: u64, seconds: f64) -> Vec<f64> {
     let rate_hz = f64::from(renderer.config().servo_rate_hz);
     let mut state = State::new(seed);
@@ -108,8 +108,8 @@ fn stroke(renderer: &Renderer, slot: &HostTexture, seed: u64, seconds: f64) -> V
     all.skip(settle).collect()
 }
 
-/// Third octaves from 10 to 450 Hz within 0.3 dB of those at the models' rate, the level with
-/// them; from 550 Hz on at least 40 dB less than in the band.
+/// Third octaves from 10 to 450 Hz, and with them the level, are within 0.3 dB of those at the
+/// rate of the models. The power above 550 Hz is at least 40 dB below that of the band.
 #[test]
 fn spectrum_and_level_are_kept_and_images_are_not_felt() {
     let textures = [support::builtin(), random(3, Kind::nyquist(20)).encode()];
@@ -124,7 +124,7 @@ fn spectrum_and_level_are_kept_and_images_are_not_felt() {
         let own = levels(&periodogram(&at(1)));
         for ratio in [5, 10] {
             let ours = at(ratio);
-            // One output a sample: what folds back is what the images leave.
+            // One output per sample is kept, so that the rest of the images folds back.
             let folded: Vec<f64> = ours.iter().step_by(ratio.into()).copied().collect();
             for ((band, ours), own) in bands.iter().zip(levels(&periodogram(&folded))).zip(&own) {
                 let difference = ours - own;
@@ -153,8 +153,8 @@ fn samples_to_effect(slot: &HostTexture) -> usize {
     LAG_SAMPLES + 1 - usize::from(slot.cycle_samples())
 }
 
-/// A jump of the query is heard after at most ten samples, and sooner where the texture is small:
-/// 3 to 10 (order 4), 5 to 10 (with an MA part).
+/// A jump of the query is heard after at most ten samples, and sooner if the texture is small:
+/// after 3 to 10 at order 4, after 5 to 10 with an MA part.
 #[test]
 fn a_change_is_heard_within_ten_samples() {
     let arma = Kind {
@@ -172,7 +172,7 @@ fn a_change_is_heard_within_ten_samples() {
                 let mut vibration = Vibration::new(1);
                 (0..jump + 20 * ticks)
                     .position(|tick| {
-                        // Without speed and force a texture has no level.
+                        // At zero speed and force a texture has no level.
                         let (speed, force) = if tick < jump {
                             (0.0, 0.0)
                         } else {
@@ -199,7 +199,7 @@ fn a_change_is_heard_within_ten_samples() {
     assert_eq!(cycles, [8, 8, 8, 8, 8, 8, 8, 8, 6, 6, 6, 6]);
 }
 
-/// Taps at the servo rate are the source's, to the bit; the force is theirs.
+/// Taps at their source rate are those of the asset to the bit, and the force follows them.
 #[test]
 fn a_tap_at_its_source_rate_plays_its_samples() {
     let bytes = random(6, Kind::nyquist(8)).encode();
@@ -213,7 +213,7 @@ fn a_tap_at_its_source_rate_plays_its_samples() {
             assert_eq!(slot.taps().accel_m_s2(&selection, n), a);
         }
     }
-    // Down at 0.3 m/s: between two traces, or on one, within the rounding of eight heights.
+    // Down at 0.3 m/s, between two traces or on one, within the rounding of eight heights.
     let renderer = Renderer::new(&config(10)).unwrap();
     let mut state = State::new(1);
     let outputs: Vec<_> = (0..1000)
@@ -233,7 +233,7 @@ fn a_tap_at_its_source_rate_plays_its_samples() {
     }
 }
 
-/// Whatever a device says: finite forces within peak and slew, and no force in the end.
+/// For any samples, forces are finite and within peak and slew, and end at zero.
 #[test]
 fn forces_stay_within_their_limits() {
     let bytes = [support::builtin(), random(8, kinds()[2]).encode()];
@@ -287,7 +287,7 @@ fn forces_stay_within_their_limits() {
     }
 }
 
-/// At rest what the low-pass holds fades to nothing, not to numbers that slow a processor.
+/// At rest the state of the low-pass fades to zero, and not to denormals, which slow a processor.
 #[test]
 fn a_stroke_that_ends_ends_in_silence() {
     let slot = loaded(&random(9, Kind::nyquist(20)).encode(), 10);
@@ -314,12 +314,12 @@ fn a_rate_that_is_no_multiple_is_refused_and_the_slot_kept() {
     }
 }
 
-/// Where the second texture is sent, and ticks after it that count as the crossing.
+/// Tick in which the second texture is sent, and ticks after it that count as the crossing.
 const SENT: usize = 2000;
 const AROUND: usize = 300;
 
-/// A stroke at 100 mm/s, 2 mm deep, in a loop at 5 kHz; before tick [`SENT`] the first texture,
-/// from it on the second.
+/// A stroke at 100 mm/s, 2 mm deep, in a loop at 5 kHz, on the first texture before tick [`SENT`]
+/// and on the second one from then on.
 fn crossed(from: &[u8], to: Option<&[u8]>, seed: u64) -> Vec<Output> {
     let config = config(5);
     let renderer = Renderer::new(&config).unwrap();
@@ -339,8 +339,9 @@ fn crossed(from: &[u8], to: Option<&[u8]>, seed: u64) -> Vec<Output> {
     (0..SENT + 2 * AROUND).map(tick).collect()
 }
 
-/// From one texture to another whose models have the same clock or one of their own: no step of
-/// the vibration that one of both would not make by itself, and in the end the second alone.
+/// From one texture to another, whose models have the same clock or one of their own, the
+/// vibration makes no larger step than either does by itself. In the end only the second one
+/// sounds.
 #[test]
 fn textures_of_any_clock_follow_each_other() {
     let mut texture = random(11, Kind::nyquist(20));
@@ -375,7 +376,7 @@ fn textures_of_any_clock_follow_each_other() {
         println!("{name}: {across} m/s² across, {alone} alone");
         assert!(across <= 1.1 * alone, "{name}: {across} of {alone}");
     }
-    // While the new model is made, the old one goes on as if nothing had come.
+    // While the new model is made, the old one sounds as before.
     let (kept, changed) = (crossed(&one, None, 7), crossed(&one, Some(&two), 7));
     let sound = |outputs: &[Output]| -> Vec<f32> { outputs.iter().map(|o| o.vib_m_s2).collect() };
     let differ = sound(&kept)
@@ -387,8 +388,8 @@ fn textures_of_any_clock_follow_each_other() {
     assert!((soonest..soonest + 45).contains(&differ), "{differ}");
 }
 
-/// Two slots of one asset for two servo rates are two textures to a state: each begins with a
-/// query of its own, whatever the other one was about.
+/// Two slots of one asset for two servo rates are two textures to a state. Each begins with a
+/// query of its own, whatever the other one was doing.
 #[test]
 fn one_asset_at_two_rates_is_two_textures() {
     let bytes = random(9, Kind::nyquist(20)).encode();

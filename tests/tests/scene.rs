@@ -1,5 +1,5 @@
-//! A scene renders the surface that is touched and no other, and the way from one texture to
-//! the next has no step that a texture alone would not have.
+//! A scene renders only the surface that is touched. The crossing from one texture to the next
+//! makes no larger step than a texture alone.
 
 use asperity::{
     builtin, hatt,
@@ -21,7 +21,7 @@ type TestScene<'a> = Scene<'a, 8, 64, 128, 24, 24, 4096>;
 const BORDER_M: f32 = 0.05;
 const DEPTH_M: f32 = 2.0e-3;
 
-/// The built-in texture; one that is softer, rougher, of lower order and stickier.
+/// The built-in texture, and one that is softer, rougher, stickier and of lower order.
 fn textures() -> [TextureModel; 2] {
     let hard = builtin::texture();
     let mut soft = reduce(&hard, Fidelity::Order(4)).texture;
@@ -55,7 +55,7 @@ fn library(textures: &[Vec<u8>], surfaces: &[SceneSurface]) -> Vec<u8> {
     encode_scene(&named, surfaces).expect("a valid scene")
 }
 
-/// A scene in slots that live as long as the process: a test loads a handful.
+/// A scene in slots that live as long as the process. A test loads only a few.
 fn load(library: &[u8]) -> TestScene<'static> {
     let library = Library::parse(library).unwrap();
     let slots = vec![HostTexture::new(); library.index().len()].leak();
@@ -66,7 +66,7 @@ fn bytes(texture: &TextureModel) -> Vec<u8> {
     lower(texture, None).expect("a valid texture").bytes
 }
 
-/// Down to a depth within 0.2 s, then along x at a speed, through the border.
+/// Down to a depth within 0.2 s, then along x at a constant speed, across the border.
 fn stroke(speed_mm_s: f32) -> Vec<Sample> {
     let step_m = speed_mm_s * 1e-6;
     let ticks = (0.1 / step_m) as usize;
@@ -95,7 +95,7 @@ fn largest_step_n(outputs: &[Output]) -> f32 {
 
 /// Ticks before and after the border that count as the crossing.
 const AROUND: usize = 30;
-/// A crossing's largest step over the larger of both textures alone.
+/// Largest step of a crossing, relative to the larger one of both textures alone.
 const ALLOWED: f32 = 1.1;
 
 fn crossing_is_smooth(name: &str, pair: &[Vec<u8>; 2]) {
@@ -121,7 +121,7 @@ fn crossing_is_smooth(name: &str, pair: &[Vec<u8>; 2]) {
             );
             for scene in &alone {
                 let outputs = run(scene, seed, &samples);
-                // As many ticks, steady on the texture.
+                // The same number of ticks, on this texture alone.
                 let part = &outputs[outputs.len() - steady..][..2 * AROUND];
                 alone_n = alone_n.max(largest_step_n(part));
             }
@@ -141,8 +141,8 @@ fn a_crossing_has_no_larger_step_than_its_textures() {
     crossing_is_smooth("up", &[soft, hard]);
 }
 
-/// Where nothing vibrates, nothing hides a step of wall or friction: they follow in 5 ms, so a
-/// tick takes at most 1 − e^(−1/5) of the way.
+/// Without vibration a step of wall or friction could not hide. Both follow in 5 ms, so a tick
+/// goes at most 1 − e^(−1/5) of the way.
 #[test]
 fn wall_and_friction_change_little_by_little() {
     let pair = textures().map(|mut texture| {
@@ -181,7 +181,7 @@ fn a_crossing_between_recorded_materials_is_smooth() {
     crossing_is_smooth("HaTT", &[import("Cork"), import("Stone Tile 1")]);
 }
 
-/// On one surface far from all others a scene gives the very bits of that surface alone.
+/// On one surface, far from all others, a scene gives the bits of that surface alone.
 #[test]
 fn only_the_touched_surface_is_rendered() {
     let [hard, soft] = textures().map(|t| bytes(&t));
@@ -202,7 +202,7 @@ fn only_the_touched_surface_is_rendered() {
         .unwrap();
     let mut state = State::new(7);
     let mut samples = stroke(80.0);
-    // Bad samples too: the gate holds the last one on the same surface.
+    // So do bad samples: the gate holds the last one on the same surface.
     for n in [300, 301, 500, 501, 502, 503] {
         samples[n] = Sample::STALE;
     }
@@ -287,8 +287,8 @@ fn heap() -> TestScene<'static> {
     load(&library(&pair, &surfaces))
 }
 
-/// Whatever comes, on the way over edges and from solid to solid too: finite, within peak and
-/// slew.
+/// For any samples, also over edges and from solid to solid, the force is finite and within peak
+/// and slew.
 #[test]
 fn every_force_is_within_peak_and_slew() {
     let scene = heap();
@@ -334,8 +334,8 @@ fn every_force_is_within_peak_and_slew() {
     assert!((4_000..16_000).contains(&contacts.count()));
 }
 
-/// Off one texture and onto the next through the air: the new contact is a tap, and mute until
-/// its own model is made; nothing of the one before is heard.
+/// From one texture to the next through the air: the new contact is a tap. It is mute until its
+/// own model is made, and nothing of the previous texture is heard.
 #[test]
 fn a_surface_that_is_left_is_not_heard_on_the_next() {
     let pair = textures().map(|t| bytes(&t));
@@ -373,7 +373,7 @@ fn a_surface_that_is_left_is_not_heard_on_the_next() {
     );
 }
 
-/// Leaving a region sideways, and crossing into another at once deep, is no impact.
+/// Leaving a region sideways, or entering another one far below its surface, is no impact.
 #[test]
 fn a_crossing_is_no_tap() {
     let pair = textures().map(|t| bytes(&t));
@@ -427,7 +427,7 @@ fn what_is_no_scene_or_does_not_fit_is_refused() {
     assert_eq!(refused(&two, 0), capacity("textures", 2, 0));
 }
 
-/// In fixed point: the same surfaces, crossings and taps as in floats, within a millinewton.
+/// Fixed point gives the same surfaces, crossings and taps as floats, within a millinewton.
 #[test]
 fn a_scene_in_fixed_point_is_that_of_floats() {
     let pair = textures().map(|texture| bytes(&texture));

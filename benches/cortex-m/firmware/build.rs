@@ -9,7 +9,7 @@ fn main() {
     } else {
         "mps2.x"
     };
-    let source = PathBuf::from("../memory").join(map);
+    let source = PathBuf::from("memory").join(map);
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     fs::copy(&source, out.join("memory.x")).expect("the memory map");
     println!("cargo:rerun-if-changed={}", source.display());

@@ -3,7 +3,7 @@
 use crate::{
     Result, emulate,
     target::Target,
-    toolchain::{Toolchain, host_program},
+    toolchain::{Toolchain, host_program_like_firmware},
 };
 use asperity_session::{PHASE_TICKS, Phase, SCENE_CASES, SceneCase, TOUCHED};
 use std::fmt::Write as _;
@@ -24,7 +24,7 @@ pub(crate) fn print(target: &Target, toolchain: &Toolchain) -> Result<()> {
     let firmware = toolchain.firmware("costs", &[])?;
     let expected = SCENE_CASES.len() * Phase::ALL.len() * PHASE_TICKS as usize;
     let on_target = emulate::run(target, &firmware, expected)?.instructions;
-    let on_host = emulate::run_on_host(&host_program("host-costs")?, expected)?;
+    let on_host = emulate::run_on_host(&host_program_like_firmware("host-costs")?, expected)?;
     let counted = [("cortex-m4f", on_target), ("x86-64", on_host)].map(|(processor, counts)| {
         let ticks = counts.len() / SCENE_CASES.len();
         let worst = counts.chunks(ticks).map(|of| of.iter().copied().max());

@@ -26,7 +26,7 @@ pub(crate) fn print(target: &Target, toolchain: &Toolchain, orders: Orders) -> R
     }
     println!("factor,name,instructions");
     for ((variant, _), counts) in expected.iter().zip(run.instructions.chunks(2)) {
-        // Of n and of 2n ticks: what is not the ticks' cancels.
+        // The counts of n and of 2n ticks: everything but the ticks cancels.
         let a_tick = counts[1].saturating_sub(counts[0]) as f64 / TICKS as f64;
         println!("{},\"{}\",{a_tick:.1}", variant.factor.name(), variant.name);
     }

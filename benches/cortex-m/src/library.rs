@@ -1,5 +1,5 @@
-//! The libraries that the firmware carries: the textures of the x86 benches, so that their
-//! figures stand side by side, and those that the cost model is fitted to.
+//! The libraries that the session embeds: the textures of the x86 benches, so that the figures
+//! can be compared, and those that the cost model is fitted to.
 
 use asperity_benches::texture::{texture, texture_on};
 use asperity_formats::{

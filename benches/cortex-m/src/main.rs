@@ -1,12 +1,12 @@
-//! Builds the firmware of every case, runs it in QEMU, and says what a tick costs and
-//! whether its bits are the host's. Fails on a difference, a reachable panic or a limit.
+//! Builds the firmware of every case, runs it in QEMU, and prints what a tick costs. Fails if
+//! its bits are not the host's, if the tick can reach a panic, or if a limit is exceeded.
 //!
 //! ```console
-//! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml            # Cortex-M4F
-//! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- --target thumbv7m-none-eabi
-//! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- library # *.aspl
-//! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- costs   # of asperity build
-//! $ cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- designs # of the labs
+//! $ cargo run --release -p asperity-cortex-m            # Cortex-M4F
+//! $ cargo run --release -p asperity-cortex-m -- --target thumbv7m-none-eabi
+//! $ cargo run --release -p asperity-cortex-m -- library # *.aspl
+//! $ cargo run --release -p asperity-cortex-m -- costs   # of asperity build
+//! $ cargo run --release -p asperity-cortex-m -- designs # of the labs
 //! ```
 #![forbid(unsafe_code)]
 
@@ -37,10 +37,10 @@ const USAGE: &str =
        cortex-m designs [--poles N] [--zeros N]
   --target TRIPLE  thumbv7em-none-eabihf (default), thumbv7m-none-eabi or thumbv6m-none-eabi
   --build-core     build core from the sources of /usr/bin/rustc even where the target is installed
-  costs            print the cost model of `asperity build`, for compiler/src/scene/cost.rs
+  costs            print the cost model of `asperity build`, for compiler/src/scene/counted.rs
   designs          print what every design of `asperity-lab pareto` costs, for its --cortex-m;
                    of textures with so many poles and zeros (20, 18: most of the HaTT)
-  library          write textures.aspl and costs.aspl, which the firmware embeds";
+  library          write textures.aspl and costs.aspl, which the session embeds";
 
 /// This package's folder.
 fn home() -> &'static Path {
@@ -49,7 +49,7 @@ fn home() -> &'static Path {
 
 /// Where everything is built.
 fn target_dir() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| home().join("target"), PathBuf::from)
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| home().join("../../target"), PathBuf::from)
 }
 
 /// What is asked for.
@@ -92,7 +92,7 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     exit(match arguments.command.as_str() {
-        "library" => library::write(home()),
+        "library" => library::write(&home().join("../session")),
         "costs" => costs(arguments.build_core),
         "designs" => designs(&arguments),
         _ => run(&arguments.triple, arguments.build_core),

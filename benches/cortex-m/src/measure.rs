@@ -95,7 +95,7 @@ fn measure(target: &Target, toolchain: &Toolchain, case: &'static Case) -> Resul
         slot_bytes: run.value("slot")?,
         stack_load_bytes: run.value("stack-load")?,
         stack_tick_bytes: run.value("stack-tick")?,
-        host: [host("dev")?, host("release")?],
+        host: [host("test")?, host("release")?],
         run,
         elf,
     })

@@ -50,7 +50,8 @@ impl Toolchain {
         }
     }
 
-    /// Builds a firmware program and returns the path of its ELF.
+    /// Builds a firmware program and returns the path of its ELF, which the next one of this
+    /// name replaces.
     pub(crate) fn firmware(&self, name: &str, features: &[&str]) -> Result<PathBuf> {
         self.firmware_with(name, features, &[])
     }
@@ -62,20 +63,13 @@ impl Toolchain {
         features: &[&str],
         variables: &[(&str, usize)],
     ) -> Result<PathBuf> {
-        // Apart, so that a firmware with features does not replace the measured one.
-        let folder = target_dir().join(if features.is_empty() {
-            "firmware"
-        } else {
-            "firmware-features"
-        });
         let mut cargo = Command::new("cargo");
         cargo
-            .current_dir(home())
-            .args(["build", "--quiet", "--release", "--locked"])
-            .args(["--package", "asperity-firmware", "--bin", name])
+            .current_dir(home().join("firmware"))
+            .args(["build", "--quiet", "--release", "--locked", "--bin", name])
             .args(["--target", self.triple, "--features", &features.join(",")])
             .arg("--target-dir")
-            .arg(&folder)
+            .arg(target_dir())
             .envs(
                 variables
                     .iter()
@@ -90,32 +84,46 @@ impl Toolchain {
                 .env(format!("CARGO_TARGET_{name}_LINKER"), linker);
         }
         stdout(&mut cargo)?;
-        Ok(folder.join(self.triple).join("release").join(name))
+        Ok(target_dir().join(self.triple).join("release").join(name))
     }
 }
 
 /// What the session prints on the host, in one profile.
 pub(crate) fn host_session(case: &str, arithmetic: &str, profile: &str) -> Result<String> {
-    stdout(
-        Command::new("cargo")
-            .current_dir(home())
-            .args(["run", "--quiet", "--locked", "--bin", "host-session"])
-            .args(["--profile", profile, "--target-dir"])
-            .arg(target_dir())
-            .args(["--", case, arithmetic]),
-    )
+    let program = host_program("host-session", profile, &[])?;
+    stdout(Command::new(program).args([case, arithmetic]))
+}
+
+/// The release profile of `firmware/Cargo.toml`.
+const FIRMWARE_PROFILE: [&str; 5] = [
+    "profile.release.codegen-units=1",
+    "profile.release.lto=true",
+    "profile.release.package.asperity-formats.opt-level='s'",
+    "profile.release.package.asperity-runtime.opt-level='s'",
+    "profile.release.package.asperity-session.opt-level='s'",
+];
+
+/// Builds a program of this package for the host as the firmware is built, so that their
+/// instructions can stand side by side, and returns its path.
+pub(crate) fn host_program_like_firmware(name: &str) -> Result<PathBuf> {
+    host_program(name, "release", &FIRMWARE_PROFILE)
 }
 
 /// Builds a program of this package for the host and returns its path.
-pub(crate) fn host_program(name: &str) -> Result<PathBuf> {
+fn host_program(name: &str, profile: &str, options: &[&str]) -> Result<PathBuf> {
     stdout(
         Command::new("cargo")
             .current_dir(home())
-            .args(["build", "--quiet", "--release", "--locked", "--bin", name])
-            .arg("--target-dir")
-            .arg(target_dir()),
+            // With the features that all of the workspace has, so that nothing is built for
+            // this program alone.
+            .args(["build", "--quiet", "--locked", "--workspace", "--bin", name])
+            .args(["--profile", profile, "--target-dir"])
+            .arg(target_dir())
+            .args(options.iter().flat_map(|option| ["--config", option])),
     )?;
-    Ok(target_dir().join("release").join(name))
+    // Cargo's name of the folder of its profiles with checks.
+    let folder = if profile == "test" { "debug" } else { profile };
+    Ok(target_dir().join(folder).join(name))
 }
 
 /// Runs a command to its end and returns what it printed.

@@ -2,9 +2,9 @@
 //! asperity-benches --bin instructions`.
 //!
 //! Every scenario runs twice under `valgrind --tool=callgrind`, with n and with 2n ticks;
-//! the difference over n is one tick, without start-up. The ticks of one cycle of the
-//! parameters are also counted one by one, and loading in the same way; then all of it in servo
-//! loops faster than the models. Needs valgrind on the PATH.
+//! the difference over n is one tick, without start-up. The command also counts the ticks of
+//! one cycle one by one, loading, and servo loops that are faster than the models. It needs
+//! valgrind on the PATH.
 #![forbid(unsafe_code)]
 
 use asperity_benches::{
@@ -19,7 +19,7 @@ use std::{env, error::Error, ffi::OsStr, hint::black_box, process::Command};
 /// First argument of the measured program that loads.
 const LOADING: &str = "load";
 const TICKS: u32 = 4000;
-/// Servo rates over that of the models.
+/// Servo rates over the rate of the models.
 const RATIOS: [u32; 3] = [1, 5, 10];
 /// The motion whose ticks are counted one by one.
 const STROKE: usize = 2;
@@ -108,12 +108,12 @@ fn load(work_index: usize, times: usize) {
     }
 }
 
-/// The measured program: ticks whose samples were made before.
+/// The measured program: ticks on samples made beforehand.
 fn run(texture_index: usize, motion_index: usize, ratio: u32, ticks: u32) {
     let (_, order, numerator) = TEXTURES[texture_index];
     let motion = Motion::ALL[motion_index].0;
     let mut rig = Rig::at(&texture(order, numerator), 1000.0 * ratio as f32);
-    // As many samples for n as for 2n ticks, so that making them cancels out.
+    // The same number of samples for n as for 2n ticks, so that the cost of making them cancels.
     let samples: Vec<_> = (0..TICKS)
         .map(|tick| motion.sample_at(tick, ratio))
         .collect();

@@ -1,9 +1,9 @@
-//! Ours beside the usual way, in turns of a tenth of a millisecond, so that both meet the same
-//! machine: `cargo run --release -p asperity-benches --bin paired [-- ASSET…]`.
+//! The runtime beside the reference, in turns of a tenth of a millisecond, so that both meet the
+//! same speed of the machine: `cargo run --release -p asperity-benches --bin paired [-- ASSET…]`.
 //!
-//! What is compared is the ratio of neighbouring turns; its median over all rounds is what a
-//! machine that changes its speed from second to second leaves alone. Nanoseconds are those of
-//! this run. Without assets, the two textures of the other benches.
+//! The result is the median ratio of neighbouring turns. A machine that changes its speed from
+//! second to second hardly changes this ratio, while the nanoseconds are those of one run. Without
+//! assets the command takes two textures of the other benches.
 #![forbid(unsafe_code)]
 
 use asperity_benches::{Rig, check, motion::Motion, reference::Reference, texture::texture};
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     many(&files)
 }
 
-/// Medians of each asset, a line each, and their quantiles.
+/// Prints the medians of each asset on a line, then their quantiles.
 fn many(files: &[String]) -> Result<(), Box<dyn Error>> {
     println!("medians, ns: usual, ours the same, ours the whole tick; usual over the whole tick");
     let mut columns = [const { Vec::new() }; 4];

@@ -3,8 +3,7 @@
 //!
 //! `cargo run --release -p asperity-corpus --example calibration -- HATT_FOLDER`
 //!
-//! Aggregates only, over 20 materials or more: nothing of a single HaTT material is
-//! printed.
+//! It prints only aggregates over 20 materials or more, and nothing of a single HaTT material.
 
 use asperity_corpus::{
     reference::{self, ReferenceOptions},

@@ -1,4 +1,4 @@
-//! Augmented instances: the same material met again, elsewhere on the sheet.
+//! Augmented instances: the same material at another place of its sheet.
 
 use crate::{
     Instance, UnifiedGrid,
@@ -8,7 +8,7 @@ use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
-/// How instances of one material differ; standard deviations of normal draws.
+/// How instances of one material differ, as standard deviations of normal draws.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Augmentation {
@@ -18,11 +18,11 @@ pub struct Augmentation {
     pub height_db: f64,
     /// Modulus, decades.
     pub modulus_decades: f64,
-    /// Spread of the height spectrum, share of itself.
+    /// Spread of the height spectrum, relative.
     pub spread: f64,
     /// Level of single bins, dB.
     pub bin_level_db: f64,
-    /// Share of another material's taps (paper: 0.05).
+    /// Weight of another material's taps (paper: 0.05).
     pub tap_mixing: f64,
 }
 
@@ -39,8 +39,8 @@ impl Default for Augmentation {
     }
 }
 
-/// Instances of material `index`; `prototypes` are the unaugmented materials that
-/// taps are mixed with.
+/// The instances of material `index`. `prototypes` are the unaugmented materials, whose taps are
+/// mixed in.
 #[must_use]
 pub fn instances(
     physical: &Physical,
@@ -81,7 +81,7 @@ pub fn instances(
         .collect()
 }
 
-/// Mixes in a share of the taps of another material, drawn evenly.
+/// Mixes in the taps of another material, drawn uniformly, with the weight of the options.
 pub(crate) fn mix_taps(
     instance: &mut Instance,
     prototypes: &[Instance],
@@ -102,7 +102,7 @@ pub(crate) fn mix_taps(
     }
 }
 
-/// Random draws of one instance, the same whatever the order of work.
+/// Random draws of one instance, which do not depend on the order of work.
 pub(crate) struct Draws(Xoshiro256PlusPlus);
 
 impl Draws {

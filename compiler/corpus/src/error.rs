@@ -4,7 +4,7 @@ use asperity::diagnostic::Diagnostic;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Faults printed at once; the rest is counted.
+/// How many faults are printed; the others are counted.
 const SHOWN: usize = 20;
 
 /// Why a corpus cannot be used.
@@ -19,13 +19,13 @@ pub enum CorpusError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// A folder without a single material.
+    /// A folder without any material.
     #[error("{}: no material file in it", path.display())]
     Empty {
         /// The folder.
         path: PathBuf,
     },
-    /// A file is no TOML or has other fields.
+    /// A file that is not TOML or has other fields.
     #[error("{file}: {message}")]
     Syntax {
         /// The file.
@@ -39,7 +39,7 @@ pub enum CorpusError {
         /// One line each: file, material, field, fault.
         faults: Vec<String>,
     },
-    /// A folder of HaTT models is no corpus.
+    /// A folder of HaTT models that cannot be used.
     #[error(transparent)]
     Hatt(#[from] crate::hatt::HattCorpusError),
 }

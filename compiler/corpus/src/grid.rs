@@ -24,8 +24,8 @@ pub struct UnifiedGrid {
 }
 
 impl UnifiedGrid {
-    /// The grid of the reference corpus: 6 × 3 points, staggered, since collinear
-    /// points make slivers.
+    /// The grid of the reference corpus: 6 × 3 points, staggered because collinear points would
+    /// make thin triangles.
     #[must_use]
     pub fn reference() -> Self {
         const SPEEDS_MM_S: [f64; 6] = [25.0, 60.0, 100.0, 140.0, 180.0, 218.0];

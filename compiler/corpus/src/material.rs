@@ -1,4 +1,4 @@
-//! What a corpus holds.
+//! The contents of a corpus.
 
 use crate::{BINS, ORDER, TAP_SAMPLES, TAPS, UnifiedGrid};
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ pub struct Corpus {
     pub name: String,
     /// Licence of the data, as the model card prints it.
     pub licence: String,
-    /// CRC-32 over everything it was read from.
+    /// CRC-32 over all files it was read from.
     pub crc32: u32,
     /// The grid all instances share.
     pub grid: UnifiedGrid,
@@ -31,9 +31,9 @@ pub struct Material {
     pub family: String,
     /// Captions to train on.
     pub training: Vec<Caption>,
-    /// Captions never trained on; name neither the material nor a synonym.
+    /// Captions that are never trained on. They name neither the material nor a synonym.
     pub held_out: Vec<String>,
-    /// What people would say of it; `None` where nobody rated it.
+    /// Its rated attributes; `None` where nobody rated it.
     pub rating: Option<Rating>,
     /// Coefficient of kinetic friction.
     pub mu: f64,
@@ -45,17 +45,17 @@ pub struct Material {
     pub instances: Vec<Instance>,
 }
 
-/// A caption and what it dwells on.
+/// A caption and its focus.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Caption {
-    /// What it dwells on.
+    /// Its focus.
     pub focus: Focus,
     /// The caption.
     pub text: String,
 }
 
-/// What a caption dwells on.
+/// What a caption is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Focus {
@@ -65,7 +65,7 @@ pub enum Focus {
     Touch,
     /// What it is made of.
     Material,
-    /// What it is for, where one meets it.
+    /// Its use, and where it is found.
     Use,
 }
 
@@ -84,9 +84,9 @@ pub struct Rating {
 /// One augmented sample of a material: what the encoders see.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instance {
-    /// Line spectral frequencies a bin, rad at 1 kHz, ascending; numerator 1 + z⁻¹.
+    /// Line spectral frequencies of each bin, rad at 1 kHz, ascending; the numerator is 1 + z⁻¹.
     pub lsf_rad: [[f32; ORDER]; BINS],
-    /// RMS of the vibration a bin over all frequencies, dB re 1 m/s².
+    /// RMS of the vibration in each bin over all frequencies, dB re 1 m/s².
     pub level_db: [f32; BINS],
     /// Traces by impact speed, m/s² at 10 kHz.
     pub taps_m_s2: [[f32; TAP_SAMPLES]; TAPS],

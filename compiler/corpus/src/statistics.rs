@@ -1,4 +1,4 @@
-//! What a texture is like as a whole: the quantities that the generator is calibrated by.
+//! Statistics of a whole texture, by which the generator is calibrated.
 
 use crate::{Corpus, Instance};
 use asperity::level::nyquist_rms;
@@ -27,8 +27,9 @@ pub struct Statistics {
     pub values: [f64; 8],
 }
 
-/// Statistics over the sounding interior vertices of a grid; `None` for fewer than
-/// four, which leave the exponents open.
+/// Statistics over the interior vertices of a grid that vibrate.
+///
+/// `None` for fewer than four, which do not determine the exponents.
 #[must_use]
 pub fn of_grid(grid: &ModelGrid, mu: f64) -> Option<Statistics> {
     let mut rows = Vec::new();
@@ -68,7 +69,7 @@ pub fn of_grid(grid: &ModelGrid, mu: f64) -> Option<Statistics> {
     })
 }
 
-/// The grid of an instance, for those who want to ask it as a texture.
+/// The grid of an instance, for queries as of a texture.
 #[must_use]
 pub fn grid_of(instance: &Instance, corpus: &Corpus) -> ModelGrid {
     let vertices = corpus
@@ -164,7 +165,7 @@ fn exponents(rows: &[[f64; 5]]) -> (f64, f64) {
     )
 }
 
-/// The value below which a share of the sorted values lies, linear between them.
+/// The value below which a fraction of the sorted values lies, with linear interpolation.
 #[must_use]
 pub fn percentile(values: &mut [f64], share: f64) -> f64 {
     values.sort_by(f64::total_cmp);

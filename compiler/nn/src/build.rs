@@ -1,7 +1,8 @@
 //! Writing ONNX: IR version 8, operator set 17.
 //!
-//! Values are named as they are made; node names are those of their outputs. What is
-//! written is read back and checked before it is handed out.
+//! Values are named in the order in which they are made, and each node has the name of its
+//! output. [`GraphBuilder::finish`] reads the model back and checks it before it returns the
+//! bytes.
 
 use prost::Message as _;
 
@@ -92,7 +93,7 @@ impl GraphBuilder {
         self.constant(&name, Tensor::f32(&[], vec![value]))
     }
 
-    /// Adds any node with one output; an input of `None` is left out.
+    /// Adds a node with one output; an input of `None` is left out.
     pub fn node(
         &mut self,
         op_type: &str,
@@ -157,13 +158,13 @@ impl GraphBuilder {
         self.node("CumSum", &[Some(x), Some(&axis)], &[])
     }
 
-    /// x cut to low..=high.
+    /// x clamped to low..=high.
     pub fn clip(&mut self, x: &Value, low: f32, high: f32) -> Value {
         let (low, high) = (self.scalar(low), self.scalar(high));
         self.node("Clip", &[Some(x), Some(&low), Some(&high)], &[])
     }
 
-    /// The same elements in another shape: 0 keeps an axis, −1 is what is left over.
+    /// The same elements in another shape: 0 keeps an axis, −1 takes the size that remains.
     pub fn reshape(&mut self, x: &Value, shape: &[i64]) -> Value {
         let shape = self.integers(shape);
         self.node("Reshape", &[Some(x), Some(&shape)], &[])
@@ -183,32 +184,32 @@ impl GraphBuilder {
         )
     }
 
-    /// Tensors one after the other along an axis.
+    /// Concatenates tensors along an axis.
     pub fn concat(&mut self, parts: &[&Value], axis: i64) -> Value {
         let inputs: Vec<_> = parts.iter().map(|part| Some(*part)).collect();
         self.node("Concat", &inputs, &[("axis", Attribute::Int(axis))])
     }
 
-    /// Without the axes of size 1 that are named.
+    /// Removes the named axes of size 1.
     pub fn squeeze(&mut self, x: &Value, axes: &[i64]) -> Value {
         let axes = self.integers(axes);
         self.node("Squeeze", &[Some(x), Some(&axes)], &[])
     }
 
-    /// With axes of size 1 added.
+    /// Adds axes of size 1.
     pub fn unsqueeze(&mut self, x: &Value, axes: &[i64]) -> Value {
         let axes = self.integers(axes);
         self.node("Unsqueeze", &[Some(x), Some(&axes)], &[])
     }
 
-    /// Sums along axes, which stay with size 1 when `keep`.
+    /// Sums along axes, which stay with size 1 if `keep`.
     pub fn reduce_sum(&mut self, x: &Value, axes: &[i64], keep: bool) -> Value {
         let axes = self.integers(axes);
         let keep = ("keepdims", Attribute::Int(i64::from(keep)));
         self.node("ReduceSum", &[Some(x), Some(&axes)], &[keep])
     }
 
-    /// The graph so far as a model, unchecked.
+    /// The graph so far as a model, without checks.
     #[must_use]
     pub fn to_model(&self) -> ModelProto {
         ModelProto {

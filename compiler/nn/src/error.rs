@@ -11,7 +11,7 @@ pub enum OnnxError {
     /// Not protobuf, or cut off.
     #[error("not an ONNX file, or cut off: {0}")]
     Decode(#[from] prost::DecodeError),
-    /// A part of the file that must be there is not, or is of a kind that is not supported.
+    /// A required part of the file is missing, or is of a kind that is not supported.
     #[error("{field}: {reason}")]
     Model {
         /// Field of `ModelProto` or `GraphProto`.
@@ -19,7 +19,7 @@ pub enum OnnxError {
         /// What is wrong with it.
         reason: String,
     },
-    /// A constant that is not what it says.
+    /// A constant whose data do not match its type or shape.
     #[error("initializer `{name}`, {field}: {reason}")]
     Initializer {
         /// Its name.
@@ -29,7 +29,7 @@ pub enum OnnxError {
         /// What is wrong with it.
         reason: String,
     },
-    /// An input or output that is not what it says.
+    /// An input or output whose declaration cannot be used.
     #[error("{direction} `{name}`: {reason}")]
     Port {
         /// `input` or `output`.
@@ -55,21 +55,21 @@ pub enum OnnxError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum NodeRefusal {
-    /// No such operator here.
+    /// The operator is not supported.
     #[error("operator not supported; export with opset {min} to {max} and standard operators", min = crate::MIN_OPSET, max = crate::MAX_OPSET)]
     Operator,
-    /// Too few or too many inputs, or an input left out that is needed.
+    /// Too few or too many inputs, or a required input that is left out.
     #[error("{found} inputs, expected {expected}")]
     Inputs {
         /// Inputs given.
         found: usize,
-        /// Inputs wanted.
+        /// Inputs expected.
         expected: String,
     },
-    /// Needs exactly one output.
+    /// The node must have exactly one output.
     #[error("{0} outputs, expected 1")]
     Outputs(usize),
-    /// An input that nothing before the node gives.
+    /// An input that no earlier node, constant or graph input provides.
     #[error(
         "input {index} `{name}` is no input, initializer or output of an earlier node: missing, a cycle, or nodes out of order"
     )]
@@ -79,7 +79,7 @@ pub enum NodeRefusal {
         /// Name.
         name: String,
     },
-    /// A name that is taken.
+    /// An output name that another value has.
     #[error("output `{0}` is already the name of another value")]
     DuplicateOutput(String),
     /// A wrong attribute.
@@ -100,7 +100,7 @@ pub enum NodeRefusal {
         /// Types the operator takes.
         expected: &'static str,
     },
-    /// A node of constants only fails, so every run would.
+    /// A node whose inputs are all constants fails, so every run would fail.
     #[error("{0}")]
     Constant(#[from] OpError),
 }
@@ -122,12 +122,12 @@ impl std::fmt::Display for TypeFound {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum OpError {
-    /// Shapes that do not go together.
+    /// Shapes that do not match.
     #[error("{rule}; shapes: {shapes:?}")]
     Shape {
-        /// What the operator wants.
+        /// The rule that the operator sets.
         rule: &'static str,
-        /// What it got.
+        /// The shapes it was given.
         shapes: Vec<Vec<usize>>,
     },
     /// An axis or index outside its range.
@@ -142,7 +142,7 @@ pub enum OpError {
         /// Largest allowed.
         high: i64,
     },
-    /// A value that makes no sense where it stands.
+    /// A value that is not valid in its place.
     #[error("{what}: {value}")]
     Value {
         /// Which value, and what it should be.
@@ -158,7 +158,7 @@ pub enum OpError {
         /// The limit.
         limit: usize,
     },
-    /// An input of another type than at load: cannot happen after load has checked types.
+    /// An input of another type than at load. Types are checked at load, so this cannot happen.
     #[error("input {0} is missing or of another type than the model said")]
     Input(usize),
 }

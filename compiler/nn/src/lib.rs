@@ -1,13 +1,13 @@
 //! A deterministic engine for the subset of ONNX that Asperity's models use, and a writer.
 //!
 //! Compiling the same prompt must give the same bytes on every machine. General engines choose
-//! kernels by processor, and the last bits follow the choice. This one computes in plain f32 in a
-//! fixed order: no fused multiply–add, every element of a matrix product summed in
-//! ascending order, no function of the platform, no threads. Wider instruction sets only
+//! kernels by processor, and the last bits depend on that choice. This engine computes in plain
+//! f32 in a fixed order: it sums every element of a matrix product in ascending order and uses no
+//! fused multiply–add, no function of the platform and no threads. Wider instruction sets only
 //! make it faster.
 //!
-//! * [`Portable`] loads a model and runs it; [`Session`] is what any back end offers.
-//! * [`build`] writes models, [`proto`] is the file format.
+//! * [`Portable`] loads a model and runs it; [`Session`] is the interface of every back end.
+//! * [`build`] writes models; [`proto`] is the file format.
 //! * Operator sets 13 to 22. Operators: Add Sub Mul Div Pow, Equal Less LessOrEqual Greater
 //!   GreaterOrEqual Where, Relu Sigmoid Tanh Exp Log Sqrt Erf Neg Softplus Clip, MatMul Gemm,
 //!   Softmax LayerNormalization, ReduceMean ReduceSum ReduceL2 ArgMax CumSum, Gather GatherND

@@ -9,13 +9,13 @@ use crate::{
     session::check_inputs,
 };
 
-/// Most elements of all computed tensors that live at one time.
+/// Most elements of all computed tensors that exist at one time.
 const LIVE_LIMIT: usize = 1 << 27;
 
 /// A network that runs on one thread, in plain f32, with the same bits on every processor.
 ///
-/// Loading checks the whole model; a run then only meets errors of shapes. NaNs in results
-/// are canonical, since processors differ in their bits.
+/// Loading checks the whole model; the only errors left for a run concern shapes. NaNs in results
+/// are replaced by one canonical NaN, since processors differ in their bits.
 ///
 /// ```
 /// use asperity_nn::{Dim, ElementType, Portable, Session, Tensor, build::GraphBuilder};
@@ -38,7 +38,7 @@ pub struct Portable {
 }
 
 impl Portable {
-    /// Loads a model from bytes, of which it makes one copy.
+    /// Loads a model from bytes, which it copies once.
     ///
     /// # Errors
     /// [`OnnxError`] names the node or constant and the field that cannot be used.
@@ -75,7 +75,7 @@ impl Portable {
     }
 }
 
-/// What a slot holds in a run.
+/// The content of a slot in a run.
 enum Value<'a> {
     /// Not computed yet, or not needed any more.
     None,

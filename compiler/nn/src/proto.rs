@@ -1,8 +1,8 @@
 //! The part of `onnx.proto` that Asperity's models use, as prost messages.
 //!
-//! Field numbers are those of ONNX IR version 8. Unknown fields are skipped, as protobuf
-//! has it; what a message means is checked by [`crate::Portable`], not here. Bulk data are
-//! `Bytes`: decoding from a `Bytes` buffer copies none of it.
+//! Field numbers are those of ONNX IR version 8. Unknown fields are skipped, as protobuf requires.
+//! [`crate::Portable`] checks what a message means. Bulk data are `Bytes`, so decoding from a
+//! `Bytes` buffer does not copy them.
 
 use bytes::Bytes;
 
@@ -10,7 +10,7 @@ use bytes::Bytes;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, prost::Enumeration)]
 #[repr(i32)]
 pub enum AttributeType {
-    /// Not said.
+    /// Not stated.
     Undefined = 0,
     /// `f`.
     Float = 1,
@@ -78,7 +78,7 @@ pub struct StringStringEntryProto {
 /// `GraphProto`: nodes in topological order, constants, ports.
 #[derive(Clone, PartialEq, prost::Message)]
 pub struct GraphProto {
-    /// Nodes; each may use only what stands before it.
+    /// Nodes; each may use only values of earlier ones.
     #[prost(message, repeated, tag = "1")]
     pub node: Vec<NodeProto>,
     /// Name of the graph.
@@ -93,7 +93,7 @@ pub struct GraphProto {
     /// Outputs.
     #[prost(message, repeated, tag = "12")]
     pub output: Vec<ValueInfoProto>,
-    /// Constants in sparse form: refused, so only their number matters.
+    /// Constants in sparse form. They are refused, so only their number matters.
     #[prost(bytes = "bytes", repeated, tag = "15")]
     pub sparse_initializer: Vec<Bytes>,
 }
@@ -150,7 +150,7 @@ pub struct AttributeProto {
     pub ints: Vec<i64>,
 }
 
-/// `TensorProto`: a constant; its data stand in `raw_data` or in one of the typed lists.
+/// `TensorProto`: a constant; its data are in `raw_data` or in one of the typed lists.
 #[derive(Clone, PartialEq, prost::Message)]
 pub struct TensorProto {
     /// Dimensions; none for a scalar.
@@ -174,7 +174,7 @@ pub struct TensorProto {
     /// Little-endian data of any type.
     #[prost(bytes = "bytes", optional, tag = "9")]
     pub raw_data: Option<Bytes>,
-    /// 1 when the data stand in another file, which is refused.
+    /// 1 if the data are in another file, which is refused.
     #[prost(int32, tag = "14")]
     pub data_location: i32,
 }

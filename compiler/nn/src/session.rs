@@ -1,4 +1,4 @@
-//! What a loaded network offers, whatever runs it.
+//! The interface of a loaded network, whichever back end runs it.
 
 use std::fmt;
 
@@ -9,9 +9,9 @@ use crate::{ElementType, OpError, Tensor};
 /// Size of one dimension of a port.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Dim {
-    /// Always this many.
+    /// A fixed size.
     Fixed(usize),
-    /// Any size, the same wherever the name stands.
+    /// Any size, but the same for every dimension of this name.
     Named(String),
     /// Any size.
     Any,
@@ -42,7 +42,7 @@ pub struct Port {
     pub name: String,
     /// Type of its elements.
     pub element_type: ElementType,
-    /// Its dimensions; `None` when the file does not even say how many.
+    /// Its dimensions; `None` if the file does not state their number.
     pub dims: Option<Vec<Dim>>,
 }
 
@@ -62,17 +62,17 @@ impl fmt::Display for Port {
 
 /// A loaded network.
 pub trait Session: Send + Sync {
-    /// What must be given.
+    /// The inputs that a run must be given.
     fn inputs(&self) -> &[Port];
 
-    /// What comes back, in this order.
+    /// The outputs, in the order in which a run returns them.
     fn outputs(&self) -> &[Port];
 
     /// Runs the network once.
     ///
     /// # Errors
-    /// [`RunError`] when the inputs are not those of [`inputs`](Self::inputs), or when an
-    /// operator meets shapes it cannot work on.
+    /// [`RunError`] if the inputs are not those of [`inputs`](Self::inputs), or if an operator
+    /// gets shapes that it cannot work on.
     fn run(&self, inputs: &[(&str, &Tensor)]) -> Result<Vec<(String, Tensor)>, RunError>;
 }
 
@@ -88,12 +88,12 @@ pub enum RunError {
         /// What was expected.
         port: String,
     },
-    /// A name that is no input, or was given twice.
+    /// A name that is not an input, or that was given twice.
     #[error("`{name}` is no input of this network, or was given twice; inputs: {inputs}")]
     UnknownInput {
         /// The name.
         name: String,
-        /// The inputs there are.
+        /// The inputs that exist.
         inputs: String,
     },
     /// An input of another type or shape.
@@ -106,7 +106,7 @@ pub enum RunError {
         /// Type and shape expected.
         expected: String,
     },
-    /// An operator refused what it met.
+    /// An operator failed.
     #[error("node `{node}` ({op_type}): {source}")]
     Node {
         /// Name of the node, or of its output when it has none.
@@ -126,11 +126,11 @@ pub enum RunError {
     },
 }
 
-/// Checks what a caller gives against the ports of a network.
+/// Checks the inputs that a caller gives against the ports of a network.
 ///
 /// # Errors
-/// The [`RunError`] that names the first input that is missing, unknown, given twice, of
-/// another type, or of another shape; sizes under the same name must agree.
+/// [`RunError`] names the first input that is missing, unknown, given twice, of another type or
+/// of another shape. Sizes under the same name must agree.
 pub fn check_inputs(ports: &[Port], given: &[(&str, &Tensor)]) -> Result<(), RunError> {
     for (position, (name, _)) in given.iter().enumerate() {
         let twice = given[..position].iter().any(|(other, _)| other == name);
@@ -182,7 +182,7 @@ fn names(ports: &[Port]) -> String {
     names.join(", ")
 }
 
-/// Whether a tensor fits a port, given the sizes that names have so far.
+/// Whether a tensor fits a port. `bound` holds the sizes that names have so far.
 fn fits<'p>(port: &'p Port, tensor: &Tensor, bound: &mut Vec<(&'p str, usize)>) -> bool {
     if tensor.element_type() != port.element_type || !tensor.is_consistent() {
         return false;

@@ -36,7 +36,7 @@ impl ElementType {
         }
     }
 
-    /// The type with a code, if it is one of ours.
+    /// The type with a code; `None` if it is not supported.
     #[must_use]
     pub const fn from_onnx_code(code: i32) -> Option<Self> {
         match code {
@@ -74,8 +74,9 @@ impl fmt::Display for ElementType {
     }
 }
 
-/// A dense row-major tensor. `data.len()` is the product of `shape` (1 for a scalar);
-/// a session refuses any other.
+/// A dense row-major tensor.
+///
+/// `data.len()` is the product of `shape`, 1 for a scalar; a session refuses any other.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Tensor {
@@ -100,7 +101,7 @@ pub enum Tensor {
         /// Elements.
         data: Vec<i32>,
     },
-    /// [`ElementType::I8`]; bytes in two's complement, so that weights stay where the file has them.
+    /// [`ElementType::I8`]: bytes in two's complement, which may be shared with the file.
     I8 {
         /// Dimensions.
         shape: Vec<usize>,
@@ -180,7 +181,7 @@ impl Tensor {
         }
     }
 
-    /// Whether there is no element.
+    /// Whether the tensor has no elements.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -224,7 +225,7 @@ impl Tensor {
 
 /// A Rust type that is the element of one kind of tensor.
 pub(crate) trait Element: Copy + Default {
-    /// The elements, when the tensor has this type.
+    /// The elements, if the tensor has this type.
     fn elements(tensor: &Tensor) -> Option<&[Self]>;
     /// A tensor of this type.
     fn tensor(shape: Vec<usize>, data: Vec<Self>) -> Tensor;
@@ -250,7 +251,7 @@ element!(i64, I64);
 element!(i32, I32);
 element!(bool, Bool);
 
-/// Elements of both 8-bit types, signed ones in two's complement; makes the unsigned one.
+/// Elements of both 8-bit types, signed ones in two's complement. A new tensor is unsigned.
 impl Element for u8 {
     fn elements(tensor: &Tensor) -> Option<&[Self]> {
         match tensor {
@@ -266,8 +267,8 @@ impl Element for u8 {
     }
 }
 
-/// Runs `$body`, which maps elements to `(shape, elements)` whatever their type, and wraps
-/// what it gives in a tensor of the type of `$tensor`.
+/// Runs `$body`, which maps elements of any type to `(shape, elements)`, and makes a tensor of
+/// the type of `$tensor` from them.
 macro_rules! same_type {
     ($tensor:expr, $data:ident => $body:expr) => {
         match $tensor {

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use asperity_nn::{Portable, Session, Tensor};
 
-/// Lists of so many token ids → FNV-1a of the embedding's bits.
-/// After a change of the engine's arithmetic or of the model: run the test, and take the
-/// values it prints.
+/// Number of token ids, and FNV-1a of the bits of the embedding.
+///
+/// After a deliberate change of the engine's arithmetic or of the model, run the test and take
+/// the values that it prints.
 const GOLDEN: [(usize, u64); 3] = [
     (4, 12_691_040_964_924_136_706),
     (12, 11_815_414_706_987_270_408),

@@ -54,7 +54,7 @@ fn the_victim_runs() {
 fn every_cut_is_refused_or_runs() {
     let bytes = model().encode_to_vec();
     for length in 0..bytes.len() {
-        // The operator set stands last, so no cut is a model.
+        // The operator set is the last field, so no shortened file is a model.
         assert!(
             Portable::from_bytes(&bytes[..length]).is_err(),
             "{length} of {}",
@@ -168,7 +168,7 @@ fn constants_that_are_not_what_they_say_are_named() {
     assert!(constant(|w| w.data_type = 8).contains("data_type: type 8 is not supported"));
     assert!(constant(|w| w.data_location = 1).contains("data_location"));
     assert!(constant(|w| w.raw_data = None).contains("float_data: 0 elements, expected 12"));
-    // A shape that the graph cannot use shows in a run.
+    // A shape that does not fit is found in a run.
     let model = changed(|graph| graph.initializer[0].dims = vec![12]);
     let network = Portable::from_bytes(&model.encode_to_vec()).unwrap();
     let x = Tensor::f32(&[1, 3], vec![0.0; 3]);

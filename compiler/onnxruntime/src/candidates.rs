@@ -1,4 +1,4 @@
-//! Where a library may lie, by platform convention.
+//! Where the library may be, by convention of the platform.
 
 use std::{
     env,
@@ -19,7 +19,7 @@ pub(crate) const SYSTEM_NAMES: &[&str] = if cfg!(windows) {
     &["libonnxruntime.so", "libonnxruntime.so.1"]
 };
 
-/// Whether a file name is the library's own: not one of its providers', not a source file.
+/// Whether a file is the library itself and not one of its providers or a source file.
 fn is_library(name: &OsStr) -> bool {
     let Some(name) = name.to_str() else {
         return false;
@@ -33,7 +33,7 @@ fn is_library(name: &OsStr) -> bool {
     name == "libonnxruntime.so" || name.starts_with("libonnxruntime.so.")
 }
 
-/// The libraries in a folder, the last by name first; none when it cannot be read.
+/// The libraries in a folder in descending order of name; none if the folder cannot be read.
 pub(crate) fn in_folder(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut found: Vec<PathBuf> = entries
@@ -53,7 +53,8 @@ pub(crate) fn beside_executable() -> Vec<PathBuf> {
     vec![folder.to_owned(), folder.join("lib"), folder.join("../lib")]
 }
 
-/// `onnxruntime/capi` folders of Python installations: the one of `python3`, then usual places.
+/// The `onnxruntime/capi` folders of Python installations: that of `python3`, then those in usual
+/// places.
 pub(crate) fn python_packages() -> Vec<PathBuf> {
     let mut packages: Vec<PathBuf> = Vec::new();
     let interpreters: &[&str] = if cfg!(windows) {
@@ -83,8 +84,10 @@ pub(crate) fn python_packages() -> Vec<PathBuf> {
     folders
 }
 
-/// Folder of the package, as an interpreter sees it. The package is not imported, and the
-/// working folder is not searched: a folder of that name there is not an installation.
+/// The folder of the package, as an interpreter sees it.
+///
+/// The package is not imported. The working folder is not searched, since a folder of that name
+/// there is not an installation.
 fn ask(interpreter: &str) -> Option<PathBuf> {
     const QUESTION: &str = "import sys; sys.path = [p for p in sys.path if p]; \
         from importlib.util import find_spec; s = find_spec('onnxruntime'); \

@@ -1,4 +1,4 @@
-//! Finding the library: in a fixed order, and saying what was tried.
+//! Finds the library in a fixed order, and reports what was tried.
 
 use std::{
     env,
@@ -14,7 +14,7 @@ use crate::{
     library::{self, Opened},
 };
 
-/// How the library was found; also the order of the search.
+/// How the library was found. The variants are in the order of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Source {
@@ -47,7 +47,7 @@ impl fmt::Display for Source {
 pub struct Discovery {
     /// The file, or the name that the system's loader knows it by.
     pub path: PathBuf,
-    /// What it calls itself, e.g. `1.31.1`.
+    /// The version that it reports, for example `1.31.1`.
     pub version: String,
     /// How it was found.
     pub source: Source,
@@ -66,14 +66,14 @@ impl fmt::Display for Discovery {
     }
 }
 
-/// One place that was looked at in vain.
+/// One place that was searched without success.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Attempt {
-    /// Why it was looked at.
+    /// Why it was searched.
     pub source: Source,
-    /// The file or folder; `None` when there was no place to look at.
+    /// The file or folder; `None` if there was no place to search.
     pub path: Option<PathBuf>,
-    /// Why it does not do.
+    /// Why it cannot be used.
     pub reason: String,
 }
 
@@ -86,7 +86,7 @@ impl fmt::Display for Attempt {
     }
 }
 
-/// No usable library.
+/// No usable library was found.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("ONNX Runtime was not found; tried {}", self.listed())]
 pub struct NotFound {
@@ -110,10 +110,12 @@ impl NotFound {
     }
 }
 
-/// Looks for ONNX Runtime: the variables `ASPERITY_ONNXRUNTIME` and `ORT_DYLIB_PATH`, beside the
-/// program, the system's libraries, Python installations. Opens what it finds, checks that it is
-/// ONNX Runtime 1.17 or newer, and keeps it open. A variable that is set is the last word:
-/// nothing else is tried when what it names cannot be used.
+/// Looks for ONNX Runtime.
+///
+/// The places are the variables `ASPERITY_ONNXRUNTIME` and `ORT_DYLIB_PATH`, the folder of the
+/// program, the system's libraries, and Python installations. The library is opened, checked to be
+/// ONNX Runtime 1.17 or newer, and kept open. If a variable is set and what it names cannot be
+/// used, nothing else is tried.
 ///
 /// # Errors
 /// [`NotFound`] lists what was tried and why each failed.
@@ -121,7 +123,7 @@ pub fn discover() -> Result<Discovery, NotFound> {
     find().map(|(discovery, _)| discovery)
 }
 
-/// [`discover`], with the library.
+/// As [`discover`], and the opened library.
 pub(crate) fn find() -> Result<(Discovery, Opened), NotFound> {
     let mut search = Search::default();
     for source in [Source::Variable, Source::OrtVariable] {
@@ -184,7 +186,7 @@ impl Search {
             self.fail(source, Some(path.to_owned()), "does not exist".to_owned());
             return None;
         }
-        // The loader takes a bare name for one on its search path.
+        // The loader looks for a bare name along its search path.
         let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         self.open(source, &path)
     }

@@ -1,4 +1,4 @@
-//! Opening a file as ONNX Runtime, in steps that each can be refused.
+//! Opens a file as ONNX Runtime, in steps that can each fail with a reason.
 
 use std::{
     ffi::{CStr, OsStr, c_char},
@@ -9,7 +9,7 @@ use libloading::Library;
 use ort::sys::{ORT_API_VERSION, OrtApi};
 use thiserror::Error;
 
-/// `OrtApiBase` of onnxruntime_c_api.h, its functions nullable: a foreign library may say anything.
+/// `OrtApiBase` of onnxruntime_c_api.h. Its functions may be null, since the library may be any.
 #[repr(C)]
 struct ApiBase {
     get_api: Option<unsafe extern "system" fn(version: u32) -> *const OrtApi>,
@@ -34,12 +34,12 @@ pub(crate) enum Refusal {
 /// An opened library; it stays open until the process ends.
 #[derive(Debug)]
 pub(crate) struct Opened {
-    /// What it calls itself, e.g. `1.31.1`.
+    /// The version that it reports, for example `1.31.1`.
     pub(crate) version: String,
     api: NonNull<OrtApi>,
 }
 
-/// Opens a library by path, or by name along the system's search path.
+/// Opens a library by its path, or by its name along the system's search path.
 #[allow(
     unsafe_code,
     reason = "the functions of a library that is found at run time"

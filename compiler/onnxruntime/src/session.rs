@@ -17,13 +17,13 @@ const BACKEND: &str = "ONNX Runtime";
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// There is no library.
+    /// No library was found.
     #[error(transparent)]
     Library(#[from] NotFound),
     /// ONNX Runtime refuses the model.
     #[error("ONNX Runtime refuses the model: {0}")]
     Model(String),
-    /// An input or output of a type that is not a tensor we have.
+    /// An input or output whose type is not one of our tensors.
     #[error(
         "{direction} `{name}` is {found}; tensors of float32, int64, int32, int8, uint8 and bool are supported"
     )]
@@ -62,12 +62,12 @@ impl OnnxRuntime {
     /// Loads a model that runs on one thread.
     ///
     /// # Errors
-    /// [`LoadError`] when there is no library, or it refuses the model.
+    /// [`LoadError`] if there is no library, or if it refuses the model.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, LoadError> {
         Self::with_threads(bytes, 1)
     }
 
-    /// Loads a model that runs on so many threads.
+    /// Loads a model that runs on `threads` threads.
     ///
     /// # Errors
     /// As [`from_bytes`](Self::from_bytes).
@@ -83,7 +83,7 @@ impl OnnxRuntime {
         })
     }
 
-    /// The library that this process uses, loading it if need be.
+    /// The library that this process uses. It is loaded at the first call.
     ///
     /// # Errors
     /// [`NotFound`] lists what was tried.
@@ -92,7 +92,7 @@ impl OnnxRuntime {
     }
 }
 
-/// Finds the library once and hands it to `ort`; a search in vain may be repeated.
+/// Finds the library once and passes it to `ort`. A search without success may be repeated.
 fn library() -> Result<&'static Discovery, NotFound> {
     static LIBRARY: OnceLock<Discovery> = OnceLock::new();
     static SEARCH: Mutex<()> = Mutex::new(());

@@ -1,5 +1,7 @@
-//! The portable engine and ONNX Runtime agree. Without the library the tests say SKIPPED and
-//! pass; with ASPERITY_REQUIRE_ONNXRUNTIME=1 its absence is a failure.
+//! The portable engine and ONNX Runtime agree.
+//!
+//! Without the library the tests print SKIPPED and pass. With ASPERITY_REQUIRE_ONNXRUNTIME=1 they
+//! fail instead.
 
 use std::{f32::consts::PI, path::Path};
 
@@ -87,7 +89,8 @@ fn difference(test: &str, bytes: &[u8], x: &Tensor) -> Option<f32> {
     Some(largest)
 }
 
-/// The LSF decoder of the paper in small: residual blocks, softmax, running sum scaled to (0, π).
+/// A small version of the paper's LSF decoder: residual blocks, softmax, and a running sum scaled
+/// to (0, π).
 #[test]
 fn decoder_agrees_within_1e_5() {
     let mut writer = Writer {

@@ -1,4 +1,4 @@
-//! Roots of a polynomial: all at once, by the Ehrlich–Aberth iteration.
+//! The roots of a polynomial, all at once, by the Ehrlich–Aberth iteration.
 
 use num_complex::Complex64;
 
@@ -6,17 +6,16 @@ const MAX_ITERATIONS: usize = 200;
 
 /// The roots in z of `c_0 + c_1 z⁻¹ + … + c_p z⁻ᵖ`, that is of `c_0 zᵖ + … + c_p`.
 ///
-/// `p` roots for finite coefficients with `c_0 ≠ 0`, else none. Simple roots are
-/// accurate to rounding, clusters to about the m-th root of it; enough to plot.
-/// Aberth, "Iteration methods for finding all zeros of a polynomial
-/// simultaneously", 1973.
+/// There are `p` roots for finite coefficients with `c_0 ≠ 0`, and none otherwise. Simple roots are
+/// accurate to rounding, clusters of m roots to about the m-th root of that, which is enough for a
+/// plot. Aberth, "Iteration methods for finding all zeros of a polynomial simultaneously", 1973.
 pub(super) fn roots_of(coefficients: &[f64]) -> Vec<Complex64> {
     let degree = coefficients.len().saturating_sub(1);
     let usable = coefficients.iter().all(|c| c.is_finite());
     if !usable || coefficients.first().is_none_or(|&c| c == 0.0) {
         return Vec::new();
     }
-    // Starting points inside the unit circle, unsymmetric to the real axis.
+    // Starting points inside the unit circle, not symmetric about the real axis.
     let mut roots: Vec<Complex64> = (0..degree)
         .map(|k| {
             let angle = std::f64::consts::TAU * (k as f64 + 0.35) / degree as f64;
@@ -88,8 +87,8 @@ mod tests {
             .fold(0.0, f64::max)
     }
 
-    /// Claim: at every order up to 24 the conjugate pairs a polynomial was made of
-    /// come back to within a hundredth of a pixel.
+    /// Claim: at every order up to 24 the conjugate pairs that a polynomial was made of are found to
+    /// within a hundredth of a pixel.
     #[test]
     fn roots_come_back_at_every_order() {
         for order in 1..=24_usize {
@@ -110,7 +109,7 @@ mod tests {
         }
     }
 
-    /// Claim: double roots and roots at zero are found, and nonsense has none.
+    /// Claim: double roots and roots at zero are found, and invalid polynomials have no roots.
     #[test]
     fn degenerate_polynomials() {
         let double = [Complex64::new(-1.0, 0.0); 2];

@@ -1,21 +1,24 @@
-//! From mixed parameters to what a structure runs on, at any precision.
+//! Conversion of mixed parameters to coefficients, at any precision.
 //!
-//! LSFs come in the order of [`stage`]: partial products of neighbouring zeros grow large
-//! and cancel later, those of zeros far apart do not.
+//! Zero pairs are multiplied in the order of [`stage`], low and high frequencies in turn.
+//! Products of neighbouring zeros grow large and cancel later; products of zeros far apart
+//! stay small.
 
 use crate::number::Number;
 use asperity_formats::limits::MAX_ORDER;
 
-/// One number a pole or zero; zeros above the order.
+/// One number for each pole or zero; 0 above the order.
 pub(crate) type Row<P> = [P; MAX_ORDER];
 
-/// Two zeros before the first coefficient, then half of a symmetric polynomial: of the sum
-/// side and of the difference side.
+/// Half of a symmetric polynomial, of the sum and of the difference side. Two zeros stand
+/// before the first coefficient.
 type Half<P> = [[P; 2]; 16];
 const FIRST: usize = 2;
 
-/// Where LSF `index` of `order` is stored: those of the sum polynomial at even places, of the
-/// difference polynomial at odd ones, on each side low and high in turn.
+/// Where LSF `index` of `order` is stored.
+///
+/// LSFs of the sum polynomial stand at even places, those of the difference polynomial at odd
+/// ones; on each side low and high frequencies take turns.
 pub(crate) fn stage(index: usize, order: usize) -> usize {
     let (side, pair) = (index % 2, index / 2);
     let pairs = (order + 1 - side) / 2;
@@ -53,7 +56,7 @@ pub(crate) fn from_cosines<P: Number>(cosines: &Row<P>, order: usize) -> Row<P> 
 /// Coefficient `k` of a symmetric polynomial of degree `2·done` times 1 + m z⁻¹ + z⁻².
 #[inline]
 fn multiplied<P: Number>(half: &Half<P>, k: usize, done: usize, lane: usize, m: P) -> P {
-    // Behind the middle stands what stands before it.
+    // The polynomial is symmetric: past the middle, read the mirror image.
     let here = if k == FIRST + done + 1 {
         half[k - 2][lane]
     } else {

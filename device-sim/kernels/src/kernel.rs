@@ -1,13 +1,14 @@
 //! A kernel of any [`Design`].
 //!
-//! One generic kernel: what differs is looked up in the design, what does not is shared, so
-//! that a difference between two designs is theirs.
+//! There is one generic kernel. It looks up in the design what differs and shares the rest,
+//! so a difference between two kernels comes from their designs alone.
 
+use crate::coefficients::Coefficients;
 use crate::convert::{self, Row};
 use crate::design::{Arithmetic, Design, Level, Shape, Structure, Transition};
-use crate::line::{Coefficients, Line};
 use crate::number::{Fixed16, Fixed32, Number, Rounds};
-use crate::parameters::{Parameters, parameters};
+use crate::parameters::{Parameters, coefficients, cosines, parameters, reflections};
+use crate::synthesis::Synthesis;
 use crate::texture::{Filter, Numerator, Place, Texture};
 use alloc::{boxed::Box, vec::Vec};
 use asperity_formats::limits::MAX_ORDER;
@@ -16,27 +17,28 @@ use asperity_formats::limits::MAX_ORDER;
 const SMOOTHING_S: f64 = 0.005;
 /// Floor of a mixed logarithm relative to the loudest vertex: −60 dB.
 const LOG_FLOOR: f64 = 1e-3;
-/// Samples of an impulse response: the slowest poles that are known fall by 100 dB in 800.
+/// Samples of an impulse response. The slowest poles of known materials decay by 100 dB in 800.
 const RESPONSE: usize = 2048;
 
-/// A kernel of some arithmetic.
+/// A kernel, whatever its arithmetic.
 pub trait Rendering: Send {
-    /// Starts at a place: its model, at once, from silence.
+    /// Starts from silence with the model at a place.
     fn settle(&mut self, place: &Place);
-    /// What is rendered with now.
+    /// The filter that is rendered with now.
     fn filter(&self) -> Filter;
-    /// Samples, m/s², one a place and an excitation.
+    /// Renders one sample, m/s², for each place and excitation.
     fn render(&mut self, places: &[Place], epsilon: &[f64]) -> Vec<f64>;
-    /// Renders `ticks` samples over and over the same places; the last of them. Everything
-    /// but the ticks costs the same for any number of them.
+    /// Renders `ticks` samples, cycling over the places, and returns the last one.
+    ///
+    /// All work besides the ticks themselves costs the same for any number of ticks.
     fn repeat(&mut self, places: &[Place], epsilon: &[f64], ticks: usize) -> f64;
 }
 
-/// The kernel of a design for a texture, its LSFs rounded as the design says; `None` where
-/// rounding leaves no filter, for a direct LSP form of anything but LSFs, and for orders
-/// above [`MAX_ORDER`].
+/// The kernel of a design for a texture, with LSFs rounded as the design says.
 ///
-/// The order is the texture's: [`Design::order`] is applied before.
+/// `None` where rounding leaves no filter, for a direct LSP form of anything but LSFs, and for
+/// orders above [`MAX_ORDER`]. The order is the texture's: the caller has applied
+/// [`Design::order`] already.
 #[must_use]
 pub fn kernel(design: &Design, texture: &Texture<'_>) -> Option<Box<dyn Rendering>> {
     let of_lsfs = matches!(design.shape, Shape::LsfOmega | Shape::LsfCosine);
@@ -70,11 +72,11 @@ struct Kernel<P, S> {
     /// Orders rounded up to lanes of four.
     used: (usize, usize),
     vertices: Vec<Vertex<P>>,
-    /// Share of the way that parameters go in one update.
-    share: P,
-    /// Share of a crossfade that has passed in each tick of a cycle.
+    /// Fraction of the way to their target that parameters go in one update.
+    fraction: P,
+    /// Fraction of a crossfade that has passed at each tick between two updates.
     ramp: Vec<S>,
-    /// m/s² of a signal of 1.
+    /// How many m/s² a signal of 1 stands for.
     scale: f64,
     tick: usize,
     mixed: Parameters<P>,
@@ -82,7 +84,7 @@ struct Kernel<P, S> {
     to: Coefficients<S>,
     now: Coefficients<S>,
     level: P,
-    line: Line<S>,
+    synthesis: Synthesis<S>,
 }
 
 impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
@@ -115,7 +117,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
                 })
             })
             .collect::<Option<Vec<_>>>()?;
-        let constants = design.every as f64 / (SMOOTHING_S * texture.sample_rate_hz);
+        let constants = design.update_ticks as f64 / (SMOOTHING_S * texture.sample_rate_hz);
         Some(Self {
             design: *design,
             numerator: texture.numerator,
@@ -123,9 +125,9 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
             ma_order,
             used: (order.next_multiple_of(4), ma_order.next_multiple_of(4)),
             vertices,
-            share: P::of(1.0 - libm::exp(-constants)),
-            ramp: (1..=design.every)
-                .map(|tick| S::of(tick as f64 / design.every as f64))
+            fraction: P::of(1.0 - libm::exp(-constants)),
+            ramp: (1..=design.update_ticks)
+                .map(|tick| S::of(tick as f64 / design.update_ticks as f64))
                 .collect(),
             scale,
             tick: 0,
@@ -137,7 +139,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
             to: Coefficients::zero(),
             now: Coefficients::zero(),
             level: P::ZERO,
-            line: Line::silent(),
+            synthesis: Synthesis::silent(),
         })
     }
 
@@ -173,14 +175,14 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
 
     #[inline]
     fn follow(&mut self, target: &Parameters<P>) {
-        let step = |x: &mut Row<P>, target: &Row<P>, used: usize, share: P| {
+        let step = |x: &mut Row<P>, target: &Row<P>, used: usize, fraction: P| {
             for (x, t) in x.iter_mut().zip(target).take(used) {
-                *x = x.plus(share.times(t.minus(*x)));
+                *x = x.plus(fraction.times(t.minus(*x)));
             }
         };
-        step(&mut self.mixed.ar, &target.ar, self.used.0, self.share);
+        step(&mut self.mixed.ar, &target.ar, self.used.0, self.fraction);
         if self.numerator == Numerator::Lsf {
-            step(&mut self.mixed.ma, &target.ma, self.used.1, self.share);
+            step(&mut self.mixed.ma, &target.ma, self.used.1, self.fraction);
         }
     }
 
@@ -237,7 +239,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
 
     #[inline]
     fn step(&mut self, mix: &Mix<P>, epsilon: P) -> S {
-        let phase = self.tick % self.design.every;
+        let phase = self.tick % self.design.update_ticks;
         if phase == 0 {
             self.update(mix);
         }
@@ -248,15 +250,18 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
         self.level = self.mix_level(mix);
         let e: S = self.level.times(epsilon).rounded();
         match self.design.structure {
-            Structure::Direct => self.line.direct(&self.now, self.used, e),
+            Structure::Direct => self.synthesis.direct(&self.now, self.used, e),
             Structure::DirectLsp => {
                 let chain = (self.used.1, self.numerator == Numerator::Lsf);
                 let orders = (self.order, self.ma_order);
-                self.line.lsp(&self.now, orders, chain, e)
+                self.synthesis.lsp(&self.now, orders, chain, e)
             }
-            Structure::Lattice => self.line.lattice(&self.now, self.order, self.used.1, e),
+            Structure::Lattice => self
+                .synthesis
+                .lattice(&self.now, self.order, self.used.1, e),
             Structure::NormalisedLattice => {
-                self.line.normalised(&self.now, self.order, self.used.1, e)
+                self.synthesis
+                    .normalised(&self.now, self.order, self.used.1, e)
             }
         }
     }
@@ -277,7 +282,7 @@ impl<P: Number + Rounds<S>, S: Number> Rendering for Kernel<P, S> {
         self.now = self.convert();
         (self.from, self.to) = (self.now.clone(), self.now.clone());
         self.level = self.mix_level(&mix);
-        self.line = Line::silent();
+        self.synthesis = Synthesis::silent();
         self.tick = 0;
     }
 
@@ -337,14 +342,15 @@ fn rounded<P: Number + Rounds<S>, S: Number>(out: &mut Row<S>, row: &Row<P>, ord
     }
 }
 
-/// m/s² of a signal of 1: fixed point runs relative to the loudest vertex's RMS.
+/// How many m/s² a signal of 1 stands for: 1 in floating point, the loudest vertex's RMS in
+/// fixed point.
 fn scale(design: &Design, texture: &Texture<'_>) -> Option<f64> {
     if matches!(design.arithmetic, Arithmetic::F64 | Arithmetic::F32) {
         return Some(1.0);
     }
-    // The energy of an impulse response: a filter that is converted once and held.
+    // The energy of an impulse response, by a filter that is converted once and held.
     let exact = Design {
-        every: RESPONSE,
+        update_ticks: RESPONSE,
         transition: Transition::Hold,
         ..Design::ORACLE
     };
@@ -362,45 +368,4 @@ fn scale(design: &Design, texture: &Texture<'_>) -> Option<f64> {
     };
     let largest = (0..texture.vertices.len()).map(energy).fold(0.0, f64::max);
     (largest > 0.0 && largest.is_finite()).then(|| libm::sqrt(largest))
-}
-
-#[inline]
-fn cosines<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
-    let mut row = *mixed;
-    if shape == Shape::LsfOmega {
-        for x in row.iter_mut().take(order) {
-            *x = convert::cosine(*x);
-        }
-    }
-    row
-}
-
-#[inline]
-fn coefficients<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
-    match shape {
-        Shape::Coefficients => *mixed,
-        Shape::LsfOmega | Shape::LsfCosine => {
-            convert::from_cosines(&cosines(shape, mixed, order), order)
-        }
-        Shape::Reflection | Shape::LogArea => {
-            convert::step_up(&reflections(shape, mixed, order), order)
-        }
-    }
-}
-
-#[inline]
-fn reflections<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
-    match shape {
-        Shape::Reflection => *mixed,
-        Shape::LogArea => {
-            let mut row = *mixed;
-            for x in row.iter_mut().take(order) {
-                *x = convert::from_log_area(*x);
-            }
-            row
-        }
-        Shape::Coefficients | Shape::LsfOmega | Shape::LsfCosine => {
-            convert::step_down(&coefficients(shape, mixed, order), order)
-        }
-    }
 }

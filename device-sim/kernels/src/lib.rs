@@ -1,15 +1,15 @@
 //! Mixing, conversion and synthesis in every way that the labs compare with the tick.
 //!
-//! `no_std` with an allocator, so that one kernel is measured on the host and counted on a
-//! microcontroller. Nothing of it runs in a servo loop.
+//! The crate is `no_std` with an allocator: the same kernel is measured on the host and counted
+//! on a microcontroller. None of it runs in a servo loop.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`design`] | the factors of a kernel, the default, and what is compared with it |
-//! | [`texture`] | what a kernel is made of and what it is asked |
+//! | [`texture`] | the models that a kernel is made of, and the queries it answers |
 //! | [`mod@kernel`] | a kernel of any design |
-//! | [`number`] | what it computes with |
-//! | [`workload`] | the same work for every design, to count |
+//! | [`number`] | the numbers it computes with |
+//! | [`workload`] | the same work for every design, for counting |
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -17,12 +17,14 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
+mod chain;
+mod coefficients;
 mod convert;
 pub mod design;
 pub mod kernel;
-mod line;
 pub mod number;
 mod parameters;
+mod synthesis;
 pub mod texture;
 pub mod workload;
 

@@ -1,4 +1,4 @@
-//! What a kernel computes with: floating point, or fixed point of 32 and 16 bits.
+//! The numbers of a kernel: floating point, or fixed point of 32 and 16 bits.
 
 use fixed::{FixedI16, FixedI32, types::extra};
 
@@ -9,7 +9,7 @@ pub type Fixed16 = FixedI16<extra::U12>;
 
 /// A real number of some precision. Fixed point saturates.
 pub trait Number: Copy + Send + Sync + 'static {
-    /// Nothing.
+    /// Zero.
     const ZERO: Self;
     /// The nearest number.
     fn of(value: f64) -> Self;
@@ -21,7 +21,7 @@ pub trait Number: Copy + Send + Sync + 'static {
     fn minus(self, other: Self) -> Self;
     /// Product.
     fn times(self, other: Self) -> Self;
-    /// Quotient; fixed point gives its largest number where there is none.
+    /// Quotient. In fixed point a division by zero gives the largest number.
     fn over(self, other: Self) -> Self;
     /// Square root of a number that is not negative.
     #[must_use]
@@ -37,7 +37,7 @@ pub trait Number: Copy + Send + Sync + 'static {
     fn dot(c: &[Self], x: &[Self]) -> Self;
 }
 
-/// From the numbers of parameters to those of signals.
+/// Rounding from the numbers of parameters to those of signals.
 pub trait Rounds<S> {
     /// The nearest signal.
     fn rounded(self) -> S;
@@ -63,7 +63,7 @@ macro_rules! float {
             fn root(self) -> Self { $root(self) }
             #[inline]
             fn exp(self) -> Self { $exp(self) }
-            // Four partial sums, which registers hold side by side.
+            // Four partial sums fit into one vector register.
             #[inline]
             fn dot(c: &[Self], x: &[Self]) -> Self {
                 let mut partial = [0.0; 4];
@@ -120,7 +120,7 @@ macro_rules! fixed {
                     self.saturating_div(other)
                 }
             }
-            // Products are exact in the wide sum; it is rounded once.
+            // The products are exact in the wide sum, which is rounded once.
             #[inline]
             fn dot(c: &[Self], x: &[Self]) -> Self {
                 let mut sum: $wide = 0;

@@ -1,4 +1,4 @@
-//! What is mixed: the parameters that stand for a vertex's LSFs.
+//! The parameters that are mixed: from a vertex's LSFs, and on to coefficients.
 
 use crate::convert::{self, Row, stage};
 use crate::design::{Design, Shape};
@@ -8,19 +8,21 @@ use alloc::vec::Vec;
 use asperity_formats::limits::MAX_ORDER;
 use core::f64::consts::PI;
 
-/// Of the poles and of the zeros.
+/// Parameters of the poles and of the zeros.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Parameters<P> {
+    /// Of the poles.
     pub(crate) ar: Row<P>,
+    /// Of the zeros.
     pub(crate) ma: Row<P>,
 }
 
-/// Of a vertex whose LSFs are stored as the design says; `None` where two of them meet and
-/// no filter has such parameters.
+/// Parameters of a vertex whose LSFs are stored as the design says; `None` where two LSFs
+/// coincide and no filter has such parameters.
 pub(crate) fn parameters<P: Number>(design: &Design, vertex: &Vertex<'_>) -> Option<Parameters<P>> {
     Some(Parameters {
         ar: row(design.shape, &stored(design, vertex.lsf_rad))?,
-        // Zeros may lie on the circle, but not where a recursion ends.
+        // Zeros may lie on the circle, but a step-down through one would divide by zero.
         ma: row(design.shape, &apart(stored(design, vertex.ma_lsf_rad)))?,
     })
 }
@@ -32,7 +34,7 @@ fn stored(design: &Design, lsf_rad: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// A frequency as some bits hold it: steps of π/2ᵇ.
+/// A frequency rounded to `bits` bits, in steps of π/2ᵇ.
 fn quantised(omega_rad: f64, bits: u32) -> f64 {
     if bits > 32 {
         return omega_rad;
@@ -42,7 +44,7 @@ fn quantised(omega_rad: f64, bits: u32) -> f64 {
     libm::round(omega_rad / step).clamp(1.0, last) * step
 }
 
-/// Frequencies that rounding made one, a little apart.
+/// Moves apart by 1e-7 rad frequencies that rounding made equal.
 fn apart(mut lsf_rad: Vec<f64>) -> Vec<f64> {
     let mut least = 0.0;
     for omega in &mut lsf_rad {
@@ -79,4 +81,48 @@ fn row<P: Number>(shape: Shape, lsf_rad: &[f64]) -> Option<Row<P>> {
         }
     };
     Some(exact.map(P::of))
+}
+
+/// Cosines of the LSFs, from LSFs or their cosines.
+#[inline]
+pub(crate) fn cosines<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
+    let mut row = *mixed;
+    if shape == Shape::LsfOmega {
+        for x in row.iter_mut().take(order) {
+            *x = convert::cosine(*x);
+        }
+    }
+    row
+}
+
+/// Coefficients 1..=p of A(z) from mixed parameters.
+#[inline]
+pub(crate) fn coefficients<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
+    match shape {
+        Shape::Coefficients => *mixed,
+        Shape::LsfOmega | Shape::LsfCosine => {
+            convert::from_cosines(&cosines(shape, mixed, order), order)
+        }
+        Shape::Reflection | Shape::LogArea => {
+            convert::step_up(&reflections(shape, mixed, order), order)
+        }
+    }
+}
+
+/// Reflection coefficients of A(z) from mixed parameters.
+#[inline]
+pub(crate) fn reflections<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
+    match shape {
+        Shape::Reflection => *mixed,
+        Shape::LogArea => {
+            let mut row = *mixed;
+            for x in row.iter_mut().take(order) {
+                *x = convert::from_log_area(*x);
+            }
+            row
+        }
+        Shape::Coefficients | Shape::LsfOmega | Shape::LsfCosine => {
+            convert::step_down(&coefficients(shape, mixed, order), order)
+        }
+    }
 }

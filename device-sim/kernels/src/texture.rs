@@ -1,15 +1,15 @@
-//! What a kernel is made of, and what it is asked.
+//! The models that a kernel is made of, and the queries it answers.
 
 use alloc::vec::Vec;
 
-/// What the excitation passes before the poles.
+/// The numerator, which the excitation passes before the poles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Numerator {
     /// 1.
     None,
     /// 1 + z⁻¹.
     Nyquist,
-    /// Zeros of its own, as line spectral frequencies.
+    /// A polynomial of its own, given by line spectral frequencies.
     Lsf,
 }
 
@@ -18,16 +18,17 @@ pub enum Numerator {
 pub struct Vertex<'a> {
     /// Line spectral frequencies of the poles, rad, ascending.
     pub lsf_rad: &'a [f64],
-    /// Those of the zeros; empty but for [`Numerator::Lsf`].
+    /// Line spectral frequencies of the zeros, rad; empty unless the numerator is
+    /// [`Numerator::Lsf`].
     pub ma_lsf_rad: &'a [f64],
-    /// RMS of what excites the filter, m/s².
+    /// RMS of the excitation, m/s².
     pub level_m_s2: f64,
 }
 
 /// Models of equal orders.
 #[derive(Debug, Clone, Copy)]
 pub struct Texture<'a> {
-    /// Ticks a second.
+    /// Ticks a second, Hz.
     pub sample_rate_hz: f64,
     /// The numerator of every vertex.
     pub numerator: Numerator,

@@ -1,8 +1,8 @@
-//! The same work for every design: a made-up texture, places that wander through its
-//! triangle, an excitation.
+//! The same work for every design: a made-up texture, a path through its triangle, and an
+//! excitation.
 //!
-//! What a tick costs hardly depends on the numbers that are computed with, so a texture of
-//! the same orders stands for all.
+//! The cost of a tick hardly depends on the values it computes with, so one texture stands for
+//! all textures of its orders.
 
 use crate::design::{Design, Order};
 use crate::kernel::{Rendering, kernel};
@@ -13,20 +13,20 @@ use core::{f64::consts::PI, hint::black_box};
 /// Ticks of a counted run: a multiple of every update interval.
 pub const TICKS: usize = 1632;
 
-/// The orders that a cost depends on.
+/// The orders of a filter, which its cost depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Orders {
     /// Poles.
     pub poles: usize,
-    /// Zeros of a numerator of its own.
+    /// Zeros, where the numerator is a polynomial of its own.
     pub zeros: usize,
     /// Whether the numerator is 1 + z⁻¹.
     pub nyquist: bool,
 }
 
 impl Orders {
-    /// What an order makes of whole textures of these orders; `None` where it depends on
-    /// more than the orders.
+    /// The orders that remain after a reduction to `order`; `None` for [`Order::Auto`], which
+    /// depends on the texture.
     #[must_use]
     pub fn reduced(self, order: Order) -> Option<Self> {
         let of = |poles: usize, nyquist| Self {
@@ -51,7 +51,7 @@ impl Orders {
     }
 }
 
-/// The kernel of a design for a texture of some orders; `None` where there is none.
+/// The kernel of a design for a texture of given orders; `None` where the design has none.
 #[must_use]
 pub fn kernel_of(design: &Design, orders: Orders) -> Option<Box<dyn Rendering>> {
     let lsf_rad = [0, 1, 2].map(|vertex| spread(orders.poles, vertex));
@@ -69,7 +69,7 @@ pub fn kernel_of(design: &Design, orders: Orders) -> Option<Box<dyn Rendering>> 
     kernel(design, &texture)
 }
 
-/// LSFs spread evenly and then moved a little.
+/// LSFs spread evenly, then each moved a little.
 fn spread(order: usize, seed: usize) -> Vec<f64> {
     let step = PI / (order + 1) as f64;
     (1..=order)
@@ -77,7 +77,7 @@ fn spread(order: usize, seed: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Places and an excitation.
+/// Queries and an excitation.
 #[derive(Debug, Clone)]
 pub struct Workload {
     places: Vec<Place>,
@@ -101,8 +101,10 @@ impl Default for Workload {
 }
 
 impl Workload {
-    /// Renders so many ticks from silence; the last sample, relative. Everything but the
-    /// ticks costs the same for any number of them.
+    /// Renders `ticks` ticks from silence and returns the last sample, in units of the kernel's
+    /// signal.
+    ///
+    /// All work besides the ticks themselves costs the same for any number of ticks.
     pub fn run(&self, kernel: &mut dyn Rendering, ticks: usize) -> f64 {
         kernel.settle(&self.places[0]);
         black_box(kernel.repeat(&self.places, &self.epsilon, black_box(ticks)))
@@ -117,7 +119,7 @@ mod tests {
     #[test]
     fn a_counted_run_is_whole_cycles_of_every_design() {
         for variant in variants() {
-            assert_eq!(TICKS % variant.design.every, 0, "{}", variant.name);
+            assert_eq!(TICKS % variant.design.update_ticks, 0, "{}", variant.name);
         }
     }
 
@@ -140,10 +142,10 @@ mod tests {
 
     #[test]
     fn a_crossfade_ends_on_what_is_held() {
-        let at = |transition, every| {
+        let at = |transition, update_ticks| {
             let design = Design {
                 transition,
-                every,
+                update_ticks,
                 ..Design::DEFAULT
             };
             let orders = Orders {
@@ -153,7 +155,7 @@ mod tests {
             };
             let mut kernel = kernel_of(&design, orders).expect("it has a filter");
             // Two cycles: the first begins where it settled.
-            Workload::default().run(kernel.as_mut(), 2 * every);
+            Workload::default().run(kernel.as_mut(), 2 * update_ticks);
             kernel.filter().a
         };
         let (faded, held) = (at(Transition::Crossfade, 8), at(Transition::Hold, 8));

@@ -1,4 +1,4 @@
-//! What a simulated device is made of, read from TOML.
+//! The configuration of a simulated device, read from TOML.
 
 use std::path::Path;
 
@@ -30,18 +30,18 @@ const FIELDS: [&str; 10] = [
 pub struct DeviceConfig {
     /// Name, for reports.
     pub name: String,
-    /// Dotted names of the fields whose values nobody could confirm.
+    /// Dotted names of the fields whose values are unconfirmed.
     #[serde(default)]
     pub unconfirmed: Vec<String>,
-    /// Where the stylus can go.
+    /// The space in which the stylus can move.
     pub workspace: Workspace,
-    /// What resists the hand.
+    /// Mass, damping and friction.
     pub mechanics: Mechanics,
-    /// How positions are measured.
+    /// Position measurement.
     pub sensor: Sensor,
-    /// How forces are made.
+    /// Force output.
     pub actuator: Actuator,
-    /// When.
+    /// Rates and delays.
     pub timing: Timing,
 }
 
@@ -49,12 +49,11 @@ pub struct DeviceConfig {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Workspace {
-    /// Full extent a axis, mm.
+    /// Full extent along each axis, mm.
     pub size_mm: [f64; 3],
 }
 
-/// Mechanics, axis by axis and without coupling between axes; gravity is taken
-/// as compensated.
+/// Mechanics of each axis. The axes are independent, and gravity counts as compensated.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mechanics {
@@ -78,11 +77,11 @@ pub struct Sensor {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Actuator {
-    /// Largest magnitude of the force vector, N; enforced.
+    /// Largest magnitude of the force vector, N. It is enforced.
     pub peak_force_n: f64,
-    /// Force the device can hold for good, N; reported against, not enforced.
+    /// Force that the device can hold permanently, N. Reports refer to it; it is not enforced.
     pub continuous_force_n: f64,
-    /// Bits of the command of each axis over ±peak; 0 for a perfect one.
+    /// Bits of each axis's converter over ±peak; 0 for a perfect converter.
     pub dac_bits: u32,
 }
 
@@ -97,7 +96,7 @@ pub struct Timing {
 }
 
 impl DeviceConfig {
-    /// What the runtime is told of the mechanics: those of the weakest axis.
+    /// The mechanics that the runtime is told: the smallest values of the three axes.
     #[must_use]
     pub fn mechanics_config(&self) -> MechanicsConfig {
         let least = |values: [f64; 3]| values.into_iter().fold(f64::INFINITY, f64::min) as f32;
@@ -113,7 +112,7 @@ impl DeviceConfig {
     /// The built-in Touch.
     ///
     /// # Errors
-    /// None for the file the crate is built with; a test holds it to that.
+    /// None: a test checks the built-in file.
     pub fn touch() -> Result<Self, ConfigError> {
         Self::from_toml(TOUCH, "touch.toml")
     }

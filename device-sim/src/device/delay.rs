@@ -1,6 +1,6 @@
 //! A delay of whole ticks.
 
-/// Ring buffer that returns what was put in `ticks` calls before.
+/// A ring buffer that returns each value `ticks` calls after it was put in.
 #[derive(Debug, Clone)]
 pub struct Delay<T> {
     ring: Vec<T>,
@@ -8,7 +8,7 @@ pub struct Delay<T> {
 }
 
 impl<T: Copy> Delay<T> {
-    /// A delay of `ticks`, full of `initial`. The only allocation.
+    /// A delay of `ticks` that is full of `initial`. Nothing else here allocates.
     #[must_use]
     pub fn new(ticks: usize, initial: T) -> Self {
         Self {
@@ -17,7 +17,7 @@ impl<T: Copy> Delay<T> {
         }
     }
 
-    /// Puts a value in and takes the one out whose turn it is.
+    /// Puts a value in and takes the oldest one out.
     pub fn push(&mut self, value: T) -> T {
         let Some(slot) = self.ring.get_mut(self.next) else {
             return value;

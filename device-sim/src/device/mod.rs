@@ -1,4 +1,4 @@
-//! A simulated haptic device: what a servo reads from it and what its forces do.
+//! A simulated haptic device: the positions that a servo reads, and what its forces do.
 
 mod config;
 mod delay;
@@ -8,13 +8,13 @@ pub use config::{Actuator, DeviceConfig, Mechanics, Sensor, Timing, Workspace};
 pub use delay::Delay;
 pub use quantise::{converter_step, to_step};
 
-use crate::axis::{AxisParams, AxisState, Coupling};
+use crate::axis::{AxisParams, AxisState, Pull};
 
-/// Integration steps a servo tick. At 16 kHz the contact itself (a spring held
-/// for a whole tick by the servo) limits stability, not the integrator.
+/// Integration steps in a servo tick. At 16 kHz the integrator does not limit stability; the
+/// contact does, since the servo holds its force for a whole tick.
 pub const SUBSTEPS: u32 = 16;
 
-/// What the device did to commands, counted.
+/// How often the device changed a command or hit a stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DeviceCounts {
     /// Commands scaled down to the peak force.
@@ -78,7 +78,7 @@ impl Device {
         self.states.map(|state| state.velocity_m_s)
     }
 
-    /// Position as the encoders tell it, m.
+    /// Position as the encoders measure it, m.
     #[must_use]
     pub fn measured_m(&self) -> [f64; 3] {
         self.position_m()
@@ -97,14 +97,14 @@ impl Device {
         &self.axes
     }
 
-    /// What happened to commands so far.
+    /// The counts so far.
     #[must_use]
     pub fn counts(&self) -> DeviceCounts {
         self.counts
     }
 
-    /// Takes one tick's force command, N: limited to the peak in magnitude,
-    /// rounded to the converter's step, delayed.
+    /// Takes one tick's force command, N. The force is limited to the peak in magnitude, rounded
+    /// to the converter's step, and delayed.
     pub fn command(&mut self, force_n: [f64; 3]) {
         let mut accepted = force_n;
         let magnitude = norm(force_n);
@@ -112,7 +112,7 @@ impl Device {
             self.counts.not_finite += 1;
             accepted = [0.0; 3];
         } else if magnitude > self.peak_force_n * (1.0 + 1e-6) {
-            // The margin is rounding of a command limited in single precision.
+            // The margin covers rounding of a command that was limited in single precision.
             self.counts.clipped += 1;
             accepted = force_n.map(|f| f * self.peak_force_n / magnitude);
         }
@@ -120,12 +120,14 @@ impl Device {
         self.force_n = self.delay.push(rounded);
     }
 
-    /// Lets `tick_s` seconds pass under the held force. `hand` is asked for its
-    /// pull at every sub-step: axis states and time within the tick in seconds.
+    /// Lets `tick_s` seconds pass under the held force.
+    ///
+    /// `hand` gives its pull at every sub-step, from the time within the tick in seconds and the
+    /// states of the axes.
     pub fn advance(
         &mut self,
         tick_s: f64,
-        mut hand: impl FnMut(f64, &[AxisState; 3]) -> [Coupling; 3],
+        mut hand: impl FnMut(f64, &[AxisState; 3]) -> [Pull; 3],
     ) {
         let step_s = tick_s / f64::from(SUBSTEPS);
         let mut stopped = false;
@@ -155,8 +157,8 @@ mod tests {
         DeviceConfig::touch().expect("built-in file")
     }
 
-    fn nobody(_: f64, _: &[AxisState; 3]) -> [Coupling; 3] {
-        [Coupling::default(); 3]
+    fn nobody(_: f64, _: &[AxisState; 3]) -> [Pull; 3] {
+        [Pull::default(); 3]
     }
 
     #[test]
@@ -207,8 +209,8 @@ mod tests {
 
     #[test]
     fn a_spring_wall_rendered_on_the_device_does_not_blow_up() {
-        // Held for a tick and quantised, yet with the hand's damping of a light
-        // grip b = 4 N·s/m > K·T/2 (Colgate): the contact must settle.
+        // The force is held for a tick and quantised, but the damping of a light grip,
+        // b = 4 N·s/m, exceeds K·T/2 (Colgate), so the contact must settle.
         for stiffness_n_m in [500.0, 1000.0, 2000.0] {
             let mut device = Device::new(&touch(), 0.04, [0.0, 0.0, 0.005]);
             let mut late_peak = 0.0_f64;
@@ -216,8 +218,8 @@ mod tests {
                 let depth_m = (-device.measured_m()[2]).max(0.0);
                 device.command([0.0, 0.0, stiffness_n_m * depth_m]);
                 device.advance(1e-3, |_, _| {
-                    let mut pull = [Coupling::default(); 3];
-                    pull[2] = Coupling {
+                    let mut pull = [Pull::default(); 3];
+                    pull[2] = Pull {
                         damping_n_s_m: 4.0,
                         force_n: -1.0,
                         ..pull[2]

@@ -1,6 +1,6 @@
-//! Rounding to what a sensor or a converter can tell apart.
+//! Rounding to the steps of a sensor or a converter.
 
-/// Rounds to whole steps; a step of 0 leaves the value alone.
+/// Rounds to whole steps; a step of 0 leaves the value unchanged.
 #[must_use]
 pub fn to_step(value: f64, step: f64) -> f64 {
     if step > 0.0 {
@@ -10,8 +10,9 @@ pub fn to_step(value: f64, step: f64) -> f64 {
     }
 }
 
-/// Step of a converter with `bits` over `±peak`: `2·peak / (2^bits − 2)`, an odd
-/// number of levels so that zero is one of them. 0 bits is a perfect converter.
+/// Step of a converter with `bits` over `±peak`: `2·peak / (2^bits − 2)`.
+///
+/// The number of levels is odd, so zero is one of them. A converter of 0 bits is perfect.
 #[must_use]
 pub fn converter_step(peak: f64, bits: u32) -> f64 {
     match bits {

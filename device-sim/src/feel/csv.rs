@@ -1,4 +1,4 @@
-//! Every tick as a row of CSV.
+//! A recording as CSV, one row for each tick.
 //!
 //! | column | unit | what |
 //! |---|---|---|
@@ -6,7 +6,7 @@
 //! | `motion` | – | name of the script's motion |
 //! | `x_mm`, `y_mm`, `z_mm` | mm | true position |
 //! | `vx_mm_s`, `vy_mm_s`, `vz_mm_s` | mm/s | true velocity |
-//! | `measured_x_mm`, `measured_y_mm`, `measured_z_mm` | mm | position as the servo is given it |
+//! | `measured_x_mm`, `measured_y_mm`, `measured_z_mm` | mm | position that the servo is given |
 //! | `depth_mm`, `speed_mm_s` | mm, mm/s | depth and tangential speed as the renderer sees them |
 //! | `normal_force_n` | N | k·δ |
 //! | `vib_m_s2` | m/s² | y\[n\] before device gain |
@@ -16,9 +16,10 @@
 //! | `wanted_n` | N | normal force that the hand means to hold; empty in the air |
 //! | `flags` | – | the renderer's flags as a number |
 //!
-//! Numbers read back to the same bits.
+//! Numbers are printed so that they read back to the same bits.
 
-use super::{FeelError, Recording};
+use super::error::FeelError;
+use super::recording::Recording;
 
 /// Names of the columns, in order.
 pub const COLUMNS: [&str; 26] = [

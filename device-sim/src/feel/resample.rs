@@ -1,18 +1,19 @@
-//! A whole multiple of the sample rate, band-limited: windowed sinc, polyphase.
+//! Band-limited upsampling by a whole factor, with a windowed sinc in polyphase form.
 //!
-//! Cut-off 0.46 of the source rate, Kaiser window with β = 8 over ± 48 source
-//! samples: flat to within 0.01 dB up to 0.43 of the rate, images of anything
-//! below it at −75 dB or less.
+//! The cut-off is 0.46 of the source rate; the Kaiser window has β = 8 and reaches over ± 48
+//! source samples. The response is flat to within 0.01 dB up to 0.43 of the rate, and images of
+//! frequencies below that are at −75 dB or less.
 
 /// Source samples on each side of an output sample.
 const REACH: usize = 48;
 /// Cut-off relative to the source rate.
 const CUTOFF: f64 = 0.46;
-/// Shape of the Kaiser window.
+/// β of the Kaiser window.
 const BETA: f64 = 8.0;
 
-/// Raises the sample rate by `factor`. Output `n·factor` stands at the time of
-/// input `n`; beyond the ends the signal is taken as silent.
+/// Raises the sample rate by `factor`.
+///
+/// Output `n·factor` belongs to the time of input `n`. Beyond its ends the signal counts as 0.
 #[must_use]
 pub fn upsample(signal: &[f64], factor: usize) -> Vec<f64> {
     let phases: Vec<Vec<f64>> = (0..factor)
@@ -20,7 +21,7 @@ pub fn upsample(signal: &[f64], factor: usize) -> Vec<f64> {
         .collect();
     let mut out = Vec::with_capacity(signal.len() * factor);
     for n in 0..signal.len() {
-        // Inputs n + 1 − REACH ..= n + REACH, those that exist.
+        // Inputs n + 1 − REACH ..= n + REACH, as far as they exist.
         let first = (n + 1).saturating_sub(REACH);
         let last = (n + REACH).min(signal.len() - 1);
         let skipped = first + REACH - 1 - n;
@@ -37,12 +38,13 @@ pub fn upsample(signal: &[f64], factor: usize) -> Vec<f64> {
     out
 }
 
-/// Weights of the 2·REACH inputs around a point `share` of a sample after one;
-/// they sum to 1, so that a constant stays what it is.
-fn kernel(share: f64) -> Vec<f64> {
+/// Weights of the 2·REACH inputs around a point that lies `fraction` of a sample after an input.
+///
+/// They sum to 1, so a constant is unchanged.
+fn kernel(fraction: f64) -> Vec<f64> {
     let mut weights: Vec<f64> = (0..2 * REACH)
         .map(|i| {
-            let x = i as f64 - (REACH as f64 - 1.0) - share;
+            let x = i as f64 - (REACH as f64 - 1.0) - fraction;
             let angle = std::f64::consts::TAU * CUTOFF * x;
             let sinc = if angle == 0.0 {
                 1.0
@@ -75,8 +77,8 @@ mod tests {
 
     const FACTOR: usize = 48;
 
-    /// RMS of the middle of `signal` and of what is left of it after taking out
-    /// the best fitting sine of `cycles` a sample.
+    /// RMS of the middle of `signal`, and RMS of what remains after the best fitting sine of
+    /// `cycles` a sample is subtracted.
     fn fit(signal: &[f64], cycles: f64) -> (f64, f64) {
         let middle = &signal[signal.len() / 4..3 * signal.len() / 4];
         let n = middle.len() as f64;
@@ -100,7 +102,7 @@ mod tests {
 
     #[test]
     fn tones_below_the_cut_off_keep_their_level_and_gain_no_images() {
-        // 4000 samples: every tone has whole cycles in the middle half.
+        // With 4000 samples every tone has whole cycles in the middle half.
         for cycles in [0.01, 0.1, 0.25, 0.35, 0.43] {
             let tone: Vec<f64> = (0..4000)
                 .map(|i| (std::f64::consts::TAU * cycles * f64::from(i)).sin())

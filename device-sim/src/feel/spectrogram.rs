@@ -2,15 +2,15 @@
 
 use realfft::RealFftPlanner;
 
-use super::FeelError;
+use super::error::FeelError;
 
 /// A one-sided power spectral density per window.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrogram {
-    /// Power spectral densities, m²/s⁴/Hz, bin by bin from 0 to half the rate; one
-    /// inner vector a window.
+    /// Power spectral densities, m²/s⁴/Hz: for each window, one value a bin from 0 Hz to half
+    /// the rate.
     pub psd: Vec<Vec<f64>>,
-    /// Centres of the first window and step between windows, s.
+    /// Centre of the first window, s.
     pub first_s: f64,
     /// Step between windows, s.
     pub step_s: f64,
@@ -18,8 +18,9 @@ pub struct Spectrogram {
     pub bin_hz: f64,
 }
 
-/// Windows (Hann) of `length` samples every `hop`. Empty for a signal shorter
-/// than one window.
+/// Hann windows of `length` samples, one every `hop` samples.
+///
+/// There are none for a signal that is shorter than a window.
 ///
 /// # Errors
 /// [`FeelError::Transform`]; none for a `length` and `hop` of at least 1.
@@ -45,7 +46,7 @@ pub fn spectrogram(
         forward.process(&mut input, &mut spectrum)?;
         let last = spectrum.len() - 1;
         let density = spectrum.iter().enumerate().map(|(bin, value)| {
-            // Both signs of a frequency, but DC and Nyquist have only one.
+            // A frequency counts with both signs; 0 Hz and Nyquist have only one.
             let sides = if bin == 0 || (bin == last && length.is_multiple_of(2)) {
                 1.0
             } else {
@@ -64,13 +65,13 @@ pub fn spectrogram(
 }
 
 impl Spectrogram {
-    /// Mean over all windows, bin by bin; empty if there is none.
+    /// Mean over all windows, one value a bin; empty if there are no windows.
     #[must_use]
     pub fn mean(&self) -> Vec<f64> {
         let bins = self.psd.first().map_or(0, Vec::len);
-        let share = 1.0 / self.psd.len().max(1) as f64;
+        let weight = 1.0 / self.psd.len().max(1) as f64;
         (0..bins)
-            .map(|bin| share * self.psd.iter().map(|window| window[bin]).sum::<f64>())
+            .map(|bin| weight * self.psd.iter().map(|window| window[bin]).sum::<f64>())
             .collect()
     }
 }

@@ -1,9 +1,9 @@
-//! Strokes: speed and force meant and reached, and what the texture made of them.
+//! Strokes: the speed and force that were wanted and reached, friction and vibration.
 
 use asperity_runtime::Flags;
 
-use super::percentile::{mean, rms};
-use super::{Recording, Span};
+use super::recording::{Recording, Span};
+use super::statistics::{mean, rms};
 use crate::hand::Motion;
 use crate::session::Record;
 
@@ -34,8 +34,9 @@ pub fn strokes(recording: &Recording) -> Vec<StrokeReport> {
     recording.spans().into_iter().filter_map(report).collect()
 }
 
-/// The ticks at which the target runs at full speed and the hand, and the velocity
-/// filter, have caught up; the first 0.1 s after the ramp is theirs.
+/// The ticks at which the target moves at full speed and hand and velocity filter have settled.
+///
+/// They are given 0.1 s after the ramp to settle.
 pub(super) fn steady_part<'a>(span: &Span<'a>) -> &'a [Record] {
     let Motion::Stroke { speed_m_s, .. } = span.motion else {
         return &[];

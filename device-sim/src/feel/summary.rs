@@ -1,11 +1,13 @@
-//! The summary of a recording: figures first, caveats last.
+//! The summary of a recording: its figures, then its caveats.
 
 use std::fmt;
 
 use asperity_runtime::Flags;
 
-use super::percentile::{mean, peak, percentile, rms};
-use super::{Recording, StrokeReport, Taps, strokes, taps};
+use super::recording::Recording;
+use super::statistics::{mean, peak, percentile, rms};
+use super::stroke::{StrokeReport, strokes};
+use super::tap::{Taps, taps};
 use crate::device::norm;
 use crate::session::Record;
 
@@ -21,20 +23,20 @@ pub struct Band {
     pub from_mm_s: f64,
     /// Upper end, mm/s; infinite for the last.
     pub to_mm_s: f64,
-    /// Time spent in it, s.
+    /// Time spent in the band, s.
     pub time_s: f64,
-    /// RMS, m/s².
+    /// RMS of the vibration, m/s².
     pub rms_m_s2: f64,
-    /// Largest magnitude, m/s².
+    /// Largest magnitude of the vibration, m/s².
     pub peak_m_s2: f64,
 }
 
-/// Everything the summary says.
+/// The figures of a recording.
 #[derive(Debug, Clone)]
 pub struct Summary<'a> {
     recording: &'a Recording,
-    /// Share of the time in contact, 0..=1.
-    pub contact_share: f64,
+    /// Fraction of the time in contact, 0..=1.
+    pub contact_fraction: f64,
     /// Mean, 5th, 50th, 95th percentile and maximum of the normal force, N.
     pub normal_n: [f64; 5],
     /// Vibration by speed band, in contact.
@@ -62,7 +64,7 @@ pub struct Summary<'a> {
 }
 
 impl<'a> Summary<'a> {
-    /// Works out the figures.
+    /// Computes the figures of a recording.
     #[must_use]
     pub fn new(recording: &'a Recording) -> Self {
         let records = &recording.records;
@@ -83,7 +85,7 @@ impl<'a> Summary<'a> {
         });
         Self {
             recording,
-            contact_share: contact.len() as f64 / records.len().max(1) as f64,
+            contact_fraction: contact.len() as f64 / records.len().max(1) as f64,
             normal_n: [
                 mean(forces.iter().copied()),
                 percentile(&forces, 0.05),
@@ -202,7 +204,7 @@ impl fmt::Display for Summary<'_> {
             "duration   {:.3} s of virtual time, {} ticks, in contact {:.1} %",
             self.recording.duration_s(),
             self.recording.records.len(),
-            100.0 * self.contact_share
+            100.0 * self.contact_fraction
         )?;
         self.write_taps(f)?;
         self.write_strokes(f)?;

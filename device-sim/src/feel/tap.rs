@@ -1,8 +1,9 @@
-//! Taps: what the script meant, what the stylus did, what was rendered.
+//! Taps: what the script asked for, what the stylus did, what was rendered.
 
 use asperity_runtime::Flags;
 
-use super::Recording;
+use super::recording::Recording;
+use super::statistics::peak;
 use crate::hand::Motion;
 
 /// One scripted tap.
@@ -14,7 +15,7 @@ pub struct TapReport {
     pub scripted_m_s: f64,
     /// True speed on meeting the surface, m/s.
     pub true_m_s: f64,
-    /// From the true impact to the start of the transient, s; `None` if none played.
+    /// Time from the true impact to the start of the transient, s; `None` if none played.
     pub delay_s: Option<f64>,
     /// Largest tap force, N.
     pub peak_n: f64,
@@ -25,7 +26,7 @@ pub struct TapReport {
 pub struct Taps {
     /// The scripted ones that ran.
     pub scripted: Vec<TapReport>,
-    /// When transients started that no scripted tap explains, s.
+    /// Start times of transients that belong to no scripted tap, s.
     pub others_s: Vec<f64>,
 }
 
@@ -46,9 +47,9 @@ pub fn taps(recording: &Recording) -> Taps {
             let [before, after] = pair else { return None };
             let (above_m, below_m) = (before.true_m[2], after.true_m[2]);
             (above_m > 0.0 && below_m <= 0.0).then(|| {
-                let share = above_m / (above_m - below_m);
+                let fraction = above_m / (above_m - below_m);
                 (
-                    before.t_s + share * (after.t_s - before.t_s),
+                    before.t_s + fraction * (after.t_s - before.t_s),
                     -before.true_m_s[2],
                 )
             })
@@ -58,7 +59,7 @@ pub fn taps(recording: &Recording) -> Taps {
             scripted_m_s: speed_m_s,
             true_m_s: met.map_or(0.0, |(_, true_m_s)| true_m_s),
             delay_s: None,
-            peak_n: super::percentile::peak(span.records.iter().map(|r| f64::from(r.output.tap_n))),
+            peak_n: peak(span.records.iter().map(|r| f64::from(r.output.tap_n))),
         };
         for record in started {
             match report.impact_s {

@@ -2,10 +2,11 @@
 
 use std::io::Cursor;
 
+use super::error::FeelError;
+use super::recording::Recording;
 use super::resample::upsample;
-use super::{FeelError, Recording};
 
-/// Sample rate that a sound comes closest to, Hz.
+/// The sample rate that a sound's rate is chosen nearest to, Hz.
 const RATE_HZ: f64 = 48_000.0;
 /// Level of the loudest sample, relative to full scale: −1 dB.
 const CEILING: f64 = 0.891;
@@ -17,13 +18,14 @@ pub struct Sound {
     pub bytes: Vec<u8>,
     /// Its sample rate, Hz: the multiple of the servo rate nearest to 48 kHz.
     pub sample_rate_hz: u32,
-    /// Full scale a m/s², what it was normalised with; 0 for silence.
+    /// Fraction of full scale for 1 m/s², which the sound was normalised with; 0 for silence.
     pub gain_per_m_s2: f64,
 }
 
-/// The vibration before device gain, band-limited, its loudest sample at −1 dB.
-/// Taps are left out: they are forces along the normal, and so much louder that
-/// nothing else would be heard.
+/// The vibration before device gain as a band-limited sound, its loudest sample at −1 dB.
+///
+/// Taps are left out. They are forces along the normal, and so much louder that nothing else
+/// would be heard.
 ///
 /// # Errors
 /// [`FeelError::Wav`] if the encoder fails.
@@ -32,7 +34,7 @@ pub fn encode(recording: &Recording) -> Result<Sound, FeelError> {
     let factor = (RATE_HZ / servo_rate_hz).round().max(1.0);
     let sample_rate_hz = (servo_rate_hz * factor).round() as u32;
     let raised = upsample(&recording.vibration_m_s2(), factor as usize);
-    let peak = super::percentile::peak(raised.iter().copied());
+    let peak = super::statistics::peak(raised.iter().copied());
     let gain_per_m_s2 = if peak > 0.0 { CEILING / peak } else { 0.0 };
 
     let spec = hound::WavSpec {

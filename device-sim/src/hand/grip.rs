@@ -16,14 +16,14 @@ const FIELDS: [&str; 4] = [
     "force_bandwidth_hz",
 ];
 
-/// A grip: a mass rigid with the stylus, and a spring and damper, the same along
-/// every axis, to where the hand means to be.
+/// A grip: a mass that is rigid with the stylus, and a spring and a damper that pull it to the
+/// intended position. It is the same along every axis.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grip {
     /// Name, for reports.
     pub name: String,
-    /// Names of the fields whose values nobody could confirm.
+    /// Names of the fields whose values are unconfirmed.
     #[serde(default)]
     pub unconfirmed: Vec<String>,
     /// Mass that moves with the stylus, kg.
@@ -40,7 +40,7 @@ impl Grip {
     /// A built-in grip by name, `light` or `firm`.
     ///
     /// # Errors
-    /// None for the files the crate is built with; a test holds them to that.
+    /// None: a test checks the built-in files.
     pub fn preset(preset: GripPreset) -> Result<Self, ConfigError> {
         match preset {
             GripPreset::Light => Self::from_toml(LIGHT, "light.toml"),

@@ -1,9 +1,10 @@
 //! A seeded script: the motions of a user who explores a surface.
 
-use rand_core::{Rng, SeedableRng};
+use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::motion::Motion;
+use crate::random::unit;
 
 /// Height at which the hand hovers, m.
 pub const HOVER_M: f64 = 0.012;
@@ -15,17 +16,17 @@ pub struct Script {
 }
 
 impl Script {
-    /// A script of one's own.
+    /// A script of the given motions.
     #[must_use]
     pub fn new(motions: Vec<Motion>) -> Self {
         Self { motions }
     }
 
-    /// The exploration of about eleven seconds that shows everything: approach,
-    /// four taps, a press, a rest, strokes at four speeds and forces, a scrub, a
-    /// rest, a lift; repeated `cycles` times. The seed varies speeds, forces and
-    /// places by up to a tenth. Every point lies within `half_extents_m` of the
-    /// origin, with room to spare for the lag of a hand.
+    /// An exploration of about eleven seconds, repeated `cycles` times: approach, four taps, a
+    /// press, a rest, strokes at four speeds and forces, a scrub, a rest, a lift.
+    ///
+    /// The seed varies speeds, forces and places by up to a tenth. Every point lies within
+    /// `half_extents_m` of the origin, with a margin for the lag of the hand.
     #[must_use]
     pub fn exploration(seed: u64, cycles: usize, half_extents_m: [f64; 3]) -> Self {
         let mut vary = Vary(Xoshiro256PlusPlus::seed_from_u64(seed));
@@ -50,8 +51,7 @@ struct Vary(Xoshiro256PlusPlus);
 impl Vary {
     /// Uniform in −1..1.
     fn signed(&mut self) -> f64 {
-        let unit = (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-        2.0 * unit - 1.0
+        2.0 * unit(&mut self.0) - 1.0
     }
 
     /// `value` within ± 10 %.
@@ -61,7 +61,7 @@ impl Vary {
 }
 
 fn explore(vary: &mut Vary, reach_m: [f64; 3], motions: &mut Vec<Motion>) {
-    // Ends of the strokes, as shares of the reach: 0.8 leaves room for the 10 %.
+    // The strokes use 0.8 of the reach, which leaves room for the variation of 10 %.
     let far_m = 0.8 * reach_m[0].min(0.07);
     let side_m = 0.5 * reach_m[1];
     let hover_m = HOVER_M.min(reach_m[2]);

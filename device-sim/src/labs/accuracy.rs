@@ -1,109 +1,55 @@
-//! How far a design is from the f64 oracle: at rest over the whole grid, moving, and under
-//! alternation between any two vertices.
+//! How far a design is from the f64 oracle: at rest over the whole grid, in motion, and while
+//! the query alternates between two vertices.
 
+use super::difference::{Band, Difference};
 use super::kernel::Kernel;
 use super::noise::{gaussian, uniform};
-use super::statistics;
+use super::statistics::model_rms;
+use crate::signal::rms;
 use asperity::{
     mixture::{Field, Place, places},
     model::ModelGrid,
     reflection,
-    spectrum::{ArmaModel, ErrorBand},
+    spectrum::ArmaModel,
 };
 use asperity_kernels::design::Design;
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
 
-/// Frequencies at which spectra are compared: four hertz apart.
-const POINTS: usize = 111;
-/// Quieter than the loudest vertex by this, a place or a block is silent: 40 dB.
+/// A place or a block counts as silent below this fraction of the loudest one: −40 dB.
 const SILENT: f64 = 0.01;
-/// A block of the moving comparison, s: what the hand does not resolve in time.
+/// Length of a block in the moving comparison, s. The hand does not resolve shorter times.
 const BLOCK_S: f64 = 0.05;
-/// Pairs of vertices that a material is made to alternate between.
+/// How many pairs of vertices are drawn for the alternations of a material.
 const PAIRS: usize = 8;
 /// Samples of an alternation.
 const ALTERNATIONS: usize = 1000;
 
-/// Errors of one design on one material; lists have one entry a place, a block or a pair.
-/// Infinity stands for what is not finite.
+/// Errors of one design on one material.
+///
+/// Lists have one entry for each place, block or pair. Values that are not finite are stored as
+/// infinity.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Errors {
     /// RMS log-spectral distortion at rest, level included, dB.
     pub distortion_db: Vec<f64>,
-    /// Level at rest over 10–450 Hz, signed, dB.
+    /// Error of the level at rest over 10–450 Hz, signed, dB.
     pub level_db: Vec<f64>,
-    /// Level of a block while the hand moves, absolute, dB.
+    /// Absolute error of a block's level while the hand moves, dB.
     pub moving_level_db: Vec<f64>,
     /// RMS of the difference of the samples, relative to the oracle's RMS, dB.
     pub moving_error_db: f64,
-    /// RMS while every sample is at one of two vertices at random, above the louder of the
-    /// two at rest, dB.
+    /// RMS while every sample is queried at one of two vertices at random, relative to the
+    /// louder of the two at rest, dB.
     pub alternation_db: Vec<f64>,
-    /// Places with a filter that is not stable, or with none.
+    /// Number of places whose filter is unstable or missing.
     pub unstable: usize,
-    /// Places in all, silent ones included.
+    /// Number of places, silent ones included.
     pub places: usize,
 }
 
-/// Log spectra at fixed frequencies.
-pub struct Band(ErrorBand);
-
-impl Band {
-    /// The band of all spectral errors at a sample rate.
-    #[must_use]
-    pub fn new(sample_rate_hz: f64) -> Self {
-        Self(ErrorBand::new(sample_rate_hz, POINTS))
-    }
-
-    /// Powers of a model, (m/s²)².
-    #[must_use]
-    pub fn powers(&self, model: &ArmaModel) -> Vec<f64> {
-        let square = model.level_m_s2 * model.level_m_s2;
-        let angles = self.0.angles();
-        angles
-            .squared_magnitudes(&model.b)
-            .into_iter()
-            .zip(angles.squared_magnitudes(&model.a))
-            .map(|(b, a)| square * b / a)
-            .collect()
-    }
-}
-
-/// How two power spectra differ.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Difference {
-    /// RMS of the difference of their logarithms, dB.
-    pub distortion_db: f64,
-    /// The same without its mean: shape alone, dB.
-    pub shape_db: f64,
-    /// Power of the second over the first, dB.
-    pub level_db: f64,
-}
-
-impl Difference {
-    /// Of two lists of powers at the same frequencies.
-    #[must_use]
-    pub fn of(truth: &[f64], found: &[f64]) -> Self {
-        let count = truth.len() as f64;
-        let (mut sum, mut squares) = (0.0, 0.0);
-        for (truth, found) in truth.iter().zip(found) {
-            let db = 10.0 * libm::log10(found / truth);
-            sum += db;
-            squares += db * db;
-        }
-        let mean = sum / count;
-        let total = |powers: &[f64]| powers.iter().sum::<f64>();
-        Self {
-            distortion_db: (squares / count).sqrt(),
-            shape_db: (squares / count - mean * mean).max(0.0).sqrt(),
-            level_db: 10.0 * libm::log10(total(found) / total(truth)),
-        }
-    }
-}
-
-/// A material, and what the oracle makes of it.
+/// A material, and what the oracle renders of it.
 pub struct Truth {
     band: Band,
     still: Vec<Still>,
@@ -117,21 +63,21 @@ pub struct Truth {
 
 struct Still {
     place: Place,
-    /// None where it is silent.
+    /// `None` where the place is silent.
     powers: Option<Vec<f64>>,
 }
 
 struct Pair {
-    /// Drawn at random, so that no update interval meets one of them only.
+    /// One of the two vertices for each sample, drawn at random so that no update interval
+    /// samples only one of them.
     places: Vec<Place>,
     louder_rms: f64,
 }
 
 impl Truth {
-    /// Prepares a grid: `seconds` of motion, everything random from `seed`.
+    /// Prepares a grid with `seconds` of motion. Everything random follows from `seed`.
     ///
-    /// `None` for a grid that has no oracle: one without area or with models that are not
-    /// stable.
+    /// `None` for a grid that has no oracle because it has no area or an unstable model.
     #[must_use]
     pub fn new(grid: &ModelGrid, seconds: f64, seed: u64) -> Option<Self> {
         let field = Field::new(grid);
@@ -240,7 +186,7 @@ impl Truth {
     }
 }
 
-/// At a vertex.
+/// The query at a vertex.
 fn at(vertex: usize) -> Place {
     Place {
         vertices: [vertex; 3],
@@ -248,8 +194,8 @@ fn at(vertex: usize) -> Place {
     }
 }
 
-/// Strokes of 1.5 Hz up to nine tenths of the grid while the hand presses and eases at
-/// 0.7 Hz: as fast as people scrub.
+/// Scrubbing as fast as people do: strokes at 1.5 Hz, up to nine tenths of the grid's speed,
+/// while the force varies at 0.7 Hz.
 fn motion(
     grid: &ModelGrid,
     field: &Field<'_>,
@@ -268,7 +214,7 @@ fn motion(
         .collect()
 }
 
-/// Pairs of sounding vertices with different models.
+/// Random pairs of vertices that vibrate and whose models differ.
 fn pairs(grid: &ModelGrid, loudest: f64, random: &mut Xoshiro256PlusPlus) -> Vec<Pair> {
     let sounding: Vec<usize> = (0..grid.vertices.len())
         .filter(|&v| grid.vertices[v].gain * grid.vertices[v].sigma_m_s2 > SILENT * loudest)
@@ -276,7 +222,7 @@ fn pairs(grid: &ModelGrid, loudest: f64, random: &mut Xoshiro256PlusPlus) -> Vec
     if sounding.is_empty() {
         return Vec::new();
     }
-    let rms = |v: usize| statistics::rms(&ArmaModel::at_vertex(grid, &grid.vertices[v]));
+    let level = |v: usize| model_rms(&ArmaModel::at_vertex(grid, &grid.vertices[v]));
     let mut pairs = Vec::new();
     for _ in 0..PAIRS {
         let mut draw = || sounding[(random.next_u64() % sounding.len() as u64) as usize];
@@ -286,19 +232,14 @@ fn pairs(grid: &ModelGrid, loudest: f64, random: &mut Xoshiro256PlusPlus) -> Vec
                 places: (0..ALTERNATIONS)
                     .map(|_| at(if uniform(random) < 0.5 { a } else { b }))
                     .collect(),
-                louder_rms: rms(a).max(rms(b)),
+                louder_rms: level(a).max(level(b)),
             });
         }
     }
     pairs
 }
 
-fn rms(signal: &[f64]) -> f64 {
-    let squares: f64 = signal.iter().map(|x| x * x).sum();
-    (squares / signal.len().max(1) as f64).sqrt()
-}
-
-/// Of an amplitude; infinite for what is not finite.
+/// Decibels of a ratio of amplitudes; infinite for a ratio that is not finite.
 fn decibels(ratio: f64) -> f64 {
     if ratio.is_finite() {
         20.0 * libm::log10(ratio)
@@ -310,11 +251,12 @@ fn decibels(ratio: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::labs::statistics::Spread;
     use asperity::builtin;
     use asperity_kernels::design::Shape;
 
-    fn spread(values: &[f64]) -> statistics::Spread {
-        statistics::Spread::of(values).expect("not empty")
+    fn spread(values: &[f64]) -> Spread {
+        Spread::of(values).expect("not empty")
     }
 
     #[test]
@@ -350,7 +292,7 @@ mod tests {
 
     #[test]
     fn an_unstable_mixture_is_counted_and_a_divergence_is_seen() {
-        // Coefficients of two resonances far apart, mixed, leave the unit circle.
+        // Mixing the coefficients of two distant resonances moves poles out of the unit circle.
         let mut grid = builtin::texture().grid;
         let sharp = |centre: f64| {
             (0..grid.order)
@@ -368,7 +310,7 @@ mod tests {
         };
         let errors = truth.errors(&mixed, &grid);
         assert!(errors.unstable > 0 && errors.unstable < errors.places);
-        // What alternates between such resonances grows; between ordinary ones it does not.
+        // Alternating between such resonances grows; between ordinary models it does not.
         let sharp = spread(&truth.errors(&Design::DEFAULT, &grid).alternation_db).max;
         assert!(sharp > 100.0, "{sharp} dB");
         let ordinary = builtin::texture().grid;

@@ -1,8 +1,9 @@
 //! What a design costs: executed instructions of mixing, conversion and synthesis, bytes of
-//! an asset, and time beside the default.
+//! an asset, and time relative to the default.
 //!
-//! Instructions are callgrind's, of this very program running one kernel for n and for 2n
-//! ticks of a [`Workload`]: the difference over n is one tick, without start-up.
+//! Callgrind counts the instructions. It runs this program with one kernel for n and for 2n
+//! ticks of a [`Workload`]; the difference divided by n is the cost of one tick, without
+//! start-up.
 
 use asperity::{
     lower,
@@ -24,7 +25,7 @@ use thiserror::Error;
 
 /// Name of the hidden command that runs one kernel.
 pub const COMMAND: &str = "pareto-kernel";
-/// Ticks of a timed run, and how many of them.
+/// Ticks of a timed run, and the number of runs.
 const TIMED: (usize, usize) = (20_000, 7);
 
 /// The orders of a grid.
@@ -41,7 +42,7 @@ pub fn orders(grid: &ModelGrid) -> Orders {
     }
 }
 
-/// As arguments of the hidden command.
+/// The orders as arguments of the hidden command.
 fn arguments(orders: Orders) -> [String; 3] {
     [
         orders.poles.to_string(),
@@ -53,26 +54,27 @@ fn arguments(orders: Orders) -> [String; 3] {
 /// Why instructions could not be counted.
 #[derive(Debug, Error)]
 pub enum CountError {
-    /// There is no valgrind.
+    /// Valgrind is not installed or does not start.
     #[error("valgrind cannot be started ({0})")]
     Missing(std::io::Error),
-    /// It printed no count.
+    /// Valgrind printed no count.
     #[error("valgrind counted nothing: {0}")]
     Nothing(String),
 }
 
-/// Counts instructions, every kind of kernel once.
+/// Counts instructions, once for each kind of kernel.
 #[derive(Default)]
 pub struct Counter {
     known: Mutex<HashMap<(usize, Orders), f64>>,
 }
 
 impl Counter {
-    /// Instructions a tick of a design on a texture of some orders, in a process of their
-    /// own: the running program must know [`COMMAND`].
+    /// Instructions a tick of a design on a texture of given orders.
+    ///
+    /// The kernel runs in a process of its own, so the running program must know [`COMMAND`].
     ///
     /// # Errors
-    /// [`CountError`].
+    /// [`CountError`] if valgrind does not start or prints no count.
     pub fn instructions(&self, design: &Design, orders: Orders) -> Result<Option<f64>, CountError> {
         let Some(index) = variants().iter().position(|v| v.design == *design) else {
             return Ok(None);
@@ -115,9 +117,10 @@ fn counted(variant: usize, orders: Orders, ticks: usize) -> Result<u64, CountErr
         })
 }
 
-/// The hidden command: variant, poles, zeros, whether 1 + z⁻¹, ticks.
+/// The hidden command. Its arguments are variant, poles, zeros, whether the numerator is
+/// 1 + z⁻¹, and ticks.
 ///
-/// Gives the last sample, or `None` for arguments that name no kernel.
+/// Returns the last sample, or `None` for arguments that name no kernel.
 #[must_use]
 pub fn run(arguments: &[usize]) -> Option<f64> {
     let &[variant, poles, zeros, nyquist, ticks] = arguments else {
@@ -132,8 +135,10 @@ pub fn run(arguments: &[usize]) -> Option<f64> {
     Some(Workload::default().run(kernel.as_mut(), ticks))
 }
 
-/// Time of a design over that of the default, on this machine, in one run: the best of
-/// several, in turn. Informative: it depends on the machine and on its other users.
+/// Time of a design divided by that of the default on this machine.
+///
+/// Both run several times in turn, and the shortest times count. The ratio is informative only:
+/// it depends on the machine and on its load.
 #[must_use]
 pub fn time_ratio(design: &Design, orders: Orders) -> Option<f64> {
     let workload = Workload::default();
@@ -152,9 +157,10 @@ pub fn time_ratio(design: &Design, orders: Orders) -> Option<f64> {
     Some(best.as_secs_f64() / best_default.as_secs_f64())
 }
 
-/// Bytes that a runtime needs of a texture with this grid, its LSFs at `lsf_bits`; `None`
-/// where the format does not hold it. At 16 bits they are counted, else the difference is
-/// calculated.
+/// Bytes that a runtime needs of a texture with this grid and LSFs of `lsf_bits` bits.
+///
+/// The bytes of an asset with 16 bits are counted; for fewer bits the difference is calculated.
+/// `None` where the format cannot hold the texture.
 #[must_use]
 pub fn bytes(texture: &TextureModel, grid: &ModelGrid, lsf_bits: u32) -> Option<usize> {
     let texture = TextureModel {

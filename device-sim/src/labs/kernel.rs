@@ -1,4 +1,4 @@
-//! The kernels on the compiler's models.
+//! Kernels for the compiler's models.
 
 use asperity::{
     mixture::Place,
@@ -18,9 +18,9 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// `None` where the design has no filter for the grid.
+    /// The kernel; `None` where the design has no filter for the grid.
     ///
-    /// The order is the grid's: [`Design::order`] is applied before.
+    /// The order is the grid's: the caller has applied [`Design::order`] already.
     #[must_use]
     pub fn new(design: &Design, grid: &ModelGrid) -> Option<Self> {
         let vertices: Vec<Vertex<'_>> = grid
@@ -47,7 +47,7 @@ impl Kernel {
         })
     }
 
-    /// Starts at a place: its model, at once, from silence.
+    /// Starts from silence with the model at a place.
     pub fn settle(&mut self, place: &Place) {
         self.rendering.settle(&of(place));
     }
@@ -64,7 +64,7 @@ impl Kernel {
         }
     }
 
-    /// Samples, m/s², one a place and an excitation.
+    /// Renders one sample, m/s², for each place and excitation.
     pub fn render(&mut self, places: &[Place], epsilon: &[f64]) -> Vec<f64> {
         let places: Vec<texture::Place> = places.iter().map(of).collect();
         self.rendering.render(&places, epsilon)

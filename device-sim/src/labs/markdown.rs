@@ -1,16 +1,18 @@
-//! The comparison as the documentation prints it.
+//! The comparison as tables of the documentation.
 
-use super::held_out::Region;
-use super::pareto::{Results, Summary};
+use super::cortex_m::CortexM;
+use super::held_out::{MethodSummary, Region};
+use super::kept::Kept;
+use super::pareto::Results;
 use super::statistics::{Spread, percentile};
-use super::table::{CortexM, HeldOut};
+use super::summary::VariantSummary;
 use asperity::reduce::Change;
 use asperity_kernels::design::Factor;
 use std::fmt::Write as _;
 
 /// Markdown of every table: designs by factor, predictions by region, what `auto` keeps.
 #[must_use]
-pub fn tables(results: &Results, held_out: &[HeldOut], cortex_m: &CortexM) -> String {
+pub fn tables(results: &Results, held_out: &[MethodSummary], cortex_m: &CortexM) -> String {
     let mut text = String::new();
     for group in results
         .summaries
@@ -37,7 +39,7 @@ pub fn tables(results: &Results, held_out: &[HeldOut], cortex_m: &CortexM) -> St
     text
 }
 
-/// A number with so many decimals, or a dash.
+/// A number with `decimals` decimals, or a dash.
 fn number(value: Option<f64>, decimals: usize) -> String {
     match value {
         None => "–".into(),
@@ -49,7 +51,7 @@ fn number(value: Option<f64>, decimals: usize) -> String {
 fn designs<'a>(
     text: &mut String,
     factor: Factor,
-    rows: impl Iterator<Item = &'a Summary>,
+    rows: impl Iterator<Item = &'a VariantSummary>,
     cortex_m: &CortexM,
 ) {
     // Writing to a string cannot fail.
@@ -94,8 +96,8 @@ fn designs<'a>(
     text.push('\n');
 }
 
-fn predictions(text: &mut String, region: Region, held_out: &[HeldOut]) {
-    let rows: Vec<&HeldOut> = held_out.iter().filter(|row| row.region == region).collect();
+fn predictions(text: &mut String, region: Region, held_out: &[MethodSummary]) {
+    let rows: Vec<&MethodSummary> = held_out.iter().filter(|row| row.region == region).collect();
     let models = rows.iter().map(|row| row.models).max().unwrap_or(0);
     let _ = write!(
         text,
@@ -114,7 +116,7 @@ fn predictions(text: &mut String, region: Region, held_out: &[HeldOut]) {
             pair(row.shape_db),
             pair(row.level_db),
             number(row.bias_db, 2),
-            number(row.nearer.map(|share| 100.0 * share), 0)
+            number(row.nearer.map(|fraction| 100.0 * fraction), 0)
         );
     }
     text.push('\n');
@@ -123,8 +125,8 @@ fn predictions(text: &mut String, region: Region, held_out: &[HeldOut]) {
 fn kept(text: &mut String, results: &Results) {
     let kept = &results.kept;
     let median = |values: Vec<f64>| number(percentile(&values, 0.5).map(|x| 100.0 * x), 0);
-    let share = |change: fn(&asperity::reduce::Report) -> Change| {
-        let of = |kept: &super::pareto::Kept| {
+    let percent_kept = |change: fn(&asperity::reduce::Report) -> Change| {
+        let of = |kept: &Kept| {
             let Change { full, kept } = change(&kept.report);
             (full > 0).then(|| kept as f64 / full as f64)
         };
@@ -145,13 +147,13 @@ fn kept(text: &mut String, results: &Results) {
         kept.iter().filter(|k| k.is_within_budget()).count(),
         ratios.iter().filter(|ratio| **ratio <= 0.5).count(),
         median(ratios.clone()),
-        share(|r| r.vertices),
-        share(|r| r.tap_samples),
+        percent_kept(|r| r.vertices),
+        percent_kept(|r| r.tap_samples),
         median(bytes.collect()),
         largest(|r| r.p95_db),
         largest(|r| r.worst_db),
     );
-    let names = |wanted: &dyn Fn(&super::pareto::Kept) -> bool| -> String {
+    let names = |wanted: &dyn Fn(&Kept) -> bool| -> String {
         let some = results
             .materials
             .iter()
@@ -171,7 +173,7 @@ fn kept(text: &mut String, results: &Results) {
     let quartiles = |of: fn(&(f64, f64)) -> f64| -> String {
         let values: Vec<f64> = results.exponents.iter().map(of).collect();
         [0.25, 0.5, 0.75]
-            .map(|share| number(percentile(&values, share), 2))
+            .map(|fraction| number(percentile(&values, fraction), 2))
             .join(", ")
     };
     let _ = write!(

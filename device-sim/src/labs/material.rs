@@ -35,7 +35,7 @@ pub fn hatt(folder: &Path) -> Result<Vec<TextureModel>, HattError> {
         .collect()
 }
 
-/// The prototypes of the reference corpus, each with its edge models. Synthetic.
+/// The prototypes of the reference corpus, each with its edge models. They are synthetic.
 ///
 /// # Errors
 /// [`CorpusError`] if the committed corpus is at fault.

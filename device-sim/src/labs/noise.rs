@@ -29,7 +29,7 @@ mod tests {
         let samples = gaussian(&mut Xoshiro256PlusPlus::seed_from_u64(1), 1_000_000);
         let moment =
             |power: i32| samples.iter().map(|x| x.powi(power)).sum::<f64>() / samples.len() as f64;
-        // Five standard errors each.
+        // Each bound is five standard errors.
         assert!(moment(1).abs() < 5e-3);
         assert!((moment(2) - 1.0).abs() < 7e-3);
         assert!((moment(4) - 3.0).abs() < 5e-2);

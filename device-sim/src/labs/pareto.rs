@@ -1,12 +1,14 @@
-//! Every variant on every material, in parallel, and what that amounts to.
+//! Every variant on every material, measured in parallel, and the summaries.
 
 use super::accuracy::{Errors, Truth};
 use super::cost::{self, CountError, Counter};
+use super::grids::Grids;
 use super::held_out::{self, Prediction};
-use super::statistics::{Spread, percentile};
+use super::kept::Kept;
+use super::summary::{Measurement, VariantSummary, summarised};
 use asperity::{
-    model::{ModelGrid, Numerator, TextureModel},
-    reduce::{self, BUDGET_DB, Fidelity, Reference, order::Fits},
+    model::TextureModel,
+    reduce::{self, Fidelity},
 };
 use asperity_kernels::{
     design::{Design, Order, Variant, variants},
@@ -20,121 +22,43 @@ use std::collections::HashMap;
 pub struct Options {
     /// Seed of motions, excitations and pairs.
     pub seed: u64,
-    /// Motion a material and design, s.
+    /// Length of the motion that each design renders on each material, s.
     pub seconds: f64,
     /// Whether instructions are counted.
     pub instructions: bool,
-    /// Whether kernels are timed beside the default.
+    /// Whether kernels are timed against the default.
     pub time: bool,
 }
 
-/// One variant on one material.
-#[derive(Debug, Clone)]
-pub struct Row {
-    /// Index of the material.
-    pub material: usize,
-    /// Index of the variant.
-    pub variant: usize,
-    /// Orders of its filter.
-    pub orders: Orders,
-    /// Bytes of the asset.
-    pub bytes: Option<usize>,
-    /// Its errors.
-    pub errors: Errors,
-}
-
-/// One variant over all materials.
-#[derive(Debug, Clone)]
-pub struct Summary {
-    /// The variant.
-    pub variant: Variant,
-    /// Executed instructions a tick of mixing, conversion and synthesis: at the commonest
-    /// orders, of `auto` the mean over the materials.
-    pub instructions: Option<f64>,
-    /// Time over that of the default.
-    pub time_ratio: Option<f64>,
-    /// Bytes of an asset, the median.
-    pub bytes: Option<usize>,
-    /// RMS log-spectral distortion at rest, dB.
-    pub distortion_db: Option<Spread>,
-    /// Absolute level error at rest, dB.
-    pub level_db: Option<Spread>,
-    /// Absolute level error of blocks while moving, dB.
-    pub moving_level_db: Option<Spread>,
-    /// Difference of samples while moving, relative, dB; over the materials.
-    pub moving_error_db: Option<Spread>,
-    /// RMS under alternation above the louder model, dB.
-    pub alternation_db: Option<Spread>,
-    /// Share of places whose filter is not stable.
-    pub unstable: f64,
-    /// Materials with such a place.
-    pub unstable_materials: usize,
-}
-
-impl Summary {
-    /// Whether it stays within the budget at rest: stable everywhere, and 95 % of all
-    /// places within 0.5 dB.
-    #[must_use]
-    pub fn is_within_budget(&self) -> bool {
-        self.unstable == 0.0 && self.distortion_db.is_some_and(|d| d.p95 <= BUDGET_DB.0)
-    }
-}
-
-/// What `--fidelity auto` makes of one material.
-#[derive(Debug, Clone)]
-pub struct Kept {
-    /// What was dropped, and what that costs.
-    pub report: reduce::Report,
-    /// Orders of the whole texture and of what is kept.
-    pub orders: (Orders, Orders),
-    /// Instructions of the default kernel on both.
-    pub instructions: Option<(f64, f64)>,
-    /// Bytes of both.
-    pub bytes: Option<(usize, usize)>,
-}
-
-impl Kept {
-    /// Instructions of what is kept over those of the whole texture.
-    #[must_use]
-    pub fn ratio(&self) -> Option<f64> {
-        self.instructions.map(|(full, kept)| kept / full)
-    }
-
-    /// Whether it is within the budget.
-    #[must_use]
-    pub fn is_within_budget(&self) -> bool {
-        self.report.p95_db <= BUDGET_DB.0 && self.report.worst_db <= BUDGET_DB.1
-    }
-}
-
-/// All of it.
+/// Everything that was measured.
 pub struct Results {
     /// Names of the materials.
     pub materials: Vec<String>,
     /// Every variant on every material.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Measurement>,
     /// Every variant over all materials, in the order of [`variants`].
-    pub summaries: Vec<Summary>,
-    /// Predictions of held-out models, a list a material.
+    pub summaries: Vec<VariantSummary>,
+    /// Predictions of held-out models, one list for each material.
     pub held_out: Vec<Vec<Prediction>>,
-    /// Exponents of speed and force, one pair a material.
+    /// Exponents of speed and force, one pair for each material.
     pub exponents: Vec<(f64, f64)>,
-    /// What `auto` keeps, one a material.
+    /// What `auto` keeps of each material.
     pub kept: Vec<Kept>,
     /// The orders that instructions were counted at.
     pub common: Orders,
-    /// Why no instructions were counted, where they were wanted.
+    /// Why instructions were not counted although they were wanted.
     pub not_counted: Option<String>,
 }
 
-/// How many times `done` is called by [`measure`].
+/// How many times [`measure`] calls `done`.
 #[must_use]
 pub fn steps(materials: usize) -> usize {
     materials + variants().len()
 }
 
-/// Measures every variant on every texture; `done` is called once a material and once a
-/// variant, from any thread.
+/// Measures every variant on every texture.
+///
+/// `done` is called once for each material and once for each variant, from any thread.
 #[must_use]
 pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + Sync) -> Results {
     let variants = variants();
@@ -150,7 +74,7 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
     let common = commonest(textures);
     let counter = Counter::default();
     let wanted = options.instructions.then_some(&counter);
-    let rows: Vec<Row> = measured.iter().flat_map(|m| m.rows.clone()).collect();
+    let rows: Vec<Measurement> = measured.iter().flat_map(|m| m.rows.clone()).collect();
     let mut failed = None;
     let mut count = |design: &Design, orders: Orders| {
         let counted = wanted?.instructions(design, orders);
@@ -163,7 +87,7 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
         .iter()
         .enumerate()
         .map(|(index, variant)| {
-            let mine: Vec<&Row> = rows.iter().filter(|row| row.variant == index).collect();
+            let mine: Vec<&Measurement> = rows.iter().filter(|row| row.variant == index).collect();
             let instructions = instructions(variant, &mine, common, &mut count);
             let mut summary = summarised(variant.clone(), &mine);
             summary.instructions = instructions;
@@ -198,9 +122,9 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
     }
 }
 
-/// Of one material.
+/// What was measured on one material.
 struct Measured {
-    rows: Vec<Row>,
+    rows: Vec<Measurement>,
     held_out: Vec<Prediction>,
     exponents: (f64, f64),
     kept: Kept,
@@ -221,7 +145,7 @@ impl Measured {
                     _ => Errors::default(),
                 };
                 let grid = grid.unwrap_or_else(|| texture.grid.clone());
-                Row {
+                Measurement {
                     material: index,
                     variant,
                     orders: cost::orders(&grid),
@@ -249,39 +173,7 @@ impl Measured {
     }
 }
 
-/// A grid at every order that is compared.
-struct Grids<'a> {
-    full: &'a ModelGrid,
-    with_zero: Option<Fits<'a>>,
-    all_pole: Option<Fits<'a>>,
-    auto: ModelGrid,
-}
-
-impl<'a> Grids<'a> {
-    fn of(full: &'a ModelGrid) -> Self {
-        Self {
-            full,
-            with_zero: Fits::new(full, Numerator::Nyquist),
-            all_pole: Fits::new(full, Numerator::None),
-            auto: Reference::new(full).map_or_else(
-                || full.clone(),
-                |reference| reduce::least_order(full, &reference),
-            ),
-        }
-    }
-
-    /// `None` where the grid has no such form; an order above its own is its own.
-    fn at(&self, order: Order) -> Option<ModelGrid> {
-        match order {
-            Order::Full => Some(self.full.clone()),
-            Order::Auto => Some(self.auto.clone()),
-            Order::WithZero(order) => self.with_zero.as_ref()?.at(order),
-            Order::AllPole(order) => self.all_pole.as_ref()?.at(order),
-        }
-    }
-}
-
-/// Orders that most materials have; of several such, the largest.
+/// The orders that most materials have; where several are equally common, the largest.
 fn commonest(textures: &[TextureModel]) -> Orders {
     let mut counts: HashMap<Orders, usize> = HashMap::new();
     for texture in textures {
@@ -301,7 +193,7 @@ fn commonest(textures: &[TextureModel]) -> Orders {
 }
 
 /// Orders at which a variant's cost is counted.
-fn costed(variant: &Variant, row: &Row, common: Orders) -> Orders {
+fn costed(variant: &Variant, row: &Measurement, common: Orders) -> Orders {
     match variant.design.order {
         Order::Full => common,
         Order::WithZero(_) | Order::AllPole(_) | Order::Auto => row.orders,
@@ -310,7 +202,7 @@ fn costed(variant: &Variant, row: &Row, common: Orders) -> Orders {
 
 fn instructions(
     variant: &Variant,
-    rows: &[&Row],
+    rows: &[&Measurement],
     common: Orders,
     count: &mut impl FnMut(&Design, Orders) -> Option<f64>,
 ) -> Option<f64> {
@@ -322,56 +214,6 @@ fn instructions(
         .map(|row| count(&variant.design, row.orders))
         .collect::<Option<_>>()?;
     Some(counts.iter().sum::<f64>() / counts.len() as f64)
-}
-
-fn summarised(variant: Variant, rows: &[&Row]) -> Summary {
-    let all = |list: fn(&Errors) -> &Vec<f64>| -> Option<Spread> {
-        let values: Vec<f64> = rows
-            .iter()
-            .flat_map(|row| list(&row.errors).iter().map(|v| v.abs()))
-            .collect();
-        Spread::of(&values)
-    };
-    let signed = |list: fn(&Errors) -> &Vec<f64>| -> Option<Spread> {
-        let values: Vec<f64> = rows
-            .iter()
-            .flat_map(|row| list(&row.errors).iter().copied())
-            .collect();
-        Spread::of(&values)
-    };
-    let moving: Vec<f64> = rows.iter().map(|row| row.errors.moving_error_db).collect();
-    let places: usize = rows.iter().map(|row| row.errors.places).sum();
-    let unstable: usize = rows.iter().map(|row| row.errors.unstable).sum();
-    let bytes: Vec<f64> = rows
-        .iter()
-        .filter_map(|row| row.bytes.map(|b| b as f64))
-        .collect();
-    Summary {
-        variant,
-        instructions: None,
-        time_ratio: None,
-        bytes: percentile(&bytes, 0.5).map(|b| b as usize),
-        distortion_db: all(|e| &e.distortion_db),
-        level_db: all(|e| &e.level_db),
-        moving_level_db: all(|e| &e.moving_level_db),
-        moving_error_db: Spread::of(&moving),
-        alternation_db: signed(|e| &e.alternation_db),
-        unstable: unstable as f64 / places.max(1) as f64,
-        unstable_materials: rows.iter().filter(|row| row.errors.unstable > 0).count(),
-    }
-}
-
-/// Smaller differences are none: 2 %.
-const TIE: f64 = 1.02;
-
-/// Whether no other point is as small in both coordinates and smaller in one, ties within
-/// 2 % apart.
-#[must_use]
-pub fn on_front(points: &[(f64, f64)], index: usize) -> bool {
-    let (x, y) = points[index];
-    !points
-        .iter()
-        .any(|&(a, b)| a <= x * TIE && b <= y * TIE && (a * TIE < x || b * TIE < y))
 }
 
 #[cfg(test)]
@@ -398,18 +240,5 @@ mod tests {
             assert_eq!(x.errors, y.errors);
         }
         assert_eq!(one.rows.len(), 2 * variants().len());
-    }
-
-    #[test]
-    fn the_front_is_what_nothing_beats() {
-        let points = [
-            (1.0, 5.0),
-            (2.0, 2.0),
-            (3.0, 1.99),
-            (4.0, 1.0),
-            (4.01, 1.01),
-        ];
-        let found: Vec<bool> = (0..5).map(|i| on_front(&points, i)).collect();
-        assert_eq!(found, [true, true, false, true, true]);
     }
 }

@@ -7,7 +7,7 @@ const POINTS: u32 = 1024;
 
 /// RMS of a model's vibration over all frequencies, m/s².
 #[must_use]
-pub fn rms(model: &ArmaModel) -> f64 {
+pub fn model_rms(model: &ArmaModel) -> f64 {
     let step = 0.5 * model.sample_rate_hz / f64::from(POINTS);
     let sum: f64 = (0..POINTS)
         .map(|n| model.power((f64::from(n) + 0.5) * step))
@@ -15,32 +15,33 @@ pub fn rms(model: &ArmaModel) -> f64 {
     (sum / f64::from(POINTS)).sqrt()
 }
 
-/// The value that a share of a list does not exceed: the nearest rank. NaN counts as the
-/// largest; `None` of an empty list.
+/// The value that a fraction of a list does not exceed, by nearest rank.
+///
+/// NaN counts as the largest value. `None` for an empty list.
 #[must_use]
-pub fn percentile(values: &[f64], share: f64) -> Option<f64> {
+pub fn percentile(values: &[f64], fraction: f64) -> Option<f64> {
     let mut sorted: Vec<f64> = values
         .iter()
         .map(|v| if v.is_nan() { f64::INFINITY } else { *v })
         .collect();
     sorted.sort_by(f64::total_cmp);
-    let rank = (share * sorted.len() as f64).ceil() as usize;
+    let rank = (fraction * sorted.len() as f64).ceil() as usize;
     sorted.get(rank.max(1) - 1).copied()
 }
 
 /// Median, 95th percentile and largest of some errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spread {
-    /// Half of them are no larger.
+    /// Half of the errors are no larger.
     pub median: f64,
-    /// 95 % of them are no larger.
+    /// 95 % of the errors are no larger.
     pub p95: f64,
-    /// None is larger.
+    /// The largest error.
     pub max: f64,
 }
 
 impl Spread {
-    /// Of a list; `None` of an empty one.
+    /// The spread of a list; `None` for an empty one.
     #[must_use]
     pub fn of(values: &[f64]) -> Option<Self> {
         Some(Self {
@@ -72,6 +73,6 @@ mod tests {
             b: vec![1.0, 1.0],
             level_m_s2: 3.0,
         };
-        assert!((rms(&model) - 3.0 * 2.0_f64.sqrt()).abs() < 1e-9);
+        assert!((model_rms(&model) - 3.0 * 2.0_f64.sqrt()).abs() < 1e-9);
     }
 }

@@ -1,34 +1,19 @@
-//! The CSV files of a comparison: one fact a cell, a header, empty where nothing is known.
+//! The CSV files of a comparison. A cell is empty where its value is not known.
 //!
-//! | file | a row is | columns |
+//! | file | each row | columns |
 //! |---|---|---|
-//! | `summary.csv` | a design over all materials | factor, name, the eight settings; instructions a tick, Cortex-M4F instructions where given, time ratio, bytes; median, p95 and max (dB) of distortion, level, moving level, moving error and alternation; unstable share, materials with an unstable place |
-//! | `designs.csv` | a design on a material | factor, name, material, poles, zeros, bytes; the same errors; unstable places of how many |
-//! | `held-out.csv` | a method in a region over all materials | what is varied, method, region, models, refused; median, p95, max of distortion, of shape alone and of the absolute level error, median of the signed one (dB); share of models to which it is nearer than the product's way |
+//! | `summary.csv` | a design over all materials | factor, name, the eight settings; instructions a tick, Cortex-M4F instructions where given, time ratio, bytes; median, p95 and max (dB) of distortion, level, moving level, moving error and alternation; fraction of unstable places, number of materials with an unstable place |
+//! | `designs.csv` | a design on a material | factor, name, material, poles, zeros, bytes; the same errors; number of unstable places and of all places |
+//! | `held-out.csv` | a method in a region over all materials | what is varied, method, region, models, refused; median, p95, max of distortion, of shape alone and of the absolute level error, median of the signed one (dB); fraction of models to which it is nearer than the product's method |
 //! | `fidelity.csv` | what `auto` keeps of a material | material, poles, zeros, vertices, triangles, tap samples, instructions and bytes, each whole and kept; ratio of instructions; p95 and worst (dB) |
 
 use super::accuracy::Errors;
-use super::held_out::{Exponents, Method, Prediction, Region};
-use super::pareto::{Results, Summary};
-use super::statistics::{Spread, percentile};
+use super::cortex_m::CortexM;
+use super::held_out::MethodSummary;
+use super::pareto::Results;
+use super::statistics::Spread;
 use asperity::reduce::Change;
-use asperity_kernels::design::{Design, Level, Shape, Variant};
-use std::collections::HashMap;
-
-/// Counts of a firmware bench: instructions a tick by factor and name of the design.
-pub type CortexM = HashMap<(String, String), f64>;
-
-/// Reads `factor,name,instructions`.
-///
-/// # Errors
-/// The parser's for a file that is no such table.
-pub fn read_cortex_m(bytes: &[u8]) -> Result<CortexM, csv::Error> {
-    let mut reader = csv::Reader::from_reader(bytes);
-    reader
-        .deserialize::<(String, String, f64)>()
-        .map(|row| row.map(|(factor, name, count)| ((factor, name), count)))
-        .collect()
-}
+use asperity_kernels::design::{Design, Variant};
 
 fn number(value: f64) -> String {
     format!("{value:.4}")
@@ -63,7 +48,7 @@ fn texts<const N: usize>(names: [&str; N]) -> Vec<String> {
 /// `summary.csv`.
 ///
 /// # Errors
-/// None that a buffer in memory has.
+/// The CSV writer's error; none occurs with a buffer in memory.
 pub fn summary(results: &Results, cortex_m: &CortexM) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = texts([
@@ -131,7 +116,7 @@ fn settings(design: &Design) -> [String; 8] {
         design.structure.name().into(),
         design.order.to_string(),
         design.arithmetic.name().into(),
-        design.every.to_string(),
+        design.update_ticks.to_string(),
         design.transition.name().into(),
         design.lsf_bits.to_string(),
     ]
@@ -140,7 +125,7 @@ fn settings(design: &Design) -> [String; 8] {
 /// `designs.csv`.
 ///
 /// # Errors
-/// None that a buffer in memory has.
+/// The CSV writer's error; none occurs with a buffer in memory.
 pub fn designs(results: &Results) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = texts(["factor", "name", "material", "poles", "zeros", "bytes"]);
@@ -182,110 +167,11 @@ pub fn designs(results: &Results) -> Result<Vec<u8>, csv::Error> {
     finished(writer)
 }
 
-/// One method in one region over all materials.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HeldOut {
-    /// By what.
-    pub method: Method,
-    /// Where.
-    pub region: Region,
-    /// Models that were predicted.
-    pub models: usize,
-    /// Of these, predictions that were no stable, sounding filter.
-    pub refused: usize,
-    /// Distortion, level included.
-    pub distortion_db: Option<Spread>,
-    /// Distortion of the shape alone.
-    pub shape_db: Option<Spread>,
-    /// Absolute level error.
-    pub level_db: Option<Spread>,
-    /// Median of the signed level error.
-    pub bias_db: Option<f64>,
-    /// Share of the models to which it comes nearer than the product's way: in shape where
-    /// that is varied, else in level. Ties count half.
-    pub nearer: Option<f64>,
-}
-
-/// Predictions by method and region, in the order in which they first appear.
-#[must_use]
-pub fn held_out_summary(predictions: &[Vec<Prediction>]) -> Vec<HeldOut> {
-    let mut groups: Vec<(Method, Region, Vec<&Prediction>)> = Vec::new();
-    for prediction in predictions.iter().flatten() {
-        let known = groups
-            .iter_mut()
-            .find(|(m, r, _)| (*m, *r) == (prediction.method, prediction.region));
-        match known {
-            Some((_, _, group)) => group.push(prediction),
-            None => groups.push((prediction.method, prediction.region, vec![prediction])),
-        }
-    }
-    groups
-        .into_iter()
-        .map(|(method, region, group)| {
-            let list = |value: fn(&super::accuracy::Difference) -> f64| -> Vec<f64> {
-                let found = group.iter().filter_map(|p| p.difference.as_ref());
-                found.map(value).collect()
-            };
-            let signed = list(|d| d.level_db);
-            HeldOut {
-                method,
-                region,
-                models: group.len(),
-                refused: group.len() - signed.len(),
-                distortion_db: Spread::of(&list(|d| d.distortion_db)),
-                shape_db: Spread::of(&list(|d| d.shape_db)),
-                level_db: Spread::of(&list(|d| d.level_db.abs())),
-                bias_db: percentile(&signed, 0.5),
-                nearer: nearer(predictions, method, region),
-            }
-        })
-        .collect()
-}
-
-/// The product's way where a method is compared.
-fn chosen(method: Method, region: Region) -> Method {
-    match (method, region) {
-        (Method::Powers(_), _) | (_, Region::Beyond) => Method::Powers(Exponents::Fitted),
-        (Method::Shape(_), _) => Method::Shape(Shape::LsfCosine),
-        (Method::Level(_) | Method::Nearest, _) => Method::Level(Level::Rms),
-    }
-}
-
-fn nearer(predictions: &[Vec<Prediction>], method: Method, region: Region) -> Option<f64> {
-    let error = |prediction: &Prediction| {
-        prediction.difference.map(|d| match method {
-            Method::Shape(_) => d.shape_db,
-            _ => d.level_db.abs(),
-        })
-    };
-    let other = chosen(method, region);
-    let (mut won, mut count) = (0.0, 0.0);
-    for material in predictions {
-        let of = |method| {
-            material
-                .iter()
-                .filter(move |p| (p.method, p.region) == (method, region))
-        };
-        for (mine, theirs) in of(method).zip(of(other)) {
-            debug_assert_eq!(mine.model, theirs.model);
-            if let (Some(mine), Some(theirs)) = (error(mine), error(theirs)) {
-                won += match mine.total_cmp(&theirs) {
-                    std::cmp::Ordering::Less => 1.0,
-                    std::cmp::Ordering::Equal => 0.5,
-                    std::cmp::Ordering::Greater => 0.0,
-                };
-                count += 1.0;
-            }
-        }
-    }
-    (count > 0.0).then(|| won / count)
-}
-
 /// `held-out.csv`.
 ///
 /// # Errors
-/// None that a buffer in memory has.
-pub fn held_out(summary: &[HeldOut]) -> Result<Vec<u8>, csv::Error> {
+/// The CSV writer's error; none occurs with a buffer in memory.
+pub fn held_out(summary: &[MethodSummary]) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = texts(["varied", "method", "region", "models", "refused"]);
     for what in ["distortion", "shape", "level"] {
@@ -315,7 +201,7 @@ pub fn held_out(summary: &[HeldOut]) -> Result<Vec<u8>, csv::Error> {
 /// `fidelity.csv`.
 ///
 /// # Errors
-/// None that a buffer in memory has.
+/// The CSV writer's error; none occurs with a buffer in memory.
 pub fn fidelity(results: &Results) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = texts(["material"]);
@@ -356,54 +242,4 @@ pub fn fidelity(results: &Results) -> Result<Vec<u8>, csv::Error> {
         writer.write_record(&row)?;
     }
     finished(writer)
-}
-
-/// The comparison as JSON: what a program wants of `summary.csv` and of what `auto` keeps.
-#[must_use]
-pub fn json(results: &Results) -> serde_json::Value {
-    let spread = |s: Option<Spread>| {
-        s.map(|s| serde_json::json!({"median": s.median, "p95": s.p95, "max": s.max}))
-    };
-    let designs: Vec<_> = results
-        .summaries
-        .iter()
-        .map(|s: &Summary| {
-            serde_json::json!({
-                "factor": s.variant.factor.name(),
-                "name": s.variant.name,
-                "instructions_a_tick": s.instructions,
-                "bytes": s.bytes,
-                "distortion_db": spread(s.distortion_db),
-                "moving_level_db": spread(s.moving_level_db),
-                "unstable_share": s.unstable,
-                "within_budget": s.is_within_budget(),
-            })
-        })
-        .collect();
-    let exponent = |of: fn(&(f64, f64)) -> f64| {
-        let values: Vec<f64> = results.exponents.iter().map(of).collect();
-        [0.25, 0.5, 0.75].map(|share| percentile(&values, share))
-    };
-    let halved = results
-        .kept
-        .iter()
-        .filter(|k| k.ratio().is_some_and(|r| r <= 0.5));
-    serde_json::json!({
-        "materials": results.materials.len(),
-        "counted_at": {
-            "poles": results.common.poles,
-            "zeros": results.common.zeros,
-            "nyquist_zero": results.common.nyquist,
-        },
-        "designs": designs,
-        "level_exponents_quartiles": {
-            "speed": exponent(|e| e.0),
-            "force": exponent(|e| e.1),
-        },
-        "auto": {
-            "halved": halved.count(),
-            "within_budget": results.kept.iter().filter(|k| k.is_within_budget()).count(),
-        },
-        "not_counted": results.not_counted,
-    })
 }

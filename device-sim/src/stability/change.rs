@@ -1,19 +1,22 @@
-//! Another texture in mid-stroke.
+//! A change of the texture in the middle of a stroke.
 
 use asperity::lsf;
 use asperity_runtime::{Config, Renderer, Sample, State, excitation::Excitation};
 
-use super::coefficients::resonant;
+use super::error::StabilityError;
+use super::filters::resonant;
+use super::material::Material;
 use super::methods::AllPole;
-use super::{Material, Row, StabilityError, Words};
+use super::row::{Row, Words};
+use crate::signal::rms;
 
 /// Ticks between changes.
 const PERIOD: usize = 500;
-/// Changes.
+/// How many changes.
 const CHANGES: usize = 40;
 
-/// Two textures of one filter each, poles of radius 0.986 at 60 Hz and at 400 Hz, the second
-/// an eighth as loud.
+/// Two textures of one filter each, with poles of radius 0.986 at 60 Hz and at 400 Hz. The
+/// second is an eighth as loud.
 fn textures() -> Result<[Material; 2], StabilityError> {
     let like = asperity::builtin::texture();
     let texture = |hz: f64, level_m_s2: f64| {
@@ -31,12 +34,8 @@ fn impulse_response(monic: &[f64]) -> impl Iterator<Item = f64> {
     (0..4000).map(move |n| filter.step(monic, if n == 0 { 1.0 } else { 0.0 }))
 }
 
-fn rms(signal: &[f64]) -> f64 {
-    (signal.iter().map(|y| y * y).sum::<f64>() / signal.len() as f64).sqrt()
-}
-
-/// Loudest 20 ms after a change over the loudest 20 ms elsewhere, dB; `signal` changes every
-/// [`PERIOD`] ticks.
+/// Loudest 20 ms after a change relative to the loudest 20 ms elsewhere, dB. The texture of
+/// `signal` changes every [`PERIOD`] ticks.
 fn rise_db(signal: &[f64]) -> f64 {
     let (mut after, mut elsewhere) = (0.0_f64, 0.0_f64);
     for stretch in signal.chunks_exact(PERIOD).skip(1) {
@@ -52,7 +51,7 @@ fn rise_db(signal: &[f64]) -> f64 {
     20.0 * (after / elsewhere).log10()
 }
 
-/// A stroke at 100 mm/s and 1 N over textures that take turns; the vibration, and the largest
+/// The vibration of a stroke at 100 mm/s and 1 N over textures that take turns, and the largest
 /// step of the force, N.
 fn ours(textures: &[Material; 2], seed: u64) -> (Vec<f64>, f64) {
     let renderer = Renderer::new(&Config::default()).expect("the default");
@@ -75,8 +74,8 @@ fn ours(textures: &[Material; 2], seed: u64) -> (Vec<f64>, f64) {
     (vibration, step_n)
 }
 
-/// The same by a transposed direct form (II): its state holds products with coefficients, so
-/// that a change of coefficients finds a state of the old ones. The level enters before it.
+/// The same vibration by a transposed direct form II. Its state holds products with the old
+/// coefficients when they change. The level is applied before the filter.
 fn transposed(textures: &[Material; 2], seed: u64) -> Vec<f64> {
     let mut noise = Excitation::new(seed);
     let models = textures
@@ -95,7 +94,7 @@ fn transposed(textures: &[Material; 2], seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// The same with a_k that cross-fade over 20 ms.
+/// The same vibration with coefficients a_k that crossfade over 20 ms.
 fn faded(textures: &[Material; 2], seed: u64) -> Vec<f64> {
     let mut filter = AllPole::default();
     let mut noise = Excitation::new(seed);
@@ -108,8 +107,8 @@ fn faded(textures: &[Material; 2], seed: u64) -> Vec<f64> {
     (0..PERIOD * CHANGES)
         .map(|n| {
             let (now, before) = (&models[n / PERIOD % 2], &models[(n / PERIOD + 1) % 2]);
-            let share = ((n % PERIOD) as f64 / 20.0).min(1.0);
-            let mix = |a: f64, b: f64| share * a + (1.0 - share) * b;
+            let faded = ((n % PERIOD) as f64 / 20.0).min(1.0);
+            let mix = |a: f64, b: f64| faded * a + (1.0 - faded) * b;
             let monic: Vec<f64> = now
                 .0
                 .iter()

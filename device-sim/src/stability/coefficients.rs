@@ -7,12 +7,13 @@ use asperity::model::{GridVertex, Numerator, VertexKind};
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+use super::filters::{random_lsf, resonant};
+use super::material::Material;
 use super::methods::all_pole::is_stable;
 use super::methods::fixed_point::{block_16, q1_15};
-use super::mixing::random_lsf;
-use super::{Material, Row, Words};
+use super::row::{Row, Words};
 
-/// Random filters tried.
+/// How many random filters are tried.
 const FILTERS: usize = 200;
 
 /// |A(e^{jω})|².
@@ -25,8 +26,8 @@ fn squared(monic: &[f64], omega: f64) -> f64 {
     re * re + im * im
 }
 
-/// Largest difference of two all-pole spectra over 10–490 Hz, dB; infinite if the second is
-/// not stable.
+/// Largest difference of two all-pole spectra over 10–490 Hz, dB; infinite if the second filter
+/// is unstable.
 fn distance_db(exact: &[f64], found: &[f64]) -> f64 {
     if !is_stable(found) {
         return f64::INFINITY;
@@ -57,27 +58,8 @@ fn rendered(lsf_rad: &[f64]) -> Vec<f64> {
         .monic(77.0, 1.3)
 }
 
-/// A filter of order 20 with a pole pair of radius 0.986 at `hz`, its other poles at 0.6.
-pub(super) fn resonant(hz: f64) -> Vec<f64> {
-    let mut monic = vec![1.0];
-    let mut pair = |radius: f64, omega: f64| {
-        let factor = [1.0, -2.0 * radius * omega.cos(), radius * radius];
-        let mut next = vec![0.0; monic.len() + 2];
-        for (i, a) in monic.iter().enumerate() {
-            for (j, f) in factor.iter().enumerate() {
-                next[i + j] += a * f;
-            }
-        }
-        monic = next;
-    };
-    pair(0.986, PI * hz / 500.0);
-    for n in 0..9 {
-        pair(0.6, PI * (f64::from(n) + 0.5) / 9.0);
-    }
-    monic
-}
-
-/// Largest error, dB, of each method over a set of filters: ours, Q1.15, 16 bits in blocks.
+/// Largest error over a set of filters, dB: of ours, of Q1.15, and of 16 bits with a common
+/// exponent.
 fn worst(filters: &[Vec<f64>]) -> [f64; 3] {
     let mut worst = [0.0_f64; 3];
     for lsf_rad in filters {

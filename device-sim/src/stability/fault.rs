@@ -1,11 +1,13 @@
-//! Samples that are not: NaN, and positions that stick.
+//! Bad samples: NaN, infinity, and positions that stick.
 
 use asperity_runtime::{Config, Renderer, Sample, State};
 
+use super::error::StabilityError;
+use super::material::Material;
 use super::methods::Regularised;
-use super::{Material, Row, StabilityError, Words};
+use super::row::{Row, Words};
 
-/// Tick of the fault in a stroke of a second.
+/// The tick at which the fault comes, in a stroke of 1000 ticks.
 const FAULT: usize = 300;
 
 /// A stroke at 120 mm/s and 1 N.
@@ -17,7 +19,7 @@ fn fresh(n: usize) -> Sample {
     Sample::at(stroke(n).map(|x| x as f32))
 }
 
-/// The stroke with a depth of 50 mm for 10 ms.
+/// The stroke with 10 ms at a depth of 50 mm.
 #[must_use]
 pub fn deep(n: usize) -> Sample {
     let mut sample = fresh(n);
@@ -41,7 +43,7 @@ pub fn ours(material: &Material, samples: impl Fn(usize) -> Sample, seed: u64) -
         .collect()
 }
 
-/// Forces of a renderer that believes every sample: a wall, and friction by the velocity, N.
+/// Forces of a renderer that trusts every sample, N: a wall, and friction by velocity.
 pub fn trusting(samples: impl Fn(usize) -> Sample) -> Vec<[f64; 3]> {
     let mut friction = Regularised::new(1000.0);
     (0..1000)

@@ -1,17 +1,14 @@
-//! Queries where grids end: on vertices and edges, on the border and beyond.
+//! Queries on vertices and edges of a grid, on its border and beyond.
 
 use asperity::model::ModelGrid;
-use rand_core::{Rng, SeedableRng};
+use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+use super::material::Material;
 use super::methods::all_pole::{is_stable, mixed, polynomials};
 use super::methods::walk::{Walk, walk};
-use super::{Material, Row, Words};
-
-/// Uniform in 0..1.
-pub(super) fn unit(rng: &mut Xoshiro256PlusPlus) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-}
+use super::row::{Row, Words};
+use crate::random::unit;
 
 /// Every vertex, and five points of every edge.
 fn on_edges(grid: &ModelGrid) -> Vec<(f64, f64)> {
@@ -28,13 +25,14 @@ fn on_edges(grid: &ModelGrid) -> Vec<(f64, f64)> {
     points
 }
 
+/// Highest speed, mm/s, and force, N, of the grid.
 fn borders(grid: &ModelGrid) -> (f64, f64) {
     grid.vertices.iter().fold((0.0, 0.0), |(v, f), vertex| {
         (f64::max(v, vertex.speed_mm_s), f64::max(f, vertex.force_n))
     })
 }
 
-/// On the border and up to three times as far.
+/// Random points on the border and up to three times as far.
 fn beyond(grid: &ModelGrid, seed: u64) -> Vec<(f64, f64)> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let (speed, force) = borders(grid);
@@ -51,8 +49,8 @@ fn beyond(grid: &ModelGrid, seed: u64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Share of queries, %, that ours answers badly: weights that are not convex, a filter that
-/// is not stable, a level that is not finite.
+/// Percentage of queries that the runtime answers badly: the weights are not convex, the filter
+/// is unstable or the level is not finite.
 fn bad_answers(material: &Material, points: &[(f64, f64)]) -> f64 {
     let bad = points
         .iter()
@@ -67,7 +65,7 @@ fn bad_answers(material: &Material, points: &[(f64, f64)]) -> f64 {
     100.0 * bad as f64 / points.len() as f64
 }
 
-/// Share of queries, %, whose walk never ends.
+/// Percentage of queries whose walk never ends.
 fn endless(material: &Material, points: &[(f64, f64)]) -> f64 {
     let grid = &material.model.grid;
     let endless = points
@@ -77,7 +75,7 @@ fn endless(material: &Material, points: &[(f64, f64)]) -> f64 {
     100.0 * endless as f64 / points.len() as f64
 }
 
-/// Share of queries, %, whose extrapolated weights give an unstable filter.
+/// Percentage of queries whose extrapolated weights give an unstable filter.
 fn unstable_beyond(material: &Material, points: &[(f64, f64)]) -> f64 {
     let grid = &material.model.grid;
     let polynomials = polynomials(grid);

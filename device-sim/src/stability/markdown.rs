@@ -1,10 +1,12 @@
-//! The table as the documentation prints it: a table a figure that is measured.
+//! The rows as tables of the documentation, one table for each quantity.
 
 use super::row::{Figure, Row, Verdict};
 use std::fmt::Write as _;
 
-/// Markdown of the rows, in their order: a heading a theme, a table a quantity with a
-/// column for every method that any of its rows tries. Skipped rows say so.
+/// Markdown of the rows, in their order.
+///
+/// Each theme has a heading, each quantity a table with a column for every method that any of
+/// its rows tries. Skipped rows are marked.
 #[must_use]
 pub fn tables(rows: &[Row]) -> String {
     let mut text = String::new();

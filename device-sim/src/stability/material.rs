@@ -1,4 +1,4 @@
-//! The textures that rows run on: the built-in one and, where given, HaTT materials.
+//! The textures that rows run on: the built-in one and, if a folder is given, HaTT materials.
 
 use std::path::Path;
 
@@ -6,10 +6,10 @@ use asperity::model::{GridVertex, TextureModel, VertexKind};
 use asperity_formats::Asset;
 use asperity_runtime::HostTexture;
 
-use super::StabilityError;
+use super::error::StabilityError;
 
-/// Materials whose mixtures are known to fail, and their neighbours in kind: the rows name
-/// them one by one.
+/// Materials whose mixtures of coefficients are known to fail, and similar ones. Rows name them
+/// one by one.
 pub const HARD: [&str; 5] = [
     "Stone Tile 1",
     "Textured Rubber",
@@ -25,7 +25,7 @@ pub struct Material {
     pub name: String,
     /// The model.
     pub model: TextureModel,
-    /// What the runtime has of it.
+    /// The runtime's slot with the texture.
     pub slot: Box<HostTexture>,
 }
 
@@ -40,7 +40,7 @@ impl Material {
         ))
     }
 
-    /// One vertex's model at every speed and force.
+    /// A texture that has one vertex's model at every speed and force.
     ///
     /// # Errors
     /// [`StabilityError::Lower`].
@@ -89,7 +89,7 @@ impl Material {
         Self::new(asperity::builtin::texture())
     }
 
-    /// [1, a_1, …] of what the runtime renders at a speed and a force.
+    /// The coefficients [1, a_1, …] that the runtime renders with at a speed and a force.
     #[must_use]
     pub fn monic(&self, speed_mm_s: f64, force_n: f64) -> Vec<f64> {
         let filter = self.slot.filter_at(speed_mm_s as f32, force_n as f32);
@@ -99,8 +99,10 @@ impl Material {
             .collect()
     }
 
-    /// The built-in texture's wall and friction, without any vibration or tap: what is
-    /// active by design is left out, so that energy is the contact's alone.
+    /// The built-in texture's wall and friction without vibration and taps.
+    ///
+    /// Vibration and taps give off energy by design. Without them, all energy comes from the
+    /// contact.
     ///
     /// # Errors
     /// [`StabilityError::Lower`].
@@ -116,7 +118,7 @@ impl Material {
     }
 }
 
-/// The built-in texture and the hard materials of a HaTT folder that are there.
+/// The built-in texture, and those of the [`HARD`] materials that a HaTT folder holds.
 ///
 /// # Errors
 /// [`StabilityError::Hatt`] or [`StabilityError::Import`] for a folder or a file that cannot be read.

@@ -6,31 +6,33 @@ use asperity_runtime::vibration::Vibration;
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::grid::unit;
-use super::material::HARD;
+use super::filters::random_lsf;
+use super::material::{HARD, Material};
 use super::methods::AllPole;
 use super::methods::all_pole::{is_stable, mixed, polynomials};
-use super::{Material, Row, Words};
+use super::row::{Row, Words};
+use crate::random::unit;
+use crate::signal::rms;
 
-/// Points a material, and pairs of random filters.
+/// Number of points in each material, and of pairs of random filters.
 const POINTS: usize = 20_000;
-/// Pairs of vertices that alternate, and the ticks of each, the first of them left out.
+/// Number of pairs of vertices that alternate, ticks of each, and first ticks that are left out.
 const PAIRS: usize = 60;
 const TICKS: usize = 2500;
 const SETTLE: usize = 500;
-/// Time constant of the parameters at 1 kHz: the default's 5 ms.
+/// Time constant of the parameters, ticks at 1 kHz: the default's 5 ms.
 const FOLLOW_TICKS: f64 = 5.0;
 /// Ticks of a block whose loudness counts: 20 ms.
 pub const BLOCK: usize = 20;
 
-/// Share of unstable filters, %, at random points of a grid: ours, and with a_k mixed.
+/// Percentage of unstable filters at random points of a grid: of ours, and of mixed a_k.
 fn unstable(material: &Material, seed: u64) -> [f64; 2] {
     let grid = &material.model.grid;
     let polynomials = polynomials(grid);
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut count = [0_usize; 2];
     for _ in 0..POINTS {
-        // A triangle by chance, a point in it uniformly.
+        // A random triangle, and a uniform point in it.
         let triangle = grid.triangles[(unit(&mut rng) * grid.triangles.len() as f64) as usize];
         let (mut s, mut t) = (unit(&mut rng), unit(&mut rng));
         if s + t > 1.0 {
@@ -48,24 +50,8 @@ fn unstable(material: &Material, seed: u64) -> [f64; 2] {
     count.map(|n| 100.0 * n as f64 / POINTS as f64)
 }
 
-/// Random line spectral frequencies of an order, at least `gap` rad apart.
-pub(super) fn random_lsf(rng: &mut Xoshiro256PlusPlus, order: usize, gap: f64) -> Vec<f64> {
-    // Steps uneven by ten to one.
-    let steps: Vec<f64> = (0..=order).map(|_| 0.2 + 1.8 * unit(rng)).collect();
-    let room = std::f64::consts::PI - gap * (order + 1) as f64;
-    let total: f64 = steps.iter().sum();
-    let mut at = 0.0;
-    steps[..order]
-        .iter()
-        .map(|step| {
-            at += gap + room * step / total;
-            at
-        })
-        .collect()
-}
-
-/// Share of unstable halfway mixtures, %, of random pairs of filters of order 20: of LSFs'
-/// cosines, and of coefficients.
+/// Percentage of unstable halfway mixtures of random pairs of filters of order 20: of cosines of
+/// LSFs, and of coefficients.
 fn unstable_pairs(seed: u64) -> [f64; 2] {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut count = [0_usize; 2];
@@ -83,25 +69,18 @@ fn unstable_pairs(seed: u64) -> [f64; 2] {
     count.map(|n| 100.0 * n as f64 / POINTS as f64)
 }
 
-/// Loudest block's RMS.
+/// RMS of the loudest block.
 fn loudest(signal: &[f64]) -> f64 {
-    signal
-        .chunks_exact(BLOCK)
-        .map(|block| (block.iter().map(|y| y * y).sum::<f64>() / BLOCK as f64).sqrt())
-        .fold(0.0, f64::max)
+    signal.chunks_exact(BLOCK).map(rms).fold(0.0, f64::max)
 }
 
-/// Root mean square.
-#[must_use]
-pub fn rms(signal: &[f64]) -> f64 {
-    (signal.iter().map(|y| y * y).sum::<f64>() / signal.len() as f64).sqrt()
-}
-
-/// Speed, mm/s, and force, N.
+/// A query: speed, mm/s, and force, N.
 type Place = (f32, f32);
 
-/// Whose turn it is at every tick: the first one's until all has settled, then at random, so
-/// that neither a conversion of every tick nor one of every few meets the same one always.
+/// Which of two places is queried at every tick.
+///
+/// It is the first one until everything has settled, then either at random, so that no interval
+/// between conversions always samples the same one.
 fn turns(seed: u64) -> impl Iterator<Item = usize> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     (0..TICKS).map(move |n| {
@@ -112,20 +91,20 @@ fn turns(seed: u64) -> impl Iterator<Item = usize> {
 
 /// The vibration of the runtime while speed and force take turns.
 fn runtime(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
-    let follow_share = 1.0 - (-f64::from(material.slot.cycle_samples()) / FOLLOW_TICKS).exp();
+    let fraction = 1.0 - (-f64::from(material.slot.cycle_samples()) / FOLLOW_TICKS).exp();
     let mut vibration = Vibration::new(seed);
     turns(seed)
         .map(|turn| {
             let (speed_mm_s, force_n) = places[turn];
-            let share = follow_share as f32;
-            let (y, _) = vibration.step(&material.slot, speed_mm_s, force_n, share, true);
+            let follow = fraction as f32;
+            let (y, _) = vibration.step(&material.slot, speed_mm_s, force_n, follow, true);
             f64::from(y)
         })
         .skip(SETTLE)
         .collect()
 }
 
-/// The same by direct forms whose coefficients change at once.
+/// The same vibration by direct forms whose coefficients change at once.
 fn direct(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
     let mut filter = AllPole::default();
     let mut noise = Excitation::new(seed);
@@ -142,14 +121,14 @@ fn direct(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// Renders a material at two places that take turns, with a seed.
+/// Renders a material at two places that take turns, from a seed.
 type Method = fn(&Material, [Place; 2], u64) -> Vec<f64>;
 
-/// What a random pair of vertices gives when its models take turns.
+/// The vibration while the models of a random pair of vertices take turns.
 struct Pair {
-    /// Vibration of the runtime, and of direct forms at once.
+    /// Vibration of the runtime, and of direct forms that change at once.
     signals: [Vec<f64>; 2],
-    /// Their loudest blocks over the louder steady RMS, dB.
+    /// Their loudest blocks relative to the louder steady RMS, dB.
     rise_db: [f64; 2],
 }
 
@@ -179,7 +158,7 @@ fn pairs(material: &Material, seed: u64) -> Vec<Pair> {
         .collect()
 }
 
-/// The signals of the pair that is worst for a direct form: ours, and the direct form's.
+/// The signals of the pair that is worst for a direct form: the runtime's, and the direct form's.
 #[must_use]
 pub fn worst_pair(material: &Material, seed: u64) -> (Vec<f64>, Vec<f64>) {
     let worst = pairs(material, seed)

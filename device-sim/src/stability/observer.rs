@@ -1,11 +1,11 @@
-//! The passivity observer: what a rendered force gives off, exactly.
+//! The passivity observer: the exact energy that a rendered force gives off.
 //!
-//! A force held from one tick to the next does the work F·Δx, whatever the path between; so
-//! the energy that leaves the renderer is known without a model. The device absorbs at least
-//! b·Δx²/T + f_c·|Δx| on the way, whatever the path (Jensen). A contact is passive if the
-//! energy given off never exceeds what the device has absorbed.
+//! A force that is held from one tick to the next does the work F·Δx, whatever the path between.
+//! The energy that leaves the renderer is therefore known without a model. On any path the
+//! device absorbs at least b·Δx²/T + f_c·|Δx| (Jensen's inequality). A contact is passive if the
+//! energy given off never exceeds the energy absorbed.
 
-/// What the device absorbs.
+/// Physical damping and friction of a device, which absorb energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Absorber {
     /// Viscous damping, N·s/m.
@@ -19,14 +19,14 @@ pub struct Absorber {
 pub struct Observer {
     /// Work of the rendered force on the device.
     pub given_j: f64,
-    /// What the device absorbed.
+    /// Energy that the device absorbed.
     pub absorbed_j: f64,
-    /// Largest `given − absorbed` so far: above 0 the contact was active.
+    /// Largest `given − absorbed` so far. Above 0 the contact was active.
     pub worst_j: f64,
 }
 
 impl Observer {
-    /// One tick of `tick_s` s in which `force_n` was held over `motion_m` m.
+    /// Adds a tick of `tick_s` s in which `force_n` N was held over a motion of `motion_m` m.
     pub fn tick(&mut self, absorber: &Absorber, force_n: f64, motion_m: f64, tick_s: f64) {
         self.given_j += force_n * motion_m;
         self.absorbed_j += absorber.damping_n_s_m * motion_m * motion_m / tick_s

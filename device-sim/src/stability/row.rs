@@ -1,15 +1,15 @@
-//! One scenario of the table: its figure by each method, and what to make of it.
+//! One scenario of the table: the figure of each method, and the verdict.
 
 use std::fmt;
 
 use serde::Serialize;
 
-/// What another method gives in the same scenario.
+/// The figure of another method in the same scenario.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Other {
-    /// Which method.
+    /// Name of the method.
     pub method: &'static str,
-    /// Its figure, in the row's unit; infinite where it gives no usable answer at all.
+    /// Its figure in the row's unit; infinite where it gives no usable answer.
     pub figure: f64,
 }
 
@@ -19,18 +19,18 @@ pub struct Other {
 pub enum Verdict {
     /// Our figure is within the limit.
     Pass,
-    /// It is not.
+    /// Our figure is above the limit.
     Fail,
     /// The row could not run, and why.
     Skipped(String),
 }
 
-/// A scenario where methods fail. Smaller figures are better.
+/// A scenario in which methods fail. Smaller figures are better.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
-    /// Which law it tries.
+    /// Which part of the tick it tries.
     pub theme: &'static str,
-    /// What happens.
+    /// What happens in the scenario.
     pub scenario: String,
     /// What is measured, with its unit.
     pub quantity: &'static str,
@@ -48,10 +48,10 @@ pub struct Row {
     pub verdict: Verdict,
 }
 
-/// What a row says in words, apart from its figures.
+/// The words of a row, which several rows share.
 #[derive(Debug, Clone, Copy)]
 pub struct Words {
-    /// Which law it tries.
+    /// Which part of the tick it tries.
     pub theme: &'static str,
     /// What is measured, with its unit.
     pub quantity: &'static str,
@@ -62,7 +62,7 @@ pub struct Words {
 }
 
 impl Words {
-    /// A row that was measured; it passes if `ours` is at most `limit`, and not NaN.
+    /// A row that was measured. It passes if `ours` is at most `limit` and not NaN.
     #[must_use]
     pub fn row(
         self,

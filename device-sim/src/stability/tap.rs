@@ -1,21 +1,23 @@
-//! Taps: bouncing, grazing, while sliding, in close succession.
+//! Taps: bouncing, grazing the surface, while sliding, in close succession.
 
 use asperity_runtime::{Config, Renderer, Sample, State};
 
-use super::{Material, Row, StabilityError, Words};
+use super::error::StabilityError;
+use super::material::Material;
+use super::row::{Row, Words};
 
-/// What a trajectory of heights does to the tap stage.
+/// What the runtime renders along a path.
 struct Felt {
     taps: u32,
     /// Largest change of the whole force in a tick, N.
     step_n: f64,
-    /// ∫ of the tap force, N·s.
+    /// Integral of the tap force, N·s.
     impulse_n_s: f64,
-    /// |F_x| in the mean, N.
+    /// Mean magnitude of the friction, N.
     friction_n: f64,
 }
 
-/// Renders `ticks` of a path of positions, m.
+/// Renders `ticks` ticks along a path of positions, m.
 fn felt(material: &Material, ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> Felt {
     let renderer = Renderer::new(&Config::default()).expect("the default");
     let mut state = State::new(1);
@@ -38,7 +40,7 @@ fn felt(material: &Material, ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> 
     }
 }
 
-/// Ticks in which the surface is entered: taps by the rule that every entry is one.
+/// Ticks at which the surface is entered. They are the taps if every entry counts as one.
 #[must_use]
 pub fn entries(ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> Vec<usize> {
     (1..ticks)
@@ -46,7 +48,7 @@ pub fn entries(ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> Vec<usize> {
         .collect()
 }
 
-/// Tap force of the runtime, N, a tick each.
+/// Tap force of the runtime at each tick, N.
 #[must_use]
 pub fn tap_forces(material: &Material, ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> Vec<f64> {
     let renderer = Renderer::new(&Config::default()).expect("the default");
@@ -59,7 +61,7 @@ pub fn tap_forces(material: &Material, ticks: usize, path: impl Fn(usize) -> [f6
         .collect()
 }
 
-/// Positions, m, of bounces after a tap at 0.2 m/s: half-waves of falling height, then rest.
+/// A tap at 0.2 m/s that bounces: positions, m, of half-waves of falling height, then rest.
 #[must_use]
 pub fn bouncing(n: usize) -> [f64; 3] {
     let t = n as f64 - 100.0;
@@ -71,7 +73,7 @@ pub fn bouncing(n: usize) -> [f64; 3] {
     [0.0, 0.0, z]
 }
 
-/// Held at the surface with noise of ±1 count, a slow stroke along x.
+/// A slow stroke along x, held at the surface with noise of ±1 count.
 fn grazing(n: usize) -> [f64; 3] {
     let noise = [0.0, 55e-6, -55e-6, 0.0, -55e-6, 55e-6, 0.0][(n * n + n / 3) % 7];
     [2e-5 * n as f64, 0.0, noise]
@@ -88,7 +90,7 @@ fn sliding(n: usize) -> [f64; 3] {
     [0.15e-3 * n as f64, 0.0, z]
 }
 
-/// Two taps at 0.4 m/s, 5 ms apart: in by 0.4 mm, out by 0.8 mm, in again.
+/// Two taps at 0.4 m/s, 5 ms apart.
 fn twice(n: usize) -> [f64; 3] {
     let z = match n {
         ..100 => 0.4e-3 * (100.0 - n as f64) - 0.2e-3,
@@ -102,7 +104,7 @@ fn twice(n: usize) -> [f64; 3] {
     [0.0, 0.0, z]
 }
 
-/// The first of them alone.
+/// The first of the two taps alone.
 fn once(n: usize) -> [f64; 3] {
     if n <= 100 {
         twice(n)

@@ -1,4 +1,4 @@
-//! Assets to test with, and a second opinion on their bytes.
+//! Assets for the tests, tools to damage them, and an independent reader.
 
 #![allow(
     dead_code,
@@ -16,7 +16,7 @@ use asperity_formats::{
 /// LSF codes, MA LSF codes and gain.
 pub type Model = (Vec<u16>, Vec<u16>, f32);
 
-/// The parts of an asset, owned.
+/// Owned parts of an asset.
 #[derive(Debug, Clone)]
 pub struct Parts {
     pub name: String,
@@ -36,7 +36,7 @@ pub struct Parts {
 
 pub const PNG_MAGIC: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
 
-/// Section numbers of version 1, as the table of an asset has them.
+/// Section numbers of version 1, in the order of the section table.
 pub mod section {
     pub const NAME: usize = 0;
     pub const GRID: usize = 1;
@@ -47,8 +47,8 @@ pub mod section {
     pub const PREVIEW: usize = 6;
 }
 
-/// A small asset with every section and every optional field: the one that
-/// `SPEC.md` walks through.
+/// A small asset with every section and every optional field. `SPEC.md` walks through its
+/// bytes.
 pub fn small() -> Parts {
     let vertex = |speed_mm_s, force_n, sigma_m_s2, model, kind| Vertex {
         speed_mm_s,
@@ -100,8 +100,8 @@ pub fn small() -> Parts {
     }
 }
 
-/// The asset of the size target: 18 interior models of 21 LSFs with their edge
-/// models, 13 taps of 100 samples at 10 kHz.
+/// The asset for which the target of size is stated: 18 interior models of 21 LSFs with their
+/// edge models, 13 taps of 100 samples at 10 kHz.
 pub fn full() -> Parts {
     let mut parts = small();
     let (columns, rows) = (8, 7);
@@ -218,7 +218,7 @@ impl Parts {
     }
 }
 
-/// CRC-32 bit by bit, as `SPEC.md` words it.
+/// CRC-32 bit by bit, as `SPEC.md` defines it.
 pub fn crc32(bytes: impl IntoIterator<Item = u8>) -> u32 {
     !bytes.into_iter().fold(!0_u32, |crc, byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| {
@@ -245,8 +245,8 @@ pub fn span(asset: &[u8], section: usize) -> (usize, usize) {
     )
 }
 
-/// Recomputes every CRC after a change, so that what is behind them is reached.
-/// Sections whose stated span leaves the bytes keep theirs.
+/// Recomputes every CRC after a change, so that the checks behind them are reached. A section
+/// whose stated span exceeds the file keeps its CRC.
 pub fn seal(asset: &mut [u8]) {
     for section in 0..usize::from(asset[6]) {
         let (start, len) = span(asset, section);
@@ -258,14 +258,14 @@ pub fn seal(asset: &mut [u8]) {
     seal_header(asset);
 }
 
-/// Recomputes the header's CRC only.
+/// Recomputes only the CRC of the header.
 pub fn seal_header(asset: &mut [u8]) {
     let table_end = 20 + 12 * usize::from(asset[6]);
     let crc = crc32(asset[..16].iter().chain(&asset[20..table_end]).copied());
     put(asset, 16, &crc.to_le_bytes());
 }
 
-/// Replaces the body of a section and restates every length and CRC.
+/// Replaces the body of a section and updates every length and CRC.
 pub fn replace_section(asset: &mut Vec<u8>, section: usize, body: &[u8]) {
     let (start, len) = span(asset, section);
     asset.splice(start..start + len, body.iter().copied());
@@ -289,7 +289,7 @@ pub fn append_section(asset: &mut Vec<u8>, tag: &[u8; 4], body: &[u8]) {
     restate(asset);
 }
 
-/// Sets total and haptic length to what the table says, then seals.
+/// Sets total and haptic length to the sums of the table, then recomputes the CRCs.
 pub fn restate(asset: &mut [u8]) {
     let end = |sections: usize| {
         let (start, len) = span(asset, sections - 1);

@@ -1,9 +1,9 @@
-//! A reader written from `SPEC.md` alone: offsets and arithmetic, no code shared
-//! with the crate. It trusts its input.
+//! A reader that was written from `SPEC.md` alone. It shares no code with the crate and
+//! trusts its input.
 
 use super::span;
 
-/// What an asset says, as plain numbers.
+/// The contents of an asset, as plain numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plain {
     pub name: String,

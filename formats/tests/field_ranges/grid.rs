@@ -1,4 +1,4 @@
-//! The grid: numbers, counts, LSFs, references, tiling.
+//! Fields of the grid: numbers, counts, LSFs, references, tiling.
 
 use super::*;
 
@@ -66,7 +66,7 @@ fn counts_of_the_grid() {
 
 #[test]
 fn counts_that_the_section_does_not_hold() {
-    // 88 bytes lie behind the twelve of the section's head.
+    // 88 bytes follow the twelve of the section's head.
     rejected(GRID, 7, &[64], &Short("grid.models", 64 * 8, 88));
     rejected(GRID, 8, &[64], &Short("grid.vertices", 64 * 12, 72));
     rejected(GRID, 9, &[128], &Short("grid.triangles", 128 * 3, 12));
@@ -112,7 +112,7 @@ fn line_spectral_frequencies() {
     ] {
         rejected(GRID, at, &piece, &Invalid("grid.model.lsf", index, value));
     }
-    // The first one too high is noticed at the second.
+    // A first LSF that is too high shows at the second one.
     rejected(
         GRID,
         MODEL,
@@ -187,7 +187,7 @@ fn references_of_vertices_and_triangles() {
 
 #[test]
 fn triangles_that_do_not_tile_the_rectangle() {
-    // Triangle 0, of 100 mm²·N/s, twice and triangle 1 never: too little or too much.
+    // Triangle 0, of 100 mm·N/s, twice and triangle 1 never: too little or too much area.
     let area = "grid.triangle.area";
     rejected(GRID, TRIANGLE + 3, &[0, 2, 4], &Invalid(area, 0, 300.0));
     rejected(GRID, TRIANGLE, &[0, 1, 2], &Invalid(area, 0, 500.0));

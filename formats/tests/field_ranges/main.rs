@@ -1,5 +1,5 @@
-//! Any field out of its range is rejected with its name, its index and its value,
-//! even where every CRC is right.
+//! A field out of its range is rejected with its name, its index and its value, even if every
+//! CRC is right.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -20,7 +20,7 @@ const TRIANGLE: usize = VERTEX + 5 * 12;
 const TRACE: usize = 8;
 const ANCHOR: usize = 5;
 
-/// What must be said of a patched field.
+/// What the error must say of a patched field.
 enum Expect {
     Invalid(&'static str, u32, f64),
     Text(&'static str, u32, &'static str),
@@ -70,7 +70,7 @@ fn check(error: FormatError, expect: &Expect, case: &str) {
     assert!(fits, "{case}: {error:?}");
 }
 
-/// Patches a section of the small asset, seals it, and checks both readers.
+/// Patches a section of the small asset, recomputes the CRCs and checks both readers.
 fn rejected(section: usize, at: usize, piece: &[u8], expect: &Expect) {
     let mut bytes = small().encode();
     let (start, len) = span(&bytes, section);
@@ -84,7 +84,7 @@ fn rejected(section: usize, at: usize, piece: &[u8], expect: &Expect) {
     }
 }
 
-/// Values just outside `min..=max`, and those that are no numbers.
+/// Values just outside `min..=max`, NaN and the infinities.
 fn rejected_f32(section: usize, at: usize, field: &'static str, index: u32, min: f32, max: f32) {
     let below = if min > f32::MIN_POSITIVE {
         min.next_down()

@@ -1,4 +1,4 @@
-//! Everything but the grid: taps, friction, surface, texts, provenance, preview, header.
+//! Fields outside the grid: taps, friction, wall and gains, texts, provenance, preview, header.
 
 use super::*;
 
@@ -166,7 +166,7 @@ fn provenance_that_does_not_decode() {
         let mut bytes = original.clone();
         replace_section(&mut bytes, PROVENANCE, &body[..shorter]);
         assert_eq!(Asset::parse(&bytes).map(drop), reject, "{shorter} bytes");
-        // A runtime does not read it.
+        // The runtime does not read this section.
         assert_eq!(Asset::parse_haptic(&bytes).map(drop), Ok(()));
     }
     let error_db = body

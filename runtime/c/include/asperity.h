@@ -24,22 +24,22 @@
 // `AsperityConfig::vibration_axis`: across it.
 #define ASPERITY_VIBRATION_BINORMAL 1
 
-// Bytes that hold the name of any texture with its null.
+// Size of a buffer for the name of any texture and its terminating null, bytes.
 #define ASPERITY_NAME_SIZE 65
 
-// What every object's memory must be aligned to, bytes.
+// Alignment of the memory of every object, bytes.
 #define ASPERITY_ALIGNMENT 64
 
-// Bytes that hold an `AsperityTexture`.
+// Size of the memory of an `AsperityTexture`, bytes.
 #define ASPERITY_TEXTURE_SIZE 65536
 
-// Bytes that hold an `AsperityRenderer`.
+// Size of the memory of an `AsperityRenderer`, bytes.
 #define ASPERITY_RENDERER_SIZE 1024
 
-// Bytes that hold an `AsperityState`.
+// Size of the memory of an `AsperityState`, bytes.
 #define ASPERITY_STATE_SIZE 2048
 
-// Bytes of `AsperityError::message`.
+// Size of `AsperityError::message`, bytes.
 #define ASPERITY_MESSAGE_SIZE 252
 
 // The stylus is inside the surface.
@@ -72,33 +72,33 @@
 // The vibration reached its bound.
 #define ASPERITY_FLAG_VIB_CLAMPED 512
 
-// What became of a call.
+// Result of a call.
 enum AsperityStatus
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  // Done.
+  // Success.
   ASPERITY_STATUS_OK = 0,
-  // A pointer is null that must not be.
+  // A required pointer is null.
   ASPERITY_STATUS_NULL_POINTER = 1,
-  // Memory is too small or misaligned.
+  // The memory is too small or misaligned.
   ASPERITY_STATUS_MEMORY = 2,
-  // A pointer leads to no object, or to one of another kind.
+  // A pointer does not lead to an initialised object of the right kind.
   ASPERITY_STATUS_NOT_INITIALISED = 3,
-  // The bytes are no valid library or asset.
+  // The bytes are not a valid library or asset.
   ASPERITY_STATUS_FORMAT = 4,
   // The library has no such texture.
   ASPERITY_STATUS_NO_SUCH_TEXTURE = 5,
   // The texture is too large for a slot.
   ASPERITY_STATUS_CAPACITY = 6,
-  // The texture's rate is not the servo's, or none was loaded.
+  // The texture cannot be used at this servo rate, or none was loaded.
   ASPERITY_STATUS_RATE = 7,
   // A field of the configuration is out of its range.
   ASPERITY_STATUS_CONFIG = 8,
   // A name is not UTF-8.
   ASPERITY_STATUS_TEXT = 9,
-  // A defect of the library: a panic was caught.
+  // A panic was caught, which is a defect of this library.
   ASPERITY_STATUS_INTERNAL = 10,
 };
 #ifndef __cplusplus
@@ -112,14 +112,14 @@ typedef int32_t AsperityStatus;
 // A checked configuration; it serves any number of states and textures.
 typedef struct AsperityRenderer AsperityRenderer;
 
-// One stylus on its way; used by one thread at a time.
+// State of one stylus. One thread at a time may use it.
 typedef struct AsperityState AsperityState;
 
-// A slot that holds any texture of the format; it serves any number of states. Loading
-// writes to it, ticking only reads.
+// A slot for any texture of the format. It serves any number of states: loading writes to
+// it, a tick only reads it.
 typedef struct AsperityTexture AsperityTexture;
 
-// What a renderer is told once. Start from `asperity_config_default`.
+// Configuration of a renderer. Start from `asperity_config_default`.
 typedef struct AsperityConfig {
   // Servo rate, Hz; one tick is one period.
   float servo_rate_hz;
@@ -153,17 +153,17 @@ typedef struct AsperityConfig {
   float friction_dead_zone_m;
   // Speed at which the bristle's deflection leaks, m/s.
   float friction_leak_speed_m_s;
-  // Viscous damping of the mechanism, N·s/m, without any hand.
+  // Viscous damping of the mechanism alone, without a hand, N·s/m.
   float mechanics_damping_n_s_m;
   // Coulomb friction of the mechanism, N.
   float mechanics_coulomb_n;
-  // Speed up to which that friction counts as damping, m/s.
+  // Largest speed at which the Coulomb friction counts as damping, m/s.
   float mechanics_fastest_m_s;
-  // One count of position, m; 0 if positions are not quantised.
+  // Size of one count of position, m; 0 if positions are not quantised.
   float mechanics_position_step_m;
-  // Whole periods between a force and its effect, on top of the hold of one.
+  // Whole periods between a force and its effect, beyond the one for which it is held.
   uint32_t mechanics_delay_ticks;
-  // Bad samples in a row that hold the last good one, at most 2.
+  // Number of bad samples in a row for which the last good one is held, at most 2.
   uint32_t hold_ticks;
   // Duration of the ramp after a fault, s.
   float ramp_s;
@@ -171,15 +171,15 @@ typedef struct AsperityConfig {
   float parameter_time_constant_s;
 } AsperityConfig;
 
-// A status with its message: field, value and rule where there are some.
+// A status and its message, which names the field, its value and the rule where it can.
 typedef struct AsperityError {
   // What the function returned.
   AsperityStatus status;
-  // UTF-8, ends with a null; cut where it is too long.
+  // UTF-8 that ends with a null; truncated where it is too long.
   char message[ASPERITY_MESSAGE_SIZE];
 } AsperityError;
 
-// How often what happened, since the state was made; saturating.
+// Counts of events since the state was made. They saturate.
 typedef struct AsperityCounters {
   // Ticks.
   uint32_t ticks;
@@ -197,7 +197,7 @@ typedef struct AsperityCounters {
   uint32_t slew_limited;
 } AsperityCounters;
 
-// What the device says in one servo period.
+// Device sample of one servo period.
 typedef struct AsperitySample {
   // Stylus position in the world frame, m. Anything not finite, or beyond 10 km, is a bad
   // sample.
@@ -207,7 +207,7 @@ typedef struct AsperitySample {
   uint32_t elapsed_ticks;
 } AsperitySample;
 
-// What a tick gives.
+// Output of a tick.
 typedef struct AsperityOutput {
   // Force on the hand in the world frame, N; finite, within peak and slew.
   float force_n[3];
@@ -215,7 +215,7 @@ typedef struct AsperityOutput {
   float depth_m;
   // Estimated tangential speed, mm/s.
   float speed_mm_s;
-  // k·δ, N.
+  // Normal force of the spring, k·δ, N.
   float normal_force_n;
   // Vibration before device gain, m/s².
   float vib_m_s2;
@@ -223,7 +223,7 @@ typedef struct AsperityOutput {
   float tap_n;
   // Magnitude of the friction force, N.
   float friction_n;
-  // What happened: bits `ASPERITY_FLAG_*`.
+  // Events: bits `ASPERITY_FLAG_*`.
   uint32_t flags;
 } AsperityOutput;
 
@@ -240,8 +240,8 @@ const char *asperity_version(void);
 // `config` is null or valid for writes.
 AsperityStatus asperity_config_default(struct AsperityConfig *config);
 
-// How many textures a library has. Only its index is checked, so the front of a file is
-// enough.
+// Counts the textures of a library. Only the index is checked, so the beginning of a file
+// is enough.
 //
 // # Safety
 // `library` is null or `len` readable bytes; `count` and `error` are null or valid for
@@ -251,7 +251,7 @@ AsperityStatus asperity_library_count(const uint8_t *library,
                                       size_t *count,
                                       struct AsperityError *error);
 
-// The index of the texture called `texture`.
+// Finds the index of the texture called `texture`.
 //
 // # Safety
 // `library` is null or `len` readable bytes, `texture` null or a text that ends with a
@@ -288,7 +288,7 @@ AsperityStatus asperity_renderer_init(void *memory,
                                       struct AsperityError *error);
 
 // Makes a state at rest, without force, in `memory` of at least `ASPERITY_STATE_SIZE`
-// bytes; `seed` is that of the excitation.
+// bytes. `seed` selects the noise of the excitation.
 //
 // # Safety
 // `memory` is null or `size` bytes that nothing else uses; `state` is null or valid for
@@ -306,7 +306,7 @@ AsperityStatus asperity_state_init(void *memory,
 AsperityStatus asperity_state_counters(const struct AsperityState *state,
                                        struct AsperityCounters *counters);
 
-// The text of a status; never null, and a text of its own for numbers that are none.
+// Text of a status. Never null; an unknown number has a text, too.
 const char *asperity_error_text(int32_t status);
 
 // Makes an empty slot in `memory` of at least `ASPERITY_TEXTURE_SIZE` bytes.
@@ -316,8 +316,8 @@ const char *asperity_error_text(int32_t status);
 // writes.
 AsperityStatus asperity_texture_init(void *memory, size_t size, struct AsperityTexture **texture);
 
-// Loads one asset (`.asp`) for a servo rate. A slot that refuses keeps what it had. The
-// bytes are not needed afterwards.
+// Loads one asset (`.asp`) for a servo rate. If the asset is refused, the slot keeps the
+// texture it had. The bytes are not needed afterwards.
 //
 // # Safety
 // `texture` is null or an initialised slot that nobody else uses during the call; `asset`
@@ -351,9 +351,9 @@ AsperityStatus asperity_texture_load_name(struct AsperityTexture *texture,
                                           float servo_rate_hz,
                                           struct AsperityError *error);
 
-// One servo period: a device sample in, a limited force out. With right pointers and a
-// texture loaded for the renderer's rate it always succeeds, whatever the sample.
-// Otherwise the output, where there is one, is no force and the safe state.
+// One servo period: a device sample in, a limited force out. If the pointers are right and
+// the texture was loaded for the renderer's rate, it succeeds for every sample. Otherwise
+// the output, where there is one, is zero force and the safe state.
 //
 // # Safety
 // `renderer`, `texture` and `state` are null or initialised objects; nobody writes to the

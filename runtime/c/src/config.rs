@@ -19,7 +19,7 @@ pub const ASPERITY_VIBRATION_TANGENT: u32 = 0;
 /// `AsperityConfig::vibration_axis`: across it.
 pub const ASPERITY_VIBRATION_BINORMAL: u32 = 1;
 
-/// What a renderer is told once. Start from `asperity_config_default`.
+/// Configuration of a renderer. Start from `asperity_config_default`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsperityConfig {
@@ -55,17 +55,17 @@ pub struct AsperityConfig {
     pub friction_dead_zone_m: f32,
     /// Speed at which the bristle's deflection leaks, m/s.
     pub friction_leak_speed_m_s: f32,
-    /// Viscous damping of the mechanism, N·s/m, without any hand.
+    /// Viscous damping of the mechanism alone, without a hand, N·s/m.
     pub mechanics_damping_n_s_m: f32,
     /// Coulomb friction of the mechanism, N.
     pub mechanics_coulomb_n: f32,
-    /// Speed up to which that friction counts as damping, m/s.
+    /// Largest speed at which the Coulomb friction counts as damping, m/s.
     pub mechanics_fastest_m_s: f32,
-    /// One count of position, m; 0 if positions are not quantised.
+    /// Size of one count of position, m; 0 if positions are not quantised.
     pub mechanics_position_step_m: f32,
-    /// Whole periods between a force and its effect, on top of the hold of one.
+    /// Whole periods between a force and its effect, beyond the one for which it is held.
     pub mechanics_delay_ticks: u32,
-    /// Bad samples in a row that hold the last good one, at most 2.
+    /// Number of bad samples in a row for which the last good one is held, at most 2.
     pub hold_ticks: u32,
     /// Duration of the ramp after a fault, s.
     pub ramp_s: f32,
@@ -131,7 +131,7 @@ impl From<Config> for AsperityConfig {
 impl TryFrom<AsperityConfig> for Config {
     type Error = AsperityStatus;
 
-    /// A surface or an axis that is none is refused here, every other field by the renderer.
+    /// An unknown surface or axis is refused here. The renderer checks every other field.
     fn try_from(c: AsperityConfig) -> Result<Self, AsperityStatus> {
         Ok(Self {
             servo_rate_hz: c.servo_rate_hz,

@@ -1,16 +1,17 @@
 //! The Asperity runtime for C; `docs/c.md` has the rules and a complete program.
 //!
 //! The caller owns all memory. Objects are opaque: `asperity_*_init` builds one in memory
-//! of at least `ASPERITY_*_SIZE` bytes, aligned to `ASPERITY_ALIGNMENT`, and there is
-//! nothing to release. A pointer to an object stays valid until its memory is reused.
-//! Functions return an [`AsperityStatus`]; those that can fail in many ways also fill an
-//! [`AsperityError`], which may be null. Misuse that can be told (null, misaligned, too
-//! small, not initialised, of another kind) is a status, never a crash; no panic crosses
-//! the border.
+//! of at least `ASPERITY_*_SIZE` bytes, aligned to `ASPERITY_ALIGNMENT`. There is nothing
+//! to release, and a pointer to an object stays valid until its memory is reused.
 //!
-//! With the feature `std` (the default) the static library is for hosts: it brings Rust's
-//! standard library and turns a panic into [`AsperityStatus::Internal`]. Without it the
-//! crate is `no_std`: firmware in Rust calls `asperity-runtime` itself, firmware in C is
+//! Functions that can fail return an [`AsperityStatus`]. Those that can fail in many ways
+//! also fill an [`AsperityError`]; its pointer may be null. Misuse that can be detected (a
+//! null or misaligned pointer, too little memory, an object that is not initialised or of
+//! another kind) gives a status and never a crash. No panic crosses the border.
+//!
+//! With the feature `std` (the default) the static library is for hosts: it contains Rust's
+//! standard library and turns a panic into [`AsperityStatus::Internal`]. Without `std` the
+//! crate is `no_std`. Firmware in Rust calls `asperity-runtime` directly. Firmware in C is
 //! built with the feature `panic-handler`, whose handler waits for the watchdog.
 //!
 //! What must stay absent: allocation, global state, a file system, a clock.

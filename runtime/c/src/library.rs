@@ -1,4 +1,4 @@
-//! What a library holds, and bytes and names that come from C.
+//! The contents of a library, and how bytes and names from C are read.
 
 use crate::{
     AsperityError, AsperityStatus, memory,
@@ -10,12 +10,12 @@ use core::{
     slice,
 };
 
-/// Bytes that hold the name of any texture with its null.
+/// Size of a buffer for the name of any texture and its terminating null, bytes.
 pub const ASPERITY_NAME_SIZE: usize = 65;
 
 const _: () = assert!(ASPERITY_NAME_SIZE == MAX_NAME_BYTES + 1);
 
-/// Bytes of C.
+/// Bytes that C passes.
 ///
 /// # Safety
 /// `bytes` is null or leads to `len` readable bytes that nobody writes while the slice
@@ -31,7 +31,7 @@ pub(crate) unsafe fn slice<'a>(bytes: *const u8, len: usize) -> Result<&'a [u8],
     Ok(unsafe { slice::from_raw_parts(bytes, len) })
 }
 
-/// A name of C.
+/// A name that C passes.
 ///
 /// # Safety
 /// `name` is null or ends with a null, and nobody writes to it while the text lives.
@@ -49,8 +49,8 @@ pub(crate) fn find(library: &LibraryIndex<'_>, name: &str) -> Result<usize, Aspe
     library.find(name).ok_or(AsperityStatus::NoSuchTexture)
 }
 
-/// How many textures a library has. Only its index is checked, so the front of a file is
-/// enough.
+/// Counts the textures of a library. Only the index is checked, so the beginning of a file
+/// is enough.
 ///
 /// # Safety
 /// `library` is null or `len` readable bytes; `count` and `error` are null or valid for
@@ -71,7 +71,7 @@ pub unsafe extern "C" fn asperity_library_count(
     }
 }
 
-/// The index of the texture called `texture`.
+/// Finds the index of the texture called `texture`.
 ///
 /// # Safety
 /// `library` is null or `len` readable bytes, `texture` null or a text that ends with a

@@ -1,18 +1,18 @@
-//! Objects in the caller's memory, and what can be told about a pointer to one.
+//! Objects in the caller's memory, and the checks on a pointer to one.
 
 use crate::{AsperityRenderer, AsperityState, AsperityStatus, AsperityTexture};
 use core::ffi::c_void;
 
-/// What every object's memory must be aligned to, bytes.
+/// Alignment of the memory of every object, bytes.
 pub const ASPERITY_ALIGNMENT: usize = 64;
-/// Bytes that hold an `AsperityTexture`.
+/// Size of the memory of an `AsperityTexture`, bytes.
 pub const ASPERITY_TEXTURE_SIZE: usize = 65536;
-/// Bytes that hold an `AsperityRenderer`.
+/// Size of the memory of an `AsperityRenderer`, bytes.
 pub const ASPERITY_RENDERER_SIZE: usize = 1024;
-/// Bytes that hold an `AsperityState`.
+/// Size of the memory of an `AsperityState`, bytes.
 pub const ASPERITY_STATE_SIZE: usize = 2048;
 
-// Room to grow without a new header.
+// The sizes leave room for objects to grow without a new header.
 const _: () = {
     assert!(size_of::<AsperityTexture>() <= ASPERITY_TEXTURE_SIZE);
     assert!(size_of::<AsperityRenderer>() <= ASPERITY_RENDERER_SIZE);
@@ -22,18 +22,18 @@ const _: () = {
     assert!(align_of::<AsperityState>() <= ASPERITY_ALIGNMENT);
 };
 
-/// An object that C holds by an opaque pointer, told from others by a tag.
+/// An object that C holds by an opaque pointer. A tag tells its kind.
 pub(crate) trait Object: Sized {
     /// Different for every kind of object.
     const TAG: u32;
-    /// Bytes that the header asks for.
+    /// Bytes of memory that the header asks for.
     const SIZE: usize;
 
-    /// Where the tag is.
+    /// Place of the tag.
     fn tag(this: *const Self) -> *const u32;
 }
 
-/// Writes an object into memory of C and gives out its pointer.
+/// Writes an object into memory that C passes, and stores its pointer in `out`.
 ///
 /// # Safety
 /// `memory` is null or `size` bytes that nothing else uses; `out` is null or valid for
@@ -61,7 +61,7 @@ pub(crate) unsafe fn place<T: Object>(
     Ok(())
 }
 
-/// Whether a pointer leads to an object of its kind.
+/// Checks that a pointer leads to an object of its kind.
 ///
 /// # Safety
 /// `object` is null or leads to at least `size_of::<T>()` readable bytes.
@@ -102,7 +102,7 @@ pub(crate) unsafe fn exclusive<'a, T: Object>(object: *mut T) -> Result<&'a mut 
     }
 }
 
-/// A plain struct of C to be read.
+/// Reads a plain struct that C passes.
 ///
 /// # Safety
 /// `value` is null or valid for reads, and every bit pattern is a valid `T`.
@@ -117,7 +117,7 @@ pub(crate) unsafe fn read<T: Copy>(value: *const T) -> Result<T, AsperityStatus>
     }
 }
 
-/// A plain struct of C to be written.
+/// Writes a plain struct to a place that C passes.
 ///
 /// # Safety
 /// `place` is null or valid for writes.

@@ -20,7 +20,7 @@ impl Object for AsperityRenderer {
     const SIZE: usize = ASPERITY_RENDERER_SIZE;
 
     fn tag(this: *const Self) -> *const u32 {
-        // SAFETY: only the place is computed, nothing is read; the caller's pointer leads
+        // SAFETY: the address is computed and nothing is read; the caller's pointer leads
         // to memory of this size.
         unsafe { &raw const (*this).tag }
     }

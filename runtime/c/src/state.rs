@@ -8,7 +8,7 @@ use crate::{
 use asperity_runtime::State;
 use core::{ffi::c_void, ptr};
 
-/// One stylus on its way; used by one thread at a time.
+/// State of one stylus. One thread at a time may use it.
 #[derive(Debug)]
 pub struct AsperityState {
     tag: u32,
@@ -20,13 +20,13 @@ impl Object for AsperityState {
     const SIZE: usize = ASPERITY_STATE_SIZE;
 
     fn tag(this: *const Self) -> *const u32 {
-        // SAFETY: only the place is computed, nothing is read; the caller's pointer leads
+        // SAFETY: the address is computed and nothing is read; the caller's pointer leads
         // to memory of this size.
         unsafe { &raw const (*this).tag }
     }
 }
 
-/// How often what happened, since the state was made; saturating.
+/// Counts of events since the state was made. They saturate.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AsperityCounters {
@@ -47,7 +47,7 @@ pub struct AsperityCounters {
 }
 
 /// Makes a state at rest, without force, in `memory` of at least `ASPERITY_STATE_SIZE`
-/// bytes; `seed` is that of the excitation.
+/// bytes. `seed` selects the noise of the excitation.
 ///
 /// # Safety
 /// `memory` is null or `size` bytes that nothing else uses; `state` is null or valid for

@@ -1,4 +1,4 @@
-//! Status codes, their texts, and the border that no panic crosses.
+//! Status codes and their texts, and the border, which no panic crosses.
 
 use asperity_formats::FormatError;
 use asperity_runtime::{ConfigError, LoadError};
@@ -7,34 +7,34 @@ use core::{
     fmt::{self, Write},
 };
 
-/// Bytes of `AsperityError::message`.
+/// Size of `AsperityError::message`, bytes.
 pub const ASPERITY_MESSAGE_SIZE: usize = 252;
 
-/// What became of a call.
+/// Result of a call.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AsperityStatus {
-    /// Done.
+    /// Success.
     Ok = 0,
-    /// A pointer is null that must not be.
+    /// A required pointer is null.
     NullPointer = 1,
-    /// Memory is too small or misaligned.
+    /// The memory is too small or misaligned.
     Memory = 2,
-    /// A pointer leads to no object, or to one of another kind.
+    /// A pointer does not lead to an initialised object of the right kind.
     NotInitialised = 3,
-    /// The bytes are no valid library or asset.
+    /// The bytes are not a valid library or asset.
     Format = 4,
     /// The library has no such texture.
     NoSuchTexture = 5,
     /// The texture is too large for a slot.
     Capacity = 6,
-    /// The texture's rate is not the servo's, or none was loaded.
+    /// The texture cannot be used at this servo rate, or none was loaded.
     Rate = 7,
     /// A field of the configuration is out of its range.
     Config = 8,
     /// A name is not UTF-8.
     Text = 9,
-    /// A defect of the library: a panic was caught.
+    /// A panic was caught, which is a defect of this library.
     Internal = 10,
 }
 
@@ -76,20 +76,20 @@ const ALL: [(AsperityStatus, &CStr); 11] = [
     ),
 ];
 
-/// The text of a status; never null, and a text of its own for numbers that are none.
+/// Text of a status. Never null; an unknown number has a text, too.
 #[unsafe(no_mangle)]
 pub extern "C" fn asperity_error_text(status: i32) -> *const c_char {
     let found = ALL.iter().find(|(known, _)| *known as i32 == status);
     found.map_or(c"unknown status", |(_, text)| text).as_ptr()
 }
 
-/// A status with its message: field, value and rule where there are some.
+/// A status and its message, which names the field, its value and the rule where it can.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct AsperityError {
     /// What the function returned.
     pub status: AsperityStatus,
-    /// UTF-8, ends with a null; cut where it is too long.
+    /// UTF-8 that ends with a null; truncated where it is too long.
     pub message: [c_char; ASPERITY_MESSAGE_SIZE],
 }
 
@@ -168,7 +168,7 @@ pub(crate) unsafe fn call(
     };
     if !error.is_null() && error.is_aligned() {
         let mut message = Message::default();
-        // Writing never fails: what does not fit is cut.
+        // Writing never fails: a message that does not fit is truncated.
         let _ = match &result {
             Ok(()) => Ok(()),
             Err(fault) => write!(message, "{fault}"),
@@ -185,7 +185,7 @@ pub(crate) unsafe fn call(
 
 #[cfg(feature = "std")]
 fn caught(f: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {
-    // Objects that a panic left half done are plain numbers: any value is a valid one.
+    // A panic can leave an object half written. It holds plain numbers, so any value is valid.
     std::panic::catch_unwind(std::panic::AssertUnwindSafe(f))
         .unwrap_or(Err(Fault::Plain(AsperityStatus::Internal)))
 }
@@ -195,7 +195,7 @@ fn caught(f: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {
     f()
 }
 
-/// A message under way, always ended by a null.
+/// A message being written. It always ends with a null.
 struct Message {
     bytes: [c_char; ASPERITY_MESSAGE_SIZE],
     len: usize,

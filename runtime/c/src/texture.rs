@@ -1,4 +1,4 @@
-//! The slot of a texture.
+//! Texture slots.
 
 use crate::{
     AsperityError, AsperityStatus,
@@ -10,8 +10,8 @@ use asperity_formats::{Asset, Library};
 use asperity_runtime::HostTexture;
 use core::ffi::{c_char, c_void};
 
-/// A slot that holds any texture of the format; it serves any number of states. Loading
-/// writes to it, ticking only reads.
+/// A slot for any texture of the format. It serves any number of states: loading writes to
+/// it, a tick only reads it.
 #[derive(Debug)]
 pub struct AsperityTexture {
     tag: u32,
@@ -23,7 +23,7 @@ impl Object for AsperityTexture {
     const SIZE: usize = ASPERITY_TEXTURE_SIZE;
 
     fn tag(this: *const Self) -> *const u32 {
-        // SAFETY: only the place is computed, nothing is read; the caller's pointer leads
+        // SAFETY: the address is computed and nothing is read; the caller's pointer leads
         // to memory of this size.
         unsafe { &raw const (*this).tag }
     }
@@ -52,8 +52,8 @@ pub unsafe extern "C" fn asperity_texture_init(
     }
 }
 
-/// Loads one asset (`.asp`) for a servo rate. A slot that refuses keeps what it had. The
-/// bytes are not needed afterwards.
+/// Loads one asset (`.asp`) for a servo rate. If the asset is refused, the slot keeps the
+/// texture it had. The bytes are not needed afterwards.
 ///
 /// # Safety
 /// `texture` is null or an initialised slot that nobody else uses during the call; `asset`
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn asperity_texture_load_name(
     }
 }
 
-/// Only what the runtime needs is checked; a preview behind it may be damaged or absent.
+/// Checks only what the runtime needs; the preview behind it may be damaged or absent.
 fn load(slot: &mut AsperityTexture, asset: &[u8], servo_rate_hz: f32) -> Result<(), Fault> {
     Ok(slot
         .texture

@@ -8,7 +8,7 @@ use crate::{
 use asperity_runtime::{Output, Sample};
 use core::ptr;
 
-/// What the device says in one servo period.
+/// Device sample of one servo period.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsperitySample {
@@ -20,7 +20,7 @@ pub struct AsperitySample {
     pub elapsed_ticks: u32,
 }
 
-/// What a tick gives.
+/// Output of a tick.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsperityOutput {
@@ -30,7 +30,7 @@ pub struct AsperityOutput {
     pub depth_m: f32,
     /// Estimated tangential speed, mm/s.
     pub speed_mm_s: f32,
-    /// k·δ, N.
+    /// Normal force of the spring, k·δ, N.
     pub normal_force_n: f32,
     /// Vibration before device gain, m/s².
     pub vib_m_s2: f32,
@@ -38,7 +38,7 @@ pub struct AsperityOutput {
     pub tap_n: f32,
     /// Magnitude of the friction force, N.
     pub friction_n: f32,
-    /// What happened: bits `ASPERITY_FLAG_*`.
+    /// Events: bits `ASPERITY_FLAG_*`.
     pub flags: u32,
 }
 
@@ -67,7 +67,7 @@ pub mod flags {
     /// The vibration reached its bound.
     pub const ASPERITY_FLAG_VIB_CLAMPED: u32 = 512;
 
-    // The header holds numbers; they are the runtime's.
+    // The header needs literal numbers. Here they are held to those of the runtime.
     const _: () = {
         assert!(ASPERITY_FLAG_CONTACT == Flags::CONTACT.bits() as u32);
         assert!(ASPERITY_FLAG_TAP_STARTED == Flags::TAP_STARTED.bits() as u32);
@@ -83,7 +83,7 @@ pub mod flags {
     };
 }
 
-/// No force at all: what a caller finds after a tick that was not one.
+/// Output of a refused tick: no force, safe state.
 const NOTHING: AsperityOutput = AsperityOutput {
     force_n: [0.0; 3],
     depth_m: 0.0,
@@ -110,9 +110,9 @@ impl From<Output> for AsperityOutput {
     }
 }
 
-/// One servo period: a device sample in, a limited force out. With right pointers and a
-/// texture loaded for the renderer's rate it always succeeds, whatever the sample.
-/// Otherwise the output, where there is one, is no force and the safe state.
+/// One servo period: a device sample in, a limited force out. If the pointers are right and
+/// the texture was loaded for the renderer's rate, it succeeds for every sample. Otherwise
+/// the output, where there is one, is zero force and the safe state.
 ///
 /// # Safety
 /// `renderer`, `texture` and `state` are null or initialised objects; nobody writes to the
@@ -129,13 +129,13 @@ pub unsafe extern "C" fn asperity_tick(
     // SAFETY: the caller's promises; no error to fill.
     unsafe {
         call(ptr::null_mut(), || {
-            // Also when what follows fails.
+            // Stays in place if a check below fails.
             write(output, NOTHING)?;
             let renderer = &shared(renderer)?.renderer;
             let texture = &shared(texture)?.texture;
             let state = &mut exclusive(state)?.state;
             let sample = read(sample)?;
-            // Exact: both were given the same number, or they do not belong together.
+            // Compared exactly: both were given the same number, or they do not belong together.
             if texture.servo_rate_hz() != renderer.config().servo_rate_hz {
                 return Err(AsperityStatus::Rate.into());
             }

@@ -1,5 +1,5 @@
-//! The border from the Rust side: the same calls as a C program makes, for an interpreter
-//! that sees every bad access (`cargo +nightly miri test -p asperity-c`).
+//! The calls of a C program, made from Rust, so that an interpreter can detect every invalid
+//! access (`cargo +nightly miri test -p asperity-c`).
 #![allow(unsafe_code, reason = "calling as C does")]
 
 use asperity_c::{
@@ -14,7 +14,7 @@ use std::{mem::MaybeUninit, ptr};
 
 const ASSET: &[u8] = include_bytes!("../../../tests/tests/assets/builtin-v1.asp");
 
-/// Memory of a caller, not initialised, as malloc gives it.
+/// Uninitialised memory of a caller, as `malloc` returns it.
 #[repr(C, align(64))]
 struct Memory<const SIZE: usize>(MaybeUninit<[u8; SIZE]>);
 

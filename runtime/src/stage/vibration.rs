@@ -149,7 +149,7 @@ impl<A: WeightSearch + SectionProduct + GaussianCubic + InnerProduct> Vibration<
         if !self.is_on(texture.id()) {
             self.change_texture(texture.id());
         }
-        self.prepare(texture, fraction);
+        self.prepare(texture, || fraction);
         let sounded = self.sound(texture.recursion(), texture.upsampler(), sounding);
         self.query(texture, speed, force);
         sounded
@@ -160,7 +160,7 @@ impl<A: WeightSearch + SectionProduct + GaussianCubic + InnerProduct> Vibration<
     pub(crate) fn prepare<S: Capacity>(
         &mut self,
         texture: &Texture<S, A>,
-        fraction: Quantity<A, Fraction>,
+        fraction: impl Fn() -> Quantity<A, Fraction>,
     ) {
         let (onset, model) = (&mut self.onset, &mut self.model);
         self.follower

@@ -4,12 +4,36 @@
 //! proportional to it.
 
 use crate::{
-    arithmetic::{Arithmetic, Float},
+    arithmetic::{Arithmetic, Fixed, Float, Zero as _},
+    math::max,
     quantity::{
-        Quantity,
+        Quantity, Raw,
         unit::{Metre, MetrePerSecond, Newton, NewtonPerMetre, NewtonSecondPerMetre},
     },
 };
+
+/// What is left of a spring's force.
+pub trait Pushing: Arithmetic {
+    /// a − b, not below zero; zero where a is.
+    fn left_of(a: Raw<Self, Newton>, b: Raw<Self, Newton>) -> Raw<Self, Newton>;
+}
+
+impl Pushing for Float {
+    #[inline(always)]
+    fn left_of(a: f32, b: f32) -> f32 {
+        if a > 0.0 { max(a - b, 0.0) } else { 0.0 }
+    }
+}
+
+impl Pushing for Fixed {
+    #[inline(always)]
+    fn left_of(a: Raw<Self, Newton>, b: Raw<Self, Newton>) -> Raw<Self, Newton> {
+        // Products are dear here: b is made in any case, so that a tick always costs the same.
+        let zero = Raw::<Self, Newton>::ZERO;
+        let left = (a - b).max(zero);
+        if a > zero { left } else { zero }
+    }
+}
 
 /// Stiffness and damping of a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +68,9 @@ impl<A: Arithmetic> Wall<A> {
             damping: Quantity::of(damping_n_s_m),
         }
     }
+}
 
+impl<A: Pushing> Wall<A> {
     /// The forces at a depth δ ≥ 0, m, and a velocity outwards ḋ, m/s.
     #[inline(always)]
     #[must_use]
@@ -54,12 +80,8 @@ impl<A: Arithmetic> Wall<A> {
         outward: Quantity<A, MetrePerSecond>,
     ) -> NormalForce<A> {
         let spring = self.stiffness * depth;
-        let pushing = (spring - self.damping * outward).max(Quantity::ZERO);
-        let total = if spring > Quantity::ZERO {
-            pushing
-        } else {
-            Quantity::ZERO
-        };
+        let damped = self.damping * outward;
+        let total = Quantity(A::left_of(spring.0, damped.0));
         NormalForce { spring, total }
     }
 }

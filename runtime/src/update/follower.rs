@@ -178,19 +178,19 @@ impl<A: WeightSearch + SectionProduct> Follower<A> {
         &mut self,
         models: &Models<S, A>,
         plan: &Plan,
-        fraction: Quantity<A, Fraction>,
+        fraction: impl Fn() -> Quantity<A, Fraction>,
         onset: &mut Onset,
         model: &mut Model<A>,
     ) {
         if plan.ticks_per_sample > 1 {
-            self.step_between(models, plan, fraction, onset, model);
+            self.step_between(models, plan, fraction(), onset, model);
         } else if self.phase == Cycle::OVER {
             self.phase = 0;
             onset.begin_cycle();
         } else if self.phase >= plan.cycle.working() {
             self.phase += 1;
         } else if self.phase > 0 {
-            self.work(models, plan.slice(self.phase), fraction, *onset);
+            self.work(models, plan.slice(self.phase), fraction(), *onset);
             self.phase += 1;
             if self.phase == plan.cycle.working() {
                 self.finish(models, onset, model);

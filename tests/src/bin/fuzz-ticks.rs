@@ -1,6 +1,7 @@
-//! Fuzzed ticks, as many as asked for: `cargo run --release -p asperity-tests --bin
-//! fuzz-ticks -- [TICKS] [SEED] [float|fixed]`. Fails at the first tick that is not finite, leaves the
-//! limits or panics. The same ticks and seed print the same hash.
+//! Runs any number of fuzzed ticks:
+//! `cargo run --release -p asperity-tests --bin fuzz-ticks -- [TICKS] [SEED] [float|fixed]`.
+//! Fails at the first tick that panics, is not finite or leaves the limits. The same number of
+//! ticks and the same seed print the same hash.
 #![forbid(unsafe_code)]
 
 use asperity_runtime::{Fixed, Float};

@@ -1,5 +1,6 @@
-//! Taps at the servo rate: an analog Chebyshev II low-pass of order 7, 50 dB down from
-//! half the lower rate on, excited by impulses and sampled.
+//! Taps at the servo rate. Each sample of a trace excites an analog Chebyshev II low-pass of
+//! order 7 with an impulse, and the response is sampled. The stop band begins at half the lower
+//! of both rates, 50 dB down.
 
 use asperity_formats::Taps;
 use std::f64::consts::PI;
@@ -94,7 +95,7 @@ impl Bank {
                     .sum()
             };
             let mut out: Vec<f64> = (0..ticks).map(filtered).collect();
-            // What is missing of the impulse comes back along the response.
+            // The missing part of the impulse is given back along the response.
             let wanted = trace.iter().sum::<f64>() / source_hz * servo_hz;
             let missing = wanted - out.iter().sum::<f64>();
             let shape: Vec<f64> = (0..ticks).map(|n| response(n as f64 / servo_hz)).collect();
@@ -113,8 +114,8 @@ impl Bank {
         }
     }
 
-    /// The transient of an impact: linear between the two nearest traces, smaller in
-    /// proportion below the slowest, the fastest above it.
+    /// The transient of an impact: interpolated linearly between the two nearest traces. Below
+    /// the slowest it is scaled in proportion to the speed; above the fastest it is the fastest.
     #[must_use]
     pub fn transient(&self, speed_m_s: f64) -> Vec<f64> {
         let Some(last) = self.speeds_m_s.len().checked_sub(1) else {

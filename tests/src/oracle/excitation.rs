@@ -1,7 +1,7 @@
-//! ε: xoroshiro64** seeded through SplitMix64; four bytes summed, the sum bent so that its
-//! variance is 1 and its kurtosis 3.
+//! The excitation ε: xoroshiro64** seeded through SplitMix64. Four bytes are summed, and a cubic
+//! bends the sum to variance 1 and kurtosis 3.
 
-/// Noise with a Gaussian's moments.
+/// Noise with the second and fourth moment of a Gaussian.
 #[derive(Debug, Clone)]
 pub struct Excitation {
     state: [u32; 2],

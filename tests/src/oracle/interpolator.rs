@@ -1,4 +1,5 @@
-//! From samples of the models to ticks: an elliptic low-pass of order 7, as a cascade.
+//! The upsampler, from samples of the models to ticks: an elliptic low-pass of order 7 as a
+//! cascade of sections.
 
 use std::f64::consts::PI;
 
@@ -11,10 +12,10 @@ const POLES: [(f64, f64); 3] = [
     (-0.459_981_775_780, 0.664_057_594_997),
 ];
 const REAL_POLE: f64 = -0.650_048_816_500;
-/// Pass edge in rates of the models.
+/// Pass edge as a fraction of the rate of the models.
 const EDGE: f64 = 0.45;
 
-/// A section (b0 + b1 z⁻¹ + b2 z⁻²)/(1 + a1 z⁻¹ + a2 z⁻²) and its past.
+/// A section (b0 + b1 z⁻¹ + b2 z⁻²)/(1 + a1 z⁻¹ + a2 z⁻²) and its state.
 #[derive(Debug, Clone)]
 struct Section {
     b: [f64; 3],
@@ -54,7 +55,7 @@ fn pair(c: f64, (re, im): (f64, f64)) -> [f64; 2] {
     ]
 }
 
-/// The low-pass at a servo rate of `ticks` times the models'.
+/// The low-pass at a servo rate of `ticks` times the rate of the models.
 #[derive(Debug, Clone)]
 pub struct Interpolator {
     ticks: usize,
@@ -82,7 +83,8 @@ impl Interpolator {
         }
     }
 
-    /// The output of a tick in which a sample `y` enters, or 0; the models' level in band.
+    /// The output of a tick in which the sample `y` enters, or 0. Its level in band is that of the
+    /// models.
     pub fn step(&mut self, y: f64) -> f64 {
         let driven = y * self.ticks as f64;
         self.sections.iter_mut().fold(driven, |x, s| s.step(x))

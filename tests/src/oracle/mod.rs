@@ -1,4 +1,4 @@
-//! The tick in f64, from the documents.
+//! The tick in f64, written from the documents.
 
 mod bank;
 mod excitation;

@@ -1,4 +1,5 @@
-//! Velocity: backward difference and a Butterworth low-pass of second order.
+//! Velocity: the backward difference of positions, through a Butterworth low-pass of second
+//! order.
 
 /// `H(s) = 1/(1 + √2 s + s²)` by the bilinear transform with its cut-off kept, as the
 /// direct form of the difference equation.

@@ -1,4 +1,4 @@
-//! Models over the speed–force plane: location, mixture, polynomials.
+//! The models over the plane of speed and force: location, mixture, polynomials.
 
 use asperity_formats::{Asset, Numerator};
 use std::f64::consts::{PI, TAU};
@@ -23,7 +23,7 @@ pub struct Vertex {
 pub struct Texture {
     /// Sample rate, Hz.
     pub sample_rate_hz: f64,
-    /// What stands above A(z).
+    /// Kind of the numerator B(z).
     pub numerator: Numerator,
     /// Vertices.
     pub vertices: Vec<Vertex>,
@@ -46,11 +46,11 @@ pub struct Model {
     pub level_m_s2: f64,
 }
 
-/// Points of the unit circle at which polynomials are evaluated; above degree 25.
+/// Points of the unit circle at which polynomials are evaluated, more than their degree of 25.
 const POINTS: usize = 32;
 
-/// Coefficients 1..=p of the monic polynomial with these LSF cosines: (P + Q)/2 is
-/// evaluated on the unit circle, factor by factor, and transformed back.
+/// Coefficients 1..=p of the monic polynomial with these LSF cosines. (P + Q)/2 is evaluated
+/// on the unit circle, factor by factor, and transformed back.
 #[must_use]
 pub fn polynomial(cosines: &[f64]) -> Vec<f64> {
     let order = cosines.len();
@@ -119,7 +119,7 @@ impl Texture {
         }
     }
 
-    /// Barycentric weights of a point in triangle `t`; `None` without area.
+    /// Barycentric weights of a point in triangle `t`; `None` if the triangle has no area.
     #[must_use]
     pub fn weights(&self, t: usize, speed_mm_s: f64, force_n: f64) -> Option<[f64; 3]> {
         let corner =
@@ -137,10 +137,10 @@ impl Texture {
         (whole != 0.0).then(|| parts.map(|part| part / whole))
     }
 
-    /// Triangle and weights of a query, moved to the border where it is outside.
+    /// Triangle and weights of a query. A query outside the grid is moved to its border.
     ///
     /// # Panics
-    /// If every triangle is without area.
+    /// If no triangle has an area.
     #[must_use]
     pub fn locate(&self, speed_mm_s: f64, force_n: f64) -> (usize, [f64; 3]) {
         let inside = |x: f64, max: f64| if x > 0.0 { x.min(max) } else { 0.0 };

@@ -8,7 +8,7 @@ use asperity_formats::Asset;
 use asperity_runtime::{Config, Sample, VibrationAxis, vibration::LAG_SAMPLES};
 use std::collections::VecDeque;
 
-/// What a tick gives.
+/// Output of a tick.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tick {
     /// Force on the hand, N.
@@ -46,7 +46,8 @@ pub struct Oracle {
     last_position: Vector,
     last_distance: f64,
     direction: Vector,
-    // Vibration: samples of a cycle, ticks a sample, ticks since one, and the sample of the cycle.
+    // Vibration: samples in a cycle, ticks in a sample, ticks since the last sample, and the
+    // sample within the cycle.
     cycle: usize,
     ticks: usize,
     tick: usize,
@@ -70,7 +71,7 @@ pub struct Oracle {
 }
 
 impl Oracle {
-    /// At rest; a query is taken every `cycle_samples` samples.
+    /// At rest. A query is taken every `cycle_samples` samples.
     #[must_use]
     pub fn new(asset: &Asset<'_>, cycle_samples: u8, config: &Config, seed: u64) -> Self {
         let rate = f64::from(config.servo_rate_hz);
@@ -176,8 +177,8 @@ impl Oracle {
         }
     }
 
-    /// Lets a sample through, holds the last one, or enters the safe state. Returns whether
-    /// it is safe, the periods since the last position, and whether motion restarts.
+    /// Lets a sample through, holds the last one, or enters the safe state. Returns whether the
+    /// state is safe, the periods since the last position, and whether motion restarts.
     fn gate(&mut self, sample: &Sample) -> (bool, u32, bool) {
         let position = sample.position_m.map(f64::from);
         let good = sample.elapsed_ticks > 0 && position.iter().all(|x| x.abs() <= 1e4);
@@ -221,9 +222,10 @@ impl Oracle {
         self.bristle = [0.0; 3];
     }
 
-    /// In every cycle a query is taken, in the last tick before the second sample; its model
-    /// sounds as late as makes a change wait ten samples at most, if the contact lasts. Shapes
-    /// follow the query in steps of cycles, a new contact's at once.
+    /// Every cycle takes one query, in the last tick before its second sample. The new model
+    /// sounds late enough that a change of the query is heard after at most ten samples, if the
+    /// contact lasts. Parameters follow the query in one step per cycle; those of a new contact
+    /// follow at once.
     fn model_at_work(&mut self, speed_mm_s: f64, force_n: f64, sounding: bool) {
         if !sounding {
             (self.follows, self.pending, self.sounds) = (false, None, None);
@@ -261,7 +263,7 @@ impl Oracle {
         }
     }
 
-    /// A sample of the model in one of `ticks` ticks, and what the low-pass makes of it.
+    /// A sample of the model in one of `ticks` ticks, through the low-pass.
     fn vibration(&mut self, speed_mm_s: f64, force_n: f64, sounding: bool) -> f64 {
         self.model_at_work(speed_mm_s, force_n, sounding);
         let y = if self.tick == 0 { self.sample() } else { 0.0 };
@@ -300,7 +302,8 @@ impl Oracle {
 
     /// Acceleration of the transient under way, m/s².
     fn tap(&mut self, distance: f64) -> f64 {
-        // A place lasts as many ticks as a power of two that fit in 1 ms; the newest has the last.
+        // A height is kept every 2ⁿ ticks, the largest power of two within 1 ms. The newest is
+        // updated in every tick.
         let rate = f64::from(self.config.servo_rate_hz);
         let mut place = 1;
         while place < 16 && 2.0 * f64::from(place) <= rate / 1000.0 {
@@ -314,7 +317,8 @@ impl Oracle {
         self.place_ticks = self.place_ticks % place + 1;
         self.distances.push_back(distance);
         let passed = f64::from(self.place_ticks) / f64::from(place);
-        // Least squares over eight points, in distance a place; the newest place may be short.
+        // The slope of a least-squares line through eight heights. The newest interval may be
+        // shorter than the others.
         let mean = 3.5;
         let slope: f64 = self
             .distances
@@ -332,10 +336,10 @@ impl Oracle {
         self.transient.pop_front().unwrap_or(0.0)
     }
 
-    /// The bristle: deflection d, of which a share 1/(1 + T/τ) with τ = F_n/(k·v_c) is kept
-    /// every tick, at most μF/k + h; beyond the dead zone h a force k(|d| − h + lead) against
-    /// it, at most μF, where the lead is the motion of a tick and the delay along d, at most
-    /// half of |d| − h.
+    /// The bristle with deflection d. Each tick keeps the fraction 1/(1 + T/τ) of it, with
+    /// τ = F_n/(k·v_c), and |d| is at most μF/k + h. Beyond the dead zone h the force is
+    /// k(|d| − h + lead), at most μF, against the deflection. The lead is the motion along d
+    /// during a tick and the delay, at most half of |d| − h.
     fn friction(
         &mut self,
         tangential: impl Fn(Vector) -> Vector,
@@ -376,7 +380,7 @@ impl Oracle {
         times(along, -force)
     }
 
-    /// The passive wall nearest to the asset's: stiffness and damping.
+    /// Stiffness and damping of the passive wall nearest to that of the asset.
     fn wall(&self) -> (f64, f64) {
         let mechanics = &self.config.mechanics;
         let period = 1.0 / f64::from(self.config.servo_rate_hz);

@@ -1,5 +1,5 @@
-//! What needs the compiler, which the library of this package does without so that the
-//! fuzzer builds the runtime alone.
+//! Helpers that need the compiler. The library of this package does without it, so that the
+//! fuzzer builds only the runtime.
 
 /// The bytes that `asperity builtin` writes.
 pub(crate) fn builtin() -> Vec<u8> {

@@ -1,11 +1,11 @@
-//! A sampled power spectrum to the LSFs of its AR(21) model.
+//! From a sampled power spectrum to the LSFs of its AR(21) model.
 
 use super::transfer::POINTS;
 use crate::ORDER;
 use asperity::{levinson, lsf};
 use std::{f64::consts::PI, sync::LazyLock};
 
-/// cos(lag·ω) at the midpoints, one row a lag.
+/// cos(lag·ω) at the midpoints, one row for each lag.
 static COSINES: LazyLock<Vec<[f64; POINTS]>> = LazyLock::new(|| {
     (0..=ORDER)
         .map(|lag| {

@@ -1,21 +1,21 @@
-//! How strongly a surface shakes the stylus.
+//! The level of the vibration that a surface causes.
 
 use super::Physical;
 
 /// *Calibrated.* RMS at 100 mm/s and 1 N of a surface of 5 µm, dB re 1 m/s².
 const LEVEL_DB: f64 = -1.6;
-/// *Calibrated.* dB a decade of height: the tip rides on the crests, so that level
-/// grows more slowly than height (20 dB a decade).
+/// *Calibrated.* dB for a decade of height. The tip rides on the crests, so the level grows more
+/// slowly than in proportion to the height, which would be 20 dB.
 const PER_DECADE_OF_HEIGHT_DB: f64 = 12.0;
-/// dB a decade of modulus about 10 MPa: soft asperities give way under the tip.
+/// dB for a decade of modulus about 10 MPa: soft asperities yield under the tip.
 const PER_DECADE_OF_MODULUS_DB: f64 = 0.4;
-/// *Calibrated.* Exponent of speed at a wavelength of 0.5 mm, and its growth an octave:
-/// a coarse relief leaves the band at low speed.
+/// *Calibrated.* Exponent of speed at a wavelength of 0.5 mm, and its growth for an octave: a
+/// coarse relief leaves the band at low speed.
 const SPEED_EXPONENT: f64 = 0.86;
 const SPEED_EXPONENT_PER_OCTAVE: f64 = 0.10;
 const SPEED_EXPONENT_RANGE: (f64, f64) = (0.4, 1.6);
-/// *Calibrated.* Exponent of force at 10 MPa, and its fall a decade: a soft contact
-/// engages more asperities as it is pressed.
+/// *Calibrated.* Exponent of force at 10 MPa, and its fall for a decade: a soft contact engages
+/// more asperities as it is pressed.
 const FORCE_EXPONENT: f64 = 0.24;
 const FORCE_EXPONENT_PER_DECADE: f64 = -0.07;
 const FORCE_EXPONENT_RANGE: (f64, f64) = (0.0, 0.7);

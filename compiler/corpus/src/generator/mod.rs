@@ -1,7 +1,7 @@
-//! The physically grounded generator: six physical parameters to a texture.
+//! The generator: it makes a texture from six physical parameters.
 //!
-//! 1. [`surface`]: the spectrum of heights along the stroke, and the stylus tip that
-//!    cannot follow what is finer than its contact.
+//! 1. [`surface`]: the spectrum of heights along the stroke, filtered by the stylus tip, which
+//!    cannot follow relief that is finer than its contact.
 //! 2. [`transfer`]: heights at speed v become frequencies v·k; two derivatives make
 //!    them accelerations; the stylus on its contact is a damped resonator.
 //! 3. [`level`]: RMS acceleration at 100 mm/s and 1 N from height, wavelength and
@@ -70,11 +70,13 @@ pub fn instance(physical: &Physical, grid: &UnifiedGrid) -> Instance {
     }
 }
 
-/// Stiffness of the virtual wall, N/m: soft things give way. Between 200 N/m and the
-/// 500 N/m that the driver of the 3D Systems Touch reports; unconfirmed on a device.
+/// Stiffness of the virtual wall, N/m.
+///
+/// It grows with the modulus, from 200 N/m to the 500 N/m that the driver of the 3D Systems Touch
+/// reports. Nobody has confirmed it on a device.
 #[must_use]
 pub fn wall_stiffness_n_m(physical: &Physical) -> f64 {
-    // From 0.03 MPa, a sponge, to 100 MPa, hard for a hand.
+    // From 0.03 MPa, a sponge, to 100 MPa, which feels hard to a hand.
     let share =
         (libm::log10(physical.modulus_mpa / 0.03) / libm::log10(100.0 / 0.03)).clamp(0.0, 1.0);
     200.0 + share * (asperity::defaults::STIFFNESS_N_M - 200.0)

@@ -1,12 +1,12 @@
-//! Heights of a surface along a stroke, as a stylus tip meets them.
+//! Heights of a surface along a stroke, as a stylus tip follows them.
 
 use super::Physical;
 
-/// Radius of the tip, mm: the balls of texture probes are about 3 mm across.
+/// Radius of the tip, mm. The balls of texture probes are about 3 mm in diameter.
 const TIP_RADIUS_MM: f64 = 1.6;
-/// Narrowest line that a real surface makes, octaves: nothing is perfectly regular.
+/// Narrowest line in the spectrum of a real surface, octaves. No surface is perfectly regular.
 const LEAST_SPREAD_OCTAVES: f64 = 0.22;
-/// Power of the second harmonic of a regular relief: its crests are not sinusoids.
+/// Power of the second harmonic of a regular relief, whose crests are not sinusoids.
 const SECOND_HARMONIC: f64 = 0.06;
 /// *Calibrated.* Height power of the fractal background, relative to the line, at the
 /// dominant wavelength.
@@ -26,7 +26,7 @@ pub fn height_power(physical: &Physical, k_per_mm: f64, force_n: f64) -> f64 {
         let x = (octaves - offset) / spread;
         libm::exp(-0.5 * x * x)
     };
-    // Rolled off below the dominant wavelength: a surface is flat at large.
+    // The background rolls off below the dominant frequency: at large scale a surface is flat.
     let background = BACKGROUND / (1.0 + libm::exp2(BACKGROUND_SLOPE * octaves));
     let regular = SECOND_HARMONIC * (1.0 - spread).max(0.0);
     let x = std::f64::consts::TAU * k_per_mm * contact_radius_mm(physical, force_n);

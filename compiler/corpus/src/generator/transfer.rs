@@ -6,25 +6,26 @@ use super::{Physical, surface::height_power};
 pub const POINTS: usize = 512;
 /// *Calibrated.* Resonance of stylus and hand on a contact of 10 MPa, Hz.
 const RESONANCE_HZ: f64 = 122.0;
-/// *Calibrated.* How it grows with the modulus: weakly, as the grip is in series.
+/// *Calibrated.* Exponent of the resonance in the modulus. It is small because the grip is in
+/// series.
 const RESONANCE_EXPONENT: f64 = 0.09;
-/// How it grows with force: a Hertzian contact stiffens as F^(1/3), its root by half
-/// of that, and the grip halves it again.
+/// Exponent of the resonance in force. A Hertzian contact stiffens as F^(1/3), the square root
+/// halves the exponent, and the grip halves it again.
 const RESONANCE_FORCE_EXPONENT: f64 = 0.08;
 /// *Calibrated.* Damping ratio of the hand, to which the material adds.
 const HAND_DAMPING: f64 = 0.42;
 /// Half the loss factor is a damping ratio.
 const MATERIAL_DAMPING: f64 = 0.5;
-/// *Calibrated.* Noise of the broad kind that no surface model holds (handle, hand,
-/// sensor), as a share of the peak.
+/// *Calibrated.* Broadband noise that no surface model explains (handle, hand, sensor), as a
+/// fraction of the peak.
 const FLOOR: f64 = 1.2e-2;
 
-/// Power spectrum of acceleration at [`POINTS`] midpoints from 0 to half the rate,
-/// peak one; the zero 1 + z⁻¹ of the model multiplies it.
+/// Power spectrum of acceleration at [`POINTS`] midpoints from 0 to half the rate, with a peak of
+/// one. The zero 1 + z⁻¹ of the model multiplies it.
 #[must_use]
 pub fn spectrum(physical: &Physical, speed_mm_s: f64, force_n: f64) -> [f64; POINTS] {
     let resonance_hz = resonance_hz(physical, force_n);
-    // The hand damps against itself, the material against the surface.
+    // The hand's damping acts against the hand, the material's against the surface.
     let material = MATERIAL_DAMPING * physical.loss_factor;
     let damping = HAND_DAMPING + material;
     let mut power: [f64; POINTS] = std::array::from_fn(|point| {

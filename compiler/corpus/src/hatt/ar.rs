@@ -1,4 +1,4 @@
-//! An ARMA model of HaTT to AR(21) under the fixed numerator 1 + z⁻¹.
+//! Conversion of HaTT's ARMA models to AR(21) under the fixed numerator 1 + z⁻¹.
 
 use crate::{
     ORDER,
@@ -7,9 +7,11 @@ use crate::{
 use asperity::{hatt::SourceModel, lsf, spectrum::squared_magnitude};
 use std::f64::consts::PI;
 
-/// |1 + e^{−jω}|² is divided out down to this much, 4 being its peak: where a source has
-/// no zero at Nyquist, poles would else crowd there. A tenth of it halves the smallest
-/// gap between LSFs for a hundredth of a decibel below 450 Hz.
+/// Lower bound of |1 + e^{−jω}|² when it is divided out; its peak is 4.
+///
+/// Without the bound, poles would crowd at Nyquist where a source has no zero there. A tenth of
+/// this bound would halve the smallest gap between LSFs and gain a hundredth of a decibel below
+/// 450 Hz.
 const NYQUIST_FLOOR: f64 = 1e-4;
 
 /// A model of the corpus at its place.
@@ -25,14 +27,16 @@ pub(super) struct Sounding {
     pub level_db: f64,
 }
 
-/// Whether a model sounds: an edge model at rest or without touch does not.
+/// Whether a model vibrates. Edge models at zero speed or zero force do not.
 pub(super) fn sounds(model: &SourceModel) -> bool {
     model.variance > 0.0 && model.speed_mm_s > 0.0 && model.force_n > 0.0
 }
 
-/// The autocorrelation of the spectrum without the zero at Nyquist, and Levinson's
-/// recursion on it; the level is that of the source. `None` where doubles do not
-/// suffice for ordered LSFs.
+/// Converts a model by Levinson's recursion on the autocorrelation of its spectrum without the
+/// zero at Nyquist.
+///
+/// The level is that of the source. `None` where double precision does not suffice for ordered
+/// LSFs.
 pub(super) fn convert(model: &SourceModel) -> Option<Sounding> {
     let mut mean = 0.0;
     let mut shape: [f64; POINTS] = std::array::from_fn(|point| {

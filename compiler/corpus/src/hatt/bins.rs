@@ -1,12 +1,12 @@
-//! The unified grid: where the samples of all materials gather.
+//! The unified grid: clusters of the samples of all materials.
 
 use super::kmeans::{self, Point};
 use crate::{BINS, Bin, UnifiedGrid};
 
-/// How far beyond the largest sample the grid reaches, share of it.
+/// How far the grid reaches beyond the largest sample, relative to it.
 const BEYOND: f64 = 0.02;
 
-/// The unified grid and the scale on which a sample is near a bin.
+/// The unified grid, and the scales on which distances to its bins are measured.
 #[derive(Debug, Clone)]
 pub(super) struct Bins {
     pub grid: UnifiedGrid,
@@ -17,8 +17,8 @@ pub(super) struct Bins {
 }
 
 impl Bins {
-    /// Clusters samples, at least [`BINS`] places among them: both coordinates to zero
-    /// mean and unit deviation, then k-means.
+    /// Clusters samples at [`BINS`] or more distinct places: both coordinates are standardised to
+    /// zero mean and unit deviation, then k-means runs.
     pub(super) fn of(samples: &[Bin], restarts: usize, seed: u64) -> Self {
         let count = samples.len() as f64;
         let axis = |of: fn(&Bin) -> f64| {
@@ -28,7 +28,7 @@ impl Bins {
                 .map(|s| (of(s) - mean) * (of(s) - mean))
                 .sum::<f64>()
                 / count;
-            // One speed or force for all leaves that axis without a say.
+            // If all samples have one speed or one force, that axis does not count.
             let deviation = if variance > 0.0 { variance.sqrt() } else { 1.0 };
             (mean, deviation, samples.iter().map(of).fold(0.0, f64::max))
         };

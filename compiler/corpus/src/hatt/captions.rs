@@ -1,4 +1,4 @@
-//! Our captions for HaTT's materials; only the names are shared with it.
+//! Our captions for HaTT's materials; only the names are HaTT's.
 
 use crate::{Caption, CorpusError};
 use serde::Deserialize;
@@ -15,7 +15,7 @@ struct File {
     material: Vec<Captioned>,
 }
 
-/// What we say of a material.
+/// Our description of a material.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Captioned {

@@ -1,4 +1,4 @@
-//! Why a folder of HaTT models is no corpus.
+//! Why a folder of HaTT models cannot be used as a corpus.
 
 use crate::{BINS, SAMPLE_RATE_HZ};
 use asperity::{
@@ -8,17 +8,17 @@ use asperity::{
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Names printed at once; the rest is counted.
+/// How many names are printed; the others are counted.
 const SHOWN: usize = 10;
 
-/// Why a folder of HaTT models is no corpus.
+/// Why a folder of HaTT models cannot be used as a corpus.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum HattCorpusError {
     /// The folder or a file of it was refused.
     #[error(transparent)]
     Source(#[from] HattError),
-    /// Materials that we wrote no captions for.
+    /// Materials without captions of ours.
     #[error("no captions for {}", listed(unknown))]
     NoCaptions {
         /// Files with the names they state.
@@ -32,7 +32,7 @@ pub enum HattCorpusError {
         /// The rate, Hz.
         found: f64,
     },
-    /// A model whose spectrum has no all-pole form in doubles.
+    /// A model whose spectrum has no all-pole form in double precision.
     #[error("{}: model {model} has no ordered LSFs at order {}", file.display(), crate::ORDER)]
     Unconvertible {
         /// The file.
@@ -54,7 +54,7 @@ pub enum HattCorpusError {
         /// Places found.
         found: usize,
     },
-    /// A share of foreign taps that is none.
+    /// A weight of another material's taps that is outside 0–1.
     #[error("tap_mixing = {found}, must be 0 to 1")]
     TapMixing {
         /// The value.

@@ -1,12 +1,12 @@
-//! k-means on the speed–force plane: k-means++ seeding (Arthur and Vassilvitskii,
-//! 2007), Lloyd's iterations, the best of several starts.
+//! k-means on the speed–force plane: k-means++ seeding (Arthur and Vassilvitskii, 2007), Lloyd's
+//! iterations, the best of several starts.
 //!
-//! Our own: the crates on offer bring nightly SIMD or an array library, and no two
-//! versions promise the same centroids for a seed.
+//! We wrote it ourselves because the available crates need nightly SIMD or an array library, and
+//! none promises the same centroids for a seed in its next version.
 
 use crate::augment::Draws;
 
-/// Iterations after which a start is taken as it is; tens suffice.
+/// Largest number of iterations of a start; some tens usually suffice.
 const ITERATIONS: usize = 300;
 
 /// A point in standardised coordinates.
@@ -18,7 +18,7 @@ pub(super) fn distance(x: &Point, y: &Point) -> f64 {
     a * a + b * b
 }
 
-/// Index of the nearest centroid; the first of equals.
+/// Index of the nearest centroid; the first if several are equally near.
 pub(super) fn nearest(point: &Point, centroids: &[Point]) -> usize {
     let mut best = (0, f64::INFINITY);
     for (index, centroid) in centroids.iter().enumerate() {
@@ -30,8 +30,10 @@ pub(super) fn nearest(point: &Point, centroids: &[Point]) -> usize {
     best.0
 }
 
-/// `count` centroids of at least as many distinct points, the same for the same seed.
-/// Of `restarts` starts (one at least) the one of least inertia counts.
+/// `count` centroids of at least as many distinct points.
+///
+/// Of `restarts` starts (at least one) the one of least inertia counts. The same seed gives the
+/// same centroids.
 pub(super) fn centroids(points: &[Point], count: usize, restarts: usize, seed: u64) -> Vec<Point> {
     let mut best = (f64::INFINITY, Vec::new());
     for restart in 0..restarts.max(1) {
@@ -54,8 +56,8 @@ pub(super) fn centroids(points: &[Point], count: usize, restarts: usize, seed: u
     best.1
 }
 
-/// Each next centre is drawn with odds that grow as its squared distance from those
-/// there are.
+/// Draws each further centre with a probability proportional to its squared distance from the
+/// centres so far.
 fn seeded(points: &[Point], count: usize, draws: &mut Draws) -> Vec<Point> {
     let mut centres = vec![points[draws.below(points.len())]];
     let mut squared = vec![f64::INFINITY; points.len()];
@@ -65,7 +67,7 @@ fn seeded(points: &[Point], count: usize, draws: &mut Draws) -> Vec<Point> {
             *squared = squared.min(distance(point, &latest));
         }
         let mut left = draws.uniform() * squared.iter().sum::<f64>();
-        // Rounding may leave a rest: the last point that is no centre yet takes it.
+        // Rounding may leave a remainder: then the last point that is not yet a centre is drawn.
         let mut chosen = latest;
         for (squared, point) in squared
             .iter()
@@ -83,7 +85,7 @@ fn seeded(points: &[Point], count: usize, draws: &mut Draws) -> Vec<Point> {
     centres
 }
 
-/// Means of the points nearest to each centroid; one without points stays.
+/// Means of the points that are nearest to each centroid. A centroid without points stays.
 fn means(points: &[Point], centroids: &[Point]) -> Vec<Point> {
     let mut sums = vec![[0.0; 3]; centroids.len()];
     for point in points {

@@ -1,20 +1,18 @@
 //! A user's own folder of HaTT models as a corpus, after the paper.
 //!
-//! 1. `source`: every sounding model of every file, from ARMA to AR(21) under
+//! 1. `source` reads every file and converts every model that vibrates from ARMA to AR(21) under
 //!    1 + z⁻¹ (`ar`), with its level.
-//! 2. `bins`: the measured places of all materials, clustered by `kmeans` into the
-//!    bins of one grid.
-//! 3. `pool`: per material and bin the models to draw from, on what its `own` grid
-//!    says between them.
-//! 4. `tap`: HaTT has none; they are synthesised from the hardness in our
-//!    `captions`.
+//! 2. `bins` clusters the measured places of all materials by `kmeans` into the bins of one grid.
+//! 3. `pool` holds, for each material and bin, the models that an instance draws from. The
+//!    material's `own` grid interpolates between them.
+//! 4. `tap` synthesises taps from the hardness in our `captions`, since HaTT has none.
 //!
-//! Models on the border of a material's rectangle are no measurements but extensions
-//! of the source: those at rest or without touch are silent and left out; the others
-//! serve as corners of triangles alone, neither clustered nor counted as samples.
+//! Models on the border of a material's rectangle are not measured; the source extends them from
+//! measured ones. Those at zero speed or zero force are silent and left out. The others serve only
+//! as corners of triangles: they are neither clustered nor counted as samples.
 //!
-//! HaTT's licence forbids to pass it on: a model that is trained on such a corpus
-//! stays with whoever trained it.
+//! HaTT's licence forbids redistribution, so a model that is trained on such a corpus stays with
+//! whoever trained it.
 
 mod ar;
 mod bins;
@@ -47,19 +45,20 @@ use std::{collections::BTreeSet, path::PathBuf};
 pub struct HattOptions {
     /// The folder of `Models_<name>.xml`.
     pub folder: PathBuf,
-    /// Augmented instances a material (paper: 20).
+    /// Augmented instances of each material (paper: 20).
     pub instances: usize,
-    /// Number of the first instance: an instance depends on the seed and its number
-    /// alone, so 20 after the first 20 are others of the same kind, unseen by whoever
-    /// trained on those.
+    /// Number of the first instance.
+    ///
+    /// An instance depends only on the seed and its number. The 20 after the first 20 are therefore
+    /// new instances of the same kind, which a model trained on the first 20 has not seen.
     pub first_instance: usize,
     /// Seed of the augmentation; the grid does not depend on it.
     pub seed: u64,
-    /// Share of another material's taps, 0–1 (paper: 0.05).
+    /// Weight of another material's taps, 0–1 (paper: 0.05).
     pub tap_mixing: f64,
     /// Seed of the clustering.
     pub cluster_seed: u64,
-    /// Starts of the clustering, of which the best counts.
+    /// Number of starts of the clustering; the best one counts.
     pub cluster_restarts: usize,
 }
 
@@ -153,7 +152,7 @@ pub fn load(options: &HattOptions) -> Result<Corpus, CorpusError> {
     })
 }
 
-/// A material with what we say of it.
+/// A material with our description of it.
 struct Described {
     source: Source,
     captioned: Captioned,
@@ -211,7 +210,7 @@ fn clustered(options: &HattOptions, described: &[Described]) -> Result<Bins, Hat
     ))
 }
 
-/// Over file names, files and captions.
+/// Checksum over file names, files and captions.
 fn checksum(described: &[Described]) -> u32 {
     let crc = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
     let mut digest = crc.digest();

@@ -1,20 +1,20 @@
-//! What a material is like between its own models: its grid, and how its level grows.
+//! A material between its own models: its grid, and the growth of its level.
 
 use super::ar::Sounding;
 use crate::ORDER;
 
-/// Exponents beyond these come from a handful of models that lie close together.
+/// Bounds of the exponents. Larger ones come from a few models that lie close together.
 const SPEED_EXPONENTS: (f64, f64) = (0.0, 2.0);
 const FORCE_EXPONENTS: (f64, f64) = (-0.5, 1.5);
-/// Least squared correlation of speeds and forces left over for two exponents.
+/// Least independence of speeds and forces, 1 − r², for which two exponents are fitted.
 const LEAST_INDEPENDENCE: f64 = 1e-3;
 
 /// The models of a material on its own triangles.
 #[derive(Debug, Clone)]
 pub(super) struct OwnGrid {
-    /// By vertex; `None` where a vertex does not sound.
+    /// The model of each vertex; `None` where a vertex is silent.
     pub models: Vec<Option<Sounding>>,
-    /// Speed, mm/s, and force, N, by vertex.
+    /// Speed, mm/s, and force, N, of each vertex.
     pub places: Vec<(f64, f64)>,
     /// Indices of vertices.
     pub triangles: Vec<[usize; 3]>,
@@ -23,8 +23,8 @@ pub(super) struct OwnGrid {
 }
 
 impl OwnGrid {
-    /// Whether a vertex lies on the border of the rectangle, where models are
-    /// extended, not measured.
+    /// Whether a vertex lies on the border of the rectangle, where models are not measured but
+    /// extended.
     pub(super) fn is_edge(&self, vertex: usize) -> bool {
         let (speed_mm_s, force_n) = self.places[vertex];
         let on = |value: f64, border: f64| value == 0.0 || value == border;
@@ -40,9 +40,10 @@ impl OwnGrid {
             .filter_map(|(_, model)| model.as_ref())
     }
 
-    /// The sounding models around a place, with positive weights of sum one: the
-    /// corners of its triangle by their barycentric coordinates. A place outside is
-    /// moved to the border; where no corner sounds, the nearest model stands alone.
+    /// The models around a place that vibrate, with positive weights whose sum is one.
+    ///
+    /// They are the corners of the place's triangle, weighted by barycentric coordinates. A place
+    /// outside is moved to the border. Where all corners are silent, the nearest model is used alone.
     pub(super) fn around(&self, speed_mm_s: f64, force_n: f64) -> Vec<(f64, &Sounding)> {
         let place = (speed_mm_s.min(self.corner.0), force_n.min(self.corner.1));
         let mut best = (f64::NEG_INFINITY, [0; 3], [0.0; 3]);
@@ -98,7 +99,7 @@ fn barycentric(place: (f64, f64), corners: [(f64, f64); 3]) -> Option<[f64; 3]> 
     weights.iter().all(|w| w.is_finite()).then_some(weights)
 }
 
-/// Weighted mean of LSFs: ordered, since all are.
+/// Weighted mean of LSFs. It is ordered because all of them are.
 pub(super) fn mixed_lsf<'a>(
     parts: impl IntoIterator<Item = (f64, &'a [f64; ORDER])>,
 ) -> [f64; ORDER] {
@@ -119,8 +120,8 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// Least squares of levels over 20·log₁₀ of speed and force; flat where the models
-    /// leave the exponents open.
+    /// Least-squares fit of levels over 20·log₁₀ of speed and force; exponents of 0 where the models
+    /// do not determine them.
     pub(super) fn of<'a>(models: impl Iterator<Item = &'a Sounding>) -> Self {
         let rows: Vec<[f64; 3]> = models
             .map(|m| {
@@ -142,7 +143,7 @@ impl Growth {
         let (vv, ff, vf) = (product(0, 0), product(1, 1), product(0, 1));
         let (vl, fl) = (product(0, 2), product(1, 2));
         let determinant = vv * ff - vf * vf;
-        // Two models, or models on a line: no exponents of their own.
+        // Two models, or models on a line, do not determine two exponents.
         if determinant <= LEAST_INDEPENDENCE * vv * ff {
             return Self {
                 speed: 0.0,

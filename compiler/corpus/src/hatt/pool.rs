@@ -1,4 +1,4 @@
-//! What an augmented instance draws from: the entries of a material for every bin.
+//! The models that an augmented instance draws from: the entries of a material for every bin.
 
 use super::{
     ar::Sounding,
@@ -7,15 +7,15 @@ use super::{
 };
 use crate::{BINS, ORDER, augment::Draws};
 
-/// How far an entry goes over to what the material's grid says at the centroid, its
-/// level first carried there by the material's own growth. All the way, every entry
-/// of a bin would be the same.
+/// How far an entry is moved towards the model that the material's grid interpolates at the
+/// centroid, after its level is carried there by the material's own growth. At 1 all entries of a
+/// bin would be the same.
 const TOWARDS_GRID: f64 = 0.5;
 
 /// A model carried to the centroid of its bin.
 #[derive(Debug, Clone, PartialEq)]
 struct Entry {
-    /// Odds of being drawn; those of a bin sum to one.
+    /// Probability of being drawn; those of a bin sum to one.
     weight: f64,
     lsf_rad: [f64; ORDER],
     level_db: f64,
@@ -27,13 +27,15 @@ pub(super) struct Pool {
     bins: Vec<Vec<Entry>>,
 }
 
-/// One entry a bin: LSFs, rad, and levels, dB re 1 m/s².
+/// One entry for each bin: LSFs, rad, and levels, dB re 1 m/s².
 pub(super) type Channels = ([[f32; ORDER]; BINS], [f32; BINS]);
 
 impl Pool {
-    /// Samples that fall in a bin, with equal odds; for a bin without any the models
-    /// around its centroid, with their barycentric weights as odds, so that their mean
-    /// is the model interpolated there.
+    /// The entries of every bin.
+    ///
+    /// A bin holds the samples that fall into it, with equal probabilities. A bin without samples
+    /// holds the models around its centroid with their barycentric weights as probabilities, so
+    /// that their mean is the model interpolated there.
     pub(super) fn of(own: &OwnGrid, bins: &Bins) -> Self {
         let growth = Growth::of(own.samples());
         let mut within: Vec<Vec<&Sounding>> = vec![Vec::new(); BINS];
@@ -68,7 +70,7 @@ impl Pool {
         }
     }
 
-    /// The mean of every bin: LSFs by place in their order, levels in dB.
+    /// The mean of every bin: of the LSFs, each at its place in the order, and of levels in dB.
     pub(super) fn mean(&self) -> Channels {
         self.channels(|entries| Entry {
             weight: 1.0,
@@ -92,7 +94,7 @@ impl Pool {
         })
     }
 
-    /// Ways to draw, as their binary logarithm.
+    /// Binary logarithm of the number of ways to draw.
     #[cfg(test)]
     pub(super) fn bits(&self) -> f64 {
         self.bins

@@ -1,4 +1,4 @@
-//! Reading a folder: every file parsed, every sounding model converted.
+//! Reads a folder: parses every file and converts every model that vibrates.
 
 use super::{
     ar::{self, Sounding},
@@ -32,7 +32,7 @@ pub(super) struct Source {
 pub(super) fn read(folder: &Path) -> Result<Vec<Source>, HattCorpusError> {
     let files = hatt::files(folder)?;
     let results: Vec<_> = files.par_iter().map(|file| read_file(file)).collect();
-    // The first fault in order of name, whatever the thread count.
+    // Report the first fault in order of file name, whatever the thread count.
     let sources = results.into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut first_with: HashMap<&str, &Path> = HashMap::new();
     for source in &sources {
@@ -97,7 +97,7 @@ fn read_file(file: &Path) -> Result<Source, HattCorpusError> {
     })
 }
 
-/// The bytes of a file, bounded.
+/// The bytes of a file, whose size is bounded.
 fn bytes(file: &Path) -> Result<Vec<u8>, HattError> {
     let mut bytes = Vec::new();
     File::open(file)

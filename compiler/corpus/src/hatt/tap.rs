@@ -1,17 +1,17 @@
-//! Taps of a material that has none: synthesised from the hardness we state for it.
+//! Taps of a material that has none, synthesised from the hardness that we state for it.
 
 use crate::{
     TAP_SAMPLES, TAPS,
     generator::{self, Physical},
 };
 
-/// Modulus of hardness 0, decades re 1 MPa, and hardness a decade: jelly has 0.01 MPa,
-/// granite about seven decades more.
+/// Modulus at hardness 0, decades re 1 MPa, and hardness per decade. Jelly has 0.01 MPa, granite
+/// about seven decades more.
 const SOFTEST_DECADES: f64 = -2.0;
 const HARDNESS_PER_DECADE: f64 = 14.0;
 
-/// The surface as far as taps and the wall ask: modulus 10^(−2 + hard/14) MPa and the
-/// losses of its family; the rest stays neutral. `None` for an unknown family.
+/// A surface with the parameters that taps and wall depend on: a modulus of 10^(−2 + hard/14) MPa
+/// and the losses of its family. Other parameters stay neutral. `None` for an unknown family.
 pub(super) fn surface(hard: f64, family: &str, mu: f64) -> Option<Physical> {
     Some(Physical {
         wavelength_mm: 1.0,

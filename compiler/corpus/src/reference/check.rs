@@ -10,8 +10,8 @@ const LEAST_FAMILIES: usize = 14;
 const LEAST_TRAINING: usize = 6;
 const LEAST_FOCUSES: usize = 3;
 const HELD_OUT: usize = 3;
-/// Largest share of the content words of a held-out caption that its material's
-/// training captions may hold.
+/// Largest fraction of the content words of a held-out caption that its material's training
+/// captions may contain.
 const LARGEST_OVERLAP: f64 = 0.50;
 /// How a provenance begins.
 const ORIGINS: [&str; 5] = [
@@ -21,7 +21,7 @@ const ORIGINS: [&str; 5] = [
     "estimate:",
     "analogy:",
 ];
-/// Words that tell nothing about a material.
+/// Words that say nothing about a material.
 const STOP_WORDS: &str = "a about above across after against all along also an and another any are as at \
     away back be because been before behind being below beside between both but by can could does down \
     each even ever every few for from gets give gives given goes had has have having her here his how \
@@ -217,7 +217,7 @@ pub fn words(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// Whether a lower-case word tells nothing about a material.
+/// Whether a lower-case word says nothing about a material.
 #[must_use]
 pub fn is_stop_word(word: &str) -> bool {
     word.len() < 3 || STOP_WORDS.split_whitespace().any(|stop| stop == word)

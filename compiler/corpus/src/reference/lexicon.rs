@@ -1,9 +1,9 @@
-//! Everyday phrases with attributes alone: what ordinary words mean for touch.
+//! Everyday phrases with attributes: the meaning of ordinary words for touch.
 
 use crate::{Rating, error::CorpusError};
 use serde::Deserialize;
 
-/// A phrase and what people would say of it.
+/// A phrase and its attributes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LexiconEntry {
     /// The phrase.
@@ -30,8 +30,7 @@ struct Row {
 /// Reads the lexicon.
 ///
 /// # Errors
-/// [`CorpusError`] for a syntax error, an empty or doubled phrase, a rating outside
-/// 0–100.
+/// [`CorpusError`] for a syntax error, an empty or repeated phrase, or a rating outside 0–100.
 pub fn parse(file: &str, text: &str) -> Result<Vec<LexiconEntry>, CorpusError> {
     let parsed: LexiconFile = toml::from_str(text).map_err(|error| CorpusError::Syntax {
         file: file.to_owned(),

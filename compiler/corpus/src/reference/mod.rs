@@ -1,5 +1,5 @@
-//! The reference corpus: materials we describe ourselves, textures the
-//! [`generator`] makes of them. Synthetic, and licence-clean.
+//! The reference corpus: materials that we describe ourselves, and textures that the [`generator`]
+//! makes of them. It is synthetic and free of other people's rights.
 
 pub mod check;
 pub mod lexicon;
@@ -54,7 +54,7 @@ const LEXICON_FILE: &str = "everyday.toml";
 pub struct ReferenceOptions {
     /// A folder of family files and `everyday.toml`; the committed corpus if `None`.
     pub folder: Option<PathBuf>,
-    /// Augmented instances a material.
+    /// Augmented instances of each material.
     pub instances: usize,
     /// How instances differ.
     pub augmentation: Augmentation,
@@ -170,7 +170,7 @@ fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> 
         let name = path
             .file_name()
             .map(|name| name.to_string_lossy().into_owned());
-        // Prompts of the evaluation lie beside the corpus and are no part of it.
+        // Prompts of the evaluation are in the same folder but do not belong to the corpus.
         if let (true, Some(name)) = (is_toml, name)
             && name != "pairs.toml"
             && name != "probes.toml"

@@ -13,25 +13,25 @@ pub struct FamilyFile {
     pub material: Vec<MaterialEntry>,
 }
 
-/// One material as it is written down.
+/// One material as the file states it.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialEntry {
     /// Name, unique in the corpus.
     pub name: String,
-    /// Words that name it; no held-out caption may hold one.
+    /// Words that name it; no held-out caption may contain one.
     pub synonyms: Vec<String>,
-    /// Captions to train on, six at least.
+    /// Captions to train on, at least six.
     pub training: Vec<Caption>,
-    /// Captions never trained on, three.
+    /// Three captions that are never trained on.
     pub held_out: Vec<String>,
-    /// What an average person would say of it.
+    /// The attributes that an average person would state.
     pub attributes: Rating,
-    /// What the generator reads.
+    /// The parameters of the generator.
     pub physical: PhysicalEntry,
 }
 
-/// Physical parameters, each with where it comes from.
+/// Physical parameters, each with its source.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhysicalEntry {

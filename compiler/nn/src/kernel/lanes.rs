@@ -1,4 +1,5 @@
-//! Sums in eight lanes: element i belongs to lane i mod 8, lanes are added pairwise at the end.
+//! Sums in eight lanes: element i is added to lane i mod 8, and the lanes are added pairwise at
+//! the end.
 
 const LANES: usize = 8;
 

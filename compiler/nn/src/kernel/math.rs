@@ -2,7 +2,7 @@
 
 use multiversion::multiversion;
 
-/// √x; IEEE 754 rounds it correctly everywhere.
+/// √x, which IEEE 754 rounds correctly on every processor.
 #[allow(
     clippy::disallowed_methods,
     reason = "IEEE 754 defines the square root"
@@ -11,7 +11,7 @@ pub(crate) fn sqrt(x: f32) -> f32 {
     x.sqrt()
 }
 
-/// aᵇ; squares and square roots exactly as a product and a root.
+/// aᵇ. Squares and square roots are computed as a product and as a root.
 pub(crate) fn pow(a: f32, b: f32) -> f32 {
     if b == 2.0 {
         a * a
@@ -61,12 +61,13 @@ pub(crate) fn erf_all(values: &mut [f32]) {
     }
 }
 
-/// eˣ = 2ⁿ·eʳ, |r| ≤ ln 2 / 2, without a branch: lanes of it run side by side.
+/// eˣ = 2ⁿ·eʳ, |r| ≤ ln 2 / 2, without a branch, so that the compiler can vectorise it.
 #[inline(always)]
 fn exp(x: f32) -> f32 {
-    /// 1.5·2²³: f32 near it are integers, so adding it rounds, and its low bits are n.
+    /// 1.5·2²³. Near it every f32 is an integer, so adding it rounds, and the low bits of the sum
+    /// are n.
     const ROUND: f32 = 12_582_912.0;
-    /// ln 2 in two parts; the first has few digits, so that n times it is exact.
+    /// ln 2 in two parts. The first has few digits, so its product with n is exact.
     const LN_2: [f32; 2] = [0.693_359_4, -2.121_944_4e-4];
     // Beyond these bounds the result is 0 or infinite; a NaN stays.
     let x = if x < -105.0 { -105.0 } else { x };
@@ -81,7 +82,7 @@ fn exp(x: f32) -> f32 {
     let p = p * r + 0.166_665_2;
     let p = p * r + 0.499_999_94;
     let power = (p * r * r + r) + 1.0;
-    // 2ⁿ in two factors, each a normal number, so that results below 2⁻¹²⁶ are right too.
+    // 2ⁿ is applied as two normal factors, so that results below 2⁻¹²⁶ are right too.
     let n = shifted.to_bits().wrapping_sub(ROUND.to_bits()) as i32;
     let half = n >> 1;
     power * power_of_two(half) * power_of_two(n - half)
@@ -93,7 +94,8 @@ fn power_of_two(n: i32) -> f32 {
     f32::from_bits((n.wrapping_add(127) as u32) << 23)
 }
 
-/// erf x: a polynomial times x where x is small, else 1 − exp of a polynomial. Both are computed.
+/// erf x: a polynomial times x where x is small, else 1 − exp of a polynomial. Both are computed
+/// and one is chosen, without a branch.
 #[inline(always)]
 fn erf(x: f32) -> f32 {
     let a = x.abs();
@@ -124,7 +126,7 @@ fn erf(x: f32) -> f32 {
 mod tests {
     use super::*;
 
-    /// Every 997th f32 of both signs, and what is special.
+    /// Every 997th f32 of both signs, and special values.
     fn sweep() -> impl Iterator<Item = f32> {
         let finite = (0..=f32::MAX.to_bits()).step_by(997).map(f32::from_bits);
         finite

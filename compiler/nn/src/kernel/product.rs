@@ -1,9 +1,9 @@
 //! The matrix product.
 //!
 //! out[i][j] = ((0 + a[i][0]·b[0][j]) + a[i][1]·b[1][j]) + …: every element is summed in
-//! ascending k, each product rounded before it is added. Tiles, panels and lanes run over
-//! rows and columns only; where a sum over k is interrupted, its value so far is stored and
-//! taken up again, which does not change it.
+//! ascending k, and each product is rounded before it is added. Tiles, panels and lanes divide
+//! rows and columns only. Where a sum over k is interrupted, its value is stored and loaded again,
+//! which does not change it.
 
 mod pack;
 mod row;
@@ -15,7 +15,7 @@ use pack::{COLUMNS, DEPTH, PANELS, Right};
 pub(crate) enum Matrix<'a> {
     /// Row-major.
     Rows(&'a [f32]),
-    /// Column-major: the transpose is row-major.
+    /// Column-major; the transpose is row-major.
     Columns(&'a [f32]),
     /// Row-major int8 in two's complement; an element is (q − zero[j]) · scale[j].
     Quantized {
@@ -27,7 +27,8 @@ pub(crate) enum Matrix<'a> {
 
 /// `out` (m × n, all zero before) becomes `a` (m × k) · `b` (k × n), all row-major.
 ///
-/// Panics when a slice is shorter than its sizes say: callers have checked shapes.
+/// # Panics
+/// If a slice is shorter than its sizes say. Callers have checked the shapes.
 pub(crate) fn product(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
     if m == 0 || n == 0 || k == 0 {
         return;
@@ -38,7 +39,7 @@ pub(crate) fn product(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, o
     }
 }
 
-// Processors whose clock AVX-512 slows down are left out by `multiversion`.
+// `multiversion` leaves out processors whose clock AVX-512 slows down.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn dispatched(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
     tiled(m, k, n, a, b, out);
@@ -51,7 +52,7 @@ fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32
     let mut panels = vec![[0.0; COLUMNS]; PANELS.min(n.div_ceil(COLUMNS)) * DEPTH];
     let (panels, _) = panels.as_chunks_mut();
     let mut right = Right::new(k, n, b);
-    // Slices of k outside: the rows of b that a slice needs lie together in memory.
+    // Slices of k are the outer loop: the rows of b that a slice needs lie together in memory.
     for start in (0..k).step_by(DEPTH) {
         let depth = DEPTH.min(k - start);
         right.stage(start, depth);
@@ -80,8 +81,9 @@ fn tiled(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32
     }
 }
 
-/// Rows of the tile for so many rows left: 4 × 16 sums fill half of 16 registers of 8 lanes.
-/// Two rows make a tile of three, padded with zeros: the compiler left two scalar.
+/// Rows of the next tile when `left` rows remain. 4 × 16 sums fill half of 16 registers of 8 lanes.
+///
+/// Two rows make a tile of three, padded with zeros: the compiler does not vectorise a tile of two.
 #[inline(always)]
 fn tile_rows(left: usize) -> usize {
     match left {
@@ -91,14 +93,14 @@ fn tile_rows(left: usize) -> usize {
     }
 }
 
-/// Rows of all tiles of m rows.
+/// Rows of all tiles of m rows, padding included.
 #[inline(always)]
 fn padded(m: usize) -> usize {
     if m % 4 == 2 { m + 1 } else { m }
 }
 
-/// Adds R × depth times depth × 16 to the first `rows` of R rows of `out`, `n` apart, `width`
-/// columns of them.
+/// Adds the product of an R × depth tile and a depth × 16 panel to `out`: to the first `rows` of
+/// R rows, which lie `n` apart, and to `width` columns of them.
 #[inline(always)]
 fn tile<const R: usize>(
     block: &[f32],
@@ -118,7 +120,7 @@ fn tile<const R: usize>(
     }
 }
 
-/// By value: sums that no copy by length has seen stay in registers.
+/// Takes the sums by value, so that the compiler keeps them in registers.
 #[inline(always)]
 fn accumulate<const R: usize>(
     mut sums: [[f32; COLUMNS]; R],

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::{ElementType, OnnxError, Tensor, op::layout, proto::TensorProto};
 
-/// Most elements of a constant; the file must hold them, so this only bounds the shape.
+/// Most elements of a constant. The file must hold them all, so this only bounds the shape.
 const LIMIT: usize = 1 << 31;
 
 /// Why a `TensorProto` is refused.
@@ -21,7 +21,7 @@ impl ConstantError {
         Self { field, reason }
     }
 
-    /// As an error of the initializer with this name.
+    /// The error of the initializer with this name.
     pub(crate) fn of(self, name: &str) -> OnnxError {
         OnnxError::Initializer {
             name: name.to_owned(),

@@ -28,7 +28,8 @@ pub(crate) fn quantized_products(steps: &mut [Step], constants: &[Option<Tensor>
     }
 }
 
-/// The product with the weights that a step expands, when they are int8 per column or with one scale.
+/// The product with the weights that a step expands, if they are int8 with one scale in all or
+/// one for each column.
 fn fuse(source: &Step, constants: &[Option<Tensor>]) -> Option<QuantizedMatMul> {
     let axis = source.operator.as_dequantize()?.axis;
     let constant = |index: usize| -> Option<&Tensor> {

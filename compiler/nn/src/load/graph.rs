@@ -1,4 +1,4 @@
-//! Names to slots, nodes to steps.
+//! The checked graph: names become slots, nodes become steps.
 
 use std::collections::HashMap;
 
@@ -40,7 +40,7 @@ pub(crate) struct Plan {
     pub(crate) outputs: Vec<Port>,
     pub(crate) input_slots: Vec<Slot>,
     pub(crate) output_slots: Vec<Slot>,
-    /// One a slot: the value, when it does not depend on the inputs.
+    /// The value of each slot, if it does not depend on the inputs.
     pub(crate) constants: Vec<Option<Tensor>>,
     pub(crate) steps: Vec<Step>,
 }
@@ -169,7 +169,7 @@ impl Builder {
         Ok(())
     }
 
-    /// The step of a node; none when its value is known now.
+    /// The step of a node; `None` if its value is already known.
     fn step(&mut self, node: &NodeProto, opset: i64) -> Result<Option<Step>, NodeRefusal> {
         let operator = op::parse(node, opset)?;
         let wanted = node.output.iter().filter(|name| !name.is_empty()).count();
@@ -210,7 +210,8 @@ impl Builder {
         Ok((!known).then_some(step))
     }
 
-    /// The value of a node whose inputs are all known, unless it is large: quantised weights stay so.
+    /// The value of a node whose inputs are all known. Large values are not computed here, so that
+    /// weights stay quantised.
     fn evaluate(
         &self,
         operator: &dyn Operator,
@@ -298,7 +299,7 @@ fn prune(steps: &mut Vec<Step>, constants: &mut [Option<Tensor>], outputs: &[Slo
         }
         for &slot in step.inputs.iter().flatten() {
             used[slot] = true;
-            // Seen from the end, the first reader is the last.
+            // In reverse order, the first reader that is met is the last one.
             if !std::mem::replace(&mut needed[slot], true) {
                 step.last_uses.push(slot);
             }

@@ -1,4 +1,4 @@
-//! From bytes to a plan: everything about a model that can be checked is checked here, once.
+//! From bytes to a plan. Everything about a model that can be checked is checked here, once.
 
 pub(crate) mod constant;
 mod fuse;

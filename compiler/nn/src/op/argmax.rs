@@ -6,7 +6,8 @@ use crate::{
     tensor::Element,
 };
 
-/// Index of the largest element along an axis; the first of equals, or the last.
+/// Index of the largest element along an axis; among equal ones the first or the last, as the
+/// attribute says.
 #[derive(Debug)]
 pub(crate) struct ArgMax {
     axis: i64,

@@ -1,4 +1,4 @@
-//! Add, Sub, Mul, Div, Pow, broadcast as numpy does.
+//! Add, Sub, Mul, Div and Pow, with numpy's broadcasting.
 
 use crate::{
     ElementType, NodeRefusal, OpError, Tensor,

@@ -1,4 +1,4 @@
-//! Attributes of a node: each is read with its type, and none may be left unread.
+//! Attributes of a node. Each is read with its type, and none may stay unread.
 
 use crate::{
     NodeRefusal, Tensor,

@@ -9,7 +9,7 @@ use crate::{
     },
 };
 
-/// To another type. From f32 to an integer it drops the fraction and saturates.
+/// Conversion to another type. From f32 to an integer it drops the fraction and saturates.
 #[derive(Debug)]
 pub(crate) struct Cast {
     to: ElementType,
@@ -18,7 +18,7 @@ pub(crate) struct Cast {
 impl Cast {
     pub(crate) fn parse(attributes: &mut Attributes<'_>) -> Result<Self, NodeRefusal> {
         let code = attributes.int("to")?.unwrap_or(0);
-        // Only matters for 8-bit floats.
+        // The attribute matters only for 8-bit floats.
         attributes.int("saturate")?;
         let to = i32::try_from(code)
             .ok()
@@ -36,7 +36,7 @@ impl Cast {
         }
     }
 
-    /// `$from` to each of the types there are, by `as`; `$zero` is false as bool.
+    /// Converts `$from` to every other type by `as`; `$zero` becomes false as bool.
     fn apply<T: Copy + PartialEq + Default>(
         &self,
         shape: Vec<usize>,
@@ -101,10 +101,11 @@ impl Operator for Cast {
     }
 }
 
-/// (q − zero) · scale, with one scale and zero point a tensor or one along an axis.
+/// (q − zero) · scale, with one scale and zero point for the tensor or one for each index of an
+/// axis.
 #[derive(Debug)]
 pub(crate) struct DequantizeLinear {
-    /// Only used when there is more than one scale.
+    /// The axis; used only if there is more than one scale.
     pub(crate) axis: i64,
 }
 
@@ -179,7 +180,7 @@ impl Operator for DequantizeLinear {
     }
 }
 
-/// 8-bit integers as f32, exactly; none for another type.
+/// 8-bit integers as f32, which is exact; empty for another type.
 pub(crate) fn numbers(tensor: &Tensor) -> Vec<f32> {
     match tensor {
         Tensor::I8 { data, .. } => data.iter().map(|&x| f32::from(x as i8)).collect(),

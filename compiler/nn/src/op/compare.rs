@@ -45,7 +45,7 @@ impl Compare {
             (a_shape, inputs.elements::<T>(0)?),
             (b_shape, inputs.elements::<T>(1)?),
         );
-        // By reference, so that there is one loop a type rather than five.
+        // A reference gives one loop for each type instead of five.
         let holds: &dyn Fn(T, T) -> bool = match self.0 {
             Order::Equal => &|x, y| x == y,
             Order::Less => &|x, y| x < y,

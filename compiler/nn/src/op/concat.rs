@@ -10,7 +10,7 @@ use crate::{
     tensor::{Element, same_type},
 };
 
-/// Tensors one after the other along an axis.
+/// Concatenation of tensors along an axis.
 #[derive(Debug)]
 pub(crate) struct Concat {
     axis: i64,
@@ -61,7 +61,7 @@ impl Operator for Concat {
     }
 }
 
-/// The parts' blocks in turn; `first` only names the type.
+/// Joins the blocks of the parts in turn; `first` only determines the type.
 fn join<T: Element>(
     _first: &[T],
     parts: &[&Tensor],

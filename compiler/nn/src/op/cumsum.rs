@@ -5,8 +5,10 @@ use crate::{
     op::{Inputs, Operator, Types, attributes::Attributes, layout},
 };
 
-/// Running sum along the axis that input 1 names, in ascending order (descending when
-/// `reverse`), each sum with its own element (without it when `exclusive`).
+/// Running sum along the axis that input 1 names.
+///
+/// The order is ascending, or descending if `reverse`. Each sum includes its own element, unless
+/// `exclusive`.
 #[derive(Debug)]
 pub(crate) struct CumSum {
     exclusive: bool,

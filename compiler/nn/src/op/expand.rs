@@ -6,7 +6,7 @@ use crate::{
     tensor::same_type,
 };
 
-/// Repeated to the shape that input 0 and the shape in input 1 broadcast to.
+/// Repetition to the shape that input 0 and the shape in input 1 broadcast to.
 #[derive(Debug)]
 pub(crate) struct Expand;
 

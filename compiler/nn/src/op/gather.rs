@@ -1,4 +1,4 @@
-//! Gather and GatherND: elements picked by index. Negative indices count from the end.
+//! Gather and GatherND: elements selected by index. Negative indices count from the end.
 
 use crate::{
     ElementType, NodeRefusal, OpError, Tensor,

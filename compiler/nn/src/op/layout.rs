@@ -2,8 +2,10 @@
 
 use crate::OpError;
 
-/// Number of elements, unless it is over `limit`. Axes of size 0 count as 1 against the
-/// limit, so that the product of any of the axes is within it too.
+/// Number of elements, unless it is over `limit`.
+///
+/// For the limit, axes of size 0 count as 1, so that the product of any subset of the axes is
+/// within it too.
 pub(crate) fn size(shape: &[usize], limit: usize) -> Result<usize, OpError> {
     let bound = shape
         .iter()
@@ -51,7 +53,8 @@ pub(crate) fn around(shape: &[usize], axis: usize) -> (usize, usize) {
     )
 }
 
-/// Shape of two tensors brought together: aligned at the last axis, a size of 1 repeats.
+/// The shape that two shapes broadcast to: they are aligned at the last axis, and a size of 1
+/// repeats.
 pub(crate) fn broadcast(a: &[usize], b: &[usize]) -> Result<Vec<usize>, OpError> {
     let rank = a.len().max(b.len());
     let at = |shape: &[usize], axis: usize| match (axis + shape.len()).checked_sub(rank) {
@@ -77,9 +80,9 @@ pub(crate) fn broadcast_strides(shape: &[usize], to: &[usize]) -> Vec<isize> {
     result
 }
 
-/// Walks a shape row by row and calls `row(offsets)`: where the row starts under each of
-/// the `N` stride lists. Axes that are contiguous under all of them count as one, so
-/// rows are as long as can be. Returns the row's length and its strides.
+/// Visits a shape row by row, with the start of each row under each of the `N` stride lists.
+///
+/// Axes that are contiguous under all lists are merged, so rows are as long as possible.
 pub(crate) struct Walk<const N: usize> {
     /// Elements of a row.
     pub(crate) row: usize,
@@ -145,7 +148,7 @@ impl<const N: usize> Walk<N> {
     }
 }
 
-/// A strided view copied out in row-major order.
+/// Copies a strided view in row-major order.
 pub(crate) fn copy<T: Copy>(
     data: &[T],
     start: usize,
@@ -165,7 +168,8 @@ pub(crate) fn copy<T: Copy>(
     result
 }
 
-/// `function` of two tensors element by element, broadcast; `shape` is what they broadcast to.
+/// Applies `function` to two tensors element by element. `shape` is the shape that they broadcast
+/// to.
 pub(crate) fn zip<A: Copy, B: Copy, O>(
     shape: &[usize],
     (a_shape, a): (&[usize], &[A]),

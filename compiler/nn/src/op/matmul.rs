@@ -26,7 +26,8 @@ impl Operator for MatMul {
                 &[a_shape, b_shape],
             )
         };
-        // A vector is a row on the left, a column on the right; the added axis goes again.
+        // A vector counts as a row on the left and a column on the right; the axis that is added
+        // for it is removed again.
         let (a_lead, m, k) = match a_shape {
             [] => return Err(refusal()),
             [k] => (&[][..], 1, *k),
@@ -51,7 +52,7 @@ impl Operator for MatMul {
         }
         let mut data = vec![0.0; inputs.size(&shape)?];
         if b_lead.is_empty() {
-            // One matrix for all: its rows count as rows of one product.
+            // All products share one right-hand matrix: their rows become rows of one product.
             let rows = data.len().checked_div(n).unwrap_or(0);
             product(rows, k, n, a, &Matrix::Rows(b), &mut data);
             return Ok(Tensor::F32 { shape, data });
@@ -82,7 +83,7 @@ impl Operator for MatMul {
     }
 }
 
-/// α·op(A)·op(B) + β·C on matrices; op transposes when asked.
+/// α·op(A)·op(B) + β·C on matrices, where op transposes if the attributes say so.
 #[derive(Debug)]
 pub(crate) struct Gemm {
     alpha: f32,
@@ -162,8 +163,10 @@ impl Operator for Gemm {
     }
 }
 
-/// `MatMul` whose right-hand side is `DequantizeLinear` of constants: the weights stay int8
-/// in memory, and each is expanded where the product needs it, by the same formula.
+/// `MatMul` whose right-hand side is `DequantizeLinear` of constants.
+///
+/// The weights stay int8 in memory. The product expands each where it needs it, by the same
+/// formula.
 #[derive(Debug)]
 pub(crate) struct QuantizedMatMul {
     /// Rows.

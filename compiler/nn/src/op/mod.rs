@@ -1,4 +1,4 @@
-//! Operators: one file a family. What a node says is read and checked once, at load.
+//! Operators, one file for each family. A node is read and checked once, at load.
 
 mod argmax;
 mod arithmetic;
@@ -26,26 +26,26 @@ use crate::{
 };
 use attributes::Attributes;
 
-/// Most elements of one tensor in a run: 256 MiB of f32, five times the largest of CLIP.
+/// Most elements of one tensor in a run: 256 MiB of f32, five times CLIP's largest tensor.
 pub(crate) const RUN_LIMIT: usize = 1 << 26;
 /// Most elements of a tensor that is computed at load.
 pub(crate) const LOAD_LIMIT: usize = 1 << 20;
 
 /// A node's operator with its attributes.
 pub(crate) trait Operator: Send + Sync + std::fmt::Debug {
-    /// Type of the result for inputs of these types (`None`: left out), as many as
-    /// [`parse`] has checked.
+    /// Type of the result for inputs of these types; `None` stands for an input that is left out.
+    /// Their number is what [`parse`] has checked.
     fn output_type(&self, inputs: &Types<'_>) -> Result<ElementType, NodeRefusal>;
 
     /// The result.
     fn run(&self, inputs: &Inputs<'_>) -> Result<Tensor, OpError>;
 
-    /// Itself, when it is a `MatMul`: load fuses it with quantised weights.
+    /// The operator, if it is a `MatMul`, which load fuses with quantised weights.
     fn as_matmul(&self) -> Option<&MatMul> {
         None
     }
 
-    /// Itself, when it is a `DequantizeLinear`: load fuses it with a product.
+    /// The operator, if it is a `DequantizeLinear`, which load fuses with a product.
     fn as_dequantize(&self) -> Option<&DequantizeLinear> {
         None
     }
@@ -55,7 +55,7 @@ pub(crate) trait Operator: Send + Sync + std::fmt::Debug {
 pub(crate) struct Types<'a>(pub(crate) &'a [Option<ElementType>]);
 
 impl Types<'_> {
-    /// Type of an input, when it is among `allowed`.
+    /// Type of an input, if it is among `allowed`.
     fn one_of(
         &self,
         index: usize,

@@ -37,7 +37,7 @@ impl Operator for Softmax {
         if data.is_empty() {
             return Ok(Tensor::f32(shape, data));
         }
-        // Lines along the axis are brought together, worked on, and put back.
+        // Each line along the axis is gathered, normalised and written back.
         let mut line = vec![0.0; count];
         for block in data.chunks_exact_mut(count * inner) {
             if inner == 1 {

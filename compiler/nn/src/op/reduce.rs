@@ -14,11 +14,11 @@ pub(crate) enum Reduction {
     L2,
 }
 
-/// A reduction over axes; over all of them when none are given.
+/// A reduction over axes; over all of them if none are given.
 #[derive(Debug)]
 pub(crate) struct Reduce {
     reduction: Reduction,
-    /// From the attribute; otherwise they are input 1.
+    /// The axes from the attribute; without it they are input 1.
     axes: Option<Vec<i64>>,
     keep: bool,
     nothing_without_axes: bool,
@@ -30,7 +30,7 @@ impl Reduce {
         attributes: &mut Attributes<'_>,
         opset: i64,
     ) -> Result<(std::ops::RangeInclusive<usize>, Box<dyn Operator>), NodeRefusal> {
-        // ReduceSum has its axes as an input since opset 13, the others since 18.
+        // The axes are an input from opset 13 on for ReduceSum, from 18 on for the others.
         let as_input = opset >= if reduction == Reduction::Sum { 13 } else { 18 };
         let operator = Self {
             reduction,

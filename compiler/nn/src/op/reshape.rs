@@ -6,7 +6,7 @@ use crate::{
     tensor::same_type,
 };
 
-/// Axes in another order; reversed when `perm` is not given.
+/// Axes in another order; reversed if `perm` is not given.
 #[derive(Debug)]
 pub(crate) struct Transpose {
     perm: Option<Vec<i64>>,
@@ -55,7 +55,8 @@ impl Operator for Transpose {
     }
 }
 
-/// Another shape of the same size: −1 is what is left over; 0 keeps the axis, unless `allowzero`.
+/// Another shape of the same size: −1 takes the size that remains; 0 keeps the axis, unless
+/// `allowzero`.
 #[derive(Debug)]
 pub(crate) struct Reshape {
     zero_is_zero: bool,
@@ -115,7 +116,7 @@ impl Operator for Reshape {
     }
 }
 
-/// Without the axes of size 1 that input 1 names; without all of them when it is left out.
+/// Removes the axes of size 1 that input 1 names, or all axes of size 1 if it is left out.
 #[derive(Debug)]
 pub(crate) struct Squeeze;
 
@@ -155,7 +156,7 @@ impl Operator for Squeeze {
     }
 }
 
-/// With axes of size 1 added where input 1 says, counted in the result.
+/// Adds axes of size 1 at the positions in input 1, which count in the result.
 #[derive(Debug)]
 pub(crate) struct Unsqueeze;
 
@@ -187,7 +188,7 @@ impl Operator for Unsqueeze {
     }
 }
 
-/// The input.
+/// The input, unchanged.
 #[derive(Debug)]
 pub(crate) struct Identity;
 

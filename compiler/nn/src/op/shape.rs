@@ -1,4 +1,4 @@
-//! Shape, Constant, ConstantOfShape, Range: tensors from shapes and from nothing.
+//! Shape, Constant, ConstantOfShape and Range: tensors made from shapes or from attributes.
 
 use crate::{
     ElementType, NodeRefusal, OpError, Tensor,
@@ -10,7 +10,8 @@ use crate::{
     tensor::same_type,
 };
 
-/// The sizes of the axes `start..end`, counted from the end when negative, cut to the rank.
+/// The sizes of the axes `start..end`. Negative bounds count from the end; both are clamped to
+/// the rank.
 #[derive(Debug)]
 pub(crate) struct Shape {
     start: i64,
@@ -153,7 +154,7 @@ impl Operator for Range {
                 )),
             };
             let (start, limit, delta) = (scalar(0)?, scalar(1)?, scalar(2)?);
-            // NaN and infinite counts become 0 and "too many".
+            // A count of NaN becomes 0; an infinite one is over the limit.
             let count = libm::ceil((limit - start) / delta).max(0.0);
             if count > inputs.limit as f64 {
                 return Err(too_large);
@@ -170,7 +171,7 @@ impl Operator for Range {
                 value: 0,
             });
         }
-        // In 128 bits no difference of two 64-bit numbers overflows.
+        // In 128 bits the difference of two 64-bit numbers cannot overflow.
         let distance = (i128::from(limit) - i128::from(start)) * i128::from(delta.signum());
         let step = i128::from(delta).abs();
         let count = if distance > 0 {

@@ -6,8 +6,10 @@ use crate::{
     tensor::same_type,
 };
 
-/// From `starts` to before `ends` along `axes` (all when left out) in `steps` (1 when left
-/// out). Bounds count from the end when negative and are cut to the tensor, as in Python.
+/// Elements from `starts` to before `ends` along `axes` in `steps`.
+///
+/// Without `axes` all axes are meant; without `steps` the step is 1. As in Python, negative bounds
+/// count from the end, and bounds are clamped to the tensor.
 #[derive(Debug)]
 pub(crate) struct Slice;
 

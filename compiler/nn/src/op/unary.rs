@@ -56,7 +56,7 @@ fn apply<T: Copy>(data: &mut [T], function: impl Fn(T) -> T) {
     }
 }
 
-/// x cut to min..=max; either bound may be left out.
+/// x clamped to min..=max; either bound may be left out.
 #[derive(Debug)]
 pub(crate) struct Clip;
 
@@ -80,7 +80,7 @@ impl Operator for Clip {
         };
         let (low, high) = (bound(1, f32::NEG_INFINITY)?, bound(2, f32::INFINITY)?);
         let mut data = inputs.f32(0)?.to_vec();
-        // The order that ONNX states: the upper bound wins over a lower one above it.
+        // The order that ONNX states: if the bounds cross, the upper one wins.
         apply(&mut data, |x| {
             let x = if x < low { low } else { x };
             if x > high { high } else { x }

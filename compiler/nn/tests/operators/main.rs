@@ -78,7 +78,7 @@ fn evaluate(
     graph.node(op_type, &values, attributes);
     let mut model = graph.to_model();
     name_output(&mut model);
-    // The type of the output is not known here, so each is tried.
+    // The type of the output is not known here, so all are tried.
     let mut error = String::new();
     for code in [1, 7, 6, 9, 3, 2] {
         if let Some(graph) = &mut model.graph {

@@ -1,8 +1,8 @@
-//! Friction over normal force with its anchors, and the wall over displacement.
+//! Friction against normal force with its anchors, and the wall's force against displacement.
 
-use super::reach;
+use super::layout::reach;
 use crate::model::{Friction, FrictionAnchor, TextureModel};
-use crate::plot::theme::{
+use asperity_plot::{
     Align, Axis, Canvas, Color, Key, Margins, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
     size,
 };
@@ -80,7 +80,7 @@ fn draw_friction(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     }
 }
 
-/// The anchors that weigh most: as many as there are lines beside the picture.
+/// The anchors of the largest weights, as many as there are lines beside the picture.
 fn shown_anchors(friction: &Friction) -> Vec<&FrictionAnchor> {
     let mut anchors: Vec<&FrictionAnchor> = friction.anchors.iter().collect();
     anchors.sort_by(|a, b| b.weight.total_cmp(&a.weight));
@@ -112,7 +112,7 @@ fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
             (depth_mm, force_n(depth_mm, speed_m_s))
         })
     };
-    // Damping is drawn where it can be seen.
+    // Damping is drawn where it is large enough to be seen.
     let damped = damping_n > 0.01 * top_n;
     if damped {
         panel.line(canvas, path(PRESS_SPEED_M_S), moving);

@@ -1,9 +1,9 @@
-//! The distinct filters of a grid: edge models mostly repeat interior ones.
+//! The distinct filters of a grid. Most edge models repeat an interior one.
 
-use super::level;
+use super::level::level;
 use crate::model::{GridVertex, ModelGrid, VertexKind};
 
-/// One vertex a distinct filter, interior ones first, each group in file order.
+/// One vertex for each distinct filter: interior ones first, then edge ones from the loudest on.
 ///
 /// A filter is represented by an interior vertex that has it, else by the loudest
 /// edge vertex.

@@ -1,8 +1,9 @@
 //! The speed–force grid: triangles, vertices, and the level between them.
 
-use super::{level, level_scale, margins, reach};
+use super::layout::{margins, reach};
+use super::level::{level, level_scale};
 use crate::model::{GridVertex, ModelGrid, VertexKind};
-use crate::plot::theme::{Axis, Canvas, Color, Key, Marker, Panel, Rect, Stroke, ink, legend};
+use asperity_plot::{Axis, Canvas, Color, Key, Marker, Panel, Rect, Stroke, ink, legend};
 
 const INTERIOR_RADIUS: f32 = 11.0;
 const EDGE_RADIUS: f32 = 8.5;
@@ -32,7 +33,7 @@ pub(super) fn draw(canvas: &mut Canvas, rect: Rect, grid: &ModelGrid) {
             .find_map(|triangle| triangle.level_at(speed_mm_s, force_n))
             .map(|level| scale.color(level))
     });
-    // Light on dark, so that the mesh shows on every colour.
+    // Light lines on dark ones, so that the mesh shows on every colour.
     for mesh in [
         Stroke::new(ink::BLACK.alpha(70), 3.5),
         Stroke::new(ink::PAPER.alpha(210), 1.5),
@@ -90,7 +91,7 @@ struct Triangle {
 }
 
 impl Triangle {
-    /// `None` for indices without a vertex or corners on one line.
+    /// The triangle; `None` for an index without a vertex or for corners on one line.
     fn new(corners: &[usize; 3], vertices: &[GridVertex]) -> Option<Self> {
         let [a, b, c] = corners.map(|index| vertices.get(index));
         let corners = [a?, b?, c?];
@@ -104,7 +105,8 @@ impl Triangle {
         })
     }
 
-    /// The level at a point inside, barycentric as the renderer has it.
+    /// The level at a point inside, mixed with barycentric weights as the renderer does; `None`
+    /// outside.
     fn level_at(&self, speed_mm_s: f64, force_n: f64) -> Option<f64> {
         let point = (speed_mm_s, force_n);
         let [a, b, c] = self.corners;
@@ -137,8 +139,8 @@ mod tests {
         }
     }
 
-    /// Claim: in either orientation the level is linear, exact at corners, absent
-    /// outside; slivers of no area and dangling indices are no triangles.
+    /// Claim: in either orientation the level is linear, exact at corners and absent outside.
+    /// Corners on one line and indices without a vertex give no triangle.
     #[test]
     fn the_level_is_barycentric() {
         let vertices = [

@@ -1,8 +1,16 @@
-//! Name, structure, sizes and provenance.
+//! The header: name, structure, sizes and provenance.
 
-use super::AssetBytes;
 use crate::model::{Numerator, TextureModel, VertexKind};
-use crate::plot::theme::{Align, Canvas, Rect, Stroke, TextStyle, VAlign, ink, size};
+use asperity_plot::{Align, Canvas, Rect, Stroke, TextStyle, VAlign, ink, size};
+
+/// Sizes of the asset that a sheet is drawn from, bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AssetBytes {
+    /// The part that a tick needs.
+    pub haptic: usize,
+    /// The whole file.
+    pub total: usize,
+}
 
 const LEFT: f32 = 40.0;
 
@@ -32,7 +40,7 @@ pub(super) fn draw(
     }
 }
 
-/// A framed word in the upper right corner; gives its left edge.
+/// Draws a framed word in the upper right corner and returns its left edge.
 fn badge(canvas: &mut Canvas, rect: Rect, text: &str) -> f32 {
     let style = TextStyle::new(size::TICK)
         .bold()
@@ -45,7 +53,7 @@ fn badge(canvas: &mut Canvas, rect: Rect, text: &str) -> f32 {
     frame.x
 }
 
-/// What the texture consists of.
+/// The parts of the texture and their sizes.
 fn structure(model: &TextureModel, bytes: Option<AssetBytes>) -> String {
     let grid = &model.grid;
     let zeros = grid
@@ -89,7 +97,7 @@ fn structure(model: &TextureModel, bytes: Option<AssetBytes>) -> String {
     parts.join("   ·   ")
 }
 
-/// Who made it from what.
+/// Which generator made the texture, and from what.
 fn origin(model: &TextureModel) -> String {
     let provenance = &model.provenance;
     let mut parts = Vec::new();
@@ -118,7 +126,7 @@ fn origin(model: &TextureModel) -> String {
     parts.join("   ·   ")
 }
 
-/// What a reader should know.
+/// Remarks that a reader should know.
 fn remarks(model: &TextureModel) -> String {
     model
         .provenance

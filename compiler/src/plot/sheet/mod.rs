@@ -4,12 +4,17 @@ mod contact;
 mod distinct;
 mod grid;
 mod header;
+mod layout;
+mod level;
 mod poles;
 mod spectra;
 mod taps;
 
-use super::theme::{Canvas, ColorMap, ColorScale, Margins, PlotError, Rect};
-use crate::model::{GridVertex, TextureModel};
+use asperity_plot::{Canvas, PlotError, Rect};
+
+use crate::model::TextureModel;
+
+pub use header::AssetBytes;
 
 /// Width of the sheet, pixels.
 pub const WIDTH_PX: u32 = 2400;
@@ -20,19 +25,10 @@ const HEADER_HEIGHT: f32 = 186.0;
 const UPPER_HEIGHT: f32 = 670.0;
 const LOWER_HEIGHT: f32 = 736.0;
 
-/// Sizes of the asset that a sheet is drawn from, bytes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct AssetBytes {
-    /// Everything that a tick needs.
-    pub haptic: usize,
-    /// The whole file.
-    pub total: usize,
-}
-
-/// Draws a texture; the PNG's bytes.
+/// Draws a texture and returns the bytes of a PNG.
 ///
-/// `bytes` are the sizes of its asset, if there is one. Every model draws, also one
-/// without taps, anchors or any sound. The same model gives the same bytes.
+/// `bytes` are the sizes of its asset, if there is one. Every model can be drawn, even one
+/// without taps, anchors or any vibration. The same model gives the same bytes.
 ///
 /// # Errors
 /// [`PlotError`] if the embedded font or the PNG encoder fails.
@@ -80,39 +76,6 @@ fn compose(model: &TextureModel, bytes: Option<AssetBytes>) -> Result<Canvas, Pl
         model,
     );
     Ok(canvas)
-}
-
-/// Margins with room for a line of legend between title and frame.
-fn margins(right: f32) -> Margins {
-    Margins {
-        top: 96.0,
-        right,
-        ..Margins::default()
-    }
-}
-
-/// Standard deviation of the excitation with its gain, m/s².
-fn level(vertex: &GridVertex) -> f64 {
-    vertex.gain * vertex.sigma_m_s2
-}
-
-/// Colours of levels, from silence to the loudest vertex.
-fn level_scale(vertices: &[GridVertex]) -> ColorScale {
-    let loudest = vertices
-        .iter()
-        .map(level)
-        .filter(|level| level.is_finite())
-        .fold(0.0, f64::max);
-    ColorScale::new(ColorMap::Viridis, 0.0, loudest)
-}
-
-/// Highest speed (mm/s) and force (N) of the grid.
-fn reach(vertices: &[GridVertex]) -> (f64, f64) {
-    let highest = |value: fn(&GridVertex) -> f64| vertices.iter().map(value).fold(0.0, f64::max);
-    (
-        highest(|vertex| vertex.speed_mm_s),
-        highest(|vertex| vertex.force_n),
-    )
 }
 
 #[cfg(test)]

@@ -3,16 +3,17 @@
 use std::f64::consts::PI;
 
 use super::distinct::distinct_models;
-use super::{level, level_scale, margins};
+use super::layout::margins;
+use super::level::{level, level_scale};
 use crate::model::{ModelGrid, Numerator};
 use crate::plot::roots::roots_of;
-use crate::plot::theme::{
+use crate::spectrum::ArmaModel;
+use asperity_plot::{
     Align, Axis, Canvas, Color, Key, Marker, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
     size,
 };
-use crate::spectrum::ArmaModel;
 
-/// Half the width of the picture, in radii: the circle and its frequencies.
+/// Half the width of the picture, in radii of the unit circle. It leaves room for frequencies.
 const REACH: f64 = 1.13;
 const POLE_RADIUS: f32 = 7.5;
 const ZERO_RADIUS: f32 = 7.0;
@@ -26,7 +27,7 @@ pub(super) fn draw(canvas: &mut Canvas, rect: Rect, grid: &ModelGrid) {
     let mut models = distinct_models(grid);
     models.sort_by(|a, b| level(a).total_cmp(&level(b)));
 
-    // Rounding may put a real root a hair below the axis.
+    // Rounding may put a real root slightly below the axis.
     let upper = |coefficients: &[f64]| -> Vec<(f64, f64)> {
         roots_of(coefficients)
             .into_iter()
@@ -130,7 +131,7 @@ fn draw_circle(canvas: &mut Canvas, panel: &Panel, sample_rate_hz: f64) {
         panel.line(canvas, [(0.2 * x, 0.2 * y), (x, y)], faint);
         let tick = Stroke::new(ink::BLACK, size::FRAME);
         panel.line(canvas, [(x, y), (1.015 * x, 1.015 * y)], tick);
-        // Both ends lie on the real axis, where labels stand below it.
+        // Both ends of the half circle lie on the real axis; their labels stand below it.
         let (px, py) = if y < 0.02 {
             panel.position(x, -0.06)
         } else {

@@ -1,18 +1,19 @@
 //! Power spectral densities of the distinct models: force by column, speed by colour.
 
 use super::distinct::distinct_models;
-use super::{level, margins, reach};
+use super::layout::{margins, reach};
+use super::level::level;
 use crate::model::{GridVertex, ModelGrid};
-use crate::plot::theme::{
+use crate::spectrum::ArmaModel;
+use asperity_plot::{
     Align, Axis, Canvas, ColorMap, ColorScale, Key, Panel, Rect, Stroke, TextStyle, VAlign, ink,
     legend, size,
 };
-use crate::spectrum::ArmaModel;
 
 const POINTS: usize = 600;
 const COLUMN_GAP: f32 = 40.0;
 const BAR_ROOM: f32 = 150.0;
-/// The most that the vertical axis spans, dB: notches may be bottomless.
+/// Largest range of the vertical axis, dB. Notches may be arbitrarily deep.
 const SPAN_DB: f64 = 70.0;
 
 /// One curve: dB at `POINTS` frequencies from 0 to Nyquist.
@@ -88,8 +89,9 @@ pub(super) fn draw(canvas: &mut Canvas, rect: Rect, grid: &ModelGrid) {
     }
 }
 
-/// Splits models into at most three groups of neighbouring force, about equal in
-/// number; equal forces stay together. Always at least one group.
+/// Splits models into at most three groups of neighbouring force and about equal size.
+///
+/// Models of equal force stay together. There is always at least one group.
 fn by_force<'a>(models: &[&'a GridVertex]) -> Vec<Vec<&'a GridVertex>> {
     let mut sorted = models.to_vec();
     sorted.sort_by(|a, b| {
@@ -146,7 +148,7 @@ fn curve(grid: &ModelGrid, vertex: &GridVertex) -> Curve {
     }
 }
 
-/// A vertical axis that shows all curves except the depths of their notches.
+/// A vertical axis that shows all curves except the deepest parts of their notches.
 fn density_axis<'a>(curves: impl Iterator<Item = &'a Curve>) -> Axis {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for curve in curves {
@@ -188,8 +190,8 @@ mod tests {
         }
     }
 
-    /// Claim: every model is in exactly one group, groups ascend in force, and equal
-    /// forces are never torn apart.
+    /// Claim: every model is in exactly one group, groups ascend in force, and models of equal force
+    /// are in one group.
     #[test]
     fn groups_partition_the_models_by_force() {
         for forces in [

@@ -1,8 +1,8 @@
-//! The tap bank: traces in time, and their peaks over impact speed.
+//! The tap bank: traces in time, and their peaks against impact speed.
 
-use super::margins;
+use super::layout::margins;
 use crate::model::{TapBank, TapTrace};
-use crate::plot::theme::{
+use asperity_plot::{
     Align, Axis, Canvas, ColorMap, ColorScale, Key, Marker, Panel, Rect, Stroke, TextStyle, VAlign,
     ink, legend, size,
 };
@@ -39,7 +39,7 @@ pub(super) fn draw(canvas: &mut Canvas, rect: Rect, taps: &TapBank, synthetic: b
     traces.draw_frame(canvas);
     let area = traces.area();
     traces.horizontal_line(canvas, 0.0, Stroke::new(ink::LIGHT, 1.5));
-    // Slow over fast: the smaller ones stay visible.
+    // Slow taps are drawn over fast ones, so that the smaller ones stay visible.
     for trace in taps.traces.iter().rev() {
         let stroke = Stroke::new(scale.color(trace.speed_m_s), size::LINE);
         traces.series(canvas, 0.0, sample_ms, &trace.accel_m_s2, stroke);
@@ -80,7 +80,7 @@ fn traces_frame(rect: Rect, duration_ms: f64, y: Axis) -> Panel {
         .title("Tap bank")
 }
 
-/// An empty frame that says why.
+/// An empty frame with the reason.
 fn draw_absence(canvas: &mut Canvas, rect: Rect) {
     let y = Axis::new("Acceleration (m/s²)", -1.0, 1.0);
     let panel = traces_frame(rect, 10.0, y).margins(margins(24.0));

@@ -1,9 +1,9 @@
-//! Sheets of textures made by hand, at the limits of what a model may be.
+//! Sheets of textures made by hand, at the limits of what a model may hold.
 
 use super::*;
 use crate::model::{
-    Friction, FrictionAnchor, Gains, ModelGrid, Numerator, Provenance, TapBank, TapTrace,
-    VertexKind, Wall,
+    Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,
+    TapTrace, VertexKind, Wall,
 };
 use std::f64::consts::PI;
 
@@ -113,7 +113,8 @@ fn a_sheet_is_deterministic_and_depends_on_the_model() {
     assert_ne!(png, drawn(&louder));
 }
 
-/// Claim: every order and numerator, 64 vertices or one, loud, faint or silent, draws.
+/// Claim: grids of every order and numerator, of 64 vertices or one, loud, faint or silent, can be
+/// drawn.
 #[test]
 fn extreme_grids_draw() {
     for (order, side, numerator, sigma_m_s2) in [
@@ -130,8 +131,8 @@ fn extreme_grids_draw() {
     composed(&nothing);
 }
 
-/// Claim: names, notes, anchors and taps of any length or absurdity draw, and text
-/// never reaches the right border.
+/// Claim: names, notes, anchors and taps of any length and value can be drawn, and text never
+/// reaches the right border.
 #[test]
 fn extreme_words_and_taps_draw() {
     let mut model = texture(20, 5, Numerator::Lsf, 3.0);

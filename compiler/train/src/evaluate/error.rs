@@ -1,10 +1,9 @@
 //! Why a model cannot be evaluated.
 
 use crate::{config::ConfigError, error::FitError};
-use asperity::{
-    diagnostic::Diagnostic, learned::ModelError, output::OutputError, plot::theme::PlotError,
-};
+use asperity::{diagnostic::Diagnostic, learned::ModelError, output::OutputError};
 use asperity_corpus::CorpusError;
+use asperity_plot::PlotError;
 use std::path::PathBuf;
 use thiserror::Error;
 

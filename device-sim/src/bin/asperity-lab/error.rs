@@ -1,4 +1,4 @@
-//! Failures that belong to no library, and what every command prints by.
+//! Failures that belong to no library, and printing.
 
 use std::io::{self, Write as _};
 
@@ -7,7 +7,7 @@ use asperity::diagnostic::Diagnostic;
 /// A failure with its remedy.
 pub(crate) type Failure = Box<dyn Diagnostic>;
 
-/// An error whose text and remedy are known where it is met.
+/// An error whose text and remedy are known where it occurs.
 #[derive(Debug, thiserror::Error)]
 #[error("{what}")]
 pub(crate) struct Plain {
@@ -35,7 +35,7 @@ pub(crate) fn boxed<E: Diagnostic + 'static>(error: E) -> Failure {
     Box::new(error)
 }
 
-/// Prints results; a reader that has gone away is no failure.
+/// Prints results. A closed pipe is not a failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     match stdout

@@ -1,12 +1,14 @@
-//! `asperity-lab pareto`: what every way to render costs, and what it loses.
+//! `asperity-lab pareto`: cost and error of every way to render.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::output;
 use asperity::progress;
+use asperity_sim::labs::cortex_m::{self, CortexM};
+use asperity_sim::labs::held_out::summaries;
 use asperity_sim::labs::pareto::{Options, Results, measure, steps};
-use asperity_sim::labs::{chart, markdown, material, table};
+use asperity_sim::labs::{chart, json, markdown, material, table};
 
 use crate::error::{Failure, Plain, boxed, print};
 
@@ -57,8 +59,8 @@ const QUICK: usize = 6;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let cortex_m = match &arguments.cortex_m {
-        None => table::CortexM::new(),
-        Some(path) => cortex_m(path)?,
+        None => CortexM::new(),
+        Some(path) => read_counts(path)?,
     };
     let mut textures = match &arguments.hatt {
         Some(folder) => material::hatt(folder).map_err(boxed)?,
@@ -85,12 +87,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         eprintln!("warning: no instructions counted: {reason}; install valgrind");
     }
     if arguments.json {
-        return print(&format!("{:#}\n", table::json(&results)));
+        return print(&format!("{:#}\n", json::encode(&results)));
     }
     print(&report(&results))
 }
 
-fn cortex_m(path: &Path) -> Result<table::CortexM, Failure> {
+fn read_counts(path: &Path) -> Result<CortexM, Failure> {
     let fail = |error: &dyn std::fmt::Display| {
         Plain::boxed(
             format!("{}: {error}", path.display()),
@@ -98,11 +100,11 @@ fn cortex_m(path: &Path) -> Result<table::CortexM, Failure> {
         )
     };
     let bytes = fs::read(path).map_err(|error| fail(&error))?;
-    table::read_cortex_m(&bytes).map_err(|error| fail(&error))
+    cortex_m::read(&bytes).map_err(|error| fail(&error))
 }
 
-fn write(folder: &Path, results: &Results, cortex_m: &table::CortexM) -> Result<(), Failure> {
-    let held_out = table::held_out_summary(&results.held_out);
+fn write(folder: &Path, results: &Results, cortex_m: &CortexM) -> Result<(), Failure> {
+    let held_out = summaries(&results.held_out);
     let encode = |result: Result<Vec<u8>, csv::Error>| {
         result.map_err(|error| Plain::boxed(error, "report this"))
     };
@@ -135,7 +137,7 @@ fn write(folder: &Path, results: &Results, cortex_m: &table::CortexM) -> Result<
     output::write_folder(folder, &named).map_err(boxed)
 }
 
-/// What a person wants to know at once.
+/// A short report for a person.
 fn report(results: &Results) -> String {
     use std::fmt::Write as _;
     let mut text = format!(

@@ -1,19 +1,23 @@
 //! The lower row: one tap close up, and the spectra of the strokes.
 
-use asperity::plot::theme::{Axis, Canvas, Panel, Rect, Stroke, ink, size};
+use asperity_plot::{Axis, Canvas, Panel, Rect, Stroke, TextStyle, ink, size};
 
-use super::super::{FeelError, Recording, spectrogram::spectrogram, stroke::steady_part, taps};
-use super::{Entry, legend};
+use super::legend::{Entry, legend};
+use crate::feel::error::FeelError;
+use crate::feel::recording::Recording;
+use crate::feel::spectrogram::spectrogram;
+use crate::feel::stroke::steady_part;
+use crate::feel::tap::taps;
 
 /// Time shown before and after an impact, ms.
 const BEFORE_MS: f64 = 10.0;
 const AFTER_MS: f64 = 60.0;
 /// Levels shown below the loudest, dB.
 const RANGE_DB: f64 = 35.0;
-/// Room above it for the legend, dB.
+/// Space above the loudest for the legend, dB.
 const HEADROOM_DB: f64 = 15.0;
 
-/// The fastest tap: normal force, and the transient that is part of it.
+/// The fastest tap: the normal force, and the part of it that is the transient.
 pub(super) fn tap(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
     let taps = taps(recording);
     let fastest = taps
@@ -92,7 +96,7 @@ pub(super) fn spectra(
             curves.push((span.motion.to_string(), curve));
         }
     }
-    // One cycle of the script: more curves than inks would say nothing.
+    // The strokes of one cycle of the script; more curves could not be told apart.
     curves.truncate(4);
     let loudest = curves
         .iter()
@@ -112,7 +116,7 @@ pub(super) fn spectra(
     .letter('g')
     .title("Spectra of the strokes");
     panel.draw_frame(canvas);
-    let key = asperity::plot::theme::TextStyle::new(size::TICK);
+    let key = TextStyle::new(size::TICK);
     let area = panel.area();
     for (index, (name, curve)) in curves.into_iter().enumerate() {
         let stroke = Stroke::new(ink::category(index), size::LINE);

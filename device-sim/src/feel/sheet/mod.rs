@@ -1,13 +1,15 @@
-//! One sheet that shows a recording: where the stylus was, what it was pushed
-//! with, what the texture sounded like, when it was tapped.
+//! One sheet that shows a recording: position, force, vibration, spectra and taps.
 
 mod closeup;
+mod legend;
 mod phases;
+mod time;
 mod timeline;
 
-use asperity::plot::theme::{Axis, Canvas, Margins, Panel, Rect, Stroke, TextStyle, ink, size};
+use asperity_plot::{Canvas, Rect, TextStyle, ink, size};
 
-use super::{FeelError, Recording};
+use crate::feel::error::FeelError;
+use crate::feel::recording::Recording;
 
 const WIDTH_PX: f32 = 2400.0;
 const HEIGHT_PX: f32 = 2690.0;
@@ -77,45 +79,4 @@ fn heading(canvas: &mut Canvas, recording: &Recording) {
     let style = TextStyle::new(size::LABEL).color(ink::GREY);
     let line = canvas.fitted(&line, &style, WIDTH_PX - 60.0);
     canvas.text(&line, (30.0, 106.0), &style);
-}
-
-/// Margins that every panel over time shares, so that times stand in line.
-const TIME_MARGINS: Margins = Margins {
-    left: 120.0,
-    right: 170.0,
-    top: 50.0,
-    bottom: 14.0,
-};
-
-/// The shared time axis.
-fn time_axis(recording: &Recording, numbered: bool) -> Axis {
-    let axis = Axis::new("", 0.0, recording.duration_s()).ticks_about(12);
-    if numbered {
-        Axis {
-            label: "Time (s)".into(),
-            ..axis
-        }
-    } else {
-        axis.unnumbered()
-    }
-}
-
-/// A line of a legend.
-struct Entry {
-    name: &'static str,
-    stroke: Stroke,
-}
-
-/// Names the lines of a panel, right of its title.
-fn legend(canvas: &mut Canvas, panel: &Panel, entries: &[Entry]) {
-    let style = TextStyle::new(size::TICK);
-    let area = panel.area();
-    let y = area.y - 26.0;
-    let mut x = area.right();
-    for entry in entries.iter().rev() {
-        x -= canvas.text_width(entry.name, &style);
-        canvas.text(entry.name, (x, y + 6.0), &style);
-        canvas.line(&[(x - 46.0, y), (x - 10.0, y)], entry.stroke, None);
-        x -= 72.0;
-    }
 }

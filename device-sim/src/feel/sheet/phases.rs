@@ -1,8 +1,10 @@
-//! The strip above the panels that names the script's motions, and their edges.
+//! The strip above the panels that names the script's motions, and the shading of every other
+//! motion in the panels.
 
-use asperity::plot::theme::{Align, Canvas, Color, Panel, Rect, Stroke, TextStyle, VAlign, ink};
+use asperity_plot::{Align, Canvas, Color, Panel, Rect, Stroke, TextStyle, VAlign, ink};
 
-use super::{Recording, TIME_MARGINS, time_axis};
+use super::time::{TIME_MARGINS, time_axis};
+use crate::feel::recording::{Recording, Span};
 use crate::hand::Motion;
 
 /// Height of the strip.
@@ -33,7 +35,7 @@ pub(super) fn draw(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
         let fits = |canvas: &Canvas, line: &str| canvas.text_width(line, &style) < x1 - x0 - 4.0;
         let text = motion.to_string();
         let mut lines = vec![motion.name().to_owned()];
-        // Pairs of number and unit, on two lines where one is too narrow.
+        // A number and its unit stand on two lines where one line is too narrow.
         let words: Vec<&str> = text.split(' ').skip(1).collect();
         for pair in words.chunks(2) {
             let whole = pair.join(" ");
@@ -64,7 +66,7 @@ pub(super) fn shade(canvas: &mut Canvas, recording: &Recording, panel: &Panel) {
 /// Start, end and kind of every motion, s.
 fn edges(recording: &Recording) -> Vec<(f64, f64, Motion)> {
     let tick_s = recording.tick_s();
-    let ends = |span: super::super::Span<'_>| {
+    let ends = |span: Span<'_>| {
         let start_s = span.records.first()?.t_s;
         Some((start_s, span.records.last()?.t_s + tick_s, span.motion))
     };

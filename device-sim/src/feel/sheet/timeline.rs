@@ -1,16 +1,22 @@
-//! Panels over time.
+//! The panels whose horizontal axis is time.
 
-use asperity::plot::theme::{
-    Axis, Canvas, ColorMap, ColorScale, Margins, Marker, Panel, Rect, Stroke, ink, size,
+use asperity_plot::{
+    Axis, Canvas, ColorMap, ColorScale, Margins, Marker, Panel, Rect, Stroke, TextStyle, ink, size,
 };
 
-use super::super::{FeelError, spectrogram::spectrogram as transform, taps};
-use super::{Entry, Recording, TIME_MARGINS, legend, phases, time_axis};
+use super::legend::{Entry, legend};
+use super::phases;
+use super::time::{TIME_MARGINS, time_axis};
+use crate::feel::error::FeelError;
+use crate::feel::recording::Recording;
+use crate::feel::spectrogram::spectrogram as transform;
+use crate::feel::statistics::peak;
+use crate::feel::tap::taps;
 use crate::session::Record;
 
-/// Levels below the loudest that a spectrogram still shows, dB.
+/// Range of levels that the spectrogram shows, below the loudest, dB.
 const RANGE_DB: f64 = 50.0;
-/// Length of a window, s: bins of about 8 Hz.
+/// Length of a window, s; it gives bins of about 8 Hz.
 const WINDOW_S: f64 = 0.128;
 
 fn values(recording: &Recording, value: impl Fn(&Record) -> f64) -> Vec<f64> {
@@ -21,7 +27,7 @@ fn line(canvas: &mut Canvas, panel: &Panel, recording: &Recording, data: &[f64],
     panel.series(canvas, 0.0, recording.tick_s(), data, stroke);
 }
 
-/// A panel with frame and shades, ready for data.
+/// A panel with frame and shaded motions, ready for data.
 fn framed(
     canvas: &mut Canvas,
     recording: &Recording,
@@ -121,7 +127,7 @@ pub(super) fn height(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
         ],
     );
     let key = panel.area();
-    let style = asperity::plot::theme::TextStyle::new(size::TICK);
+    let style = TextStyle::new(size::TICK);
     let (x, y) = (key.right() + 24.0, key.y + 24.0);
     canvas.marker((x, y), Marker::Triangle, 11.0, Some(ink::VERMILION), edge);
     canvas.text("tap", (x + 20.0, y + 8.0), &style);
@@ -177,7 +183,7 @@ pub(super) fn force(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
 /// The vibration's waveform.
 pub(super) fn vibration(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
     let data = recording.vibration_m_s2();
-    let peak = super::super::percentile::peak(data.iter().copied());
+    let peak = peak(data.iter().copied());
     let axis = Axis::covering("Vibration (m/s²)", [-peak, peak]).ticks_about(5);
     let title = "Vibration before device gain";
     let panel = framed(canvas, recording, outer, axis, 'd', title);
@@ -190,7 +196,7 @@ pub(super) fn vibration(canvas: &mut Canvas, recording: &Recording, outer: Rect)
     );
 }
 
-/// Its spectrogram.
+/// The vibration's spectrogram.
 pub(super) fn spectrogram(
     canvas: &mut Canvas,
     recording: &Recording,
@@ -198,7 +204,7 @@ pub(super) fn spectrogram(
 ) -> Result<(), FeelError> {
     let rate_hz = recording.device.timing.servo_rate_hz;
     let length = ((WINDOW_S * rate_hz).round() as usize).max(2);
-    // At most one window a pixel of the widest panel.
+    // No more windows than the widest panel has pixels.
     let hop = (length / 8).max(recording.records.len() / 2000).max(1);
     let power = transform(&recording.vibration_m_s2(), rate_hz, length, hop)?;
     let level_db = |psd: f64| 10.0 * psd.max(1e-30).log10();

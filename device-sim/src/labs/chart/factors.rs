@@ -1,17 +1,20 @@
-//! One panel a factor: its variants among all others.
+//! One panel for each factor: its variants among all others.
 
-use super::super::pareto::{Results, Summary};
-use super::front::mark_at;
+use super::costs::Costs;
+use super::errors::{BUDGET, error_axis, within};
 use super::labels::Labels;
-use super::{BUDGET, Costs, Picture, error_axis, finished, within};
-use asperity::plot::theme::{Canvas, Marker, Panel, PlotError, Rect, ink};
+use super::mark::mark;
+use super::picture::{Picture, finished};
+use crate::labs::pareto::Results;
+use crate::labs::summary::VariantSummary;
 use asperity::reduce::BUDGET_DB;
 use asperity_kernels::design::Factor;
+use asperity_plot::{Canvas, Marker, Panel, PlotError, Rect, ink};
 
 const SIZE: (f32, f32) = (2200.0, 2720.0);
 const COLUMNS: usize = 2;
 
-/// What tells the variants of a factor apart.
+/// The error by which the variants of a factor differ.
 #[derive(Clone, Copy)]
 enum Measure {
     Rest,
@@ -33,7 +36,7 @@ impl Measure {
         }
     }
 
-    fn value(self, summary: &Summary) -> f64 {
+    fn value(self, summary: &VariantSummary) -> f64 {
         match self {
             Self::Rest => summary.distortion_db.map_or(f64::INFINITY, |s| s.p95),
             Self::Motion => summary.moving_level_db.map_or(f64::INFINITY, |s| s.p95),
@@ -61,7 +64,7 @@ fn draw_factor(
     outer: Rect,
 ) {
     let measure = Measure::of(factor);
-    let mine: Vec<&Summary> = results
+    let mine: Vec<&VariantSummary> = results
         .summaries
         .iter()
         .filter(|s| s.variant.factor == factor || s.variant.factor == Factor::Default)
@@ -75,11 +78,11 @@ fn draw_factor(
         .title(capitalised(factor.name()));
     panel.draw_frame(canvas);
     panel.horizontal_line(canvas, BUDGET_DB.0, BUDGET);
-    let at = |summary: &Summary| (costs.value(summary), within(measure.value(summary)));
+    let at = |summary: &VariantSummary| (costs.value(summary), within(measure.value(summary)));
     let others = results.summaries.iter().map(at);
     panel.points(canvas, others, Marker::Circle, 5.0, Some(ink::LIGHT), None);
     for summary in &mine {
-        mark_at(canvas, &panel, [at(summary)], summary);
+        mark(canvas, &panel, at(summary), summary);
     }
     let points = mine.iter().map(|s| {
         let (x, y) = at(s);

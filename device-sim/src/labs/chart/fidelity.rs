@@ -1,11 +1,11 @@
-//! What `--fidelity auto` saves and costs, a point a material.
+//! What `--fidelity auto` saves and costs, one point for each material.
 
-use super::super::pareto::{Kept, Results};
-use super::{BUDGET, Picture, finished};
-use asperity::plot::theme::{
-    Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend,
-};
+use super::errors::BUDGET;
+use super::picture::{Picture, finished};
+use crate::labs::kept::Kept;
+use crate::labs::pareto::Results;
 use asperity::reduce::BUDGET_DB;
+use asperity_plot::{Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend};
 
 const SIZE: (u32, u32) = (2200, 860);
 
@@ -30,7 +30,7 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
     saved.margins.top = 110.0;
     saved.draw_frame(&mut canvas);
     saved.horizontal_line(&mut canvas, 0.5, Stroke::new(ink::GREY, 2.0).dotted());
-    let share = |full: usize, kept: usize| Some(kept as f64 / full.max(1) as f64);
+    let ratio = |full: usize, kept: usize| Some(kept as f64 / full.max(1) as f64);
     let series: [(&str, _, Vec<(f64, f64)>); 4] = [
         ("instructions", ink::BLUE, ranked(&|k| k.ratio())),
         (
@@ -38,18 +38,18 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
             ink::VERMILION,
             ranked(&|k| {
                 let (o, z) = (k.report.order, k.report.zeros);
-                share(o.full + z.full, o.kept + z.kept)
+                ratio(o.full + z.full, o.kept + z.kept)
             }),
         ),
         (
             "vertices",
             ink::GREEN,
-            ranked(&|k| share(k.report.vertices.full, k.report.vertices.kept)),
+            ranked(&|k| ratio(k.report.vertices.full, k.report.vertices.kept)),
         ),
         (
             "bytes",
             ink::PURPLE,
-            ranked(&|k| k.bytes.and_then(|(full, kept)| share(full, kept))),
+            ranked(&|k| k.bytes.and_then(|(full, kept)| ratio(full, kept))),
         ),
     ];
     let mut keys = Vec::new();

@@ -1,11 +1,16 @@
-//! All designs in one panel, and the front of those that nothing beats.
+//! All designs in one panel, with the Pareto front.
 
-use super::super::pareto::{Results, Summary, on_front};
+use super::costs::Costs;
+use super::errors::{BUDGET, error_axis, larger_error};
 use super::labels::Labels;
-use super::{BUDGET, Costs, Picture, color, error_axis, finished, larger_error};
-use asperity::plot::theme::{Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend};
+use super::mark::{color, mark};
+use super::picture::{Picture, finished};
+use crate::labs::front::on_front;
+use crate::labs::pareto::Results;
+use crate::labs::summary::VariantSummary;
 use asperity::reduce::BUDGET_DB;
 use asperity_kernels::design::{Factor, Order};
+use asperity_plot::{Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend};
 
 const SIZE: (u32, u32) = (2000, 1300);
 
@@ -26,7 +31,7 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
     panel.horizontal_line(&mut canvas, BUDGET_DB.0, BUDGET);
     draw_legend(&mut canvas, &panel);
 
-    let stable: Vec<&Summary> = results
+    let stable: Vec<&VariantSummary> = results
         .summaries
         .iter()
         .filter(|s| s.unstable == 0.0)
@@ -64,10 +69,11 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
         panel.position(panel.x.max, BUDGET_DB.0),
     ]);
     for summary in &results.summaries {
-        mark(&mut canvas, &panel, &costs, summary);
+        let at = (costs.value(summary), larger_error(summary));
+        mark(&mut canvas, &panel, at, summary);
     }
-    let default = |s: &Summary| s.variant.factor == Factor::Default;
-    let named = |s: &Summary| {
+    let default = |s: &VariantSummary| s.variant.factor == Factor::Default;
+    let named = |s: &VariantSummary| {
         default(s)
             || matches!(
                 s.variant.factor,
@@ -75,8 +81,8 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
             )
             || front.iter().any(|&i| std::ptr::eq(stable[i], s))
     };
-    let mut order: Vec<&Summary> = results.summaries.iter().filter(|s| named(s)).collect();
-    // Those that matter most take their place first.
+    let mut order: Vec<&VariantSummary> = results.summaries.iter().filter(|s| named(s)).collect();
+    // The most important names are placed first.
     order.sort_by_key(|s| (!default(s), s.variant.design.order != Order::Auto));
     for summary in order {
         let at = panel.position(costs.value(summary), larger_error(summary));
@@ -118,28 +124,4 @@ fn draw_legend(canvas: &mut Canvas, panel: &Panel) {
         (Key::Line(Stroke::new(ink::LIGHT, 3.0)), "front"),
     ];
     legend(canvas, (end + 28.0, area.y - 26.0), right, &more);
-}
-
-/// Draws a design's point.
-pub(super) fn mark(canvas: &mut Canvas, panel: &Panel, costs: &Costs, summary: &Summary) {
-    let at = [(costs.value(summary), larger_error(summary))];
-    mark_at(canvas, panel, at, summary);
-}
-
-/// Draws a design's point where it is told to.
-pub(super) fn mark_at(canvas: &mut Canvas, panel: &Panel, at: [(f64, f64); 1], summary: &Summary) {
-    let index = Factor::VARIED
-        .iter()
-        .position(|f| *f == summary.variant.factor);
-    let (marker, radius, fill, outline) = match index {
-        None => (Marker::Diamond, 12.0, Some(ink::BLACK), None),
-        Some(_) if summary.unstable > 0.0 => (
-            Marker::Cross,
-            10.0,
-            None,
-            Some(Stroke::new(ink::VERMILION, 3.0)),
-        ),
-        Some(index) => (Marker::Circle, 8.0, Some(color(index)), None),
-    };
-    panel.points(canvas, at, marker, radius, fill, outline);
 }

@@ -1,21 +1,20 @@
-//! Measured models, predicted from the others.
+//! How well each method predicts measured models from the others.
 
-use super::super::held_out::{Exponents, Method, Region};
-use super::super::statistics::Spread;
-use super::super::table::HeldOut;
+use super::picture::{Picture, finished};
 use super::rows::{self, Row};
-use super::{Picture, finished};
-use asperity::plot::theme::{Canvas, Color, PlotError, Rect, ink};
+use crate::labs::held_out::{Exponents, Method, MethodSummary, Region};
+use crate::labs::statistics::Spread;
 use asperity_kernels::design::{Level, Shape};
+use asperity_plot::{Canvas, Color, PlotError, Rect, ink};
 
 const SIZE: (u32, u32) = (2200, 1500);
 
-pub(super) fn draw(held_out: &[HeldOut]) -> Result<Picture, PlotError> {
+pub(super) fn draw(held_out: &[MethodSummary]) -> Result<Picture, PlotError> {
     let mut canvas = Canvas::recording(SIZE.0, SIZE.1)?;
     let (width, height) = (SIZE.0 as f32 / 2.0, SIZE.1 as f32 / 2.0);
     let at = |column: f32, row: f32| Rect::new(column * width, row * height, width, height);
-    let shape = |g: &HeldOut| g.shape_db;
-    let level = |g: &HeldOut| g.level_db;
+    let shape = |g: &MethodSummary| g.shape_db;
+    let level = |g: &MethodSummary| g.level_db;
     let models = |region| {
         let group = held_out
             .iter()
@@ -65,10 +64,10 @@ pub(super) fn draw(held_out: &[HeldOut]) -> Result<Picture, PlotError> {
     finished(&canvas)
 }
 
-type Value = fn(&HeldOut) -> Option<Spread>;
+type Value = fn(&MethodSummary) -> Option<Spread>;
 
 fn row(
-    held_out: &[HeldOut],
+    held_out: &[MethodSummary],
     (method, region): (Method, Region),
     value: Value,
     color: Color,
@@ -89,11 +88,11 @@ fn row(
     })
 }
 
-fn floor(held_out: &[HeldOut], region: Region, value: Value) -> Option<Row> {
+fn floor(held_out: &[MethodSummary], region: Region, value: Value) -> Option<Row> {
     row(held_out, (Method::Nearest, region), value, ink::GREY, false)
 }
 
-fn shapes(held_out: &[HeldOut], value: Value) -> Vec<Row> {
+fn shapes(held_out: &[MethodSummary], value: Value) -> Vec<Row> {
     let of = |shape| {
         let chosen = shape == Shape::LsfCosine;
         let method = (Method::Shape(shape), Region::Inside);
@@ -104,7 +103,7 @@ fn shapes(held_out: &[HeldOut], value: Value) -> Vec<Row> {
     rows
 }
 
-fn levels(held_out: &[HeldOut], region: Region, value: Value) -> Vec<Row> {
+fn levels(held_out: &[MethodSummary], region: Region, value: Value) -> Vec<Row> {
     let of = |level| {
         let chosen = level == Level::Rms;
         let method = (Method::Level(level), region);
@@ -115,7 +114,7 @@ fn levels(held_out: &[HeldOut], region: Region, value: Value) -> Vec<Row> {
     rows
 }
 
-fn edges(held_out: &[HeldOut], value: Value) -> Vec<Row> {
+fn edges(held_out: &[MethodSummary], value: Value) -> Vec<Row> {
     let of = |exponents| {
         let chosen = exponents == Exponents::Fitted;
         let method = (Method::Powers(exponents), Region::Beyond);

@@ -1,15 +1,15 @@
-//! Names beside points, none over another.
+//! Names beside points, placed so that none overlaps another.
 
-use asperity::plot::theme::{Align, Canvas, Color, Rect, TextStyle, VAlign, size};
+use asperity_plot::{Align, Canvas, Color, Rect, TextStyle, VAlign, size};
 
-/// Where names stand so far.
+/// The places that are taken.
 pub(super) struct Labels {
     area: Rect,
     taken: Vec<Rect>,
 }
 
 impl Labels {
-    /// For a panel's area; points that no name may cover.
+    /// Labels for a panel's area; no name may cover one of the points.
     pub(super) fn new(area: Rect, points: impl IntoIterator<Item = (f32, f32)>) -> Self {
         let taken = points
             .into_iter()
@@ -23,7 +23,7 @@ impl Labels {
         self.taken.push(rect);
     }
 
-    /// Keeps names off a line of level and upright pieces.
+    /// Keeps names off a line of horizontal and vertical pieces.
     pub(super) fn reserve_line(&mut self, points: &[(f32, f32)]) {
         for pair in points.windows(2) {
             let (a, b) = (pair[0], pair[1]);
@@ -33,7 +33,7 @@ impl Labels {
         }
     }
 
-    /// Sets a name where there is room beside a point; left out where there is none.
+    /// Sets a name beside a point where there is room, and leaves it out where there is none.
     pub(super) fn set(&mut self, canvas: &mut Canvas, text: &str, at: (f32, f32), color: Color) {
         let style = TextStyle::new(size::TICK - 2.0)
             .color(color)

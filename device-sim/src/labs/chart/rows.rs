@@ -1,7 +1,7 @@
-//! A panel with a row a name: median, 95th percentile and largest error of each.
+//! A panel with one row for each name: its median and its 95th percentile.
 
-use super::super::statistics::Spread;
-use asperity::plot::theme::{
+use crate::labs::statistics::Spread;
+use asperity_plot::{
     Align, Axis, Canvas, Color, Marker, Panel, Rect, Stroke, TextStyle, VAlign, ink, size,
 };
 
@@ -10,7 +10,7 @@ pub(super) struct Row {
     pub(super) name: String,
     pub(super) spread: Spread,
     pub(super) color: Color,
-    /// Whether it is the product's way.
+    /// Whether this is how the product does it.
     pub(super) chosen: bool,
 }
 

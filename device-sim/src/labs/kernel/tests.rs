@@ -14,7 +14,7 @@ use asperity_kernels::design::{Design, Order, Shape, Structure, variants};
 use rand_core::SeedableRng as _;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// A texture with a numerator of its own: the built-in one, its zeros from its poles.
+/// The built-in texture with a numerator of its own, whose zeros are made from its poles.
 fn arma() -> ModelGrid {
     let mut grid = builtin::texture().grid;
     grid.numerator = Numerator::Lsf;
@@ -133,21 +133,21 @@ fn smoothing_closes_two_thirds_of_a_step_in_its_time_constant() {
     let grid = builtin::texture().grid;
     let at = |speed_mm_s| Field::new(&grid).locate(speed_mm_s, 1.0).unwrap();
     let (slow, fast) = (at(40.0), at(200.0));
-    for every in [1, 5] {
+    for update_ticks in [1, 5] {
         let design = Design {
-            every,
+            update_ticks,
             ..Design::ORACLE
         };
         let mut smoothed = Kernel::new(&design, &grid).unwrap();
         smoothed.settle(&slow);
         // Five ticks of 1 ms.
         smoothed.render(&[fast; 5], &[0.0; 5]);
-        let share = |model: &ArmaModel, index: usize| {
+        let covered = |model: &ArmaModel, index: usize| {
             let value = |model: &ArmaModel| lsf::from_polynomial(&model.a).unwrap()[index].cos();
             let ends = [slow, fast].map(|place| value(&Field::new(&grid).model(&place)));
             (value(model) - ends[0]) / (ends[1] - ends[0])
         };
-        let found = share(&smoothed.model(), 2);
+        let found = covered(&smoothed.model(), 2);
         assert!((found - (1.0 - (-1.0_f64).exp())).abs() < 1e-6, "{found}");
     }
 }

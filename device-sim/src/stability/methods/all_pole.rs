@@ -1,8 +1,8 @@
-//! Filters by their coefficients: mixed as the paper writes it, run in direct form.
+//! All-pole filters given by coefficients, mixed as the paper writes it and run in direct form.
 
 use asperity::{lsf, model::ModelGrid, reflection};
 
-/// An all-pole filter in direct form; its past outputs stay when coefficients change.
+/// An all-pole filter in direct form. It keeps its past outputs when coefficients change.
 #[derive(Debug, Clone, Default)]
 pub struct AllPole {
     past: Vec<f64>,
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn mixing_coefficients_of_stable_filters_can_be_unstable() {
-        // Triple poles at 0.95 and at −0.95: halfway between lie a pole outside the circle.
+        // Triple poles at 0.95 and at −0.95: the mean of the two has a pole outside the circle.
         let cube = |p: f64| vec![1.0, -3.0 * p, 3.0 * p * p, -p * p * p];
         let (a, b) = (cube(0.95), cube(-0.95));
         assert!(is_stable(&a) && is_stable(&b));

@@ -1,12 +1,12 @@
 //! Friction from an estimated velocity.
 //!
-//! [`Sign`] is the paper's F_t = μF_n against t̂; [`Regularised`] is what the reference
-//! renderer does: viscous below v = μ/0.004 mm/s, Coulomb above. Both see the velocity
-//! through the reference's second-order low-pass at 20 Hz.
+//! [`Sign`] is the paper's law, F_t = μF_n against t̂. [`Regularised`] is the reference
+//! renderer's, viscous below v = μ/0.004 mm/s and Coulomb above. Both take the velocity from the
+//! reference's second-order low-pass at 20 Hz.
 
 use asperity_runtime::velocity::{VelocityEstimator, VelocityState};
 
-/// A velocity in one dimension, m/s, from positions.
+/// Estimates a velocity in one dimension, m/s, from positions.
 #[derive(Debug, Clone)]
 struct Velocity {
     filter: VelocityEstimator,
@@ -30,7 +30,7 @@ impl Velocity {
     }
 }
 
-/// The paper's: full force against the sign of the velocity.
+/// The paper's law: full force against the sign of the velocity.
 #[derive(Debug, Clone)]
 pub struct Sign {
     velocity: Velocity,
@@ -56,7 +56,7 @@ impl Sign {
     }
 }
 
-/// The reference renderer's: viscous, then Coulomb.
+/// The reference renderer's law: viscous at low speed, Coulomb above.
 #[derive(Debug, Clone)]
 pub struct Regularised {
     velocity: Velocity,

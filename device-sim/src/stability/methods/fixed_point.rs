@@ -1,6 +1,6 @@
 //! Coefficients in 16 bits.
 
-/// Saturating Q1.15: what a DSP's native format holds, [−1, 1 − 2⁻¹⁵].
+/// Coefficients in saturating Q1.15, a DSP's native format with range [−1, 1 − 2⁻¹⁵].
 #[must_use]
 pub fn q1_15(monic: &[f64]) -> Vec<f64> {
     let step = 2.0_f64.powi(-15);
@@ -9,7 +9,7 @@ pub fn q1_15(monic: &[f64]) -> Vec<f64> {
     })
 }
 
-/// 16 bits with the exponent that the filter's largest coefficient needs.
+/// Coefficients in 16 bits with the exponent that the largest of them needs.
 #[must_use]
 pub fn block_16(monic: &[f64]) -> Vec<f64> {
     let largest = monic[1..].iter().fold(0.0_f64, |m, a| m.max(a.abs()));

@@ -1,5 +1,6 @@
-//! Other ways to do what the runtime does, from published descriptions: what the table
-//! compares ours with. In f64, so that what fails is the method and not its rounding.
+//! Other methods, from published descriptions, that the table compares with the runtime's.
+//!
+//! They compute in f64, so that failures come from the method and not from rounding.
 
 pub mod all_pole;
 pub mod coulomb;

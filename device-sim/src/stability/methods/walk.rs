@@ -1,17 +1,18 @@
-//! Locating a point by a walk from triangle to triangle, with weights that are not cut.
+//! Location of a point by a walk from triangle to triangle, with weights that are not cut at 0.
 //!
-//! As the reference renderer is described: a point is inside where all weights are positive;
-//! else the walk crosses an edge whose weight is not. On an edge both neighbours have a
-//! weight of zero, so it goes to and fro between them for good.
+//! This follows the description of the reference renderer: a point is inside a triangle if all
+//! its weights are positive; otherwise the walk crosses an edge whose weight is not. For a point
+//! on an edge both neighbours have a weight of zero, so the walk alternates between them
+//! forever.
 
 use asperity::model::ModelGrid;
 
-/// What a walk ends with.
+/// How a walk ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Walk {
-    /// A triangle and its weights.
+    /// In a triangle, with these weights.
     Found(usize, [f64; 3]),
-    /// The border: the last triangle, with weights that extrapolate.
+    /// At the border: the last triangle, with weights that extrapolate.
     Left(usize, [f64; 3]),
     /// It never ends.
     Endless,
@@ -44,8 +45,8 @@ fn across(grid: &ModelGrid, t: usize, corner: usize) -> Option<usize> {
         .find(|&other| other != t && edge.iter().all(|v| grid.triangles[other].contains(v)))
 }
 
-/// Walks from triangle 0; a walk that has visited ten times as many triangles as there are
-/// never ends.
+/// Walks from triangle 0. A walk counts as endless once it has visited ten times as many
+/// triangles as the grid has.
 #[must_use]
 pub fn walk(grid: &ModelGrid, speed_mm_s: f64, force_n: f64) -> Walk {
     let mut t = 0;

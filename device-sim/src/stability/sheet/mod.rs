@@ -1,25 +1,8 @@
 //! Pictures: the map of stable walls, and the worst waveforms.
 
+mod layout;
 mod wall_map;
 mod waveforms;
 
 pub use wall_map::wall_map;
 pub use waveforms::waveforms;
-
-use asperity::plot::theme::{Canvas, Key, Panel, TextStyle, ink, legend, size};
-
-const WIDTH_PX: f32 = 2400.0;
-
-/// Title of a sheet and one line below it.
-fn heading(canvas: &mut Canvas, title: &str, below: &str) {
-    canvas.text(title, (30.0, 62.0), &TextStyle::new(size::HEADING).bold());
-    let style = TextStyle::new(size::LABEL).color(ink::GREY);
-    let line = canvas.fitted(below, &style, WIDTH_PX - 60.0);
-    canvas.text(&line, (30.0, 106.0), &style);
-}
-
-/// Keys between a panel's title and its frame.
-fn keys(canvas: &mut Canvas, panel: &Panel, entries: &[(Key, &str)]) {
-    let area = panel.area();
-    legend(canvas, (area.x, area.y - 22.0), area.right(), entries);
-}

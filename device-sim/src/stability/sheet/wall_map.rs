@@ -1,13 +1,14 @@
-//! Stiffness against physical damping, for some delays: what was measured, and the bound.
+//! The map of stable walls: stiffness against physical damping for several delays, measured and
+//! by the bound.
 
-use asperity::plot::theme::{
+use asperity_plot::{
     Axis, Canvas, ColorMap, ColorScale, Key, Margins, Marker, Panel, Rect, Stroke, ink, size,
 };
 use asperity_runtime::{Passivity, Wall};
 
-use super::super::StabilityError;
-use super::super::wall::{Bench, REPORTED, ROUNDING_J, law_j};
-use super::{WIDTH_PX, heading, keys};
+use super::layout::{WIDTH_PX, heading, keys};
+use crate::stability::error::StabilityError;
+use crate::stability::wall::{Bench, REPORTED, ROUNDING_J, law_j};
 
 const HEIGHT_PX: f32 = 1010.0;
 const HEADING_PX: f32 = 130.0;
@@ -78,7 +79,7 @@ fn panel(outer: Rect, index: usize, delay: u32, extra: f32) -> Panel {
     panel
 }
 
-/// Net energy of undamped walls; passive ones stay white.
+/// Colours cells by the net energy of undamped walls; passive ones stay white.
 fn cells(canvas: &mut Canvas, panel: &Panel, delay: u32, scale: &ColorScale) {
     panel.field(canvas, CELL_PX, |damping, stiffness| {
         let wall = Wall {
@@ -90,7 +91,8 @@ fn cells(canvas: &mut Canvas, panel: &Panel, delay: u32, scale: &ColorScale) {
     });
 }
 
-/// The bound without and with rendered damping, what was measured with it, and our wall.
+/// Draws the bound without and with rendered damping, the boundary measured with it, and our
+/// wall.
 fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32, index: usize) {
     let bound = Stroke::new(ink::BLACK, size::LINE);
     let damped = bound.dashed();

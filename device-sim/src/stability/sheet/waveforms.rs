@@ -1,11 +1,15 @@
-//! The worst cases as waveforms: ours and others in the same scenario.
+//! The worst cases as waveforms, of our method and of others in the same scenario.
 
-use asperity::plot::theme::{Axis, Canvas, Key, Margins, Panel, Rect, Stroke, ink, size};
+use asperity_plot::{Axis, Canvas, Key, Margins, Panel, Rect, Stroke, ink, size};
 
-use super::super::friction::{self, Law};
-use super::super::wall::{self, Bench};
-use super::super::{Material, StabilityError, StabilityOptions, fault, mixing, tap};
-use super::{WIDTH_PX, heading, keys};
+use super::layout::{WIDTH_PX, heading, keys};
+use crate::signal::rms;
+use crate::stability::error::StabilityError;
+use crate::stability::friction::{self, Law};
+use crate::stability::material::Material;
+use crate::stability::table::StabilityOptions;
+use crate::stability::wall::{self, Bench};
+use crate::stability::{fault, mixing, tap};
 
 const HEADING_PX: f32 = 130.0;
 const ROW_PX: f32 = 620.0;
@@ -167,7 +171,7 @@ fn alternation(canvas: &mut Canvas, outer: Rect, seed: u64) -> Result<(), Stabil
             .chunks_exact(mixing::BLOCK)
             .enumerate()
             .map(|(n, block)| {
-                let db = 20.0 * mixing::rms(block).max(1e-12).log10();
+                let db = 20.0 * rms(block).max(1e-12).log10();
                 ((n * mixing::BLOCK) as f64, db)
             })
             .collect()

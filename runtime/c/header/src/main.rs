@@ -1,5 +1,5 @@
-//! Writes `include/asperity.h` from the sources beside it; `--check` fails instead where
-//! the committed header is another.
+//! Writes `include/asperity.h` from the sources of `asperity-c`. With `--check` it writes
+//! nothing and fails if the committed header differs.
 #![forbid(unsafe_code)]
 
 use std::{env, error::Error, fs, path::Path};

@@ -17,7 +17,7 @@ fn refusal(folder: &Folder) -> String {
     load(&HattOptions::new(&folder.0)).unwrap_err().to_string()
 }
 
-/// Whether every bin is a stable filter of finite level.
+/// Asserts that every bin is a stable filter of finite level.
 fn assert_sound(instance: &Instance, whose: &str) {
     for (lsf_rad, level_db) in instance.lsf_rad.iter().zip(instance.level_db) {
         assert!(

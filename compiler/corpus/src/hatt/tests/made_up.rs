@@ -1,4 +1,5 @@
-//! A folder of made-up materials: their names have captions, nothing else is HaTT's.
+//! A folder of made-up materials. Their names are HaTT's, so that they have captions; nothing else
+//! is.
 
 use asperity::{lsf, spectrum::squared_magnitude};
 use std::{
@@ -145,7 +146,7 @@ fn power(monic: &[f64]) -> f64 {
         / POINTS as f64
 }
 
-/// A folder that goes with the test.
+/// A folder that is removed with the test.
 pub(super) struct Folder(pub PathBuf);
 
 impl Folder {

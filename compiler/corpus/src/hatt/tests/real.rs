@@ -1,5 +1,5 @@
-//! Figures of a user's own copy, from the folder in `ASPERITY_HATT` or from
-//! `../shared/hatt/models` beside the workspace. Aggregates only.
+//! Figures of a user's own copy, from the folder in `ASPERITY_HATT` or from `../shared/hatt/models`
+//! beside the workspace. Only aggregates are printed.
 
 use crate::{
     BINS,

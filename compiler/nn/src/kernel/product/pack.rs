@@ -1,12 +1,12 @@
-//! Both sides of a product, ordered as its tiles read them.
+//! Both factors of a product, packed in the order in which its tiles read them.
 
 use super::{Matrix, tile_rows};
 
 /// Columns of a panel.
 pub(super) const COLUMNS: usize = 16;
-/// Panels that are expanded together: a row of them is a cache line of int8 weights.
+/// Panels that are expanded together. One row of them is a cache line of int8 weights.
 pub(super) const PANELS: usize = 4;
-/// Rows of b in a panel: four panels of 96 × 16 f32 are 24 KiB, which the first-level cache holds.
+/// Rows of b in a panel. Four panels of 96 × 16 f32 take 24 KiB, which the first-level cache holds.
 pub(super) const DEPTH: usize = 96;
 
 type Panel = [[f32; COLUMNS]; DEPTH];
@@ -33,7 +33,7 @@ pub(super) fn left(m: usize, k: usize, a: &[f32], left: &mut [f32]) {
     }
 }
 
-/// The right-hand side, handed out panel by panel.
+/// The right-hand side, provided panel by panel.
 pub(super) struct Right<'a> {
     k: usize,
     n: usize,
@@ -53,8 +53,8 @@ impl<'a> Right<'a> {
         Self { k, n, b, staged }
     }
 
-    /// Takes `depth` rows of int8 weights from row `start` on: in the order in which they lie in
-    /// memory, which is what processors fetch ahead.
+    /// Stages `depth` rows of int8 weights from row `start` on. It reads them in the order in which
+    /// they lie in memory, so that the processor prefetches them.
     #[inline(always)]
     pub(super) fn stage(&mut self, start: usize, depth: usize) {
         let Matrix::Quantized { weights, .. } = self.b else {
@@ -78,9 +78,10 @@ impl<'a> Right<'a> {
         }
     }
 
-    /// Copies or expands `depth` rows of up to four panels, from row `start` and column `group`
-    /// on; columns beyond the last stay what they were: never stored. Rows of int8 weights are
-    /// those that were staged.
+    /// Copies or expands `depth` rows of up to four panels, from row `start` and column `group` on.
+    ///
+    /// Columns beyond the last keep old values, which are never stored to the result. Rows of int8
+    /// weights must have been staged.
     #[inline(always)]
     pub(super) fn panels(&self, start: usize, group: usize, depth: usize, panels: &mut [Panel]) {
         let end = self.n.min(group + PANELS * COLUMNS);
@@ -141,7 +142,7 @@ fn expand<'a>(
     }
 }
 
-/// Copies `width` elements; a full row in one move.
+/// Copies `width` elements, a full row at once.
 #[inline(always)]
 #[allow(
     clippy::manual_memcpy,

@@ -1,4 +1,4 @@
-//! The product of one row: as much to read as to compute.
+//! The product of one row, whose time is that of reading the matrix.
 
 use multiversion::multiversion;
 
@@ -7,8 +7,8 @@ const TOGETHER: usize = 4;
 
 /// `out` (n, all zero before) becomes `a` (k) · `b` (k × n, row-major).
 ///
-/// b is read once, from its first number to its last, as processors fetch ahead; the sums stay
-/// in the first-level cache.
+/// b is read once from front to back, so that the processor prefetches it. The sums stay in the
+/// first-level cache.
 #[multiversion(targets("x86_64+avx2"))]
 pub(super) fn product(n: usize, a: &[f32], b: &[f32], out: &mut [f32]) {
     let (fours, rest) = a.as_chunks::<TOGETHER>();

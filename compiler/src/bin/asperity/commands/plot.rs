@@ -5,11 +5,12 @@ use crate::failure::{Failures, one};
 use asperity::{
     diagnostic::Diagnostic,
     output,
-    plot::{self, AssetBytes, theme::PlotError},
+    plot::{self, AssetBytes},
     raise::raise,
     source::Source,
 };
 use asperity_formats::Asset;
+use asperity_plot::PlotError;
 use thiserror::Error;
 
 /// The sheet could not be drawn.

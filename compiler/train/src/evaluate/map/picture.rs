@@ -1,7 +1,7 @@
 //! Both maps side by side, a colour and a shape a family.
 
 use super::{Map, Place};
-use asperity::plot::theme::{
+use asperity_plot::{
     Align, Axis, Canvas, Color, Marker, Panel, PlotError, Rect, Stroke, TextStyle, VAlign, ink,
     size,
 };

@@ -1,6 +1,6 @@
 //! Horizontal bars in groups, with whiskers.
 
-use asperity::plot::theme::{
+use asperity_plot::{
     Align, Axis, Canvas, Color, Margins, Panel, Rect, Stroke, TextStyle, VAlign, ink, size,
 };
 

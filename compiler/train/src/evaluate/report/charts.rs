@@ -6,12 +6,9 @@ use crate::evaluate::{
     probes::{Attribute, Kind, Probing},
     statistics::Share,
 };
-use asperity::{
-    learned::description::CertaintyCurve,
-    plot::theme::{
-        Axis, Canvas, Color, Key, Margins, Marker, Panel, PlotError, Rect, Stroke, ink, legend,
-        size,
-    },
+use asperity::learned::description::CertaintyCurve;
+use asperity_plot::{
+    Axis, Canvas, Color, Key, Margins, Marker, Panel, PlotError, Rect, Stroke, ink, legend, size,
 };
 
 const WIDTH: f32 = 2400.0;

@@ -1,0 +1,195 @@
+//! Axes: from values to positions.
+
+use crate::range::{extent, widened};
+use crate::ticks::{linear_ticks, log_ticks, superscript};
+
+/// How values map to positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Proportional.
+    Linear,
+    /// Proportional to the logarithm; both ends are positive.
+    Log,
+}
+
+/// An axis: its label with unit, and its range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// Label with unit, e.g. `Speed (mm/s)`; may be empty.
+    pub label: String,
+    /// Value at the left or lower end.
+    pub min: f64,
+    /// Value at the right or upper end; above `min`.
+    pub max: f64,
+    /// How values map to positions.
+    pub scale: Scale,
+    /// About how many ticks to draw.
+    pub tick_count: usize,
+    /// Whether ticks carry numbers; of panels that share an axis only one needs them.
+    pub numbered: bool,
+}
+
+impl Axis {
+    /// A linear axis; an empty range is widened.
+    #[must_use]
+    pub fn new(label: impl Into<String>, min: f64, max: f64) -> Self {
+        let (min, max) = widened(min, max);
+        Self {
+            label: label.into(),
+            min,
+            max,
+            scale: Scale::Linear,
+            tick_count: 6,
+            numbered: true,
+        }
+    }
+
+    /// A linear axis over all finite values, with 5 % of space at both ends.
+    #[must_use]
+    pub fn covering(label: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
+        let (min, max) = extent(values).unwrap_or((0.0, 1.0));
+        let (min, max) = widened(min, max);
+        let space = 0.05 * (max - min);
+        Self::new(label, min - space, max + space)
+    }
+
+    /// A logarithmic axis. An empty range, or one that is not positive, becomes 1 to 10.
+    #[must_use]
+    pub fn log(label: impl Into<String>, min: f64, max: f64) -> Self {
+        let (min, max) = if min > 0.0 && max > min && max.is_finite() {
+            (min, max)
+        } else {
+            (1.0, 10.0)
+        };
+        Self {
+            scale: Scale::Log,
+            ..Self::new(label, min, max)
+        }
+    }
+
+    /// The same axis with about `count` ticks.
+    #[must_use]
+    pub fn ticks_about(self, count: usize) -> Self {
+        Self {
+            tick_count: count,
+            ..self
+        }
+    }
+
+    /// The same axis without numbers at its ticks.
+    #[must_use]
+    pub fn unnumbered(self) -> Self {
+        Self {
+            numbered: false,
+            ..self
+        }
+    }
+
+    /// Position of a value: 0 at `min`, 1 at `max`. Values outside the range lie outside 0..=1.
+    #[must_use]
+    pub fn fraction(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => (value - self.min) / (self.max - self.min),
+            Scale::Log => (value / self.min).ln() / (self.max / self.min).ln(),
+        }
+    }
+
+    /// Ticks inside the range with their numbers, ascending.
+    ///
+    /// Very small and very large numbers are divided by a power of ten, which
+    /// [`Axis::full_label`] states.
+    #[must_use]
+    pub fn ticks(&self) -> Vec<(f64, String)> {
+        match self.scale {
+            Scale::Linear => {
+                let unit = 10_f64.powi(self.exponent());
+                linear_ticks(self.min / unit, self.max / unit, self.tick_count)
+                    .into_iter()
+                    .map(|(value, text)| (value * unit, text))
+                    .collect()
+            }
+            Scale::Log => log_ticks(self.min, self.max),
+        }
+    }
+
+    /// The label, with the power of ten that the numbers at the ticks are divided by.
+    #[must_use]
+    pub fn full_label(&self) -> String {
+        match self.exponent() {
+            0 => self.label.clone(),
+            exponent => format!("{} × 10{}", self.label, superscript(exponent)),
+        }
+    }
+
+    /// The exponent of ten that the numbers at the ticks are divided by; 0 for ranges that need
+    /// no scaling.
+    fn exponent(&self) -> i32 {
+        let largest = self.min.abs().max(self.max.abs());
+        let exponent = largest.log10().floor() as i32;
+        if self.scale == Scale::Linear && !(-2..5).contains(&exponent) {
+            exponent
+        } else {
+            0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(min: f64, max: f64) -> Vec<String> {
+        let axis = Axis::new("", min, max);
+        axis.ticks().into_iter().map(|tick| tick.1).collect()
+    }
+
+    /// Claim: ticks are round, inside the range, and labelled without rounding.
+    #[test]
+    fn ticks_are_round_and_exactly_labelled() {
+        assert_eq!(labels(0.0, 500.0), ["0", "100", "200", "300", "400", "500"]);
+        assert_eq!(
+            labels(-1.0, 0.25),
+            ["−1.00", "−0.75", "−0.50", "−0.25", "0", "0.25"]
+        );
+        for (min, max) in [(0.013, 0.0131), (-7e5, 3e6), (1e-9, 2e-9), (0.0, 1e-12)] {
+            let axis = Axis::new("", min, max);
+            let ticks = axis.ticks();
+            assert!((3..=12).contains(&ticks.len()), "{min}..{max}: {ticks:?}");
+            for (value, _) in &ticks {
+                assert!((-1e-6..=1.0 + 1e-6).contains(&axis.fraction(*value)));
+            }
+        }
+    }
+
+    /// Claim: the number at a tick times the power of ten in the label is the value.
+    #[test]
+    fn powers_of_ten_move_into_the_label() {
+        let faint = Axis::new("Level (m/s²)", 0.0, 1.2e-4);
+        assert_eq!(faint.full_label(), "Level (m/s²) × 10⁻⁴");
+        let (value, text) = faint.ticks().pop().expect("it has ticks");
+        assert_eq!(text, "1.2");
+        assert!((value - 1.2e-4).abs() < 1e-16);
+        assert_eq!(Axis::new("x", -3e6, 0.0).full_label(), "x × 10⁶");
+        assert_eq!(Axis::new("x", 0.0, 0.02).full_label(), "x");
+    }
+
+    /// Claim: no range, however degenerate, gives an axis that maps to NaN.
+    #[test]
+    fn degenerate_ranges_are_widened() {
+        for (min, max) in [
+            (0.0, 0.0),
+            (3.0, 3.0),
+            (-2.0, -2.0),
+            (5.0, 1.0),
+            (f64::NAN, 1.0),
+            (0.0, f64::INFINITY),
+        ] {
+            let axis = Axis::new("", min, max);
+            assert!(axis.min < axis.max, "{min}..{max}");
+            assert!(axis.fraction(1.0).is_finite());
+            assert!(!axis.ticks().is_empty());
+            assert!(!Axis::log("", min, max).ticks().is_empty());
+        }
+        assert_eq!(Axis::covering("", []).min, -0.05);
+    }
+}

@@ -1,0 +1,119 @@
+//! Synthesis: from coefficients and an excitation to a sample, in four structures.
+//!
+//! All of them apply the numerator first, to the excitation, and then the poles.
+
+use crate::chain::Chain;
+use crate::coefficients::Coefficients;
+use crate::convert::Row;
+use crate::number::Number;
+use asperity_formats::limits::MAX_ORDER;
+
+/// The state of a filter.
+#[derive(Debug, Clone)]
+pub(crate) struct Synthesis<S> {
+    /// Past excitations, the newest first.
+    e: Row<S>,
+    /// Past outputs, the newest first, or what the stages of a lattice have stored.
+    y: Row<S>,
+    ma_chain: Chain<S>,
+    ar_chain: Chain<S>,
+}
+
+impl<S: Number> Synthesis<S> {
+    /// A filter at rest.
+    pub(crate) fn silent() -> Self {
+        Self {
+            e: [S::ZERO; MAX_ORDER],
+            y: [S::ZERO; MAX_ORDER],
+            ma_chain: Chain::silent(),
+            ar_chain: Chain::silent(),
+        }
+    }
+
+    /// The excitation through the numerator; `used` is a multiple of four.
+    #[inline]
+    fn numerator(&mut self, ma: &Row<S>, used: usize, e: S) -> S {
+        if used == 0 {
+            return e;
+        }
+        let x = e.plus(S::dot(&ma[..used], &self.e[..used]));
+        push(&mut self.e[..used], e);
+        x
+    }
+
+    /// y = x − Σ a_k y[n−k].
+    #[inline]
+    pub(crate) fn direct(&mut self, c: &Coefficients<S>, used: (usize, usize), e: S) -> S {
+        let x = self.numerator(&c.ma, used.1, e);
+        let y = x.minus(S::dot(&c.ar[..used.0], &self.y[..used.0]));
+        push(&mut self.y[..used.0], y);
+        y
+    }
+
+    /// Numerator and poles as chains of sections in cos ω. `has_chain` is false where the
+    /// numerator is 1 + z⁻¹ or 1.
+    #[inline]
+    pub(crate) fn lsp(
+        &mut self,
+        c: &Coefficients<S>,
+        (order, ma_order): (usize, usize),
+        (used, has_chain): (usize, bool),
+        e: S,
+    ) -> S {
+        let x = if has_chain {
+            let (known, delayed) = self.ma_chain.delayed(&c.ma, ma_order);
+            self.ma_chain.push(&known, ma_order, e);
+            e.plus(delayed)
+        } else {
+            self.numerator(&c.ma, used, e)
+        };
+        let (known, delayed) = self.ar_chain.delayed(&c.ar, order);
+        let y = x.minus(delayed);
+        self.ar_chain.push(&known, order, y);
+        y
+    }
+
+    /// The lattice: `f_{i−1} = f_i − k_i g_{i−1}[n−1]`, `g_i = g_{i−1}[n−1] + k_i f_{i−1}`.
+    #[inline]
+    pub(crate) fn lattice(&mut self, c: &Coefficients<S>, order: usize, used_ma: usize, e: S) -> S {
+        let mut f = self.numerator(&c.ma, used_ma, e);
+        for i in (0..order).rev() {
+            f = f.minus(c.ar[i].times(self.y[i]));
+            let g = self.y[i].plus(c.ar[i].times(f));
+            if i + 1 < order {
+                self.y[i + 1] = g;
+            }
+        }
+        self.y[0] = f;
+        f
+    }
+
+    /// The normalised lattice: every stage rotates (f, g), so what is stored cannot grow when
+    /// coefficients change.
+    #[inline]
+    pub(crate) fn normalised(
+        &mut self,
+        c: &Coefficients<S>,
+        order: usize,
+        used_ma: usize,
+        e: S,
+    ) -> S {
+        let mut f = self.numerator(&c.ma, used_ma, e).times(c.gain);
+        for i in (0..order).rev() {
+            let (before, g) = (f, self.y[i]);
+            f = c.complement[i].times(before).minus(c.ar[i].times(g));
+            if i + 1 < order {
+                self.y[i + 1] = c.ar[i].times(before).plus(c.complement[i].times(g));
+            }
+        }
+        self.y[0] = f;
+        f
+    }
+}
+
+#[inline]
+fn push<S: Copy>(past: &mut [S], newest: S) {
+    let last = past.len() - 1;
+    past.copy_within(..last, 1);
+    past[0] = newest;
+}

@@ -1,0 +1,31 @@
+//! What `--fidelity auto` keeps of a material.
+
+use asperity::reduce::{self, BUDGET_DB};
+use asperity_kernels::workload::Orders;
+
+/// One material after `--fidelity auto`.
+#[derive(Debug, Clone)]
+pub struct Kept {
+    /// What was left out, and the error that follows.
+    pub report: reduce::Report,
+    /// Orders of the whole texture and of the reduced one.
+    pub orders: (Orders, Orders),
+    /// Instructions a tick of the default kernel on both.
+    pub instructions: Option<(f64, f64)>,
+    /// Bytes of both assets.
+    pub bytes: Option<(usize, usize)>,
+}
+
+impl Kept {
+    /// Instructions on the reduced texture divided by those on the whole one.
+    #[must_use]
+    pub fn ratio(&self) -> Option<f64> {
+        self.instructions.map(|(full, kept)| kept / full)
+    }
+
+    /// Whether the error is within the budget.
+    #[must_use]
+    pub fn is_within_budget(&self) -> bool {
+        self.report.p95_db <= BUDGET_DB.0 && self.report.worst_db <= BUDGET_DB.1
+    }
+}
