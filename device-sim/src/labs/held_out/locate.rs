@@ -1,7 +1,7 @@
 //! Where a model lies among the triangles of the others.
 
 use asperity::{
-    interpolate::Place,
+    mixture::Place,
     model::{GridVertex, ModelGrid},
 };
 

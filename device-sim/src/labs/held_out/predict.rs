@@ -5,8 +5,8 @@ use super::method::{Exponents, Method, Prediction, Region};
 use crate::labs::difference::{Band, Difference};
 use crate::labs::kernel::Kernel;
 use asperity::{
-    mixture::{Field, Place},
     learned::edges,
+    mixture::{Field, Place},
     model::{GridVertex, ModelGrid, VertexKind},
     reflection,
     spectrum::ArmaModel,

@@ -3,9 +3,8 @@
 use super::super::noise::gaussian;
 use super::Kernel;
 use asperity::{
-    builtin,
+    builtin, lsf,
     mixture::{Field, Place},
-    lsf,
     model::{ModelGrid, Numerator},
     reduce::order::Fits,
     spectrum::{self, ArmaModel},
