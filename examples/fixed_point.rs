@@ -1,18 +1,19 @@
 //! One tick, two arithmetics: the same asset in floats and in fixed point.
 //!
-//! Every stage of the tick is written once over `Arithmetic`. A processor without an FPU takes
+//! Every stage of the tick is written once over `RenderArithmetic`. A processor without an FPU takes
 //! `Fixed`: numbers of 32 bits that carry their binary point in their type. The asset, the seed
 //! and the noise are the same, so the forces are, too, but for rounding.
 
 use asperity::{builtin, lower::lower};
 use asperity_formats::Asset;
 use asperity_runtime::{
-    Arithmetic, Config, Fixed, Float, Renderer, Sample, State, Texture, arithmetic::Scalar as _,
+    Config, Fixed, Float, HostCapacities, RenderArithmetic, Renderer, Sample, State, Texture,
+    arithmetic::Scalar as _,
 };
 use std::error::Error;
 
 /// A slot with room for every texture of the format; firmware chooses smaller capacities.
-type Slot<A> = Texture<64, 128, 24, 24, 4096, A>;
+type Slot<A> = Texture<HostCapacities, A>;
 
 /// Largest difference along an axis. Floats are within 0.3 mN of a tick in f64
 /// (`tests/tests/oracle_tick.rs`), and fixed point within 0.2 mN where no slew limit holds the
@@ -55,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// The force of every tick in an arithmetic, as floats, N.
-fn forces_n<A: Arithmetic>(
+fn forces_n<A: RenderArithmetic>(
     bytes: &[u8],
     samples: &[Sample],
 ) -> Result<Vec<[f32; 3]>, Box<dyn Error>> {

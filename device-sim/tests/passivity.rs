@@ -1,7 +1,7 @@
 //! The runtime's wall gives off no more energy than the device absorbs, whatever the device's
 //! damping, delay, friction and counts. It is no softer than that requires.
 
-use asperity_runtime::{Float, Passivity};
+use asperity_runtime::{Float, Passivity, Wall};
 use asperity_sim::stability::Material;
 use asperity_sim::stability::wall::{
     Bench, DAMPINGS_N_S_M, REPORTED, ROUNDING_J, given_j, lowered_walls, ours_j,
@@ -48,8 +48,11 @@ fn friction_pays_for_counts_and_for_the_hold() {
 fn a_wall_is_as_reported_where_theory_allows_and_lowered_by_no_more_than_it_asks() {
     for (damping, delay, stiffness) in [(0.25, 0, 500.0), (0.75, 1, 500.0), (0.1, 2, 40.0)] {
         let bench = Bench::viscous(damping, delay);
-        let wall = Passivity::<Float>::new(&bench.mechanics(), 1000.0).wall(500.0, 0.1);
-        assert!((wall.stiffness_n_m - stiffness).abs() < 1e-3, "{wall:?}");
+        let wall = Passivity::<Float>::new(&bench.mechanics(), 1000.0).bear(Wall::of(500.0, 0.1));
+        assert!(
+            (wall.stiffness.value() - stiffness).abs() < 1e-3,
+            "{wall:?}"
+        );
     }
     let (lowered, slack) = lowered_walls();
     assert!(lowered > 20, "{lowered}");

@@ -103,6 +103,6 @@ pub use render_arithmetic::RenderArithmetic;
 pub use renderer::Renderer;
 pub use sample::{Output, Sample};
 pub use scene::{HostScene, Scene, SceneError, SceneState};
-pub use stage::upsample::ticks_per_sample;
+pub use stage::{passivity::Passivity, upsample::ticks_per_sample, wall::Wall};
 pub use state::State;
 pub use texture::{HostTexture, Texture};

@@ -110,12 +110,12 @@ fn check_config(config: &Config) -> Result<(), ConfigError> {
 
 fn check_solid(solid: &Solid) -> Result<(), ConfigError> {
     let (field, numbers) = match *solid {
-        Solid::Plane { point_m, .. } => ("surface.point_m", [point_m, [0.0; 3]]),
-        Solid::Sphere { center_m, radius_m } => ("surface.sphere", [center_m, [radius_m; 3]]),
+        Solid::Plane { point_m, .. } => ("solid.point_m", [point_m, [0.0; 3]]),
+        Solid::Sphere { center_m, radius_m } => ("solid.sphere", [center_m, [radius_m; 3]]),
         Solid::Box {
             center_m,
             half_extents_m,
-        } => ("surface.box", [center_m, half_extents_m]),
+        } => ("solid.box", [center_m, half_extents_m]),
     };
     let numbers = numbers.as_flattened();
     match numbers.iter().find(|x| x.abs() > FARTHEST_M) {

@@ -1,6 +1,6 @@
 //! The law that holds for every tick: the force is finite, and within peak and slew.
 
-use asperity_runtime::{Arithmetic, Config, Output, arithmetic::Scalar as _};
+use asperity_runtime::{Config, Output, RenderArithmetic, arithmetic::Scalar as _};
 
 /// The limits of a configuration, and the force of the previous tick.
 #[derive(Debug, Clone)]
@@ -40,7 +40,7 @@ impl ForceLimits {
     ///
     /// # Panics
     /// If a number is not finite, or the force leaves the limits.
-    pub fn check<A: Arithmetic>(&mut self, output: &Output<A>) {
+    pub fn check<A: RenderArithmetic>(&mut self, output: &Output<A>) {
         let force_n = output.force_n.map(|x| x.value());
         assert!(size(force_n) <= self.peak_n, "peak: {output:?}");
         let change = std::array::from_fn(|i| force_n[i] - self.last_n[i]);

@@ -8,7 +8,7 @@ use crate::{
 };
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
-    Arithmetic, Config, LoadError, Renderer, Sample, State, Surface, VibrationAxis,
+    Config, LoadError, RenderArithmetic, Renderer, Sample, Solid, State, VibrationAxis,
     arithmetic::Scalar as _,
 };
 
@@ -48,7 +48,7 @@ pub struct Summary {
 /// # Panics
 /// If a tick panics or breaks the law. The message names seed, session and tick.
 #[must_use]
-pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
+pub fn fuzz_ticks<A: RenderArithmetic>(seed: u64, ticks: u64) -> Summary {
     let textures = TICKS_PER_SAMPLE.map(|ticks| textures::<A>(seed, ticks));
     let mut summary = Summary {
         hash: 0xcbf2_9ce4_8422_2325,
@@ -68,7 +68,7 @@ pub fn fuzz_ticks<A: Arithmetic>(seed: u64, ticks: u64) -> Summary {
 }
 
 /// Ticks of one renderer and one state.
-fn run<A: Arithmetic>(
+fn run<A: RenderArithmetic>(
     draw: &mut Draw,
     config: &Config,
     textures: &[Box<HostSlot<A>>],
@@ -101,7 +101,7 @@ fn run<A: Arithmetic>(
 }
 
 /// Textures that the arithmetic can hold, for a servo loop of `ticks_per_sample`.
-fn textures<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Vec<Box<HostSlot<A>>> {
+fn textures<A: RenderArithmetic>(seed: u64, ticks_per_sample: u8) -> Vec<Box<HostSlot<A>>> {
     let textures: Vec<_> = (0..4 * TEXTURES)
         .filter_map(|index| texture::<A>(seed ^ index, ticks_per_sample))
         .take(TEXTURES as usize)
@@ -116,7 +116,7 @@ fn textures<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Vec<Box<HostSlot<
 
 /// A texture of any kind. Some are louder and stiffer than any device. `None` if the
 /// arithmetic cannot hold it.
-fn texture<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<HostSlot<A>>> {
+fn texture<A: RenderArithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<HostSlot<A>>> {
     let mut draw = Draw::new(seed);
     let mut texture = random(
         seed,
@@ -129,10 +129,10 @@ fn texture<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<HostSlo
     );
     texture.traces.truncate(draw.below(14));
     texture.mu = draw.range(0.0, 10.0) as f32;
-    texture.surface.vib_s2_m = [0.05, 1.0, 1000.0][draw.below(3)];
-    texture.surface.stiffness_n_m = [1.0, 500.0, 1e5][draw.below(3)];
-    texture.surface.damping_n_s_m = [0.0, 0.2, 1e3][draw.below(3)];
-    texture.surface.effective_mass_kg = [0.01, 0.1, 100.0][draw.below(3)];
+    texture.coupling.vib_s2_m = [0.05, 1.0, 1000.0][draw.below(3)];
+    texture.coupling.stiffness_n_m = [1.0, 500.0, 1e5][draw.below(3)];
+    texture.coupling.damping_n_s_m = [0.0, 0.2, 1e3][draw.below(3)];
+    texture.coupling.effective_mass_kg = [0.01, 0.1, 100.0][draw.below(3)];
     let mut slot = Box::new(HostSlot::new());
     let bytes = texture.encode();
     let asset = Asset::parse(&bytes).expect("a valid texture");
@@ -145,20 +145,20 @@ fn texture<A: Arithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<HostSlo
 
 fn config(draw: &mut Draw, servo_rate_hz: f32) -> Config {
     let mut config = Config {
-        surface: match draw.below(4) {
-            0 => Surface::Sphere {
+        solid: match draw.below(4) {
+            0 => Solid::Sphere {
                 center_m: [0.0, 0.0, -0.01],
                 radius_m: 0.01,
             },
-            1 => Surface::Box {
+            1 => Solid::Box {
                 center_m: [0.0; 3],
                 half_extents_m: [0.004, 0.005, 0.006],
             },
-            2 => Surface::Plane {
+            2 => Solid::Plane {
                 point_m: [0.001, 0.002, -0.003],
                 normal: [1e-3, 2e-3, -1e-4],
             },
-            _ => Config::default().surface,
+            _ => Config::default().solid,
         },
         vibration_axis: [VibrationAxis::Tangent, VibrationAxis::Binormal][draw.below(2)],
         servo_rate_hz,

@@ -94,9 +94,9 @@ fn queries(texture: &HostTexture, data: &[u8]) {
             (0.0, 0.0),
         ] {
             let query = texture.weights_at(speed, force);
-            let sum: f32 = query.weights.iter().sum();
+            let sum: f32 = query.values().iter().sum();
             assert!(
-                query.weights.iter().all(|w| (0.0..=1.0).contains(w)) && (sum - 1.0).abs() < 1e-5,
+                query.values().iter().all(|w| (0.0..=1.0).contains(w)) && (sum - 1.0).abs() < 1e-5,
                 "({speed}, {force}): {query:?}"
             );
             let filter = texture.filter_at(speed, force);

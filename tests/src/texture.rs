@@ -2,12 +2,12 @@
 
 use crate::draw::Draw;
 use asperity_formats::{
-    AssetParts, FrictionParts, GridParts, LsfCode, ModelParts, Numerator, Surface, TapParts,
+    AssetParts, Coupling, FrictionParts, GridParts, LsfCode, ModelParts, Numerator, TapParts,
     Vertex, VertexKind, encode,
 };
 
 /// [`asperity_runtime::HostTexture`] in any arithmetic.
-pub type HostSlot<A> = asperity_runtime::Texture<64, 128, 24, 24, 4096, A>;
+pub type HostSlot<A> = asperity_runtime::Texture<asperity_runtime::HostCapacities, A>;
 
 /// LSFs (codes of π/65536), MA LSFs and gain of a model.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ pub struct Texture {
     /// Coefficient of friction.
     pub mu: f32,
     /// Wall and gains.
-    pub surface: Surface,
+    pub coupling: Coupling,
 }
 
 /// Kind of a random texture.
@@ -155,7 +155,7 @@ pub fn random(seed: u64, kind: Kind) -> Texture {
         tap_rate_hz: 10_000.0,
         traces,
         mu: draw.range(0.1, 1.2) as f32,
-        surface: Surface {
+        coupling: Coupling {
             stiffness_n_m: 500.0,
             damping_n_s_m: 0.2,
             vib_s2_m: 0.05,
@@ -227,7 +227,7 @@ impl Texture {
                 mu: self.mu,
                 anchors: &[],
             },
-            surface: self.surface,
+            coupling: self.coupling,
             provenance: None,
             preview_png: None,
         };

@@ -6,7 +6,8 @@
 mod support;
 
 use asperity_formats::Asset;
-use asperity_runtime::{HostTexture, vibration::Vibration};
+use asperity_runtime::quantity::Quantity;
+use asperity_runtime::{HostTexture, stage::vibration::Vibration};
 use asperity_tests::{draw::Draw, hatt, oracle::Texture};
 use rayon::prelude::*;
 
@@ -21,15 +22,16 @@ const FOLLOW: f64 = 5.0;
 
 /// RMS over a second, and of every block of 20 ms. `query` gives speed and force of each tick.
 fn levels(slot: &HostTexture, seed: u64, query: impl Fn(usize) -> (f32, f32)) -> (f64, Vec<f64>) {
-    let share = (1.0 - (-f64::from(slot.cycle_samples()) / FOLLOW).exp()) as f32;
+    let fraction = (1.0 - (-f64::from(slot.cycle_samples()) / FOLLOW).exp()) as f32;
     let mut vibration = Vibration::new(seed);
     let ticks = usize::from(slot.ticks_per_sample());
     let signal: Vec<f64> = (0..(SETTLE + SECOND) * ticks)
         .map(|tick| {
             let (speed, force) = query(tick);
-            let (y, clamped) = vibration.step(slot, speed, force, share, true);
-            assert!(!clamped, "{speed} mm/s, {force} N");
-            y.into()
+            let (at_speed, at_force) = (Quantity(speed), Quantity(force));
+            let sounded = vibration.step(slot, at_speed, at_force, Quantity(fraction), true);
+            assert!(!sounded.clamped, "{speed} mm/s, {force} N");
+            sounded.y.value().into()
         })
         .skip(SETTLE * ticks)
         .collect();

@@ -9,19 +9,19 @@ use asperity::{
 };
 use asperity_formats::Asset;
 use asperity_runtime::{
-    Arithmetic, Config, Exchange, Fixed, Flags, Float, Output, PrepareError, Preparer, Renderer,
-    Sample, State, Texture,
+    Config, Exchange, Fixed, Flags, Float, HostCapacities, Output, PrepareError, Preparer,
+    RenderArithmetic, Renderer, Sample, State, Texture,
     arithmetic::{Point, Scalar as _},
-    vibration::LAG_SAMPLES,
+    stage::vibration::LAG_SAMPLES,
 };
 use std::{
     ops::Range,
     sync::atomic::{AtomicBool, Ordering::Relaxed},
 };
 
-type Slot<A> = Texture<64, 128, 24, 24, 4096, A>;
-type TestExchange<'a, A> = Exchange<'a, 64, 128, 24, 24, 4096, A>;
-type TestPreparer<'q, 'a, A> = Preparer<'q, 'a, 64, 128, 24, 24, 4096, A>;
+type Slot<A> = Texture<HostCapacities, A>;
+type TestExchange<'a, A> = Exchange<'a, HostCapacities, A>;
+type TestPreparer<'q, 'a, A> = Preparer<'q, 'a, HostCapacities, A>;
 
 const RATE_HZ: f32 = 1000.0;
 /// Tick in which the second texture is sent.
@@ -45,11 +45,11 @@ fn textures() -> [Vec<u8>; 2] {
     [hard, soft].map(|texture| lower(&texture, None).unwrap().bytes)
 }
 
-fn slot<A: Arithmetic>() -> Box<Slot<A>> {
+fn slot<A: RenderArithmetic>() -> Box<Slot<A>> {
     Box::new(Slot::new())
 }
 
-fn loaded<A: Arithmetic>(bytes: &[u8]) -> Box<Slot<A>> {
+fn loaded<A: RenderArithmetic>(bytes: &[u8]) -> Box<Slot<A>> {
     let mut slot = slot();
     slot.load(&Asset::parse(bytes).unwrap(), RATE_HZ).unwrap();
     slot
@@ -63,7 +63,7 @@ fn stroke() -> Vec<Sample> {
 }
 
 /// Plays a texture, and then whatever `send` prepares before each tick.
-fn play<A: Arithmetic>(
+fn play<A: RenderArithmetic>(
     first: &[u8],
     seed: u64,
     samples: &[Sample],
@@ -81,7 +81,11 @@ fn play<A: Arithmetic>(
     (outputs, player.state().clone())
 }
 
-fn alone<A: Arithmetic>(bytes: &[u8], seed: u64, samples: &[Sample]) -> (Vec<Output<A>>, State<A>) {
+fn alone<A: RenderArithmetic>(
+    bytes: &[u8],
+    seed: u64,
+    samples: &[Sample],
+) -> (Vec<Output<A>>, State<A>) {
     let renderer = Renderer::prepare(&Config::default()).unwrap();
     let (texture, mut state) = (loaded(bytes), State::new(seed));
     let tick = |sample| renderer.tick(&texture, &mut state, &Sample::of(sample));
@@ -89,11 +93,11 @@ fn alone<A: Arithmetic>(bytes: &[u8], seed: u64, samples: &[Sample]) -> (Vec<Out
     (outputs, state)
 }
 
-fn difference<A: Arithmetic, F: Point>(a: A::Scalar<F>, b: A::Scalar<F>) -> f32 {
+fn difference<A: RenderArithmetic, F: Point>(a: A::Scalar<F>, b: A::Scalar<F>) -> f32 {
     (a.value() - b.value()).abs()
 }
 
-fn largest_step_n<A: Arithmetic>(outputs: &[Output<A>]) -> f32 {
+fn largest_step_n<A: RenderArithmetic>(outputs: &[Output<A>]) -> f32 {
     let step_n = |pair: &[Output<A>]| {
         let squared = |axis: usize| {
             let (before, after) = (pair[0].force_n[axis], pair[1].force_n[axis]);
@@ -110,7 +114,7 @@ fn another_texture_makes_no_larger_step_than_either_alone() {
     crossing::<Fixed>();
 }
 
-fn crossing<A: Arithmetic>() {
+fn crossing<A: RenderArithmetic>() {
     let pair = textures();
     let samples = stroke();
     for [from, to] in [[0, 1], [1, 0]] {
@@ -147,7 +151,7 @@ fn wall_and_friction_change_little_by_little() {
     change::<Fixed>();
 }
 
-fn change<A: Arithmetic>() {
+fn change<A: RenderArithmetic>() {
     let silent = |stiffness_n_m: f64, mu: f64| {
         let mut texture = builtin::texture();
         for vertex in &mut texture.grid.vertices {
@@ -182,7 +186,7 @@ fn nothing_is_forgotten() {
     memory::<Fixed>();
 }
 
-fn memory<A: Arithmetic>() {
+fn memory<A: RenderArithmetic>() {
     let pair = textures();
     let samples = stroke();
     let (plain, plain_state) = alone::<A>(&pair[0], 7, &samples);
@@ -246,7 +250,7 @@ fn a_refused_texture_changes_nothing_and_its_slot_is_kept() {
     refusal::<Fixed>();
 }
 
-fn refusal<A: Arithmetic>() {
+fn refusal<A: RenderArithmetic>() {
     let pair = textures();
     let good = Asset::parse(&pair[1]).unwrap();
     let samples = stroke();

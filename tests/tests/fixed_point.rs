@@ -2,7 +2,8 @@
 //! of those of the f64 oracle, and the bands of the vibration are those of floats.
 
 use asperity_formats::Asset;
-use asperity_runtime::{Arithmetic, Fixed, Float, arithmetic::Scalar, vibration::Vibration};
+use asperity_runtime::quantity::Quantity;
+use asperity_runtime::{Fixed, Float, RenderArithmetic, stage::vibration::Vibration};
 use asperity_tests::{
     draw::Draw,
     hatt,
@@ -24,7 +25,7 @@ const TICKS: usize = if cfg!(debug_assertions) {
 };
 const RATE_HZ: f64 = 1000.0;
 
-fn load<A: Arithmetic>(bytes: &[u8]) -> Box<HostSlot<A>> {
+fn load<A: RenderArithmetic>(bytes: &[u8]) -> Box<HostSlot<A>> {
     let asset = Asset::parse(bytes).unwrap();
     let mut slot = Box::new(HostSlot::new());
     slot.load(&asset, asset.grid().sample_rate_hz()).unwrap();
@@ -65,17 +66,17 @@ fn spectral_error_db(bytes: &[u8]) -> f64 {
 }
 
 /// Levels of a steady vibration in third octaves, dB.
-fn bands_db<A: Arithmetic>(bytes: &[u8], (speed, force): (f32, f32)) -> Vec<f64> {
+fn bands_db<A: RenderArithmetic>(bytes: &[u8], (speed, force): (f32, f32)) -> Vec<f64> {
     let slot = load::<A>(bytes);
-    let share = 1.0 - (-f64::from(slot.cycle_samples()) / 5.0).exp();
+    let fraction = 1.0 - (-f64::from(slot.cycle_samples()) / 5.0).exp();
     let mut vibration = Vibration::<A>::new(3);
     let signal: Vec<f64> = (0..TICKS)
         .map(|_| {
-            let (speed, force) = (A::Scalar::of(speed), A::Scalar::of(force));
-            let way = A::Scalar::of(share as f32);
-            let (y, clamped) = vibration.step(&slot, speed, force, way, true);
-            assert!(!clamped);
-            y.value().into()
+            let (speed, force) = (Quantity::of(speed), Quantity::of(force));
+            let fraction = Quantity::of(fraction as f32);
+            let sounded = vibration.step(&slot, speed, force, fraction, true);
+            assert!(!sounded.clamped);
+            sounded.y.value().into()
         })
         .skip(100)
         .collect();

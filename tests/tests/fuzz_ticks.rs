@@ -1,7 +1,7 @@
 //! A short run of the fuzzed ticks. `.ci/run` has a longer one, and the command `fuzz-ticks` runs
 //! any number.
 
-use asperity_runtime::{Arithmetic, Fixed, Float};
+use asperity_runtime::{Fixed, Float, RenderArithmetic};
 use asperity_tests::fuzz_ticks::{Summary, fuzz_ticks};
 
 #[test]
@@ -15,7 +15,7 @@ fn fuzzed_ticks_in_fixed_point_do_so_without_overflow() {
     fuzz::<Fixed>();
 }
 
-fn fuzz<A: Arithmetic>() {
+fn fuzz<A: RenderArithmetic>() {
     let summary = fuzz_ticks::<A>(1, 300_000);
     let Summary {
         ticks,

@@ -2,7 +2,7 @@
 //! bits, and good samples bring the force back.
 
 use asperity_formats::Asset;
-use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, State, Surface};
+use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, Solid, State};
 use asperity_tests::{
     force_limits::{ForceLimits, size},
     texture::{Kind, random},
@@ -15,9 +15,9 @@ fn texture() -> &'static HostTexture {
     TEXTURE.get_or_init(|| {
         let mut texture = random(3, Kind::nyquist(20));
         // Loud and stiff, so that the limiter has work to do.
-        texture.surface.vib_s2_m = 1.0;
-        texture.surface.stiffness_n_m = 2000.0;
-        texture.surface.effective_mass_kg = 0.1;
+        texture.coupling.vib_s2_m = 1.0;
+        texture.coupling.stiffness_n_m = 2000.0;
+        texture.coupling.effective_mass_kg = 0.1;
         let bytes = texture.encode();
         let mut slot = Box::new(HostTexture::new());
         slot.load(&Asset::parse(&bytes).unwrap(), 1000.0).unwrap();
@@ -70,18 +70,18 @@ fn samples() -> impl Strategy<Value = Vec<Sample>> {
     vec(stretch, 1..20).prop_map(|stretches| stretches.concat())
 }
 
-fn surface() -> impl Strategy<Value = Surface> {
+fn solid() -> impl Strategy<Value = Solid> {
     prop_oneof![
-        Just(Config::default().surface),
-        Just(Surface::Sphere {
+        Just(Config::default().solid),
+        Just(Solid::Sphere {
             center_m: [0.0, 0.0, -0.01],
             radius_m: 0.01
         }),
-        Just(Surface::Box {
+        Just(Solid::Box {
             center_m: [0.0; 3],
             half_extents_m: [0.004, 0.005, 0.006]
         }),
-        Just(Surface::Plane {
+        Just(Solid::Plane {
             point_m: [1.0, 2.0, -3.0],
             normal: [1e-3, 2e-3, -1e-4]
         }),
@@ -94,11 +94,11 @@ proptest! {
     #[test]
     fn no_samples_whatever_drive_the_force_beyond_its_limits(
         samples in samples(),
-        surface in surface(),
+        solid in solid(),
         (peak_n, slew_n_s) in (0.01_f32..100.0, 0.1_f32..1e5),
         seed in any::<u64>(),
     ) {
-        let mut config = Config { surface, ..config() };
+        let mut config = Config { solid, ..config() };
         (config.limits.peak_n, config.limits.slew_n_s) = (peak_n, slew_n_s);
         let renderer = Renderer::new(&config).unwrap();
         let (mut state, mut twin) = (State::new(seed), State::new(seed));

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use asperity_runtime::{
     Config,
-    friction::{Bristle, FrictionState},
+    quantity::{Quantity, Vector},
+    stage::friction::{Bristle, FrictionState},
 };
 use proptest::prelude::*;
 
@@ -35,15 +36,14 @@ impl Axis {
     fn step(&mut self, x_m: f64, normal_n: f64) -> f64 {
         let motion_m = (x_m - self.last_m) as f32;
         self.last_m = x_m;
-        let up = [0.0, 0.0, 1.0];
-        let (force, _) = self.state.step(
-            &self.bristle,
-            [motion_m, 0.0, 0.0],
-            up,
-            normal_n as f32,
-            self.mu,
+        let friction = self.bristle.step(
+            &mut self.state,
+            Vector::of([motion_m, 0.0, 0.0]),
+            Vector::of([0.0, 0.0, 1.0]),
+            Quantity::of(normal_n as f32),
+            Quantity::of(self.mu),
         );
-        f64::from(force[0])
+        f64::from(friction.force().values()[0])
     }
 }
 

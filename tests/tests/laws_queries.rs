@@ -20,9 +20,9 @@ fn load(texture: &Texture) -> Box<HostTexture> {
 /// Panics if a query is wrong, and names it.
 fn check(slot: &HostTexture, order: usize, speed: f32, force: f32) {
     let query = slot.weights_at(speed, force);
-    let sum: f32 = query.weights.iter().sum();
+    let sum: f32 = query.values().iter().sum();
     assert!(
-        query.weights.iter().all(|w| (0.0..=1.0).contains(w)) && (sum - 1.0).abs() < 1e-6,
+        query.values().iter().all(|w| (0.0..=1.0).contains(w)) && (sum - 1.0).abs() < 1e-6,
         "({speed:e}, {force:e}): {query:?}"
     );
     let filter = slot.filter_at(speed, force);

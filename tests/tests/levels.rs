@@ -27,7 +27,7 @@ fn difference_db(bytes: &[u8], speed_mm_s: f64, force_n: f64, seed: u64) -> (f64
     slot.load(&asset, rate_hz).unwrap();
     let renderer = Renderer::new(&Config::default()).unwrap();
     let mut state = State::new(seed);
-    let depth_m = force_n / f64::from(asset.surface().stiffness_n_m);
+    let depth_m = force_n / f64::from(asset.coupling().stiffness_n_m);
     let settle = 500;
     let signal: Vec<f64> = steady(speed_mm_s, depth_m, settle + SECONDS * 1000)
         .map(|p| {

@@ -3,7 +3,7 @@
 #![allow(unsafe_code, reason = "a global allocator cannot be had without")]
 
 use asperity_formats::{Asset, Library, Numerator, library};
-use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
+use asperity_runtime::{Capacities, Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{
     texture::{Kind, random},
     trajectory::strokes,
@@ -117,7 +117,7 @@ fn refusals_allocate_nothing_either() {
         refused
     });
     assert_eq!((refused, calls), (bytes.len(), 0));
-    let mut small = Box::new(asperity_runtime::Texture::<8, 8, 8, 8, 64>::new());
+    let mut small = Box::new(asperity_runtime::Texture::<Capacities<8, 8, 8, 8, 64>>::new());
     let asset = Asset::parse(&bytes).unwrap();
     let (result, calls) = calls_of(|| small.load(&asset, 1000.0));
     assert!(result.is_err());

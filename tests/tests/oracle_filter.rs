@@ -1,7 +1,7 @@
 //! Location, mixture and filter agree with the f64 oracle.
 
 use asperity_formats::{Asset, Numerator};
-use asperity_runtime::{Arithmetic, Fixed, Float, arithmetic::Scalar as _};
+use asperity_runtime::{Fixed, Float, RenderArithmetic};
 use asperity_tests::{
     draw::Draw,
     oracle::{Texture, polynomial},
@@ -9,7 +9,7 @@ use asperity_tests::{
     texture::{HostSlot, Kind, random},
 };
 
-fn load<A: Arithmetic>(bytes: &[u8]) -> (Box<HostSlot<A>>, Texture) {
+fn load<A: RenderArithmetic>(bytes: &[u8]) -> (Box<HostSlot<A>>, Texture) {
     let asset = Asset::parse(bytes).unwrap();
     let mut slot = Box::new(HostSlot::new());
     slot.load(&asset, asset.grid().sample_rate_hz()).unwrap();
@@ -17,7 +17,7 @@ fn load<A: Arithmetic>(bytes: &[u8]) -> (Box<HostSlot<A>>, Texture) {
 }
 
 /// Largest difference of log spectra from 10 Hz to 490 Hz, dB; levels of 0 are left out.
-fn spectral_error_db<A: Arithmetic>(
+fn spectral_error_db<A: RenderArithmetic>(
     slot: &HostSlot<A>,
     oracle: &Texture,
     speed: f64,
@@ -58,7 +58,7 @@ fn spectra_in_fixed_point_agree_within_a_tenth_of_a_decibel() {
     assert!(worst < 0.1, "{worst} dB");
 }
 
-fn largest_error_db<A: Arithmetic>() -> f64 {
+fn largest_error_db<A: RenderArithmetic>() -> f64 {
     let mut worst = 0.0_f64;
     for (seed, numerator) in [Numerator::None, Numerator::Nyquist]
         .into_iter()
@@ -96,7 +96,7 @@ fn armas_in_fixed_point_agree_too() {
     assert!(worst < 0.1, "{worst} dB");
 }
 
-fn largest_arma_error_db<A: Arithmetic>() -> f64 {
+fn largest_arma_error_db<A: RenderArithmetic>() -> f64 {
     let mut worst = 0.0_f64;
     for (ar_order, ma_order) in [(20, 18), (14, 12), (24, 24), (5, 3), (6, 1)] {
         let kind = Kind {
@@ -127,7 +127,7 @@ fn the_mixture_in_fixed_point_is_too() {
     compare_mixtures::<Fixed>(3e-4);
 }
 
-fn compare_mixtures<A: Arithmetic>(most: f64) {
+fn compare_mixtures<A: RenderArithmetic>(most: f64) {
     for seed in 0..5 {
         let (slot, oracle) = load::<A>(&random(seed, Kind::nyquist(20)).encode());
         let mut draw = Draw::new(seed);

@@ -3,7 +3,7 @@
 
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
-    Arithmetic, Config, Fixed, Float, Renderer, Sample, State, Surface, VibrationAxis,
+    Config, Fixed, Float, RenderArithmetic, Renderer, Sample, Solid, State, VibrationAxis,
     arithmetic::Scalar as _,
 };
 use asperity_tests::{
@@ -41,7 +41,7 @@ fn compare(
     ]
 }
 
-fn compare_in<A: Arithmetic>(
+fn compare_in<A: RenderArithmetic>(
     bytes: &[u8],
     config: &Config,
     seed: u64,
@@ -185,30 +185,30 @@ fn strokes_and_taps_on_a_plane_with_every_kind_of_texture() {
 
 #[test]
 fn spheres_boxes_tilted_planes_and_the_other_axis() {
-    let surfaces = [
-        Surface::Sphere {
+    let solids = [
+        Solid::Sphere {
             center_m: [0.0, 0.0, -0.05],
             radius_m: 0.05,
         },
-        Surface::Box {
+        Solid::Box {
             center_m: [0.002, 0.001, -0.02],
             half_extents_m: [0.012, 0.015, 0.02],
         },
-        Surface::Plane {
+        Solid::Plane {
             point_m: [0.0, 0.001, 0.0],
             normal: [0.3, -0.4, 2.0],
         },
     ];
     let bytes = random(7, Kind::nyquist(20)).encode();
-    for (seed, surface) in (20..).zip(surfaces) {
+    for (seed, solid) in (20..).zip(solids) {
         for vibration_axis in [VibrationAxis::Tangent, VibrationAxis::Binormal] {
             let config = Config {
-                surface,
+                solid,
                 vibration_axis,
                 ..Config::default()
             };
             let worst = compare(&bytes, &config, seed, &fresh(strokes(seed, 10_000)));
-            assert_close(&worst, 1000.0, &format!("{surface:?} {vibration_axis:?}"));
+            assert_close(&worst, 1000.0, &format!("{solid:?} {vibration_axis:?}"));
         }
     }
 }

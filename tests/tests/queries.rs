@@ -51,11 +51,11 @@ impl Checked {
     /// Checks that the weights are convex and the filter is finite and stable.
     fn query(&mut self, speed: f32, force: f32) {
         let query = self.slot.weights_at(speed, force);
-        let sum: f32 = query.weights.iter().sum();
+        let sum: f32 = query.values().iter().sum();
         let filter = self.slot.filter_at(speed, force);
         let reflection = largest_reflection(&filter.a[..self.order]);
         assert!(
-            query.weights.iter().all(|w| (0.0..=1.0).contains(w))
+            query.values().iter().all(|w| (0.0..=1.0).contains(w))
                 && (sum - 1.0).abs() < 1e-6
                 && reflection < 1.0
                 && filter.b.iter().all(|b| b.is_finite())
@@ -161,7 +161,7 @@ fn rest_and_recover(bytes: &[u8]) {
         ..Config::default()
     })
     .unwrap();
-    let depth_m = 1.0 / asset.surface().stiffness_n_m;
+    let depth_m = 1.0 / asset.coupling().stiffness_n_m;
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30] {
         let mut state = State::new(1);
         // On the surface the force is zero, at rest the speed. Then come one to five bad samples.

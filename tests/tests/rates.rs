@@ -5,9 +5,11 @@
 mod support;
 
 use asperity_formats::{Asset, Numerator};
+use asperity_runtime::quantity::Quantity;
 use asperity_runtime::{
-    Config, Exchange, Flags, HostTexture, LoadError, Output, Renderer, Sample, State,
-    vibration::{LAG_SAMPLES, Vibration},
+    Config, Exchange, Flags, HostCapacities, HostTexture, LoadError, Output, Renderer, Sample,
+    State,
+    stage::vibration::{LAG_SAMPLES, Vibration},
 };
 use asperity_tests::{
     draw::Draw,
@@ -67,12 +69,14 @@ fn samples_are_those_of_a_loop_at_the_models_rate() {
             let mut low_pass = Interpolator::new(ratio.into());
             let (mut worst, mut loudest) = (0.0_f64, 0.0_f64);
             for &(speed, force, sounding) in &queries {
-                let (y, _) = models.step(&slow, speed, force, 0.7, sounding);
+                let at = (Quantity(speed), Quantity(force), Quantity(0.7));
+                let y = models.step(&slow, at.0, at.1, at.2, sounding).y.value();
                 for tick in 0..ratio {
                     let entering = if tick == 0 { f64::from(y) } else { 0.0 };
                     let exact = low_pass.step(entering);
-                    let (out, clamped) = ours.step(&fast, speed, force, 0.7, sounding);
-                    assert!(!clamped);
+                    let sounded = ours.step(&fast, at.0, at.1, at.2, sounding);
+                    assert!(!sounded.clamped);
+                    let out = sounded.y.value();
                     if sounding {
                         worst = worst.max((f64::from(out) - exact).abs());
                         loudest = loudest.max(exact.abs());
@@ -178,7 +182,10 @@ fn a_change_is_heard_within_ten_samples() {
                         } else {
                             (150.0, 2.0)
                         };
-                        vibration.step(&slot, speed, force, 0.7, true).0 != 0.0
+                        {
+                            let at = (Quantity(speed), Quantity(force), Quantity(0.7));
+                            vibration.step(&slot, at.0, at.1, at.2, true).y.value() != 0.0
+                        }
                     })
                     .expect("a sound")
                     - jump
@@ -208,9 +215,9 @@ fn a_tap_at_its_source_rate_plays_its_samples() {
     assert_eq!(asset.taps().sample_rate_hz(), 10_000.0);
     assert_eq!(slot.taps().ticks(), asset.taps().samples());
     for trace in asset.taps().traces() {
-        let selection = slot.taps().select(trace.speed_m_s);
+        let selection = slot.taps().select(Quantity(trace.speed_m_s));
         for (n, a) in trace.accel_m_s2().enumerate() {
-            assert_eq!(slot.taps().accel_m_s2(&selection, n), a);
+            assert_eq!(slot.taps().acceleration(&selection, n).value(), a);
         }
     }
     // Down at 0.3 m/s, between two traces or on one, within the rounding of eight heights.
@@ -222,11 +229,12 @@ fn a_tap_at_its_source_rate_plays_its_samples() {
         .collect();
     let started = |o: &Output| o.flags.contains(Flags::TAP_STARTED);
     let start = outputs.iter().position(started).expect("a tap");
-    let selection = slot.taps().select(0.3);
+    let selection = slot.taps().select(Quantity(0.3));
     for (n, output) in outputs[start..start + 100].iter().enumerate() {
-        let wanted = slot.surface().effective_mass_kg * slot.taps().accel_m_s2(&selection, n);
+        let wanted =
+            slot.coupling().effective_mass_kg * slot.taps().acceleration(&selection, n).value();
         assert!(
-            (output.tap_n - wanted).abs() < 2e-3 * slot.surface().effective_mass_kg * 360.0,
+            (output.tap_n - wanted).abs() < 2e-3 * slot.coupling().effective_mass_kg * 360.0,
             "{n}: {} {wanted}",
             output.tap_n
         );
@@ -292,7 +300,11 @@ fn forces_stay_within_their_limits() {
 fn a_stroke_that_ends_ends_in_silence() {
     let slot = loaded(&random(9, Kind::nyquist(20)).encode(), 10);
     let mut vibration = Vibration::new(1);
-    let mut step = |speed| vibration.step(&slot, speed, 2.0, 0.7, true).0;
+    let (force, fraction) = (Quantity(2.0), Quantity(0.7));
+    let mut step = |speed| {
+        let sounded = vibration.step(&slot, Quantity(speed), force, fraction, true);
+        sounded.y.value()
+    };
     assert!((0..2000).map(|_| step(150.0)).any(|y| y.abs() > 0.1));
     let last: Vec<f32> = (0..100_000).map(|_| step(0.0)).collect();
     assert!(last.iter().all(|y| *y == 0.0 || y.is_normal()));
@@ -327,7 +339,7 @@ fn crossed(from: &[u8], to: Option<&[u8]>, seed: u64) -> Vec<Output> {
     let (mut playing, mut spare) = (slot(), slot());
     let load = |bytes| Asset::parse(bytes).unwrap();
     playing.load(&load(from), config.servo_rate_hz).unwrap();
-    let mut exchange = Exchange::<64, 128, 24, 24, 4096>::new();
+    let mut exchange = Exchange::<HostCapacities>::new();
     let (mut preparer, mut player) = exchange.split(&mut playing, [&mut spare], seed);
     let tick = |n: usize| {
         if let (SENT, Some(to)) = (n, to) {
@@ -402,8 +414,10 @@ fn one_asset_at_two_rates_is_two_textures() {
             let ticks = draw.range(1.0, 80.0) as usize;
             for tick in 0..ticks {
                 let (speed, force) = (draw.range(0.0, 250.0) as f32, draw.range(0.0, 4.0) as f32);
-                let (y, clamped) = vibration.step(slot, speed, force, 0.7, true);
-                assert!(y.is_finite() && !clamped);
+                let at = (Quantity(speed), Quantity(force), Quantity(0.7));
+                let sounded = vibration.step(slot, at.0, at.1, at.2, true);
+                let y = sounded.y.value();
+                assert!(y.is_finite() && !sounded.clamped);
                 let begun = tick >= samples_to_effect(slot) * usize::from(slot.ticks_per_sample());
                 assert!(begun || y == 0.0, "tick {tick}: {y} m/s²");
                 heard += usize::from(y != 0.0);

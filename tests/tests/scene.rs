@@ -8,14 +8,14 @@ use asperity::{
     model::TextureModel,
     reduce::{Fidelity, reduce},
 };
-use asperity_formats::{Asset, Library, SceneSurface, Shape, limits::MAX_POSITION_M as FAR};
+use asperity_formats::{Asset, Library, SceneSurface, Solid, limits::MAX_POSITION_M as FAR};
 use asperity_runtime::{
-    Config, Fixed, Flags, HostTexture, Output, Renderer, Sample, Scene, SceneError, SceneState,
-    State, Surface, arithmetic::Scalar as _,
+    Config, Fixed, Flags, HostCapacities, HostTexture, Output, Renderer, Sample, Scene, SceneError,
+    SceneState, State, arithmetic::Scalar as _,
 };
 use asperity_tests::texture::HostSlot;
 
-type TestScene<'a> = Scene<'a, 8, 64, 128, 24, 24, 4096>;
+type TestScene<'a> = Scene<'a, 8, HostCapacities>;
 
 /// Where one texture ends and the next begins, m.
 const BORDER_M: f32 = 0.05;
@@ -35,7 +35,7 @@ fn textures() -> [TextureModel; 2] {
 
 fn plane(texture: u16, from_x_m: f32, to_x_m: f32) -> SceneSurface {
     SceneSurface {
-        shape: Shape::Plane {
+        solid: Solid::Plane {
             point_m: [0.0; 3],
             normal: [0.0, 0.0, 1.0],
         },
@@ -190,7 +190,7 @@ fn only_the_touched_surface_is_rendered() {
         &[plane(0, -FAR, -0.02), plane(1, -0.01, FAR)],
     ));
     let config = Config {
-        surface: Surface::Plane {
+        solid: Solid::Plane {
             point_m: [0.0; 3],
             normal: [0.0, 0.0, 1.0],
         },
@@ -243,7 +243,7 @@ fn noise_at_a_border_changes_nothing() {
 fn the_deepest_surface_is_touched_and_none_outside_every_region() {
     let pair = textures().map(|t| bytes(&t));
     let ball = |x_m: f32, texture| SceneSurface {
-        shape: Shape::Sphere {
+        solid: Solid::Sphere {
             center_m: [x_m, 0.0, 0.0],
             radius_m: 0.02,
         },
@@ -269,17 +269,17 @@ fn the_deepest_surface_is_touched_and_none_outside_every_region() {
 /// A ball, a box and a plane that interpenetrate, on both textures.
 fn heap() -> TestScene<'static> {
     let pair = textures().map(|t| bytes(&t));
-    let anywhere = |shape, texture| SceneSurface {
-        shape,
+    let anywhere = |solid, texture| SceneSurface {
+        solid,
         from_m: [-FAR; 3],
         to_m: [FAR; 3],
         texture,
     };
-    let ball = Shape::Sphere {
+    let ball = Solid::Sphere {
         center_m: [0.0, 0.0, 0.01],
         radius_m: 0.015,
     };
-    let cube = Shape::Box {
+    let cube = Solid::Box {
         center_m: [0.02, 0.0, 0.0],
         half_extents_m: [0.01; 3],
     };
@@ -438,7 +438,7 @@ fn a_scene_in_fixed_point_is_that_of_floats() {
 
     let mut slots = [const { HostSlot::<Fixed>::new() }; 2];
     let library = Library::parse(&bytes).unwrap();
-    let scene: Scene<'_, 8, 64, 128, 24, 24, 4096, Fixed> =
+    let scene: Scene<'_, 8, HostCapacities, Fixed> =
         Scene::load(&library, &Config::default(), &mut slots).unwrap();
     let renderer = Renderer::<Fixed>::prepare(&Config::default()).unwrap();
     let mut state = SceneState::<Fixed>::new(5);
@@ -459,17 +459,16 @@ fn a_scene_in_fixed_point_is_that_of_floats() {
 fn a_surface_out_of_reach_of_fixed_point_is_refused() {
     let pair = textures().map(|texture| bytes(&texture));
     let mut far = plane(0, -FAR, FAR);
-    far.shape = Shape::Plane {
+    far.solid = Solid::Plane {
         point_m: [0.0, 0.0, -1.5],
         normal: [0.0, 0.0, 1.0],
     };
     let bytes = library(&pair[..1], &[far]);
     let mut slots = [const { HostSlot::<Fixed>::new() }; 1];
     let library = Library::parse(&bytes).unwrap();
-    let loaded =
-        Scene::<8, 64, 128, 24, 24, 4096, Fixed>::load(&library, &Config::default(), &mut slots);
+    let loaded = Scene::<8, HostCapacities, Fixed>::load(&library, &Config::default(), &mut slots);
     assert!(matches!(
         loaded,
-        Err(SceneError::Surface { index: 0, cause }) if cause.field == "surface.point_m"
+        Err(SceneError::Surface { index: 0, cause }) if cause.field == "solid.point_m"
     ));
 }

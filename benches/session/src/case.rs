@@ -1,16 +1,16 @@
 //! The textures that are measured, each with a slot of just its size.
 
-use asperity_runtime::{Float, Texture};
+use asperity_runtime::{Capacities, Float, Texture};
 
 /// The library that the firmware carries; `cortex-m library` writes it.
 pub static LIBRARY: &[u8] = include_bytes!("../textures.aspl");
 
 /// 40 vertices, 56 triangles, 13 taps; orders in multiples of 4.
-pub type Arma20<A = Float> = Texture<40, 56, 20, 20, TAP_SAMPLES, A>;
+pub type Arma20<A = Float> = Texture<Capacities<40, 56, 20, 20, TAP_SAMPLES>, A>;
 /// Order 21, as prompts give it, fits too.
-pub type Nyquist20<A = Float> = Texture<40, 56, 24, 0, TAP_SAMPLES, A>;
+pub type Nyquist20<A = Float> = Texture<Capacities<40, 56, 24, 0, TAP_SAMPLES>, A>;
 /// The cheapest that is felt as the original.
-pub type Nyquist4<A = Float> = Texture<40, 56, 4, 0, TAP_SAMPLES, A>;
+pub type Nyquist4<A = Float> = Texture<Capacities<40, 56, 4, 0, TAP_SAMPLES>, A>;
 
 /// 100 samples at 10 kHz last 10 ticks at 1 kHz and ring for some more.
 const TAP_SAMPLES: usize = 13 * 40;

@@ -1,6 +1,6 @@
 //! FNV-1a over the bits of outputs.
 
-use asperity_runtime::{Arithmetic, Counters, Output, arithmetic::Scalar};
+use asperity_runtime::{Counters, Output, RenderArithmetic, arithmetic::Scalar};
 
 /// A 64-bit FNV-1a hash under way, taken a word at a time.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +30,7 @@ impl Hash {
     }
 
     /// Takes in every bit of an output.
-    pub fn output<A: Arithmetic>(&mut self, output: &Output<A>) {
+    pub fn output<A: RenderArithmetic>(&mut self, output: &Output<A>) {
         let Output {
             force_n: [x, y, z],
             depth_m,

@@ -4,7 +4,9 @@ use crate::{
     ARMA_20, Arma20, Case, NYQUIST_4, NYQUIST_20, Nyquist4, Nyquist20, Phase, SEED, load, renderer,
     run,
 };
-use asperity_runtime::{Arithmetic, ConfigError, Fixed, Float, LoadError, State, Texture};
+use asperity_runtime::{
+    Capacity, ConfigError, Fixed, Float, LoadError, RenderArithmetic, State, Texture,
+};
 use core::{error::Error, fmt};
 
 /// What a tick computes with.
@@ -65,7 +67,7 @@ pub fn hashes(case: &Case, numbers: Numbers) -> Result<[u64; Phase::ALL.len()], 
     }
 }
 
-fn with<A: Arithmetic>(case: &Case) -> Result<[u64; Phase::ALL.len()], HashesError> {
+fn with<A: RenderArithmetic>(case: &Case) -> Result<[u64; Phase::ALL.len()], HashesError> {
     match *case {
         ARMA_20 => in_slot(case, Arma20::<A>::new()),
         NYQUIST_20 => in_slot(case, Nyquist20::<A>::new()),
@@ -74,16 +76,9 @@ fn with<A: Arithmetic>(case: &Case) -> Result<[u64; Phase::ALL.len()], HashesErr
     }
 }
 
-fn in_slot<
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-    A: Arithmetic,
->(
+fn in_slot<S: Capacity, A: RenderArithmetic>(
     case: &Case,
-    mut slot: Texture<V, T, P, Q, K, A>,
+    mut slot: Texture<S, A>,
 ) -> Result<[u64; Phase::ALL.len()], HashesError> {
     load(case, &mut slot).map_err(HashesError::Load)?;
     let renderer = renderer().map_err(HashesError::Config)?;

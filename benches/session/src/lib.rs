@@ -19,8 +19,8 @@ pub use scenes::{
 
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{
-    Arithmetic, Config, ConfigError, Fixed, Float, LoadError, Output, Renderer, Sample, State,
-    Texture,
+    Capacity, Config, ConfigError, Fixed, Float, LoadError, Output, RenderArithmetic, Renderer,
+    Sample, State, Texture,
 };
 
 /// Seed of the excitation.
@@ -30,16 +30,9 @@ pub const SEED: u64 = 7;
 ///
 /// # Errors
 /// What the library or the slot says.
-pub fn load<
-    const V: usize,
-    const T: usize,
-    const P: usize,
-    const Q: usize,
-    const K: usize,
-    A: Arithmetic,
->(
+pub fn load<S: Capacity, A: RenderArithmetic>(
     case: &Case,
-    slot: &mut Texture<V, T, P, Q, K, A>,
+    slot: &mut Texture<S, A>,
 ) -> Result<(), LoadError> {
     let library = Library::parse(LIBRARY)?;
     let index = library.index().find(case.texture).unwrap_or(usize::MAX);
@@ -81,7 +74,7 @@ slots!(
 
 /// Runs every phase, [`PHASE_TICKS`] ticks each, through `tick`, and tells `report`
 /// after each the hash of all outputs and counters so far.
-pub fn run<A: Arithmetic>(
+pub fn run<A: RenderArithmetic>(
     state: &mut State<A>,
     mut tick: impl FnMut(&mut State<A>, &Sample<A>) -> Output<A>,
     mut report: impl FnMut(Phase, u64),
@@ -100,6 +93,6 @@ pub fn run<A: Arithmetic>(
 ///
 /// # Errors
 /// Never, while the default configuration is a valid one.
-pub fn renderer<A: Arithmetic>() -> Result<Renderer<A>, ConfigError> {
+pub fn renderer<A: RenderArithmetic>() -> Result<Renderer<A>, ConfigError> {
     Renderer::prepare(&Config::default())
 }

@@ -6,9 +6,11 @@
 
 use crate::{Phase, SEED};
 use asperity_formats::{
-    EncodeError, FormatError, Library, SceneSurface, Shape, library::encode_scene,
+    EncodeError, FormatError, Library, SceneSurface, Solid, library::encode_scene,
 };
-use asperity_runtime::{Config, Output, Renderer, Sample, Scene, SceneError, SceneState, Texture};
+use asperity_runtime::{
+    Capacities, Config, Output, Renderer, Sample, Scene, SceneError, SceneState, Texture,
+};
 
 /// The textures; `cortex-m library` writes it.
 static TEXTURES: &[u8] = include_bytes!("../costs.aspl");
@@ -20,9 +22,9 @@ pub const TOUCHED: u32 = 2;
 pub const SCENE_BYTES: usize = 32 * 1024;
 
 /// Room for every case.
-pub type CostScene<'a> = Scene<'a, 10, 64, 128, 24, 24, 520>;
+pub type CostScene<'a> = Scene<'a, 10, Capacities<64, 128, 24, 24, 520>>;
 /// A slot for its texture, or the strip's.
-pub type CostSlot = Texture<64, 128, 24, 24, 520>;
+pub type CostSlot = Texture<Capacities<64, 128, 24, 24, 520>>;
 
 /// A measured scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,24 +134,24 @@ impl SceneCase {
 }
 
 /// A plane, a sphere and a box out of the session's reach.
-const APART: [Shape; 3] = [
-    Shape::Plane {
+const APART: [Solid; 3] = [
+    Solid::Plane {
         point_m: [0.0, 0.0, -1.0],
         normal: [0.0, 0.0, 1.0],
     },
-    Shape::Sphere {
+    Solid::Sphere {
         center_m: [0.1, 0.2, 1.0],
         radius_m: 0.1,
     },
-    Shape::Box {
+    Solid::Box {
         center_m: [0.1, 0.2, 1.0],
         half_extents_m: [0.1; 3],
     },
 ];
 
-fn surface(shape: Shape) -> SceneSurface {
+fn surface(solid: Solid) -> SceneSurface {
     SceneSurface {
-        shape,
+        solid,
         from_m: [-1.0e3; 3],
         to_m: [1.0e3; 3],
         texture: 1,
@@ -165,8 +167,8 @@ fn strip() -> SceneSurface {
     }
 }
 
-fn ground(height_m: f32) -> Shape {
-    Shape::Plane {
+fn ground(height_m: f32) -> Solid {
+    Solid::Plane {
         point_m: [0.0, 0.0, height_m],
         normal: [0.0, 0.0, 1.0],
     }

@@ -8,7 +8,9 @@
 
 use asperity_benches::{Rig, check, motion::Motion, reference::Reference, texture::texture};
 use asperity_formats::{Asset, Numerator};
-use asperity_runtime::{HostTexture, LoadError, Sample, vibration::Vibration};
+use asperity_runtime::{
+    HostTexture, LoadError, Sample, quantity::Quantity, stage::vibration::Vibration,
+};
 use std::{env, error::Error, fs, hint::black_box, time::Instant};
 
 /// Ticks a turn, and turns of each.
@@ -125,7 +127,8 @@ fn compare(bytes: &[u8], rounds: usize) -> Result<Vec<[f64; 3]>, LoadError> {
         let ours = turn(|| {
             let (speed, force) = other_query.next().unwrap_or_default();
             let (speed, force) = (black_box(speed), black_box(force));
-            black_box(vibration.step(&slot, speed, force, 0.7, true));
+            let (speed, force) = (Quantity(speed), Quantity(force));
+            black_box(vibration.step(&slot, speed, force, Quantity(0.7), true));
         });
         let whole = turn(|| {
             let sample = sample.next().unwrap_or(&Sample::STALE);

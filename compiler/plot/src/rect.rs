@@ -1,4 +1,4 @@
-//! Rectangles, and lines clipped to them.
+//! Rectangles in pixels.
 
 /// An axis-parallel rectangle in pixels, y downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -62,12 +62,12 @@ pub fn record(
     let renderer = Renderer::new(&config)?;
     let mut facts = facts(asset, origin);
     let wall = renderer.wall(asset.coupling());
-    if wall.stiffness_n_m < asset.coupling().stiffness_n_m {
-        facts.stiffness_n_m = f64::from(wall.stiffness_n_m);
+    if wall.stiffness.value() < asset.coupling().stiffness_n_m {
+        facts.stiffness_n_m = f64::from(wall.stiffness.value());
         facts.caveats.push(format!(
             "the wall is lowered from {:.0} to {:.0} N/m, what the device can bear",
             asset.coupling().stiffness_n_m,
-            wall.stiffness_n_m
+            wall.stiffness.value()
         ));
     }
     let servo = RenderedTexture::new(renderer, &texture, *seed);
@@ -106,8 +106,8 @@ fn facts(asset: &Asset<'_>, origin: &str) -> TextureFacts {
         name: asset.name().to_owned(),
         origin: origin.to_owned(),
         mu: f64::from(asset.friction().mu()),
-        stiffness_n_m: f64::from(surface.stiffness_n_m),
-        vib_n_per_m_s2: f64::from(surface.vib_s2_m) * f64::from(surface.f_max_n),
+        stiffness_n_m: f64::from(coupling.stiffness_n_m),
+        vib_n_per_m_s2: f64::from(coupling.vib_s2_m) * f64::from(coupling.f_max_n),
         grid: (
             f64::from(asset.grid().max_speed_mm_s()),
             f64::from(asset.grid().max_force_n()),

@@ -1,7 +1,7 @@
 //! A change of the texture in the middle of a stroke.
 
 use asperity::lsf;
-use asperity_runtime::{Config, Renderer, Sample, State, excitation::Excitation};
+use asperity_runtime::{Config, Renderer, Sample, State, stage::excitation::Excitation};
 
 use super::error::StabilityError;
 use super::filters::resonant;

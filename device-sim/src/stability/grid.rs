@@ -55,7 +55,10 @@ fn bad_answers(material: &Material, points: &[(f64, f64)]) -> f64 {
     let bad = points
         .iter()
         .filter(|&&(speed, force)| {
-            let weights = material.slot.weights_at(speed as f32, force as f32).weights;
+            let weights = material
+                .slot
+                .weights_at(speed as f32, force as f32)
+                .values();
             let filter = material.slot.filter_at(speed as f32, force as f32);
             let convex = weights.iter().all(|&w| (0.0..=1.0).contains(&w))
                 && (weights.iter().sum::<f32>() - 1.0).abs() < 1e-6;

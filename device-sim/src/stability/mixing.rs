@@ -1,8 +1,9 @@
 //! Mixtures of models, and models that change every sample.
 
 use asperity::lsf;
-use asperity_runtime::excitation::Excitation;
-use asperity_runtime::vibration::Vibration;
+use asperity_runtime::quantity::Quantity;
+use asperity_runtime::stage::excitation::Excitation;
+use asperity_runtime::stage::vibration::Vibration;
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -96,9 +97,10 @@ fn runtime(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
     turns(seed)
         .map(|turn| {
             let (speed_mm_s, force_n) = places[turn];
-            let follow = fraction as f32;
-            let (y, _) = vibration.step(&material.slot, speed_mm_s, force_n, follow, true);
-            f64::from(y)
+            let (speed, force) = (Quantity(speed_mm_s), Quantity(force_n));
+            let fraction = Quantity(fraction as f32);
+            let sounded = vibration.step(&material.slot, speed, force, fraction, true);
+            f64::from(sounded.y.value())
         })
         .skip(SETTLE)
         .collect()

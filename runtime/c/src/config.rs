@@ -2,8 +2,7 @@
 
 use crate::{AsperityStatus, memory};
 use asperity_runtime::{
-    Config, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, Surface, TapConfig,
-    VibrationAxis,
+    Config, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, Solid, TapConfig, VibrationAxis,
 };
 
 /// `AsperityConfig::surface`: the half-space below a plane through `surface_point_m` with
@@ -76,19 +75,19 @@ pub struct AsperityConfig {
 impl From<Config> for AsperityConfig {
     fn from(config: Config) -> Self {
         let (mut normal, mut radius_m, mut half_extents_m) = ([0.0, 0.0, 1.0], 0.0, [0.0; 3]);
-        let (surface, point_m) = match config.surface {
-            Surface::Plane { point_m, normal: n } => {
+        let (surface, point_m) = match config.solid {
+            Solid::Plane { point_m, normal: n } => {
                 normal = n;
                 (ASPERITY_SURFACE_PLANE, point_m)
             }
-            Surface::Sphere {
+            Solid::Sphere {
                 center_m,
                 radius_m: r,
             } => {
                 radius_m = r;
                 (ASPERITY_SURFACE_SPHERE, center_m)
             }
-            Surface::Box {
+            Solid::Box {
                 center_m,
                 half_extents_m: h,
             } => {
@@ -137,16 +136,16 @@ impl TryFrom<AsperityConfig> for Config {
             servo_rate_hz: c.servo_rate_hz,
             velocity_cutoff_hz: c.velocity_cutoff_hz,
             normal_cutoff_hz: c.normal_cutoff_hz,
-            surface: match c.surface {
-                ASPERITY_SURFACE_PLANE => Surface::Plane {
+            solid: match c.surface {
+                ASPERITY_SURFACE_PLANE => Solid::Plane {
                     point_m: c.surface_point_m,
                     normal: c.surface_normal,
                 },
-                ASPERITY_SURFACE_SPHERE => Surface::Sphere {
+                ASPERITY_SURFACE_SPHERE => Solid::Sphere {
                     center_m: c.surface_point_m,
                     radius_m: c.surface_radius_m,
                 },
-                ASPERITY_SURFACE_BOX => Surface::Box {
+                ASPERITY_SURFACE_BOX => Solid::Box {
                     center_m: c.surface_point_m,
                     half_extents_m: c.surface_half_extents_m,
                 },
@@ -207,12 +206,12 @@ mod tests {
     fn a_configuration_survives_the_way_there_and_back() {
         let mut configs = [Config::default(), Config::default(), Config::default()];
         configs[0].limits.peak_n = 1.5;
-        configs[1].surface = Surface::Sphere {
+        configs[1].solid = Solid::Sphere {
             center_m: [1.0, 2.0, 3.0],
             radius_m: 0.5,
         };
         configs[1].vibration_axis = VibrationAxis::Binormal;
-        configs[2].surface = Surface::Box {
+        configs[2].solid = Solid::Box {
             center_m: [1.0, 2.0, 3.0],
             half_extents_m: [4.0, 5.0, 6.0],
         };

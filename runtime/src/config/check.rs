@@ -153,22 +153,22 @@ fn check_solid(solid: &Solid) -> Result<(), ConfigError> {
     };
     match *solid {
         Solid::Plane { point_m, normal } => {
-            finite("surface.point_m", point_m)?;
-            finite("surface.normal", normal)?;
-            positive("surface.normal length", norm(normal))
+            finite("solid.point_m", point_m)?;
+            finite("solid.normal", normal)?;
+            positive("solid.normal length", norm(normal))
         }
         Solid::Sphere { center_m, radius_m } => {
-            finite("surface.center_m", center_m)?;
-            positive("surface.radius_m", radius_m)
+            finite("solid.center_m", center_m)?;
+            positive("solid.radius_m", radius_m)
         }
         Solid::Box {
             center_m,
             half_extents_m,
         } => {
-            finite("surface.center_m", center_m)?;
+            finite("solid.center_m", center_m)?;
             half_extents_m
                 .into_iter()
-                .try_for_each(|h| positive("surface.half_extents_m", h))
+                .try_for_each(|h| positive("solid.half_extents_m", h))
         }
     }
 }

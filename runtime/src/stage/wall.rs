@@ -4,7 +4,7 @@
 //! proportional to it.
 
 use crate::{
-    arithmetic::{Arithmetic, Fixed, Float, Zero as _},
+    arithmetic::{Arithmetic, Fixed, Float},
     math::max,
     quantity::{
         Quantity, Raw,

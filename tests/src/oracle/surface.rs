@@ -1,13 +1,13 @@
 //! Signed distances and normals.
 
 use super::{Vector, dot, norm, plus, times};
-use asperity_runtime::Surface;
+use asperity_runtime::Solid;
 
 /// Signed distance (m, negative inside) and outward normal of a position.
 #[must_use]
-pub fn distance_and_normal(surface: &Surface, position: Vector) -> (f64, Vector) {
+pub fn distance_and_normal(surface: &Solid, position: Vector) -> (f64, Vector) {
     match *surface {
-        Surface::Plane { point_m, normal } => {
+        Solid::Plane { point_m, normal } => {
             let normal = normal.map(f64::from);
             let normal = times(normal, 1.0 / norm(normal));
             (
@@ -15,7 +15,7 @@ pub fn distance_and_normal(surface: &Surface, position: Vector) -> (f64, Vector)
                 normal,
             )
         }
-        Surface::Sphere { center_m, radius_m } => {
+        Solid::Sphere { center_m, radius_m } => {
             let out = plus(position, center_m.map(f64::from), -1.0);
             let length = norm(out);
             let normal = if length > 1e-9 {
@@ -25,7 +25,7 @@ pub fn distance_and_normal(surface: &Surface, position: Vector) -> (f64, Vector)
             };
             (length - f64::from(radius_m), normal)
         }
-        Surface::Box {
+        Solid::Box {
             center_m,
             half_extents_m,
         } => {

@@ -5,7 +5,7 @@ use super::{
     norm, plus, polynomial, times,
 };
 use asperity_formats::Asset;
-use asperity_runtime::{Config, Sample, VibrationAxis, vibration::LAG_SAMPLES};
+use asperity_runtime::{Config, Sample, VibrationAxis, stage::vibration::LAG_SAMPLES};
 use std::collections::VecDeque;
 
 /// Output of a tick.
@@ -34,7 +34,7 @@ pub struct Oracle {
     texture: Texture,
     bank: Bank,
     mu: f64,
-    surface: asperity_formats::Surface,
+    coupling: asperity_formats::Coupling,
     // Gate.
     bad_in_a_row: u32,
     seen: bool,
@@ -81,7 +81,7 @@ impl Oracle {
             texture: Texture::new(asset),
             bank: Bank::new(asset.taps(), rate),
             mu: asset.friction().mu().into(),
-            surface: *asset.surface(),
+            coupling: *asset.coupling(),
             bad_in_a_row: 0,
             seen: false,
             gain: 1.0,
@@ -123,7 +123,7 @@ impl Oracle {
     pub fn tick(&mut self, sample: &Sample) -> Tick {
         let rate = f64::from(self.config.servo_rate_hz);
         let (safe, elapsed, restart) = self.gate(sample);
-        let (distance, normal) = distance_and_normal(&self.config.surface, self.position);
+        let (distance, normal) = distance_and_normal(&self.config.solid, self.position);
         if restart {
             self.restart(distance);
         }
@@ -147,7 +147,7 @@ impl Oracle {
         let (stiffness, damping) = self.wall();
         let normal_force = stiffness * depth;
         let vib = self.vibration(speed * 1000.0, normal_force, touching && !safe);
-        let tap = f64::from(self.surface.effective_mass_kg) * self.tap(distance);
+        let tap = f64::from(self.coupling.effective_mass_kg) * self.tap(distance);
         let friction = self.friction(tangential, motion, normal_force, touching);
 
         let damped = normal_force - damping * outward;
@@ -163,7 +163,7 @@ impl Oracle {
                 ]
             }
         };
-        let vib_n = f64::from(self.surface.vib_s2_m) * f64::from(self.surface.f_max_n) * vib;
+        let vib_n = f64::from(self.coupling.vib_s2_m) * f64::from(self.coupling.f_max_n) * vib;
         let total = plus(plus(times(normal, wall + tap), friction, 1.0), axis, vib_n);
         self.limit(times(total, self.gain));
         Tick {
@@ -392,7 +392,7 @@ impl Oracle {
         let budget = f64::from(mechanics.damping_n_s_m) + coulomb / fastest;
         let held = period * (1.0 + 2.0 * f64::from(mechanics.delay_ticks)) / 2.0;
         let cost = held + step / (2.0 * fastest);
-        let stiffness = f64::from(self.surface.stiffness_n_m)
+        let stiffness = f64::from(self.coupling.stiffness_n_m)
             .min(budget / cost)
             .min(if step > 0.0 {
                 2.0 * coulomb / step
@@ -400,7 +400,7 @@ impl Oracle {
                 f64::INFINITY
             });
         let left = (budget - stiffness * cost).max(0.0) / (1.0 + step / (period * fastest));
-        (stiffness, f64::from(self.surface.damping_n_s_m).min(left))
+        (stiffness, f64::from(self.coupling.damping_n_s_m).min(left))
     }
 
     fn limit(&mut self, wanted: Vector) {

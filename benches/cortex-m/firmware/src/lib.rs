@@ -7,7 +7,7 @@
 pub mod print;
 pub mod stack;
 
-use asperity_runtime::{Arithmetic, LoadError, Output, Renderer, Sample, State};
+use asperity_runtime::{RenderArithmetic, LoadError, Output, Renderer, Sample, State};
 use asperity_session::{Case, Phase, SEED, Slot};
 use cortex_m_semihosting::debug;
 
@@ -38,7 +38,7 @@ pub type Native = asperity_runtime::Fixed;
 pub type Tick<S, A> = fn(&Renderer<A>, &S, &mut State<A>, &Sample<A>) -> Output<A>;
 
 /// Loads, runs the session, reports, and leaves the emulator.
-pub fn run<S: Slot, A: Arithmetic>(case: &Case, slot: &mut S, tick: Tick<S, A>) -> ! {
+pub fn run<S: Slot, A: RenderArithmetic>(case: &Case, slot: &mut S, tick: Tick<S, A>) -> ! {
     stack::paint();
     let loaded = load(case, slot);
     let stack_load = stack::depth();

@@ -1,7 +1,8 @@
 //! Laws of friction along one axis: the runtime's and two others.
 
 use asperity_runtime::Config;
-use asperity_runtime::friction::{Bristle, FrictionState};
+use asperity_runtime::quantity::{Quantity, Vector};
+use asperity_runtime::stage::friction::{Bristle, FrictionState};
 
 use crate::stability::methods::{Regularised, Sign};
 
@@ -36,13 +37,13 @@ pub fn ours(mu: f64, delay_ticks: u32) -> Law {
     let mut last_m = None;
     Box::new(move |x, normal_n| {
         let motion_m = x - last_m.replace(x).unwrap_or(x);
-        let (force, _) = state.step(
-            &bristle,
-            [motion_m as f32, 0.0, 0.0],
-            [0.0, 0.0, 1.0],
-            normal_n as f32,
-            mu as f32,
+        let friction = bristle.step(
+            &mut state,
+            Vector::of([motion_m as f32, 0.0, 0.0]),
+            Vector::of([0.0, 0.0, 1.0]),
+            Quantity::of(normal_n as f32),
+            Quantity::of(mu as f32),
         );
-        f64::from(force[0])
+        f64::from(friction.force().values()[0])
     })
 }

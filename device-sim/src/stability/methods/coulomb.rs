@@ -4,7 +4,8 @@
 //! renderer's, viscous below v = μ/0.004 mm/s and Coulomb above. Both take the velocity from the
 //! reference's second-order low-pass at 20 Hz.
 
-use asperity_runtime::velocity::{VelocityEstimator, VelocityState};
+use asperity_runtime::quantity::{Quantity, Vector};
+use asperity_runtime::stage::velocity::{VelocityEstimator, VelocityState};
 
 /// Estimates a velocity in one dimension, m/s, from positions.
 #[derive(Debug, Clone)]
@@ -17,7 +18,7 @@ struct Velocity {
 impl Velocity {
     fn new(rate_hz: f64) -> Self {
         Self {
-            filter: VelocityEstimator::new([20.0; 4], rate_hz as f32),
+            filter: VelocityEstimator::new(20.0, 20.0, rate_hz as f32),
             state: VelocityState::REST,
             last_m: None,
         }
@@ -25,8 +26,9 @@ impl Velocity {
 
     fn step(&mut self, position_m: f64) -> f64 {
         let motion_m = position_m - self.last_m.replace(position_m).unwrap_or(position_m);
-        let motions_m = [motion_m as f32; 4];
-        f64::from(self.filter.step(&mut self.state, motions_m, 1)[0])
+        let motion = Vector::of([motion_m as f32, 0.0, 0.0]);
+        let velocity = self.filter.step(&mut self.state, motion, Quantity::ZERO, 1);
+        f64::from(velocity.world.values()[0])
     }
 }
 

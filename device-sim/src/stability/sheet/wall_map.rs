@@ -82,10 +82,7 @@ fn panel(outer: Rect, index: usize, delay: u32, extra: f32) -> Panel {
 /// Colours cells by the net energy of undamped walls; passive ones stay white.
 fn cells(canvas: &mut Canvas, panel: &Panel, delay: u32, scale: &ColorScale) {
     panel.field(canvas, CELL_PX, |damping, stiffness| {
-        let wall = Wall {
-            stiffness_n_m: stiffness as f32,
-            damping_n_s_m: 0.0,
-        };
+        let wall = Wall::of(stiffness as f32, 0.0);
         let energy_j = law_j(&Bench::viscous(damping, delay), wall);
         (energy_j > ROUNDING_J).then(|| scale.color((1e3 * energy_j).log10()))
     });
@@ -108,8 +105,8 @@ fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32, index: usize) {
     }
     let ours_at = |b: f64| {
         let passivity: Passivity = Passivity::new(&Bench::viscous(b, delay).mechanics(), 1000.0);
-        let wall = passivity.wall(REPORTED.0 as f32, REPORTED.1 as f32);
-        (b, f64::from(wall.stiffness_n_m))
+        let wall = passivity.bear(Wall::of(REPORTED.0 as f32, REPORTED.1 as f32));
+        (b, f64::from(wall.stiffness.value()))
     };
     panel.line(canvas, dampings().map(ours_at), ours);
     let outline = Stroke::new(ink::BLACK, size::FRAME);
@@ -138,10 +135,7 @@ fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32, index: usize) {
 /// Least physical damping, N·s/m, with which a wall of the rendered damping above is passive,
 /// by bisection.
 fn least_damping(stiffness_n_m: f64, delay: u32) -> f64 {
-    let wall = Wall {
-        stiffness_n_m: stiffness_n_m as f32,
-        damping_n_s_m: RENDERED_N_S_M as f32,
-    };
+    let wall = Wall::of(stiffness_n_m as f32, RENDERED_N_S_M as f32);
     let (mut active, mut passive) = (0.0, 20.0);
     for _ in 0..14 {
         let middle = 0.5 * (active + passive);

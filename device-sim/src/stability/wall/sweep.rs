@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
+use asperity_runtime::quantity::Quantity;
 use asperity_runtime::{Config, Passivity, Renderer, Sample, State, Wall};
 
 use super::bench::{Bench, DAMPINGS_N_S_M, REPORTED, ROUNDING_J, TICK_S, as_given, told};
@@ -94,8 +95,9 @@ fn law(wall: Wall) -> impl FnMut(f64) -> f64 {
     let mut last = None;
     move |z| {
         let outward_m_s = (z - last.replace(z).unwrap_or(z)) / TICK_S;
-        let spring_n = f64::from(wall.stiffness_n_m) * (-z).max(0.0);
-        f64::from(wall.force_n(spring_n as f32, outward_m_s as f32))
+        let depth = Quantity::of((-z).max(0.0) as f32);
+        let forces = wall.step(depth, Quantity::of(outward_m_s as f32));
+        f64::from(forces.total.value())
     }
 }
 
@@ -128,9 +130,9 @@ pub fn lowered_walls() -> (usize, usize) {
         for b in DAMPINGS_N_S_M {
             let bench = Bench::viscous(b, delay);
             let passivity = Passivity::new(&bench.mechanics(), 1000.0);
-            let mut wall = passivity.wall(REPORTED.0 as f32, REPORTED.1 as f32);
-            if f64::from(wall.stiffness_n_m) < REPORTED.0 {
-                wall.stiffness_n_m *= 1.05;
+            let mut wall = passivity.bear(Wall::of(REPORTED.0 as f32, REPORTED.1 as f32));
+            if f64::from(wall.stiffness.value()) < REPORTED.0 {
+                wall.stiffness = Quantity::of(1.05 * wall.stiffness.value());
                 lowered += 1;
                 slack += usize::from(law_j(&bench, wall) <= ROUNDING_J);
             }
