@@ -10,7 +10,7 @@
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
 //! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`library`], [`output`], [`source`], [`raise`] |
 //! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`spectrum`], [`tap_synthesis`] |
-//! | `views/` | what a person looks at: [`inspect`], [`preview`], [`render`]; [`plot`] |
+//! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`render`] |
 //!
 //! [`pipeline`] runs the passes and the back end, and times them: every command that makes an
 //! asset takes this one way. [`scene`] packs several textures within a budget.
@@ -25,7 +25,6 @@ mod views;
 pub mod diagnostic;
 pub mod model;
 pub mod pipeline;
-pub mod plot;
 pub mod progress;
 pub mod scene;
 
@@ -37,4 +36,4 @@ pub use front_ends::{
 pub use model::{attributes, defaults, mesh, mixture};
 pub use passes::{reduce, rerate, stabilise, triangulate};
 pub use signal::{level, levinson, lsf, reflection, spectrum, tap_synthesis};
-pub use views::{inspect, preview, render};
+pub use views::{inspect, plot, preview, render};

@@ -15,6 +15,9 @@ use crate::{
 use asperity_formats::limits;
 use std::f64::consts::PI;
 
+/// Bytes of a text of the provenance at most, so that an asset holds all of them.
+const MAX_TEXT_BYTES: usize = 3072;
+
 /// The model of a document.
 ///
 /// # Errors
@@ -25,6 +28,20 @@ pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
     let taps = taps(document.taps)?;
     let friction = friction(document.friction)?;
     let provenance = document.provenance;
+    for (field, text) in [
+        ("provenance.generator", provenance.generator.as_str()),
+        ("provenance.source", &provenance.source),
+        (
+            "provenance.prompt",
+            provenance.prompt.as_deref().unwrap_or_default(),
+        ),
+        ("provenance.notes", &provenance.notes),
+    ] {
+        let (bytes, limit) = (text.len(), MAX_TEXT_BYTES);
+        if bytes > limit {
+            return Err((field.into(), Problem::Text { bytes, limit }));
+        }
+    }
     let mut notes = provenance.notes;
     let mut assume = |what: &str| {
         let space = if notes.is_empty() { "" } else { " " };
@@ -99,6 +116,9 @@ fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
         }
         None => triangulate::delaunay(&vertices),
     };
+    if triangles.is_empty() {
+        return Err(("grid.vertices".into(), Problem::Flat));
+    }
     let grid = ModelGrid {
         sample_rate_hz: stated.sample_rate_hz,
         order,

@@ -51,6 +51,14 @@ pub enum ModelFileProblem {
     /// A text that an asset cannot hold.
     #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
     Name(String),
+    /// A text that is longer than an asset can hold.
+    #[error("{bytes} bytes, must be {limit} at most")]
+    Text {
+        /// Bytes of the text.
+        bytes: usize,
+        /// Bytes accepted.
+        limit: usize,
+    },
     /// A number outside its range.
     #[error("{value}, must be {rule}")]
     Value {
@@ -81,6 +89,9 @@ pub enum ModelFileProblem {
     /// A field that the numerator asks for, or has no use for.
     #[error("{0}")]
     Numerator(&'static str),
+    /// All vertices lie on one line.
+    #[error("all of them lie on one line, and a grid needs an area")]
+    Flat,
     /// The triangles do not tile the rectangle.
     #[error("{cause}")]
     Mesh {
@@ -107,6 +118,7 @@ impl Diagnostic for ModelFileError {
                 format!("set \"version\": {VERSION}, or update asperity for a later one")
             }
             P::Name(_) => "choose another name".into(),
+            P::Text { .. } => "shorten the text".into(),
             P::Value { .. } => "correct the value; its unit is in the key".into(),
             P::Frequency(_) => {
                 "give frequencies in radians a sample, 2π·f / sample_rate_hz for f in Hz".into()
@@ -121,7 +133,7 @@ impl Diagnostic for ModelFileError {
                  triangles out"
                     .into()
             }
-            P::Mesh { stated: false, .. } => {
+            P::Flat | P::Mesh { stated: false, .. } => {
                 "give vertices at the four corners of the rectangle from (0, 0): edge models".into()
             }
             P::Pipeline(error) => error.remedy(),

@@ -309,6 +309,16 @@ fn values_lists_and_orders_are_checked() {
         change(&mut changed);
         refused(&changed, field, says);
     }
+    let mut long = document();
+    long["provenance"]["notes"] = json!("x".repeat(1_000_000));
+    refused(&long, "provenance.notes", "1000000 bytes");
+    let mut line = document();
+    let grid = line["grid"].as_object_mut().unwrap();
+    grid.remove("triangles").unwrap();
+    for vertex in grid["vertices"].as_array_mut().unwrap() {
+        vertex["force_n"] = json!(0);
+    }
+    refused(&line, "grid.vertices", "one line");
     // Without its corners a grid cannot be triangulated to a rectangle.
     let mut cornerless = document();
     let grid = cornerless["grid"].as_object_mut().unwrap();
@@ -332,6 +342,21 @@ fn a_file_too_large_for_any_model_is_not_read_to_its_end() {
         error.problem,
         ModelFileProblem::TooLarge { limit: MAX_BYTES }
     ));
+}
+
+/// Texts of the length that a file may have, and the notes on defaults, fit an asset.
+#[test]
+fn the_longest_provenance_fits_an_asset() {
+    let mut long = document();
+    let top = long.as_object_mut().unwrap();
+    top.remove("wall").unwrap();
+    top.remove("gains").unwrap();
+    for key in ["generator", "source", "prompt", "notes"] {
+        top["provenance"][key] = json!("ä".repeat(1536));
+    }
+    let texture = from(&long).unwrap();
+    let compiled = Pipeline::default().compile(texture, &Settings::default());
+    assert!(compiled.is_ok(), "{compiled:?}");
 }
 
 /// The largest model that an asset can hold fits a file with room to spare.

@@ -1,7 +1,7 @@
 //! Where a model lies among the triangles of the others.
 
 use asperity::{
-    model::mixture::Place,
+    mixture::Place,
     model::{GridVertex, ModelGrid},
 };
 

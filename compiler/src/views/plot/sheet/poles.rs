@@ -6,8 +6,8 @@ use super::distinct::distinct_models;
 use super::layout::margins;
 use super::level::{level, level_scale};
 use crate::model::{ModelGrid, Numerator};
-use crate::plot::roots::roots_of;
-use crate::spectrum::ArmaModel;
+use crate::signal::spectrum::ArmaModel;
+use crate::views::plot::roots::roots_of;
 use asperity_plot::{
     Align, Axis, Canvas, Color, Key, Marker, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
     size,

@@ -4,7 +4,7 @@ use super::distinct::distinct_models;
 use super::layout::{margins, reach};
 use super::level::level;
 use crate::model::{GridVertex, ModelGrid};
-use crate::spectrum::ArmaModel;
+use crate::signal::spectrum::ArmaModel;
 use asperity_plot::{
     Align, Axis, Canvas, ColorMap, ColorScale, Key, Panel, Rect, Stroke, TextStyle, VAlign, ink,
     legend, size,
