@@ -3,10 +3,13 @@
 //! outputs and counters after each phase.
 #![cfg_attr(target_arch = "wasm32", no_std)]
 
+mod hashes;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
-use asperity_session::{CASES, Numbers, hashes};
+pub use hashes::{HashesError, Numbers, hashes};
+
+use asperity_session::CASES;
 use core::fmt;
 
 /// Runs every case in floats and in fixed point, and writes the lines.

@@ -5,13 +5,11 @@
 
 mod case;
 mod hash;
-mod hashes;
 mod phase;
 mod scenes;
 
 pub use case::{ARMA_20, Arma20, CASES, Case, LIBRARY, NYQUIST_4, NYQUIST_20, Nyquist4, Nyquist20};
 pub use hash::Hash;
-pub use hashes::{HashesError, Numbers, hashes};
 pub use phase::{PHASE_TICKS, Phase};
 pub use scenes::{
     CaseError, CostScene, CostSlot, SCENE_BYTES, SCENE_CASES, SceneCase, TOUCHED, run_scene,

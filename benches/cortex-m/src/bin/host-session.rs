@@ -2,7 +2,8 @@
 //! after each phase.
 #![forbid(unsafe_code)]
 
-use asperity_session::{CASES, Numbers, Phase, hashes};
+use asperity_machines::{Numbers, hashes};
+use asperity_session::{CASES, Phase};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -1,11 +1,15 @@
 //! A whole case in one call, for machines that have room for a slot on the stack.
+//!
+//! The crate of the session must not have it: a tick compiled there, for size, would find its way
+//! into the firmware, whose tick is compiled for speed.
 
-use crate::{
-    ARMA_20, Arma20, Case, NYQUIST_4, NYQUIST_20, Nyquist4, Nyquist20, Phase, SEED, load, renderer,
-    run,
-};
+use asperity_runtime::{Arithmetic, ConfigError, Fixed, Float, LoadError, State, Texture};
 use asperity_runtime::{
     Capacity, ConfigError, Fixed, Float, LoadError, RenderArithmetic, State, Texture,
+};
+use asperity_session::{
+    ARMA_20, Arma20, Case, NYQUIST_4, NYQUIST_20, Nyquist4, Nyquist20, Phase, SEED, load, renderer,
+    run,
 };
 use core::{error::Error, fmt};
 
