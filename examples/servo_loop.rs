@@ -111,7 +111,8 @@ fn servo_loop<S: Servo>(
 fn check(rows: &[Row], peak_n: f32) {
     let force_n = |(output, _): &Row| output.force_n.iter().map(|n| n * n).sum::<f32>().sqrt();
     assert!(rows.iter().all(|row| force_n(row) <= 1.0001 * peak_n));
-    assert!(rows.iter().any(|row| force_n(row) > 0.5), "nothing felt");
+    let pressed = |(output, _): &Row| output.normal_force_n > 0.5;
+    assert!(rows.iter().any(pressed), "nothing was touched");
     assert_eq!(rows.last().map(force_n), Some(0.0), "a force was left on");
     // Two stale samples hold the last good one; the third enters the safe state, where the slew
     // limit takes 3.3 N to zero in two ticks. The first good sample begins a ramp.
@@ -132,7 +133,6 @@ fn report(rows: &[Row]) {
         let (mu, ticks) = (rows[0].1, rows.len());
         let squares = rows.iter().map(|(output, _)| output.vib_m_s2.powi(2));
         let vib_m_s2 = (squares.sum::<f32>() / ticks as f32).sqrt();
-        assert!(vib_m_s2 > 0.0, "{name} is silent");
         println!("{name:<8} {mu:>5.2} {ticks:>7} {vib_m_s2:>20.2}");
     }
     println!("stale    ticks {STALE:?}: safe state, no force, then a ramp");
