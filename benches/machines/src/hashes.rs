@@ -3,7 +3,6 @@
 //! The crate of the session must not have it: a tick compiled there, for size, would find its way
 //! into the firmware, whose tick is compiled for speed.
 
-use asperity_runtime::{Arithmetic, ConfigError, Fixed, Float, LoadError, State, Texture};
 use asperity_runtime::{
     Capacity, ConfigError, Fixed, Float, LoadError, RenderArithmetic, State, Texture,
 };

@@ -17,3 +17,6 @@ pub(crate) mod cycle;
 pub(crate) mod follower;
 pub(crate) mod onset;
 pub(crate) mod slices;
+
+#[cfg(test)]
+mod tests;
