@@ -6,6 +6,7 @@
 use super::{
     operations::{Arithmetic, Cut},
     reciprocal::quotient,
+    rounding::round,
     scalar::{Point, Scalar, Zero},
 };
 use core::{
@@ -67,16 +68,6 @@ pub(crate) fn narrow_within<F: Point>(wide: i64, shift: i32, limit: i32) -> Fixe
         rounded as i32
     };
     FixedI32::from_bits(clamped)
-}
-
-/// `wide`·2^−shift, to the nearest.
-#[inline(always)]
-pub(crate) const fn round(wide: i64, shift: i32) -> i64 {
-    if shift > 0 {
-        (wide + (1 << (shift - 1))) >> shift
-    } else {
-        wide << -shift
-    }
 }
 
 /// The product, not yet rounded.
@@ -235,11 +226,7 @@ impl Arithmetic for Fixed {
     ) -> Quad<H> {
         Quad(array::from_fn(|lane| {
             let products = terms.iter().map(|(x, c)| wide(x.0[lane], c.0[lane]));
-            narrow(
-                products.fold(0, |sum, product| sum + product),
-                shift::<F, G, H>(),
-                cut,
-            )
+            narrow(products.sum(), shift::<F, G, H>(), cut)
         }))
     }
 

@@ -10,6 +10,7 @@ pub(crate) mod fixed;
 pub(crate) mod float;
 mod operations;
 mod reciprocal;
+mod rounding;
 mod scalar;
 
 pub use self::{

@@ -1,6 +1,6 @@
 //! Quotients and reciprocal roots from multiplications of 32 bits, and a division of 32 bits.
 
-use super::fixed::round;
+use super::rounding::round;
 
 /// a/b·2^points, the end of the range beyond it, 0 for 0/0.
 #[inline(always)]

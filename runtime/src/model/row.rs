@@ -27,7 +27,7 @@ impl<A: Arithmetic, U: Unit> PaddedRow<A, U> {
 
     /// All of them.
     #[must_use]
-    pub(crate) fn to_array(&self) -> [Raw<A, U>; MAX_ORDER] {
+    pub(crate) fn to_array(self) -> [Raw<A, U>; MAX_ORDER] {
         let mut all = [A::Scalar::ZERO; MAX_ORDER];
         all.copy_from_slice(self.0.as_flattened());
         all
