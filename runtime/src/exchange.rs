@@ -6,8 +6,8 @@
 //! neither waits nor allocates. From one texture to the next, wall, gains and friction follow
 //! within the time constant of the parameters, and the old vibration goes on until the new model is
 //! made, as between the surfaces of a [`scene`](crate::scene). A slot waits in the queue while a
-//! tap plays, because the tap would go on with other traces, and while the first model of the
-//! previous slot is still in the making. Velocity, bristle and noise go on as they were.
+//! tap plays, because the tap would go on with other traces, and while the previous change is still
+//! under way. Velocity, bristle and noise go on as they were.
 
 use crate::{
     arithmetic::Float,

@@ -119,8 +119,8 @@ pub(crate) fn cos_pi_four(x: F4) -> F4 {
 }
 
 /// −2 cos(πx) for x in [0, 1], of fours side by side: none waits for another. It equals −2 times
-/// [`cos_pi`] to the bit, except for the sign of 0, because only powers of two enter the
-/// coefficients.
+/// [`cos_pi`] to the bit, except for the sign of 0, because its coefficients differ by powers of
+/// two only.
 #[inline(always)]
 #[must_use]
 pub(crate) fn minus_two_cos_pi<const N: usize>(x: [F4; N]) -> [F4; N] {

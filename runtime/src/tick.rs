@@ -37,7 +37,7 @@ pub(crate) struct Touched<'a, A: RenderArithmetic> {
 
 impl<A: RenderArithmetic> Renderer<A> {
     /// One servo period. It cannot fail: every sample gives a finite force within the limits. Its
-    /// work depends on the sample by a few percent.
+    /// work varies with the sample by a few percent.
     pub fn tick<S: Capacity>(
         &self,
         texture: &Texture<S, A>,

@@ -35,7 +35,7 @@ pub(crate) struct LineSpectrum<A: Arithmetic> {
 }
 
 impl<A: Arithmetic> LineSpectrum<A> {
-    /// Of a slot that was never loaded.
+    /// The line spectrum before the first mixture.
     pub(crate) const ZERO: Self = Self {
         ar: PaddedRow::ZERO,
         ma: PaddedRow::ZERO,

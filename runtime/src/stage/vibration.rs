@@ -38,17 +38,17 @@ pub struct Vibration<A: InnerProduct = Float> {
     /// The model at work.
     model: Model<A>,
     history: History<A>,
-    /// What the upsampler holds.
+    /// State of the upsampler.
     held: Held<A>,
     excitation: Excitation,
     texture: u32,
     onset: Onset,
-    /// Where the newest of the history stand, 0..=3.
+    /// Where the newest numbers of the history stand, 0..=3.
     newest: u8,
 }
 
 impl<A: InnerProduct> Vibration<A> {
-    /// Silence; the seed is that of the excitation.
+    /// Silence. `seed` seeds the excitation.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
@@ -63,12 +63,12 @@ impl<A: InnerProduct> Vibration<A> {
         }
     }
 
-    /// The contact ends, and what was heard of it.
+    /// Ends the contact and its sound.
     pub(crate) fn silence(&mut self) {
         self.history = History::SILENT;
         self.held = Held::SILENT;
         self.leave();
-        // A query of this tick follows.
+        // The query of this tick is still to come.
         if self.takes_query() {
             self.onset.begin_cycle();
         }
@@ -80,7 +80,7 @@ impl<A: InnerProduct> Vibration<A> {
         self.onset = Onset::Left;
     }
 
-    /// Another texture: a cycle begun on one is not finished on the other.
+    /// Changes to another texture. A cycle that began on one is not finished on the other.
     #[cold]
     pub(crate) fn change_texture(&mut self, texture: u32) {
         // A new state has nothing to forget.
@@ -94,7 +94,8 @@ impl<A: InnerProduct> Vibration<A> {
         self.onset.begin_cycle();
     }
 
-    /// Another texture in a scene: what is at work stays until the first cycle ends.
+    /// Begins another texture. The model at work stays until the first cycle of the new texture
+    /// ends.
     #[cold]
     pub(crate) fn begin(&mut self, texture: u32, cycle: Cycle) {
         self.texture = texture;
@@ -108,7 +109,7 @@ impl<A: InnerProduct> Vibration<A> {
         self.follower.finishes(plan)
     }
 
-    /// Stops what is at work. Returns its last sample, m/s².
+    /// Stops the model at work. Returns its last sample, m/s².
     #[cold]
     pub(crate) fn stop(&mut self) -> Quantity<A, VibrationAcceleration> {
         let last = self.history.last(self.newest);
@@ -155,7 +156,7 @@ impl<A: WeightSearch + SectionProduct + GaussianCubic + InnerProduct> Vibration<
         sounded
     }
 
-    /// Begins a tick on the texture of [`Vibration::is_on`]: its slice of the cycle.
+    /// Begins a tick on the texture of [`Vibration::is_on`]: does its slice of the cycle.
     #[inline(always)]
     pub(crate) fn prepare<S: Capacity>(
         &mut self,
@@ -188,7 +189,7 @@ impl<A: WeightSearch + SectionProduct + GaussianCubic + InnerProduct> Vibration<
     }
 
     /// [`Vibration::sound`] where the models are slower than the servo loop. With `sounding` false
-    /// nothing is left of what the upsampler holds.
+    /// the upsampler is emptied.
     #[inline(never)]
     fn sound_between(
         &mut self,
