@@ -8,9 +8,9 @@
 //! equation, whose wall also has damping and whose friction has a bristle. A tick is the sum of
 //! the stages in this order; each is a file in [`stage`](crate::stage).
 //!
-//! The model of the vibration is made around the stages, not between them: [`Vibration::prepare`]
-//! begins a tick and [`Vibration::query`] ends it, because few other values have to be kept there
-//! ([`update`](crate::update)).
+//! The model of the vibration is made around the stages, not between them: `Vibration::prepare`
+//! begins a tick and `Vibration::query` ends it, because few other values have to be kept there
+//! (`update/`).
 
 use crate::{
     capacity::Capacity,

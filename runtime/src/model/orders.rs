@@ -10,7 +10,7 @@ pub(crate) struct Orders {
     ma: u8,
     /// Second-order sections of each polynomial: Q and P of A(z), Q and P of B(z).
     pub(super) sections: [u8; LANES],
-    /// The fewest sections of a polynomial in use.
+    /// The smallest number of sections of a polynomial in use.
     pub(super) fewest: u8,
 }
 

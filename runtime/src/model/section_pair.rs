@@ -25,8 +25,8 @@ pub trait SectionProduct: Arithmetic {
     /// ½.
     const ONE_HALF: Raw<Self, Coefficient>;
 
-    /// Coefficient `k` of a polynomial times a section pair, from coefficients `k`, `k − 1` … `k −
-    /// 4`, as far as there are any. With `FULL`, o = 1.
+    /// Coefficient `k` of a polynomial times a section pair, from coefficients `k`, `k − 1` …
+    /// `k − 4`, as far as there are any. With `FULL`, o = 1.
     fn extend<const FULL: bool>(
         pair: &SectionPair<Raw<Self, LineCosine>>,
         c: [Option<Raw<Self, Coefficient>>; 5],

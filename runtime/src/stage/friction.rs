@@ -1,8 +1,8 @@
 //! Friction: a leaking bristle with a dead zone that slips at μF_n.
 //!
-//! The bristle's deflection d follows the tangential motion; the force opposes it, `F = k·(|d| −
-//! h)` beyond a dead zone h, and never exceeds μF_n. Any excess is slip, which moves the bristle's
-//! root. The root also creeps, so that
+//! The bristle's deflection d follows the tangential motion; the force opposes it,
+//! `F = k·(|d| − h)` beyond a dead zone h, and never exceeds μF_n. Any excess is slip, which moves
+//! the bristle's root. The root also creeps, so that
 //!
 //! ```text
 //! ḋ = v − d/τ,   τ = F_n/(k·v_c),   |d| ≤ μF_n/k + h

@@ -24,7 +24,7 @@ pub trait Shortening: Magnitudes {
     /// The square of a length.
     fn square_of<F: Point>(length: Self::Scalar<F>) -> Self::Square;
 
-    /// Whether a square belongs to a length that can be.
+    /// Whether a square is a number of a plausible size.
     fn is_sane(square: Self::Square) -> bool;
 
     /// `reach` over the root of `square`, which is no smaller.
@@ -100,8 +100,8 @@ impl<A: Shortening> Bound<A> {
         }
     }
 
-    /// Shortens a vector to the bound, with the flag `longer` where it was longer. What is no
-    /// vector becomes zero.
+    /// Shortens a vector to the bound, with the flag `longer` where it was longer. A vector that is
+    /// not finite becomes zero.
     #[inline(always)]
     fn shorten(&self, v: Vector<A, Newton>, longer: Flags) -> (Vector<A, Newton>, Flags) {
         let square = v.square();

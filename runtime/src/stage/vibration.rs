@@ -1,12 +1,11 @@
 //! The vibration y\[n\]: the model at work, driven by noise.
 //!
-//! `y[n] = Σ a_k(F_n, v_t) y[n−k] + ε[n]` of the paper: a [`Follower`] makes the model in slices,
-//! [`Excitation`] draws ε, the [recursion](super::recursion) gives y. Where the servo loop is
-//! faster than the models, a sample of theirs comes in one of several ticks, and an
-//! [upsampler](super::upsample) gives the ticks between.
+//! `y[n] = Σ a_k(F_n, v_t) y[n−k] + ε[n]` of the paper: the follower in `update/` makes the model
+//! in slices, [`Excitation`] draws ε, the [recursion](super::recursion) gives y. Where the servo
+//! loop is faster than the models, a sample of theirs comes in one of several ticks, and the
+//! upsampler (`upsample.rs`) gives the ticks between.
 //!
-//! A contact is silent until a query that was taken in it takes effect
-//! ([onset](crate::update::onset)).
+//! A contact is silent until a query that was taken in it takes effect (`update/onset.rs`).
 
 use super::{
     excitation::{Excitation, GaussianCubic},
@@ -135,9 +134,9 @@ impl<A: InnerProduct> Vibration<A> {
 }
 
 impl<A: WeightSearch + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
-    /// One tick by itself: [`Vibration::prepare`], [`Vibration::sound`] and, where it is due,
-    /// [`Vibration::query`]. The line spectrum goes a `fraction` of its way in a cycle
-    /// ([`Texture::cycle_samples`]); with `sounding` false the vibration is mute.
+    /// One tick by itself: the slice of the cycle, the output and, where it is due, the query. The
+    /// line spectrum goes a `fraction` of its way in a cycle ([`Texture::cycle_samples`]); with
+    /// `sounding` false the vibration is mute.
     #[inline]
     pub fn step<S: Capacity>(
         &mut self,

@@ -69,8 +69,8 @@ impl<A: WeightSearch> Strips<A> {
         }
     }
 
-    /// Transposes words of blocks with a bit for each strip to words of strips with a bit for each
-    /// block. Halves of halves change places (after Warren's "Hacker's Delight", 7-3).
+    /// Transposes the bits: a word for each block becomes a word for each strip. Halves of halves
+    /// change places (after Warren's "Hacker's Delight", 7-3).
     pub(super) fn turn(&mut self) {
         let bits = &mut self.blocks;
         let (mut apart, mut low) = (STRIPS / 2, u32::MAX >> (STRIPS / 2));

@@ -2,8 +2,8 @@
 //!
 //! The normal distance is watched over the last eight ticks; the impact speed is minus its
 //! least-squares slope when the surface is entered. From 2 kHz on, each of the eight entries lasts
-//! 2, 4, 8 or 16 ticks. So they span 4 ms or more, and counts of position weigh no more than at 1
-//! kHz. The newest entry may be incomplete, and the slope is corrected for that.
+//! 2, 4, 8 or 16 ticks. So they span 4 ms or more, and counts of position matter no more than at
+//! 1 kHz. The newest entry may be incomplete, and the slope is corrected for that.
 
 use crate::{
     arithmetic::{Arithmetic, Float},
@@ -79,8 +79,8 @@ impl<A: Arithmetic> Detector<A> {
         let after = Four::<A, Count>::whole([1, 3, 5, 7]);
         let twice_slope = (newer * before + older * after).sum();
         let speed = twice_slope * self.rate;
-        // Where only a part s of the newest entry has passed, the slope of a constant speed is (11
-        // + s)/12 of that speed.
+        // Where only a part s of the newest entry has passed, the slope of a constant speed is
+        // (11 + s)/12 of that speed.
         let passed = i32::from(PARTS - newest % PARTS);
         let places_a_tick = Quantity::<A, Count>::whole(12 * i32::from(self.step));
         speed * places_a_tick.over(Quantity::<A, Count>::whole(11 * i32::from(PARTS) + passed))
