@@ -110,7 +110,8 @@ impl F4 {
         if Self::IN_REGISTERS {
             return self.0.abs().cmp_le(f32x4::splat(limit)).all();
         }
-        // Bits of positive numbers are in their order, those of NaN above.
+        // The bits of positive floats are in the order of the floats, and the bits of a NaN are
+        // above.
         let within = |x: f32| x.abs().to_bits() <= limit.to_bits();
         self.to_array().into_iter().all(within)
     }

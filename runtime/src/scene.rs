@@ -1,7 +1,7 @@
 //! Several surfaces with textures of their own; only the one that is touched is rendered.
 //!
-//! Of all surfaces the one with the smallest signed distance is touched: the nearest, or that in
-//! which the stylus is deepest. A surface in contact keeps it until another is deeper by
+//! The surface with the smallest signed distance is touched: the nearest one, or the one in which
+//! the stylus is deepest. A surface in contact keeps it until another is deeper by
 //! [`HYSTERESIS_M`], or its region is left by as much, so that noise at a border changes nothing.
 //! From one texture to the next, wall, gains and friction follow within the time constant of the
 //! parameters; the old vibration goes on until the new model is made, then its last output fades.

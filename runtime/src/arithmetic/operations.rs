@@ -12,7 +12,7 @@ pub enum Cut {
     /// Nowhere: the result is always in range ([`units`](crate::quantity::unit) shows why). In
     /// debug builds of fixed point a result out of range panics.
     Never,
-    /// At ± this value, a positive one.
+    /// At ± this value, which is positive.
     At(f32),
 }
 

@@ -28,9 +28,9 @@ use crate::{
 /// −2 cos ω of the LSFs of a mixture, in the order of [`place`], 0 beyond the order.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LineSpectrum<A: Arithmetic> {
-    /// Of A(z).
+    /// The line spectrum of A(z).
     pub(crate) ar: PaddedRow<A, LineCosine>,
-    /// Of B(z).
+    /// The line spectrum of B(z).
     pub(crate) ma: PaddedRow<A, LineCosine>,
 }
 

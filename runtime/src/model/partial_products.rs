@@ -219,7 +219,7 @@ fn by_pair<A: SectionProduct, C: Polynomial<A> + ?Sized, const FULL: bool>(
     }
 }
 
-/// From the highest coefficient down, so that nothing is overwritten before it is read.
+/// Multiplies from the highest coefficient down, so that nothing is overwritten before it is read.
 #[inline(always)]
 fn extend<A: SectionProduct, C: Polynomial<A> + ?Sized, const FULL: bool, const PAIR: usize>(
     c: &mut C,

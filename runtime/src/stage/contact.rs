@@ -17,21 +17,21 @@ use asperity_formats::Solid;
 /// The signed distance from a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DistanceField<A: Magnitudes = Float> {
-    /// From a half-space.
+    /// The distance from a half-space.
     Plane {
         /// A point of the plane, m.
         point: Vector<A, Metre>,
         /// Outward normal of length 1.
         normal: Vector<A, Fraction>,
     },
-    /// From a ball.
+    /// The distance from a ball.
     Sphere {
         /// Centre, m.
         center: Vector<A, Metre>,
         /// Radius, m.
         radius: Quantity<A, Metre>,
     },
-    /// From a box along the world's axes.
+    /// The distance from a box along the world's axes.
     Box {
         /// Centre, m.
         center: Vector<A, Metre>,

@@ -135,7 +135,8 @@ impl<A: Magnitudes> Bristle<A> {
         let most = (Quantity::<A, Fraction>::of(0.5) * held).min(limit - held);
         // The deflection lies in the plane: a motion out of it adds nothing.
         let ahead = self.lead * motion.along(deflection, magnitude);
-        // From zero to the limit. Inside the dead zone the stretch is below zero, and so is the sum.
+        // The bounds keep the force from zero to the limit. Inside the dead zone, where the stretch
+        // is below zero, they make it zero.
         let lead = ahead.min(most).max(-held);
         Friction {
             direction: deflection.direction(magnitude),

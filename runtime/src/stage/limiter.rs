@@ -126,7 +126,7 @@ impl<A: Shortening> Limiter<A> {
         }
     }
 
-    /// From `last` towards `wanted`, both N. Anything that is not finite counts as no force.
+    /// Goes from `last` towards `wanted`, both N. Anything that is not finite counts as no force.
     /// [`Flags::PEAK_LIMITED`] and [`Flags::SLEW_LIMITED`] tell what was cut.
     #[inline(always)]
     #[must_use]

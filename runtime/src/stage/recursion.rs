@@ -180,8 +180,8 @@ impl<A: InnerProduct> Window<A> {
     }
 }
 
-/// Length and kind of a recursion: 0..=5 for one to six blocks of four lags, those of the longer
-/// one of A(z) and B(z), 6..=9 for three to six where B(z) has more than its first lag.
+/// Length and kind of a recursion. 0..=5 are one to six blocks of four lags, as many as the longer
+/// one of A(z) and B(z) has. 6..=9 are three to six blocks where B(z) has more than its first lag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Recursion(u8);
 

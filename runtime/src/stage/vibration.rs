@@ -167,7 +167,7 @@ impl<A: WeightSearch + SectionProduct + GaussianCubic + InnerProduct> Vibration<
             .step(&texture.models, &texture.plan, fraction, onset, model);
     }
 
-    /// The next output; `recursion` and `upsampler` are those of the texture at work.
+    /// The next output; `recursion` and `upsampler` belong to the texture at work.
     #[inline(always)]
     pub(crate) fn sound(
         &mut self,

@@ -1,4 +1,4 @@
-//! From the codes of a model's LSFs to the −2 cos ω that a tick mixes.
+//! Converts the codes of a model's LSFs to the −2 cos ω that a tick mixes.
 
 use crate::{
     arithmetic::{Arithmetic, Scalar as _},

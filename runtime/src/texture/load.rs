@@ -1,4 +1,4 @@
-//! From a validated asset to a slot.
+//! Prepares a validated asset in a slot.
 
 use super::{Texture, codes::to_cosines};
 use crate::{

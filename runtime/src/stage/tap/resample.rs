@@ -36,7 +36,7 @@ const RESIDUES: Complex4 = Complex4 {
 /// Ticks after the last source sample, in which the filter's response fades below 1 % of its peak.
 pub(crate) const TAIL_TICKS: usize = 16;
 
-/// Source samples that are filtered at once: those of a tick at 1 kHz, from 10 kHz.
+/// Source samples that are filtered at once: a tick at 1 kHz has ten of them at 10 kHz.
 const CHUNK: usize = 10;
 
 /// Ticks of the filter's response that are computed at once. 100 samples at 10 kHz become 26 ticks
