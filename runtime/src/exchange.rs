@@ -25,7 +25,7 @@ use asperity_formats::Asset;
 use heapless::spsc::{Consumer, Producer, Queue};
 use thiserror::Error;
 
-/// Spare slots at most, beside the one that plays.
+/// The most spare slots beside the one that plays.
 pub const MAX_SPARE: usize = 3;
 /// A queue holds one less than its room.
 const ROOM: usize = MAX_SPARE + 1;

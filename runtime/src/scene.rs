@@ -1,11 +1,11 @@
 //! Several surfaces with textures of their own; only the one that is touched is rendered.
 //!
 //! The surface with the smallest signed distance is touched: the nearest one, or the one in which
-//! the stylus is deepest. A surface in contact keeps it until another is deeper by
-//! [`HYSTERESIS_M`], or its region is left by as much, so that noise at a border changes nothing.
-//! From one texture to the next, wall, gains and friction follow within the time constant of the
-//! parameters; the old vibration goes on until the new model is made, then its last output fades.
-//! The limiter bounds any step that remains.
+//! the stylus is deepest. A surface in contact stays the touched one until another is deeper by
+//! [`HYSTERESIS_M`], or until the stylus is as far outside its region, so that noise at a border
+//! changes nothing. From one texture to the next, wall, gains and friction follow within the time
+//! constant of the parameters; the old vibration goes on until the new model is made, then its last
+//! output fades. The limiter bounds any step that remains.
 //!
 //! A tick computes the distance from every surface, and renders one surface.
 
@@ -27,8 +27,8 @@ use asperity_formats::{Library, SceneSurface};
 use heapless::Vec;
 use thiserror::Error;
 
-/// How much deeper another surface must be to take over a contact, and how far behind its
-/// border a region keeps one, m: two counts of a Touch.
+/// How much deeper another surface must be to take over a contact, and how far outside its region a
+/// surface keeps one, m: two counts of a Touch.
 pub const HYSTERESIS_M: f32 = 0.12e-3;
 
 /// The index that stands for no surface.
@@ -60,7 +60,7 @@ impl<A: RenderArithmetic> Placed<A> {
         }
     }
 
-    /// Signed distance, m; infinite outside the region widened by a margin, m.
+    /// Signed distance, m, or the farthest one outside the region, which is widened by a margin, m.
     #[inline]
     fn distance(
         &self,

@@ -1,10 +1,10 @@
 //! The gate: it holds a few bad samples, then enters the safe state.
 //!
-//! A sample is bad when it is stale, not finite or out of reach. Up to `hold_ticks`
-//! bad samples in a row hold the last good one; one more enters the safe state: the
-//! force wanted is zero, and the limiter takes it there at the slew limit. Periods that the
-//! caller reports as missed count like bad samples. The first good sample afterwards
-//! restarts the motion estimate, and the force comes back by a ramp.
+//! A sample is bad when it is stale, not finite or out of reach. Up to `hold_ticks` bad samples in
+//! a row hold the last good one; one more enters the safe state. The wanted force is then zero, and
+//! the limiter takes the force there at the slew limit. Periods that the caller reports as missed
+//! count like bad samples. The first good sample afterwards restarts the motion estimate, and the
+//! force comes back by a ramp.
 
 use crate::{
     arithmetic::{Arithmetic, Fixed, Float},
@@ -20,7 +20,7 @@ use crate::{
 
 /// How far positions reach in an arithmetic.
 pub trait Positions: Arithmetic {
-    /// Positions beyond this on any axis are errors, not positions, m.
+    /// A coordinate beyond this, m, is an error and no position.
     const REACH_M: f32;
     /// Further away than every position in reach, m.
     const OUT_OF_REACH_M: f32;
@@ -41,7 +41,7 @@ impl Positions for Fixed {
 pub struct Gate<A: Arithmetic = Float> {
     /// Bad samples in a row that hold the last good one.
     hold_ticks: u32,
-    /// The gain that comes back in a tick.
+    /// How much of the gain comes back in a tick.
     ramp: Quantity<A, Gain>,
 }
 
@@ -60,7 +60,7 @@ pub struct GateState<A: Arithmetic = Float> {
 pub struct Gated<A: Arithmetic = Float> {
     /// Position to render, m.
     pub position: Vector<A, Metre>,
-    /// Displacement since the position before, m; none where motion starts anew.
+    /// Displacement since the position before, m; zero where motion starts anew.
     pub motion: Vector<A, Metre>,
     /// Periods since the last rendered position, 1 to 3.
     pub elapsed_ticks: u32,
@@ -71,7 +71,7 @@ pub struct Gated<A: Arithmetic = Float> {
     pub flags: Flags,
 }
 
-/// Whether a sample may be a position.
+/// Whether a sample holds a usable position.
 #[inline(always)]
 pub(crate) fn is_usable<A: Positions>(sample: &Sample<A>) -> bool {
     let position = Vector::<A, Metre>::load(sample.position_m);

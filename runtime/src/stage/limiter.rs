@@ -1,7 +1,7 @@
 //! Peak and slew of the total force.
 //!
-//! The force wanted is shortened to the peak; the way there from the last force is shortened to
-//! the slew of a tick. Vectors are shortened, not turned. Hence |F| ≤ peak and
+//! The wanted force is shortened to the peak. The way there from the last force is shortened to the
+//! slew of a tick. Vectors are shortened, not turned. Hence |F| ≤ peak and
 //! |F_n − F_{n−1}| ≤ slew·T, rounding included.
 
 use crate::{

@@ -1,7 +1,7 @@
 //! The virtual wall: `F = k·δ − b·ḋ`, and never less than zero.
 //!
-//! A wall pushes and never pulls. The spring k·δ alone looks up the grid, and friction is
-//! proportional to it.
+//! A wall pushes and never pulls. The spring k·δ alone is the force of a query of the grid, and
+//! friction is proportional to it.
 
 use crate::{
     arithmetic::{Arithmetic, Fixed, Float},
