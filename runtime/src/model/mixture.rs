@@ -30,14 +30,15 @@ pub(crate) struct Vertices<S: Capacity, A: Arithmetic> {
 }
 
 impl<S: Capacity, A: Arithmetic> Vertices<S, A> {
-    /// None.
+    /// No vertices.
     pub(crate) const EMPTY: Self = Self {
         ar: S::Vertices::ZERO,
         ma: S::Vertices::ZERO,
         levels: S::Vertices::ZERO,
     };
 
-    /// Moves a line spectrum a `fraction` of the way to a mixture; with B(z) where there is one.
+    /// Moves a line spectrum a `fraction` of the way to a mixture. B(z) is included where there is
+    /// one.
     #[inline]
     pub(crate) fn follow(
         &self,

@@ -18,8 +18,8 @@ pub(super) const NUMBERS: usize = 6;
 /// Numbers of a block: four times each of the above.
 pub(super) const BLOCK: usize = NUMBERS * LANES;
 /// A triangle whose weights change by more than this over the whole grid is too thin: rounding in
-/// f32 would move them by 1 % and more. Its width is 1e-5 of the grid, so its points are within
-/// 1e-5 of a neighbour. Of 128 triangles that tile the grid, one is always wider.
+/// f32 would move them by 1 % and more. It is at most 1e-5 of the grid wide, so its points are
+/// within 1e-5 of a neighbour. Of 128 triangles that tile the grid, one is always wider.
 const MAX_REACH: f64 = 1.0e5;
 
 /// A block without triangles. A corner far off and a steep slope give weights far below zero for
