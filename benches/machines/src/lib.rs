@@ -1,4 +1,4 @@
-//! The session of `benches/cortex-m/session/` as a text of hashes, which every machine writes
+//! The session of `benches/session/` as a text of hashes, which every machine writes
 //! alike: a line for each arithmetic and case, `float arma20`, and then the hash of all
 //! outputs and counters after each phase.
 #![cfg_attr(target_arch = "wasm32", no_std)]
