@@ -72,13 +72,14 @@ fn follow<A: Arithmetic, R: AsRef<[Raw<A, LineCosine>]>>(
     mixture: &Barycentric<A>,
     fraction: Quantity<A, Fraction>,
 ) {
-    let corner = |corner: usize| {
-        let row = rows.get(usize::from(mixture.vertices[corner]));
-        row.map_or(&[][..], |row| row.as_ref().as_chunks::<4>().0)
+    // A triangle's corners are vertices.
+    let [Some(i), Some(j), Some(k)] = mixture.vertices.map(|v| rows.get(usize::from(v))) else {
+        return;
     };
+    let [i, j, k] = [i, j, k].map(|row| row.as_ref().as_chunks::<4>().0);
     let [wi, wj, wk] = mixture.weights.map(|weight| Four::splat(fraction * weight));
     let kept = Four::splat(Quantity::<A, Fraction>::whole(1) - fraction);
-    let corners = corner(0).iter().zip(corner(1)).zip(corner(2));
+    let corners = i.iter().zip(j).zip(k);
     // Rows are zero beyond the order: a loop of constant length costs less than a shorter one.
     for (place, ((i, j), k)) in row.0.iter_mut().zip(corners) {
         let [i, j, k, before] = [i, j, k, &*place].map(Four::<A, LineCosine>::load);
