@@ -91,6 +91,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let gated = self.gate.step(&mut state.gate, sample);
         let contact = field.step(gated.position);
         let (depth, normal) = (contact.depth(), contact.normal);
+        let mut flags = gated.flags.and(Flags::CONTACT.when(depth > Quantity::ZERO));
         if gated.flags.contains(Flags::RESTART) {
             state.restart(contact.distance);
         }
@@ -106,10 +107,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         // F_n n̂: the wall and the tap.
         let normal_force = wall.step(depth, velocity.outward);
         let load = normal_force.spring;
-        let tap = self
-            .detector
-            .step(&mut state.tap, &texture.taps, contact.distance);
-        let tap_force = coupling.effective_mass * tap.acceleration;
+        flags = flags.and(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)));
 
         // F_t: friction of the load.
         let mu = coupling.mu;
@@ -117,12 +115,13 @@ impl<A: RenderArithmetic> Renderer<A> {
             .bristle
             .step(&mut state.friction, gated.motion, normal, load, mu);
 
+        let tap = self
+            .detector
+            .step(&mut state.tap, &texture.taps, contact.distance);
+        let tap_force = coupling.effective_mass * tap.acceleration;
+        flags = flags.and(tap.flags);
+
         // F_vib t̂: the vibration, in contact only.
-        let flags = gated
-            .flags
-            .and(Flags::CONTACT.when(depth > Quantity::ZERO))
-            .and(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)))
-            .and(tap.flags);
         let sounding = flags.of(Flags::CONTACT.and(Flags::SAFE_STATE)) == Flags::CONTACT;
         let Sounded { y, clamped } = sound(&mut state.vibration, sounding);
         let vibration_force = coupling.vib_mass * y;
