@@ -11,7 +11,8 @@ pub(crate) fn crc32(pieces: &[&[u8]]) -> u32 {
     hasher.finalize()
 }
 
-/// The same with one table of 1 KiB: on a microcontroller flash is dearer than time at load.
+/// The same CRC with one table of 1 KiB, because flash on a microcontroller costs more than time at
+/// load.
 #[cfg(not(target_pointer_width = "64"))]
 pub(crate) fn crc32(pieces: &[&[u8]]) -> u32 {
     use crc::{CRC_32_ISO_HDLC, Crc, Table};

@@ -37,7 +37,7 @@ pub struct GridParts<'a> {
     pub ar_order: usize,
     /// Number of MA LSFs, 0 unless [`Numerator::Lsf`].
     pub ma_order: usize,
-    /// What stands above A(z).
+    /// The numerator B(z) of every model.
     pub numerator: Numerator,
     /// Distinct models.
     pub models: &'a [ModelParts<'a>],

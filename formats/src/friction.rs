@@ -17,7 +17,7 @@ pub struct Anchor<'a> {
     pub name: &'a str,
     /// Its coefficient of kinetic friction.
     pub mu: f32,
-    /// Its share in the texture's μ, 0..=1.
+    /// Its weight in the texture's μ, 0..=1.
     pub weight: f32,
 }
 

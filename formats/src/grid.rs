@@ -267,9 +267,9 @@ impl<'a> Grid<'a> {
         Ok(())
     }
 
-    /// Indices are in range, and the areas add up to the rectangle's. That the
-    /// triangles do not overlap is the compiler's business: a query of an
-    /// overlapping grid is still a convex mixture, hence stable.
+    /// Indices are in range, and the areas add up to the rectangle's. The compiler sees to it that
+    /// triangles do not overlap. A query of an overlapping grid would still be a convex mixture,
+    /// hence stable.
     fn check_triangles(&self) -> Result<(), FormatError> {
         let count = self.vertices.len();
         let mut area = 0.0;
@@ -403,13 +403,15 @@ impl<'a> Grid<'a> {
     }
 }
 
-/// The first code that is not at least `gap` above the one before, or, the very first, above `floor`.
+/// The first code that is not at least `gap` above the one before it. The very first is compared
+/// with `floor`.
 fn first_too_low(codes: &[[u8; 2]], floor: u16, gap: u16) -> Option<u16> {
     let code = |&pair: &[u8; 2]| u16::from_le_bytes(pair);
     let (first, others) = codes.split_first()?;
-    // By how much a code is too low. None is above 65535, where a sum ends: the caller looks there.
+    // By how much a code is too low. The sum ends at 65535, and whether the last code leaves its
+    // gap there is the caller's check.
     let missing = |code: u16, floor: u16| floor.saturating_add(gap).saturating_sub(code);
-    // Gathered side by side, without a branch a code: nearly all are high enough.
+    // Gathered side by side, without a branch for each code, because nearly all are high enough.
     let gather = |all, (above, below)| all | missing(code(above), code(below));
     let all = others.iter().zip(codes).fold(0, gather);
     if all | missing(code(first), floor) == 0 {

@@ -8,11 +8,11 @@ pub const VERSION: u16 = 1;
 pub(crate) const MAGIC: [u8; 4] = *b"ASPT";
 /// Bytes before the section table.
 pub(crate) const FIXED_LEN: usize = 20;
-/// Bytes a table entry.
+/// Bytes of a table entry.
 pub(crate) const ENTRY_LEN: usize = 12;
 
-/// Every section of version 1, in file order. Upper case: haptic, a runtime needs
-/// it. Lower case: ancillary, optional and skipped where unknown.
+/// Every section of version 1, in file order. A runtime needs the haptic ones, in upper case. The
+/// ancillary ones, in lower case, are optional and skipped where unknown.
 pub(crate) const NAME: [u8; 4] = *b"NAME";
 pub(crate) const GRID: [u8; 4] = *b"GRID";
 pub(crate) const TAPS: [u8; 4] = *b"TAPS";

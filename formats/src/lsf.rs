@@ -36,7 +36,7 @@ impl LsfCode {
         self.0
     }
 
-    /// From stored bits.
+    /// The frequency of stored bits.
     #[must_use]
     pub const fn from_bits(bits: u16) -> Self {
         Self(bits)

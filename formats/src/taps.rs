@@ -169,8 +169,8 @@ fn first_below_scale(codes: &[u8]) -> Option<usize> {
 fn any_below_scale(codes: &[u8]) -> bool {
     const ONES: u64 = 0x001_001_001_001;
     const SIGNS: u64 = 0x800_800_800_800;
-    // Where a code is its sign alone, what is left of it is 0, and 1 less borrows. A borrow
-    // reaches a neighbour only from such a code.
+    // A code of −2048 is its sign alone. Without the sign it is 0, and subtracting 1 borrows. A
+    // borrow reaches a neighbour only from such a code.
     let mark = |[a, b, c, d, e, f]: [u8; 6]| {
         let four = u64::from_le_bytes([a, b, c, d, e, f, 0, 0]);
         (four ^ SIGNS).wrapping_sub(ONES) & four
@@ -185,11 +185,12 @@ fn any_below_scale(codes: &[u8]) -> bool {
     marks & SIGNS != 0
 }
 
-/// Samples of a trace that [`side_by_side`] reads at once: two ticks of 10 kHz at 1 kHz, and one
-/// before and behind, since it begins at an even one.
+/// Samples of a trace that [`side_by_side`] reads at once: two ticks at 1 kHz of a trace at 10 kHz,
+/// and one sample before and behind, since a block begins at an even index.
 pub const BLOCK: usize = 22;
 
-/// Packed codes of a block, and the byte before them: a pair is read as a word with it in front.
+/// Packed codes of a block, after the byte before them: a pair is read as a word that begins with
+/// that byte.
 type Packed = [u8; 1 + packed_len(BLOCK)];
 
 /// The codes of pair `pair` of a block.
@@ -233,7 +234,7 @@ fn padded(rest: &[u8]) -> Packed {
         .iter_mut()
         .zip(rest)
         .for_each(|(to, from)| *to = *from);
-    // Behind an odd last code there is nothing.
+    // An odd last code has no partner, so its upper half byte is cleared.
     if let (0, Some(last)) = (rest.len() % 3, packed.get_mut(rest.len().wrapping_sub(1))) {
         *last &= 0x0f;
     }

@@ -1,4 +1,4 @@
-//! How much of everything a texture slot has room for.
+//! How many vertices, triangles, lags and tap samples a texture slot has room for.
 
 use crate::arithmetic::Zero;
 use core::fmt::Debug;

@@ -18,7 +18,7 @@ impl Complex4 {
         }
     }
 
-    /// What a filter with these residues gives of a state.
+    /// Output of a filter with these residues, from its state.
     #[inline(always)]
     pub(crate) fn response(self, residues: &Self) -> f32 {
         (self.re * residues.re - self.im * residues.im).sum()

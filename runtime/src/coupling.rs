@@ -10,7 +10,7 @@ use crate::{
 };
 use asperity_formats as formats;
 
-/// What an asset's [`Coupling`](formats::Coupling) and friction are in an arithmetic.
+/// The [`Coupling`](formats::Coupling) and the friction of an asset, in an arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coupling<A: Arithmetic> {
     /// The wall that the asset asks for.
@@ -36,7 +36,7 @@ impl<A: Arithmetic> Coupling<A> {
         mu: Quantity::ZERO,
     };
 
-    /// Of an asset's.
+    /// Converts the coupling and μ of an asset.
     pub(crate) fn new(coupling: &formats::Coupling, mu: f32) -> Self {
         let (vib, f_max) = (
             Quantity::of(coupling.vib_s2_m),
@@ -52,7 +52,7 @@ impl<A: Arithmetic> Coupling<A> {
         }
     }
 
-    /// Goes a `fraction` of the way to another one; exactly there with 1.
+    /// Goes a `fraction` of the way to another coupling; with 1 it arrives exactly.
     #[inline]
     pub(crate) fn follow(&mut self, to: &Self, fraction: Quantity<A, Fraction>) {
         let left = Quantity::whole(1) - fraction;
@@ -65,7 +65,7 @@ impl<A: Arithmetic> Coupling<A> {
         self.mu = to.mu - left * (to.mu - self.mu);
     }
 
-    /// As the asset has it.
+    /// The coupling as an asset states it.
     pub(crate) fn values(&self) -> formats::Coupling {
         formats::Coupling {
             stiffness_n_m: self.wall.stiffness.value(),

@@ -1,8 +1,9 @@
 //! The way from one texture to the next while in contact.
 //!
-//! Wall, gains and friction go to the new texture as a one-pole. The old vibration goes on
-//! until the first model of the new texture is made; that starts from silence, and the old
-//! one's last output fades beside it: a step of the force is never more than a texture's own.
+//! Wall, gains and friction go to the new texture as a one-pole. The old vibration goes on until
+//! the first model of the new texture is made. The new vibration then starts from silence, and the
+//! last output of the old one fades beside it. So no step of the force is larger than the steps of
+//! a texture by itself.
 
 use crate::{
     capacity::Capacity,
@@ -26,25 +27,25 @@ use crate::{
     tick::Touched,
 };
 
-/// What is left a tick later of a vibration that was stopped.
+/// The fraction of a stopped vibration that remains a tick later.
 const FADE: f32 = 0.75;
 
-/// What is felt on the way.
+/// State of the way from one texture to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crossing<A: RenderArithmetic> {
     /// Wall, gains and friction.
     coupling: Coupling<A>,
-    /// Of the vibration at work.
+    /// Recursion of the vibration at work.
     recursion: Recursion,
-    /// Ticks a sample of the vibration at work.
+    /// Ticks that a sample of the vibration at work lasts.
     ticks_per_sample: u8,
     /// Its last output, m/s².
     heard: Quantity<A, VibrationAcceleration>,
-    /// What fades of the vibration before, m/s².
+    /// The fading remainder of the previous vibration, m/s².
     fading: Quantity<A, VibrationAcceleration>,
-    /// The vibration at work is that of the texture before.
+    /// Whether the vibration at work still belongs to the previous texture.
     changing: bool,
-    /// In contact in the tick before.
+    /// Whether the last tick was in contact.
     pub(crate) touching: bool,
 }
 
@@ -60,13 +61,14 @@ impl<A: RenderArithmetic> Crossing<A> {
         touching: false,
     };
 
-    /// Whether the new texture's model is still made, or the old sound still fades.
+    /// Whether the new texture's first model is still in the making, or the old vibration still
+    /// fades.
     #[inline]
     pub(crate) fn is_under_way(&self) -> bool {
         self.changing | (self.fading != Quantity::ZERO)
     }
 
-    /// [`Vibration::prepare`], from one texture to the next.
+    /// [`Vibration::prepare`] on the way from one texture to the next.
     #[inline]
     fn prepare<S: Capacity>(
         &mut self,
@@ -80,7 +82,7 @@ impl<A: RenderArithmetic> Crossing<A> {
                 vibration.begin(texture.id(), texture.plan.cycle);
                 self.changing = true;
             } else {
-                // Clocks of their own: the old one stops at once.
+                // The clocks differ, so the old vibration stops at once.
                 self.fading = self.fading + self.heard;
                 self.ticks_per_sample = ticks;
                 self.recursion = texture.recursion();
@@ -90,7 +92,7 @@ impl<A: RenderArithmetic> Crossing<A> {
         }
         if self.changing && vibration.finishes(&texture.plan) {
             let last = vibration.stop();
-            // Between samples the upsampler gives what it holds, which fades by itself.
+            // Where there is an upsampler, what it holds fades by itself.
             if ticks == 1 {
                 self.fading = self.fading + last;
             }
@@ -100,7 +102,7 @@ impl<A: RenderArithmetic> Crossing<A> {
         vibration.prepare(texture, fraction);
     }
 
-    /// [`Vibration::sound`], and what fades beside it.
+    /// [`Vibration::sound`], plus the vibration that fades beside it.
     #[inline]
     fn sound(
         &mut self,
@@ -125,8 +127,8 @@ impl<A: RenderArithmetic> Crossing<A> {
 }
 
 impl<A: RenderArithmetic> Renderer<A> {
-    /// [`Renderer::tick`] on a solid, on the way to a texture; without contact it is there at
-    /// once.
+    /// [`Renderer::tick`] on a solid, on the way to a texture. Without contact the way takes no
+    /// time.
     #[inline(always)]
     pub(crate) fn tick_crossing<S: Capacity>(
         &self,

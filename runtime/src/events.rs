@@ -33,13 +33,13 @@ impl Flags {
     pub(crate) const BAD_SAMPLE: Self = Self(1 << 17);
     /// The safe state was entered.
     pub(crate) const FAULT: Self = Self(1 << 18);
-    /// Nothing.
+    /// No flag.
     pub(crate) const NONE: Self = Self(0);
     /// The force is let through in part, or not at all.
     pub(crate) const LOWERED: Self = Self::SAFE_STATE.and(Self::RAMPING);
     /// What [`Counters`] count.
     const COUNTED: Self = Self::RARE.and(Self::PEAK_LIMITED);
-    /// Those that come seldom.
+    /// The counted flags that seldom occur.
     const RARE: Self = Self::BAD_SAMPLE
         .and(Self::FAULT)
         .and(Self::TAP_STARTED)
@@ -77,13 +77,13 @@ impl Flags {
         Self(self.0 | other.0)
     }
 
-    /// These where `set`, else none.
+    /// These flags where `set`, else none.
     #[inline(always)]
     pub(crate) const fn when(self, set: bool) -> Self {
         Self(if set { self.0 } else { 0 })
     }
 
-    /// What callers see.
+    /// The flags that callers see.
     #[inline(always)]
     pub(crate) const fn seen(self) -> Self {
         Self(self.0 & 0xffff)
@@ -102,7 +102,7 @@ impl Flags {
     }
 }
 
-/// How often what happened, since the state was made; saturating.
+/// Counts of what happened since the state was made. They saturate.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counters {
     /// Ticks.
@@ -128,7 +128,7 @@ impl Counters {
         if elapsed_ticks > 1 {
             self.missed_ticks = self.missed_ticks.saturating_add(elapsed_ticks - 1);
         }
-        // The others never exceed the count of ticks: all stop with it.
+        // The other counts never exceed the count of ticks, so all stop with it.
         if self.ticks == u32::MAX {
             return;
         }
@@ -136,7 +136,7 @@ impl Counters {
         if !flags.meets(Flags::COUNTED) {
             return;
         }
-        // The most frequent first.
+        // The most frequent flag first.
         if flags.meets(Flags::PEAK_LIMITED) {
             self.peak_limited = self.peak_limited.wrapping_add(1);
         }

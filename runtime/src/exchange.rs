@@ -1,13 +1,13 @@
-//! Another texture while the servo loop runs: prepared outside of it, handed over through
-//! lock-free queues, the slot before handed back.
+//! Changing the texture while the servo loop runs. A slot is prepared outside the loop and handed
+//! over through a lock-free queue. The old slot comes back through another one.
 //!
-//! An [`Exchange`] has two halves. [`Preparer`] belongs to whoever loads textures: it fills a
-//! spare slot and sends it. [`Player`] belongs to the servo loop: it looks for a slot once a
-//! tick, and neither waits nor allocates. From one texture to the next wall, gains and friction
-//! follow within the time constant of the parameters, and the old vibration goes on until the
-//! new model is made, as between the surfaces of a [`scene`](crate::scene). A slot waits in the
-//! queue while a tap plays, which would go on with other traces, and while the model before is
-//! still made. Velocity, bristle and noise go on as they were.
+//! An [`Exchange`] has two halves. [`Preparer`] belongs to whoever loads textures: it fills a spare
+//! slot and sends it. [`Player`] belongs to the servo loop: it looks for a slot once a tick, and
+//! neither waits nor allocates. From one texture to the next, wall, gains and friction follow
+//! within the time constant of the parameters, and the old vibration goes on until the new model is
+//! made, as between the surfaces of a [`scene`](crate::scene). A slot waits in the queue while a
+//! tap plays, because the tap would go on with other traces, and while the previous change is still
+//! under way. Velocity, bristle and noise go on as they were.
 
 use crate::{
     arithmetic::Float,
@@ -49,8 +49,8 @@ impl<'a, S: Capacity, A: RenderArithmetic> Exchange<'a, S, A> {
         }
     }
 
-    /// Both halves: the first slot plays from the first tick on, the others are spare. `seed` is
-    /// that of the excitation. More than [`MAX_SPARE`] spare slots do not compile.
+    /// Both halves: the first slot plays from the first tick on, the others are spare. `seed` seeds
+    /// the excitation. More than [`MAX_SPARE`] spare slots do not compile.
     pub fn split<const N: usize>(
         &mut self,
         playing: Slot<'a, S, A>,
@@ -97,15 +97,15 @@ pub enum PrepareError {
 
 /// The half that loads textures, outside the servo loop.
 pub struct Preparer<'q, 'a, S: Capacity = HostCapacities, A: RenderArithmetic = Float> {
-    /// Taken back, but not filled.
+    /// A slot that was taken back but not filled.
     spare: Option<Slot<'a, S, A>>,
     returned: Consumer<'q, Slot<'a, S, A>>,
     ready: Producer<'q, Slot<'a, S, A>>,
 }
 
 impl<'a, S: Capacity, A: RenderArithmetic> Preparer<'_, 'a, S, A> {
-    /// Prepares a validated asset in a spare slot and sends it to the servo loop. What was sent
-    /// before is played before it.
+    /// Prepares a validated asset in a spare slot and sends it to the servo loop. Textures play in
+    /// the order in which they were sent.
     ///
     /// # Errors
     /// [`PrepareError`]; nothing is sent then.
@@ -114,7 +114,7 @@ impl<'a, S: Capacity, A: RenderArithmetic> Preparer<'_, 'a, S, A> {
         let slot = spare.ok_or(PrepareError::NoneSpare)?;
         match slot.load(asset, servo_rate_hz) {
             Ok(()) => {
-                // There are no more slots than places; a slot without one would be kept.
+                // The queue has room for every slot. A slot without room would be kept.
                 self.spare = self.ready.enqueue(slot).err();
                 Ok(())
             }
@@ -134,7 +134,7 @@ pub struct Player<'q, 'a, S: Capacity = HostCapacities, A: RenderArithmetic = Fl
     returned: Producer<'q, Slot<'a, S, A>>,
     state: State<A>,
     crossing: Crossing<A>,
-    /// A tap played in the tick before.
+    /// Whether a tap played in the last tick.
     tapping: bool,
 }
 
@@ -159,15 +159,15 @@ impl<S: Capacity, A: RenderArithmetic> Player<'_, '_, S, A> {
         }
         if let Some(next) = self.ready.dequeue() {
             let before = core::mem::replace(&mut self.playing, next);
-            // There is a place: it was asked for above.
+            // There is room, as `ready` said above.
             let _ = self.returned.enqueue(before);
         }
     }
 }
 
 impl<A: RenderArithmetic> Renderer<A> {
-    /// One servo period on what a [`Player`] plays: [`Renderer::tick`], after a look for another
-    /// texture. Infallible.
+    /// One servo period on what a [`Player`] plays: it looks for another texture, then does
+    /// [`Renderer::tick`]. It cannot fail.
     pub fn tick_player<S: Capacity>(
         &self,
         player: &mut Player<'_, '_, S, A>,

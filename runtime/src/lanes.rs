@@ -1,7 +1,7 @@
 //! Four numbers side by side: the same operations in the same order on every processor.
 //!
-//! Registers where there are some, an array elsewhere. Every operation rounds alike, and no two
-//! are fused.
+//! They are a register where the processor has such, and an array elsewhere. Every operation rounds
+//! alike, and no two are fused.
 
 use core::ops::{Add, Mul, Sub};
 use wide::{CmpLe, f32x4};
@@ -89,7 +89,7 @@ impl F4 {
         Self(self.0.fast_max(other.0))
     }
 
-    /// Replaces the bits of each that `clear` has by those of `set`.
+    /// Replaces the bits of `clear` in each number by the bits of `set`.
     #[inline(always)]
     pub(crate) fn mark(self, clear: u32, set: u32) -> Self {
         let keep = f32x4::splat(f32::from_bits(!clear));
@@ -110,7 +110,8 @@ impl F4 {
         if Self::IN_REGISTERS {
             return self.0.abs().cmp_le(f32x4::splat(limit)).all();
         }
-        // Bits of positive numbers are in their order, those of NaN above.
+        // The bits of positive floats are in the order of the floats, and the bits of a NaN are
+        // above.
         let within = |x: f32| x.abs().to_bits() <= limit.to_bits();
         self.to_array().into_iter().all(within)
     }

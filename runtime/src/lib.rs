@@ -1,10 +1,9 @@
 //! The Asperity tick: device sample in, limited force out.
 //!
-//! A [`Renderer`] (configuration, immutable) and a [`Texture`] (compiled data,
-//! immutable) drive any number of small [`State`]s. [`Renderer::tick`] allocates
-//! nothing, locks nothing, calls no system, reads no clock and cannot panic; its
-//! result is finite and within the device's limits for every input, NaN and
-//! infinities included, and the same bits on every platform.
+//! A [`Renderer`] (configuration, immutable) and a [`Texture`] (compiled data, immutable) drive any
+//! number of small [`State`]s. [`Renderer::tick`] allocates nothing, locks nothing, calls no
+//! system, reads no clock and cannot panic; its result is finite and within the device's limits for
+//! every input, NaN and infinities included. It is the same, to the bit, on every platform.
 //!
 //! Time is an argument: a simulator, a servo loop and a replay drive the same
 //! function. One call is one servo period.
@@ -15,7 +14,7 @@
 //! | folder or file | what it holds |
 //! |---|---|
 //! | [`quantity`] | numbers with a unit; which product gives which unit |
-//! | [`arithmetic`] | floats, or fixed point with a binary point a unit |
+//! | [`arithmetic`] | floats, or fixed point with a binary point for each unit |
 //! | `model` | the paper's parameters at a speed and a force: edge models, barycentric weights, mixture, LSF → AR |
 //! | `update` | the same, cut into slices over ticks |
 //! | [`stage`] | gate, contact, velocity, wall, friction, tap, vibration (excitation, recursion, upsampling), limiter |
@@ -36,7 +35,7 @@
 //! # ));
 //! let config = Config::default();
 //! let renderer = Renderer::new(&config)?;
-//! // Or a static, of your own capacities.
+//! // A static slot with capacities of your own does as well.
 //! let mut texture = Box::new(HostTexture::new());
 //! texture.load(&Asset::parse(bytes)?, config.servo_rate_hz)?;
 //! let mut state = State::new(1);

@@ -47,7 +47,7 @@ pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
     ]
 }
 
-/// What is left of `a` in the plane with unit normal `n`.
+/// The part of `a` in the plane with unit normal `n`.
 #[inline]
 #[must_use]
 pub fn tangential(a: Vec3, n: Vec3) -> Vec3 {
@@ -118,8 +118,9 @@ pub(crate) fn cos_pi_four(x: F4) -> F4 {
     F4::splat(-0.5) * twice + F4::ZERO
 }
 
-/// −2 cos(πx) for x in [0, 1], of fours side by side: none waits for another. −2 times [`cos_pi`]
-/// to the bit, but for the sign of 0: the powers of two stand in the coefficients.
+/// −2 cos(πx) for x in [0, 1], of fours side by side: none waits for another. It equals −2 times
+/// [`cos_pi`] to the bit, except for the sign of 0, because its coefficients differ by powers of
+/// two only.
 #[inline(always)]
 #[must_use]
 pub(crate) fn minus_two_cos_pi<const N: usize>(x: [F4; N]) -> [F4; N] {

@@ -1,4 +1,4 @@
-//! What of a configuration, a solid and a texture an arithmetic can hold.
+//! The configurations, solids and textures that an arithmetic can hold.
 //!
 //! Floats hold everything that is valid. Fixed point is narrower: see
 //! [units](crate::quantity::unit).
@@ -59,13 +59,14 @@ impl Checked for Fixed {
     }
 }
 
-/// Largest coordinate and size of a surface, m: as far as positions reach.
+/// Largest coordinate and size of a solid, m: as far as positions reach.
 const FARTHEST_M: f32 = 1.0;
 const STRONGEST_PEAK_N: f32 = 1000.0;
 const WEAKEST_PEAK_N: f32 = 1.0e-3;
-/// A slew of six steps of a force.
+/// The smallest slew in a tick: six steps of a force.
 const WEAKEST_STEP_N: f32 = 1.0e-4;
-/// A low-pass this slow, in periods, still moves by steps far below a millimetre per second.
+/// The lowest cut-off, in servo rates. A low-pass this slow still moves in steps far below a
+/// millimetre per second.
 const SLOWEST_CUTOFF: f32 = 0.001;
 const FASTEST_GRID_MM_S: f32 = 1000.0;
 const SLOWEST_GRID_MM_S: f32 = 1.0;

@@ -31,9 +31,9 @@ pub struct Renderer<A: RenderArithmetic = Float> {
     pub(crate) detector: Detector<A>,
     passivity: Passivity<A>,
     pub(crate) limiter: Limiter<A>,
-    /// How far a line spectrum goes in a cycle.
+    /// The fraction of its way that a line spectrum goes in a cycle.
     pub(crate) following: Following<A>,
-    /// How far wall, gains and friction go in a tick, to another texture.
+    /// The fraction of their way to another texture that wall, gains and friction go in a tick.
     pub(crate) coupling_fraction: Quantity<A, Fraction>,
 }
 
@@ -51,7 +51,7 @@ impl<A: RenderArithmetic> Renderer<A> {
     /// [`Renderer::new`] for any arithmetic.
     ///
     /// # Errors
-    /// The first field out of its range, or out of that of the arithmetic.
+    /// The first field outside its range or the range of the arithmetic.
     pub fn prepare(config: &Config) -> Result<Self, ConfigError> {
         config.check()?;
         A::check_config(config)?;
@@ -79,14 +79,14 @@ impl<A: RenderArithmetic> Renderer<A> {
         })
     }
 
-    /// The configuration, a plane's normal of unit length.
+    /// The configuration. The normal of a plane has unit length.
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
     }
 
-    /// The wall that is rendered for an asset's: as the asset says where the device can bear
-    /// it.
+    /// The wall that is rendered where an asset asks for this one: the same where the device can
+    /// bear it, else a lowered one.
     #[inline]
     #[must_use]
     pub fn wall(&self, coupling: &formats::Coupling) -> Wall<A> {
@@ -94,14 +94,14 @@ impl<A: RenderArithmetic> Renderer<A> {
         self.passivity.bear(asked)
     }
 
-    /// What the device can bear of a wall.
+    /// A wall, lowered to what the device can bear.
     #[inline(always)]
     pub(crate) fn wall_of(&self, coupling: &Coupling<A>) -> Wall<A> {
         self.passivity.bear(coupling.wall)
     }
 }
 
-/// With a plane's normal of unit length.
+/// The solid, with the normal of a plane at unit length.
 fn normalised(solid: Solid) -> Solid {
     match solid {
         Solid::Plane { point_m, normal } => Solid::Plane {

@@ -30,7 +30,8 @@ impl<A: Arithmetic> Sample<A> {
         }
     }
 
-    /// The same in another arithmetic; what it cannot hold is no position.
+    /// Converts a sample in floats. A coordinate that the arithmetic cannot hold becomes a missing
+    /// one.
     #[must_use]
     pub fn of(sample: &Sample) -> Self {
         let number = |x: f32| {
@@ -46,7 +47,7 @@ impl<A: Arithmetic> Sample<A> {
         }
     }
 
-    /// The device had nothing new, or is lost.
+    /// A sample for a period in which the device had nothing new, or was lost.
     pub const STALE: Self = Self {
         position_m: [A::Scalar::MISSING; 3],
         elapsed_ticks: 0,
@@ -62,7 +63,7 @@ pub struct Output<A: Arithmetic = Float> {
     pub depth_m: Raw<A, Metre>,
     /// Estimated tangential speed, mm/s.
     pub speed_mm_s: Raw<A, MillimetrePerSecond>,
-    /// k·δ, N: what looks up the grid and what friction is proportional to.
+    /// k·δ, N: the force of the query, and the load of the friction.
     pub normal_force_n: Raw<A, Newton>,
     /// y\[n\] before device gain, m/s².
     pub vib_m_s2: Raw<A, VibrationAcceleration>,

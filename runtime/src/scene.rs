@@ -1,13 +1,13 @@
 //! Several surfaces with textures of their own; only the one that is touched is rendered.
 //!
-//! Of all surfaces the one with the smallest signed distance is touched: the nearest, or
-//! that in which the stylus is deepest. A surface in contact keeps it until another is
-//! deeper by [`HYSTERESIS_M`], or its region is left by as much, so that noise at a border
-//! changes nothing. From one texture to the next wall, gains and friction follow within the
-//! time constant of the parameters; the old vibration goes on until the new model is made,
-//! then its last output fades; the limiter bounds what is left of a step.
+//! The surface with the smallest signed distance is touched: the nearest one, or the one in which
+//! the stylus is deepest. A surface in contact keeps it until another is deeper by
+//! [`HYSTERESIS_M`], or its region is left by as much, so that noise at a border changes nothing.
+//! From one texture to the next, wall, gains and friction follow within the time constant of the
+//! parameters; the old vibration goes on until the new model is made, then its last output fades.
+//! The limiter bounds any step that remains.
 //!
-//! The work is one distance a surface, and a tick.
+//! A tick computes the distance from every surface, and renders one surface.
 
 use crate::{
     arithmetic::Float,
@@ -31,9 +31,9 @@ use thiserror::Error;
 /// border a region keeps one, m: two counts of a Touch.
 pub const HYSTERESIS_M: f32 = 0.12e-3;
 
-/// Index of no surface.
+/// The index that stands for no surface.
 const NONE: usize = usize::MAX;
-/// Out of reach of every usable sample.
+/// A plane that no usable sample reaches.
 fn nowhere<A: RenderArithmetic>() -> DistanceField<A> {
     DistanceField::Plane {
         point: Vector::of([0.0, 0.0, -A::OUT_OF_REACH_M]),
@@ -41,7 +41,7 @@ fn nowhere<A: RenderArithmetic>() -> DistanceField<A> {
     }
 }
 
-/// A solid, where it can be touched, and its texture.
+/// A solid, the region where it can be touched, and its texture.
 #[derive(Debug, Clone, Copy)]
 struct Placed<A: RenderArithmetic> {
     field: DistanceField<A>,
@@ -158,7 +158,7 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
             let loaded = library.asset(index).map_err(LoadError::from).and_then(load);
             loaded.map_err(|cause| SceneError::Texture { index, cause })?;
         }
-        // A scene has a surface, and that a texture.
+        // A scene has at least one surface, and every surface has a texture.
         let loaded = slots.get(..textures).and_then(<[_]>::split_first);
         let (first, others) = loaded.ok_or(capacity("textures", textures, room))?;
         Ok(Self {
@@ -168,7 +168,8 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
         })
     }
 
-    /// The surface to touch at a position, [`NONE`] for none, when it was `at` before.
+    /// The surface that is touched at a position, or [`NONE`], where surface `at` was touched
+    /// before.
     #[inline]
     fn touched(&self, at: usize, position: Vector<A, Metre>) -> usize {
         let hysteresis = Quantity::of(HYSTERESIS_M);
@@ -214,7 +215,7 @@ pub struct SceneState<A: RenderArithmetic = Float> {
 }
 
 impl<A: RenderArithmetic> SceneState<A> {
-    /// At rest, without force; the seed is that of the excitation.
+    /// A state at rest, without force. `seed` seeds the excitation.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
@@ -254,8 +255,8 @@ impl<A: RenderArithmetic> SceneState<A> {
 }
 
 impl<A: RenderArithmetic> Renderer<A> {
-    /// One servo period in a scene: [`Renderer::tick`] on the surface that is touched, in place
-    /// of the one in the configuration. Infallible.
+    /// One servo period in a scene: [`Renderer::tick`] on the surface that is touched, in place of
+    /// the one in the configuration. It cannot fail.
     pub fn tick_scene<const N: usize, S: Capacity>(
         &self,
         scene: &Scene<'_, N, S, A>,

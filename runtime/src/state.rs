@@ -14,8 +14,8 @@ use crate::{
     },
 };
 
-/// Everything that changes from tick to tick. Texture and configuration are outside
-/// it, so a swap of texture copies no history. Under another renderer the wall is the new one's
+/// Everything that changes from tick to tick. Texture and configuration are outside it, so a swap
+/// of texture copies no history. If another renderer takes over a state, its own wall is rendered
 /// from the next query on, at most eight samples of the models later.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State<A: RenderArithmetic = Float> {
@@ -28,13 +28,13 @@ pub struct State<A: RenderArithmetic = Float> {
     pub(crate) friction: FrictionState<A>,
     /// The last force, N.
     pub(crate) force: StoredVector<A, Newton>,
-    /// What the device can bear of the texture's wall.
+    /// The texture's wall, lowered to what the device can bear.
     pub(crate) wall: Wall<A>,
     pub(crate) counters: Counters,
 }
 
 impl<A: RenderArithmetic> State<A> {
-    /// A state at rest, without force; the seed is that of the excitation.
+    /// A state at rest, without force. `seed` seeds the excitation.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
@@ -50,20 +50,21 @@ impl<A: RenderArithmetic> State<A> {
         }
     }
 
-    /// How often what happened.
+    /// Counts of what happened since the state was made.
     #[must_use]
     pub const fn counters(&self) -> &Counters {
         &self.counters
     }
 
-    /// Another surface is touched from here on: the way there is no motion along its normal.
+    /// Another surface is touched from here on. The change of distance is no motion along its
+    /// normal.
     #[cold]
     pub(crate) fn cross(&mut self, field: &DistanceField<A>) {
         let contact = field.step(self.gate.position());
         self.tap.cross(contact.distance);
     }
 
-    /// Another texture, on the same solid.
+    /// Changes to another texture on the same solid.
     #[cold]
     pub(crate) fn change_texture(&mut self, texture: u32, wall: Wall<A>) {
         self.vibration.change_texture(texture);

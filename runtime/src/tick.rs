@@ -8,9 +8,9 @@
 //! equation, whose wall also has damping and whose friction has a bristle. A tick is the sum of
 //! the stages in this order; each is a file in [`stage`](crate::stage).
 //!
-//! The model of the vibration is made around the stages, not between them: [`Vibration::prepare`]
-//! begins a tick and [`Vibration::query`] ends it, because little else is at hand there
-//! ([`update`](crate::update)).
+//! The model of the vibration is made around the stages, not between them: `Vibration::prepare`
+//! begins a tick and `Vibration::query` ends it, because few other values have to be kept there
+//! (`update/`).
 
 use crate::{
     capacity::Capacity,
@@ -31,13 +31,13 @@ use crate::{
 pub(crate) struct Touched<'a, A: RenderArithmetic> {
     pub(crate) field: &'a DistanceField<A>,
     pub(crate) coupling: &'a Coupling<A>,
-    /// What the device can bear of the coupling's wall.
+    /// The wall of the coupling, lowered to what the device can bear.
     pub(crate) wall: Wall<A>,
 }
 
 impl<A: RenderArithmetic> Renderer<A> {
-    /// One servo period. Infallible: every sample gives a finite force within the
-    /// limits. The work hardly depends on the sample: a few instructions in a hundred.
+    /// One servo period. It cannot fail: every sample gives a finite force within the limits. Its
+    /// work varies with the sample by a few percent.
     pub fn tick<S: Capacity>(
         &self,
         texture: &Texture<S, A>,
@@ -70,8 +70,8 @@ impl<A: RenderArithmetic> Renderer<A> {
         output
     }
 
-    /// The force equation on what is touched; `sound` gives the vibration, told whether it is to
-    /// be heard.
+    /// The force equation on what is touched. `sound` steps the vibration and is told whether it
+    /// may be heard.
     #[inline(always)]
     pub(crate) fn force<S: Capacity>(
         &self,
@@ -130,7 +130,7 @@ impl<A: RenderArithmetic> Renderer<A> {
             VibrationAxis::Binormal => state.direction.get().cross(normal),
         };
 
-        // The sum, as much of it as the gate lets through, within the limits of the device.
+        // The sum, lowered by the gate and limited to what the device allows.
         let total = normal * (normal_force.total + tap_force) + axis * vibration_force
             - friction.direction * friction.size;
         let wanted = if flags.meets(Flags::LOWERED) {

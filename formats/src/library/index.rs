@@ -229,7 +229,7 @@ impl<'a> LibraryIndex<'a> {
         self.entries.len() / ENTRY_LEN
     }
 
-    /// Whether there is none.
+    /// Whether the library has no texture.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.entries.is_empty()

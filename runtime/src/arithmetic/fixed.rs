@@ -81,7 +81,7 @@ pub(crate) fn wide<F: Point, G: Point>(a: FixedI32<F>, b: FixedI32<G>) -> i64 {
     i64::from(a.to_bits()) * i64::from(b.to_bits())
 }
 
-/// From the point of a product to that of a number.
+/// How far a product with points F and G is shifted to get point H, in bits.
 pub(crate) const fn shift<F: Point, G: Point, H: Point>() -> i32 {
     F::I32 + G::I32 - H::I32
 }
@@ -98,7 +98,7 @@ const fn scale<F: Point>() -> f64 {
     (1_u64 << F::U32) as f64
 }
 
-/// Added before a conversion truncates, so that it rounds to the nearest.
+/// The half that is added before a conversion truncates, so that it rounds to the nearest.
 #[inline(always)]
 const fn half(value: f32) -> f64 {
     if value < 0.0 { -0.5 } else { 0.5 }

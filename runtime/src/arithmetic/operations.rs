@@ -6,13 +6,13 @@ use core::{
     ops::{Add, Sub},
 };
 
-/// Where a product or a sum of products ends, if the arithmetic has a range. Floats have none.
+/// Where a product or a sum of products is cut, if the arithmetic has a range. Floats have none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cut {
     /// Nowhere: the result is always in range ([`units`](crate::quantity::unit) shows why). In
     /// debug builds of fixed point a result out of range panics.
     Never,
-    /// At ± this value, a positive one.
+    /// At ± this value, which is positive.
     At(f32),
 }
 
@@ -62,7 +62,7 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// The numbers of four.
     fn numbers<F: Point>(four: Self::Four<F>) -> [Self::Scalar<F>; 4];
 
-    /// The first three of four, to keep.
+    /// The first three of four, as a state keeps them.
     fn three<F: Point>(four: Self::Four<F>) -> Self::Three<F>;
 
     /// Three kept numbers and a fourth without meaning.

@@ -35,7 +35,7 @@ pub trait Scalar:
 {
     /// Larger than every number in use.
     const FARTHEST: Self;
-    /// Stands for a position that a device does not have.
+    /// Stands for a coordinate that the device did not report.
     const MISSING: Self;
 
     /// The nearest number to `value`; the end of the range beyond it, 0 for NaN.

@@ -27,7 +27,7 @@ pub struct Config {
     pub tap: TapConfig,
     /// Bristle friction.
     pub friction: FrictionConfig,
-    /// What the device's own mechanics absorb: decides how stiff a wall may be.
+    /// What the device's own mechanics absorb, which decides how stiff a wall may be.
     pub mechanics: MechanicsConfig,
     /// Bad samples and recovery.
     pub safety: SafetyConfig,
@@ -79,8 +79,8 @@ pub struct FrictionConfig {
     pub leak_speed_m_s: f32,
 }
 
-/// What the device absorbs by itself, and how late its force acts: the sampled wall must
-/// not give off more ([`wall`](crate::stage::wall)).
+/// What the device absorbs by itself, and how late its force acts: the sampled wall must not give
+/// off more ([`passivity`](crate::stage::passivity)).
 ///
 /// The default is a 3D Systems Touch, all of it unconfirmed on a device: 0.26 N of back-drive
 /// friction as published, 0.1 N·s/m assumed, no delay beyond the hold of one period.
@@ -95,8 +95,8 @@ pub struct MechanicsConfig {
     pub fastest_m_s: f32,
     /// One count Δ of position, m; 0 if positions are not quantised.
     pub position_step_m: f32,
-    /// Whole periods between a force and its effect, on top of the hold of one. A loop
-    /// that may lose two samples in a row counts as two later.
+    /// Whole periods between a force and its effect, on top of the hold of one. Add two for a loop
+    /// that may lose two samples in a row.
     pub delay_ticks: u32,
 }
 

@@ -43,7 +43,7 @@ fn assemble<A: SectionProduct, const LANE: usize>(
         for first in (0..last).step_by(LANES) {
             before = assemble_four::<A, LANE>(products, first, before, a);
         }
-        // The last four overlap those before where four does not divide the half.
+        // Where four does not divide the half, the last four overlap the four before them.
         if let Some(row) = last.checked_sub(1).and_then(|row| products.0.get(row)) {
             before = Four::load(&numbers(row));
         }
@@ -53,8 +53,8 @@ fn assemble<A: SectionProduct, const LANE: usize>(
     }
 }
 
-/// Four coefficients from `first` on and their four mirror images, of an even order; `c0` is what
-/// stands before them. Returns what stands before the next four.
+/// Four coefficients from `first` on and their four mirror images, of an even order; `c0` has the
+/// products before them. Returns the products before the next four.
 #[inline(always)]
 fn assemble_four<A: SectionProduct, const LANE: usize>(
     products: &Scratch,
@@ -87,7 +87,7 @@ fn assemble_four<A: SectionProduct, const LANE: usize>(
     c4
 }
 
-/// The same for every order, one after the other.
+/// The coefficients of any order, one pair after the other.
 fn assemble_singly<A: SectionProduct, const LANE: usize>(
     products: &Scratch,
     a: &mut [Raw<A, Coefficient>],

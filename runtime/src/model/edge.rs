@@ -1,7 +1,7 @@
-//! Edge models: what answers outside the measured range.
+//! Edge models, which answer queries outside the measured range.
 //!
-//! A query outside the grid is moved to the nearest point of its border, whose edge models the
-//! mixture there consists of: constant extrapolation, continuous with the inside. LSFs are never
+//! A query outside the grid is moved to the nearest point of its border, where edge models are
+//! mixed. This extrapolation is constant, and continuous with the inside. LSFs are never
 //! extrapolated; weights outside a triangle would make unstable filters.
 
 use crate::{
@@ -26,7 +26,7 @@ impl<A: Arithmetic> Extent<A> {
         max_force: Quantity::ZERO,
     };
 
-    /// Of a grid up to a speed, mm/s, and a force, N.
+    /// The range of a grid up to a speed, mm/s, and a force, N.
     pub(crate) fn new(max_speed_mm_s: f32, max_force_n: f32) -> Self {
         Self {
             max_speed: Quantity::of(max_speed_mm_s),
@@ -39,7 +39,7 @@ impl<A: Arithmetic> Extent<A> {
         [self.max_speed.value(), self.max_force.value()]
     }
 
-    /// Whether a query lies outside, or is none.
+    /// Whether a query lies outside, or is NaN.
     #[inline]
     pub(crate) fn is_outside(
         &self,

@@ -1,4 +1,4 @@
-//! The filter at a speed and a force, the whole way at once.
+//! The filter at a speed and a force: the whole way in one function.
 
 use super::{
     assembly,

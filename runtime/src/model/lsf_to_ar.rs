@@ -28,14 +28,14 @@ use crate::{
 /// −2 cos ω of the LSFs of a mixture, in the order of [`place`], 0 beyond the order.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LineSpectrum<A: Arithmetic> {
-    /// Of A(z).
+    /// The line spectrum of A(z).
     pub(crate) ar: PaddedRow<A, LineCosine>,
-    /// Of B(z).
+    /// The line spectrum of B(z).
     pub(crate) ma: PaddedRow<A, LineCosine>,
 }
 
 impl<A: Arithmetic> LineSpectrum<A> {
-    /// Of a slot that was never loaded.
+    /// The line spectrum before the first mixture.
     pub(crate) const ZERO: Self = Self {
         ar: PaddedRow::ZERO,
         ma: PaddedRow::ZERO,

@@ -10,9 +10,9 @@
 //! | `barycentric` | f–v grid | triangle and weights |
 //! | `mixture` | interpolation of parameters | mixed −2 cos ω and level |
 //! | `lsf_to_ar` | LSF → AR | line spectrum to coefficients, with `partial_products` and `assembly` |
-//! | `filter` | a_k(F_n, v_t), σ(F_n, v_t) | the whole way at once |
+//! | `filter` | a_k(F_n, v_t), σ(F_n, v_t) | the whole way in one function |
 //!
-//! [`update`](crate::update) does the same work in slices, a few a tick.
+//! [`update`](crate::update) does the same work in slices, one a tick.
 
 pub(crate) mod assembly;
 pub(crate) mod barycentric;

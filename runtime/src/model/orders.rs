@@ -10,12 +10,12 @@ pub(crate) struct Orders {
     ma: u8,
     /// Second-order sections of each polynomial: Q and P of A(z), Q and P of B(z).
     pub(super) sections: [u8; LANES],
-    /// The fewest of those in use.
+    /// The smallest number of sections of a polynomial in use.
     pub(super) fewest: u8,
 }
 
 impl Orders {
-    /// Of a slot that was never loaded.
+    /// The orders of a slot that was never loaded.
     pub(crate) const NONE: Self = Self {
         ar: 0,
         ma: 0,
@@ -23,7 +23,7 @@ impl Orders {
         fewest: 0,
     };
 
-    /// Of the orders of A(z) and B(z).
+    /// From the orders of A(z) and B(z).
     pub(crate) const fn new(ar: usize, ma: usize) -> Self {
         let (ar, ma) = (ar as u8, ma as u8);
         let shorter = if ma == 0 || ar < ma { ar } else { ma };

@@ -21,7 +21,7 @@ use core::{
 /// symmetry leaves. The first coefficient is ½ itself.
 pub(super) struct Products<'a, A>(&'a mut Scratch, PhantomData<A>);
 
-/// One of them: every fourth number.
+/// One of these products: every fourth number.
 pub(super) struct Lane<'a, A>(&'a mut [u32; LANES * (ROWS - 1) + 1], PhantomData<A>);
 
 impl<'a, A: SectionProduct> Products<'a, A> {
@@ -83,7 +83,8 @@ fn pair_of<T: Cosines>([low, high]: [T; 2]) -> SectionPair<T> {
     }
 }
 
-/// The pair where polynomials may lack the high section, or both: those are 0, and so is `has`.
+/// The pair where polynomials may lack the high section, or both. What a polynomial lacks is 0, and
+/// so is its `has`.
 #[inline(always)]
 fn pair_of_some<T: Cosines>([low, high]: [T; 2], [has_low, has_high]: [T; 2]) -> SectionPair<T> {
     SectionPair {
@@ -97,7 +98,7 @@ fn pair_of_some<T: Cosines>([low, high]: [T; 2], [has_low, has_high]: [T; 2]) ->
 pub(super) trait Polynomial<A: SectionProduct> {
     type Cosines: Cosines;
     type Number: Copy;
-    /// A number of sections of each.
+    /// The number of sections of each.
     type Count: Copy;
 
     fn get(&self, k: usize) -> Self::Number;
@@ -113,9 +114,9 @@ pub(super) trait Polynomial<A: SectionProduct> {
         c: [Option<Self::Number>; 5],
     ) -> Self::Number;
 
-    /// Multiplies in place, from degree 4·`pair`, by a low section and a high one. Of `sections` sections
-    /// that a polynomial has, all of them `fewest` at least; what it gets beyond its own middle
-    /// is not used.
+    /// Multiplies in place, from degree 4·`pair`, by a low section and a high one. A polynomial has
+    /// `sections` sections, and each has at least `fewest`. Coefficients beyond its own middle are
+    /// not used.
     #[inline(always)]
     fn multiply(
         &mut self,
@@ -218,7 +219,7 @@ fn by_pair<A: SectionProduct, C: Polynomial<A> + ?Sized, const FULL: bool>(
     }
 }
 
-/// From the highest coefficient down, so that nothing is overwritten before it is read.
+/// Multiplies from the highest coefficient down, so that nothing is overwritten before it is read.
 #[inline(always)]
 fn extend<A: SectionProduct, C: Polynomial<A> + ?Sized, const FULL: bool, const PAIR: usize>(
     c: &mut C,

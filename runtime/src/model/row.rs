@@ -25,7 +25,7 @@ impl<A: Arithmetic, U: Unit> PaddedRow<A, U> {
     /// All zero.
     pub(crate) const ZERO: Self = Self([[A::Scalar::ZERO; LANES]; BLOCKS]);
 
-    /// All of them.
+    /// All 24 numbers.
     #[must_use]
     pub(crate) fn to_array(self) -> [Raw<A, U>; MAX_ORDER] {
         let mut all = [A::Scalar::ZERO; MAX_ORDER];

@@ -1,4 +1,4 @@
-//! Memory for making a model: the search and the conversion have it in turn.
+//! Memory for making a model: the search and the conversion use it in turn.
 
 use super::row::LANES;
 use crate::arithmetic::Scalar;
@@ -7,8 +7,8 @@ use asperity_formats::limits::MAX_ORDER;
 /// Coefficients 1..=12 of symmetric polynomials of degree up to 24.
 pub(crate) const ROWS: usize = MAX_ORDER / 2;
 
-/// Bits of numbers: of a [`Search`](super::barycentric::Search) until its mixture is made, then of
-/// the partial products of the conversion, which begins anew whatever stands here.
+/// Bits of numbers. They are a [`Search`](super::barycentric::Search) until its mixture is made,
+/// then the partial products of the conversion, which begins anew whatever stands here.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
 pub(crate) struct Scratch(pub(crate) [[u32; LANES]; ROWS]);

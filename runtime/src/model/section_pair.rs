@@ -1,4 +1,4 @@
-//! A section pair, and what it makes of a polynomial.
+//! A section pair, and its product with a polynomial.
 //!
 //! A section pair is a low second-order section times a high one:
 //! (1 + l z⁻¹ + z⁻²)(1 + h z⁻¹ + z⁻²) = 1 + s z⁻¹ + q z⁻² + s z⁻³ + z⁻⁴, s = l + h, q = 2 + l·h.
@@ -22,8 +22,8 @@ pub trait SectionProduct: Arithmetic {
     /// ½.
     const ONE_HALF: Raw<Self, Coefficient>;
 
-    /// Coefficient `k` of a polynomial times a section pair, from those of `k`, `k − 1` … `k − 4`
-    /// that there are; with `FULL`, o = 1.
+    /// Coefficient `k` of a polynomial times a section pair, from coefficients `k`, `k − 1` …
+    /// `k − 4`, as far as there are any. With `FULL`, o = 1.
     fn extend<const FULL: bool>(
         pair: &SectionPair<Raw<Self, LineCosine>>,
         c: [Option<Raw<Self, Coefficient>>; 5],
@@ -35,7 +35,7 @@ pub trait SectionProduct: Arithmetic {
         c: [Option<Self::Four<<Coefficient as Unit>::Point>>; 5],
     ) -> Self::Four<<Coefficient as Unit>::Point>;
 
-    /// The second and the fourth with the other sign.
+    /// Four numbers, the second and the fourth with the other sign.
     fn alternating(
         a: Self::Four<<Coefficient as Unit>::Point>,
     ) -> Self::Four<<Coefficient as Unit>::Point>;
@@ -60,7 +60,7 @@ impl SectionProduct for Float {
     }
 }
 
-/// See [`SectionProduct::extend`]: what is not there takes no operation.
+/// See [`SectionProduct::extend`]: a coefficient that is not there takes no operation.
 #[inline(always)]
 fn extended<const FULL: bool, T: Copy + Add<Output = T> + Mul<Output = T>>(
     pair: &SectionPair<T>,
@@ -137,7 +137,7 @@ pub struct SectionPair<T> {
 }
 
 impl<T> SectionPair<T> {
-    /// Each factor made something else.
+    /// Maps each factor.
     #[inline(always)]
     pub(super) fn map<U>(self, f: impl Fn(T) -> U) -> SectionPair<U> {
         SectionPair {

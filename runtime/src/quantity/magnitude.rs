@@ -27,18 +27,18 @@ pub trait Magnitudes: Arithmetic {
     /// The square of the length of the first three.
     fn square<F: Point>(v: Self::Four<F>) -> Self::Square;
 
-    /// Whether a square is that of more than a nanometre, or in fixed point of any length.
+    /// Whether a square belongs to more than a nanometre or, in fixed point, to any length.
     fn is_some(square: Self::Square) -> bool;
 
-    /// Of a square; the inverse of no length is finite.
+    /// The magnitude of a square. Its inverse is finite even where there is no length.
     fn magnitude(square: Self::Square) -> Self::Magnitude;
 
-    /// Of a vector. Where there is no length it is 10⁻¹⁸ in floats, so that its inverse is finite:
-    /// no sum waits for that.
+    /// The magnitude of a vector. In floats a vector without length gets 10⁻¹⁸, so that the inverse
+    /// is finite without a later sum.
     fn magnitude_above_zero<F: Point>(v: Self::Four<F>) -> Self::Magnitude;
 
-    /// Of a vector whose direction is asked for only where it has a length: in floats the inverse
-    /// of no length is infinite.
+    /// The magnitude of a vector whose direction is used only where it has a length. In floats the
+    /// inverse of no length is infinite.
     fn magnitude_unguarded<F: Point>(v: Self::Four<F>) -> Self::Magnitude;
 
     /// The length.
@@ -50,7 +50,7 @@ pub trait Magnitudes: Arithmetic {
         magnitude: Self::Magnitude,
     ) -> Self::Four<<Fraction as Unit>::Point>;
 
-    /// What `v` has along `axis`, to which `magnitude` belongs.
+    /// The component of `v` along `axis`, which has this magnitude.
     fn project<F: Point>(
         v: Self::Four<F>,
         axis: Self::Four<F>,
@@ -135,7 +135,7 @@ impl<A: Magnitudes, U: Unit> Vector<A, U> {
         Vector(A::direction(self.0, magnitude.0))
     }
 
-    /// What it has along `axis`, which has this magnitude.
+    /// The component along `axis`, which has this magnitude.
     #[inline(always)]
     #[must_use]
     pub fn along(self, axis: Self, magnitude: Magnitude<A, U>) -> Projection<A, U> {
@@ -143,8 +143,8 @@ impl<A: Magnitudes, U: Unit> Vector<A, U> {
     }
 }
 
-/// What a vector has along another one; in floats still to be multiplied by the inverse length,
-/// which is known last.
+/// The component of a vector along another one. In floats it is still to be multiplied by the
+/// inverse length, which is known last.
 #[derive(Clone, Copy)]
 pub struct Projection<A: Magnitudes, U: Unit>(A::Projection<U::Point>);
 

@@ -1,7 +1,7 @@
 //! Physical quantities: numbers with a unit, which only add up where the units are the same.
 //!
 //! A [`Quantity`] is one number, a [`Vector`] has three components along the world's axes, a
-//! [`Four`] is four numbers side by side. [`unit`] is the table of units, each with its binary
+//! [`Four`] is four numbers side by side. [`mod@unit`] is the table of units, each with its binary
 //! point in fixed point; [`product`] says which product and which quotient give which unit, and
 //! where they are cut. In floats a quantity is an `f32` and costs nothing.
 //!

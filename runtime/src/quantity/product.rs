@@ -23,7 +23,7 @@ pub trait Over<R: Unit>: Unit {
 /// None of the forces that a tick adds up is beyond this, N.
 const STRONGEST_N: f32 = 2048.0;
 
-/// A fraction of anything is of its kind.
+/// A fraction of anything has the unit of that thing.
 impl<U: Unit> Times<U> for Fraction {
     type Product = U;
     const CUT: Cut = Cut::Never;
@@ -69,7 +69,7 @@ products! {
     Coefficient * VibrationAcceleration = VibrationAcceleration;
 }
 
-/// A weight does not fall further outside its triangle.
+/// The farthest that a weight falls outside its triangle.
 pub(crate) const FARTHEST_WEIGHT: f32 = 256.0;
 
 macro_rules! quotients {

@@ -121,7 +121,7 @@ impl<A: Arithmetic, U: Unit> Quantity<A, U> {
         self.0.value()
     }
 
-    /// In another unit of the same dimension.
+    /// The same quantity in another unit of its dimension.
     #[inline(always)]
     #[must_use]
     pub fn to<V: Unit>(self) -> Quantity<A, V>
@@ -179,7 +179,7 @@ impl<A: Arithmetic, U: Unit> Quantity<A, U> {
         if self.0 > other.0 { self } else { other }
     }
 
-    /// In `0..=limit`; 0 for NaN.
+    /// The number cut to `0..=limit`; 0 for NaN.
     #[inline(always)]
     #[must_use]
     pub fn clamp_from_zero(self, limit: Self) -> Self {

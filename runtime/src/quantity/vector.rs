@@ -175,7 +175,7 @@ impl<A: Arithmetic, U: Unit> Vector<A, U> {
 }
 
 impl<A: Arithmetic, U: Times<Fraction, Product = U>> Vector<A, U> {
-    /// What is left in the plane with unit normal n̂: x − n̂ (x·n̂).
+    /// The part in the plane with unit normal n̂: x − n̂ (x·n̂).
     #[inline(always)]
     #[must_use]
     pub fn tangential(self, normal: Vector<A, Fraction>) -> Self {

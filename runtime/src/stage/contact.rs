@@ -1,8 +1,8 @@
 //! Contact with a plane, a sphere or a box: depth δ and outward normal n̂.
 //!
-//! The signed distance is exact for the three solids, negative inside; δ = max(−distance, 0).
-//! At a sphere's centre the normal is +z; inside a box it is that of the nearest face, of the
-//! first axis where two are equally near.
+//! The signed distance is exact for the three solids, negative inside; δ = max(−distance, 0). At a
+//! sphere's centre the normal is +z; inside a box it is the normal of the nearest face. Where two
+//! faces are equally near, the first axis wins.
 
 use crate::{
     arithmetic::Float,
@@ -17,21 +17,21 @@ use asperity_formats::Solid;
 /// The signed distance from a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DistanceField<A: Magnitudes = Float> {
-    /// Of a half-space.
+    /// The distance from a half-space.
     Plane {
         /// A point of the plane, m.
         point: Vector<A, Metre>,
         /// Outward normal of length 1.
         normal: Vector<A, Fraction>,
     },
-    /// Of a ball.
+    /// The distance from a ball.
     Sphere {
         /// Centre, m.
         center: Vector<A, Metre>,
         /// Radius, m.
         radius: Quantity<A, Metre>,
     },
-    /// Of a box along the world's axes.
+    /// The distance from a box along the world's axes.
     Box {
         /// Centre, m.
         center: Vector<A, Metre>,
@@ -59,8 +59,8 @@ impl<A: Magnitudes> Contact<A> {
 }
 
 impl<A: Magnitudes> DistanceField<A> {
-    /// Of a checked solid. The normal of a plane is brought to unit length in f64, which a tick has
-    /// no time for.
+    /// The field of a checked solid. The normal of a plane is brought to unit length here, in f64,
+    /// because a tick has no time for it.
     #[must_use]
     pub fn new(solid: &Solid) -> Self {
         match *solid {
@@ -145,7 +145,7 @@ fn cuboid<A: Magnitudes>(r: Vector<A, Metre>, half_extents: Vector<A, Metre>) ->
     }
 }
 
-/// `v` at unit length, rounded once: a unit normal stays what it is.
+/// `v` at unit length, rounded once, so that a unit normal stays as it is.
 pub(crate) fn unit(v: Vec3) -> Vec3 {
     let v = v.map(f64::from);
     let squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];

@@ -36,7 +36,7 @@ impl GaussianCubic for Float {
 impl GaussianCubic for Fixed {
     #[inline(always)]
     fn gaussian(centred: i32) -> FixedI32<<Gaussian as Unit>::Point> {
-        /// 44 and 60 bits behind the point.
+        /// C1 with 44 bits behind the point, C3 with 60.
         const LINEAR: i64 = (C1 as f64 * (1_u64 << 44) as f64) as i64;
         const CUBIC: i64 = (C3 as f64 * (1_u64 << 60) as f64) as i64;
         // Below 2¹⁸, so both factors fit 32 bits after the shift.
@@ -51,8 +51,8 @@ const MEAN: i32 = 510;
 
 /// A seeded stream of Gaussian samples.
 ///
-/// One 32-bit draw a sample, no branch and no rejection, so every sample costs the
-/// same. Mean 0, variance 1, skewness 0, kurtosis 3, sixth moment 14.46 (a Gaussian's is 15);
+/// A sample takes one draw of 32 bits, no branch and no rejection, so every sample costs the same.
+/// Mean 0, variance 1, skewness 0, kurtosis 3, sixth moment 14.46 (a Gaussian's is 15);
 /// |ε| > 3 in 0.240 % (0.270 %), |ε| ≤ 4.05; 1021 values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Excitation {

@@ -1,8 +1,8 @@
 //! Friction: a leaking bristle with a dead zone that slips at μF_n.
 //!
 //! The bristle's deflection d follows the tangential motion; the force opposes it,
-//! `F = k·(|d| − h)` beyond a dead zone h, and never exceeds μF_n: what is more is slip,
-//! which moves the bristle's root. The root also creeps, so that
+//! `F = k·(|d| − h)` beyond a dead zone h, and never exceeds μF_n. Any excess is slip, which moves
+//! the bristle's root. The root also creeps, so that
 //!
 //! ```text
 //! ḋ = v − d/τ,   τ = F_n/(k·v_c),   |d| ≤ μF_n/k + h
@@ -13,20 +13,20 @@
 //!
 //! * **No sign at rest.** |d| is never more than the range of the positions, which noise of
 //!   ±1 count keeps inside the dead zone; the leak brings d back there after a stroke.
-//! * **No step in speed.** Steady friction is `F_n·v/v_c − kh` from 0 to μF_n, and d is a
-//!   positive average of v·τ that the slider only cuts: if the speed stays within ε of a
-//!   steady one, the force stays within `3/2·F_n·ε/v_c` of that one's, and in a ramp of any
-//!   acceleration it never changes faster than that (the half is the lead's, below).
-//! * **No energy.** k does not depend on the normal force, so the stored energy ½k(|d| − h)²
-//!   can only be given back or lost; dashpot and slider only lose. What is left is that the
-//!   force is held: up to ½kΔ² a tick of motion Δ.
+//! * **No step in speed.** Steady friction is `F_n·v/v_c − kh` from 0 to μF_n, and d is a positive
+//!   average of v·τ that the slider only cuts: if the speed stays within ε of a steady speed, the
+//!   force stays within `3/2·F_n·ε/v_c` of the steady force, and in a ramp of any acceleration it
+//!   never changes faster than that. The lead, below, adds the half.
+//! * **No energy.** k does not depend on the normal force, so the stored energy ½k(|d| − h)² can
+//!   only be given back or lost; dashpot and slider only lose. One gain remains, because the force
+//!   is held for a tick: up to ½kΔ² in a tick of motion Δ.
 //!
-//! Therefore the force is taken one tick of motion ahead, and one more for every tick of
-//! delay: then a held spring takes ½kΔ² instead, as long as the motion has no content above
-//! 1/(2πT), 159 Hz at 1 kHz. The lead is at most half the stretch, so that the force leaves
-//! the dead zone at zero and without a step in speed. Very close to the dead zone's edge less
-//! than ½kΔ² remains: 0.2 µJ in four strokes at 40 Hz, a thousandth of what a device's own
-//! friction absorbs on the way.
+//! Therefore the force is taken one tick of motion ahead, and one more for every tick of delay. A
+//! held spring then takes ½kΔ² instead of giving it, as long as the motion has no content above
+//! 1/(2πT), 159 Hz at 1 kHz. The lead is at most half the stretch, so that the force leaves the
+//! dead zone at zero and without a step in speed. Very close to the dead zone's edge less than ½kΔ²
+//! remains: 0.2 µJ in four strokes at 40 Hz, a thousandth of what a device's own friction absorbs
+//! on the way.
 
 use crate::{
     arithmetic::{Arithmetic, Float},
@@ -41,7 +41,7 @@ use crate::{
     },
 };
 
-/// What the bristle is made of.
+/// The bristle, prepared for a servo loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bristle<A: Arithmetic = Float> {
     /// k, N/m.
@@ -57,14 +57,14 @@ pub struct Bristle<A: Arithmetic = Float> {
 }
 
 impl<A: Arithmetic> Bristle<A> {
-    /// Of a loop at `rate_hz` whose force acts `delay_ticks` late.
+    /// The bristle of a loop at `rate_hz` whose force acts `delay_ticks` late.
     #[must_use]
     pub fn new(config: &FrictionConfig, delay_ticks: u32, rate_hz: f32) -> Self {
         Self {
             stiffness: Quantity::of(config.stiffness_n_m),
             compliance: Quantity::of(1.0 / config.stiffness_n_m),
             dead_zone: Quantity::of(config.dead_zone_m),
-            // Above zero, so that no force at all leaves no deflection.
+            // Above zero, so that nothing of the deflection is left without a normal force.
             leak: Quantity::of(max(
                 config.stiffness_n_m * config.leak_speed_m_s / rate_hz,
                 f32::MIN_POSITIVE,
@@ -74,7 +74,7 @@ impl<A: Arithmetic> Bristle<A> {
     }
 }
 
-/// Where the bristle is.
+/// State of a [`Bristle`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionState<A: Arithmetic = Float> {
     /// d, m, in the tangent plane.
@@ -129,13 +129,14 @@ impl<A: Magnitudes> Bristle<A> {
         let kept = magnitude.divides(reach).min(leaked);
         state.deflection = (deflection * kept).into();
 
-        // The same length without its inverse, which is known late.
+        // The kept length, from the length alone: the inverse is known later.
         let stretch = (magnitude.length() * leaked).min(reach) - self.dead_zone;
         let held = self.stiffness * stretch;
         let most = (Quantity::<A, Fraction>::of(0.5) * held).min(limit - held);
         // The deflection lies in the plane: a motion out of it adds nothing.
         let ahead = self.lead * motion.along(deflection, magnitude);
-        // From zero to the limit. Inside the dead zone the stretch is below zero, and so is the sum.
+        // The bounds keep the force from zero to the limit. Inside the dead zone, where the stretch
+        // is below zero, they make it zero.
         let lead = ahead.min(most).max(-held);
         Friction {
             direction: deflection.direction(magnitude),

@@ -1,4 +1,4 @@
-//! The gate: bad samples are held, then lead to the safe state.
+//! The gate: it holds a few bad samples, then enters the safe state.
 //!
 //! A sample is bad when it is stale, not finite or out of reach. Up to `hold_ticks`
 //! bad samples in a row hold the last good one; one more enters the safe state: the
@@ -49,7 +49,7 @@ pub struct Gate<A: Arithmetic = Float> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GateState<A: Arithmetic = Float> {
     position: StoredVector<A, Metre>,
-    /// Bad samples in a row: with more than are held, the next good one starts anew.
+    /// Bad samples in a row. After more than are held, motion starts anew with the next good one.
     bad_in_a_row: u32,
     /// The part of the force that is let through, 0 to 1.
     gain: Quantity<A, Gain>,
@@ -66,7 +66,8 @@ pub struct Gated<A: Arithmetic = Float> {
     pub elapsed_ticks: u32,
     /// The part of the force that is let through, 0 to 1.
     pub gain: Quantity<A, Gain>,
-    /// Held sample, safe state, ramp; for the other stages restart, bad sample and fault.
+    /// What happened: held sample, safe state, ramp. Restart, bad sample and fault are for the
+    /// other stages.
     pub flags: Flags,
 }
 
@@ -84,7 +85,7 @@ impl<A: Arithmetic> Default for GateState<A> {
 }
 
 impl<A: Arithmetic> GateState<A> {
-    /// Before the first sample, which is let through without a ramp.
+    /// The state before the first sample, which is let through without a ramp.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -116,10 +117,11 @@ impl<A: Positions> Gate<A> {
     #[inline]
     pub fn step(&self, state: &mut GateState<A>, sample: &Sample<A>) -> Gated<A> {
         let position = Vector::load(sample.position_m);
-        // A stale sample counts as far too late.
+        // 0 wraps to the largest number, so a stale sample counts as far too late.
         let missed = sample.elapsed_ticks.wrapping_sub(1);
         let within = position.is_within(A::REACH_M);
-        // The union is no less than either; at worst, a regular sample takes the longer way.
+        // The bits of both are no less than either number. At worst a regular sample takes the
+        // longer way.
         if missed | state.bad_in_a_row > self.hold_ticks || !within {
             return self.irregular(state, sample, within);
         }
@@ -136,12 +138,12 @@ impl<A: Positions> Gate<A> {
         }
     }
 
-    /// The force comes back by one step.
+    /// Raises the gain by one step of the ramp.
     #[inline(always)]
     fn ramp(&self, state: &mut GateState<A>) -> Flags {
         let whole = Quantity::whole(1);
         if state.gain < whole {
-            // Both are at most 1.
+            // Both are at most 1, so the sum is in range.
             state.gain = state.gain + self.ramp;
             if state.gain < whole {
                 return Flags::RAMPING;
@@ -151,7 +153,7 @@ impl<A: Positions> Gate<A> {
         Flags::NONE
     }
 
-    /// A bad sample, one after missed periods, or the first one.
+    /// Takes a bad sample, a sample after missed periods, or the first one.
     #[inline(always)]
     fn irregular(&self, state: &mut GateState<A>, sample: &Sample<A>, within: bool) -> Gated<A> {
         let fresh = state.bad_in_a_row > self.hold_ticks;
@@ -191,7 +193,7 @@ impl<A: Positions> Gate<A> {
         }
     }
 
-    /// The safe state begins.
+    /// Begins the safe state.
     #[inline(always)]
     fn fault(&self, state: &mut GateState<A>) -> Flags {
         state.gain = Quantity::ZERO;

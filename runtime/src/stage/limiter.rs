@@ -18,16 +18,16 @@ use fixed::FixedI32;
 
 /// Shortening a vector.
 pub trait Shortening: Magnitudes {
-    /// Forces stay so far within their limits, N, that the rounding of two steps exceeds none.
+    /// Forces stay this far within their limits, N, so that the rounding of two steps exceeds none.
     const ROUNDING_N: f32;
 
     /// The square of a length.
     fn square_of<F: Point>(length: Self::Scalar<F>) -> Self::Square;
 
-    /// Whether a square is that of a number.
+    /// Whether a square is a number of a plausible size.
     fn is_sane(square: Self::Square) -> bool;
 
-    /// `reach` over the root of a square that is not smaller.
+    /// `reach` over the root of `square`, which is no smaller.
     fn over_root<F: Point>(
         reach: Self::Scalar<F>,
         square: Self::Square,
@@ -70,7 +70,7 @@ impl Shortening for Fixed {
 
     #[inline(always)]
     fn over_root<F: Point>(reach: FixedI32<F>, square: u64) -> FixedI32<<Fraction as Unit>::Point> {
-        // The length itself is not asked for: it is not below the reach.
+        // The length itself is not needed: the caller knows that it is no shorter than the reach.
         Self::magnitude(square).under(reach).min(FixedI32::ONE)
     }
 }
@@ -82,7 +82,7 @@ pub struct Limiter<A: Shortening = Float> {
     step: Bound<A>,
 }
 
-/// A length that rounding does not exceed, and the square of the length.
+/// A limit: the length to shorten to, which rounding does not exceed, and the square of the limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Bound<A: Shortening> {
     longest: Quantity<A, Newton>,
@@ -100,7 +100,8 @@ impl<A: Shortening> Bound<A> {
         }
     }
 
-    /// A vector no longer than the bound, and a flag where it was longer; none for an error.
+    /// Shortens a vector to the bound, with the flag `longer` where it was longer. A vector that is
+    /// not finite becomes zero.
     #[inline(always)]
     fn shorten(&self, v: Vector<A, Newton>, longer: Flags) -> (Vector<A, Newton>, Flags) {
         let square = v.square();
@@ -116,7 +117,7 @@ impl<A: Shortening> Bound<A> {
 }
 
 impl<A: Shortening> Limiter<A> {
-    /// Limits of a device at a servo rate.
+    /// The limiter of a device at a servo rate.
     #[must_use]
     pub fn new(limits: &Limits, servo_rate_hz: f32) -> Self {
         Self {
@@ -125,7 +126,7 @@ impl<A: Shortening> Limiter<A> {
         }
     }
 
-    /// From `last` towards `wanted`, both N. Anything that is not finite counts as no force.
+    /// Goes from `last` towards `wanted`, both N. Anything that is not finite counts as no force.
     /// [`Flags::PEAK_LIMITED`] and [`Flags::SLEW_LIMITED`] tell what was cut.
     #[inline(always)]
     #[must_use]
@@ -140,7 +141,7 @@ impl<A: Shortening> Limiter<A> {
             return (target, peak);
         }
         let (step, slew) = self.step.shorten(way, Flags::SLEW_LIMITED);
-        // Both ends lie in the ball of the peak, so does what lies between, up to rounding.
+        // Both ends are within the peak, so every point between them is, up to rounding.
         let next = last + step;
         let next = if A::ROUNDING_N > 0.0 {
             self.peak.shorten(next, Flags::NONE).0

@@ -1,7 +1,7 @@
 //! The stages of a tick, each with its equation, its bound and one `step`, which the tick calls.
 //!
 //! A stage is a configuration, which does not change, and a small state, which does:
-//! `configuration.step(&mut state, …)`. A `step` is infallible and takes nearly the same time
+//! `configuration.step(&mut state, …)`. A `step` cannot fail and takes nearly the same time
 //! whatever its input.
 
 pub mod contact;

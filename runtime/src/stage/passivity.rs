@@ -30,14 +30,14 @@ use crate::{
 pub struct Passivity<A: Arithmetic = Float> {
     /// The damping that may be rendered without any stiffness, N·s/m.
     damping: Quantity<A, NewtonSecondPerMetre>,
-    /// What a unit of stiffness takes of it, s.
+    /// The part of that damping that a unit of stiffness takes, s.
     stiffness_cost: Quantity<A, Second>,
     /// The largest stiffness, N/m.
     stiffest: Quantity<A, NewtonPerMetre>,
 }
 
 impl<A: Arithmetic> Passivity<A> {
-    /// Of a device in a loop at `rate_hz`.
+    /// The bound of a device in a loop at `rate_hz`.
     #[must_use]
     pub fn new(mechanics: &MechanicsConfig, rate_hz: f32) -> Self {
         let (coulomb_n, step_m) = (mechanics.coulomb_n, mechanics.position_step_m);

@@ -6,7 +6,7 @@
 //! [`VIB_LIMIT_M_S2`]; a verified texture stays far below.
 //!
 //! Past inputs and outputs stand in a window that moves on only every fourth sample, by a block of
-//! four; between, the newest go before the others.
+//! four. Between these moves, the newest numbers are written in front of the others.
 
 use crate::{
     arithmetic::{
@@ -26,7 +26,7 @@ use fixed::{FixedI32, types::extra::Unsigned as _};
 
 /// |y| never exceeds this in floats, m/s².
 pub const VIB_LIMIT_M_S2: f32 = <Float as InnerProduct>::VIB_LIMIT_M_S2;
-/// As many as the lags, and room for three new numbers: all move on only with the fourth.
+/// Room for every lag and for three new numbers. The fourth new number moves all of them.
 const WINDOW: usize = MAX_ORDER + LANES - 1;
 
 /// Sums of products of coefficients and samples.
@@ -36,7 +36,7 @@ pub trait InnerProduct: Arithmetic {
 
     /// |y| never exceeds this, m/s²; a verified texture stays far below.
     const VIB_LIMIT_M_S2: f32;
-    /// Less than this is silence, m/s², so that no denormal slows a tick.
+    /// Anything smaller is silence, m/s², so that no denormal slows a tick.
     const SILENCE_M_S2: f32;
 
     /// A sum that begins with a sample.
@@ -84,8 +84,8 @@ impl InnerProduct for Float {
     }
 }
 
-/// Whether an output is neither too small to matter, nor too large, nor NaN. Bits of positive
-/// numbers are in their order.
+/// Whether an output is neither too small to matter, nor too large, nor NaN. The bits of positive
+/// floats are in the order of the floats.
 #[inline(always)]
 fn is_usual(raw: f32) -> bool {
     const LEAST: u32 = Float::SILENCE_M_S2.to_bits();
@@ -93,7 +93,7 @@ fn is_usual(raw: f32) -> bool {
     raw.abs().to_bits().wrapping_sub(LEAST) <= SPAN
 }
 
-/// An output too small to matter, too large, or NaN, which becomes silence.
+/// Bounds an output that is too small to matter, too large, or NaN. NaN becomes silence.
 fn bound(raw: f32) -> (f32, bool) {
     if raw.abs() < Float::SILENCE_M_S2 {
         (0.0, false)
@@ -145,14 +145,14 @@ pub(crate) struct History<A: Arithmetic> {
     y: Window<A>,
 }
 
-/// Numbers in order of age, the newest at `at` of the first four.
+/// Numbers in order of age. The newest stands among the first four, at index `at`.
 #[derive(Debug, Clone, PartialEq)]
 struct Window<A: Arithmetic>([Raw<A, VibrationAcceleration>; WINDOW]);
 
 impl<A: InnerProduct> Window<A> {
     const ZERO: Self = Self([A::Scalar::ZERO; WINDOW]);
 
-    /// All move on by a block, the last of them out.
+    /// Moves all numbers on by a block. The last ones fall out.
     #[inline(always)]
     fn shift(&mut self, blocks: usize) {
         let kept = (blocks * LANES).min(WINDOW - LANES);
@@ -160,7 +160,7 @@ impl<A: InnerProduct> Window<A> {
             self.0.copy_within(..kept, LANES);
             return;
         }
-        // Elsewhere a copy by itself is a call.
+        // Elsewhere such a copy would be a call of a function.
         for block in (0..blocks.min(BLOCKS)).rev() {
             let Some((before, after)) = self.0.split_at_mut_checked((block + 1) * LANES) else {
                 continue;
@@ -180,8 +180,8 @@ impl<A: InnerProduct> Window<A> {
     }
 }
 
-/// Length and kind of a recursion: 0..=5 for one to six blocks of four lags, those of the longer
-/// one of A(z) and B(z), 6..=9 for three to six where B(z) has more than its first lag.
+/// Length and kind of a recursion. 0..=5 are one to six blocks of four lags, as many as the longer
+/// one of A(z) and B(z) has. 6..=9 are three to six blocks where B(z) has more than its first lag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Recursion(u8);
 
@@ -189,7 +189,7 @@ pub struct Recursion(u8);
 const FEWEST_WITH_MA: usize = 3;
 
 impl Recursion {
-    /// As many as the orders need; orders are at most 24.
+    /// The shortest recursion for these orders, which are at most 24.
     #[must_use]
     pub const fn new(ar_order: usize, ma_order: usize) -> Self {
         let longer = if ar_order > ma_order {
@@ -238,10 +238,10 @@ impl<A: InnerProduct> History<A> {
         Quantity(self.y.0[usize::from(newest) % LANES])
     }
 
-    /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags
-    /// 1.., zero above the order. With `sounding` false the model is mute, and with `e` zero its
-    /// history fades out within 24 samples. `newest` says where the newest of the history stand; 0
-    /// to begin with. Returns y, m/s², and whether it had to be clamped.
+    /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags 1..,
+    /// zero above the order. With `sounding` false the model is mute, and with `e` zero its history
+    /// fades out within 24 samples. `newest` says where the newest numbers of the history stand; it
+    /// begins with 0. Returns y, m/s², and whether it had to be clamped.
     #[inline(always)]
     pub(crate) fn step(
         &mut self,
@@ -254,7 +254,7 @@ impl<A: InnerProduct> History<A> {
     ) -> Sounded<A> {
         let at = usize::from(*newest) % LANES;
         *newest = before(at) as u8;
-        // Constant in each arm, so that no sum is a loop.
+        // The length is a constant in each arm, so that no sum is a loop.
         match recursion.0 {
             0 => self.ar(1, a, b, at, e, sounding),
             1 => self.ar(2, a, b, at, e, sounding),
@@ -269,8 +269,8 @@ impl<A: InnerProduct> History<A> {
         }
     }
 
-    /// [`History::step`] in loops, with a numerator that may be zero beyond its first lag: the
-    /// same bits in a tenth of the code.
+    /// [`History::step`] in loops, with a numerator that may be zero beyond its first lag. It gives
+    /// the same bits and takes a tenth of the code.
     #[inline(always)]
     pub(crate) fn step_in_loops(
         &mut self,
@@ -286,7 +286,8 @@ impl<A: InnerProduct> History<A> {
         self.arma(recursion.blocks(), a, b, at, e, sounding)
     }
 
-    /// Both sums over `blocks` blocks of lags; the newest of the past stand at `at`.
+    /// The recursion with a full numerator: both sums run over `blocks` blocks of lags. The newest
+    /// past numbers stand at `at`.
     #[inline(always)]
     fn arma(
         &mut self,
@@ -307,7 +308,7 @@ impl<A: InnerProduct> History<A> {
         sounded
     }
 
-    /// With a numerator of one lag.
+    /// The recursion with a numerator of one lag.
     #[inline(always)]
     fn ar(
         &mut self,
@@ -329,7 +330,7 @@ impl<A: InnerProduct> History<A> {
         sounded
     }
 
-    /// The output from what the numerator gives.
+    /// The output, from the sum of the numerator.
     #[inline(always)]
     fn recurse(
         &self,
@@ -348,7 +349,8 @@ impl<A: InnerProduct> History<A> {
         }
     }
 
-    /// The newest enter before `at`, in a circle: at the start, all others have moved.
+    /// Writes the newest numbers before `at`, in a circle. At 0 all others have moved on to make
+    /// room.
     #[inline(always)]
     fn push(
         &mut self,

@@ -1,12 +1,12 @@
 //! Upsampling: samples of the models to ticks of a faster servo loop.
 //!
-//! A model keeps its clock whatever the servo rate: in one of `ticks` ticks a sample y\[n\]
-//! enters, in the others nothing, and a low-pass keeps the band of the model and takes out its
-//! images. It is an elliptic one of order 7: flat within 0.03 dB up to 0.45 of the models' rate
-//! (450 Hz at 1 kHz), whose images begin at 0.55: each at least 47 dB down, all of white noise
-//! together 40 dB. In between, 500 Hz is 10 dB down or more. Its group delay at models of 1 kHz
-//! is 1.2 ms up to 100 Hz, 1.6 ms at 250 Hz and 3.2 ms at 400 Hz; a linear phase would take
-//! 8 ms everywhere.
+//! A model keeps its clock whatever the servo rate: in one of `ticks` ticks a sample y\[n\] enters,
+//! in the others zero. A low-pass keeps the band of the model and takes out its images. It is an
+//! elliptic one of order 7: flat within 0.03 dB up to 0.45 of the models' rate (450 Hz at 1 kHz),
+//! whose images begin at 0.55. Each image is at least 47 dB down; those of white noise are 40 dB
+//! down together. Halfway, at 500 Hz, it is 10 dB down or more. Its group delay at models of 1 kHz
+//! is 1.2 ms up to 100 Hz, 1.6 ms at 250 Hz and 3.2 ms at 400 Hz; a linear phase would take 8 ms
+//! everywhere.
 //!
 //! It runs as parallel sections, a pole each, which are mapped to the servo rate in closed form
 //! (bilinear transform, exact at 0.45 of the models' rate): `r/(s − p)` becomes
@@ -24,7 +24,7 @@ use crate::{
     },
 };
 
-/// What the low-pass holds and gives stays within this, m/s², where numbers have a range.
+/// State and output of the low-pass stay within this, m/s², where numbers have a range.
 const LOUDEST_M_S2: f32 = 16_000.0;
 
 /// Ticks that a sample of the models may last, at most.
@@ -33,9 +33,9 @@ pub(crate) const MAX_TICKS: u8 = 20;
 /// Edge of the pass band, in rates of the models.
 const EDGE: f32 = 0.45;
 
-/// Poles with Im ≥ 0 (rad per rad/s of pass edge) and residues of the prototype with unit gain
-/// at DC: `scipy.signal.ellipap(7, 0.03, 48)`, `scipy.signal.residue`. A residue with Im ≠ 0 is
-/// twice its own: it stands for its conjugate, too.
+/// Poles with Im ≥ 0 (rad per rad/s of pass edge) and residues of the prototype with unit gain at
+/// DC: `scipy.signal.ellipap(7, 0.03, 48)`, `scipy.signal.residue`. A residue with Im ≠ 0 is
+/// doubled, because it stands for its conjugate, too.
 const POLES: Complex4 = Complex4 {
     re: F4::load(&[-0.050_934_15, -0.199_106_64, -0.459_981_78, -0.650_048_8]),
     im: F4::load(&[1.045_041_2, 0.958_225_7, 0.664_057_6, 0.0]),
@@ -59,13 +59,13 @@ pub(crate) struct Upsampler<A: Arithmetic> {
     /// Real and imaginary parts.
     poles: [Four<A, Fraction>; 2],
     residues: [Four<A, Residue>; 2],
-    /// What a sample gives at once.
+    /// The gain from a sample to the output of its own tick.
     direct: Quantity<A, Residue>,
     ticks: u8,
 }
 
 impl<A: InnerProduct> Upsampler<A> {
-    /// For models that run at the servo rate.
+    /// No low-pass, for models that run at the servo rate.
     pub(crate) const NONE: Self = Self {
         poles: [Four::ZERO; 2],
         residues: [Four::ZERO; 2],
@@ -73,7 +73,7 @@ impl<A: InnerProduct> Upsampler<A> {
         ticks: 1,
     };
 
-    /// For models a sample of which lasts 2 to [`MAX_TICKS`] ticks.
+    /// The low-pass for models whose samples last 2 to [`MAX_TICKS`] ticks.
     pub(crate) fn new(ticks: u8) -> Self {
         if ticks < 2 {
             return Self::NONE;
@@ -103,7 +103,7 @@ impl<A: InnerProduct> Upsampler<A> {
         }
     }
 
-    /// Ticks a sample of the models.
+    /// Ticks that a sample of the models lasts.
     #[inline(always)]
     pub(crate) const fn ticks(&self) -> u8 {
         self.ticks
@@ -138,11 +138,11 @@ impl<A: InnerProduct> Upsampler<A> {
     }
 }
 
-/// What a low-pass holds: a complex number a pole, real and imaginary parts, m/s².
+/// State of a low-pass: one complex number for each pole, m/s².
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Held<A: Arithmetic> {
     re: [Raw<A, VibrationAcceleration>; 4],
-    /// That of the last pole, which is real, is zero.
+    /// The last pole is real, so its imaginary part is zero.
     im: [Raw<A, VibrationAcceleration>; 3],
 }
 
@@ -167,7 +167,7 @@ impl<A: InnerProduct> Held<A> {
         [Four::load(&self.re), im]
     }
 
-    /// Ends what no one feels, so that no denormal slows a tick.
+    /// Clears a state that nobody feels, so that no denormal slows a tick.
     #[inline(always)]
     pub(crate) fn settle(&mut self) {
         let [re, im] = self.lanes();

@@ -30,7 +30,7 @@ const FASTEST_M_S: f32 = 16.0;
 
 /// The difference of positions times a rate.
 pub trait Differences: Magnitudes {
-    /// a·b in each lane, each at most that of `limits` in size where numbers have a range.
+    /// a·b in each lane, cut at the same lane of `limits` where numbers have a range.
     fn scaled_within<F: Point, G: Point, H: Point>(
         a: Self::Four<F>,
         b: Self::Four<G>,
@@ -62,7 +62,7 @@ impl Differences for Fixed {
 /// The low-passes, prepared for a servo rate.
 #[derive(Debug, Clone, Copy)]
 pub struct VelocityEstimator<A: Arithmetic = Float> {
-    /// b0 periods per second over 0 (never), 1, 2 and 3 elapsed ones.
+    /// b0·rate/n for n = 1, 2 and 3 elapsed periods. Entry 0 is never used.
     gains: [Four<A, Hertz>; 4],
     /// The largest u, m/s, where numbers have a range.
     largest: Four<A, MetrePerSecond>,

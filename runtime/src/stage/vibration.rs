@@ -1,12 +1,11 @@
 //! The vibration y\[n\]: the model at work, driven by noise.
 //!
-//! `y[n] = Σ a_k(F_n, v_t) y[n−k] + ε[n]` of the paper: a [`Follower`] makes the model in slices,
-//! [`Excitation`] draws ε, the [recursion](super::recursion) gives y. Where the servo loop is
-//! faster than the models, a sample of theirs comes in one of several ticks, and an
-//! [upsampler](super::upsample) gives the ticks between.
+//! `y[n] = Σ a_k(F_n, v_t) y[n−k] + ε[n]` of the paper: the follower in `update/` makes the model
+//! in slices, [`Excitation`] draws ε, the [recursion](super::recursion) gives y. Where the servo
+//! loop is faster than the models, a sample of theirs comes in one of several ticks, and the
+//! upsampler (`upsample.rs`) gives the ticks between.
 //!
-//! A contact is silent until a query that was taken in it takes effect
-//! ([onset](crate::update::onset)).
+//! A contact is silent until a query that was taken in it takes effect (`update/onset.rs`).
 
 use super::{
     excitation::{Excitation, GaussianCubic},
@@ -41,17 +40,17 @@ pub struct Vibration<A: InnerProduct = Float> {
     /// The model at work.
     model: Model<A>,
     history: History<A>,
-    /// What the upsampler holds.
+    /// State of the upsampler.
     held: Held<A>,
     excitation: Excitation,
     texture: u32,
     onset: Onset,
-    /// Where the newest of the history stand, 0..=3.
+    /// Where the newest numbers of the history stand, 0..=3.
     newest: u8,
 }
 
 impl<A: InnerProduct> Vibration<A> {
-    /// Silence; the seed is that of the excitation.
+    /// Silence. `seed` seeds the excitation.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
@@ -66,12 +65,12 @@ impl<A: InnerProduct> Vibration<A> {
         }
     }
 
-    /// The contact ends, and what was heard of it.
+    /// Ends the contact and its sound.
     pub(crate) fn silence(&mut self) {
         self.history = History::SILENT;
         self.held = Held::SILENT;
         self.leave();
-        // A query of this tick follows.
+        // The query of this tick is still to come.
         if self.takes_query() {
             self.onset.begin_cycle();
         }
@@ -83,7 +82,7 @@ impl<A: InnerProduct> Vibration<A> {
         self.onset = Onset::Left;
     }
 
-    /// Another texture: a cycle begun on one is not finished on the other.
+    /// Changes to another texture. A cycle that began on one is not finished on the other.
     #[cold]
     pub(crate) fn change_texture(&mut self, texture: u32) {
         // A new state has nothing to forget.
@@ -97,7 +96,8 @@ impl<A: InnerProduct> Vibration<A> {
         self.onset.begin_cycle();
     }
 
-    /// Another texture in a scene: what is at work stays until the first cycle ends.
+    /// Begins another texture. The model at work stays until the first cycle of the new texture
+    /// ends.
     #[cold]
     pub(crate) fn begin(&mut self, texture: u32, cycle: Cycle) {
         self.texture = texture;
@@ -111,7 +111,7 @@ impl<A: InnerProduct> Vibration<A> {
         self.follower.finishes(plan)
     }
 
-    /// Stops what is at work. Returns its last sample, m/s².
+    /// Stops the model at work. Returns its last sample, m/s².
     #[cold]
     pub(crate) fn stop(&mut self) -> Quantity<A, VibrationAcceleration> {
         let last = self.history.last(self.newest);
@@ -137,9 +137,9 @@ impl<A: InnerProduct> Vibration<A> {
 }
 
 impl<A: WeightSearch + BlockMixture + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
-    /// One tick by itself: [`Vibration::prepare`], [`Vibration::sound`] and, where it is due,
-    /// [`Vibration::query`]. The line spectrum goes a `fraction` of its way in a cycle
-    /// ([`Texture::cycle_samples`]); with `sounding` false the vibration is mute.
+    /// One tick by itself: the slice of the cycle, the output and, where it is due, the query. The
+    /// line spectrum goes a `fraction` of its way in a cycle ([`Texture::cycle_samples`]); with
+    /// `sounding` false the vibration is mute.
     #[inline]
     pub fn step<S: Capacity>(
         &mut self,
@@ -158,7 +158,7 @@ impl<A: WeightSearch + BlockMixture + SectionProduct + GaussianCubic + InnerProd
         sounded
     }
 
-    /// Begins a tick on the texture of [`Vibration::is_on`]: its slice of the cycle.
+    /// Begins a tick on the texture of [`Vibration::is_on`]: does its slice of the cycle.
     #[inline(always)]
     pub(crate) fn prepare<S: Capacity>(
         &mut self,
@@ -170,7 +170,7 @@ impl<A: WeightSearch + BlockMixture + SectionProduct + GaussianCubic + InnerProd
             .step(&texture.models, &texture.plan, fraction, onset, model);
     }
 
-    /// The next output; `recursion` and `upsampler` are those of the texture at work.
+    /// The next output; `recursion` and `upsampler` belong to the texture at work.
     #[inline(always)]
     pub(crate) fn sound(
         &mut self,
@@ -191,7 +191,7 @@ impl<A: WeightSearch + BlockMixture + SectionProduct + GaussianCubic + InnerProd
     }
 
     /// [`Vibration::sound`] where the models are slower than the servo loop. With `sounding` false
-    /// nothing is left of what the upsampler holds.
+    /// the upsampler is emptied.
     #[inline(never)]
     fn sound_between(
         &mut self,

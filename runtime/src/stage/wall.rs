@@ -12,9 +12,9 @@ use crate::{
     },
 };
 
-/// What is left of a spring's force.
+/// The difference of a spring's force and a damper's.
 pub trait Pushing: Arithmetic {
-    /// a − b, not below zero; zero where a is.
+    /// a − b, but never below zero, and zero where a is zero.
     fn left_of(a: Raw<Self, Newton>, b: Raw<Self, Newton>) -> Raw<Self, Newton>;
 }
 
@@ -28,7 +28,7 @@ impl Pushing for Float {
 impl Pushing for Fixed {
     #[inline(always)]
     fn left_of(a: Raw<Self, Newton>, b: Raw<Self, Newton>) -> Raw<Self, Newton> {
-        // Products are dear here: b is made in any case, so that a tick always costs the same.
+        // Products cost much here. So b is computed in any case, and a tick always costs the same.
         let zero = Raw::<Self, Newton>::ZERO;
         let left = (a - b).max(zero);
         if a > zero { left } else { zero }

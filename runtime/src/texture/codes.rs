@@ -1,4 +1,4 @@
-//! From the codes of a model's LSFs to the −2 cos ω that a tick mixes.
+//! Converts the codes of a model's LSFs to the −2 cos ω that a tick mixes.
 
 use crate::{
     arithmetic::{Arithmetic, Scalar as _},
@@ -13,7 +13,7 @@ use asperity_formats::{LsfCode, limits::MAX_ORDER};
 const SIDE_BY_SIDE: usize = if F4::IN_REGISTERS { 3 } else { 1 };
 
 /// −2 cos ω of a model, in the order of [`place`]; the rest is 0. Four places take two codes from
-/// either end; those that are left in the middle come last.
+/// either end; the codes left in the middle come last.
 pub(super) fn to_cosines<A: Arithmetic>(row: &mut [Raw<A, LineCosine>], codes: &[[u8; 2]]) {
     let order = codes.len();
     let front = codes.as_chunks::<2>().0;

@@ -1,4 +1,4 @@
-//! From a validated asset to a slot.
+//! Prepares a validated asset in a slot.
 
 use super::{Texture, codes::to_cosines};
 use crate::{
@@ -48,7 +48,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
             }
         }
         A::check_asset(asset)?;
-        // The checksums of all that is loaded, and how it is clocked.
+        // The checksums of all that is loaded, and the clock.
         self.id = asset.sections().fold(ticks.into(), |id: u32, section| {
             id.rotate_left(5) ^ section.crc32
         });

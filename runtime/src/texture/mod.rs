@@ -42,7 +42,8 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
     servo_rate_hz: f32,
 }
 
-/// A slot for any texture. 33 KiB, better boxed or static than on a stack.
+/// A slot for any texture. It takes 33 KiB, so box it or make it static rather than put it on a
+/// stack.
 pub type HostTexture = Texture<HostCapacities>;
 
 impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct> Default
@@ -148,7 +149,7 @@ impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct
         self.recursion
     }
 
-    /// From samples of the models to ticks.
+    /// The low-pass from samples of the models to ticks.
     #[inline]
     pub(crate) const fn upsampler(&self) -> &Upsampler<A> {
         &self.upsampler

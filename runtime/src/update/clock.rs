@@ -1,14 +1,14 @@
-//! Models slower than the servo loop: their clock, in ticks.
+//! The clock of models that are slower than the servo loop, in ticks.
 //!
-//! A model steps in one tick of several, always the same number of them; its samples are those
-//! of a servo loop at its own rate. A cycle lasts as many samples as it has ticks there: the query
-//! is taken in the last tick before the second sample, and takes effect with the sample in whose
-//! place it would there, so that a change is heard after at most as many samples, whatever the
-//! servo rate. Slices of the work fall into ticks without a sample.
+//! A model has a sample in one of several ticks, always the same number of them. Its samples are
+//! those of a servo loop at its own rate, and a cycle lasts as many samples as it lasts ticks in
+//! that loop. The query is taken in the last tick before the second sample, and takes effect with
+//! the same sample as it does there. So a change is heard after the same number of samples at most,
+//! whatever the servo rate. Slices of the work fall into ticks without a sample.
 
 use super::cycle::Cycle;
 
-/// Ticks after a sample that do a slice, at most.
+/// At most this many ticks after a sample do a slice.
 const WORKING_TICKS: u8 = 3;
 
 /// Slices of a cycle at so many ticks a sample: one with the query, the others between samples.
@@ -19,8 +19,8 @@ pub(crate) const fn slices_of_cycle(ticks: u8, cycle: Cycle) -> usize {
     }
 }
 
-/// Samples of a cycle after which work is done: all between that of the query and that of the
-/// effect.
+/// Samples of a cycle after which work is done: all between the sample of the query and the sample
+/// of its effect.
 const fn working_samples(cycle: Cycle) -> u8 {
     cycle.working() - 2
 }

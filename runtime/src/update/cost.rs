@@ -1,7 +1,7 @@
 //! What the work of a cycle costs, and where it is cut into slices.
 //!
 //! The work is a fixed list of items: blocks of triangles to look at, the mixture, section pairs to
-//! multiply in. Each goes to the tick under way or to the next one, such that the dearest tick
+//! multiply in. Each goes to the tick under way or to the next one, so that the costliest tick
 //! costs least.
 
 use crate::model::orders::Orders;
@@ -20,7 +20,7 @@ pub(super) struct Costs {
     assembly_four: usize,
 }
 
-/// On x86-64.
+/// Costs on x86-64.
 pub(super) const IN_REGISTERS: Costs = Costs {
     begin: 40,
     block: 33,
@@ -30,7 +30,7 @@ pub(super) const IN_REGISTERS: Costs = Costs {
     coefficient: 10,
     assembly_four: 37,
 };
-/// On a Cortex-M4F, where four lanes are four numbers.
+/// Costs on a Cortex-M4F, where four lanes are four numbers.
 pub(super) const ONE_BY_ONE: Costs = Costs {
     begin: 110,
     block: 145,
@@ -40,18 +40,18 @@ pub(super) const ONE_BY_ONE: Costs = Costs {
     coefficient: 14,
     assembly_four: 50,
 };
-/// No slice costs more there, where that can be: a tick of order 20 with an MA part then takes
-/// some 1,400 instructions.
+/// No slice costs more on a Cortex-M4F, as far as cuts allow it. A tick of order 20 with an MA part
+/// then takes less than 1,600 instructions.
 pub(super) const DEAREST: usize = 640;
 
-/// Work in order, and what each item of it costs.
+/// The items of work in order, and their costs.
 pub(super) struct Items {
     costs: Costs,
     blocks: usize,
     mix: usize,
     parts: usize,
     parts_of_pair: usize,
-    /// What the last tick does in any case.
+    /// The cost of what the last tick does in any case.
     assembly: usize,
 }
 
@@ -89,10 +89,10 @@ impl Items {
         }
     }
 
-    /// What the dearest tick has to be allowed, and what those after the blocks have to be, within
-    /// [`STEP`].
+    /// The limits of the best cut, within [`STEP`]: for the costliest tick, and for the ticks after
+    /// the blocks.
     pub(super) fn limits(&self, ticks: usize) -> Limits {
-        // Less than the mean or the dearest item will not do.
+        // No limit below the mean or below the costliest item will do.
         let (mut total, mut dearest) = (self.costs.begin + self.assembly, self.assembly);
         let mut dearest_later = dearest;
         for item in 0..self.count() {
@@ -105,7 +105,7 @@ impl Items {
         let any = self.least(dearest.max(total / ticks), |limit| {
             self.cut(ticks, Limits::of_all(limit), |_, _| ())
         });
-        // A search seldom looks at all of its blocks: then these are the dearest.
+        // A search seldom looks at all of its blocks. The ticks after them are then the costliest.
         let later = self.least(dearest_later, |later| {
             self.cut(ticks, Limits { any, later }, |_, _| ())
         });
@@ -156,9 +156,9 @@ impl Items {
 /// What a tick may cost.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
-    /// Any of them.
+    /// The limit of any tick.
     any: usize,
-    /// One that mixes, multiplies or assembles.
+    /// The limit of a tick that mixes, multiplies or assembles.
     later: usize,
 }
 
@@ -171,7 +171,7 @@ impl Limits {
     }
 }
 
-/// Limits are tried so far apart, in instructions.
+/// Distance between the limits that are tried, in instructions.
 const STEP: usize = 16;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The model under way, and its line spectrum that follows.
+//! The model under way, and the line spectrum that follows speed and force.
 
 use super::{
     clock::{Clock, slices_of_cycle},
@@ -35,14 +35,14 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Of a slot that was never loaded.
+    /// The plan of a slot that was never loaded.
     pub(crate) const NONE: Self = Self {
         cycle: Cycle::SLOWEST,
         slices: Slices::NONE,
         ticks_per_sample: 1,
     };
 
-    /// Of these models, at so many ticks a sample.
+    /// The plan for these models, at this many ticks a sample.
     pub(crate) fn new<S: Capacity, A: WeightSearch>(
         models: &Models<S, A>,
         ticks_per_sample: u8,
@@ -50,7 +50,7 @@ impl Plan {
         let (blocks, orders) = (models.grid.blocks(), &models.orders);
         let cycle = cycle(blocks, orders);
         let count = slices_of_cycle(ticks_per_sample, cycle);
-        // Rows are mixed as a whole.
+        // Rows are mixed over the whole capacity of the slot.
         let fours = S::AR_ORDER / 4 + if orders.ma() > 0 { S::MA_ORDER / 4 } else { 0 };
         Self {
             cycle,
@@ -82,7 +82,7 @@ pub(crate) fn fraction_after(time: f32, constant: f32) -> f32 {
 pub(crate) struct Following<A: Arithmetic>([[Quantity<A, Fraction>; Cycle::KINDS]; 32]);
 
 impl<A: Arithmetic> Following<A> {
-    /// With a time constant in ticks.
+    /// The fractions for a time constant in ticks.
     pub(crate) fn new(constant_ticks: f32) -> Self {
         Self(core::array::from_fn(|per_sample| {
             let mut fractions = [Quantity::ZERO; Cycle::KINDS];
@@ -95,14 +95,14 @@ impl<A: Arithmetic> Following<A> {
         }))
     }
 
-    /// Of a plan.
+    /// The fraction for a plan.
     #[inline(always)]
     pub(crate) fn of(&self, plan: &Plan) -> Quantity<A, Fraction> {
         self.0[usize::from(plan.ticks_per_sample % 32)][plan.cycle.kind()]
     }
 }
 
-/// What follows speed and force: a model under way.
+/// State of the work on the model under way.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Follower<A: Arithmetic> {
     /// The search, then the conversion under way.
@@ -128,7 +128,7 @@ impl<A: Arithmetic> Follower<A> {
         block: 0,
     };
 
-    /// Another texture, from which nothing is left.
+    /// Starts over with another texture. With `forget`, the old line spectrum is dropped.
     pub(crate) fn restart(&mut self, forget: bool) {
         if forget {
             self.spectrum = LineSpectrum::ZERO;
@@ -137,7 +137,7 @@ impl<A: Arithmetic> Follower<A> {
         self.clock = Clock::START;
     }
 
-    /// Another texture while the model before is still at work; the clock goes on.
+    /// Starts over with another texture while the old model is still at work. The clock goes on.
     pub(crate) fn begin(&mut self, cycle: Cycle) {
         self.spectrum = LineSpectrum::ZERO;
         self.next_level = Quantity::ZERO;
@@ -172,7 +172,7 @@ impl<A: Arithmetic> Follower<A> {
 }
 
 impl<A: WeightSearch + BlockMixture + SectionProduct> Follower<A> {
-    /// Begins a tick: its slice of the cycle, where that is not the first one. The line spectrum
+    /// Begins a tick: does its slice of the cycle, unless that is the first one. The line spectrum
     /// goes a `fraction` of its way in a cycle.
     #[inline(always)]
     pub(crate) fn step<S: Capacity>(
@@ -212,7 +212,7 @@ impl<A: WeightSearch + BlockMixture + SectionProduct> Follower<A> {
     ) {
         let (ticks, cycle) = (plan.ticks_per_sample, plan.cycle);
         self.clock.advance(ticks, cycle);
-        // To the rest of a tick a phase of 0 is the query's.
+        // A phase of 0 tells the rest of the tick to take a query.
         self.phase = u8::from(!self.clock.is_query(ticks));
         if self.takes_query() {
             onset.begin_cycle();
@@ -225,7 +225,7 @@ impl<A: WeightSearch + BlockMixture + SectionProduct> Follower<A> {
         }
     }
 
-    /// Ends a tick that takes a query, with the first slice of a cycle.
+    /// Ends a tick that takes a query: does the first slice of a cycle.
     #[inline(never)]
     pub(crate) fn query<S: Capacity>(
         &mut self,
@@ -241,7 +241,7 @@ impl<A: WeightSearch + BlockMixture + SectionProduct> Follower<A> {
         self.phase = 1;
     }
 
-    /// A slice of the work.
+    /// Does a slice of the work.
     #[inline(always)]
     fn work<S: Capacity>(
         &mut self,
@@ -273,7 +273,7 @@ impl<A: WeightSearch + BlockMixture + SectionProduct> Follower<A> {
         }
     }
 
-    /// Puts what the cycle made to work.
+    /// Puts the model to work that the cycle made.
     #[inline(always)]
     fn finish<S: Capacity>(
         &mut self,

@@ -3,19 +3,19 @@
 //! A contact is silent until a query that was taken in it takes effect, and starts at its own
 //! model. Out of contact the cycles go on, so that a tick always costs the same.
 
-/// What of a cycle was in contact.
+/// How much of a cycle was in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Onset {
     /// Not all of it.
     Left,
-    /// Every tick since its query, that one included.
+    /// Every tick since its query, the query's own tick included.
     Begun,
     /// The same, and the parameters at work belong to this contact.
     Followed,
 }
 
 impl Onset {
-    /// A query is taken.
+    /// Notes that a query is taken.
     #[inline(always)]
     pub(crate) fn begin_cycle(&mut self) {
         if *self == Self::Left {

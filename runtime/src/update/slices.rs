@@ -1,7 +1,7 @@
 //! Which slice of a cycle's work each tick does.
 //!
-//! What comes out does not depend on where the cuts are, but on how many slices a cycle has: that
-//! is the same on every processor ([`cycle`]).
+//! What comes out does not depend on where the cuts are. It depends on how many slices a cycle has,
+//! which is the same on every processor ([`cycle`]).
 
 use super::{
     cost::{DEAREST, IN_REGISTERS, Items, Limits, ONE_BY_ONE},
@@ -46,8 +46,9 @@ impl Slices {
     }
 }
 
-/// The cycle of a texture with `blocks` blocks of triangles to look at: as short a way from query
-/// to effect as leaves no slice dearer on a Cortex-M4F than it may be. The same on every processor.
+/// The cycle of a texture with `blocks` blocks of triangles to look at: the one that answers
+/// soonest among those whose slices cost at most [`DEAREST`] on a Cortex-M4F. It is the same on
+/// every processor.
 pub(crate) fn cycle(blocks: usize, orders: &Orders) -> Cycle {
     let fours = [orders.ar(), orders.ma()].map(|order| order.div_ceil(4));
     let parts = orders.parts_one_by_one();
@@ -60,7 +61,7 @@ pub(crate) fn cycle(blocks: usize, orders: &Orders) -> Cycle {
 }
 
 /// The slices of `blocks` blocks of triangles, a mixture of rows of `fours` fours and the
-/// conversion at these orders, in `ticks` ticks whose dearest one costs as little as can be.
+/// conversion at these orders, in `ticks` ticks, cut so that the costliest one costs least.
 pub(crate) fn slices<A: Arithmetic>(
     blocks: usize,
     fours: usize,

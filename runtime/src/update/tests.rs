@@ -1,4 +1,4 @@
-//! Slices assemble what the whole function gives, bit for bit.
+//! Slices assemble what `model_at` computes at once, bit for bit.
 
 extern crate std;
 

@@ -20,7 +20,7 @@ use crate::{
     },
 };
 
-/// A weight does not fall further outside its triangle.
+/// The farthest that a weight falls outside its triangle.
 const FAR: Cut = Cut::At(FARTHEST_WEIGHT);
 
 /// The triangles of a grid.
@@ -36,7 +36,7 @@ pub(crate) struct Grid<S: Capacity, A: WeightSearch> {
     rows: Rows<S, A>,
 }
 
-/// [`NUMBERS`] a triangle, in blocks of four triangles.
+/// [`NUMBERS`] numbers a triangle, in blocks of four triangles.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
 struct Rows<S: Capacity, A: WeightSearch>(S::Triangles<[Raw<A, Coordinate>; NUMBERS]>);
@@ -71,7 +71,7 @@ impl<S: Capacity, A: WeightSearch> Grid<S, A> {
         let rows = self.rows.0.as_mut().as_flattened_mut();
         let rows = rows.as_chunks_mut::<BLOCK>().0;
         let never = never::<A>();
-        // What is left of earlier triangles is not in any strip.
+        // Rows of an earlier texture may remain, but no strip names them.
         for (block, (corners, rows)) in corners.chunks(LANES).zip(rows).enumerate() {
             *rows = never;
             for (lane, &corners) in corners.iter().enumerate() {
@@ -91,8 +91,8 @@ impl<S: Capacity, A: WeightSearch> Grid<S, A> {
         self.count_blocks(count.div_ceil(LANES));
     }
 
-    /// Takes the triangles in an order that makes neighbours of those that stand together: along
-    /// a Z curve through their centres. Returns how many.
+    /// Sorts the triangles along a Z curve through their centres, so that triangles that stand
+    /// together become neighbours. Returns how many there are.
     fn sort(
         &mut self,
         triangles: &[[u8; 3]],
@@ -140,8 +140,8 @@ impl<S: Capacity, A: WeightSearch> Grid<S, A> {
         self.blocks
     }
 
-    /// Begins a search: for the nearest point of the grid's border where the query lies outside.
-    /// It begins with block `first`, if that is one to look at.
+    /// Begins a search. A query outside the grid is moved to the nearest point of its border. The
+    /// search begins with block `first`, if that is one to look at.
     #[inline]
     pub(crate) fn begin(
         &self,
@@ -160,7 +160,7 @@ impl<S: Capacity, A: WeightSearch> Grid<S, A> {
         }
     }
 
-    /// Looks at up to `blocks` more blocks, until a triangle has the query.
+    /// Looks at up to `blocks` more blocks, until a triangle contains the query.
     #[cfg_attr(target_arch = "arm", inline(never))]
     #[cfg_attr(not(target_arch = "arm"), inline)]
     pub(crate) fn look(&self, search: &mut Search<A>, blocks: usize) {

@@ -3,7 +3,7 @@
 use super::strips::STRIPS;
 use crate::{arithmetic::Zero as _, capacity::Capacity};
 
-/// The place of a field of [`STRIPS`] × [`STRIPS`] on the curve: the bits of both numbers in turn.
+/// The place on the curve of a cell of [`STRIPS`] × [`STRIPS`]: the bits of both numbers in turn.
 pub(super) fn interleaved(x: usize, y: usize) -> u16 {
     /// The bits of a number, each with a zero before it.
     const SPREAD: [u16; STRIPS] = {
@@ -18,9 +18,9 @@ pub(super) fn interleaved(x: usize, y: usize) -> u16 {
     SPREAD[x % STRIPS] | (SPREAD[y % STRIPS] << 1)
 }
 
-/// As many items as there are triangles, fewer than 256, in ascending order of their places; those of one place keep theirs.
-/// By the lower half of a place, then by the upper half: without a comparison no branch is
-/// foreseen wrong.
+/// Sorts as many items as there are triangles, fewer than 256, by their places. Items of one place
+/// keep their order. The sort goes by the lower half of a place, then by the upper half. It
+/// compares nothing, so no branch is mispredicted.
 pub(super) fn sort<I: Copy, S: Capacity>(items: &[I], places: &[u16], sorted: &mut [I]) {
     let places = places.get(..items.len()).unwrap_or(places);
     let mut order = S::Triangles::<u8>::ZERO;
@@ -35,7 +35,7 @@ pub(super) fn sort<I: Copy, S: Capacity>(items: &[I], places: &[u16], sorted: &m
     by_digit(upper, sorted);
 }
 
-/// Items in ascending order of a digit below [`STRIPS`]; those of one digit keep theirs.
+/// Sorts items by a digit below [`STRIPS`]. Items of one digit keep their order.
 fn by_digit<I>(items: impl Iterator<Item = (usize, I)> + Clone, sorted: &mut [I]) {
     let mut places = [0; STRIPS];
     for (digit, _) in items.clone() {

@@ -17,9 +17,9 @@ pub(crate) struct Search<A: WeightSearch> {
     pub(super) speed: Quantity<A, Coordinate>,
     pub(super) force: Quantity<A, Coordinate>,
     /// The best triangle so far: its smallest weight, whose last bits are replaced by its index.
-    /// Neighbours that differ by so little mix the same.
+    /// Neighbours whose weights differ by so little mix the same.
     pub(super) best: A::Best,
-    /// Blocks to look at, one bit each: the last bit is that of block `first`.
+    /// Blocks to look at, one bit each: the last bit stands for block `first`.
     pub(super) left: u32,
     pub(super) first: u32,
 }
@@ -31,13 +31,13 @@ impl<A: WeightSearch> Search<A> {
         A::index(self.best, INDEX) as usize
     }
 
-    /// Its block.
+    /// The block of the best triangle.
     #[inline(always)]
     pub(crate) fn block(&self) -> u8 {
         (self.triangle() / LANES) as u8
     }
 
-    /// As bits.
+    /// Stores the search as bits.
     #[inline(always)]
     pub(crate) fn keep(&self, scratch: &mut Scratch) {
         let [best, rest, ..] = &mut scratch.0;
@@ -50,14 +50,14 @@ impl<A: WeightSearch> Search<A> {
         ];
     }
 
-    /// Whether those bits are of a search that has blocks left.
+    /// Whether the stored search has blocks left.
     #[inline(always)]
     pub(crate) fn goes_on(scratch: &Scratch) -> bool {
         let [_, [left, ..], ..] = &scratch.0;
         *left != 0
     }
 
-    /// Of those bits.
+    /// Loads a stored search.
     #[inline(always)]
     pub(crate) fn kept(scratch: &Scratch) -> Self {
         let [best, [left, first, speed, force], ..] = &scratch.0;

@@ -12,8 +12,8 @@ use crate::{
 
 /// Strips of an axis.
 pub(super) const STRIPS: usize = 32;
-/// A block meets strips this much beyond it, in strips: far more than rounding, and than what
-/// triangles too thin to weigh leave to their neighbours.
+/// A block also meets strips this far beyond it, in strips. That is far more than rounding, and
+/// more than triangles too thin to weigh leave to their neighbours.
 const MARGIN: f32 = 0.1;
 
 /// The blocks that each strip of an axis meets, one bit a block. Strip i reaches half a strip
@@ -30,7 +30,7 @@ impl<A: WeightSearch> Strips<A> {
         blocks: [0; STRIPS],
     };
 
-    /// Of an axis from 0 to `longest`.
+    /// The strips of an axis from 0 to `longest`.
     pub(super) fn new(longest: f32) -> Self {
         let per_unit = if longest > 0.0 {
             (STRIPS - 1) as f32 / longest
@@ -54,12 +54,12 @@ impl<A: WeightSearch> Strips<A> {
         self.blocks[self.strip(x)]
     }
 
-    /// Block `block` reaches from `low` to `high`. Before [`Strips::turn`] a block stands where
-    /// a strip does after it, and has a bit a strip.
+    /// Notes that block `block` reaches from `low` to `high`. Before [`Strips::turn`] there is a
+    /// word for each block, with a bit for each strip.
     pub(super) fn meets(&mut self, block: usize, low: f32, high: f32) {
         let [low, high] = [low, high].map(|x| x * self.per_unit.value());
-        // The first strip at or above, and the last one at or below; a cast to a byte rounds down
-        // to 0 and up, and costs less than one to a word.
+        // The first strip at or above, and the last one at or below. A cast to a byte rounds down
+        // and ends at 0, and costs less than a cast to a word.
         let [first, last] =
             [low - (0.5 + MARGIN), high + (0.5 + MARGIN)].map(|x| min(x, (STRIPS - 1) as f32));
         let from = u32::MAX << (first as u8 + u8::from(first > f32::from(first as u8)));
@@ -69,8 +69,8 @@ impl<A: WeightSearch> Strips<A> {
         }
     }
 
-    /// A bit a strip of each block to a bit a block of each strip: a transposition, halves of
-    /// halves changing places (after Warren's "Hacker's Delight", 7-3).
+    /// Transposes the bits: a word for each block becomes a word for each strip. Halves of halves
+    /// change places (after Warren's "Hacker's Delight", 7-3).
     pub(super) fn turn(&mut self) {
         let bits = &mut self.blocks;
         let (mut apart, mut low) = (STRIPS / 2, u32::MAX >> (STRIPS / 2));
@@ -89,7 +89,7 @@ impl<A: WeightSearch> Strips<A> {
     }
 }
 
-/// Each number that is not the one before, and how many there are.
+/// The numbers that differ from the one before, and how many there are.
 pub(super) fn distinct(numbers: &[u32; STRIPS]) -> ([u32; STRIPS], usize) {
     let (mut found, mut count) = ([0; STRIPS], 0);
     let mut before = !numbers[0];

@@ -1,4 +1,4 @@
-//! Triangles as weights need them, in blocks of four.
+//! The numbers that weights need of a triangle, in blocks of four triangles.
 
 use super::weight::WeightSearch;
 use crate::{
@@ -17,13 +17,13 @@ pub(super) const LANES: usize = 4;
 pub(super) const NUMBERS: usize = 6;
 /// Numbers of a block: four times each of the above.
 pub(super) const BLOCK: usize = NUMBERS * LANES;
-/// Change of the weights over the whole grid beyond which a triangle is too thin: f32
-/// rounding would move them by 1 % and more. It is 1e-5 of the grid thin, so its points
-/// are within 1e-5 of a neighbour. One triangle in 128 that tile the grid always is wider.
+/// A triangle whose weights change by more than this over the whole grid is too thin: rounding in
+/// f32 would move them by 1 % and more. Its width is 1e-5 of the grid, so its points are within
+/// 1e-5 of a neighbour. Of 128 triangles that tile the grid, one is always wider.
 const MAX_REACH: f64 = 1.0e5;
 
-/// A block of no triangles: weights far below zero for every query, of a corner far off and
-/// a steep slope.
+/// A block without triangles. A corner far off and a steep slope give weights far below zero for
+/// every query.
 pub(super) fn never<A: WeightSearch>() -> [Raw<A, Coordinate>; BLOCK] {
     let mut block = [A::Scalar::ZERO; BLOCK];
     block[..LANES].fill(A::FAR_OFF);
@@ -31,13 +31,14 @@ pub(super) fn never<A: WeightSearch>() -> [Raw<A, Coordinate>; BLOCK] {
     block
 }
 
-/// Where number `k` of triangle `t` stands.
+/// Index of number `k` of triangle `t`.
 pub(super) const fn index(t: usize, k: usize) -> usize {
     t / LANES * BLOCK + k * LANES + t % LANES
 }
 
-/// The numbers of a triangle with these corners, in a grid that reaches so far. A triangle with
-/// no area, or too thin to weigh, has none and is never chosen: its points belong to its neighbours.
+/// The numbers of a triangle with these corners, in a grid that reaches so far. A triangle with no
+/// area, or too thin to weigh, has none. It is never chosen, and its points belong to its
+/// neighbours.
 pub(super) fn row<A: WeightSearch>(
     points: [(f32, f32); 3],
     extent: [f32; 2],

@@ -1,4 +1,5 @@
-//! The largest of the smallest barycentric weights: the triangle that has the query.
+//! The largest of the smallest barycentric weights: it belongs to the triangle that contains the
+//! query.
 
 use crate::{
     arithmetic::{Arithmetic, Fixed, Float, Point, Quad, Scalar},
@@ -11,9 +12,9 @@ use crate::{
 };
 use fixed::FixedI32;
 
-/// A point whose smallest weight is this, −2⁻²³, or more, lies in a triangle: what rounding leaves
-/// of a zero. More would be felt beside slivers, whose mixtures change within a hair. The last bits,
-/// where a weight has an index, are set, so that no index decides.
+/// A point lies in a triangle if its smallest weight is at least this, −2⁻²³, which rounding may
+/// make of a zero. A wider margin would be felt beside slivers, whose mixtures change within a
+/// hair. The last bits, where a weight has an index, are set, so that no index decides.
 const NEARLY_INSIDE: f32 = f32::from_bits(0xb400_007f);
 
 /// Comparing weights of many triangles.
@@ -25,26 +26,27 @@ pub trait WeightSearch: Arithmetic {
     const WORST: Self::Best;
     /// A coordinate beyond every grid.
     const FAR_OFF: Raw<Self, Coordinate>;
-    /// A slope that makes a weight of [`WeightSearch::FAR_OFF`] less than any.
+    /// A slope that makes a weight of [`WeightSearch::FAR_OFF`] smaller than every other weight.
     const STEEP: Raw<Self, Slope>;
 
-    /// The best so far of weights whose last bits, those of `bits`, are replaced by their index;
-    /// four come from `index` on.
+    /// The best of `best` and of four more weights. The last bits of a weight, those of `bits`, are
+    /// replaced by its index; the four are numbered from `index` on.
     fn better(best: Self::Best, four: Four<Self, Weight>, bits: u32, index: u32) -> Self::Best;
 
-    /// Whether the best one has its point: −2⁻²³ or more, within the bits of an index.
+    /// Whether the best triangle contains the point: its weight is −2⁻²³ or more, within the bits
+    /// of an index.
     fn is_inside(best: Self::Best) -> bool;
 
-    /// The best one as bits; where it is a single number, in the first of them.
+    /// Stores the best weights as bits. A single weight takes the first of them.
     fn keep(best: Self::Best, bits: &mut [u32; 4]);
 
-    /// The best one of those bits.
+    /// Loads the best weights from those bits.
     fn kept(bits: &[u32; 4]) -> Self::Best;
 
-    /// The index of the best one.
+    /// The index of the best triangle.
     fn index(best: Self::Best, bits: u32) -> u32;
 
-    /// The nearest whole number, of one from 0 to 32.
+    /// The whole number nearest to `a`, which is from 0 to 32.
     fn nearest<F: Point>(a: Self::Scalar<F>) -> u32;
 }
 

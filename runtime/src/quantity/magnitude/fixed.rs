@@ -45,7 +45,7 @@ impl Magnitudes for Fixed {
 
     #[inline(always)]
     fn magnitude(square: u64) -> FixedMagnitude {
-        // No length takes as long as any.
+        // A vector without length takes as long as any other.
         let some = square.max(1);
         let zeros = some.leading_zeros() & !1;
         let m = ((some << zeros) >> 32) as u32;

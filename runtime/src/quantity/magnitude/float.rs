@@ -15,7 +15,7 @@ pub struct FloatMagnitude {
 }
 
 impl FloatMagnitude {
-    /// Adds nothing to a length in use, and makes the inverse of none finite.
+    /// Too small to change a length in use. It makes the inverse of no length finite.
     const NO_LENGTH: f32 = 1.0e-18;
     /// Its square.
     const LEAST: f32 = 1.0e-36;

@@ -1,9 +1,9 @@
 //! The speed of an impact, from the distances before it.
 //!
 //! The normal distance is watched over the last eight ticks; the impact speed is minus its
-//! least-squares slope when the surface is entered. From 2 kHz on a place of the eight lasts 2, 4,
-//! 8 or 16 ticks, so that they span 4 ms or more and counts of position weigh no more than at
-//! 1 kHz. The newest place may have begun just now, which the slope allows for.
+//! least-squares slope when the surface is entered. From 2 kHz on, each of the eight entries lasts
+//! 2, 4, 8 or 16 ticks. So they span 4 ms or more, and counts of position matter no more than at
+//! 1 kHz. The newest entry may be incomplete, and the slope is corrected for that.
 
 use crate::{
     arithmetic::{Arithmetic, Float},
@@ -14,20 +14,20 @@ use crate::{
     },
 };
 
-/// Places of normal motion that give the impact speed.
+/// Entries of the ring: the distances that give the impact speed.
 pub const WINDOW: usize = 8;
-/// Parts of a place: the ring's position is a byte.
+/// Parts of an entry, so that a position in the ring is a byte.
 const PARTS: u8 = (256 / WINDOW) as u8;
-/// A place lasts at least this long, s, where it is more than one tick.
+/// An entry of more than one tick lasts at least this long, s.
 const PLACE_S: f32 = 1e-3;
-/// Twice the slope of the last distances per tick, to m/s: Σ (i − 3.5)² over eight samples is 42.
+/// The slope a tick is Σ (2i − 7)·dᵢ over this number, since Σ (i − 3.5)² over eight samples is 42.
 const SPREAD: f32 = 84.0;
 
 /// What counts as an impact, prepared for a servo rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detector<A: Arithmetic = Float> {
     rate: Quantity<A, Hertz>,
-    /// Parts of a place that a tick takes.
+    /// Parts of an entry that a tick takes.
     step: u8,
     /// Slowest impact that plays a transient, m/s.
     pub(super) min_speed: Quantity<A, MetrePerSecond>,
@@ -35,14 +35,14 @@ pub struct Detector<A: Arithmetic = Float> {
     pub(super) rearm: Quantity<A, Metre>,
 }
 
-/// Where in the ring the distance of an age stands.
+/// Index in the ring of the distance of an age.
 #[inline]
 pub(super) const fn place(newest: u8, age: usize) -> usize {
     ((newest / PARTS) as usize + age) % WINDOW
 }
 
 impl<A: Arithmetic> Detector<A> {
-    /// Of a configuration.
+    /// The detector of a configuration.
     #[must_use]
     pub fn new(config: &TapConfig, servo_rate_hz: f32) -> Self {
         let (mut step, mut ticks) = (PARTS, 2.0);
@@ -58,7 +58,7 @@ impl<A: Arithmetic> Detector<A> {
         }
     }
 
-    /// Where the newest distance stands a tick after it stood at `newest`.
+    /// The position of the newest distance, a tick after it was `newest`.
     #[inline(always)]
     pub(super) const fn advance(&self, newest: u8) -> u8 {
         newest.wrapping_sub(self.step)
@@ -79,8 +79,8 @@ impl<A: Arithmetic> Detector<A> {
         let after = Four::<A, Count>::whole([1, 3, 5, 7]);
         let twice_slope = (newer * before + older * after).sum();
         let speed = twice_slope * self.rate;
-        // Where only a part s of the newest place has passed, a constant speed gives a slope of
-        // (11 + s)/12 of it.
+        // Where only a part s of the newest entry has passed, the slope of a constant speed is
+        // (11 + s)/12 of that speed.
         let passed = i32::from(PARTS - newest % PARTS);
         let places_a_tick = Quantity::<A, Count>::whole(12 * i32::from(self.step));
         speed * places_a_tick.over(Quantity::<A, Count>::whole(11 * i32::from(PARTS) + passed))

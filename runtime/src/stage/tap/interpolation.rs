@@ -1,7 +1,8 @@
 //! The transient of an impact: two traces, mixed by its speed.
 //!
-//! a_tap(t) is the linear interpolation of the two traces nearest in impact speed, as in the
-//! paper. Below the slowest trace it shrinks with the speed, above the fastest it stays.
+//! a_tap(t) is the linear interpolation of the two traces nearest in impact speed, as in the paper.
+//! Below the slowest trace the transient shrinks with the speed; above the fastest it stays the
+//! same.
 
 use super::resample::{Lanes, Rates, Resampler};
 use crate::{
@@ -61,13 +62,13 @@ impl<S: Capacity, A: Arithmetic> TapBank<S, A> {
         self.ticks
     }
 
-    /// Which two traces, and in which proportion, an impact speed plays.
+    /// The two traces that an impact speed plays, and their weights.
     #[must_use]
     pub fn select(&self, impact_speed: Quantity<A, MetrePerSecond>) -> Selection<A> {
         let Some(&slowest) = self.speeds.first() else {
             return Selection::SILENT;
         };
-        // The last trace that is not faster; every trace is compared with.
+        // The last trace that is not faster. The loop always compares with every trace.
         let (mut first, mut low) = (0, slowest);
         for (index, &speed) in self.speeds.iter().enumerate() {
             let reached = speed <= impact_speed;

@@ -26,17 +26,17 @@ use crate::{
 pub struct TapState<A: Arithmetic = Float> {
     /// Signed distances in a ring, m.
     distances: [Raw<A, Metre>; WINDOW],
-    /// Where the newest stands, in parts of a place; the older ones follow.
+    /// The position of the newest, in parts of an entry; the older ones follow.
     newest: u8,
     armed: bool,
     /// Next tick of the transient; at its length or above when none plays.
     tick: u32,
-    // What it plays: a [`Selection`], without its padding.
+    // The [`Selection`] that plays, in parts, so that no padding takes memory.
     traces: [u8; 2],
     weights: [Quantity<A, Fraction>; 2],
 }
 
-/// What a tick of the tap stage gives.
+/// Output of the tap stage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tap<A: Arithmetic = Float> {
     /// Acceleration along the normal, m/s².
@@ -46,7 +46,7 @@ pub struct Tap<A: Arithmetic = Float> {
 }
 
 impl<A: Arithmetic> TapState<A> {
-    /// No contact seen yet: the first one is no impact.
+    /// No contact was seen yet, so the first one is no impact.
     pub const IDLE: Self = Self {
         distances: [A::Scalar::ZERO; WINDOW],
         newest: 0,
@@ -62,14 +62,14 @@ impl<A: Arithmetic> TapState<A> {
         self.distances = [distance.0; WINDOW];
     }
 
-    /// Another surface, from which the last position was `distance` away, m: the slope stays,
-    /// and a transient plays on. A surface that was already entered is no impact.
+    /// Changes to another surface, from which the last position was `distance` away, m. The slope
+    /// stays, and a transient plays on. A surface that was already entered is no impact.
     pub(crate) fn cross(&mut self, distance: Quantity<A, Metre>) {
         let moved = (distance - self.distance()).0;
         for past in &mut self.distances {
             *past = past.saturating_add(moved);
         }
-        // Motion is counted from here: without rounding.
+        // The next motion is counted from this distance, so it is stored without rounding.
         self.distances[place(self.newest, 0)] = distance.0;
         self.armed = self.armed && distance > Quantity::ZERO;
     }

@@ -1,12 +1,12 @@
 //! Tap traces from their source rate to the servo rate, once, at load.
 //!
-//! Every source sample is an impulse of a·T_source into a continuous-time low-pass,
-//! whose output is sampled at the servo period. The low-pass is a Chebyshev type II
-//! of order 7, 50 dB down from half the lower of the two rates upwards; with the images of
-//! the source's own rate, aliases stay more than 40 dB down; −3 dB at 0.69 of that; delay 1.51 ms at 1 kHz. It is
-//! causal, so nothing precedes the impact. What truncation and the stop band leave
-//! of ∫a dt is given back along the filter's own response, so the impulse is exact
-//! within rounding.
+//! Every source sample is an impulse of a·T_source into a continuous-time low-pass, whose output is
+//! sampled at the servo period. The low-pass is a Chebyshev type II of order 7. From half the lower
+//! of the two rates upwards it is 50 dB down, and aliases stay more than 40 dB down, the images of
+//! the source's own rate included. At 0.69 of that frequency it is 3 dB down. Its delay is 1.51 ms
+//! at 1 kHz. It is causal, so nothing precedes the impact. The part of ∫a dt that truncation and
+//! the stop band take away is added along the filter's own response, so the impulse is exact within
+//! rounding.
 
 mod poles;
 
@@ -21,9 +21,9 @@ use crate::{
 use asperity_formats::{limits::MAX_TAPS, taps::BLOCK};
 use core::array;
 
-/// Poles with Im ≥ 0 (rad per rad/s of stop edge) and residues of the prototype
-/// with unit gain at DC: `scipy.signal.cheb2ap(7, 50)`, `scipy.signal.residue`. A residue with
-/// Im > 0 is twice its own: it stands for its conjugate, too.
+/// Poles with Im ≥ 0 (rad per rad/s of stop edge) and residues of the prototype with unit gain at
+/// DC: `scipy.signal.cheb2ap(7, 50)`, `scipy.signal.residue`. The residue of a pole with Im > 0 is
+/// doubled, because it stands for its conjugate, too.
 const POLES: Complex4 = Complex4 {
     re: F4::load(&[-0.113_746_65, -0.381_229_6, -0.729_280_8, -0.945_731_9]),
     im: F4::load(&[0.685_925_7, 0.657_971_74, 0.483_387_32, 0.0]),
@@ -33,20 +33,20 @@ const RESIDUES: Complex4 = Complex4 {
     im: F4::load(&[0.221_903_02, 1.076_703_5, -3.329_852, 0.0]),
 };
 
-/// Ticks behind the last source sample, for the filter's response to fade below
-/// 1 % of its peak.
+/// Ticks after the last source sample, in which the filter's response fades below 1 % of its peak.
 pub(crate) const TAIL_TICKS: usize = 16;
 
-/// Source samples that are taken in at once: a tick of 10 kHz at 1 kHz.
+/// Source samples that are filtered at once: a tick at 1 kHz has ten of them at 10 kHz.
 const CHUNK: usize = 10;
 
-/// Ticks of the filter's response that are at hand at once: 100 samples at 10 kHz become 26 at 1 kHz.
+/// Ticks of the filter's response that are computed at once. 100 samples at 10 kHz become 26 ticks
+/// at 1 kHz.
 const RESPONSES: usize = 32;
 
 /// A sample this close to a tick belongs to it, s.
 const ROUNDING_S: f64 = 1e-9;
 
-/// e^(pole·x) for x ≥ 0; Im·x beyond 2π only where nothing is left.
+/// e^(pole·x) for x ≥ 0. Im·x exceeds 2π only where the result is next to nothing.
 fn decay(x: f32) -> Complex4 {
     let size = POLES.re.to_array().map(|re| exp(max(re * x, -80.0)));
     let half_turns = POLES.im * F4::splat(x) * F4::splat(core::f32::consts::FRAC_1_PI);
@@ -63,7 +63,7 @@ fn decay(x: f32) -> Complex4 {
     }
 }
 
-/// From which rate to which, Hz.
+/// The rates of a conversion, Hz.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rates {
     source_hz: f64,
@@ -104,9 +104,9 @@ pub(crate) struct Resampler<L, const N: usize> {
     rates: Rates,
     samples: usize,
     stop_rad_s: f32,
-    /// What is left of a state after [`CHUNK`] source samples, after one less, …, after none.
+    /// The decay of a state over [`CHUNK`] source samples, over one less, …, over none.
     powers: [Poles<L, N>; CHUNK + 1],
-    /// What is left of it after a tick.
+    /// The decay of a state over a tick.
     tick: Complex4,
     residues: Poles<L, N>,
 }
@@ -130,8 +130,8 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
         }
     }
 
-    /// Converts traces into `out`, [`Rates::ticks`] each, one after the other. Every `N` have a
-    /// reader, which gives a block of their samples from an even one on, one column a trace.
+    /// Converts traces into `out`, [`Rates::ticks`] each, one after the other. Every `N` traces
+    /// have a reader. It gives a block of their samples from an even index on, one column a trace.
     pub(crate) fn convert<S: Scalar, R: Fn(usize) -> [[f32; N]; BLOCK]>(
         &self,
         readers: impl Iterator<Item = R>,
@@ -153,7 +153,7 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
         for ((read, out), missing) in rows.zip(missing.as_chunks_mut().0) {
             *missing = self.filter(read, ticks, out);
         }
-        // What is missing of an impulse comes back along the response.
+        // The missing part of an impulse is added along the response.
         let impulse: f32 = responses(self.tick).take(ticks).sum();
         let scale = |missing: f32| {
             if impulse == 0.0 {
@@ -179,9 +179,9 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
         }
     }
 
-    /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which
-    /// moves by up to [`CHUNK`] source samples at once; silence follows the last one. Returns
-    /// what is missing of the sum of each trace, in ticks.
+    /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which moves by up
+    /// to [`CHUNK`] source samples at once; silence follows the last one. Returns the missing part
+    /// of the sum of each trace, in ticks.
     fn filter<S: Scalar>(
         &self,
         read: impl Fn(usize) -> [[f32; N]; BLOCK],
@@ -240,7 +240,7 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
     }
 }
 
-/// Tick `n` of traces side by side, of as many as there are.
+/// Writes tick `n` of traces side by side, of as many as there are.
 #[inline(always)]
 fn put<S, const N: usize>(out: &mut [S], ticks: usize, n: usize, row: [S; N]) {
     for (trace, a) in row.into_iter().enumerate() {

@@ -31,7 +31,7 @@ impl Lanes<4> for F4 {
     }
 }
 
-/// Where there are no registers of four: a state of one trace leaves room on a small stack.
+/// For processors without registers of four: the state of one trace leaves room on a small stack.
 impl Lanes<1> for f32 {
     #[inline(always)]
     fn splat(number: f32) -> Self {
@@ -56,7 +56,7 @@ pub(super) struct Poles<L, const N: usize>([L; PARTS]);
 const PARTS: usize = 7;
 
 impl<L: Lanes<N>, const N: usize> Poles<L, N> {
-    /// The same for every trace.
+    /// The same numbers for every trace.
     pub(super) fn new(numbers: Complex4) -> Self {
         let [[a, b, c, d], [e, f, g, _]] = [numbers.re, numbers.im].map(F4::to_array);
         Self([a, b, c, d, e, f, g].map(L::splat))
@@ -66,7 +66,7 @@ impl<L: Lanes<N>, const N: usize> Poles<L, N> {
         Self([L::splat(0.0); PARTS])
     }
 
-    /// Each by its factor.
+    /// Each number times its factor.
     #[inline(always)]
     pub(super) fn times(&self, factors: &Self) -> Self {
         let ([a, b, c, d, e, f, g], [p, q, r, s, t, u, v]) = (self.0, factors.0);
@@ -81,7 +81,7 @@ impl<L: Lanes<N>, const N: usize> Poles<L, N> {
         ])
     }
 
-    /// With what a sample of each trace leaves behind.
+    /// Adds a sample of each trace, decayed by `left`.
     #[inline(always)]
     pub(super) fn add(&mut self, sample: L, left: &Self) {
         for part in 0..PARTS {
@@ -98,7 +98,7 @@ impl<L: Lanes<N>, const N: usize> Poles<L, N> {
         sum
     }
 
-    /// What the filter with these residues gives.
+    /// Output of the filter with these residues.
     #[inline(always)]
     pub(super) fn response(&self, residues: &Self) -> L {
         let ([a, b, c, d, e, f, g], [p, q, r, s, t, u, v]) = (self.0, residues.0);
