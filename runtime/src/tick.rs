@@ -8,9 +8,10 @@
 //! equation, whose wall also has damping and whose friction has a bristle. A tick is the sum of
 //! the stages in this order; each is a file in [`stage`](crate::stage).
 //!
-//! The model of the vibration is made around the stages, not between them: `Vibration::prepare`
-//! begins a tick and `Vibration::query` ends it, because few other values have to be kept there
-//! (`update/`).
+//! The tap, a part of F_n, comes after friction, and each flag is raised where it arises: both
+//! leave fewer values to keep. The model of the vibration is made around the stages, not between
+//! them: `Vibration::prepare` begins a tick and `Vibration::query` ends it, because few other
+//! values have to be kept there (`update/`).
 
 use crate::{
     capacity::Capacity,
@@ -104,7 +105,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let speed = velocity.slide(normal, &mut state.direction)
             * Quantity::<A, MillimetrePerMetre>::whole(1000);
 
-        // F_n n̂: the wall and the tap.
+        // F_n n̂: the wall. Its spring is the load.
         let normal_force = wall.step(depth, velocity.outward);
         let load = normal_force.spring;
         flags = flags.and(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)));
@@ -115,6 +116,7 @@ impl<A: RenderArithmetic> Renderer<A> {
             .bristle
             .step(&mut state.friction, gated.motion, normal, load, mu);
 
+        // The tap's part of F_n.
         let tap = self
             .detector
             .step(&mut state.tap, &texture.taps, contact.distance);
