@@ -8,9 +8,10 @@
 //! equation, whose wall also has damping and whose friction has a bristle. A tick is the sum of
 //! the stages in this order; each is a file in [`stage`](crate::stage).
 //!
-//! The model of the vibration is made around the stages, not between them: `Vibration::prepare`
-//! begins a tick and `Vibration::query` ends it, because few other values have to be kept there
-//! (`update/`).
+//! The tap, a part of F_n, comes after friction, and each flag is raised where it arises: both
+//! leave fewer values to keep. The model of the vibration is made around the stages, not between
+//! them: `Vibration::prepare` begins a tick and `Vibration::query` ends it, because few other
+//! values have to be kept there (`update/`).
 
 use crate::{
     capacity::Capacity,
@@ -91,6 +92,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let gated = self.gate.step(&mut state.gate, sample);
         let contact = field.step(gated.position);
         let (depth, normal) = (contact.depth(), contact.normal);
+        let mut flags = gated.flags.and(Flags::CONTACT.when(depth > Quantity::ZERO));
         if gated.flags.contains(Flags::RESTART) {
             state.restart(contact.distance);
         }
@@ -103,13 +105,10 @@ impl<A: RenderArithmetic> Renderer<A> {
         let speed = velocity.slide(normal, &mut state.direction)
             * Quantity::<A, MillimetrePerMetre>::whole(1000);
 
-        // F_n n̂: the wall and the tap.
+        // F_n n̂: the wall. Its spring is the load.
         let normal_force = wall.step(depth, velocity.outward);
         let load = normal_force.spring;
-        let tap = self
-            .detector
-            .step(&mut state.tap, &texture.taps, contact.distance);
-        let tap_force = coupling.effective_mass * tap.acceleration;
+        flags = flags.and(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)));
 
         // F_t: friction of the load.
         let mu = coupling.mu;
@@ -117,12 +116,14 @@ impl<A: RenderArithmetic> Renderer<A> {
             .bristle
             .step(&mut state.friction, gated.motion, normal, load, mu);
 
+        // The tap's part of F_n.
+        let tap = self
+            .detector
+            .step(&mut state.tap, &texture.taps, contact.distance);
+        let tap_force = coupling.effective_mass * tap.acceleration;
+        flags = flags.and(tap.flags);
+
         // F_vib t̂: the vibration, in contact only.
-        let flags = gated
-            .flags
-            .and(Flags::CONTACT.when(depth > Quantity::ZERO))
-            .and(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)))
-            .and(tap.flags);
         let sounding = flags.of(Flags::CONTACT.and(Flags::SAFE_STATE)) == Flags::CONTACT;
         let Sounded { y, clamped } = sound(&mut state.vibration, sounding);
         let vibration_force = coupling.vib_mass * y;

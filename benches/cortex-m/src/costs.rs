@@ -1,7 +1,8 @@
 //! The cost model of `asperity build`, fitted to the costliest ticks of scenes.
 
 use crate::{
-    Result, emulate,
+    emulate,
+    package::Result,
     target::Target,
     toolchain::{Toolchain, host_program_like_firmware},
 };

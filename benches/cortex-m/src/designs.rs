@@ -1,6 +1,6 @@
 //! What a tick of every design of the labs costs, for the chart of speed against accuracy.
 
-use crate::{Result, emulate, target::Target, toolchain::Toolchain};
+use crate::{emulate, package::Result, target::Target, toolchain::Toolchain};
 use asperity_kernels::{
     design::{Variant, variants},
     workload::{Orders, TICKS, Workload, kernel_of},

@@ -1,6 +1,6 @@
 //! Sizes and functions of a firmware's ELF.
 
-use crate::Result;
+use crate::package::Result;
 use asperity_session::LIBRARY;
 use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SymbolKind, elf};
 use std::{fs, path::Path};

@@ -1,6 +1,10 @@
 //! A firmware in QEMU, every tick's instructions counted.
 
-use crate::{Result, home, target::Target, target_dir, toolchain::stdout};
+use crate::{
+    package::{Result, home, target_dir},
+    target::Target,
+    toolchain::stdout,
+};
 use std::{fs, path::Path, process::Command};
 
 /// What came out of the emulator.

@@ -1,6 +1,6 @@
 //! The limits that `limits.toml` sets.
 
-use crate::{Result, measure::Measured, target::Target};
+use crate::{measure::Measured, package::Result, target::Target};
 use serde::Deserialize;
 use std::{collections::BTreeMap, fs, path::Path};
 

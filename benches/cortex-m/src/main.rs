@@ -18,19 +18,15 @@ mod emulate;
 mod library;
 mod limits;
 mod measure;
+mod package;
 mod report;
 mod target;
 mod thumb;
 mod toolchain;
 
 use asperity_kernels::workload::Orders;
-use std::{
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
-
-/// What any step can fail with; the text says what to do about it.
-type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+use package::{Result, home};
+use std::process::ExitCode;
 
 const USAGE: &str =
     "usage: cortex-m [--target TRIPLE] [--build-core] | cortex-m costs | cortex-m library
@@ -41,16 +37,6 @@ const USAGE: &str =
   designs          print what every design of `asperity-lab pareto` costs, for its --cortex-m;
                    of textures with so many poles and zeros (20, 18: most of the HaTT)
   library          write textures.aspl and costs.aspl, which the session embeds";
-
-/// This package's folder.
-fn home() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// Where everything is built.
-fn target_dir() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| home().join("../../target"), PathBuf::from)
-}
 
 /// What is asked for.
 struct Arguments {

@@ -1,9 +1,10 @@
 //! One case from sources to figures.
 
 use crate::{
-    Result, calls,
+    calls,
     elf::{self, Elf},
     emulate::{self, Run},
+    package::Result,
     target::Target,
     toolchain::{Toolchain, host_session},
 };

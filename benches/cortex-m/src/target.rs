@@ -1,6 +1,6 @@
 //! The processors, and the machines that QEMU has of them.
 
-use crate::Result;
+use crate::package::Result;
 use asperity_session::{CASES, Case};
 
 /// A processor that the firmware is built for.

@@ -1,7 +1,10 @@
 //! Cargo for a target: with its standard library where that is installed, else with core
 //! built from the sources that a distribution ships.
 
-use crate::{Result, home, target::Target, target_dir};
+use crate::{
+    package::{Result, home, target_dir},
+    target::Target,
+};
 use std::{
     path::{Path, PathBuf},
     process::Command,

@@ -1,9 +1,6 @@
 //! The machines, and what runs a program of theirs on this one.
 
-use crate::{
-    Result,
-    toolchain::{Product, Toolchain, stdout},
-};
+use crate::toolchain::{Product, Result, Toolchain, stdout};
 use std::{path::Path, process::Command};
 
 /// A machine that this one emulates.

@@ -13,9 +13,7 @@ mod machine;
 mod toolchain;
 
 use std::process::ExitCode;
-
-/// What any step can fail with; the text says what to do about it.
-type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+use toolchain::Result;
 
 const USAGE: &str = "usage: machines [--target TRIPLE]
   --target TRIPLE  aarch64-unknown-linux-gnu or wasm32-unknown-unknown (default: both)";

@@ -1,11 +1,13 @@
 //! Cargo for another machine: with the standard library that is installed for it, or with
 //! `core` built from the sources that a distribution ships.
 
-use crate::Result;
 use std::{
     path::{Path, PathBuf},
     process::Command,
 };
+
+/// What any step can fail with; the text says what to do about it.
+pub(crate) type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Debian's compiler.
 const DISTRIBUTION_RUSTC: &str = "/usr/bin/rustc";

@@ -1,6 +1,7 @@
 //! The session as a WebAssembly module that needs no standard library: it exports `session`
 //! and imports `write`, which `session.mjs` gives.
 
+use crate::text::write_hashes;
 use core::{fmt, panic::PanicInfo};
 
 #[link(wasm_import_module = "machine")]
@@ -27,7 +28,7 @@ impl fmt::Write for Out {
 #[allow(unsafe_code, reason = "the module exports it by this name")]
 #[unsafe(no_mangle)]
 extern "C" fn session() {
-    if crate::write_hashes(&mut Out).is_err() {
+    if write_hashes(&mut Out).is_err() {
         core::arch::wasm32::unreachable();
     }
 }

@@ -9,10 +9,7 @@ use super::{
     rounding::round,
     scalar::{Point, Scalar, Zero},
 };
-use core::{
-    array,
-    ops::{Add, Sub},
-};
+use core::ops::{Add, Sub};
 use fixed::FixedI32;
 
 /// `FixedI32`, for processors without an FPU.
@@ -23,6 +20,14 @@ pub struct Fixed;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quad<F: Point>(pub(crate) [FixedI32<F>; 4]);
 
+impl<F: Point> Quad<F> {
+    /// Each lane by itself. `core::array::from_fn` would be a call.
+    #[inline(always)]
+    pub(crate) fn from_lanes(lane: impl Fn(usize) -> FixedI32<F>) -> Self {
+        Self([lane(0), lane(1), lane(2), lane(3)])
+    }
+}
+
 impl<F: Point> Zero for Quad<F> {
     const ZERO: Self = Self([FixedI32::ZERO; 4]);
 }
@@ -31,7 +36,7 @@ impl<F: Point> Add for Quad<F> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(array::from_fn(|lane| self.0[lane] + other.0[lane]))
+        Self::from_lanes(|lane| self.0[lane] + other.0[lane])
     }
 }
 
@@ -39,7 +44,7 @@ impl<F: Point> Sub for Quad<F> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self(array::from_fn(|lane| self.0[lane] - other.0[lane]))
+        Self::from_lanes(|lane| self.0[lane] - other.0[lane])
     }
 }
 
@@ -209,14 +214,12 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn four_min<F: Point>(a: Quad<F>, b: Quad<F>) -> Quad<F> {
-        Quad(array::from_fn(|lane| a.0[lane].min(b.0[lane])))
+        Quad::from_lanes(|lane| a.0[lane].min(b.0[lane]))
     }
 
     #[inline(always)]
     fn four_product<F: Point, G: Point, H: Point>(a: Quad<F>, b: Quad<G>, cut: Cut) -> Quad<H> {
-        Quad(array::from_fn(|lane| {
-            Self::product(a.0[lane], b.0[lane], cut)
-        }))
+        Quad::from_lanes(|lane| Self::product(a.0[lane], b.0[lane], cut))
     }
 
     #[inline(always)]
@@ -224,10 +227,10 @@ impl Arithmetic for Fixed {
         terms: [(Quad<F>, Quad<G>); N],
         cut: Cut,
     ) -> Quad<H> {
-        Quad(array::from_fn(|lane| {
+        Quad::from_lanes(|lane| {
             let products = terms.iter().map(|(x, c)| wide(x.0[lane], c.0[lane]));
             narrow(products.sum(), shift::<F, G, H>(), cut)
-        }))
+        })
     }
 
     #[inline(always)]

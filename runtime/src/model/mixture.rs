@@ -6,16 +6,59 @@
 
 use super::{barycentric::Barycentric, lsf_to_ar::LineSpectrum, row::PaddedRow};
 use crate::{
-    arithmetic::{Arithmetic, Cut, Zero as _},
+    arithmetic::{Arithmetic, Cut, Fixed, Float, Zero as _},
     capacity::Capacity,
     quantity::{
         Four, Quantity, Raw,
         unit::{ExcitationLevel, Fraction, LineCosine},
     },
 };
+use core::hint::black_box;
 
 /// No −2 cos ω is larger.
 const WIDEST: Cut = Cut::At(2.0);
+
+/// Mixing four numbers of three rows into a fourth.
+pub trait BlockMixture: Arithmetic {
+    /// Σ wᵢ·rowᵢ over the three rows and the block itself, which has the last weight.
+    fn mix(
+        block: &mut [Raw<Self, LineCosine>; 4],
+        rows: [&[Raw<Self, LineCosine>; 4]; 3],
+        weights: &[Quantity<Self, Fraction>; 4],
+    );
+}
+
+impl BlockMixture for Float {
+    #[inline(always)]
+    fn mix(block: &mut [f32; 4], rows: [&[f32; 4]; 3], weights: &[Quantity<Self, Fraction>; 4]) {
+        mix(block, rows, weights);
+    }
+}
+
+impl BlockMixture for Fixed {
+    #[inline(always)]
+    fn mix(
+        block: &mut [Raw<Self, LineCosine>; 4],
+        rows: [&[Raw<Self, LineCosine>; 4]; 3],
+        weights: &[Quantity<Self, Fraction>; 4],
+    ) {
+        // Weights that the compiler sees are widened before the loop, and a product of 64 by 64
+        // bits costs three of 32 by 32.
+        mix(block, rows, black_box(weights));
+    }
+}
+
+#[inline(always)]
+fn mix<A: Arithmetic>(
+    block: &mut [Raw<A, LineCosine>; 4],
+    [i, j, k]: [&[Raw<A, LineCosine>; 4]; 3],
+    weights: &[Quantity<A, Fraction>; 4],
+) {
+    let [i, j, k, before] = [i, j, k, &*block].map(Four::<A, LineCosine>::load);
+    let [wi, wj, wk, kept] = weights.map(Four::splat);
+    let terms = [(i, wi), (j, wj), (k, wk), (before, kept)];
+    *block = Four::<A, LineCosine>::sum_of_products(terms, WIDEST).to_array();
+}
 
 /// What is mixed, one row a vertex.
 #[derive(Debug, Clone)]
@@ -29,7 +72,7 @@ pub(crate) struct Vertices<S: Capacity, A: Arithmetic> {
     pub(crate) levels: S::Vertices<Raw<A, ExcitationLevel>>,
 }
 
-impl<S: Capacity, A: Arithmetic> Vertices<S, A> {
+impl<S: Capacity, A: BlockMixture> Vertices<S, A> {
     /// No vertices.
     pub(crate) const EMPTY: Self = Self {
         ar: S::Vertices::ZERO,
@@ -67,23 +110,21 @@ impl<S: Capacity, A: Arithmetic> Vertices<S, A> {
 
 /// Moves a row a `fraction` of the way to the mixture of three rows.
 #[inline(always)]
-fn follow<A: Arithmetic, R: AsRef<[Raw<A, LineCosine>]>>(
+fn follow<A: BlockMixture, R: AsRef<[Raw<A, LineCosine>]>>(
     rows: &[R],
     row: &mut PaddedRow<A, LineCosine>,
     mixture: &Barycentric<A>,
     fraction: Quantity<A, Fraction>,
 ) {
-    let corner = |corner: usize| {
-        let row = rows.get(usize::from(mixture.vertices[corner]));
-        row.map_or(&[][..], |row| row.as_ref().as_chunks::<4>().0)
+    // A triangle's corners are vertices.
+    let [Some(i), Some(j), Some(k)] = mixture.vertices.map(|v| rows.get(usize::from(v))) else {
+        return;
     };
-    let [wi, wj, wk] = mixture.weights.map(|weight| Four::splat(fraction * weight));
-    let kept = Four::splat(Quantity::<A, Fraction>::whole(1) - fraction);
-    let corners = corner(0).iter().zip(corner(1)).zip(corner(2));
+    let [i, j, k] = [i, j, k].map(|row| row.as_ref().as_chunks::<4>().0);
+    let [wi, wj, wk] = mixture.weights.map(|weight| fraction * weight);
+    let weights = [wi, wj, wk, Quantity::whole(1) - fraction];
     // Rows are zero beyond the order: a loop of constant length costs less than a shorter one.
-    for (place, ((i, j), k)) in row.0.iter_mut().zip(corners) {
-        let [i, j, k, before] = [i, j, k, &*place].map(Four::<A, LineCosine>::load);
-        let terms = [(i, wi), (j, wj), (k, wk), (before, kept)];
-        *place = Four::<A, LineCosine>::sum_of_products(terms, WIDEST).to_array();
+    for (block, ((i, j), k)) in row.0.iter_mut().zip(i.iter().zip(j).zip(k)) {
+        A::mix(block, [i, j, k], &weights);
     }
 }

@@ -14,10 +14,7 @@ use crate::{
         unit::{Coefficient, LineCosine, Unit},
     },
 };
-use core::{
-    array,
-    ops::{Add, Mul},
-};
+use core::ops::{Add, Mul};
 use fixed::{FixedI32, types::extra::Unsigned as _};
 
 /// Multiplying a section pair into polynomials.
@@ -113,14 +110,14 @@ impl SectionProduct for Fixed {
         pair: &SectionPair<Quad<<LineCosine as Unit>::Point>>,
         c: [Option<Quad<<Coefficient as Unit>::Point>>; 5],
     ) -> Quad<<Coefficient as Unit>::Point> {
-        Quad(array::from_fn(|lane| {
+        Quad::from_lanes(|lane| {
             let pair = SectionPair {
                 s: pair.s.0[lane],
                 q: pair.q.0[lane],
                 o: pair.o.0[lane],
             };
             Self::extend::<FULL>(&pair, c.map(|c| c.map(|c| c.0[lane])))
-        }))
+        })
     }
 
     #[inline(always)]

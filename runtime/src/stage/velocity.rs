@@ -22,7 +22,6 @@ use crate::{
         unit::{Fraction, Hertz, Metre, MetrePerSecond, Unit},
     },
 };
-use core::array;
 
 /// Below this speed the direction of motion is the last one, m/s.
 const DIRECTION_FLOOR_M_S: f32 = 1.0e-4;
@@ -53,10 +52,10 @@ impl Differences for Fixed {
         b: Quad<G>,
         limits: Quad<H>,
     ) -> Quad<H> {
-        Quad(array::from_fn(|lane| {
+        Quad::from_lanes(|lane| {
             let limit = limits.0[lane].to_bits();
             narrow_within(wide(a.0[lane], b.0[lane]), shift::<F, G, H>(), limit)
-        }))
+        })
     }
 }
 

@@ -15,7 +15,10 @@ use super::{
 use crate::{
     arithmetic::Float,
     capacity::Capacity,
-    model::{barycentric::WeightSearch, filter::Model, section_pair::SectionProduct},
+    model::{
+        barycentric::WeightSearch, filter::Model, mixture::BlockMixture,
+        section_pair::SectionProduct,
+    },
     quantity::{
         Quantity,
         unit::{Fraction, MillimetrePerSecond, Newton, VibrationAcceleration},
@@ -133,7 +136,7 @@ impl<A: InnerProduct> Vibration<A> {
     }
 }
 
-impl<A: WeightSearch + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
+impl<A: WeightSearch + BlockMixture + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
     /// One tick by itself: the slice of the cycle, the output and, where it is due, the query. The
     /// line spectrum goes a `fraction` of its way in a cycle ([`Texture::cycle_samples`]); with
     /// `sounding` false the vibration is mute.

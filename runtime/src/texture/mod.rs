@@ -10,6 +10,7 @@ use crate::{
     model::{
         barycentric::{Barycentric, WeightSearch},
         filter::{Filter, Models},
+        mixture::BlockMixture,
         section_pair::SectionProduct,
     },
     quantity::{
@@ -45,13 +46,15 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
 /// stack.
 pub type HostTexture = Texture<HostCapacities>;
 
-impl<S: Capacity, A: WeightSearch + SectionProduct + InnerProduct> Default for Texture<S, A> {
+impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct> Default
+    for Texture<S, A>
+{
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<S: Capacity, A: WeightSearch + SectionProduct + InnerProduct> Texture<S, A> {
+impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct> Texture<S, A> {
     /// An empty slot: no wall, no sound.
     #[must_use]
     pub const fn new() -> Self {

@@ -7,7 +7,7 @@
 pub mod print;
 pub mod stack;
 
-use asperity_runtime::{RenderArithmetic, LoadError, Output, Renderer, Sample, State};
+use asperity_runtime::{LoadError, Output, RenderArithmetic, Renderer, Sample, State};
 use asperity_session::{Case, Phase, SEED, Slot};
 use cortex_m_semihosting::debug;
 

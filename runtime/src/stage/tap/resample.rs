@@ -155,14 +155,14 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
         }
         // The missing part of an impulse is added along the response.
         let impulse: f32 = responses(self.tick).take(ticks).sum();
-        let share = |missing: f32| {
+        let scale = |missing: f32| {
             if impulse == 0.0 {
                 0.0
             } else {
                 missing / impulse
             }
         };
-        let shares = missing.map(share);
+        let scales = missing.map(scale);
         let mut responses = responses(self.tick);
         for first in (0..ticks).step_by(RESPONSES) {
             let mut block = [0.0; RESPONSES];
@@ -170,10 +170,10 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
                 .iter_mut()
                 .zip(responses.by_ref())
                 .for_each(|(to, h)| *to = h);
-            for (trace, share) in out.chunks_mut(ticks).zip(shares) {
+            for (trace, scale) in out.chunks_mut(ticks).zip(scales) {
                 let trace = trace.get_mut(first..).unwrap_or_default();
                 for (out, h) in trace.iter_mut().zip(&block) {
-                    *out = S::of(out.value() + share * h);
+                    *out = S::of(out.value() + scale * h);
                 }
             }
         }
