@@ -30,8 +30,15 @@ pub trait BlockMixture: Arithmetic {
 
 impl BlockMixture for Float {
     #[inline(always)]
-    fn mix(block: &mut [f32; 4], rows: [&[f32; 4]; 3], weights: &[Quantity<Self, Fraction>; 4]) {
-        mix(block, rows, weights);
+    fn mix(
+        block: &mut [f32; 4],
+        [i, j, k]: [&[f32; 4]; 3],
+        weights: &[Quantity<Self, Fraction>; 4],
+    ) {
+        let [i, j, k, before] = [i, j, k, &*block].map(Four::<Self, LineCosine>::load);
+        let [wi, wj, wk, kept] = weights.map(Four::splat);
+        let terms = [(i, wi), (j, wj), (k, wk), (before, kept)];
+        *block = Four::<Self, LineCosine>::sum_of_products(terms, WIDEST).to_array();
     }
 }
 
@@ -42,22 +49,15 @@ impl BlockMixture for Fixed {
         rows: [&[Raw<Self, LineCosine>; 4]; 3],
         weights: &[Quantity<Self, Fraction>; 4],
     ) {
-        // Weights that the compiler sees are widened before the loop, and a product of 64 by 64
-        // bits costs three of 32 by 32.
-        mix(block, rows, black_box(weights));
+        // The compiler would widen weights that it sees before the loop over blocks, and a product
+        // of 64 by 64 bits costs three of 32 by 32.
+        let [wi, wj, wk, kept] = *black_box(weights);
+        for (lane, before) in block.iter_mut().enumerate() {
+            let [i, j, k] = rows.map(|row| Quantity::<Self, LineCosine>(row[lane]));
+            let terms = [(i, wi), (j, wj), (k, wk), (Quantity(*before), kept)];
+            *before = Quantity::<Self, LineCosine>::sum_of_products(terms, WIDEST).0;
+        }
     }
-}
-
-#[inline(always)]
-fn mix<A: Arithmetic>(
-    block: &mut [Raw<A, LineCosine>; 4],
-    [i, j, k]: [&[Raw<A, LineCosine>; 4]; 3],
-    weights: &[Quantity<A, Fraction>; 4],
-) {
-    let [i, j, k, before] = [i, j, k, &*block].map(Four::<A, LineCosine>::load);
-    let [wi, wj, wk, kept] = weights.map(Four::splat);
-    let terms = [(i, wi), (j, wj), (k, wk), (before, kept)];
-    *block = Four::<A, LineCosine>::sum_of_products(terms, WIDEST).to_array();
 }
 
 /// What is mixed, one row a vertex.
