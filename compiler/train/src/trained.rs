@@ -6,13 +6,13 @@ use crate::{
     memory::TextMemory,
     network::{Mode, Network, TextProjection, matrix},
     normaliser::{AR, Coded, LSFS, Normaliser, TAP_VALUES},
-    parameters::{Bound, Parameters, numbers, read},
+    parameters::{Bound, Parameters, numbers},
     progress::EpochLoss,
     vae::decode,
 };
 use asperity::learned::description::LATENT;
 use asperity_corpus::{BINS, Instance, ORDER, TAP_SAMPLES, TAPS};
-use burn_tensor::{Device, Tensor};
+use burn_tensor::Device;
 
 /// Rows that go through the network at once.
 const CHUNK: usize = 256;

@@ -7,7 +7,7 @@ use crate::{
     error::FitError,
     evaluate::{
         EvaluateError, Watch,
-        signature::{Objective, Signature},
+        signature::Signature,
         statistics::{mean, spearman},
         watch::Training,
     },
