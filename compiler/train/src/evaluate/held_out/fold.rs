@@ -60,7 +60,7 @@ pub struct Fold {
     /// Materials held out.
     pub materials: Vec<Material>,
     /// Rank correlation of predicted and true attributes over captions, a row a
-    /// predictor, in the order of [`Objective::NAMES`].
+    /// predictor, in the order of `Objective::NAMES`.
     pub spearman: [[Option<f64>; 4]; 4],
     /// Every held-out caption.
     pub trials: Vec<Trial>,
