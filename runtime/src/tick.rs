@@ -116,6 +116,8 @@ impl<A: RenderArithmetic> Renderer<A> {
             .bristle
             .step(&mut state.friction, gated.motion, normal, load, mu);
 
+        let friction_force = friction.direction * friction.size;
+
         // The tap's part of F_n.
         let tap = self
             .detector
@@ -126,6 +128,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         // F_vib t̂: the vibration, in contact only.
         let sounding = flags.of(Flags::CONTACT.and(Flags::SAFE_STATE)) == Flags::CONTACT;
         let Sounded { y, clamped } = sound(&mut state.vibration, sounding);
+        flags = flags.and(Flags::VIB_CLAMPED.when(clamped));
         let vibration_force = coupling.vib_mass * y;
         let axis = match self.config().vibration_axis {
             VibrationAxis::Tangent => state.direction.get(),
@@ -133,8 +136,8 @@ impl<A: RenderArithmetic> Renderer<A> {
         };
 
         // The sum, lowered by the gate and limited to what the device allows.
-        let total = normal * (normal_force.total + tap_force) + axis * vibration_force
-            - friction.direction * friction.size;
+        let total =
+            normal * (normal_force.total + tap_force) + axis * vibration_force - friction_force;
         let wanted = if flags.meets(Flags::LOWERED) {
             total * gated.gain
         } else {
@@ -143,7 +146,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let (force, limited) = self.limiter.step(state.force.get(), wanted);
         state.force = force.into();
 
-        let flags = flags.and(Flags::VIB_CLAMPED.when(clamped)).and(limited);
+        flags = flags.and(limited);
         state.counters.count(flags, sample.elapsed_ticks);
         Output {
             force_n: force.to_array(),
