@@ -115,7 +115,6 @@ impl<A: RenderArithmetic> Renderer<A> {
         let friction = self
             .bristle
             .step(&mut state.friction, gated.motion, normal, load, mu);
-
         let friction_force = friction.direction * friction.size;
 
         // The tap's part of F_n.
@@ -128,7 +127,6 @@ impl<A: RenderArithmetic> Renderer<A> {
         // F_vib t̂: the vibration, in contact only.
         let sounding = flags.of(Flags::CONTACT.and(Flags::SAFE_STATE)) == Flags::CONTACT;
         let Sounded { y, clamped } = sound(&mut state.vibration, sounding);
-        flags = flags.and(Flags::VIB_CLAMPED.when(clamped));
         let vibration_force = coupling.vib_mass * y;
         let axis = match self.config().vibration_axis {
             VibrationAxis::Tangent => state.direction.get(),
@@ -146,7 +144,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let (force, limited) = self.limiter.step(state.force.get(), wanted);
         state.force = force.into();
 
-        flags = flags.and(limited);
+        flags = flags.and(Flags::VIB_CLAMPED.when(clamped)).and(limited);
         state.counters.count(flags, sample.elapsed_ticks);
         Output {
             force_n: force.to_array(),
