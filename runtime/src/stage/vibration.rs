@@ -16,8 +16,7 @@ use crate::{
     arithmetic::Float,
     capacity::Capacity,
     model::{
-        barycentric::WeightSearch, filter::Model, mixture::BlockMixture,
-        section_pair::SectionProduct,
+        barycentric::WeightSearch, filter::Model, mixture::RowMixture, section_pair::SectionProduct,
     },
     quantity::{
         Quantity,
@@ -136,7 +135,7 @@ impl<A: InnerProduct> Vibration<A> {
     }
 }
 
-impl<A: WeightSearch + BlockMixture + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
+impl<A: WeightSearch + RowMixture + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
     /// One tick by itself: the slice of the cycle, the output and, where it is due, the query. The
     /// line spectrum goes a `fraction` of its way in a cycle ([`Texture::cycle_samples`]); with
     /// `sounding` false the vibration is mute.

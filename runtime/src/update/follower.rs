@@ -14,7 +14,7 @@ use crate::{
         barycentric::{Search, WeightSearch},
         filter::{Model, Models},
         lsf_to_ar::LineSpectrum,
-        mixture::BlockMixture,
+        mixture::RowMixture,
         scratch::Scratch,
         section_pair::SectionProduct,
     },
@@ -171,7 +171,7 @@ impl<A: Arithmetic> Follower<A> {
     }
 }
 
-impl<A: WeightSearch + BlockMixture + SectionProduct> Follower<A> {
+impl<A: WeightSearch + RowMixture + SectionProduct> Follower<A> {
     /// Begins a tick: does its slice of the cycle, unless that is the first one. The line spectrum
     /// goes a `fraction` of its way in a cycle.
     #[inline(always)]
