@@ -23,11 +23,7 @@ use crate::{
         unit::{Fraction, MillimetrePerSecond, Newton, VibrationAcceleration},
     },
     texture::Texture,
-    update::{
-        cycle::Cycle,
-        follower::{Follower, Plan},
-        onset::Onset,
-    },
+    update::{cycle::Cycle, follower::Follower, onset::Onset, plan::Plan},
 };
 
 pub use crate::update::cycle::LAG_SAMPLES;

@@ -13,7 +13,7 @@ use crate::{
         tap::interpolation::TapBank,
         upsample::{Upsampler, ticks_per_sample},
     },
-    update::follower::Plan,
+    update::plan::Plan,
 };
 use asperity_formats::{Asset, Grid, Numerator};
 

@@ -22,7 +22,7 @@ use crate::{
         tap::interpolation::TapBank,
         upsample::Upsampler,
     },
-    update::follower::Plan,
+    update::plan::Plan,
 };
 use asperity_formats as formats;
 
