@@ -5,6 +5,7 @@
 pub mod evict;
 pub mod load;
 pub mod motion;
+pub mod queries;
 pub mod reference;
 pub mod texture;
 pub mod trace;

@@ -11,13 +11,17 @@ use asperity_benches::{
     Rig,
     load::{Loading, Work},
     motion::Motion,
+    queries::queries,
+    reference::Reference,
     texture::texture,
 };
-use asperity_formats::Numerator;
+use asperity_formats::{Asset, Numerator};
 use std::{env, error::Error, ffi::OsStr, hint::black_box, process::Command};
 
 /// First argument of the measured program that loads.
 const LOADING: &str = "load";
+/// First argument of the measured program that renders the usual way.
+const REFERENCE: &str = "reference";
 const TICKS: u32 = 4000;
 /// Servo rates over the rate of the models.
 const RATIOS: [u32; 3] = [1, 5, 10];
@@ -38,6 +42,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         load(work_index.parse()?, times.parse()?);
         return Ok(());
     }
+    if let [REFERENCE, texture_index, samples] =
+        arguments.iter().map(String::as_str).collect::<Vec<_>>()[..]
+    {
+        reference(texture_index.parse()?, samples.parse()?);
+        return Ok(());
+    }
     if let [texture_index, motion_index, ratio, ticks] = arguments.as_slice() {
         run(
             texture_index.parse()?,
@@ -49,6 +59,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     for ratio in RATIOS {
         table(ratio)?;
+    }
+    println!("executed instructions of a sample the usual way (see `reference.rs`)");
+    for (index, (label, ..)) in TEXTURES.iter().enumerate() {
+        let usual = |samples: u32| count(&[REFERENCE, &index.to_string(), &samples.to_string()]);
+        let a_sample = (usual(2 * TICKS)? - usual(TICKS)?) / u64::from(TICKS);
+        println!("{label:<24}{a_sample:>9}");
     }
     println!("executed instructions at load");
     for (index, (_, label)) in Work::ALL.iter().enumerate() {
@@ -105,6 +121,18 @@ fn load(work_index: usize, times: usize) {
     let mut loading = Loading::new();
     for _ in 0..times {
         black_box(loading.once(Work::ALL[work_index].0));
+    }
+}
+
+/// The measured program: samples the usual way, a query each.
+fn reference(texture_index: usize, samples: usize) {
+    let (_, order, numerator) = TEXTURES[texture_index];
+    let bytes = texture(order, numerator);
+    let asset = Asset::parse(&bytes).expect("a valid asset");
+    let mut reference = Reference::new(&asset);
+    for &(speed, force) in queries(&asset).iter().cycle().take(samples) {
+        let (speed, force) = (black_box(speed), black_box(force));
+        black_box(reference.tick(speed.into(), force.into(), 0.5));
     }
 }
 

@@ -6,7 +6,9 @@
 //! assets the command takes two textures of the other benches.
 #![forbid(unsafe_code)]
 
-use asperity_benches::{Rig, check, motion::Motion, reference::Reference, texture::texture};
+use asperity_benches::{
+    Rig, check, motion::Motion, queries::queries, reference::Reference, texture::texture,
+};
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
     HostTexture, LoadError, Sample, quantity::Quantity, stage::vibration::Vibration,
@@ -72,21 +74,6 @@ fn many(files: &[String]) -> Result<(), Box<dyn Error>> {
     }
     print_row("usual over ours: the whole tick", ratio, 1);
     Ok(())
-}
-
-/// Speeds, mm/s, and forces, N, that cross the grid.
-fn queries(asset: &Asset<'_>) -> Vec<(f32, f32)> {
-    let grid = asset.grid();
-    let (speed_mm_s, force_n) = (grid.max_speed_mm_s(), grid.max_force_n());
-    let query = |n: usize| {
-        let t = n as f32 * 1e-3;
-        let across = |x: f32| 0.5 + 0.48 * x;
-        (
-            speed_mm_s * across((9.0 * t).sin()),
-            force_n * across((14.0 * t).cos()),
-        )
-    };
-    (0..2000).map(query).collect()
 }
 
 /// Nanoseconds a call over one turn.
