@@ -3,11 +3,11 @@
 use crate::front_ends::{
     inference::Backend,
     learned::{Files, ModelError},
-    text::minilm::MiniLm,
+    text::{Vocabulary, minilm::MiniLm},
 };
 
 const TEXT_ENCODER: &[u8] = include_bytes!("../../model/text_encoder.onnx");
-const VOCABULARY: &str = include_str!("../../model/vocab.txt");
+const VOCABULARY: &str = include_str!("../../model/vocab.tsv");
 
 /// The files of the shipped model.
 #[must_use]
@@ -38,7 +38,7 @@ pub fn text_encoder(backend: &Backend) -> Result<MiniLm, ModelError> {
             file: "text_encoder.onnx".into(),
             message,
         })?;
-    Ok(MiniLm::new(session, VOCABULARY))
+    Ok(MiniLm::new(session, Vocabulary::new(VOCABULARY)))
 }
 
 /// Bytes of the text encoder and of the learned model.
