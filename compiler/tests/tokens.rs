@@ -16,7 +16,7 @@ use std::{path::Path, sync::LazyLock};
 static OURS: LazyLock<MiniLm> =
     LazyLock::new(|| embedded::text_encoder(&Backend::Portable).expect("the embedded encoder"));
 static PIECES: LazyLock<Vec<(&str, u32)>> = LazyLock::new(|| {
-    let lines = include_str!("../model/vocab.tsv").lines();
+    let lines = asperity_model::VOCABULARY.lines();
     let parts = lines.map(|line| line.split_once('\t').expect("piece TAB id"));
     parts
         .map(|(piece, id)| (piece, id.parse().expect("an id")))
