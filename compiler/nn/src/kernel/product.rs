@@ -39,6 +39,14 @@ pub(crate) fn product(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, o
     match b {
         Matrix::Rows(b) if m == 1 => row::product(n, &a[..k], &b[..k * n], &mut out[..n]),
         Matrix::Stored(b) if m == 1 => row::stored(n, &a[..k], &b[..k * n], &mut out[..n]),
+        Matrix::Quantized {
+            weights,
+            scale,
+            zero,
+        } if m == 1 => {
+            let (scale, zero) = (&scale[..n], &zero[..n]);
+            row::quantized(n, &a[..k], &weights[..k * n], scale, zero, &mut out[..n]);
+        }
         _ => dispatched(m, k, n, a, b, out),
     }
 }

@@ -19,6 +19,24 @@ pub(super) fn stored(n: usize, a: &[f32], b: &[[u8; 4]], out: &mut [f32]) {
     add(n, a, b, out);
 }
 
+/// [`product`] with int8 weights in two's complement, each (q − zero) · scale of its column.
+#[multiversion(targets("x86_64+avx2"))]
+pub(super) fn quantized(
+    n: usize,
+    a: &[f32],
+    weights: &[u8],
+    scale: &[f32],
+    zero: &[f32],
+    out: &mut [f32],
+) {
+    for (factor, row) in a.iter().zip(weights.chunks_exact(n)) {
+        let columns = out.iter_mut().zip(row).zip(scale).zip(zero);
+        for (((sum, q), scale), zero) in columns {
+            *sum += factor * ((f32::from(*q as i8) - zero) * scale);
+        }
+    }
+}
+
 /// b is read once from front to back, so that the processor prefetches it. The sums stay in the
 /// first-level cache.
 #[inline(always)]
