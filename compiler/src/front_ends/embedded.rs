@@ -3,27 +3,21 @@
 use crate::front_ends::{
     inference::Backend,
     learned::{Files, ModelError},
-    text::minilm::MiniLm,
+    text::{Vocabulary, minilm::MiniLm},
 };
-
-const TEXT_ENCODER: &[u8] = include_bytes!("../../model/text_encoder.onnx");
-const VOCABULARY: &str = include_str!("../../model/vocab.txt");
+use asperity_model::{
+    AR_DECODER, DESCRIPTION, ENCODER, TAP_DECODER, TEXT_ENCODER, TEXT_PROJECTION, VOCABULARY,
+};
 
 /// The files of the shipped model.
 #[must_use]
 pub fn model() -> Files {
     Files {
-        description: include_str!("../../model/model.json").into(),
-        text_projection: include_bytes!("../../model/text_projection.onnx")
-            .as_slice()
-            .into(),
-        ar_decoder: include_bytes!("../../model/ar_decoder.onnx")
-            .as_slice()
-            .into(),
-        tap_decoder: include_bytes!("../../model/tap_decoder.onnx")
-            .as_slice()
-            .into(),
-        encoder: include_bytes!("../../model/encoder.onnx").as_slice().into(),
+        description: DESCRIPTION.into(),
+        text_projection: TEXT_PROJECTION.into(),
+        ar_decoder: AR_DECODER.into(),
+        tap_decoder: TAP_DECODER.into(),
+        encoder: ENCODER.into(),
     }
 }
 
@@ -38,7 +32,7 @@ pub fn text_encoder(backend: &Backend) -> Result<MiniLm, ModelError> {
             file: "text_encoder.onnx".into(),
             message,
         })?;
-    Ok(MiniLm::new(session, VOCABULARY))
+    Ok(MiniLm::new(session, Vocabulary::new(VOCABULARY)))
 }
 
 /// Bytes of the text encoder and of the learned model.

@@ -5,6 +5,7 @@
 //! rows and columns only. Where a sum over k is interrupted, its value is stored and loaded again,
 //! which does not change it.
 
+mod number;
 mod pack;
 mod row;
 
@@ -15,6 +16,8 @@ use pack::{COLUMNS, DEPTH, PANELS, Right};
 pub(crate) enum Matrix<'a> {
     /// Row-major.
     Rows(&'a [f32]),
+    /// Row-major, little-endian, as a file has it.
+    Stored(&'a [[u8; 4]]),
     /// Column-major; the transpose is row-major.
     Columns(&'a [f32]),
     /// Row-major int8 in two's complement; an element is (q − zero[j]) · scale[j].
@@ -35,6 +38,15 @@ pub(crate) fn product(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, o
     }
     match b {
         Matrix::Rows(b) if m == 1 => row::product(n, &a[..k], &b[..k * n], &mut out[..n]),
+        Matrix::Stored(b) if m == 1 => row::stored(n, &a[..k], &b[..k * n], &mut out[..n]),
+        Matrix::Quantized {
+            weights,
+            scale,
+            zero,
+        } if m == 1 => {
+            let (scale, zero) = (&scale[..n], &zero[..n]);
+            row::quantized(n, &a[..k], &weights[..k * n], scale, zero, &mut out[..n]);
+        }
         _ => dispatched(m, k, n, a, b, out),
     }
 }
@@ -188,7 +200,12 @@ mod tests {
             let (a, b) = (numbers(1, m * k), numbers(2, k * n));
             let expected = bits(&plain(m, k, n, &a, |inner, j| b[inner * n + j]));
             let turned: Vec<f32> = (0..n * k).map(|i| b[i % k * n + i / k]).collect();
-            for matrix in [Matrix::Rows(&b), Matrix::Columns(&turned)] {
+            let stored: Vec<[u8; 4]> = b.iter().map(|x| x.to_le_bytes()).collect();
+            for matrix in [
+                Matrix::Rows(&b),
+                Matrix::Columns(&turned),
+                Matrix::Stored(&stored),
+            ] {
                 let mut scalar = vec![0.0; m * n];
                 tiled(m, k, n, &a, &matrix, &mut scalar);
                 assert_eq!(

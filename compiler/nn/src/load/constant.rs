@@ -1,4 +1,6 @@
-//! Constants: `TensorProto` to [`Tensor`].
+//! Constants: `TensorProto` to [`Constant`], which becomes a [`Tensor`] when a step reads it.
+
+use std::sync::OnceLock;
 
 use bytes::Bytes;
 use thiserror::Error;
@@ -31,8 +33,70 @@ impl ConstantError {
     }
 }
 
-/// Reads a constant. Bytes of 8-bit types are shared with the file, others are copied.
-pub(crate) fn read(proto: &TensorProto) -> Result<Tensor, ConstantError> {
+/// A checked constant. Its bytes stay in the file until a step asks for its elements, which for
+/// the weights of a product never happens.
+#[derive(Debug)]
+pub(crate) struct Constant {
+    element_type: ElementType,
+    shape: Vec<usize>,
+    /// Little-endian elements, as many as the shape says; `None` if the tensor was there at once.
+    raw: Option<Bytes>,
+    tensor: OnceLock<Tensor>,
+}
+
+impl Constant {
+    pub(crate) fn element_type(&self) -> ElementType {
+        self.element_type
+    }
+
+    pub(crate) fn shape(&self) -> &[usize] {
+        &self.shape
+    }
+
+    /// The bytes in the file, if the constant has this type and lies there in one piece.
+    pub(crate) fn stored(&self, element_type: ElementType) -> Option<&Bytes> {
+        let raw = self.raw.as_ref();
+        raw.filter(|_| self.element_type == element_type)
+    }
+
+    /// The constant with its elements. Bytes of 8-bit types are shared with the file, others are
+    /// copied once.
+    pub(crate) fn tensor(&self) -> &Tensor {
+        self.tensor.get_or_init(|| self.decoded())
+    }
+
+    pub(crate) fn into_tensor(mut self) -> Tensor {
+        match self.tensor.take() {
+            Some(tensor) => tensor,
+            None => self.decoded(),
+        }
+    }
+
+    /// Whether no step has asked for the elements yet.
+    #[cfg(test)]
+    pub(crate) fn is_untouched(&self) -> bool {
+        self.tensor.get().is_none()
+    }
+
+    fn decoded(&self) -> Tensor {
+        let raw = self.raw.clone().unwrap_or_default();
+        from_raw(self.element_type, self.shape.clone(), raw)
+    }
+}
+
+impl From<Tensor> for Constant {
+    fn from(tensor: Tensor) -> Self {
+        Self {
+            element_type: tensor.element_type(),
+            shape: tensor.shape().to_vec(),
+            raw: None,
+            tensor: tensor.into(),
+        }
+    }
+}
+
+/// Reads and checks a constant.
+pub(crate) fn read(proto: &TensorProto) -> Result<Constant, ConstantError> {
     if proto.data_location != 0 {
         let reason = "data in another file are not supported; save the model as one file";
         return Err(ConstantError::new("data_location", reason.to_owned()));
@@ -53,18 +117,9 @@ pub(crate) fn read(proto: &TensorProto) -> Result<Tensor, ConstantError> {
         .filter(|shape| layout::size(shape, LIMIT).is_ok())
         .ok_or_else(|| ConstantError::new("dims", format!("{:?} is no shape", proto.dims)))?;
     let size = shape.iter().product();
-    match &proto.raw_data {
-        Some(raw) => from_raw(element_type, shape, size, raw),
-        None => from_list(element_type, shape, size, proto),
-    }
-}
-
-fn from_raw(
-    element_type: ElementType,
-    shape: Vec<usize>,
-    size: usize,
-    raw: &Bytes,
-) -> Result<Tensor, ConstantError> {
+    let Some(raw) = &proto.raw_data else {
+        return Ok(from_list(element_type, shape, size, proto)?.into());
+    };
     if Some(raw.len()) != size.checked_mul(element_type.size()) {
         let reason = format!(
             "{} bytes, expected {size} × {} for {shape:?}",
@@ -73,8 +128,18 @@ fn from_raw(
         );
         return Err(ConstantError::new("raw_data", reason));
     }
+    Ok(Constant {
+        element_type,
+        shape,
+        raw: Some(raw.clone()),
+        tensor: OnceLock::new(),
+    })
+}
+
+/// The tensor of bytes that are as many as its shape says.
+fn from_raw(element_type: ElementType, shape: Vec<usize>, raw: Bytes) -> Tensor {
     let words = raw.as_chunks::<4>().0.iter();
-    Ok(match element_type {
+    match element_type {
         ElementType::F32 => Tensor::F32 {
             shape,
             data: words.map(|word| f32::from_le_bytes(*word)).collect(),
@@ -94,15 +159,9 @@ fn from_raw(
             shape,
             data: raw.iter().map(|&byte| byte != 0).collect(),
         },
-        ElementType::I8 => Tensor::I8 {
-            shape,
-            data: raw.clone(),
-        },
-        ElementType::U8 => Tensor::U8 {
-            shape,
-            data: raw.clone(),
-        },
-    })
+        ElementType::I8 => Tensor::I8 { shape, data: raw },
+        ElementType::U8 => Tensor::U8 { shape, data: raw },
+    }
 }
 
 fn from_list(

@@ -5,7 +5,10 @@ use std::collections::HashMap;
 use bytes::Bytes;
 use prost::Message as _;
 
-use super::{constant, fuse, ports};
+use super::{
+    constant::{self, Constant},
+    fuse, ports,
+};
 use crate::{
     ElementType, NodeRefusal, OnnxError, Port, Tensor,
     op::{self, Inputs, Operator, Types},
@@ -41,7 +44,7 @@ pub(crate) struct Plan {
     pub(crate) input_slots: Vec<Slot>,
     pub(crate) output_slots: Vec<Slot>,
     /// The value of each slot, if it does not depend on the inputs.
-    pub(crate) constants: Vec<Option<Tensor>>,
+    pub(crate) constants: Vec<Option<Constant>>,
     pub(crate) steps: Vec<Step>,
 }
 
@@ -94,7 +97,7 @@ fn opset(model: &ModelProto) -> Result<i64, OnnxError> {
 struct Builder {
     slots: HashMap<String, Slot>,
     types: Vec<ElementType>,
-    constants: Vec<Option<Tensor>>,
+    constants: Vec<Option<Constant>>,
     inputs: Vec<Port>,
     input_slots: Vec<Slot>,
     steps: Vec<Step>,
@@ -106,7 +109,7 @@ impl Builder {
         &mut self,
         name: &str,
         element_type: ElementType,
-        value: Option<Tensor>,
+        value: Option<Constant>,
     ) -> Option<Slot> {
         if name.is_empty() || self.slots.contains_key(name) {
             return None;
@@ -196,7 +199,7 @@ impl Builder {
         let element_type = operator.output_type(&Types(&types))?;
         let value = self.evaluate(&*operator, &inputs)?;
         let known = value.is_some();
-        let Some(output) = self.slot(output, element_type, value) else {
+        let Some(output) = self.slot(output, element_type, value.map(Constant::from)) else {
             return Err(NodeRefusal::DuplicateOutput(output.clone()));
         };
         let step = Step {
@@ -224,6 +227,7 @@ impl Builder {
         let values: Vec<_> = inputs
             .iter()
             .map(|slot| slot.and_then(|slot| self.constants[slot].as_ref()))
+            .map(|constant| constant.map(Constant::tensor))
             .collect();
         let inputs = Inputs {
             values: &values,
@@ -266,7 +270,7 @@ impl Builder {
                 "empty: nothing to compute".to_owned(),
             ));
         }
-        fuse::quantized_products(&mut self.steps, &self.constants);
+        fuse::constant_products(&mut self.steps, &self.constants);
         prune(&mut self.steps, &mut self.constants, &output_slots);
         Ok(Plan {
             inputs: self.inputs,
@@ -287,7 +291,7 @@ fn node_name(node: &NodeProto) -> String {
 }
 
 /// Drops steps and constants that no output needs, and notes where each value is read last.
-fn prune(steps: &mut Vec<Step>, constants: &mut [Option<Tensor>], outputs: &[Slot]) {
+fn prune(steps: &mut Vec<Step>, constants: &mut [Option<Constant>], outputs: &[Slot]) {
     let mut needed = vec![false; constants.len()];
     for &slot in outputs {
         needed[slot] = true;

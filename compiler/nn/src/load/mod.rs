@@ -5,5 +5,6 @@ mod fuse;
 mod graph;
 pub(crate) mod ports;
 
+pub(crate) use constant::Constant;
 pub use graph::{MAX_OPSET, MIN_OPSET};
 pub(crate) use graph::{Plan, Slot, Step, load};

@@ -82,7 +82,7 @@ impl<'a> Attributes<'a> {
             return Err(refusal(name, "holds no tensor".to_owned()));
         };
         match constant::read(tensor) {
-            Ok(tensor) => Ok(Some(tensor)),
+            Ok(constant) => Ok(Some(constant.into_tensor())),
             Err(error) => Err(refusal(name, error.to_string())),
         }
     }

@@ -1,6 +1,4 @@
-//! MatMul, Gemm, and MatMul with int8 weights that are expanded inside the product.
-
-use bytes::Bytes;
+//! MatMul and Gemm.
 
 use crate::{
     ElementType, NodeRefusal, OpError, Tensor,
@@ -78,13 +76,22 @@ impl Operator for MatMul {
         Ok(Tensor::F32 { shape, data })
     }
 
-    fn as_matmul(&self) -> Option<&MatMul> {
-        Some(self)
+    fn as_product(&self) -> Option<Product> {
+        Some(Product::MatMul)
     }
 }
 
+/// A product a·b, each factor as it lies in memory. Load fuses it with a constant b.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Product {
+    /// As [`MatMul`].
+    MatMul,
+    /// As [`Gemm`].
+    Gemm(Gemm),
+}
+
 /// α·op(A)·op(B) + β·C on matrices, where op transposes if the attributes say so.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Gemm {
     alpha: f32,
     beta: f32,
@@ -139,78 +146,45 @@ impl Operator for Gemm {
             Matrix::Rows(b)
         };
         product(m, k, n, a, &b, &mut data);
+        let data = self.finish(inputs, 2, &shape, data)?;
+        Ok(Tensor::F32 { shape, data })
+    }
+
+    fn as_product(&self) -> Option<Product> {
+        let turned = self.transpose_a || self.transpose_b;
+        (!turned).then_some(Product::Gemm(*self))
+    }
+}
+
+impl Gemm {
+    /// α·data + β·C, where C is input `index`.
+    pub(crate) fn finish(
+        &self,
+        inputs: &Inputs<'_>,
+        index: usize,
+        shape: &[usize],
+        mut data: Vec<f32>,
+    ) -> Result<Vec<f32>, OpError> {
         if self.alpha != 1.0 {
             for x in &mut data {
                 *x *= self.alpha;
             }
         }
-        if let Some(c) = inputs.given(2) {
-            let fits = layout::broadcast(c.shape(), &shape)? == shape;
+        if let Some(c) = inputs.given(index) {
+            let fits = layout::broadcast(c.shape(), shape)? == shape;
             if !fits {
                 return Err(OpError::shape(
                     "C must broadcast to A·B",
-                    &[c.shape(), &shape],
+                    &[c.shape(), shape],
                 ));
             }
-            let c = (c.shape(), inputs.f32(2)?);
+            let c = (c.shape(), inputs.f32(index)?);
             data = if self.beta == 1.0 {
-                layout::zip(&shape, (&shape, &data), c, |x, c| x + c)
+                layout::zip(shape, (shape, &data), c, |x, c| x + c)
             } else {
-                layout::zip(&shape, (&shape, &data), c, |x, c| x + self.beta * c)
+                layout::zip(shape, (shape, &data), c, |x, c| x + self.beta * c)
             };
         }
-        Ok(Tensor::F32 { shape, data })
-    }
-}
-
-/// `MatMul` whose right-hand side is `DequantizeLinear` of constants.
-///
-/// The weights stay int8 in memory. The product expands each where it needs it, by the same
-/// formula.
-#[derive(Debug)]
-pub(crate) struct QuantizedMatMul {
-    /// Rows.
-    pub(crate) k: usize,
-    /// Columns.
-    pub(crate) n: usize,
-    /// [k, n] in two's complement.
-    pub(crate) weights: Bytes,
-    /// One a column.
-    pub(crate) scale: Vec<f32>,
-    /// One a column.
-    pub(crate) zero: Vec<f32>,
-}
-
-impl Operator for QuantizedMatMul {
-    fn output_type(&self, inputs: &Types<'_>) -> Result<ElementType, NodeRefusal> {
-        inputs.f32(0)
-    }
-
-    fn run(&self, inputs: &Inputs<'_>) -> Result<Tensor, OpError> {
-        let a_shape = inputs.shape(0)?;
-        let [lead @ .., k] = a_shape else {
-            return Err(OpError::shape(
-                "a scalar has no product with a matrix",
-                &[a_shape],
-            ));
-        };
-        if *k != self.k {
-            let weights = [self.k, self.n];
-            return Err(OpError::shape(
-                "columns of a must match rows of the weights",
-                &[a_shape, &weights],
-            ));
-        }
-        let mut shape = lead.to_vec();
-        shape.push(self.n);
-        let mut data = vec![0.0; inputs.size(&shape)?];
-        let weights = Matrix::Quantized {
-            weights: &self.weights,
-            scale: &self.scale,
-            zero: &self.zero,
-        };
-        let rows = data.len().checked_div(self.n).unwrap_or(0);
-        product(rows, self.k, self.n, inputs.f32(0)?, &weights, &mut data);
-        Ok(Tensor::F32 { shape, data })
+        Ok(data)
     }
 }

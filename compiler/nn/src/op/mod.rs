@@ -6,6 +6,7 @@ mod attributes;
 mod cast;
 mod compare;
 mod concat;
+mod constant_product;
 mod cumsum;
 mod expand;
 mod gather;
@@ -19,7 +20,8 @@ mod slice;
 mod unary;
 
 pub(crate) use cast::{DequantizeLinear, numbers};
-pub(crate) use matmul::{MatMul, QuantizedMatMul};
+pub(crate) use constant_product::{ConstantProduct, Weights};
+pub(crate) use matmul::Product;
 
 use crate::{
     ElementType, NodeRefusal, OpError, Tensor, error::TypeFound, proto::NodeProto, tensor::Element,
@@ -40,8 +42,8 @@ pub(crate) trait Operator: Send + Sync + std::fmt::Debug {
     /// The result.
     fn run(&self, inputs: &Inputs<'_>) -> Result<Tensor, OpError>;
 
-    /// The operator, if it is a `MatMul`, which load fuses with quantised weights.
-    fn as_matmul(&self) -> Option<&MatMul> {
+    /// The product, if the operator is one that load fuses with constant weights.
+    fn as_product(&self) -> Option<Product> {
         None
     }
 
@@ -228,7 +230,7 @@ fn lookup(
         "Neg" => unary(Unary::Neg),
         "Softplus" => unary(Unary::Softplus),
         "Clip" => (1..=3, Box::new(unary::Clip)),
-        "MatMul" => (2..=2, Box::new(MatMul)),
+        "MatMul" => (2..=2, Box::new(matmul::MatMul)),
         "Gemm" => (2..=3, Box::new(matmul::Gemm::parse(attributes)?)),
         "Softmax" => (1..=1, Box::new(normalize::Softmax::parse(attributes)?)),
         "LayerNormalization" => (

@@ -1,12 +1,11 @@
 //! all-MiniLM-L6-v2: WordPiece tokens in lower case to a vector of 384 numbers.
 
-use super::encoder::{Encoded, TextEncoder, TextError, unit};
-use asperity_nn::{Session, Tensor};
-use rten_text::{
-    models::{Model as _, WordPiece, WordPieceOptions},
-    normalizers::{self, BertOptions, Normalizer as _},
-    pre_tokenizers::{self, PreTokenizer as _},
+use super::{
+    encoder::{Encoded, TextEncoder, TextError, unit},
+    vocabulary::Vocabulary,
+    word_piece,
 };
+use asperity_nn::{Session, Tensor};
 
 /// Width of its vectors.
 pub const WIDTH: usize = 384;
@@ -16,29 +15,16 @@ pub const MAX_TOKENS: usize = 128;
 /// The encoder on a back end.
 pub struct MiniLm {
     session: Box<dyn Session>,
-    // These are the parts of `rten_text::Tokenizer`, which threads cannot share.
-    normaliser: normalizers::Bert,
-    words: pre_tokenizers::Bert,
-    pieces: WordPiece,
+    vocabulary: Vocabulary,
 }
 
 impl MiniLm {
-    /// An encoder of its network and its vocabulary, which has one word piece a line.
+    /// An encoder of its network and its vocabulary.
     #[must_use]
-    pub fn new(session: Box<dyn Session>, vocabulary: &str) -> Self {
-        let vocabulary = vocabulary
-            .lines()
-            .enumerate()
-            .map(|(id, piece)| (piece.to_owned(), id as u32))
-            .collect();
+    pub fn new(session: Box<dyn Session>, vocabulary: Vocabulary) -> Self {
         Self {
             session,
-            normaliser: normalizers::Bert::new(BertOptions {
-                lowercase: true,
-                strip_accents: true,
-            }),
-            words: pre_tokenizers::Bert::new(),
-            pieces: WordPiece::from_vocab(vocabulary, WordPieceOptions::default()),
+            vocabulary,
         }
     }
 
@@ -47,20 +33,13 @@ impl MiniLm {
     /// # Errors
     /// [`TextError::Tokeniser`] when the vocabulary lacks the marks.
     pub fn tokens(&self, text: &str) -> Result<(Vec<i64>, usize), TextError> {
-        let failed = |error: &dyn std::fmt::Display| TextError::Tokeniser(error.to_string());
+        let lacking = |name: &str| TextError::Tokeniser(format!("no {name} in the vocabulary"));
         let mark = |name: &str| {
-            self.pieces
-                .get_token_id(name)
-                .map(i64::from)
-                .ok_or_else(|| failed(&format!("no {name} in the vocabulary")))
+            let id = self.vocabulary.id("", name).ok_or_else(|| lacking(name))?;
+            Ok::<i64, TextError>(id.into())
         };
-        let (normal, _) = self.normaliser.normalize(text).map_err(|e| failed(&e))?;
         let mut ids = vec![mark("[CLS]")?];
-        for word in self.words.pre_tokenize(&normal).map_err(|e| failed(&e))? {
-            self.pieces
-                .encode_with_offsets(word, &mut |_, id| ids.push(i64::from(id)))
-                .map_err(|e| failed(&e))?;
-        }
+        word_piece::encode(text, &self.vocabulary, &mut ids).ok_or_else(|| lacking("[UNK]"))?;
         let cut = (ids.len() + 1).saturating_sub(MAX_TOKENS);
         ids.truncate(MAX_TOKENS - 1);
         ids.push(mark("[SEP]")?);

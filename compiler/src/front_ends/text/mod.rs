@@ -6,6 +6,9 @@ mod choice;
 pub mod clip;
 mod encoder;
 pub mod minilm;
+mod vocabulary;
+mod word_piece;
 
 pub use choice::TextEncoderChoice;
 pub use encoder::{Encoded, TextEncoder, TextError};
+pub use vocabulary::Vocabulary;

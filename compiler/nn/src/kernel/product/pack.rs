@@ -1,6 +1,8 @@
 //! Both factors of a product, packed in the order in which its tiles read them.
 
-use super::{Matrix, tile_rows};
+use std::ops::Range;
+
+use super::{Matrix, number::Number, tile_rows};
 
 /// Columns of a panel.
 pub(super) const COLUMNS: usize = 16;
@@ -86,14 +88,8 @@ impl<'a> Right<'a> {
     pub(super) fn panels(&self, start: usize, group: usize, depth: usize, panels: &mut [Panel]) {
         let end = self.n.min(group + PANELS * COLUMNS);
         match *self.b {
-            Matrix::Rows(b) => {
-                for inner in 0..depth {
-                    let row = &b[(start + inner) * self.n..][group..end];
-                    for (part, panel) in row.chunks(COLUMNS).zip(&mut *panels) {
-                        transfer(part.len(), part, &mut panel[inner]);
-                    }
-                }
-            }
+            Matrix::Rows(b) => rows(&b[start * self.n..], self.n, group..end, depth, panels),
+            Matrix::Stored(b) => rows(&b[start * self.n..], self.n, group..end, depth, panels),
             Matrix::Columns(b) => {
                 for column in group..end {
                     let offset = column - group;
@@ -112,6 +108,25 @@ impl<'a> Right<'a> {
                     let part = column..end.min(column + COLUMNS);
                     let rows = lines.iter().map(|line| &line[index]);
                     expand(rows, &scale[part.clone()], &zero[part], panel);
+                }
+            }
+        }
+    }
+}
+
+/// Copies the same columns of `depth` rows of n elements into panels.
+#[inline(always)]
+fn rows<T: Number>(b: &[T], n: usize, columns: Range<usize>, depth: usize, panels: &mut [Panel]) {
+    for inner in 0..depth {
+        let row = &b[inner * n..][columns.clone()];
+        for (part, panel) in row.chunks(COLUMNS).zip(&mut *panels) {
+            let slots = &mut panel[inner];
+            match part.first_chunk::<COLUMNS>() {
+                Some(whole) => *slots = whole.map(Number::f32),
+                None => {
+                    for (slot, x) in slots.iter_mut().zip(part) {
+                        *slot = x.f32();
+                    }
                 }
             }
         }

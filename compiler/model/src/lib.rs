@@ -1,0 +1,25 @@
+//! The learned model that Asperity ships, and the text encoder that it was trained with, as bytes
+//! in the binary.
+//!
+//! The networks are ONNX files. Where one is larger than a package may be, it lies in packages of
+//! its own. `cargo run -p asperity-model --example folder -- DIR` writes the model folder that
+//! `--model DIR` takes. Licences of what is not ours are in `LICENSES/`.
+
+#![no_std]
+
+mod parts;
+
+pub use asperity_model_ar_decoder::AR_DECODER;
+pub use asperity_model_tap_decoder::TAP_DECODER;
+
+/// The file `model.json`: what the model is, and the materials that it was trained on.
+pub static DESCRIPTION: &str = include_str!("../model.json");
+/// The file `text_projection.onnx`: `embedding` [B, 384] to `z` [B, 64] and `similarity` [B, M].
+pub static TEXT_PROJECTION: &[u8] = include_bytes!("../text_projection.onnx");
+/// The file `encoder.onnx`: `ar` [B, 18, 22], `taps_m_s2` [B, 13, 100] and `present` [B, 2] to
+/// `mean` and `log_variance` [B, 64].
+pub static ENCODER: &[u8] = include_bytes!("../encoder.onnx");
+/// The file `text_encoder.onnx`: `input_ids` [B, S], at most 128 of them, to `embedding` [B, 384].
+pub static TEXT_ENCODER: &[u8] = &parts::TEXT_ENCODER;
+/// The word pieces of the text encoder: lines `piece TAB id`, sorted by the bytes of the piece.
+pub static VOCABULARY: &str = include_str!("../vocab.tsv");
