@@ -1,7 +1,10 @@
 //! `scene.toml`: surfaces, and the textures they wear.
 
 use super::error::{SceneError, SceneProblem};
-use crate::passes::rerate;
+use crate::{
+    input::{self, Kind},
+    passes::rerate,
+};
 use asperity_formats::{
     Solid,
     limits::{MAX_NAME_BYTES, MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
@@ -128,8 +131,8 @@ impl Description {
             field,
             problem,
         };
-        let text = std::fs::read_to_string(file)
-            .map_err(|e| fail(String::new(), SceneProblem::Unreadable(e)))?;
+        let text =
+            input::read_text(file, Kind::Scene).map_err(|e| fail(String::new(), e.into()))?;
         let raw: RawScene = toml::from_str(&text)
             .map_err(|e| fail(String::new(), SceneProblem::Syntax(e.to_string())))?;
         let folder = file.parent().unwrap_or(Path::new(""));
