@@ -12,6 +12,9 @@ use asperity_formats::{
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
+/// Textures that a scene may list, worn or not. Each name is compared with all before it.
+const MAX_LISTED_TEXTURES: usize = 1024;
+
 /// A checked scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Description {
@@ -155,6 +158,13 @@ impl RawScene {
         if self.surface.len() > MAX_SURFACES {
             let count = self.surface.len();
             return Err(("surface".into(), SceneProblem::TooMany(count)));
+        }
+        if self.texture.len() > MAX_LISTED_TEXTURES {
+            let problem = SceneProblem::TooManyTextures {
+                found: self.texture.len(),
+                limit: MAX_LISTED_TEXTURES,
+            };
+            return Err(("texture".into(), problem));
         }
         let mut textures: Vec<TextureEntry> = Vec::new();
         for (index, raw) in self.texture.into_iter().enumerate() {

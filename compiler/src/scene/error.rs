@@ -34,6 +34,14 @@ pub enum SceneProblem {
     /// More surfaces than a library holds.
     #[error("{0} surfaces, a scene holds 64")]
     TooMany(usize),
+    /// More textures than a scene may list.
+    #[error("{found} textures, a scene lists {limit} at most")]
+    TooManyTextures {
+        /// Textures of the file.
+        found: usize,
+        /// Textures accepted.
+        limit: usize,
+    },
     /// A surface wears a texture that the scene does not have.
     #[error("no texture {wanted:?}; there are {known:?}")]
     UnknownTexture {
@@ -125,6 +133,7 @@ impl Diagnostic for SceneError {
                 "add a [[surface]] with a texture and a plane, sphere or box".into()
             }
             SceneProblem::TooMany(_) => "split the scene".into(),
+            SceneProblem::TooManyTextures { .. } => "remove textures that no surface wears".into(),
             SceneProblem::UnknownTexture { wanted, .. } => {
                 format!("add a [[texture]] with name = {wanted:?}, or correct the name")
             }

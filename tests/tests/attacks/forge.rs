@@ -1,5 +1,6 @@
 //! Damage with right checksums, so that the checks behind them are reached.
 
+use asperity_formats::Asset;
 use asperity_tests::damage::seal;
 
 const ENTRY_LEN: usize = 24;
@@ -65,13 +66,17 @@ pub(crate) fn library_of(count: u32, asset: &[u8]) -> Vec<u8> {
         .flat_map(|n| format!("{n:07x}").into_bytes())
         .collect();
     let index_len = HEADER_LEN + count as usize * ENTRY_LEN + names.len();
+    let haptic_len = Asset::parse(asset).expect("a valid asset").haptic_len();
     let mut entries = Vec::with_capacity(count as usize * ENTRY_LEN);
     let mut offset = index_len as u64;
     for n in 0..count {
-        let len = if n == 0 { asset.len() as u32 } else { 0 };
+        let (len, haptic_len) = match n {
+            0 => (asset.len() as u32, haptic_len as u32),
+            _ => (0, 0),
+        };
         entries.extend(offset.to_le_bytes());
         entries.extend(len.to_le_bytes());
-        entries.extend(len.to_le_bytes());
+        entries.extend(haptic_len.to_le_bytes());
         entries.extend((7 * n).to_le_bytes());
         entries.extend([7, 0, 0, 0]);
         offset += u64::from(len);

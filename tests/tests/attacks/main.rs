@@ -7,8 +7,9 @@
 //! `ASPERITY_ATTACKS=1234..1235` runs one again. A case that fails keeps its folder.
 #![cfg(unix)]
 
-mod commands;
+mod case;
 mod forge;
+mod forms;
 mod mutate;
 mod pieces;
 mod programs;
@@ -55,7 +56,7 @@ fn no_input_brings_a_command_down() {
             if number >= cases.end {
                 return done;
             }
-            done.add(case(number, &programs, &seeds, &root));
+            done.add(attacked(number, &programs, &seeds, &root));
         }
     };
     let threads = std::thread::available_parallelism().map_or(2, usize::from);
@@ -77,7 +78,7 @@ fn no_input_brings_a_command_down() {
 }
 
 /// One case: its folder, its command, what came of it.
-fn case(
+fn attacked(
     number: usize,
     programs: &programs::Programs,
     seeds: &seeds::Seeds,
@@ -86,8 +87,8 @@ fn case(
     let mut draw = Draw::new(0xa77a_c4ed ^ (number as u64) << 20);
     let folder = root.join(number.to_string());
     let attack = match pieces::PIECES.get(number) {
-        Some(piece) => commands::Attack::of_piece(piece),
-        None => commands::Attack::drawn(number, seeds, &mut draw),
+        Some(piece) => case::Attack::of_piece(piece, seeds),
+        None => case::Attack::drawn(number, seeds, &mut draw),
     };
     seeds.write(&folder);
     attack.prepare(&folder, seeds);

@@ -6,6 +6,9 @@ use crate::{
     seeds::{Seed, Seeds},
 };
 
+/// As a target: the word of the line that is replaced, instead of a file.
+pub(crate) const PROMPT: &str = "PROMPT";
+
 /// One attack.
 pub(crate) struct Piece {
     pub(crate) program: Program,
@@ -54,7 +57,22 @@ const NETWORK: Line = (
     "clip/model.onnx",
 );
 
-pub(crate) const PIECES: [Piece; 37] = [
+const PROMPT_LINE: Line = (Compiler, "compile PROMPT -o out.asp --no-preview", PROMPT);
+
+pub(crate) const PIECES: [Piece; 42] = [
+    piece(PROMPT_LINE, "one word of 120,000 letters", |_| {
+        b"a".repeat(120_000)
+    }),
+    piece(PROMPT_LINE, "60,000 words", |_| b"a ".repeat(60_000)),
+    piece(PROMPT_LINE, "60,000 combining marks", |_| {
+        "\u{301}".repeat(60_000).into_bytes()
+    }),
+    piece(PROMPT_LINE, "bytes that are no text", |_| {
+        b"cork \xff\xfe".to_vec()
+    }),
+    piece(PROMPT_LINE, "control characters", |_| {
+        b"\x1b[31m\x07\r\n\x7f".to_vec()
+    }),
     piece(HATT, "80,000 attributes", |_| attributes(80_000)),
     piece(HATT, "300,000 attributes", |_| attributes(300_000)),
     piece(HATT, "60,000 namespaces within each other", |_| {

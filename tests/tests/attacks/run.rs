@@ -20,21 +20,20 @@ pub(crate) struct Run {
     pub(crate) cpu: Duration,
     pub(crate) wall: Duration,
     pub(crate) max_rss_bytes: u64,
-    pub(crate) stdout: String,
     pub(crate) stderr: String,
 }
 
-/// Runs a program in a folder. Its outputs go to files, which never block it.
+/// Runs a program in a folder. What it prints never blocks it.
 pub(crate) fn run(program: PathBuf, arguments: &[OsString], folder: &Path) -> Run {
-    let at = |name: &str| folder.with_extension(name);
-    let create = |name: &str| File::create(at(name)).expect("a file for what is printed");
+    let printed = folder.with_extension("stderr");
+    let stderr = File::create(&printed).expect("a file for what is printed");
     let from = Instant::now();
     let mut child = Command::new(program)
         .args(arguments)
         .current_dir(folder)
         .stdin(Stdio::null())
-        .stdout(create("stdout"))
-        .stderr(create("stderr"))
+        .stdout(Stdio::null())
+        .stderr(stderr)
         .spawn()
         .expect("the program starts");
     let id = child.id().to_string();
@@ -52,18 +51,14 @@ pub(crate) fn run(program: PathBuf, arguments: &[OsString], folder: &Path) -> Ru
     // The thread has ended already where the child was killed.
     let _ = ended.send(());
     let was_killed = watch.join().expect("the watch does not panic");
-    let printed = |name: &str| {
-        let bytes = fs::read(at(name)).unwrap_or_default();
-        let _ = fs::remove_file(at(name));
-        String::from_utf8_lossy(&bytes).into_owned()
-    };
+    let stderr = fs::read(&printed).unwrap_or_default();
+    let _ = fs::remove_file(printed);
     Run {
         status: usage.status,
         was_killed,
         cpu: usage.rusage.utime + usage.rusage.stime,
         wall,
         max_rss_bytes: usage.rusage.maxrss,
-        stdout: printed("stdout"),
-        stderr: printed("stderr"),
+        stderr: String::from_utf8_lossy(&stderr).into_owned(),
     }
 }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use bytes::Bytes;
 use prost::Message as _;
 
-use super::{constant, fuse, ports};
+use super::{constant, fuse, ports, refusal::refusal, scan};
 use crate::{
     ElementType, NodeRefusal, OnnxError, Port, Tensor,
     op::{self, Inputs, Operator, Types},
@@ -47,6 +47,7 @@ pub(crate) struct Plan {
 
 /// Reads and checks a model.
 pub(crate) fn load(bytes: Bytes) -> Result<Plan, OnnxError> {
+    scan::check(&bytes)?;
     let model = ModelProto::decode(bytes)?;
     let opset = opset(&model)?;
     let Some(graph) = model.graph else {
@@ -65,10 +66,6 @@ pub(crate) fn load(bytes: Bytes) -> Result<Plan, OnnxError> {
         builder.add_node(node, opset)?;
     }
     builder.finish(&graph)
-}
-
-fn refusal(field: &'static str, reason: String) -> OnnxError {
-    OnnxError::Model { field, reason }
 }
 
 fn opset(model: &ModelProto) -> Result<i64, OnnxError> {
