@@ -109,11 +109,8 @@ impl Tag {
         let mut quote = None;
         for (at, &byte) in bytes.iter().enumerate().skip(start) {
             match quote {
-                Some(closing) => {
-                    if byte == closing {
-                        quote = None;
-                    }
-                }
+                Some(closing) if byte == closing => quote = None,
+                Some(_) => {}
                 None if byte == b'"' || byte == b'\'' => quote = Some(byte),
                 None if byte == b'=' => {
                     tag.attributes += 1;

@@ -1,7 +1,7 @@
 //! A command with a hostile input: a case.
 
 use crate::{
-    forms::FORMS,
+    forms::{FORMS, Form},
     mutate::mutated,
     pieces::{PROMPT, Piece},
     programs::Program,
@@ -51,6 +51,18 @@ impl Attack {
             attack.misdirect(draw);
         }
         attack
+    }
+
+    /// A command of the table with a valid input.
+    pub(crate) fn valid(form: &Form, seeds: &Seeds) -> Self {
+        let input = Input::Bytes(seeds.bytes(form.seed).to_vec());
+        Self::of(
+            form.program,
+            form.line,
+            form.target,
+            input,
+            "valid".to_owned(),
+        )
     }
 
     /// A case that is not left to chance.

@@ -79,7 +79,7 @@ pub(crate) const FORMS: [Form; 36] = [
     ),
     form(
         Compiler,
-        "render scene.aspl --trajectory in.csv -o out.csv --rate 2000",
+        "render scene.aspl --trajectory in.csv -o out.csv",
         "in.csv",
         Seed::Trajectory,
     ),

@@ -77,6 +77,27 @@ fn no_input_brings_a_command_down() {
     }
 }
 
+/// The attacks start from inputs that the commands take. A text tower of CLIP is not shipped.
+#[test]
+fn what_is_not_attacked_is_accepted() {
+    let programs = programs::built();
+    let seeds = seeds::Seeds::new();
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("not-attacked");
+    let _ = std::fs::remove_dir_all(&root);
+    for (number, form) in forms::FORMS.iter().enumerate() {
+        if form.is_long || form.line.contains("clip:") {
+            continue;
+        }
+        let folder = root.join(number.to_string());
+        let harmless = case::Attack::valid(form, &seeds);
+        seeds.write(&folder);
+        harmless.prepare(&folder, &seeds);
+        let run = run::run(programs.path(form.program), &harmless.arguments, &folder);
+        assert_eq!(run.status.code(), Some(0), "{}: {}", form.line, run.stderr);
+    }
+    let _ = std::fs::remove_dir_all(&root);
+}
+
 /// One case: its folder, its command, what came of it.
 fn attacked(
     number: usize,

@@ -67,7 +67,7 @@ impl Strange {
             Folder => drop(fs::create_dir(path)),
             Unreadable => {
                 let _ = fs::write(path, b"nobody reads this");
-                let _ = fs::set_permissions(path, Permissions::from_mode(0));
+                let _ = fs::set_permissions(path, Permissions::from_mode(0o000));
             }
             LinkToItself => drop(symlink(path, path)),
             LinkToNothing => drop(symlink("nothing", path)),
@@ -79,7 +79,7 @@ impl Strange {
             Sparse => drop(File::create(path).and_then(|file| file.set_len(1 << 40))),
             // The name of a socket is short; a missing file is a case as well.
             Socket => drop(std::os::unix::net::UnixListener::bind(path)),
-            Pipe => drop(Command::new("mkfifo").arg(path).status()),
+            Pipe => drop(Command::new("mkfifo").arg(path).output()),
         }
     }
 }
