@@ -4,7 +4,8 @@
 //! processor time and 512 MiB of memory. It leaves no partial output and no input changed.
 //!
 //! `ASPERITY_ATTACKS` sets how many cases are run; the first are the same whatever their number.
-//! `ASPERITY_ATTACKS=1234..1235` runs one again. A case that fails keeps its folder.
+//! `ASPERITY_ATTACKS=1234..1235` runs one again. `ASPERITY_PROGRAMS` names a folder with other builds
+//! of the programs, by an absolute path. A case that fails keeps its folder.
 #![cfg(unix)]
 
 mod case;

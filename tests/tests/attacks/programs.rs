@@ -28,8 +28,14 @@ impl Programs {
     }
 }
 
-/// Builds both, as `.ci/run` does, so that nothing is built twice.
+/// Those of the folder that `ASPERITY_PROGRAMS` names, or both built, as `.ci/run` does, so that nothing is
+/// built twice.
 pub(crate) fn built() -> Programs {
+    if let Some(folder) = std::env::var_os("ASPERITY_PROGRAMS") {
+        return Programs {
+            folder: folder.into(),
+        };
+    }
     // target/PROFILE/deps/attacks-…
     let test = std::env::current_exe().expect("the test's own path");
     let folder = test.parent().and_then(Path::parent).expect("a profile");
