@@ -12,7 +12,7 @@
 //! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`spectrum`], [`tap_synthesis`] |
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`render`] |
 //!
-//! [`pipeline`] runs the passes and the back end, and times them: every command that makes an
+//! [`input`] reads every file, within limits. [`pipeline`] runs the passes and the back end, and times them: every command that makes an
 //! asset takes this one way. [`scene`] packs several textures within a budget.
 #![forbid(unsafe_code)]
 
@@ -23,6 +23,7 @@ mod signal;
 mod views;
 
 pub mod diagnostic;
+pub mod input;
 pub mod model;
 pub mod pipeline;
 pub mod progress;

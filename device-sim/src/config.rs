@@ -1,22 +1,18 @@
 //! TOML files of the simulator: they are parsed strictly, and every value is checked.
 
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use asperity::diagnostic::Diagnostic;
+use asperity::input::{self, InputError, Kind};
 use serde::de::DeserializeOwned;
 
 /// Why a device or grip file was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum ConfigError {
-    /// The file could not be read.
-    #[error("{}: cannot read it", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
+    /// The file could not be read, is too large, or is not UTF-8.
+    #[error(transparent)]
+    Read(#[from] InputError),
     /// Not TOML, or not the expected keys.
     #[error("{file}:{line}: {message}")]
     Parse {
@@ -70,7 +66,7 @@ pub enum ConfigError {
 impl Diagnostic for ConfigError {
     fn remedy(&self) -> String {
         match self {
-            Self::Read { .. } => "check the path and its permissions".into(),
+            Self::Read(error) => error.remedy(),
             Self::Parse { .. } => {
                 "compare with device-sim/devices/touch.toml or device-sim/grips/light.toml".into()
             }
@@ -93,9 +89,10 @@ impl Diagnostic for ConfigError {
 
 /// Reads a whole text file.
 pub(crate) fn read_text(path: &Path) -> Result<String, ConfigError> {
-    std::fs::read_to_string(path).map_err(|source| ConfigError::Read {
-        path: path.to_path_buf(),
-        source,
+    let text = input::read_text(path, Kind::Settings);
+    text.map_err(|problem| {
+        let file = path.to_path_buf();
+        ConfigError::Read(InputError { file, problem })
     })
 }
 

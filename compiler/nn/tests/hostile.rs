@@ -271,3 +271,16 @@ fn nodes_that_nothing_needs_are_not_run() {
             .is_ok()
     );
 }
+
+/// Files that a decoder would take a hundred times their bytes for.
+#[test]
+fn files_of_too_many_parts_are_refused_before_they_are_decoded() {
+    let nodes = changed(|graph| graph.node = vec![NodeProto::default(); 70_000]);
+    assert!(refusal(&nodes).contains("more than 65536 nodes, names and constants"));
+    let names = changed(|graph| graph.node[0].input = vec![String::new(); 70_000]);
+    assert!(refusal(&names).contains("more than 65536"));
+    let dims = changed(|graph| graph.initializer[0].dims = vec![1; 17 << 20]);
+    assert!(refusal(&dims).contains("more than 16777216 bytes of integers"));
+    let within = changed(|graph| graph.node[0].attribute.clear());
+    assert!(Portable::from_bytes(&within.encode_to_vec()).is_ok());
+}

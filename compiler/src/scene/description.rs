@@ -1,13 +1,19 @@
 //! `scene.toml`: surfaces, and the textures they wear.
 
 use super::error::{SceneError, SceneProblem};
-use crate::passes::rerate;
+use crate::{
+    input::{self, Kind},
+    passes::rerate,
+};
 use asperity_formats::{
     Solid,
     limits::{MAX_NAME_BYTES, MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
 };
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
+
+/// Textures that a scene may list, worn or not. Each name is compared with all before it.
+const MAX_LISTED_TEXTURES: usize = 1024;
 
 /// A checked scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,8 +134,8 @@ impl Description {
             field,
             problem,
         };
-        let text = std::fs::read_to_string(file)
-            .map_err(|e| fail(String::new(), SceneProblem::Unreadable(e)))?;
+        let text =
+            input::read_text(file, Kind::Scene).map_err(|e| fail(String::new(), e.into()))?;
         let raw: RawScene = toml::from_str(&text)
             .map_err(|e| fail(String::new(), SceneProblem::Syntax(e.to_string())))?;
         let folder = file.parent().unwrap_or(Path::new(""));
@@ -152,6 +158,13 @@ impl RawScene {
         if self.surface.len() > MAX_SURFACES {
             let count = self.surface.len();
             return Err(("surface".into(), SceneProblem::TooMany(count)));
+        }
+        if self.texture.len() > MAX_LISTED_TEXTURES {
+            let problem = SceneProblem::TooManyTextures {
+                found: self.texture.len(),
+                limit: MAX_LISTED_TEXTURES,
+            };
+            return Err(("texture".into(), problem));
         }
         let mut textures: Vec<TextureEntry> = Vec::new();
         for (index, raw) in self.texture.into_iter().enumerate() {

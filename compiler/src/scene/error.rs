@@ -2,8 +2,8 @@
 
 use super::target::Target;
 use crate::back_end::library::LibraryError;
-use crate::diagnostic::Diagnostic;
-use std::{io, path::PathBuf};
+use crate::{diagnostic::Diagnostic, input::InputProblem};
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a scene cannot be built: the file, the field, the reason.
@@ -22,9 +22,9 @@ pub struct SceneError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SceneProblem {
-    /// The file cannot be read.
-    #[error("cannot read it: {0}")]
-    Unreadable(io::Error),
+    /// The file cannot be read, is too large, or is not UTF-8.
+    #[error(transparent)]
+    Input(#[from] InputProblem),
     /// It is not TOML, or a field is missing, unknown or of another type.
     #[error("{}", .0.trim_end())]
     Syntax(String),
@@ -34,6 +34,14 @@ pub enum SceneProblem {
     /// More surfaces than a library holds.
     #[error("{0} surfaces, a scene holds 64")]
     TooMany(usize),
+    /// More textures than a scene may list.
+    #[error("{found} textures, a scene lists {limit} at most")]
+    TooManyTextures {
+        /// Textures of the file.
+        found: usize,
+        /// Textures accepted.
+        limit: usize,
+    },
     /// A surface wears a texture that the scene does not have.
     #[error("no texture {wanted:?}; there are {known:?}")]
     UnknownTexture {
@@ -116,15 +124,16 @@ pub enum SceneProblem {
 impl Diagnostic for SceneError {
     fn remedy(&self) -> String {
         match &self.problem {
-            SceneProblem::Unreadable(e) if e.kind() == io::ErrorKind::InvalidData => {
+            SceneProblem::Input(InputProblem::NotUtf8 { .. }) => {
                 "give a scene in TOML: see the example in docs/scenes.md".into()
             }
-            SceneProblem::Unreadable(_) => "check the path and its permissions".into(),
+            SceneProblem::Input(problem) => problem.remedy(),
             SceneProblem::Syntax(_) => "see the example in docs/scenes.md".into(),
             SceneProblem::NoSurface => {
                 "add a [[surface]] with a texture and a plane, sphere or box".into()
             }
             SceneProblem::TooMany(_) => "split the scene".into(),
+            SceneProblem::TooManyTextures { .. } => "remove textures that no surface wears".into(),
             SceneProblem::UnknownTexture { wanted, .. } => {
                 format!("add a [[texture]] with name = {wanted:?}, or correct the name")
             }

@@ -25,11 +25,7 @@ pub fn hatt(folder: &Path) -> Result<Vec<TextureModel>, HattError> {
     hatt::files(folder)?
         .iter()
         .map(|file| {
-            let bytes = std::fs::read(file).map_err(|error| HattError {
-                file: file.clone(),
-                line: None,
-                problem: hatt::Problem::Unreadable(error),
-            })?;
+            let bytes = hatt::bytes(file)?;
             Ok(hatt::to_model(&hatt::parse(file, &bytes)?, "", 0))
         })
         .collect()

@@ -10,13 +10,8 @@ use asperity::hatt::{self, HattError, Problem};
 use rayon::prelude::*;
 use std::{
     collections::HashMap,
-    fs::File,
-    io::Read,
     path::{Path, PathBuf},
 };
-
-/// Largest file accepted; HaTT materials take about 0.2 MB.
-const MAX_BYTES: u64 = 16 * 1024 * 1024;
 
 /// A material as its file states it, in the models of the corpus.
 #[derive(Debug)]
@@ -48,7 +43,7 @@ pub(super) fn read(folder: &Path) -> Result<Vec<Source>, HattCorpusError> {
 }
 
 fn read_file(file: &Path) -> Result<Source, HattCorpusError> {
-    let bytes = bytes(file)?;
+    let bytes = hatt::bytes(file)?;
     let material = hatt::parse(file, &bytes)?;
     if material.sample_rate_hz != SAMPLE_RATE_HZ {
         return Err(HattCorpusError::SampleRate {
@@ -95,22 +90,6 @@ fn read_file(file: &Path) -> Result<Source, HattCorpusError> {
         mu: material.mu,
         own,
     })
-}
-
-/// The bytes of a file, whose size is bounded.
-fn bytes(file: &Path) -> Result<Vec<u8>, HattError> {
-    let mut bytes = Vec::new();
-    File::open(file)
-        .and_then(|handle| handle.take(MAX_BYTES + 1).read_to_end(&mut bytes))
-        .map_err(|error| fail(file, Problem::Unreadable(error)))?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let problem = Problem::TooLarge {
-            bytes: bytes.len() as u64,
-            limit: MAX_BYTES,
-        };
-        return Err(fail(file, problem));
-    }
-    Ok(bytes)
 }
 
 fn fail(file: &Path, problem: Problem) -> HattError {

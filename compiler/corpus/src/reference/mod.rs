@@ -11,6 +11,7 @@ use crate::{
     error::CorpusError,
     generator,
 };
+use asperity::input::{self, Kind};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -175,7 +176,8 @@ fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> 
             && name != "pairs.toml"
             && name != "probes.toml"
         {
-            let text = std::fs::read_to_string(&path).map_err(unreadable(&path))?;
+            let text = input::read_text(&path, Kind::Corpus)
+                .map_err(|problem| unreadable(&path)(problem.into()))?;
             all.push((name, text));
         }
     }

@@ -8,6 +8,8 @@ use prost::Message as _;
 use super::{
     constant::{self, Constant},
     fuse, ports,
+    refusal::refusal,
+    scan,
 };
 use crate::{
     ElementType, NodeRefusal, OnnxError, Port, Tensor,
@@ -50,6 +52,7 @@ pub(crate) struct Plan {
 
 /// Reads and checks a model.
 pub(crate) fn load(bytes: Bytes) -> Result<Plan, OnnxError> {
+    scan::check(&bytes)?;
     let model = ModelProto::decode(bytes)?;
     let opset = opset(&model)?;
     let Some(graph) = model.graph else {
@@ -68,10 +71,6 @@ pub(crate) fn load(bytes: Bytes) -> Result<Plan, OnnxError> {
         builder.add_node(node, opset)?;
     }
     builder.finish(&graph)
-}
-
-fn refusal(field: &'static str, reason: String) -> OnnxError {
-    OnnxError::Model { field, reason }
 }
 
 fn opset(model: &ModelProto) -> Result<i64, OnnxError> {

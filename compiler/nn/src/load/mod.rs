@@ -4,6 +4,8 @@ pub(crate) mod constant;
 mod fuse;
 mod graph;
 pub(crate) mod ports;
+mod refusal;
+mod scan;
 
 pub(crate) use constant::Constant;
 pub use graph::{MAX_OPSET, MIN_OPSET};

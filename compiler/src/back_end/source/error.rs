@@ -1,12 +1,12 @@
 //! Why a file cannot be used as a texture.
 
-use crate::diagnostic::Diagnostic;
+use crate::{
+    diagnostic::Diagnostic,
+    input::{InputProblem, Kind},
+};
 use asperity_formats::FormatError;
-use std::{io, path::PathBuf};
+use std::path::PathBuf;
 use thiserror::Error;
-
-/// Largest single asset read, bytes: far above any texture with its preview.
-pub(super) const MAX_ASSET_BYTES: u64 = 256 * 1024 * 1024;
 
 /// Why a file cannot be used as a texture.
 #[derive(Debug, Error)]
@@ -33,17 +33,17 @@ impl std::fmt::Display for Named<'_> {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SourceProblem {
-    /// It cannot be read.
-    #[error("cannot read it: {0}")]
-    Unreadable(#[from] io::Error),
+    /// It cannot be read, or a pipe gave too many bytes.
+    #[error(transparent)]
+    Input(#[from] InputProblem),
     /// Its bytes are not valid.
     #[error(transparent)]
     Format(#[from] FormatError),
     /// It is neither an asset nor a library.
     #[error("neither an asset (.asp) nor a library (.aspl)")]
     WrongKind,
-    /// It is larger than any asset.
-    #[error("{bytes} bytes, an asset has {MAX_ASSET_BYTES} at most")]
+    /// It is larger than any asset, or than a library with a scene.
+    #[error("{bytes} bytes, {limit} at most", limit = Kind::Asset.max_bytes())]
     TooLarge {
         /// Its size.
         bytes: u64,
@@ -71,7 +71,7 @@ impl Diagnostic for SourceError {
 
     fn remedy(&self) -> String {
         match &self.problem {
-            SourceProblem::Unreadable(_) => "check the path and its permissions".into(),
+            SourceProblem::Input(problem) => problem.remedy(),
             SourceProblem::Format(FormatError::Version { .. }) => {
                 "update asperity, or make the file again with this version".into()
             }

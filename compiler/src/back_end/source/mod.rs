@@ -6,14 +6,14 @@ mod tests;
 
 pub use error::{SourceError, SourceProblem};
 
+use crate::input::{self, InputProblem, Kind, Opened};
 use asperity_formats::{
     FormatError, SceneSurface,
     library::{self, LibraryIndex},
 };
-use error::MAX_ASSET_BYTES;
 use std::{
-    fs::File,
-    io::{Read, Seek, SeekFrom},
+    fmt,
+    io::{Cursor, Read, Seek, SeekFrom},
     path::{Path, PathBuf},
 };
 
@@ -21,10 +21,15 @@ use std::{
 #[derive(Debug)]
 pub struct Source {
     path: PathBuf,
-    file: File,
+    bytes: Box<dyn Bytes>,
     len: u64,
     content: Content,
 }
+
+/// A file, or what a pipe gave.
+trait Bytes: Read + Seek + Send + fmt::Debug {}
+
+impl<T: Read + Seek + Send + fmt::Debug> Bytes for T {}
 
 #[derive(Debug)]
 enum Content {
@@ -35,30 +40,40 @@ enum Content {
 
 impl Source {
     /// Opens a file and tells by its first bytes what it is. Of a library, only the index
-    /// is read.
+    /// is read. A pipe is read to its end, and kept in memory.
     ///
     /// # Errors
     /// [`SourceError`] for a file that cannot be read or is of another kind, and for a
     /// damaged index.
     pub fn open(path: &Path) -> Result<Self, SourceError> {
-        Self::try_open(path).map_err(|problem| SourceError {
-            path: path.to_owned(),
-            texture: None,
-            problem,
-        })
+        let opened = input::open(path).map_err(|e| refused(path, e.into()))?;
+        match opened {
+            Opened::File(file) => Self::with(path, Box::new(file)),
+            Opened::Pipe(pipe) => Self::from_reader(path, pipe),
+        }
     }
 
-    fn try_open(path: &Path) -> Result<Self, SourceProblem> {
-        let mut file = File::open(path)?;
-        let mut head = Vec::new();
-        (&mut file)
-            .take(library::HEADER_LEN as u64)
-            .read_to_end(&mut head)?;
-        let len = file.metadata()?.len();
+    /// Reads an asset or a library to its end, such as from standard input, and keeps it in
+    /// memory. `path` names it in errors.
+    ///
+    /// # Errors
+    /// As [`Source::open`].
+    pub fn from_reader(path: &Path, reader: impl Read) -> Result<Self, SourceError> {
+        let bytes = input::to_end(reader, Kind::Asset).map_err(|e| refused(path, e.into()))?;
+        Self::with(path, Box::new(Cursor::new(bytes)))
+    }
+
+    fn with(path: &Path, bytes: Box<dyn Bytes>) -> Result<Self, SourceError> {
+        Self::try_with(path, bytes).map_err(|problem| refused(path, problem))
+    }
+
+    fn try_with(path: &Path, mut bytes: Box<dyn Bytes>) -> Result<Self, SourceProblem> {
+        let head = part(&mut *bytes, 0, library::HEADER_LEN as u64)?;
+        let len = bytes
+            .seek(SeekFrom::End(0))
+            .map_err(InputProblem::Unreadable)?;
         let content = if head.starts_with(b"ASPL") {
             let index_len = library::index_len(&head)?;
-            let mut index = vec![0; index_len];
-            file.seek(SeekFrom::Start(0))?;
             if index_len as u64 > len {
                 return Err(FormatError::TooShort {
                     field: "library index",
@@ -67,7 +82,7 @@ impl Source {
                 }
                 .into());
             }
-            file.read_exact(&mut index)?;
+            let index = part(&mut *bytes, 0, index_len as u64)?;
             let total = LibraryIndex::parse(&index)?.total_len();
             if len < total {
                 return Err(FormatError::TooShort {
@@ -93,7 +108,7 @@ impl Source {
         };
         Ok(Self {
             path: path.to_owned(),
-            file,
+            bytes,
             len,
             content,
         })
@@ -213,18 +228,10 @@ impl Source {
     }
 
     fn read(&mut self, offset: u64, len: u64, name: Option<&str>) -> Result<Vec<u8>, SourceError> {
-        if len > MAX_ASSET_BYTES {
+        if len > Kind::Asset.max_bytes() {
             return Err(self.error(name, SourceProblem::TooLarge { bytes: len }));
         }
-        let mut bytes = Vec::new();
-        let read = self
-            .file
-            .seek(SeekFrom::Start(offset))
-            .and_then(|_| (&mut self.file).take(len).read_to_end(&mut bytes));
-        match read {
-            Ok(_) => Ok(bytes),
-            Err(e) => Err(self.error(name, e.into())),
-        }
+        part(&mut *self.bytes, offset, len).map_err(|problem| self.error(name, problem.into()))
     }
 
     /// An error about this file, or one of its textures.
@@ -241,4 +248,22 @@ impl Source {
         let wanted = wanted.to_owned();
         self.error(None, SourceProblem::NoSuchTexture { wanted, count })
     }
+}
+
+fn refused(path: &Path, problem: SourceProblem) -> SourceError {
+    SourceError {
+        path: path.to_owned(),
+        texture: None,
+        problem,
+    }
+}
+
+/// `len` bytes from `offset` on, or fewer where they end before.
+fn part(bytes: &mut dyn Bytes, offset: u64, len: u64) -> Result<Vec<u8>, InputProblem> {
+    let mut found = Vec::new();
+    bytes
+        .seek(SeekFrom::Start(offset))
+        .and_then(|_| bytes.take(len).read_to_end(&mut found))
+        .map_err(InputProblem::Unreadable)?;
+    Ok(found)
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::diagnostic::Diagnostic as _;
+use crate::input::InputProblem;
 use crate::{
     back_end::{
         library::{NamedAsset, encode},
@@ -46,6 +47,56 @@ fn a_texture_of_a_library_is_found_by_name_and_by_index() {
     assert!(none.is_usage());
 }
 
+/// What comes once, through a pipe or standard input, opens as a file does.
+#[test]
+fn an_asset_or_a_library_comes_through_a_reader() {
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let library = encode(&[NamedAsset {
+        name: "a",
+        bytes: &asset,
+    }])
+    .unwrap();
+    for bytes in [&asset, &library] {
+        let mut source = Source::from_reader(Path::new("-"), &bytes[..]).unwrap();
+        assert_eq!(source.choose(None).unwrap(), asset);
+    }
+    let endless = Source::from_reader(Path::new("-"), std::io::repeat(b'A')).unwrap_err();
+    let text = endless.to_string();
+    assert!(text.contains("-: more than 67108864 bytes"), "{text}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_a_source() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&path).status();
+    assert!(made.unwrap().success());
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let (writer, bytes) = (path.clone(), asset.clone());
+    let write = std::thread::spawn(move || fs::write(writer, bytes));
+    assert_eq!(Source::open(&path).unwrap().choose(None).unwrap(), asset);
+    write.join().unwrap().unwrap();
+}
+
+/// A header that promises a million textures takes no more memory than the file has bytes.
+#[test]
+fn counts_of_an_index_are_not_believed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.aspl");
+    let mut head = b"ASPL".to_vec();
+    head.extend([1, 0, 0, 0]);
+    head.extend((1_u32 << 20).to_le_bytes());
+    head.extend((88_u32 << 20).to_le_bytes());
+    head.resize(28, 0);
+    fs::write(&path, head).unwrap();
+    let refused = problem(Source::open(&path).unwrap_err());
+    assert!(matches!(
+        refused,
+        SourceProblem::Format(asperity_formats::FormatError::TooShort { .. })
+    ));
+}
+
 #[test]
 fn other_and_damaged_files_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -76,6 +127,6 @@ fn other_and_damaged_files_are_refused() {
     }
     assert!(matches!(
         problem(Source::open(folder.path()).unwrap_err()),
-        SourceProblem::Unreadable(_)
+        SourceProblem::Input(InputProblem::Folder)
     ));
 }

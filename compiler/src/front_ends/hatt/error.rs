@@ -1,7 +1,10 @@
 //! Why a HaTT file was refused: file, line, field, value, remedy.
 
-use crate::diagnostic::Diagnostic;
-use std::{fmt, io, path::PathBuf};
+use crate::{
+    diagnostic::Diagnostic,
+    input::{InputProblem, NestingProblem},
+};
+use std::{fmt, path::PathBuf};
 use thiserror::Error;
 
 /// Why a HaTT file was refused.
@@ -33,23 +36,12 @@ impl fmt::Display for Place<'_> {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Problem {
-    /// The file cannot be read.
-    #[error("cannot read it: {0}")]
-    Unreadable(io::Error),
-    /// The file is larger than any HaTT material.
-    #[error("{bytes} bytes, {limit} at most")]
-    TooLarge {
-        /// Bytes found.
-        bytes: u64,
-        /// Bytes accepted.
-        limit: u64,
-    },
-    /// The bytes are not UTF-8.
-    #[error("byte {offset} is not UTF-8")]
-    NotUtf8 {
-        /// First offending byte.
-        offset: usize,
-    },
+    /// The file cannot be read, is too large, or is not UTF-8.
+    #[error(transparent)]
+    Input(#[from] InputProblem),
+    /// More attributes, depth or namespaces than a parser takes in linear time.
+    #[error(transparent)]
+    Nesting(#[from] NestingProblem),
     /// A document type or entity declaration, which no material has.
     #[error("declares a document type or entities, which is refused")]
     Doctype,
@@ -164,8 +156,8 @@ pub enum Problem {
 impl Diagnostic for HattError {
     fn remedy(&self) -> String {
         match &self.problem {
-            Problem::Unreadable(_) => "check the path and its permissions".into(),
-            Problem::TooLarge { .. } | Problem::WrongRoot { .. } | Problem::NotUtf8 { .. } => {
+            Problem::Input(problem) => problem.remedy(),
+            Problem::Nesting(_) | Problem::WrongRoot { .. } => {
                 "give a model file of the Penn Haptic Texture Toolkit, `Models_<name>.xml`".into()
             }
             Problem::Doctype => "remove the <!DOCTYPE …> declaration; HaTT files have none".into(),

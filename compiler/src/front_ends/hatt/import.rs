@@ -5,7 +5,6 @@ use super::{
     import_error::{BUDGET_DB, ImportError},
     material::{self, Material, SourceModel},
     texture::to_model,
-    xml,
 };
 use crate::{
     back_end::{raise::raise, verify::VerifyError},
@@ -13,6 +12,7 @@ use crate::{
         imported::{Imported, Report, errors_over_grid},
         learned::{LearnedModel, ModelError, complete},
     },
+    input::{self, InputProblem, Kind},
     model::{ModelGrid, TextureModel},
     passes::reduce::Fidelity,
     pipeline::{Compiled, Pass, Pipeline, Settings},
@@ -35,13 +35,14 @@ pub fn files(path: &Path) -> Result<Vec<PathBuf>, HattError> {
         line: None,
         problem,
     };
-    let metadata = std::fs::metadata(path).map_err(|e| fail(Problem::Unreadable(e)))?;
+    let unreadable = |e| fail(Problem::Input(InputProblem::Unreadable(e)));
+    let metadata = std::fs::metadata(path).map_err(unreadable)?;
     if !metadata.is_dir() {
         return Ok(vec![path.to_owned()]);
     }
     let mut found = Vec::new();
-    for entry in std::fs::read_dir(path).map_err(|e| fail(Problem::Unreadable(e)))? {
-        let file = entry.map_err(|e| fail(Problem::Unreadable(e)))?.path();
+    for entry in std::fs::read_dir(path).map_err(unreadable)? {
+        let file = entry.map_err(unreadable)?.path();
         let is_xml = file
             .extension()
             .is_some_and(|extension| extension.eq_ignore_ascii_case("xml"));
@@ -149,8 +150,20 @@ pub fn import_at(
     })
 }
 
+/// The bytes of a file, at most as many as a material may have.
+///
+/// # Errors
+/// [`HattError`] for a file that cannot be read or is too large.
+pub fn bytes(file: &Path) -> Result<Vec<u8>, HattError> {
+    input::read(file, Kind::Hatt).map_err(|problem| HattError {
+        file: file.to_owned(),
+        line: None,
+        problem: problem.into(),
+    })
+}
+
 fn read(file: &Path) -> Result<(Material, TextureModel), HattError> {
-    let source = xml::read(file)?;
+    let source = bytes(file)?;
     let material = material::parse(file, &source)?;
     let source_name = file.file_name().unwrap_or_default().to_string_lossy();
     let whole = to_model(&material, &source_name, crc32fast::hash(&source));

@@ -16,7 +16,7 @@ mod xml;
 pub use crate::front_ends::imported::{Imported, Report};
 pub use error::{HattError, Problem};
 pub use filter::Filter;
-pub use import::{files, import, import_all, import_at};
+pub use import::{bytes, files, import, import_all, import_at};
 pub use import_error::{BUDGET_DB, ImportError};
 pub use material::{Material, SourceModel, parse};
 pub use texture::to_model;

@@ -1,35 +1,12 @@
 //! Reads numbers and lists from an untrusted XML document, and names the line of what is wrong.
 
 use super::error::{HattError, Problem};
+use crate::input;
 use roxmltree::{Document, Node, ParsingOptions};
-use std::{fmt::Display, fs::File, io::Read, path::Path};
+use std::{fmt::Display, path::Path};
 
-/// Largest file accepted; HaTT materials take about 0.2 MB.
-const MAX_BYTES: u64 = 16 * 1024 * 1024;
 /// Most XML nodes accepted; HaTT materials have below 20,000.
 const MAX_NODES: u32 = 1_000_000;
-
-/// Reads a file, bounded.
-pub(super) fn read(file: &Path) -> Result<Vec<u8>, HattError> {
-    let fail = |problem| HattError {
-        file: file.to_owned(),
-        line: None,
-        problem,
-    };
-    let handle = File::open(file).map_err(|e| fail(Problem::Unreadable(e)))?;
-    let mut bytes = Vec::new();
-    handle
-        .take(MAX_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|e| fail(Problem::Unreadable(e)))?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(fail(Problem::TooLarge {
-            bytes: bytes.len() as u64,
-            limit: MAX_BYTES,
-        }));
-    }
-    Ok(bytes)
-}
 
 /// Parses a document: UTF-8, no document type, bounded.
 pub(super) fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<Document<'a>, HattError> {
@@ -38,10 +15,8 @@ pub(super) fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<Document<'a>, Ha
         line,
         problem,
     };
-    let text = std::str::from_utf8(bytes).map_err(|e| {
-        let offset = e.valid_up_to();
-        fail(None, Problem::NotUtf8 { offset })
-    })?;
+    let text = input::text(bytes).map_err(|e| fail(None, e.into()))?;
+    input::check_nesting(text).map_err(|e| fail(Some(e.line), e.problem.into()))?;
     let options = ParsingOptions {
         allow_dtd: false,
         nodes_limit: MAX_NODES,

@@ -1,6 +1,6 @@
 //! Why a learned model cannot be used.
 
-use crate::diagnostic::Diagnostic;
+use crate::{diagnostic::Diagnostic, input::InputError};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -8,6 +8,9 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ModelError {
+    /// A file of the folder is no file, too large, or not UTF-8.
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// A file of the folder cannot be read.
     #[error("{}: {source}", path.display())]
     Unreadable {
@@ -47,6 +50,7 @@ pub enum ModelError {
 impl Diagnostic for ModelError {
     fn remedy(&self) -> String {
         match self {
+            Self::Input(error) => error.remedy(),
             Self::Unreadable { .. } => "give a folder that `asperity-train fit` wrote".into(),
             Self::Description { .. } | Self::Network { .. } => {
                 "write the folder anew with `asperity-train fit`, or leave --model out for the embedded model".into()

@@ -1,6 +1,7 @@
 //! The files of a learned model, embedded or read from a folder.
 
 use super::error::ModelError;
+use crate::input::{self, InputError, Kind};
 use std::{borrow::Cow, path::Path};
 
 /// The files of a model folder, embedded or read.
@@ -22,15 +23,16 @@ impl Files {
     /// Reads a model folder.
     ///
     /// # Errors
-    /// [`ModelError::Unreadable`] with the file.
+    /// [`ModelError::Input`] with the file.
     pub fn read(folder: &Path) -> Result<Self, ModelError> {
+        let fail = |file, problem| ModelError::Input(InputError { file, problem });
         let bytes = |name: &str| {
             let path = folder.join(name);
-            std::fs::read(&path).map_err(|source| ModelError::Unreadable { path, source })
+            input::read(&path, Kind::Network).map_err(|problem| fail(path, problem))
         };
         let path = folder.join("model.json");
-        let description = std::fs::read_to_string(&path)
-            .map_err(|source| ModelError::Unreadable { path, source })?;
+        let description = input::read_text(&path, Kind::Description);
+        let description = description.map_err(|problem| fail(path, problem))?;
         Ok(Self {
             description: description.into(),
             text_projection: bytes("text_projection.onnx")?.into(),

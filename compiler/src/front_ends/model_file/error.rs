@@ -1,8 +1,8 @@
 //! Why a model file was refused: file, field, value, remedy.
 
 use super::schema::{FORMAT, VERSION};
-use crate::{diagnostic::Diagnostic, pipeline::PipelineError};
-use std::{io, path::PathBuf};
+use crate::{diagnostic::Diagnostic, input::InputProblem, pipeline::PipelineError};
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a model file was refused.
@@ -24,15 +24,9 @@ pub(super) type Fault = (String, ModelFileProblem);
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ModelFileProblem {
-    /// The file cannot be read.
-    #[error("cannot read it: {0}")]
-    Unreadable(io::Error),
-    /// The file is larger than any model.
-    #[error("more than {limit} bytes, which no model needs")]
-    TooLarge {
-        /// Bytes accepted.
-        limit: u64,
-    },
+    /// The file cannot be read, is too large, or is not UTF-8.
+    #[error(transparent)]
+    Input(#[from] InputProblem),
     /// It is not JSON, or a field is missing, unknown, repeated or of another type.
     #[error("{0}")]
     Json(String),
@@ -109,8 +103,8 @@ impl Diagnostic for ModelFileError {
     fn remedy(&self) -> String {
         use ModelFileProblem as P;
         match &self.problem {
-            P::Unreadable(_) => "check the path and its permissions".into(),
-            P::TooLarge { .. } | P::Format { .. } => {
+            P::Input(problem) => problem.remedy(),
+            P::Format { .. } => {
                 "give a model file, as `--emit-model` writes it: see docs/model.md".into()
             }
             P::Json(_) => "correct this place of the file: docs/model.md lists every key".into(),

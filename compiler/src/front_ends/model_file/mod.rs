@@ -16,5 +16,5 @@ mod tests;
 pub use emit::to_json;
 pub use error::{ModelFileError, ModelFileProblem};
 pub use import::{Options, import};
-pub use read::{MAX_BYTES, from_json, read};
+pub use read::{from_json, read};
 pub use schema::{FORMAT, VERSION};

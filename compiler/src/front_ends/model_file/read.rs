@@ -5,41 +5,27 @@ use super::{
     error::{Fault, ModelFileError, ModelFileProblem},
     schema::{Document, FORMAT, VERSION},
 };
-use crate::model::TextureModel;
+use crate::{
+    input::{self, Kind},
+    model::TextureModel,
+};
 use serde::{Deserialize, de::DeserializeOwned};
 use serde_json::Value;
-use std::{fs::File, io::Read as _, path::Path};
-
-/// Bytes read of a file at most; the largest model takes less than a tenth of it.
-pub const MAX_BYTES: u64 = 16 * 1024 * 1024;
+use std::path::Path;
 
 /// The model in a file, and the file's CRC-32.
 ///
 /// # Errors
 /// [`ModelFileError`] with the field at fault.
 pub fn read(file: &Path) -> Result<(TextureModel, u32), ModelFileError> {
-    let bytes = bounded(file).and_then(|bytes| {
-        let texture = from_json(&bytes)?;
-        Ok((texture, crc32fast::hash(&bytes)))
-    });
-    bytes.map_err(|(field, problem)| ModelFileError {
+    let fail = |(field, problem)| ModelFileError {
         file: file.to_owned(),
         field,
         problem,
-    })
-}
-
-fn bounded(file: &Path) -> Result<Vec<u8>, Fault> {
-    let unreadable = |e| (String::new(), ModelFileProblem::Unreadable(e));
-    let mut bytes = Vec::new();
-    File::open(file)
-        .and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes))
-        .map_err(unreadable)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let problem = ModelFileProblem::TooLarge { limit: MAX_BYTES };
-        return Err((String::new(), problem));
-    }
-    Ok(bytes)
+    };
+    let bytes = input::read(file, Kind::Model).map_err(|e| fail((String::new(), e.into())))?;
+    let texture = from_json(&bytes).map_err(fail)?;
+    Ok((texture, crc32fast::hash(&bytes)))
 }
 
 /// What every version states, whatever else it holds.
@@ -55,7 +41,8 @@ struct Head {
 /// # Errors
 /// The JSON path of the first field at fault, and what is wrong with it.
 pub fn from_json(bytes: &[u8]) -> Result<TextureModel, (String, ModelFileProblem)> {
-    let head: Head = parsed(bytes)?;
+    let text = input::text(bytes).map_err(|e| (String::new(), e.into()))?;
+    let head: Head = parsed(text)?;
     let stated = |value: Option<Value>| value.map_or("absent".into(), |value| value.to_string());
     if head.format != Some(FORMAT.into()) {
         let found = stated(head.format);
@@ -65,12 +52,12 @@ pub fn from_json(bytes: &[u8]) -> Result<TextureModel, (String, ModelFileProblem
         let found = stated(head.version);
         return Err(("version".into(), ModelFileProblem::Version { found }));
     }
-    model(parsed::<Document>(bytes)?)
+    model(parsed::<Document>(text)?)
 }
 
 /// JSON as a type, or the path of what is not of it.
-fn parsed<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Fault> {
-    let mut json = serde_json::Deserializer::from_slice(bytes);
+fn parsed<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
+    let mut json = serde_json::Deserializer::from_str(text);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
         let path = error.path().to_string();
         // A single dot is the file as a whole.

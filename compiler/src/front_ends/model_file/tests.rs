@@ -3,6 +3,7 @@
 use super::*;
 use crate::{
     front_ends::builtin,
+    input::{InputProblem, Kind},
     model::{Numerator, TextureModel, defaults, mesh},
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Settings},
@@ -340,8 +341,17 @@ fn a_file_too_large_for_any_model_is_not_read_to_its_end() {
     let error = read(&file).unwrap_err();
     assert!(matches!(
         error.problem,
-        ModelFileProblem::TooLarge { limit: MAX_BYTES }
+        ModelFileProblem::Input(InputProblem::TooLarge { kind: Kind::Model })
     ));
+}
+
+#[test]
+fn a_byte_order_mark_is_no_fault_and_deep_nesting_is_one() {
+    let marked = [b"\xef\xbb\xbf", &to_json(&builtin::texture())[..]].concat();
+    assert_eq!(kept(from_json(&marked).unwrap()), kept(builtin::texture()));
+    let deep = format!("{{\"format\": {}", "[".repeat(1_000_000));
+    let (_, problem) = from_json(deep.as_bytes()).unwrap_err();
+    assert!(problem.to_string().contains("recursion limit"), "{problem}");
 }
 
 /// Texts of the length that a file may have, and the notes on defaults, fit an asset.
@@ -365,7 +375,7 @@ fn the_largest_model_fits_a_file() {
     use asperity_formats::limits::{MAX_ORDER, MAX_TAP_SAMPLES, MAX_TAPS, MAX_VERTICES};
     let number = 25;
     let bytes = MAX_VERTICES * (2 * MAX_ORDER + 8) * number + MAX_TAPS * MAX_TAP_SAMPLES * number;
-    assert!(10 * bytes as u64 <= MAX_BYTES, "{bytes}");
+    assert!(10 * bytes as u64 <= Kind::Model.max_bytes(), "{bytes}");
 }
 
 /// Every key of the schema is written by some model, and every key that is written is in it.

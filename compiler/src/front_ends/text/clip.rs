@@ -5,7 +5,10 @@
 //! output `[1, width]`. Where there are several outputs, it is `text_embeds`.
 
 use super::encoder::{Encoded, TextEncoder, TextError, unit};
-use crate::front_ends::inference::Backend;
+use crate::{
+    front_ends::inference::Backend,
+    input::{self, Kind},
+};
 use asperity_nn::{Dim, ElementType, Port, Session, Tensor};
 use instant_clip_tokenizer::Tokenizer;
 use std::path::{Path, PathBuf};
@@ -43,7 +46,8 @@ impl Clip {
         })?;
         let network =
             |message: String| TextError::Network(format!("{}: {message}", file.display()));
-        let bytes = std::fs::read(&file).map_err(|error| network(error.to_string()))?;
+        let bytes = input::read(&file, Kind::TextEncoder)
+            .map_err(|problem| network(problem.to_string()))?;
         Self::new(backend.session(bytes.into()).map_err(network)?)
     }
 

@@ -1,7 +1,10 @@
 //! Why a trajectory could not be rendered, and what to do about it.
 
-use super::columns::INPUT_COLUMNS;
-use crate::diagnostic::Diagnostic;
+use super::{
+    columns::INPUT_COLUMNS,
+    limits::{MAX_ROW_BYTES, MAX_SCENE_TEXTURES},
+};
+use crate::{diagnostic::Diagnostic, input::InputError};
 use asperity_runtime::{ConfigError, LoadError, SceneError};
 use std::{io, path::PathBuf};
 use thiserror::Error;
@@ -10,13 +13,22 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RenderError {
-    /// The trajectory cannot be opened or read.
-    #[error("{file}: cannot read it: {cause}", file = file.display())]
-    Unreadable {
+    /// The trajectory cannot be opened or read, or is too large.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A row is longer than any row of numbers.
+    #[error("{file}:{line}: the row takes more than {MAX_ROW_BYTES} bytes", file = file.display())]
+    RowTooLong {
         /// The file.
         file: PathBuf,
-        /// Why.
-        cause: io::Error,
+        /// Line where it begins, 1-based.
+        line: u64,
+    },
+    /// A scene with more textures than are rendered at once.
+    #[error("the scene has {found} textures, {MAX_SCENE_TEXTURES} are rendered at most")]
+    Textures {
+        /// Textures of the library.
+        found: usize,
     },
     /// It is not CSV in UTF-8.
     #[error("{file}: not a CSV table: {cause}", file = file.display())]
@@ -24,7 +36,7 @@ pub enum RenderError {
         /// The file.
         file: PathBuf,
         /// Why, with the line.
-        cause: csv::Error,
+        cause: String,
     },
     /// A column is missing.
     #[error("{file}:1: column {column} is missing", file = file.display())]
@@ -106,8 +118,11 @@ pub enum RenderError {
 impl Diagnostic for RenderError {
     fn remedy(&self) -> String {
         match self {
-            Self::Unreadable { .. } => "check the path and its permissions".into(),
-            Self::NotCsv { .. } | Self::Empty { .. } => format!(
+            Self::Input(error) => error.remedy(),
+            Self::Textures { .. } => {
+                "build the scene again: `asperity build` packs what surfaces wear".into()
+            }
+            Self::NotCsv { .. } | Self::Empty { .. } | Self::RowTooLong { .. } => format!(
                 "give UTF-8 text with the header {} and one row a tick",
                 INPUT_COLUMNS.join(",")
             ),

@@ -2,10 +2,12 @@
 
 mod columns;
 mod error;
+mod limits;
 mod trajectory;
 
 pub use columns::{INPUT_COLUMNS, OUTPUT_COLUMNS, SURFACE_COLUMN};
 pub use error::RenderError;
+pub use limits::{MAX_ROW_BYTES, MAX_SCENE_TEXTURES};
 
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{
@@ -85,6 +87,10 @@ pub fn render_scene(
     mut output: impl Write,
     seed: u64,
 ) -> Result<RenderReport, RenderError> {
+    let textures = library.index().len();
+    if textures > MAX_SCENE_TEXTURES {
+        return Err(RenderError::Textures { found: textures });
+    }
     let first = library.asset(0).map_err(|cause| {
         let (index, cause) = (0, cause.into());
         RenderError::Scene(SceneError::Texture { index, cause })
@@ -97,7 +103,7 @@ pub fn render_scene(
         texture: first.name().to_owned(),
         cause,
     })?;
-    let mut slots = vec![HostTexture::new(); library.index().len()];
+    let mut slots = vec![HostTexture::new(); textures];
     let scene = HostScene::load(library, &config, &mut slots).map_err(RenderError::Scene)?;
     let mut state = SceneState::new(seed);
     let rows = Rows::new(file, input, config.servo_rate_hz)?;
@@ -161,6 +167,7 @@ fn run<R: Read>(
 mod tests {
     use super::*;
     use crate::{back_end::lower::lower, diagnostic::Diagnostic as _, front_ends::builtin};
+    use std::io;
 
     fn run(trajectory: &str, seed: u64) -> Result<(RenderReport, String), RenderError> {
         run_at(None, trajectory, seed)
@@ -249,6 +256,53 @@ mod tests {
         let once = run(&stroke(300), 3).unwrap();
         assert_eq!(once, run(&stroke(300), 3).unwrap());
         assert_ne!(once.1, run(&stroke(300), 4).unwrap().1);
+    }
+
+    #[test]
+    fn rows_without_an_end_are_refused_with_their_line() {
+        let head = format!("{}\n0,0,0,0\n", INPUT_COLUMNS.join(","));
+        let longest = "1".repeat(4 * MAX_ROW_BYTES);
+        let many = "1,".repeat(4 * MAX_ROW_BYTES);
+        let quoted = format!("\"{}", "0,0,0,0\n".repeat(MAX_ROW_BYTES));
+        let blank = "\n".repeat(4 * MAX_ROW_BYTES);
+        for row in [longest, many, quoted, blank] {
+            let message = run(&format!("{head}{row}"), 0).unwrap_err().to_string();
+            let expected = "in.csv:3: the row takes more than 65536 bytes";
+            assert_eq!(message, expected);
+        }
+        let head = "t_s,".repeat(MAX_ROW_BYTES);
+        let message = run(&head, 0).unwrap_err().to_string();
+        assert!(message.contains("in.csv:1: the row"), "{message}");
+        // Rows within the limit add up without end.
+        assert_eq!(run(&stroke(20_000), 0).unwrap().0.ticks, 20_000);
+    }
+
+    #[test]
+    fn a_scene_of_more_textures_than_are_rendered_is_refused_before_their_slots_are_made() {
+        let bytes = lower(&builtin::texture(), None).unwrap().bytes;
+        let names: Vec<String> = (0..=MAX_SCENE_TEXTURES)
+            .map(|n| format!("{n:06}"))
+            .collect();
+        let textures: Vec<(&str, &[u8])> = names.iter().map(|n| (n.as_str(), &bytes[..])).collect();
+        let surface = asperity_formats::SceneSurface {
+            solid: asperity_formats::Solid::Plane {
+                point_m: [0.0; 3],
+                normal: [0.0, 0.0, 1.0],
+            },
+            from_m: [-1.0; 3],
+            to_m: [1.0; 3],
+            texture: 0,
+        };
+        let mut library = vec![0; asperity_formats::library::encoded_len(&textures) + 1000];
+        let len = asperity_formats::library::encode_scene(&textures, &[surface], &mut library);
+        let library = Library::parse(&library[..len.unwrap()]).unwrap();
+        let file = Path::new("in.csv");
+        let input = stroke(5);
+        let error = render_scene(&library, None, file, input.as_bytes(), io::sink(), 0);
+        assert!(
+            matches!(error, Err(RenderError::Textures { found: 1025 })),
+            "{error:?}"
+        );
     }
 
     #[test]

@@ -1,9 +1,12 @@
 //! The table of a trajectory: columns, numbers and times, checked row by row.
 
-use super::{columns::INPUT_COLUMNS, error::RenderError};
+use super::{columns::INPUT_COLUMNS, error::RenderError, limits::MAX_ROW_BYTES};
+use crate::input::{InputError, InputProblem, Kind};
 use std::{
+    cell::Cell,
     io::{self, Read},
     path::Path,
+    rc::Rc,
 };
 
 /// A row's time may differ from its place by this share of a period: enough for times
@@ -19,7 +22,8 @@ pub(super) struct Row {
 /// Checked rows of a trajectory.
 pub(super) struct Rows<'a, R> {
     pub(super) file: &'a Path,
-    reader: csv::Reader<R>,
+    reader: csv::Reader<Bounded<R>>,
+    row_bytes: Rc<Cell<usize>>,
     columns: [usize; 4],
     record: csv::StringRecord,
     rate_hz: f32,
@@ -30,10 +34,17 @@ pub(super) struct Rows<'a, R> {
 impl<'a, R: Read> Rows<'a, R> {
     /// Reads the header.
     pub(super) fn new(file: &'a Path, input: R, rate_hz: f32) -> Result<Self, RenderError> {
+        let row_bytes = Rc::new(Cell::new(0));
+        let input = Bounded {
+            input,
+            row_bytes: Rc::clone(&row_bytes),
+            left: Kind::Trajectory.max_bytes(),
+        };
         let mut reader = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
+            .buffer_capacity(BUFFER_BYTES)
             .from_reader(input);
-        let headers = reader.headers().map_err(|e| csv_error(file, e))?;
+        let headers = reader.headers().map_err(|e| csv_error(file, 1, e))?;
         let mut columns = [0; 4];
         for (place, column) in columns.iter_mut().zip(INPUT_COLUMNS) {
             let is_it = |name: &str| name.trim_start_matches('\u{feff}') == column;
@@ -55,6 +66,7 @@ impl<'a, R: Read> Rows<'a, R> {
         Ok(Self {
             file,
             reader,
+            row_bytes,
             columns,
             record: csv::StringRecord::new(),
             rate_hz,
@@ -65,10 +77,12 @@ impl<'a, R: Read> Rows<'a, R> {
 
     /// The next row, if there is one.
     pub(super) fn next(&mut self) -> Result<Option<Row>, RenderError> {
+        self.row_bytes.set(0);
+        let line = self.reader.position().line();
         let more = self
             .reader
             .read_record(&mut self.record)
-            .map_err(|e| csv_error(self.file, e))?;
+            .map_err(|e| csv_error(self.file, line, e))?;
         if !more {
             return Ok(None);
         }
@@ -111,13 +125,50 @@ impl<'a, R: Read> Rows<'a, R> {
     }
 }
 
-fn csv_error(file: &Path, error: csv::Error) -> RenderError {
+/// Bytes that the parser reads at once.
+const BUFFER_BYTES: usize = 8 * 1024;
+
+/// A reader that fails where one row, or the file, gives too many bytes. The parser keeps a row in
+/// memory, however long it is, and a quotation mark that is not closed makes a row of the rest.
+struct Bounded<R> {
+    input: R,
+    /// Bytes read since the row before was complete: the row's, and what the parser reads ahead.
+    row_bytes: Rc<Cell<usize>>,
+    left: u64,
+}
+
+/// What [`Bounded`] tells [`csv_error`].
+#[derive(Debug, thiserror::Error)]
+#[error("the row is too long")]
+struct RowTooLong;
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.row_bytes.get() > MAX_ROW_BYTES + BUFFER_BYTES {
+            return Err(io::Error::other(RowTooLong));
+        }
+        let len = self.input.read(buffer)?;
+        self.row_bytes.set(self.row_bytes.get() + len);
+        let kind = Kind::Trajectory;
+        self.left = self
+            .left
+            .checked_sub(len as u64)
+            .ok_or(InputProblem::TooLarge { kind })?;
+        Ok(len)
+    }
+}
+
+fn csv_error(file: &Path, line: u64, error: csv::Error) -> RenderError {
     let file = file.to_owned();
-    match error.kind() {
-        csv::ErrorKind::Io(cause) => RenderError::Unreadable {
-            file,
-            cause: io::Error::new(cause.kind(), cause.to_string()),
-        },
-        _ => RenderError::NotCsv { file, cause: error },
+    let text = error.to_string();
+    match error.into_kind() {
+        csv::ErrorKind::Io(cause) if cause.get_ref().is_some_and(|e| e.is::<RowTooLong>()) => {
+            RenderError::RowTooLong { file, line }
+        }
+        csv::ErrorKind::Io(cause) => {
+            let problem = cause.into();
+            RenderError::Input(InputError { file, problem })
+        }
+        _ => RenderError::NotCsv { file, cause: text },
     }
 }

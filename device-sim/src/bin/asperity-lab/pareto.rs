@@ -1,8 +1,8 @@
 //! `asperity-lab pareto`: cost and error of every way to render.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use asperity::input::{self, InputError, Kind};
 use asperity::output;
 use asperity::progress;
 use asperity_sim::labs::cortex_m::{self, CortexM};
@@ -99,7 +99,10 @@ fn read_counts(path: &Path) -> Result<CortexM, Failure> {
             "give a CSV with the columns factor,name,instructions",
         )
     };
-    let bytes = fs::read(path).map_err(|error| fail(&error))?;
+    let bytes = input::read(path, Kind::Counts).map_err(|problem| {
+        let file = path.to_owned();
+        boxed(InputError { file, problem })
+    })?;
     cortex_m::read(&bytes).map_err(|error| fail(&error))
 }
 

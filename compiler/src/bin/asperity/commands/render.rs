@@ -3,15 +3,13 @@
 use crate::failure::{Failures, one};
 use crate::{cli::Render, console};
 use asperity::{
+    input::{self, InputError},
     output::{AtomicFile, OutputError},
     render::{self, RenderError},
     source::Source,
 };
 use asperity_formats::{Asset, Library};
-use std::{
-    fs::File,
-    io::{BufReader, BufWriter},
-};
+use std::io::BufWriter;
 
 /// What the trajectory goes over: the surfaces of a scene, or a plane with one texture.
 enum Felt<'a> {
@@ -37,14 +35,14 @@ pub(crate) fn run(args: &Render) -> Result<(), Failures> {
         Asset::parse(&bytes).map(|asset| Felt::Texture(Box::new(asset)))
     };
     let felt = felt.map_err(|e| one(source.error(wanted, e.into())))?;
-    let trajectory = File::open(&args.trajectory).map_err(|cause| {
-        one(RenderError::Unreadable {
+    let trajectory = input::open(&args.trajectory).map_err(|problem| {
+        one(InputError {
             file: args.trajectory.clone(),
-            cause,
+            problem,
         })
     })?;
     let mut output = AtomicFile::create(&args.output).map_err(one)?;
-    let (file, input) = (&args.trajectory, BufReader::new(trajectory));
+    let (file, input) = (&args.trajectory, trajectory);
     let rows = BufWriter::new(&mut output);
     let report = match &felt {
         Felt::Scene(library) => {

@@ -1,0 +1,107 @@
+//! What a file is meant to be, and how many bytes that may take.
+
+use std::fmt;
+
+const KIB: u64 = 1024;
+const MIB: u64 = 1024 * KIB;
+
+/// What a file is meant to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Kind {
+    /// An asset (.asp), or a library (.aspl) that is held in memory as a whole.
+    Asset,
+    /// A material of the HaTT, XML.
+    Hatt,
+    /// An intermediate model, JSON.
+    Model,
+    /// A scene or a manifest, TOML.
+    Scene,
+    /// A device, a grip or other settings, TOML.
+    Settings,
+    /// A file of the training corpus, TOML.
+    Corpus,
+    /// A trajectory, CSV; read row by row.
+    Trajectory,
+    /// Counted instructions, CSV.
+    Counts,
+    /// `model.json` of a model folder.
+    Description,
+    /// A network of a model folder, ONNX.
+    Network,
+    /// A text encoder, ONNX.
+    TextEncoder,
+    /// A tokenizer's vocabulary.
+    Vocabulary,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 12] = [
+        Self::Asset,
+        Self::Hatt,
+        Self::Model,
+        Self::Scene,
+        Self::Settings,
+        Self::Corpus,
+        Self::Trajectory,
+        Self::Counts,
+        Self::Description,
+        Self::Network,
+        Self::TextEncoder,
+        Self::Vocabulary,
+    ];
+
+    /// The most bytes that are read.
+    #[must_use]
+    pub const fn max_bytes(self) -> u64 {
+        match self {
+            Self::Asset | Self::Network => 64 * MIB,
+            Self::Hatt | Self::Model | Self::Description | Self::Vocabulary => 16 * MIB,
+            Self::Scene | Self::Settings | Self::Counts => MIB,
+            Self::Corpus => 4 * MIB,
+            Self::Trajectory => 1024 * MIB,
+            // The text tower of CLIP ViT-L/14 takes 472 MiB.
+            Self::TextEncoder => 480 * MIB,
+        }
+    }
+
+    /// What to give instead of a file that is too large.
+    #[must_use]
+    pub const fn remedy(self) -> &'static str {
+        match self {
+            Self::Asset => "give an asset or a library that `asperity` wrote",
+            Self::Hatt => {
+                "give a model file of the Penn Haptic Texture Toolkit, `Models_<name>.xml`"
+            }
+            Self::Model => "give a model as docs/model.md describes it",
+            Self::Scene => "give a scene as docs/scenes.md describes it",
+            Self::Settings => "compare with device-sim/devices/touch.toml or a file of grips/",
+            Self::Corpus => "split the file: every .toml file of the folder is read",
+            Self::Trajectory => "cut the trajectory into several files",
+            Self::Counts => "give a table as `cortex-m designs` prints it",
+            Self::Description | Self::Network => "give a folder that `asperity-train fit` wrote",
+            Self::TextEncoder => "export the text tower alone, in half precision if need be",
+            Self::Vocabulary => "give the vocabulary that belongs to the text encoder",
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Asset => "an asset",
+            Self::Hatt => "a HaTT material",
+            Self::Model => "a model file",
+            Self::Scene => "a scene",
+            Self::Settings => "a file of settings",
+            Self::Corpus => "a file of the corpus",
+            Self::Trajectory => "a trajectory",
+            Self::Counts => "a table of counts",
+            Self::Description => "a model's description",
+            Self::Network => "a model's network",
+            Self::TextEncoder => "a text encoder",
+            Self::Vocabulary => "a vocabulary",
+        })
+    }
+}

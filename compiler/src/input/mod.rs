@@ -1,0 +1,21 @@
+//! Reading files of strangers: every file that a command reads comes through here.
+//!
+//! A file is opened once and read up to the limit of its [`Kind`]. Devices, sockets and folders are
+//! refused before they are opened. A pipe is read by a thread of its own, and a wait for its bytes
+//! ends in an error. `docs/limits.md` lists every limit.
+
+mod kind;
+mod open;
+mod pipe;
+mod problem;
+mod read;
+#[cfg(test)]
+mod tests;
+mod xml;
+
+pub use kind::Kind;
+pub use open::{Opened, open};
+pub use pipe::{MAX_SILENCE, MAX_WAIT};
+pub use problem::{InputError, InputProblem};
+pub use read::{read, read_text, text, to_end};
+pub use xml::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES, Nesting, NestingProblem, check_nesting};

@@ -1,0 +1,58 @@
+//! Opening a file: what kind of thing it is decides whether and how it is read.
+
+use super::{pipe::Pipe, problem::InputProblem};
+use std::{
+    fs::{self, File, FileType},
+    io::{self, Read},
+    path::Path,
+};
+
+/// A file that may be read.
+#[derive(Debug)]
+pub enum Opened {
+    /// A regular file, in which one can seek.
+    File(File),
+    /// A pipe, whose bytes come once.
+    Pipe(Pipe),
+}
+
+impl Read for Opened {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        match self {
+            Self::File(file) => file.read(buffer),
+            Self::Pipe(pipe) => pipe.read(buffer),
+        }
+    }
+}
+
+/// Opens a regular file or a pipe; symbolic links are followed.
+///
+/// # Errors
+/// [`InputProblem`] for a path that cannot be opened, a folder, a device or a socket.
+pub fn open(path: &Path) -> Result<Opened, InputProblem> {
+    // Before it is opened: opening can wait for a pipe's writer, and change a device.
+    let found = fs::metadata(path)
+        .map_err(InputProblem::Unreadable)?
+        .file_type();
+    if found.is_dir() {
+        return Err(InputProblem::Folder);
+    }
+    if is_pipe(found) {
+        return Ok(Opened::Pipe(Pipe::open(path)?));
+    }
+    if !found.is_file() {
+        return Err(InputProblem::Device);
+    }
+    let file = File::open(path).map_err(InputProblem::Unreadable)?;
+    Ok(Opened::File(file))
+}
+
+#[cfg(unix)]
+fn is_pipe(found: FileType) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&found)
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: FileType) -> bool {
+    false
+}

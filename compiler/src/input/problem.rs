@@ -1,0 +1,95 @@
+//! Why a file could not be read.
+
+use super::{
+    kind::Kind,
+    pipe::{MAX_SILENCE, MAX_WAIT},
+};
+use crate::diagnostic::Diagnostic;
+use std::{io, path::PathBuf};
+use thiserror::Error;
+
+/// Why a file could not be read.
+#[derive(Debug, Error)]
+#[error("{}: {problem}", file.display())]
+pub struct InputError {
+    /// The file.
+    pub file: PathBuf,
+    /// What is wrong.
+    pub problem: InputProblem,
+}
+
+/// What is wrong with a file.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum InputProblem {
+    /// The system cannot read it.
+    #[error("cannot read it: {0}")]
+    Unreadable(io::Error),
+    /// It is a folder.
+    #[error("cannot read it: a folder, not a file")]
+    Folder,
+    /// It is a device or a socket, which may have no end.
+    #[error("cannot read it: a device or a socket, which may have no end")]
+    Device,
+    /// It is larger than its kind may be.
+    #[error("more than {limit} bytes, the most that {kind} may have", limit = kind.max_bytes())]
+    TooLarge {
+        /// What it is meant to be.
+        kind: Kind,
+    },
+    /// A pipe gave no byte for [`MAX_SILENCE`].
+    #[error("cannot read it: the pipe gave nothing for {} s", MAX_SILENCE.as_secs_f32())]
+    Silent,
+    /// Waits for the bytes of a pipe took [`MAX_WAIT`] in all.
+    #[error("cannot read it: waiting for the pipe took {} s in all", MAX_WAIT.as_secs())]
+    Slow,
+    /// It is not UTF-8.
+    #[error("byte {offset} is not UTF-8")]
+    NotUtf8 {
+        /// First offending byte.
+        offset: usize,
+    },
+}
+
+impl InputProblem {
+    /// What the user can do, in one sentence.
+    #[must_use]
+    pub fn remedy(&self) -> String {
+        match self {
+            Self::Unreadable(_) => "check the path and its permissions".into(),
+            Self::Folder | Self::Device => "give the path of a file, or of a pipe".into(),
+            Self::TooLarge { kind } => {
+                format!("{}; docs/limits.md lists the limits", kind.remedy())
+            }
+            Self::Silent | Self::Slow => {
+                "check what writes into the pipe, or write to a file first and give that".into()
+            }
+            Self::NotUtf8 { .. } => "save the file as text in UTF-8".into(),
+        }
+    }
+}
+
+impl Diagnostic for InputError {
+    fn remedy(&self) -> String {
+        self.problem.remedy()
+    }
+}
+
+/// Readers that know only of [`io::Error`] hand a problem through.
+impl From<InputProblem> for io::Error {
+    fn from(problem: InputProblem) -> Self {
+        match problem {
+            InputProblem::Unreadable(error) => error,
+            other => Self::other(other),
+        }
+    }
+}
+
+impl From<io::Error> for InputProblem {
+    fn from(error: io::Error) -> Self {
+        match error.downcast::<Self>() {
+            Ok(problem) => problem,
+            Err(error) => Self::Unreadable(error),
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Reading a file whole, up to the limit of its kind.
+
+use super::{
+    kind::Kind,
+    open::{Opened, open},
+    problem::InputProblem,
+};
+use std::{
+    io::{self, Read},
+    path::Path,
+};
+
+/// The bytes of a file.
+///
+/// # Errors
+/// [`InputProblem`] for a file that cannot be read or has more bytes than its kind may.
+pub fn read(path: &Path, kind: Kind) -> Result<Vec<u8>, InputProblem> {
+    let opened = open(path)?;
+    if let Opened::File(file) = &opened
+        && file.metadata().map_err(InputProblem::Unreadable)?.len() > kind.max_bytes()
+    {
+        return Err(InputProblem::TooLarge { kind });
+    }
+    to_end(opened, kind)
+}
+
+/// All bytes of a reader, such as standard input.
+///
+/// # Errors
+/// As [`read`].
+pub fn to_end(reader: impl Read, kind: Kind) -> Result<Vec<u8>, InputProblem> {
+    let mut bytes = Vec::new();
+    let limit = kind.max_bytes();
+    // One byte more tells a file of just the limit from a larger one.
+    reader
+        .take(limit + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error: io::Error| InputProblem::from(error))?;
+    if bytes.len() as u64 > limit {
+        return Err(InputProblem::TooLarge { kind });
+    }
+    Ok(bytes)
+}
+
+/// The text of a file in UTF-8, without a byte order mark.
+///
+/// # Errors
+/// As [`read`], and [`InputProblem::NotUtf8`].
+pub fn read_text(path: &Path, kind: Kind) -> Result<String, InputProblem> {
+    let bytes = read(path, kind)?;
+    text(&bytes).map(str::to_owned)
+}
+
+/// Bytes as text, without a byte order mark.
+///
+/// # Errors
+/// [`InputProblem::NotUtf8`].
+pub fn text(bytes: &[u8]) -> Result<&str, InputProblem> {
+    let text = std::str::from_utf8(bytes).map_err(|error| InputProblem::NotUtf8 {
+        offset: error.valid_up_to(),
+    })?;
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
+}

@@ -1,0 +1,230 @@
+//! The commands that are attacked.
+
+use crate::{
+    programs::Program::{self, Compiler, Lab},
+    seeds::Seed,
+};
+
+/// A command with the file that is attacked. Every other file of it is valid. Names that begin with
+/// `out` are outputs.
+pub(crate) struct Form {
+    pub(crate) program: Program,
+    pub(crate) line: &'static str,
+    /// The attacked file, as it stands in the line or is read from a folder or a file in it. Of a
+    /// folder, `stability` reads the materials that it knows.
+    pub(crate) target: &'static str,
+    pub(crate) seed: Seed,
+    /// Takes many seconds with a valid input, so it gets only inputs that it must refuse.
+    pub(crate) is_long: bool,
+}
+
+const fn form(program: Program, line: &'static str, target: &'static str, seed: Seed) -> Form {
+    Form {
+        program,
+        line,
+        target,
+        seed,
+        is_long: false,
+    }
+}
+
+const fn long(program: Program, line: &'static str, target: &'static str, seed: Seed) -> Form {
+    Form {
+        is_long: true,
+        ..form(program, line, target, seed)
+    }
+}
+
+pub(crate) const FORMS: [Form; 36] = [
+    form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
+    form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
+    form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
+    form(
+        Compiler,
+        "inspect in.aspl --texture a --json",
+        "in.aspl",
+        Seed::Library,
+    ),
+    form(Compiler, "inspect in.aspl --json", "in.aspl", Seed::Scene),
+    form(Compiler, "plot in.asp -o out.png", "in.asp", Seed::Asset),
+    form(
+        Compiler,
+        "plot in.aspl --texture 1 -o out.png",
+        "in.aspl",
+        Seed::Library,
+    ),
+    form(
+        Compiler,
+        "render in.asp --trajectory stroke.csv -o out.csv",
+        "in.asp",
+        Seed::Asset,
+    ),
+    form(
+        Compiler,
+        "render in.aspl --trajectory stroke.csv -o out.csv",
+        "in.aspl",
+        Seed::Scene,
+    ),
+    form(
+        Compiler,
+        "render in.aspl --texture b --trajectory stroke.csv -o out.csv --seed 3",
+        "in.aspl",
+        Seed::Library,
+    ),
+    form(
+        Compiler,
+        "render good.asp --trajectory in.csv -o out.csv",
+        "in.csv",
+        Seed::Trajectory,
+    ),
+    form(
+        Compiler,
+        "render scene.aspl --trajectory in.csv -o out.csv",
+        "in.csv",
+        Seed::Trajectory,
+    ),
+    form(
+        Compiler,
+        "import hatt in.xml -o out.asp",
+        "in.xml",
+        Seed::Material,
+    ),
+    form(
+        Compiler,
+        "import hatt in.xml -o out.asp --fidelity auto",
+        "in.xml",
+        Seed::Material,
+    ),
+    form(
+        Compiler,
+        "import hatt in.xml -o out.asp --complete-taps --emit-model out.json",
+        "in.xml",
+        Seed::Material,
+    ),
+    form(
+        Compiler,
+        "import hatt materials -o out.aspl",
+        "materials/in.xml",
+        Seed::Material,
+    ),
+    form(
+        Compiler,
+        "import hatt materials -o out",
+        "materials/in.xml",
+        Seed::Material,
+    ),
+    form(
+        Compiler,
+        "import model in.json -o out.asp --no-preview",
+        "in.json",
+        Seed::Model,
+    ),
+    form(
+        Compiler,
+        "import model in.json -o out.asp --fidelity auto --rate 2000 --json",
+        "in.json",
+        Seed::Model,
+    ),
+    form(
+        Compiler,
+        "build in.toml -o out.aspl",
+        "in.toml",
+        Seed::Description,
+    ),
+    form(
+        Compiler,
+        "build in.toml -o out.aspl --target cortex-m4f@48MHz --budget-bytes 9000 --json",
+        "in.toml",
+        Seed::Description,
+    ),
+    form(
+        Compiler,
+        "build scene.toml -o out.aspl",
+        "good.asp",
+        Seed::Asset,
+    ),
+    form(
+        Compiler,
+        "build scene.toml -o out.aspl",
+        "wood.xml",
+        Seed::Material,
+    ),
+    form(
+        Compiler,
+        "compile cork -o out.asp --model model",
+        "model/model.json",
+        Seed::ModelFolder,
+    ),
+    form(
+        Compiler,
+        "compile cork -o out.asp --model model --no-preview",
+        "model/text_projection.onnx",
+        Seed::Projection,
+    ),
+    form(
+        Compiler,
+        "import hatt wood.xml -o out.asp --complete-taps --model model",
+        "model/tap_decoder.onnx",
+        Seed::TapDecoder,
+    ),
+    form(
+        Compiler,
+        "doctor --model model --json",
+        "model/model.json",
+        Seed::ModelFolder,
+    ),
+    form(
+        Compiler,
+        "doctor --text-encoder clip:clip",
+        "clip/model.onnx",
+        Seed::Projection,
+    ),
+    form(
+        Compiler,
+        "compile cork -o out.asp --text-encoder clip:clip",
+        "clip/text_model.onnx",
+        Seed::Projection,
+    ),
+    form(
+        Lab,
+        "feel in.asp --seconds 0.5 --csv out.csv --wav out.wav",
+        "in.asp",
+        Seed::Asset,
+    ),
+    form(
+        Lab,
+        "feel in.aspl --texture a --seconds 0.5 --plot out.png",
+        "in.aspl",
+        Seed::Library,
+    ),
+    form(
+        Lab,
+        "feel good.asp --seconds 1 --device in.toml --csv out.csv",
+        "in.toml",
+        Seed::Device,
+    ),
+    form(
+        Lab,
+        "feel --seconds 1 --grip in.toml --csv out.csv",
+        "in.toml",
+        Seed::Grip,
+    ),
+    long(
+        Lab,
+        "stability --hatt materials --out out",
+        "materials/Models_Stone Tile 1.xml",
+        Seed::Material,
+    ),
+    long(
+        Lab,
+        "pareto --quick --hatt materials --out out",
+        "materials/in.xml",
+        Seed::Material,
+    ),
+    long(
+        Lab,
+        "pareto --quick --cortex-m in.csv --out out",
+        "in.csv",
+        Seed::Counts,
+    ),
+];

@@ -1,0 +1,124 @@
+//! Hostile inputs to every command of both programs, seeded: damaged, forged, endless, strange.
+//!
+//! Whatever the input, a command ends by itself with exit status 0, 1 or 2, within two seconds of
+//! processor time and 512 MiB of memory. It leaves no partial output and no input changed.
+//!
+//! `ASPERITY_ATTACKS` sets how many cases are run; the first are the same whatever their number.
+//! `ASPERITY_ATTACKS=1234..1235` runs one again. `ASPERITY_PROGRAMS` names a folder with other builds
+//! of the programs, by an absolute path. A case that fails keeps its folder.
+#![cfg(unix)]
+
+mod case;
+mod forge;
+mod forms;
+mod mutate;
+mod pieces;
+mod programs;
+mod run;
+mod seeds;
+mod strange;
+#[path = "../support/mod.rs"]
+mod support;
+mod verdict;
+
+use asperity_tests::draw::Draw;
+use std::{
+    ops::Range,
+    path::Path,
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+/// Cases of a plain `cargo test`.
+const DEFAULT: usize = 200;
+
+fn wanted() -> Range<usize> {
+    let Ok(text) = std::env::var("ASPERITY_ATTACKS") else {
+        return 0..DEFAULT;
+    };
+    let number = |text: &str| text.parse().expect("ASPERITY_ATTACKS=COUNT or FROM..TO");
+    match text.split_once("..") {
+        Some((from, to)) => number(from)..number(to),
+        None => 0..number(&text),
+    }
+}
+
+#[test]
+fn no_input_brings_a_command_down() {
+    let programs = programs::built();
+    let seeds = seeds::Seeds::new();
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("attacks");
+    let _ = std::fs::remove_dir_all(&root);
+    let cases = wanted();
+    let next = AtomicUsize::new(cases.start);
+    let work = || {
+        let mut done = verdict::Tally::default();
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= cases.end {
+                return done;
+            }
+            done.add(attacked(number, &programs, &seeds, &root));
+        }
+    };
+    let threads = std::thread::available_parallelism().map_or(2, usize::from);
+    let tally = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        let mut tally = verdict::Tally::default();
+        for worker in workers {
+            tally.merge(worker.join().expect("a worker that does not panic"));
+        }
+        tally
+    });
+    println!("{tally}");
+    assert!(tally.failures.is_empty(), "{}", tally.failures.join("\n\n"));
+    // A suite that refuses everything, or accepts everything, attacks nothing.
+    if cases.len() >= DEFAULT {
+        assert!(tally.refused > cases.len() / 4, "{tally}");
+        assert!(tally.accepted > cases.len() / 40, "{tally}");
+    }
+}
+
+/// The attacks start from inputs that the commands take. A text tower of CLIP is not shipped.
+#[test]
+fn what_is_not_attacked_is_accepted() {
+    let programs = programs::built();
+    let seeds = seeds::Seeds::new();
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("not-attacked");
+    let _ = std::fs::remove_dir_all(&root);
+    for (number, form) in forms::FORMS.iter().enumerate() {
+        if form.is_long || form.line.contains("clip:") {
+            continue;
+        }
+        let folder = root.join(number.to_string());
+        let harmless = case::Attack::valid(form, &seeds);
+        seeds.write(&folder);
+        harmless.prepare(&folder, &seeds);
+        let run = run::run(programs.path(form.program), &harmless.arguments, &folder);
+        assert_eq!(run.status.code(), Some(0), "{}: {}", form.line, run.stderr);
+    }
+    let _ = std::fs::remove_dir_all(&root);
+}
+
+/// One case: its folder, its command, what came of it.
+fn attacked(
+    number: usize,
+    programs: &programs::Programs,
+    seeds: &seeds::Seeds,
+    root: &Path,
+) -> verdict::Verdict {
+    let mut draw = Draw::new(0xa77a_c4ed ^ (number as u64) << 20);
+    let folder = root.join(number.to_string());
+    let attack = match pieces::PIECES.get(number) {
+        Some(piece) => case::Attack::of_piece(piece, seeds),
+        None => case::Attack::drawn(number, seeds, &mut draw),
+    };
+    seeds.write(&folder);
+    attack.prepare(&folder, seeds);
+    let before = verdict::Snapshot::of(&folder);
+    let run = run::run(programs.path(attack.program), &attack.arguments, &folder);
+    let verdict = verdict::judge(number, &attack, &run, &before, &folder);
+    if verdict.failure.is_none() {
+        let _ = std::fs::remove_dir_all(&folder);
+    }
+    verdict
+}

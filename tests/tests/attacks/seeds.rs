@@ -1,0 +1,231 @@
+//! Valid inputs of every kind, which attacks start from.
+
+use crate::support::builtin;
+use asperity_formats::{SceneSurface, Solid, library};
+use asperity_tests::texture::{Kind, random};
+use std::{
+    fmt::Write as _,
+    fs,
+    os::unix::fs::symlink,
+    path::{Path, PathBuf},
+};
+
+/// A kind of input.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Seed {
+    Asset,
+    Library,
+    Scene,
+    Trajectory,
+    Material,
+    Model,
+    Description,
+    ModelFolder,
+    Projection,
+    TapDecoder,
+    Device,
+    Grip,
+    Counts,
+}
+
+impl Seed {
+    /// Whether the input is lines of text.
+    pub(crate) const fn is_text(self) -> bool {
+        !matches!(
+            self,
+            Self::Asset | Self::Library | Self::Scene | Self::Projection | Self::TapDecoder
+        )
+    }
+}
+
+/// A valid input of every kind.
+pub(crate) struct Seeds {
+    asset: Vec<u8>,
+    library: Vec<u8>,
+    scene: Vec<u8>,
+    model: Vec<u8>,
+    folder: PathBuf,
+    projection: Vec<u8>,
+    tap_decoder: Vec<u8>,
+    model_json: Vec<u8>,
+    trajectory: String,
+    material: String,
+}
+
+const DESCRIPTION: &str = "servo_rate_hz = 1000
+[[texture]]
+name = \"good\"
+asset = \"good.asp\"
+[[texture]]
+name = \"wood\"
+import = \"wood.xml\"
+[[surface]]
+texture = \"good\"
+plane = { point_m = [0, 0, 0], normal = [0, 0, 1] }
+to_m = [0, 1, 1]
+[[surface]]
+texture = \"wood\"
+box = { center_m = [0, 0, 0], half_extents_m = [0.1, 0.1, 0.1] }
+[[surface]]
+texture = \"good\"
+sphere = { center_m = [0, 0, 0.2], radius_m = 0.1 }
+";
+const COUNTS: &str = "factor,name,instructions\norder,ar 20,2100\narithmetic,fixed,1900.5\n";
+const DEVICE: &str = include_str!("../../../device-sim/devices/touch.toml");
+const GRIP: &str = include_str!("../../../device-sim/grips/light.toml");
+
+impl Seeds {
+    pub(crate) fn new() -> Self {
+        let asset = builtin();
+        let other = random(1, Kind::nyquist(4)).encode();
+        let named = [("a", &asset[..]), ("b", &other[..])];
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../compiler/model");
+        let read = |name: &str| fs::read(folder.join(name)).expect("the shipped model");
+        Self {
+            library: encoded(&named, &[]),
+            scene: encoded(&named, &[surface(0), surface(1)]),
+            model: asperity::model_file::to_json(&asperity::builtin::texture()),
+            projection: read("text_projection.onnx"),
+            tap_decoder: read("tap_decoder.onnx"),
+            model_json: read("model.json"),
+            folder,
+            asset,
+            trajectory: trajectory(),
+            material: material(),
+        }
+    }
+
+    /// The valid input of a kind.
+    pub(crate) fn bytes(&self, seed: Seed) -> &[u8] {
+        match seed {
+            Seed::Asset => &self.asset,
+            Seed::Library => &self.library,
+            Seed::Scene => &self.scene,
+            Seed::Trajectory => self.trajectory.as_bytes(),
+            Seed::Material => self.material.as_bytes(),
+            Seed::Model => &self.model,
+            Seed::Description => DESCRIPTION.as_bytes(),
+            Seed::ModelFolder => &self.model_json,
+            Seed::Projection => &self.projection,
+            Seed::TapDecoder => &self.tap_decoder,
+            Seed::Device => DEVICE.as_bytes(),
+            Seed::Grip => GRIP.as_bytes(),
+            Seed::Counts => COUNTS.as_bytes(),
+        }
+    }
+
+    /// Writes the valid files that the commands read besides the attacked one.
+    pub(crate) fn write(&self, folder: &Path) {
+        for name in ["", "materials", "model", "clip"] {
+            fs::create_dir_all(folder.join(name)).expect("a folder");
+        }
+        for (name, seed) in [
+            ("good.asp", Seed::Asset),
+            ("scene.aspl", Seed::Scene),
+            ("stroke.csv", Seed::Trajectory),
+            ("wood.xml", Seed::Material),
+            ("scene.toml", Seed::Description),
+        ] {
+            fs::write(folder.join(name), self.bytes(seed)).expect("a valid input");
+        }
+        let other = self.material.replace("<material>Wood", "<material>Test");
+        fs::write(folder.join("materials/other.xml"), other).expect("a valid input");
+        for name in [
+            "model.json",
+            "text_projection.onnx",
+            "ar_decoder.onnx",
+            "tap_decoder.onnx",
+            "encoder.onnx",
+        ] {
+            symlink(self.folder.join(name), folder.join("model").join(name)).expect("a link");
+        }
+    }
+}
+
+fn surface(texture: u16) -> SceneSurface {
+    let solid = Solid::Plane {
+        point_m: [0.0, 0.0, -0.001 * f32::from(texture)],
+        normal: [0.0, 0.0, 1.0],
+    };
+    SceneSurface {
+        solid,
+        from_m: [-1.0; 3],
+        to_m: [1.0; 3],
+        texture,
+    }
+}
+
+/// A library, with a scene if it has surfaces.
+pub(crate) fn encoded(named: &[(&str, &[u8])], surfaces: &[SceneSurface]) -> Vec<u8> {
+    let scene_len = asperity_formats::scene::encoded_len(surfaces.len());
+    let mut bytes = vec![0; library::encoded_len(named) + scene_len];
+    let len = if surfaces.is_empty() {
+        library::encode_library(named, &mut bytes)
+    } else {
+        library::encode_scene(named, surfaces, &mut bytes)
+    };
+    bytes.truncate(len.expect("a valid library"));
+    bytes
+}
+
+/// A tap and a stroke of 300 ticks at 1 kHz.
+fn trajectory() -> String {
+    (0..300).fold("t_s,x_mm,y_mm,z_mm\n".to_owned(), |mut csv, n| {
+        let t_s = f64::from(n) / 1000.0;
+        let z_mm = (2.0 - 0.05 * f64::from(n)).max(-1.0);
+        // Writing to a string cannot fail.
+        let _ = writeln!(csv, "{t_s},{},{},{z_mm}", 100.0 * t_s, -0.01 * f64::from(n));
+        csv
+    })
+}
+
+/// A material of four corners and a centre, order 2, one zero.
+fn material() -> String {
+    let (low, high) = (0.8_f64, 2.0_f64);
+    let (a1, a2) = (-low.cos() - high.cos(), 1.0 - low.cos() + high.cos());
+    let list = |tag: &str, values: &[f64]| {
+        let values: String = values
+            .iter()
+            .map(|v| format!("<value>{v}</value>"))
+            .collect();
+        format!("<{tag} type=\"array\">{values}</{tag}>\n")
+    };
+    let places = [
+        (0.0, 0.0),
+        (200.0, 0.0),
+        (200.0, 4.0),
+        (0.0, 4.0),
+        (80.0, 1.5),
+    ];
+    let mut xml = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<modelSet texture=\"0\">\n\
+         <material>Wood</material>\n<AccelUnits>m/s^2</AccelUnits>\n<SpeedUnits>mm/s</SpeedUnits>\n\
+         <ForceUnits>N</ForceUnits>\n<SampleRate>1000</SampleRate>\n<mu>0.4</mu>\n\
+         <numMod>5</numMod>\n<numTri>4</numTri>\n<maxSpeed>200</maxSpeed>\n<maxForce>4</maxForce>\n"
+        .to_owned();
+    xml += &list("speedList", &places.map(|p| p.0));
+    xml += &list("forceList", &places.map(|p| p.1));
+    for triangle in [
+        [1.0, 2.0, 5.0],
+        [2.0, 3.0, 5.0],
+        [3.0, 4.0, 5.0],
+        [4.0, 1.0, 5.0],
+    ] {
+        xml += &list("tri", &triangle);
+    }
+    xml += "<numARCoeff>2</numARCoeff>\n<numMACoeff>1</numMACoeff>\n";
+    for (index, (speed, force)) in places.into_iter().enumerate() {
+        let variance = if speed * force == 0.0 { 0.0 } else { 0.01 };
+        let _ = writeln!(xml, "<model>\n<modNum>{}</modNum>", index + 1);
+        xml += &list("ARcoeff", &[1.0, a1, a2]);
+        xml += &list("ARlsf", &[low, high]);
+        // One LSF ω: B(z) = 1 − cos ω z⁻¹.
+        xml += &list("MAcoeff", &[1.0, -1.5_f64.cos()]);
+        xml += &list("MAlsf", &[1.5]);
+        let _ = writeln!(
+            xml,
+            "<var>{variance}</var>\n<gain>2</gain>\n<speedMod>{speed}</speedMod>\n\
+             <forceMod>{force}</forceMod>\n</model>"
+        );
+    }
+    xml + "</modelSet>\n"
+}
