@@ -1,0 +1,117 @@
+//! Text in scripts that the embedded type face cannot set, spelt in letters that it can.
+//!
+//! DejaVu Sans has no Chinese, Japanese or Korean and few emoji. Of scripts that are written from
+//! right to left, or whose letters join, it has glyphs, but setting them takes a shaper. A reader
+//! of a sheet wants to recognise a name, so these characters are spelt by their sound or their
+//! meaning, and as `U+XXXX` where they have neither.
+
+use std::borrow::Cow;
+
+/// The text with what cannot be set spelt in Latin letters. `has_glyph` tells of the type face.
+pub(crate) fn readable(text: &str, has_glyph: impl Fn(char) -> bool) -> Cow<'_, str> {
+    let is_set = |c: char| c.is_control() || (has_glyph(c) && !needs_shaping(c));
+    if text.chars().all(is_set) {
+        return Cow::Borrowed(text);
+    }
+    let mut readable = String::with_capacity(2 * text.len());
+    let mut characters = text.chars().peekable();
+    while let Some(character) = characters.next() {
+        if is_set(character) {
+            readable.push(character);
+            continue;
+        }
+        if is_silent(character) {
+            continue;
+        }
+        match deunicode::deunicode_char(character).map(|spelt| (spelt, spelt.trim())) {
+            None => readable.push_str(&format!("U+{:04X}", u32::from(character))),
+            // What a picture shows is a word of its own.
+            Some((_, word)) if is_symbol(character) => {
+                let apart = |c: char| !c.is_whitespace();
+                if readable.chars().next_back().is_some_and(apart) {
+                    readable.push(' ');
+                }
+                readable.push_str(word);
+                if characters.peek().copied().is_some_and(apart) {
+                    readable.push(' ');
+                }
+            }
+            Some((spelt, _)) => readable.push_str(spelt),
+        }
+    }
+    Cow::Owned(readable.trim_end().to_owned())
+}
+
+/// Scripts that are written from right to left, or whose letters change shape beside each other.
+fn needs_shaping(character: char) -> bool {
+    matches!(
+        character,
+        '\u{590}'..='\u{8ff}'
+            | '\u{900}'..='\u{109f}'
+            | '\u{1780}'..='\u{17ff}'
+            | '\u{fb1d}'..='\u{fdff}'
+            | '\u{fe70}'..='\u{fefe}'
+            | '\u{10800}'..='\u{10fff}'
+            | '\u{1e800}'..='\u{1efff}'
+    )
+}
+
+/// Pictures and signs, as emoji are.
+fn is_symbol(character: char) -> bool {
+    matches!(character, '\u{2190}'..='\u{2bff}' | '\u{1f000}'..='\u{1faff}')
+}
+
+/// Characters that only join or change those beside them.
+fn is_silent(character: char) -> bool {
+    matches!(
+        character,
+        '\u{200b}'..='\u{200f}'
+            | '\u{202a}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{fe00}'..='\u{fe0f}'
+            | '\u{feff}'
+            | '\u{1f3fb}'..='\u{1f3ff}'
+            | '\u{e0000}'..='\u{e0fff}'
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ttf_parser::Face;
+
+    fn drawn(text: &str) -> String {
+        let face = Face::parse(dejavu::sans::regular(), 0).expect("the embedded type face");
+        readable(text, |c| face.glyph_index(c).is_some()).into_owned()
+    }
+
+    #[test]
+    fn what_the_type_face_has_stays() {
+        for text in [
+            "Cork",
+            "Ärmel – μ 0.3 · 5 m/s²",
+            "Шёлк",
+            "μετάξι",
+            "a\u{0}b",
+        ] {
+            assert_eq!(drawn(text), text);
+        }
+    }
+
+    #[test]
+    fn what_it_lacks_is_spelt_and_never_a_box() {
+        for (text, spelt) in [
+            ("木材", "Mu Cai"),
+            ("rough 木材", "rough Mu Cai"),
+            ("나무", "namu"),
+            ("خشب", "khshb"),
+            ("wood🔥", "wood fire"),
+            ("🪨🧽", "rock sponge"),
+            ("\u{e000}", "U+E000"),
+        ] {
+            let drawn = drawn(text);
+            assert!(drawn.is_ascii(), "{text}: {drawn}");
+            assert_eq!(drawn, spelt, "{text}");
+        }
+    }
+}
