@@ -77,6 +77,12 @@ impl TextEncoder for MiniLm {
         WIDTH
     }
 
+    fn reads(&self, word: &str) -> bool {
+        let unknown = self.pieces.get_token_id("[UNK]").map(i64::from);
+        self.tokens(word)
+            .is_ok_and(|(ids, _)| !ids.iter().any(|id| Some(*id) == unknown))
+    }
+
     fn encode(&self, text: &str) -> Result<Encoded, TextError> {
         let (ids, cut) = self.tokens(text)?;
         let tokens = ids.len();
