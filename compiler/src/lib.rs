@@ -13,7 +13,9 @@
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`render`] |
 //!
 //! [`pipeline`] runs the passes and the back end, and times them: every command that makes an
-//! asset takes this one way. [`scene`] packs several textures within a budget.
+//! asset takes this one way. [`scene`] packs several textures within a budget. A command opens its
+//! files with [`output::Outputs`] and talks through [`console`]: failures as [`diagnostic`] states
+//! them, text from outside as [`shown`] and [`toml_error`] make it fit for a terminal.
 #![forbid(unsafe_code)]
 
 mod back_end;
@@ -22,11 +24,14 @@ mod passes;
 mod signal;
 mod views;
 
+pub mod console;
 pub mod diagnostic;
 pub mod model;
 pub mod pipeline;
 pub mod progress;
 pub mod scene;
+pub mod shown;
+pub mod toml_error;
 
 // Users name a module without its folder, so that files can move between the stages.
 pub use back_end::{library, lower, output, raise, source, verify};

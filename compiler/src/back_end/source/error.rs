@@ -43,9 +43,9 @@ pub enum SourceProblem {
     #[error("neither an asset (.asp) nor a library (.aspl)")]
     WrongKind,
     /// It is larger than any asset.
-    #[error("{bytes} bytes, an asset has {MAX_ASSET_BYTES} at most")]
+    #[error("{bytes} bytes or more, an asset has {MAX_ASSET_BYTES} at most")]
     TooLarge {
-        /// Its size.
+        /// Its size; of a pipe, what was read of it.
         bytes: u64,
     },
     /// The library holds several textures and none was chosen.

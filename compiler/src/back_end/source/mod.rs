@@ -1,5 +1,6 @@
 //! Opens what other commands wrote: an asset, or one texture of a library.
 
+mod bytes;
 mod error;
 #[cfg(test)]
 mod tests;
@@ -10,10 +11,10 @@ use asperity_formats::{
     FormatError, SceneSurface,
     library::{self, LibraryIndex},
 };
+use bytes::{Bytes, STANDARD_INPUT};
 use error::MAX_ASSET_BYTES;
 use std::{
-    fs::File,
-    io::{Read, Seek, SeekFrom},
+    io::{Read as _, Seek as _, SeekFrom},
     path::{Path, PathBuf},
 };
 
@@ -21,7 +22,7 @@ use std::{
 #[derive(Debug)]
 pub struct Source {
     path: PathBuf,
-    file: File,
+    file: Bytes,
     len: u64,
     content: Content,
 }
@@ -35,7 +36,7 @@ enum Content {
 
 impl Source {
     /// Opens a file and tells by its first bytes what it is. Of a library, only the index
-    /// is read.
+    /// is read. `-` is standard input; what comes from there or from a pipe is read at once.
     ///
     /// # Errors
     /// [`SourceError`] for a file that cannot be read or is of another kind, and for a
@@ -49,12 +50,12 @@ impl Source {
     }
 
     fn try_open(path: &Path) -> Result<Self, SourceProblem> {
-        let mut file = File::open(path)?;
+        let mut file = Bytes::open(path)?;
         let mut head = Vec::new();
         (&mut file)
             .take(library::HEADER_LEN as u64)
             .read_to_end(&mut head)?;
-        let len = file.metadata()?.len();
+        let len = file.len()?;
         let content = if head.starts_with(b"ASPL") {
             let index_len = library::index_len(&head)?;
             let mut index = vec![0; index_len];
@@ -103,6 +104,16 @@ impl Source {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// The file as a report calls it.
+    #[must_use]
+    pub fn shown(&self) -> String {
+        if self.path == Path::new(STANDARD_INPUT) {
+            "standard input".into()
+        } else {
+            self.path.display().to_string()
+        }
     }
 
     /// Names of a library's textures in order; `None` for an asset.
@@ -181,17 +192,33 @@ impl Source {
                 _ => Ok(bytes),
             };
         };
+        self.texture(self.index(&names, wanted)?)
+    }
+
+    /// The name in a library's index of the texture that `wanted` means, as
+    /// [`choose`](Self::choose) takes it; `None` for an asset.
+    ///
+    /// # Errors
+    /// As [`choose`](Self::choose).
+    pub fn chosen_name(&self, wanted: Option<&str>) -> Result<Option<String>, SourceError> {
+        let Some(names) = self.names() else {
+            return Ok(None);
+        };
+        let index = self.index(&names, wanted)?;
+        Ok(names.into_iter().nth(index))
+    }
+
+    fn index(&self, names: &[String], wanted: Option<&str>) -> Result<usize, SourceError> {
         let count = names.len();
-        let index = match wanted {
-            None if count == 1 => 0,
-            None => return Err(self.error(None, SourceProblem::NoneChosen { count })),
+        match wanted {
+            None if count == 1 => Ok(0),
+            None => Err(self.error(None, SourceProblem::NoneChosen { count })),
             Some(wanted) => names
                 .iter()
                 .position(|name| name == wanted)
                 .or_else(|| wanted.parse().ok().filter(|&index: &usize| index < count))
-                .ok_or_else(|| self.no_such_texture(wanted, count))?,
-        };
-        self.texture(index)
+                .ok_or_else(|| self.no_such_texture(wanted, count)),
+        }
     }
 
     /// Bytes of a library's texture at `index`, unchecked. The others are not read.
