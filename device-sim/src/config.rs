@@ -19,7 +19,7 @@ pub enum ConfigError {
         source: std::io::Error,
     },
     /// Not TOML, or not the expected keys.
-    #[error("{file}: {place}")]
+    #[error("{file}:{}:{}: {}", place.line, place.column, place.message)]
     Parse {
         /// The file.
         file: String,

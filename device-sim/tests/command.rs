@@ -316,7 +316,7 @@ fn a_toml_file_of_megabytes_and_escapes_gives_a_short_plain_error() {
         let output = lab(folder.path(), &["feel", option, "hostile.toml"]);
         let error = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{error}");
-        assert!(error.contains("hostile.toml: line 1, column 1"), "{error}");
+        assert!(error.contains("hostile.toml:1:1: unknown field"), "{error}");
         assert!(error.len() < 2000, "{} bytes", error.len());
         assert!(!error.contains(|c: char| c != '\n' && c.is_control()));
     }
