@@ -10,7 +10,7 @@ use asperity::{
 };
 
 pub(crate) fn run(args: &ImportModel, console: Console) -> Result<(), Failures> {
-    let outputs = TextureOutputs::open(&[args.input.clone()], &args.output, None)?;
+    let outputs = TextureOutputs::open(std::slice::from_ref(&args.input), &args.output, None)?;
     let console = outputs.console(console);
     let options = Options {
         fidelity: args.fidelity,
