@@ -1,6 +1,7 @@
 //! One style for every failure that a user reads: what is wrong, then the remedy.
 
-use std::{error::Error, fmt::Write as _};
+use crate::shown::{excerpt, plain};
+use std::error::Error;
 
 /// An error that says what to do about it.
 pub trait Diagnostic: Error {
@@ -13,16 +14,60 @@ pub trait Diagnostic: Error {
     }
 }
 
-/// The text that both commands print on stderr: `error: …`, `  help: …`.
+/// Failures of one command; several where many files were at fault.
+pub type Failures = Vec<Box<dyn Diagnostic>>;
+
+/// For `map_err`: one failure.
+pub fn one(error: impl Diagnostic + 'static) -> Failures {
+    vec![Box::new(error)]
+}
+
+/// The text that both commands print on stderr: `error: …`, `  help: …`. Errors repeat what files
+/// and users say, so control characters are escaped and the long is shortened.
 #[must_use]
 pub fn report(error: &dyn Diagnostic) -> String {
-    let mut text = format!("error: {error}");
+    let mut text = error.to_string();
     let mut source = error.source();
     while let Some(cause) = source {
-        // Writing to a string cannot fail.
-        let _ = write!(text, ": {cause}");
+        text += &format!(": {cause}");
         source = cause.source();
     }
-    let _ = write!(text, "\n  help: {}", error.remedy());
-    text
+    let remedy = error.remedy();
+    format!(
+        "error: {}\n  help: {}",
+        excerpt(&plain(&text)),
+        excerpt(&plain(&remedy))
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, thiserror::Error)]
+    #[error("{0}: no such key")]
+    struct Echo(String);
+
+    impl Diagnostic for Echo {
+        fn remedy(&self) -> String {
+            format!("remove {}", self.0)
+        }
+    }
+
+    #[test]
+    fn what_an_error_repeats_is_escaped_and_shortened() {
+        let escapes = report(&Echo("\u{1b}[31mred\u{9b}0m\u{202e}".into()));
+        assert!(
+            !escapes.chars().any(|c| c.is_control() && c != '\n'),
+            "{escapes:?}"
+        );
+        assert!(
+            escapes.contains("\\u{1b}[31mred\\u{9b}0m\\u{202e}: no such key"),
+            "{escapes}"
+        );
+        let long = report(&Echo("x".repeat(1_000_000)));
+        assert!(long.len() < 2000 && long.contains("…") && long.contains("no such key"));
+        let lines = report(&Echo("x\n".repeat(1_000_000)));
+        assert!(lines.lines().count() < 50);
+    }
 }

@@ -12,8 +12,11 @@
 //! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`spectrum`], [`tap_synthesis`] |
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`render`] |
 //!
-//! [`input`] reads every file, within limits. [`pipeline`] runs the passes and the back end, and times them: every command that makes an
-//! asset takes this one way. [`scene`] packs several textures within a budget.
+//! [`pipeline`] runs the passes and the back end, and times them: every command that makes an
+//! asset takes this one way. [`scene`] packs several textures within a budget. A command reads its
+//! files through [`input`], within limits, opens those that it writes with [`output::Outputs`], and
+//! talks through [`console`]: failures as [`diagnostic`] states them, text from outside as [`shown`]
+//! and [`toml_error`] make it fit for a terminal.
 #![forbid(unsafe_code)]
 
 mod back_end;
@@ -22,12 +25,15 @@ mod passes;
 mod signal;
 mod views;
 
+pub mod console;
 pub mod diagnostic;
 pub mod input;
 pub mod model;
 pub mod pipeline;
 pub mod progress;
 pub mod scene;
+pub mod shown;
+pub mod toml_error;
 
 // Users name a module without its folder, so that files can move between the stages.
 pub use back_end::{library, lower, output, raise, source, verify};

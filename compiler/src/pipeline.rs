@@ -29,7 +29,6 @@ pub use timings::{Pass, Timings};
 use crate::{
     back_end::{
         lower::{self, Lowered},
-        output::{self, OutputError},
         verify::{self, VerifyReport},
     },
     model::TextureModel,
@@ -40,7 +39,6 @@ use crate::{
     },
     views::preview,
 };
-use std::path::Path;
 
 /// Fractions of the way to white noise that are tried in turn on a texture that rings.
 const STABILISED: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
@@ -217,14 +215,6 @@ impl Pipeline {
         bytes: &[u8],
     ) -> Result<VerifyReport, PipelineError> {
         Ok(self.run(Pass::Verify, || verify::verify(texture, bytes))?)
-    }
-
-    /// Writes files, all or none.
-    ///
-    /// # Errors
-    /// [`OutputError`] with the file; the targets are then as they were.
-    pub fn write(&mut self, files: &[(&Path, &[u8])]) -> Result<(), OutputError> {
-        self.run(Pass::Write, || output::write_all(files))
     }
 
     /// Does what a front end calls a pass.

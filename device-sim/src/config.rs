@@ -5,6 +5,7 @@ use std::path::Path;
 
 use asperity::diagnostic::Diagnostic;
 use asperity::input::{self, InputError, Kind};
+use asperity::toml_error::TomlError;
 use serde::de::DeserializeOwned;
 
 /// Why a device or grip file was refused.
@@ -14,14 +15,12 @@ pub enum ConfigError {
     #[error(transparent)]
     Read(#[from] InputError),
     /// Not TOML, or not the expected keys.
-    #[error("{file}:{line}: {message}")]
+    #[error("{file}:{}:{}: {}", place.line, place.column, place.message)]
     Parse {
         /// The file.
         file: String,
-        /// One-based line.
-        line: usize,
-        /// What the parser expected.
-        message: String,
+        /// Where, and what the parser expected.
+        place: TomlError,
     },
     /// A value outside its range.
     #[error("{file}: `{field}` = {value} is outside {min}..={max} {unit}")]
@@ -96,19 +95,11 @@ pub(crate) fn read_text(path: &Path) -> Result<String, ConfigError> {
     })
 }
 
-/// Parses TOML, with the line in the error.
+/// Parses TOML, with the place in the error.
 pub(crate) fn parse<T: DeserializeOwned>(text: &str, file: &str) -> Result<T, ConfigError> {
-    toml::from_str(text).map_err(|error| {
-        let start = error.span().map_or(0, |span| span.start.min(text.len()));
-        let line = 1 + text.as_bytes()[..start]
-            .iter()
-            .filter(|&&byte| byte == b'\n')
-            .count();
-        ConfigError::Parse {
-            file: file.into(),
-            line,
-            message: error.message().trim().replace('\n', "; "),
-        }
+    toml::from_str(text).map_err(|error| ConfigError::Parse {
+        file: file.into(),
+        place: TomlError::new(text, &error),
     })
 }
 

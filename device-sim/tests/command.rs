@@ -202,11 +202,6 @@ fn failures_exit_with_1_name_the_culprit_and_leave_nothing() {
         ),
         (&["feel", "--plot", "."], &["."]),
         (&["stability", "--hatt", "none"], &["none"]),
-        (&["feel", "--plot", "o", "--wav", "o"], &["o", "twice"]),
-        (
-            &["feel", "good.asp", "--wav", "./good.asp"],
-            &["good.asp", "twice"],
-        ),
     ] {
         let output = lab(folder.path(), arguments);
         let error = text(&output.stderr);
@@ -226,6 +221,114 @@ fn failures_exit_with_1_name_the_culprit_and_leave_nothing() {
         fs::read(folder.path().join("good.asp")).expect("the file"),
         asset
     );
+}
+
+#[test]
+fn an_output_that_is_an_input_or_another_output_is_wrong_usage() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, bytes: &[u8]| {
+        fs::write(folder.path().join(name), bytes).expect("the file");
+    };
+    let asset = asperity::lower::lower(&asperity::builtin::texture(), None)
+        .expect("built in")
+        .bytes;
+    write("good.asp", &asset);
+    write("touch.toml", include_bytes!("../devices/touch.toml"));
+    write("firm.toml", include_bytes!("../grips/firm.toml"));
+    fs::hard_link(folder.path().join("good.asp"), folder.path().join("hard")).expect("a link");
+    let content = || -> Vec<Vec<u8>> {
+        let names = entries(folder.path()).into_iter();
+        names
+            .map(|name| fs::read(folder.path().join(name)).expect("readable"))
+            .collect()
+    };
+    let before = (entries(folder.path()), content());
+    for (arguments, culprits) in [
+        (
+            &["feel", "--plot", "o", "--wav", "o"][..],
+            &["o", "another output"][..],
+        ),
+        (
+            &["feel", "good.asp", "--wav", "./good.asp"],
+            &["good.asp", "an input"],
+        ),
+        (
+            &["feel", "good.asp", "--csv", "hard"],
+            &["hard", "an input"],
+        ),
+        (
+            &["feel", "--device", "touch.toml", "--csv", "touch.toml"],
+            &["touch.toml", "an input"],
+        ),
+        (
+            &["feel", "--grip", "firm.toml", "--plot", "firm.toml"],
+            &["firm.toml", "an input"],
+        ),
+        (&["feel", "--csv", "-", "--wav", "-"], &["standard output"]),
+    ] {
+        let output = lab(folder.path(), arguments);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(
+            error.starts_with("error: ") && error.contains("\n  help: "),
+            "{error}"
+        );
+        assert!(
+            culprits.iter().all(|culprit| error.contains(culprit)),
+            "{arguments:?}: {error}"
+        );
+        assert_eq!(text(&output.stdout), "", "{arguments:?}");
+        assert!(
+            (entries(folder.path()), content()) == before,
+            "{arguments:?}"
+        );
+    }
+}
+
+#[test]
+fn one_output_is_piped_and_the_summary_goes_beside_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (option, magic) in [
+        ("--csv", &b"tick,t_s,motion,"[..]),
+        ("--plot", b"\x89PNG"),
+        ("--wav", b"RIFF"),
+    ] {
+        let feel = ["feel", "--seconds", "1", "--quiet", option];
+        let file = lab(folder.path(), &[&feel[..], &["out"]].concat());
+        let piped = lab(folder.path(), &[&feel[..], &["-"]].concat());
+        assert!(piped.status.success(), "{}", text(&piped.stderr));
+        assert!(piped.stdout.starts_with(magic));
+        assert!(piped.stdout == fs::read(folder.path().join("out")).expect("the output"));
+        let told = text(&file.stdout).replace(" out,", " standard output,");
+        assert_eq!(
+            text(&piped.stderr).replace(" standard output\n", " out\n"),
+            told.replace(" standard output\n", " out\n")
+        );
+    }
+}
+
+#[test]
+fn a_toml_file_of_megabytes_and_escapes_gives_a_short_plain_error() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let long = format!("{} = \"\u{9b}31m\"", "k".repeat(1_000_000));
+    fs::write(folder.path().join("hostile.toml"), long).expect("the file");
+    for option in ["--device", "--grip"] {
+        let output = lab(folder.path(), &["feel", option, "hostile.toml"]);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{error}");
+        assert!(error.contains("hostile.toml:1:1: unknown field"), "{error}");
+        assert!(error.len() < 2000, "{} bytes", error.len());
+        assert!(!error.contains(|c: char| c != '\n' && c.is_control()));
+    }
+}
+
+#[test]
+fn every_command_takes_quiet() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for command in [&[][..], &["feel"], &["stability"], &["pareto"]] {
+        let help = lab(folder.path(), &[command, &["--help"]].concat());
+        assert!(text(&help.stdout).contains("--quiet"), "{command:?}");
+    }
 }
 
 #[cfg(target_os = "linux")]

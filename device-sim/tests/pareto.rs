@@ -113,3 +113,32 @@ fn counts_of_a_firmware_bench_get_a_column() {
         "the others were not measured"
     );
 }
+
+#[test]
+fn tables_do_not_replace_the_counts_they_are_made_of() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let charts = folder.path().join("charts");
+    fs::create_dir(&charts).expect("a folder");
+    let counts = "factor,name,instructions\ndefault,default,1234\n";
+    fs::write(charts.join("summary.csv"), counts).expect("written");
+    let output = pareto(
+        folder.path(),
+        &[
+            "--quick",
+            "--cortex-m",
+            "charts/summary.csv",
+            "--out",
+            "charts",
+        ],
+    );
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(
+        error.contains("summary.csv: it is also an input"),
+        "{error}"
+    );
+    let entries = fs::read_dir(&charts).expect("the folder").count();
+    assert_eq!(entries, 1, "nothing else was written");
+    let kept = fs::read_to_string(charts.join("summary.csv")).expect("readable");
+    assert_eq!(kept, counts);
+}

@@ -1,9 +1,12 @@
 //! The embedded type face, DejaVu Sans: outlines, advances and kerning.
 
+use std::borrow::Cow;
+
 use tiny_skia::{Path, PathBuilder};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 use crate::error::PlotError;
+use crate::readable::readable;
 
 /// The type face, regular and bold.
 pub(crate) struct Fonts {
@@ -22,6 +25,12 @@ impl Fonts {
 
     fn face(&self, bold: bool) -> &Face<'static> {
         if bold { &self.bold } else { &self.regular }
+    }
+
+    /// The text as it is drawn: what the type face cannot set is spelt in Latin letters.
+    pub(crate) fn readable<'a>(&self, text: &'a str, bold: bool) -> Cow<'a, str> {
+        let face = self.face(bold);
+        readable(text, |c| face.glyph_index(c).is_some())
     }
 
     /// Width of a line of text at `size_px`, pixels.

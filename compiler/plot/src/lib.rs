@@ -72,6 +72,7 @@ mod marker;
 mod panel;
 mod pixel;
 mod range;
+mod readable;
 mod rect;
 mod series;
 mod shapes;

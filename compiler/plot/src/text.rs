@@ -13,7 +13,8 @@ impl Canvas {
     /// Width of a line of text, pixels.
     #[must_use]
     pub fn text_width(&self, text: &str, style: &TextStyle) -> f32 {
-        self.fonts.width(text, style.bold, style.size)
+        let text = self.fonts.readable(text, style.bold);
+        self.fonts.width(&text, style.bold, style.size)
     }
 
     /// The longest beginning of `text` that fits `max_width` pixels; an ellipsis marks a cut.
@@ -32,12 +33,14 @@ impl Canvas {
         String::new()
     }
 
-    /// Sets one line of text with its anchor at a point.
+    /// Sets one line of text with its anchor at a point. What the embedded type face cannot set is
+    /// spelt in Latin letters.
     pub fn text(&mut self, text: &str, (x, y): (f32, f32), style: &TextStyle) {
         if !(x.is_finite() && y.is_finite()) {
             return;
         }
-        let width = self.text_width(text, style);
+        let text = &*self.fonts.readable(text, style.bold);
+        let width = self.fonts.width(text, style.bold, style.size);
         let along = match style.align {
             Align::Left => 0.0,
             Align::Center => -0.5 * width,

@@ -11,7 +11,12 @@ use super::{
     target::Target,
 };
 use crate::{
-    back_end::{library, raise::raise, source::Source, verify},
+    back_end::{
+        library,
+        raise::raise,
+        source::{Source, SourceError, SourceProblem},
+        verify,
+    },
     diagnostic::Diagnostic,
     front_ends::hatt,
     model::TextureModel,
@@ -124,11 +129,11 @@ fn whole(
     pipeline: &mut Pipeline,
 ) -> Result<TextureModel, SceneError> {
     let made = match &entry.origin {
-        Origin::Prompt(prompt, seed) => prompter(prompt, *seed),
-        Origin::Import(file) => imported(file, pipeline),
+        Origin::Prompt(prompt, seed) => prompter(prompt, *seed).map_err(SceneProblem::Texture),
+        Origin::Import(file) => imported(file, pipeline).map_err(SceneProblem::Texture),
         Origin::Asset(file) => pipeline.run(Pass::Read, || asset(file)),
     };
-    let mut texture = made.map_err(|e| at(scene, entry, SceneProblem::Texture(e)))?;
+    let mut texture = made.map_err(|problem| at(scene, entry, problem))?;
     let (from_hz, to_hz) = (texture.grid.sample_rate_hz, scene.servo_rate_hz);
     if !is_multiple(to_hz, from_hz) {
         let problem = |_: PipelineError| SceneProblem::Rate { from_hz, to_hz };
@@ -148,10 +153,17 @@ fn imported(file: &Path, pipeline: &mut Pipeline) -> Result<TextureModel, Box<dy
     Ok(raise(&asset))
 }
 
-fn asset(file: &Path) -> Result<TextureModel, Box<dyn Diagnostic>> {
-    let mut source = Source::open(file).map_err(boxed)?;
-    let bytes = source.choose(None).map_err(boxed)?;
-    let asset = Asset::parse(&bytes).map_err(|e| boxed(source.error(None, e.into())))?;
+fn asset(file: &Path) -> Result<TextureModel, SceneProblem> {
+    let fail = |error: SourceError| match error.problem {
+        SourceProblem::NoneChosen { count } => SceneProblem::ManyTextures {
+            file: error.path,
+            count,
+        },
+        _ => SceneProblem::Texture(Box::new(error)),
+    };
+    let mut source = Source::open(file).map_err(fail)?;
+    let bytes = source.choose(None).map_err(fail)?;
+    let asset = Asset::parse(&bytes).map_err(|e| fail(source.error(None, e.into())))?;
     Ok(raise(&asset))
 }
 

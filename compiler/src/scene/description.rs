@@ -4,6 +4,7 @@ use super::error::{SceneError, SceneProblem};
 use crate::{
     input::{self, Kind},
     passes::rerate,
+    toml_error::TomlError,
 };
 use asperity_formats::{
     Solid,
@@ -28,6 +29,8 @@ pub struct Description {
     pub unused: Vec<String>,
     /// The surfaces, at least one.
     pub surfaces: Vec<SurfaceEntry>,
+    /// Every file that it names, also for textures that no surface wears.
+    pub sources: Vec<PathBuf>,
 }
 
 /// A texture and where it comes from.
@@ -136,8 +139,12 @@ impl Description {
         };
         let text =
             input::read_text(file, Kind::Scene).map_err(|e| fail(String::new(), e.into()))?;
-        let raw: RawScene = toml::from_str(&text)
-            .map_err(|e| fail(String::new(), SceneProblem::Syntax(e.to_string())))?;
+        let raw: RawScene = toml::from_str(&text).map_err(|e| {
+            fail(
+                String::new(),
+                SceneProblem::Syntax(TomlError::new(&text, &e)),
+            )
+        })?;
         let folder = file.parent().unwrap_or(Path::new(""));
         raw.check(file, folder)
             .map_err(|(field, problem)| fail(field, problem))
@@ -189,6 +196,11 @@ impl RawScene {
             let wears = |surface: &SurfaceEntry| surface.texture == texture.name;
             surfaces.iter().any(wears)
         };
+        let sources = textures.iter().filter_map(|texture| match &texture.origin {
+            Origin::Import(file) | Origin::Asset(file) => Some(file.clone()),
+            Origin::Prompt(..) => None,
+        });
+        let sources = sources.collect();
         let (textures, unused): (Vec<_>, Vec<_>) = textures.into_iter().partition(worn);
         Ok(Description {
             file: file.to_owned(),
@@ -196,6 +208,7 @@ impl RawScene {
             textures,
             unused: unused.into_iter().map(|texture| texture.name).collect(),
             surfaces,
+            sources,
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::target::Target;
 use crate::back_end::library::LibraryError;
-use crate::{diagnostic::Diagnostic, input::InputProblem};
+use crate::{diagnostic::Diagnostic, input::InputProblem, toml_error::TomlError};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -26,8 +26,8 @@ pub enum SceneProblem {
     #[error(transparent)]
     Input(#[from] InputProblem),
     /// It is not TOML, or a field is missing, unknown or of another type.
-    #[error("{}", .0.trim_end())]
-    Syntax(String),
+    #[error("{0}")]
+    Syntax(TomlError),
     /// The scene has no surface.
     #[error("the scene has no surface")]
     NoSurface,
@@ -86,6 +86,14 @@ pub enum SceneProblem {
     /// A texture could not be made.
     #[error("{0}")]
     Texture(Box<dyn Diagnostic>),
+    /// A library is given where one texture is wanted.
+    #[error("{file}: a library of {count} textures, an asset of one is wanted", file = file.display())]
+    ManyTextures {
+        /// The library.
+        file: PathBuf,
+        /// Textures it holds.
+        count: usize,
+    },
     /// A texture cannot be converted to the rate of the servo loop.
     #[error("its models run at {from_hz} Hz and cannot be converted to {to_hz} Hz")]
     Rate {
@@ -153,6 +161,9 @@ impl Diagnostic for SceneError {
                 "swap the corners: from_m is the lower one on every axis".into()
             }
             SceneProblem::Texture(error) => error.remedy(),
+            SceneProblem::ManyTextures { .. } => {
+                "give an asset (.asp), or import its source with `import`".into()
+            }
             SceneProblem::Rate { .. } => {
                 "set servo_rate_hz to the rate of the texture, or 2, 3, … 20 times as much".into()
             }

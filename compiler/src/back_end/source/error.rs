@@ -45,7 +45,7 @@ pub enum SourceProblem {
     /// It is larger than any asset, or than a library with a scene.
     #[error("{bytes} bytes, {limit} at most", limit = Kind::Asset.max_bytes())]
     TooLarge {
-        /// Its size.
+        /// Its size; of a pipe, what was read of it.
         bytes: u64,
     },
     /// The library holds several textures and none was chosen.

@@ -13,9 +13,12 @@ use asperity_formats::{
 };
 use std::{
     fmt,
-    io::{Cursor, Read, Seek, SeekFrom},
+    io::{self, Cursor, Read, Seek, SeekFrom},
     path::{Path, PathBuf},
 };
+
+/// The path that means standard input.
+const STANDARD_INPUT: &str = "-";
 
 /// An open asset or library.
 #[derive(Debug)]
@@ -40,12 +43,16 @@ enum Content {
 
 impl Source {
     /// Opens a file and tells by its first bytes what it is. Of a library, only the index
-    /// is read. A pipe is read to its end, and kept in memory.
+    /// is read. `-` is standard input; what comes from there or from a pipe is read to its end, and
+    /// kept in memory.
     ///
     /// # Errors
     /// [`SourceError`] for a file that cannot be read or is of another kind, and for a
     /// damaged index.
     pub fn open(path: &Path) -> Result<Self, SourceError> {
+        if path == Path::new(STANDARD_INPUT) {
+            return Self::from_reader(path, io::stdin().lock());
+        }
         let opened = input::open(path).map_err(|e| refused(path, e.into()))?;
         match opened {
             Opened::File(file) => Self::with(path, Box::new(file)),
@@ -118,6 +125,16 @@ impl Source {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// The file as a report calls it.
+    #[must_use]
+    pub fn shown(&self) -> String {
+        if self.path == Path::new(STANDARD_INPUT) {
+            "standard input".into()
+        } else {
+            self.path.display().to_string()
+        }
     }
 
     /// Names of a library's textures in order; `None` for an asset.
@@ -196,17 +213,33 @@ impl Source {
                 _ => Ok(bytes),
             };
         };
+        self.texture(self.index(&names, wanted)?)
+    }
+
+    /// The name in a library's index of the texture that `wanted` means, as
+    /// [`choose`](Self::choose) takes it; `None` for an asset.
+    ///
+    /// # Errors
+    /// As [`choose`](Self::choose).
+    pub fn chosen_name(&self, wanted: Option<&str>) -> Result<Option<String>, SourceError> {
+        let Some(names) = self.names() else {
+            return Ok(None);
+        };
+        let index = self.index(&names, wanted)?;
+        Ok(names.into_iter().nth(index))
+    }
+
+    fn index(&self, names: &[String], wanted: Option<&str>) -> Result<usize, SourceError> {
         let count = names.len();
-        let index = match wanted {
-            None if count == 1 => 0,
-            None => return Err(self.error(None, SourceProblem::NoneChosen { count })),
+        match wanted {
+            None if count == 1 => Ok(0),
+            None => Err(self.error(None, SourceProblem::NoneChosen { count })),
             Some(wanted) => names
                 .iter()
                 .position(|name| name == wanted)
                 .or_else(|| wanted.parse().ok().filter(|&index: &usize| index < count))
-                .ok_or_else(|| self.no_such_texture(wanted, count))?,
-        };
-        self.texture(index)
+                .ok_or_else(|| self.no_such_texture(wanted, count)),
+        }
     }
 
     /// Bytes of a library's texture at `index`, unchecked. The others are not read.

@@ -18,12 +18,15 @@ use std::path::PathBuf;
   asperity import model bench.json -o bench.asp
   asperity build desk.toml -o desk.aspl --target cortex-m4f@16MHz
 
+A file that is written to `-` goes to standard output, and the report then to standard error. An
+output that is also an input, or another output, is refused.
+
 Exit status: 0 success, 1 failure, 2 wrong usage."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
-    /// Show no progress; results are printed all the same
+    /// Show no progress; results and warnings are printed all the same
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
 }
@@ -65,7 +68,7 @@ Examples:
 pub(crate) struct Compile {
     /// What the surface feels like, looks like, is made of or is for
     pub(crate) prompt: String,
-    /// The asset to write
+    /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// 0 for the texture that the prompt means, others for variations of it
@@ -112,14 +115,14 @@ Examples:
 pub(crate) struct Build {
     /// The scene (.toml)
     pub(crate) scene: PathBuf,
-    /// The library to write (.aspl)
+    /// The library to write (.aspl); `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// Where a tick has to fit: a processor and its clock, or a number of instructions
     #[arg(long, value_name = "cortex-m4f@168MHz|INSTRUCTIONS")]
     pub(crate) target: Option<Target>,
     /// Percent of the target's clocks that a tick may take
-    #[arg(long, default_value_t = 100.0 * asperity::scene::DEFAULT_SHARE, value_name = "PERCENT", value_parser = percent)]
+    #[arg(long, default_value_t = 100.0 * asperity::scene::DEFAULT_SHARE, value_name = "PERCENT", value_parser = percent, requires = "target")]
     pub(crate) share: f64,
     /// Bytes that the library may take
     #[arg(long, value_name = "N")]
@@ -190,7 +193,8 @@ Examples:
 pub(crate) struct ImportHatt {
     /// One `Models_<name>.xml`, or a folder of them
     pub(crate) input: PathBuf,
-    /// One asset (.asp), a folder for one asset a material, or a library (.aspl)
+    /// One asset (.asp), a folder for one asset a material, or a library (.aspl); `-` is standard
+    /// output, for an asset of a file or a library of a folder
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// How much of the source is kept: all, the least within 0.5 dB, or an AR order
@@ -226,7 +230,7 @@ Examples:
 pub(crate) struct ImportModel {
     /// The model (.json)
     pub(crate) input: PathBuf,
-    /// The asset to write
+    /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// How much of the model is kept: all, the least within 0.5 dB, or an AR order
@@ -251,7 +255,7 @@ pub(crate) struct ImportModel {
   asperity builtin -o grit.asp
   asperity builtin -o grit.asp --emit-model grit.json")]
 pub(crate) struct Builtin {
-    /// The asset to write
+    /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// Write the texture before its reduction as JSON, for `asperity import model`
@@ -275,7 +279,7 @@ Examples:
   asperity inspect hatt.aspl --texture Cork --json"
 )]
 pub(crate) struct Inspect {
-    /// An asset (.asp) or a library (.aspl)
+    /// An asset (.asp) or a library (.aspl); `-` is standard input
     pub(crate) file: PathBuf,
     /// Print JSON
     #[arg(long)]
@@ -288,11 +292,12 @@ pub(crate) struct Inspect {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   asperity plot grit.asp -o grit.png
-  asperity plot hatt.aspl --texture Cork -o cork.png")]
+  asperity plot hatt.aspl --texture Cork -o cork.png
+  asperity builtin -o - | asperity plot - -o grit.png")]
 pub(crate) struct Plot {
-    /// An asset (.asp) or a library (.aspl)
+    /// An asset (.asp) or a library (.aspl); `-` is standard input
     pub(crate) file: PathBuf,
-    /// The PNG to write
+    /// The PNG to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// One texture of a library, by name or index from 0
@@ -313,12 +318,12 @@ Examples:
   asperity render desk.aspl --trajectory stroke.csv -o felt.csv"
 )]
 pub(crate) struct Render {
-    /// An asset (.asp) or a library (.aspl)
+    /// An asset (.asp) or a library (.aspl); `-` is standard input
     pub(crate) file: PathBuf,
     /// The trajectory, CSV
     #[arg(long, value_name = "IN.csv")]
     pub(crate) trajectory: PathBuf,
-    /// The result, CSV
+    /// The result, CSV; `-` is standard output
     #[arg(short, long, value_name = "OUT.csv")]
     pub(crate) output: PathBuf,
     /// Seed of the excitation

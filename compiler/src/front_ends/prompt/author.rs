@@ -3,6 +3,7 @@
 use super::{
     Authored, Nearest, Options, PromptError,
     name::{shortened, title},
+    understood::{Understood, check, understood},
     variation::varied,
 };
 use crate::{
@@ -76,10 +77,8 @@ impl Author {
     /// # Errors
     /// [`PromptError`] for an empty prompt or a failing network.
     pub fn project(&self, prompt: &str) -> Result<Prompted, PromptError> {
+        check(prompt)?;
         let prompt = prompt.trim();
-        if prompt.is_empty() {
-            return Err(PromptError::Empty);
-        }
         let encoded = self.text.encode(prompt)?;
         let projected = self.model.project(&encoded.vector)?;
         let similarity = projected
@@ -91,6 +90,7 @@ impl Author {
             similarity,
             certainty: learned::certainty(&self.model.description().certainty, similarity),
             tokens: (encoded.tokens, encoded.cut),
+            understood: understood(prompt, |word| self.text.reads(word)),
         })
     }
 
@@ -141,6 +141,7 @@ impl Author {
             certainty: prompted.certainty,
             similarity: prompted.similarity,
             tokens: prompted.tokens,
+            understood: prompted.understood,
             reduction,
             verified,
             stabilised,
@@ -206,4 +207,6 @@ pub struct Prompted {
     pub certainty: f64,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
+    /// Which words the encoder can read.
+    pub understood: Understood,
 }

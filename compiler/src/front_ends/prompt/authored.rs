@@ -1,5 +1,6 @@
 //! What can be asked of a prompt's texture, and what there is to know of it.
 
+use super::understood::Understood;
 use crate::{
     back_end::{lower::Lowered, verify::VerifyReport},
     front_ends::learned::Latent,
@@ -59,6 +60,8 @@ pub struct Authored {
     pub similarity: f64,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
+    /// Which words of the prompt the encoder can read.
+    pub understood: Understood,
     /// What the fidelity left out, and what that cost.
     pub reduction: reduce::Report,
     /// What verification saw.

@@ -28,9 +28,7 @@ pub enum PromptError {
 impl Diagnostic for PromptError {
     fn remedy(&self) -> String {
         match self {
-            Self::Empty => {
-                "describe a surface: asperity compile \"rough abrasive sheet\" -o sheet.asp".into()
-            }
+            Self::Empty => "describe a surface, such as \"rough abrasive sheet\"".into(),
             Self::Text(_) => "try `asperity doctor`, or leave --text-encoder out".into(),
             Self::Model(error) => error.remedy(),
             Self::Pipeline(error) => error.remedy(),

@@ -8,8 +8,10 @@ mod authored;
 mod error;
 mod name;
 mod report;
+mod understood;
 mod variation;
 
 pub use author::{Author, Prompted};
 pub use authored::{Authored, LOW_CERTAINTY, Nearest, Options};
 pub use error::PromptError;
+pub use understood::{Understood, check};

@@ -15,6 +15,7 @@ impl Authored {
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
+        warnings.extend(self.understood.warning());
         let (read, cut) = self.tokens;
         if cut > 0 {
             warnings.push(format!(
@@ -144,6 +145,8 @@ impl Authored {
             "similarity": self.similarity,
             "low_certainty": self.is_uncertain(),
             "tokens": { "read": read, "cut": cut },
+            "understood": self.understood.read,
+            "not_understood": self.understood.unread,
             "gains": self.texture.gains,
             "wall": self.texture.wall,
             "order": self.texture.grid.order,

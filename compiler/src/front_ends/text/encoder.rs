@@ -14,6 +14,11 @@ pub trait TextEncoder: Send + Sync {
     /// # Errors
     /// [`TextError`] when the network fails or answers with another width.
     fn encode(&self, text: &str) -> Result<Encoded, TextError>;
+    /// Whether it has tokens for a word. An encoder of bytes has them for every word.
+    fn reads(&self, word: &str) -> bool {
+        let _ = word;
+        true
+    }
 }
 
 /// A text as its encoder sees it.

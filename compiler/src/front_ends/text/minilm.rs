@@ -56,6 +56,12 @@ impl TextEncoder for MiniLm {
         WIDTH
     }
 
+    fn reads(&self, word: &str) -> bool {
+        let unknown = self.vocabulary.id("", word_piece::UNKNOWN).map(i64::from);
+        self.tokens(word)
+            .is_ok_and(|(ids, _)| !ids.iter().any(|id| Some(*id) == unknown))
+    }
+
     fn encode(&self, text: &str) -> Result<Encoded, TextError> {
         let (ids, cut) = self.tokens(text)?;
         let tokens = ids.len();

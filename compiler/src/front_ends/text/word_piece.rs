@@ -9,7 +9,7 @@ const LONGEST_WORD: usize = 100;
 /// What a piece inside a word begins with.
 const INSIDE: &str = "##";
 /// The piece that stands for what no piece fits.
-const UNKNOWN: &str = "[UNK]";
+pub(super) const UNKNOWN: &str = "[UNK]";
 
 /// Appends the ids of a text, without marks for its start and end; `None` when the vocabulary
 /// lacks the piece for the unknown.

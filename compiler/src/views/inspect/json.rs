@@ -116,6 +116,15 @@ pub struct Bytes {
 }
 
 impl Document {
+    /// The document of an asset in a library, under the name that the library's index gives it.
+    #[must_use]
+    pub fn named(asset: &Asset<'_>, name: String) -> Self {
+        Self {
+            name,
+            ..Self::of(asset)
+        }
+    }
+
     /// The document of an asset.
     #[must_use]
     pub fn of(asset: &Asset<'_>) -> Self {

@@ -5,13 +5,12 @@ use crate::model::{Numerator, VertexKind};
 use asperity_formats::{Asset, SectionInfo};
 use std::fmt::Write as _;
 
-/// The text of an asset: what it is, what it holds, how it was made.
+/// The text of an asset and its document: what it is, what it holds, how it was made.
 #[must_use]
-pub fn text(asset: &Asset<'_>) -> String {
-    let document = Document::of(asset);
+pub fn text(document: &Document, asset: &Asset<'_>) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
-    let _ = write_text(&mut out, &document, asset.sections());
+    let _ = write_text(&mut out, document, asset.sections());
     out
 }
 

@@ -152,4 +152,19 @@ impl Diagnostic for RenderError {
             Self::Write(_) => "check the path and the disk".into(),
         }
     }
+
+    fn is_usage(&self) -> bool {
+        matches!(
+            self,
+            Self::Config { .. }
+                | Self::Load {
+                    cause: LoadError::Rate { .. },
+                    ..
+                }
+                | Self::Scene(SceneError::Texture {
+                    cause: LoadError::Rate { .. },
+                    ..
+                })
+        )
+    }
 }

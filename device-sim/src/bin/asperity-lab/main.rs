@@ -8,9 +8,11 @@ mod stability;
 
 use std::process::ExitCode;
 
+use asperity::console::{self, Console};
+use asperity::diagnostic::Failures;
 use asperity_sim::labs::cost;
 use clap::{Parser, Subcommand};
-use error::{Failure, Plain};
+use error::Plain;
 
 /// Labs for Asperity textures: what a simulated user feels on a simulated device, and where
 /// methods fail.
@@ -24,6 +26,9 @@ use error::{Failure, Plain};
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// Show no progress; results and warnings are printed all the same
+    #[arg(long, short, global = true)]
+    quiet: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -39,27 +44,24 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
     asperity::output::clean_up_on_interrupt();
+    let arguments: Arguments = console::arguments();
+    let console = Console::new(arguments.quiet);
     let result = match &arguments.command {
-        Command::Feel(arguments) => feel::run(arguments).map(|()| true),
-        Command::Stability(arguments) => stability::run(arguments),
-        Command::Pareto(arguments) => pareto::run(arguments).map(|()| true),
+        Command::Feel(arguments) => feel::run(arguments, console).map(|()| true),
+        Command::Stability(arguments) => stability::run(arguments, console),
+        Command::Pareto(arguments) => pareto::run(arguments, console).map(|()| true),
         Command::Kernel { numbers } => kernel(numbers).map(|()| true),
     };
     match result {
-        Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("{}", asperity::diagnostic::report(error.as_ref()));
-            ExitCode::FAILURE
-        }
+        other => console::finish(other.map(drop)),
     }
 }
 
-fn kernel(numbers: &[usize]) -> Result<(), Failure> {
+fn kernel(numbers: &[usize]) -> Result<(), Failures> {
     cost::run(numbers).map(drop).ok_or_else(|| {
-        Plain::boxed(
+        Plain::failure(
             format!("{numbers:?} names no kernel"),
             "leave this command to `asperity-lab pareto`",
         )

@@ -2,15 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use asperity::console::Console;
+use asperity::diagnostic::{Failures, one};
 use asperity::input::{self, InputError, Kind};
-use asperity::output;
-use asperity::progress;
+use asperity::{hatt, output};
 use asperity_sim::labs::cortex_m::{self, CortexM};
 use asperity_sim::labs::held_out::summaries;
 use asperity_sim::labs::pareto::{Options, Results, measure, steps};
 use asperity_sim::labs::{chart, json, markdown, material, table};
 
-use crate::error::{Failure, Plain, boxed, print};
+use crate::error::Plain;
 
 /// Measure speed against accuracy over many materials
 ///
@@ -49,22 +50,19 @@ pub(crate) struct Arguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// No progress on the terminal
-    #[arg(long, short)]
-    quiet: bool,
 }
 
 /// Materials of a quick run.
 const QUICK: usize = 6;
 
-pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
     let cortex_m = match &arguments.cortex_m {
         None => CortexM::new(),
         Some(path) => read_counts(path)?,
     };
     let mut textures = match &arguments.hatt {
-        Some(folder) => material::hatt(folder).map_err(boxed)?,
-        None => material::corpus().map_err(boxed)?,
+        Some(folder) => material::hatt(folder).map_err(one)?,
+        None => material::corpus().map_err(one)?,
     };
     if arguments.quick {
         // Spread over the list, so that families differ.
@@ -77,39 +75,57 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         instructions: !arguments.quick,
         time: arguments.time,
     };
-    let bar = progress::bar(arguments.quiet, steps(textures.len()), "measuring");
+    let bar = console.bar(steps(textures.len()), "measuring");
     let results = measure(&textures, &options, || bar.inc(1));
     bar.finish_and_clear();
     if let Some(folder) = &arguments.out {
-        write(folder, &results, &cortex_m)?;
+        write(folder, &inputs(arguments)?, &results, &cortex_m)?;
     }
     if let Some(reason) = &results.not_counted {
-        eprintln!("warning: no instructions counted: {reason}; install valgrind");
+        console.warn(&format!(
+            "no instructions counted: {reason}; install valgrind"
+        ));
     }
-    if arguments.json {
-        return print(&format!("{:#}\n", json::encode(&results)));
-    }
-    print(&report(&results))
+    let printed = if arguments.json {
+        console.json(&json::encode(&results))
+    } else {
+        console.text(&report(&results))
+    };
+    printed.map_err(one)
 }
 
-fn read_counts(path: &Path) -> Result<CortexM, Failure> {
+/// The files that are read, which no table or chart may replace.
+fn inputs(arguments: &Arguments) -> Result<Vec<PathBuf>, Failures> {
+    let mut inputs: Vec<PathBuf> = arguments.cortex_m.iter().cloned().collect();
+    if let Some(folder) = &arguments.hatt {
+        inputs.extend(hatt::files(folder).map_err(one)?);
+    }
+    Ok(inputs)
+}
+
+fn read_counts(path: &Path) -> Result<CortexM, Failures> {
     let fail = |error: &dyn std::fmt::Display| {
-        Plain::boxed(
+        Plain::failure(
             format!("{}: {error}", path.display()),
             "give a CSV with the columns factor,name,instructions",
         )
     };
     let bytes = input::read(path, Kind::Counts).map_err(|problem| {
         let file = path.to_owned();
-        boxed(InputError { file, problem })
+        one(InputError { file, problem })
     })?;
     cortex_m::read(&bytes).map_err(|error| fail(&error))
 }
 
-fn write(folder: &Path, results: &Results, cortex_m: &CortexM) -> Result<(), Failure> {
+fn write(
+    folder: &Path,
+    inputs: &[PathBuf],
+    results: &Results,
+    cortex_m: &CortexM,
+) -> Result<(), Failures> {
     let held_out = summaries(&results.held_out);
     let encode = |result: Result<Vec<u8>, csv::Error>| {
-        result.map_err(|error| Plain::boxed(error, "report this"))
+        result.map_err(|error| Plain::failure(error, "report this"))
     };
     let mut files = vec![
         (
@@ -128,7 +144,7 @@ fn write(folder: &Path, results: &Results, cortex_m: &CortexM) -> Result<(), Fai
         ),
     ];
     for (name, picture) in
-        chart::all(results, &held_out).map_err(|e| Plain::boxed(e, "report this"))?
+        chart::all(results, &held_out).map_err(|e| Plain::failure(e, "report this"))?
     {
         files.push((format!("{name}.svg"), picture.svg.into_bytes()));
         files.push((format!("{name}.png"), picture.png));
@@ -137,7 +153,7 @@ fn write(folder: &Path, results: &Results, cortex_m: &CortexM) -> Result<(), Fai
         .iter()
         .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
         .collect();
-    output::write_folder(folder, &named).map_err(boxed)
+    output::write_folder_beside(inputs, folder, &named).map_err(one)
 }
 
 /// A short report for a person.

@@ -1,11 +1,13 @@
 //! `asperity-lab stability`: the table of scenarios where methods fail.
 
-use std::io::{self, Write as _};
 use std::path::PathBuf;
 
+use asperity::console::Console;
+use asperity::diagnostic::{Failures, one};
+use asperity::{hatt, output};
 use asperity_sim::stability::{StabilityOptions, markdown, run as make_table, sheet};
 
-use crate::error::{Failure, Plain, boxed, print};
+use crate::error::Plain;
 
 /// Try our methods, the paper's and the textbook's where methods fail
 ///
@@ -24,7 +26,7 @@ pub(crate) struct Arguments {
     /// Folder of HaTT XML files, for the rows that need real materials
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
-    /// Write pictures and tables to a folder
+    /// Write pictures and tables to a folder; made if its parent exists
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of everything random
@@ -36,35 +38,35 @@ pub(crate) struct Arguments {
 }
 
 /// Gives whether every row passes.
-pub(crate) fn run(arguments: &Arguments) -> Result<bool, Failure> {
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failures> {
     let options = StabilityOptions {
         hatt: arguments.hatt.clone(),
         seed: arguments.seed,
     };
-    let table = make_table(&options).map_err(boxed)?;
+    let table = make_table(&options).map_err(one)?;
     if let Some(folder) = &arguments.out {
         let files = [
-            ("wall-map.png", sheet::wall_map().map_err(boxed)?),
-            ("waveforms.png", sheet::waveforms(&options).map_err(boxed)?),
+            ("wall-map.png", sheet::wall_map().map_err(one)?),
+            ("waveforms.png", sheet::waveforms(&options).map_err(one)?),
             ("tables.md", markdown::tables(&table.rows).into_bytes()),
         ];
-        std::fs::create_dir_all(folder).map_err(|error| {
-            Plain::boxed(
-                format!("{}: cannot make the folder: {error}", folder.display()),
-                "check the path",
-            )
-        })?;
-        for (name, bytes) in files {
-            asperity::output::write_atomic(&folder.join(name), &bytes).map_err(boxed)?;
-        }
+        let files: Vec<(String, &[u8])> = files
+            .iter()
+            .map(|(name, bytes)| ((*name).to_owned(), &bytes[..]))
+            .collect();
+        let inputs = match &arguments.hatt {
+            Some(folder) => hatt::files(folder).map_err(one)?,
+            None => Vec::new(),
+        };
+        output::write_folder_beside(&inputs, folder, &files).map_err(one)?;
     }
     if arguments.json {
         let text = serde_json::to_string_pretty(&table)
-            .map_err(|error| Plain::boxed(error, "report this as a bug"))?;
-        print(&format!("{text}\n"))?;
-        let _ = writeln!(io::stderr(), "{}", table.summary());
+            .map_err(|error| Plain::failure(error, "report this as a bug"))?;
+        console.json(&text).map_err(one)?;
+        console.aside(&format!("{}\n", table.summary()));
     } else {
-        print(&format!("{table}\n"))?;
+        console.text(&format!("{table}\n")).map_err(one)?;
     }
     let [_, failed, _] = table.counts();
     Ok(failed == 0)

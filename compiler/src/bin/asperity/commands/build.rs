@@ -1,22 +1,25 @@
 //! `asperity build`.
 
-use super::inference;
-use crate::{
-    cli::Build,
-    console,
-    failure::{Failures, one},
-};
+use super::{inference, timings};
+use crate::cli::Build;
 use asperity::{
-    diagnostic::Diagnostic,
-    model::TextureModel,
-    pipeline::{Pipeline, Timings},
-    prompt::{Author, Options},
+    console::Console,
+    diagnostic::{Failures, one},
+    output::{Outputs, display},
+    pipeline::{Pass, Pipeline},
+    prompt::{Author, Authored, Options, PromptError},
     reduce::Fidelity,
     scene::{self, Budget, Description, Origin, Prompter},
 };
 
-pub(crate) fn run(args: &Build, quiet: bool) -> Result<(), Failures> {
+pub(crate) fn run(args: &Build, console: Console) -> Result<(), Failures> {
     let description = Description::read(&args.scene).map_err(one)?;
+    let mut inputs = vec![args.scene.clone()];
+    inputs.extend(description.sources.iter().cloned());
+    inputs.extend(inference::files(&args.inference));
+    let mut outputs = Outputs::beside(&inputs);
+    let library = outputs.open(&args.output).map_err(one)?;
+    let console = console.beside(&outputs);
     let prompts = |texture: &scene::TextureEntry| matches!(texture.origin, Origin::Prompt(..));
     let author = description
         .textures
@@ -30,49 +33,50 @@ pub(crate) fn run(args: &Build, quiet: bool) -> Result<(), Failures> {
         bytes: args.budget_bytes,
     };
     let mut pipeline = Pipeline::default();
+    let mut warnings = Vec::new();
     let prompter: &mut Prompter<'_> = &mut |prompt, seed| match &author {
-        Some(author) => {
-            let (texture, timings) = whole(author, prompt, seed)?;
-            pipeline.merge(&timings);
-            Ok(texture)
-        }
-        None => Err(Box::new(asperity::prompt::PromptError::Empty)),
+        Some(author) => match whole(author, prompt, seed) {
+            Ok(authored) => {
+                pipeline.merge(&authored.timings);
+                let told = authored.warnings().into_iter();
+                warnings.extend(told.map(|warning| format!("{prompt:?}: {warning}")));
+                Ok(authored.texture)
+            }
+            Err(error) => Err(Box::new(error)),
+        },
+        None => Err(Box::new(PromptError::Empty)),
     };
     let built = scene::build(&description, &budget, prompter).map_err(one)?;
     pipeline.merge(&built.timings);
     pipeline
-        .write(&[(&args.output, &built.bytes)])
+        .run(Pass::Write, || {
+            outputs.fill(library, &built.bytes)?;
+            outputs.commit()
+        })
         .map_err(one)?;
-    if !quiet {
-        for name in &built.report.unused {
-            eprintln!("warning: no surface wears {name:?}; it was left out");
-        }
-    }
-    if args.json {
+    let unused = built.report.unused.iter();
+    warnings.extend(unused.map(|name| format!("no surface wears {name:?}; it was left out")));
+    console.warnings(&warnings, args.json);
+    let printed = if args.json {
         // Plain structures of numbers and strings always serialise.
-        let json = serde_json::to_string(&built.report).unwrap_or_default();
-        console::print(&format!("{json}\n"))?;
+        let mut json = serde_json::to_value(&built.report).unwrap_or_default();
+        json["warnings"] = warnings.into();
+        console.json(&json.to_string())
     } else {
-        console::print(&format!("{}\n{}", args.output.display(), built.report))?;
-    }
-    console::print_timings(args.timings, pipeline.timings());
+        console.text(&format!("{}\n{}", display(&args.output), built.report))
+    };
+    printed.map_err(one)?;
+    timings::print(args.timings, &pipeline, console);
     Ok(())
 }
 
 /// A prompt's texture with everything the decoder gave.
-fn whole(
-    author: &Author,
-    prompt: &str,
-    seed: u64,
-) -> Result<(TextureModel, Timings), Box<dyn Diagnostic>> {
+fn whole(author: &Author, prompt: &str, seed: u64) -> Result<Authored, PromptError> {
     let options = Options {
         seed,
         fidelity: Fidelity::Full,
         rate_hz: None,
         preview: false,
     };
-    match author.author(prompt, &options) {
-        Ok(authored) => Ok((authored.texture, authored.timings)),
-        Err(error) => Err(Box::new(error)),
-    }
+    author.author(prompt, &options)
 }

@@ -1,16 +1,17 @@
 //! `asperity builtin`.
 
-use super::outputs::Outputs;
-use crate::failure::{Failures, one};
-use crate::{cli::Builtin, console};
+use super::{outputs::TextureOutputs, timings};
+use crate::cli::Builtin;
 use asperity::{
     builtin,
+    console::Console,
+    diagnostic::{Failures, one},
     pipeline::{Pass, Pipeline, Settings},
 };
 
-pub(crate) fn run(args: &Builtin) -> Result<(), Failures> {
-    let mut outputs = Outputs::with_model(&args.output, args.emit_model.as_deref());
-    outputs.check(&[], None)?;
+pub(crate) fn run(args: &Builtin, console: Console) -> Result<(), Failures> {
+    let mut outputs = TextureOutputs::open(&[], &args.output, args.emit_model.as_deref())?;
+    let console = outputs.console(console);
     let mut pipeline = Pipeline::default();
     let texture = pipeline.run(Pass::Generate, builtin::texture);
     let compiled = pipeline
@@ -19,13 +20,14 @@ pub(crate) fn run(args: &Builtin) -> Result<(), Failures> {
     outputs.model(&compiled.whole);
     outputs.write(&compiled.lowered.bytes, &mut pipeline)?;
     let lowered = &compiled.lowered;
-    console::print(&format!(
+    let report = format!(
         "{}: {} haptic bytes, {} in all, {:.4} dB RMS from LSF quantisation\n",
         compiled.texture.name,
         lowered.haptic_bytes,
         lowered.bytes.len(),
         lowered.lsf_error.rms_db
-    ))?;
-    console::print_timings(args.timings, pipeline.timings());
+    );
+    console.text(&report).map_err(one)?;
+    timings::print(args.timings, &pipeline, console);
     Ok(())
 }

@@ -1,21 +1,23 @@
 //! `asperity compile`.
 
-use super::{inference, outputs::Outputs, plot};
-use crate::failure::{Failures, one};
-use crate::{cli::Compile, console};
+use super::{inference, outputs::TextureOutputs, plot, timings};
+use crate::cli::Compile;
 use asperity::{
+    console::Console,
+    diagnostic::{Failures, one},
+    output::display,
     pipeline::{Pipeline, PipelineError},
-    prompt::{Options, PromptError},
+    prompt::{self, Options},
 };
 use asperity_formats::Asset;
 
-pub(crate) fn run(args: &Compile, quiet: bool) -> Result<(), Failures> {
+pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     // Before half a second of loading.
-    if args.prompt.trim().is_empty() {
-        return Err(one(PromptError::Empty));
-    }
-    let mut outputs = Outputs::with_model(&args.output, args.emit_model.as_deref());
-    outputs.check(&[], args.plot.as_deref())?;
+    prompt::check(&args.prompt).map_err(one)?;
+    let inputs = inference::files(&args.inference);
+    let mut outputs = TextureOutputs::open(&inputs, &args.output, args.emit_model.as_deref())?;
+    let sheet = outputs.open_if(args.plot.as_deref())?;
+    let console = outputs.console(console);
     let author = inference::author(&args.inference)?;
     let options = Options {
         seed: args.seed,
@@ -24,7 +26,7 @@ pub(crate) fn run(args: &Compile, quiet: bool) -> Result<(), Failures> {
         preview: !args.no_preview,
     };
     let authored = author.author(&args.prompt, &options).map_err(one)?;
-    if let Some(file) = &args.plot {
+    if let Some(file) = sheet {
         // Verified a moment ago: the bytes parse.
         let asset = Asset::parse(&authored.lowered.bytes)
             .map_err(|cause| one(PipelineError::Verify(cause.into())))?;
@@ -34,16 +36,13 @@ pub(crate) fn run(args: &Compile, quiet: bool) -> Result<(), Failures> {
     let mut pipeline = Pipeline::default();
     pipeline.merge(&authored.timings);
     outputs.write(&authored.lowered.bytes, &mut pipeline)?;
-    if !quiet {
-        for warning in authored.warnings() {
-            eprintln!("warning: {warning}");
-        }
-    }
-    if args.json {
-        console::print(&format!("{:#}\n", authored.json()))?;
+    console.warnings(&authored.warnings(), args.json);
+    let printed = if args.json {
+        console.json(&authored.json())
     } else {
-        console::print(&format!("{}\n{}", args.output.display(), authored.text()))?;
-    }
-    console::print_timings(args.timings, pipeline.timings());
+        console.text(&format!("{}\n{}", display(&args.output), authored.text()))
+    };
+    printed.map_err(one)?;
+    timings::print(args.timings, &pipeline, console);
     Ok(())
 }

@@ -1,12 +1,14 @@
 //! `asperity doctor`.
 
 use super::inference;
-use crate::failure::{Failures, one};
-use crate::{cli::Doctor, console};
+use crate::cli::Doctor;
 use asperity::{
+    console::Console,
+    diagnostic::{Diagnostic, Failures, one},
     embedded,
     inference::{Backend, BackendName},
-    text::TextEncoderChoice,
+    learned::{LearnedModel, ModelError, Present},
+    text::{TextEncoder, TextEncoderChoice},
 };
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -19,7 +21,7 @@ struct Finding {
     remedy: Option<String>,
 }
 
-pub(crate) fn run(args: &Doctor) -> Result<(), Failures> {
+pub(crate) fn run(args: &Doctor, console: Console) -> Result<(), Failures> {
     let findings = findings(args);
     // Only what was asked for by an option is a failure when it is missing.
     let asked = |finding: &Finding| match finding.what {
@@ -27,12 +29,12 @@ pub(crate) fn run(args: &Doctor) -> Result<(), Failures> {
         "clip" => matches!(args.inference.text_encoder, TextEncoderChoice::Clip(_)),
         _ => true,
     };
-    let text = if args.json {
-        format!("{:#}\n", as_json(&findings))
+    let printed = if args.json {
+        console.json(&as_json(&findings))
     } else {
-        as_text(&findings)
+        console.text(&as_text(&findings))
     };
-    console::print(&text)?;
+    printed.map_err(one)?;
     match findings.iter().find(|f| !f.found && asked(f)) {
         Some(missing) => Err(one(Missing {
             what: missing.what,
@@ -52,10 +54,23 @@ struct Missing {
     remedy: String,
 }
 
-impl asperity::diagnostic::Diagnostic for Missing {
+impl Diagnostic for Missing {
     fn remedy(&self) -> String {
         self.remedy.clone()
     }
+}
+
+/// A text for encoders to try.
+const PROBE: &str = "surface";
+
+/// Runs every network once: a file that is there may be cut off, or of another model.
+fn runs(model: &LearnedModel) -> Result<(), ModelError> {
+    let description = model.description();
+    let width = description.text_encoder.width;
+    let vector = vec![1.0 / (width as f32).sqrt(); width];
+    let z = model.project(&vector)?.z;
+    let taps = model.decode(&z)?.taps_m_s2;
+    model.encode(Present::Taps(&taps)).map(drop)
 }
 
 fn findings(args: &Doctor) -> Vec<Finding> {
@@ -74,15 +89,20 @@ fn findings(args: &Doctor) -> Vec<Finding> {
     findings.push(check(
         "minilm",
         embedded::text_encoder(&Backend::Portable)
+            .map_err(|error| error.to_string())
+            .and_then(|encoder| encoder.encode(PROBE).map_err(|error| error.to_string()))
             .map(|_| {
                 format!(
                     "all-MiniLM-L6-v2, int8 weights, embedded, {} MB",
                     megabytes(encoder_bytes)
                 )
             })
-            .map_err(|error| (error.to_string(), "build the command anew".to_owned())),
+            .map_err(|error| (error, "build the command anew".to_owned())),
     ));
-    let model = inference::model(&args.inference, &Backend::Portable);
+    let model = inference::model(&args.inference, &Backend::Portable).and_then(|model| {
+        runs(&model).map_err(one)?;
+        Ok(model)
+    });
     findings.push(check(
         "model",
         model
@@ -120,9 +140,7 @@ fn findings(args: &Doctor) -> Vec<Finding> {
             what: "onnxruntime",
             found: false,
             detail: error.to_string(),
-            remedy: Some(asperity::diagnostic::Diagnostic::remedy(
-                &asperity::inference::BackendError::from(error),
-            )),
+            remedy: Some(asperity::inference::BackendError::from(error).remedy()),
         },
     });
     findings.push(clip(args));

@@ -1,21 +1,16 @@
 //! `asperity import hatt`.
 
-use super::{inference, outputs::Outputs};
-use crate::failure::{Failures, one};
-use crate::{cli::ImportHatt, console};
+use super::{inference, outputs::TextureOutputs, timings};
+use crate::cli::ImportHatt;
 use asperity::{
-    diagnostic::Diagnostic,
+    console::Console,
+    diagnostic::{Diagnostic, Failures, one},
     hatt::{self, Imported},
     library::{self, NamedAsset},
-    output,
+    output::{self, Outputs},
     pipeline::{Pass, Pipeline},
-    progress,
 };
-use std::{
-    collections::HashSet,
-    fmt::Write as _,
-    path::{Path, PathBuf},
-};
+use std::{collections::HashSet, fmt::Write as _, path::PathBuf};
 use thiserror::Error;
 
 /// A folder was to go into one asset.
@@ -55,47 +50,104 @@ impl Diagnostic for NoSingleModel {
     }
 }
 
-/// Where the assets go.
+/// Where the assets go: what is one file is open, so that a bad path costs no work.
 enum Target {
-    File(PathBuf),
+    File(TextureOutputs),
     Folder(PathBuf),
-    Library(PathBuf),
+    Library(Outputs, output::OutputId),
 }
 
-fn target(args: &ImportHatt, files: usize) -> Result<Target, ManyIntoOne> {
-    let output = args.output.clone();
-    let extension = output
-        .extension()
-        .map(|extension| extension.to_string_lossy().to_ascii_lowercase());
-    let names_folder = output.to_string_lossy().ends_with(['/', '\\']) || output.is_dir();
-    if names_folder {
-        return Ok(Target::Folder(output));
+impl Target {
+    /// What the arguments mean, for a command that reads `inputs`.
+    fn open(args: &ImportHatt, materials: usize, inputs: &[PathBuf]) -> Result<Self, Failures> {
+        let output = &args.output;
+        let extension = output
+            .extension()
+            .map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        let extension = extension.as_deref();
+        let piped = output::is_standard_output(output);
+        let many = args.input.is_dir();
+        let names_folder = output.to_string_lossy().ends_with(['/', '\\']) || output.is_dir();
+        let is_folder = names_folder || (many && !piped && extension != Some("aspl"));
+        if !names_folder && many && extension == Some("asp") {
+            return Err(one(ManyIntoOne {
+                folder: args.input.clone(),
+                count: materials,
+                output: output.clone(),
+            }));
+        }
+        let is_library = !is_folder && (many || extension == Some("aspl"));
+        if (is_folder || is_library) && args.emit_model.is_some() {
+            let path = output.clone();
+            return Err(one(NoSingleModel { path }));
+        }
+        if is_folder {
+            Ok(Self::Folder(output.clone()))
+        } else if is_library {
+            let mut outputs = Outputs::beside(inputs);
+            let library = outputs.open(output).map_err(one)?;
+            Ok(Self::Library(outputs, library))
+        } else {
+            let model = args.emit_model.as_deref();
+            Ok(Self::File(TextureOutputs::open(inputs, output, model)?))
+        }
     }
-    if extension.as_deref() == Some("aspl") {
-        return Ok(Target::Library(output));
+
+    fn console(&self, console: Console) -> Console {
+        match self {
+            Self::File(outputs) => outputs.console(console),
+            Self::Library(outputs, _) => console.beside(outputs),
+            Self::Folder(_) => console,
+        }
     }
-    if !args.input.is_dir() {
-        return Ok(Target::File(output));
+
+    fn write(
+        self,
+        imported: &[Imported],
+        inputs: &[PathBuf],
+        pipeline: &mut Pipeline,
+    ) -> Result<(), Failures> {
+        match self {
+            Self::Folder(folder) => {
+                let files: Vec<(String, &[u8])> = file_names(imported)
+                    .into_iter()
+                    .zip(imported)
+                    .map(|(name, material)| (name, &material.bytes[..]))
+                    .collect();
+                let write = || output::write_folder_beside(inputs, &folder, &files);
+                pipeline.run(Pass::Write, write).map_err(one)
+            }
+            Self::Library(mut outputs, id) => {
+                let bytes = pipeline.run(Pass::Pack, || packed(imported))?;
+                let write = || {
+                    outputs.fill(id, &bytes)?;
+                    outputs.commit()
+                };
+                pipeline.run(Pass::Write, write).map_err(one)
+            }
+            // A single source file gives a single asset.
+            Self::File(mut outputs) => match imported.first() {
+                Some(material) => {
+                    outputs.model(&material.whole);
+                    outputs.write(&material.bytes, pipeline)
+                }
+                None => Ok(()),
+            },
+        }
     }
-    if extension.as_deref() == Some("asp") {
-        return Err(ManyIntoOne {
-            folder: args.input.clone(),
-            count: files,
-            output,
-        });
-    }
-    Ok(Target::Folder(output))
 }
 
-pub(crate) fn run(args: &ImportHatt, quiet: bool) -> Result<(), Failures> {
+pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
     let files = hatt::files(&args.input).map_err(one)?;
-    let target = target(args, files.len()).map_err(one)?;
-    check_outputs(args, &target)?;
+    let mut inputs = files.clone();
+    inputs.extend(inference::model_files(args.model.as_deref()));
+    let target = Target::open(args, files.len(), &inputs)?;
+    let console = target.console(console);
     let completer = args
         .complete_taps
         .then(|| inference::completer(args.model.as_deref()))
         .transpose()?;
-    let bar = progress::bar(quiet, files.len(), "importing");
+    let bar = console.bar(files.len(), "importing");
     let results = hatt::import_all(&files, completer.as_ref(), args.fidelity, || bar.inc(1));
     bar.finish_and_clear();
     let mut imported: Vec<Imported> = Vec::with_capacity(results.len());
@@ -113,37 +165,14 @@ pub(crate) fn run(args: &ImportHatt, quiet: bool) -> Result<(), Failures> {
     for material in &imported {
         pipeline.merge(&material.timings);
     }
-    write(
-        &target,
-        &imported,
-        args.emit_model.as_deref(),
-        &mut pipeline,
-    )?;
-    console::print(&figures(&imported))?;
-    console::print_timings(args.timings, pipeline.timings());
+    target.write(&imported, &inputs, &mut pipeline)?;
+    console.text(&figures(&imported)).map_err(one)?;
+    timings::print(args.timings, &pipeline, console);
     Ok(())
 }
 
-/// Refuses a model beside anything but a single asset, and an output that is the input.
-fn check_outputs(args: &ImportHatt, target: &Target) -> Result<(), Failures> {
-    let wanted = args.emit_model.as_deref();
-    match target {
-        Target::File(file) => Outputs::with_model(file, wanted).check(&[&args.input], None),
-        Target::Folder(path) | Target::Library(path) if wanted.is_some() => {
-            let path = path.clone();
-            Err(one(NoSingleModel { path }))
-        }
-        Target::Library(file) => output::distinct(&[&args.input], &[file]).map_err(one),
-        Target::Folder(_) => Ok(()),
-    }
-}
-
-fn write(
-    target: &Target,
-    imported: &[Imported],
-    model: Option<&Path>,
-    pipeline: &mut Pipeline,
-) -> Result<(), Failures> {
+/// The library of all materials.
+fn packed(imported: &[Imported]) -> Result<Vec<u8>, Failures> {
     let named: Vec<NamedAsset<'_>> = imported
         .iter()
         .map(|material| NamedAsset {
@@ -151,34 +180,7 @@ fn write(
             bytes: &material.bytes,
         })
         .collect();
-    match target {
-        Target::Folder(folder) => {
-            let names = file_names(imported);
-            let files: Vec<(String, &[u8])> = names
-                .into_iter()
-                .zip(&named)
-                .map(|(name, asset)| (name, asset.bytes))
-                .collect();
-            pipeline
-                .run(Pass::Write, || output::write_folder(folder, &files))
-                .map_err(one)
-        }
-        Target::Library(file) => {
-            let bytes = pipeline
-                .run(Pass::Pack, || library::encode(&named))
-                .map_err(one)?;
-            pipeline.write(&[(file, &bytes)]).map_err(one)
-        }
-        Target::File(file) => {
-            // A single source file gives a single asset.
-            for material in imported {
-                let mut outputs = Outputs::with_model(file, model);
-                outputs.model(&material.whole);
-                outputs.write(&material.bytes, pipeline)?;
-            }
-            Ok(())
-        }
-    }
+    library::encode(&named).map_err(one)
 }
 
 /// One line a material, and of several a summary.

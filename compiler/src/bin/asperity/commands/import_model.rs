@@ -1,19 +1,17 @@
 //! `asperity import model`.
 
-use super::outputs::Outputs;
-use crate::{
-    cli::ImportModel,
-    console,
-    failure::{Failures, one},
-};
+use super::{outputs::TextureOutputs, timings};
+use crate::cli::ImportModel;
 use asperity::{
+    console::Console,
+    diagnostic::{Failures, one},
     model_file::{self, Options},
     pipeline::Pipeline,
 };
 
-pub(crate) fn run(args: &ImportModel) -> Result<(), Failures> {
-    let outputs = Outputs::new(&args.output);
-    outputs.check(&[&args.input], None)?;
+pub(crate) fn run(args: &ImportModel, console: Console) -> Result<(), Failures> {
+    let outputs = TextureOutputs::open(std::slice::from_ref(&args.input), &args.output, None)?;
+    let console = outputs.console(console);
     let options = Options {
         fidelity: args.fidelity,
         rate_hz: args.rate,
@@ -23,11 +21,12 @@ pub(crate) fn run(args: &ImportModel) -> Result<(), Failures> {
     let mut pipeline = Pipeline::default();
     pipeline.merge(&imported.timings);
     outputs.write(&imported.bytes, &mut pipeline)?;
-    if args.json {
-        console::print(&format!("{:#}\n", imported.json()))?;
+    let printed = if args.json {
+        console.json(&imported.json())
     } else {
-        console::print(&format!("{}\n", imported.report))?;
-    }
-    console::print_timings(args.timings, pipeline.timings());
+        console.text(&format!("{}\n", imported.report))
+    };
+    printed.map_err(one)?;
+    timings::print(args.timings, &pipeline, console);
     Ok(())
 }

@@ -1,17 +1,15 @@
 //! From options to encoders, models and back ends.
 
-use crate::{
-    cli::Inference,
-    failure::{Failures, one},
-};
+use crate::cli::Inference;
 use asperity::{
+    diagnostic::{Failures, one},
     embedded,
     inference::Backend,
     learned::{Files, LearnedModel},
     prompt::Author,
     text::{TextEncoder, TextEncoderChoice, clip::Clip},
 };
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The author that the options describe.
 pub(crate) fn author(options: &Inference) -> Result<Author, Failures> {
@@ -47,4 +45,31 @@ pub(crate) fn completer(folder: Option<&Path>) -> Result<LearnedModel, Failures>
         None => embedded::model(),
     };
     LearnedModel::load(files, &Backend::Portable).map_err(one)
+}
+
+/// The files that the options read, which no output may replace.
+pub(crate) fn files(options: &Inference) -> Vec<PathBuf> {
+    let mut files = model_files(options.model.as_deref());
+    if let TextEncoderChoice::Clip(folder) = &options.text_encoder {
+        files.extend(networks(folder));
+    }
+    files
+}
+
+/// The files of a model folder; none of the embedded model.
+pub(crate) fn model_files(folder: Option<&Path>) -> Vec<PathBuf> {
+    folder.map_or_else(Vec::new, |folder| {
+        let mut files = networks(folder);
+        files.push(folder.join("model.json"));
+        files
+    })
+}
+
+/// The networks in a folder. One that cannot be read is refused where it is opened.
+fn networks(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|e| e == "onnx"))
+        .collect()
 }

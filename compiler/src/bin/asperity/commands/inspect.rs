@@ -1,8 +1,9 @@
 //! `asperity inspect`.
 
-use crate::failure::{Failures, one};
-use crate::{cli::Inspect, console};
+use crate::cli::Inspect;
 use asperity::{
+    console::Console,
+    diagnostic::{Failures, one},
     inspect::{self, Document, LibraryDocument, SurfaceDocument},
     source::Source,
 };
@@ -10,31 +11,41 @@ use asperity_formats::{Asset, library};
 use serde::Serialize;
 use std::fmt::Write as _;
 
-pub(crate) fn run(args: &Inspect) -> Result<(), Failures> {
+pub(crate) fn run(args: &Inspect, console: Console) -> Result<(), Failures> {
     let mut source = Source::open(&args.file).map_err(one)?;
     match source.names() {
-        Some(names) if args.texture.is_none() => whole_library(args, &mut source, &names),
-        _ => one_texture(args, &mut source),
+        Some(names) if args.texture.is_none() => whole_library(args, &mut source, &names, console),
+        _ => one_texture(args, &mut source, console),
     }
 }
 
-fn one_texture(args: &Inspect, source: &mut Source) -> Result<(), Failures> {
-    let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
-    let asset =
-        Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
+fn one_texture(args: &Inspect, source: &mut Source, console: Console) -> Result<(), Failures> {
+    let wanted = args.texture.as_deref();
+    let name = source.chosen_name(wanted).map_err(one)?;
+    let bytes = source.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let document = match name {
+        Some(name) => Document::named(&asset, name),
+        None => Document::of(&asset),
+    };
     if args.json {
-        print_json(&Document::of(&asset))
+        print_json(&document, console)
     } else {
-        console::print(&inspect::text(&asset))
+        console.text(&inspect::text(&document, &asset)).map_err(one)
     }
 }
 
-fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Result<(), Failures> {
+fn whole_library(
+    args: &Inspect,
+    source: &mut Source,
+    names: &[String],
+    console: Console,
+) -> Result<(), Failures> {
     let mut documents = Vec::with_capacity(names.len());
     for (index, name) in names.iter().enumerate() {
         let bytes = source.texture(index).map_err(one)?;
         let asset = Asset::parse(&bytes).map_err(|e| one(source.error(Some(name), e.into())))?;
-        documents.push(Document::of(&asset));
+        documents.push(Document::named(&asset, name.clone()));
     }
     let surfaces: Vec<SurfaceDocument> = source
         .surfaces()
@@ -43,15 +54,16 @@ fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Resul
         .map(|surface| SurfaceDocument::of(surface, names))
         .collect();
     if args.json {
-        return print_json(&LibraryDocument {
+        let document = LibraryDocument {
             format_version: source.library_version().unwrap_or(library::VERSION),
             textures: documents,
             surfaces,
-        });
+        };
+        return print_json(&document, console);
     }
     let mut text = format!(
         "{}: a library of {} textures, every checksum holds\n",
-        source.path().display(),
+        source.shown(),
         names.len()
     );
     // Writing to a string cannot fail.
@@ -80,12 +92,11 @@ fn whole_library(args: &Inspect, source: &mut Source, names: &[String]) -> Resul
     for (index, surface) in surfaces.iter().enumerate() {
         let _ = writeln!(text, "  {index:>5}  {surface}");
     }
-    console::print(&text)
+    console.text(&text).map_err(one)
 }
 
-fn print_json(document: &impl Serialize) -> Result<(), Failures> {
+fn print_json(document: &impl Serialize, console: Console) -> Result<(), Failures> {
     // Plain structures of numbers and strings always serialise.
-    let mut json = serde_json::to_string(document).unwrap_or_default();
-    json.push('\n');
-    console::print(&json)
+    let json = serde_json::to_string(document).unwrap_or_default();
+    console.json(&json).map_err(one)
 }

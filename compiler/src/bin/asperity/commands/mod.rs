@@ -11,22 +11,22 @@ mod inspect;
 mod outputs;
 mod plot;
 mod render;
+mod timings;
 
-use crate::{
-    cli::{Cli, Command, Import},
-    failure::Failures,
-};
+use crate::cli::{Cli, Command, Import};
+use asperity::{console::Console, diagnostic::Failures};
 
 pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
+    let console = Console::new(cli.quiet);
     match cli.command {
-        Command::Import(Import::Hatt(args)) => import_hatt::run(&args, cli.quiet),
-        Command::Import(Import::Model(args)) => import_model::run(&args),
-        Command::Build(args) => build::run(&args, cli.quiet),
-        Command::Compile(args) => compile::run(&args, cli.quiet),
-        Command::Doctor(args) => doctor::run(&args),
-        Command::Builtin(args) => builtin::run(&args),
-        Command::Inspect(args) => inspect::run(&args),
+        Command::Import(Import::Hatt(args)) => import_hatt::run(&args, console),
+        Command::Import(Import::Model(args)) => import_model::run(&args, console),
+        Command::Build(args) => build::run(&args, console),
+        Command::Compile(args) => compile::run(&args, console),
+        Command::Doctor(args) => doctor::run(&args, console),
+        Command::Builtin(args) => builtin::run(&args, console),
+        Command::Inspect(args) => inspect::run(&args, console),
         Command::Plot(args) => plot::run(&args),
-        Command::Render(args) => render::run(&args),
+        Command::Render(args) => render::run(&args, console),
     }
 }

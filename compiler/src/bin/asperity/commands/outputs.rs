@@ -1,42 +1,48 @@
 //! The files that a command writes of one texture.
 
-use crate::failure::{Failures, one};
-use asperity::{model::TextureModel, model_file, output, pipeline::Pipeline};
-use std::path::Path;
+use asperity::{
+    console::Console,
+    diagnostic::{Failures, one},
+    model::TextureModel,
+    model_file,
+    output::{OutputError, OutputId, Outputs},
+    pipeline::{Pass, Pipeline},
+};
+use std::path::{Path, PathBuf};
 
 /// An asset and what a user wants beside it: written together, or not at all.
-pub(super) struct Outputs<'a> {
-    asset: &'a Path,
-    model: Option<&'a Path>,
-    beside: Vec<(&'a Path, Vec<u8>)>,
+pub(super) struct TextureOutputs {
+    outputs: Outputs,
+    asset: OutputId,
+    model: Option<OutputId>,
+    contents: Vec<(OutputId, Vec<u8>)>,
 }
 
-impl<'a> Outputs<'a> {
-    /// The asset alone.
-    pub(super) fn new(asset: &'a Path) -> Self {
-        Self {
-            asset,
-            model: None,
-            beside: Vec::new(),
-        }
+impl TextureOutputs {
+    /// Opens the asset and, where a user wants it, the intermediate model, for a command that
+    /// reads `inputs`.
+    pub(super) fn open(
+        inputs: &[PathBuf],
+        asset: &Path,
+        model: Option<&Path>,
+    ) -> Result<Self, Failures> {
+        let mut outputs = Outputs::beside(inputs);
+        Ok(Self {
+            asset: outputs.open(asset).map_err(one)?,
+            model: outputs.open_if(model).map_err(one)?,
+            outputs,
+            contents: Vec::new(),
+        })
     }
 
-    /// The asset and, where a user wants it, the intermediate model.
-    pub(super) fn with_model(asset: &'a Path, model: Option<&'a Path>) -> Self {
-        Self {
-            model,
-            ..Self::new(asset)
-        }
+    /// Opens another file that a user may want.
+    pub(super) fn open_if(&mut self, path: Option<&Path>) -> Result<Option<OutputId>, Failures> {
+        self.outputs.open_if(path).map_err(one)
     }
 
-    /// Refuses outputs that are inputs, or each other. `more` are outputs besides asset and model.
-    pub(super) fn check(&self, inputs: &[&Path], more: Option<&Path>) -> Result<(), Failures> {
-        let outputs: Vec<&Path> = [self.asset]
-            .into_iter()
-            .chain(self.model)
-            .chain(more)
-            .collect();
-        output::distinct(inputs, &outputs).map_err(one)
+    /// The console of a command with these outputs.
+    pub(super) fn console(&self, console: Console) -> Console {
+        console.beside(&self.outputs)
     }
 
     /// Takes the intermediate model, if a user wants it.
@@ -46,15 +52,23 @@ impl<'a> Outputs<'a> {
         }
     }
 
-    /// Takes another file.
-    pub(super) fn beside(&mut self, file: &'a Path, bytes: Vec<u8>) {
-        self.beside.push((file, bytes));
+    /// Takes the bytes of another file.
+    pub(super) fn beside(&mut self, file: OutputId, bytes: Vec<u8>) {
+        self.contents.push((file, bytes));
     }
 
     /// Writes all of them.
-    pub(super) fn write(&self, asset: &[u8], pipeline: &mut Pipeline) -> Result<(), Failures> {
-        let beside = self.beside.iter().map(|(file, bytes)| (*file, &bytes[..]));
-        let files: Vec<(&Path, &[u8])> = [(self.asset, asset)].into_iter().chain(beside).collect();
-        pipeline.write(&files).map_err(one)
+    pub(super) fn write(self, asset: &[u8], pipeline: &mut Pipeline) -> Result<(), Failures> {
+        pipeline
+            .run(Pass::Write, || self.commit(asset))
+            .map_err(one)
+    }
+
+    fn commit(mut self, asset: &[u8]) -> Result<(), OutputError> {
+        self.outputs.fill(self.asset, asset)?;
+        for (file, bytes) in &self.contents {
+            self.outputs.fill(*file, bytes)?;
+        }
+        self.outputs.commit()
     }
 }

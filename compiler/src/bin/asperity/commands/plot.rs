@@ -1,10 +1,9 @@
 //! `asperity plot`.
 
 use crate::cli::Plot;
-use crate::failure::{Failures, one};
 use asperity::{
-    diagnostic::Diagnostic,
-    output,
+    diagnostic::{Diagnostic, Failures, one},
+    output::Outputs,
     plot::{self, AssetBytes},
     raise::raise,
     source::Source,
@@ -25,11 +24,14 @@ impl Diagnostic for DrawError {
 }
 
 pub(crate) fn run(args: &Plot) -> Result<(), Failures> {
+    let mut outputs = Outputs::beside([&args.file]);
+    let picture = outputs.open(&args.output).map_err(one)?;
     let mut source = Source::open(&args.file).map_err(one)?;
     let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
     let asset =
         Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
-    output::write_atomic(&args.output, &drawn(&asset)?).map_err(one)
+    outputs.fill(picture, &drawn(&asset)?).map_err(one)?;
+    outputs.commit().map_err(one)
 }
 
 /// The sheet of an asset as PNG.

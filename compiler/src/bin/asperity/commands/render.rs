@@ -1,10 +1,11 @@
 //! `asperity render`.
 
-use crate::failure::{Failures, one};
-use crate::{cli::Render, console};
+use crate::cli::Render;
 use asperity::{
+    console::Console,
+    diagnostic::{Failures, one},
     input::{self, InputError},
-    output::{AtomicFile, OutputError},
+    output::{Outputs, display},
     render::{self, RenderError},
     source::Source,
 };
@@ -17,7 +18,10 @@ enum Felt<'a> {
     Texture(Box<Asset<'a>>),
 }
 
-pub(crate) fn run(args: &Render) -> Result<(), Failures> {
+pub(crate) fn run(args: &Render, console: Console) -> Result<(), Failures> {
+    let mut outputs = Outputs::beside([&args.file, &args.trajectory]);
+    let table = outputs.open(&args.output).map_err(one)?;
+    let console = console.beside(&outputs);
     let mut source = Source::open(&args.file).map_err(one)?;
     let wanted = args.texture.as_deref();
     let scene = match wanted {
@@ -41,35 +45,27 @@ pub(crate) fn run(args: &Render) -> Result<(), Failures> {
             problem,
         })
     })?;
-    let mut output = AtomicFile::create(&args.output).map_err(one)?;
+    let output = outputs.file(table);
     let (file, input) = (&args.trajectory, trajectory);
-    let rows = BufWriter::new(&mut output);
-    let report = match &felt {
+    let rows = BufWriter::new(&mut *output);
+    let rendered = match &felt {
         Felt::Scene(library) => {
             render::render_scene(library, args.rate, file, input, rows, args.seed)
         }
         Felt::Texture(asset) => render::render(asset, args.rate, file, input, rows, args.seed),
-    }
-    .map_err(|error| match error {
-        RenderError::Write(source) => one(OutputError {
-            path: args.output.clone(),
-            doing: "cannot write it",
-            source,
-        }),
+    };
+    let report = rendered.map_err(|error| match error {
+        RenderError::Write(source) => one(output.error("cannot write it", source)),
         other => one(other),
     })?;
-    // A pipe or a terminal gets the table alone.
-    let announce = !output.is_direct();
-    output.commit().map_err(one)?;
-    if announce {
-        console::print(&format!(
-            "{}: {} ticks, {} in contact, {} taps, {:.3} N at most\n",
-            args.output.display(),
-            report.ticks,
-            report.contact_ticks,
-            report.taps,
-            report.peak_force_n
-        ))?;
-    }
-    Ok(())
+    outputs.commit().map_err(one)?;
+    let report = format!(
+        "{}: {} ticks, {} in contact, {} taps, {:.3} N at most\n",
+        display(&args.output),
+        report.ticks,
+        report.contact_ticks,
+        report.taps,
+        report.peak_force_n
+    );
+    console.text(&report).map_err(one)
 }

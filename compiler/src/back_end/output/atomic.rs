@@ -1,0 +1,233 @@
+//! One file, written in full or not at all.
+
+use super::{
+    error::OutputError,
+    links::{folder, followed},
+    stream::{Sink, Stream, is_open_file, is_standard_output},
+    unfinished::unfinished,
+};
+use std::{
+    fs::{self, OpenOptions},
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+use tempfile::NamedTempFile;
+
+/// A file that is being written: write to it, then [`commit`](AtomicFile::commit).
+///
+/// If it is dropped before, the target stays as it was. A file that is replaced keeps its
+/// permissions. Standard output (`-`) and a target that is no regular file (a pipe, a device)
+/// cannot be replaced: they get everything at once, on commit.
+#[derive(Debug)]
+pub struct AtomicFile {
+    target: PathBuf,
+    place: Place,
+}
+
+#[derive(Debug)]
+enum Place {
+    Beside {
+        /// `None` once it has its name.
+        file: Option<NamedTempFile>,
+        /// The target without links.
+        path: PathBuf,
+    },
+    Stream(Stream),
+}
+
+impl AtomicFile {
+    /// Starts a file for `target`, whose folder must exist.
+    ///
+    /// # Errors
+    /// [`OutputError`] for a missing folder, a folder at `target`, a file that is read-only, or
+    /// no permission.
+    pub fn create(target: &Path) -> Result<Self, OutputError> {
+        let fail = |doing, source| OutputError {
+            path: target.to_owned(),
+            doing,
+            source,
+        };
+        if is_standard_output(target) {
+            return Ok(Self {
+                target: "standard output".into(),
+                place: Place::Stream(Stream::to(Sink::StandardOutput)),
+            });
+        }
+        let existing = fs::metadata(target).ok();
+        if existing.as_ref().is_some_and(fs::Metadata::is_dir) {
+            let source = io::Error::from(io::ErrorKind::IsADirectory);
+            return Err(fail("cannot write a file there", source));
+        }
+        if existing.as_ref().is_some_and(|m| !m.is_file()) || is_open_file(target) {
+            let file = OpenOptions::new()
+                .write(true)
+                .open(target)
+                .map_err(|e| fail("cannot open it for writing", e))?;
+            return Ok(Self {
+                target: target.to_owned(),
+                place: Place::Stream(Stream::to(Sink::File(file))),
+            });
+        }
+        if let Some(metadata) = &existing {
+            // A rename asks the folder alone, so a protected file would be lost.
+            writable(target, metadata).map_err(|e| fail("it is read-only", e))?;
+        }
+        // Of a symbolic link, the file that it points to is replaced.
+        let path = followed(target);
+        let folder = folder(&path);
+        fs::metadata(folder).map_err(|e| fail("cannot reach its folder", e))?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".asperity-");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            // The permissions of any new file: what the umask leaves.
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        // Under the lock, so that an interrupt sees every file that is there.
+        let mut list = unfinished();
+        let file = builder
+            .tempfile_in(folder)
+            .map_err(|e| fail("cannot write into its folder", strip_path(&e)))?;
+        list.push(file.path().to_path_buf());
+        drop(list);
+        let kept = existing.map_or(Ok(()), |metadata| {
+            file.as_file().set_permissions(metadata.permissions())
+        });
+        let file = Self {
+            target: target.to_owned(),
+            place: Place::Beside {
+                file: Some(file),
+                path,
+            },
+        };
+        kept.map_err(|e| file.error("cannot keep its permissions", e))?;
+        Ok(file)
+    }
+
+    /// The file that is written.
+    #[must_use]
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// Whether the bytes go to standard output.
+    #[must_use]
+    pub fn is_standard_output(&self) -> bool {
+        matches!(&self.place, Place::Stream(stream) if stream.is_standard_output())
+    }
+
+    /// Whether the target is no regular file, such as a pipe or a terminal.
+    #[must_use]
+    pub fn is_stream(&self) -> bool {
+        matches!(self.place, Place::Stream(_))
+    }
+
+    /// Makes what was written the target, replacing what was there.
+    ///
+    /// # Errors
+    /// [`OutputError`]; the target is then as it was.
+    pub fn commit(mut self) -> Result<(), OutputError> {
+        self.release()?;
+        self.rename(&mut unfinished())
+    }
+
+    /// Hands over what a stream has been given. Does nothing to a file.
+    pub(super) fn release(&mut self) -> Result<(), OutputError> {
+        let released = match &mut self.place {
+            Place::Stream(stream) => stream.release(),
+            Place::Beside { .. } => Ok(()),
+        };
+        released.map_err(|source| self.error("cannot write it", source))
+    }
+
+    /// Gives a file its name, under the lock of the list. Does nothing to a stream.
+    pub(super) fn rename(&mut self, list: &mut Vec<PathBuf>) -> Result<(), OutputError> {
+        let Place::Beside { file, path } = &mut self.place else {
+            return Ok(());
+        };
+        let Some(file) = file.take() else {
+            return Ok(());
+        };
+        let beside = file.path().to_path_buf();
+        // Persisting replaces the target on every system. On failure the file is removed.
+        let persisted = file.persist(path).map(drop).map_err(|error| error.error);
+        list.retain(|other| *other != beside);
+        persisted.map_err(|source| self.error("cannot finish it", source))
+    }
+
+    /// Writes all of `bytes`.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the target.
+    pub fn fill(&mut self, bytes: &[u8]) -> Result<(), OutputError> {
+        self.write_all(bytes)
+            .map_err(|source| self.error("cannot write it", source))
+    }
+
+    /// An error about this file.
+    #[must_use]
+    pub fn error(&self, doing: &'static str, source: io::Error) -> OutputError {
+        OutputError {
+            path: self.target.clone(),
+            doing,
+            source,
+        }
+    }
+}
+
+/// Refuses a file that its owner has protected, or that this user may not write to.
+fn writable(target: &Path, metadata: &fs::Metadata) -> io::Result<()> {
+    if metadata.permissions().readonly() {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
+    match OpenOptions::new().write(true).open(target) {
+        // A program that is running is busy, but may be replaced.
+        Err(error) if error.kind() != io::ErrorKind::ExecutableFileBusy => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// The error without the temporary file's name, which means nothing to a user.
+fn strip_path(error: &io::Error) -> io::Error {
+    error.raw_os_error().map_or_else(
+        || io::Error::from(error.kind()),
+        io::Error::from_raw_os_error,
+    )
+}
+
+impl Drop for AtomicFile {
+    fn drop(&mut self) {
+        if let Place::Beside { file, .. } = &mut self.place
+            && let Some(file) = file.take()
+        {
+            // Removed before it leaves the list.
+            let mut list = unfinished();
+            let path = file.path().to_path_buf();
+            drop(file);
+            list.retain(|other| *other != path);
+        }
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
+        match &mut self.place {
+            Place::Beside {
+                file: Some(file), ..
+            } => file.write(buffer),
+            Place::Beside { file: None, .. } => Err(io::ErrorKind::NotFound.into()),
+            Place::Stream(stream) => stream.held().write(buffer),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.place {
+            Place::Beside {
+                file: Some(file), ..
+            } => file.flush(),
+            Place::Beside { file: None, .. } => Ok(()),
+            Place::Stream(stream) => stream.held().flush(),
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! What is written, what is kept, and what is refused.
+
+use super::*;
+use std::{
+    fs,
+    io::{self, Write as _},
+    path::PathBuf,
+};
+use tempfile::TempDir;
+
+fn entries(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+/// A folder with the file `in.json` and the folder `sub`.
+fn folder() -> (TempDir, impl Fn(&str) -> PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().to_owned();
+    let at = move |name: &str| root.join(name);
+    fs::write(at("in.json"), b"{}").unwrap();
+    fs::create_dir(at("sub")).unwrap();
+    (folder, at)
+}
+
+/// Why these outputs cannot be opened together.
+fn refused(inputs: &[&Path], outputs: &[&Path]) -> Option<OpenError> {
+    let mut opened = Outputs::beside(inputs);
+    outputs.iter().find_map(|path| opened.open(path).err())
+}
+
+#[test]
+fn a_committed_file_replaces_and_leaves_nothing_beside() {
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("a.asp");
+    write_atomic(&target, b"old").unwrap();
+    write_atomic(&target, b"new").unwrap();
+    assert_eq!(fs::read(&target).unwrap(), b"new");
+    assert_eq!(entries(folder.path()), ["a.asp"]);
+}
+
+#[test]
+fn an_abandoned_file_leaves_the_target_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("a.asp");
+    write_atomic(&target, b"old").unwrap();
+    let mut file = AtomicFile::create(&target).unwrap();
+    file.write_all(b"half").unwrap();
+    drop(file);
+    assert_eq!(fs::read(&target).unwrap(), b"old");
+    assert_eq!(entries(folder.path()), ["a.asp"]);
+}
+
+#[test]
+fn a_missing_folder_and_a_folder_as_target_are_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = write_atomic(&folder.path().join("no/a.asp"), b"x").unwrap_err();
+    assert_eq!(missing.source.kind(), io::ErrorKind::NotFound);
+    let is_folder = write_atomic(folder.path(), b"x").unwrap_err();
+    assert_eq!(is_folder.source.kind(), io::ErrorKind::IsADirectory);
+}
+
+#[test]
+fn a_failed_folder_leaves_nothing() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("out");
+    let files = [
+        ("a.asp".to_owned(), b"a".as_slice()),
+        ("no/b.asp".to_owned(), b"b".as_slice()),
+    ];
+    assert!(write_folder(&folder, &files).is_err());
+    assert!(!folder.exists());
+    assert!(write_folder(&folder, &files[..1]).is_ok());
+    assert_eq!(entries(&folder), ["a.asp"]);
+    let input = folder.join("a.asp");
+    assert!(write_folder_beside(&[input], &folder, &files[..1]).is_err());
+}
+
+#[test]
+fn a_read_only_file_is_not_replaced() {
+    let (_folder, at) = folder();
+    let target = at("in.json");
+    let mut permissions = fs::metadata(&target).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&target, permissions).unwrap();
+    let error = write_atomic(&target, b"new").unwrap_err();
+    assert!(error.to_string().contains("read-only"), "{error}");
+    assert_eq!(fs::read(&target).unwrap(), b"{}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_replaced_file_keeps_its_permissions() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let (_folder, at) = folder();
+    for mode in [0o600, 0o640, 0o755] {
+        fs::set_permissions(at("in.json"), fs::Permissions::from_mode(mode)).unwrap();
+        write_atomic(&at("in.json"), b"new").unwrap();
+        let kept = fs::metadata(at("in.json")).unwrap().permissions().mode();
+        assert_eq!(kept & 0o777, mode);
+    }
+}
+
+#[test]
+fn one_file_by_two_paths_is_found() {
+    let (_folder, at) = folder();
+    let input = at("in.json");
+    let is_input = |path: &Path| {
+        let error = refused(&[&input], &[path]);
+        matches!(error, Some(OpenError::Same { other, .. }) if other == "an input")
+    };
+    assert!(!is_input(&at("out.asp")));
+    assert!(is_input(&at("in.json")));
+    assert!(is_input(&at("sub/../in.json")));
+    fs::hard_link(&input, at("hard")).unwrap();
+    assert!(is_input(&at("hard")));
+    let twice = refused(&[], &[&at("new.asp"), &at("sub/../new.asp")]);
+    assert!(matches!(twice, Some(OpenError::Same { other, .. }) if other == "another output"));
+    let case = refused(&[], &[&at("new.asp"), &at("sub/../NEW.asp")]);
+    assert!(matches!(case, Some(OpenError::Case { .. })));
+    assert!(refused(&[], &[&at("new.asp"), &at("sub/NEW.asp")]).is_none());
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_followed_also_where_they_lead_nowhere_yet() {
+    use std::os::unix::fs::symlink;
+    let (_folder, at) = folder();
+    symlink("in.json", at("link")).unwrap();
+    assert!(refused(&[&at("in.json")], &[&at("link")]).is_some());
+    symlink("sub/new.asp", at("dangling")).unwrap();
+    let both = [at("dangling"), at("sub/new.asp")];
+    assert!(refused(&[], &[&both[0], &both[1]]).is_some());
+    write_atomic(&both[0], b"new").unwrap();
+    assert_eq!(fs::read(&both[1]).unwrap(), b"new");
+    assert!(fs::symlink_metadata(&both[0]).unwrap().is_symlink());
+    let null = Path::new("/dev/null");
+    assert!(refused(&[null], &[null, null]).is_none());
+}
+
+#[test]
+fn only_one_output_goes_to_standard_output() {
+    let stdout = Path::new("-");
+    let twice = refused(&[], &[stdout, stdout]);
+    assert!(matches!(twice, Some(OpenError::TwoToStandardOutput)));
+    let mut outputs = Outputs::beside([""; 0]);
+    assert!(!outputs.to_standard_output());
+    outputs.open(stdout).unwrap();
+    assert!(outputs.to_standard_output());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_device_is_written_to_not_replaced() {
+    let full = write_atomic(Path::new("/dev/full"), b"x").unwrap_err();
+    assert_eq!(full.source.kind(), io::ErrorKind::StorageFull);
+    write_atomic(Path::new("/dev/null"), b"x").unwrap();
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+}

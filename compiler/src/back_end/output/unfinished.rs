@@ -1,0 +1,31 @@
+//! What must not outlive an interrupt.
+
+use std::{
+    fs,
+    path::PathBuf,
+    sync::{Mutex, MutexGuard, PoisonError},
+};
+
+/// Files and folders that an interrupt removes.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// The list, locked. An interrupt waits for the lock, so what is done under it is whole.
+pub(super) fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    // A list of paths is whole after any panic.
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// On an interrupt (Ctrl-C, termination): removes what is unfinished and exits with
+/// status 130. For a command's `main`; calling it twice has no effect.
+pub fn clean_up_on_interrupt() {
+    // Fails only where a handler is set already.
+    let _ = ctrlc::set_handler(|| {
+        let list = unfinished();
+        // Folders come before what was put into them.
+        for path in list.iter().rev() {
+            let _ = fs::remove_file(path).or_else(|_| fs::remove_dir(path));
+        }
+        // Still under the lock: no new file can appear.
+        std::process::exit(130);
+    });
+}

@@ -1,0 +1,10 @@
+//! How long each pass took, for those who ask.
+
+use asperity::{console::Console, pipeline::Pipeline};
+
+/// Prints the times on standard error, where that was asked for.
+pub(super) fn print(wanted: bool, pipeline: &Pipeline, console: Console) {
+    if wanted {
+        console.aside(pipeline.timings());
+    }
+}

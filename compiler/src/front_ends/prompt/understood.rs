@@ -1,0 +1,166 @@
+//! Which part of a prompt its text encoder can read.
+//!
+//! The encoders were trained on English. Of other scripts they know some characters, but not what
+//! they mean; of emoji hardly any. What they cannot read still moves the vector, so a user is told.
+
+use super::PromptError;
+use std::mem;
+
+/// A prompt, divided.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Understood {
+    /// The words that were read, in their order.
+    pub read: String,
+    /// What was not: other scripts, emoji, words without a token.
+    pub unread: Vec<String>,
+}
+
+/// Refuses a prompt in which nothing can be seen.
+///
+/// # Errors
+/// [`PromptError::Empty`].
+pub fn check(prompt: &str) -> Result<(), PromptError> {
+    let invisible = |c: char| c.is_whitespace() || c.is_control() || joins(c);
+    if prompt.chars().all(invisible) {
+        return Err(PromptError::Empty);
+    }
+    Ok(())
+}
+
+/// Divides a prompt. `reads` tells of a word in Latin letters whether the encoder has tokens for
+/// it.
+pub(super) fn understood(prompt: &str, reads: impl Fn(&str) -> bool) -> Understood {
+    let mut read = Vec::new();
+    let mut unread = Vec::new();
+    for (script, run) in prompt.split_whitespace().flat_map(runs) {
+        match script {
+            Script::Latin if reads(&run) => read.push(run),
+            Script::Latin | Script::Other => unread.push(run),
+            // Beside words, punctuation is no loss.
+            Script::Neutral => {}
+        }
+    }
+    if read.is_empty() && unread.is_empty() {
+        unread = prompt.split_whitespace().map(str::to_owned).collect();
+    }
+    Understood {
+        read: read.join(" "),
+        unread,
+    }
+}
+
+impl Understood {
+    /// What to tell a user, unless everything was read.
+    pub(super) fn warning(&self) -> Option<String> {
+        if self.unread.is_empty() {
+            return None;
+        }
+        let quoted: Vec<String> = self.unread.iter().map(|run| format!("“{run}”")).collect();
+        let unread = quoted.join(", ");
+        Some(if self.read.is_empty() {
+            format!(
+                "nothing of the prompt was understood: {unread}; describe the surface in English"
+            )
+        } else {
+            format!("not understood: {unread}; only “{}” was", self.read)
+        })
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Script {
+    Latin,
+    Other,
+    /// Punctuation and signs, which belong to any script.
+    Neutral,
+}
+
+/// Splits a word where its script changes. Punctuation goes with what it follows.
+fn runs(word: &str) -> Vec<(Script, String)> {
+    let mut runs = Vec::new();
+    let (mut script, mut run) = (Script::Neutral, String::new());
+    for character in word.chars() {
+        let next = if joins(character) {
+            Script::Neutral
+        } else {
+            of(character)
+        };
+        if next != Script::Neutral && script != Script::Neutral && next != script {
+            runs.push((script, mem::take(&mut run)));
+        }
+        if next != Script::Neutral {
+            script = next;
+        }
+        run.push(character);
+    }
+    runs.push((script, run));
+    runs
+}
+
+fn of(character: char) -> Script {
+    match character {
+        '0'..='9' | 'A'..='Z' | 'a'..='z' => Script::Latin,
+        // Signs and fractions of Latin-1, times and divided by.
+        '\0'..='\u{7f}' | '\u{80}'..='\u{bf}' | '×' | '÷' => Script::Neutral,
+        // Latin with accents, which the encoder takes off.
+        'À'..='\u{24f}' | '\u{1e00}'..='\u{1eff}' => Script::Latin,
+        // Dashes, quotation marks, currencies.
+        '\u{2010}'..='\u{205e}' | '\u{20a0}'..='\u{20cf}' => Script::Neutral,
+        _ => Script::Other,
+    }
+}
+
+/// Whether a character only changes or joins those beside it: accents, joiners, variants.
+fn joins(character: char) -> bool {
+    matches!(
+        character,
+        '\u{ad}'
+            | '\u{300}'..='\u{36f}'
+            | '\u{61c}'
+            | '\u{200b}'..='\u{200f}'
+            | '\u{202a}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{fe00}'..='\u{fe0f}'
+            | '\u{feff}'
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn divided(prompt: &str) -> (String, Vec<String>) {
+        let Understood { read, unread } = understood(prompt, |word| word != "qqq");
+        (read, unread)
+    }
+
+    #[test]
+    fn words_are_read_and_other_scripts_are_named() {
+        let cases: [(&str, &str, &[&str]); 9] = [
+            ("rough, gritty stone!", "rough, gritty stone!", &[]),
+            ("crème brûlée – 60 % sugar", "crème brûlée 60 sugar", &[]),
+            ("rough 木材 wood", "rough wood", &["木材"]),
+            ("rough木材wood🔥", "rough wood", &["木材", "🔥"]),
+            ("wet 👩‍🚒❤️ ice", "wet ice", &["👩‍🚒❤️"]),
+            ("خشب ناعم", "", &["خشب", "ناعم"]),
+            ("шершавый", "", &["шершавый"]),
+            ("?! …", "", &["?!", "…"]),
+            ("smooth qqq", "smooth", &["qqq"]),
+        ];
+        for (prompt, read, unread) in cases {
+            let unread = unread.iter().map(|run| (*run).to_owned()).collect();
+            assert_eq!(divided(prompt), (read.to_owned(), unread), "{prompt}");
+        }
+    }
+
+    #[test]
+    fn a_prompt_that_shows_nothing_is_empty() {
+        for prompt in ["", " \t\n", "\u{200b}\u{feff}", "\u{0}"] {
+            assert!(
+                matches!(check(prompt), Err(PromptError::Empty)),
+                "{prompt:?}"
+            );
+        }
+        assert!(check("?").is_ok());
+    }
+}
