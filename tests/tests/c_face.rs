@@ -15,12 +15,12 @@ use asperity_tests::{
     trajectory::strokes,
 };
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     env, fs,
     io::Write as _,
     path::{Path, PathBuf},
     process::{Command, Output, Stdio},
-    sync::OnceLock,
+    sync::{Mutex, OnceLock, PoisonError},
 };
 
 /// Every warning is an error.
@@ -114,25 +114,31 @@ fn program_of_older_header(name: &str) -> PathBuf {
     path
 }
 
-/// Builds a program of `tests/c/`.
+/// A program of `tests/c/`, built once.
 fn program(name: &str, flags: &[&str]) -> PathBuf {
+    static BUILT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let kind = if flags.is_empty() {
         "plain"
     } else {
         "sanitized"
     };
     let path = folder().join(format!("{name}-{kind}"));
-    succeeded(
-        Command::new("cc")
-            .args(STRICT)
-            .args(flags)
-            .arg("-I")
-            .arg(root().join("runtime/c/include"))
-            .arg(root().join("tests/c").join(name).with_extension("c"))
-            .arg(library())
-            .args(["-lpthread", "-ldl", "-lm", "-Wl,-z,now", "-o"])
-            .arg(&path),
-    );
+    // Nobody may run a program that is being written.
+    let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    if !built.contains(&path) {
+        succeeded(
+            Command::new("cc")
+                .args(STRICT)
+                .args(flags)
+                .arg("-I")
+                .arg(root().join("runtime/c/include"))
+                .arg(root().join("tests/c").join(name).with_extension("c"))
+                .arg(library())
+                .args(["-lpthread", "-ldl", "-lm", "-Wl,-z,now", "-o"])
+                .arg(&path),
+        );
+        built.insert(path.clone());
+    }
     path
 }
 
@@ -197,8 +203,8 @@ fn lines(program: &Path, arguments: &[&str]) -> Vec<Vec<String>> {
         .collect();
     let writer = std::thread::spawn(move || input.write_all(trajectory.as_bytes()));
     let output = child.wait_with_output().unwrap();
-    writer.join().unwrap().unwrap();
     assert!(output.status.success(), "{arguments:?}: {}", output.status);
+    writer.join().unwrap().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     let words = |line: &str| line.split(' ').map(str::to_owned).collect();
     text.lines().map(words).collect()
