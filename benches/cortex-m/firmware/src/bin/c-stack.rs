@@ -1,6 +1,6 @@
 //! The stack of every call of the C face that firmware makes, measured by painting.
 //!
-//! A line a call: its name and its bytes. A call that fails prints `failed`, and ends the program.
+//! A line a call: its name without `asperity_`, and its bytes. A call that fails prints `failed`, and ends the program.
 #![no_std]
 #![no_main]
 #![allow(unsafe_code, reason = "the calls are those of C")]
@@ -34,11 +34,16 @@ fn measure(name: &str, call: &mut dyn FnMut() -> AsperityStatus) {
     }
 }
 
+/// What a line has room for.
+fn name_of(function: &str) -> &str {
+    function.strip_prefix("asperity_").unwrap_or(function)
+}
+
 /// Calls a function of the C face with what C passes, under its name.
 macro_rules! measure {
     ($function:ident($($argument:expr),*)) => {
         // SAFETY: statics of the right size, used by this thread alone.
-        measure(stringify!($function), &mut || unsafe { $function($($argument),*) })
+        measure(name_of(stringify!($function)), &mut || unsafe { $function($($argument),*) })
     };
 }
 
