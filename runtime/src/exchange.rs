@@ -32,6 +32,8 @@ pub const MAX_SPARE: usize = 3;
 const ROOM: usize = MAX_SPARE + 1;
 
 type Slot<'a, S, A> = &'a mut Texture<S, A>;
+type Incoming<'q, 'a, S, A> = Consumer<'q, Slot<'a, S, A>>;
+type Outgoing<'q, 'a, S, A> = Producer<'q, Slot<'a, S, A>>;
 
 /// The queues between both halves.
 #[derive(Default)]
@@ -84,8 +86,8 @@ impl<'a, S: Capacity, A: RenderArithmetic> Exchange<'a, S, A> {
         spare: [Slot<'a, S, A>; N],
     ) -> (
         Preparer<'q, 'a, S, A>,
-        Consumer<'q, Slot<'a, S, A>>,
-        Producer<'q, Slot<'a, S, A>>,
+        Incoming<'q, 'a, S, A>,
+        Outgoing<'q, 'a, S, A>,
     ) {
         const { assert!(N <= MAX_SPARE) };
         *self = Self::new();
@@ -164,8 +166,8 @@ impl<'q, 'a, S: Capacity, A: RenderArithmetic> Player<'q, 'a, S, A> {
     #[inline(always)]
     fn new(
         playing: Slot<'a, S, A>,
-        ready: Consumer<'q, Slot<'a, S, A>>,
-        returned: Producer<'q, Slot<'a, S, A>>,
+        ready: Incoming<'q, 'a, S, A>,
+        returned: Outgoing<'q, 'a, S, A>,
         seed: u64,
     ) -> Self {
         Self {

@@ -113,7 +113,10 @@ fn designs(arguments: &Arguments) -> Result<()> {
 
 fn stack(arguments: &Arguments) -> Result<()> {
     let target = target::find(&arguments.triple)?;
-    stack::print(target, &toolchain::Toolchain::find(target, arguments.build_core)?)
+    stack::print(
+        target,
+        &toolchain::Toolchain::find(target, arguments.build_core)?,
+    )
 }
 
 fn run(triple: &str, build_core: bool) -> Result<()> {
