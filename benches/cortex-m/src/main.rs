@@ -5,6 +5,7 @@
 //! $ cargo run --release -p asperity-cortex-m            # Cortex-M4F
 //! $ cargo run --release -p asperity-cortex-m -- --target thumbv7m-none-eabi
 //! $ cargo run --release -p asperity-cortex-m -- library # *.aspl
+//! $ cargo run --release -p asperity-cortex-m -- stack   # of the C face
 //! $ cargo run --release -p asperity-cortex-m -- costs   # of asperity build
 //! $ cargo run --release -p asperity-cortex-m -- designs # of the labs
 //! ```
@@ -20,6 +21,7 @@ mod limits;
 mod measure;
 mod package;
 mod report;
+mod stack;
 mod target;
 mod thumb;
 mod toolchain;
@@ -30,12 +32,14 @@ use std::process::ExitCode;
 
 const USAGE: &str =
     "usage: cortex-m [--target TRIPLE] [--build-core] | cortex-m costs | cortex-m library
+       cortex-m stack [--target TRIPLE]
        cortex-m designs [--poles N] [--zeros N]
   --target TRIPLE  thumbv7em-none-eabihf (default), thumbv7m-none-eabi or thumbv6m-none-eabi
   --build-core     build core from the sources of /usr/bin/rustc even where the target is installed
   costs            print the cost model of `asperity build`, for compiler/src/scene/counted.rs
   designs          print what every design of `asperity-lab pareto` costs, for its --cortex-m;
                    of textures with so many poles and zeros (20, 18: most of the HaTT)
+  stack            print and limit the stack of every call of the C face
   library          write textures.aspl and costs.aspl, which the session embeds";
 
 /// What is asked for.
@@ -60,7 +64,7 @@ impl Arguments {
         };
         while let Some(word) = words.next() {
             match word.as_str() {
-                "library" | "costs" | "designs" => arguments.command = word,
+                "library" | "costs" | "designs" | "stack" => arguments.command = word,
                 "--target" => arguments.triple = words.next()?,
                 "--build-core" => arguments.build_core = true,
                 "--poles" => arguments.orders.poles = words.next()?.parse().ok()?,
@@ -81,6 +85,7 @@ fn main() -> ExitCode {
         "library" => library::write(&home().join("../session")),
         "costs" => costs(arguments.build_core),
         "designs" => designs(&arguments),
+        "stack" => stack(&arguments),
         _ => run(&arguments.triple, arguments.build_core),
     })
 }
@@ -104,6 +109,14 @@ fn designs(arguments: &Arguments) -> Result<()> {
     let target = target::find(&arguments.triple)?;
     let toolchain = toolchain::Toolchain::find(target, arguments.build_core)?;
     designs::print(target, &toolchain, arguments.orders)
+}
+
+fn stack(arguments: &Arguments) -> Result<()> {
+    let target = target::find(&arguments.triple)?;
+    stack::print(
+        target,
+        &toolchain::Toolchain::find(target, arguments.build_core)?,
+    )
 }
 
 fn run(triple: &str, build_core: bool) -> Result<()> {
