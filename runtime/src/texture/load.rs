@@ -13,7 +13,7 @@ use crate::{
         tap::interpolation::TapBank,
         upsample::{Upsampler, ticks_per_sample},
     },
-    update::plan::Plan,
+    update::follower::Plan,
 };
 use asperity_formats::{Asset, Grid, Numerator};
 

@@ -10,7 +10,7 @@ use crate::{
     model::{
         barycentric::{Barycentric, WeightSearch},
         filter::{Filter, Models},
-        mixture::RowMixture,
+        mixture::BlockMixture,
         section_pair::SectionProduct,
     },
     quantity::{
@@ -22,7 +22,7 @@ use crate::{
         tap::interpolation::TapBank,
         upsample::Upsampler,
     },
-    update::plan::Plan,
+    update::follower::Plan,
 };
 use asperity_formats as formats;
 
@@ -46,7 +46,7 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
 /// stack.
 pub type HostTexture = Texture<HostCapacities>;
 
-impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> Default
+impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct> Default
     for Texture<S, A>
 {
     fn default() -> Self {
@@ -54,7 +54,7 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
     }
 }
 
-impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> Texture<S, A> {
+impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct> Texture<S, A> {
     /// An empty slot: no wall, no sound.
     #[must_use]
     pub const fn new() -> Self {
