@@ -105,4 +105,4 @@ pub use sample::{Output, Sample};
 pub use scene::{HostScene, Scene, SceneError, SceneState};
 pub use stage::{passivity::Passivity, upsample::ticks_per_sample, wall::Wall};
 pub use state::State;
-pub use texture::{HostTexture, Texture};
+pub use texture::{HostTexture, Needs, Texture};

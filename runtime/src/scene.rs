@@ -24,6 +24,7 @@ use crate::{
     texture::Texture,
 };
 use asperity_formats::{Library, SceneSurface};
+use core::mem::MaybeUninit;
 use heapless::Vec;
 use thiserror::Error;
 
@@ -90,6 +91,9 @@ pub struct Scene<'a, const N: usize, S: Capacity = HostCapacities, A: RenderArit
     others: &'a [Texture<S, A>],
 }
 
+/// The first texture, and the others.
+type Loaded<'a, S, A> = (&'a Texture<S, A>, &'a [Texture<S, A>]);
+
 /// Room for every surface that a library can hold, on [`HostTexture`](crate::HostTexture)s.
 pub type HostScene<'a> = Scene<'a, 64, HostCapacities>;
 
@@ -139,6 +143,34 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
         config: &Config,
         slots: &'a mut [Texture<S, A>],
     ) -> Result<Self, SceneError> {
+        let mut scene = Self::on(Self::prepare(library, config, slots)?);
+        scene.place(library);
+        Ok(scene)
+    }
+
+    /// [`Scene::load`] in memory of the caller's: a scene with room for many surfaces does not pass
+    /// through the stack.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn load_in<'m>(
+        memory: &'m mut MaybeUninit<Self>,
+        library: &Library<'_>,
+        config: &Config,
+        slots: &'a mut [Texture<S, A>],
+    ) -> Result<&'m mut Self, SceneError> {
+        let textures = Self::prepare(library, config, slots)?;
+        let scene = memory.write(Self::on(textures));
+        scene.place(library);
+        Ok(scene)
+    }
+
+    /// Loads every texture, checks every surface, and gives the textures.
+    fn prepare(
+        library: &Library<'_>,
+        config: &Config,
+        slots: &'a mut [Texture<S, A>],
+    ) -> Result<Loaded<'a, S, A>, SceneError> {
         let scene = library.scene().ok_or(SceneError::NoScene)?;
         let textures = library.index().len();
         let capacity = |field, found, capacity| SceneError::Capacity {
@@ -160,12 +192,25 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
         }
         // A scene has at least one surface, and every surface has a texture.
         let loaded = slots.get(..textures).and_then(<[_]>::split_first);
-        let (first, others) = loaded.ok_or(capacity("textures", textures, room))?;
-        Ok(Self {
-            placed: scene.surfaces().take(N).map(Placed::new).collect(),
+        loaded.ok_or(capacity("textures", textures, room))
+    }
+
+    /// No surfaces yet.
+    #[inline(always)]
+    const fn on((first, others): Loaded<'a, S, A>) -> Self {
+        Self {
+            placed: Vec::new(),
             first,
             others,
-        })
+        }
+    }
+
+    fn place(&mut self, library: &Library<'_>) {
+        let surfaces = library
+            .scene()
+            .into_iter()
+            .flat_map(|scene| scene.surfaces());
+        self.placed.extend(surfaces.take(N).map(Placed::new));
     }
 
     /// The surface that is touched at a position, or [`NONE`], where surface `at` was touched

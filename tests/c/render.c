@@ -9,9 +9,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static _Alignas(ASPERITY_ALIGNMENT) unsigned char texture_memory[ASPERITY_TEXTURE_SIZE];
-static _Alignas(ASPERITY_ALIGNMENT) unsigned char renderer_memory[ASPERITY_RENDERER_SIZE];
-static _Alignas(ASPERITY_ALIGNMENT) unsigned char state_memory[ASPERITY_STATE_SIZE];
+static ASPERITY_ALIGNED unsigned char texture_memory[ASPERITY_TEXTURE_SIZE_LARGE];
+static ASPERITY_ALIGNED unsigned char renderer_memory[ASPERITY_RENDERER_SIZE];
+static ASPERITY_ALIGNED unsigned char state_memory[ASPERITY_STATE_SIZE];
 
 static void require(AsperityStatus status, const char *what, const AsperityError *error) {
   if (status == ASPERITY_STATUS_OK) return;
@@ -43,37 +43,37 @@ int main(int argc, char **argv) {
     fprintf(stderr, "usage: %s LIBRARY.aspl NAME < trajectory.txt\n", argv[0]);
     return 2;
   }
-  AsperityError error;
+  AsperityError error = ASPERITY_ERROR_INIT;
   AsperityConfig config;
-  require(asperity_config_default(&config), "configuration", NULL);
+  require(asperity_config_default(&config, sizeof config), "configuration", NULL);
   AsperityRenderer *renderer;
   require(asperity_renderer_init(renderer_memory, sizeof renderer_memory, &config, &renderer, &error),
           "renderer", &error);
 
   AsperityTexture *texture;
-  require(asperity_texture_init(texture_memory, sizeof texture_memory, &texture), "texture", NULL);
+  require(asperity_texture_init(texture_memory, sizeof texture_memory, renderer,
+                                ASPERITY_CAPACITY_LARGE, &texture), "texture", NULL);
   size_t len;
   unsigned char *library = read_file(argv[1], &len);
-  require(asperity_texture_load_name(texture, library, len, argv[2], config.servo_rate_hz, &error),
-          argv[1], &error);
+  require(asperity_texture_load_name(texture, library, len, argv[2], &error), argv[1], &error);
   free(library); /* The slot keeps nothing of it. */
 
   AsperityState *state;
-  require(asperity_state_init(state_memory, sizeof state_memory, 7, &state), "state", NULL);
+  require(asperity_state_init(state_memory, sizeof state_memory, renderer, 7, &state), "state", NULL);
 
   /* A servo loop waits for its period here; this one reads the next line. */
-  AsperitySample sample;
+  AsperitySample sample = ASPERITY_SAMPLE_INIT; /* One period after the sample before. */
+  AsperityOutput output = ASPERITY_OUTPUT_INIT;
   while (scanf("%f %f %f", &sample.position_m[0], &sample.position_m[1], &sample.position_m[2]) == 3) {
-    sample.elapsed_ticks = 1;
-    AsperityOutput output;
     require(asperity_tick(renderer, texture, state, &sample, &output), "tick", NULL);
     /* Nine digits name a float exactly. */
     printf("%.9g %.9g %.9g\n", output.force_n[0], output.force_n[1], output.force_n[2]);
   }
 
-  AsperityCounters counters;
+  AsperityCounters counters = ASPERITY_COUNTERS_INIT;
+  char words[ASPERITY_TEXT_SIZE];
   require(asperity_state_counters(state, &counters), "counters", NULL);
-  fprintf(stderr, "asperity %s: %u ticks, %u taps, %u faults\n", asperity_version(),
-          (unsigned)counters.ticks, (unsigned)counters.taps, (unsigned)counters.faults);
+  require(asperity_counters_text(&counters, words, sizeof words), "counters", NULL);
+  fprintf(stderr, "asperity %s: %s\n", asperity_version(), words);
   return EXIT_SUCCESS;
 }

@@ -16,7 +16,7 @@ use std::{
 };
 
 /// Every warning is an error.
-const STRICT: [&str; 5] = ["-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror"];
+const STRICT: [&str; 5] = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror"];
 const SANITIZED: [&str; 3] = [
     "-fsanitize=address,undefined",
     "-fno-sanitize-recover=all",

@@ -1,43 +1,52 @@
 //! The configuration as a plain struct.
 
-use crate::{AsperityStatus, memory};
+use crate::{
+    AsperityStatus,
+    arithmetic::ASPERITY_ARITHMETIC_FLOAT,
+    memory,
+    sized::{self, sized},
+    status::call,
+};
 use asperity_runtime::{
     Config, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, Solid, TapConfig, VibrationAxis,
 };
+use core::ptr;
 
-/// `AsperityConfig::surface`: the half-space below a plane through `surface_point_m` with
-/// the outward normal `surface_normal`.
-pub const ASPERITY_SURFACE_PLANE: u32 = 0;
-/// `AsperityConfig::surface`: a ball of `surface_radius_m` around `surface_point_m`.
-pub const ASPERITY_SURFACE_SPHERE: u32 = 1;
-/// `AsperityConfig::surface`: a box around `surface_point_m`, edges along the axes, half
-/// as long as `surface_half_extents_m` says.
-pub const ASPERITY_SURFACE_BOX: u32 = 2;
+/// `AsperityConfig::solid`: the half-space below a plane through `solid_point_m` with
+/// the outward normal `solid_normal`.
+pub const ASPERITY_SOLID_PLANE: u32 = 0;
+/// `AsperityConfig::solid`: a ball of `solid_radius_m` around `solid_point_m`.
+pub const ASPERITY_SOLID_SPHERE: u32 = 1;
+/// `AsperityConfig::solid`: a box around `solid_point_m`, edges along the axes, half
+/// as long as `solid_half_extents_m` says.
+pub const ASPERITY_SOLID_BOX: u32 = 2;
 /// `AsperityConfig::vibration_axis`: along the motion.
 pub const ASPERITY_VIBRATION_TANGENT: u32 = 0;
 /// `AsperityConfig::vibration_axis`: across it.
 pub const ASPERITY_VIBRATION_BINORMAL: u32 = 1;
 
-/// Configuration of a renderer. Start from `asperity_config_default`.
+/// Configuration of a renderer. Start from `asperity_config_default`, which also sets `struct_size`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsperityConfig {
+    /// `sizeof(AsperityConfig)`.
+    pub struct_size: u32,
     /// Servo rate, Hz; one tick is one period.
     pub servo_rate_hz: f32,
     /// Cut-off of the velocity filter, Hz.
     pub velocity_cutoff_hz: f32,
     /// Cut-off of the normal velocity that the wall's damping sees, Hz.
     pub normal_cutoff_hz: f32,
-    /// One of `ASPERITY_SURFACE_*`.
-    pub surface: u32,
+    /// One of `ASPERITY_SOLID_*`.
+    pub solid: u32,
     /// A point of the plane, or the centre, m.
-    pub surface_point_m: [f32; 3],
+    pub solid_point_m: [f32; 3],
     /// Plane only: outward normal, any length above 0.
-    pub surface_normal: [f32; 3],
+    pub solid_normal: [f32; 3],
     /// Sphere only: radius, m.
-    pub surface_radius_m: f32,
+    pub solid_radius_m: f32,
     /// Box only: half the edge lengths, m.
-    pub surface_half_extents_m: [f32; 3],
+    pub solid_half_extents_m: [f32; 3],
     /// One of `ASPERITY_VIBRATION_*`.
     pub vibration_axis: u32,
     /// Largest force, N.
@@ -70,40 +79,82 @@ pub struct AsperityConfig {
     pub ramp_s: f32,
     /// Time constant with which model parameters follow speed and force, s.
     pub parameter_time_constant_s: f32,
+    /// One of `ASPERITY_ARITHMETIC_*`.
+    pub arithmetic: u32,
 }
+
+impl AsperityConfig {
+    /// What stands for the fields that a program of an older header leaves out. It has every field
+    /// of the first version.
+    const OF_LATER_VERSIONS: Self = Self {
+        struct_size: size_of::<Self>() as u32,
+        servo_rate_hz: 0.0,
+        velocity_cutoff_hz: 0.0,
+        normal_cutoff_hz: 0.0,
+        solid: ASPERITY_SOLID_PLANE,
+        solid_point_m: [0.0; 3],
+        solid_normal: [0.0; 3],
+        solid_radius_m: 0.0,
+        solid_half_extents_m: [0.0; 3],
+        vibration_axis: ASPERITY_VIBRATION_TANGENT,
+        peak_n: 0.0,
+        slew_n_s: 0.0,
+        tap_min_speed_m_s: 0.0,
+        tap_rearm_m: 0.0,
+        friction_stiffness_n_m: 0.0,
+        friction_dead_zone_m: 0.0,
+        friction_leak_speed_m_s: 0.0,
+        mechanics_damping_n_s_m: 0.0,
+        mechanics_coulomb_n: 0.0,
+        mechanics_fastest_m_s: 0.0,
+        mechanics_position_step_m: 0.0,
+        mechanics_delay_ticks: 0,
+        hold_ticks: 0,
+        ramp_s: 0.0,
+        parameter_time_constant_s: 0.0,
+        arithmetic: ASPERITY_ARITHMETIC_FLOAT,
+    };
+}
+
+sized!(
+    AsperityConfig,
+    first version ends with parameter_time_constant_s,
+    lacking fields are AsperityConfig::OF_LATER_VERSIONS
+);
 
 impl From<Config> for AsperityConfig {
     fn from(config: Config) -> Self {
         let (mut normal, mut radius_m, mut half_extents_m) = ([0.0, 0.0, 1.0], 0.0, [0.0; 3]);
-        let (surface, point_m) = match config.solid {
+        let (solid, point_m) = match config.solid {
             Solid::Plane { point_m, normal: n } => {
                 normal = n;
-                (ASPERITY_SURFACE_PLANE, point_m)
+                (ASPERITY_SOLID_PLANE, point_m)
             }
             Solid::Sphere {
                 center_m,
                 radius_m: r,
             } => {
                 radius_m = r;
-                (ASPERITY_SURFACE_SPHERE, center_m)
+                (ASPERITY_SOLID_SPHERE, center_m)
             }
             Solid::Box {
                 center_m,
                 half_extents_m: h,
             } => {
                 half_extents_m = h;
-                (ASPERITY_SURFACE_BOX, center_m)
+                (ASPERITY_SOLID_BOX, center_m)
             }
         };
         Self {
+            struct_size: size_of::<Self>() as u32,
             servo_rate_hz: config.servo_rate_hz,
             velocity_cutoff_hz: config.velocity_cutoff_hz,
             normal_cutoff_hz: config.normal_cutoff_hz,
-            surface,
-            surface_point_m: point_m,
-            surface_normal: normal,
-            surface_radius_m: radius_m,
-            surface_half_extents_m: half_extents_m,
+            solid,
+            solid_point_m: point_m,
+            solid_normal: normal,
+            solid_radius_m: radius_m,
+            solid_half_extents_m: half_extents_m,
             vibration_axis: match config.vibration_axis {
                 VibrationAxis::Tangent => ASPERITY_VIBRATION_TANGENT,
                 VibrationAxis::Binormal => ASPERITY_VIBRATION_BINORMAL,
@@ -123,31 +174,32 @@ impl From<Config> for AsperityConfig {
             hold_ticks: config.safety.hold_ticks,
             ramp_s: config.safety.ramp_s,
             parameter_time_constant_s: config.parameter_time_constant_s,
+            arithmetic: ASPERITY_ARITHMETIC_FLOAT,
         }
     }
 }
 
-impl TryFrom<AsperityConfig> for Config {
+impl TryFrom<&AsperityConfig> for Config {
     type Error = AsperityStatus;
 
-    /// An unknown surface or axis is refused here. The renderer checks every other field.
-    fn try_from(c: AsperityConfig) -> Result<Self, AsperityStatus> {
+    /// An unknown solid, axis or arithmetic is refused here. The renderer checks every other field.
+    fn try_from(c: &AsperityConfig) -> Result<Self, AsperityStatus> {
         Ok(Self {
             servo_rate_hz: c.servo_rate_hz,
             velocity_cutoff_hz: c.velocity_cutoff_hz,
             normal_cutoff_hz: c.normal_cutoff_hz,
-            solid: match c.surface {
-                ASPERITY_SURFACE_PLANE => Solid::Plane {
-                    point_m: c.surface_point_m,
-                    normal: c.surface_normal,
+            solid: match c.solid {
+                ASPERITY_SOLID_PLANE => Solid::Plane {
+                    point_m: c.solid_point_m,
+                    normal: c.solid_normal,
                 },
-                ASPERITY_SURFACE_SPHERE => Solid::Sphere {
-                    center_m: c.surface_point_m,
-                    radius_m: c.surface_radius_m,
+                ASPERITY_SOLID_SPHERE => Solid::Sphere {
+                    center_m: c.solid_point_m,
+                    radius_m: c.solid_radius_m,
                 },
-                ASPERITY_SURFACE_BOX => Solid::Box {
-                    center_m: c.surface_point_m,
-                    half_extents_m: c.surface_half_extents_m,
+                ASPERITY_SOLID_BOX => Solid::Box {
+                    center_m: c.solid_point_m,
+                    half_extents_m: c.solid_half_extents_m,
                 },
                 _ => return Err(AsperityStatus::Config),
             },
@@ -185,16 +237,23 @@ impl TryFrom<AsperityConfig> for Config {
     }
 }
 
-/// Fills in the defaults: a 3D Systems Touch at 1 kHz over the plane z = 0.
+/// Fills in the defaults: a 3D Systems Touch at 1 kHz over the plane z = 0, in floats.
+/// `struct_size` is `sizeof(AsperityConfig)`.
 ///
 /// # Safety
-/// `config` is null or valid for writes.
+/// `config` is null or leads to `struct_size` writable bytes.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn asperity_config_default(config: *mut AsperityConfig) -> AsperityStatus {
-    // SAFETY: the caller's promise.
-    match unsafe { memory::write(config, Config::default().into()) } {
-        Ok(()) => AsperityStatus::Ok,
-        Err(status) => status,
+pub unsafe extern "C" fn asperity_config_default(
+    config: *mut AsperityConfig,
+    struct_size: usize,
+) -> AsperityStatus {
+    // SAFETY: the caller's promise; no error to fill.
+    unsafe {
+        call(ptr::null_mut(), || {
+            let size = u32::try_from(struct_size).map_err(|_| AsperityStatus::StructSize)?;
+            memory::write(config.cast::<u32>(), size)?;
+            Ok(sized::write(config, &Config::default().into())?)
+        })
     }
 }
 
@@ -216,7 +275,10 @@ mod tests {
             half_extents_m: [4.0, 5.0, 6.0],
         };
         for config in configs {
-            assert_eq!(AsperityConfig::from(config.clone()).try_into(), Ok(config));
+            assert_eq!(
+                Config::try_from(&AsperityConfig::from(config.clone())),
+                Ok(config)
+            );
         }
     }
 }

@@ -1,80 +1,95 @@
 //! Objects in the caller's memory, and the checks on a pointer to one.
 
-use crate::{AsperityRenderer, AsperityState, AsperityStatus, AsperityTexture};
+use crate::AsperityStatus;
 use core::ffi::c_void;
 
 /// Alignment of the memory of every object, bytes.
 pub const ASPERITY_ALIGNMENT: usize = 64;
-/// Size of the memory of an `AsperityTexture`, bytes.
-pub const ASPERITY_TEXTURE_SIZE: usize = 65536;
-/// Size of the memory of an `AsperityRenderer`, bytes.
-pub const ASPERITY_RENDERER_SIZE: usize = 1024;
-/// Size of the memory of an `AsperityState`, bytes.
-pub const ASPERITY_STATE_SIZE: usize = 2048;
 
-// The sizes leave room for objects to grow without a new header.
-const _: () = {
-    assert!(size_of::<AsperityTexture>() <= ASPERITY_TEXTURE_SIZE);
-    assert!(size_of::<AsperityRenderer>() <= ASPERITY_RENDERER_SIZE);
-    assert!(size_of::<AsperityState>() <= ASPERITY_STATE_SIZE);
-    assert!(align_of::<AsperityTexture>() <= ASPERITY_ALIGNMENT);
-    assert!(align_of::<AsperityRenderer>() <= ASPERITY_ALIGNMENT);
-    assert!(align_of::<AsperityState>() <= ASPERITY_ALIGNMENT);
-};
+/// What an object begins with: which kind it is, in which arithmetic, of which capacity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(transparent)]
+pub(crate) struct Tag(u32);
 
-/// An object that C holds by an opaque pointer. A tag tells its kind.
-pub(crate) trait Object: Sized {
-    /// Different for every kind of object.
-    const TAG: u32;
-    /// Bytes of memory that the header asks for.
-    const SIZE: usize;
+impl Tag {
+    /// No object.
+    pub(crate) const NONE: Self = Self(0);
 
-    /// Place of the tag.
-    fn tag(this: *const Self) -> *const u32;
+    /// `kind` differs from kind to kind.
+    pub(crate) const fn new(kind: u8, arithmetic: u32, capacity: u32) -> Self {
+        Self(u32::from_le_bytes([
+            0xa5,
+            kind,
+            arithmetic as u8,
+            capacity as u8,
+        ]))
+    }
+
+    pub(crate) const fn arithmetic(self) -> u32 {
+        self.0.to_le_bytes()[2] as u32
+    }
+
+    pub(crate) const fn capacity(self) -> u32 {
+        self.0.to_le_bytes()[3] as u32
+    }
 }
 
-/// Writes an object into memory that C passes, and stores its pointer in `out`.
+/// An object that C holds by an opaque pointer.
 ///
 /// # Safety
-/// `memory` is null or `size` bytes that nothing else uses; `out` is null or valid for
-/// writes.
-pub(crate) unsafe fn place<T: Object>(
+/// `repr(C)`, and the first field is a [`Tag`].
+pub(crate) unsafe trait Object: Sized {
+    /// Different for every type.
+    const TAG: Tag;
+}
+
+/// Checks memory for an object of type `T` that the header gives `room` bytes.
+pub(crate) fn room<T, P>(
     memory: *mut c_void,
     size: usize,
-    out: *mut *mut T,
-    value: impl FnOnce() -> T,
-) -> Result<(), AsperityStatus> {
+    room: usize,
+    out: *mut *mut P,
+) -> Result<*mut T, AsperityStatus> {
     if memory.is_null() || out.is_null() {
         return Err(AsperityStatus::NullPointer);
     }
     let misaligned = !memory.addr().is_multiple_of(ASPERITY_ALIGNMENT) || !out.is_aligned();
-    if misaligned || size < T::SIZE {
+    let fits = size >= room && size >= size_of::<T>() && align_of::<T>() <= ASPERITY_ALIGNMENT;
+    if misaligned || !fits {
         return Err(AsperityStatus::Memory);
     }
-    let object = memory.cast::<T>();
-    // SAFETY: not null, aligned, large enough by the assertions above; the caller promises
-    // that the memory is its own to give.
-    unsafe {
-        object.write(value());
-        out.write(object);
-    }
-    Ok(())
+    Ok(memory.cast())
 }
 
-/// Checks that a pointer leads to an object of its kind.
+/// The tag at a pointer.
 ///
 /// # Safety
-/// `object` is null or leads to at least `size_of::<T>()` readable bytes.
-unsafe fn check<T: Object>(object: *const T) -> Result<(), AsperityStatus> {
+/// `object` is null or leads to four readable bytes.
+pub(crate) unsafe fn tag<P>(object: *const P) -> Result<Tag, AsperityStatus> {
     if object.is_null() {
         Err(AsperityStatus::NullPointer)
-    } else if !object.is_aligned() {
+    } else if !object.addr().is_multiple_of(align_of::<Tag>()) {
         Err(AsperityStatus::Memory)
-    // SAFETY: not null, aligned and readable by the caller's promise; any bits are a u32.
-    } else if unsafe { T::tag(object).read() } != T::TAG {
+    } else {
+        // SAFETY: not null, aligned and readable by the caller's promise; any bits are a tag.
+        Ok(unsafe { object.cast::<Tag>().read() })
+    }
+}
+
+/// Checks that a pointer leads to a `T`.
+///
+/// # Safety
+/// `object` is null or leads to at least four readable bytes, and to a `T` if they are its tag.
+unsafe fn check<T: Object, P>(object: *const P) -> Result<*const T, AsperityStatus> {
+    // SAFETY: the caller's promise.
+    let found = unsafe { tag(object)? };
+    let object = object.cast::<T>();
+    if !object.is_aligned() {
+        Err(AsperityStatus::Memory)
+    } else if found != T::TAG {
         Err(AsperityStatus::NotInitialised)
     } else {
-        Ok(())
+        Ok(object)
     }
 }
 
@@ -82,46 +97,27 @@ unsafe fn check<T: Object>(object: *const T) -> Result<(), AsperityStatus> {
 ///
 /// # Safety
 /// As `check`; while the reference lives nobody writes to the object.
-pub(crate) unsafe fn shared<'a, T: Object>(object: *const T) -> Result<&'a T, AsperityStatus> {
-    // SAFETY: the caller's promise. A right tag means that `place` wrote the object.
-    unsafe {
-        check(object)?;
-        Ok(&*object)
-    }
+pub(crate) unsafe fn shared<'a, T: Object, P>(object: *const P) -> Result<&'a T, AsperityStatus> {
+    // SAFETY: the caller's promise. A right tag means that `init` wrote the object.
+    unsafe { Ok(&*check::<T, P>(object)?) }
 }
 
 /// An exclusive reference to an object.
 ///
 /// # Safety
 /// As `check`; while the reference lives nobody else reads or writes the object.
-pub(crate) unsafe fn exclusive<'a, T: Object>(object: *mut T) -> Result<&'a mut T, AsperityStatus> {
-    // SAFETY: the caller's promise. A right tag means that `place` wrote the object.
-    unsafe {
-        check(object)?;
-        Ok(&mut *object)
-    }
+pub(crate) unsafe fn exclusive<'a, T: Object, P>(
+    object: *mut P,
+) -> Result<&'a mut T, AsperityStatus> {
+    // SAFETY: the caller's promise. A right tag means that `init` wrote the object.
+    unsafe { Ok(&mut *check::<T, P>(object)?.cast_mut()) }
 }
 
-/// Reads a plain struct that C passes.
-///
-/// # Safety
-/// `value` is null or valid for reads, and every bit pattern is a valid `T`.
-pub(crate) unsafe fn read<T: Copy>(value: *const T) -> Result<T, AsperityStatus> {
-    if value.is_null() {
-        Err(AsperityStatus::NullPointer)
-    } else if !value.is_aligned() {
-        Err(AsperityStatus::Memory)
-    } else {
-        // SAFETY: not null, aligned, readable by the caller's promise.
-        Ok(unsafe { value.read() })
-    }
-}
-
-/// Writes a plain struct to a place that C passes.
+/// Writes a number or a pointer to a place that C passes.
 ///
 /// # Safety
 /// `place` is null or valid for writes.
-pub(crate) unsafe fn write<T>(place: *mut T, value: T) -> Result<(), AsperityStatus> {
+pub(crate) unsafe fn write<T: Copy>(place: *mut T, value: T) -> Result<(), AsperityStatus> {
     if place.is_null() {
         Err(AsperityStatus::NullPointer)
     } else if !place.is_aligned() {

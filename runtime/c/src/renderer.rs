@@ -2,28 +2,34 @@
 
 use crate::{
     AsperityConfig, AsperityError, AsperityStatus,
-    memory::{self, ASPERITY_RENDERER_SIZE, Object, place},
+    arithmetic::{Numbered, by_arithmetic},
+    memory::{Object, Tag, room},
+    sized,
     status::call,
 };
 use asperity_runtime::{Config, Renderer};
 use core::ffi::c_void;
 
+/// Size of the memory of an `AsperityRenderer`, bytes.
+pub const ASPERITY_RENDERER_SIZE: usize = 1024;
+
 /// A checked configuration; it serves any number of states and textures.
 #[derive(Debug)]
+#[repr(C)]
 pub struct AsperityRenderer {
-    tag: u32,
-    pub(crate) renderer: Renderer,
+    tag: Tag,
 }
 
-impl Object for AsperityRenderer {
-    const TAG: u32 = u32::from_le_bytes(*b"aspR");
-    const SIZE: usize = ASPERITY_RENDERER_SIZE;
+/// What an `AsperityRenderer` leads to.
+#[repr(C)]
+pub(crate) struct RendererOf<A: Numbered> {
+    tag: Tag,
+    pub(crate) renderer: Renderer<A>,
+}
 
-    fn tag(this: *const Self) -> *const u32 {
-        // SAFETY: the address is computed and nothing is read; the caller's pointer leads
-        // to memory of this size.
-        unsafe { &raw const (*this).tag }
-    }
+// SAFETY: `repr(C)`, the tag is first.
+unsafe impl<A: Numbered> Object for RendererOf<A> {
+    const TAG: Tag = Tag::new(b'R', A::NUMBER, 0);
 }
 
 /// Checks a configuration and makes a renderer in `memory` of at least
@@ -43,12 +49,22 @@ pub unsafe extern "C" fn asperity_renderer_init(
     // SAFETY: the caller's promises; any bits are a configuration, if not a valid one.
     unsafe {
         call(error, || {
-            let checked = Renderer::new(&Config::try_from(memory::read(config)?)?)?;
-            let object = || AsperityRenderer {
-                tag: AsperityRenderer::TAG,
-                renderer: checked,
-            };
-            Ok(place(memory, size, renderer, object)?)
+            let config = sized::read(config)?;
+            let checked = Config::try_from(&config)?;
+            by_arithmetic!(config.arithmetic, A => {
+                let object = room::<RendererOf<A>, _>(
+                    memory,
+                    size,
+                    ASPERITY_RENDERER_SIZE,
+                    renderer,
+                )?;
+                object.write(RendererOf {
+                    tag: RendererOf::<A>::TAG,
+                    renderer: Renderer::prepare(&checked)?,
+                });
+                renderer.write(object.cast());
+                Ok(())
+            }, else AsperityStatus::Config)
         })
     }
 }

@@ -1,14 +1,17 @@
 //! Status codes and their texts, and the border, which no panic crosses.
 
+use crate::{sized::stated, words::Text};
 use asperity_formats::FormatError;
-use asperity_runtime::{ConfigError, LoadError};
+use asperity_runtime::{ConfigError, LoadError, PrepareError, SceneError};
 use core::{
     ffi::{CStr, c_char},
-    fmt::{self, Write},
+    fmt::{self, Write as _},
+    mem::{self, MaybeUninit},
+    slice,
 };
 
 /// Size of `AsperityError::message`, bytes.
-pub const ASPERITY_MESSAGE_SIZE: usize = 252;
+pub const ASPERITY_MESSAGE_SIZE: usize = 248;
 
 /// Result of a call.
 #[repr(i32)]
@@ -36,9 +39,18 @@ pub enum AsperityStatus {
     Text = 9,
     /// A panic was caught, which is a defect of this library.
     Internal = 10,
+    /// The `struct_size` of a struct is not that of any version, or the struct asks for something
+    /// that this version does not know.
+    StructSize = 11,
+    /// A number is none of those that the header names, such as a capacity.
+    Argument = 12,
+    /// Every spare slot of an exchange is on its way: try again some ticks later.
+    Busy = 13,
+    /// The library has textures but no surfaces.
+    NoScene = 14,
 }
 
-const ALL: [(AsperityStatus, &CStr); 11] = [
+const ALL: [(AsperityStatus, &CStr); 15] = [
     (AsperityStatus::Ok, c"done"),
     (
         AsperityStatus::NullPointer,
@@ -47,7 +59,7 @@ const ALL: [(AsperityStatus, &CStr); 11] = [
     (AsperityStatus::Memory, c"memory is too small or misaligned"),
     (
         AsperityStatus::NotInitialised,
-        c"a pointer leads to no object, or to one of another kind",
+        c"a pointer leads to no object, or to one of another kind or arithmetic",
     ),
     (
         AsperityStatus::Format,
@@ -74,6 +86,22 @@ const ALL: [(AsperityStatus, &CStr); 11] = [
         AsperityStatus::Internal,
         c"a defect of the library: a panic was caught",
     ),
+    (
+        AsperityStatus::StructSize,
+        c"struct_size is not set, or the struct is of a later version",
+    ),
+    (
+        AsperityStatus::Argument,
+        c"an argument is none of the numbers in the header",
+    ),
+    (
+        AsperityStatus::Busy,
+        c"no slot is spare yet: try again some ticks later",
+    ),
+    (
+        AsperityStatus::NoScene,
+        c"the library holds no scene: build one with `asperity build`",
+    ),
 ];
 
 /// Text of a status. Never null; an unknown number has a text, too.
@@ -83,15 +111,20 @@ pub extern "C" fn asperity_error_text(status: i32) -> *const c_char {
     found.map_or(c"unknown status", |(_, text)| text).as_ptr()
 }
 
-/// A status and its message, which names the field, its value and the rule where it can.
+/// A status and its message, which names the field, its value and the rule where it can. Begin with
+/// `ASPERITY_ERROR_INIT`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct AsperityError {
+    /// `sizeof(AsperityError)`, from the caller.
+    pub struct_size: u32,
     /// What the function returned.
     pub status: AsperityStatus,
     /// UTF-8 that ends with a null; truncated where it is too long.
     pub message: [c_char; ASPERITY_MESSAGE_SIZE],
 }
+
+const _: () = assert!(size_of::<AsperityError>() == 8 + ASPERITY_MESSAGE_SIZE);
 
 /// Why a call failed.
 #[derive(Debug, Clone, Copy)]
@@ -99,6 +132,7 @@ pub(crate) enum Fault {
     Plain(AsperityStatus),
     Load(LoadError),
     Config(ConfigError),
+    Scene(SceneError),
 }
 
 impl From<AsperityStatus> for Fault {
@@ -125,16 +159,41 @@ impl From<ConfigError> for Fault {
     }
 }
 
+impl From<SceneError> for Fault {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(error)
+    }
+}
+
+impl From<PrepareError> for Fault {
+    fn from(error: PrepareError) -> Self {
+        match error {
+            PrepareError::Load(error) => Self::Load(error),
+            _ => Self::Plain(AsperityStatus::Busy),
+        }
+    }
+}
+
+/// The status of a texture that was refused.
+const fn refusal(error: &LoadError) -> AsperityStatus {
+    match error {
+        LoadError::Format(FormatError::NoSuchTexture { .. }) => AsperityStatus::NoSuchTexture,
+        LoadError::Capacity { .. } => AsperityStatus::Capacity,
+        LoadError::Rate { .. } => AsperityStatus::Rate,
+        _ => AsperityStatus::Format,
+    }
+}
+
 impl Fault {
     fn status(&self) -> AsperityStatus {
         match self {
             Self::Plain(status) => *status,
-            Self::Load(LoadError::Format(FormatError::NoSuchTexture { .. })) => {
-                AsperityStatus::NoSuchTexture
+            Self::Load(error) | Self::Scene(SceneError::Texture { cause: error, .. }) => {
+                refusal(error)
             }
-            Self::Load(LoadError::Capacity { .. }) => AsperityStatus::Capacity,
-            Self::Load(LoadError::Rate { .. }) => AsperityStatus::Rate,
-            Self::Load(_) => AsperityStatus::Format,
+            Self::Scene(SceneError::NoScene) => AsperityStatus::NoScene,
+            Self::Scene(SceneError::Capacity { .. }) => AsperityStatus::Capacity,
+            Self::Scene(_) => AsperityStatus::Format,
             Self::Config(_) => AsperityStatus::Config,
         }
     }
@@ -149,6 +208,7 @@ impl fmt::Display for Fault {
             }
             Self::Load(error) => error.fmt(f),
             Self::Config(error) => error.fmt(f),
+            Self::Scene(error) => error.fmt(f),
         }
     }
 }
@@ -156,31 +216,48 @@ impl fmt::Display for Fault {
 /// Runs `f` at the border and reports to `error` when there is one.
 ///
 /// # Safety
-/// `error` is null or valid for writes.
+/// `error` is null or leads to as many writable bytes as its first field says.
 pub(crate) unsafe fn call(
     error: *mut AsperityError,
     f: impl FnOnce() -> Result<(), Fault>,
 ) -> AsperityStatus {
+    // SAFETY: the caller's promise.
+    let room = match unsafe { room(error) } {
+        Ok(room) => room,
+        Err(status) => return status,
+    };
     let result = caught(f);
     let status = match &result {
         Ok(()) => AsperityStatus::Ok,
         Err(fault) => fault.status(),
     };
-    if !error.is_null() && error.is_aligned() {
-        let mut message = Message::default();
-        // Writing never fails: a message that does not fit is truncated.
-        let _ = match &result {
-            Ok(()) => Ok(()),
-            Err(fault) => write!(message, "{fault}"),
+    if let Some(room) = room {
+        // SAFETY: `room` found the place of a status and a text.
+        let message = unsafe {
+            (&raw mut (*error).status).write(status);
+            let text = (&raw mut (*error).message).cast::<c_char>();
+            slice::from_raw_parts_mut(text.cast::<MaybeUninit<c_char>>(), room)
         };
-        let report = AsperityError {
-            status,
-            message: message.bytes,
-        };
-        // SAFETY: not null and aligned; the caller promises a valid place.
-        unsafe { error.write(report) };
+        let mut message = Text::new(message);
+        if let Err(fault) = &result {
+            // Writing never fails: a message that does not fit is truncated.
+            let _ = write!(message, "{fault}");
+        }
     }
     status
+}
+
+/// Bytes for the message of an error, if there is one.
+///
+/// # Safety
+/// As `call`.
+unsafe fn room(error: *mut AsperityError) -> Result<Option<usize>, AsperityStatus> {
+    if error.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: the caller's promise.
+    let size = unsafe { stated(error, size_of::<AsperityError>())? };
+    Ok(Some(size - mem::offset_of!(AsperityError, message)))
 }
 
 #[cfg(feature = "std")]
@@ -193,39 +270,6 @@ fn caught(f: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {
 #[cfg(not(feature = "std"))]
 fn caught(f: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {
     f()
-}
-
-/// A message being written. It always ends with a null.
-struct Message {
-    bytes: [c_char; ASPERITY_MESSAGE_SIZE],
-    len: usize,
-}
-
-impl Default for Message {
-    fn default() -> Self {
-        Self {
-            bytes: [0; ASPERITY_MESSAGE_SIZE],
-            len: 0,
-        }
-    }
-}
-
-impl Write for Message {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        for character in text.chars() {
-            let mut four = [0; 4];
-            let bytes = character.encode_utf8(&mut four).as_bytes();
-            if self.len + bytes.len() >= ASPERITY_MESSAGE_SIZE {
-                self.len = ASPERITY_MESSAGE_SIZE;
-                return Ok(());
-            }
-            for byte in bytes {
-                self.bytes[self.len] = *byte as c_char;
-                self.len += 1;
-            }
-        }
-        Ok(())
-    }
 }
 
 #[cfg(test)]
@@ -254,19 +298,5 @@ mod tests {
         // SAFETY: no error to fill.
         let status = unsafe { call(core::ptr::null_mut(), || panic!("on purpose")) };
         assert_eq!(status, AsperityStatus::Internal);
-    }
-
-    #[test]
-    fn a_long_message_is_cut_between_characters() {
-        let mut message = Message::default();
-        for _ in 0..200 {
-            message.write_str("µ²").unwrap();
-        }
-        let bytes: Vec<u8> = message.bytes.iter().map(|b| *b as u8).collect();
-        let text = CStr::from_bytes_until_nul(&bytes)
-            .unwrap()
-            .to_str()
-            .unwrap();
-        assert!(text.len() >= ASPERITY_MESSAGE_SIZE - 2 && text.chars().all(|c| "µ²".contains(c)));
     }
 }

@@ -2,28 +2,53 @@
 
 use crate::{
     AsperityRenderer, AsperityState, AsperityStatus, AsperityTexture,
-    memory::{exclusive, read, shared, write},
-    status::call,
+    arithmetic::{Numbered, by_arithmetic},
+    capacity::by_capacity,
+    memory::{exclusive, shared, tag},
+    renderer::RendererOf,
+    sized::{self, sized},
+    state::StateOf,
+    status::{Fault, call},
+    texture::TextureOf,
 };
-use asperity_runtime::{Output, Sample};
+use asperity_runtime::{
+    Output, Renderer, Sample,
+    quantity::{
+        Quantity,
+        unit::{Metre, MillimetrePerSecond, Newton, VibrationAcceleration},
+    },
+};
 use core::ptr;
 
-/// Device sample of one servo period.
+/// `AsperityOutput::surface` where no surface of a scene is in contact.
+pub const ASPERITY_NO_SURFACE: u32 = 0xffff_ffff;
+
+/// Device sample of one servo period. Set `struct_size`, or begin with `ASPERITY_SAMPLE_INIT`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsperitySample {
-    /// Stylus position in the world frame, m. Anything not finite, or beyond 10 km, is a bad
-    /// sample.
+    /// `sizeof(AsperitySample)`, from the caller.
+    pub struct_size: u32,
+    /// Stylus position in the world frame, m. Anything not finite, or beyond 10 km (in fixed point
+    /// 1 m), is a bad sample.
     pub position_m: [f32; 3],
     /// Servo periods since the sample before: 1 in a healthy loop, more after missed
     /// periods, 0 when the device had nothing new.
     pub elapsed_ticks: u32,
 }
 
-/// Output of a tick.
+sized!(AsperitySample, first version ends with elapsed_ticks, lacking fields are AsperitySample {
+    struct_size: size_of::<AsperitySample>() as u32,
+    position_m: [0.0; 3],
+    elapsed_ticks: 0,
+});
+
+/// Output of a tick. Set `struct_size` once, or begin with `ASPERITY_OUTPUT_INIT`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsperityOutput {
+    /// `sizeof(AsperityOutput)`, from the caller.
+    pub struct_size: u32,
     /// Force on the hand in the world frame, N; finite, within peak and slew.
     pub force_n: [f32; 3],
     /// Depth inside the surface, m; 0 outside.
@@ -40,7 +65,12 @@ pub struct AsperityOutput {
     pub friction_n: f32,
     /// Events: bits `ASPERITY_FLAG_*`.
     pub flags: u32,
+    /// Index in the scene of the surface in contact, `ASPERITY_NO_SURFACE` for none and outside of
+    /// scenes.
+    pub surface: u32,
 }
+
+sized!(AsperityOutput, first version ends with flags, lacking fields are NOTHING);
 
 /// Bits of `AsperityOutput::flags`.
 pub mod flags {
@@ -85,6 +115,7 @@ pub mod flags {
 
 /// Output of a refused tick: no force, safe state.
 const NOTHING: AsperityOutput = AsperityOutput {
+    struct_size: size_of::<AsperityOutput>() as u32,
     force_n: [0.0; 3],
     depth_m: 0.0,
     speed_mm_s: 0.0,
@@ -93,20 +124,59 @@ const NOTHING: AsperityOutput = AsperityOutput {
     tap_n: 0.0,
     friction_n: 0.0,
     flags: flags::ASPERITY_FLAG_SAFE_STATE,
+    surface: ASPERITY_NO_SURFACE,
 };
 
-impl From<Output> for AsperityOutput {
-    fn from(output: Output) -> Self {
+impl<A: Numbered> From<Output<A>> for AsperityOutput {
+    fn from(output: Output<A>) -> Self {
         Self {
-            force_n: output.force_n,
-            depth_m: output.depth_m,
-            speed_mm_s: output.speed_mm_s,
-            normal_force_n: output.normal_force_n,
-            vib_m_s2: output.vib_m_s2,
-            tap_n: output.tap_n,
-            friction_n: output.friction_n,
+            force_n: output.force_n.map(|x| Quantity::<A, Newton>(x).value()),
+            depth_m: Quantity::<A, Metre>(output.depth_m).value(),
+            speed_mm_s: Quantity::<A, MillimetrePerSecond>(output.speed_mm_s).value(),
+            normal_force_n: Quantity::<A, Newton>(output.normal_force_n).value(),
+            vib_m_s2: Quantity::<A, VibrationAcceleration>(output.vib_m_s2).value(),
+            tap_n: Quantity::<A, Newton>(output.tap_n).value(),
+            friction_n: Quantity::<A, Newton>(output.friction_n).value(),
             flags: u32::from(output.flags.bits()),
+            ..NOTHING
         }
+    }
+}
+
+/// Runs a tick between the structs of C. The output of a tick that is refused is [`NOTHING`].
+///
+/// # Safety
+/// `sample` and `output` are null or lead to as many bytes as their first fields say.
+pub(crate) unsafe fn rendered(
+    sample: *const AsperitySample,
+    output: *mut AsperityOutput,
+    tick: impl FnOnce(&Sample) -> Result<AsperityOutput, Fault>,
+) -> AsperityStatus {
+    // SAFETY: the caller's promises; no error to fill.
+    unsafe {
+        call(ptr::null_mut(), || {
+            // Stays in place if a check below fails.
+            sized::write(output, &NOTHING)?;
+            let sample = sized::read(sample)?;
+            let result = tick(&Sample {
+                position_m: sample.position_m,
+                elapsed_ticks: sample.elapsed_ticks,
+            })?;
+            Ok(sized::write(output, &result)?)
+        })
+    }
+}
+
+/// Checks that a texture was loaded for the rate of a renderer. Compared exactly: both were given
+/// the same number, or they do not belong together.
+pub(crate) fn same_rate<A: Numbered>(
+    renderer: &Renderer<A>,
+    servo_rate_hz: f32,
+) -> Result<(), AsperityStatus> {
+    if servo_rate_hz == renderer.config().servo_rate_hz {
+        Ok(())
+    } else {
+        Err(AsperityStatus::Rate)
     }
 }
 
@@ -117,7 +187,7 @@ impl From<Output> for AsperityOutput {
 /// # Safety
 /// `renderer`, `texture` and `state` are null or initialised objects; nobody writes to the
 /// first two during the call, nobody else uses the third. `sample` is null or readable,
-/// `output` null or valid for writes.
+/// `output` null or valid for writes, both as long as their `struct_size` says.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn asperity_tick(
     renderer: *const AsperityRenderer,
@@ -126,25 +196,18 @@ pub unsafe extern "C" fn asperity_tick(
     sample: *const AsperitySample,
     output: *mut AsperityOutput,
 ) -> AsperityStatus {
-    // SAFETY: the caller's promises; no error to fill.
+    // SAFETY: the caller's promises.
     unsafe {
-        call(ptr::null_mut(), || {
-            // Stays in place if a check below fails.
-            write(output, NOTHING)?;
-            let renderer = &shared(renderer)?.renderer;
-            let texture = &shared(texture)?.texture;
-            let state = &mut exclusive(state)?.state;
-            let sample = read(sample)?;
-            // Compared exactly: both were given the same number, or they do not belong together.
-            if texture.servo_rate_hz() != renderer.config().servo_rate_hz {
-                return Err(AsperityStatus::Rate.into());
-            }
-            let sample = Sample {
-                position_m: sample.position_m,
-                elapsed_ticks: sample.elapsed_ticks,
-            };
-            let result = renderer.tick(texture, state, &sample);
-            Ok(write(output, result.into())?)
+        rendered(sample, output, |sample| {
+            by_arithmetic!(tag(renderer)?.arithmetic(), A => {
+                let renderer = &shared::<RendererOf<A>, _>(renderer)?.renderer;
+                by_capacity!(tag(texture)?.capacity(), S => {
+                    let texture = &shared::<TextureOf<S, A>, _>(texture)?.texture;
+                    let state = &mut exclusive::<StateOf<A>, _>(state)?.state;
+                    same_rate(renderer, texture.servo_rate_hz())?;
+                    Ok(renderer.tick(texture, state, &Sample::of(sample)).into())
+                }, else AsperityStatus::NotInitialised)
+            }, else AsperityStatus::NotInitialised)
         })
     }
 }

@@ -1,6 +1,6 @@
 //! Prepares a validated asset in a slot.
 
-use super::{Texture, codes::to_cosines};
+use super::{Texture, codes::to_cosines, needs::Needs};
 use crate::{
     capacity::Capacity,
     coupling::Coupling,
@@ -8,11 +8,7 @@ use crate::{
     model::orders::Orders,
     quantity::{Quantity, unit::ExcitationLevel},
     render_arithmetic::RenderArithmetic,
-    stage::{
-        recursion::Recursion,
-        tap::interpolation::TapBank,
-        upsample::{Upsampler, ticks_per_sample},
-    },
+    stage::{recursion::Recursion, upsample::Upsampler},
     update::follower::Plan,
 };
 use asperity_formats::{Asset, Grid, Numerator};
@@ -24,30 +20,10 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// # Errors
     /// [`LoadError::Capacity`], [`LoadError::Rate`] and, in fixed point, [`LoadError::Range`].
     pub fn load(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
-        let grid = asset.grid();
-        // Exact: a rate is a number that both sides were given, not one they measured.
-        let ticks = ticks_per_sample(grid.sample_rate_hz(), servo_rate_hz);
-        let ticks = ticks.ok_or(LoadError::Rate {
-            model_hz: grid.sample_rate_hz(),
-            servo_hz: servo_rate_hz,
-        })?;
-        let tap_samples = TapBank::<S, A>::needed(asset.taps(), servo_rate_hz);
-        for (field, found, capacity) in [
-            ("vertices", grid.vertices().len(), S::VERTICES),
-            ("triangles", grid.triangles().len(), S::TRIANGLES),
-            ("ar_order", grid.ar_order(), S::AR_ORDER),
-            ("ma_order", grid.ma_order(), S::MA_ORDER),
-            ("tap samples", tap_samples, S::TAP_SAMPLES),
-        ] {
-            if found > capacity {
-                return Err(LoadError::Capacity {
-                    field,
-                    found,
-                    capacity,
-                });
-            }
-        }
+        let needs = Needs::of(asset, servo_rate_hz)?;
+        needs.fit::<S>()?;
         A::check_asset(asset)?;
+        let (grid, ticks) = (asset.grid(), needs.ticks_per_sample);
         // The checksums of all that is loaded, and the clock.
         self.id = asset.sections().fold(ticks.into(), |id: u32, section| {
             id.rotate_left(5) ^ section.crc32

@@ -2,6 +2,9 @@
 
 mod codes;
 mod load;
+mod needs;
+
+pub use needs::Needs;
 
 use crate::{
     arithmetic::Float,
@@ -25,6 +28,7 @@ use crate::{
     update::follower::Plan,
 };
 use asperity_formats as formats;
+use core::mem::MaybeUninit;
 
 /// A texture slot in caller-provided memory.
 ///
@@ -42,8 +46,8 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
     servo_rate_hz: f32,
 }
 
-/// A slot for any texture. It takes 33 KiB, so box it or make it static rather than put it on a
-/// stack.
+/// A slot for any texture. It takes 33 KiB, which is too much for most stacks: make it static, or
+/// [build it in place](Texture::init).
 pub type HostTexture = Texture<HostCapacities>;
 
 impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct> Default
@@ -55,19 +59,44 @@ impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct
 }
 
 impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct> Texture<S, A> {
-    /// An empty slot: no wall, no sound.
+    /// An empty slot: no wall, no sound. A static begins with it and needs no stack.
+    pub const EMPTY: Self = Self {
+        models: Models::EMPTY,
+        plan: Plan::NONE,
+        taps: TapBank::EMPTY,
+        coupling: Coupling::NONE,
+        id: 0,
+        recursion: Recursion::new(0, 0),
+        upsampler: Upsampler::NONE,
+        servo_rate_hz: 0.0,
+    };
+
+    /// An empty slot: no wall, no sound. As a value it may pass through the stack;
+    /// [`Texture::init`] builds one in place.
     #[must_use]
     pub const fn new() -> Self {
-        Self {
-            models: Models::EMPTY,
-            plan: Plan::NONE,
-            taps: TapBank::EMPTY,
-            coupling: Coupling::NONE,
-            id: 0,
-            recursion: Recursion::new(0, 0),
-            upsampler: Upsampler::NONE,
-            servo_rate_hz: 0.0,
-        }
+        Self::EMPTY
+    }
+
+    /// Builds an empty slot in memory of the caller's, which may come from
+    /// [`Box::new_uninit`](https://doc.rust-lang.org/std/boxed/struct.Box.html#method.new_uninit)
+    /// or a static. An optimised build copies it from the program's constants, not over the stack.
+    #[inline]
+    pub fn init(memory: &mut MaybeUninit<Self>) -> &mut Self {
+        memory.write(Self::EMPTY)
+    }
+
+    /// Empties a slot in place, part by part: no wall, no sound. Needs no stack for the slot, and
+    /// no constant of its size.
+    pub fn clear(&mut self) {
+        self.models = Models::EMPTY;
+        self.plan = Plan::NONE;
+        self.taps = TapBank::EMPTY;
+        self.coupling = Coupling::NONE;
+        self.id = 0;
+        self.recursion = Recursion::new(0, 0);
+        self.upsampler = Upsampler::NONE;
+        self.servo_rate_hz = 0.0;
     }
 
     /// Rate that the slot was loaded for, Hz; 0 for an empty slot.
