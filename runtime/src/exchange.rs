@@ -22,6 +22,7 @@ use crate::{
     texture::Texture,
 };
 use asperity_formats::Asset;
+use core::mem::MaybeUninit;
 use heapless::spsc::{Consumer, Producer, Queue};
 use thiserror::Error;
 
@@ -57,6 +58,35 @@ impl<'a, S: Capacity, A: RenderArithmetic> Exchange<'a, S, A> {
         spare: [Slot<'a, S, A>; N],
         seed: u64,
     ) -> (Preparer<'_, 'a, S, A>, Player<'_, 'a, S, A>) {
+        let (preparer, ready, returned) = self.queues(spare);
+        (preparer, Player::new(playing, ready, returned, seed))
+    }
+
+    /// [`Exchange::split`] with the player, which holds a [`State`], in memory of the caller's. That
+    /// takes less stack.
+    #[inline(never)]
+    pub fn split_in<'q, 'm, const N: usize>(
+        &'q mut self,
+        memory: &'m mut MaybeUninit<Player<'q, 'a, S, A>>,
+        playing: Slot<'a, S, A>,
+        spare: [Slot<'a, S, A>; N],
+        seed: u64,
+    ) -> (Preparer<'q, 'a, S, A>, &'m mut Player<'q, 'a, S, A>) {
+        let (preparer, ready, returned) = self.queues(spare);
+        let player = memory.write(Player::new(playing, ready, returned, seed));
+        (preparer, player)
+    }
+
+    /// The preparer, and the player's ends of the queues.
+    #[inline(always)]
+    fn queues<'q, const N: usize>(
+        &'q mut self,
+        spare: [Slot<'a, S, A>; N],
+    ) -> (
+        Preparer<'q, 'a, S, A>,
+        Consumer<'q, Slot<'a, S, A>>,
+        Producer<'q, Slot<'a, S, A>>,
+    ) {
         const { assert!(N <= MAX_SPARE) };
         *self = Self::new();
         let (to_player, ready) = self.ready.split();
@@ -70,15 +100,7 @@ impl<'a, S: Capacity, A: RenderArithmetic> Exchange<'a, S, A> {
             returned,
             ready: to_player,
         };
-        let player = Player {
-            playing,
-            ready,
-            returned: to_preparer,
-            state: State::new(seed),
-            crossing: Crossing::START,
-            tapping: false,
-        };
-        (preparer, player)
+        (preparer, ready, to_preparer)
     }
 }
 
@@ -138,7 +160,24 @@ pub struct Player<'q, 'a, S: Capacity = HostCapacities, A: RenderArithmetic = Fl
     tapping: bool,
 }
 
-impl<S: Capacity, A: RenderArithmetic> Player<'_, '_, S, A> {
+impl<'q, 'a, S: Capacity, A: RenderArithmetic> Player<'q, 'a, S, A> {
+    #[inline(always)]
+    fn new(
+        playing: Slot<'a, S, A>,
+        ready: Consumer<'q, Slot<'a, S, A>>,
+        returned: Producer<'q, Slot<'a, S, A>>,
+        seed: u64,
+    ) -> Self {
+        Self {
+            playing,
+            ready,
+            returned,
+            state: State::new(seed),
+            crossing: Crossing::START,
+            tapping: false,
+        }
+    }
+
     /// The texture that plays, or is on its way in.
     #[must_use]
     pub fn texture(&self) -> &Texture<S, A> {

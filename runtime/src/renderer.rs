@@ -19,6 +19,7 @@ use crate::{
     update::follower::{Following, fraction_after},
 };
 use asperity_formats::{self as formats, Solid};
+use core::mem::MaybeUninit;
 
 /// A checked configuration with all that follows from it.
 #[derive(Debug, Clone)]
@@ -53,12 +54,29 @@ impl<A: RenderArithmetic> Renderer<A> {
     /// # Errors
     /// The first field outside its range or the range of the arithmetic.
     pub fn prepare(config: &Config) -> Result<Self, ConfigError> {
-        config.check()?;
-        A::check_config(config)?;
+        check::<A>(config)?;
+        Ok(Self::of(config))
+    }
+
+    /// [`Renderer::prepare`] in memory of the caller's, which takes less stack.
+    ///
+    /// # Errors
+    /// As [`Renderer::prepare`]; nothing is written then.
+    #[inline(never)]
+    pub fn prepare_in<'m>(
+        memory: &'m mut MaybeUninit<Self>,
+        config: &Config,
+    ) -> Result<&'m mut Self, ConfigError> {
+        check::<A>(config)?;
+        Ok(memory.write(Self::of(config)))
+    }
+
+    #[inline(always)]
+    fn of(config: &Config) -> Self {
         let rate_hz = config.servo_rate_hz;
         let constant_ticks = config.parameter_time_constant_s * rate_hz;
         let delay_ticks = config.mechanics.delay_ticks;
-        Ok(Self {
+        Self {
             config: Config {
                 solid: normalised(config.solid),
                 ..config.clone()
@@ -76,7 +94,7 @@ impl<A: RenderArithmetic> Renderer<A> {
             limiter: Limiter::new(&config.limits, rate_hz),
             following: Following::new(constant_ticks),
             coupling_fraction: Quantity::of(fraction_after(1.0, constant_ticks)),
-        })
+        }
     }
 
     /// The configuration. The normal of a plane has unit length.
@@ -99,6 +117,13 @@ impl<A: RenderArithmetic> Renderer<A> {
     pub(crate) fn wall_of(&self, coupling: &Coupling<A>) -> Wall<A> {
         self.passivity.bear(coupling.wall)
     }
+}
+
+/// A function of its own, so that its stack is free again when the renderer is made.
+#[inline(never)]
+fn check<A: RenderArithmetic>(config: &Config) -> Result<(), ConfigError> {
+    config.check()?;
+    A::check_config(config)
 }
 
 /// The solid, with the normal of a plane at unit length.

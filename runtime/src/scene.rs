@@ -272,6 +272,12 @@ impl<A: RenderArithmetic> SceneState<A> {
         }
     }
 
+    /// [`SceneState::new`] in memory of the caller's, which takes less stack.
+    #[inline(never)]
+    pub fn init(memory: &mut MaybeUninit<Self>, seed: u64) -> &mut Self {
+        memory.write(Self::new(seed))
+    }
+
     /// The state of the tick.
     #[must_use]
     pub const fn state(&self) -> &State<A> {

@@ -13,6 +13,7 @@ use crate::{
         velocity::VelocityState, vibration::Vibration, wall::Wall,
     },
 };
+use core::mem::MaybeUninit;
 
 /// Everything that changes from tick to tick. Texture and configuration are outside it, so a swap
 /// of texture copies no history. If another renderer takes over a state, its own wall is rendered
@@ -35,6 +36,7 @@ pub struct State<A: RenderArithmetic = Float> {
 
 impl<A: RenderArithmetic> State<A> {
     /// A state at rest, without force. `seed` seeds the excitation.
+    #[inline]
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
@@ -48,6 +50,12 @@ impl<A: RenderArithmetic> State<A> {
             wall: Wall::NONE,
             counters: Counters::default(),
         }
+    }
+
+    /// [`State::new`] in memory of the caller's, which takes less stack.
+    #[inline(never)]
+    pub fn init(memory: &mut MaybeUninit<Self>, seed: u64) -> &mut Self {
+        memory.write(Self::new(seed))
     }
 
     /// Counts of what happened since the state was made.

@@ -33,11 +33,11 @@
 // stay floats, which are converted.
 #define ASPERITY_ARITHMETIC_FIXED 1
 
-// Capacity of a slot: 40 vertices, 56 triangles, order 8 without an MA part, 520 tap samples. That
+// Capacity of a slot: 48 vertices, 64 triangles, order 8 without an MA part, 520 tap samples. That
 // is a material that was compiled with `--fidelity 8`, at 1 kHz.
 #define ASPERITY_CAPACITY_SMALL 0
 
-// Capacity of a slot: 40 vertices, 56 triangles, order 24 without an MA part, 520 tap samples. That
+// Capacity of a slot: 48 vertices, 64 triangles, order 24 without an MA part, 520 tap samples. That
 // is a material of a prompt, at 1 kHz.
 #define ASPERITY_CAPACITY_MEDIUM 1
 
@@ -45,10 +45,10 @@
 #define ASPERITY_CAPACITY_LARGE 2
 
 // Size of the memory of an `AsperityTexture` of `ASPERITY_CAPACITY_SMALL`, bytes.
-#define ASPERITY_TEXTURE_SIZE_SMALL 6144
+#define ASPERITY_TEXTURE_SIZE_SMALL 7168
 
 // Size of the memory of an `AsperityTexture` of `ASPERITY_CAPACITY_MEDIUM`, bytes.
-#define ASPERITY_TEXTURE_SIZE_MEDIUM 9216
+#define ASPERITY_TEXTURE_SIZE_MEDIUM 10240
 
 // Size of the memory of an `AsperityTexture` of `ASPERITY_CAPACITY_LARGE`, bytes.
 #define ASPERITY_TEXTURE_SIZE_LARGE 40960

@@ -9,19 +9,19 @@ use crate::{
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{Capacities, Capacity, HostCapacities, Needs, Texture};
 
-/// Capacity of a slot: 40 vertices, 56 triangles, order 8 without an MA part, 520 tap samples. That
+/// Capacity of a slot: 48 vertices, 64 triangles, order 8 without an MA part, 520 tap samples. That
 /// is a material that was compiled with `--fidelity 8`, at 1 kHz.
 pub const ASPERITY_CAPACITY_SMALL: u32 = 0;
-/// Capacity of a slot: 40 vertices, 56 triangles, order 24 without an MA part, 520 tap samples. That
+/// Capacity of a slot: 48 vertices, 64 triangles, order 24 without an MA part, 520 tap samples. That
 /// is a material of a prompt, at 1 kHz.
 pub const ASPERITY_CAPACITY_MEDIUM: u32 = 1;
 /// Capacity of a slot: every texture of the format, at servo rates up to 10 kHz.
 pub const ASPERITY_CAPACITY_LARGE: u32 = 2;
 
 /// Size of the memory of an `AsperityTexture` of `ASPERITY_CAPACITY_SMALL`, bytes.
-pub const ASPERITY_TEXTURE_SIZE_SMALL: usize = 6144;
+pub const ASPERITY_TEXTURE_SIZE_SMALL: usize = 7168;
 /// Size of the memory of an `AsperityTexture` of `ASPERITY_CAPACITY_MEDIUM`, bytes.
-pub const ASPERITY_TEXTURE_SIZE_MEDIUM: usize = 9216;
+pub const ASPERITY_TEXTURE_SIZE_MEDIUM: usize = 10240;
 /// Size of the memory of an `AsperityTexture` of `ASPERITY_CAPACITY_LARGE`, bytes.
 pub const ASPERITY_TEXTURE_SIZE_LARGE: usize = 40960;
 
@@ -33,8 +33,8 @@ pub(crate) trait Class: Capacity {
     const SIZE: usize;
 }
 
-pub(crate) type Small = Capacities<40, 56, 8, 0, 520>;
-pub(crate) type Medium = Capacities<40, 56, 24, 0, 520>;
+pub(crate) type Small = Capacities<48, 64, 8, 0, 520>;
+pub(crate) type Medium = Capacities<48, 64, 24, 0, 520>;
 pub(crate) type Large = HostCapacities;
 
 impl Class for Small {

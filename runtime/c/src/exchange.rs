@@ -6,7 +6,7 @@ use crate::{
     arithmetic::{Numbered, by_arithmetic},
     capacity::{Class, by_capacity, by_kind},
     library::{find, name, slice},
-    memory::{Object, Tag, exclusive, room, shared, tag, write},
+    memory::{Object, Tag, exclusive, room, shared, tag, uninit, write},
     renderer::RendererOf,
     sized,
     status::{Fault, call},
@@ -172,21 +172,19 @@ unsafe fn make<S: Class, A: Numbered>(
         let queues = &raw mut (*both).queues;
         queues.write(Exchange::new());
         let queues: &'static mut Exchange<'static, S, A> = &mut *queues;
-        let (preparer, player) = match spare {
-            1 => queues.split(slot(0), [slot(1)], seed),
-            2 => queues.split(slot(0), [slot(1), slot(2)], seed),
-            _ => queues.split(slot(0), [slot(1), slot(2), slot(3)], seed),
+        let player = uninit(&raw mut (*both).player.player);
+        let (preparer, _) = match spare {
+            1 => queues.split_in(player, slot(0), [slot(1)], seed),
+            2 => queues.split_in(player, slot(0), [slot(1), slot(2)], seed),
+            _ => queues.split_in(player, slot(0), [slot(1), slot(2), slot(3)], seed),
         };
         (&raw mut (*both).preparer).write(PreparerOf {
             tag: PreparerOf::<S, A>::TAG,
             servo_rate_hz,
             preparer,
         });
-        (&raw mut (*both).player).write(PlayerOf {
-            tag: PlayerOf::<S, A>::TAG,
-            servo_rate_hz,
-            player,
-        });
+        (&raw mut (*both).player.servo_rate_hz).write(servo_rate_hz);
+        (&raw mut (*both).player.tag).write(PlayerOf::<S, A>::TAG);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Objects in the caller's memory, and the checks on a pointer to one.
 
 use crate::AsperityStatus;
-use core::ffi::c_void;
+use core::{ffi::c_void, mem::MaybeUninit};
 
 /// Alignment of the memory of every object, bytes.
 pub const ASPERITY_ALIGNMENT: usize = 64;
@@ -59,6 +59,15 @@ pub(crate) fn room<T, P>(
         return Err(AsperityStatus::Memory);
     }
     Ok(memory.cast())
+}
+
+/// A place in memory that is not initialised yet.
+///
+/// # Safety
+/// `place` is aligned and valid for writes of a `T`, and nothing else uses it meanwhile.
+pub(crate) unsafe fn uninit<'a, T>(place: *mut T) -> &'a mut MaybeUninit<T> {
+    // SAFETY: the caller's promise; any bytes are a `MaybeUninit`.
+    unsafe { &mut *place.cast() }
 }
 
 /// The tag at a pointer.

@@ -3,7 +3,7 @@
 use crate::{
     AsperityConfig, AsperityError, AsperityStatus,
     arithmetic::{Numbered, by_arithmetic},
-    memory::{Object, Tag, room},
+    memory::{Object, Tag, room, uninit},
     sized,
     status::call,
 };
@@ -58,10 +58,8 @@ pub unsafe extern "C" fn asperity_renderer_init(
                     ASPERITY_RENDERER_SIZE,
                     renderer,
                 )?;
-                object.write(RendererOf {
-                    tag: RendererOf::<A>::TAG,
-                    renderer: Renderer::prepare(&checked)?,
-                });
+                Renderer::prepare_in(uninit(&raw mut (*object).renderer), &checked)?;
+                (&raw mut (*object).tag).write(RendererOf::<A>::TAG);
                 renderer.write(object.cast());
                 Ok(())
             }, else AsperityStatus::Config)

@@ -6,7 +6,7 @@ use crate::{
     arithmetic::{Numbered, by_arithmetic},
     capacity::{Class, by_capacity},
     library::slice,
-    memory::{Object, Tag, exclusive, room, shared, tag, write},
+    memory::{Object, Tag, exclusive, room, shared, tag, uninit, write},
     renderer::RendererOf,
     sized,
     status::call,
@@ -171,10 +171,8 @@ pub unsafe extern "C" fn asperity_scene_state_init(
                 shared::<RendererOf<A>, _>(renderer)?;
                 let size_needed = ASPERITY_SCENE_STATE_SIZE;
                 let object = room::<SceneStateOf<A>, _>(memory, size, size_needed, state)?;
-                object.write(SceneStateOf {
-                    tag: SceneStateOf::<A>::TAG,
-                    state: SceneState::new(seed),
-                });
+                SceneState::init(uninit(&raw mut (*object).state), seed);
+                (&raw mut (*object).tag).write(SceneStateOf::<A>::TAG);
                 state.write(object.cast());
                 Ok(())
             }, else AsperityStatus::NotInitialised)

@@ -3,7 +3,7 @@
 use crate::{
     AsperityCounters, AsperityRenderer, AsperityStatus,
     arithmetic::{Numbered, by_arithmetic},
-    memory::{Object, Tag, room, shared, tag},
+    memory::{Object, Tag, room, shared, tag, uninit},
     renderer::RendererOf,
     sized,
     status::call,
@@ -53,10 +53,8 @@ pub unsafe extern "C" fn asperity_state_init(
             by_arithmetic!(tag(renderer)?.arithmetic(), A => {
                 shared::<RendererOf<A>, _>(renderer)?;
                 let object = room::<StateOf<A>, _>(memory, size, ASPERITY_STATE_SIZE, state)?;
-                object.write(StateOf {
-                    tag: StateOf::<A>::TAG,
-                    state: State::new(seed),
-                });
+                State::init(uninit(&raw mut (*object).state), seed);
+                (&raw mut (*object).tag).write(StateOf::<A>::TAG);
                 state.write(object.cast());
                 Ok(())
             }, else AsperityStatus::NotInitialised)

@@ -159,10 +159,20 @@ unsafe fn load(texture: *mut AsperityTexture, asset: &[u8]) -> Result<(), Fault>
     unsafe {
         by_kind!(tag(texture)?, S, A => {
             let slot = exclusive::<TextureOf<S, A>, _>(texture)?;
-            let servo_rate_hz = slot.servo_rate_hz;
-            Ok(slot.texture.load(&Asset::parse_haptic(asset)?, servo_rate_hz)?)
+            fill(&mut slot.texture, asset, slot.servo_rate_hz)
         })
     }
+}
+
+/// Parses and loads: a function of its own, so that callers do not need stack for an asset.
+#[inline(never)]
+fn fill<S: Class, A: Numbered>(
+    slot: &mut Texture<S, A>,
+    asset: &[u8],
+    servo_rate_hz: f32,
+) -> Result<(), Fault> {
+    let asset = Asset::parse_haptic(asset)?;
+    Ok(slot.load(&asset, servo_rate_hz)?)
 }
 
 /// Reads wall, gains and friction of the texture that a slot holds; all 0 for an empty slot.
