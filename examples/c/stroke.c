@@ -10,9 +10,9 @@
 #include <stdlib.h>
 
 /* The caller owns all memory; there is nothing to release. */
-static _Alignas(ASPERITY_ALIGNMENT) unsigned char texture_memory[ASPERITY_TEXTURE_SIZE];
-static _Alignas(ASPERITY_ALIGNMENT) unsigned char renderer_memory[ASPERITY_RENDERER_SIZE];
-static _Alignas(ASPERITY_ALIGNMENT) unsigned char state_memory[ASPERITY_STATE_SIZE];
+static ASPERITY_ALIGNED unsigned char texture_memory[ASPERITY_TEXTURE_SIZE_LARGE];
+static ASPERITY_ALIGNED unsigned char renderer_memory[ASPERITY_RENDERER_SIZE];
+static ASPERITY_ALIGNED unsigned char state_memory[ASPERITY_STATE_SIZE];
 
 /* Every function returns a status; an error says which field, its value and the rule. */
 static void require(AsperityStatus status, const char *what, const AsperityError *error) {
@@ -31,28 +31,30 @@ int main(int argc, char **argv) {
   size_t len = fread(bytes, 1, sizeof bytes, file);
   fclose(file);
 
-  AsperityError error;
+  AsperityError error = ASPERITY_ERROR_INIT;
   AsperityConfig config; /* Of another device: change fields between these two calls. */
   AsperityRenderer *renderer;
-  require(asperity_config_default(&config), "configuration", NULL);
+  require(asperity_config_default(&config, sizeof config), "configuration", NULL);
   require(asperity_renderer_init(renderer_memory, sizeof renderer_memory, &config, &renderer, &error),
           "renderer", &error);
 
   AsperityTexture *texture; /* The slot keeps no pointer into the bytes. */
-  require(asperity_texture_init(texture_memory, sizeof texture_memory, &texture), "slot", NULL);
-  require(asperity_texture_load_asset(texture, bytes, len, config.servo_rate_hz, &error), argv[1],
-          &error);
+  require(asperity_texture_init(texture_memory, sizeof texture_memory, renderer,
+                                ASPERITY_CAPACITY_LARGE, &texture),
+          "slot", NULL);
+  require(asperity_texture_load_asset(texture, bytes, len, &error), argv[1], &error);
 
   AsperityState *state; /* The same seed and the same samples give the same bits. */
-  require(asperity_state_init(state_memory, sizeof state_memory, 1, &state), "state", NULL);
+  require(asperity_state_init(state_memory, sizeof state_memory, renderer, 1, &state), "state", NULL);
 
   printf("%5s %8s %8s %8s %8s\n", "ms", "mm/s", "fx N", "fz N", "state");
-  AsperityOutput output;
+  AsperityOutput output = ASPERITY_OUTPUT_INIT;
   for (int tick = 0; tick < 1000; tick++) {
     /* A servo loop waits for its period and asks its device here. This one moves by itself: down
      * for 0.1 s, then along x at 100 mm/s, 1.5 mm deep. After 0.9 s the device is lost. */
-    AsperitySample sample = {{1.0e-4f * (float)(tick < 100 ? 0 : tick - 100), 0.0f,
-                              tick < 100 ? 2.5e-3f - 4.0e-5f * (float)tick : -1.5e-3f}, 1};
+    AsperitySample sample = ASPERITY_SAMPLE_INIT;
+    sample.position_m[0] = 1.0e-4f * (float)(tick < 100 ? 0 : tick - 100);
+    sample.position_m[2] = tick < 100 ? 2.5e-3f - 4.0e-5f * (float)tick : -1.5e-3f;
     if (tick >= 900) sample.elapsed_ticks = 0;
     require(asperity_tick(renderer, texture, state, &sample, &output), "tick", NULL);
     if (tick % 100 == 99) {
@@ -63,7 +65,7 @@ int main(int argc, char **argv) {
     }
   }
 
-  AsperityCounters counters;
+  AsperityCounters counters = ASPERITY_COUNTERS_INIT;
   require(asperity_state_counters(state, &counters), "counters", NULL);
   printf("%u ticks, %u taps, %u faults\n", (unsigned)counters.ticks, (unsigned)counters.taps,
          (unsigned)counters.faults);

@@ -31,7 +31,7 @@
 //!
 //! # let bytes = include_bytes!(concat!(
 //! #     env!("CARGO_MANIFEST_DIR"),
-//! #     "/../tests/tests/assets/builtin-v1.asp"
+//! #     "/tests/data/builtin-v1.asp"
 //! # ));
 //! let config = Config::default();
 //! let renderer = Renderer::new(&config)?;
@@ -96,7 +96,7 @@ pub use load_error::LoadError;
 pub use model::{
     barycentric::{Barycentric, WeightSearch},
     filter::Filter,
-    mixture::RowMixture,
+    mixture::BlockMixture,
     section_pair::{SectionPair, SectionProduct},
 };
 pub use render_arithmetic::RenderArithmetic;

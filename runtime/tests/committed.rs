@@ -28,6 +28,26 @@ fn texture() -> &'static HostTexture {
     })
 }
 
+/// A package holds only files of its own folder, so two that belong elsewhere are kept twice.
+#[test]
+fn the_copies_are_the_files_they_copy() {
+    let copies: [(&str, &[u8], &[u8]); 2] = [
+        (
+            "tests/tests/assets/builtin-v1.asp",
+            ASSET,
+            include_bytes!("data/builtin-v1.asp"),
+        ),
+        (
+            "benches/session/textures.aspl",
+            include_bytes!("../../benches/session/textures.aspl"),
+            include_bytes!("data/textures.aspl"),
+        ),
+    ];
+    for (file, original, copy) in copies {
+        assert!(original == copy, "cp {file} runtime/tests/data/");
+    }
+}
+
 #[test]
 fn the_render_is_the_committed_one() {
     let renderer = Renderer::new(&Config::default()).unwrap();

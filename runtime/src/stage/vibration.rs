@@ -16,14 +16,19 @@ use crate::{
     arithmetic::Float,
     capacity::Capacity,
     model::{
-        barycentric::WeightSearch, filter::Model, mixture::RowMixture, section_pair::SectionProduct,
+        barycentric::WeightSearch, filter::Model, mixture::BlockMixture,
+        section_pair::SectionProduct,
     },
     quantity::{
         Quantity,
         unit::{Fraction, MillimetrePerSecond, Newton, VibrationAcceleration},
     },
     texture::Texture,
-    update::{cycle::Cycle, follower::Follower, onset::Onset, plan::Plan},
+    update::{
+        cycle::Cycle,
+        follower::{Follower, Plan},
+        onset::Onset,
+    },
 };
 
 pub use crate::update::cycle::LAG_SAMPLES;
@@ -131,7 +136,7 @@ impl<A: InnerProduct> Vibration<A> {
     }
 }
 
-impl<A: WeightSearch + RowMixture + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
+impl<A: WeightSearch + BlockMixture + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
     /// One tick by itself: the slice of the cycle, the output and, where it is due, the query. The
     /// line spectrum goes a `fraction` of its way in a cycle ([`Texture::cycle_samples`]); with
     /// `sounding` false the vibration is mute.

@@ -15,7 +15,7 @@ use asperity_formats::{Asset, Library};
 use std::boxed::Box;
 
 /// Order 20 with B(z), and orders 20 and 4 with a zero at Nyquist.
-const LIBRARY: &[u8] = include_bytes!("../../../benches/session/textures.aspl");
+const LIBRARY: &[u8] = include_bytes!("../../tests/data/textures.aspl");
 
 /// Speeds, mm/s, and forces, N: at rest, inside, on the border and beyond it.
 const QUERIES: [(f32, f32); 9] = [

@@ -1,0 +1,59 @@
+//! The schema and the example of `docs/data/` are those of the format.
+
+use asperity::{
+    builtin,
+    model::Numerator,
+    model_file::{from_json, to_json},
+};
+use serde_json::{Value, json};
+
+/// Every key of the schema is written by some model, and every key that is written is in it.
+#[test]
+fn the_schema_for_editors_has_the_keys_of_the_format() {
+    fn compare(schema: &Value, documents: &[&Value], path: &str) {
+        if let Some(properties) = schema["properties"].as_object() {
+            assert_eq!(schema["additionalProperties"], json!(false), "{path}");
+            for document in documents {
+                for key in document.as_object().unwrap().keys() {
+                    assert!(
+                        properties.contains_key(key),
+                        "{path}.{key} is not in the schema"
+                    );
+                }
+                for key in schema["required"].as_array().unwrap() {
+                    assert!(
+                        document.get(key.as_str().unwrap()).is_some(),
+                        "{path}.{key}"
+                    );
+                }
+            }
+            for (key, schema) in properties {
+                let found: Vec<&Value> = documents.iter().filter_map(|d| d.get(key)).collect();
+                assert!(!found.is_empty(), "{path}.{key} is written by no model");
+                compare(schema, &found, &format!("{path}.{key}"));
+            }
+        } else if schema["items"].is_object() {
+            let items: Vec<&Value> = documents
+                .iter()
+                .flat_map(|d| d.as_array().unwrap())
+                .collect();
+            compare(&schema["items"], &items, &format!("{path}[]"));
+        }
+    }
+    let schema = include_str!("../../docs/data/model.schema.json");
+    let schema: Value = serde_json::from_str(schema).unwrap();
+    let mut prompted = builtin::texture();
+    prompted.grid.numerator = Numerator::Lsf;
+    for vertex in &mut prompted.grid.vertices {
+        vertex.ma_lsf_rad = Some(vec![0.3, 1.1, 2.0]);
+        vertex.gain = 0.1;
+    }
+    prompted.provenance.prompt = Some("grit".into());
+    let documents: Vec<Value> = [builtin::texture(), prompted]
+        .iter()
+        .map(|texture| serde_json::from_slice(&to_json(texture)).unwrap())
+        .collect();
+    compare(&schema, &documents.iter().collect::<Vec<_>>(), "");
+    let example = include_str!("../../docs/data/corduroy.json");
+    assert!(from_json(example.as_bytes()).is_ok());
+}
