@@ -29,6 +29,22 @@ from ._records import (
     Wall,
 )
 
+__all__ = [
+    "Author",
+    "Library",
+    "Output",
+    "Renderer",
+    "Texture",
+    "__version__",
+    "builtin",
+    "compile",
+    "import_hatt",
+    "import_model",
+    "load",
+    "pack",
+    "plot",
+]
+
 _Path = Union[str, "os.PathLike[str]"]
 _Fidelity = Union[int, str]
 

@@ -362,7 +362,8 @@ class Rendered(_Described):
         ndarray of bool, shape (N,)
         """
         wanted = np.uint16(flag)
-        return np.equal(self.flags & wanted, wanted)
+        where: NDArray[np.bool_] = np.equal(self.flags & wanted, wanted)
+        return where
 
 
 __all__: List[str] = [
