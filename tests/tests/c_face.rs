@@ -1,5 +1,7 @@
 //! The programs of `tests/c/`, built as a user builds them, with and without the sanitizers,
 //! give the same bits as Rust, and a status for every misuse.
+// A `cc` that takes these flags, and the sanitizers, are Unix's.
+#![cfg(unix)]
 
 use asperity_formats::{
     Asset, Library, SceneSurface, Solid,

@@ -1,0 +1,382 @@
+"""What a texture holds and what a tick gives, as plain records."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from enum import IntFlag
+from typing import Any, List, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class _Described:
+    """A record whose arrays are shown by type and shape."""
+
+    def __repr__(self) -> str:
+        def shown(x: Any) -> str:
+            return f"<{x.dtype} {x.shape}>" if isinstance(x, np.ndarray) else repr(x)
+
+        values = ((field.name, getattr(self, field.name)) for field in fields(self))  # type: ignore[arg-type]
+        return f"{type(self).__name__}({', '.join(f'{name}={shown(x)}' for name, x in values)})"
+
+
+class _Shared(_Described):
+    """A record with read-only arrays: all who ask the texture share them."""
+
+    def __post_init__(self) -> None:
+        for field in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, field.name)
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Grid(_Shared):
+    """AR or ARMA models over speed and force, joined by triangles.
+
+    The power spectrum at a vertex is ``(gain * sigma)**2 * |B|**2 / |A|**2``. Arrays are
+    read-only; V is the number of vertices, T that of triangles.
+
+    Attributes
+    ----------
+    order : int
+        Order of A(z).
+    sample_rate_hz : float
+        Rate of every model, Hz.
+    numerator : str
+        What stands above A(z): ``"none"`` for 1, ``"nyquist"`` for 1 + z⁻¹, ``"lsf"`` for a
+        monic B(z) of its own.
+    speed_mm_s : ndarray of float64, shape (V,)
+        Tangential speed of each vertex, mm/s.
+    force_n : ndarray of float64, shape (V,)
+        Normal force of each vertex, N.
+    kind : ndarray of str, shape (V,)
+        ``"interior"`` or ``"edge"``.
+    lsf_rad : ndarray of float64, shape (V, order)
+        Line spectral frequencies of A(z), rad, ascending in (0, π). The first belongs to the
+        sum polynomial.
+    ma_lsf_rad : ndarray of float64, shape (V, MA order), or None
+        Line spectral frequencies of B(z), only where the numerator is ``"lsf"``.
+    gain : ndarray of float64, shape (V,)
+        Gain of the numerator.
+    sigma_m_s2 : ndarray of float64, shape (V,)
+        Standard deviation of the excitation before numerator and gain, m/s².
+    triangles : ndarray of int64, shape (T, 3)
+        Vertex indices.
+    max_speed_mm_s, max_force_n : float
+        The grid covers speeds and forces from 0 to these.
+    """
+
+    order: int
+    sample_rate_hz: float
+    numerator: str
+    speed_mm_s: NDArray[np.float64]
+    force_n: NDArray[np.float64]
+    kind: NDArray[np.str_]
+    lsf_rad: NDArray[np.float64]
+    ma_lsf_rad: Optional[NDArray[np.float64]]
+    gain: NDArray[np.float64]
+    sigma_m_s2: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    max_speed_mm_s: float
+    max_force_n: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Taps(_Shared):
+    """Tapping transients, one for every impact speed.
+
+    Arrays are read-only; K is the number of traces, N their length.
+
+    Attributes
+    ----------
+    sample_rate_hz : float
+        Rate of every trace, Hz.
+    speeds_m_s : ndarray of float64, shape (K,)
+        Impact speeds, m/s, ascending.
+    traces_m_s2 : ndarray of float64, shape (K, N)
+        Accelerations along the surface normal, m/s².
+    """
+
+    sample_rate_hz: float
+    speeds_m_s: NDArray[np.float64]
+    traces_m_s2: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FrictionAnchor:
+    """A reference material that friction was interpolated from.
+
+    Attributes
+    ----------
+    name : str
+        Name of the material.
+    mu : float
+        Its coefficient of kinetic friction.
+    weight : float
+        Its weight, 0 to 1.
+    """
+
+    name: str
+    mu: float
+    weight: float
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Coulomb friction.
+
+    Attributes
+    ----------
+    mu : float
+        Coefficient of kinetic friction.
+    anchors : list of FrictionAnchor
+        What it was interpolated from; may be empty.
+    """
+
+    mu: float
+    anchors: List[FrictionAnchor]
+
+
+@dataclass(frozen=True)
+class Wall:
+    """The virtual wall ``F = k * depth - b * d(depth)/dt``.
+
+    Attributes
+    ----------
+    stiffness_n_m : float
+        Stiffness k, N/m.
+    damping_n_s_m : float
+        Damping b, N·s/m.
+    """
+
+    stiffness_n_m: float
+    damping_n_s_m: float
+
+
+@dataclass(frozen=True)
+class Gains:
+    """From accelerations to forces.
+
+    Attributes
+    ----------
+    vib_s2_m : float
+        Gain of the vibration, s²/m, of a force of `f_max_n`.
+    effective_mass_kg : float
+        Mass that turns the acceleration of a tap into a force, kg.
+    f_max_n : float
+        Force that `vib_s2_m` is relative to, N.
+    """
+
+    vib_s2_m: float
+    effective_mass_kg: float
+    f_max_n: float
+
+
+@dataclass(frozen=True)
+class Attributes:
+    """How rough, sharp, hard and slippery a texture is, computed from it.
+
+    An attribute is None where the texture does not define it: without taps, or without an
+    interior vertex that sounds.
+
+    Attributes
+    ----------
+    rough_db : float or None
+        Mean level of the vibration above 40 Hz, dB re 1 (m/s²)².
+    sharp_hz : float or None
+        Mean spectral centroid of the same, Hz.
+    hard_hz : float or None
+        Spectral centroid of the fastest tap, Hz.
+    mu : float
+        Coefficient of kinetic friction; slipperiness is its negative.
+    """
+
+    rough_db: Optional[float]
+    sharp_hz: Optional[float]
+    hard_hz: Optional[float]
+    mu: float
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Sizes of an asset, bytes.
+
+    Attributes
+    ----------
+    haptic : int
+        What a runtime needs.
+    preview : int
+        The preview image, 0 without one.
+    total : int
+        The whole asset.
+    """
+
+    haptic: int
+    preview: int
+    total: int
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where a texture comes from.
+
+    Attributes
+    ----------
+    generator : str
+        The program that made it.
+    source : str
+        The file, corpus entry or model that it was made from.
+    source_crc32 : int
+        CRC-32 of the source's bytes; 0 where there is no file.
+    prompt : str or None
+        The prompt, for a texture that has one.
+    seed : int
+        Seed of everything random in its making.
+    fidelity : str
+        The fidelity that was asked for: ``"full"``, ``"auto"`` or an order.
+    taps_synthetic : bool
+        Whether the taps were synthesised rather than recorded.
+    lsf_error_db : float
+        RMS spectral error of LSF quantisation, dB.
+    notes : str
+        What a reader should know: synthetic parts, unconfirmed defaults.
+    """
+
+    generator: str
+    source: str
+    source_crc32: int
+    prompt: Optional[str]
+    seed: int
+    fidelity: str
+    taps_synthetic: bool
+    lsf_error_db: float
+    notes: str
+
+
+class Flags(IntFlag):
+    """What happened in a tick."""
+
+    CONTACT = 1
+    """The stylus is inside the surface."""
+    TAP_STARTED = 2
+    """A tap transient started."""
+    TAP_ACTIVE = 4
+    """A tap transient is under way."""
+    OUTSIDE_GRID = 8
+    """Speed or force lie outside the grid; an edge model answers."""
+    PEAK_LIMITED = 16
+    """The force was cut to the device's peak."""
+    SLEW_LIMITED = 32
+    """The force was held back by the slew limit."""
+    HELD_SAMPLE = 64
+    """A bad sample; the last good one was held."""
+    SAFE_STATE = 128
+    """The safe state: the force goes to zero."""
+    RAMPING = 256
+    """The force comes back after a fault."""
+    VIB_CLAMPED = 512
+    """The vibration reached its bound."""
+
+
+@dataclass(frozen=True)
+class Counters:
+    """Counts of what happened since a renderer was made or reset.
+
+    Attributes
+    ----------
+    ticks : int
+        Ticks.
+    bad_samples : int
+        Samples that were stale, not finite or out of reach.
+    missed_ticks : int
+        Servo periods that were reported as missed.
+    faults : int
+        Times the safe state was entered.
+    taps : int
+        Taps.
+    peak_limited : int
+        Ticks whose force was cut to the peak.
+    slew_limited : int
+        Ticks whose force was held back by the slew limit.
+    """
+
+    ticks: int
+    bad_samples: int
+    missed_ticks: int
+    faults: int
+    taps: int
+    peak_limited: int
+    slew_limited: int
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Rendered(_Described):
+    """What ticks gave, one row a tick; N is their number.
+
+    The columns are those of ``asperity render``, in metres where that prints millimetres.
+
+    Attributes
+    ----------
+    force_n : ndarray of float32, shape (N, 3)
+        Force on the hand, N.
+    depth_m : ndarray of float32, shape (N,)
+        Depth inside the surface, m; 0 outside.
+    speed_mm_s : ndarray of float32, shape (N,)
+        Estimated tangential speed, mm/s.
+    normal_force_n : ndarray of float32, shape (N,)
+        Stiffness times depth, N: the force that looks up the grid.
+    vib_m_s2 : ndarray of float32, shape (N,)
+        The vibration before device gain, m/s².
+    tap_n : ndarray of float32, shape (N,)
+        Tap force along the normal, N.
+    friction_n : ndarray of float32, shape (N,)
+        Magnitude of the friction force, N.
+    flags : ndarray of uint16, shape (N,)
+        What happened, as bits of `Flags`.
+    """
+
+    force_n: NDArray[np.float32]
+    depth_m: NDArray[np.float32]
+    speed_mm_s: NDArray[np.float32]
+    normal_force_n: NDArray[np.float32]
+    vib_m_s2: NDArray[np.float32]
+    tap_n: NDArray[np.float32]
+    friction_n: NDArray[np.float32]
+    flags: NDArray[np.uint16]
+
+    def __len__(self) -> int:
+        return len(self.flags)
+
+    def has(self, flag: Flags) -> NDArray[np.bool_]:
+        """Where a flag is set.
+
+        Parameters
+        ----------
+        flag : Flags
+            One flag, or several of which all must be set.
+
+        Returns
+        -------
+        ndarray of bool, shape (N,)
+        """
+        wanted = np.uint16(flag)
+        where: NDArray[np.bool_] = np.equal(self.flags & wanted, wanted)
+        return where
+
+
+__all__: List[str] = [
+    "Attributes",
+    "Counters",
+    "Flags",
+    "Friction",
+    "FrictionAnchor",
+    "Gains",
+    "Grid",
+    "Provenance",
+    "Rendered",
+    "Sizes",
+    "Taps",
+    "Wall",
+]

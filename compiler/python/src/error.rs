@@ -1,0 +1,104 @@
+//! Failures as Python exceptions.
+
+use asperity::{diagnostic::Diagnostic, pipeline::PipelineError, rerate::RATE_RANGE_HZ};
+use pyo3::{exceptions::PyValueError, prelude::*};
+use std::fmt::Display;
+
+/// What went wrong and what to do about it: an exception, once Python is told.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    class: &'static str,
+    message: String,
+    remedy: String,
+}
+
+impl Failure {
+    /// A failure of the work itself.
+    pub(crate) fn new(message: impl Display, remedy: impl Into<String>) -> Self {
+        Self {
+            class: "AsperityError",
+            message: message.to_string(),
+            remedy: remedy.into(),
+        }
+    }
+
+    /// An argument that makes no sense.
+    pub(crate) fn usage(message: impl Display, remedy: impl Into<String>) -> Self {
+        Self {
+            class: "UsageError",
+            ..Self::new(message, remedy)
+        }
+    }
+
+    /// A texture that a library does not have.
+    pub(crate) fn no_such_texture(message: impl Display, remedy: impl Into<String>) -> Self {
+        Self {
+            class: "NoSuchTextureError",
+            ..Self::new(message, remedy)
+        }
+    }
+
+    /// This failure and one more, each with its remedy.
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            message: format!(
+                "{}\n  help: {}\n{}",
+                self.message, self.remedy, other.message
+            ),
+            ..other
+        }
+    }
+
+    /// The same failure, about this.
+    pub(crate) fn about(self, what: impl Display) -> Self {
+        Self {
+            message: format!("{what}: {}", self.message),
+            ..self
+        }
+    }
+}
+
+impl<E: Diagnostic> From<E> for Failure {
+    fn from(error: E) -> Self {
+        let mut message = error.to_string();
+        let mut source = error.source();
+        while let Some(cause) = source {
+            message = format!("{message}: {cause}");
+            source = cause.source();
+        }
+        let remedy = error.remedy();
+        if error.is_usage() {
+            Self::usage(message, remedy)
+        } else {
+            Self::new(message, remedy)
+        }
+    }
+}
+
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> Self {
+        Python::attach(|py| {
+            let exception = py
+                .import("asperity._errors")
+                .and_then(|module| module.getattr(failure.class))
+                .and_then(|class| class.call1((&failure.message, &failure.remedy)));
+            match exception {
+                Ok(exception) => Self::from_value(exception),
+                // The package is incomplete; the message still counts.
+                Err(_) => PyValueError::new_err(failure.message),
+            }
+        })
+    }
+}
+
+/// A failure of the pipeline, in the words of Python where those of the command would not do.
+pub(crate) fn pipeline(error: PipelineError) -> Failure {
+    match error {
+        PipelineError::Rate(rate_hz) => {
+            let (least, most) = RATE_RANGE_HZ;
+            let message = format!("rate = {rate_hz} Hz: not in {least} to {most} Hz");
+            Failure::usage(message, "give the rate of the servo loop, e.g. rate=1000")
+        }
+        other => other.into(),
+    }
+}

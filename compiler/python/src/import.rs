@@ -1,0 +1,159 @@
+//! `asperity.import_hatt`, `import_model` and `builtin`.
+
+use crate::{
+    arguments::Fidelity,
+    author,
+    error::{self, Failure},
+    texture::Texture,
+};
+use asperity::{
+    hatt,
+    model_file::{self, ModelFileError, ModelFileProblem, Options},
+    pipeline::{Pipeline, Settings},
+};
+use pyo3::{IntoPyObjectExt as _, prelude::*};
+use std::path::PathBuf;
+
+/// Imports materials of the Penn Haptic Texture Toolkit.
+///
+/// HaTT holds no tapping traces: they are synthesised, or decoded by the learned model, and
+/// marked so in the provenance. Other threads run meanwhile.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+///     One ``Models_<name>.xml``, or a folder of them.
+/// fidelity : {"full", "auto"} or int, default "full"
+///     How much of the source is kept: every vertex and triangle, the least within 0.5 dB, or
+///     an AR order.
+/// complete_taps : bool, default False
+///     Whether the learned model decodes the taps from the AR grid.
+///
+/// Returns
+/// -------
+/// Texture or list of Texture
+///     One texture of a file; of a folder, one of each file in order of name.
+///
+/// Raises
+/// ------
+/// AsperityError
+///     Where a file is refused. Of a folder, all refused files are named.
+#[pyfunction]
+#[pyo3(
+    signature = (path, *, fidelity=Fidelity::FULL, complete_taps=false),
+    text_signature = "(path, *, fidelity='full', complete_taps=False)"
+)]
+pub(crate) fn import_hatt(
+    py: Python<'_>,
+    path: PathBuf,
+    fidelity: Fidelity,
+    complete_taps: bool,
+) -> PyResult<Py<PyAny>> {
+    let mut textures = py.detach(|| {
+        let files = hatt::files(&path)?;
+        let author = complete_taps.then(author::shared).transpose()?;
+        let completer = author.as_ref().map(|author| author.model());
+        let results = hatt::import_all(&files, completer, fidelity.0, || {});
+        textures(results)
+    })?;
+    if path.is_dir() {
+        return textures.into_py_any(py);
+    }
+    // A single file gives a single texture.
+    match textures.pop() {
+        Some(texture) => texture.into_py_any(py),
+        None => Err(Failure::new(path.display(), "give a file or a folder").into()),
+    }
+}
+
+/// The textures, or all that went wrong.
+fn textures(
+    results: Vec<Result<hatt::Imported, hatt::ImportError>>,
+) -> Result<Vec<Texture>, Failure> {
+    let mut textures = Vec::with_capacity(results.len());
+    let mut failures: Option<Failure> = None;
+    for result in results {
+        match result {
+            Ok(imported) => {
+                let report = imported.json().to_string();
+                textures.push(Texture::made(imported.bytes, Some(report))?);
+            }
+            Err(error) => {
+                failures = Some(match failures {
+                    None => error.into(),
+                    Some(others) => others.and(error.into()),
+                });
+            }
+        }
+    }
+    failures.map_or(Ok(textures), Err)
+}
+
+/// Imports a model of one's own, as JSON.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+///     The model (.json), as ``docs/model.md`` describes it.
+/// fidelity : {"full", "auto"} or int, default "full"
+///     How much of the model is kept.
+/// rate : float, optional
+///     Rate of the models, Hz: that of the servo loop. The file's by default.
+/// preview : bool, default True
+///     Whether the asset holds a preview.
+///
+/// Returns
+/// -------
+/// Texture
+///
+/// Raises
+/// ------
+/// AsperityError
+///     With the file and the key that is wrong.
+#[pyfunction]
+#[pyo3(
+    signature = (path, *, fidelity=Fidelity::FULL, rate=None, preview=true),
+    text_signature = "(path, *, fidelity='full', rate=None, preview=True)"
+)]
+pub(crate) fn import_model(
+    py: Python<'_>,
+    path: PathBuf,
+    fidelity: Fidelity,
+    rate: Option<f64>,
+    preview: bool,
+) -> Result<Texture, Failure> {
+    let options = Options {
+        fidelity: fidelity.0,
+        rate_hz: rate,
+        preview,
+    };
+    let imported = py.detach(|| model_file::import(&path, &options).map_err(refused))?;
+    let report = imported.json().to_string();
+    Texture::made(imported.bytes, Some(report))
+}
+
+/// The error in the words of Python, where those of the command would not do.
+fn refused(error: ModelFileError) -> Failure {
+    match error.problem {
+        ModelFileProblem::Pipeline(cause) => error::pipeline(cause).about(error.file.display()),
+        _ => error.into(),
+    }
+}
+
+/// The built-in synthetic texture.
+///
+/// Returns
+/// -------
+/// Texture
+#[pyfunction]
+pub(crate) fn builtin(py: Python<'_>) -> Result<Texture, Failure> {
+    let bytes = py.detach(|| {
+        let whole = asperity::builtin::texture();
+        let mut pipeline = Pipeline::default();
+        let compiled = pipeline
+            .compile(whole, &Settings::default())
+            .map_err(error::pipeline)?;
+        Ok::<_, Failure>(compiled.lowered.bytes)
+    })?;
+    Texture::made(bytes, None)
+}

@@ -1,0 +1,324 @@
+//! `asperity.Texture`.
+
+use crate::{
+    arrays,
+    contents::Contents,
+    error::Failure,
+    records::{of_fields, parsed, record, value},
+};
+use asperity::{inspect::Document, output};
+use pyo3::{
+    IntoPyObjectExt as _,
+    prelude::*,
+    sync::PyOnceLock,
+    types::{PyBytes, PyList},
+};
+use std::{
+    hash::{DefaultHasher, Hash as _, Hasher as _},
+    path::{Path, PathBuf},
+};
+
+/// A haptic texture: a compiled, verified asset.
+///
+/// Textures come from `compile`, `load`, `import_hatt`, `import_model` and `builtin`. A texture
+/// does not change; what it holds is read when it is first asked for.
+///
+/// Parameters
+/// ----------
+/// data : bytes
+///     The bytes of an asset (.asp).
+///
+/// Raises
+/// ------
+/// AsperityError
+///     Where the bytes are no valid asset.
+///
+/// Examples
+/// --------
+/// >>> import asperity
+/// >>> texture = asperity.builtin()
+/// >>> texture.grid.lsf_rad.shape == (len(texture.grid.force_n), texture.grid.order)
+/// True
+#[pyclass(frozen, eq, module = "asperity")]
+pub(crate) struct Texture {
+    pub(crate) contents: Contents,
+    /// JSON: what the front end had to say.
+    report: Option<String>,
+    grid: PyOnceLock<Py<PyAny>>,
+    taps: PyOnceLock<Py<PyAny>>,
+}
+
+impl PartialEq for Texture {
+    fn eq(&self, other: &Self) -> bool {
+        self.contents.bytes() == other.contents.bytes()
+    }
+}
+
+impl Texture {
+    /// A texture of checked bytes, with the report of what made it.
+    pub(crate) fn new(contents: Contents, report: Option<String>) -> Self {
+        Self {
+            contents,
+            report,
+            grid: PyOnceLock::new(),
+            taps: PyOnceLock::new(),
+        }
+    }
+
+    /// A texture that the compiler has just made.
+    pub(crate) fn made(bytes: Vec<u8>, report: Option<String>) -> Result<Self, Failure> {
+        let contents = Contents::new(bytes, Path::new("texture"), None)?;
+        Ok(Self::new(contents, report))
+    }
+
+    fn document(&self) -> Result<&Document, Failure> {
+        self.contents.document()
+    }
+}
+
+#[pymethods]
+impl Texture {
+    #[new]
+    fn of_bytes(data: Vec<u8>) -> Result<Self, Failure> {
+        Ok(Self::new(
+            Contents::new(data, Path::new("data"), None)?,
+            None,
+        ))
+    }
+
+    /// Name of the texture.
+    #[getter]
+    fn name(&self) -> Result<&str, Failure> {
+        Ok(&self.document()?.name)
+    }
+
+    /// The prompt that it was made of, or None.
+    #[getter]
+    fn prompt(&self) -> Result<Option<&str>, Failure> {
+        Ok(self.document()?.prompt.as_deref())
+    }
+
+    /// Version of the format that the asset is written in.
+    #[getter]
+    fn format_version(&self) -> Result<u16, Failure> {
+        Ok(self.document()?.format_version)
+    }
+
+    /// The models over speed and force, as NumPy arrays.
+    #[getter]
+    fn grid<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let grid = self
+            .grid
+            .get_or_try_init(py, || arrays::grid(py, self.document()?).map(Bound::unbind))?;
+        Ok(grid.bind(py).clone())
+    }
+
+    /// The tapping transients, as NumPy arrays.
+    #[getter]
+    fn taps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let taps = self
+            .taps
+            .get_or_try_init(py, || arrays::taps(py, self.document()?).map(Bound::unbind))?;
+        Ok(taps.bind(py).clone())
+    }
+
+    /// Friction.
+    #[getter]
+    fn friction<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let friction = &self.document()?.friction;
+        let anchors = PyList::empty(py);
+        for anchor in &friction.anchors {
+            anchors.append(record(py, "FrictionAnchor", anchor)?)?;
+        }
+        let mu = friction.mu.into_bound_py_any(py)?;
+        of_fields(
+            py,
+            "Friction",
+            [("mu", mu), ("anchors", anchors.into_any())],
+        )
+    }
+
+    /// The virtual wall.
+    #[getter]
+    fn wall<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, "Wall", &self.document()?.wall)
+    }
+
+    /// Gains from accelerations to forces.
+    #[getter]
+    fn gains<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, "Gains", &self.document()?.gains)
+    }
+
+    /// How rough, sharp, hard and slippery it is, computed from the asset.
+    #[getter]
+    fn attributes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, "Attributes", &self.document()?.attributes)
+    }
+
+    /// Sizes of the asset.
+    #[getter]
+    fn sizes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, "Sizes", &self.document()?.bytes)
+    }
+
+    /// Where it comes from.
+    #[getter]
+    fn provenance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, "Provenance", &self.document()?.provenance)
+    }
+
+    /// What the compiler or the importer reported, or None for a texture that was loaded.
+    ///
+    /// Of a prompt, it is what ``asperity compile --json`` prints: nearest materials, certainty,
+    /// what was left out, how long each pass took.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        self.report
+            .as_deref()
+            .map(|json| parsed(py, json))
+            .transpose()
+    }
+
+    /// Bytes of the preview, a PNG, or None.
+    #[getter]
+    fn preview_png<'py>(&self, py: Python<'py>) -> Result<Option<Bound<'py, PyBytes>>, Failure> {
+        let asset = self.contents.asset()?;
+        Ok(asset.preview_png().map(|png| PyBytes::new(py, png)))
+    }
+
+    /// Everything in the asset, as ``asperity inspect --json`` prints it.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        value(py, self.document()?)
+    }
+
+    /// The bytes of the asset, as a file holds them.
+    ///
+    /// Returns
+    /// -------
+    /// bytes
+    fn to_bytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, self.contents.bytes())
+    }
+
+    /// Writes the asset, in full or not at all.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or os.PathLike
+    ///     The file (.asp); one that is there is replaced.
+    ///
+    /// Raises
+    /// ------
+    /// AsperityError
+    ///     Where the file cannot be written. What was there is then unchanged.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> Result<(), Failure> {
+        py.detach(|| Ok(output::write_atomic(&path, self.contents.bytes())?))
+    }
+
+    /// Draws the texture on one sheet: poles, spectra, taps, grid, friction.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or os.PathLike, optional
+    ///     The PNG to write.
+    ///
+    /// Returns
+    /// -------
+    /// bytes or None
+    ///     The PNG, unless it was written to a file.
+    ///
+    /// Raises
+    /// ------
+    /// AsperityError
+    ///     Where the file cannot be written.
+    #[pyo3(signature = (path=None))]
+    fn plot<'py>(
+        &self,
+        py: Python<'py>,
+        path: Option<PathBuf>,
+    ) -> Result<Option<Bound<'py, PyBytes>>, Failure> {
+        let png = py.detach(|| self.contents.sheet())?;
+        match path {
+            None => Ok(Some(PyBytes::new(py, &png))),
+            Some(path) => {
+                py.detach(|| output::write_atomic(&path, &png))?;
+                Ok(None)
+            }
+        }
+    }
+
+    /// The sheet that `plot` draws: notebooks show it.
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyBytes>, Failure> {
+        let png = py.detach(|| self.contents.sheet())?;
+        Ok(PyBytes::new(py, &png))
+    }
+
+    fn __repr__(&self) -> Result<String, Failure> {
+        let d = self.document()?;
+        let number = |value: Option<f64>, unit: &str| {
+            value.map_or("none".to_owned(), |value| format!("{value:.1} {unit}"))
+        };
+        Ok(format!(
+            "<Texture {:?}: order {}, {} vertices, {} Hz, {} taps; rough {}, sharp {}, hard {}, \
+             mu {:.3}; {} haptic bytes>",
+            d.name,
+            d.ar.order,
+            d.ar.vertices.len(),
+            d.ar.sample_rate_hz,
+            d.taps.speeds_m_s.len(),
+            number(d.attributes.rough_db, "dB"),
+            number(d.attributes.sharp_hz, "Hz"),
+            number(d.attributes.hard_hz, "Hz"),
+            d.attributes.mu,
+            d.bytes.haptic,
+        ))
+    }
+
+    fn __bytes__<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        self.to_bytes(py)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.contents.bytes().hash(&mut hasher);
+        hasher.finish()
+    }
+
+    /// For pickles and copies, which leave the report out.
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> (Bound<'py, PyBytes>,) {
+        (self.to_bytes(py),)
+    }
+}
+
+/// Draws a texture on one sheet: poles, spectra, taps, grid, friction.
+///
+/// Parameters
+/// ----------
+/// texture : Texture
+///     The texture.
+/// path : str or os.PathLike, optional
+///     The PNG to write.
+///
+/// Returns
+/// -------
+/// bytes or None
+///     The PNG, unless it was written to a file.
+///
+/// Raises
+/// ------
+/// AsperityError
+///     Where the file cannot be written.
+#[pyfunction]
+#[pyo3(signature = (texture, path=None))]
+pub(crate) fn plot<'py>(
+    py: Python<'py>,
+    texture: &Texture,
+    path: Option<PathBuf>,
+) -> Result<Option<Bound<'py, PyBytes>>, Failure> {
+    texture.plot(py, path)
+}
