@@ -96,7 +96,7 @@ pub use load_error::LoadError;
 pub use model::{
     barycentric::{Barycentric, WeightSearch},
     filter::Filter,
-    mixture::BlockMixture,
+    mixture::RowMixture,
     section_pair::{SectionPair, SectionProduct},
 };
 pub use render_arithmetic::RenderArithmetic;

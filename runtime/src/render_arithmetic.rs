@@ -2,7 +2,7 @@
 
 use crate::{
     arithmetic::{Fixed, Float},
-    model::{barycentric::WeightSearch, mixture::BlockMixture, section_pair::SectionProduct},
+    model::{barycentric::WeightSearch, mixture::RowMixture, section_pair::SectionProduct},
     range::Checked,
     stage::{
         excitation::GaussianCubic, gate::Positions, limiter::Shortening, recursion::InnerProduct,
@@ -16,7 +16,7 @@ pub trait RenderArithmetic:
     + Positions
     + Differences
     + WeightSearch
-    + BlockMixture
+    + RowMixture
     + SectionProduct
     + GaussianCubic
     + InnerProduct

@@ -16,7 +16,7 @@ use crate::{
         velocity::VelocityEstimator,
         wall::Wall,
     },
-    update::follower::{Following, fraction_after},
+    update::following::{Following, fraction_after},
 };
 use asperity_formats::{self as formats, Solid};
 use core::mem::MaybeUninit;

@@ -4,7 +4,7 @@ use super::{
     assembly,
     barycentric::{Barycentric, Grid, WeightSearch},
     lsf_to_ar::LineSpectrum,
-    mixture::{BlockMixture, Vertices},
+    mixture::{RowMixture, Vertices},
     orders::Orders,
     row::PaddedRow,
     scratch::Scratch,
@@ -63,7 +63,7 @@ pub struct Filter {
 }
 
 // Where flash is scarce, both callers of a slice share one copy of its code.
-impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct> Models<S, A> {
+impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct> Models<S, A> {
     /// No models.
     pub(crate) const EMPTY: Self = Self {
         grid: Grid::EMPTY,

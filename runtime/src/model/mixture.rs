@@ -4,7 +4,11 @@
 //! LSFs is ordered, so its filter is stable. Levels are mixed as RMS: mixing σ² would be 9 dB
 //! (median) too loud near zero speed or force, where the edge models are silent.
 
-use super::{barycentric::Barycentric, lsf_to_ar::LineSpectrum, row::PaddedRow};
+use super::{
+    barycentric::Barycentric,
+    lsf_to_ar::LineSpectrum,
+    row::{LANES, PaddedRow},
+};
 use crate::{
     arithmetic::{Arithmetic, Cut, Fixed, Float, Zero as _},
     capacity::Capacity,
@@ -18,44 +22,58 @@ use core::hint::black_box;
 /// No −2 cos ω is larger.
 const WIDEST: Cut = Cut::At(2.0);
 
-/// Mixing four numbers of three rows into a fourth.
-pub trait BlockMixture: Arithmetic {
-    /// Σ wᵢ·rowᵢ over the three rows and the block itself, which has the last weight.
+/// A row in blocks of four lanes.
+type Blocks<A> = [[Raw<A, LineCosine>; LANES]];
+
+/// Mixing three rows into a fourth.
+pub trait RowMixture: Arithmetic {
+    /// Σ wᵢ·rowᵢ over the three rows and the row itself, which has the last weight. Ends with the
+    /// shortest.
     fn mix(
-        block: &mut [Raw<Self, LineCosine>; 4],
-        rows: [&[Raw<Self, LineCosine>; 4]; 3],
+        row: &mut Blocks<Self>,
+        rows: [&Blocks<Self>; 3],
         weights: &[Quantity<Self, Fraction>; 4],
     );
 }
 
-impl BlockMixture for Float {
+impl RowMixture for Float {
     #[inline(always)]
     fn mix(
-        block: &mut [f32; 4],
-        [i, j, k]: [&[f32; 4]; 3],
+        row: &mut Blocks<Self>,
+        [i, j, k]: [&Blocks<Self>; 3],
         weights: &[Quantity<Self, Fraction>; 4],
     ) {
-        let [i, j, k, before] = [i, j, k, &*block].map(Four::<Self, LineCosine>::load);
         let [wi, wj, wk, kept] = weights.map(Four::splat);
-        let terms = [(i, wi), (j, wj), (k, wk), (before, kept)];
-        *block = Four::<Self, LineCosine>::sum_of_products(terms, WIDEST).to_array();
+        for (block, ((i, j), k)) in row.iter_mut().zip(i.iter().zip(j).zip(k)) {
+            let [i, j, k, before] = [i, j, k, &*block].map(Four::<Self, LineCosine>::load);
+            let terms = [(i, wi), (j, wj), (k, wk), (before, kept)];
+            *block = Four::<Self, LineCosine>::sum_of_products(terms, WIDEST).to_array();
+        }
     }
 }
 
-impl BlockMixture for Fixed {
+impl RowMixture for Fixed {
     #[inline(always)]
     fn mix(
-        block: &mut [Raw<Self, LineCosine>; 4],
-        rows: [&[Raw<Self, LineCosine>; 4]; 3],
+        row: &mut Blocks<Self>,
+        [i, j, k]: [&Blocks<Self>; 3],
         weights: &[Quantity<Self, Fraction>; 4],
     ) {
-        // The compiler would widen weights that it sees before the loop over blocks, and a product
-        // of 64 by 64 bits costs three of 32 by 32.
-        let [wi, wj, wk, kept] = *black_box(weights);
-        for (lane, before) in block.iter_mut().enumerate() {
-            let [i, j, k] = rows.map(|row| Quantity::<Self, LineCosine>(row[lane]));
-            let terms = [(i, wi), (j, wj), (k, wk), (Quantity(*before), kept)];
-            *before = Quantity::<Self, LineCosine>::sum_of_products(terms, WIDEST).0;
+        let pairs = row
+            .chunks_mut(2)
+            .zip(i.chunks(2).zip(j.chunks(2)).zip(k.chunks(2)));
+        for (blocks, ((i, j), k)) in pairs {
+            // The compiler would widen weights that it sees before the loop, and a product of 64 by
+            // 64 bits costs three of 32 by 32.
+            let [wi, wj, wk, kept] = *black_box(weights);
+            for (block, ((i, j), k)) in blocks.iter_mut().zip(i.iter().zip(j).zip(k)) {
+                for (lane, before) in block.iter_mut().enumerate() {
+                    let [i, j, k] =
+                        [i, j, k].map(|block| Quantity::<Self, LineCosine>(block[lane]));
+                    let terms = [(i, wi), (j, wj), (k, wk), (Quantity(*before), kept)];
+                    *before = Quantity::<Self, LineCosine>::sum_of_products(terms, WIDEST).0;
+                }
+            }
         }
     }
 }
@@ -72,7 +90,7 @@ pub(crate) struct Vertices<S: Capacity, A: Arithmetic> {
     pub(crate) levels: S::Vertices<Raw<A, ExcitationLevel>>,
 }
 
-impl<S: Capacity, A: BlockMixture> Vertices<S, A> {
+impl<S: Capacity, A: RowMixture> Vertices<S, A> {
     /// No vertices.
     pub(crate) const EMPTY: Self = Self {
         ar: S::Vertices::ZERO,
@@ -110,7 +128,7 @@ impl<S: Capacity, A: BlockMixture> Vertices<S, A> {
 
 /// Moves a row a `fraction` of the way to the mixture of three rows.
 #[inline(always)]
-fn follow<A: BlockMixture, R: AsRef<[Raw<A, LineCosine>]>>(
+fn follow<A: RowMixture, R: AsRef<[Raw<A, LineCosine>]>>(
     rows: &[R],
     row: &mut PaddedRow<A, LineCosine>,
     mixture: &Barycentric<A>,
@@ -124,7 +142,5 @@ fn follow<A: BlockMixture, R: AsRef<[Raw<A, LineCosine>]>>(
     let [wi, wj, wk] = mixture.weights.map(|weight| fraction * weight);
     let weights = [wi, wj, wk, Quantity::whole(1) - fraction];
     // Rows are zero beyond the order: a loop of constant length costs less than a shorter one.
-    for (block, ((i, j), k)) in row.0.iter_mut().zip(i.iter().zip(j).zip(k)) {
-        A::mix(block, [i, j, k], &weights);
-    }
+    A::mix(&mut row.0, [i, j, k], &weights);
 }

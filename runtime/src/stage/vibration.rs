@@ -16,19 +16,14 @@ use crate::{
     arithmetic::Float,
     capacity::Capacity,
     model::{
-        barycentric::WeightSearch, filter::Model, mixture::BlockMixture,
-        section_pair::SectionProduct,
+        barycentric::WeightSearch, filter::Model, mixture::RowMixture, section_pair::SectionProduct,
     },
     quantity::{
         Quantity,
         unit::{Fraction, MillimetrePerSecond, Newton, VibrationAcceleration},
     },
     texture::Texture,
-    update::{
-        cycle::Cycle,
-        follower::{Follower, Plan},
-        onset::Onset,
-    },
+    update::{cycle::Cycle, follower::Follower, onset::Onset, plan::Plan},
 };
 
 pub use crate::update::cycle::LAG_SAMPLES;
@@ -136,7 +131,7 @@ impl<A: InnerProduct> Vibration<A> {
     }
 }
 
-impl<A: WeightSearch + BlockMixture + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
+impl<A: WeightSearch + RowMixture + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
     /// One tick by itself: the slice of the cycle, the output and, where it is due, the query. The
     /// line spectrum goes a `fraction` of its way in a cycle ([`Texture::cycle_samples`]); with
     /// `sounding` false the vibration is mute.

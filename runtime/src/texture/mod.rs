@@ -13,7 +13,7 @@ use crate::{
     model::{
         barycentric::{Barycentric, WeightSearch},
         filter::{Filter, Models},
-        mixture::BlockMixture,
+        mixture::RowMixture,
         section_pair::SectionProduct,
     },
     quantity::{
@@ -25,7 +25,7 @@ use crate::{
         tap::interpolation::TapBank,
         upsample::Upsampler,
     },
-    update::follower::Plan,
+    update::plan::Plan,
 };
 use asperity_formats as formats;
 use core::mem::MaybeUninit;
@@ -50,7 +50,7 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
 /// [build it in place](Texture::init).
 pub type HostTexture = Texture<HostCapacities>;
 
-impl<S: Capacity, A: WeightSearch + BlockMixture + SectionProduct + InnerProduct> Default
+impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> Default
     for Texture<S, A>
 {
     fn default() -> Self {

@@ -4,17 +4,17 @@ use super::{
     clock::{Clock, slices_of_cycle},
     cycle::Cycle,
     onset::Onset,
-    slices::{Slice, Slices, cycle, slices},
+    plan::Plan,
+    slices::Slice,
 };
 use crate::{
     arithmetic::Arithmetic,
     capacity::Capacity,
-    math::exp,
     model::{
         barycentric::{Search, WeightSearch},
         filter::{Model, Models},
         lsf_to_ar::LineSpectrum,
-        mixture::BlockMixture,
+        mixture::RowMixture,
         scratch::Scratch,
         section_pair::SectionProduct,
     },
@@ -23,84 +23,6 @@ use crate::{
         unit::{ExcitationLevel, Fraction, MillimetrePerSecond, Newton},
     },
 };
-
-/// How the work on a texture's models is cut, decided when it is loaded.
-#[derive(Debug, Clone)]
-pub(crate) struct Plan {
-    /// How long a cycle lasts.
-    pub(crate) cycle: Cycle,
-    slices: Slices,
-    /// Ticks that a sample of the models lasts.
-    ticks_per_sample: u8,
-}
-
-impl Plan {
-    /// The plan of a slot that was never loaded.
-    pub(crate) const NONE: Self = Self {
-        cycle: Cycle::SLOWEST,
-        slices: Slices::NONE,
-        ticks_per_sample: 1,
-    };
-
-    /// The plan for these models, at this many ticks a sample.
-    pub(crate) fn new<S: Capacity, A: WeightSearch>(
-        models: &Models<S, A>,
-        ticks_per_sample: u8,
-    ) -> Self {
-        let (blocks, orders) = (models.grid.blocks(), &models.orders);
-        let cycle = cycle(blocks, orders);
-        let count = slices_of_cycle(ticks_per_sample, cycle);
-        // Rows are mixed over the whole capacity of the slot.
-        let fours = S::AR_ORDER / 4 + if orders.ma() > 0 { S::MA_ORDER / 4 } else { 0 };
-        Self {
-            cycle,
-            slices: slices::<A>(blocks, fours, orders, count),
-            ticks_per_sample,
-        }
-    }
-
-    /// The work of a tick of the cycle.
-    #[inline]
-    fn slice(&self, phase: u8) -> &Slice {
-        self.slices.of(phase)
-    }
-}
-
-/// The fraction of its way that a one-pole of time constant `constant` goes in a time.
-pub(crate) fn fraction_after(time: f32, constant: f32) -> f32 {
-    let constants = constant / time;
-    if constants > 0.0125 {
-        1.0 - exp(-1.0 / constants)
-    } else {
-        1.0
-    }
-}
-
-/// The fractions of the way to a mixture that a line spectrum goes in a cycle, by ticks a sample
-/// and kind of cycle.
-#[derive(Debug, Clone)]
-pub(crate) struct Following<A: Arithmetic>([[Quantity<A, Fraction>; Cycle::KINDS]; 32]);
-
-impl<A: Arithmetic> Following<A> {
-    /// The fractions for a time constant in ticks.
-    pub(crate) fn new(constant_ticks: f32) -> Self {
-        Self(core::array::from_fn(|per_sample| {
-            let mut fractions = [Quantity::ZERO; Cycle::KINDS];
-            for cycle in Cycle::ALL {
-                let ticks = usize::from(cycle.samples()) * per_sample.max(1);
-                let fraction = fraction_after(ticks as f32, constant_ticks);
-                fractions[cycle.kind()] = Quantity::of(fraction);
-            }
-            fractions
-        }))
-    }
-
-    /// The fraction for a plan.
-    #[inline(always)]
-    pub(crate) fn of(&self, plan: &Plan) -> Quantity<A, Fraction> {
-        self.0[usize::from(plan.ticks_per_sample % 32)][plan.cycle.kind()]
-    }
-}
 
 /// State of the work on the model under way.
 #[derive(Debug, Clone, PartialEq)]
@@ -171,7 +93,7 @@ impl<A: Arithmetic> Follower<A> {
     }
 }
 
-impl<A: WeightSearch + BlockMixture + SectionProduct> Follower<A> {
+impl<A: WeightSearch + RowMixture + SectionProduct> Follower<A> {
     /// Begins a tick: does its slice of the cycle, unless that is the first one. The line spectrum
     /// goes a `fraction` of its way in a cycle.
     #[inline(always)]

@@ -15,7 +15,9 @@ pub(crate) mod clock;
 pub(crate) mod cost;
 pub(crate) mod cycle;
 pub(crate) mod follower;
+pub(crate) mod following;
 pub(crate) mod onset;
+pub(crate) mod plan;
 pub(crate) mod slices;
 
 #[cfg(test)]
