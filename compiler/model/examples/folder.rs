@@ -3,12 +3,8 @@
 
 use std::{env, fs, io, path::Path};
 
-const FILES: [(&str, &[u8]); 7] = [
-    ("model.json", asperity_model::DESCRIPTION.as_bytes()),
-    ("text_projection.onnx", asperity_model::TEXT_PROJECTION),
-    ("ar_decoder.onnx", asperity_model::AR_DECODER),
-    ("tap_decoder.onnx", asperity_model::TAP_DECODER),
-    ("encoder.onnx", asperity_model::ENCODER),
+/// How the model was made.
+const PROVENANCE: [(&str, &[u8]); 2] = [
     ("config.toml", include_bytes!("../config.toml")),
     ("MODEL_CARD.md", include_bytes!("../MODEL_CARD.md")),
 ];
@@ -19,7 +15,7 @@ fn main() -> io::Result<()> {
     };
     let folder = Path::new(&folder);
     fs::create_dir_all(folder)?;
-    for (name, bytes) in FILES {
+    for (name, bytes) in asperity_model::FOLDER.into_iter().chain(PROVENANCE) {
         fs::write(folder.join(name), bytes)?;
     }
     Ok(())

@@ -23,3 +23,12 @@ pub static ENCODER: &[u8] = include_bytes!("../encoder.onnx");
 pub static TEXT_ENCODER: &[u8] = &parts::TEXT_ENCODER;
 /// The word pieces of the text encoder: lines `piece TAB id`, sorted by the bytes of the piece.
 pub static VOCABULARY: &str = include_str!("../vocab.tsv");
+
+/// The files of a model folder, which `--model DIR` takes, with their names.
+pub static FOLDER: [(&str, &[u8]); 5] = [
+    ("model.json", DESCRIPTION.as_bytes()),
+    ("text_projection.onnx", TEXT_PROJECTION),
+    ("ar_decoder.onnx", AR_DECODER),
+    ("tap_decoder.onnx", TAP_DECODER),
+    ("encoder.onnx", ENCODER),
+];

@@ -22,6 +22,13 @@ fn asperity(folder: &Path, arguments: &[&str]) -> Output {
         .expect("the command runs")
 }
 
+/// The shipped model as a folder.
+fn write_model(folder: &Path) {
+    for (name, bytes) in asperity_model::FOLDER {
+        fs::write(folder.join(name), bytes).expect("a model's file");
+    }
+}
+
 fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }

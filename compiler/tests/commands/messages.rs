@@ -176,16 +176,13 @@ fn a_bad_rate_or_share_is_wrong_usage() {
 #[test]
 fn doctor_runs_what_it_finds() {
     let folder = tempfile::tempdir().expect("a folder");
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("model");
     let names = [
         "text_projection.onnx",
         "ar_decoder.onnx",
         "tap_decoder.onnx",
         "encoder.onnx",
     ];
-    for name in names.iter().chain(&["model.json"]) {
-        fs::copy(shipped.join(name), folder.path().join(name)).expect("a copy");
-    }
+    write_model(folder.path());
     let doctor = ["doctor", "--model", "."];
     let whole = asperity(folder.path(), &doctor);
     assert!(whole.status.success(), "{}", text(&whole.stderr));

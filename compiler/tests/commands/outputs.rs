@@ -15,16 +15,7 @@ fn more_inputs() -> TempDir {
     let emit = ["builtin", "-o", "b.asp", "--emit-model", "b.json"];
     assert!(asperity(folder, &emit).status.success());
     fs::create_dir(folder.join("model")).expect("a folder");
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("model");
-    for name in [
-        "model.json",
-        "text_projection.onnx",
-        "ar_decoder.onnx",
-        "tap_decoder.onnx",
-        "encoder.onnx",
-    ] {
-        fs::copy(shipped.join(name), folder.join("model").join(name)).expect("a copy");
-    }
+    write_model(&folder.join("model"));
     inputs
 }
 

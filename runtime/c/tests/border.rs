@@ -269,12 +269,19 @@ fn a_slot_begins_empty_in_any_memory() {
     // SAFETY: a texture is made of numbers, for which zeros are valid.
     let slot = unsafe { slot.assume_init_mut() };
     slot.clear();
-    assert_eq!(format!("{slot:?}"), format!("{:?}", HostTexture::EMPTY));
+    assert!(is_empty(slot));
     slot.load(&Asset::parse_haptic(ASSET).unwrap(), 1000.0)
         .unwrap();
     assert_eq!(slot.servo_rate_hz(), 1000.0);
     slot.clear();
-    assert_eq!(format!("{slot:?}"), format!("{:?}", HostTexture::EMPTY));
+    assert!(is_empty(slot));
+}
+
+/// Whether every number of a slot is that of an empty one. Miri would print them for minutes, so
+/// it compares the rate alone.
+fn is_empty(slot: &HostTexture) -> bool {
+    slot.servo_rate_hz() == 0.0
+        && (cfg!(miri) || format!("{slot:?}") == format!("{:?}", HostTexture::EMPTY))
 }
 
 #[test]

@@ -3,12 +3,8 @@
 use crate::support::builtin;
 use asperity_formats::{SceneSurface, Solid, library};
 use asperity_tests::texture::{Kind, random};
-use std::{
-    fmt::Write as _,
-    fs,
-    os::unix::fs::symlink,
-    path::{Path, PathBuf},
-};
+use std::{fmt::Write as _, fs, os::unix::fs::symlink, path::Path};
+use tempfile::TempDir;
 
 /// A kind of input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,10 +40,8 @@ pub(crate) struct Seeds {
     library: Vec<u8>,
     scene: Vec<u8>,
     model: Vec<u8>,
-    folder: PathBuf,
-    projection: Vec<u8>,
-    tap_decoder: Vec<u8>,
-    model_json: Vec<u8>,
+    /// The shipped model as a folder.
+    shipped: TempDir,
     trajectory: String,
     material: String,
 }
@@ -79,16 +73,15 @@ impl Seeds {
         let asset = builtin();
         let other = random(1, Kind::nyquist(4)).encode();
         let named = [("a", &asset[..]), ("b", &other[..])];
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../compiler/model");
-        let read = |name: &str| fs::read(folder.join(name)).expect("the shipped model");
+        let shipped = tempfile::tempdir().expect("a folder");
+        for (name, bytes) in asperity_model::FOLDER {
+            fs::write(shipped.path().join(name), bytes).expect("the shipped model");
+        }
         Self {
             library: encoded(&named, &[]),
             scene: encoded(&named, &[surface(0), surface(1)]),
             model: asperity::model_file::to_json(&asperity::builtin::texture()),
-            projection: read("text_projection.onnx"),
-            tap_decoder: read("tap_decoder.onnx"),
-            model_json: read("model.json"),
-            folder,
+            shipped,
             asset,
             trajectory: trajectory(),
             material: material(),
@@ -105,9 +98,9 @@ impl Seeds {
             Seed::Material => self.material.as_bytes(),
             Seed::Model => &self.model,
             Seed::Description => DESCRIPTION.as_bytes(),
-            Seed::ModelFolder => &self.model_json,
-            Seed::Projection => &self.projection,
-            Seed::TapDecoder => &self.tap_decoder,
+            Seed::ModelFolder => asperity_model::DESCRIPTION.as_bytes(),
+            Seed::Projection => asperity_model::TEXT_PROJECTION,
+            Seed::TapDecoder => asperity_model::TAP_DECODER,
             Seed::Device => DEVICE.as_bytes(),
             Seed::Grip => GRIP.as_bytes(),
             Seed::Counts => COUNTS.as_bytes(),
@@ -130,14 +123,9 @@ impl Seeds {
         }
         let other = self.material.replace("<material>Wood", "<material>Test");
         fs::write(folder.join("materials/other.xml"), other).expect("a valid input");
-        for name in [
-            "model.json",
-            "text_projection.onnx",
-            "ar_decoder.onnx",
-            "tap_decoder.onnx",
-            "encoder.onnx",
-        ] {
-            symlink(self.folder.join(name), folder.join("model").join(name)).expect("a link");
+        for (name, _) in asperity_model::FOLDER {
+            let file = self.shipped.path().join(name);
+            symlink(file, folder.join("model").join(name)).expect("a link");
         }
     }
 }
