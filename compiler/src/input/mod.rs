@@ -6,6 +6,7 @@
 
 mod kind;
 mod open;
+mod patience;
 mod pipe;
 mod problem;
 mod read;
@@ -15,7 +16,7 @@ mod xml;
 
 pub use kind::Kind;
 pub use open::{Opened, open};
-pub use pipe::{MAX_SILENCE, MAX_WAIT};
+pub use patience::{MAX_SILENCE, MAX_WAIT};
 pub use problem::{InputError, InputProblem};
 pub use read::{read, read_text, text, to_end};
 pub use xml::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES, Nesting, NestingProblem, check_nesting};

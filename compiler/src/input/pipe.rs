@@ -4,7 +4,10 @@
 //! thread does both, and its reader waits for the thread only so long. The thread of a pipe that was
 //! given up ends with the process.
 
-use super::problem::InputProblem;
+use super::{
+    patience::{MAX_SILENCE, MAX_WAIT},
+    problem::InputProblem,
+};
 use std::{
     fs::File,
     io::{self, Read},
@@ -13,11 +16,6 @@ use std::{
     thread,
     time::{Duration, Instant},
 };
-
-/// Longest time that a pipe may give nothing.
-pub const MAX_SILENCE: Duration = Duration::from_millis(1500);
-/// Longest time that all waits for a pipe may take together.
-pub const MAX_WAIT: Duration = Duration::from_secs(30);
 
 /// Bytes that the thread hands over at once.
 const CHUNK_BYTES: usize = 64 * 1024;

@@ -2,7 +2,7 @@
 
 use super::{
     kind::Kind,
-    pipe::{MAX_SILENCE, MAX_WAIT},
+    patience::{MAX_SILENCE, MAX_WAIT},
 };
 use crate::diagnostic::Diagnostic;
 use std::{io, path::PathBuf};

@@ -35,6 +35,7 @@ mod scene;
 mod sized;
 mod state;
 mod status;
+mod text;
 mod texture;
 mod tick;
 mod version;

@@ -1,6 +1,6 @@
 //! Status codes and their texts, and the border, which no panic crosses.
 
-use crate::{sized::stated, words::Text};
+use crate::{sized::stated, text::Text};
 use asperity_formats::FormatError;
 use asperity_runtime::{ConfigError, LoadError, PrepareError, SceneError};
 use core::{
