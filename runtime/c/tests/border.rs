@@ -306,7 +306,7 @@ fn records_go_from_one_thread_to_another() {
     };
     assert_eq!(status, AsperityStatus::Ok);
     let writers = Shared(recorder);
-    let writer = std::thread::spawn(move || {
+    let mut writer = Some(std::thread::spawn(move || {
         let shared = writers;
         let output = output(|output| {
             // SAFETY: the size was set; zeros are a valid output.
@@ -325,10 +325,14 @@ fn records_go_from_one_thread_to_another() {
                 unsafe { asperity_recorder_write(shared.0, &raw const sample, &raw const output) };
             assert_eq!(status, AsperityStatus::Ok);
         }
-    });
+    }));
     let (mut next, mut read, mut lost) = (0, 0, 0);
     loop {
-        let over = writer.is_finished();
+        // What the writer did last is seen for certain once it was joined.
+        if let Some(writer) = writer.take_if(|writer| writer.is_finished()) {
+            writer.join().unwrap();
+        }
+        let over = writer.is_none();
         let mut records = [MaybeUninit::<AsperityRecord>::uninit(); 3];
         let mut count = 0;
         // SAFETY: this thread alone reads.
@@ -357,6 +361,5 @@ fn records_go_from_one_thread_to_another() {
             break;
         }
     }
-    writer.join().unwrap();
     assert_eq!(read + lost as usize, 100);
 }
