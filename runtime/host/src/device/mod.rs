@@ -1,0 +1,68 @@
+//! Haptic devices behind one trait.
+//!
+//! A device is opened outside the servo thread, where it may allocate, print and take its time.
+//! Once a period the servo thread calls [`Device::read`] and [`Device::write`]. These two neither
+//! allocate nor print, and they return within the period.
+
+mod fault;
+mod uri;
+
+pub use fault::Fault;
+pub use uri::{Scheme, Uri, UriError};
+
+/// What a device says in one servo period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// Stylus position in the world frame, m.
+    pub position_m: [f32; 3],
+    /// Whether the device measured it since the last reading.
+    pub fresh: bool,
+    /// Buttons that are held, a bit each, the first in bit 0.
+    pub buttons: u32,
+}
+
+/// What a device is, and what the servo loop must know of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Description {
+    /// Name for reports, such as `Novint Falcon`.
+    pub name: String,
+    /// Serial number, if the device tells one.
+    pub serial: Option<String>,
+    /// Largest magnitude of the force, N.
+    pub peak_force_n: f32,
+    /// Magnitude that the device can hold permanently, N.
+    pub continuous_force_n: f32,
+    /// What nobody has confirmed on hardware, a sentence each; empty for what runs in software.
+    pub unconfirmed: Vec<String>,
+}
+
+/// A haptic device that is open.
+///
+/// Dropping a device releases it: its force goes to zero first.
+pub trait Device: Send {
+    /// What it is.
+    fn description(&self) -> &Description;
+
+    /// The newest position. A device that has nothing new repeats the last reading with `fresh`
+    /// false.
+    ///
+    /// # Errors
+    /// [`Fault`] where nothing can be read in this period. The loop goes on, and asks again in the
+    /// next one.
+    fn read(&mut self) -> Result<Reading, Fault>;
+
+    /// Commands a force in the world frame, N. It holds until the next.
+    ///
+    /// # Errors
+    /// [`Fault`] where the command did not reach the device.
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault>;
+
+    /// Tries to recover a device whose last call failed. It is called outside the servo thread's
+    /// periods while the force is zero, and may allocate and wait.
+    ///
+    /// # Errors
+    /// [`Fault`] while the device is still away.
+    fn recover(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+}

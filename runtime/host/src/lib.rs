@@ -1,0 +1,5 @@
+//! Asperity on a desk: what a servo loop on a computer with an operating system needs.
+//!
+//! [`device`] is what the loop talks to, one trait for every device.
+
+pub mod device;
