@@ -29,6 +29,8 @@ pub struct Material {
     pub name: String,
     /// Family it belongs to.
     pub family: String,
+    /// Further words that name it.
+    pub synonyms: Vec<String>,
     /// Captions to train on.
     pub training: Vec<Caption>,
     /// Captions that are never trained on. They name neither the material nor a synonym.

@@ -11,6 +11,7 @@ mod parts;
 
 pub use asperity_model_ar_decoder::AR_DECODER;
 pub use asperity_model_tap_decoder::TAP_DECODER;
+pub use asperity_model_words::{WORD_ROWS, WORD_VECTORS, WORD_WIDTH};
 
 /// The file `model.json`: what the model is, and the materials that it was trained on.
 pub static DESCRIPTION: &str = include_str!("../model.json");

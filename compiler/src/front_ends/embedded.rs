@@ -3,10 +3,11 @@
 use crate::front_ends::{
     inference::Backend,
     learned::{Files, ModelError},
-    text::{Vocabulary, minilm::MiniLm},
+    text::{Vocabulary, WithWords, WordTable, minilm::MiniLm},
 };
 use asperity_model::{
     AR_DECODER, DESCRIPTION, ENCODER, TAP_DECODER, TEXT_ENCODER, TEXT_PROJECTION, VOCABULARY,
+    WORD_ROWS, WORD_VECTORS, WORD_WIDTH,
 };
 
 /// The files of the shipped model.
@@ -21,18 +22,24 @@ pub fn model() -> Files {
     }
 }
 
-/// all-MiniLM-L6-v2 on a back end.
+/// all-MiniLM-L6-v2 on a back end, with the table of words beside it.
 ///
 /// # Errors
 /// [`ModelError::Network`] when the back end refuses it.
-pub fn text_encoder(backend: &Backend) -> Result<MiniLm, ModelError> {
+pub fn text_encoder(backend: &Backend) -> Result<WithWords<MiniLm>, ModelError> {
     let session = backend
         .session(TEXT_ENCODER.into())
         .map_err(|message| ModelError::Network {
             file: "text_encoder.onnx".into(),
             message,
         })?;
-    Ok(MiniLm::new(session, Vocabulary::new(VOCABULARY)))
+    let table = WordTable::new(Vocabulary::new(WORD_ROWS), WORD_VECTORS, WORD_WIDTH);
+    let table = table.map_err(|error| ModelError::Network {
+        file: "words.bin".into(),
+        message: error.to_string(),
+    })?;
+    let sentence = MiniLm::new(session, Vocabulary::new(VOCABULARY));
+    Ok(WithWords::new(sentence, table))
 }
 
 /// Bytes of the text encoder and of the learned model.
@@ -44,5 +51,8 @@ pub fn sizes() -> (usize, usize) {
         + files.ar_decoder.len()
         + files.tap_decoder.len()
         + files.encoder.len();
-    (TEXT_ENCODER.len() + VOCABULARY.len(), model)
+    (
+        TEXT_ENCODER.len() + VOCABULARY.len() + WORD_ROWS.len() + WORD_VECTORS.len(),
+        model,
+    )
 }

@@ -12,13 +12,32 @@ pub struct Captions {
     pub encoder: String,
     /// Width of the vectors.
     pub width: usize,
-    /// Training captions of each material of the corpus.
+    /// Training captions of each material of the corpus, then its name and its synonyms.
     pub training: Vec<Vec<Vec<f32>>>,
+    /// How many of the last of these are names.
+    pub names: Vec<usize>,
     /// Held-out captions of each material.
     pub held_out: Vec<Vec<Vec<f32>>>,
-    /// Phrases of the lexicon with their ratings.
-    pub lexicon: Vec<(Vec<f32>, Rating)>,
+    /// The phrases of the lexicon.
+    pub lexicon: Vec<Phrase>,
 }
+
+/// A phrase of the lexicon.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Phrase {
+    /// Its unit vector.
+    pub vector: Vec<f32>,
+    /// Its rating.
+    pub rating: Rating,
+    /// How sure the rating is, relative to the mean of the lexicon; within
+    /// 0.3..=1.6.
+    pub weight: f32,
+}
+
+/// Range of a phrase's weight.
+const LEAST_WEIGHT: f64 = 0.3;
+/// Range of a phrase's weight.
+const MOST_WEIGHT: f64 = 1.6;
 
 impl Captions {
     /// Encodes everything, in parallel.
@@ -33,20 +52,32 @@ impl Captions {
     ) -> Result<Self, FitError> {
         let vector = |text: &str| vector(encoder, text);
         let training = corpus.materials.par_iter().map(|material| {
-            let captions = material.training.iter();
-            captions.map(|caption| vector(&caption.text)).collect()
+            let captions = material.training.iter().map(|caption| &caption.text);
+            let names = [&material.name].into_iter().chain(&material.synonyms);
+            captions.chain(names).map(|text| vector(text)).collect()
         });
         let held_out = corpus
             .materials
             .par_iter()
             .map(|material| material.held_out.iter().map(|text| vector(text)).collect());
-        let lexicon = lexicon
-            .par_iter()
-            .map(|entry| Ok((vector(&entry.text)?, entry.rating)));
+        let mean_sure = lexicon.iter().map(|entry| entry.sure).sum::<f64>();
+        let mean_sure = (mean_sure / lexicon.len().max(1) as f64).max(1.0);
+        let lexicon = lexicon.par_iter().map(|entry| {
+            Ok(Phrase {
+                vector: vector(&entry.text)?,
+                rating: entry.rating,
+                weight: (entry.sure / mean_sure).clamp(LEAST_WEIGHT, MOST_WEIGHT) as f32,
+            })
+        });
         Ok(Self {
             encoder: encoder.name().to_owned(),
             width: encoder.width(),
             training: training.collect::<Result<_, _>>()?,
+            names: corpus
+                .materials
+                .iter()
+                .map(|m| 1 + m.synonyms.len())
+                .collect(),
             held_out: held_out.collect::<Result<_, _>>()?,
             lexicon: lexicon.collect::<Result<_, FitError>>()?,
         })

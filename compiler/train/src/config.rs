@@ -235,6 +235,11 @@ pub struct Memory {
     pub ridge: f64,
     /// Steps of the solver at most.
     pub iterations: usize,
+    /// Principal directions of the text vectors that are kept.
+    pub directions: usize,
+    /// τ of the softmax over materials, by the cosine with their mean captions, whose mean latent
+    /// a text that is clearly about one material is drawn to; 0 for none.
+    pub recall_temperature: f64,
 }
 
 /// How μ is read from the anchors.

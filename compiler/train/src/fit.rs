@@ -231,10 +231,11 @@ impl<'a> Session<'a> {
             let examples =
                 text_stage::Examples::new(&trained.materials, &self.ratings, self.captions, stage);
             if let Some(how) = &stage.memory {
-                let (vectors, targets) = examples.all();
+                let (vectors, targets, weights) = examples.all();
                 trained.memory = Some(TextMemory::fit(
                     &vectors,
                     &targets,
+                    &weights,
                     how,
                     |step, steps, left| progress.text_epoch(step, steps, left),
                 ));

@@ -11,6 +11,7 @@ mod captions;
 mod checkpoint;
 mod coding;
 pub mod config;
+mod eigen;
 mod error;
 pub mod evaluate;
 mod export;
@@ -22,6 +23,7 @@ mod network;
 mod normaliser;
 mod parameters;
 mod progress;
+mod recall;
 mod rng;
 #[cfg(test)]
 mod synthetic;

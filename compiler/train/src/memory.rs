@@ -1,18 +1,19 @@
 //! The retrieval-augmented projection: a text is placed by everything ever said that is
 //! like it.
 //!
-//! Kernel ridge regression, `z(e) = z̄ + Σ_i a_i·exp(γ(cos(e, e_i) − 1))` over the captions
-//! and the phrases of the lexicon, the coefficients a solving `(K + λI)·a = z_i − z̄`. Where
-//! nothing is like a text, it falls back to the mean. Vectors are kept in 8 bits, and the
-//! coefficients are fitted to what is kept.
+//! Kernel ridge regression, `z(e) = z̄ + Σ_i a_i·exp(γ(e·e_i − 1))` over the captions and the
+//! phrases of the lexicon, the coefficients a solving `(K + λ·diag(1/w))·a = z_i − z̄`, w how sure
+//! an example is. Where nothing is like a text, it falls back to the mean. Vectors are kept on
+//! their principal directions in 8 bits, coefficients in 8 bits; the coefficients are fitted to the
+//! vectors that are kept.
 
-use crate::{config::Memory, network::matrix, parameters::numbers};
+use crate::{config::Memory, eigen, network::matrix, parameters::numbers};
 use asperity::learned::description::LATENT;
 use burn_tensor::{Device, Tensor};
 
 /// Share of the first residual at which the solver stops.
 const TOLERANCE: f32 = 2e-4;
-/// Largest code of a kept vector.
+/// Largest code of a kept vector or coefficient.
 const FULL_SCALE: f32 = 127.0;
 
 /// A fitted projection.
@@ -20,38 +21,45 @@ const FULL_SCALE: f32 = 127.0;
 pub(crate) struct TextMemory {
     /// γ.
     pub(crate) concentration: f32,
-    /// Width of the vectors.
+    /// Width of the text vectors.
     pub(crate) width: usize,
+    /// Principal directions of the examples, a column each: `width × kept`.
+    pub(crate) basis: Vec<f32>,
+    /// How many directions are kept.
+    pub(crate) kept: usize,
     /// Codes, an example a row.
     pub(crate) codes: Vec<i8>,
     /// What a code is worth, one an example.
     pub(crate) scales: Vec<f32>,
-    /// a, an example a row.
-    pub(crate) coefficients: Vec<f32>,
+    /// Codes of a, an example a row.
+    pub(crate) coefficients: Vec<i8>,
+    /// What a code of a is worth, one a component of the latent.
+    pub(crate) coefficient_scales: [f32; LATENT],
     /// z̄.
     pub(crate) mean: [f32; LATENT],
 }
 
 impl TextMemory {
-    /// Fits unit vectors to their latents. `done` is told of every step of the solver,
-    /// with the largest residual left, relative to the first.
+    /// Fits unit vectors to their latents, each weighed by how sure it is. `done` is told of
+    /// every step of the solver, with the largest residual left, relative to the first.
     pub(crate) fn fit(
         vectors: &[&[f32]],
         targets: &[[f32; LATENT]],
+        weights: &[f32],
         how: &Memory,
         mut done: impl FnMut(usize, usize, f32),
     ) -> Self {
         let count = vectors.len();
         let width = vectors.first().map_or(0, |vector| vector.len());
-        let (mut codes, mut scales) = (Vec::with_capacity(count * width), Vec::new());
-        for vector in vectors {
-            let peak = vector
-                .iter()
-                .fold(f32::MIN_POSITIVE, |peak, x| peak.max(x.abs()));
-            let scale = peak / FULL_SCALE;
-            codes.extend(vector.iter().map(|x| libm::roundf(x / scale) as i8));
-            scales.push(scale);
-        }
+        let device = Device::flex();
+        let kept = how.directions.min(width);
+        let basis = principal_directions(vectors, width, kept);
+        let all: Vec<f32> = vectors
+            .iter()
+            .flat_map(|vector| vector.iter().copied())
+            .collect();
+        let projected = matrix(all, width, &device).matmul(matrix(basis.clone(), kept, &device));
+        let (codes, scales) = in_8_bits(&numbers(projected), kept);
         let mut mean = [0.0; LATENT];
         for target in targets {
             mean.iter_mut()
@@ -61,12 +69,14 @@ impl TextMemory {
         let mut memory = Self {
             concentration: how.concentration as f32,
             width,
+            basis,
+            kept,
             codes,
             scales,
             coefficients: Vec::new(),
+            coefficient_scales: [0.0; LATENT],
             mean,
         };
-        let device = Device::flex();
         let gram = {
             let kept = memory.vectors(&device);
             let likeness = kept.clone().matmul(kept.transpose());
@@ -76,8 +86,18 @@ impl TextMemory {
             .iter()
             .flat_map(|z| z.iter().zip(&mean).map(|(x, mean)| x - mean));
         let wanted = matrix(centred.collect(), LATENT, &device);
-        let found = conjugate_gradients(gram, wanted, how, &mut done);
-        memory.coefficients = numbers(found);
+        let ridge = weights.iter().map(|w| how.ridge as f32 / w.max(1e-3));
+        let ridge = matrix(ridge.collect(), 1, &device);
+        let found = numbers(conjugate_gradients(gram, wanted, ridge, how, &mut done));
+        for (row, x) in found.iter().enumerate() {
+            let scale = &mut memory.coefficient_scales[row % LATENT];
+            *scale = scale.max(x.abs() / FULL_SCALE);
+        }
+        let scale = |at: usize| memory.coefficient_scales[at % LATENT].max(f32::MIN_POSITIVE);
+        let codes = found.iter().enumerate();
+        memory.coefficients = codes
+            .map(|(at, x)| libm::roundf(x / scale(at)) as i8)
+            .collect();
         memory
     }
 
@@ -95,8 +115,13 @@ impl TextMemory {
             })
             .collect();
         let asked = matrix(units, self.width, &device);
+        let asked = asked.matmul(matrix(self.basis.clone(), self.kept, &device));
         let likeness = asked.matmul(self.vectors(&device).transpose());
-        let coefficients = matrix(self.coefficients.clone(), LATENT, &device);
+        let coefficients = self.coefficients.chunks(LATENT).flat_map(|row| {
+            let scaled = row.iter().zip(&self.coefficient_scales);
+            scaled.map(|(&code, scale)| f32::from(code) * scale)
+        });
+        let coefficients = matrix(coefficients.collect(), LATENT, &device);
         let mean = matrix(self.mean.to_vec(), LATENT, &device);
         let z = self.kernel(likeness).matmul(coefficients) + mean;
         let numbers = numbers(z);
@@ -106,14 +131,14 @@ impl TextMemory {
             .collect()
     }
 
-    /// Kept vectors [n, W].
+    /// Kept vectors [n, K].
     fn vectors(&self, device: &Device) -> Tensor<2> {
         let values = self
             .codes
-            .chunks(self.width.max(1))
+            .chunks(self.kept.max(1))
             .zip(&self.scales)
             .flat_map(|(row, scale)| row.iter().map(move |&code| f32::from(code) * scale));
-        matrix(values.collect(), self.width, device)
+        matrix(values.collect(), self.kept, device)
     }
 
     fn kernel(&self, likeness: Tensor<2>) -> Tensor<2> {
@@ -121,10 +146,45 @@ impl TextMemory {
     }
 }
 
-/// Solves `(K + λI)·a = y` for all columns of y at once.
+/// The directions in which vectors vary most, about zero, a column each: `width × kept`.
+fn principal_directions(vectors: &[&[f32]], width: usize, kept: usize) -> Vec<f32> {
+    let device = Device::flex();
+    let all: Vec<f32> = vectors
+        .iter()
+        .flat_map(|vector| vector.iter().copied())
+        .collect();
+    let all = matrix(all, width, &device);
+    let moments = numbers(all.clone().transpose().matmul(all));
+    let moments = moments.iter().map(|&x| f64::from(x)).collect();
+    let pairs = eigen::symmetric(moments, width);
+    let mut basis = vec![0.0; width * kept];
+    for (column, (_, vector)) in pairs.iter().take(kept).enumerate() {
+        for (row, x) in vector.iter().enumerate() {
+            basis[row * kept + column] = *x as f32;
+        }
+    }
+    basis
+}
+
+/// Codes of rows, and what a code of each row is worth.
+fn in_8_bits(rows: &[f32], width: usize) -> (Vec<i8>, Vec<f32>) {
+    let (mut codes, mut scales) = (Vec::with_capacity(rows.len()), Vec::new());
+    for row in rows.chunks(width.max(1)) {
+        let peak = row
+            .iter()
+            .fold(f32::MIN_POSITIVE, |peak, x| peak.max(x.abs()));
+        let scale = peak / FULL_SCALE;
+        codes.extend(row.iter().map(|x| libm::roundf(x / scale) as i8));
+        scales.push(scale);
+    }
+    (codes, scales)
+}
+
+/// Solves `(K + diag(ridge))·a = y` for all columns of y at once; `ridge` is a column.
 fn conjugate_gradients(
     gram: Tensor<2>,
     wanted: Tensor<2>,
+    ridge: Tensor<2>,
     how: &Memory,
     done: &mut impl FnMut(usize, usize, f32),
 ) -> Tensor<2> {
@@ -135,7 +195,7 @@ fn conjugate_gradients(
     let mut square = dot(&residual, &residual);
     let first = square.clone().clamp_min(f32::MIN_POSITIVE);
     for step in 0..how.iterations {
-        let image = gram.clone().matmul(direction.clone()) + direction.clone() * how.ridge;
+        let image = gram.clone().matmul(direction.clone()) + direction.clone() * ridge.clone();
         let curvature = dot(&direction, &image).clamp_min(f32::MIN_POSITIVE);
         let length = square.clone() / curvature;
         found = found + direction.clone() * length.clone();
@@ -183,10 +243,13 @@ mod tests {
             concentration: 8.0,
             ridge,
             iterations: 200,
+            directions: 3,
+            recall_temperature: 0.0,
         };
         let views: Vec<&[f32]> = vectors.iter().map(Vec::as_slice).collect();
+        let weights = vec![1.0; views.len()];
         (
-            TextMemory::fit(&views, &targets, &how, |_, _, _| ()),
+            TextMemory::fit(&views, &targets, &weights, &how, |_, _, _| ()),
             vectors,
             targets,
         )

@@ -31,6 +31,7 @@ pub(crate) fn corpus(materials: usize, instances: usize) -> Corpus {
             Material {
                 name: format!("material {index}"),
                 family: format!("family {}", index % 3),
+                synonyms: Vec::new(),
                 training: [
                     (Focus::Look, "look"),
                     (Focus::Touch, "touch"),
@@ -138,6 +139,7 @@ pub(crate) fn lexicon() -> Vec<LexiconEntry> {
                 slippery: 100.0 - f64::from(level) * 20.0,
                 hard: 100.0 - f64::from(level) * 20.0,
             },
+            sure: 75.0,
         })
         .collect()
 }

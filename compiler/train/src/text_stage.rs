@@ -27,6 +27,8 @@ struct Example {
     target: [f32; LATENT],
     /// Share of each material in the target.
     shares: Vec<f32>,
+    /// How sure the target is, about 1.
+    weight: f32,
 }
 
 /// What the projection is fitted to; targets are standardised.
@@ -62,27 +64,27 @@ impl Examples {
             std::array::from_fn(|i| (z[i] - mean[i]) / deviation[i])
         };
         let anchors: Vec<_> = materials.iter().map(|m| standardise(&m.mean)).collect();
-        let example = |vector: &Vec<f32>, shares: Vec<f32>| Example {
+        let example = |vector: &Vec<f32>, shares: Vec<f32>, weight: f32| Example {
             vector: vector.clone(),
             target: mixture(&anchors, &shares),
             shares,
+            weight,
         };
         let mut of_captions = Vec::new();
         for (index, material) in materials.iter().enumerate() {
             for vector in &captions.training[material.material] {
                 let mut shares = vec![0.0; materials.len()];
                 shares[index] = 1.0;
-                of_captions.push(example(vector, shares));
+                of_captions.push(example(vector, shares, 1.0));
             }
         }
         let lexicon = captions
             .lexicon
             .iter()
-            .map(|(vector, rating)| {
-                example(
-                    vector,
-                    phrase_shares(vector, rating, materials, ratings, stage),
-                )
+            .map(|phrase| {
+                let shares =
+                    phrase_shares(&phrase.vector, &phrase.rating, materials, ratings, stage);
+                example(&phrase.vector, shares, phrase.weight)
             })
             .collect();
         Self {
@@ -95,17 +97,17 @@ impl Examples {
         }
     }
 
-    /// Vectors and latents, captions first, then phrases.
-    pub(crate) fn all(&self) -> (Vec<&[f32]>, Vec<[f32; LATENT]>) {
-        self.captions
-            .iter()
-            .chain(&self.lexicon)
-            .map(|example| {
-                let z =
-                    std::array::from_fn(|k| example.target[k] * self.deviation[k] + self.mean[k]);
-                (example.vector.as_slice(), z)
-            })
-            .unzip()
+    /// Vectors, latents and weights, captions first, then phrases.
+    pub(crate) fn all(&self) -> (Vec<&[f32]>, Vec<[f32; LATENT]>, Vec<f32>) {
+        let all = || self.captions.iter().chain(&self.lexicon);
+        let latent = |example: &Example| {
+            std::array::from_fn(|k| example.target[k] * self.deviation[k] + self.mean[k])
+        };
+        (
+            all().map(|example| example.vector.as_slice()).collect(),
+            all().map(latent).collect(),
+            all().map(|example| example.weight).collect(),
+        )
     }
 
     /// An example, perhaps mixed with another, perhaps with noise.

@@ -8,6 +8,7 @@ use crate::{
     normaliser::{AR, Coded, LSFS, Normaliser, TAP_VALUES},
     parameters::{Bound, Parameters, numbers},
     progress::EpochLoss,
+    recall::recall,
     vae::decode,
 };
 use asperity::learned::description::LATENT;
@@ -169,14 +170,31 @@ impl Trained {
         instance
     }
 
+    /// τ of the recall of materials; 0 for none.
+    pub(crate) fn recall_temperature(&self) -> f32 {
+        let memory = self
+            .config
+            .text_stage
+            .as_ref()
+            .and_then(|stage| stage.memory);
+        memory.map_or(0.0, |memory| memory.recall_temperature as f32)
+    }
+
     /// The latents that text vectors project to.
     #[must_use]
     pub fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
         if let Some(memory) = &self.memory {
-            return vectors
+            let projected = vectors
                 .chunks(CHUNK)
-                .flat_map(|chunk| memory.project(chunk))
-                .collect();
+                .flat_map(|chunk| memory.project(chunk));
+            let mut latents: Vec<_> = projected.collect();
+            recall(
+                &self.materials,
+                self.recall_temperature(),
+                vectors,
+                &mut latents,
+            );
+            return latents;
         }
         let device = Device::flex();
         let bound = self.projection_parameters.bind(&device);

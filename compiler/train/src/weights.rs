@@ -153,12 +153,17 @@ pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
     write(&tables, "weights; matrices are inputs × outputs")
 }
 
-fn memory(memory: &TextMemory) -> [(String, Table); 5] {
+fn memory(memory: &TextMemory) -> [(String, Table); 7] {
     let column = |values: &[f32]| Table::new(values, 1);
     [
-        ("codes", Table::codes(&memory.codes, memory.width)),
+        ("basis", Table::new(&memory.basis, memory.kept)),
+        ("codes", Table::codes(&memory.codes, memory.kept)),
         ("scales", column(&memory.scales)),
-        ("coefficients", Table::new(&memory.coefficients, LATENT)),
+        ("coefficients", Table::codes(&memory.coefficients, LATENT)),
+        (
+            "coefficient_scales",
+            Table::new(&memory.coefficient_scales, LATENT),
+        ),
         ("mean", Table::new(&memory.mean, LATENT)),
         ("concentration", column(&[memory.concentration])),
     ]

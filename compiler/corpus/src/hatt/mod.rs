@@ -132,6 +132,7 @@ pub fn load(options: &HattOptions) -> Result<Corpus, CorpusError> {
             prototype: prototypes[index].clone(),
             name: material.source.name,
             family: material.captioned.family,
+            synonyms: Vec::new(),
             training: material.captioned.training,
             held_out: material.captioned.held_out,
             rating: None,

@@ -2,6 +2,7 @@
 
 use crate::{Rating, error::CorpusError};
 use serde::Deserialize;
+use std::{collections::BTreeSet, path::Path};
 
 /// A phrase and its attributes.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,7 +11,12 @@ pub struct LexiconEntry {
     pub text: String,
     /// Its attributes, 0–100.
     pub rating: Rating,
+    /// How sure the rater is that an average person would agree within ±10, 0–100.
+    pub sure: f64,
 }
+
+/// Sureness of a phrase in a file that does not state it.
+const SURE: f64 = 75.0;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,20 +31,54 @@ struct Row {
     rough: f64,
     slippery: f64,
     hard: f64,
+    #[serde(default = "sure")]
+    sure: f64,
 }
 
-/// Reads the lexicon.
+fn sure() -> f64 {
+    SURE
+}
+
+/// Reads the files of a lexicon, TOML or CSV by the ending of their names.
 ///
 /// # Errors
-/// [`CorpusError`] for a syntax error, an empty or repeated phrase, or a rating outside 0–100.
-pub fn parse(file: &str, text: &str) -> Result<Vec<LexiconEntry>, CorpusError> {
-    let parsed: LexiconFile = toml::from_str(text).map_err(|error| CorpusError::Syntax {
-        file: file.to_owned(),
-        message: error.to_string(),
-    })?;
-    let mut seen = std::collections::BTreeSet::new();
+/// [`CorpusError`] for a syntax error, an empty or repeated phrase, or a number outside 0–100.
+pub fn parse<'a>(
+    files: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Result<Vec<LexiconEntry>, CorpusError> {
+    let mut seen = BTreeSet::new();
     let mut faults = Vec::new();
-    for row in &parsed.phrases {
+    let mut entries = Vec::new();
+    for (file, text) in files {
+        let rows = rows(file, text)?;
+        check(file, &rows, &mut seen, &mut faults);
+        entries.extend(rows.into_iter().map(LexiconEntry::from));
+    }
+    if !faults.is_empty() {
+        return Err(CorpusError::Faults { faults });
+    }
+    Ok(entries)
+}
+
+fn rows(file: &str, text: &str) -> Result<Vec<Row>, CorpusError> {
+    let syntax = |message: String| CorpusError::Syntax {
+        file: file.to_owned(),
+        message,
+    };
+    if Path::new(file)
+        .extension()
+        .is_some_and(|ending| ending == "csv")
+    {
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let rows: Result<Vec<Row>, _> = reader.deserialize().collect();
+        return rows.map_err(|error| syntax(error.to_string()));
+    }
+    let parsed: LexiconFile = toml::from_str(text).map_err(|error| syntax(error.to_string()))?;
+    Ok(parsed.phrases)
+}
+
+fn check(file: &str, rows: &[Row], seen: &mut BTreeSet<String>, faults: &mut Vec<String>) {
+    for row in rows {
         let mut fault =
             |what: String| faults.push(format!("{file}: phrase {:?}: {what}", row.text));
         if row.text.trim().is_empty() {
@@ -51,25 +91,25 @@ pub fn parse(file: &str, text: &str) -> Result<Vec<LexiconEntry>, CorpusError> {
             ("rough", row.rough),
             ("slippery", row.slippery),
             ("hard", row.hard),
+            ("sure", row.sure),
         ] {
             if !(0.0..=100.0).contains(&value) {
                 fault(format!("{field} = {value} is not in 0..=100"));
             }
         }
     }
-    if !faults.is_empty() {
-        return Err(CorpusError::Faults { faults });
-    }
-    Ok(parsed
-        .phrases
-        .into_iter()
-        .map(|row| LexiconEntry {
+}
+
+impl From<Row> for LexiconEntry {
+    fn from(row: Row) -> Self {
+        Self {
             text: row.text,
             rating: Rating {
                 rough: row.rough,
                 slippery: row.slippery,
                 hard: row.hard,
             },
-        })
-        .collect())
+            sure: row.sure,
+        }
+    }
 }

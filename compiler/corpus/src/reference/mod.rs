@@ -26,29 +26,69 @@ macro_rules! embedded {
 /// The committed files, in the order of the corpus.
 const EMBEDDED: &[(&str, &str)] = embedded![
     "abrasives.toml",
+    "animals.toml",
+    "boards.toml",
     "carpets.toml",
     "ceramics.toml",
+    "cloths.toml",
     "fabrics.toml",
+    "floors.toml",
     "foams.toml",
     "foods.toml",
     "gels.toml",
     "glass.toml",
     "granular.toml",
+    "groceries.toml",
+    "grounds.toml",
     "leathers.toml",
     "meshes.toml",
     "metals.toml",
+    "metalware.toml",
     "organic.toml",
     "papers.toml",
     "piles.toml",
+    "plants.toml",
     "plastics.toml",
+    "ropes.toml",
     "rubbers.toml",
+    "scrubbers.toml",
+    "skins.toml",
+    "sportsgear.toml",
+    "stationery.toml",
     "stones.toml",
+    "synthetics.toml",
+    "walls.toml",
     "wet.toml",
     "woods.toml",
 ];
-const EMBEDDED_LEXICON: &str = include_str!("../../../corpora/everyday.toml");
-/// Name of the lexicon beside the family files.
+/// The files of the lexicon.
+const EMBEDDED_LEXICON: &[(&str, &str)] = embedded![
+    "everyday.toml",
+    "lexicon/animals.csv",
+    "lexicon/bases.csv",
+    "lexicon/body.csv",
+    "lexicon/buildings.csv",
+    "lexicon/clothing.csv",
+    "lexicon/comparisons.csv",
+    "lexicon/finishes.csv",
+    "lexicon/food.csv",
+    "lexicon/household.csv",
+    "lexicon/leisure.csv",
+    "lexicon/modifiers.csv",
+    "lexicon/nature.csv",
+    "lexicon/negations.csv",
+    "lexicon/objects.csv",
+    "lexicon/plants.csv",
+    "lexicon/substances.csv",
+    "lexicon/tools.csv",
+    "lexicon/vehicles.csv",
+    "lexicon/words.csv",
+];
+/// The lexicon beside the family files of a folder, and the folder of its further files.
 const LEXICON_FILE: &str = "everyday.toml";
+const LEXICON_FOLDER: &str = "lexicon";
+/// Ratings of the same phrases again, to compare; no part of the lexicon.
+const ANCHORS_FILE: &str = "anchors.csv";
 
 /// What to load and how to augment it.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,15 +122,16 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
     let sources = sources(options.folder.as_deref())?;
     let mut digest = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
     let crc32 = checksum(&mut digest, &sources);
-    let mut lexicon = Vec::new();
-    let mut families = Vec::new();
-    for (file, text) in &sources {
-        if file == LEXICON_FILE {
-            lexicon = lexicon::parse(file, text)?;
-        } else {
-            families.push((file.clone(), schema::parse(file, text)?));
-        }
-    }
+    let (lexicon, families): (Vec<_>, Vec<_>) =
+        sources.iter().partition(|(file, _)| is_lexicon(file));
+    let lexicon = lexicon
+        .iter()
+        .map(|(file, text)| (file.as_str(), text.as_str()));
+    let lexicon = lexicon::parse(lexicon)?;
+    let families = families
+        .iter()
+        .map(|(file, text)| Ok((file.clone(), schema::parse(file, text)?)));
+    let families: Vec<_> = families.collect::<Result<_, CorpusError>>()?;
     check::check(&families)?;
     let grid = UnifiedGrid::reference();
     let described: Vec<(String, schema::MaterialEntry)> = families
@@ -123,6 +164,7 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
             );
             Material {
                 family,
+                synonyms: entry.synonyms,
                 training: entry.training,
                 held_out: entry.held_out,
                 rating: Some(entry.attributes),
@@ -148,15 +190,18 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
     ))
 }
 
+/// Whether a file, named from the folder, belongs to the lexicon.
+fn is_lexicon(file: &str) -> bool {
+    file == LEXICON_FILE || Path::new(file).starts_with(LEXICON_FOLDER)
+}
+
 /// File names and contents, sorted by name.
 fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> {
     let Some(folder) = folder else {
-        let mut all: Vec<(String, String)> = EMBEDDED
-            .iter()
+        let all = EMBEDDED.iter().chain(EMBEDDED_LEXICON);
+        return Ok(all
             .map(|(name, text)| ((*name).to_owned(), (*text).to_owned()))
-            .collect();
-        all.push((LEXICON_FILE.into(), EMBEDDED_LEXICON.into()));
-        return Ok(all);
+            .collect());
     };
     let unreadable = |path: &Path| {
         let path = path.to_owned();
@@ -181,11 +226,37 @@ fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> 
             all.push((name, text));
         }
     }
+    all.extend(lexicon_files(&folder.join(LEXICON_FOLDER))?);
     all.sort();
-    if all.iter().all(|(name, _)| name == LEXICON_FILE) {
+    if all.iter().all(|(name, _)| is_lexicon(name)) {
         return Err(CorpusError::Empty {
             path: folder.to_owned(),
         });
+    }
+    Ok(all)
+}
+
+/// The CSV files of a folder, if there is one.
+fn lexicon_files(folder: &Path) -> Result<Vec<(String, String)>, CorpusError> {
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let unreadable = |path: &Path| {
+        let path = path.to_owned();
+        move |source| CorpusError::Unreadable { path, source }
+    };
+    let mut all = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(unreadable(folder))? {
+        let path = entry.map_err(unreadable(folder))?.path();
+        let is_csv = path.extension().is_some_and(|ending| ending == "csv");
+        let name = path.file_name().map(|name| name.to_string_lossy());
+        if let (true, Some(name)) = (is_csv, name)
+            && name != ANCHORS_FILE
+        {
+            let text = input::read_text(&path, Kind::Corpus)
+                .map_err(|problem| unreadable(&path)(problem.into()))?;
+            all.push((format!("{LEXICON_FOLDER}/{name}"), text));
+        }
     }
     Ok(all)
 }

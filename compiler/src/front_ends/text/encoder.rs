@@ -52,6 +52,9 @@ pub enum TextError {
         /// What it should be.
         expected: String,
     },
+    /// The bytes of a table of words do not divide into rows.
+    #[error("table of words: {0} bytes are no whole number of rows")]
+    Table(usize),
     /// The network answered with a vector that has no direction.
     #[error("text encoder: its vector for this text has length {0}")]
     NoDirection(f32),
@@ -74,6 +77,7 @@ impl Diagnostic for TextError {
     fn remedy(&self) -> String {
         match self {
             Self::Tokeniser(_) | Self::NoDirection(_) => "try other words".into(),
+            Self::Table(_) => "take the table and its width from the same package".into(),
             Self::Network(_) | Self::Signature { .. } => {
                 "export the text tower alone, with ids [1, 77] in and a vector [1, width] out; \
                  where an operator is unknown, try --backend onnxruntime"

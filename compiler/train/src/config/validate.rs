@@ -102,6 +102,11 @@ fn text_stage(s: &TextStage) -> Result<(), ConfigError> {
         positive("text_stage.memory.concentration", memory.concentration)?;
         positive("text_stage.memory.ridge", memory.ridge)?;
         count("text_stage.memory.iterations", memory.iterations, 10_000)?;
+        count("text_stage.memory.directions", memory.directions, MAX_WIDTH)?;
+        weight(
+            "text_stage.memory.recall_temperature",
+            memory.recall_temperature,
+        )?;
     }
     Ok(())
 }

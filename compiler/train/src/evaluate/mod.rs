@@ -14,7 +14,6 @@ mod calibrate;
 pub mod clustering;
 mod data;
 mod draws;
-mod eigen;
 mod error;
 pub mod held_out;
 pub mod map;
@@ -276,7 +275,9 @@ fn every_text<'c>(
             .training
             .iter()
             .map(|caption| caption.text.as_str());
-        training.chain(material.held_out.iter().map(String::as_str))
+        let names = [&material.name].into_iter().chain(&material.synonyms);
+        let others = names.chain(&material.held_out).map(String::as_str);
+        training.chain(others)
     });
     materials.chain(lexicon.iter().map(|entry| entry.text.as_str()))
 }

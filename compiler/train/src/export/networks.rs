@@ -63,20 +63,51 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
         .node("ReduceL2", &[Some(&embedding)], &attributes);
     let norm = writer.plus(&norm, f32::MIN_POSITIVE);
     let direction = writer.graph.div(&embedding, &norm);
+    let inputs = [Some(&direction), Some(&captions)];
+    let similarity = writer.graph.node("MatMul", &inputs, &[]);
     let z = match &trained.memory {
-        Some(memory) => from_memory(&mut writer, memory, &direction),
+        Some(memory) => {
+            let z = from_memory(&mut writer, memory, &direction);
+            recalled(&mut writer, trained, z, &similarity)
+        }
         None => writer.chain(&trained.projection.layers, &embedding),
     };
     writer.output("z", &z, &[LATENT]);
-    let inputs = [Some(&direction), Some(&captions)];
-    let similarity = writer.graph.node("MatMul", &inputs, &[]);
     writer.output("similarity", &similarity, &[count]);
     writer
 }
 
-/// `z̄ + exp(γ(cos − 1))·a`: 8-bit vectors, a column an example.
+/// `z + ‖p‖·(p·Z − z)`, p = softmax(cos/τ), as [`recall`](crate::recall::recall).
+fn recalled(writer: &mut Writer<'_>, trained: &Trained, z: Value, similarity: &Value) -> Value {
+    let temperature = trained.recall_temperature();
+    if temperature <= 0.0 {
+        return z;
+    }
+    let means: Vec<f32> = trained.materials.iter().flat_map(|m| m.mean).collect();
+    let means = writer.table("materials", &[trained.materials.len(), LATENT], means);
+    let logits = writer.times(similarity, 1.0 / temperature);
+    let shares = writer.graph.softmax(&logits, 1);
+    let inputs = [Some(&shares), Some(&means)];
+    let recalled = writer.graph.node("MatMul", &inputs, &[]);
+    let attributes = [
+        ("axes", Attribute::Ints(vec![1])),
+        ("keepdims", Attribute::Int(1)),
+    ];
+    let clarity = writer
+        .graph
+        .node("ReduceL2", &[Some(&shares)], &attributes);
+    let difference = writer.graph.sub(&recalled, &z);
+    let change = writer.graph.mul(&difference, &clarity);
+    writer.graph.add(&z, &change)
+}
+
+/// `z̄ + exp(γ(e·e_i − 1))·a`: 8-bit vectors on their principal directions, a column an example,
+/// and 8-bit coefficients.
 fn from_memory(writer: &mut Writer<'_>, memory: &TextMemory, direction: &Value) -> Value {
-    let (width, count) = (memory.width, memory.scales.len());
+    let (width, count) = (memory.kept, memory.scales.len());
+    let basis = writer.table("memory.basis", &[memory.width, width], memory.basis.clone());
+    let inputs = [Some(direction), Some(&basis)];
+    let direction = &writer.graph.node("MatMul", &inputs, &[]);
     let mut columns = vec![0_u8; width * count];
     for (column, example) in memory.codes.chunks(width).enumerate() {
         for (row, code) in example.iter().enumerate() {
@@ -102,11 +133,21 @@ fn from_memory(writer: &mut Writer<'_>, memory: &TextMemory, direction: &Value) 
     let likeness = writer.plus(&likeness, -1.0);
     let likeness = writer.times(&likeness, memory.concentration);
     let kernel = writer.graph.unary("Exp", &likeness);
-    let coefficients = writer.table(
-        "memory.coefficients",
-        &[count, LATENT],
-        memory.coefficients.clone(),
-    );
+    let coefficients = Tensor::I8 {
+        shape: vec![count, LATENT],
+        data: memory
+            .coefficients
+            .iter()
+            .map(|code| code.to_ne_bytes()[0])
+            .collect::<Vec<u8>>()
+            .into(),
+    };
+    let coefficients = writer.graph.constant("memory.coefficients", coefficients);
+    let scales = Tensor::f32(&[LATENT], memory.coefficient_scales.to_vec());
+    let scales = writer.graph.constant("memory.coefficient_scales", scales);
+    let axis = ("axis", Attribute::Int(1));
+    let inputs = [Some(&coefficients), Some(&scales)];
+    let coefficients = writer.graph.node("DequantizeLinear", &inputs, &[axis]);
     let from_mean = writer
         .graph
         .node("MatMul", &[Some(&kernel), Some(&coefficients)], &[]);

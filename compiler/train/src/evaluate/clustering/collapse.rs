@@ -1,7 +1,7 @@
 //! Whether a latent that clusters well still says anything of its inputs.
 
 use super::indices::sums_of_squares;
-use crate::evaluate::eigen;
+use crate::eigen;
 use asperity::learned::{Latent, description::LATENT};
 use asperity_corpus::Instance;
 use serde::{Deserialize, Serialize};

@@ -5,7 +5,8 @@ mod tsne;
 
 pub(super) use picture::draw;
 
-use super::{eigen, subject::Subject};
+use super::subject::Subject;
+use crate::eigen;
 use asperity::learned::{Latent, description::LATENT};
 use serde::{Deserialize, Serialize};
 

@@ -12,7 +12,7 @@ use super::{
     subject::Subject,
     texts::Texts,
 };
-use crate::captions::dot;
+use crate::captions::{Phrase, dot};
 use asperity_corpus::Rating;
 use prompts::Pairs;
 use serde::{Deserialize, Serialize};
@@ -129,7 +129,7 @@ pub(super) struct Known<'a> {
     /// Of the anchors' materials.
     pub(super) materials: &'a [Signature],
     /// Vectors and ratings.
-    pub(super) lexicon: &'a [(Vec<f32>, Rating)],
+    pub(super) lexicon: &'a [Phrase],
 }
 
 /// Asks the model all prompts.
@@ -223,14 +223,14 @@ fn ask<'p>(
     watch.done(distinct.len());
     let found = vectors.iter().zip(&projected).zip(decoded);
     let felt = found.map(|((vector, said), decoded)| {
-        let phrases: Vec<f32> = known.lexicon.iter().map(|(v, _)| dot(vector, v)).collect();
+        let phrases: Vec<f32> = known.lexicon.iter().map(|phrase| dot(vector, &phrase.vector)).collect();
         Felt {
             decoded: decoded.signature.objective,
             material: known.materials[nearest(&said.similarity)].objective,
             phrase: known
                 .lexicon
                 .get(nearest(&phrases))
-                .map_or(UNRATED, |found| found.1),
+                .map_or(UNRATED, |found| found.rating),
         }
     });
     Ok(distinct.iter().copied().zip(felt).collect())

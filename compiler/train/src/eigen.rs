@@ -5,7 +5,7 @@ const SWEEPS: usize = 60;
 
 /// Eigenvalues in descending order, each with its unit eigenvector, by Jacobi's
 /// rotations. `matrix` is symmetric, row by row, `size × size`.
-pub(super) fn symmetric(mut matrix: Vec<f64>, size: usize) -> Vec<(f64, Vec<f64>)> {
+pub(crate) fn symmetric(mut matrix: Vec<f64>, size: usize) -> Vec<(f64, Vec<f64>)> {
     let mut vectors = vec![0.0; size * size];
     for index in 0..size {
         vectors[index * size + index] = 1.0;
