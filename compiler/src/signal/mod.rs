@@ -1,5 +1,6 @@
 //! The mathematics of the models: filters, their line spectral frequencies, their spectra.
 
+pub mod impact;
 pub mod level;
 pub mod levinson;
 pub mod lsf;

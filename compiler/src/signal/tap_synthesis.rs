@@ -1,32 +1,23 @@
-//! Tap transients for a source that has none: decaying sinusoids with a given impulse.
+//! Tap transients for a source that has none: impacts whose contact time follows the texture.
 //!
-//! At the impact speed v a transient is `a(t) = A·v·e^(−t/τ)·sin(2πft)`. Its amplitude is linear
-//! in v, as Okamura, Cutkosky and Dennerlein measured ("Reality-based models for vibration
-//! feedback in virtual environments", 2001). Its frequency follows the texture: a surface that
-//! vibrates at higher frequencies taps harder. Both are guesses at the material, so such a bank
-//! is marked synthetic.
+//! A surface that vibrates at higher frequencies taps harder: the contact lasts half a period of
+//! the texture's frequency. Everything else follows [`impact`] for a material of that contact time:
+//! the time falls with the impact speed, and the centroid rises. All of it is a guess at the
+//! material, so such a bank is marked synthetic.
 
+pub use super::impact::{SAMPLE_RATE_HZ, SAMPLES, SPEED_STEP_M_S, SPEEDS};
+
+use super::impact::{self, Impact};
 use crate::model::{Gains, ModelGrid, TapBank, TapTrace, VertexKind};
 use crate::signal::spectrum::ArmaModel;
-use std::f64::consts::{PI, TAU};
 
-/// Impact speeds of the bank.
-pub const SPEEDS: usize = 13;
-/// Samples of a trace.
-pub const SAMPLES: usize = 100;
-/// Rate of a trace, Hz: 100 samples last 10 ms.
-pub const SAMPLE_RATE_HZ: f64 = 10_000.0;
-/// Step of impact speed, m/s: the bank reaches from 0.025 to 0.325 m/s.
-pub const SPEED_STEP_M_S: f64 = 0.025;
 /// ∫a dt per impact speed, so that J = m_eff·∫a dt is 5 % of the momentum m_eff·v.
 /// The wall returns the rest.
 pub const IMPULSE_PER_SPEED: f64 = 0.05;
-/// Decay time τ, s: e⁻⁵ of the amplitude is left where the trace ends.
-pub const DECAY_S: f64 = 0.002;
 /// Range of the frequency, Hz: perceived hardness peaks near 300 Hz.
 pub const FREQ_RANGE_HZ: (f64, f64) = (80.0, 350.0);
-/// Samples over which the end of a trace is faded to zero.
-const FADE_SAMPLES: usize = 20;
+/// Loss factor of a material of which nothing is known.
+const LOSS_FACTOR: f64 = 0.1;
 /// Fraction of the device's force that the strongest tap may take.
 const PEAK_SHARE: f64 = 0.9;
 
@@ -54,48 +45,25 @@ pub fn frequency_hz(grid: &ModelGrid) -> f64 {
 /// nine tenths of `f_max`.
 #[must_use]
 pub fn bank(freq_hz: f64, gains: &Gains) -> TapBank {
-    let unit = unit_trace(freq_hz);
-    let top_speed = SPEED_STEP_M_S * SPEEDS as f64;
-    let peak = unit.iter().fold(0.0_f64, |peak, a| peak.max(a.abs()));
-    let limit = PEAK_SHARE * gains.f_max_n / (gains.effective_mass_kg * peak * top_speed);
-    let per_speed = if gains.effective_mass_kg > 0.0 {
-        IMPULSE_PER_SPEED.min(limit)
+    let modulus_mpa = Impact::modulus_mpa(0.5 / freq_hz);
+    let impact = Impact::of_material(modulus_mpa, LOSS_FACTOR);
+    let peak_m_s2 = if gains.effective_mass_kg > 0.0 {
+        PEAK_SHARE * gains.f_max_n / gains.effective_mass_kg
     } else {
-        IMPULSE_PER_SPEED
+        f64::INFINITY
     };
+    let traces = impact::bank(&impact, IMPULSE_PER_SPEED, peak_m_s2);
     TapBank {
         sample_rate_hz: SAMPLE_RATE_HZ,
-        traces: (1..=SPEEDS)
-            .map(|step| {
-                let speed_m_s = SPEED_STEP_M_S * step as f64;
-                TapTrace {
-                    speed_m_s,
-                    accel_m_s2: unit.iter().map(|a| a * per_speed * speed_m_s).collect(),
-                }
+        traces: impact::speeds_m_s()
+            .into_iter()
+            .zip(traces)
+            .map(|(speed_m_s, trace)| TapTrace {
+                speed_m_s,
+                accel_m_s2: trace.to_vec(),
             })
             .collect(),
     }
-}
-
-/// A decaying sinusoid with ∫a dt = 1, faded to zero at its end.
-fn unit_trace(freq_hz: f64) -> Vec<f64> {
-    let mut trace: Vec<f64> = (0..SAMPLES)
-        .map(|n| {
-            let t_s = n as f64 / SAMPLE_RATE_HZ;
-            let left = (SAMPLES - n) as f64 / FADE_SAMPLES as f64;
-            let fade = if left < 1.0 {
-                0.5 - 0.5 * libm::cos(PI * left)
-            } else {
-                1.0
-            };
-            libm::exp(-t_s / DECAY_S) * libm::sin(TAU * freq_hz * t_s) * fade
-        })
-        .collect();
-    let impulse = impulse_m_s(&trace, SAMPLE_RATE_HZ);
-    for a in &mut trace {
-        *a /= impulse;
-    }
-    trace
 }
 
 /// ∫a dt of a trace, m/s.
@@ -148,5 +116,23 @@ mod tests {
                 .unwrap()
         };
         assert!(centroid(100.0) < centroid(200.0) && centroid(200.0) < centroid(350.0));
+    }
+
+    #[test]
+    fn a_faster_tap_has_a_higher_centroid() {
+        for freq_hz in [80.0, 150.0, 350.0] {
+            let centroids: Vec<f64> = bank(freq_hz, &gains())
+                .traces
+                .iter()
+                .map(|trace| {
+                    crate::signal::spectrum::trace_centroid_hz(&trace.accel_m_s2, SAMPLE_RATE_HZ)
+                        .unwrap()
+                })
+                .collect();
+            assert!(
+                centroids.is_sorted_by(|slow, fast| slow < fast),
+                "{centroids:?}"
+            );
+        }
     }
 }

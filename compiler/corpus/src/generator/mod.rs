@@ -7,7 +7,7 @@
 //! 3. [`level`]: RMS acceleration at 100 mm/s and 1 N from height, wavelength and
 //!    stiffness, growing with speed and force by stated exponents.
 //! 4. [`ar`]: autocorrelation and Levinson's recursion to AR(21) under 1 + z⁻¹.
-//! 5. [`tap`]: the transient of an impact.
+//! 5. [`tap`]: the transients of impacts, by Hertz's contact and the modes of the surface.
 //!
 //! Everything it makes is synthetic. Constants marked *calibrated* were set so that
 //! percentiles over all materials resemble those of HaTT (aggregates only; see
@@ -19,7 +19,7 @@ pub mod surface;
 pub mod tap;
 pub mod transfer;
 
-use crate::{BINS, Instance, ORDER, TAP_SAMPLES, TAPS, UnifiedGrid};
+use crate::{BINS, Instance, ORDER, TAPS, UnifiedGrid};
 
 /// Physical parameters of a surface under a stylus.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +41,7 @@ pub struct Physical {
 /// Impact speeds of the bank, m/s: 0.025 to 0.325, as for imported textures.
 #[must_use]
 pub fn tap_speeds_m_s() -> [f64; TAPS] {
-    std::array::from_fn(|n| asperity::tap_synthesis::SPEED_STEP_M_S * (n + 1) as f64)
+    asperity::impact::speeds_m_s()
 }
 
 /// The texture of a surface on a grid.
@@ -54,19 +54,10 @@ pub fn instance(physical: &Physical, grid: &UnifiedGrid) -> Instance {
         lsf_rad[index] = ar::lsf(&shape);
         level_db[index] = level::rms_db(physical, bin.speed_mm_s, bin.force_n) as f32;
     }
-    let speeds = tap_speeds_m_s();
-    let trace = tap::per_speed(physical);
-    let taps_m_s2 = std::array::from_fn(|n| {
-        let mut samples = [0.0; TAP_SAMPLES];
-        for (sample, per_speed) in samples.iter_mut().zip(&trace) {
-            *sample = (per_speed * speeds[n]) as f32;
-        }
-        samples
-    });
     Instance {
         lsf_rad,
         level_db,
-        taps_m_s2,
+        taps_m_s2: tap::bank(physical),
     }
 }
 

@@ -38,8 +38,7 @@ pub(super) fn loss_factor(family: &str) -> Option<f64> {
     })
 }
 
-/// The bank of traces, m/s² at 10 kHz, linear in impact speed.
+/// The bank of traces, m/s² at 10 kHz, by impact speed.
 pub(super) fn bank(surface: &Physical) -> [[f32; TAP_SAMPLES]; TAPS] {
-    let per_speed = generator::tap::per_speed(surface);
-    generator::tap_speeds_m_s().map(|speed_m_s| per_speed.map(|a| (a * speed_m_s) as f32))
+    generator::tap::bank(surface)
 }

@@ -9,7 +9,7 @@ use crate::{
     signal::tap_synthesis,
 };
 
-const NOTES: &str = "Taps are synthetic: decaying sinusoids whose frequency follows the \
+const NOTES: &str = "Taps are synthetic: impacts whose contact time follows the \
     spectra. Wall, gains and masses are unconfirmed defaults.";
 
 /// The texture of a material; `source` is the name of its file.
