@@ -3,7 +3,10 @@
 use asperity::{
     embedded,
     inference::Backend,
-    text::minilm::{MAX_TOKENS, MiniLm},
+    text::{
+        WithWords,
+        minilm::{MAX_TOKENS, MiniLm},
+    },
 };
 use proptest::prelude::*;
 use rten_text::{
@@ -13,7 +16,7 @@ use rten_text::{
 };
 use std::{path::Path, sync::LazyLock};
 
-static OURS: LazyLock<MiniLm> =
+static OURS: LazyLock<WithWords<MiniLm>> =
     LazyLock::new(|| embedded::text_encoder(&Backend::Portable).expect("the embedded encoder"));
 static PIECES: LazyLock<Vec<(&str, u32)>> = LazyLock::new(|| {
     let lines = asperity_model::VOCABULARY.lines();
@@ -48,7 +51,7 @@ fn expected(text: &str) -> (Vec<i64>, usize) {
 }
 
 fn assert_same(text: &str) {
-    let found = OURS.tokens(text).expect("a whole vocabulary");
+    let found = OURS.sentence().tokens(text).expect("a whole vocabulary");
     assert_eq!(found, expected(text), "{text:?}");
 }
 

@@ -11,6 +11,7 @@ use crate::{
     normaliser::{Coded, Normaliser, check},
     parameters::Parameters,
     progress::Progress,
+    recall::Recall,
     rng::{Purpose, Stream},
     text_stage,
     trained::{MaterialLatent, Seen, Trained, posteriors},
@@ -225,6 +226,7 @@ impl<'a> Session<'a> {
             history,
             text_history: Vec::new(),
             memory: None,
+            recall: None,
         };
         if let Some(stage) = &self.config.text_stage {
             let seed = self.config.seed;
@@ -232,13 +234,13 @@ impl<'a> Session<'a> {
                 text_stage::Examples::new(&trained.materials, &self.ratings, self.captions, stage);
             if let Some(how) = &stage.memory {
                 let (vectors, targets, weights) = examples.all();
-                trained.memory = Some(TextMemory::fit(
-                    &vectors,
-                    &targets,
-                    &weights,
-                    how,
-                    |step, steps, left| progress.text_epoch(step, steps, left),
-                ));
+                let memory =
+                    TextMemory::fit(&vectors, &targets, &weights, how, |step, steps, left| {
+                        progress.text_epoch(step, steps, left)
+                    });
+                let (materials, captions) = (&trained.materials, self.captions);
+                trained.recall = Recall::new(&memory, materials, captions, how.recall_temperature);
+                trained.memory = Some(memory);
                 return trained;
             }
             let refitted = text_stage::refit(&examples, stage, seed, progress);

@@ -25,6 +25,7 @@ mod parameters;
 mod progress;
 mod recall;
 mod rng;
+mod statistics;
 #[cfg(test)]
 mod synthetic;
 #[cfg(test)]
@@ -34,6 +35,7 @@ mod trained;
 mod vae;
 mod vectors;
 mod weights;
+mod words_held_out;
 
 pub use captions::Captions;
 pub use config::Config;
@@ -45,3 +47,4 @@ pub use normaliser::Normaliser;
 pub use progress::{EpochLoss, Progress, Silent};
 pub use trained::{Gaussian, MaterialLatent, Seen, Trained};
 pub use vectors::Remembered;
+pub use words_held_out::{TOLERANCE, WordsHeldOut};

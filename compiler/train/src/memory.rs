@@ -13,6 +13,8 @@ use burn_tensor::{Device, Tensor};
 
 /// Share of the first residual at which the solver stops.
 const TOLERANCE: f32 = 2e-4;
+/// κ of the soft maximum in [`TextMemory::familiarity`].
+pub(crate) const SHARPNESS: f32 = 20.0;
 /// Largest code of a kept vector or coefficient.
 const FULL_SCALE: f32 = 127.0;
 
@@ -101,12 +103,25 @@ impl TextMemory {
         memory
     }
 
-    /// Latents of text vectors.
-    pub(crate) fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
+    /// Text vectors of length one, on the principal directions.
+    pub(crate) fn directions(&self, vectors: &[&[f32]]) -> Vec<Vec<f32>> {
         if vectors.is_empty() {
             return Vec::new();
         }
         let device = Device::flex();
+        let asked = self.on_directions(vectors, &device);
+        numbers(asked)
+            .chunks(self.kept.max(1))
+            .map(<[f32]>::to_vec)
+            .collect()
+    }
+
+    /// Vectors on the principal directions in 8 bits: codes, and what a code of each is worth.
+    pub(crate) fn codes_of(&self, vectors: &[&[f32]]) -> (Vec<i8>, Vec<f32>) {
+        in_8_bits(&self.directions(vectors).concat(), self.kept)
+    }
+
+    fn on_directions(&self, vectors: &[&[f32]], device: &Device) -> Tensor<2> {
         let units: Vec<f32> = vectors
             .iter()
             .flat_map(|vector| {
@@ -114,8 +129,41 @@ impl TextMemory {
                 vector.iter().map(move |x| x / norm.max(f32::MIN_POSITIVE))
             })
             .collect();
-        let asked = matrix(units, self.width, &device);
-        let asked = asked.matmul(matrix(self.basis.clone(), self.kept, &device));
+        matrix(units, self.width, device).matmul(matrix(self.basis.clone(), self.kept, device))
+    }
+
+    /// How familiar text vectors are: `1 + ln(Σ_i exp(κ(e·e_i − 1)))/κ`, a soft maximum of their
+    /// inner products with the examples. `without` leaves out one example of each.
+    pub(crate) fn familiarity(&self, vectors: &[&[f32]], without: Option<&[usize]>) -> Vec<f64> {
+        if vectors.is_empty() {
+            return Vec::new();
+        }
+        let device = Device::flex();
+        let likeness = self.on_directions(vectors, &device);
+        let likeness = numbers(likeness.matmul(self.vectors(&device).transpose()));
+        let count = self.scales.len().max(1);
+        let rows = likeness.chunks(count).enumerate();
+        rows.map(|(row, likeness)| {
+            let left_out = without.map(|without| without[row]);
+            let terms = likeness
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| Some(*i) != left_out);
+            let sum: f64 = terms
+                .map(|(_, &x)| f64::from(libm::expf(SHARPNESS * (x - 1.0))))
+                .sum();
+            1.0 + libm::log(sum.max(f64::MIN_POSITIVE)) / f64::from(SHARPNESS)
+        })
+        .collect()
+    }
+
+    /// Latents of text vectors.
+    pub(crate) fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
+        if vectors.is_empty() {
+            return Vec::new();
+        }
+        let device = Device::flex();
+        let asked = self.on_directions(vectors, &device);
         let likeness = asked.matmul(self.vectors(&device).transpose());
         let coefficients = self.coefficients.chunks(LATENT).flat_map(|row| {
             let scaled = row.iter().zip(&self.coefficient_scales);
@@ -144,6 +192,38 @@ impl TextMemory {
     fn kernel(&self, likeness: Tensor<2>) -> Tensor<2> {
         ((likeness - 1.0) * self.concentration).exp()
     }
+}
+
+/// Values at `asked`, by regression on `vectors` and their `values`, with the kernel and the ridge
+/// of a memory, and in full precision.
+pub(crate) fn regress<const N: usize>(
+    vectors: &[&[f32]],
+    values: &[[f32; N]],
+    weights: &[f32],
+    asked: &[&[f32]],
+    how: &Memory,
+) -> Vec<[f32; N]> {
+    let device = Device::flex();
+    let width = vectors.first().map_or(0, |vector| vector.len());
+    let rows = |vectors: &[&[f32]]| matrix(vectors.concat(), width, &device);
+    let kernel = |likeness: Tensor<2>| ((likeness - 1.0) * how.concentration as f32).exp();
+    let known = rows(vectors);
+    let gram = kernel(known.clone().matmul(known.clone().transpose()));
+    let mut mean = [0.0; N];
+    for value in values {
+        let pairs = mean.iter_mut().zip(value);
+        pairs.for_each(|(sum, x)| *sum += x / values.len() as f32);
+    }
+    let centred = values
+        .iter()
+        .flat_map(|v| v.iter().zip(&mean).map(|(x, mean)| x - mean));
+    let wanted = matrix(centred.collect(), N, &device);
+    let ridge = weights.iter().map(|w| how.ridge as f32 / w.max(1e-3));
+    let ridge = matrix(ridge.collect(), 1, &device);
+    let found = conjugate_gradients(gram, wanted, ridge, how, &mut |_, _, _| ());
+    let said = kernel(rows(asked).matmul(known.transpose())).matmul(found);
+    let said = numbers(said + matrix(mean.to_vec(), N, &device));
+    said.as_chunks::<N>().0.to_vec()
 }
 
 /// The directions in which vectors vary most, about zero, a column each: `width × kept`.

@@ -1,10 +1,11 @@
 //! What can be said of a model on the materials it was trained on.
 
 use crate::{
-    captions::{Captions, cosine, dot},
+    captions::{Captions, cosine},
     normaliser::{AR, Coded, LSFS, TAP_VALUES},
     progress::EpochLoss,
     trained::{Seen, Trained},
+    words_held_out::{self, WordsHeldOut},
 };
 use asperity::learned::description::LATENT;
 use asperity_corpus::{Corpus, Instance};
@@ -15,7 +16,7 @@ use serde::Serialize;
 const ACTIVE_VARIANCE: f64 = 0.01;
 
 /// Measured on the training materials; only `held_out` looks at texts never seen.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Metrics {
     /// Losses of the last epoch.
     pub loss: EpochLoss,
@@ -33,6 +34,12 @@ pub struct Metrics {
     pub training: Retrieval,
     /// Finding a material by its held-out captions.
     pub held_out: Retrieval,
+    /// Finding a material by its name.
+    pub names: Retrieval,
+    /// Finding a material by its synonyms, which it was trained on.
+    pub synonyms: Retrieval,
+    /// Ratings of phrases that were left out, where there is a memory.
+    pub words: Option<WordsHeldOut>,
 }
 
 /// How often the material is among the anchors nearest to the projected caption.
@@ -81,7 +88,27 @@ pub fn measure(trained: &Trained, corpus: &Corpus, captions: &Captions) -> Metri
         active_units: active_units(&means),
         training: retrieval(trained, &captions.training),
         held_out: retrieval(trained, &captions.held_out),
+        names: retrieval(trained, &named(captions, |names| &names[..1])),
+        synonyms: retrieval(trained, &named(captions, |names| &names[1..])),
+        words: words(trained, corpus, captions),
     }
+}
+
+/// Some of the names of each material.
+fn named(captions: &Captions, of: fn(&[Vec<f32>]) -> &[Vec<f32>]) -> Vec<Vec<Vec<f32>>> {
+    let each = captions.training.iter().zip(&captions.names);
+    each.map(|(texts, &names)| of(&texts[texts.len() - names..]).to_vec())
+        .collect()
+}
+
+fn words(trained: &Trained, corpus: &Corpus, captions: &Captions) -> Option<WordsHeldOut> {
+    let memory = trained.memory.as_ref()?;
+    let how = trained.config.text_stage.as_ref()?.memory.as_ref()?;
+    let materials: Vec<usize> = trained.materials.iter().map(|m| m.material).collect();
+    let seed = trained.config.seed;
+    Some(words_held_out::measure(
+        memory, corpus, &materials, captions, how, seed,
+    ))
 }
 
 /// Residual and total sum of squares, a column each.
@@ -154,23 +181,4 @@ fn retrieval(trained: &Trained, captions: &[Vec<Vec<f32>>]) -> Retrieval {
         top_1: within(1),
         top_5: within(5),
     }
-}
-
-/// Of each held-out caption: its largest cosine with a mean caption, and 1 if its material
-/// is among the first five anchors, else 0.
-pub(crate) fn held_out_trials(trained: &Trained, captions: &Captions) -> Vec<(f64, f64)> {
-    let mut trials = Vec::new();
-    for (own, located) in trained.materials.iter().enumerate() {
-        let vectors: Vec<&[f32]> = captions.held_out[located.material]
-            .iter()
-            .map(Vec::as_slice)
-            .collect();
-        for (vector, z) in vectors.iter().zip(trained.project(&vectors)) {
-            let similarities = trained.materials.iter().map(|m| dot(vector, &m.caption));
-            let similarity = similarities.fold(-1.0, f32::max);
-            let success = place(trained, &z, own) < 5;
-            trials.push((f64::from(similarity), f64::from(u8::from(success))));
-        }
-    }
-    trials
 }

@@ -8,7 +8,7 @@ use crate::{
     normaliser::{AR, Coded, LSFS, Normaliser, TAP_VALUES},
     parameters::{Bound, Parameters, numbers},
     progress::EpochLoss,
-    recall::recall,
+    recall::Recall,
     vae::decode,
 };
 use asperity::learned::description::LATENT;
@@ -66,6 +66,8 @@ pub struct Trained {
     pub(crate) text_history: Vec<f32>,
     /// Projects in place of the network where there is one.
     pub(crate) memory: Option<TextMemory>,
+    /// Draws what the memory says to a material.
+    pub(crate) recall: Option<Recall>,
 }
 
 impl Trained {
@@ -170,31 +172,18 @@ impl Trained {
         instance
     }
 
-    /// τ of the recall of materials; 0 for none.
-    pub(crate) fn recall_temperature(&self) -> f32 {
-        let memory = self
-            .config
-            .text_stage
-            .as_ref()
-            .and_then(|stage| stage.memory);
-        memory.map_or(0.0, |memory| memory.recall_temperature as f32)
-    }
-
     /// The latents that text vectors project to.
     #[must_use]
     pub fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
         if let Some(memory) = &self.memory {
-            let projected = vectors
-                .chunks(CHUNK)
-                .flat_map(|chunk| memory.project(chunk));
-            let mut latents: Vec<_> = projected.collect();
-            recall(
-                &self.materials,
-                self.recall_temperature(),
-                vectors,
-                &mut latents,
-            );
-            return latents;
+            let projected = vectors.chunks(CHUNK).flat_map(|chunk| {
+                let mut latents = memory.project(chunk);
+                if let Some(recall) = &self.recall {
+                    recall.draw(&self.materials, &memory.directions(chunk), &mut latents);
+                }
+                latents
+            });
+            return projected.collect();
         }
         let device = Device::flex();
         let bound = self.projection_parameters.bind(&device);

@@ -2,19 +2,18 @@
 
 use super::description::CertaintyCurve;
 
-/// Certainty, 0..=1, of a prompt whose largest cosine with a material's mean caption is
-/// `similarity`. It is piecewise linear, falls to zero below the first knot, and is constant beyond
+/// Certainty, 0..=1, of a prompt of this familiarity. It is piecewise linear, falls to zero below the first knot, and is constant beyond
 /// the last.
 #[must_use]
-pub fn certainty(curve: &CertaintyCurve, similarity: f64) -> f64 {
+pub fn certainty(curve: &CertaintyCurve, familiarity: f64) -> f64 {
     let (x, y) = (&curve.similarity, &curve.certainty);
-    let Some(after) = x.iter().position(|&knot| similarity < knot) else {
+    let Some(after) = x.iter().position(|&knot| familiarity < knot) else {
         return y.last().copied().unwrap_or(0.0);
     };
     if after == 0 {
-        return y[0] * (similarity / x[0]).clamp(0.0, 1.0);
+        return y[0] * (familiarity / x[0]).clamp(0.0, 1.0);
     }
-    let share = (similarity - x[after - 1]) / (x[after] - x[after - 1]);
+    let share = (familiarity - x[after - 1]) / (x[after] - x[after - 1]);
     y[after - 1] + share * (y[after] - y[after - 1])
 }
 

@@ -63,5 +63,8 @@ pub(super) fn check(description: &ModelDescription) -> Result<(), ModelError> {
     if curve.similarity.is_empty() || curve.similarity.len() != curve.certainty.len() {
         return fault("certainty: as many similarities as certainties, one at least".into());
     }
+    if !description.unfamiliar.is_finite() {
+        return fault("unfamiliar: not a number".into());
+    }
     Ok(())
 }

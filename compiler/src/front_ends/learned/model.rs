@@ -21,6 +21,9 @@ pub struct Projected {
     pub z: Latent,
     /// Cosine of the text with the mean caption of every anchor, in their order.
     pub similarity: Vec<f32>,
+    /// A soft maximum of its cosines with the examples of the projection: 1 and more for what the
+    /// model was trained on.
+    pub familiarity: f32,
 }
 
 /// What a latent decodes to, bins and traces in the order of the description.
@@ -115,6 +118,7 @@ impl LearnedModel {
         Ok(Projected {
             z: latent(&take(FILE, &outputs, "z", LATENT)?),
             similarity: take(FILE, &outputs, "similarity", self.description.anchors.len())?,
+            familiarity: take(FILE, &outputs, "familiarity", 1)?[0],
         })
     }
 

@@ -2,7 +2,9 @@
 
 use super::{
     Authored, Nearest, Options, PromptError,
+    meaning::Meaning,
     name::{shortened, title},
+    phrase::adjust,
     understood::{Understood, check, understood},
     variation::varied,
 };
@@ -88,7 +90,12 @@ impl Author {
         Ok(Prompted {
             z: projected.z,
             similarity,
-            certainty: learned::certainty(&self.model.description().certainty, similarity),
+            familiarity: f64::from(projected.familiarity),
+            certainty: learned::certainty(
+                &self.model.description().certainty,
+                projected.familiarity.into(),
+            ),
+            unfamiliar: f64::from(projected.familiarity) < self.model.description().unfamiliar,
             tokens: (encoded.tokens, encoded.cut),
             understood: understood(prompt, |word| self.text.reads(word)),
         })
@@ -102,10 +109,12 @@ impl Author {
         let mut pipeline = Pipeline::default();
         let prompt = prompt.trim();
         let prompted = pipeline.run(Pass::Text, || self.project(prompt))?;
+        let Meaning { z, shift } = pipeline.run(Pass::Text, || self.meaning(prompt, prompted.z))?;
         let spread = &self.model.description().spread;
-        let z = varied(prompted.z, spread, options.seed);
-        let (texture, neighbours) =
+        let z = varied(z, spread, options.seed);
+        let (mut texture, neighbours) =
             pipeline.run(Pass::Decode, || self.decode(&z, prompt, options.seed))?;
+        adjust::adjust(&mut texture, &shift);
         let nearest = self.nearest(&neighbours);
         let families: Vec<(&str, f64)> = nearest
             .iter()
@@ -139,6 +148,7 @@ impl Author {
             z,
             nearest,
             certainty: prompted.certainty,
+            unfamiliar: prompted.unfamiliar,
             similarity: prompted.similarity,
             tokens: prompted.tokens,
             understood: prompted.understood,
@@ -203,8 +213,12 @@ pub struct Prompted {
     pub z: Latent,
     /// Largest cosine with a material's mean caption.
     pub similarity: f64,
+    /// Soft maximum of the cosines with all that the projection was trained on.
+    pub familiarity: f64,
     /// Certainty, 0..=1.
     pub certainty: f64,
+    /// Whether the prompt is far from everything the model knows.
+    pub unfamiliar: bool,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
     /// Which words the encoder can read.

@@ -9,9 +9,6 @@ use crate::{
     pipeline::Timings,
 };
 
-/// Below it a prompt is far from anything the model was trained on.
-pub const LOW_CERTAINTY: f64 = 0.2;
-
 /// What a user can ask of a texture besides its prompt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
@@ -56,6 +53,8 @@ pub struct Authored {
     pub attributes: Attributes,
     /// Certainty, 0..=1.
     pub certainty: f64,
+    /// Whether the prompt is far from everything the model knows.
+    pub unfamiliar: bool,
     /// Largest cosine between the prompt and a material's mean caption.
     pub similarity: f64,
     /// Tokens read, and cut off.

@@ -1,17 +1,21 @@
 //! The prompt front end: words become a text vector, a latent, a texture.
 //!
 //! A frozen text encoder reads the prompt, the learned model places it among the materials that
-//! it was trained on and decodes the latent, and the [pipeline](crate::pipeline) does the rest.
+//! it was trained on and decodes the latent, the [grammar](phrase) of the prompt moves what a vector
+//! misses, and the [pipeline](crate::pipeline) does the rest.
 
 mod author;
 mod authored;
 mod error;
+mod meaning;
 mod name;
+pub mod phrase;
 mod report;
 mod understood;
 mod variation;
 
 pub use author::{Author, Prompted};
-pub use authored::{Authored, LOW_CERTAINTY, Nearest, Options};
+pub use authored::{Authored, Nearest, Options};
 pub use error::PromptError;
+pub use meaning::Meaning;
 pub use understood::{Understood, check};

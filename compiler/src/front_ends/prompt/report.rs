@@ -1,6 +1,6 @@
 //! The report of a compiled prompt, as text and as JSON.
 
-use super::{Authored, LOW_CERTAINTY};
+use super::Authored;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -8,7 +8,20 @@ impl Authored {
     /// Whether the prompt is far from anything the model was trained on.
     #[must_use]
     pub fn is_uncertain(&self) -> bool {
-        self.certainty < LOW_CERTAINTY
+        self.unfamiliar
+    }
+
+    /// The certainty in a word: `sure` where at least two of three phrases as familiar came out
+    /// right, `a guess` where the prompt is unfamiliar, `roughly` between them.
+    #[must_use]
+    pub fn sureness(&self) -> &'static str {
+        if self.unfamiliar {
+            "a guess"
+        } else if self.certainty < 2.0 / 3.0 {
+            "roughly"
+        } else {
+            "sure"
+        }
     }
 
     /// What a user should be told apart from the result, one line each.
@@ -24,7 +37,7 @@ impl Authored {
         }
         if self.is_uncertain() {
             warnings.push(format!(
-                "low certainty ({:.0} %): the prompt is far from every material the model knows",
+                "a guess ({:.0} %): the prompt is far from everything the model knows",
                 100.0 * self.certainty
             ));
         }
@@ -68,9 +81,9 @@ impl Authored {
         line(
             "certainty",
             format!(
-                "{:.0} %{}",
-                100.0 * self.certainty,
-                if self.is_uncertain() { ", low" } else { "" }
+                "{}: {:.0} % of phrases as familiar came out right",
+                self.sureness(),
+                100.0 * self.certainty
             ),
         );
         let texture = &self.texture;

@@ -126,6 +126,12 @@ impl<E: TextEncoder> WithWords<E> {
             name,
         }
     }
+
+    /// The sentence encoder.
+    #[must_use]
+    pub fn sentence(&self) -> &E {
+        &self.sentence
+    }
 }
 
 impl<E: TextEncoder> TextEncoder for WithWords<E> {

@@ -10,7 +10,6 @@
 //! 6. [`map`]: pictures of the anchors.
 
 mod cache;
-mod calibrate;
 pub mod clustering;
 mod data;
 mod draws;
@@ -22,21 +21,19 @@ pub mod probes;
 mod report;
 pub mod retrieval;
 mod signature;
-mod statistics;
 mod subject;
 #[cfg(test)]
 mod tests;
 mod texts;
 mod watch;
 
-pub use calibrate::calibrate;
+pub use crate::statistics::{Share, Spread};
 pub use error::EvaluateError;
 pub use report::{Conditions, Report};
 pub use signature::Objective;
-pub use statistics::{Share, Spread};
 pub use watch::{Unwatched, Watch};
 
-use crate::{captions::Captions, config::Config};
+use crate::{captions::Captions, config::Config, statistics};
 use asperity::{inference::Backend, text::TextEncoder};
 use asperity_corpus::{Corpus, reference::LexiconEntry};
 use signature::Signature;

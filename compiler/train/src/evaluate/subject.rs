@@ -120,12 +120,8 @@ impl Subject {
     }
 }
 
-/// Of everything but the certainty, which the evaluation itself may have set.
 fn checksum(description: &ModelDescription, networks: &[Vec<u8>; 4]) -> Result<u32, EvaluateError> {
-    let mut description = description.clone();
-    description.certainty.similarity.clear();
-    description.certainty.certainty.clear();
-    let json = serde_json::to_vec(&description).map_err(|error| EvaluateError::Encode {
+    let json = serde_json::to_vec(description).map_err(|error| EvaluateError::Encode {
         file: "model.json".into(),
         message: error.to_string(),
     })?;

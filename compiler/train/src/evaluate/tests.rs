@@ -143,21 +143,6 @@ fn every_part_is_measured_written_and_kept() {
     assert!(again == report, "a kept fold differs from the measured one");
 }
 
-#[test]
-fn calibration_changes_the_certainty_alone() {
-    let folder = tempfile::tempdir().unwrap();
-    let bench = bench(folder.path());
-    let report = measured(&bench, folder.path(), &mut Unwatched);
-    let held_out = report.held_out.unwrap();
-    let model = folder.path().join("model");
-    calibrate(&model, &held_out).unwrap();
-    let again = Subject::open(&model, &Backend::Portable).unwrap();
-    assert_eq!(again.crc32, bench.subject.crc32);
-    let (new, old) = (again.description(), bench.subject.description());
-    assert_eq!(new.certainty, held_out.certainty);
-    assert_eq!(new.anchors, old.anchors);
-}
-
 /// Asks to stop at once.
 struct Stopped;
 

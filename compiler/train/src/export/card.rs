@@ -107,6 +107,8 @@ fn card(
     for (name, retrieval) in [
         ("training", metrics.training),
         ("held-out", metrics.held_out),
+        ("own names, as", metrics.names),
+        ("synonyms, trained on, as", metrics.synonyms),
     ] {
         writeln!(
             text,
@@ -114,6 +116,20 @@ fn card(
             retrieval.captions,
             percent(retrieval.top_1),
             percent(retrieval.top_5)
+        )?;
+    }
+    if let Some(words) = &metrics.words {
+        let [rough, slippery, hard] = words.r_squared;
+        writeln!(
+            text,
+            "| ratings of {} phrases left out in groups, R²: rough, slippery, hard | {rough:.3}, \
+             {slippery:.3}, {hard:.3} |",
+            words.phrases
+        )?;
+        let [rough, slippery, hard] = words.spearman;
+        writeln!(
+            text,
+            "| the same, Spearman's ρ | {rough:.3}, {slippery:.3}, {hard:.3} |"
         )?;
     }
     for axis in &description.axes {

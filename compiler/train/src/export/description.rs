@@ -1,7 +1,7 @@
 //! `model.json`.
 
 use super::{attributes, certainty_curve, ridge};
-use crate::{captions::Captions, metrics, trained::Trained};
+use crate::{metrics::Metrics, trained::Trained};
 use asperity::learned::description::{
     Anchor, AttributeAxis, CorpusDescription, FORMAT, FrictionDescription, GridDescription,
     ModelDescription, TapDescription, TextEncoderDescription,
@@ -9,13 +9,10 @@ use asperity::learned::description::{
 use asperity_corpus::{Corpus, ORDER, SAMPLE_RATE_HZ, TAP_RATE_HZ, TAP_SAMPLES};
 
 /// Everything about a model that is not a network.
-pub(super) fn describe(
-    trained: &Trained,
-    corpus: &Corpus,
-    captions: &Captions,
-) -> ModelDescription {
+pub(super) fn describe(trained: &Trained, corpus: &Corpus, metrics: &Metrics) -> ModelDescription {
     let config = &trained.config;
     let grid = &corpus.grid;
+    let words = metrics.words.as_ref();
     let anchors = trained.materials.iter().map(|located| {
         let material = &corpus.materials[located.material];
         Anchor {
@@ -60,7 +57,8 @@ pub(super) fn describe(
         anchors: anchors.collect(),
         axes: axes(trained, corpus),
         spread: trained.spread.to_vec(),
-        certainty: certainty_curve(&metrics::held_out_trials(trained, captions)),
+        certainty: certainty_curve(words.map_or(&[], |words| &words.trials)),
+        unfamiliar: words.map_or(0.0, |words| words.unfamiliar),
     }
 }
 

@@ -129,7 +129,7 @@ pub fn export(
 ) -> Result<ModelFiles, ExportError> {
     let networks = networks::write(trained)?;
     verify::check(trained, corpus, captions, &networks)?;
-    let description = description::describe(trained, corpus, captions);
+    let description = description::describe(trained, corpus, metrics);
     let mut json = serde_json::to_vec(&description).map_err(|e| ExportError::Encode {
         file: "model.json",
         message: e.to_string(),

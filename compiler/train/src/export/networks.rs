@@ -4,10 +4,11 @@
 use super::{ExportError, gain, graph::Writer};
 use crate::{
     config::Excitation,
-    memory::TextMemory,
+    memory::{SHARPNESS, TextMemory},
     network::{GAPS, LOG_VARIANCE_BOUND, Trunk, gap_matrix, gap_offsets},
     normaliser::{LSFS, TAP_VALUES},
     parameters::Slot,
+    recall::Recall,
     trained::Trained,
 };
 use asperity::learned::description::LATENT;
@@ -41,8 +42,8 @@ fn finish(file: &'static str, writer: &Writer<'_>) -> Result<File, ExportError> 
     Ok((file, bytes))
 }
 
-/// `embedding` [B, W] → `z` [B, 64] and `similarity` [B, M], its cosine with the mean
-/// caption of every material.
+/// `embedding` [B, W] → `z` [B, 64], `similarity` [B, M], its cosine with the mean caption of
+/// every material, and `familiarity` [B, 1].
 fn text_projection(trained: &Trained) -> Writer<'_> {
     let mut writer = Writer::new("text_projection", &trained.projection_parameters);
     let (width, count) = (trained.width, trained.materials.len());
@@ -65,27 +66,56 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
     let direction = writer.graph.div(&embedding, &norm);
     let inputs = [Some(&direction), Some(&captions)];
     let similarity = writer.graph.node("MatMul", &inputs, &[]);
-    let z = match &trained.memory {
-        Some(memory) => {
-            let z = from_memory(&mut writer, memory, &direction);
-            recalled(&mut writer, trained, z, &similarity)
+    let (z, likeness) = match &trained.memory {
+        Some(memory) => from_memory(&mut writer, trained, memory, &direction),
+        None => {
+            let likeness = writer.plus(&similarity, -1.0);
+            let z = writer.chain(&trained.projection.layers, &embedding);
+            (z, likeness)
         }
-        None => writer.chain(&trained.projection.layers, &embedding),
     };
     writer.output("z", &z, &[LATENT]);
     writer.output("similarity", &similarity, &[count]);
+    let familiarity = soft_maximum(&mut writer, &likeness);
+    writer.output("familiarity", &familiarity, &[1]);
     writer
 }
 
-/// `z + ‖p‖·(p·Z − z)`, p = softmax(cos/τ), as [`recall`](crate::recall::recall).
-fn recalled(writer: &mut Writer<'_>, trained: &Trained, z: Value, similarity: &Value) -> Value {
-    let temperature = trained.recall_temperature();
-    if temperature <= 0.0 {
-        return z;
-    }
-    let means: Vec<f32> = trained.materials.iter().flat_map(|m| m.mean).collect();
-    let means = writer.table("materials", &[trained.materials.len(), LATENT], means);
-    let logits = writer.times(similarity, 1.0 / temperature);
+/// `1 + ln(Σ exp(κ·likeness))/κ`, as [`TextMemory::familiarity`].
+fn soft_maximum(writer: &mut Writer<'_>, likeness: &Value) -> Value {
+    let sharp = writer.times(likeness, SHARPNESS);
+    let terms = writer.graph.unary("Exp", &sharp);
+    // An input from opset 13 on, which these graphs are beyond.
+    let axes = writer.graph.integers(&[1]);
+    let keep = ("keepdims", Attribute::Int(1));
+    let sum = writer
+        .graph
+        .node("ReduceSum", &[Some(&terms), Some(&axes)], &[keep]);
+    let sum = writer.plus(&sum, f32::MIN_POSITIVE);
+    let logarithm = writer.graph.unary("Log", &sum);
+    let scaled = writer.times(&logarithm, 1.0 / SHARPNESS);
+    writer.plus(&scaled, 1.0)
+}
+
+/// `z + ‖p‖·(p·Z − z)`, p = softmax(e·c/τ) over prototypes c, as [`Recall::draw`].
+fn recalled(
+    writer: &mut Writer<'_>,
+    trained: &Trained,
+    recall: &Recall,
+    z: Value,
+    direction: &Value,
+) -> Value {
+    let count = recall.owners.len();
+    let width = recall.codes.len() / count.max(1);
+    let prototypes = dequantised(writer, "prototypes", &recall.codes, width, &recall.scales);
+    let means = recall.owners.iter();
+    let means: Vec<f32> = means
+        .flat_map(|&owner| trained.materials[owner].mean)
+        .collect();
+    let means = writer.table("prototypes.latents", &[count, LATENT], means);
+    let inputs = [Some(direction), Some(&prototypes)];
+    let logits = writer.graph.node("MatMul", &inputs, &[]);
+    let logits = writer.times(&logits, 1.0 / recall.temperature);
     let shares = writer.graph.softmax(&logits, 1);
     let inputs = [Some(&shares), Some(&means)];
     let recalled = writer.graph.node("MatMul", &inputs, &[]);
@@ -93,23 +123,23 @@ fn recalled(writer: &mut Writer<'_>, trained: &Trained, z: Value, similarity: &V
         ("axes", Attribute::Ints(vec![1])),
         ("keepdims", Attribute::Int(1)),
     ];
-    let clarity = writer
-        .graph
-        .node("ReduceL2", &[Some(&shares)], &attributes);
+    let clarity = writer.graph.node("ReduceL2", &[Some(&shares)], &attributes);
     let difference = writer.graph.sub(&recalled, &z);
     let change = writer.graph.mul(&difference, &clarity);
     writer.graph.add(&z, &change)
 }
 
-/// `z̄ + exp(γ(e·e_i − 1))·a`: 8-bit vectors on their principal directions, a column an example,
-/// and 8-bit coefficients.
-fn from_memory(writer: &mut Writer<'_>, memory: &TextMemory, direction: &Value) -> Value {
-    let (width, count) = (memory.kept, memory.scales.len());
-    let basis = writer.table("memory.basis", &[memory.width, width], memory.basis.clone());
-    let inputs = [Some(direction), Some(&basis)];
-    let direction = &writer.graph.node("MatMul", &inputs, &[]);
+/// 8-bit rows as a matrix of columns, [width, rows].
+fn dequantised(
+    writer: &mut Writer<'_>,
+    name: &str,
+    codes: &[i8],
+    width: usize,
+    scales: &[f32],
+) -> Value {
+    let count = scales.len();
     let mut columns = vec![0_u8; width * count];
-    for (column, example) in memory.codes.chunks(width).enumerate() {
+    for (column, example) in codes.chunks(width.max(1)).enumerate() {
         for (row, code) in example.iter().enumerate() {
             columns[row * count + column] = code.to_ne_bytes()[0];
         }
@@ -118,21 +148,39 @@ fn from_memory(writer: &mut Writer<'_>, memory: &TextMemory, direction: &Value) 
         shape: vec![width, count],
         data: columns.into(),
     };
-    let codes = writer.graph.constant("memory.vectors", codes);
-    let scales = writer.graph.constant(
-        "memory.scales",
-        Tensor::f32(&[count], memory.scales.clone()),
-    );
+    let codes = writer.graph.constant(name, codes);
+    let scales = Tensor::f32(&[count], scales.to_vec());
+    let scales = writer.graph.constant(&format!("{name}.scales"), scales);
     let axis = ("axis", Attribute::Int(1));
-    let kept = writer
-        .graph
-        .node("DequantizeLinear", &[Some(&codes), Some(&scales)], &[axis]);
+    let inputs = [Some(&codes), Some(&scales)];
+    writer.graph.node("DequantizeLinear", &inputs, &[axis])
+}
+
+/// The latent `z̄ + exp(γ(e·e_i − 1))·a`, recalled, and `e·e_i − 1`: 8-bit vectors on their
+/// principal directions and 8-bit coefficients.
+fn from_memory(
+    writer: &mut Writer<'_>,
+    trained: &Trained,
+    memory: &TextMemory,
+    direction: &Value,
+) -> (Value, Value) {
+    let (width, count) = (memory.kept, memory.scales.len());
+    let basis = writer.table("memory.basis", &[memory.width, width], memory.basis.clone());
+    let inputs = [Some(direction), Some(&basis)];
+    let direction = &writer.graph.node("MatMul", &inputs, &[]);
+    let kept = dequantised(
+        writer,
+        "memory.vectors",
+        &memory.codes,
+        width,
+        &memory.scales,
+    );
     let likeness = writer
         .graph
         .node("MatMul", &[Some(direction), Some(&kept)], &[]);
     let likeness = writer.plus(&likeness, -1.0);
-    let likeness = writer.times(&likeness, memory.concentration);
-    let kernel = writer.graph.unary("Exp", &likeness);
+    let exponent = writer.times(&likeness, memory.concentration);
+    let kernel = writer.graph.unary("Exp", &exponent);
     let coefficients = Tensor::I8 {
         shape: vec![count, LATENT],
         data: memory
@@ -152,7 +200,12 @@ fn from_memory(writer: &mut Writer<'_>, memory: &TextMemory, direction: &Value) 
         .graph
         .node("MatMul", &[Some(&kernel), Some(&coefficients)], &[]);
     let mean = writer.row("memory.mean", &memory.mean);
-    writer.graph.add(&from_mean, &mean)
+    let z = writer.graph.add(&from_mean, &mean);
+    let z = match &trained.recall {
+        Some(recall) => recalled(writer, trained, recall, z, direction),
+        None => z,
+    };
+    (z, likeness)
 }
 
 /// `z` [B, 64] → `lsf_rad` [B, 18, 21] and `level_db` [B, 18].

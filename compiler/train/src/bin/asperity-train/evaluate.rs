@@ -12,7 +12,7 @@ use asperity::{
 };
 use asperity_train::{
     Config,
-    evaluate::{CorpusSource, Options, Part, Watch, calibrate, evaluate},
+    evaluate::{CorpusSource, Options, Part, Watch, evaluate},
     on_threads,
 };
 use clap::Args;
@@ -25,7 +25,6 @@ use thiserror::Error;
   asperity-train evaluate --model model -o report
   asperity-train evaluate --model model --parts 1,2,4 -o report
   asperity-train evaluate --model hatt-model --corpus hatt:HaTT/Models -o hatt-report
-  asperity-train evaluate --model model --calibrate -o report
   asperity-train evaluate --model model --parts 3 --folds 3 --fold-epochs 40 -o quick
 
 Finished parts and folds are kept in DIR/cache: after an interrupt, the same command goes on.")]
@@ -61,9 +60,6 @@ pub(crate) struct Evaluate {
     /// Threads; as many as there are cores if left out. The report does not depend on it
     #[arg(long)]
     threads: Option<NonZeroUsize>,
-    /// Write the certainty that part 3 measures, on held-out families, into the model
-    #[arg(long)]
-    calibrate: bool,
     /// No progress bar
     #[arg(short, long)]
     quiet: bool,
@@ -93,35 +89,12 @@ pub(crate) fn run(args: &Evaluate) -> Result<(), Failure> {
     });
     bar.0.finish_and_clear();
     let report = report.map_err(boxed)?.map_err(boxed)?;
-    if args.calibrate {
-        let measured = report
-            .held_out
-            .as_ref()
-            .ok_or(NothingMeasured)
-            .map_err(boxed)?;
-        calibrate(&args.model, measured).map_err(boxed)?;
-    }
     let text = if args.json {
         report.json().map_err(boxed)?
     } else {
         format!("{}: report.md, report.json\n", args.output.display())
     };
     console::print(&text).map_err(boxed)
-}
-
-/// Calibration without the part it rests on.
-#[derive(Debug, Error)]
-#[error("--calibrate: part 3 was neither asked for nor measured before")]
-struct NothingMeasured;
-
-impl Diagnostic for NothingMeasured {
-    fn remedy(&self) -> String {
-        "add 3 to --parts".into()
-    }
-
-    fn is_usage(&self) -> bool {
-        true
-    }
 }
 
 /// A bar for each stage.

@@ -223,7 +223,11 @@ fn ask<'p>(
     watch.done(distinct.len());
     let found = vectors.iter().zip(&projected).zip(decoded);
     let felt = found.map(|((vector, said), decoded)| {
-        let phrases: Vec<f32> = known.lexicon.iter().map(|phrase| dot(vector, &phrase.vector)).collect();
+        let phrases: Vec<f32> = known
+            .lexicon
+            .iter()
+            .map(|phrase| dot(vector, &phrase.vector))
+            .collect();
         Felt {
             decoded: decoded.signature.objective,
             material: known.materials[nearest(&said.similarity)].objective,

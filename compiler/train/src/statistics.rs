@@ -1,4 +1,4 @@
-//! Summaries that several parts share.
+//! Summaries of numbers.
 
 use serde::{Deserialize, Serialize};
 
@@ -76,12 +76,12 @@ impl Share {
 }
 
 /// Arithmetic mean; zero for none.
-pub(super) fn mean(values: &[f64]) -> f64 {
+pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 /// The middle value; zero for none.
-pub(super) fn median(values: &[f64]) -> f64 {
+pub(crate) fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;
@@ -94,7 +94,7 @@ pub(super) fn median(values: &[f64]) -> f64 {
 
 /// Spearman's rank correlation, ties at their mean rank; `None` where one side does not
 /// vary.
-pub(super) fn spearman(x: &[f64], y: &[f64]) -> Option<f64> {
+pub(crate) fn spearman(x: &[f64], y: &[f64]) -> Option<f64> {
     let (x, y) = (ranks(x), ranks(y));
     let (x_mean, y_mean) = (mean(&x), mean(&y));
     let sum = |a: &[f64], a_mean: f64, b: &[f64], b_mean: f64| -> f64 {

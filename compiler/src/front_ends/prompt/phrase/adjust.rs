@@ -1,0 +1,188 @@
+//! Moves the attributes of a texture, and nothing else of it.
+//!
+//! Roughness moves by the level of every model, slipperiness by μ, hardness by the time in which
+//! a tap passes: a tap that is over in half the time has twice the pitch, and the same impulse.
+
+use super::{Change, Changes};
+use crate::model::{
+    TextureModel,
+    attributes::{self, Attributes},
+};
+
+/// One step of a change: roughness in dB, slipperiness as −ln μ, hardness as ln of the centroid.
+/// Half a step is noticed (amplitude 1.6 dB, frequency 18 %, friction 10 %).
+pub const STEP: [f64; 3] = [5.0, 0.35, 0.42];
+/// Largest σ·gain of a model after a change, relative to before.
+const LARGEST_CHANGE_DB: f64 = 20.0;
+/// μ stays within these.
+const MU: (f64, f64) = (0.03, 2.5);
+/// A tap is at most so many times faster or slower.
+const FASTEST: f64 = 4.0;
+/// Samples over which the end of a slower tap is faded.
+const FADE: usize = 15;
+/// A tap's peak stays below this share of what the device's force allows.
+const TAP_SHARE: f64 = 0.95;
+/// Corrections of a tap's time, since a cut end moves the centroid.
+const CORRECTIONS: usize = 6;
+
+/// How far the attributes of a texture are to move: roughness, dB; −ln μ; ln of the tap's centroid.
+/// `None` leaves one as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Shift(pub [Option<f64>; 3]);
+
+/// Attributes on the scales of [`Shift`].
+#[must_use]
+pub fn scales(attributes: &Attributes) -> [Option<f64>; 3] {
+    [
+        attributes.rough_db,
+        Some(-libm::log(attributes.mu.max(f64::MIN_POSITIVE))),
+        attributes.hard_hz.filter(|hz| *hz > 0.0).map(libm::log),
+    ]
+}
+
+/// How far a texture whose attributes are `learned` is to move so that it differs from its base as
+/// the changes say.
+#[must_use]
+pub fn from_base(base: &Attributes, learned: &Attributes, changes: &Changes) -> Shift {
+    let changes = [changes.rough, changes.slippery, changes.hard];
+    let (base, learned) = (scales(base), scales(learned));
+    Shift(std::array::from_fn(|k| {
+        let (change, base, learned): (Change, f64, f64) = (changes[k]?, base[k]?, learned[k]?);
+        let steps = (learned - base) / STEP[k];
+        Some(STEP[k] * (steps.clamp(change.least, change.most) - steps))
+    }))
+}
+
+/// How far a texture is to move to the middle of two others.
+#[must_use]
+pub fn to_middle(first: &Attributes, second: &Attributes, now: &Attributes) -> Shift {
+    let (first, second, now) = (scales(first), scales(second), scales(now));
+    Shift(std::array::from_fn(|k| {
+        Some(0.5 * (first[k]? + second[k]?) - now[k]?)
+    }))
+}
+
+/// Moves a texture.
+pub fn adjust(texture: &mut TextureModel, shift: &Shift) {
+    let now = scales(&attributes::of(texture));
+    let [rough, slippery, hard] = shift.0;
+    if let Some(change_db) = rough {
+        let change_db = change_db.clamp(-LARGEST_CHANGE_DB, LARGEST_CHANGE_DB);
+        let factor = libm::exp10(change_db / 20.0);
+        for vertex in &mut texture.grid.vertices {
+            vertex.sigma_m_s2 *= factor;
+        }
+    }
+    if let Some(change) = slippery {
+        let mu = texture.friction.mu * libm::exp(-change);
+        texture.friction.mu = mu.clamp(MU.0, MU.1);
+    }
+    if let (Some(change), Some(now)) = (hard, now[2]) {
+        tap(texture, now + change);
+    }
+}
+
+/// Plays all traces faster or slower until the fastest has the wanted centroid, ln Hz.
+fn tap(texture: &mut TextureModel, wanted: f64) {
+    let original = texture.taps.traces.clone();
+    let limit = TAP_SHARE * texture.gains.f_max_n / texture.gains.effective_mass_kg;
+    let mut pace = 0.0;
+    for _ in 0..CORRECTIONS {
+        let Some(now) = scales(&attributes::of(texture))[2] else {
+            return;
+        };
+        let bound = libm::log(FASTEST);
+        pace = f64::clamp(pace + wanted - now, -bound, bound);
+        let pace = libm::exp(pace);
+        let mut peak = 0.0_f64;
+        for (trace, original) in texture.taps.traces.iter_mut().zip(&original) {
+            trace.accel_m_s2 = at_pace(&original.accel_m_s2, pace);
+            peak = trace
+                .accel_m_s2
+                .iter()
+                .fold(peak, |peak, a| peak.max(a.abs()));
+        }
+        if peak > limit {
+            let samples = texture
+                .taps
+                .traces
+                .iter_mut()
+                .flat_map(|t| &mut t.accel_m_s2);
+            samples.for_each(|a| *a *= limit / peak);
+        }
+    }
+}
+
+/// `pace·a(pace·t)`: the same impulse in another time, linear between samples.
+fn at_pace(samples: &[f64], pace: f64) -> Vec<f64> {
+    let count = samples.len();
+    let sample = |at: f64| -> f64 {
+        let index = at as usize;
+        let here = samples.get(index).copied().unwrap_or(0.0);
+        let next = samples.get(index + 1).copied().unwrap_or(0.0);
+        here + (at - index as f64) * (next - here)
+    };
+    (0..count)
+        .map(|n| {
+            let left = (count - 1 - n) as f64 / FADE as f64;
+            let fade = if pace < 1.0 { left.min(1.0) } else { 1.0 };
+            fade * pace * sample(n as f64 * pace)
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front_ends::builtin;
+
+    #[test]
+    fn attributes_arrive_where_they_were_wanted_and_the_others_stay() {
+        let before = builtin::texture();
+        let old = attributes::of(&before);
+        for (k, change) in [
+            (0, 5.0),
+            (0, -8.0),
+            (1, 0.35),
+            (1, -0.3),
+            (2, 0.4),
+            (2, -0.3),
+        ] {
+            let mut shift = Shift::default();
+            shift.0[k] = Some(change);
+            let target = scales(&old)[k].expect("defined") + change;
+            let mut after = before.clone();
+            adjust(&mut after, &shift);
+            let new = scales(&attributes::of(&after));
+            for (j, (new, old)) in new.iter().zip(scales(&old)).enumerate() {
+                let expected = if j == k { Some(target) } else { old };
+                let apart = new.zip(expected).map(|(x, y)| (x - y).abs());
+                assert!(
+                    apart.is_some_and(|apart| apart < 0.03),
+                    "{k} {change}: {j} {apart:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_was_learned_is_kept_within_the_range() {
+        let base = attributes::of(&builtin::texture());
+        let change = Change {
+            least: 1.0,
+            most: 1.3,
+        };
+        let changes = Changes {
+            rough: Some(change),
+            ..Changes::default()
+        };
+        for (learned_db, steps) in [(-3.0, 1.0), (5.5, 1.1), (30.0, 1.3)] {
+            let rough_db = base.rough_db.map(|db| db + learned_db);
+            let learned = Attributes { rough_db, ..base };
+            let shift = from_base(&base, &learned, &changes).0;
+            let moved = learned_db + shift[0].expect("a change");
+            assert!((moved - 5.0 * steps).abs() < 1e-9, "{learned_db}");
+            assert_eq!(shift[1..], [None, None]);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! What the grammar of a prompt says of a thing: "very rough silk", "foam, but firmer", "between
+//! cork and felt".
+//!
+//! A text vector knows that rough silk is about silk, and hardly that it is rougher than silk.
+//! So a prompt is divided: its base is what remains without the words that change it ("silk"),
+//! and each change says where roughness, slipperiness or hardness goes, and how far. [`adjust`]
+//! moves the texture there. English only; whatever is not recognised stays with the text vector.
+
+pub mod adjust;
+mod parse;
+mod table;
+
+pub use parse::parse;
+
+/// How far one attribute is to go from that of the base, in steps of [`adjust::STEP`].
+///
+/// What the text vector says by itself is kept where it lies within the range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Change {
+    /// Least change, in steps; negative for less of the attribute.
+    pub least: f64,
+    /// Largest change, in steps, of the same sign.
+    pub most: f64,
+}
+
+/// Changes of roughness, slipperiness and hardness.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Changes {
+    /// Of the level of the vibration.
+    pub rough: Option<Change>,
+    /// Of the friction, downwards.
+    pub slippery: Option<Change>,
+    /// Of the pitch of a tap.
+    pub hard: Option<Change>,
+}
+
+/// What a prompt says.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Phrase {
+    /// A thing, for the text vector alone.
+    Plain,
+    /// A thing with changes.
+    Changed {
+        /// The thing without them.
+        base: String,
+        /// What changes.
+        changes: Changes,
+    },
+    /// Something between two things.
+    Between(String, String),
+    /// A thing that is covered with another: the cover is stroked, and both are tapped.
+    Covered {
+        /// What is inside.
+        inside: String,
+        /// What is outside.
+        cover: String,
+    },
+}

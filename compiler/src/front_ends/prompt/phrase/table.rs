@@ -1,0 +1,169 @@
+//! Words that change a thing.
+
+/// Adjectives: `word TAB rough TAB slippery TAB hard`, each −1, 0 or 1; sorted by bytes.
+const ADJECTIVES: &str = include_str!("adjectives.tsv");
+/// Nouns of qualities, for "without its grit": the same.
+const NOUNS: &str = include_str!("nouns.tsv");
+
+/// Where rough, slippery and hard go.
+pub(super) type Signs = [i8; 3];
+
+/// The signs of a quality's adjective, plain.
+pub(super) fn adjective(word: &str) -> Option<Signs> {
+    find(ADJECTIVES, word)
+}
+
+/// The signs of an adjective's comparative or superlative: "rougher", "grippiest".
+pub(super) fn compared(word: &str) -> Option<Signs> {
+    let stem = word
+        .strip_suffix("er")
+        .or_else(|| word.strip_suffix("est"))?;
+    adjective(stem)
+        .or_else(|| adjective(&format!("{stem}e")))
+        .or_else(|| adjective(&format!("{}y", stem.strip_suffix('i')?)))
+        .or_else(|| {
+            // A doubled consonant: flat, flatter.
+            let last = stem.chars().last()?;
+            let single = stem.strip_suffix(last)?;
+            single.ends_with(last).then(|| adjective(single)).flatten()
+        })
+}
+
+/// The signs of a quality's noun.
+pub(super) fn noun(word: &str) -> Option<Signs> {
+    find(NOUNS, word)
+}
+
+fn find(table: &str, word: &str) -> Option<Signs> {
+    table.lines().find_map(|line| {
+        let mut fields = line.split('\t');
+        if fields.next() != Some(word) {
+            return None;
+        }
+        let mut sign = || fields.next()?.parse().ok();
+        Some([sign()?, sign()?, sign()?])
+    })
+}
+
+/// How far a degree goes: least and most steps.
+pub(super) type Range = (f64, f64);
+
+/// Without a word of degree.
+pub(super) const PLAIN: Range = (1.0, 1.3);
+/// Denied.
+pub(super) const NOT: Range = (-1.3, -1.0);
+/// Denied with stress.
+pub(super) const NOT_AT_ALL: Range = (-2.0, -1.7);
+
+/// Words of degree. Ranges do not meet, so that one more degree is felt.
+const DEGREES: [(&[&str], Range); 5] = [
+    (&["hardly", "barely", "scarcely"], (-0.3, -0.1)),
+    (
+        &[
+            "slightly", "mildly", "faintly", "little", "bit", "touch", "somewhat",
+        ],
+        (0.35, 0.5),
+    ),
+    (
+        &[
+            "fairly",
+            "rather",
+            "quite",
+            "moderately",
+            "nearly",
+            "almost",
+            "reasonably",
+        ],
+        (0.65, 0.75),
+    ),
+    (
+        &[
+            "very",
+            "really",
+            "so",
+            "too",
+            "much",
+            "highly",
+            "badly",
+            "truly",
+            "far",
+            "lot",
+            "particularly",
+        ],
+        (1.65, 1.9),
+    ),
+    (
+        &[
+            "extremely",
+            "incredibly",
+            "exceptionally",
+            "unbearably",
+            "perfectly",
+            "utterly",
+            "extraordinarily",
+            "super",
+            "ultra",
+            "terribly",
+            "absolutely",
+            "completely",
+            "intensely",
+            "rock",
+        ],
+        (2.3, 2.6),
+    ),
+];
+
+/// The range of a word of degree.
+pub(super) fn degree(word: &str) -> Option<Range> {
+    let found = DEGREES.iter().find(|(words, _)| words.contains(&word));
+    found.map(|(_, range)| *range)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_are_sorted_whole_and_say_something() {
+        for table in [ADJECTIVES, NOUNS] {
+            let words: Vec<&str> = table
+                .lines()
+                .filter_map(|line| line.split('\t').next())
+                .collect();
+            assert!(
+                words.windows(2).all(|pair| pair[0] < pair[1]),
+                "sorted, each once"
+            );
+            for word in words {
+                let signs = find(table, word).expect(word);
+                assert!(signs.iter().any(|sign| *sign != 0), "{word}");
+                assert!(signs.iter().all(|sign| sign.abs() <= 1), "{word}");
+            }
+        }
+    }
+
+    #[test]
+    fn comparatives_are_their_adjectives() {
+        for (word, plain) in [
+            ("rougher", "rough"),
+            ("coarser", "coarse"),
+            ("grippier", "grippy"),
+            ("flattest", "flat"),
+        ] {
+            assert_eq!(compared(word), adjective(plain), "{word}");
+            assert!(compared(word).is_some(), "{word}");
+        }
+        for other in ["rubber", "leather", "paper", "water", "silver"] {
+            assert_eq!(compared(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn degrees_do_not_meet() {
+        let mut ranges: Vec<Range> = DEGREES.iter().map(|(_, range)| *range).collect();
+        ranges.extend([PLAIN, NOT, NOT_AT_ALL]);
+        ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
+        assert!(ranges.iter().all(|(least, most)| least <= most));
+        assert!(ranges.windows(2).all(|pair| pair[0].1 < pair[1].0));
+    }
+}
