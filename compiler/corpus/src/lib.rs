@@ -11,6 +11,7 @@ pub mod generator;
 mod grid;
 pub mod hatt;
 mod material;
+pub mod measured;
 pub mod reference;
 pub mod statistics;
 

@@ -2,12 +2,12 @@
 //!
 //! A surface that vibrates at higher frequencies taps harder: the contact lasts half a period of
 //! the texture's frequency. Everything else follows [`impact`] for a material of that contact time:
-//! the time falls with the impact speed, and the centroid rises. All of it is a guess at the
-//! material, so such a bank is marked synthetic.
+//! the time falls with the impact speed, and the centroid rises. Nothing says how the surface rings,
+//! so it has no modes. All of it is a guess at the material, so such a bank is marked synthetic.
 
 pub use super::impact::{SAMPLE_RATE_HZ, SAMPLES, SPEED_STEP_M_S, SPEEDS};
 
-use super::impact::{self, Impact};
+use super::impact::{self, Impact, Mode};
 use crate::model::{Gains, ModelGrid, TapBank, TapTrace, VertexKind};
 use crate::signal::spectrum::ArmaModel;
 
@@ -46,7 +46,11 @@ pub fn frequency_hz(grid: &ModelGrid) -> f64 {
 #[must_use]
 pub fn bank(freq_hz: f64, gains: &Gains) -> TapBank {
     let modulus_mpa = Impact::modulus_mpa(0.5 / freq_hz);
-    let impact = Impact::of_material(modulus_mpa, LOSS_FACTOR);
+    let material = Impact::of_material(modulus_mpa, LOSS_FACTOR);
+    let impact = Impact {
+        modes: material.modes.map(|mode| Mode { share: 0.0, ..mode }),
+        ..material
+    };
     let peak_m_s2 = if gains.effective_mass_kg > 0.0 {
         PEAK_SHARE * gains.f_max_n / gains.effective_mass_kg
     } else {

@@ -15,11 +15,16 @@ const BACKGROUND: f64 = 0.02;
 const BACKGROUND_SLOPE: f64 = 2.6;
 
 /// Power of heights at a spatial frequency k, 1/mm, after the tip; peak about one.
-///
-/// A log-normal line around `1/wavelength` and a fractal background, both averaged
-/// over the contact: `1/(1 + (2πka)²)²` with the Hertzian contact radius a.
 #[must_use]
 pub fn height_power(physical: &Physical, k_per_mm: f64, force_n: f64) -> f64 {
+    let tip = tip_gain(physical, k_per_mm, force_n);
+    relief_power(physical, k_per_mm) * tip * tip
+}
+
+/// Power of heights before the tip: a log-normal line around `1/wavelength` and a fractal
+/// background.
+#[must_use]
+pub fn relief_power(physical: &Physical, k_per_mm: f64) -> f64 {
     let spread = physical.spread_octaves.max(LEAST_SPREAD_OCTAVES);
     let octaves = libm::log2(k_per_mm * physical.wavelength_mm);
     let line = |offset: f64| {
@@ -29,9 +34,15 @@ pub fn height_power(physical: &Physical, k_per_mm: f64, force_n: f64) -> f64 {
     // The background rolls off below the dominant frequency: at large scale a surface is flat.
     let background = BACKGROUND / (1.0 + libm::exp2(BACKGROUND_SLOPE * octaves));
     let regular = SECOND_HARMONIC * (1.0 - spread).max(0.0);
+    line(0.0) + regular * line(1.0) + background
+}
+
+/// What the tip leaves of the amplitude of heights, as they are averaged over the contact:
+/// `1/(1 + (2πka)²)` with the Hertzian contact radius a.
+#[must_use]
+pub fn tip_gain(physical: &Physical, k_per_mm: f64, force_n: f64) -> f64 {
     let x = std::f64::consts::TAU * k_per_mm * contact_radius_mm(physical, force_n);
-    let tip = 1.0 / (1.0 + x * x);
-    (line(0.0) + regular * line(1.0) + background) * tip * tip
+    1.0 / (1.0 + x * x)
 }
 
 /// Hertz: a³ = 3FR/(4E*), at most half the radius of the tip.

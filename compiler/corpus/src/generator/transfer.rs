@@ -24,13 +24,26 @@ const FLOOR: f64 = 1.2e-2;
 /// one. The zero 1 + z⁻¹ of the model multiplies it.
 #[must_use]
 pub fn spectrum(physical: &Physical, speed_mm_s: f64, force_n: f64) -> [f64; POINTS] {
+    spectrum_over(physical, speed_mm_s, force_n, |k_per_mm| {
+        height_power(physical, k_per_mm, force_n)
+    })
+}
+
+/// The same over a power of heights at the tip, by spatial frequency, 1/mm.
+#[must_use]
+pub fn spectrum_over(
+    physical: &Physical,
+    speed_mm_s: f64,
+    force_n: f64,
+    heights_at: impl Fn(f64) -> f64,
+) -> [f64; POINTS] {
     let resonance_hz = resonance_hz(physical, force_n);
     // The hand's damping acts against the hand, the material's against the surface.
     let material = MATERIAL_DAMPING * physical.loss_factor;
     let damping = HAND_DAMPING + material;
     let mut power: [f64; POINTS] = std::array::from_fn(|point| {
         let freq_hz = (point as f64 + 0.5) * 0.5 * crate::SAMPLE_RATE_HZ / POINTS as f64;
-        let heights = height_power(physical, freq_hz / speed_mm_s, force_n);
+        let heights = heights_at(freq_hz / speed_mm_s);
         let squared = freq_hz * freq_hz;
         // Base excitation of a mass on a damped spring.
         let ratio = freq_hz / resonance_hz;

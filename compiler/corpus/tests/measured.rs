@@ -1,0 +1,138 @@
+//! The generator held against measured modes and height profiles.
+
+use asperity_corpus::{
+    generator::{Physical, tap},
+    measured::{
+        banks::Bank,
+        modes::{self, First},
+        profiles,
+    },
+    reference::schema,
+};
+use std::collections::BTreeMap;
+
+fn materials() -> BTreeMap<String, Physical> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../corpora");
+    let mut found = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if !name.ends_with(".toml") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        if let Ok(family) = schema::parse(&name, &text) {
+            found.extend(
+                family
+                    .material
+                    .iter()
+                    .map(|m| (m.name.clone(), m.physical.values())),
+            );
+        }
+    }
+    found
+}
+
+#[test]
+fn the_committed_modes_are_those_of_37_objects_of_14_materials() {
+    let modes = modes::modes();
+    assert_eq!(modes.len(), 37);
+    assert!(modes.values().all(|modes| modes.len() == 10));
+    let materials: std::collections::BTreeSet<_> = modes.keys().map(|(name, _)| *name).collect();
+    let paired: std::collections::BTreeSet<_> = modes::PAIRS.iter().map(|p| p.0).collect();
+    assert_eq!(materials, paired);
+    // Every third name was kept out.
+    for (index, pair) in modes::PAIRS.iter().enumerate() {
+        assert_eq!(pair.2, index % 3 == 2 && index < 12, "{}", pair.0);
+    }
+}
+
+/// Objects of unknown size scatter: a first mode is matched within a factor, not within a per cent.
+#[test]
+fn first_modes_are_those_measured_within_a_factor_of_two_and_decays_within_two_and_a_half() {
+    let materials = materials();
+    for (measured_name, ours, kept_out) in modes::PAIRS {
+        let found = modes::generated(&materials[ours]);
+        let truth: First = modes::first(measured_name).unwrap();
+        let freq = found.freq_hz / truth.freq_hz;
+        let decay = found.decay_s / truth.decay_s;
+        if !kept_out {
+            assert!((0.5..2.0).contains(&freq), "{measured_name}: {freq}");
+            assert!((0.4..2.5).contains(&decay), "{measured_name}: {decay}");
+        }
+    }
+}
+
+#[test]
+fn the_traces_of_every_bank_differ_and_lie_close_enough_to_mix() {
+    for (name, physical) in materials() {
+        let bank = Bank::of(&physical);
+        assert!(bank.cosine <= 0.8, "{name}: {}", bank.cosine);
+        let [mixed, nearest] = bank.between;
+        assert!(mixed < 0.5 * nearest, "{name}: {mixed} {nearest}");
+        assert!(
+            bank.centroid_hz.is_sorted_by(|slow, fast| slow < fast),
+            "{name}"
+        );
+        // Below, the hand and the dent hide the end of the pulse.
+        if physical.modulus_mpa > 500.0 {
+            let error = bank.contact_error().unwrap();
+            assert!(error < 0.2, "{name}: {error}");
+        }
+    }
+}
+
+/// The ring of a trace is the mode that it was made of: its spectrum after the pulse peaks there.
+#[test]
+fn a_hard_trace_rings_at_its_first_modes() {
+    let materials = materials();
+    for name in ["window glass", "polished granite", "galvanised steel"] {
+        let physical = materials[name];
+        let trace = tap::bank(&physical)[12].map(f64::from);
+        let modes = tap::impact(&physical).modes;
+        // From 1 ms on, after the contact has opened.
+        let ring = &trace[10..];
+        let power = |freq_hz: f64| {
+            asperity::spectrum::squared_magnitude(ring, std::f64::consts::TAU * freq_hz / 10_000.0)
+        };
+        let strongest = (60..450)
+            .map(|tens| f64::from(tens) * 10.0)
+            .max_by(|a, b| power(*a).total_cmp(&power(*b)))
+            .unwrap();
+        let near = modes
+            .iter()
+            .any(|m| (m.freq_hz / strongest - 1.0).abs() < 0.05);
+        assert!(near, "{name}: {strongest} Hz, {modes:?}");
+    }
+}
+
+#[test]
+fn the_committed_profiles_are_twelve_and_cover_their_band() {
+    let profiles = profiles::profiles();
+    assert_eq!(profiles.len(), 12);
+    for (name, points) in profiles {
+        assert_eq!(points.len(), 23, "{name}");
+        assert!(
+            points.is_sorted_by(|a, b| a.k_per_mm < b.k_per_mm)
+                && points.iter().all(|p| p.density_um2_mm > 0.0)
+        );
+    }
+}
+
+/// Nothing of the generator was fitted to the profiles, so there is no bound on their distances.
+#[test]
+fn a_profile_is_at_some_distance_and_the_generators_own_heights_at_none() {
+    let materials = materials();
+    for (profile, ours) in profiles::PAIRS {
+        let distance = profiles::distance(profile, &materials[ours]).unwrap();
+        assert!(distance.rms_db.is_finite() && distance.rms_db > 0.0);
+    }
+    let physical = materials["ABS"];
+    assert!(
+        profiles::distance_of(&physical, |k| {
+            asperity_corpus::generator::surface::relief_power(&physical, k)
+        })
+        .rms_db
+            < 1e-9
+    );
+}
