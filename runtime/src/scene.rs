@@ -186,9 +186,8 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
         }
         let room = slots.len();
         for (index, slot) in slots.iter_mut().enumerate().take(textures) {
-            let load = |asset| slot.load(&asset, config.servo_rate_hz);
-            let loaded = library.asset(index).map_err(LoadError::from).and_then(load);
-            loaded.map_err(|cause| SceneError::Texture { index, cause })?;
+            load(slot, library, index, config.servo_rate_hz)
+                .map_err(|cause| SceneError::Texture { index, cause })?;
         }
         // A scene has at least one surface, and every surface has a texture.
         let loaded = slots.get(..textures).and_then(<[_]>::split_first);
@@ -245,6 +244,22 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
             .checked_sub(1)
             .and_then(|other| self.others.get(other));
         other.unwrap_or(self.first)
+    }
+}
+
+/// Loads a texture of a library: a function of its own, so that a scene does not need stack for an
+/// asset.
+#[inline(never)]
+fn load<S: Capacity, A: RenderArithmetic>(
+    slot: &mut Texture<S, A>,
+    library: &Library<'_>,
+    index: usize,
+    servo_rate_hz: f32,
+) -> Result<(), LoadError> {
+    // By reference: an asset that is moved takes its room twice.
+    match &library.asset(index) {
+        Ok(asset) => slot.load(asset, servo_rate_hz),
+        Err(error) => Err((*error).into()),
     }
 }
 

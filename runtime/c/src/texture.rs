@@ -5,13 +5,13 @@ use crate::{
     arithmetic::{Numbered, by_arithmetic},
     capacity::{Class, by_capacity, by_kind},
     coupling::AsperityCoupling,
-    library::{find, name, slice},
+    library::{asset_at, asset_called, name, slice},
     memory::{Object, Tag, exclusive, room, shared, tag},
     renderer::RendererOf,
     sized,
     status::{Fault, call},
 };
-use asperity_formats::{Asset, Library};
+use asperity_formats::Asset;
 use asperity_runtime::Texture;
 use core::{
     ffi::{c_char, c_void},
@@ -122,8 +122,7 @@ pub unsafe extern "C" fn asperity_texture_load_index(
     // SAFETY: the caller's promises.
     unsafe {
         call(error, || {
-            let library = Library::parse(slice(library, len)?)?;
-            load(texture, library.bytes(index)?)
+            load(texture, asset_at(slice(library, len)?, index)?)
         })
     }
 }
@@ -143,9 +142,8 @@ pub unsafe extern "C" fn asperity_texture_load_name(
     // SAFETY: the caller's promises.
     unsafe {
         call(error, || {
-            let library = Library::parse(slice(library, len)?)?;
-            let index = find(library.index(), name(texture_name)?)?;
-            load(texture, library.bytes(index)?)
+            let library = slice(library, len)?;
+            load(texture, asset_called(library, name(texture_name)?)?)
         })
     }
 }
@@ -171,8 +169,11 @@ fn fill<S: Class, A: Numbered>(
     asset: &[u8],
     servo_rate_hz: f32,
 ) -> Result<(), Fault> {
-    let asset = Asset::parse_haptic(asset)?;
-    Ok(slot.load(&asset, servo_rate_hz)?)
+    // By reference: an asset that is moved takes its room twice.
+    match &Asset::parse_haptic(asset) {
+        Ok(asset) => Ok(slot.load(asset, servo_rate_hz)?),
+        Err(error) => Err((*error).into()),
+    }
 }
 
 /// Reads wall, gains and friction of the texture that a slot holds; all 0 for an empty slot.

@@ -20,24 +20,38 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// # Errors
     /// [`LoadError::Capacity`], [`LoadError::Rate`] and, in fixed point, [`LoadError::Range`].
     pub fn load(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
+        let ticks = Self::check(asset, servo_rate_hz)?;
+        self.servo_rate_hz = servo_rate_hz;
+        self.prepare(asset, ticks);
+        self.taps.load(asset.taps(), servo_rate_hz);
+        Ok(())
+    }
+
+    /// Whether the slot takes a texture; the ticks that a sample of its models lasts.
+    #[inline(never)]
+    fn check(asset: &Asset<'_>, servo_rate_hz: f32) -> Result<u8, LoadError> {
         let needs = Needs::of(asset, servo_rate_hz)?;
         needs.fit::<S>()?;
         A::check_asset(asset)?;
-        let (grid, ticks) = (asset.grid(), needs.ticks_per_sample);
+        Ok(needs.ticks_per_sample)
+    }
+
+    /// All but the taps, whose conversion needs the stack that this has given back.
+    #[inline(never)]
+    fn prepare(&mut self, asset: &Asset<'_>, ticks: u8) {
+        let grid = asset.grid();
         // The checksums of all that is loaded, and the clock.
         self.id = asset.sections().fold(ticks.into(), |id: u32, section| {
             id.rotate_left(5) ^ section.crc32
         });
-        self.servo_rate_hz = servo_rate_hz;
         self.coupling = Coupling::new(asset.coupling(), asset.friction().mu());
         self.recursion = Recursion::new(grid.ar_order(), grid.ma_order());
         self.load_models(grid);
         self.plan = Plan::new(&self.models, ticks);
         self.upsampler = Upsampler::new(ticks);
-        self.taps.load(asset.taps(), servo_rate_hz);
-        Ok(())
     }
 
+    #[inline(never)]
     fn load_models(&mut self, grid: &Grid<'_>) {
         let models = &mut self.models;
         models.orders = Orders::new(grid.ar_order(), grid.ma_order());
