@@ -13,7 +13,6 @@ use crate::{
     texture::empty,
     tick::{rendered, same_rate},
 };
-use asperity_formats::Asset;
 use asperity_runtime::{Exchange, Player, Preparer, Sample, Texture, exchange::MAX_SPARE};
 use core::{
     ffi::{c_char, c_void},
@@ -194,18 +193,9 @@ unsafe fn prepare(preparer: *mut AsperityPreparer, asset: &[u8]) -> Result<(), F
     // SAFETY: the caller's promises.
     unsafe {
         by_kind!(tag(preparer)?, S, A => {
-            fill(exclusive::<PreparerOf<S, A>, _>(preparer)?, asset)
+            let half = exclusive::<PreparerOf<S, A>, _>(preparer)?;
+            Ok(half.preparer.prepare_haptic(asset, half.servo_rate_hz)?)
         })
-    }
-}
-
-/// Parses and prepares: a function of its own, so that callers do not need stack for an asset.
-#[inline(never)]
-fn fill<S: Class, A: Numbered>(half: &mut PreparerOf<S, A>, asset: &[u8]) -> Result<(), Fault> {
-    // By reference: an asset that is moved takes its room twice.
-    match &Asset::parse_haptic(asset) {
-        Ok(asset) => Ok(half.preparer.prepare(asset, half.servo_rate_hz)?),
-        Err(error) => Err((*error).into()),
     }
 }
 

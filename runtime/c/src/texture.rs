@@ -11,7 +11,6 @@ use crate::{
     sized,
     status::{Fault, call},
 };
-use asperity_formats::Asset;
 use asperity_runtime::Texture;
 use core::{
     ffi::{c_char, c_void},
@@ -157,22 +156,8 @@ unsafe fn load(texture: *mut AsperityTexture, asset: &[u8]) -> Result<(), Fault>
     unsafe {
         by_kind!(tag(texture)?, S, A => {
             let slot = exclusive::<TextureOf<S, A>, _>(texture)?;
-            fill(&mut slot.texture, asset, slot.servo_rate_hz)
+            Ok(slot.texture.load_haptic(asset, slot.servo_rate_hz)?)
         })
-    }
-}
-
-/// Parses and loads: a function of its own, so that callers do not need stack for an asset.
-#[inline(never)]
-fn fill<S: Class, A: Numbered>(
-    slot: &mut Texture<S, A>,
-    asset: &[u8],
-    servo_rate_hz: f32,
-) -> Result<(), Fault> {
-    // By reference: an asset that is moved takes its room twice.
-    match &Asset::parse_haptic(asset) {
-        Ok(asset) => Ok(slot.load(asset, servo_rate_hz)?),
-        Err(error) => Err((*error).into()),
     }
 }
 

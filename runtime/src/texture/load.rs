@@ -11,7 +11,7 @@ use crate::{
     stage::{recursion::Recursion, upsample::Upsampler},
     update::plan::Plan,
 };
-use asperity_formats::{Asset, Grid, Numerator};
+use asperity_formats::{Asset, FormatError, Grid, Numerator, Taps};
 
 impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// Prepares a validated asset for a servo rate of 1, 2, 3, … 20 times the models' rate;
@@ -20,10 +20,53 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// # Errors
     /// [`LoadError::Capacity`], [`LoadError::Rate`] and, in fixed point, [`LoadError::Range`].
     pub fn load(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
+        self.load_untapped(asset, servo_rate_hz)?;
+        self.taps.load(asset.taps(), servo_rate_hz);
+        Ok(())
+    }
+
+    /// [`Texture::load`] of bytes, of which it checks what [`Asset::parse_haptic`] checks. It takes
+    /// less stack, because no asset is held while the taps are converted.
+    ///
+    /// # Errors
+    /// As [`Texture::load`], and [`LoadError::Format`].
+    pub fn load_haptic(&mut self, bytes: &[u8], servo_rate_hz: f32) -> Result<(), LoadError> {
+        self.load_with(|| Asset::parse_haptic(bytes), servo_rate_hz)
+    }
+
+    /// Loads what `parse` gives.
+    pub(crate) fn load_with<'a>(
+        &mut self,
+        parse: impl FnOnce() -> Result<Asset<'a>, FormatError>,
+        servo_rate_hz: f32,
+    ) -> Result<(), LoadError> {
+        let taps = self.load_all_but_taps(parse, servo_rate_hz)?;
+        self.taps.load(&taps, servo_rate_hz);
+        Ok(())
+    }
+
+    /// A function of its own, so that its stack is free again when the taps are converted.
+    #[inline(never)]
+    fn load_all_but_taps<'a>(
+        &mut self,
+        parse: impl FnOnce() -> Result<Asset<'a>, FormatError>,
+        servo_rate_hz: f32,
+    ) -> Result<Taps<'a>, LoadError> {
+        // By reference: an asset that is moved takes its room twice.
+        match &parse() {
+            Ok(asset) => {
+                self.load_untapped(asset, servo_rate_hz)?;
+                Ok(*asset.taps())
+            }
+            Err(error) => Err((*error).into()),
+        }
+    }
+
+    /// Loads all but the taps.
+    fn load_untapped(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
         let ticks = Self::check(asset, servo_rate_hz)?;
         self.servo_rate_hz = servo_rate_hz;
         self.prepare(asset, ticks);
-        self.taps.load(asset.taps(), servo_rate_hz);
         Ok(())
     }
 
@@ -36,7 +79,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
         Ok(needs.ticks_per_sample)
     }
 
-    /// All but the taps, whose conversion needs the stack that this has given back.
+    /// Prepares models, wall and clock.
     #[inline(never)]
     fn prepare(&mut self, asset: &Asset<'_>, ticks: u8) {
         let grid = asset.grid();

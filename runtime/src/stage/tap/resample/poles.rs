@@ -65,7 +65,7 @@ impl<L: Lanes<N>, const N: usize> Poles<L, N> {
     /// times the stack.
     #[inline(always)]
     fn widened(factors: &Complex4) -> [L; PARTS] {
-        let [[a, b, c, d], [e, f, g, _]] = [factors.re.to_array(), factors.im.to_array()];
+        let ([a, b, c, d], [e, f, g, _]) = (factors.re.to_array(), factors.im.to_array());
         [
             L::splat(a),
             L::splat(b),
