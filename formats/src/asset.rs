@@ -90,7 +90,8 @@ impl<'a> Asset<'a> {
                 .map(|s| body(bytes, &s))
         };
         let haptic = |tag| find(tag).unwrap_or_default();
-        let asset = Self {
+        // In place: an asset that is moved takes its room twice.
+        Ok(Self {
             bytes,
             header,
             name: text("name", 0, haptic(header::NAME))?,
@@ -98,20 +99,8 @@ impl<'a> Asset<'a> {
             taps: Taps::parse(haptic(header::TAPS))?,
             friction: Friction::parse(haptic(header::FRICTION))?,
             coupling: Coupling::parse(haptic(header::SURFACE))?,
-            provenance: find(header::PROVENANCE)
-                .map(Provenance::parse)
-                .transpose()?,
-        };
-        if asset
-            .preview_png()
-            .is_some_and(|png| !png.starts_with(b"\x89PNG\r\n\x1a\n"))
-        {
-            return Err(FormatError::Section {
-                tag: header::PREVIEW,
-                reason: "is not a PNG",
-            });
-        }
-        Ok(asset)
+            provenance: ancillary(find(header::PROVENANCE), preview(bytes, &header))?,
+        })
     }
 
     /// Version the asset was written in.
@@ -159,8 +148,7 @@ impl<'a> Asset<'a> {
     /// Preview image, PNG; absent after [`Asset::parse_haptic`].
     #[must_use]
     pub fn preview_png(&self) -> Option<&'a [u8]> {
-        let section = self.sections().find(|s| s.tag == header::PREVIEW)?;
-        self.bytes.get(section.offset..section.offset + section.len)
+        preview(self.bytes, &self.header)
     }
 
     /// Bytes a runtime needs: header, table and haptic sections.
@@ -179,6 +167,28 @@ impl<'a> Asset<'a> {
     pub fn sections(&self) -> impl Iterator<Item = SectionInfo> + use<'a> {
         self.header.sections()
     }
+}
+
+/// The preview's bytes, where they are among `bytes`.
+fn preview<'a>(bytes: &'a [u8], header: &Header<'_>) -> Option<&'a [u8]> {
+    let section = header.sections().find(|s| s.tag == header::PREVIEW)?;
+    bytes.get(section.offset..section.offset.saturating_add(section.len))
+}
+
+/// Checks the sections that a runtime does not need: a function of its own, because they take stack.
+#[inline(never)]
+fn ancillary<'a>(
+    provenance: Option<&'a [u8]>,
+    preview: Option<&[u8]>,
+) -> Result<Option<Provenance<'a>>, FormatError> {
+    let provenance = provenance.map(Provenance::parse).transpose();
+    if provenance.is_ok() && preview.is_some_and(|png| !png.starts_with(b"\x89PNG\r\n\x1a\n")) {
+        return Err(FormatError::Section {
+            tag: header::PREVIEW,
+            reason: "is not a PNG",
+        });
+    }
+    provenance
 }
 
 /// A section's bytes; the header proved that they are inside.

@@ -201,33 +201,46 @@ fn two_codes(packed: &Packed, pair: usize) -> [i32; 2] {
     [(bits << 12) >> 20, bits >> 20]
 }
 
-/// Accelerations of traces from sample `first` on, which is even, m/s²: one row a sample, one
-/// column a trace; 0 beyond the last one.
-#[must_use]
-pub fn side_by_side<const N: usize>(traces: &[Trace<'_>; N], first: usize) -> [[f32; N]; BLOCK] {
+/// Reads the accelerations of traces from sample `first` on, which is even, m/s²: one row a sample,
+/// one column a trace; 0 beyond the last one.
+#[inline(never)]
+pub fn side_by_side<const N: usize>(
+    traces: &[Trace<'_>; N],
+    first: usize,
+    rows: &mut [[f32; N]; BLOCK],
+) {
     let traces = traces.each_ref();
     let steps = traces.map(Trace::step);
     let rest = traces.map(|trace| trace.rest(first));
     let whole = rest.map(<[u8]>::first_chunk);
-    if whole.iter().all(Option::is_some) {
-        return decode(whole.map(|packed| packed.unwrap_or(&[0; _])), steps);
+    if whole.iter().any(Option::is_none) {
+        return last(&rest, &steps, rows);
     }
-    decode(rest.map(padded).each_ref(), steps)
-}
-
-#[inline(always)]
-fn decode<const N: usize>(packed: [&Packed; N], steps: [f32; N]) -> [[f32; N]; BLOCK] {
-    let mut samples = [[0.0; N]; BLOCK];
-    let pairs = samples.as_chunks_mut().0.iter_mut();
-    for (pair, rows) in pairs.enumerate() {
+    let packed: [&Packed; N] = whole.map(|packed| packed.unwrap_or(&[0; _]));
+    for (pair, rows) in rows.as_chunks_mut().0.iter_mut().enumerate() {
         let codes = packed.map(|packed| two_codes(packed, pair));
         let row = |of: usize| array::from_fn(|column| codes[column][of] as f32 * steps[column]);
         *rows = [row(0), row(1)];
     }
-    samples
+}
+
+/// [`side_by_side`] where the codes end within the block: a function of its own and column by
+/// column, because the padding takes room on the stack.
+#[cold]
+#[inline(never)]
+fn last<const N: usize>(rest: &[&[u8]; N], steps: &[f32; N], rows: &mut [[f32; N]; BLOCK]) {
+    for (column, (rest, step)) in rest.iter().zip(steps).enumerate() {
+        let packed = padded(rest);
+        for (pair, rows) in rows.as_chunks_mut::<2>().0.iter_mut().enumerate() {
+            for (row, code) in rows.iter_mut().zip(two_codes(&packed, pair)) {
+                row[column] = code as f32 * step;
+            }
+        }
+    }
 }
 
 /// The last codes of a trace with the byte before them, and zeros.
+#[inline]
 fn padded(rest: &[u8]) -> Packed {
     let mut packed = [0; _];
     packed

@@ -39,7 +39,8 @@ fn walk(bytes: &[u8], asset: &Asset<'_>) {
         assert_eq!(all.len(), asset.taps().samples());
         for first in (0..all.len() + 3).step_by(2) {
             let expected = all.iter().copied().chain([0.0; BLOCK + 4]).skip(first);
-            let read = side_by_side(&[trace; 4], first);
+            let mut read = [[f32::NAN; 4]; BLOCK];
+            side_by_side(&[trace; 4], first, &mut read);
             assert!(
                 expected.zip(read).all(|(a, four)| four == [a; 4]),
                 "from {first}"

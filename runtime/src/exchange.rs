@@ -134,9 +134,24 @@ impl<'a, S: Capacity, A: RenderArithmetic> Preparer<'_, 'a, S, A> {
     /// # Errors
     /// [`PrepareError`]; nothing is sent then.
     pub fn prepare(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), PrepareError> {
+        self.send(|slot| slot.load(asset, servo_rate_hz))
+    }
+
+    /// [`Preparer::prepare`] of bytes, as [`Texture::load_haptic`] loads them.
+    ///
+    /// # Errors
+    /// [`PrepareError`]; nothing is sent then.
+    pub fn prepare_haptic(&mut self, bytes: &[u8], servo_rate_hz: f32) -> Result<(), PrepareError> {
+        self.send(|slot| slot.load_haptic(bytes, servo_rate_hz))
+    }
+
+    fn send(
+        &mut self,
+        load: impl FnOnce(&mut Texture<S, A>) -> Result<(), LoadError>,
+    ) -> Result<(), PrepareError> {
         let spare = self.spare.take().or_else(|| self.returned.dequeue());
         let slot = spare.ok_or(PrepareError::NoneSpare)?;
-        match slot.load(asset, servo_rate_hz) {
+        match load(slot) {
             Ok(()) => {
                 // The queue has room for every slot. A slot without room would be kept.
                 self.spare = self.ready.enqueue(slot).err();

@@ -171,28 +171,36 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
         config: &Config,
         slots: &'a mut [Texture<S, A>],
     ) -> Result<Loaded<'a, S, A>, SceneError> {
+        Self::check_surfaces(library)?;
+        let (textures, room) = (library.index().len(), slots.len());
+        for (index, slot) in slots.iter_mut().enumerate().take(textures) {
+            slot.load_with(|| library.asset(index), config.servo_rate_hz)
+                .map_err(|cause| SceneError::Texture { index, cause })?;
+        }
+        // A scene has at least one surface, and every surface has a texture.
+        let loaded = slots.get(..textures).and_then(<[_]>::split_first);
+        loaded.ok_or(SceneError::Capacity {
+            field: "textures",
+            found: textures,
+            capacity: room,
+        })
+    }
+
+    /// A function of its own, so that loading textures needs no stack for surfaces.
+    #[inline(never)]
+    fn check_surfaces(library: &Library<'_>) -> Result<(), SceneError> {
         let scene = library.scene().ok_or(SceneError::NoScene)?;
-        let textures = library.index().len();
-        let capacity = |field, found, capacity| SceneError::Capacity {
-            field,
-            found,
-            capacity,
-        };
         if scene.len() > N {
-            return Err(capacity("surfaces", scene.len(), N));
+            return Err(SceneError::Capacity {
+                field: "surfaces",
+                found: scene.len(),
+                capacity: N,
+            });
         }
         for (index, surface) in scene.surfaces().enumerate() {
             A::check_solid(&surface.solid).map_err(|cause| SceneError::Surface { index, cause })?;
         }
-        let room = slots.len();
-        for (index, slot) in slots.iter_mut().enumerate().take(textures) {
-            let load = |asset| slot.load(&asset, config.servo_rate_hz);
-            let loaded = library.asset(index).map_err(LoadError::from).and_then(load);
-            loaded.map_err(|cause| SceneError::Texture { index, cause })?;
-        }
-        // A scene has at least one surface, and every surface has a texture.
-        let loaded = slots.get(..textures).and_then(<[_]>::split_first);
-        loaded.ok_or(capacity("textures", textures, room))
+        Ok(())
     }
 
     /// No surfaces yet.
@@ -205,6 +213,7 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
         }
     }
 
+    #[inline(never)]
     fn place(&mut self, library: &Library<'_>) {
         let surfaces = library
             .scene()

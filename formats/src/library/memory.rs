@@ -79,18 +79,18 @@ impl<'a> Library<'a> {
     /// # Errors
     /// [`FormatError::NoSuchTexture`], or why the asset was rejected.
     pub fn asset(&self, index: usize) -> Result<Asset<'a>, FormatError> {
-        let asset = Asset::parse(self.bytes(index)?)?;
+        let mut asset = Asset::parse(self.bytes(index)?);
         let stated = self.index.get(index).map_or(0, |entry| entry.haptic_len);
-        if stated as usize == asset.haptic_len() {
-            Ok(asset)
-        } else {
-            Err(FormatError::invalid(
+        // In place: an asset that is moved takes its room twice.
+        if (asset.as_ref()).is_ok_and(|asset| asset.haptic_len() != stated as usize) {
+            asset = Err(FormatError::invalid(
                 "library.entry.haptic_len",
                 index,
                 f64::from(stated),
                 "must be the asset's own",
-            ))
+            ));
         }
+        asset
     }
 }
 

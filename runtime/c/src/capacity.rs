@@ -99,8 +99,15 @@ const _: () = {
     assert!(size_of::<Texture<Large>>() + HEAD <= ASPERITY_TEXTURE_SIZE_LARGE);
 };
 
-/// The smallest capacity for these needs.
-fn least(needs: &Needs) -> Result<u32, Fault> {
+/// The smallest capacity for an asset: a function of its own, so that callers do not need stack for
+/// one.
+#[inline(never)]
+fn least(asset: &[u8], servo_rate_hz: f32) -> Result<u32, Fault> {
+    // By reference: an asset that is moved takes its room twice.
+    let needs = match &Asset::parse_haptic(asset) {
+        Ok(asset) => Needs::of(asset, servo_rate_hz)?,
+        Err(error) => return Err((*error).into()),
+    };
     if needs.fit::<Small>().is_ok() {
         Ok(ASPERITY_CAPACITY_SMALL)
     } else if needs.fit::<Medium>().is_ok() {
@@ -127,8 +134,7 @@ pub unsafe extern "C" fn asperity_asset_capacity(
     // SAFETY: the caller's promises.
     unsafe {
         call(error, || {
-            let asset = Asset::parse_haptic(slice(asset, len)?)?;
-            Ok(write(capacity, least(&Needs::of(&asset, servo_rate_hz)?)?)?)
+            Ok(write(capacity, least(slice(asset, len)?, servo_rate_hz)?)?)
         })
     }
 }
@@ -152,8 +158,7 @@ pub unsafe extern "C" fn asperity_library_capacity(
             let library = Library::parse(slice(library, len)?)?;
             let mut largest = ASPERITY_CAPACITY_SMALL;
             for index in 0..library.index().len() {
-                let asset = Asset::parse_haptic(library.bytes(index)?)?;
-                largest = largest.max(least(&Needs::of(&asset, servo_rate_hz)?)?);
+                largest = largest.max(least(library.bytes(index)?, servo_rate_hz)?);
             }
             Ok(write(capacity, largest)?)
         })

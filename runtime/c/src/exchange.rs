@@ -5,7 +5,7 @@ use crate::{
     AsperityStatus,
     arithmetic::{Numbered, by_arithmetic},
     capacity::{Class, by_capacity, by_kind},
-    library::{find, name, slice},
+    library::{asset_at, asset_called, name, slice},
     memory::{Object, Tag, exclusive, room, shared, tag, uninit, write},
     renderer::RendererOf,
     sized,
@@ -13,7 +13,6 @@ use crate::{
     texture::empty,
     tick::{rendered, same_rate},
 };
-use asperity_formats::{Asset, Library};
 use asperity_runtime::{Exchange, Player, Preparer, Sample, Texture, exchange::MAX_SPARE};
 use core::{
     ffi::{c_char, c_void},
@@ -195,8 +194,7 @@ unsafe fn prepare(preparer: *mut AsperityPreparer, asset: &[u8]) -> Result<(), F
     unsafe {
         by_kind!(tag(preparer)?, S, A => {
             let half = exclusive::<PreparerOf<S, A>, _>(preparer)?;
-            let asset = Asset::parse_haptic(asset)?;
-            Ok(half.preparer.prepare(&asset, half.servo_rate_hz)?)
+            Ok(half.preparer.prepare_haptic(asset, half.servo_rate_hz)?)
         })
     }
 }
@@ -235,8 +233,7 @@ pub unsafe extern "C" fn asperity_preparer_load_index(
     // SAFETY: the caller's promises.
     unsafe {
         call(error, || {
-            let library = Library::parse(slice(library, len)?)?;
-            prepare(preparer, library.bytes(index)?)
+            prepare(preparer, asset_at(slice(library, len)?, index)?)
         })
     }
 }
@@ -257,9 +254,8 @@ pub unsafe extern "C" fn asperity_preparer_load_name(
     // SAFETY: the caller's promises.
     unsafe {
         call(error, || {
-            let library = Library::parse(slice(library, len)?)?;
-            let index = find(library.index(), name(texture_name)?)?;
-            prepare(preparer, library.bytes(index)?)
+            let library = slice(library, len)?;
+            prepare(preparer, asset_called(library, name(texture_name)?)?)
         })
     }
 }

@@ -4,7 +4,7 @@ use crate::{
     AsperityError, AsperityStatus, memory,
     status::{Fault, call},
 };
-use asperity_formats::{FormatError, library::LibraryIndex, limits::MAX_NAME_BYTES};
+use asperity_formats::{FormatError, Library, library::LibraryIndex, limits::MAX_NAME_BYTES};
 use core::{
     ffi::{CStr, c_char},
     slice,
@@ -45,8 +45,22 @@ pub(crate) unsafe fn name<'a>(name: *const c_char) -> Result<&'a str, AsperitySt
 }
 
 /// The index of `name` in a library.
-pub(crate) fn find(library: &LibraryIndex<'_>, name: &str) -> Result<usize, AsperityStatus> {
+fn find(library: &LibraryIndex<'_>, name: &str) -> Result<usize, AsperityStatus> {
     library.find(name).ok_or(AsperityStatus::NoSuchTexture)
+}
+
+/// The bytes of the asset at an index of a whole library: a function of its own, so that loading
+/// needs no stack for the library.
+#[inline(never)]
+pub(crate) fn asset_at(library: &[u8], index: usize) -> Result<&[u8], Fault> {
+    Ok(Library::parse(library)?.bytes(index)?)
+}
+
+/// The same by name.
+#[inline(never)]
+pub(crate) fn asset_called<'a>(library: &'a [u8], name: &str) -> Result<&'a [u8], Fault> {
+    let library = Library::parse(library)?;
+    Ok(library.bytes(find(library.index(), name)?)?)
 }
 
 /// Counts the textures of a library. Only the index is checked, so the beginning of a file

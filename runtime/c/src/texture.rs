@@ -5,13 +5,12 @@ use crate::{
     arithmetic::{Numbered, by_arithmetic},
     capacity::{Class, by_capacity, by_kind},
     coupling::AsperityCoupling,
-    library::{find, name, slice},
+    library::{asset_at, asset_called, name, slice},
     memory::{Object, Tag, exclusive, room, shared, tag},
     renderer::RendererOf,
     sized,
     status::{Fault, call},
 };
-use asperity_formats::{Asset, Library};
 use asperity_runtime::Texture;
 use core::{
     ffi::{c_char, c_void},
@@ -122,8 +121,7 @@ pub unsafe extern "C" fn asperity_texture_load_index(
     // SAFETY: the caller's promises.
     unsafe {
         call(error, || {
-            let library = Library::parse(slice(library, len)?)?;
-            load(texture, library.bytes(index)?)
+            load(texture, asset_at(slice(library, len)?, index)?)
         })
     }
 }
@@ -143,9 +141,8 @@ pub unsafe extern "C" fn asperity_texture_load_name(
     // SAFETY: the caller's promises.
     unsafe {
         call(error, || {
-            let library = Library::parse(slice(library, len)?)?;
-            let index = find(library.index(), name(texture_name)?)?;
-            load(texture, library.bytes(index)?)
+            let library = slice(library, len)?;
+            load(texture, asset_called(library, name(texture_name)?)?)
         })
     }
 }
@@ -159,20 +156,9 @@ unsafe fn load(texture: *mut AsperityTexture, asset: &[u8]) -> Result<(), Fault>
     unsafe {
         by_kind!(tag(texture)?, S, A => {
             let slot = exclusive::<TextureOf<S, A>, _>(texture)?;
-            fill(&mut slot.texture, asset, slot.servo_rate_hz)
+            Ok(slot.texture.load_haptic(asset, slot.servo_rate_hz)?)
         })
     }
-}
-
-/// Parses and loads: a function of its own, so that callers do not need stack for an asset.
-#[inline(never)]
-fn fill<S: Class, A: Numbered>(
-    slot: &mut Texture<S, A>,
-    asset: &[u8],
-    servo_rate_hz: f32,
-) -> Result<(), Fault> {
-    let asset = Asset::parse_haptic(asset)?;
-    Ok(slot.load(&asset, servo_rate_hz)?)
 }
 
 /// Reads wall, gains and friction of the texture that a slot holds; all 0 for an empty slot.

@@ -14,6 +14,8 @@ const SIDE_BY_SIDE: usize = if F4::IN_REGISTERS { 3 } else { 1 };
 
 /// −2 cos ω of a model, in the order of [`place`]; the rest is 0. Four places take two codes from
 /// either end; the codes left in the middle come last.
+// Where the length of a row is known, it costs a fifth less.
+#[cfg_attr(not(target_arch = "arm"), inline(always))]
 pub(super) fn to_cosines<A: Arithmetic>(row: &mut [Raw<A, LineCosine>], codes: &[[u8; 2]]) {
     let order = codes.len();
     let front = codes.as_chunks::<2>().0;

@@ -11,7 +11,7 @@ use crate::{
     stage::{recursion::Recursion, upsample::Upsampler},
     update::plan::Plan,
 };
-use asperity_formats::{Asset, Grid, Numerator};
+use asperity_formats::{Asset, FormatError, Grid, Numerator, Taps};
 
 impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// Prepares a validated asset for a servo rate of 1, 2, 3, … 20 times the models' rate;
@@ -20,24 +20,81 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// # Errors
     /// [`LoadError::Capacity`], [`LoadError::Rate`] and, in fixed point, [`LoadError::Range`].
     pub fn load(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
+        self.load_untapped(asset, servo_rate_hz)?;
+        self.taps.load(asset.taps(), servo_rate_hz);
+        Ok(())
+    }
+
+    /// [`Texture::load`] of bytes, of which it checks what [`Asset::parse_haptic`] checks. It takes
+    /// less stack, because no asset is held while the taps are converted.
+    ///
+    /// # Errors
+    /// As [`Texture::load`], and [`LoadError::Format`].
+    pub fn load_haptic(&mut self, bytes: &[u8], servo_rate_hz: f32) -> Result<(), LoadError> {
+        self.load_with(|| Asset::parse_haptic(bytes), servo_rate_hz)
+    }
+
+    /// Loads what `parse` gives.
+    pub(crate) fn load_with<'a>(
+        &mut self,
+        parse: impl FnOnce() -> Result<Asset<'a>, FormatError>,
+        servo_rate_hz: f32,
+    ) -> Result<(), LoadError> {
+        let taps = self.load_all_but_taps(parse, servo_rate_hz)?;
+        self.taps.load(&taps, servo_rate_hz);
+        Ok(())
+    }
+
+    /// A function of its own, so that its stack is free again when the taps are converted.
+    #[inline(never)]
+    fn load_all_but_taps<'a>(
+        &mut self,
+        parse: impl FnOnce() -> Result<Asset<'a>, FormatError>,
+        servo_rate_hz: f32,
+    ) -> Result<Taps<'a>, LoadError> {
+        // By reference: an asset that is moved takes its room twice.
+        match &parse() {
+            Ok(asset) => {
+                self.load_untapped(asset, servo_rate_hz)?;
+                Ok(*asset.taps())
+            }
+            Err(error) => Err((*error).into()),
+        }
+    }
+
+    /// Loads all but the taps.
+    fn load_untapped(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
+        let ticks = Self::check(asset, servo_rate_hz)?;
+        self.servo_rate_hz = servo_rate_hz;
+        self.prepare(asset, ticks);
+        Ok(())
+    }
+
+    /// Whether the slot takes a texture; the ticks that a sample of its models lasts.
+    #[inline(never)]
+    fn check(asset: &Asset<'_>, servo_rate_hz: f32) -> Result<u8, LoadError> {
         let needs = Needs::of(asset, servo_rate_hz)?;
         needs.fit::<S>()?;
         A::check_asset(asset)?;
-        let (grid, ticks) = (asset.grid(), needs.ticks_per_sample);
+        Ok(needs.ticks_per_sample)
+    }
+
+    /// Prepares models, wall and clock.
+    #[inline(never)]
+    fn prepare(&mut self, asset: &Asset<'_>, ticks: u8) {
+        let grid = asset.grid();
         // The checksums of all that is loaded, and the clock.
         self.id = asset.sections().fold(ticks.into(), |id: u32, section| {
             id.rotate_left(5) ^ section.crc32
         });
-        self.servo_rate_hz = servo_rate_hz;
         self.coupling = Coupling::new(asset.coupling(), asset.friction().mu());
         self.recursion = Recursion::new(grid.ar_order(), grid.ma_order());
         self.load_models(grid);
         self.plan = Plan::new(&self.models, ticks);
         self.upsampler = Upsampler::new(ticks);
-        self.taps.load(asset.taps(), servo_rate_hz);
-        Ok(())
     }
 
+    #[inline(never)]
     fn load_models(&mut self, grid: &Grid<'_>) {
         let models = &mut self.models;
         models.orders = Orders::new(grid.ar_order(), grid.ma_order());

@@ -52,13 +52,7 @@ impl Needs {
     /// # Errors
     /// [`LoadError::Capacity`] names the first of which there is too little.
     pub fn fit<S: Capacity>(&self) -> Result<(), LoadError> {
-        for (field, found, capacity) in [
-            ("vertices", self.vertices, S::VERTICES),
-            ("triangles", self.triangles, S::TRIANGLES),
-            ("ar_order", self.ar_order, S::AR_ORDER),
-            ("ma_order", self.ma_order, S::MA_ORDER),
-            ("tap samples", self.tap_samples, S::TAP_SAMPLES),
-        ] {
+        let fits = |field, found, capacity| {
             if found > capacity {
                 return Err(LoadError::Capacity {
                     field,
@@ -66,7 +60,12 @@ impl Needs {
                     capacity,
                 });
             }
-        }
-        Ok(())
+            Ok(())
+        };
+        fits("vertices", self.vertices, S::VERTICES)?;
+        fits("triangles", self.triangles, S::TRIANGLES)?;
+        fits("ar_order", self.ar_order, S::AR_ORDER)?;
+        fits("ma_order", self.ma_order, S::MA_ORDER)?;
+        fits("tap samples", self.tap_samples, S::TAP_SAMPLES)
     }
 }

@@ -4,7 +4,7 @@
 //! Below the slowest trace the transient shrinks with the speed; above the fastest it stays the
 //! same.
 
-use super::resample::{Lanes, Rates, Resampler};
+use super::resample::{Lanes, Rates, Resampler, Rows};
 use crate::{
     arithmetic::{Arithmetic, Float, Scalar, Zero as _},
     capacity::{Capacity, HostCapacities},
@@ -45,7 +45,8 @@ impl<S: Capacity, A: Arithmetic> TapBank<S, A> {
         let ticks = rates.ticks(taps.samples());
         // A format has at most `MAX_TAPS` traces, so there is room.
         let speeds = taps.traces().map(|trace| Quantity::of(trace.speed_m_s));
-        self.speeds = speeds.take(MAX_TAPS).collect();
+        self.speeds.clear();
+        self.speeds.extend(speeds.take(MAX_TAPS));
         let room = ticks * self.speeds.len();
         let out = self.samples.as_mut().get_mut(..room).unwrap_or_default();
         if F4::IN_REGISTERS {
@@ -132,16 +133,22 @@ impl<A: Arithmetic> Selection<A> {
 
 /// Every trace, one after the other, `N` side by side.
 fn convert<S: Scalar, L: Lanes<N>, const N: usize>(taps: &Taps<'_>, rates: Rates, out: &mut [S]) {
+    let resampler = Resampler::new(rates, taps.samples());
     let mut traces = taps.traces();
-    let readers = core::iter::from_fn(|| {
+    let mut missing = [0.0; MAX_TAPS];
+    let rows = out.chunks_mut(N * resampler.ticks().max(1));
+    for (out, missing) in rows.zip(missing.as_chunks_mut().0) {
+        // There is room for as many traces as there are.
+        let Some(first) = traces.next() else { break };
         // A lane without a trace repeats one.
-        let mut lanes = [traces.next()?; N];
+        let mut lanes = [first; N];
         for (lane, trace) in lanes.iter_mut().skip(1).zip(traces.by_ref()) {
             *lane = trace;
         }
-        Some(move |first| side_by_side(&lanes, first))
-    });
-    Resampler::<L, N>::new(rates, taps.samples()).convert(readers, out);
+        let read = |first, rows: &mut Rows<N>| side_by_side(&lanes, first, rows);
+        *missing = resampler.convert::<S, L, N>(read, out);
+    }
+    resampler.complete(&missing, out);
 }
 
 /// Three traces of two ticks, linear in speed.

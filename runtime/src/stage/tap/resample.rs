@@ -98,20 +98,22 @@ impl Rates {
     }
 }
 
-/// A conversion of traces of one length, `N` side by side.
+/// Samples of `N` traces: one row a sample, one column a trace.
+pub(crate) type Rows<const N: usize> = [[f32; N]; BLOCK];
+
+/// A conversion of traces of one length.
 #[derive(Debug, Clone)]
-pub(crate) struct Resampler<L, const N: usize> {
+pub(crate) struct Resampler {
     rates: Rates,
     samples: usize,
     stop_rad_s: f32,
     /// The decay of a state over [`CHUNK`] source samples, over one less, …, over none.
-    powers: [Poles<L, N>; CHUNK + 1],
+    powers: [Complex4; CHUNK + 1],
     /// The decay of a state over a tick.
     tick: Complex4,
-    residues: Poles<L, N>,
 }
 
-impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
+impl Resampler {
     pub(crate) fn new(rates: Rates, samples: usize) -> Self {
         let lower_hz = if rates.source_hz < rates.servo_hz {
             rates.source_hz
@@ -124,36 +126,141 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
             rates,
             samples,
             stop_rad_s,
-            powers: array::from_fn(|k| Poles::new(after((CHUNK - k) as f64 / rates.source_hz))),
+            powers: array::from_fn(|k| after((CHUNK - k) as f64 / rates.source_hz)),
             tick: after(1.0 / rates.servo_hz),
-            residues: Poles::new(RESIDUES),
         }
     }
 
-    /// Converts traces into `out`, [`Rates::ticks`] each, one after the other. Every `N` traces
-    /// have a reader. It gives a block of their samples from an even index on, one column a trace.
-    pub(crate) fn convert<S: Scalar, R: Fn(usize) -> [[f32; N]; BLOCK]>(
+    /// Ticks that a trace becomes.
+    pub(crate) fn ticks(&self) -> usize {
+        self.rates.ticks(self.samples)
+    }
+
+    /// Converts traces side by side into `out`, [`Resampler::ticks`] each, one after the other.
+    /// `read` gives a block of their samples from an even index on. Returns the part of each
+    /// trace's sum that is missing, in ticks, for [`Resampler::complete`].
+    pub(crate) fn convert<S: Scalar, L: Lanes<N>, const N: usize>(
         &self,
-        readers: impl Iterator<Item = R>,
+        read: impl Fn(usize, &mut Rows<N>),
+        out: &mut [S],
+    ) -> [f32; N] {
+        if self.rates.is_identity() {
+            self.copy(read, out);
+            [0.0; N]
+        } else {
+            self.filter::<S, L, N>(read, out)
+        }
+    }
+
+    #[inline(never)]
+    fn copy<S: Scalar, const N: usize>(&self, read: impl Fn(usize, &mut Rows<N>), out: &mut [S]) {
+        let mut block = [[0.0; N]; BLOCK];
+        for first in (0..self.samples).step_by(BLOCK) {
+            read(first, &mut block);
+            for (n, &row) in (first..self.samples).zip(&block) {
+                put(out, self.samples, n, row.map(S::of));
+            }
+        }
+    }
+
+    /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which moves by up
+    /// to [`CHUNK`] source samples at once.
+    #[inline(never)]
+    fn filter<S: Scalar, L: Lanes<N>, const N: usize>(
+        &self,
+        read: impl Fn(usize, &mut Rows<N>),
+        out: &mut [S],
+    ) -> [f32; N] {
+        let Rates {
+            source_hz,
+            servo_hz,
+        } = self.rates;
+        let (tick_s, source_s) = (1.0 / servo_hz, 1.0 / source_hz);
+        let ticks = self.ticks();
+        let mut given = Given {
+            gain: self.stop_rad_s * source_s as f32,
+            ticks,
+            sums: [0.0; N],
+        };
+        let mut sums = [0.0; N];
+        let (mut first, mut end, mut block) = (0, 0, [[0.0; N]; BLOCK]);
+        let (mut states, mut taken) = (Poles::<L, N>::zero(), 0);
+        let mut n = 0;
+        while n < ticks && taken < self.samples {
+            let now_s = n as f64 * tick_s;
+            let due = ((now_s + ROUNDING_S) * source_hz) as usize + 1;
+            while taken < due {
+                let count = (due - taken).min(CHUNK);
+                if taken + count > end {
+                    first = taken - taken % 2;
+                    end = first + BLOCK;
+                    read(first, &mut block);
+                }
+                let samples = block.get(taken - first..).unwrap_or_default();
+                self.enter(&mut states, &mut sums, samples, count);
+                taken += count;
+            }
+            let age_s = now_s - (taken - 1) as f64 * source_s;
+            let now = if age_s > ROUNDING_S {
+                states.times(&decay(age_s as f32 * self.stop_rad_s))
+            } else {
+                states
+            };
+            given.put(out, n, &now);
+            n += 1;
+            if taken >= self.samples {
+                states = now;
+            }
+        }
+        self.fade(&mut states, n, &mut given, out);
+        array::from_fn(|trace| {
+            ((sums[trace] / source_hz - given.sums[trace] / servo_hz) * servo_hz) as f32
+        })
+    }
+
+    /// The next `count` samples enter: the states decay, and so does each sample but the last. A
+    /// function of its own, so that its numbers in registers need no stack while a block is read.
+    #[inline(never)]
+    fn enter<L: Lanes<N>, const N: usize>(
+        &self,
+        states: &mut Poles<L, N>,
+        sums: &mut [f64; N],
+        samples: &[[f32; N]],
+        count: usize,
+    ) {
+        let powers = self.powers.get(CHUNK - count..).unwrap_or_default();
+        if let Some((before, left)) = powers.split_first() {
+            let mut entering = Poles::zero();
+            for (sample, left) in samples.iter().zip(left) {
+                entering.add(L::load(sample), left);
+                add(sums, sample);
+            }
+            *states = states.times(before).plus(&entering);
+        }
+    }
+
+    /// Silence follows the last sample: the states of the tick before `n` fade.
+    #[inline(never)]
+    fn fade<S: Scalar, L: Lanes<N>, const N: usize>(
+        &self,
+        now: &mut Poles<L, N>,
+        n: usize,
+        given: &mut Given<N>,
         out: &mut [S],
     ) {
-        let ticks = self.rates.ticks(self.samples).max(1);
-        let rows = readers.zip(out.chunks_mut(N * ticks));
-        if self.rates.is_identity() {
-            for (read, out) in rows {
-                for first in (0..ticks).step_by(BLOCK) {
-                    for (n, row) in (first..ticks).zip(read(first)) {
-                        put(out, ticks, n, row.map(S::of));
-                    }
-                }
-            }
+        for n in n..given.ticks {
+            *now = now.times(&self.tick);
+            given.put(out, n, now);
+        }
+    }
+
+    /// Adds the missing part of each trace's impulse along the filter's response.
+    #[inline(never)]
+    pub(crate) fn complete<S: Scalar>(&self, missing: &[f32; MAX_TAPS], out: &mut [S]) {
+        let ticks = self.ticks();
+        if self.rates.is_identity() || ticks == 0 {
             return;
         }
-        let mut missing = [0.0; MAX_TAPS];
-        for ((read, out), missing) in rows.zip(missing.as_chunks_mut().0) {
-            *missing = self.filter(read, ticks, out);
-        }
-        // The missing part of an impulse is added along the response.
         let impulse: f32 = responses(self.tick).take(ticks).sum();
         let scale = |missing: f32| {
             if impulse == 0.0 {
@@ -162,7 +269,6 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
                 missing / impulse
             }
         };
-        let scales = missing.map(scale);
         let mut responses = responses(self.tick);
         for first in (0..ticks).step_by(RESPONSES) {
             let mut block = [0.0; RESPONSES];
@@ -170,7 +276,8 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
                 .iter_mut()
                 .zip(responses.by_ref())
                 .for_each(|(to, h)| *to = h);
-            for (trace, scale) in out.chunks_mut(ticks).zip(scales) {
+            for (trace, &missing) in out.chunks_mut(ticks).zip(missing) {
+                let scale = scale(missing);
                 let trace = trace.get_mut(first..).unwrap_or_default();
                 for (out, h) in trace.iter_mut().zip(&block) {
                     *out = S::of(out.value() + scale * h);
@@ -178,65 +285,24 @@ impl<L: Lanes<N>, const N: usize> Resampler<L, N> {
             }
         }
     }
+}
 
-    /// y(nT) = Σ_i T_source·x_i·h(nT − iT_source), by one complex state a pole, which moves by up
-    /// to [`CHUNK`] source samples at once; silence follows the last one. Returns the missing part
-    /// of the sum of each trace, in ticks.
-    fn filter<S: Scalar>(
-        &self,
-        read: impl Fn(usize) -> [[f32; N]; BLOCK],
-        ticks: usize,
-        out: &mut [S],
-    ) -> [f32; N] {
-        let Rates {
-            source_hz,
-            servo_hz,
-        } = self.rates;
-        let (tick_s, source_s) = (1.0 / servo_hz, 1.0 / source_hz);
-        let gain = L::splat(self.stop_rad_s * source_s as f32);
-        let tick = Poles::new(self.tick);
-        let (mut sums, mut given) = ([0.0; N], [0.0; N]);
-        let (mut first, mut block) = (0, read(0));
-        let (mut states, mut taken) = (Poles::zero(), 0);
-        let mut now = states;
-        for n in 0..ticks {
-            if taken < self.samples {
-                let now_s = n as f64 * tick_s;
-                let due = ((now_s + ROUNDING_S) * source_hz) as usize + 1;
-                while taken < due {
-                    let count = (due - taken).min(CHUNK);
-                    if taken + count > first + BLOCK {
-                        first = taken - taken % 2;
-                        block = read(first);
-                    }
-                    let samples = block.get(taken - first..).unwrap_or_default();
-                    let powers = self.powers.get(CHUNK - count..).unwrap_or_default();
-                    if let Some((before, left)) = powers.split_first() {
-                        let mut entering = Poles::zero();
-                        for (sample, left) in samples.iter().zip(left) {
-                            entering.add(L::load(sample), left);
-                            add(&mut sums, sample);
-                        }
-                        states = states.times(before).plus(&entering);
-                    }
-                    taken += count;
-                }
-                let age_s = now_s - (taken - 1) as f64 * source_s;
-                now = if age_s > ROUNDING_S {
-                    states.times(&Poles::new(decay(age_s as f32 * self.stop_rad_s)))
-                } else {
-                    states
-                };
-            } else {
-                now = now.times(&tick);
-            }
-            let row = (gain * now.response(&self.residues)).to_array().map(S::of);
-            add(&mut given, &row.map(S::value));
-            put(out, ticks, n, row);
-        }
-        array::from_fn(|trace| {
-            ((sums[trace] / source_hz - given[trace] / servo_hz) * servo_hz) as f32
-        })
+/// What the filter gave of `N` traces.
+struct Given<const N: usize> {
+    /// From the response of the poles to that of the filter.
+    gain: f32,
+    ticks: usize,
+    sums: [f64; N],
+}
+
+impl<const N: usize> Given<N> {
+    /// Writes tick `n`.
+    #[inline(always)]
+    fn put<S: Scalar, L: Lanes<N>>(&mut self, out: &mut [S], n: usize, now: &Poles<L, N>) {
+        let row = L::splat(self.gain) * now.response(&RESIDUES);
+        let row = row.to_array().map(S::of);
+        add(&mut self.sums, &row.map(S::value));
+        put(out, self.ticks, n, row);
     }
 }
 
@@ -278,15 +344,20 @@ mod tests {
     use std::vec::Vec;
 
     fn convert(trace: &[f32], source_hz: f32, servo_hz: f32) -> Vec<f32> {
-        let rates = Rates::new(source_hz, servo_hz);
-        let mut out = std::vec![0.0; rates.ticks(trace.len())];
+        let resampler = Resampler::new(Rates::new(source_hz, servo_hz), trace.len());
+        let mut out = std::vec![0.0; resampler.ticks()];
         let at = |i: usize| trace.get(i).copied().unwrap_or_default();
-        let read = |first: usize| array::from_fn(|i| [at(first + i)]);
-        Resampler::<f32, 1>::new(rates, trace.len()).convert(core::iter::once(read), &mut out);
+        let mut missing = [0.0; MAX_TAPS];
+        let read = |first: usize, rows: &mut Rows<1>| *rows = array::from_fn(|i| [at(first + i)]);
+        missing[..1].copy_from_slice(&resampler.convert::<_, f32, 1>(read, &mut out));
+        resampler.complete(&missing, &mut out);
         // Four side by side have the same bits.
-        let read = |first: usize| array::from_fn(|i| [0.0, 7.0, at(first + i), 0.0]);
+        let read = |first: usize, rows: &mut Rows<4>| {
+            *rows = array::from_fn(|i| [0.0, 7.0, at(first + i), 0.0]);
+        };
         let mut four = std::vec![0.0; 4 * out.len()];
-        Resampler::<F4, 4>::new(rates, trace.len()).convert(core::iter::once(read), &mut four);
+        missing[..4].copy_from_slice(&resampler.convert::<_, F4, 4>(read, &mut four));
+        resampler.complete(&missing, &mut four);
         let place = 2 * out.len()..3 * out.len();
         assert!(
             four[place]

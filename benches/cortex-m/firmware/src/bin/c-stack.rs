@@ -1,4 +1,4 @@
-//! The stack of every call of the C face that firmware makes, measured by painting.
+//! The stack of every call of the C face, measured by painting.
 //!
 //! A line a call: its name without `asperity_`, and its bytes. A call that fails prints `failed`, and ends the program.
 #![no_std]
@@ -39,6 +39,15 @@ fn name_of(function: &str) -> &str {
     function.strip_prefix("asperity_").unwrap_or(function)
 }
 
+/// The status of a call that gives a text or a number.
+fn given(something: bool) -> AsperityStatus {
+    if something {
+        AsperityStatus::Ok
+    } else {
+        AsperityStatus::Internal
+    }
+}
+
 /// Calls a function of the C face with what C passes, under its name.
 macro_rules! measure {
     ($function:ident($($argument:expr),*)) => {
@@ -64,12 +73,19 @@ fn main() -> ! {
     static mut ERROR: MaybeUninit<AsperityError> = MaybeUninit::uninit();
     static mut OUTPUT: MaybeUninit<AsperityOutput> = MaybeUninit::uninit();
     static mut COUNTERS: MaybeUninit<AsperityCounters> = MaybeUninit::uninit();
+    static mut COUPLING: MaybeUninit<AsperityCoupling> = MaybeUninit::uninit();
+    static mut RECORD: MaybeUninit<AsperityRecord> = MaybeUninit::uninit();
+    static mut NAME: [core::ffi::c_char; ASPERITY_NAME_SIZE] = [0; ASPERITY_NAME_SIZE];
     static mut TEXT: [core::ffi::c_char; ASPERITY_TEXT_SIZE] = [0; ASPERITY_TEXT_SIZE];
 
     let (config, error) = (CONFIG.as_mut_ptr(), ERROR.as_mut_ptr());
     let (output, counters) = (OUTPUT.as_mut_ptr(), COUNTERS.as_mut_ptr());
+    let coupling = COUPLING.as_mut_ptr();
     // SAFETY: the first fields of statics that nobody else uses.
     unsafe {
+        coupling
+            .cast::<u32>()
+            .write(size_of::<AsperityCoupling>() as u32);
         error.cast::<u32>().write(size_of::<AsperityError>() as u32);
         output
             .cast::<u32>()
@@ -93,7 +109,7 @@ fn main() -> ! {
         let (mut renderer, mut texture, mut state) = (null_mut(), null_mut(), null_mut());
         let (mut scene, mut scene_state) = (null_mut(), null_mut());
         let (mut preparer, mut player, mut recorder) = (null_mut(), null_mut(), null_mut());
-        let (mut capacity, mut size) = (0, 0);
+        let (mut capacity, mut size, mut count) = (0, 0, 0);
         measure!(asperity_config_default(config, size_of::<AsperityConfig>()));
         // SAFETY: just written.
         unsafe { (*config).arithmetic = arithmetic };
@@ -118,6 +134,27 @@ fn main() -> ! {
             &raw mut capacity,
             error
         ));
+        measure!(asperity_library_count(
+            library,
+            library_len,
+            &raw mut count,
+            error
+        ));
+        measure!(asperity_library_name(
+            library,
+            library_len,
+            0,
+            NAME.as_mut_ptr(),
+            ASPERITY_NAME_SIZE,
+            error
+        ));
+        measure!(asperity_library_find(
+            library,
+            library_len,
+            NAME.as_ptr(),
+            &raw mut count,
+            error
+        ));
         measure!(asperity_texture_init(
             textures,
             SLOT,
@@ -135,9 +172,17 @@ fn main() -> ! {
             0,
             error
         ));
+        measure!(asperity_texture_load_name(
+            texture,
+            library,
+            library_len,
+            NAME.as_ptr(),
+            error
+        ));
         measure!(asperity_texture_load_asset(
             texture, asset, asset_len, error
         ));
+        measure!(asperity_texture_coupling(texture, coupling));
         measure!(asperity_state_init(
             states,
             ASPERITY_STATE_SIZE,
@@ -188,19 +233,32 @@ fn main() -> ! {
                 output
             ));
         }
-        measure!(asperity_exchange_init(
-            exchanges,
-            EXCHANGE,
-            renderer,
-            large,
-            1,
-            1,
-            &raw mut preparer,
-            &raw mut player
+        measure!(asperity_scene_state_counters(scene_state, counters));
+        measure!(asperity_exchange_size(large, 1, &raw mut size));
+        // A new exchange for each load: its only spare slot is on its way then.
+        macro_rules! exchanged {
+            ($load:ident($($argument:expr),*)) => {
+                measure!(asperity_exchange_init(
+                    exchanges,
+                    EXCHANGE,
+                    renderer,
+                    large,
+                    1,
+                    1,
+                    &raw mut preparer,
+                    &raw mut player
+                ));
+                measure!($load(preparer, $($argument),*));
+            };
+        }
+        exchanged!(asperity_preparer_load_index(library, library_len, 0, error));
+        exchanged!(asperity_preparer_load_name(
+            library,
+            library_len,
+            NAME.as_ptr(),
+            error
         ));
-        measure!(asperity_preparer_load_asset(
-            preparer, asset, asset_len, error
-        ));
+        exchanged!(asperity_preparer_load_asset(asset, asset_len, error));
         for _ in 0..40 {
             measure!(asperity_player_tick(
                 renderer,
@@ -209,13 +267,34 @@ fn main() -> ! {
                 output
             ));
         }
+        measure!(asperity_player_counters(player, counters));
         measure!(asperity_recorder_init(records, RECORDER, &raw mut recorder));
         measure!(asperity_recorder_write(recorder, &raw const sample, output));
+        measure!(asperity_recorder_read(
+            recorder,
+            RECORD.as_mut_ptr(),
+            size_of::<AsperityRecord>(),
+            1,
+            &raw mut count,
+            null_mut()
+        ));
         measure!(asperity_counters_text(
             counters,
             TEXT.as_mut_ptr(),
             ASPERITY_TEXT_SIZE
         ));
+        measure!(asperity_flags_text(
+            1023,
+            TEXT.as_mut_ptr(),
+            ASPERITY_TEXT_SIZE
+        ));
+        measure("version", &mut || given(!asperity_version().is_null()));
+        measure("version_number", &mut || {
+            given(asperity_version_number() != 0)
+        });
+        measure("error_text", &mut || {
+            given(!asperity_error_text(99).is_null())
+        });
     }
     debug::exit(debug::EXIT_SUCCESS);
     loop {

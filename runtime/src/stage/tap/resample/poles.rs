@@ -49,27 +49,38 @@ impl Lanes<1> for f32 {
     }
 }
 
-/// One complex number a pole, the last of which is real: four real parts, then three imaginary ones.
+const PARTS: usize = 7;
+
+/// The filter's state for each of `N` traces: one complex number a pole, the last of which is real.
+/// Four real parts come first, then three imaginary ones.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Poles<L, const N: usize>([L; PARTS]);
 
-const PARTS: usize = 7;
-
 impl<L: Lanes<N>, const N: usize> Poles<L, N> {
-    /// The same numbers for every trace.
-    pub(super) fn new(numbers: Complex4) -> Self {
-        let [[a, b, c, d], [e, f, g, _]] = [numbers.re, numbers.im].map(F4::to_array);
-        Self([a, b, c, d, e, f, g].map(L::splat))
-    }
-
     pub(super) fn zero() -> Self {
         Self([L::splat(0.0); PARTS])
     }
 
+    /// The same factors for every trace: widened where they are used, because they would take `N`
+    /// times the stack.
+    #[inline(always)]
+    fn widened(factors: &Complex4) -> [L; PARTS] {
+        let ([a, b, c, d], [e, f, g, _]) = (factors.re.to_array(), factors.im.to_array());
+        [
+            L::splat(a),
+            L::splat(b),
+            L::splat(c),
+            L::splat(d),
+            L::splat(e),
+            L::splat(f),
+            L::splat(g),
+        ]
+    }
+
     /// Each number times its factor.
     #[inline(always)]
-    pub(super) fn times(&self, factors: &Self) -> Self {
-        let ([a, b, c, d, e, f, g], [p, q, r, s, t, u, v]) = (self.0, factors.0);
+    pub(super) fn times(&self, factors: &Complex4) -> Self {
+        let ([a, b, c, d, e, f, g], [p, q, r, s, t, u, v]) = (self.0, Self::widened(factors));
         Self([
             a * p - e * t,
             b * q - f * u,
@@ -83,9 +94,10 @@ impl<L: Lanes<N>, const N: usize> Poles<L, N> {
 
     /// Adds a sample of each trace, decayed by `left`.
     #[inline(always)]
-    pub(super) fn add(&mut self, sample: L, left: &Self) {
+    pub(super) fn add(&mut self, sample: L, left: &Complex4) {
+        let left = Self::widened(left);
         for part in 0..PARTS {
-            self.0[part] = self.0[part] + left.0[part] * sample;
+            self.0[part] = self.0[part] + left[part] * sample;
         }
     }
 
@@ -100,8 +112,8 @@ impl<L: Lanes<N>, const N: usize> Poles<L, N> {
 
     /// Output of the filter with these residues.
     #[inline(always)]
-    pub(super) fn response(&self, residues: &Self) -> L {
-        let ([a, b, c, d, e, f, g], [p, q, r, s, t, u, v]) = (self.0, residues.0);
+    pub(super) fn response(&self, residues: &Complex4) -> L {
+        let ([a, b, c, d, e, f, g], [p, q, r, s, t, u, v]) = (self.0, Self::widened(residues));
         ((a * p - e * t) + (b * q - f * u)) + ((c * r - g * v) + d * s)
     }
 }
