@@ -11,12 +11,11 @@ mod parts;
 
 pub use asperity_model_ar_decoder::AR_DECODER;
 pub use asperity_model_tap_decoder::TAP_DECODER;
+pub use asperity_model_text_projection::TEXT_PROJECTION;
 pub use asperity_model_words::{WORD_ROWS, WORD_VECTORS, WORD_WIDTH};
 
 /// The file `model.json`: what the model is, and the materials that it was trained on.
 pub static DESCRIPTION: &str = include_str!("../model.json");
-/// The file `text_projection.onnx`: `embedding` [B, 384] to `z` [B, 64] and `similarity` [B, M].
-pub static TEXT_PROJECTION: &[u8] = include_bytes!("../text_projection.onnx");
 /// The file `encoder.onnx`: `ar` [B, 18, 22], `taps_m_s2` [B, 13, 100] and `present` [B, 2] to
 /// `mean` and `log_variance` [B, 64].
 pub static ENCODER: &[u8] = include_bytes!("../encoder.onnx");

@@ -6,7 +6,6 @@ use crate::{
     setup,
 };
 use asperity::{
-    diagnostic::Diagnostic,
     inference::{Backend, BackendName},
     text::TextEncoderChoice,
 };
@@ -18,7 +17,6 @@ use asperity_train::{
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{num::NonZeroUsize, path::PathBuf};
-use thiserror::Error;
 
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
