@@ -18,7 +18,6 @@
 //! | [`feel`] | a session on a texture, with its summary, CSV, sheet and sound |
 //! | [`labs`] | alternatives to the tick, which only the charts need |
 //! | [`stability`] | where methods fail: a table of our method and others |
-//! | [`virtual_usb`] | a Falcon and a Touch on a USB that does not exist |
 //!
 //! The simulator deliberately leaves out the kinematics of the arm (its axes are independent and
 //! Cartesian), gravity (which counts as compensated), the stylus's orientation, motor heat (the
@@ -37,4 +36,3 @@ pub mod servo;
 pub mod session;
 mod signal;
 pub mod stability;
-pub mod virtual_usb;

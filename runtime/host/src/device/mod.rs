@@ -4,6 +4,7 @@
 //! Once a period the servo thread calls [`Device::read`] and [`Device::write`]. These two neither
 //! allocate nor print, and they return within the period.
 
+pub mod exercise;
 pub mod falcon;
 mod fault;
 #[cfg(feature = "usb")]

@@ -147,14 +147,11 @@ fn load_once(transport: &dyn Transport, bytes: &[u8]) -> Result<(), FirmwareErro
 fn handshake(transport: &dyn Transport) -> Result<(), FirmwareError> {
     for _ in 0..QUESTIONS {
         send(transport, &HELLO)?;
-        let mut answer = [0; HELLO_ANSWER.len() + 1];
         // The leading zero comes on some systems and not on others.
-        let mut got = receive(transport, &mut answer[..HELLO_ANSWER.len()])?;
-        if answer[0] == 0 && got == HELLO_ANSWER.len() {
-            got += receive(transport, &mut answer[HELLO_ANSWER.len()..])?;
-        }
-        let seen = answer[..got].strip_prefix(&[0]).unwrap_or(&answer[..got]);
-        if seen == HELLO_ANSWER {
+        let mut answer = [0; HELLO_ANSWER.len() + 1];
+        let complete = |seen: &[u8]| seen.strip_prefix(&[0]).unwrap_or(seen) == HELLO_ANSWER;
+        let got = receive_until(transport, &mut answer, complete)?;
+        if complete(&answer[..got]) {
             return Ok(());
         }
         set(transport, &[ftdi::Setting::PurgeReceived])?;
@@ -207,6 +204,15 @@ fn send(transport: &dyn Transport, bytes: &[u8]) -> Result<(), TransferError> {
 /// Fills `bytes` from as many packets as it takes; gives how many came before the device fell
 /// silent. More than `bytes` takes is lost.
 fn receive(transport: &dyn Transport, bytes: &mut [u8]) -> Result<usize, TransferError> {
+    receive_until(transport, bytes, |_| false)
+}
+
+/// As [`receive`], until what came is `complete`.
+fn receive_until(
+    transport: &dyn Transport,
+    bytes: &mut [u8],
+    complete: impl Fn(&[u8]) -> bool,
+) -> Result<usize, TransferError> {
     let mut got = 0;
     for _ in 0..PACKETS {
         let mut packet = [0; PACKET_BYTES];
@@ -219,7 +225,7 @@ fn receive(transport: &dyn Transport, bytes: &mut [u8]) -> Result<usize, Transfe
         let taken = payload.len().min(bytes.len() - got);
         bytes[got..got + taken].copy_from_slice(&payload[..taken]);
         got += taken;
-        if got == bytes.len() {
+        if got == bytes.len() || complete(&bytes[..got]) {
             break;
         }
     }

@@ -23,7 +23,12 @@ pub struct InProcessOpener<D>(pub Socket<D>);
 
 impl<D: Device + 'static> Opener for InProcessOpener<D> {
     fn open(&mut self) -> Result<Opened, OpenError> {
-        let transport = InProcess::open(&self.0).ok_or(TransferError::Disconnected)?;
+        let Some(transport) = InProcess::open(&self.0) else {
+            // Time passes for a device that is away.
+            std::thread::sleep(STEP);
+            self.0.port().advance(STEP.as_secs_f64());
+            return Err(TransferError::Disconnected.into());
+        };
         let serial = self.0.port().device.descriptors().strings[2].clone();
         Ok(Opened {
             transport: Arc::new(transport),

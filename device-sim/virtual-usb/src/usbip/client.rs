@@ -8,7 +8,7 @@ use super::wire::{
     GRANTED, HEADER, Header, MAX_TRANSFER, RECORD, REPLY_IMPORT, REPLY_LIST, REQUEST_IMPORT,
     REQUEST_LIST, SUBMIT, SUBMITTED, UNLINK, UNLINKED, bus_id, operation, take,
 };
-use crate::virtual_usb::Setup;
+use crate::Setup;
 
 /// A device of a list.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -16,7 +16,7 @@ use super::wire::{
     REQUEST_IMPORT, REQUEST_LIST, SUBMIT, SUBMITTED, UNLINK, UNLINKED, bus_id, operation, record,
     status, take,
 };
-use crate::virtual_usb::{AnyDevice, Device as _, Port, Reply, Setup, Socket};
+use crate::{AnyDevice, Device as _, Port, Reply, Setup, Socket};
 
 /// Time between two questions.
 const STEP: Duration = Duration::from_micros(500);

@@ -1,9 +1,7 @@
 //! Faults of a bus, at a rate.
 
-use rand_core::SeedableRng as _;
+use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
-
-use crate::random::unit;
 
 /// What goes wrong with a transfer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,7 +74,7 @@ impl Faults {
     /// The fault of the next transfer, if any.
     pub(super) fn draw(&mut self) -> Option<TransferFault> {
         self.counts.transfers += 1;
-        let mut left = unit(&mut self.rng);
+        let mut left = self.unit();
         for (n, rate) in self.rates.of.into_iter().enumerate() {
             if left < rate {
                 self.counts.of[n] += 1;
@@ -89,6 +87,11 @@ impl Faults {
 
     /// How many of `bytes` a short transfer lets through: less than all.
     pub(super) fn part(&mut self, bytes: usize) -> usize {
-        (unit(&mut self.rng) * bytes as f64) as usize
+        (self.unit() * bytes as f64) as usize
+    }
+
+    /// A number in 0..1, with the 53 bits that a double holds.
+    fn unit(&mut self) -> f64 {
+        (self.rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }

@@ -6,9 +6,9 @@ use asperity_host::device::falcon::firmware::FirmwareError;
 use asperity_host::device::falcon::settings::Settings;
 use asperity_host::device::falcon::{Falcon, OpenError};
 use asperity_host::device::{Device as _, Fault, Reading};
-use asperity_sim::virtual_usb::falcon::{Falcon as Virtual, Quirks, image};
-use asperity_sim::virtual_usb::fault::Rates;
-use asperity_sim::virtual_usb::{InProcessOpener, Port, Socket};
+use asperity_virtual_usb::falcon::{Falcon as Virtual, Quirks, image};
+use asperity_virtual_usb::fault::Rates;
+use asperity_virtual_usb::{InProcessOpener, Port, Socket};
 
 fn open(socket: &Socket<Virtual>, settings: Settings) -> Result<Falcon, OpenError> {
     Falcon::open(Box::new(InProcessOpener(socket.clone())), settings)
@@ -176,8 +176,8 @@ fn a_force_arrives_in_size_and_direction_and_ends_with_the_device() {
     let moved_m = port.device.grip.position_m()[2];
     drop(port);
     assert!((felt.largest_force_n - 2.0).abs() < 0.05, "{felt:?}");
-    // 2 N less 0.4 N of friction against 200 N/m.
-    assert!(moved_m > 0.004 && moved_m < 0.015, "{moved_m} m");
+    // 2 N against 200 N/m.
+    assert!(moved_m > 0.006 && moved_m < 0.015, "{moved_m} m");
     let before = felt.commands;
     drop(falcon);
     let felt = socket.port().device.grip.felt();

@@ -7,24 +7,18 @@ use asperity_host::device::falcon::geometry::{CENTRE_M, count};
 use asperity_host::device::falcon::kinematics::{inverse, jacobian};
 use asperity_host::device::falcon::motors;
 
-use crate::axis::{AxisParams, AxisState, Pull};
-use crate::device::norm;
-
 /// Steps of integration in a millisecond.
 const STEP_S: f64 = 1.0 / 16_000.0;
-/// Made up: a light grip with the hand's mass, and what friction such a mechanism may have.
-const AXIS: AxisParams = AxisParams {
-    mass_kg: 0.3,
-    damping_n_s_m: 0.5,
-    coulomb_n: 0.4,
-};
+/// Made up: a light grip with the hand's mass, and the damping that such a mechanism may have.
+const MASS_KG: f64 = 0.3;
+const DAMPING_N_S_M: f64 = 0.5;
 /// How firmly the hand holds it.
 const HAND_N_M: f64 = 200.0;
 const HAND_N_S_M: f64 = 8.0;
 /// Where an encoder finds its zero: as its thigh passes where the grip is 15 mm out.
 const INDEX_M: [f64; 3] = [CENTRE_M[0], CENTRE_M[1], CENTRE_M[2] + 0.015];
-/// Radius within which the grip stays, m: the end stops.
-const STOP_M: f64 = 0.05;
+/// How far the grip goes each way, m: the end stops.
+const STOP_M: f64 = 0.028;
 
 /// What the motors were told, and did.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -46,7 +40,8 @@ pub struct Felt {
 /// The grip and its hand.
 #[derive(Debug, Clone)]
 pub struct Grip {
-    axes: [AxisState; 3],
+    position_m: [f64; 3],
+    velocity_m_s: [f64; 3],
     motors: [i16; 3],
     homing: bool,
     /// Counts that an encoder is off by, until it finds its zero.
@@ -64,7 +59,8 @@ impl Grip {
     pub(super) fn new() -> Self {
         let angles = inverse(CENTRE_M).unwrap_or_default();
         let mut grip = Self {
-            axes: [AxisState::default(); 3],
+            position_m: [0.0; 3],
+            velocity_m_s: [0.0; 3],
             motors: [0; 3],
             homing: false,
             offsets: [0; 3],
@@ -94,7 +90,7 @@ impl Grip {
     /// Position from the middle of the workspace, m.
     #[must_use]
     pub fn position_m(&self) -> [f64; 3] {
-        self.axes.map(|axis| axis.position_m)
+        self.position_m
     }
 
     /// Encoders count from where they are; the hand homes them again.
@@ -118,7 +114,8 @@ impl Grip {
         }
         self.motors = command.motors;
         self.homing = command.homing;
-        let force_n = norm(self.force_n());
+        let [x, y, z] = self.force_n();
+        let force_n = (x * x + y * y + z * z).sqrt();
         self.felt.largest_force_n = self.felt.largest_force_n.max(force_n);
     }
 
@@ -138,7 +135,7 @@ impl Grip {
     }
 
     fn in_device(&self) -> [f64; 3] {
-        std::array::from_fn(|n| CENTRE_M[n] + self.axes[n].position_m)
+        std::array::from_fn(|n| CENTRE_M[n] + self.position_m[n])
     }
 
     /// Lets time pass.
@@ -151,15 +148,19 @@ impl Grip {
             self.time_s += step_s;
             let (target_m, target_m_s) = self.target();
             for n in 0..3 {
-                let pull = Pull {
-                    stiffness_n_m: HAND_N_M,
-                    damping_n_s_m: HAND_N_S_M,
-                    target_m: target_m[n],
-                    target_m_s: target_m_s[n],
-                    force_n: 0.0,
-                };
-                self.axes[n] = self.axes[n].step(&AXIS, force_n[n], &pull, step_s);
-                self.axes[n].stop_at(STOP_M / 3.0_f64.sqrt());
+                // Backward Euler: it only takes energy away, however long a step is.
+                let pull_n = force_n[n]
+                    + HAND_N_M * (target_m[n] - self.position_m[n])
+                    + HAND_N_S_M * target_m_s[n];
+                let inertia =
+                    MASS_KG + step_s * (DAMPING_N_S_M + HAND_N_S_M) + step_s * step_s * HAND_N_M;
+                let momentum = MASS_KG * self.velocity_m_s[n] + step_s * pull_n;
+                self.velocity_m_s[n] = momentum / inertia;
+                self.position_m[n] += step_s * self.velocity_m_s[n];
+                if self.position_m[n].abs() > STOP_M {
+                    self.position_m[n] = self.position_m[n].clamp(-STOP_M, STOP_M);
+                    self.velocity_m_s[n] = 0.0;
+                }
             }
         }
         if force_n != [0.0; 3] {

@@ -2,7 +2,7 @@
 
 use std::io::{self, Read};
 
-use crate::virtual_usb::descriptor::Descriptors;
+use crate::descriptor::Descriptors;
 
 /// Protocol version 1.1.1.
 pub const VERSION: u16 = 0x0111;
@@ -160,8 +160,8 @@ pub fn take<const N: usize>(stream: &mut impl Read) -> io::Result<[u8; N]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::virtual_usb::Device as _;
-    use crate::virtual_usb::touch::{Firmware, Touch};
+    use crate::Device as _;
+    use crate::touch::{Firmware, Touch};
 
     #[test]
     fn a_header_comes_back_and_lies_as_the_kernel_has_it() {

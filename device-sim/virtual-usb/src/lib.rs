@@ -6,7 +6,7 @@
 //!
 //! - [`InProcess`] is a transport for a driver in the same program;
 //! - [`usbip`] serves it over TCP. A Linux kernel attaches it as a real device (`vhci-hcd`), and the
-//!   bridge in `device-sim/umockdev/` hands it to libusb where there is no kernel for it.
+//!   bridge in `umockdev/` hands it to libusb where there is no kernel for it.
 //!
 //! | module | holds |
 //! |---|---|
@@ -14,6 +14,8 @@
 //! | [`fault`] | stalls, short transfers, time-outs and unplugging at a rate |
 //! | [`falcon`] | a Novint Falcon with a grip in a hand |
 //! | [`touch`] | a 3D Systems Touch, as far as it identifies itself |
+
+#![forbid(unsafe_code)]
 
 mod any;
 pub mod descriptor;
