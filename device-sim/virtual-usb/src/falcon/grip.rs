@@ -27,8 +27,11 @@ pub struct Felt {
     pub commands: u64,
     /// Largest magnitude of a motor's command, counts.
     pub largest_count: i16,
-    /// Largest change of a motor's command, counts.
+    /// Largest change of a motor's command, counts, but for the first after plugging in.
     pub largest_step: i32,
+    /// First commands after plugging in that had a force. What the motors do while the computer is
+    /// away is not known, so the first must have none.
+    pub pushes_at_first: u64,
     /// Largest force at the grip, N.
     pub largest_force_n: f64,
     /// Commands with a force while an encoder had not found its zero.
@@ -44,6 +47,8 @@ pub struct Grip {
     velocity_m_s: [f64; 3],
     motors: [i16; 3],
     homing: bool,
+    /// Whether no command came since plugging in.
+    first: bool,
     /// Counts that an encoder is off by, until it finds its zero.
     offsets: [i16; 3],
     homed: u8,
@@ -63,6 +68,7 @@ impl Grip {
             velocity_m_s: [0.0; 3],
             motors: [0; 3],
             homing: false,
+            first: true,
             offsets: [0; 3],
             homed: 0,
             before: angles,
@@ -101,14 +107,22 @@ impl Grip {
         self.time_s = 0.0;
     }
 
+    pub(super) fn plugged_in(&mut self) {
+        self.first = true;
+    }
+
     pub(super) fn command(&mut self, command: &Command) {
         let felt = &mut self.felt;
         felt.commands += 1;
         for (new, old) in command.motors.into_iter().zip(self.motors) {
             felt.largest_count = felt.largest_count.max(new.saturating_abs());
             let step = (i32::from(new) - i32::from(old)).abs();
-            felt.largest_step = felt.largest_step.max(step);
+            if !self.first {
+                felt.largest_step = felt.largest_step.max(step);
+            }
         }
+        felt.pushes_at_first += u64::from(self.first && command.motors != [0; 3]);
+        self.first = false;
         if self.homed != ALL_HOMED && command.motors != [0; 3] {
             felt.unhomed_forces += 1;
         }

@@ -226,6 +226,7 @@ impl Device for Falcon {
 
     fn plugged_in(&mut self) {
         // The chip lives on USB's power, the rest on its own supply.
+        self.grip.plugged_in();
         self.divisor = 0;
         self.latency_s = 0.016;
         self.to_computer.clear();

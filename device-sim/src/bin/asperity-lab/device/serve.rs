@@ -179,12 +179,13 @@ fn summary(port: &Port<AnyDevice>) -> String {
             let felt = falcon.grip.felt();
             format!(
                 "{faults}; {} commands, at most {:.2} N, {} counts, {} counts a step; {} forces before \
-                 homing",
+                 homing, {} at first after plugging in",
                 felt.commands,
                 felt.largest_force_n,
                 felt.largest_count,
                 felt.largest_step,
-                felt.unhomed_forces
+                felt.unhomed_forces,
+                felt.pushes_at_first
             )
         }
         AnyDevice::Touch(touch) => format!(

@@ -58,6 +58,8 @@ pub struct Falcon {
     seen: u8,
     last: Option<(Reading, [f64; 3])>,
     encoders: Option<[i16; 3]>,
+    /// Readings in a row that brought nothing new.
+    stale: u32,
     counts_before: LinkCounts,
 }
 
@@ -89,6 +91,7 @@ impl Falcon {
             seen: 0,
             last: None,
             encoders: None,
+            stale: 0,
             counts_before: LinkCounts::default(),
         })
     }
@@ -129,6 +132,7 @@ impl Device for Falcon {
     fn read(&mut self) -> Result<Reading, Fault> {
         let held = self.link()?.newest();
         if held.sequence() == self.seen {
+            self.stale = self.stale.saturating_add(1);
             let stale = self.last.map(|(reading, _)| Reading {
                 fresh: false,
                 ..reading
@@ -140,6 +144,7 @@ impl Device for Falcon {
             });
         }
         self.seen = held.sequence();
+        self.stale = 0;
         let answer = held.answer();
         if !self.homing.step(&answer) {
             self.last = None;
@@ -170,6 +175,10 @@ impl Device for Falcon {
             self.command([0; 3])?;
             return Err(Fault::NotCalibrated);
         };
+        if self.stale > STALE {
+            self.command([0; 3])?;
+            return Err(Fault::TimedOut);
+        }
         let jacobian = kinematics::inverse(position)
             .and_then(|angles| kinematics::jacobian(position, angles))
             .and_then(|rows| motors::counts(force, &rows));
@@ -212,6 +221,10 @@ impl Device for Falcon {
         })
     }
 }
+
+/// Readings in a row without anything new after which there is no force: it would be one for where
+/// the grip was.
+const STALE: u32 = 20;
 
 /// Counts that no thigh turns between two answers that follow each other: some 20 mm.
 const JUMP: i32 = 512;

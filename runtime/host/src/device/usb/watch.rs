@@ -36,6 +36,12 @@ impl Hotplug<Context> for Bell {
     }
 }
 
+/// Whether libusb tells of changes here.
+#[must_use]
+pub fn has_hotplug() -> bool {
+    rusb::has_hotplug()
+}
+
 /// Tells what is plugged in and out until `each` gives false. It is called with `None` at least
 /// twice a second. Where libusb tells of changes, a look follows at once; elsewhere, and in case it
 /// misses one, there is a look every half second.
