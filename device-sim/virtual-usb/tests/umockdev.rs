@@ -203,7 +203,7 @@ fn child_feels_a_texture() {
     let mut falcon = on_usb::open(&"falcon:".parse().expect("a name")).expect("a Falcon");
     let plan = Plan {
         ticks: told().parse().expect("ticks"),
-        rate_hz: 1000.0,
+        rate_hz: 0.0,
         peak_n: 3.3,
         seed: 1,
         patience: 600,
@@ -215,7 +215,7 @@ fn child_feels_a_texture() {
         (plan.ticks, 0, false)
     );
     assert!(
-        report.fresh > plan.ticks / 20 && report.contact > 0,
+        report.fresh > plan.ticks / 2 && report.contact > 0,
         "{report:?}"
     );
 }

@@ -1,6 +1,7 @@
 // bridge [--busy|--deny] PORT BUSID PROGRAM ARGS…
 //
-// Runs PROGRAM with a USB device that a USB/IP server on 127.0.0.1:PORT serves. umockdev stands in
+// Runs PROGRAM with a USB device that a USB/IP server on 127.0.0.1:PORT serves, or with none for the
+// BUSID `none`. umockdev stands in
 // for sysfs, for /dev/bus/usb and for the kernel's usbfs: libusb works as on a real machine. It
 // needs no kernel module and no rights. Run it under `umockdev-wrapper`; PROGRAM must be linked
 // dynamically.
@@ -120,7 +121,7 @@ static gboolean submit(UMockdevIoctlClient *client, UMockdevIoctlData *argument)
                            urb->buffer_length, NULL);
   guint8 *bytes = transfer->buffer ? transfer->buffer->data : NULL, none[1] = {0};
   transfer->control = urb->type == USBDEVFS_URB_TYPE_CONTROL;
-  transfer->in = transfer->control ? bytes[0] & 0x80 : urb->endpoint & 0x80;
+  transfer->in = ((transfer->control ? bytes[0] : urb->endpoint) & 0x80) != 0;
   transfer->sequence = ++sequence;
   int skip = transfer->control ? 8 : 0;
   if (transfer->buffer) umockdev_ioctl_data_ref(transfer->buffer);
@@ -278,8 +279,13 @@ static gboolean plug_in(void) {
   g_assert_no_error(error);
   g_autofree char *root = umockdev_testbed_get_root_dir(testbed);
   g_autofree char *file = g_strconcat(root, node, NULL);
-  chmod(root, 0755);
-  if (deny) chmod(file, 0);
+  if (deny) {
+    // umockdev's own sockets are for everybody, the node is for nobody.
+    g_autofree char *socket = g_strconcat(root, "/ioctl", node, NULL);
+    chmod(root, 0777);
+    chmod(socket, 0777);
+    chmod(file, 0);
+  }
   snprintf(sys_path, sizeof sys_path, "/sys/devices/usb1/1-1");
   umockdev_testbed_uevent(testbed, sys_path, "add");
   return TRUE;
@@ -351,6 +357,13 @@ int main(int count, char **words) {
   testbed = umockdev_testbed_new();
   handler = umockdev_ioctl_base_new();
   g_object_connect(handler, "signal-after::handle-ioctl", on_ioctl, NULL, NULL);
+  // The root hub, which every bus has.
+  umockdev_testbed_add_from_string(
+      testbed, "P: /devices/usb1\nN: bus/usb/001/001\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\n"
+               "E: BUSNUM=001\nE: DEVNUM=001\nE: DEVNAME=/dev/bus/usb/001/001\n"
+               "A: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=1\\n\nA: speed=480\\n\n"
+               "H: descriptors=12010002090000406B1D020005060302010109021900010100E0000904000001"
+               "09000000070581030400FF\n", NULL);
   if (strcmp(bus_id, "none")) {
     for (int tries = 0; !plug_in(); tries++) {
       if (tries == 500) {
@@ -360,14 +373,6 @@ int main(int count, char **words) {
       g_usleep(10000);
     }
     g_thread_new("plug", plug, NULL);
-  } else {
-    // A bus without a device.
-    umockdev_testbed_add_from_string(
-        testbed, "P: /devices/usb1\nN: bus/usb/001/001\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\n"
-                 "E: BUSNUM=001\nE: DEVNUM=001\nE: DEVNAME=/dev/bus/usb/001/001\n"
-                 "A: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=1\\n\nA: speed=480\\n\n"
-                 "H: descriptors=12010002090000406B1D020005060302010109021900010100E0000904000001"
-                 "09000000070581030400FF\n", NULL);
   }
   g_autoptr(GError) error = NULL;
   int status = 0;

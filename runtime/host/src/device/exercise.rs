@@ -11,12 +11,15 @@ use serde::Serialize;
 
 use super::{Device, Fault};
 
+/// Time that a device has for its answer where the ticks wait for it.
+const ANSWER: Duration = Duration::from_millis(50);
+
 /// What to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
     /// Ticks.
     pub ticks: u32,
-    /// Ticks a second; 0 is as many as the device answers.
+    /// Ticks a second; 0 waits for an answer of the device in each.
     pub rate_hz: f64,
     /// Largest force, N; the device's limit if that is less.
     pub peak_n: f32,
@@ -87,11 +90,16 @@ pub fn exercise(
         if plan.rate_hz > 0.0 {
             due += Duration::from_secs_f64(1.0 / plan.rate_hz);
             std::thread::sleep(due.saturating_duration_since(Instant::now()));
-        } else {
-            std::thread::yield_now();
         }
         report.ticks += 1;
-        let read = device.read();
+        let mut read = device.read();
+        if plan.rate_hz <= 0.0 {
+            let asked = Instant::now();
+            while matches!(read, Ok(reading) if !reading.fresh) && asked.elapsed() < ANSWER {
+                std::thread::sleep(Duration::from_micros(100));
+                read = device.read();
+            }
+        }
         let sample = match &read {
             Ok(reading) if reading.fresh => {
                 report.fresh += 1;
@@ -132,6 +140,8 @@ pub fn exercise(
                 break;
             }
             report.recovered += 1;
+            // What passed meanwhile were no ticks.
+            missed = 0;
             due = Instant::now();
         }
     }

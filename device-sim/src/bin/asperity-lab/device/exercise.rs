@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     /// Ticks
     #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     ticks: u32,
-    /// Ticks a second; 0 is as fast as it goes
+    /// Ticks a second; 0 waits for an answer of the device in each
     #[arg(long, default_value_t = 1000.0, value_parser = rate)]
     rate: f64,
     /// Largest force, N

@@ -81,6 +81,9 @@ impl Found {
     }
 }
 
+/// Looks at a bus that changes meanwhile.
+const TRIES: u32 = 5;
+
 /// libusb, started.
 ///
 /// # Errors
@@ -101,9 +104,19 @@ pub fn scan(ids: &Ids) -> Result<Vec<Found>, UsbError> {
 
 /// As [`scan`], with libusb's devices.
 pub(crate) fn devices(ids: &Ids) -> Result<Vec<(Found, Device<Context>)>, UsbError> {
-    let context = context()?;
-    let list = context.devices();
-    let list = list.map_err(|error| UsbError::NoUsb(error.to_string()))?;
+    // libusb fails as a whole while a device comes or goes; a moment later it does not.
+    let mut tries = 0;
+    let list = loop {
+        let listed = context().and_then(|context| {
+            let list = context.devices();
+            list.map_err(|error| UsbError::NoUsb(error.to_string()))
+        });
+        tries += 1;
+        match listed {
+            Err(_) if tries < TRIES => std::thread::sleep(PATIENCE / 4),
+            listed => break listed?,
+        }
+    };
     let mut found: Vec<_> = list
         .iter()
         .filter_map(|device| Some((look(&device, ids)?, device)))
