@@ -74,7 +74,12 @@ pub fn exercise(
     plan: &Plan,
 ) -> Result<Report, asperity_runtime::config::ConfigError> {
     let mut config = Config::default();
-    config.limits.peak_n = plan.peak_n.min(device.description().peak_force_n);
+    let most = device.description().peak_force_n;
+    config.limits.peak_n = if plan.peak_n < most {
+        plan.peak_n
+    } else {
+        most
+    };
     let renderer = Renderer::new(&config)?;
     let mut state = State::new(plan.seed);
     let mut report = Report {
@@ -129,6 +134,7 @@ pub fn exercise(
         if let Err(fault) = read
             && away(fault)
         {
+            let gone = Instant::now();
             // The force goes to zero before anybody waits.
             while before != [0.0; 3] {
                 let output = renderer.tick(texture, &mut state, &Sample::STALE);
@@ -140,8 +146,8 @@ pub fn exercise(
                 break;
             }
             report.recovered += 1;
-            // What passed meanwhile were no ticks.
-            missed = 0;
+            // The hand moved on meanwhile.
+            missed = (gone.elapsed().as_secs_f32() * config.servo_rate_hz) as u32;
             due = Instant::now();
         }
     }
@@ -166,15 +172,19 @@ fn came_back(device: &mut dyn Device) -> bool {
 
 impl Report {
     fn see(&mut self, force_n: [f32; 3], before: &mut [f32; 3]) {
-        let size = |v: [f32; 3]| v.iter().map(|x| x * x).sum::<f32>().sqrt();
+        let size = |v: [f32; 3]| libm::sqrtf(v.iter().map(|x| x * x).sum());
         let step = size(std::array::from_fn(|n| force_n[n] - before[n]));
         let force = size(force_n);
         // Rounding of the limiter's division.
         let beyond = force > self.peak_n * 1.000_01 || step > self.step_n * 1.000_01;
         // NaN is beyond as well.
         self.beyond_limits += u32::from(beyond || !force.is_finite());
-        self.largest_force_n = self.largest_force_n.max(force);
-        self.largest_step_n = self.largest_step_n.max(step);
+        if force > self.largest_force_n {
+            self.largest_force_n = force;
+        }
+        if step > self.largest_step_n {
+            self.largest_step_n = step;
+        }
         *before = force_n;
     }
 }

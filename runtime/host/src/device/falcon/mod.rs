@@ -76,7 +76,11 @@ impl Falcon {
                 name: "Novint Falcon".into(),
                 serial,
                 peak_force_n: settings.peak_n,
-                continuous_force_n: CONTINUOUS_FORCE_N.min(settings.peak_n),
+                continuous_force_n: if settings.peak_n < CONTINUOUS_FORCE_N {
+                    settings.peak_n
+                } else {
+                    CONTINUOUS_FORCE_N
+                },
                 unconfirmed: [
                     "The protocol follows its public description; no device has run it.",
                     "Measures of the legs and counts per torque are as published.",

@@ -34,7 +34,8 @@ impl Default for Settings {
         Self {
             which: String::new(),
             firmware: None,
-            tries: 5,
+            // Users report that it takes several.
+            tries: 10,
             peak_n: PEAK_FORCE_N,
             // Some 2 N a period, what the renderer's limiter lets through.
             motor_step: 1536,
