@@ -77,7 +77,7 @@ fn get_descriptor(kind: u8, index: u8, length: u16) -> Setup {
 }
 
 fn done(client: &mut Client) -> (u32, i32, Vec<u8>) {
-    match client.next().expect("a reply") {
+    match client.wait().expect("a reply") {
         Event::Done {
             sequence,
             status,
@@ -201,13 +201,13 @@ fn what_is_taken_back_is_answered_once() {
         let sequence = client.take_back(waiting).expect("a request");
         let status = status::TAKEN_BACK;
         assert_eq!(
-            client.next().expect("a reply"),
+            client.wait().expect("a reply"),
             Event::TakenBack { sequence, status }
         );
     }
     let sequence = client.take_back(first).expect("a request");
     assert_eq!(
-        client.next().expect("a reply"),
+        client.wait().expect("a reply"),
         Event::TakenBack {
             sequence,
             status: 0
@@ -251,7 +251,7 @@ fn unplugging_ends_the_connection_and_plugging_in_allows_another() {
     let mut client = served.imported();
     client.read(0x81, 64).expect("a transfer");
     served.sockets[0].port().unplug(0.05);
-    let ended = (0..100).any(|_| client.next().is_err());
+    let ended = (0..100).any(|_| client.wait().is_err());
     assert!(ended, "to the client the device is gone");
     let back = (0..100).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(10));
@@ -270,6 +270,6 @@ fn nonsense_ends_its_connection_alone() {
     let mut client = served.imported();
     // More bytes than a transfer may have.
     client.read(0x81, u32::MAX).expect("a transfer");
-    assert!(client.next().is_err());
+    assert!(client.wait().is_err());
     assert_eq!(served.client().list().expect("a list").len(), 1);
 }

@@ -187,8 +187,8 @@ impl Grip {
         let Some(angles) = inverse(self.in_device()) else {
             return;
         };
-        for n in 0..3 {
-            let passed = (self.before[n] - self.index[n]) * (angles[n] - self.index[n]) <= 0.0;
+        for (n, angle) in angles.into_iter().enumerate() {
+            let passed = (self.before[n] - self.index[n]) * (angle - self.index[n]) <= 0.0;
             if passed && self.homing {
                 self.offsets[n] = 0;
                 self.homed |= 1 << n;

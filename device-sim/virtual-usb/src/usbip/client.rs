@@ -192,7 +192,7 @@ impl Client {
     ///
     /// # Errors
     /// What the system says; the end of the stream where the device is unplugged.
-    pub fn next(&mut self) -> io::Result<Event> {
+    pub fn wait(&mut self) -> io::Result<Event> {
         let header = Header::of(&take::<HEADER>(&mut self.stream)?);
         let sequence = header.sequence;
         let [status, count, ..] = header.numbers;
