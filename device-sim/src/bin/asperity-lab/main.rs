@@ -1,6 +1,7 @@
 //! `asperity-lab`: measures Asperity without a device on the desk.
 #![forbid(unsafe_code)]
 
+mod device;
 mod error;
 mod feel;
 mod pareto;
@@ -22,7 +23,8 @@ use error::Plain;
   asperity-lab feel
   asperity-lab feel brick.asp --plot feel.png --wav feel.wav
   asperity-lab stability
-  asperity-lab pareto --out charts")]
+  asperity-lab pareto --out charts
+  asperity-lab device list")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -36,6 +38,7 @@ enum Command {
     Feel(feel::Arguments),
     Stability(stability::Arguments),
     Pareto(pareto::Arguments),
+    Device(device::Arguments),
     /// Run one kernel, for counting
     #[command(name = cost::COMMAND, hide = true)]
     Kernel {
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
     let result = match &arguments.command {
         Command::Feel(arguments) => feel::run(arguments, console).map(|()| true),
         Command::Stability(arguments) => stability::run(arguments, console),
+        Command::Device(arguments) => device::run(arguments, console),
         Command::Pareto(arguments) => pareto::run(arguments, console).map(|()| true),
         Command::Kernel { numbers } => kernel(numbers).map(|()| true),
     };

@@ -4,8 +4,14 @@
 //! Once a period the servo thread calls [`Device::read`] and [`Device::write`]. These two neither
 //! allocate nor print, and they return within the period.
 
+pub mod exercise;
+pub mod falcon;
 mod fault;
+#[cfg(feature = "usb")]
+pub mod touch;
 mod uri;
+#[cfg(feature = "usb")]
+pub mod usb;
 
 pub use fault::Fault;
 pub use uri::{Scheme, Uri, UriError};

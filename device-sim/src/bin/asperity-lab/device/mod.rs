@@ -1,0 +1,50 @@
+//! `asperity-lab device`: devices on USB, real and virtual.
+
+mod exercise;
+mod list;
+mod probe;
+mod serve;
+
+use asperity::console::Console;
+use asperity::diagnostic::Failures;
+use clap::Subcommand;
+
+/// Devices: what is plugged in, whether it works, and virtual ones
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab device list
+  asperity-lab device probe falcon:?firmware=falcon.bin
+  asperity-lab device exercise falcon: --ticks 10000
+  asperity-lab device serve falcon")]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    List(list::Arguments),
+    Probe(probe::Arguments),
+    Exercise(exercise::Arguments),
+    Serve(serve::Arguments),
+}
+
+/// Gives whether everything is well.
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failures> {
+    match &arguments.command {
+        Command::List(arguments) => list::run(arguments, console).map(|()| true),
+        Command::Probe(arguments) => probe::run(arguments, console),
+        Command::Exercise(arguments) => exercise::run(arguments, console),
+        Command::Serve(arguments) => serve::run(arguments, console).map(|()| true),
+    }
+}
+
+/// Prints a value as JSON.
+fn json(console: Console, value: &serde_json::Value) -> Result<(), Failures> {
+    console.json(value).map_err(asperity::diagnostic::one)
+}
+
+/// A failure of a device, with its remedy.
+fn failure(error: &impl std::fmt::Display, remedy: String) -> Failures {
+    crate::error::Plain::failure(error, remedy)
+}

@@ -1,0 +1,235 @@
+//! A virtual Novint Falcon: serial chip, boot loader, firmware of our own, and a grip in a hand.
+//!
+//! The real firmware is its maker's and is not here, nor is any of it. The boot loader takes an
+//! [`image`] of our own, and what then runs answers frames as the public description says.
+//!
+//! Simplified: an answer leaves the chip at once, where the real one may hold it for its latency.
+
+mod boot;
+mod grip;
+pub mod image;
+
+use std::collections::VecDeque;
+
+use asperity_host::device::falcon::frame::{Answer as Reading, Command, FRAME_BYTES};
+use asperity_host::device::falcon::ftdi::{
+    DIVISOR_RUNNING, ENDPOINT_IN, ENDPOINT_OUT, PAYLOAD_BYTES, Setting,
+};
+
+use super::descriptor::{Descriptors, Endpoint, Interface};
+use super::{Answer, Device, Setup};
+use boot::Boot;
+pub use boot::Quirks;
+pub use grip::{Felt, Grip};
+
+/// Status bytes that the chip puts before every packet: lines as they are at rest.
+const STATUS: [u8; 2] = [0x01, 0x60];
+/// Bytes that the chip holds for a computer that does not fetch them.
+const HELD_BYTES: usize = 256;
+
+/// A virtual Falcon.
+#[derive(Debug, Clone)]
+pub struct Falcon {
+    descriptors: Descriptors,
+    boot: Boot,
+    /// The grip and the hand that holds it.
+    pub grip: Grip,
+    /// Time that a command lasts, s. Without it time passes by [`Device::advance`] alone.
+    frame_s: Option<f64>,
+    divisor: u16,
+    latency_s: f64,
+    dtr: bool,
+    idle_s: f64,
+    to_computer: VecDeque<u8>,
+    /// Bytes of a command that is not complete.
+    pending: Vec<u8>,
+    /// Bytes that belonged to no command.
+    pub skipped: u64,
+}
+
+impl Falcon {
+    /// A Falcon that was just switched on: it waits for its firmware.
+    #[must_use]
+    pub fn new(quirks: Quirks) -> Self {
+        let endpoint = |address| Endpoint {
+            address,
+            kind: 2,
+            packet_bytes: 64,
+            interval_ms: 0,
+        };
+        Self {
+            descriptors: Descriptors {
+                vendor: 0x0403,
+                product: 0xcb48,
+                release: 0x0400,
+                class: 0,
+                strings: ["Asperity", "virtual Falcon", "VF0001"].map(String::from),
+                interfaces: vec![Interface {
+                    class: [0xff; 3],
+                    class_descriptors: Vec::new(),
+                    endpoints: vec![endpoint(ENDPOINT_IN), endpoint(ENDPOINT_OUT)],
+                }],
+            },
+            boot: Boot::new(quirks),
+            grip: Grip::new(),
+            frame_s: None,
+            divisor: 0,
+            latency_s: 0.016,
+            dtr: false,
+            idle_s: 0.0,
+            to_computer: VecDeque::new(),
+            pending: Vec::new(),
+            skipped: 0,
+        }
+    }
+
+    /// Another serial number.
+    #[must_use]
+    pub fn with_serial(mut self, serial: &str) -> Self {
+        self.descriptors.strings[2] = serial.into();
+        self
+    }
+
+    /// A Falcon whose firmware runs already.
+    #[must_use]
+    pub fn running() -> Self {
+        let mut falcon = Self::new(Quirks::default());
+        falcon.boot.run();
+        falcon
+    }
+
+    /// Has every command last `seconds` for the hand and the grip, whatever the clock says: a
+    /// session is then the same at any rate.
+    #[must_use]
+    pub fn paced_by_commands(mut self, seconds: f64) -> Self {
+        self.frame_s = Some(seconds);
+        self
+    }
+
+    /// Whether its firmware runs.
+    #[must_use]
+    pub fn is_running(&self) -> bool {
+        self.boot.is_running()
+    }
+
+    /// Its power goes and comes back: firmware and zeros of the encoders are lost.
+    pub fn lose_power(&mut self) {
+        self.boot.reset();
+        self.grip.forget_zeros();
+        self.to_computer.clear();
+        self.pending.clear();
+    }
+
+    fn take(&mut self, byte: u8) {
+        if !self.is_running() {
+            self.boot
+                .take(byte, self.divisor, self.dtr, &mut self.to_computer);
+            return;
+        }
+        if self.divisor != DIVISOR_RUNNING {
+            self.skipped += 1;
+            return;
+        }
+        self.pending.push(byte);
+        if self.pending.len() == 1 && byte != b'<' {
+            self.pending.clear();
+            self.skipped += 1;
+            return;
+        }
+        let Ok(frame) = <&[u8; FRAME_BYTES]>::try_from(&self.pending[..]) else {
+            return;
+        };
+        match Command::decode(frame) {
+            Some(command) => {
+                self.pending.clear();
+                self.obey(&command);
+            }
+            None => {
+                let next = self.pending[1..].iter().position(|byte| *byte == b'<');
+                let dropped = next.map_or(FRAME_BYTES, |n| n + 1);
+                self.skipped += dropped as u64;
+                self.pending.drain(..dropped);
+            }
+        }
+    }
+
+    fn obey(&mut self, command: &Command) {
+        self.grip.command(command);
+        if let Some(seconds) = self.frame_s {
+            self.grip.advance(seconds);
+        }
+        let reading = Reading {
+            encoders: self.grip.encoders(),
+            homed: self.grip.homed(),
+            buttons: 0,
+        };
+        if self.to_computer.len() + FRAME_BYTES <= HELD_BYTES {
+            self.to_computer.extend(reading.encode());
+        }
+    }
+}
+
+impl Device for Falcon {
+    fn descriptors(&self) -> &Descriptors {
+        &self.descriptors
+    }
+
+    fn control(&mut self, setup: &Setup, _: &[u8]) -> Answer {
+        if setup.request_type != 0x40 || setup.index != 0 {
+            return Answer::Stall;
+        }
+        match Setting::of(setup.request, setup.value) {
+            Some(Setting::PurgeReceived) => self.to_computer.clear(),
+            Some(Setting::PurgeSent) => self.pending.clear(),
+            Some(Setting::Divisor(divisor)) => self.divisor = divisor,
+            Some(Setting::LatencyMs(ms)) => self.latency_s = f64::from(ms) * 1e-3,
+            Some(Setting::Dtr(on)) => {
+                if on && !self.dtr {
+                    // A rising line resets the processor.
+                    self.boot.reset();
+                    self.grip.forget_zeros();
+                }
+                self.dtr = on;
+            }
+            Some(Setting::Rts(_) | Setting::NoFlowControl | Setting::EightNone1) => {}
+            None => return Answer::Stall,
+        }
+        Answer::Done(Vec::new())
+    }
+
+    fn write(&mut self, _: u8, bytes: &[u8]) -> Answer {
+        for byte in bytes {
+            self.take(*byte);
+        }
+        Answer::Done(Vec::new())
+    }
+
+    fn read(&mut self, _: u8, most: usize) -> Answer {
+        if self.to_computer.is_empty() && self.idle_s < self.latency_s {
+            return Answer::Pending;
+        }
+        self.idle_s = 0.0;
+        let room = most.saturating_sub(STATUS.len()).min(PAYLOAD_BYTES);
+        let count = room.min(self.to_computer.len());
+        let mut packet = STATUS.to_vec();
+        packet.extend(self.to_computer.drain(..count));
+        packet.truncate(most);
+        Answer::Done(packet)
+    }
+
+    fn advance(&mut self, seconds: f64) {
+        self.idle_s += seconds;
+        if self.frame_s.is_none() {
+            self.grip.advance(seconds);
+        }
+    }
+
+    fn plugged_in(&mut self) {
+        // The chip lives on USB's power, the rest on its own supply.
+        self.grip.plugged_in();
+        self.divisor = 0;
+        self.latency_s = 0.016;
+        self.to_computer.clear();
+        self.pending.clear();
+    }
+}

@@ -1,0 +1,63 @@
+//! USB devices that do not exist, for programs that open them through libusb.
+//!
+//! A [`Device`] is a state machine that knows no transport and no clock. A [`Port`] is the socket
+//! that it is plugged into: it answers the standard requests, injects faults, and is unplugged and
+//! plugged in again. A port is served in two ways:
+//!
+//! - [`InProcess`] is a transport for a driver in the same program;
+//! - [`usbip`] serves it over TCP. A Linux kernel attaches it as a real device (`vhci-hcd`), and the
+//!   bridge in `umockdev/` hands it to libusb where there is no kernel for it.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`descriptor`] | device, configuration and string descriptors as bytes |
+//! | [`fault`] | stalls, short transfers, time-outs and unplugging at a rate |
+//! | [`falcon`] | a Novint Falcon with a grip in a hand |
+//! | [`touch`] | a 3D Systems Touch, as far as it identifies itself |
+
+#![forbid(unsafe_code)]
+
+mod any;
+pub mod descriptor;
+pub mod falcon;
+pub mod fault;
+mod in_process;
+mod port;
+pub mod touch;
+pub mod usbip;
+
+pub use any::AnyDevice;
+pub use in_process::{InProcess, InProcessOpener};
+pub use port::{Port, Reply, Setup, Socket};
+
+/// What an endpoint does with a transfer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Answer {
+    /// It takes or gives these bytes; for a transfer to the device, none.
+    Done(Vec<u8>),
+    /// It has nothing yet.
+    Pending,
+    /// It refuses.
+    Stall,
+}
+
+/// A device without a bus.
+pub trait Device: Send {
+    /// What it says of itself.
+    fn descriptors(&self) -> &descriptor::Descriptors;
+
+    /// A control request of a class or a vendor. `data` is what came with it.
+    fn control(&mut self, setup: &Setup, data: &[u8]) -> Answer;
+
+    /// Bytes to an endpoint.
+    fn write(&mut self, endpoint: u8, bytes: &[u8]) -> Answer;
+
+    /// Bytes from an endpoint, at most `most`.
+    fn read(&mut self, endpoint: u8, most: usize) -> Answer;
+
+    /// Lets time pass.
+    fn advance(&mut self, seconds: f64);
+
+    /// It was plugged in again. A device with a power supply of its own keeps its state.
+    fn plugged_in(&mut self) {}
+}

@@ -1,0 +1,264 @@
+//! A Novint Falcon over its openly documented protocol.
+//!
+//! | file | holds |
+//! |---|---|
+//! | [`frame`] | commands and answers of 16 bytes |
+//! | [`ftdi`] | settings of the serial chip |
+//! | [`transport`] | what carries bytes |
+//! | [`firmware`] | handshake, transfer with a checked echo, retries |
+//! | [`homing`] | when positions can be trusted |
+//! | [`geometry`], [`kinematics`], [`motors`] | angles, positions, forces |
+//! | `slot`, [`link`] | two threads that carry frames, and what they share |
+//! | [`settings`] | what a URI says |
+//! | `open`, `on_usb` | finding, claiming and opening it |
+//!
+//! Source of the protocol and of the measures: libnifalcon (BSD). The code is our own. **Nothing
+//! here has been confirmed on a device.**
+
+pub mod firmware;
+pub mod frame;
+pub mod ftdi;
+pub mod geometry;
+pub mod homing;
+pub mod kinematics;
+pub mod link;
+pub mod motors;
+#[cfg(feature = "usb")]
+pub mod on_usb;
+mod open;
+pub mod settings;
+mod slot;
+pub mod transport;
+
+use std::sync::Arc;
+
+use firmware::FirmwareError;
+use frame::Command;
+use geometry::{CENTRE_M, CONTINUOUS_FORCE_N};
+use homing::Homing;
+use link::{Link, LinkCounts};
+pub use open::{OpenError, Opened, Opener};
+use settings::Settings;
+use transport::Transport;
+
+use super::{Description, Device, Fault, Reading};
+
+/// A Falcon that is open.
+///
+/// Its world frame has the origin in the middle of the workspace, x to the right, y up and z
+/// towards the user. Until its encoders are homed, [`Device::read`] gives
+/// [`Fault::NotCalibrated`]: a person pulls the grip out as far as it goes and pushes it in once.
+pub struct Falcon {
+    opener: Box<dyn Opener>,
+    settings: Settings,
+    description: Description,
+    link: Option<Link>,
+    homing: Homing,
+    /// Sequence of the answer that was read last.
+    seen: u8,
+    last: Option<(Reading, [f64; 3])>,
+    encoders: Option<[i16; 3]>,
+    /// Readings in a row that brought nothing new.
+    stale: u32,
+    counts_before: LinkCounts,
+}
+
+impl Falcon {
+    /// Opens what `opener` gives, loads the firmware if the device has none, and begins to talk.
+    ///
+    /// # Errors
+    /// [`OpenError`] with what is missing and what to do.
+    pub fn open(mut opener: Box<dyn Opener>, settings: Settings) -> Result<Self, OpenError> {
+        let (link, serial) = start(&mut *opener, &settings)?;
+        Ok(Self {
+            opener,
+            description: Description {
+                name: "Novint Falcon".into(),
+                serial,
+                peak_force_n: settings.peak_n,
+                continuous_force_n: if settings.peak_n < CONTINUOUS_FORCE_N {
+                    settings.peak_n
+                } else {
+                    CONTINUOUS_FORCE_N
+                },
+                unconfirmed: [
+                    "The protocol follows its public description; no device has run it.",
+                    "Measures of the legs and counts per torque are as published.",
+                    "Peak force as its maker published; the continuous force is a cautious guess.",
+                ]
+                .map(String::from)
+                .to_vec(),
+            },
+            settings,
+            link: Some(link),
+            homing: Homing::default(),
+            seen: 0,
+            last: None,
+            encoders: None,
+            stale: 0,
+            counts_before: LinkCounts::default(),
+        })
+    }
+
+    /// What the link counted, over all times that the device was opened.
+    #[must_use]
+    pub fn counts(&self) -> LinkCounts {
+        let now = self.link.as_ref().map(Link::counts).unwrap_or_default();
+        self.counts_before + now
+    }
+
+    /// Encoders that have found their zero, a bit each.
+    #[must_use]
+    pub fn homed(&self) -> u8 {
+        self.homing.homed()
+    }
+
+    fn link(&self) -> Result<&Link, Fault> {
+        let link = self.link.as_ref().ok_or(Fault::Disconnected)?;
+        link.fault().map_or(Ok(link), Err)
+    }
+
+    fn command(&self, motors: [i16; 3]) -> Result<(), Fault> {
+        self.link()?.command(&Command {
+            motors,
+            leds: self.homing.light(),
+            homing: true,
+        });
+        Ok(())
+    }
+}
+
+impl Device for Falcon {
+    fn description(&self) -> &Description {
+        &self.description
+    }
+
+    fn read(&mut self) -> Result<Reading, Fault> {
+        let held = self.link()?.newest();
+        if held.sequence() == self.seen {
+            self.stale = self.stale.saturating_add(1);
+            let stale = self.last.map(|(reading, _)| Reading {
+                fresh: false,
+                ..reading
+            });
+            return stale.ok_or(if held.sequence() == 0 {
+                Fault::TimedOut
+            } else {
+                Fault::NotCalibrated
+            });
+        }
+        self.seen = held.sequence();
+        self.stale = 0;
+        let answer = held.answer();
+        if !self.homing.step(&answer) {
+            self.last = None;
+            self.encoders = None;
+            return Err(Fault::NotCalibrated);
+        }
+        let before = self.encoders.replace(answer.encoders);
+        if before.is_some_and(|before| jumps(before, answer.encoders)) {
+            return Err(Fault::Garbled);
+        }
+        let angles = answer.encoders.map(geometry::angle);
+        let position = kinematics::forward(angles).ok_or(Fault::Garbled)?;
+        let reading = Reading {
+            position_m: std::array::from_fn(|n| (position[n] - CENTRE_M[n]) as f32),
+            fresh: true,
+            buttons: u32::from(answer.buttons),
+        };
+        self.last = Some((reading, position));
+        Ok(reading)
+    }
+
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+        let force = motors::limited(force_n, self.settings.peak_n);
+        if force == [0.0; 3] {
+            return self.command([0; 3]);
+        }
+        let Some((_, position)) = self.last else {
+            self.command([0; 3])?;
+            return Err(Fault::NotCalibrated);
+        };
+        if self.stale > STALE {
+            self.command([0; 3])?;
+            return Err(Fault::TimedOut);
+        }
+        let jacobian = kinematics::inverse(position)
+            .and_then(|angles| kinematics::jacobian(position, angles))
+            .and_then(|rows| motors::counts(force, &rows));
+        match jacobian {
+            Some(counts) => self.command(counts),
+            None => {
+                self.command([0; 3])?;
+                Err(Fault::Garbled)
+            }
+        }
+    }
+
+    fn recover(&mut self) -> Result<(), Fault> {
+        if self.link().is_err() {
+            self.counts_before = self.counts();
+            self.last = None;
+            self.encoders = None;
+            self.seen = 0;
+            self.homing = Homing::default();
+            // The old threads end before the device is opened anew.
+            self.link = None;
+            let (link, serial) = start(&mut *self.opener, &self.settings).map_err(|e| e.fault())?;
+            self.description.serial = serial;
+            self.link = Some(link);
+        }
+        // Answers come only to commands.
+        for _ in 0..50 {
+            self.command([0; 3])?;
+            std::thread::sleep(std::time::Duration::from_millis(2));
+            match self.read() {
+                Ok(_) => return Ok(()),
+                Err(Fault::NotCalibrated | Fault::TimedOut) => {}
+                Err(fault) => return Err(fault),
+            }
+        }
+        Err(if self.seen == 0 {
+            Fault::TimedOut
+        } else {
+            Fault::NotCalibrated
+        })
+    }
+}
+
+/// Readings in a row without anything new after which there is no force: it would be one for where
+/// the grip was.
+const STALE: u32 = 20;
+
+/// Counts that no thigh turns between two answers that follow each other: some 20 mm.
+const JUMP: i32 = 512;
+
+/// Whether two answers cannot follow each other. The protocol has no sum, so a frame whose middle
+/// was lost looks like one. It is refused once; the next answer is compared with it.
+fn jumps(before: [i16; 3], after: [i16; 3]) -> bool {
+    let mut pairs = before.into_iter().zip(after);
+    pairs.any(|(before, after)| (i32::from(after) - i32::from(before)).abs() > JUMP)
+}
+
+/// Opens the device and has its firmware run.
+fn start(
+    opener: &mut dyn Opener,
+    settings: &Settings,
+) -> Result<(Link, Option<String>), OpenError> {
+    let Opened { transport, serial } = opener.open()?;
+    make_run(&transport, settings)?;
+    let link = Link::start(transport, settings.motor_step).map_err(OpenError::Thread)?;
+    Ok((link, serial))
+}
+
+fn make_run(transport: &Arc<dyn Transport>, settings: &Settings) -> Result<(), OpenError> {
+    let running = ftdi::set(&**transport, &ftdi::RUNNING)
+        .and_then(|()| firmware::answers(&**transport))
+        .map_err(FirmwareError::from)?;
+    if running.is_some() {
+        return Ok(());
+    }
+    let bytes = settings.firmware_bytes()?.ok_or(OpenError::NoFirmware)?;
+    firmware::load(&**transport, &bytes, settings.tries)?;
+    Ok(())
+}

@@ -1,0 +1,208 @@
+//! What is plugged in, and whether this user may use it.
+
+use std::time::Duration;
+
+use rusb::{Context, Device, DeviceHandle, UsbContext as _};
+
+use super::error::UsbError;
+use super::ids::{Ids, Kind};
+
+/// Time for a device to tell its strings.
+const PATIENCE: Duration = Duration::from_millis(200);
+
+/// Whether a device can be used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Access {
+    /// It can.
+    Ready,
+    /// The system does not let this user in.
+    NotPermitted,
+    /// Another program or driver has it.
+    InUse,
+    /// Something else; libusb's words.
+    Failed(String),
+    /// Not tried: it is none of ours.
+    Unknown,
+}
+
+/// A device that is plugged in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Found {
+    /// Bus.
+    pub bus: u8,
+    /// Address on the bus; another one each time that it is plugged in.
+    pub address: u8,
+    /// Vendor id.
+    pub vendor: u16,
+    /// Product id.
+    pub product: u16,
+    /// What the list of ids says that it is.
+    pub kind: Option<Kind>,
+    /// Its name in the list of ids, or what it says of itself.
+    pub name: String,
+    /// Serial number, if it tells one.
+    pub serial: Option<String>,
+    /// Classes of its interfaces, as USB numbers them.
+    pub interface_classes: Vec<u8>,
+    /// Whether it can be used.
+    pub access: Access,
+}
+
+impl Found {
+    /// Name and place, for an error.
+    #[must_use]
+    pub fn place(&self) -> String {
+        format!(
+            "{} ({:04x}:{:04x}, {})",
+            self.name,
+            self.vendor,
+            self.product,
+            self.node()
+        )
+    }
+
+    /// Its node on Linux, or bus and address.
+    #[must_use]
+    pub fn node(&self) -> String {
+        if cfg!(target_os = "linux") {
+            format!("/dev/bus/usb/{:03}/{:03}", self.bus, self.address)
+        } else {
+            format!("bus {} address {}", self.bus, self.address)
+        }
+    }
+
+    /// Whether it is the one that `which` names: by serial number, by bus and address, or any for
+    /// an empty name.
+    #[must_use]
+    pub fn is(&self, which: &str) -> bool {
+        which.is_empty()
+            || self.serial.as_deref() == Some(which)
+            || which == format!("{}-{}", self.bus, self.address)
+    }
+}
+
+/// Looks at a bus that changes meanwhile.
+const TRIES: u32 = 5;
+
+/// libusb, started.
+///
+/// # Errors
+/// [`UsbError::NoUsb`].
+pub(super) fn context() -> Result<Context, UsbError> {
+    Context::new().map_err(|error| UsbError::NoUsb(error.to_string()))
+}
+
+/// Everything that is plugged in. Devices of the list are opened for a moment to read their serial
+/// number and to see whether they can be used; others are not touched.
+///
+/// # Errors
+/// [`UsbError::NoUsb`].
+pub fn scan(ids: &Ids) -> Result<Vec<Found>, UsbError> {
+    let found = devices(ids)?;
+    Ok(found.into_iter().map(|(found, _)| found).collect())
+}
+
+/// As [`scan`], with libusb's devices.
+pub(crate) fn devices(ids: &Ids) -> Result<Vec<(Found, Device<Context>)>, UsbError> {
+    // libusb fails as a whole while a device comes or goes; a moment later it does not.
+    let mut tries = 0;
+    let list = loop {
+        let listed = context().and_then(|context| {
+            let list = context.devices();
+            list.map_err(|error| UsbError::NoUsb(error.to_string()))
+        });
+        tries += 1;
+        match listed {
+            Err(_) if tries < TRIES => std::thread::sleep(PATIENCE / 4),
+            listed => break listed?,
+        }
+    };
+    let mut found: Vec<_> = list
+        .iter()
+        .filter_map(|device| Some((look(&device, ids)?, device)))
+        .collect();
+    found.sort_by_key(|(found, _)| (found.bus, found.address));
+    Ok(found)
+}
+
+fn look(device: &Device<Context>, ids: &Ids) -> Option<Found> {
+    let descriptor = device.device_descriptor().ok()?;
+    let (vendor, product) = (descriptor.vendor_id(), descriptor.product_id());
+    let known = ids.find(vendor, product);
+    let mut found = Found {
+        bus: device.bus_number(),
+        address: device.address(),
+        vendor,
+        product,
+        kind: known.map(|id| id.kind),
+        name: known.map_or_else(|| "unknown device".into(), |id| id.name.clone()),
+        serial: None,
+        interface_classes: Vec::new(),
+        access: Access::Unknown,
+    };
+    if let Ok(configuration) = device.active_config_descriptor() {
+        let first =
+            |interface: rusb::Interface<'_>| interface.descriptors().next().map(|d| d.class_code());
+        found.interface_classes = configuration.interfaces().filter_map(first).collect();
+    }
+    if let Some(kind) = found.kind {
+        match device.open() {
+            Ok(handle) => {
+                found.access = usable(&handle, kind);
+                found.serial = serial(&handle, &descriptor);
+            }
+            Err(error) => found.access = access(error),
+        }
+    }
+    Some(found)
+}
+
+/// What libusb's errors mean for access.
+pub(crate) fn access(error: rusb::Error) -> Access {
+    match error {
+        rusb::Error::Access => Access::NotPermitted,
+        rusb::Error::Busy => Access::InUse,
+        other => Access::Failed(other.to_string()),
+    }
+}
+
+/// An error for a device that cannot be used.
+///
+/// # Errors
+/// Always, but for [`Access::Ready`] and [`Access::Unknown`].
+pub fn refuse(found: &Found, access: &Access) -> Result<(), UsbError> {
+    let device = found.place();
+    match access {
+        Access::Ready | Access::Unknown => Ok(()),
+        Access::NotPermitted => Err(UsbError::NotPermitted { device }),
+        Access::InUse => Err(UsbError::InUse { device }),
+        Access::Failed(problem) => Err(UsbError::Failed {
+            device,
+            problem: problem.clone(),
+        }),
+    }
+}
+
+/// A Falcon is claimed for a moment. A Touch is not: its own driver may be at work on it.
+fn usable(handle: &DeviceHandle<Context>, kind: Kind) -> Access {
+    if kind == Kind::Touch {
+        return Access::Ready;
+    }
+    match handle.claim_interface(0) {
+        Ok(()) => {
+            let _ = handle.release_interface(0);
+            Access::Ready
+        }
+        // A kernel driver is detached when the device is opened; a program is not.
+        Err(rusb::Error::Busy) if handle.kernel_driver_active(0) == Ok(true) => Access::Ready,
+        Err(error) => access(error),
+    }
+}
+
+/// A device that does not tell its serial number is used without.
+fn serial(handle: &DeviceHandle<Context>, descriptor: &rusb::DeviceDescriptor) -> Option<String> {
+    let language = *handle.read_languages(PATIENCE).ok()?.first()?;
+    handle
+        .read_serial_number_string(language, descriptor, PATIENCE)
+        .ok()
+}
