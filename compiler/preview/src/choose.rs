@@ -51,7 +51,10 @@ pub(crate) fn choose(description: &Description<'_>) -> Look {
 /// Level, wavelength, friction and hardness move the look within bounds that leave it the
 /// material's.
 fn felt(look: &mut Look, feel: Feel) {
-    let finer = libm::pow((USUAL_MM / feel.wavelength_mm.max(1e-3)).clamp(0.1, 10.0), 0.12);
+    let finer = libm::pow(
+        (USUAL_MM / feel.wavelength_mm.max(1e-3)).clamp(0.1, 10.0),
+        0.12,
+    );
     look.fineness = finer.clamp(0.85, 1.18) as f32;
     let louder = ((feel.level_db - USUAL_DB) / 24.0).clamp(-0.6, 0.6);
     look.relief *= (1.0 + 0.55 * louder) as f32;
@@ -88,8 +91,17 @@ fn of_neighbours(nearest: &[(&str, f64)], table: &Table) -> Option<Material> {
     for (part, color) in mixed.colors.iter_mut().enumerate() {
         let mut sum = [0.0f32; 3];
         for (other, share) in found.iter().filter(|(m, _)| m.pattern == material.pattern) {
-            let theirs = other.colors.get(part).or(other.colors.last()).copied().unwrap_or(*color);
-            let weight = if total > 0.0 { (share / total) as f32 } else { 0.0 };
+            let theirs = other
+                .colors
+                .get(part)
+                .or(other.colors.last())
+                .copied()
+                .unwrap_or(*color);
+            let weight = if total > 0.0 {
+                (share / total) as f32
+            } else {
+                0.0
+            };
             for (channel, value) in sum.iter_mut().zip(theirs) {
                 *channel += weight * value;
             }
@@ -123,7 +135,11 @@ fn of_feel(feel: Option<Feel>, table: &Table) -> Material {
 /// The material's colours, dyed and brightened as the words say.
 fn colors(material: &Material, said: &Said<'_>) -> Vec<Rgb> {
     let dyed = dyed_parts(material.pattern);
-    let base = material.colors.first().map_or(0.5, |c| luminance(*c)).max(0.01);
+    let base = material
+        .colors
+        .first()
+        .map_or(0.5, |c| luminance(*c))
+        .max(0.01);
     let parts = material.colors.iter().enumerate();
     parts
         .map(|(part, &color)| {
@@ -179,16 +195,30 @@ mod tests {
     use crate::color::parse;
 
     fn described<'a>(words: &'a str, nearest: &'a [(&'a str, f64)]) -> Look {
-        choose(&Description { words, nearest, feel: None, seed: 0 })
+        choose(&Description {
+            words,
+            nearest,
+            feel: None,
+            seed: 0,
+        })
     }
 
     #[test]
     fn unknown_words_take_one_pattern_of_the_neighbours() {
-        let nearest = [("velvet", 0.4), ("denim", 0.35), ("saddle hide", 0.15), ("smooth calf", 0.10)];
+        let nearest = [
+            ("velvet", 0.4),
+            ("denim", 0.35),
+            ("saddle hide", 0.15),
+            ("smooth calf", 0.10),
+        ];
         assert_eq!(described("xyzzy", &nearest).pattern, Pattern::Velvet);
         let leathers = [("denim", 0.35), ("saddle hide", 0.3), ("smooth calf", 0.3)];
         let look = described("xyzzy", &leathers);
-        assert_eq!(look.pattern, Pattern::Leather, "two that agree outweigh one");
+        assert_eq!(
+            look.pattern,
+            Pattern::Leather,
+            "two that agree outweigh one"
+        );
         let (a, b) = (parse("#8c4c24").unwrap(), parse("#7a3c20").unwrap());
         let between = (luminance(a) + luminance(b)) / 2.0;
         assert!((luminance(look.colors[0]) - between).abs() < 0.01);
@@ -197,7 +227,10 @@ mod tests {
     #[test]
     fn a_known_word_outweighs_neighbours_and_a_family_stands_in() {
         assert_eq!(described("cork", &[("velvet", 1.0)]).pattern, Pattern::Cork);
-        assert_eq!(described("xyzzy", &[("woods", 1.0)]).pattern, Pattern::Board);
+        assert_eq!(
+            described("xyzzy", &[("woods", 1.0)]).pattern,
+            Pattern::Board
+        );
     }
 
     #[test]
@@ -209,18 +242,59 @@ mod tests {
 
     #[test]
     fn feel_moves_grain_depth_and_gloss() {
-        let feel = Feel { wavelength_mm: 1.0, level_db: -4.0, mu: 0.5, hard_hz: 800.0 };
-        let with = |feel: Feel| choose(&Description { words: "leather", nearest: &[], feel: Some(feel), seed: 0 });
+        let feel = Feel {
+            wavelength_mm: 1.0,
+            level_db: -4.0,
+            mu: 0.5,
+            hard_hz: 800.0,
+        };
+        let with = |feel: Feel| {
+            choose(&Description {
+                words: "leather",
+                nearest: &[],
+                feel: Some(feel),
+                seed: 0,
+            })
+        };
         let usual = with(feel);
-        assert!(with(Feel { level_db: 6.0, ..feel }).relief > 1.1 * usual.relief);
-        assert!(with(Feel { wavelength_mm: 0.3, ..feel }).fineness > usual.fineness);
+        assert!(
+            with(Feel {
+                level_db: 6.0,
+                ..feel
+            })
+            .relief
+                > 1.1 * usual.relief
+        );
+        assert!(
+            with(Feel {
+                wavelength_mm: 0.3,
+                ..feel
+            })
+            .fineness
+                > usual.fineness
+        );
         assert!(with(Feel { mu: 0.2, ..feel }).slick > usual.slick);
-        assert!(with(Feel { hard_hz: 200.0, ..feel }).grain.1 < usual.grain.1);
+        assert!(
+            with(Feel {
+                hard_hz: 200.0,
+                ..feel
+            })
+            .grain
+            .1 < usual.grain.1
+        );
     }
 
     #[test]
     fn the_same_words_and_seed_give_the_same_arrangement() {
-        let of = |words: &str, seed| choose(&Description { words, nearest: &[], feel: None, seed }).seed;
+        let of = |words: &str, seed| {
+            choose(&Description {
+                words,
+                nearest: &[],
+                feel: None,
+                seed,
+            })
+            .seed
+        };
         assert_eq!(of("Red brick", 3), of("red bricks", 3));
         assert_ne!(of("red brick", 3), of("red brick", 4));
     }

@@ -1,7 +1,7 @@
 //! Pictures as PNG.
 
 use crate::{
-    palette::{Indexed, indexed},
+    palette::{Histogram, Indexed},
     surface::Surface,
 };
 use png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent};
@@ -28,15 +28,22 @@ pub(crate) fn color(pixels: &[[u8; 3]], size: usize) -> Result<Vec<u8>, EncodeEr
     encoder.set_color(ColorType::Rgb);
     encoder.set_filter(Filter::Adaptive);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    encoder.write_header()?.write_image_data(pixels.as_flattened())?;
+    encoder
+        .write_header()?
+        .write_image_data(pixels.as_flattened())?;
     Ok(bytes)
 }
 
 /// sRGB colours of a palette, with as many colours as `limit` bytes allow.
-pub(crate) fn compact(pixels: &[[u8; 3]], size: usize, limit: usize) -> Result<Vec<u8>, EncodeError> {
+pub(crate) fn compact(
+    pixels: &[[u8; 3]],
+    size: usize,
+    limit: usize,
+) -> Result<Vec<u8>, EncodeError> {
+    let histogram = Histogram::of(pixels);
     let mut bytes = Vec::new();
     for colors in COLORS {
-        bytes = palette(&indexed(pixels, colors), size)?;
+        bytes = palette(&histogram.indexed(pixels, colors), size)?;
         if bytes.len() <= limit {
             break;
         }
@@ -57,7 +64,10 @@ fn palette(picture: &Indexed, size: usize) -> Result<Vec<u8>, EncodeError> {
     if few {
         let rows = picture.pixels.chunks(size);
         let packed: Vec<u8> = rows
-            .flat_map(|row| row.chunks(2).map(|two| two[0] << 4 | two.get(1).copied().unwrap_or(0)))
+            .flat_map(|row| {
+                row.chunks(2)
+                    .map(|two| two[0] << 4 | two.get(1).copied().unwrap_or(0))
+            })
             .collect();
         writer.write_image_data(&packed)?;
     } else {
@@ -92,7 +102,11 @@ pub(crate) fn normals(slopes: &[(f32, f32)], size: usize) -> Result<Vec<u8>, Enc
         .iter()
         .flat_map(|(right, down)| {
             let length = (right * right + down * down + 1.0).sqrt();
-            [byte(-right / length), byte(down / length), byte(1.0 / length)]
+            [
+                byte(-right / length),
+                byte(down / length),
+                byte(1.0 / length),
+            ]
         })
         .collect();
     let mut bytes = Vec::new();

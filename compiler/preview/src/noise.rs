@@ -202,6 +202,9 @@ mod tests {
 
     #[test]
     fn floor_goes_down_on_both_sides_of_zero() {
-        assert_eq!([floor(-1.0), floor(-0.1), floor(0.0), floor(1.9)], [-1, -1, 0, 1]);
+        assert_eq!(
+            [floor(-1.0), floor(-0.1), floor(0.0), floor(1.9)],
+            [-1, -1, 0, 1]
+        );
     }
 }

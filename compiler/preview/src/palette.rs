@@ -1,9 +1,7 @@
 //! Few colours for a picture: median cut over a histogram, then k-means, in whole numbers.
 
-use std::collections::BTreeMap;
-
 /// Rounds of k-means. More change hardly a pixel.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 3;
 
 /// A picture of at most 256 colours.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,30 +15,54 @@ pub(crate) struct Indexed {
 /// A colour of the histogram with how many pixels have it.
 type Bin = ([u8; 3], u32);
 
-/// The picture in at most `count` colours, 2..=256.
-pub(crate) fn indexed(pixels: &[[u8; 3]], count: usize) -> Indexed {
-    let mut histogram: BTreeMap<[u8; 3], u32> = BTreeMap::new();
-    for pixel in pixels {
-        *histogram.entry(coarse(*pixel)).or_insert(0) += 1;
-    }
-    let bins: Vec<Bin> = histogram.into_iter().collect();
-    let mut palette = cut(bins.clone(), count);
-    for _ in 0..ROUNDS {
-        palette = moved(&bins, &palette);
-    }
-    palette.sort_unstable_by_key(|c| (brightness(*c), *c));
-    palette.dedup();
-    let of_bin: BTreeMap<[u8; 3], u8> = bins
-        .iter()
-        .map(|(color, _)| (*color, nearest(&palette, *color) as u8))
-        .collect();
-    let pixels = pixels.iter().map(|pixel| of_bin[&coarse(*pixel)]).collect();
-    Indexed { palette, pixels }
+/// The colours of a picture, counted.
+#[derive(Debug, Clone)]
+pub(crate) struct Histogram {
+    bins: Vec<Bin>,
 }
 
-/// Bins of 4 steps: finer ones change nothing that can be seen.
-fn coarse(color: [u8; 3]) -> [u8; 3] {
-    color.map(|c| (c & 0xFC) | 2)
+impl Histogram {
+    pub(crate) fn of(pixels: &[[u8; 3]]) -> Self {
+        let mut counts = vec![0u32; BINS];
+        for pixel in pixels {
+            counts[bin(*pixel)] += 1;
+        }
+        let counted = counts
+            .into_iter()
+            .enumerate()
+            .filter(|(_, count)| *count > 0);
+        Self {
+            bins: counted.map(|(bin, count)| (middle(bin), count)).collect(),
+        }
+    }
+
+    /// The picture in at most `count` colours, 2..=256.
+    pub(crate) fn indexed(&self, pixels: &[[u8; 3]], count: usize) -> Indexed {
+        let mut palette = cut(self.bins.clone(), count);
+        for _ in 0..ROUNDS {
+            palette = moved(&self.bins, &palette);
+        }
+        palette.sort_unstable_by_key(|c| (brightness(*c), *c));
+        palette.dedup();
+        let mut of_bin = vec![0u8; BINS];
+        for (color, _) in &self.bins {
+            of_bin[bin(*color)] = nearest(&palette, *color) as u8;
+        }
+        let pixels = pixels.iter().map(|pixel| of_bin[bin(*pixel)]).collect();
+        Indexed { palette, pixels }
+    }
+}
+
+/// Bins of the histogram: 6 bits a channel, as finer ones change nothing that can be seen.
+const BINS: usize = 1 << 18;
+
+fn bin([r, g, b]: [u8; 3]) -> usize {
+    usize::from(r >> 2) << 12 | usize::from(g >> 2) << 6 | usize::from(b >> 2)
+}
+
+/// The colour in the middle of a bin.
+fn middle(bin: usize) -> [u8; 3] {
+    [12, 6, 0].map(|shift| ((bin >> shift & 63) << 2 | 2) as u8)
 }
 
 fn brightness([r, g, b]: [u8; 3]) -> u32 {
@@ -63,7 +85,10 @@ fn cut(bins: Vec<Bin>, count: usize) -> Vec<[u8; 3]> {
     let mut boxes = vec![bins];
     while boxes.len() < count {
         let errors = boxes.iter().map(|bins| error(bins));
-        let Some((worst, (channel, error))) = errors.enumerate().max_by_key(|(k, e)| (e.1, usize::MAX - k)) else {
+        let Some((worst, (channel, error))) = errors
+            .enumerate()
+            .max_by_key(|(k, e)| (e.1, usize::MAX - k))
+        else {
             break;
         };
         if error == 0 {
@@ -72,7 +97,9 @@ fn cut(bins: Vec<Bin>, count: usize) -> Vec<[u8; 3]> {
         let mut low = boxes.swap_remove(worst);
         low.sort_unstable_by_key(|(color, _)| (color[channel], *color));
         let mean = mean(&low)[channel];
-        let at = low.partition_point(|(color, _)| color[channel] <= mean).clamp(1, low.len() - 1);
+        let at = low
+            .partition_point(|(color, _)| color[channel] <= mean)
+            .clamp(1, low.len() - 1);
         let high = low.split_off(at);
         boxes.push(low);
         boxes.push(high);
@@ -92,13 +119,20 @@ fn error(bins: &[Bin]) -> (usize, u64) {
         weights[channel] * bins.iter().map(square).sum::<u64>()
     };
     let channel = (0..3).max_by_key(|&c| (of(c), 2 - c)).unwrap_or(0);
-    if bins.len() < 2 { (0, 0) } else { (channel, of(channel)) }
+    if bins.len() < 2 {
+        (0, 0)
+    } else {
+        (channel, of(channel))
+    }
 }
 
 fn mean(bins: &[Bin]) -> [u8; 3] {
     let total: u64 = bins.iter().map(|(_, count)| u64::from(*count)).sum();
     [0, 1, 2].map(|k| {
-        let sum: u64 = bins.iter().map(|(c, count)| u64::from(c[k]) * u64::from(*count)).sum();
+        let sum: u64 = bins
+            .iter()
+            .map(|(c, count)| u64::from(c[k]) * u64::from(*count))
+            .sum();
         ((sum + total / 2) / total.max(1)) as u8
     })
 }
@@ -110,7 +144,9 @@ fn moved(bins: &[Bin], palette: &[[u8; 3]]) -> Vec<[u8; 3]> {
         members[nearest(palette, bin.0)].push(*bin);
     }
     let colors = members.iter().zip(palette);
-    colors.map(|(bins, old)| if bins.is_empty() { *old } else { mean(bins) }).collect()
+    colors
+        .map(|(bins, old)| if bins.is_empty() { *old } else { mean(bins) })
+        .collect()
 }
 
 #[cfg(test)]
@@ -121,7 +157,7 @@ mod tests {
     fn few_colours_are_kept_nearly_as_they_are() {
         let four = [[10, 10, 10], [200, 30, 30], [30, 200, 30], [250, 250, 250]];
         let pixels: Vec<[u8; 3]> = (0..64).map(|k| four[k % 4]).collect();
-        let picture = indexed(&pixels, 16);
+        let picture = Histogram::of(&pixels).indexed(&pixels, 16);
         assert_eq!(picture.palette.len(), 4);
         for (pixel, index) in pixels.iter().zip(&picture.pixels) {
             let shown = picture.palette[usize::from(*index)];
@@ -131,11 +167,16 @@ mod tests {
 
     #[test]
     fn more_colours_err_less() {
-        let pixels: Vec<[u8; 3]> = (0..4096u32).map(|k| [(k / 16) as u8, (k % 251) as u8, (k * 7 % 256) as u8]).collect();
+        let pixels: Vec<[u8; 3]> = (0..4096u32)
+            .map(|k| [(k / 16) as u8, (k % 251) as u8, (k * 7 % 256) as u8])
+            .collect();
         let error = |count| -> u32 {
-            let picture = indexed(&pixels, count);
+            let picture = Histogram::of(&pixels).indexed(&pixels, count);
             assert!(picture.palette.len() <= count);
-            let shown = picture.pixels.iter().map(|&k| picture.palette[usize::from(k)]);
+            let shown = picture
+                .pixels
+                .iter()
+                .map(|&k| picture.palette[usize::from(k)]);
             shown.zip(&pixels).map(|(a, b)| distance(a, *b) / 64).sum()
         };
         assert!(error(64) < error(16) && error(16) < error(4));

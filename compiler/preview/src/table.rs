@@ -91,11 +91,18 @@ impl Table {
         }
         let mut colors = BTreeMap::new();
         for (word, hex) in &file.color {
-            let color = color::parse(hex).ok_or_else(|| format!("{word:?}: {hex:?} is no colour"))?;
+            let color =
+                color::parse(hex).ok_or_else(|| format!("{word:?}: {hex:?} is no colour"))?;
             colors.insert(word.clone(), color);
         }
         let longest = by_stems.keys().map(Vec::len).max().unwrap_or(0);
-        Ok(Self { by_stems, by_family, colors, finishes: file.finish, longest })
+        Ok(Self {
+            by_stems,
+            by_family,
+            colors,
+            finishes: file.finish,
+            longest,
+        })
     }
 
     /// The row of a name or another word for it, given as stems.
@@ -132,14 +139,26 @@ mod tests {
         }
         for material in table.by_stems.values() {
             assert!((0.0..=6.0).contains(&material.relief));
-            assert!(material.gloss.is_none_or(|gloss| (0.0..=1.0).contains(&gloss)));
-            assert!(material.cells.is_none_or(|cells| (1.0..=200.0).contains(&cells)));
+            assert!(
+                material
+                    .gloss
+                    .is_none_or(|gloss| (0.0..=1.0).contains(&gloss))
+            );
+            assert!(
+                material
+                    .cells
+                    .is_none_or(|cells| (1.0..=200.0).contains(&cells))
+            );
         }
     }
 
     #[test]
     fn a_word_for_a_missing_row_is_named() {
         let text = TEXT.replace("[noun]", "[noun]\n\"thing\" = \"nothing\"");
-        assert!(Table::read(&text).unwrap_err().contains("\"thing\" stands for \"nothing\""));
+        assert!(
+            Table::read(&text)
+                .unwrap_err()
+                .contains("\"thing\" stands for \"nothing\"")
+        );
     }
 }

@@ -7,7 +7,8 @@ use crate::{
 
 /// Words after which a prompt speaks of something beside its subject.
 const BESIDE: &[&str] = &[
-    "with", "on", "for", "from", "under", "over", "but", "and", "like", "as", "by", "in", "to", "at", "used", "covered", "that", "which",
+    "with", "on", "for", "from", "under", "over", "but", "and", "like", "as", "by", "in", "to",
+    "at", "used", "covered", "that", "which",
 ];
 /// Words that say what the subject is not.
 const NOT: &[&str] = &["not", "no", "without", "than", "less", "never", "non"];
@@ -50,7 +51,10 @@ fn stem(word: &str) -> String {
 /// Reads a prompt. The material with the longest name counts; among equals the last one of the
 /// first phrase that has any, which is where English puts the head of a noun.
 pub(crate) fn read<'a>(text: &str, table: &'a Table) -> Said<'a> {
-    let mut said = Said { brightness: 1.0, ..Said::default() };
+    let mut said = Said {
+        brightness: 1.0,
+        ..Said::default()
+    };
     // A separator ends a phrase as a preposition does.
     let phrases: Vec<Vec<String>> = text
         .split([',', ';', ':', '.', '(', ')', '!', '?'])
@@ -100,7 +104,11 @@ pub(crate) fn read<'a>(text: &str, table: &'a Table) -> Said<'a> {
 }
 
 fn negated(phrase: &[String], at: usize) -> bool {
-    phrase[..at].iter().rev().take(2).any(|word| NOT.contains(&word.as_str()))
+    phrase[..at]
+        .iter()
+        .rev()
+        .take(2)
+        .any(|word| NOT.contains(&word.as_str()))
 }
 
 #[cfg(test)]
@@ -109,7 +117,9 @@ mod tests {
     use crate::{color::parse, pattern::Pattern, table::TABLE};
 
     fn pattern(prompt: &str) -> Option<Pattern> {
-        read(prompt, &TABLE).material.map(|material| material.pattern)
+        read(prompt, &TABLE)
+            .material
+            .map(|material| material.pattern)
     }
 
     #[test]
@@ -128,7 +138,11 @@ mod tests {
         let said = read("wet dark red brick", &TABLE);
         assert_eq!(said.color, parse("#c8282c"));
         assert!(said.brightness < 0.6 && said.gloss > 0.3);
-        assert_eq!(read("orange peel", &TABLE).color, None, "a part of the name");
+        assert_eq!(
+            read("orange peel", &TABLE).color,
+            None,
+            "a part of the name"
+        );
         assert_eq!(read("not red", &TABLE).color, None);
     }
 }

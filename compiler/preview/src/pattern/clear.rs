@@ -14,10 +14,22 @@ pub(super) fn glass(look: &Look, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let t = fract(u + v);
-        let sky = mix(look.color(0), look.color(1), 0.5 + 0.5 * wave(v + 0.10 * gradient(u, v, 2, 2, seed)));
-        let streak = |from: f32, to: f32| step(from - 0.006, from + 0.006, t) * step(to + 0.006, to - 0.006, t);
-        let light = 0.50 * streak(0.18, 0.34) + 0.32 * streak(0.38, 0.43) + 0.16 * streak(0.70, 0.84);
-        Texel { height: 0.0, color: sky, gloss: 0.0, glow: light + 0.05 * octaves(u, v, 3, 3, 2, seed + 1) }
+        let sky = mix(
+            look.color(0),
+            look.color(1),
+            0.5 + 0.5 * wave(v + 0.10 * gradient(u, v, 2, 2, seed)),
+        );
+        let streak = |from: f32, to: f32| {
+            step(from - 0.006, from + 0.006, t) * step(to + 0.006, to - 0.006, t)
+        };
+        let light =
+            0.50 * streak(0.18, 0.34) + 0.32 * streak(0.38, 0.43) + 0.16 * streak(0.70, 0.84);
+        Texel {
+            height: 0.0,
+            color: sky,
+            gloss: 0.0,
+            glow: light + 0.05 * octaves(u, v, 3, 3, 2, seed + 1),
+        }
     })
 }
 
@@ -35,7 +47,14 @@ pub(super) fn bumpy_glass(look: &Look, size: usize) -> Surface {
             height: 0.25 * lens / n as f32,
             color: lit(mix(look.color(0), look.color(1), sky), 0.85 + 0.25 * side),
             gloss: look.shine(0.7),
-            glow: 0.35 * caustic * step(-0.2, 0.5, side) + 0.30 * step(0.20, 0.06, ((c.way.0 + 0.2) * (c.way.0 + 0.2) + (c.way.1 + 0.2) * (c.way.1 + 0.2)).sqrt()),
+            glow: 0.35 * caustic * step(-0.2, 0.5, side)
+                + 0.30
+                    * step(
+                        0.20,
+                        0.06,
+                        ((c.way.0 + 0.2) * (c.way.0 + 0.2) + (c.way.1 + 0.2) * (c.way.1 + 0.2))
+                            .sqrt(),
+                    ),
         }
     })
 }
@@ -81,7 +100,12 @@ pub(super) fn ice(look: &Look, size: usize) -> Surface {
         color = mix(color, WHITE, white.max(0.5 * ring).max(0.35 * cloud));
         let swell = octaves(u, v, 3, 3, 2, seed + 42);
         let sheen = step(0.10, 0.5, swell) * step(0.75, 0.55, swell);
-        Texel { height: 0.014 * swell, color, gloss: look.shine(0.8), glow: 0.28 * sheen }
+        Texel {
+            height: 0.014 * swell,
+            color,
+            gloss: look.shine(0.8),
+            glow: 0.28 * sheen,
+        }
     })
 }
 
@@ -90,7 +114,11 @@ pub(super) fn frost(look: &Look, size: usize) -> Surface {
     let seed = look.seed;
     let mut surface = Surface::of(size, |u, v| Texel {
         height: 0.0,
-        color: mix(look.color(0), look.color(1), 0.5 + 0.5 * octaves(u, v, 2, 2, 3, seed)),
+        color: mix(
+            look.color(0),
+            look.color(1),
+            0.5 + 0.5 * octaves(u, v, 2, 2, 3, seed),
+        ),
         gloss: 0.0,
         glow: 0.0,
     });
@@ -101,15 +129,29 @@ pub(super) fn frost(look: &Look, size: usize) -> Surface {
         let length = 0.20 + 0.20 * chance.next();
         let level = 0.001 * k as f32;
         let draw = |from: (f32, f32), turn: f32, length: f32, width: f32, surface: &mut Surface| {
-            let to = (from.0 + length * wave(turn + 0.25), from.1 + length * wave(turn));
+            let to = (
+                from.0 + length * wave(turn + 0.25),
+                from.1 + length * wave(turn),
+            );
             let pale = mix(look.color(1), WHITE, 0.75);
-            let thread = Thread { width, taper: 0.8, level, rise: 0.0, lift: 0.004, colors: (WHITE, pale), gloss: 0.3 };
+            let thread = Thread {
+                width,
+                taper: 0.8,
+                level,
+                rise: 0.0,
+                lift: 0.004,
+                colors: (WHITE, pale),
+                gloss: 0.3,
+            };
             surface.thread(&[from, to], &thread);
         };
         draw(start, turn, length, 0.007, &mut surface);
         for j in 1..14 {
             let t = j as f32 / 14.0;
-            let at = (start.0 + t * length * wave(turn + 0.25), start.1 + t * length * wave(turn));
+            let at = (
+                start.0 + t * length * wave(turn + 0.25),
+                start.1 + t * length * wave(turn),
+            );
             for side in [-1.0, 1.0] {
                 let side_turn = turn + side * 0.155;
                 let side_length = 0.42 * length * (1.0 - t) + 0.008;
@@ -120,21 +162,29 @@ pub(super) fn frost(look: &Look, size: usize) -> Surface {
     surface
 }
 
-/// Fresh snow: soft mounds, blue shade, sparkles.
+/// Fresh snow: drifts with blue shade, crumbs, sparkles.
 pub(super) fn snow(look: &Look, size: usize) -> Surface {
     let n = look.count(3.0);
     let seed = look.seed;
+    let drift = |u: f32, v: f32| {
+        let w = 0.06 * octaves(u, v, 3, 3, 2, seed + 5);
+        octaves(u + w, v - w, n, n + 1, 2, seed)
+    };
     Surface::of(size, |u, v| {
-        let mound = octaves(u, v, n, n, 3, seed);
-        let crumb = octaves(u, v, 36, 36, 3, seed + 1);
-        let c = cell(u, v, 110, 110, 1.0, seed + 2);
-        let spark = step(0.975, 0.995, nth(c.id, 1)) * step(0.6, 0.2, c.near);
-        let shade = step(0.25, -0.40, mound);
+        let mound = drift(u, v);
+        // Shade on the side away from the light, as the sky lights it.
+        let shade = step(-0.10, 0.75, (drift(u - 0.02, v - 0.02) - mound) * 4.5);
+        let crumb = octaves(u, v, 40, 40, 3, seed + 1);
+        let c = cell(u, v, 64, 64, 1.0, seed + 2);
+        let spark = step(0.94, 0.96, nth(c.id, 1)) * step(0.24, 0.05, c.near);
         Texel {
-            height: 0.055 * mound + 0.0055 * crumb,
-            color: lit(mix(look.color(0), look.color(1), 0.75 * shade), 0.97 + 0.06 * crumb),
+            height: 0.075 * mound + 0.0050 * crumb,
+            color: lit(
+                mix(look.color(0), look.color(1), 0.75 * shade),
+                0.90 + 0.06 * crumb,
+            ),
             gloss: 0.0,
-            glow: 0.9 * spark,
+            glow: 0.95 * spark,
         }
     })
 }
@@ -164,7 +214,12 @@ pub(super) fn drops(look: &Look, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let shade = 0.92 + 0.12 * wave(u + v + 0.2 * gradient(u, v, 2, 2, seed));
-        let mut texel = Texel { height: 0.0, color: lit(look.color(0), shade), gloss: 0.3, glow: 0.0 };
+        let mut texel = Texel {
+            height: 0.0,
+            color: lit(look.color(0), shade),
+            gloss: 0.3,
+            glow: 0.0,
+        };
         for scale in [3, 2, 1] {
             let c = cell(u, v, n * scale, n * scale, 0.8, seed + scale as u32);
             let radius = 0.14 + 0.22 * nth(c.id, 1);
@@ -173,7 +228,9 @@ pub(super) fn drops(look: &Look, size: usize) -> Surface {
                 let top = dome(d);
                 // A drop is dark where the light enters and bright where it leaves.
                 let through = (c.way.0 + c.way.1) / radius;
-                let spot = ((c.way.0 / radius + 0.4) * (c.way.0 / radius + 0.4) + (c.way.1 / radius + 0.4) * (c.way.1 / radius + 0.4)).sqrt();
+                let spot = ((c.way.0 / radius + 0.4) * (c.way.0 / radius + 0.4)
+                    + (c.way.1 / radius + 0.4) * (c.way.1 / radius + 0.4))
+                    .sqrt();
                 texel = Texel {
                     height: 0.06 * top * radius / (n * scale) as f32,
                     color: lit(look.color(0), shade * (0.85 + 0.40 * through)),

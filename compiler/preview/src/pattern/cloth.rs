@@ -22,32 +22,66 @@ pub(super) fn coarse(look: &Look, size: usize) -> Surface {
 
 /// Two over, two under, a thread further each time.
 pub(super) fn twill(look: &Look, size: usize) -> Surface {
-    woven(look, size, look.multiple(36.0, 4), 0.6, |i, j| (i + j).rem_euclid(4) < 2)
+    woven(look, size, look.multiple(36.0, 4), 0.6, |i, j| {
+        (i + j).rem_euclid(4) < 2
+    })
 }
 
-/// Three over, one under: the diagonal of denim, with light weft in dark warp.
+/// Two over, one under: the diagonal of denim, with light weft in dark warp, and a double seam.
 pub(super) fn denim(look: &Look, size: usize) -> Surface {
-    let n = look.multiple(48.0, 3);
+    let n = look.multiple(63.0, 3);
     let seed = look.seed;
     Surface::of(size, |u, v| {
-        let slack = 0.10 / n as f32;
-        let (a, b) = (u + slack * gradient(u, v, n, 6, seed), v + slack * gradient(u, v, 6, n, seed + 1));
+        let slack = 0.12 / n as f32;
+        let (a, b) = (
+            u + slack * gradient(u, v, n, 6, seed),
+            v + slack * gradient(u, v, 6, n, seed + 1),
+        );
         let (x, y) = (a * n as f32, b * n as f32);
-        let (i, j) = (floor(x), floor(y));
+        let i = floor(x);
         let across = 2.0 * fract(x) - 1.0;
-        let slub = 0.18 * gradient(u, v, n, 3, seed + 2);
-        let worn = octaves(u, v, 3, 3, 3, seed + 3);
-        // Each step down the warp goes under one thread further.
-        let phase = fract((y + i as f32) / 3.0);
-        let under = step(0.62, 0.70, phase) * step(1.0, 0.92, phase);
-        let fibre = 0.5 + 0.5 * gradient(u, v, n * 4, n / 2, seed + 4);
+        let slub = 0.30 * gradient(u, v, n, 3, seed + 2);
+        let worn = octaves(u, v, 3, 3, 4, seed + 3);
+        // Each warp thread goes under a weft further down than its neighbour.
+        let phase = fract((y + i as f32 + 0.3 * across) / 3.0);
+        let under = step(0.58, 0.70, phase) * step(1.0, 0.90, phase);
+        let fibre = gradient(u, v, n * 3, n / 2, seed + 4);
         let id = unit(hash(i.rem_euclid(n), 5, seed));
-        let warp = lit(look.color(0), (0.72 + 0.5 * id + slub + 0.22 * fibre) * (1.0 + 0.22 * worn));
-        let weft = lit(look.color(1), 0.75 + 0.25 * unit(hash(j.rem_euclid(n), 6, seed)));
+        let fade = 1.0 + 0.30 * worn;
+        let warp = lit(
+            look.color(0),
+            (0.78 + 0.45 * id + slub + 0.16 * fibre) * fade,
+        );
+        let pale = unit(hash(i.rem_euclid(n), floor(y / 3.0), seed + 6));
+        let cloth = mix(
+            warp,
+            look.color(1),
+            under * (0.22 + 0.42 * pale + 0.25 * worn).clamp(0.0, 0.8),
+        );
         let round = dome(across * 0.95);
+        let mut height = (0.34 * round * (1.0 - 0.6 * under) + 0.06 * fibre) / n as f32;
+        let mut color = lit(cloth, 0.68 + 0.32 * round);
+        // The seam: a lap of cloth, worn pale at its edge, and two rows of thread.
+        let far = (u - 0.5).abs();
+        let lap = step(0.115, 0.10, far);
+        height += 0.010 * lap;
+        color = lit(color, 1.0 + 0.30 * step(0.014, 0.0, (far - 0.102).abs()));
+        let stitch = fract(v * 9.0);
+        let row = dome(((far - 0.060) / 0.011).abs().min(1.0))
+            * step(0.06, 0.14, stitch)
+            * step(0.90, 0.82, stitch);
+        if row > 0.0 {
+            let twist = 0.85 + 0.15 * wave(v * 130.0 + u * 60.0);
+            color = mix(
+                color,
+                lit(look.color(2), twist * (0.5 + 0.5 * row)),
+                step(0.05, 0.4, row),
+            );
+            height += 0.010 * row;
+        }
         Texel {
-            height: (0.40 * round * (1.0 - 0.75 * under) + 0.06 * fibre) / n as f32,
-            color: lit(mix(warp, weft, under * 0.82), 0.55 + 0.45 * round),
+            height,
+            color,
             gloss: 0.0,
             glow: 0.0,
         }
@@ -66,11 +100,22 @@ fn woven(look: &Look, size: usize, n: i32, uneven: f32, over: Weave) -> Surface 
         let (fx, fy) = (2.0 * fract(x) - 1.0, 2.0 * fract(y) - 1.0);
         let id = |k: i32, way: u32| unit(hash(k.rem_euclid(n), 4, seed + way));
         let warp_up = over(i.rem_euclid(n), j.rem_euclid(n));
-        let (wide_x, wide_y) = (0.92 - 0.3 * uneven * id(i, 1), 0.92 - 0.3 * uneven * id(j, 2));
-        let (across, along, width, thread, part) = if warp_up { (fx, fy, wide_x, id(i, 1), 0) } else { (fy, fx, wide_y, id(j, 2), 1) };
+        let (wide_x, wide_y) = (
+            0.92 - 0.3 * uneven * id(i, 1),
+            0.92 - 0.3 * uneven * id(j, 2),
+        );
+        let (across, along, width, thread, part) = if warp_up {
+            (fx, fy, wide_x, id(i, 1), 0)
+        } else {
+            (fy, fx, wide_y, id(j, 2), 1)
+        };
         let round = dome((across / width).abs().min(1.0));
         let bulge = 0.55 + 0.45 * dome(along * 0.9);
-        let twist = if warp_up { gradient(u, v, n * 4, n, seed + 3) } else { gradient(u, v, n, n * 4, seed + 4) };
+        let twist = if warp_up {
+            gradient(u, v, n * 4, n, seed + 3)
+        } else {
+            gradient(u, v, n, n * 4, seed + 4)
+        };
         let gap = step(0.0, 0.30, round);
         let tone = (0.82 + 0.32 * thread + 0.14 * twist) * lerp(0.30, 1.0, gap);
         Texel {
@@ -94,14 +139,21 @@ pub(super) fn knit(look: &Look, size: usize) -> Surface {
         let f = fract(x);
         let leg = 1.0 - 2.0 * (f - 0.5).abs();
         // Legs rise from the middle of a stitch to its sides.
-        let y = v * rows as f32 + 0.85 * (1.0 - leg) * -1.0 + sway * 40.0 * gradient(u, v, columns, 4, seed + 1);
+        let y = v * rows as f32
+            + 0.85 * (1.0 - leg) * -1.0
+            + sway * 40.0 * gradient(u, v, columns, 4, seed + 1);
         let t = 2.0 * fract(y) - 1.0;
         let side = 2.0 * leg - 1.0;
         let round = dome(t * 0.92) * (0.25 + 0.75 * dome(side * 0.97));
         let ply = 0.5 + 0.5 * wave(1.5 * t + 2.5 * leg * if f < 0.5 { 1.0 } else { -1.0 });
         let fuzz = octaves(u, v, columns * 9, columns * 9, 2, seed + 2);
-        let id = unit(hash(column.rem_euclid(columns), floor(y).rem_euclid(rows), seed));
-        let tone = (0.92 + 0.12 * id + 0.12 * ply + 0.14 * fuzz) * lerp(0.35, 1.0, step(0.0, 0.55, round));
+        let id = unit(hash(
+            column.rem_euclid(columns),
+            floor(y).rem_euclid(rows),
+            seed,
+        ));
+        let tone =
+            (0.92 + 0.12 * id + 0.12 * ply + 0.14 * fuzz) * lerp(0.35, 1.0, step(0.0, 0.55, round));
         Texel {
             height: (0.50 * round + 0.05 * ply * round + 0.04 * fuzz) / columns as f32,
             color: lit(look.color(0), tone),
@@ -195,7 +247,10 @@ pub(super) fn sheet(look: &Look, size: usize) -> Surface {
         let mesh = 0.5 * x * y + 0.25 * (x + y);
         Texel {
             height: 0.020 * h + 0.10 * mesh / n as f32,
-            color: lit(look.color(0), 0.92 + 0.10 * mesh + 0.05 * octaves(u, v, 30, 30, 2, seed)),
+            color: lit(
+                look.color(0),
+                0.92 + 0.10 * mesh + 0.05 * octaves(u, v, 30, 30, 2, seed),
+            ),
             gloss: look.shine(0.1),
             glow: 0.0,
         }
@@ -208,7 +263,10 @@ pub(super) fn net(look: &Look, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let s = 0.05 / n as f32;
-        let (a, b) = (u + s * gradient(u, v, n, n, seed), v + s * gradient(u, v, n, n, seed + 1));
+        let (a, b) = (
+            u + s * gradient(u, v, n, n, seed),
+            v + s * gradient(u, v, n, n, seed + 1),
+        );
         let (x, y) = ((a + b) * n as f32, (a - b) * n as f32);
         let (dx, dy) = ((fract(x) - 0.5).abs(), (fract(y) - 0.5).abs());
         let width = 0.12;
@@ -238,9 +296,13 @@ pub(super) fn lace(look: &Look, size: usize) -> Surface {
         let rim = step(0.03, 0.015, (c.near - petal).abs());
         let fine = (n * 6) as f32;
         let (x, y) = ((u + v) * fine, (u - v) * fine);
-        let wire = step(0.36, 0.42, (fract(x) - 0.5).abs()).max(step(0.36, 0.42, (fract(y) - 0.5).abs()));
+        let wire =
+            step(0.36, 0.42, (fract(x) - 0.5).abs()).max(step(0.36, 0.42, (fract(y) - 0.5).abs()));
         let edge = step(0.445, 0.47, c.near) * step(0.53, 0.505, c.near);
-        let there = (0.8 * flower - 0.5 * vein).max(rim).max(0.75 * wire).max(edge);
+        let there = (0.8 * flower - 0.5 * vein)
+            .max(rim)
+            .max(0.75 * wire)
+            .max(edge);
         Texel {
             height: 0.010 * there,
             color: mix(look.color(1), lit(look.color(0), 0.95 + 0.08 * wire), there),
@@ -260,19 +322,35 @@ pub(super) fn basket(look: &Look, size: usize) -> Surface {
         let (i, j) = (floor(x), floor(y));
         let (fx, fy) = (2.0 * fract(x) - 1.0, 2.0 * fract(y) - 1.0);
         let twill = shine > 0.5;
-        let up = if twill { (i + j).rem_euclid(4) < 2 } else { (i + j) & 1 == 0 };
+        let up = if twill {
+            (i + j).rem_euclid(4) < 2
+        } else {
+            (i + j) & 1 == 0
+        };
         let (across, along, strand) = if up { (fx, fy, i) } else { (fy, fx, j) };
         let id = unit(hash(strand, i32::from(up), seed));
-        let fibre = if up { gradient(u, v, n * 8, n / 2, seed) } else { gradient(u, v, n / 2, n * 8, seed + 1) };
+        let fibre = if up {
+            gradient(u, v, n * 8, n / 2, seed)
+        } else {
+            gradient(u, v, n / 2, n * 8, seed + 1)
+        };
         let edge = step(1.0, 0.86, across.abs());
         let bow = dome(along * 0.86);
-        let (part, flash) = if up { (0, step(0.55, 1.0, bow)) } else { (1, 0.0) };
+        let (part, flash) = if up {
+            (0, step(0.55, 1.0, bow))
+        } else {
+            (1, 0.0)
+        };
         let tone = (0.8 + 0.3 * id + 0.20 * fibre) * lerp(0.25, 1.0, edge) * (0.7 + 0.3 * bow);
         Texel {
             height: (0.30 * bow * dome(across * 0.9) + 0.03 * fibre) * edge / n as f32,
             color: lit(look.color(part), tone),
             gloss: shine * edge * 0.6,
-            glow: if twill { 0.10 * flash * edge * (1.0 + 0.6 * fibre) } else { 0.0 },
+            glow: if twill {
+                0.10 * flash * edge * (1.0 + 0.6 * fibre)
+            } else {
+                0.0
+            },
         }
     })
 }
@@ -287,14 +365,20 @@ pub(super) fn rope(look: &Look, size: usize) -> Surface {
         let side = 2.0 * fract(x) - 1.0;
         let body = dome(side * 0.98);
         // Strands slant more towards the sides, as on a helix.
-        let t = v * (n * 2) as f32 + 0.62 * side + 0.14 * side * side * side + 0.3 * unit(hash(floor(x).rem_euclid(n), 1, seed));
+        let t = v * (n * 2) as f32
+            + 0.62 * side
+            + 0.14 * side * side * side
+            + 0.3 * unit(hash(floor(x).rem_euclid(n), 1, seed));
         let strand = dome((2.0 * fract(t) - 1.0) * 0.97);
         let fibre = gradient(u + 0.2 * v, v, n * 12, n * 10, seed + 1);
         let yarn = wave(5.0 * t);
         let gap = step(0.0, 0.4, body) * step(0.0, 0.5, strand);
         Texel {
             height: (0.42 * body + 0.20 * strand * body + 0.012 * (yarn + fibre)) / n as f32,
-            color: lit(mix(look.color(0), look.color(1), 0.5 * (1.0 + fibre) * 0.6), (0.85 + 0.10 * yarn + 0.12 * fibre) * lerp(0.28, 1.0, gap)),
+            color: lit(
+                mix(look.color(0), look.color(1), 0.5 * (1.0 + fibre) * 0.6),
+                (0.85 + 0.10 * yarn + 0.12 * fibre) * lerp(0.28, 1.0, gap),
+            ),
             gloss: shine,
             glow: 0.0,
         }

@@ -13,20 +13,32 @@ pub(super) fn leather(look: &Look, size: usize) -> Surface {
     let seed = look.seed;
     let shine = look.shine(0.4);
     Surface::of(size, |u, v| {
-        let w = 0.014;
-        let (a, b) = (u + w * octaves(u, v, 8, 8, 3, seed), v + w * octaves(u, v, 8, 8, 3, seed + 1));
+        let w = 0.018;
+        let (a, b) = (
+            u + w * octaves(u, v, 8, 8, 3, seed),
+            v + w * octaves(u, v, 8, 8, 3, seed + 1),
+        );
         let c = cell(a, b, n, n, 1.0, seed + 2);
         let fine = cell(a, b, n * 2, n * 2, 1.0, seed + 3);
-        let pebble = step(0.0, 0.20, c.edge);
+        let t = (c.edge / 0.36).min(1.0);
+        let pebble = (t * (2.0 - t)).sqrt();
         let small = step(0.0, 0.16, fine.edge);
-        let crease = cell(a + 0.02 * gradient(u, v, 5, 5, seed + 9), b, 4, 5, 1.0, seed + 4);
+        let crease = cell(
+            a + 0.02 * gradient(u, v, 5, 5, seed + 9),
+            b,
+            4,
+            5,
+            1.0,
+            seed + 4,
+        );
         let line = step(0.03, 0.0, crease.edge) * step(-0.2, 0.3, gradient(u, v, 3, 3, seed + 5));
         let patina = octaves(u, v, 3, 3, 3, seed + 6);
         let top = pebble * (0.7 + 0.3 * small);
-        let tone = (0.58 + 0.42 * top) * (1.0 + 0.22 * patina) * (1.0 - 0.30 * line);
+        let tone = (0.70 + 0.30 * top) * (1.0 + 0.30 * patina) * (1.0 - 0.25 * line);
         Texel {
-            height: (0.20 * pebble * (0.8 + 0.4 * nth(c.id, 1)) + 0.05 * small - 0.25 * line) / n as f32,
-            color: lit(mix(look.color(1), look.color(0), 0.25 + 0.75 * top), tone),
+            height: (0.17 * pebble * (0.8 + 0.4 * nth(c.id, 1)) + 0.03 * small - 0.22 * line)
+                / n as f32,
+            color: lit(mix(look.color(1), look.color(0), 0.45 + 0.55 * top), tone),
             gloss: shine * top,
             glow: 0.0,
         }
@@ -61,8 +73,12 @@ pub(super) fn skin(look: &Look, size: usize) -> Surface {
         let flush = octaves(u, v, 3, 3, 3, seed + 2);
         let fine = octaves(u, v, n * 3, n * 3, 2, seed + 3);
         Texel {
-            height: (0.10 * dome(c.near * 1.2) - 0.10 * line - 0.10 * pore + 0.02 * fine) / n as f32,
-            color: lit(mix(look.color(0), look.color(1), 0.45 + 0.6 * flush), 1.0 - 0.10 * line - 0.18 * pore + 0.05 * fine),
+            height: (0.10 * dome(c.near * 1.2) - 0.10 * line - 0.10 * pore + 0.02 * fine)
+                / n as f32,
+            color: lit(
+                mix(look.color(0), look.color(1), 0.45 + 0.6 * flush),
+                1.0 - 0.10 * line - 0.18 * pore + 0.05 * fine,
+            ),
             gloss: look.shine(0.2),
             glow: 0.0,
         }
@@ -81,7 +97,10 @@ pub(super) fn whorls(look: &Look, size: usize) -> Surface {
         let fold = step(0.035, 0.0, crease.edge);
         Texel {
             height: (0.14 * ridge) / n as f32 - 0.010 * fold,
-            color: lit(mix(look.color(1), look.color(0), 0.35 + 0.65 * ridge), 1.0 - 0.25 * fold + 0.06 * octaves(u, v, 3, 3, 2, seed + 4)),
+            color: lit(
+                mix(look.color(1), look.color(0), 0.35 + 0.65 * ridge),
+                1.0 - 0.25 * fold + 0.06 * octaves(u, v, 3, 3, 2, seed + 4),
+            ),
             gloss: look.shine(0.15),
             glow: 0.0,
         }
@@ -105,7 +124,12 @@ pub(super) fn scales(look: &Look, size: usize) -> Surface {
             let b = y - row as f32;
             let reach = 1.55 * (0.25 - a * a * 0.92).max(0.0).sqrt() * 1.25 + 0.35;
             if b <= reach {
-                found = (reach - b, hash(floor(x).rem_euclid(n), row.rem_euclid(n), seed), a, b);
+                found = (
+                    reach - b,
+                    hash(floor(x).rem_euclid(n), row.rem_euclid(n), seed),
+                    a,
+                    b,
+                );
                 if back > 0 || b < 1.0 { /* the last that covers wins */ }
             }
         }
@@ -117,7 +141,11 @@ pub(super) fn scales(look: &Look, size: usize) -> Surface {
             height: (0.30 * (1.0 - 0.45 * rim.min(1.5)) * edge + 0.04 * keel) / n as f32,
             color: lit(look.any(nth(id, 2)), tone),
             gloss: shine * edge,
-            glow: 0.22 * shine * step(0.22, 0.05, (a + 0.14).abs()) * step(0.2, 0.5, rim) * step(0.95, 0.6, rim),
+            glow: 0.22
+                * shine
+                * step(0.22, 0.05, (a + 0.14).abs())
+                * step(0.2, 0.5, rim)
+                * step(0.95, 0.6, rim),
         }
     })
 }
@@ -137,10 +165,17 @@ pub(super) fn leaf(look: &Look, size: usize) -> Surface {
         let net = cell(u, v, n * 5, n * 5, 1.0, seed + 1);
         let mesh = step(0.08, 0.0, net.edge);
         let bulge = dome((1.0 - 2.0 * far).clamp(0.0, 1.0) - 0.2);
-        let color = mix(look.color(0), look.color(1), (0.9 * middle).max(0.75 * rib).max(0.30 * mesh));
+        let color = mix(
+            look.color(0),
+            look.color(1),
+            (0.9 * middle).max(0.75 * rib).max(0.30 * mesh),
+        );
         Texel {
             height: 0.006 * bulge - 0.006 * rib - 0.010 * middle - 0.0012 * mesh,
-            color: lit(color, 0.92 + 0.10 * octaves(u, v, 4, 4, 3, seed + 2) + 0.10 * far),
+            color: lit(
+                color,
+                0.92 + 0.10 * octaves(u, v, 4, 4, 3, seed + 2) + 0.10 * far,
+            ),
             gloss: shine,
             glow: 0.0,
         }
@@ -158,14 +193,35 @@ pub(super) fn feather(look: &Look, size: usize) -> Surface {
         let s = side.abs();
         let t = v * 40.0 + 9.0 * s + 0.5 * gradient(u, v, n * 2, 5, seed);
         let barb = dome(2.0 * fract(t) - 1.0);
-        let split = step(0.50, 0.62, gradient(u * 0.0 + 0.5, fract(v + 0.22 * s), 1, 9, seed + (id as u32) * 3 + u32::from(side > 0.0)));
+        let split = step(
+            0.50,
+            0.62,
+            gradient(
+                u * 0.0 + 0.5,
+                fract(v + 0.22 * s),
+                1,
+                9,
+                seed + (id as u32) * 3 + u32::from(side > 0.0),
+            ),
+        );
         let quill = step(0.055, 0.02, s);
         let vane = step(1.0, 0.85, s + 0.25 * split);
         let bands = 0.5 + 0.5 * wave(3.0 * (v + 0.22 * s) + 0.2 * unit(hash(id, 2, seed)));
         let color = mix(look.color(0), look.color(1), 0.55 * step(0.45, 0.8, bands));
         Texel {
-            height: (0.10 * (1.0 - s) + 0.008 * barb + 0.05 * quill - 0.02 * split) / n as f32 * 0.5,
-            color: lit(mix(lit(color, (0.8 + 0.25 * barb) * lerp(0.45, 1.0, vane) * (1.0 - 0.4 * split)), look.color(2), quill), 1.0),
+            height: (0.10 * (1.0 - s) + 0.008 * barb + 0.05 * quill - 0.02 * split) / n as f32
+                * 0.5,
+            color: lit(
+                mix(
+                    lit(
+                        color,
+                        (0.8 + 0.25 * barb) * lerp(0.45, 1.0, vane) * (1.0 - 0.4 * split),
+                    ),
+                    look.color(2),
+                    quill,
+                ),
+                1.0,
+            ),
             gloss: 0.1,
             glow: 0.0,
         }
@@ -185,7 +241,10 @@ pub(super) fn bumps(look: &Look, size: usize) -> Surface {
         let net = step(0.0, 0.16, fine.edge);
         Texel {
             height: (0.22 * bump + 0.02 * net) / n as f32,
-            color: lit(mix(look.color(0), look.color(1), 0.8 * step(0.2, 1.0, bump)), (0.86 + 0.14 * net) * (1.0 + 0.10 * octaves(u, v, 4, 4, 2, seed + 2))),
+            color: lit(
+                mix(look.color(0), look.color(1), 0.8 * step(0.2, 1.0, bump)),
+                (0.86 + 0.14 * net) * (1.0 + 0.10 * octaves(u, v, 4, 4, 2, seed + 2)),
+            ),
             gloss: shine,
             glow: 0.0,
         }

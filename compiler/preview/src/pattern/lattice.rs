@@ -22,15 +22,30 @@ pub(super) fn mesh(look: &Look, size: usize) -> Surface {
         let wire = |across: f32, along: f32, sign: f32| {
             let round = dome((across / radius).abs().min(1.0));
             let lift = 0.5 * sign * wave(0.25 * (along + 1.0));
-            (round, if round > 0.0 { round * 0.34 + lift } else { f32::MIN })
+            (
+                round,
+                if round > 0.0 {
+                    round * 0.34 + lift
+                } else {
+                    f32::MIN
+                },
+            )
         };
         let (one, other) = (wire(a, b, up), wire(b, a, -up));
-        let ((round, level), across) = if one.1 > other.1 { (one, a) } else { (other, b) };
+        let ((round, level), across) = if one.1 > other.1 {
+            (one, a)
+        } else {
+            (other, b)
+        };
         let there = step(0.0, 0.25, round);
         let tone = 0.35 + 0.75 * round;
         let fine = octaves(u, v, 40, 40, 2, seed);
         Texel {
-            height: if round > 0.0 { (0.30 * level + 0.2) / n as f32 } else { -0.25 / n as f32 },
+            height: if round > 0.0 {
+                (0.30 * level + 0.2) / n as f32
+            } else {
+                -0.25 / n as f32
+            },
             color: mix(look.color(1), lit(look.color(0), tone + 0.05 * fine), there),
             gloss: shine * there,
             glow: 0.45 * shine * step(0.24, 0.05, (across / radius + 0.32).abs()) * there,
@@ -49,7 +64,10 @@ pub(super) fn holes(look: &Look, size: usize) -> Surface {
         let hole = step(0.34, 0.30, d);
         let rim = step(0.30, 0.36, d) * step(0.46, 0.38, d);
         let brush = octaves(u, v, 4, 120, 2, seed);
-        let sheet = lit(look.color(0), 0.80 + 0.14 * brush + 0.12 * wave(u + v + unit(seed)));
+        let sheet = lit(
+            look.color(0),
+            0.80 + 0.14 * brush + 0.12 * wave(u + v + unit(seed)),
+        );
         Texel {
             height: (-0.30 * hole + 0.06 * rim) / n as f32 * 2.0,
             color: mix(sheet, look.color(1), hole),
@@ -103,7 +121,11 @@ pub(super) fn hexagons(look: &Look, size: usize) -> Surface {
         let depth = step(0.0, 0.5, near[0].0.sqrt());
         Texel {
             height: (0.28 * wall + 0.2 * depth) / n as f32,
-            color: mix(lit(look.color(1), 0.6 + 0.5 * depth), lit(look.color(0), 0.55 + 0.5 * wall), there),
+            color: mix(
+                lit(look.color(1), 0.6 + 0.5 * depth),
+                lit(look.color(0), 0.55 + 0.5 * wall),
+                there,
+            ),
             gloss: shine * there,
             glow: 0.25 * shine * step(0.85, 1.0, wall),
         }
@@ -119,10 +141,18 @@ pub(super) fn lozenges(look: &Look, size: usize) -> Surface {
         let (a, b) = (fract(x + 0.5 * y), fract(0.5 * y - x));
         let d = (0.5 - (a - 0.5).abs()).min(0.5 - (b - 0.5).abs());
         let strand = step(0.17, 0.13, d);
-        let slope = if (0.5 - (a - 0.5).abs()) < (0.5 - (b - 0.5).abs()) { a } else { b };
+        let slope = if (0.5 - (a - 0.5).abs()) < (0.5 - (b - 0.5).abs()) {
+            a
+        } else {
+            b
+        };
         Texel {
             height: 0.22 * strand * (0.7 + 0.3 * wave(slope)) / n as f32,
-            color: mix(look.color(1), lit(look.color(0), 0.85 + 0.2 * wave(slope + 0.1)), strand),
+            color: mix(
+                look.color(1),
+                lit(look.color(0), 0.85 + 0.2 * wave(slope + 0.1)),
+                strand,
+            ),
             gloss: shine * strand,
             glow: 0.12 * strand * shine,
         }
@@ -133,7 +163,12 @@ pub(super) fn lozenges(look: &Look, size: usize) -> Surface {
 pub(super) fn rings(look: &Look, size: usize) -> Surface {
     let n = look.even(8.0);
     let shine = look.shine(0.7);
-    let mut surface = Surface::of(size, |_, _| Texel { height: -0.4 / n as f32, color: look.color(1), gloss: 0.0, glow: 0.0 });
+    let mut surface = Surface::of(size, |_, _| Texel {
+        height: -0.4 / n as f32,
+        color: look.color(1),
+        gloss: 0.0,
+        glow: 0.0,
+    });
     let pitch = 1.0 / n as f32;
     let (radius, wire) = (0.62 * pitch, 0.145 * pitch);
     for row in 0..n {
@@ -167,7 +202,10 @@ pub(super) fn studs(look: &Look, size: usize) -> Surface {
     let shine = look.shine(0.2);
     let seed = look.seed;
     Surface::of(size, |u, v| {
-        let (a, b) = (2.0 * fract(u * n as f32) - 1.0, 2.0 * fract(v * n as f32) - 1.0);
+        let (a, b) = (
+            2.0 * fract(u * n as f32) - 1.0,
+            2.0 * fract(v * n as f32) - 1.0,
+        );
         let d = (a * a + b * b).sqrt();
         let stud = step(0.66, 0.54, d);
         let skirt = step(0.80, 0.66, d);
@@ -176,7 +214,10 @@ pub(super) fn studs(look: &Look, size: usize) -> Surface {
         let lip = step(0.08, 0.0, (d - 0.56).abs()) * step(0.2, 1.3, facing);
         Texel {
             height: 0.16 * stud / n as f32 + 0.0006 * fine,
-            color: lit(look.color(0), 0.9 + 0.12 * stud - 0.25 * (skirt - stud).max(0.0) + 0.10 * fine),
+            color: lit(
+                look.color(0),
+                0.9 + 0.12 * stud - 0.25 * (skirt - stud).max(0.0) + 0.10 * fine,
+            ),
             gloss: shine,
             glow: (0.15 + 0.5 * shine) * lip,
         }
@@ -199,7 +240,11 @@ pub(super) fn domes(look: &Look, size: usize) -> Surface {
         };
         Texel {
             height: 0.36 * dome_height / n as f32,
-            color: mix(look.color(1), lit(look.color(0), 0.78 + 0.3 * dome_height - 0.16 * rim), step(1.03, 0.97, d)),
+            color: mix(
+                look.color(1),
+                lit(look.color(0), 0.78 + 0.3 * dome_height - 0.16 * rim),
+                step(1.03, 0.97, d),
+            ),
             gloss: shine,
             glow: 0.8 * shine * spot,
         }
@@ -237,14 +282,20 @@ fn panels(look: &Look, size: usize, sign: f32) -> Surface {
     let seed = look.seed;
     let shine = look.shine(0.4);
     Surface::of(size, |u, v| {
-        let (a, b) = ((2.0 * fract(u * n as f32) - 1.0).abs(), (2.0 * fract(v * n as f32) - 1.0).abs());
+        let (a, b) = (
+            (2.0 * fract(u * n as f32) - 1.0).abs(),
+            (2.0 * fract(v * n as f32) - 1.0).abs(),
+        );
         let d = a.max(b);
         let block = step(0.97, 0.66, d);
         let rough = octaves(u, v, 18, 18, 4, seed);
         let low = if sign > 0.0 { 1.0 - block } else { block };
         Texel {
             height: sign * 0.20 * block / n as f32 + 0.003 * (1.0 - shine) * rough,
-            color: lit(mix(look.color(0), look.color(1), low), (1.0 + 0.18 * (1.0 - shine) * rough) * lerp(1.0, 0.82, low)),
+            color: lit(
+                mix(look.color(0), look.color(1), low),
+                (1.0 + 0.18 * (1.0 - shine) * rough) * lerp(1.0, 0.82, low),
+            ),
             gloss: shine,
             glow: 0.0,
         }
@@ -266,7 +317,10 @@ pub(super) fn tread(look: &Look, size: usize) -> Surface {
         let fine = octaves(u, v, 60, 60, 2, seed);
         Texel {
             height: (0.26 * block + 0.06 * sipe * block) / n as f32 + 0.0007 * fine,
-            color: lit(look.color(0), (0.35 + 0.65 * block) * (0.75 + 0.25 * sipe) * (1.0 + 0.15 * fine)),
+            color: lit(
+                look.color(0),
+                (0.35 + 0.65 * block) * (0.75 + 0.25 * sipe) * (1.0 + 0.15 * fine),
+            ),
             gloss: look.shine(0.15),
             glow: 0.0,
         }
@@ -283,7 +337,10 @@ pub(super) fn glitter(look: &Look, size: usize) -> Surface {
         let facet = step(0.0, 0.08, c.edge);
         Texel {
             height: 0.2 * facet * bright / n as f32,
-            color: lit(look.any(hue), (0.25 + 1.2 * bright * bright) * lerp(0.5, 1.0, facet)),
+            color: lit(
+                look.any(hue),
+                (0.25 + 1.2 * bright * bright) * lerp(0.5, 1.0, facet),
+            ),
             gloss: 0.0,
             glow: 0.9 * step(0.92, 0.98, bright) * facet,
         }

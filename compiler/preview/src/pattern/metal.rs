@@ -17,12 +17,17 @@ pub(super) fn brushed(look: &Look, size: usize) -> Surface {
     let seed = look.seed;
     let fine = look.count(150.0);
     Surface::of(size, |u, v| {
-        let scratch = 0.5 * gradient(u, v, 2, fine, seed) + 0.35 * gradient(u, v, 5, fine * 2, seed + 1) + 0.3 * gradient(u, v, 1, fine / 3, seed + 2);
+        let scratch = 0.5 * gradient(u, v, 2, fine, seed)
+            + 0.35 * gradient(u, v, 5, fine * 2, seed + 1)
+            + 0.3 * gradient(u, v, 1, fine / 3, seed + 2);
         let nick = step(0.52, 0.75, gradient(u, v, 9, fine, seed + 3));
         let light = 0.5 + 0.5 * room(u, seed);
         Texel {
             height: 0.0006 * scratch,
-            color: lit(look.color(0), 0.62 + 0.34 * scratch + 0.52 * light - 0.12 * nick),
+            color: lit(
+                look.color(0),
+                0.62 + 0.34 * scratch + 0.52 * light - 0.12 * nick,
+            ),
             gloss: 0.0,
             glow: 0.22 * step(0.55, 1.0, light) * (1.0 + 1.3 * scratch),
         }
@@ -40,7 +45,10 @@ pub(super) fn polished(look: &Look, size: usize) -> Surface {
         let scratch = step(0.6, 0.9, gradient(u + v, v, 40, 3, seed + 2));
         Texel {
             height: 0.0,
-            color: lit(look.color(0), 0.45 + 0.75 * sky - 0.25 * floor_line + 0.05 * scratch),
+            color: lit(
+                look.color(0),
+                0.45 + 0.75 * sky - 0.25 * floor_line + 0.05 * scratch,
+            ),
             gloss: 0.3,
             glow: 0.45 * step(0.5, 0.95, room(t + 0.03, seed)),
         }
@@ -62,7 +70,10 @@ pub(super) fn hammered(look: &Look, size: usize) -> Surface {
         let fine = gradient(u, v, 70, 70, seed + 1);
         Texel {
             height: 0.50 * bowl / n as f32,
-            color: lit(look.color(0), (0.85 - 0.35 * dark + 0.06 * fine) * lerp(0.8, 1.0, rim)),
+            color: lit(
+                look.color(0),
+                (0.85 - 0.35 * dark + 0.06 * fine) * lerp(0.8, 1.0, rim),
+            ),
             gloss: look.shine(0.6),
             glow: 0.5 * flash,
         }
@@ -80,7 +91,11 @@ pub(super) fn lugs(look: &Look, size: usize) -> Surface {
         let (s, t) = (0.707 * (a + b), 0.707 * (a - b));
         let (along, across) = if (i + j) & 1 == 0 { (s, t) } else { (t, s) };
         let width = 0.30 * (1.0 - (along / 0.98) * (along / 0.98)).max(0.0);
-        let d = if width > 0.0 { across.abs() / width } else { 2.0 };
+        let d = if width > 0.0 {
+            across.abs() / width
+        } else {
+            2.0
+        };
         let lug = step(1.0, 0.45, d);
         let grind = octaves(u, v, 30, 30, 3, seed);
         let wear = step(0.7, 1.0, lug);
@@ -141,7 +156,8 @@ pub(super) fn cast(look: &Look, size: usize) -> Surface {
         let coarse = octaves(u, v, n / 3 + 1, n / 3 + 1, 3, seed + 1);
         let light = room(u + v, seed);
         Texel {
-            height: (0.35 * step(0.0, 0.5, pit.near) * (0.4 + 0.6 * nth(pit.id, 1)) + 0.5 * coarse) / n as f32,
+            height: (0.35 * step(0.0, 0.5, pit.near) * (0.4 + 0.6 * nth(pit.id, 1)) + 0.5 * coarse)
+                / n as f32,
             color: lit(look.color(0), 0.9 + 0.16 * coarse + 0.12 * light),
             gloss: look.shine(0.45),
             glow: 0.06 * light.max(0.0),
@@ -217,7 +233,10 @@ pub(super) fn ribs(look: &Look, size: usize) -> Surface {
         let id = unit(hash(floor(v * n as f32).rem_euclid(n), 1, seed));
         Texel {
             height: 0.36 * rib / n as f32 + 0.0006 * fine,
-            color: lit(look.color(0), (0.42 + 0.6 * rib) * (0.95 + 0.08 * id) + 0.06 * fine),
+            color: lit(
+                look.color(0),
+                (0.42 + 0.6 * rib) * (0.95 + 0.08 * id) + 0.06 * fine,
+            ),
             gloss: shine,
             glow: 0.55 * shine * step(0.10, 0.0, (t + 0.38).abs() - 0.06),
         }

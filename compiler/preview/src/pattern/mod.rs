@@ -5,11 +5,13 @@ mod cloth;
 mod heap;
 mod hide;
 mod lattice;
+mod masonry;
 mod metal;
 mod mineral;
 mod pile;
 mod porous;
 mod sheet;
+mod tufts;
 mod wood;
 
 use crate::{look::Look, surface::Surface};
@@ -39,17 +41,17 @@ patterns! {
     Grit => mineral::grit,
     Sand => mineral::sand,
     Pebbles => mineral::pebbles,
-    Cobbles => mineral::cobbles,
+    Cobbles => masonry::cobbles,
     Granite => mineral::granite,
     Terrazzo => mineral::terrazzo,
     Marble => mineral::marble,
-    Concrete => mineral::concrete,
-    Plaster => mineral::plaster,
+    Concrete => masonry::concrete,
+    Plaster => masonry::plaster,
     Strata => mineral::strata,
     Cracks => mineral::cracks,
-    Brick => mineral::brick,
-    Tile => mineral::tile,
-    Aggregate => mineral::aggregate,
+    Brick => masonry::brick,
+    Tile => masonry::tile,
+    Aggregate => masonry::aggregate,
     Plain => cloth::plain,
     Coarse => cloth::coarse,
     Twill => cloth::twill,
@@ -67,16 +69,16 @@ patterns! {
     Fur => pile::fur,
     Hair => pile::hair,
     Felt => pile::felt,
-    Fleece => pile::fleece,
-    Loops => pile::loops,
-    ThickLoops => pile::thick_loops,
-    CutPile => pile::cut_pile,
+    Fleece => tufts::fleece,
+    Loops => tufts::loops,
+    ThickLoops => tufts::thick_loops,
+    CutPile => tufts::cut_pile,
     Shag => pile::shag,
-    Bristles => pile::bristles,
+    Bristles => tufts::bristles,
     Straw => pile::straw,
     Tangle => pile::tangle,
     Stubble => pile::stubble,
-    Moss => pile::moss,
+    Moss => tufts::moss,
     Brushed => metal::brushed,
     Polished => metal::polished,
     Hammered => metal::hammered,

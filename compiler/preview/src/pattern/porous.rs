@@ -22,15 +22,18 @@ pub(super) fn foam(look: &Look, size: usize) -> Surface {
 fn pores(look: &Look, size: usize, n: i32, uneven: f32) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
-        let w = 0.25 / n as f32;
-        let (a, b) = (u + w * gradient(u, v, n * 2, n * 2, seed), v + w * gradient(u, v, n * 2, n * 2, seed + 1));
+        let w = 0.14 / n as f32;
+        let (a, b) = (
+            u + w * gradient(u, v, n * 2, n * 2, seed),
+            v + w * gradient(u, v, n * 2, n * 2, seed + 1),
+        );
         let (mut hole, mut deep) = (0.0f32, 0.0f32);
         for (k, scale) in [1, 2, 4].into_iter().enumerate() {
             let c = cell(a, b, n * scale, n * scale, 1.0, seed + 5 * scale as u32);
-            let there = nth(c.id, 1) < [0.60 + 0.4 * (1.0 - uneven), 0.75, 0.5][k];
-            let radius = (0.22 + 0.20 * uneven * nth(c.id, 2)).min(0.5) + 0.12 * (1.0 - uneven);
+            let there = nth(c.id, 1) < [0.70 + 0.3 * (1.0 - uneven), 0.55, 0.40][k];
+            let radius = 0.20 + 0.24 * uneven * nth(c.id, 2) + 0.10 * (1.0 - uneven);
             if there {
-                let inside = step(radius, radius * 0.72, c.near.max(radius - c.edge * 0.9));
+                let inside = step(radius, radius * 0.78, c.near);
                 hole = hole.max(inside);
                 deep = deep.max(inside * (1.0 - 0.6 * (c.near / radius).min(1.0)) / scale as f32);
             }
@@ -39,7 +42,14 @@ fn pores(look: &Look, size: usize, n: i32, uneven: f32) -> Surface {
         let wall = lit(look.color(0), 0.95 + 0.10 * fine);
         Texel {
             height: (-0.30 * deep - 0.10 * hole + 0.02 * fine) / n as f32,
-            color: mix(wall, lit(look.color(1), lerp(0.9, 0.35, (deep * 1.5).min(1.0))), hole),
+            color: mix(
+                wall,
+                lit(
+                    look.color(1),
+                    lerp(1.0, 0.35 + 0.35 * (1.0 - uneven), (deep * 1.5).min(1.0)),
+                ),
+                hole,
+            ),
             gloss: look.shine(0.0) * (1.0 - hole),
             glow: 0.0,
         }
@@ -59,7 +69,10 @@ pub(super) fn beads(look: &Look, size: usize) -> Surface {
         let skin = step(0.0, 0.2, fine.edge);
         Texel {
             height: (0.24 * pillow * (0.8 + 0.35 * nth(c.id, 1)) + 0.006 * skin) / n as f32,
-            color: lit(look.color(0), (0.97 + 0.06 * nth(c.id, 2)) * lerp(0.80, 1.0, seam) * lerp(0.97, 1.0, skin)),
+            color: lit(
+                look.color(0),
+                (0.97 + 0.06 * nth(c.id, 2)) * lerp(0.80, 1.0, seam) * lerp(0.97, 1.0, skin),
+            ),
             gloss: look.shine(0.15),
             glow: 0.0,
         }

@@ -12,15 +12,22 @@ pub(super) fn paper(look: &Look, size: usize) -> Surface {
     let seed = look.seed;
     let shine = look.shine(0.0);
     let mut surface = Surface::of(size, |u, v| {
-        let fold = |d: f32| if d.abs() < 0.10 { 0.018 * (1.0 - d.abs() / 0.10) } else { 0.0 };
-        let (a, b) = (u - 0.5 + 0.004 * gradient(u, v, 2, 9, seed), v - 0.5 + 0.004 * gradient(u, v, 9, 2, seed + 1));
+        // A crease springs back: a sharp edge that fades into the sheet.
+        let fold = |d: f32| {
+            let t = (1.0 - d.abs() / 0.24).max(0.0);
+            0.022 * t * t * t
+        };
+        let (a, b) = (
+            u - 0.5 + 0.004 * gradient(u, v, 2, 9, seed),
+            v - 0.5 + 0.004 * gradient(u, v, 9, 2, seed + 1),
+        );
         let crease = step(0.006, 0.001, a.abs()).max(step(0.006, 0.001, b.abs()));
         let cloud = octaves(u, v, 18, 18, 3, seed + 2);
         let tooth = octaves(u, v, 80, 80, 2, seed + 3);
-        let wavy = octaves(u, v, 2, 2, 2, seed + 4);
+        let wavy = octaves(u, v, 2, 3, 2, seed + 4);
         Texel {
-            height: fold(a) - fold(b) * 0.9 + 0.0009 * tooth + 0.010 * wavy,
-            color: lit(look.color(0), 0.985 + 0.035 * cloud - 0.10 * crease),
+            height: fold(a) - fold(b) * 0.9 + 0.0009 * tooth + 0.020 * wavy,
+            color: lit(look.color(0), 0.93 + 0.035 * cloud - 0.10 * crease),
             gloss: shine,
             glow: 0.0,
         }
@@ -31,8 +38,19 @@ pub(super) fn paper(look: &Look, size: usize) -> Surface {
         let turn = chance.next();
         let length = 0.012 + 0.02 * chance.next();
         let color = lit(look.color(0), 0.80 + 0.10 * chance.next());
-        let end = (start.0 + length * wave(turn), start.1 + length * wave(turn + 0.25));
-        let thread = Thread { width: 0.002, taper: 0.0, level: 0.045, rise: 0.0, lift: 0.0, colors: (color, color), gloss: 0.0 };
+        let end = (
+            start.0 + length * wave(turn),
+            start.1 + length * wave(turn + 0.25),
+        );
+        let thread = Thread {
+            width: 0.002,
+            taper: 0.0,
+            level: 0.045,
+            rise: 0.0,
+            lift: 0.0,
+            colors: (color, color),
+            gloss: 0.0,
+        };
         flat(&mut surface, &[start, end], &thread);
     }
     surface
@@ -54,15 +72,34 @@ pub(super) fn cardboard(look: &Look, size: usize) -> Surface {
     Surface::of(size, |u, v| {
         let flute = wave(u * n as f32);
         let speck = cell(u, v, 44, 60, 1.0, seed);
-        let (a, b) = (speck.way.0 * wave(nth(speck.id, 1)) + speck.way.1 * wave(nth(speck.id, 1) + 0.25), speck.way.0 * wave(nth(speck.id, 1) + 0.25) - speck.way.1 * wave(nth(speck.id, 1)));
-        let fleck = if nth(speck.id, 2) < 0.30 { step(1.0, 0.5, a.abs() / 0.36 + b.abs() / 0.07) } else { 0.0 };
+        let (a, b) = (
+            speck.way.0 * wave(nth(speck.id, 1)) + speck.way.1 * wave(nth(speck.id, 1) + 0.25),
+            speck.way.0 * wave(nth(speck.id, 1) + 0.25) - speck.way.1 * wave(nth(speck.id, 1)),
+        );
+        let fleck = if nth(speck.id, 2) < 0.30 {
+            step(1.0, 0.5, a.abs() / 0.36 + b.abs() / 0.07)
+        } else {
+            0.0
+        };
         let light = nth(speck.id, 3) < 0.4;
         let cloud = octaves(u, v, 8, 16, 3, seed + 1);
         let tooth = octaves(u, v, 90, 60, 2, seed + 2);
         // Worn ends show the waves themselves.
-        let color = lit(look.color(0), 0.93 + 0.10 * flute + 0.10 * cloud + 0.07 * tooth);
-        let color = mix(color, lit(look.color(0), if light { 1.35 } else { 0.45 }), 0.6 * fleck);
-        Texel { height: 0.30 * flute / (n * 6) as f32 + 0.0008 * tooth, color, gloss: look.shine(0.0), glow: 0.0 }
+        let color = lit(
+            look.color(0),
+            0.93 + 0.10 * flute + 0.10 * cloud + 0.07 * tooth,
+        );
+        let color = mix(
+            color,
+            lit(look.color(0), if light { 1.35 } else { 0.45 }),
+            0.6 * fleck,
+        );
+        Texel {
+            height: 0.30 * flute / (n * 6) as f32 + 0.0008 * tooth,
+            color,
+            gloss: look.shine(0.0),
+            glow: 0.0,
+        }
     })
 }
 
@@ -78,7 +115,11 @@ pub(super) fn print(look: &Look, size: usize) -> Surface {
         let inside = step(0.04, 0.05, column) * step(0.96, 0.95, column);
         let block = floor(u * 2.0);
         let last = nth(hash(line, block, seed), 1) < 0.14;
-        let written = if last { column < 0.3 + 0.4 * unit(hash(line, block, seed + 1)) } else { true };
+        let written = if last {
+            column < 0.3 + 0.4 * unit(hash(line, block, seed + 1))
+        } else {
+            true
+        };
         // Letters are two or three strokes wide; every few a space.
         let letters = 48.0;
         let x = u * letters * 2.0;
@@ -86,7 +127,10 @@ pub(super) fn print(look: &Look, size: usize) -> Surface {
         let space = unit(letter) < 0.17;
         let tall = if nth(letter, 1) < 0.3 { 0.20 } else { 0.36 };
         let f = fract(x);
-        let bar = [0.22, 0.5, 0.78].iter().enumerate().any(|(k, &at)| nth(letter, 2 + k as i32) < 0.7 && (f - at).abs() < 0.11);
+        let bar = [0.22, 0.5, 0.78]
+            .iter()
+            .enumerate()
+            .any(|(k, &at)| nth(letter, 2 + k as i32) < 0.7 && (f - at).abs() < 0.11);
         let dash = (row - 0.5).abs() < 0.06 && nth(letter, 6) < 0.5 && f > 0.12 && f < 0.88;
         let ink = !space && written && row > tall && row < 0.76 && (bar || dash);
         let dark = if ink { 0.85 * inside } else { 0.0 };
@@ -106,15 +150,16 @@ pub(super) fn plastic(look: &Look, size: usize) -> Surface {
     let shine = look.shine(0.7);
     Surface::of(size, |u, v| {
         let w = octaves(u, v, 2, 2, 2, seed);
-        let t = fract(u + v + 0.22 * w);
-        let lamp = step(0.10, 0.14, t) * step(0.34, 0.30, t) + 0.5 * step(0.38, 0.40, t) * step(0.45, 0.43, t);
-        let shade = 0.5 + 0.5 * wave(u + v + 0.22 * w + 0.52);
+        let t = fract(u + v + 0.10 * w);
+        let lamp = step(0.10, 0.14, t) * step(0.34, 0.30, t)
+            + 0.5 * step(0.38, 0.40, t) * step(0.45, 0.43, t);
+        let shade = 0.5 + 0.5 * wave(u + v + 0.10 * w + 0.52);
         let peel = gradient(u, v, 40, 40, seed + 1);
         Texel {
             height: 0.0003 * peel,
             color: lit(look.color(0), 0.80 + 0.26 * shade),
             gloss: 0.4 * shine,
-            glow: 0.42 * shine * lamp,
+            glow: 0.34 * shine * lamp * (0.6 + 0.4 * shade),
         }
     })
 }
