@@ -19,7 +19,7 @@ const USUAL_DB: f64 = -4.0;
 /// Friction at which a material has its own gloss.
 const USUAL_MU: f64 = 0.45;
 /// Centroid of a tap below which the fine grain blurs, Hz.
-const SOFT_HZ: f64 = 600.0;
+const SOFT_HZ: f64 = 300.0;
 
 /// The look of a description: what its words name, else what its neighbours are, else how it
 /// feels.

@@ -13,6 +13,9 @@ const BESIDE: &[&str] = &[
 /// Words that say what the subject is not.
 const NOT: &[&str] = &["not", "no", "without", "than", "less", "never", "non"];
 
+/// Plurals that no ending tells.
+const IRREGULAR: &[(&str, &str)] = &[("leaves", "leaf"), ("loaves", "loaf"), ("teeth", "tooth")];
+
 /// What the words say.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Said<'a> {
@@ -36,6 +39,9 @@ fn stem(word: &str) -> String {
         let stem = word.strip_suffix(ending).filter(|stem| stem.len() >= 3)?;
         Some(format!("{stem}{new}"))
     };
+    if let Some(singular) = IRREGULAR.iter().find(|(plural, _)| *plural == word) {
+        return singular.1.to_owned();
+    }
     if word.ends_with("ss") || word.ends_with("us") {
         return word.to_owned();
     }
@@ -43,7 +49,6 @@ fn stem(word: &str) -> String {
         .or_else(|| cut("'s", ""))
         .or_else(|| cut("shes", "sh"))
         .or_else(|| cut("ches", "ch"))
-        .or_else(|| cut("aves", "af"))
         .or_else(|| cut("s", ""))
         .unwrap_or_else(|| word.to_owned())
 }

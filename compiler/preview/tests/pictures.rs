@@ -66,21 +66,18 @@ fn every_material_of_the_corpora_has_a_row() {
 }
 
 #[test]
-fn each_pattern_gives_the_same_bytes_twice_within_the_limit() {
+fn each_pattern_fits_an_asset_and_gives_the_same_bytes_twice() {
     for name in names() {
         let png = draw(&name, SIZE, 0).compact_png().expect("a PNG");
-        assert_eq!(
-            png,
-            draw(&name, SIZE, 0).compact_png().expect("a PNG"),
-            "{name}"
-        );
         assert!(png.len() <= COMPACT_BYTES, "{name}: {} bytes", png.len());
+        let small = || draw(&name, 64, 0).compact_png().expect("a PNG");
+        assert_eq!(small(), small(), "{name}");
     }
 }
 
 #[test]
 fn each_pattern_goes_on_over_its_border() {
-    // The end of a trunk and a record show one thing each: they repeat, with a seam.
+    // The end of a trunk shows one thing: it repeats, with a seam.
     let whole = ["tree stump"];
     for name in names()
         .iter()

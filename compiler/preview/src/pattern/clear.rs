@@ -173,14 +173,14 @@ pub(super) fn snow(look: &Look, size: usize) -> Surface {
     Surface::of(size, |u, v| {
         let mound = drift(u, v);
         // Shade on the side away from the light, as the sky lights it.
-        let shade = step(-0.10, 0.75, (drift(u - 0.02, v - 0.02) - mound) * 4.5);
+        let shade = step(-0.30, 1.50, (drift(u - 0.02, v - 0.02) - mound) * 4.5);
         let crumb = octaves(u, v, 40, 40, 3, seed + 1);
         let c = cell(u, v, 64, 64, 1.0, seed + 2);
         let spark = step(0.94, 0.96, nth(c.id, 1)) * step(0.24, 0.05, c.near);
         Texel {
             height: 0.075 * mound + 0.0050 * crumb,
             color: lit(
-                mix(look.color(0), look.color(1), 0.75 * shade),
+                mix(look.color(0), look.color(1), 0.62 * shade),
                 0.90 + 0.06 * crumb,
             ),
             gloss: 0.0,
