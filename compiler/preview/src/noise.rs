@@ -34,6 +34,16 @@ pub(crate) fn floor(x: f32) -> i32 {
     cut - i32::from(x < cut as f32)
 }
 
+/// A cell of a lattice of `n`, `n` cells on being the same one. A division takes longer than the
+/// comparison that is nearly always enough.
+fn wrapped(cell: i32, n: i32) -> i32 {
+    if (0..n).contains(&cell) {
+        cell
+    } else {
+        cell.rem_euclid(n)
+    }
+}
+
 /// The part of `x` above its floor, 0..1.
 #[must_use]
 pub(crate) fn fract(x: f32) -> f32 {
@@ -65,8 +75,8 @@ pub(crate) fn gradient(u: f32, v: f32, nx: i32, ny: i32, seed: u32) -> f32 {
     let (x, y) = (u * nx as f32, v * ny as f32);
     let (x0, y0) = (floor(x), floor(y));
     let (fx, fy) = (x - x0 as f32, y - y0 as f32);
-    let (xa, xb) = (x0.rem_euclid(nx), (x0 + 1).rem_euclid(nx));
-    let (ya, yb) = (y0.rem_euclid(ny), (y0 + 1).rem_euclid(ny));
+    let (xa, xb) = (wrapped(x0, nx), wrapped(x0 + 1, nx));
+    let (ya, yb) = (wrapped(y0, ny), wrapped(y0 + 1, ny));
     let corner = |ix: i32, iy: i32, dx: f32, dy: f32| {
         let h = hash(ix, iy, seed);
         // Slopes on a square rather than a circle: no sine, and nobody sees it.
@@ -126,8 +136,9 @@ pub(crate) fn cell(u: f32, v: f32, nx: i32, ny: i32, jitter: f32, seed: u32) -> 
     let (mut best, mut next) = (f32::MAX, f32::MAX);
     let (mut way, mut other, mut id) = ((0.0, 0.0), (0.0, 0.0), 0);
     for j in -1..=1 {
+        let row = wrapped(y0 + j, ny);
         for i in -1..=1 {
-            let h = hash((x0 + i).rem_euclid(nx), (y0 + j).rem_euclid(ny), seed);
+            let h = hash(wrapped(x0 + i, nx), row, seed);
             let px = (x0 + i) as f32 + 0.5 + jitter * ((h & 0xFFFF) as f32 / 65535.0 - 0.5);
             let py = (y0 + j) as f32 + 0.5 + jitter * ((h >> 16) as f32 / 65535.0 - 0.5);
             let (dx, dy) = (x - px, y - py);

@@ -198,3 +198,39 @@ fn words_in_any_script_and_length_give_a_picture() {
         assert!(Picture::draw(&description, size).is_err());
     }
 }
+
+#[test]
+fn normals_lean_away_from_what_rises_with_green_up() {
+    let picture = draw("string of pearls", 128, 0);
+    let decoded = |bytes: Vec<u8>| {
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+            .read_info()
+            .expect("a PNG");
+        let mut data = vec![0; reader.output_buffer_size().expect("a size")];
+        reader.next_frame(&mut data).expect("a frame");
+        data
+    };
+    let heights = decoded(picture.height_png().expect("a map"));
+    let normals = decoded(picture.normal_png().expect("a map"));
+    let height = |x: usize, y: usize| {
+        let at = 2 * (y * 128 + x);
+        i32::from(u16::from_be_bytes([heights[at], heights[at + 1]]))
+    };
+    let (mut right, mut down) = (0, 0);
+    for y in 1..127 {
+        for x in 1..127 {
+            let normal = &normals[3 * (y * 128 + x)..][..3];
+            let rise = height(x + 1, y) - height(x - 1, y);
+            if rise.abs() > 2000 {
+                assert_eq!(normal[0] < 128, rise > 0, "red at {x}, {y}");
+                right += 1;
+            }
+            let rise = height(x, y + 1) - height(x, y - 1);
+            if rise.abs() > 2000 {
+                assert_eq!(normal[1] >= 128, rise > 0, "green at {x}, {y}");
+                down += 1;
+            }
+        }
+    }
+    assert!(right > 1000 && down > 1000, "{right} {down}");
+}

@@ -186,8 +186,8 @@ pub(super) fn corduroy(look: &Look, size: usize) -> Surface {
 /// Heights of folds, about −1..1.
 fn fold(u: f32, v: f32, n: f32, seed: u32) -> f32 {
     let w = 0.34 * octaves(u, v, 2, 2, 2, seed);
-    let main = wave(n * u + 1.0 * v + 1.4 * w);
-    let other = wave((n - 1.0).max(1.0) * u - 1.0 * v + 2.2 * w + 0.3);
+    let main = wave(n * u + v + 1.4 * w);
+    let other = wave((n - 1.0).max(1.0) * u - v + 2.2 * w + 0.3);
     0.62 * main + 0.38 * other
 }
 

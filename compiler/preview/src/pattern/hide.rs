@@ -115,10 +115,11 @@ pub(super) fn scales(look: &Look, size: usize) -> Surface {
     Surface::of(size, |u, v| {
         let rows = n as f32;
         let mut found = (0.0, 0u32, 0.0, 0.0);
-        // The scale of the upper row hides the one below; try the upper first.
+        // From the row at hand upwards: of the scales that reach down to here, the highest row's
+        // lies on top.
         let y = v * rows;
         for back in 0..3 {
-            let row = floor(y) - 1 + 0 - back + 1;
+            let row = floor(y) - back;
             let x = u * n as f32 + 0.5 * (row & 1) as f32;
             let a = fract(x) - 0.5;
             let b = y - row as f32;
@@ -130,7 +131,6 @@ pub(super) fn scales(look: &Look, size: usize) -> Surface {
                     a,
                     b,
                 );
-                if back > 0 || b < 1.0 { /* the last that covers wins */ }
             }
         }
         let (rim, id, a, b) = found;
@@ -197,7 +197,7 @@ pub(super) fn feather(look: &Look, size: usize) -> Surface {
             0.50,
             0.62,
             gradient(
-                u * 0.0 + 0.5,
+                0.5,
                 fract(v + 0.22 * s),
                 1,
                 9,

@@ -243,7 +243,7 @@ pub(super) fn ribs(look: &Look, size: usize) -> Surface {
     })
 }
 
-/// Grooves in rings around a corner far away: records, turned metal.
+/// Fine grooves side by side, in bands: records.
 pub(super) fn grooves(look: &Look, size: usize) -> Surface {
     let n = look.count(48.0);
     let seed = look.seed;
@@ -251,7 +251,7 @@ pub(super) fn grooves(look: &Look, size: usize) -> Surface {
         let t = fract(v * n as f32 + 0.25 * gradient(u, v, 26, n, seed));
         let band = step(0.78, 0.80, fract(v * 3.0)) * step(0.88, 0.86, fract(v * 3.0));
         let groove = (2.0 * t - 1.0).abs() * (1.0 - band);
-        let light = room(u + 0.15 * v * 0.0, seed);
+        let light = room(u, seed);
         Texel {
             height: 0.20 * groove / n as f32,
             color: lit(look.color(0), 0.75 + 0.5 * groove),

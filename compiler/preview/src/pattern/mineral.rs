@@ -41,7 +41,7 @@ pub(super) fn sand(look: &Look, size: usize) -> Surface {
     Surface::of(size, |u, v| {
         let bend =
             0.16 * octaves(u, v, 2, 2, 2, look.seed) + 0.03 * gradient(u, v, 6, 6, look.seed + 1);
-        let t = fract(ripples * (v + 0.0) + 1.0 * u + 5.0 * bend);
+        let t = fract(ripples * v + u + 5.0 * bend);
         // A long slope against the wind, a short one behind.
         let crest = if t < 0.72 { t / 0.72 } else { (1.0 - t) / 0.28 };
         let crest = crest * crest * (3.0 - 2.0 * crest);
@@ -161,7 +161,7 @@ pub(super) fn marble(look: &Look, size: usize) -> Surface {
         let wx = 0.20 * octaves(u, v, 2, 2, 4, seed) + 0.02 * octaves(u, v, 14, 14, 2, seed + 9);
         let wy =
             0.20 * octaves(u, v, 2, 2, 4, seed + 20) + 0.02 * octaves(u, v, 14, 14, 2, seed + 8);
-        let (a, b) = (u + v + wx, v - u * 0.0 + wy);
+        let (a, b) = (u + v + wx, v + wy);
         let vein = |nx: i32, ny: i32, sharp: f32, seed: u32| {
             let r = (gradient(a, b, nx, ny, seed)).abs();
             1.0 / (1.0 + (r * sharp) * (r * sharp))

@@ -13,7 +13,7 @@ pub(super) fn fleece(look: &Look, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.55));
     let mut chance = Sequence::new(look.seed);
     let n = look.count(19.0);
-    for k in 0..(n * n * 2) {
+    for _ in 0..(n * n * 2) {
         let (u, v) = (chance.next(), chance.next());
         let level = 0.016 * chance.next();
         let tone = 0.8 + 0.3 * chance.next();
@@ -35,7 +35,6 @@ pub(super) fn fleece(look: &Look, size: usize) -> Surface {
             let turn = curl + j as f32 / 7.0 + 0.05 * chance.signed();
             surface.thread(&path(u, v, turn, 0.35, 0.75 / n as f32, 4), &thread);
         }
-        let _ = k;
     }
     surface
 }

@@ -112,11 +112,8 @@ pub(super) fn rings(look: &Look, size: usize) -> Surface {
         let late = step(0.2, 0.95, f) * step(1.0, 0.95, f);
         let turn = libm::atan2f(dv, du) / core::f32::consts::TAU + 0.5;
         let ray = gradient(turn, 0.5, 60, 1, seed + 1);
-        let crack = step(
-            0.010,
-            0.003,
-            (fract(turn * 1.0 + 0.4 * w) - unit(seed)).abs() * d,
-        ) * step(0.42, 0.1, d);
+        let crack =
+            step(0.010, 0.003, (fract(turn + 0.4 * w) - unit(seed)).abs() * d) * step(0.42, 0.1, d);
         let fine = octaves(u, v, 60, 60, 2, seed + 2);
         let color = mix(look.color(0), look.color(1), 0.75 * late + 0.10 * ray);
         Texel {
