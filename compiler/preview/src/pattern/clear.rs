@@ -79,12 +79,12 @@ pub(super) fn frosted(look: &Look, size: usize) -> Surface {
 pub(super) fn ice(look: &Look, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
-        let depth = 0.5 + 0.75 * octaves(u, v, 2, 2, 4, seed);
+        let depth = 0.5 + 0.75 * octaves(u, v, 2, 2, 3, seed);
         let mut color = mix(look.color(0), look.color(1), depth);
         let mut white = 0.0f32;
         for (k, n) in [3, 5].into_iter().enumerate() {
             let k = k as u32;
-            let w = 0.07 * octaves(u, v, 4, 4, 3, seed + 10 + k);
+            let w = 0.07 * octaves(u, v, 4, 4, 2, seed + 10 + k);
             let c = cell(u + w, v - w, n, n, 1.0, seed + 20 + k);
             let shown = step(-0.12, 0.2, gradient(u, v, 3, 3, seed + 30 + k));
             // A sharp line, and the plane of the crack behind it.
@@ -96,7 +96,7 @@ pub(super) fn ice(look: &Look, size: usize) -> Surface {
         let radius = 0.06 + 0.16 * nth(bubble.id, 1);
         let there = f32::from(nth(bubble.id, 2) < 0.35);
         let ring = step(0.05, 0.0, (bubble.near - radius).abs()) * there;
-        let cloud = step(0.1, 0.6, octaves(u, v, 5, 5, 5, seed + 41));
+        let cloud = step(0.1, 0.6, octaves(u, v, 5, 5, 3, seed + 41));
         color = mix(color, WHITE, white.max(0.5 * ring).max(0.35 * cloud));
         let swell = octaves(u, v, 3, 3, 2, seed + 42);
         let sheen = step(0.10, 0.5, swell) * step(0.75, 0.55, swell);

@@ -15,8 +15,8 @@ pub(super) fn leather(look: &Look, size: usize) -> Surface {
     Surface::of(size, |u, v| {
         let w = 0.018;
         let (a, b) = (
-            u + w * octaves(u, v, 8, 8, 3, seed),
-            v + w * octaves(u, v, 8, 8, 3, seed + 1),
+            u + w * octaves(u, v, 8, 8, 2, seed),
+            v + w * octaves(u, v, 8, 8, 2, seed + 1),
         );
         let c = cell(a, b, n, n, 1.0, seed + 2);
         let fine = cell(a, b, n * 2, n * 2, 1.0, seed + 3);

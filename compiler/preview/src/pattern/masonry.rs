@@ -35,8 +35,8 @@ pub(super) fn concrete(look: &Look, size: usize) -> Surface {
     let n = look.count(20.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
-        let stain = octaves(u, v, 3, 3, 5, seed);
-        let grain = octaves(u, v, 60, 60, 3, seed + 1);
+        let stain = octaves(u, v, 3, 3, 3, seed);
+        let grain = octaves(u, v, 60, 60, 2, seed + 1);
         let pit = cell(u, v, n, n, 1.0, seed + 2);
         let radius = 0.02 + 0.20 * nth(pit.id, 1) * nth(pit.id, 2) * nth(pit.id, 5);
         let hole = if nth(pit.id, 3) < 0.75 {
@@ -44,7 +44,7 @@ pub(super) fn concrete(look: &Look, size: usize) -> Surface {
         } else {
             0.0
         };
-        let w = 0.05 * octaves(u, v, 6, 6, 4, seed + 3);
+        let w = 0.05 * octaves(u, v, 6, 6, 3, seed + 3);
         let crack = cell(u + w, v + w, 2, 2, 0.9, seed + 4);
         let line =
             step(0.007, 0.002, crack.edge) * step(-0.1, 0.15, gradient(u, v, 2, 2, seed + 5));
