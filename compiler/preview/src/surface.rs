@@ -81,7 +81,7 @@ impl Surface {
                 let level = thread.level + thread.rise * along;
                 self.stamp((u0 + du * t, v0 + dv * t), radius, |dx, dy| {
                     let d2 = (dx * dx + dy * dy) / (radius * radius);
-                    (d2 < 1.0).then(|| Texel {
+                    (d2 < 1.0).then_some(Texel {
                         height: level + thread.lift * (1.0 - d2),
                         color,
                         gloss: thread.gloss,

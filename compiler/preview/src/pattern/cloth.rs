@@ -139,8 +139,7 @@ pub(super) fn knit(look: &Look, size: usize) -> Surface {
         let f = fract(x);
         let leg = 1.0 - 2.0 * (f - 0.5).abs();
         // Legs rise from the middle of a stitch to its sides.
-        let y = v * rows as f32
-            + 0.85 * (1.0 - leg) * -1.0
+        let y = v * rows as f32 - 0.85 * (1.0 - leg)
             + sway * 40.0 * gradient(u, v, columns, 4, seed + 1);
         let t = 2.0 * fract(y) - 1.0;
         let side = 2.0 * leg - 1.0;
