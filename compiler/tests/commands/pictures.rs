@@ -173,7 +173,7 @@ fn wrong_numbers_and_files_are_refused_with_the_range_and_nothing_is_written() {
         (&["preview", "no.asp", "-o", "x.png"], 1, "no.asp"),
         (
             &["preview", "cork.asp", "--name", "oak", "-o", "x.png"],
-            2,
+            1,
             "oak",
         ),
         (
