@@ -9,8 +9,8 @@
 //! | `model/` | the [`model`] between the ends: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
 //! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`library`], [`output`], [`source`], [`raise`] |
-//! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`spectrum`], [`impact`], [`tap_synthesis`] |
-//! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`render`] |
+//! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`resample`], [`spectrum`], [`impact`], [`tap_synthesis`] |
+//! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`listen`], [`render`] |
 //!
 //! [`pipeline`] runs the passes and the back end, and times them: every command that makes an
 //! asset takes this one way. [`scene`] packs several textures within a budget. A command reads its
@@ -42,5 +42,5 @@ pub use front_ends::{
 };
 pub use model::{attributes, defaults, mesh, mixture};
 pub use passes::{reduce, rerate, stabilise, triangulate};
-pub use signal::{impact, level, levinson, lsf, reflection, spectrum, tap_synthesis};
-pub use views::{inspect, plot, preview, render};
+pub use signal::{impact, level, levinson, lsf, reflection, resample, spectrum, tap_synthesis};
+pub use views::{inspect, listen, plot, preview, render};

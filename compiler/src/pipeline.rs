@@ -29,7 +29,8 @@ pub use timings::{Pass, Timings};
 use crate::{
     back_end::{
         lower::{self, Lowered},
-        verify::{self, VerifyReport},
+        raise::raise,
+        verify::{self, VerifyError, VerifyReport},
     },
     model::TextureModel,
     passes::{
@@ -39,25 +40,26 @@ use crate::{
     },
     views::preview,
 };
+use asperity_formats::Asset;
 
 /// Fractions of the way to white noise that are tried in turn on a texture that rings.
 const STABILISED: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// What a user can ask of a compilation, whatever the front end.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Settings<'a> {
+pub struct Settings {
     /// Rate of the models, Hz; that of the source if `None`.
     pub rate_hz: Option<f64>,
     /// How much of the model the asset keeps.
     pub fidelity: Fidelity,
-    /// What the preview shows; none is drawn if `None`.
-    pub preview: Option<Preview<'a>>,
+    /// The preview; none is drawn if `None`.
+    pub preview: Option<Preview>,
     /// Whether a texture that rings without bound in motion is stabilised rather than refused.
     /// The numerator has to be 1 + z⁻¹.
     pub stabilise: bool,
 }
 
-impl Default for Settings<'_> {
+impl Default for Settings {
     fn default() -> Self {
         Self {
             rate_hz: None,
@@ -68,13 +70,19 @@ impl Default for Settings<'_> {
     }
 }
 
-/// What a preview shows besides the grid.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Preview<'a> {
-    /// Families of the nearest materials with their weights; they tint the picture.
-    pub families: &'a [(&'a str, f64)],
-    /// Seed of the relief.
-    pub seed: u64,
+/// How a preview is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Preview {
+    /// Width and height, pixels.
+    pub size_px: u32,
+}
+
+impl Default for Preview {
+    fn default() -> Self {
+        Self {
+            size_px: preview::SIZE,
+        }
+    }
 }
 
 /// A texture that passed verification.
@@ -110,7 +118,7 @@ impl Pipeline {
     pub fn compile(
         &mut self,
         mut whole: TextureModel,
-        settings: &Settings<'_>,
+        settings: &Settings,
     ) -> Result<Compiled, PipelineError> {
         whole.provenance.fidelity = settings.fidelity.to_string();
         if let Some(rate_hz) = settings.rate_hz {
@@ -136,7 +144,7 @@ impl Pipeline {
         &mut self,
         whole: TextureModel,
         stabilised: f64,
-        settings: &Settings<'_>,
+        settings: &Settings,
     ) -> Result<Compiled, PipelineError> {
         let Reduction { texture, report } = self.reduce(&whole, settings.fidelity);
         let preview = match &settings.preview {
@@ -180,17 +188,22 @@ impl Pipeline {
         self.run(Pass::Reduce, || reduce::reduce(texture, fidelity))
     }
 
-    /// A preview of the texture as PNG.
+    /// A preview of the texture as PNG. It is drawn from what an asset keeps of the texture, so
+    /// that it can be drawn again from the asset.
     ///
     /// # Errors
-    /// [`PipelineError::Preview`] when the encoder fails.
+    /// [`PipelineError`] for a size that pictures cannot have, and for a texture that does not fit
+    /// an asset.
     pub fn preview(
         &mut self,
         texture: &TextureModel,
-        preview: &Preview<'_>,
+        preview: &Preview,
     ) -> Result<Vec<u8>, PipelineError> {
-        let draw = || preview::png(&texture.grid, preview.families, preview.seed);
-        Ok(self.run(Pass::Preview, draw)?)
+        self.run(Pass::Preview, || {
+            let lowered = lower::lower(texture, None)?;
+            let asset = Asset::parse(&lowered.bytes).map_err(VerifyError::from)?;
+            Ok(preview::png(&raise(&asset), preview.size_px)?)
+        })
     }
 
     /// The texture as the bytes of an asset.

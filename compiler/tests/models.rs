@@ -19,7 +19,7 @@ use std::{
 };
 
 /// The model in a file, as bytes that say what `direct` says of where they come from.
-fn through_a_file(whole: &TextureModel, settings: &Settings<'_>) -> Vec<u8> {
+fn through_a_file(whole: &TextureModel, settings: &Settings) -> Vec<u8> {
     let read = model_file::from_json(&model_file::to_json(whole)).expect("an emitted model");
     let compiled = Pipeline::default().compile(read, settings);
     compiled
@@ -57,6 +57,7 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
             fidelity,
             rate_hz,
             preview: false,
+            ..prompt::Options::default()
         };
         let authored = author.author(prompt, &options).expect("a texture");
         let settings = Settings {
@@ -70,6 +71,7 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
             fidelity,
             rate_hz,
             preview: false,
+            preview_px: asperity::preview::SIZE,
         };
         let imported = imported(folder.path(), &authored.whole, &options);
         assert_eq!(content(&imported.bytes), content(&authored.lowered.bytes));
@@ -147,6 +149,7 @@ fn a_material_gives_the_same_bytes_through_a_file() {
                 fidelity,
                 rate_hz: None,
                 preview: false,
+                preview_px: asperity::preview::SIZE,
             };
             let imported = imported(folder.path(), &direct.whole, &options);
             assert_eq!(content(&imported.bytes), content(&direct.bytes));
@@ -162,6 +165,7 @@ fn the_example_of_the_documentation_compiles() {
             fidelity,
             rate_hz: None,
             preview,
+            preview_px: asperity::preview::SIZE,
         };
         let imported = model_file::import(Path::new(file), &options).expect("the example");
         let limit_db = if fidelity == Fidelity::Full { 0.1 } else { 1.0 };

@@ -369,8 +369,8 @@ fn the_documented_scene_builds() {
     let options = |seed| Options {
         seed,
         fidelity: Fidelity::Full,
-        rate_hz: None,
         preview: false,
+        ..Options::default()
     };
     let budget = Budget {
         share: 0.05,

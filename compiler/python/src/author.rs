@@ -210,6 +210,7 @@ fn options(seed: Seed, fidelity: Fidelity, rate_hz: Option<f64>, preview: bool) 
         fidelity: fidelity.0,
         rate_hz,
         preview,
+        ..Options::default()
     }
 }
 

@@ -126,6 +126,7 @@ pub(crate) fn import_model(
         fidelity: fidelity.0,
         rate_hz: rate,
         preview,
+        preview_px: asperity::preview::SIZE,
     };
     let imported = py.detach(|| model_file::import(&path, &options).map_err(refused))?;
     let report = imported.json().to_string();

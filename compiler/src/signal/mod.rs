@@ -5,5 +5,6 @@ pub mod level;
 pub mod levinson;
 pub mod lsf;
 pub mod reflection;
+pub mod resample;
 pub mod spectrum;
 pub mod tap_synthesis;

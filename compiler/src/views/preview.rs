@@ -1,223 +1,202 @@
-//! A preview that is drawn from the vibration of a texture, not from a photograph.
+//! What a texture looks like: drawn by `asperity-preview` from what an asset says of it.
 //!
-//! The picture is a relief under one light: a sum of waves with random directions and phases,
-//! whose lengths v/f are drawn from the spectrum at the middle of the grid. The depth of the relief
-//! follows the level, and its tint the families of the nearest materials.
+//! The prompt, or else the name, and the nearest materials, which are the anchors of its friction,
+//! say what is drawn. The level, the spectrum, the friction and the taps move its grain, depth
+//! and gloss.
 
-use crate::model::{ModelGrid, VertexKind};
-use crate::signal::spectrum::ArmaModel;
-use rand_core::{Rng as _, SeedableRng as _};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use std::f64::consts::TAU;
+use crate::{
+    diagnostic::Diagnostic,
+    model::{TextureModel, VertexKind, attributes},
+};
+use asperity_preview::{Description, EncodeError, Feel, SizeError};
 use thiserror::Error;
 
-/// Width and height, pixels.
-pub const SIZE: usize = 192;
-/// Width of the piece of surface that is shown, mm.
-const PATCH_MM: f64 = 14.0;
-/// Waves that make the relief.
-const WAVES: usize = 96;
-/// Frequencies between which the waves are drawn, Hz.
-const BAND_HZ: (f64, f64) = (20.0, 450.0);
-/// Levels between which the relief grows from flat to steep, dB re 1 m/s².
-const LEVELS_DB: (f64, f64) = (-24.0, 16.0);
-/// Brightness of a flat, lit surface.
-const AMBIENT: f64 = 0.72;
-/// Tint of a family that is not in the table.
-const NEUTRAL: [f64; 3] = [0.62, 0.62, 0.62];
-/// Tints of the families of the reference corpus, linear in 0..=1.
-const TINTS: [(&str, [f64; 3]); 20] = [
-    ("abrasives", [0.60, 0.42, 0.28]),
-    ("carpets", [0.50, 0.36, 0.34]),
-    ("ceramics", [0.78, 0.52, 0.40]),
-    ("fabrics", [0.42, 0.50, 0.66]),
-    ("foams", [0.86, 0.82, 0.58]),
-    ("foods", [0.80, 0.62, 0.36]),
-    ("gels", [0.72, 0.78, 0.62]),
-    ("glass", [0.66, 0.80, 0.82]),
-    ("granular", [0.80, 0.72, 0.54]),
-    ("leathers", [0.50, 0.32, 0.22]),
-    ("meshes", [0.52, 0.56, 0.58]),
-    ("metals", [0.70, 0.72, 0.76]),
-    ("organic", [0.48, 0.54, 0.34]),
-    ("papers", [0.88, 0.86, 0.80]),
-    ("piles", [0.58, 0.46, 0.60]),
-    ("plastics", [0.46, 0.58, 0.72]),
-    ("rubbers", [0.30, 0.30, 0.32]),
-    ("stones", [0.60, 0.58, 0.54]),
-    ("wet", [0.54, 0.70, 0.78]),
-    ("woods", [0.68, 0.50, 0.32]),
-];
+pub use asperity_preview::{Picture, SIZE, SIZES};
 
-/// The picture could not be encoded as PNG.
+/// Centroid of a tap where a texture has none, Hz.
+const NO_TAP_HZ: f64 = 800.0;
+
+/// The picture could not be made.
 #[derive(Debug, Error)]
-#[error("the preview: {0}")]
-pub struct PreviewError(#[from] png::EncodingError);
+pub enum PreviewError {
+    /// A size that a picture cannot have.
+    #[error("the preview: {0}")]
+    Size(#[from] SizeError),
+    /// The encoder failed.
+    #[error("the preview: {0}")]
+    Encode(#[from] EncodeError),
+    /// The picture in an asset is none.
+    #[error("the preview in the asset cannot be read: {0}")]
+    Stored(#[from] png::DecodingError),
+}
 
-impl crate::diagnostic::Diagnostic for PreviewError {
+impl Diagnostic for PreviewError {
     fn remedy(&self) -> String {
-        "compile with --no-preview".into()
+        match self {
+            Self::Size(_) => format!("give {} to {} pixels", SIZES.start(), SIZES.end()),
+            Self::Encode(_) => "compile with --no-preview".into(),
+            Self::Stored(_) => "draw it anew with --redraw".into(),
+        }
+    }
+
+    fn is_usage(&self) -> bool {
+        matches!(self, Self::Size(_))
     }
 }
 
-/// The preview as PNG bytes; `families` are the nearest materials' with their weights.
+/// Draws a texture as an asset holds it, `size_px` pixels wide and high.
 ///
 /// # Errors
-/// [`PreviewError`] when the encoder fails.
-pub fn png(grid: &ModelGrid, families: &[(&str, f64)], seed: u64) -> Result<Vec<u8>, PreviewError> {
-    let heights = relief(grid, seed);
-    let pixels = shade(&heights, tint(families));
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, SIZE as u32, SIZE as u32);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&pixels)?;
-    writer.finish()?;
-    Ok(bytes)
+/// [`PreviewError::Size`] for a size out of [`SIZES`].
+pub fn draw(texture: &TextureModel, size_px: u32) -> Result<Picture, PreviewError> {
+    let anchors = texture.friction.anchors.iter();
+    let nearest: Vec<(&str, f64)> = anchors.map(|a| (a.name.as_str(), a.weight)).collect();
+    let prompt = texture.provenance.prompt.as_deref();
+    let description = Description {
+        words: prompt.unwrap_or(&texture.name),
+        nearest: &nearest,
+        feel: feel(texture),
+        seed: texture.provenance.seed,
+    };
+    Ok(Picture::draw(&description, size_px)?)
 }
 
-/// Heights, row by row. Their RMS grows with the level.
-fn relief(grid: &ModelGrid, seed: u64) -> Vec<f64> {
-    let mut heights = vec![0.0; SIZE * SIZE];
-    let interior = || {
-        grid.vertices
-            .iter()
-            .filter(|vertex| vertex.kind == VertexKind::Interior)
-    };
-    let count = interior().count().max(1) as f64;
-    let mean_speed = interior().map(|v| v.speed_mm_s).sum::<f64>() / count;
-    let mean_force = interior().map(|v| v.force_n).sum::<f64>() / count;
-    let distance = |v: &crate::model::GridVertex| {
-        let x = v.speed_mm_s / mean_speed - 1.0;
-        let y = v.force_n / mean_force - 1.0;
-        x * x + y * y
-    };
-    let Some(middle) = interior().min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
-        return heights;
-    };
-    let model = ArmaModel::at_vertex(grid, middle);
-    let Some(vibration) = model.vibration() else {
-        return heights;
-    };
-    let frequencies = quantiles(&model);
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut uniform = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-    for freq_hz in frequencies {
-        let per_pixel = TAU * freq_hz / middle.speed_mm_s * PATCH_MM / SIZE as f64;
-        let (sin, cos) = libm::sincos(TAU * uniform());
-        let (step_x, step_y) = (per_pixel * cos, per_pixel * sin);
-        let phase = TAU * uniform();
-        // By the addition theorem a pixel takes two products instead of a cosine.
-        let columns: Vec<(f64, f64)> = (0..SIZE)
-            .map(|x| libm::sincos(step_x * x as f64 + phase))
-            .collect();
-        for (y, row) in heights.chunks_mut(SIZE).enumerate() {
-            let (sin_y, cos_y) = libm::sincos(step_y * y as f64);
-            for (height, (sin_x, cos_x)) in row.iter_mut().zip(&columns) {
-                *height += cos_x * cos_y - sin_x * sin_y;
-            }
-        }
-    }
-    let level_db = 10.0 * libm::log10(vibration.power);
-    let (low, high) = LEVELS_DB;
-    let depth = ((level_db - low) / (high - low)).clamp(0.02, 1.0);
-    let scale = depth / (WAVES as f64 / 2.0).sqrt();
-    for height in &mut heights {
-        *height *= scale;
-    }
-    heights
+/// The picture as an asset keeps it: PNG with a palette.
+///
+/// # Errors
+/// As [`draw`], and [`PreviewError::Encode`] when the encoder fails.
+pub fn png(texture: &TextureModel, size_px: u32) -> Result<Vec<u8>, PreviewError> {
+    Ok(draw(texture, size_px)?.compact_png()?)
 }
 
-/// Frequencies that split the power of a model into [`WAVES`] equal parts.
-fn quantiles(model: &ArmaModel) -> Vec<f64> {
-    const STEPS: usize = 860;
-    let (low, high) = BAND_HZ;
-    let width = (high - low) / STEPS as f64;
-    let powers: Vec<f64> = (0..STEPS)
-        .map(|step| model.power(low + (step as f64 + 0.5) * width))
+/// A picture that an asset holds, as RGB bytes with its width and height.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Stored {
+    /// Width, pixels.
+    pub width: u32,
+    /// Height, pixels.
+    pub height: u32,
+    /// Three bytes a pixel, row by row.
+    pub rgb: Vec<u8>,
+}
+
+/// Most pixels of a picture that is read back: those of the largest one that is drawn.
+const MOST_PIXELS: usize = (*SIZES.end() as usize) * (*SIZES.end() as usize);
+
+/// Reads the picture of an asset.
+///
+/// # Errors
+/// [`PreviewError::Stored`] for what is no PNG, or larger than any picture that is drawn.
+pub fn stored(bytes: &[u8]) -> Result<Stored, PreviewError> {
+    let limits = png::Limits {
+        bytes: 16 * MOST_PIXELS,
+    };
+    let mut decoder = png::Decoder::new_with_limits(std::io::Cursor::new(bytes), limits);
+    decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::STRIP_16);
+    let mut reader = decoder.read_info()?;
+    let (width, height) = reader.info().size();
+    let length = reader.output_buffer_size();
+    let fits = width as usize * height as usize <= MOST_PIXELS;
+    let Some(length) = length.filter(|_| fits) else {
+        return Err(png::DecodingError::LimitsExceeded.into());
+    };
+    let mut pixels = vec![0; length];
+    let frame = reader.next_frame(&mut pixels)?;
+    let samples = frame.color_type.samples();
+    let rgb = pixels[..frame.buffer_size()]
+        .chunks(samples)
+        .flat_map(|pixel| match *pixel {
+            [r, g, b, ..] => [r, g, b],
+            [grey, ..] => [grey; 3],
+            [] => [0; 3],
+        })
         .collect();
-    let total: f64 = powers.iter().sum();
-    let mut frequencies = Vec::with_capacity(WAVES);
-    let mut sum = 0.0;
-    for (step, power) in powers.iter().enumerate() {
-        sum += power / total;
-        while frequencies.len() < WAVES && (frequencies.len() as f64 + 0.5) / WAVES as f64 <= sum {
-            frequencies.push(low + (step as f64 + 0.5) * width);
-        }
-    }
-    frequencies
+    Ok(Stored { width, height, rgb })
 }
 
-fn tint(families: &[(&str, f64)]) -> [f64; 3] {
-    let of = |family: &str| {
-        TINTS
-            .iter()
-            .find(|(name, _)| *name == family)
-            .map_or(NEUTRAL, |(_, tint)| *tint)
-    };
-    let total: f64 = families.iter().map(|(_, weight)| weight).sum();
-    if total <= 0.0 {
-        return NEUTRAL;
-    }
-    let mut mean = [0.0; 3];
-    for (family, weight) in families {
-        for (sum, channel) in mean.iter_mut().zip(of(family)) {
-            *sum += weight / total * channel;
-        }
-    }
-    mean
-}
-
-/// RGB of a relief lit from the upper left.
-fn shade(heights: &[f64], tint: [f64; 3]) -> Vec<u8> {
-    let at = |x: usize, y: usize| heights[(y % SIZE) * SIZE + x % SIZE];
-    let mut pixels = Vec::with_capacity(3 * SIZE * SIZE);
-    for y in 0..SIZE {
-        for x in 0..SIZE {
-            // The last column and row take the slope of the ones before them.
-            let (x0, y0) = (x.min(SIZE - 2), y.min(SIZE - 2));
-            let slope = at(x0 + 1, y0) - at(x0, y0) + at(x0, y0 + 1) - at(x0, y0);
-            let light = AMBIENT - 0.55 * slope + 0.10 * at(x, y);
-            for channel in tint {
-                let value = 255.0 * (channel * light / AMBIENT).clamp(0.0, 1.0);
-                pixels.push((value + 0.5) as u8);
-            }
-        }
-    }
-    pixels
+/// What of the feel is seen; `None` for a texture without vibration.
+fn feel(texture: &TextureModel) -> Option<Feel> {
+    let attributes = attributes::of(texture);
+    let interior = texture.grid.vertices.iter();
+    let speeds: Vec<f64> = interior
+        .filter(|vertex| vertex.kind == VertexKind::Interior)
+        .map(|vertex| vertex.speed_mm_s)
+        .collect();
+    let speed = speeds.iter().sum::<f64>() / speeds.len().max(1) as f64;
+    Some(Feel {
+        wavelength_mm: speed / attributes.sharp_hz.filter(|hz| *hz > 0.0)?,
+        level_db: attributes.rough_db?,
+        mu: attributes.mu,
+        hard_hz: attributes.hard_hz.unwrap_or(NO_TAP_HZ),
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front_ends::builtin;
+    use crate::{
+        back_end::{lower::lower, raise::raise},
+        front_ends::builtin,
+        pipeline::{Pipeline, Preview, Settings},
+    };
+    use asperity_formats::Asset;
 
-    #[test]
-    fn a_louder_texture_has_more_contrast() {
-        let quiet = builtin::texture().grid;
-        let mut loud = quiet.clone();
-        for vertex in &mut loud.vertices {
-            vertex.sigma_m_s2 *= 3.0;
-        }
-        let contrast = |grid: &ModelGrid| {
-            let heights = relief(grid, 1);
-            heights.iter().map(|h| h * h).sum::<f64>()
-        };
-        assert!(contrast(&loud) > 1.2 * contrast(&quiet));
+    fn named(name: &str) -> TextureModel {
+        let mut texture = builtin::texture();
+        texture.name = name.to_owned();
+        texture
     }
 
     #[test]
-    fn the_same_texture_gives_the_same_bytes_and_a_readable_png() {
-        let grid = builtin::texture().grid;
-        let bytes = png(&grid, &[("abrasives", 0.7), ("unknown", 0.3)], 3).unwrap();
-        assert_eq!(
-            bytes,
-            png(&grid, &[("abrasives", 0.7), ("unknown", 0.3)], 3).unwrap()
-        );
-        let reader = png::Decoder::new(std::io::Cursor::new(&bytes))
-            .read_info()
+    fn a_picture_is_drawn_again_from_the_asset_that_holds_it() {
+        let settings = Settings {
+            preview: Some(Preview::default()),
+            ..Settings::default()
+        };
+        let compiled = Pipeline::default()
+            .compile(named("cork"), &settings)
             .unwrap();
-        assert_eq!(reader.info().size(), (SIZE as u32, SIZE as u32));
+        let asset = Asset::parse(&compiled.lowered.bytes).unwrap();
+        let kept = asset.preview_png().unwrap();
+        assert_eq!(kept, png(&raise(&asset), SIZE).unwrap());
+        assert!(kept.len() <= 25_000, "{} bytes", kept.len());
+        let read = stored(kept).unwrap();
+        assert_eq!((read.width, read.height), (SIZE, SIZE));
+        assert_eq!(read.rgb.len(), 3 * (SIZE * SIZE) as usize);
+    }
+
+    #[test]
+    fn a_louder_texture_has_deeper_relief() {
+        let quiet = named("saddle hide");
+        let mut loud = quiet.clone();
+        for vertex in &mut loud.grid.vertices {
+            vertex.sigma_m_s2 *= 4.0;
+        }
+        // Normals of steeper relief are further from the one that faces the eye.
+        let steepness = |texture: &TextureModel| -> u64 {
+            let normals = draw(texture, 128).unwrap().normal_png().unwrap();
+            let normals = stored(&normals).unwrap().rgb;
+            normals
+                .chunks(3)
+                .map(|n| u64::from(n[0].abs_diff(128)))
+                .sum()
+        };
+        assert!(steepness(&loud) > steepness(&quiet) * 11 / 10);
+    }
+
+    #[test]
+    fn a_texture_without_vibration_has_a_picture() {
+        let mut silent = named("window glass");
+        for vertex in &mut silent.grid.vertices {
+            vertex.sigma_m_s2 = 0.0;
+        }
+        assert!(draw(&silent, 64).is_ok());
+        assert!(matches!(draw(&silent, 63), Err(PreviewError::Size(_))));
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        let bytes = lower(&named("cork"), None).unwrap().bytes;
+        assert!(matches!(stored(&bytes), Err(PreviewError::Stored(_))));
     }
 }

@@ -3,6 +3,7 @@
 mod messages;
 mod models;
 mod outputs;
+mod pictures;
 mod refusals;
 mod results;
 

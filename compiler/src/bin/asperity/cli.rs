@@ -1,6 +1,8 @@
 //! The command line: commands, arguments, help.
 
-use asperity::{inference::BackendName, reduce::Fidelity, scene::Target, text::TextEncoderChoice};
+use asperity::{
+    inference::BackendName, preview, reduce::Fidelity, scene::Target, text::TextEncoderChoice,
+};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -46,6 +48,10 @@ pub(crate) enum Command {
     Inspect(Inspect),
     /// Draw a texture on one sheet: poles, spectra, taps, grid, friction
     Plot(Plot),
+    /// Show what a texture looks like: its picture, height map and normal map
+    Preview(Preview),
+    /// Hear strokes and taps as the runtime renders them
+    Listen(Listen),
     /// Run a trajectory through the runtime, offline
     Render(Render),
     /// Show which encoders, models and back ends were found
@@ -85,6 +91,9 @@ pub(crate) struct Compile {
     /// Draw no preview
     #[arg(long)]
     pub(crate) no_preview: bool,
+    /// Width and height of the preview, pixels: 64 to 1024
+    #[arg(long, value_name = "PX", default_value_t = preview::SIZE, value_parser = pixels, conflicts_with = "no_preview")]
+    pub(crate) preview_size: u32,
     /// Draw the texture on one sheet, as `asperity plot` does
     #[arg(long, value_name = "FILE.png")]
     pub(crate) plot: Option<PathBuf>,
@@ -141,6 +150,22 @@ fn percent(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(percent) if percent > 0.0 && percent <= 100.0 => Ok(percent),
         _ => Err("above 0, at most 100".to_owned()),
+    }
+}
+
+fn pixels(text: &str) -> Result<u32, String> {
+    let sizes = preview::SIZES;
+    match text.parse() {
+        Ok(pixels) if sizes.contains(&pixels) => Ok(pixels),
+        _ => Err(format!("{} to {} pixels", sizes.start(), sizes.end())),
+    }
+}
+
+/// A number between two, for options that state a quantity.
+fn within(text: &str, low: f32, high: f32) -> Result<f32, String> {
+    match text.parse() {
+        Ok(value) if (low..=high).contains(&value) => Ok(value),
+        _ => Err(format!("{low} to {high}")),
     }
 }
 
@@ -242,6 +267,9 @@ pub(crate) struct ImportModel {
     /// Draw no preview
     #[arg(long)]
     pub(crate) no_preview: bool,
+    /// Width and height of the preview, pixels: 64 to 1024
+    #[arg(long, value_name = "PX", default_value_t = preview::SIZE, value_parser = pixels, conflicts_with = "no_preview")]
+    pub(crate) preview_size: u32,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -334,5 +362,80 @@ pub(crate) struct Render {
     pub(crate) rate: Option<f32>,
     /// One texture of a library, by name or index from 0
     #[arg(long, value_name = "NAME|INDEX")]
+    pub(crate) texture: Option<String>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Without an option, the picture that the asset holds is written as it is. With \
+--redraw, --size, --height or --normal, or where the asset holds none, pictures are drawn anew in \
+all their colours from what the asset says: prompt or name, seed, nearest materials, and how the \
+texture feels. All of them repeat in both directions. Heights have 16 bits and are linear. Normals \
+are in tangent space with green up, as glTF and OpenGL have them.
+
+Examples:
+  asperity preview grit.asp -o grit.png
+  asperity preview hatt.aspl --texture Cork -o cork.png
+  asperity preview grit.asp -o grit.png --size 1024 --height grit-height.png --normal grit-normal.png"
+)]
+pub(crate) struct Preview {
+    /// An asset (.asp) or a library (.aspl); `-` is standard input
+    pub(crate) file: PathBuf,
+    /// The picture to write, PNG; `-` is standard output
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// Width and height, pixels: 64 to 1024
+    #[arg(long, value_name = "PX", value_parser = pixels)]
+    pub(crate) size: Option<u32>,
+    /// Draw the picture anew, even if the asset holds one
+    #[arg(long)]
+    pub(crate) redraw: bool,
+    /// Write the heights as well
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) height: Option<PathBuf>,
+    /// Write the normals as well
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) normal: Option<PathBuf>,
+    /// One texture of a library, by name or index from 0
+    #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
+    pub(crate) texture: Option<String>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Six strokes, at two forces and three speeds, and three taps, unless options ask \
+for others. They are the accelerations that the runtime renders at the rate of a servo loop, \
+before device gain, resampled to 44.1 kHz. Strokes share one gain and taps another, each such \
+that the loudest sample is 1 dB below full scale; the report states both. The same file, options \
+and seed give the same bytes.
+
+Examples:
+  asperity listen grit.asp -o grit.wav
+  asperity listen grit.asp -o fast.wav --speed 200 --force 1.5
+  asperity listen hatt.aspl --texture Cork -o taps.wav --taps"
+)]
+pub(crate) struct Listen {
+    /// An asset (.asp) or a library (.aspl); `-` is standard input
+    pub(crate) file: PathBuf,
+    /// The sound to write, WAV of 16 bits at 44.1 kHz; `-` is standard output
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// One stroke at this speed, mm/s: 1 to 1000 [with --force alone: 100]
+    #[arg(long, value_name = "MM_S", value_parser = |text: &str| within(text, 1.0, 1000.0))]
+    pub(crate) speed: Option<f32>,
+    /// One stroke at this normal force, N: 0.05 to 20 [with --speed alone: 1]
+    #[arg(long, value_name = "N", value_parser = |text: &str| within(text, 0.05, 20.0))]
+    pub(crate) force: Option<f32>,
+    /// Taps, and no stroke unless one is asked for
+    #[arg(long)]
+    pub(crate) taps: bool,
+    /// Seed of the excitation
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Rate of the servo loop, 1 to 20 times that of the texture [default: the texture's]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f32>,
+    /// One texture of a library, by name or index from 0
+    #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
 }

@@ -20,6 +20,8 @@ pub struct Options {
     pub rate_hz: Option<f64>,
     /// Whether a preview is drawn.
     pub preview: bool,
+    /// Width and height of the preview, pixels.
+    pub preview_px: u32,
 }
 
 /// Imports a model: read, check, compile, compare with the source.
@@ -34,8 +36,7 @@ pub fn import(file: &Path, options: &Options) -> Result<Imported, ModelFileError
         rate_hz: options.rate_hz,
         fidelity: options.fidelity,
         preview: options.preview.then_some(Preview {
-            families: &[],
-            seed: whole.provenance.seed,
+            size_px: options.preview_px,
         }),
         stabilise: false,
     };

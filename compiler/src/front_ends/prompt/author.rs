@@ -116,16 +116,11 @@ impl Author {
             pipeline.run(Pass::Decode, || self.decode(&z, prompt, options.seed))?;
         adjust::adjust(&mut texture, &shift);
         let nearest = self.nearest(&neighbours);
-        let families: Vec<(&str, f64)> = nearest
-            .iter()
-            .map(|near| (near.family.as_str(), near.weight))
-            .collect();
         let settings = Settings {
             rate_hz: options.rate_hz,
             fidelity: options.fidelity,
             preview: options.preview.then_some(Preview {
-                families: &families,
-                seed: options.seed,
+                size_px: options.preview_px,
             }),
             // Latents far from anything trained can decode to models that ring.
             stabilise: true,

@@ -21,6 +21,8 @@ pub struct Options {
     pub rate_hz: Option<f64>,
     /// Whether a preview is drawn.
     pub preview: bool,
+    /// Width and height of the preview, pixels.
+    pub preview_px: u32,
 }
 
 impl Default for Options {
@@ -30,6 +32,7 @@ impl Default for Options {
             fidelity: Fidelity::Auto,
             rate_hz: None,
             preview: true,
+            preview_px: crate::views::preview::SIZE,
         }
     }
 }

@@ -5,4 +5,4 @@
 mod roots;
 mod sheet;
 
-pub use sheet::{AssetBytes, HEIGHT_PX, WIDTH_PX, sheet};
+pub use sheet::{AssetBytes, HEIGHT_PX, WIDTH_PX, sheet, sheet_with_picture};

@@ -24,6 +24,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         fidelity: args.fidelity,
         rate_hz: args.rate,
         preview: !args.no_preview,
+        preview_px: args.preview_size,
     };
     let authored = author.author(&args.prompt, &options).map_err(one)?;
     if let Some(file) = sheet {

@@ -16,6 +16,7 @@ pub(crate) fn run(args: &ImportModel, console: Console) -> Result<(), Failures> 
         fidelity: args.fidelity,
         rate_hz: args.rate,
         preview: !args.no_preview,
+        preview_px: args.preview_size,
     };
     let imported = model_file::import(&args.input, &options).map_err(one)?;
     let mut pipeline = Pipeline::default();

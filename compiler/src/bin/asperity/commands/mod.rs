@@ -8,8 +8,10 @@ mod import_hatt;
 mod import_model;
 mod inference;
 mod inspect;
+mod listen;
 mod outputs;
 mod plot;
+mod preview;
 mod render;
 mod timings;
 
@@ -27,6 +29,8 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
         Command::Builtin(args) => builtin::run(&args, console),
         Command::Inspect(args) => inspect::run(&args, console),
         Command::Plot(args) => plot::run(&args),
+        Command::Preview(args) => preview::run(&args, console),
+        Command::Listen(args) => listen::run(&args, console),
         Command::Render(args) => render::run(&args, console),
     }
 }

@@ -5,6 +5,7 @@ use asperity::{
     diagnostic::{Diagnostic, Failures, one},
     output::Outputs,
     plot::{self, AssetBytes},
+    preview,
     raise::raise,
     source::Source,
 };
@@ -40,5 +41,10 @@ pub(super) fn drawn(asset: &Asset<'_>) -> Result<Vec<u8>, Failures> {
         haptic: asset.haptic_len(),
         total: asset.total_len(),
     };
-    plot::sheet(&raise(asset), Some(sizes)).map_err(|e| one(DrawError(e)))
+    // A picture that cannot be read leaves its place empty; `asperity preview` says why.
+    let picture = asset
+        .preview_png()
+        .and_then(|png| preview::stored(png).ok());
+    plot::sheet_with_picture(&raise(asset), Some(sizes), picture.as_ref())
+        .map_err(|e| one(DrawError(e)))
 }

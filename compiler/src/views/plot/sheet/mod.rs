@@ -6,13 +6,14 @@ mod grid;
 mod header;
 mod layout;
 mod level;
+mod picture;
 mod poles;
 mod spectra;
 mod taps;
 
 use asperity_plot::{Canvas, PlotError, Rect};
 
-use crate::model::TextureModel;
+use crate::{model::TextureModel, views::preview::Stored};
 
 pub use header::AssetBytes;
 
@@ -22,6 +23,8 @@ pub const WIDTH_PX: u32 = 2400;
 pub const HEIGHT_PX: u32 = 1600;
 
 const HEADER_HEIGHT: f32 = 186.0;
+const PICTURE_TOP: f32 = 24.0;
+const PICTURE_MARGIN: f32 = 40.0;
 const UPPER_HEIGHT: f32 = 670.0;
 const LOWER_HEIGHT: f32 = 736.0;
 
@@ -33,18 +36,35 @@ const LOWER_HEIGHT: f32 = 736.0;
 /// # Errors
 /// [`PlotError`] if the embedded font or the PNG encoder fails.
 pub fn sheet(model: &TextureModel, bytes: Option<AssetBytes>) -> Result<Vec<u8>, PlotError> {
-    compose(model, bytes)?.png()
+    sheet_with_picture(model, bytes, None)
 }
 
-fn compose(model: &TextureModel, bytes: Option<AssetBytes>) -> Result<Canvas, PlotError> {
+/// As [`sheet`], with the preview of the asset in the corner of the header, if there is one.
+///
+/// # Errors
+/// As [`sheet`].
+pub fn sheet_with_picture(
+    model: &TextureModel,
+    bytes: Option<AssetBytes>,
+    picture: Option<&Stored>,
+) -> Result<Vec<u8>, PlotError> {
+    compose(model, bytes, picture)?.png()
+}
+
+fn compose(
+    model: &TextureModel,
+    bytes: Option<AssetBytes>,
+    picture: Option<&Stored>,
+) -> Result<Canvas, PlotError> {
     let mut canvas = Canvas::new(WIDTH_PX, HEIGHT_PX)?;
     let width = WIDTH_PX as f32;
-    header::draw(
-        &mut canvas,
-        Rect::new(0.0, 0.0, width, HEADER_HEIGHT),
-        model,
-        bytes,
-    );
+    let mut header = Rect::new(0.0, 0.0, width, HEADER_HEIGHT);
+    if let Some(picture) = picture {
+        let left = width - picture::SIDE - PICTURE_MARGIN;
+        picture::draw(&mut canvas, (left, PICTURE_TOP), picture);
+        header.width = left;
+    }
+    header::draw(&mut canvas, header, model, bytes);
 
     let top = HEADER_HEIGHT;
     poles::draw(

@@ -80,7 +80,7 @@ fn drawn(model: &TextureModel) -> Vec<u8> {
 }
 
 fn composed(model: &TextureModel) -> Canvas {
-    compose(model, None).expect("every model draws")
+    compose(model, None, None).expect("every model draws")
 }
 
 /// Width, height and RGB pixels of a PNG.
@@ -169,4 +169,36 @@ fn extreme_words_and_taps_draw() {
     composed(&model);
     model.taps.traces[0].accel_m_s2 = vec![f64::NAN, f64::INFINITY];
     composed(&model);
+}
+
+#[test]
+fn the_preview_stands_in_the_corner_of_the_header() {
+    let model = texture(4, 3, Numerator::None, 1.0);
+    let red = Stored {
+        width: 4,
+        height: 2,
+        rgb: [200, 30, 30].repeat(8),
+    };
+    let pixel = |picture: Option<&Stored>| {
+        let png = sheet_with_picture(&model, None, picture).expect("a sheet");
+        let sheet = crate::views::preview::stored(&png);
+        // The sheet is larger than any picture that is drawn, so it is not read as one.
+        assert!(sheet.is_err());
+        let mut reader = png::Decoder::new(std::io::Cursor::new(png))
+            .read_info()
+            .expect("a PNG");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+        reader.next_frame(&mut pixels).expect("a frame");
+        let (x, y) = (WIDTH_PX as usize - 100, 100);
+        let at = 3 * (y * WIDTH_PX as usize + x);
+        [pixels[at], pixels[at + 1], pixels[at + 2]]
+    };
+    assert_eq!(pixel(Some(&red)), [200, 30, 30]);
+    assert_eq!(pixel(None), [255; 3]);
+    let empty = Stored {
+        width: 4,
+        height: 2,
+        rgb: Vec::new(),
+    };
+    assert_eq!(pixel(Some(&empty)), [255; 3], "nothing to draw");
 }

@@ -1,0 +1,131 @@
+//! Pictures of textures: what a material looks like, from its words, its neighbours and its feel.
+//!
+//! | file | says |
+//! |---|---|
+//! | [`description`](Description) | what a picture is made of |
+//! | `words`, `table`, `choose` | which pattern, in which colours: `data/materials.toml` |
+//! | `pattern/` | a synthesis for each pattern class |
+//! | `noise`, `surface` | what they draw with; all repeats after one patch |
+//! | `light`, `palette`, `encode` | one light, few colours, PNG |
+//!
+//! The same description gives the same bytes on every machine: + − × ÷ √ in 32 bits, and `libm`.
+//!
+//! ```
+//! use asperity_preview::{Description, Picture, SIZE};
+//!
+//! let cork = Description { words: "cork", nearest: &[], feel: None, seed: 0 };
+//! let png = Picture::draw(&cork, SIZE)?.compact_png()?;
+//! assert!(png.len() <= asperity_preview::COMPACT_BYTES);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod choose;
+mod color;
+mod description;
+mod encode;
+mod light;
+mod look;
+mod noise;
+mod palette;
+mod pattern;
+mod surface;
+mod table;
+mod words;
+
+pub use description::{Description, Feel};
+pub use encode::EncodeError;
+
+use std::ops::RangeInclusive;
+use surface::Surface;
+use thiserror::Error;
+
+/// Width and height of a preview in an asset, pixels.
+pub const SIZE: u32 = 256;
+/// Sizes that a picture can have, pixels.
+pub const SIZES: RangeInclusive<u32> = 64..=1024;
+/// Bytes that a preview of the usual size takes at most.
+pub const COMPACT_BYTES: usize = 24_000;
+
+/// A size that a picture cannot have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("{0} pixels: a picture has {first} to {last}", first = SIZES.start(), last = SIZES.end())]
+pub struct SizeError(pub u32);
+
+/// A square picture that repeats in both directions.
+#[derive(Debug, Clone)]
+pub struct Picture {
+    surface: Surface,
+    pixels: Vec<[u8; 3]>,
+}
+
+impl Picture {
+    /// Draws a description, `size` pixels wide and high.
+    ///
+    /// # Errors
+    /// [`SizeError`] for a size out of [`SIZES`].
+    pub fn draw(description: &Description<'_>, size: u32) -> Result<Self, SizeError> {
+        if !SIZES.contains(&size) {
+            return Err(SizeError(size));
+        }
+        let look = choose::choose(description);
+        let mut surface = pattern::draw(&look, size as usize);
+        for (k, texel) in surface.texels.iter_mut().enumerate() {
+            texel.height *= look.relief;
+            if look.grain.1 > 0.0 {
+                let place = |pixel: usize| (pixel as f32 + 0.5) / size as f32;
+                let (u, v) = (place(k % size as usize), place(k / size as usize));
+                let (cells, strength) = look.grain;
+                texel.height += strength * noise::gradient(u, v, cells, cells, look.seed ^ 5);
+            }
+        }
+        let pixels = light::shade(&surface);
+        Ok(Self { surface, pixels })
+    }
+
+    /// Width and height, pixels.
+    #[must_use]
+    pub fn size(&self) -> u32 {
+        self.surface.size as u32
+    }
+
+    /// sRGB pixels, row by row.
+    #[must_use]
+    pub fn pixels(&self) -> &[[u8; 3]] {
+        &self.pixels
+    }
+
+    /// The picture as PNG with every colour.
+    ///
+    /// # Errors
+    /// [`EncodeError`] when the encoder fails.
+    pub fn png(&self) -> Result<Vec<u8>, EncodeError> {
+        encode::color(&self.pixels, self.surface.size)
+    }
+
+    /// The picture as PNG with a palette: at most [`COMPACT_BYTES`] at [`SIZE`] pixels, and as
+    /// many bytes a pixel at other sizes.
+    ///
+    /// # Errors
+    /// [`EncodeError`] when the encoder fails.
+    pub fn compact_png(&self) -> Result<Vec<u8>, EncodeError> {
+        let limit = COMPACT_BYTES * self.pixels.len() / (SIZE * SIZE) as usize;
+        encode::compact(&self.pixels, self.surface.size, limit)
+    }
+
+    /// Heights as PNG: 16 bits, linear, from the lowest to the highest.
+    ///
+    /// # Errors
+    /// [`EncodeError`] when the encoder fails.
+    pub fn height_png(&self) -> Result<Vec<u8>, EncodeError> {
+        encode::height(&self.surface)
+    }
+
+    /// Normals in tangent space as PNG: linear, green up, as glTF wants them.
+    ///
+    /// # Errors
+    /// [`EncodeError`] when the encoder fails.
+    pub fn normal_png(&self) -> Result<Vec<u8>, EncodeError> {
+        encode::normals(&light::slopes(&self.surface), self.surface.size)
+    }
+}

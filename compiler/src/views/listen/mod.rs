@@ -1,0 +1,254 @@
+//! Strokes and taps as sound: what the runtime renders for a hand that does one after the other.
+
+mod hand;
+mod sound;
+
+use crate::{back_end::raise::raise, diagnostic::Diagnostic, signal::resample::resample};
+use asperity_formats::Asset;
+use asperity_runtime::{Config, ConfigError, HostTexture, LoadError, Renderer};
+use hand::Hand;
+use thiserror::Error;
+
+/// Rate of the sound, Hz.
+pub const SOUND_HZ: u32 = 44_100;
+/// Speeds of the usual strokes, mm/s.
+const SPEEDS_MM_S: [f32; 3] = [40.0, 100.0, 200.0];
+/// Forces of the usual strokes, N.
+const FORCES_N: [f32; 2] = [0.4, 1.2];
+/// Time of one of the usual strokes, and of a single one, s.
+const STROKE_S: (f32, f32) = (1.0, 3.0);
+/// Silence after a stroke or a tap, s.
+const PAUSE_S: f32 = 0.25;
+
+/// A stroke along a line, in contact from its beginning to its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Speed between its ends, mm/s.
+    pub speed_mm_s: f32,
+    /// Normal force, N.
+    pub force_n: f32,
+    /// Time, s.
+    pub time_s: f32,
+}
+
+/// What the hand does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Session {
+    /// Strokes, one after the other.
+    pub strokes: Vec<Stroke>,
+    /// Whether taps follow: slow, middling and fast among those that the texture holds.
+    pub taps: bool,
+}
+
+impl Session {
+    /// A few strokes and taps.
+    #[must_use]
+    pub fn usual() -> Self {
+        let stroke = |force_n| {
+            SPEEDS_MM_S.map(|speed_mm_s| Stroke {
+                speed_mm_s,
+                force_n,
+                time_s: STROKE_S.0,
+            })
+        };
+        Self {
+            strokes: FORCES_N.into_iter().flat_map(stroke).collect(),
+            taps: true,
+        }
+    }
+
+    /// What options ask for: a stroke of this speed or force, taps alone, or the usual.
+    #[must_use]
+    pub fn asked(speed_mm_s: Option<f32>, force_n: Option<f32>, taps: bool) -> Self {
+        if speed_mm_s.is_none() && force_n.is_none() {
+            let strokes = if taps {
+                Vec::new()
+            } else {
+                Self::usual().strokes
+            };
+            return Self {
+                strokes,
+                taps: true,
+            };
+        }
+        let stroke = Stroke {
+            speed_mm_s: speed_mm_s.unwrap_or(SPEEDS_MM_S[1]),
+            force_n: force_n.unwrap_or(1.0),
+            time_s: STROKE_S.1,
+        };
+        Self {
+            strokes: vec![stroke],
+            taps,
+        }
+    }
+}
+
+/// What is heard.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heard {
+    /// A mono WAV file of 16 bits at [`SOUND_HZ`].
+    pub wav: Vec<u8>,
+    /// Its time, s.
+    pub seconds: f64,
+    /// Strokes heard, and their gain.
+    pub strokes: Part,
+    /// Taps heard, and their gain.
+    pub taps: Part,
+    /// What a user should know.
+    pub warnings: Vec<String>,
+}
+
+/// One part of what is heard.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    /// Strokes or taps.
+    pub count: usize,
+    /// Largest acceleration, m/s².
+    pub peak_m_s2: f64,
+    /// Full scales for 1 m/s²; 0 for silence.
+    pub gain_per_m_s2: f64,
+}
+
+/// Why a texture cannot be heard.
+#[derive(Debug, Error)]
+pub enum ListenError {
+    /// The rate is no servo rate.
+    #[error("{texture}: {cause}")]
+    Config {
+        /// Name of the texture.
+        texture: String,
+        /// Why.
+        cause: ConfigError,
+    },
+    /// The texture does not fit the runtime's slot, or its rate not the loop's.
+    #[error("{texture}: {cause}")]
+    Load {
+        /// Name of the texture.
+        texture: String,
+        /// Why.
+        cause: LoadError,
+    },
+    /// Nothing to hear was asked for.
+    #[error("{texture}: it holds no taps")]
+    NoTaps {
+        /// Name of the texture.
+        texture: String,
+    },
+    /// The encoder failed.
+    #[error("the sound cannot be encoded: {0}")]
+    Wav(#[from] hound::Error),
+}
+
+impl Diagnostic for ListenError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Config { .. } => "give --rate a servo rate, e.g. 1000".into(),
+            Self::Load { .. } => "give --rate 1 to 20 times the texture's own rate".into(),
+            Self::NoTaps { .. } => "listen to strokes: leave out --taps".into(),
+            Self::Wav(_) => "free memory and try again".into(),
+        }
+    }
+
+    fn is_usage(&self) -> bool {
+        matches!(self, Self::Config { .. } | Self::NoTaps { .. })
+    }
+}
+
+/// Renders a session on the texture of an asset in a loop at `rate_hz`, or at the texture's own
+/// rate. The same asset, session and seed give the same bytes.
+///
+/// # Errors
+/// [`ListenError`].
+pub fn listen(
+    asset: &Asset<'_>,
+    session: &Session,
+    rate_hz: Option<f32>,
+    seed: u64,
+) -> Result<Heard, ListenError> {
+    let texture = || asset.name().to_owned();
+    let speeds = tap_speeds(asset);
+    if session.strokes.is_empty() && speeds.is_empty() {
+        return Err(ListenError::NoTaps { texture: texture() });
+    }
+    let rate_hz = rate_hz.unwrap_or(asset.grid().sample_rate_hz());
+    let config = Config {
+        servo_rate_hz: rate_hz,
+        ..Config::default()
+    };
+    let renderer = Renderer::new(&config).map_err(|cause| ListenError::Config {
+        texture: texture(),
+        cause,
+    })?;
+    let mut slot = Box::new(HostTexture::new());
+    slot.load(asset, rate_hz)
+        .map_err(|cause| ListenError::Load {
+            texture: texture(),
+            cause,
+        })?;
+    let hand = Hand {
+        renderer: &renderer,
+        texture: &slot,
+        coupling: *asset.coupling(),
+        rate_hz,
+        seed,
+    };
+    let mut warnings = Vec::new();
+    let mut scraping = Vec::new();
+    for (index, stroke) in session.strokes.iter().enumerate() {
+        scraping.extend(hand.stroke(stroke, index as u64));
+        scraping.extend(hand.silence(PAUSE_S));
+    }
+    let mut tapping = Vec::new();
+    if session.taps {
+        if speeds.is_empty() {
+            warnings.push("the texture holds no taps".to_owned());
+        }
+        for &speed_m_s in &speeds {
+            tapping.extend(hand.tap(speed_m_s));
+            tapping.extend(hand.silence(PAUSE_S));
+        }
+    }
+    let fastest = raise(asset)
+        .grid
+        .vertices
+        .iter()
+        .fold(0.0, |v, x| x.speed_mm_s.max(v));
+    if session
+        .strokes
+        .iter()
+        .any(|s| f64::from(s.speed_mm_s) > fastest)
+    {
+        warnings.push(format!(
+            "the texture is known up to {fastest:.0} mm/s; faster strokes sound as at that speed"
+        ));
+    }
+    let raised = |signal: &[f64]| resample(signal, rate_hz.round() as u32, SOUND_HZ);
+    let (scraping, tapping) = (raised(&scraping), raised(&tapping));
+    let strokes = sound::part(session.strokes.len(), &scraping);
+    let taps = sound::part(if session.taps { speeds.len() } else { 0 }, &tapping);
+    if strokes.count > 0 && strokes.gain_per_m_s2 == 0.0 {
+        warnings.push("the strokes are silent: the texture does not vibrate".to_owned());
+    }
+    let samples = sound::levelled(&[(&scraping, &strokes), (&tapping, &taps)]);
+    Ok(Heard {
+        seconds: samples.len() as f64 / f64::from(SOUND_HZ),
+        wav: sound::wav(&samples)?,
+        strokes,
+        taps,
+        warnings,
+    })
+}
+
+/// The slowest, the middle and the fastest impact speed that the asset has a trace for, m/s.
+fn tap_speeds(asset: &Asset<'_>) -> Vec<f32> {
+    let speeds: Vec<f32> = asset.taps().traces().map(|trace| trace.speed_m_s).collect();
+    let Some(last) = speeds.len().checked_sub(1) else {
+        return Vec::new();
+    };
+    let mut chosen = vec![speeds[0], speeds[last / 2], speeds[last]];
+    chosen.dedup();
+    chosen
+}
+
+#[cfg(test)]
+mod tests;
