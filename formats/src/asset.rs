@@ -1,10 +1,11 @@
 //! The asset: one texture, as a validated view of its bytes.
 
 use crate::{
-    Coupling, FormatError, Friction, Grid, Provenance, SectionInfo, Taps,
+    Coupling, FormatError, Friction, Grid, Latents, Provenance, SectionInfo, Taps,
     checksum::crc32,
     friction::text,
     header::{self, HAPTIC, Header},
+    limits,
 };
 
 /// One texture, borrowed from bytes whose every claim was checked.
@@ -111,6 +112,8 @@ impl<'a> Asset<'a> {
                 reason: "is not a PNG",
             });
         }
+        find(header::LATENT).map(Latents::parse).transpose()?;
+        find(header::HISTORY).map(history).transpose()?;
         Ok(asset)
     }
 
@@ -159,8 +162,30 @@ impl<'a> Asset<'a> {
     /// Preview image, PNG; absent after [`Asset::parse_haptic`].
     #[must_use]
     pub fn preview_png(&self) -> Option<&'a [u8]> {
-        let section = self.sections().find(|s| s.tag == header::PREVIEW)?;
-        self.bytes.get(section.offset..section.offset + section.len)
+        self.tagged(header::PREVIEW)
+    }
+
+    fn tagged(&self, tag: [u8; 4]) -> Option<&'a [u8]> {
+        self.section(&self.sections().find(|s| s.tag == tag)?)
+    }
+
+    /// The latents it was decoded from; absent after [`Asset::parse_haptic`].
+    #[must_use]
+    pub fn latents(&self) -> Option<Latents<'a>> {
+        Latents::parse(self.tagged(header::LATENT)?).ok()
+    }
+
+    /// How it was made and edited, JSON; absent after [`Asset::parse_haptic`].
+    #[must_use]
+    pub fn history(&self) -> Option<&'a str> {
+        history(self.tagged(header::HISTORY)?).ok()
+    }
+
+    /// Bytes of one section; `None` if it is not there, or behind what was parsed.
+    #[must_use]
+    pub fn section(&self, section: &SectionInfo) -> Option<&'a [u8]> {
+        self.bytes
+            .get(section.offset..section.offset.checked_add(section.len)?)
     }
 
     /// Bytes a runtime needs: header, table and haptic sections.
@@ -186,4 +211,16 @@ fn body<'a>(bytes: &'a [u8], section: &SectionInfo) -> &'a [u8] {
     bytes
         .get(section.offset..section.offset.saturating_add(section.len))
         .unwrap_or_default()
+}
+
+/// The text of the history, which nothing but the compiler reads any further.
+fn history(bytes: &[u8]) -> Result<&str, FormatError> {
+    let reject = |reason| FormatError::Section {
+        tag: header::HISTORY,
+        reason,
+    };
+    if bytes.len() > limits::MAX_HISTORY_BYTES {
+        return Err(reject("is longer than 65536 bytes"));
+    }
+    core::str::from_utf8(bytes).map_err(|_| reject("is not UTF-8"))
 }
