@@ -268,6 +268,7 @@ impl Reader {
 
     /// Checks all textures together.
     fn manifest(mut self, file: &Path) -> Result<Manifest, Vec<ManifestError>> {
+        let complete = self.errors.is_empty();
         let mut drafts = std::mem::take(&mut self.drafts);
         // Stable: of two textures of one name, the first stays first.
         drafts.sort_by(|a, b| a.name.cmp(&b.name));
@@ -289,7 +290,6 @@ impl Reader {
             .map(|(index, draft)| (draft.name.clone(), index))
             .collect();
         let mut entries = Vec::with_capacity(drafts.len());
-        let complete = self.errors.is_empty();
         for draft in drafts {
             if let Some(origin) = self.resolved(draft.origin, &draft.place, &index, complete) {
                 entries.push(Entry {
