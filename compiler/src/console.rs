@@ -99,6 +99,12 @@ impl Console {
         progress::bar(self.quiet, steps, what)
     }
 
+    /// A progress bar with rate and time left, where [`bar`](Self::bar) has one.
+    #[must_use]
+    pub fn rated_bar(&self, steps: usize, what: &'static str) -> ProgressBar {
+        progress::rated_bar(self.quiet, steps, what)
+    }
+
     /// What is being done, on standard error where that is a terminal, else nothing.
     #[must_use]
     pub fn activity(&self) -> ProgressBar {

@@ -1,14 +1,16 @@
 //! The Asperity compiler: textures in, compact and verified haptic assets out.
 //!
 //! A texture passes the source folders from a front end over the model and the passes to the back
-//! end; the other two serve all of them:
+//! end; the others serve all of them:
 //!
 //! | folder | holds |
 //! |---|---|
 //! | `front_ends/` | what makes a texture: [`prompt`] with its [`text`] encoders and the [`learned`] model, [`hatt`], [`model_file`], [`builtin`] |
 //! | `model/` | the [`model`] between the ends: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
-//! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`library`], [`output`], [`source`], [`raise`] |
+//! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`output`], [`source`], [`raise`] |
+//! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
+//! | `edit/` | mixing and editing in the latent: [`edit`] |
 //! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`resample`], [`spectrum`], [`impact`], [`tap_synthesis`] |
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`listen`], [`render`] |
 //!
@@ -27,7 +29,9 @@ mod views;
 
 pub mod console;
 pub mod diagnostic;
+pub mod edit;
 pub mod input;
+pub mod library;
 pub mod model;
 pub mod pipeline;
 pub mod progress;
@@ -36,11 +40,11 @@ pub mod shown;
 pub mod toml_error;
 
 // Users name a module without its folder, so that files can move between the stages.
-pub use back_end::{library, lower, output, raise, source, verify};
+pub use back_end::{lower, output, raise, source, verify};
 pub use front_ends::{
     builtin, embedded, hatt, imported, inference, learned, model_file, prompt, text,
 };
 pub use model::{attributes, defaults, mesh, mixture};
-pub use passes::{reduce, rerate, stabilise, triangulate};
+pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};
 pub use signal::{impact, level, levinson, lsf, reflection, resample, spectrum, tap_synthesis};
 pub use views::{inspect, listen, plot, preview, render};

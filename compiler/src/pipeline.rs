@@ -3,7 +3,7 @@
 //! A front end makes a [`TextureModel`]; [`Pipeline::compile`] takes it through the passes
 //!
 //! ```text
-//! rerate → reduce → preview → lower → verify
+//! rerate → reduce → ceiling → preview → lower → verify
 //! ```
 //!
 //! each of which is a method, so that a search over fidelities, as for a [scene](crate::scene),
@@ -16,7 +16,7 @@
 //! let compiled = pipeline.compile(builtin::texture(), &Settings::default())?;
 //! assert_eq!(&compiled.lowered.bytes[..4], b"ASPT");
 //! let passes: Vec<&str> = pipeline.timings().iter().map(|(pass, _)| pass.name()).collect();
-//! assert_eq!(passes, ["reduce", "lower", "verify"]);
+//! assert_eq!(passes, ["reduce", "ceiling", "lower", "verify"]);
 //! # Ok::<(), asperity::pipeline::PipelineError>(())
 //! ```
 
@@ -34,6 +34,7 @@ use crate::{
     },
     model::TextureModel,
     passes::{
+        ceiling,
         reduce::{self, Fidelity, Reduction},
         rerate,
         stabilise::stabilise,
@@ -90,7 +91,7 @@ impl Default for Preview {
 pub struct Compiled {
     /// The whole texture before reduction, at its rate, and stabilised where it had to be.
     pub whole: TextureModel,
-    /// The texture that the asset holds.
+    /// The texture that the asset holds, with gains that the [ceiling] allows.
     pub texture: TextureModel,
     /// What the fidelity left out, and what that cost.
     pub reduction: reduce::Report,
@@ -146,7 +147,11 @@ impl Pipeline {
         stabilised: f64,
         settings: &Settings,
     ) -> Result<Compiled, PipelineError> {
-        let Reduction { texture, report } = self.reduce(&whole, settings.fidelity);
+        let Reduction {
+            mut texture,
+            report,
+        } = self.reduce(&whole, settings.fidelity);
+        self.run(Pass::Ceiling, || ceiling::limit(&mut texture));
         let preview = match &settings.preview {
             Some(preview) => Some(self.preview(&texture, preview)?),
             None => None,

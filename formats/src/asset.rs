@@ -1,10 +1,11 @@
 //! The asset: one texture, as a validated view of its bytes.
 
 use crate::{
-    Coupling, FormatError, Friction, Grid, Provenance, SectionInfo, Taps,
+    Coupling, FormatError, Friction, Grid, Latents, Provenance, SectionInfo, Taps,
     checksum::crc32,
     friction::text,
     header::{self, HAPTIC, Header},
+    limits,
 };
 
 /// One texture, borrowed from bytes whose every claim was checked.
@@ -99,7 +100,12 @@ impl<'a> Asset<'a> {
             taps: Taps::parse(haptic(header::TAPS))?,
             friction: Friction::parse(haptic(header::FRICTION))?,
             coupling: Coupling::parse(haptic(header::SURFACE))?,
-            provenance: ancillary(find(header::PROVENANCE), preview(bytes, &header))?,
+            provenance: ancillary(
+                find(header::PROVENANCE),
+                preview(bytes, &header),
+                find(header::LATENT),
+                find(header::HISTORY),
+            )?,
         })
     }
 
@@ -151,6 +157,29 @@ impl<'a> Asset<'a> {
         preview(self.bytes, &self.header)
     }
 
+    fn tagged(&self, tag: [u8; 4]) -> Option<&'a [u8]> {
+        self.section(&self.sections().find(|s| s.tag == tag)?)
+    }
+
+    /// The latents it was decoded from; absent after [`Asset::parse_haptic`].
+    #[must_use]
+    pub fn latents(&self) -> Option<Latents<'a>> {
+        Latents::parse(self.tagged(header::LATENT)?).ok()
+    }
+
+    /// How it was made and edited, JSON; absent after [`Asset::parse_haptic`].
+    #[must_use]
+    pub fn history(&self) -> Option<&'a str> {
+        history(self.tagged(header::HISTORY)?).ok()
+    }
+
+    /// Bytes of one section; `None` if it is not there, or behind what was parsed.
+    #[must_use]
+    pub fn section(&self, section: &SectionInfo) -> Option<&'a [u8]> {
+        self.bytes
+            .get(section.offset..section.offset.checked_add(section.len)?)
+    }
+
     /// Bytes a runtime needs: header, table and haptic sections.
     #[must_use]
     pub const fn haptic_len(&self) -> usize {
@@ -180,6 +209,8 @@ fn preview<'a>(bytes: &'a [u8], header: &Header<'_>) -> Option<&'a [u8]> {
 fn ancillary<'a>(
     provenance: Option<&'a [u8]>,
     preview: Option<&[u8]>,
+    latents: Option<&[u8]>,
+    edits: Option<&[u8]>,
 ) -> Result<Option<Provenance<'a>>, FormatError> {
     let provenance = provenance.map(Provenance::parse).transpose();
     if provenance.is_ok() && preview.is_some_and(|png| !png.starts_with(b"\x89PNG\r\n\x1a\n")) {
@@ -188,6 +219,8 @@ fn ancillary<'a>(
             reason: "is not a PNG",
         });
     }
+    latents.map(Latents::parse).transpose()?;
+    edits.map(history).transpose()?;
     provenance
 }
 
@@ -196,4 +229,16 @@ fn body<'a>(bytes: &'a [u8], section: &SectionInfo) -> &'a [u8] {
     bytes
         .get(section.offset..section.offset.saturating_add(section.len))
         .unwrap_or_default()
+}
+
+/// The text of the history, which nothing but the compiler reads any further.
+fn history(bytes: &[u8]) -> Result<&str, FormatError> {
+    let reject = |reason| FormatError::Section {
+        tag: header::HISTORY,
+        reason,
+    };
+    if bytes.len() > limits::MAX_HISTORY_BYTES {
+        return Err(reject("is longer than 65536 bytes"));
+    }
+    core::str::from_utf8(bytes).map_err(|_| reject("is not UTF-8"))
 }

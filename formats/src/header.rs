@@ -20,6 +20,8 @@ pub(crate) const FRICTION: [u8; 4] = *b"FRIC";
 pub(crate) const SURFACE: [u8; 4] = *b"SURF";
 pub(crate) const PROVENANCE: [u8; 4] = *b"prov";
 pub(crate) const PREVIEW: [u8; 4] = *b"prev";
+pub(crate) const LATENT: [u8; 4] = *b"late";
+pub(crate) const HISTORY: [u8; 4] = *b"hist";
 
 /// The haptic sections: all of them, in this order.
 pub(crate) const HAPTIC: [([u8; 4], &str); 5] = [
@@ -56,6 +58,8 @@ impl SectionInfo {
             || match self.tag {
                 PROVENANCE => "provenance",
                 PREVIEW => "preview",
+                LATENT => "latent",
+                HISTORY => "history",
                 _ => "ancillary section",
             },
             |(_, label)| label,

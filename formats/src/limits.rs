@@ -16,6 +16,10 @@ pub const MAX_ANCHORS: usize = 16;
 pub const MAX_NAME_BYTES: usize = 64;
 /// Bytes of the provenance section.
 pub const MAX_PROVENANCE_BYTES: usize = 16 * 1024;
+/// Numbers of one latent.
+pub const MAX_LATENT: usize = 1024;
+/// Bytes of the history section.
+pub const MAX_HISTORY_BYTES: usize = 64 * 1024;
 /// Sections of an asset.
 pub const MAX_SECTIONS: usize = 16;
 /// Surfaces of a scene.

@@ -1,7 +1,6 @@
 //! Everything that knows the bytes: models into assets, the gate before they are written,
 //! files, and the way back.
 
-pub mod library;
 pub mod lower;
 pub mod output;
 pub mod raise;

@@ -17,6 +17,8 @@ pub enum Kind {
     Model,
     /// A scene or a manifest, TOML.
     Scene,
+    /// A manifest, CSV or JSON lines.
+    Manifest,
     /// A device, a grip or other settings, TOML.
     Settings,
     /// A file of the training corpus, TOML.
@@ -37,11 +39,12 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Asset,
         Self::Hatt,
         Self::Model,
         Self::Scene,
+        Self::Manifest,
         Self::Settings,
         Self::Corpus,
         Self::Trajectory,
@@ -57,7 +60,9 @@ impl Kind {
     pub const fn max_bytes(self) -> u64 {
         match self {
             Self::Asset | Self::Network => 64 * MIB,
-            Self::Hatt | Self::Model | Self::Description | Self::Vocabulary => 16 * MIB,
+            Self::Hatt | Self::Model | Self::Manifest | Self::Description | Self::Vocabulary => {
+                16 * MIB
+            }
             Self::Scene | Self::Settings | Self::Counts => MIB,
             Self::Corpus => 4 * MIB,
             Self::Trajectory => 1024 * MIB,
@@ -76,6 +81,7 @@ impl Kind {
             }
             Self::Model => "give a model as docs/model.md describes it",
             Self::Scene => "give a scene as docs/scenes.md describes it",
+            Self::Manifest => "split the manifest, and include its parts",
             Self::Settings => "compare with device-sim/devices/touch.toml or a file of grips/",
             Self::Corpus => "split the file: every .toml file of the folder is read",
             Self::Trajectory => "cut the trajectory into several files",
@@ -94,6 +100,7 @@ impl fmt::Display for Kind {
             Self::Hatt => "a HaTT material",
             Self::Model => "a model file",
             Self::Scene => "a scene",
+            Self::Manifest => "a manifest",
             Self::Settings => "a file of settings",
             Self::Corpus => "a file of the corpus",
             Self::Trajectory => "a trajectory",

@@ -25,6 +25,8 @@ pub enum Pass {
     Stabilise,
     /// What the fidelity does not ask for is left out.
     Reduce,
+    /// The gains are lowered to what the device can hold.
+    Ceiling,
     /// The preview is drawn.
     Preview,
     /// The model becomes the bytes of an asset.
@@ -52,6 +54,7 @@ impl Pass {
             Self::Rerate => "rerate",
             Self::Stabilise => "stabilise",
             Self::Reduce => "reduce",
+            Self::Ceiling => "ceiling",
             Self::Preview => "preview",
             Self::Lower => "lower",
             Self::Verify => "verify",

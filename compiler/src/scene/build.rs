@@ -12,13 +12,13 @@ use super::{
 };
 use crate::{
     back_end::{
-        library,
         raise::raise,
         source::{Source, SourceError, SourceProblem},
         verify,
     },
     diagnostic::Diagnostic,
     front_ends::hatt,
+    library,
     model::TextureModel,
     pipeline::{Pass, Pipeline, PipelineError, Timings},
 };

@@ -132,17 +132,28 @@ impl Description {
     /// # Errors
     /// [`SceneError`] with the file and the field.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
+        let text = input::read_text(file, Kind::Scene).map_err(|e| SceneError {
+            file: file.to_owned(),
+            field: String::new(),
+            problem: e.into(),
+        })?;
+        Self::of_text(file, &text)
+    }
+
+    /// Checks the text of a file.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn of_text(file: &Path, text: &str) -> Result<Self, SceneError> {
         let fail = |field: String, problem| SceneError {
             file: file.to_owned(),
             field,
             problem,
         };
-        let text =
-            input::read_text(file, Kind::Scene).map_err(|e| fail(String::new(), e.into()))?;
-        let raw: RawScene = toml::from_str(&text).map_err(|e| {
+        let raw: RawScene = toml::from_str(text).map_err(|e| {
             fail(
                 String::new(),
-                SceneProblem::Syntax(TomlError::new(&text, &e)),
+                SceneProblem::Syntax(TomlError::new(text, &e)),
             )
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));

@@ -1,7 +1,7 @@
 //! Why a scene cannot be built.
 
 use super::target::Target;
-use crate::back_end::library::LibraryError;
+use crate::library::LibraryError;
 use crate::{diagnostic::Diagnostic, input::InputProblem, toml_error::TomlError};
 use std::path::PathBuf;
 use thiserror::Error;

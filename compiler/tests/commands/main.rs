@@ -1,6 +1,8 @@
 //! `asperity` as a user meets it: exit status, what errors name, nothing left over.
 
+mod library;
 mod messages;
+mod mixing;
 mod models;
 mod outputs;
 mod pictures;

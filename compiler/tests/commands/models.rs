@@ -116,7 +116,7 @@ fn timings_go_to_standard_error_and_change_no_byte() {
     let commands: [(&[&str], &[&str]); 4] = [
         (
             &["builtin"],
-            &["generate", "reduce", "lower", "verify", "write"],
+            &["generate", "reduce", "ceiling", "lower", "verify", "write"],
         ),
         (
             &["import", "hatt", "wood.xml"],

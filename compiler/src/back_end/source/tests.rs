@@ -4,11 +4,9 @@ use super::*;
 use crate::diagnostic::Diagnostic as _;
 use crate::input::InputProblem;
 use crate::{
-    back_end::{
-        library::{NamedAsset, encode},
-        lower::lower,
-    },
+    back_end::lower::lower,
     front_ends::builtin,
+    library::{NamedAsset, encode},
 };
 use asperity_formats::Asset;
 use std::fs;

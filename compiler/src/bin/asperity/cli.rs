@@ -1,8 +1,12 @@
 //! The command line: commands, arguments, help.
 
-use asperity::{
-    inference::BackendName, preview, reduce::Fidelity, scene::Target, text::TextEncoderChoice,
-};
+mod library;
+mod mixing;
+
+pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
+pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};
+
+use asperity::{inference::BackendName, preview, reduce::Fidelity, text::TextEncoderChoice};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -18,7 +22,8 @@ use std::path::PathBuf;
   asperity plot grit.asp -o grit.png
   asperity import hatt Models_Cork.xml -o cork.asp
   asperity import model bench.json -o bench.asp
-  asperity build desk.toml -o desk.aspl --target cortex-m4f@16MHz
+  asperity build library.toml -o library.aspl
+  asperity edit sandpaper.asp --rougher 20 -o rougher.asp
 
 A file that is written to `-` goes to standard output, and the report then to standard error. An
 output that is also an input, or another output, is refused.
@@ -37,8 +42,28 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Make a texture of a prompt
     Compile(Compile),
-    /// Pack what a scene touches, within a budget
+    /// Build a library from a manifest, or pack what a scene touches, within a budget
     Build(Build),
+    /// Join libraries, such as the parts that several machines built
+    Merge(Merge),
+    /// List the textures of a library
+    List(List),
+    /// Take one texture out of a library
+    Extract(Extract),
+    /// Give a texture of a library another name
+    Rename(Rename),
+    /// Write every texture of a library to a file of its own
+    Split(Split),
+    /// Show what changed between two libraries, or two assets
+    Diff(Diff),
+    /// Make a texture between two others
+    Blend(Blend),
+    /// Make a texture that taps like one, slides like another and is as slippery as a third
+    Compose(Compose),
+    /// Make a texture rougher, sharper, harder or more slippery
+    Edit(Edit),
+    /// Make a texture of the latent of a recording, so that it can be mixed and edited
+    Encode(Encode),
     /// Import recorded textures, and models of one's own
     #[command(subcommand)]
     Import(Import),
@@ -100,57 +125,15 @@ pub(crate) struct Compile {
     /// Write the texture before its reduction as JSON, for `asperity import model`
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
+    /// Say which words moved which attribute
+    #[arg(long)]
+    pub(crate) explain: bool,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
     /// Print on standard error how long each pass took
     #[arg(long)]
     pub(crate) timings: bool,
-}
-
-#[derive(Debug, Args)]
-#[command(
-    after_help = "A scene is a TOML file of [[texture]] entries (name and one of prompt, import, \
-asset) and [[surface]] entries (texture and one of plane, sphere, box). Only textures that a \
-surface wears are packed, each once, in full where nothing limits them. A target limits the \
-instructions of a tick, a clock by a share of its period at one instruction a clock. Where a \
-budget is too small, fidelity is lowered where that costs the least error.
-
-Examples:
-  asperity build desk.toml -o desk.aspl
-  asperity build desk.toml -o desk.aspl --target cortex-m4f@48MHz --share 5
-  asperity build desk.toml -o desk.aspl --target 2500 --budget-bytes 8192 --json"
-)]
-pub(crate) struct Build {
-    /// The scene (.toml)
-    pub(crate) scene: PathBuf,
-    /// The library to write (.aspl); `-` is standard output
-    #[arg(short, long)]
-    pub(crate) output: PathBuf,
-    /// Where a tick has to fit: a processor and its clock, or a number of instructions
-    #[arg(long, value_name = "cortex-m4f@168MHz|INSTRUCTIONS")]
-    pub(crate) target: Option<Target>,
-    /// Percent of the target's clocks that a tick may take
-    #[arg(long, default_value_t = 100.0 * asperity::scene::DEFAULT_SHARE, value_name = "PERCENT", value_parser = percent, requires = "target")]
-    pub(crate) share: f64,
-    /// Bytes that the library may take
-    #[arg(long, value_name = "N")]
-    pub(crate) budget_bytes: Option<u64>,
-    #[command(flatten)]
-    pub(crate) inference: Inference,
-    /// Print JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Print on standard error how long each pass took
-    #[arg(long)]
-    pub(crate) timings: bool,
-}
-
-fn percent(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(percent) if percent > 0.0 && percent <= 100.0 => Ok(percent),
-        _ => Err("above 0, at most 100".to_owned()),
-    }
 }
 
 fn pixels(text: &str) -> Result<u32, String> {
@@ -170,7 +153,7 @@ fn within(text: &str, low: f32, high: f32) -> Result<f32, String> {
 }
 
 /// Where networks come from and where they run.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct Inference {
     /// `minilm`, embedded, or `clip:DIR` with an export of CLIP's text tower
     #[arg(long, default_value = "minilm", value_name = "minilm|clip:DIR")]

@@ -1,82 +1,33 @@
-//! `asperity build`.
+//! `asperity build`: a manifest becomes a library, a scene what its surfaces wear.
 
-use super::{inference, timings};
+use super::{build_scene, library};
 use crate::cli::Build;
 use asperity::{
     console::Console,
     diagnostic::{Failures, one},
-    output::{Outputs, display},
-    pipeline::{Pass, Pipeline},
-    prompt::{Author, Authored, Options, PromptError},
-    reduce::Fidelity,
-    scene::{self, Budget, Description, Origin, Prompter},
+    input::{self, InputError, Kind},
+    library::manifest,
 };
 
 pub(crate) fn run(args: &Build, console: Console) -> Result<(), Failures> {
-    let description = Description::read(&args.scene).map_err(one)?;
-    let mut inputs = vec![args.scene.clone()];
-    inputs.extend(description.sources.iter().cloned());
-    inputs.extend(inference::files(&args.inference));
-    let mut outputs = Outputs::beside(&inputs);
-    let library = outputs.open(&args.output).map_err(one)?;
-    let console = console.beside(&outputs);
-    let prompts = |texture: &scene::TextureEntry| matches!(texture.origin, Origin::Prompt(..));
-    let author = description
-        .textures
+    let extension = args.scene.extension().unwrap_or_default();
+    let has_rows = ["csv", "jsonl", "ndjson"]
         .iter()
-        .any(prompts)
-        .then(|| inference::author(&args.inference))
-        .transpose()?;
-    let budget = Budget {
-        target: args.target,
-        share: args.share / 100.0,
-        bytes: args.budget_bytes,
-    };
-    let mut pipeline = Pipeline::default();
-    let mut warnings = Vec::new();
-    let prompter: &mut Prompter<'_> = &mut |prompt, seed| match &author {
-        Some(author) => match whole(author, prompt, seed) {
-            Ok(authored) => {
-                pipeline.merge(&authored.timings);
-                let told = authored.warnings().into_iter();
-                warnings.extend(told.map(|warning| format!("{prompt:?}: {warning}")));
-                Ok(authored.texture)
-            }
-            Err(error) => Err(Box::new(error)),
-        },
-        None => Err(Box::new(PromptError::Empty)),
-    };
-    let built = scene::build(&description, &budget, prompter).map_err(one)?;
-    pipeline.merge(&built.timings);
-    pipeline
-        .run(Pass::Write, || {
-            outputs.fill(library, &built.bytes)?;
-            outputs.commit()
-        })
-        .map_err(one)?;
-    let unused = built.report.unused.iter();
-    warnings.extend(unused.map(|name| format!("no surface wears {name:?}; it was left out")));
-    console.warnings(&warnings, args.json);
-    let printed = if args.json {
-        // Plain structures of numbers and strings always serialise.
-        let mut json = serde_json::to_value(&built.report).unwrap_or_default();
-        json["warnings"] = warnings.into();
-        console.json(&json.to_string())
+        .any(|e| extension.eq_ignore_ascii_case(e));
+    let kind = if has_rows {
+        Kind::Manifest
     } else {
-        console.text(&format!("{}\n{}", display(&args.output), built.report))
+        Kind::Scene
     };
-    printed.map_err(one)?;
-    timings::print(args.timings, &pipeline, console);
-    Ok(())
-}
-
-/// A prompt's texture with everything the decoder gave.
-fn whole(author: &Author, prompt: &str, seed: u64) -> Result<Authored, PromptError> {
-    let options = Options {
-        seed,
-        fidelity: Fidelity::Full,
-        preview: false,
-        ..Options::default()
-    };
-    author.author(prompt, &options)
+    let text = input::read_text(&args.scene, kind).map_err(|problem| {
+        one(InputError {
+            file: args.scene.clone(),
+            problem,
+        })
+    })?;
+    if !has_rows && manifest::is_scene(&text) {
+        build_scene::run(args, &text, console)
+    } else {
+        library::build::run(args, &text, console)
+    }
 }

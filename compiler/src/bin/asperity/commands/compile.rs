@@ -5,6 +5,7 @@ use crate::cli::Compile;
 use asperity::{
     console::Console,
     diagnostic::{Failures, one},
+    edit::{EditError, History, Latents, Memory, Studio, explain, remember},
     output::display,
     pipeline::{Pipeline, PipelineError},
     prompt::{self, Options},
@@ -26,7 +27,17 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         preview: !args.no_preview,
         preview_px: args.preview_size,
     };
-    let authored = author.author(&args.prompt, &options).map_err(one)?;
+    let mut authored = author.author(&args.prompt, &options).map_err(one)?;
+    let studio = Studio::new(&author, inference::model_crc32(&args.inference)?);
+    let memory = Memory {
+        model_crc32: studio.model_crc32(),
+        latents: Latents::whole(authored.z),
+        history: History::default(),
+    };
+    let bytes = remember(&authored.lowered.bytes, &memory);
+    authored.lowered.bytes = bytes.map_err(|error| one(EditError::from(error)))?;
+    let explanation = args.explain.then(|| explain(&studio, &args.prompt));
+    let explanation = explanation.transpose().map_err(one)?;
     if let Some(file) = sheet {
         // Verified a moment ago: the bytes parse.
         let asset = Asset::parse(&authored.lowered.bytes)
@@ -39,9 +50,19 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     outputs.write(&authored.lowered.bytes, &mut pipeline)?;
     console.warnings(&authored.warnings(), args.json);
     let printed = if args.json {
-        console.json(&authored.json())
+        let mut json = authored.json();
+        if let Some(explanation) = &explanation {
+            // Plain structures of numbers and strings always serialise.
+            json["words"] = serde_json::to_value(&explanation.words).unwrap_or_default();
+        }
+        console.json(&json)
     } else {
-        console.text(&format!("{}\n{}", display(&args.output), authored.text()))
+        let words = explanation.map_or_else(String::new, |explanation| explanation.text());
+        console.text(&format!(
+            "{}\n{}{words}",
+            display(&args.output),
+            authored.text()
+        ))
     };
     printed.map_err(one)?;
     timings::print(args.timings, &pipeline, console);

@@ -1,6 +1,6 @@
 //! `asperity import hatt`.
 
-use super::{inference, outputs::TextureOutputs, timings};
+use super::{file_names::file_names, inference, outputs::TextureOutputs, timings};
 use crate::cli::ImportHatt;
 use asperity::{
     console::Console,
@@ -10,7 +10,7 @@ use asperity::{
     output::{self, Outputs},
     pipeline::{Pass, Pipeline},
 };
-use std::{collections::HashSet, fmt::Write as _, path::PathBuf};
+use std::{fmt::Write as _, path::PathBuf};
 use thiserror::Error;
 
 /// A folder was to go into one asset.
@@ -109,7 +109,8 @@ impl Target {
     ) -> Result<(), Failures> {
         match self {
             Self::Folder(folder) => {
-                let files: Vec<(String, &[u8])> = file_names(imported)
+                let names: Vec<&str> = imported.iter().map(|m| m.report.name.as_str()).collect();
+                let files: Vec<(String, &[u8])> = file_names(&names)
                     .into_iter()
                     .zip(imported)
                     .map(|(name, material)| (name, &material.bytes[..]))
@@ -211,33 +212,4 @@ fn figures(imported: &[Imported]) -> String {
         );
     }
     text
-}
-
-/// File names of the materials: their own, freed of what a file system refuses.
-fn file_names(imported: &[Imported]) -> Vec<String> {
-    let mut taken = HashSet::new();
-    imported
-        .iter()
-        .map(|material| {
-            let safe: String = material
-                .report
-                .name
-                .chars()
-                .map(|c| if r#"/\<>:"|?*"#.contains(c) { '_' } else { c })
-                .collect();
-            let safe = if safe.starts_with('.') {
-                format!("_{safe}")
-            } else {
-                safe
-            };
-            let mut name = format!("{safe}.asp");
-            let mut next = 2;
-            // Some file systems take upper and lower case for the same.
-            while !taken.insert(name.to_lowercase()) {
-                name = format!("{safe} ({next}).asp");
-                next += 1;
-            }
-            name
-        })
-        .collect()
 }

@@ -1,11 +1,13 @@
-//! From options to encoders, models and back ends.
+//! From options to encoders, models and back ends, and what identifies them.
 
 use crate::cli::Inference;
 use asperity::{
     diagnostic::{Failures, one},
     embedded,
     inference::Backend,
-    learned::{Files, LearnedModel},
+    input::{self, InputError, Kind},
+    learned::{Files, LearnedModel, ModelError},
+    library::Pinned,
     prompt::Author,
     text::{TextEncoder, TextEncoderChoice, clip::Clip},
 };
@@ -31,11 +33,92 @@ pub(crate) fn text_encoder(
 
 /// The learned model that the options name.
 pub(crate) fn model(options: &Inference, backend: &Backend) -> Result<LearnedModel, Failures> {
-    let files = match &options.model {
-        Some(folder) => Files::read(folder).map_err(one)?,
-        None => embedded::model(),
+    LearnedModel::load(model_folder(options)?, backend).map_err(one)
+}
+
+fn model_folder(options: &Inference) -> Result<Files, Failures> {
+    match &options.model {
+        Some(folder) => Files::read(folder).map_err(one),
+        None => Ok(embedded::model()),
+    }
+}
+
+/// CRC-32 of the model that the options name.
+pub(crate) fn model_crc32(options: &Inference) -> Result<u32, Failures> {
+    Ok(crc32_of(&model_folder(options)?))
+}
+
+fn crc32_of(files: &Files) -> u32 {
+    let mut crc = crc32fast::Hasher::new();
+    crc.update(files.description.as_bytes());
+    for network in [
+        &files.text_projection,
+        &files.ar_decoder,
+        &files.tap_decoder,
+        &files.encoder,
+    ] {
+        crc.update(network);
+    }
+    crc.finalize()
+}
+
+/// What decides the bytes of a texture besides its manifest.
+pub(crate) fn pinned(options: &Inference) -> Result<Pinned, Failures> {
+    #[derive(serde::Deserialize)]
+    struct Named {
+        name: String,
+    }
+    let files = model_folder(options)?;
+    let named: Named = serde_json::from_str(&files.description).map_err(|error| {
+        one(ModelError::Description {
+            file: "model.json".into(),
+            message: error.to_string(),
+        })
+    })?;
+    let (text_encoder, text_encoder_crc32) = match &options.text_encoder {
+        TextEncoderChoice::MiniLm => {
+            let mut crc = crc32fast::Hasher::new();
+            crc.update(asperity_model::TEXT_ENCODER);
+            crc.update(asperity_model::VOCABULARY.as_bytes());
+            ("minilm".to_owned(), crc.finalize())
+        }
+        TextEncoderChoice::Clip(folder) => ("clip".to_owned(), folder_crc32(folder)?),
     };
-    LearnedModel::load(files, backend).map_err(one)
+    Ok(Pinned {
+        asperity: env!("CARGO_PKG_VERSION").to_owned(),
+        model: named.name,
+        model_crc32: crc32_of(&files),
+        text_encoder,
+        text_encoder_crc32,
+        backend: options.backend.to_string(),
+    })
+}
+
+/// CRC-32 of the files of a text encoder, in order of name.
+fn folder_crc32(folder: &Path) -> Result<u32, Failures> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut paths: Vec<PathBuf> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.is_file())
+        .collect();
+    paths.sort();
+    let mut crc = crc32fast::Hasher::new();
+    for path in paths {
+        let bytes = input::read(&path, Kind::TextEncoder).map_err(|problem| {
+            let file = path.clone();
+            one(InputError { file, problem })
+        })?;
+        crc.update(&bytes);
+    }
+    Ok(crc.finalize())
+}
+
+/// This program to the byte, because two builds of one version may give other textures. A program
+/// that cannot be read counts by its version alone.
+pub(crate) fn program() -> String {
+    let bytes = std::env::current_exe().and_then(std::fs::read);
+    let crc32 = bytes.map_or(0, |bytes| crc32fast::hash(&bytes));
+    format!("{} {crc32:08x}", env!("CARGO_PKG_VERSION"))
 }
 
 /// The model that completes what an import lacks, on the portable back end.

@@ -1,14 +1,18 @@
 //! The commands, each in a file of its own.
 
 mod build;
+mod build_scene;
 mod builtin;
 mod compile;
 mod doctor;
+mod file_names;
 mod import_hatt;
 mod import_model;
 mod inference;
 mod inspect;
+mod library;
 mod listen;
+mod mixing;
 mod outputs;
 mod plot;
 mod preview;
@@ -24,6 +28,16 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
         Command::Import(Import::Hatt(args)) => import_hatt::run(&args, console),
         Command::Import(Import::Model(args)) => import_model::run(&args, console),
         Command::Build(args) => build::run(&args, console),
+        Command::Merge(args) => library::merge::run(&args, console),
+        Command::List(args) => library::list::run(&args, console),
+        Command::Extract(args) => library::extract::run(&args, console),
+        Command::Rename(args) => library::rename::run(&args, console),
+        Command::Split(args) => library::split::run(&args, console),
+        Command::Diff(args) => library::diff::run(&args, console),
+        Command::Blend(args) => mixing::blend::run(&args, console),
+        Command::Compose(args) => mixing::compose::run(&args, console),
+        Command::Edit(args) => mixing::edit::run(&args, console),
+        Command::Encode(args) => mixing::encode::run(&args, console),
         Command::Compile(args) => compile::run(&args, console),
         Command::Doctor(args) => doctor::run(&args, console),
         Command::Builtin(args) => builtin::run(&args, console),

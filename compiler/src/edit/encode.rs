@@ -1,0 +1,113 @@
+//! The latent of a recording, or of a part of one.
+
+use super::{error::EditError, latents::Latents, studio::Studio};
+use crate::{
+    front_ends::{
+        imported::errors_over_grid,
+        learned::{Present, complete},
+    },
+    model::{Provenance, TextureModel},
+};
+use std::str::FromStr;
+
+/// What of a texture the encoder is given; the rest is decoded from the latent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Models and taps.
+    Whole,
+    /// The taps alone.
+    Taps,
+    /// The models alone.
+    Slide,
+}
+
+impl Part {
+    /// The name that options and histories use.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Whole => "whole",
+            Self::Taps => "taps",
+            Self::Slide => "slide",
+        }
+    }
+
+    /// What of a texture was recorded: taps that were synthesised say nothing of it.
+    #[must_use]
+    pub fn recorded(texture: &TextureModel) -> Self {
+        if texture.provenance.taps_synthetic || texture.taps.traces.is_empty() {
+            Self::Slide
+        } else {
+            Self::Whole
+        }
+    }
+}
+
+impl FromStr for Part {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        [Self::Whole, Self::Taps, Self::Slide]
+            .into_iter()
+            .find(|part| part.name() == text)
+            .ok_or_else(|| "`whole`, `taps` or `slide`".into())
+    }
+}
+
+/// A recording in the latent space.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Encoded {
+    /// Its latent, the same for all parts.
+    pub latents: Latents,
+    /// RMS distance of the decoded spectra from the recorded ones, at 95 % of the places of the
+    /// recorded grid and at the worst, dB; `None` at different rates or where no model was given.
+    pub distance_db: Option<(f64, f64)>,
+}
+
+/// The latent of a texture.
+///
+/// # Errors
+/// [`EditError`] for a part that the texture does not have, or when a network fails.
+pub fn encode(
+    studio: &Studio<'_>,
+    texture: &TextureModel,
+    part: Part,
+) -> Result<Encoded, EditError> {
+    let model = studio.author().model();
+    let description = model.description();
+    let missing = |part| EditError::NoPart {
+        name: texture.name.clone(),
+        part,
+    };
+    let sounds = texture
+        .grid
+        .vertices
+        .iter()
+        .any(|v| v.gain * v.sigma_m_s2 > 0.0);
+    if part != Part::Taps && !sounds {
+        return Err(missing("slide"));
+    }
+    if part != Part::Slide && texture.taps.traces.is_empty() {
+        return Err(missing("taps"));
+    }
+    let channels = || complete::ar_channels(&description.grid, &texture.grid);
+    let traces = || complete::tap_channels(&description.taps, &texture.taps);
+    let z = match part {
+        Part::Whole => model.encode(Present::Both(&channels(), &traces())),
+        Part::Taps => model.encode(Present::Taps(&traces())),
+        Part::Slide => model.encode(Present::Ar(&channels())),
+    }?;
+    let latents = Latents::whole(z);
+    let same_rate = texture.grid.sample_rate_hz == description.grid.sample_rate_hz;
+    let distance_db = if part != Part::Taps && same_rate {
+        let decoded = studio.texture(&latents, "", Provenance::default())?;
+        let (_, summary) = errors_over_grid(&texture.grid, &decoded.grid);
+        Some(summary)
+    } else {
+        None
+    };
+    Ok(Encoded {
+        latents,
+        distance_db,
+    })
+}

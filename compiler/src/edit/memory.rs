@@ -1,0 +1,118 @@
+//! What an asset remembers of its making: latents and history, outside the haptic sections.
+
+use super::{error::EditError, history::History, latents::Latents};
+use crate::front_ends::learned::{Latent, description::LATENT};
+use asperity_formats::{Asset, EncodeError, assemble, assembled_len};
+
+const LATENT_TAG: [u8; 4] = *b"late";
+const HISTORY_TAG: [u8; 4] = *b"hist";
+
+/// What an asset remembers of its making.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Memory {
+    /// CRC-32 of the model whose latents these are.
+    pub model_crc32: u32,
+    /// What it was decoded from.
+    pub latents: Latents,
+    /// How it was made and edited.
+    pub history: History,
+}
+
+/// The asset with this memory in place of any that it had. Its haptic sections keep their bytes.
+///
+/// # Errors
+/// [`EncodeError`] for bytes that are no asset.
+pub fn remember(asset: &[u8], memory: &Memory) -> Result<Vec<u8>, EncodeError> {
+    let latent = latent_body(memory);
+    let history = memory.history.json();
+    let asset = Asset::parse(asset)?;
+    let mut sections: Vec<([u8; 4], &[u8])> = asset
+        .sections()
+        .filter(|section| section.tag != LATENT_TAG && section.tag != HISTORY_TAG)
+        .filter_map(|section| Some((section.tag, asset.section(&section)?)))
+        .collect();
+    sections.push((LATENT_TAG, &latent));
+    if !memory.history.is_empty() {
+        sections.push((HISTORY_TAG, history.as_bytes()));
+    }
+    let mut bytes = vec![0; assembled_len(&sections)];
+    assemble(&sections, &mut bytes)?;
+    Ok(bytes)
+}
+
+fn latent_body(memory: &Memory) -> Vec<u8> {
+    let parts = memory.latents.parts();
+    let mut body = memory.model_crc32.to_le_bytes().to_vec();
+    body.extend([parts.len() as u8, 0]);
+    body.extend((LATENT as u16).to_le_bytes());
+    body.extend(parts.iter().flatten().flat_map(|x| x.to_le_bytes()));
+    body
+}
+
+/// What an asset remembers; `None` if it has no latent, or one of another width than this version's.
+///
+/// # Errors
+/// [`EditError::History`] for a history that this version does not write.
+pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, EditError> {
+    let Some(stored) = asset.latents().filter(|stored| stored.width() == LATENT) else {
+        return Ok(None);
+    };
+    let part = |part: usize| -> Latent {
+        let mut z = [0.0; LATENT];
+        z.iter_mut()
+            .zip(stored.part(part))
+            .for_each(|(z, x)| *z = x);
+        z
+    };
+    let parts: Vec<Latent> = (0..stored.parts()).map(part).collect();
+    let Some(latents) = Latents::of_parts(&parts) else {
+        return Ok(None);
+    };
+    let history = match asset.history() {
+        None => History::default(),
+        Some(json) => serde_json::from_str(json).map_err(|error| EditError::History {
+            name: asset.name().to_owned(),
+            message: error.to_string(),
+        })?,
+    };
+    Ok(Some(Memory {
+        model_crc32: stored.model_crc32,
+        latents,
+        history,
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{back_end::lower::lower, edit::history::Origin, front_ends::builtin};
+
+    #[test]
+    fn a_memory_is_read_back_replaced_and_never_haptic() {
+        let plain = lower(&builtin::texture(), None).unwrap().bytes;
+        let haptic = |bytes: &[u8]| -> Vec<Vec<u8>> {
+            let asset = Asset::parse(bytes).unwrap();
+            let haptic = asset.sections().filter(|s| s.is_haptic());
+            haptic
+                .map(|s| asset.section(&s).unwrap().to_vec())
+                .collect()
+        };
+        let mut memory = Memory {
+            model_crc32: 7,
+            latents: Latents::whole([0.25; LATENT]),
+            history: History::default(),
+        };
+        let once = remember(&plain, &memory).unwrap();
+        assert_eq!(once.len() - plain.len(), 12 + 8 + 4 * LATENT);
+        assert_eq!(haptic(&once), haptic(&plain));
+        memory.latents.tap = [1.0; LATENT];
+        memory.history = History::of(Origin::Encode {
+            name: "x".into(),
+            part: "slide".into(),
+        });
+        let twice = remember(&once, &memory).unwrap();
+        let found = remembered(&Asset::parse(&twice).unwrap()).unwrap();
+        assert_eq!(found, Some(memory));
+        assert_eq!(remembered(&Asset::parse(&plain).unwrap()).unwrap(), None);
+    }
+}

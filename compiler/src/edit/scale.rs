@@ -1,0 +1,128 @@
+//! The scale of the sliders: 0 to 100 between the materials of the model that have the least and
+//! the most of an attribute.
+
+use crate::{front_ends::learned::description::ModelDescription, model::attributes::Attributes};
+use serde::Serialize;
+
+/// An attribute that a slider moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// `rough_db`.
+    Rough,
+    /// `sharp_hz`.
+    Sharp,
+    /// `hard_hz`.
+    Hard,
+    /// −μ.
+    Slippery,
+}
+
+/// All axes, in the order of reports.
+pub const AXES: [Axis; 4] = [Axis::Rough, Axis::Sharp, Axis::Hard, Axis::Slippery];
+
+impl Axis {
+    /// The name that reports use.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rough => "rough",
+            Self::Sharp => "sharp",
+            Self::Hard => "hard",
+            Self::Slippery => "slippery",
+        }
+    }
+
+    /// The attribute in its own unit, −μ for the last.
+    #[must_use]
+    pub fn of(self, attributes: &Attributes) -> Option<f64> {
+        match self {
+            Self::Rough => attributes.rough_db,
+            Self::Sharp => attributes.sharp_hz,
+            Self::Hard => attributes.hard_hz,
+            Self::Slippery => Some(-attributes.mu),
+        }
+    }
+
+    /// The attribute's name in a model description.
+    fn described(self) -> &'static str {
+        match self {
+            Self::Rough => "rough_db",
+            Self::Sharp => "sharp_hz",
+            Self::Hard => "hard_hz",
+            Self::Slippery => "mu",
+        }
+    }
+}
+
+/// Share of the materials that lie below 0, and above 100.
+const BEYOND: f64 = 0.05;
+
+/// What 0 and 100 of each slider mean, and where in the latent an attribute grows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scale {
+    /// Attribute at 0 and at 100, in the order of [`AXES`].
+    ranges: [(f64, f64); 4],
+    /// Steps of the slider a unit of the latent, in the order of [`AXES`].
+    pub(super) gradients: [Vec<f64>; 4],
+}
+
+impl Scale {
+    /// The scale of a model: the 5 % and 95 % quantiles of its materials, by the lines of its
+    /// description, and of μ by the materials themselves.
+    #[must_use]
+    pub fn of(description: &ModelDescription) -> Self {
+        let axis = |axis: Axis| {
+            let line = description
+                .axes
+                .iter()
+                .find(|line| line.attribute == axis.described());
+            let sign = if axis == Axis::Slippery { -1.0 } else { 1.0 };
+            let direction: Vec<f64> = line.map_or_else(Vec::new, |line| {
+                line.direction
+                    .iter()
+                    .map(|&x| sign * f64::from(x))
+                    .collect()
+            });
+            let offset = line.map_or(0.0, |line| line.offset);
+            let mut values: Vec<f64> = description
+                .anchors
+                .iter()
+                .map(|anchor| match axis {
+                    Axis::Slippery => -anchor.mu,
+                    _ => {
+                        let products = direction.iter().zip(&anchor.z);
+                        offset + products.map(|(d, &z)| d * f64::from(z)).sum::<f64>()
+                    }
+                })
+                .collect();
+            values.sort_by(f64::total_cmp);
+            let last = values.len().saturating_sub(1) as f64;
+            let quantile = |share: f64| values.get((share * last).round() as usize).copied();
+            let low = quantile(BEYOND).unwrap_or(0.0);
+            let high = quantile(1.0 - BEYOND).unwrap_or(1.0).max(low + 1e-6);
+            let steps = 100.0 / (high - low);
+            let gradient = direction.iter().map(|d| d * steps).collect();
+            ((low, high), gradient)
+        };
+        let all = AXES.map(axis);
+        Self {
+            ranges: [all[0].0, all[1].0, all[2].0, all[3].0],
+            gradients: all.map(|(_, gradient)| gradient),
+        }
+    }
+
+    /// The place of an attribute on its slider; `None` where a texture does not define it.
+    #[must_use]
+    pub fn place(&self, axis: Axis, attributes: &Attributes) -> Option<f64> {
+        let (low, high) = self.ranges[axis as usize];
+        axis.of(attributes)
+            .map(|x| 100.0 * (x - low) / (high - low))
+    }
+
+    /// The attribute at 0 and at 100 of its slider, in its own unit.
+    #[must_use]
+    pub fn range(&self, axis: Axis) -> (f64, f64) {
+        self.ranges[axis as usize]
+    }
+}

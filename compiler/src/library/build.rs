@@ -1,0 +1,341 @@
+//! From a manifest to a library: keys, cache, what is missing in parallel, pack.
+
+use super::{
+    cache::Cache,
+    error::{Cause, EntryError, LibraryFault, cause},
+    facts::Facts,
+    key::{Key, Parts},
+    lock::Pinned,
+    make::{Maker, asset, is_learned},
+    manifest::{Manifest, Origin, order},
+    pack::{NamedAsset, encode},
+    report::{Report, Row},
+    shard::Shard,
+};
+use crate::{
+    diagnostic::{Failures, one},
+    edit::{AXES, Sliders, Studio},
+    front_ends::prompt::Author,
+    input::{self, InputError, Kind},
+    pipeline::{Pass, Pipeline, Timings},
+};
+use rayon::prelude::*;
+use std::{
+    path::Path,
+    sync::{Mutex, PoisonError},
+};
+
+/// What is asked of a build besides its manifest.
+#[derive(Debug)]
+pub struct Request<'a> {
+    /// Where textures are kept between builds.
+    pub cache: Option<&'a Cache>,
+    /// Which part is built; all of it if `None`.
+    pub shard: Option<Shard>,
+    /// What identifies this program besides its version: two that may give other bytes differ.
+    pub program: String,
+    /// Versions and model.
+    pub pinned: Pinned,
+}
+
+/// A library that was built.
+#[derive(Debug, Clone)]
+pub struct Built {
+    /// The library.
+    pub bytes: Vec<u8>,
+    /// What was made, and what the cache had.
+    pub report: Report,
+    /// The time of every pass, on all threads together.
+    pub timings: Timings,
+    /// What a user should be told.
+    pub warnings: Vec<String>,
+}
+
+/// A build whose keys are known.
+pub struct Build<'a> {
+    manifest: &'a Manifest,
+    request: &'a Request<'a>,
+    /// Indices in the manifest with their keys, in order of name.
+    chosen: Vec<(usize, Key)>,
+}
+
+/// A texture in memory.
+struct Texture {
+    asset: Vec<u8>,
+    facts: Facts,
+    cached: bool,
+}
+
+/// Builds a library at once; `open` is called if a texture has to be made that needs the model.
+///
+/// # Errors
+/// As [`Build::new`] and [`Build::run`].
+pub fn build(
+    manifest: &Manifest,
+    request: &Request<'_>,
+    open: &dyn Fn() -> Result<(Author, u32), Failures>,
+) -> Result<Built, Failures> {
+    Build::new(manifest, request)?.run(open, &|| {})
+}
+
+impl<'a> Build<'a> {
+    /// Reads what decides the bytes of every texture.
+    ///
+    /// # Errors
+    /// An [`EntryError`] for every file that cannot be read.
+    pub fn new(manifest: &'a Manifest, request: &'a Request<'a>) -> Result<Self, Failures> {
+        let keys = keys(manifest, request)?;
+        let chosen = keys.into_iter().enumerate();
+        let chosen = chosen.filter(|(place, _)| request.shard.is_none_or(|s| s.holds(*place)));
+        Ok(Self {
+            manifest,
+            request,
+            chosen: chosen.collect(),
+        })
+    }
+
+    /// Number of textures.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.chosen.len()
+    }
+
+    /// Whether the part has no texture.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.chosen.is_empty()
+    }
+
+    /// Makes what the cache does not hold, and packs all. The bytes do not depend on the cache, the
+    /// order or the number of threads. `open` gives an author and the CRC-32 of its model; `done`
+    /// is called once a texture, from any thread.
+    ///
+    /// # Errors
+    /// An [`EntryError`] for every texture that could not be made. The others are in the cache then.
+    pub fn run(
+        &self,
+        open: &dyn Fn() -> Result<(Author, u32), Failures>,
+        done: &(dyn Fn() + Sync),
+    ) -> Result<Built, Failures> {
+        let mut pipeline = Pipeline::default();
+        let cached = pipeline.run(Pass::Read, || self.cached(done));
+        let entries = &self.manifest.entries;
+        let missing: Vec<usize> = (0..cached.len()).filter(|&n| cached[n].is_none()).collect();
+        let learned = |n: &usize| is_learned(&entries[self.chosen[*n].0].origin);
+        let opened = missing.iter().any(learned).then(open).transpose()?;
+        let studio = opened
+            .as_ref()
+            .map(|(author, crc32)| Studio::new(author, *crc32));
+        let maker = Maker::new(self.manifest, studio.as_ref());
+        let shared = Mutex::new((Timings::default(), None));
+        let made: Vec<Result<Texture, EntryError>> = missing
+            .par_iter()
+            .map(|&n| {
+                let made = self.made(n, &maker, &shared);
+                done();
+                made
+            })
+            .collect();
+        let (timings, unwritable) = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
+        pipeline.merge(&timings);
+        let mut textures = cached;
+        let mut failures: Failures = Vec::new();
+        for (n, made) in missing.iter().zip(made) {
+            match made {
+                Ok(texture) => textures[*n] = Some(texture),
+                Err(error) => failures.push(Box::new(error)),
+            }
+        }
+        if !failures.is_empty() {
+            let is_kept = self.request.cache.is_some() && unwritable.is_none();
+            failures.push(Box::new(LibraryFault::Unfinished {
+                failed: failures.len(),
+                total: self.len(),
+                kept: if is_kept {
+                    "in the cache"
+                } else {
+                    "lost, because there is no cache"
+                },
+            }));
+            return Err(failures);
+        }
+        let textures: Vec<Texture> = textures.into_iter().flatten().collect();
+        let bytes = pipeline
+            .run(Pass::Pack, || self.packed(&textures))
+            .map_err(one)?;
+        let rows = self.rows(&textures);
+        let mut warnings: Vec<String> = unwritable.into_iter().collect();
+        for row in &rows {
+            let own = row.facts.warnings.iter();
+            warnings.extend(own.map(|warning| format!("{:?}: {warning}", row.name)));
+        }
+        Ok(Built {
+            report: Report::new(rows, bytes.len(), self.request.shard),
+            bytes,
+            timings: pipeline.timings().clone(),
+            warnings,
+        })
+    }
+
+    fn cached(&self, done: &(dyn Fn() + Sync)) -> Vec<Option<Texture>> {
+        let get = |(_, key): &(usize, Key)| {
+            let (asset, facts) = self.request.cache?.get(key)?;
+            done();
+            Some(Texture {
+                asset,
+                facts,
+                cached: true,
+            })
+        };
+        self.chosen.par_iter().map(get).collect()
+    }
+
+    fn made(
+        &self,
+        n: usize,
+        maker: &Maker<'_>,
+        shared: &Mutex<(Timings, Option<String>)>,
+    ) -> Result<Texture, EntryError> {
+        let (index, key) = &self.chosen[n];
+        let entry = &self.manifest.entries[*index];
+        let made = maker
+            .make(*index)
+            .map_err(|cause| EntryError::new(entry, cause))?;
+        let kept = match self.request.cache {
+            Some(cache) => cache.put(key, &made.asset, &made.facts).map_err(|error| {
+                let folder = cache.folder().display();
+                format!("{folder}: nothing more is cached: {error}")
+            }),
+            None => Ok(()),
+        };
+        let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
+        shared.0.merge(&made.timings);
+        if let Err(why) = kept {
+            shared.1.get_or_insert(why);
+        }
+        Ok(Texture {
+            asset: made.asset,
+            facts: made.facts,
+            cached: false,
+        })
+    }
+
+    fn packed(&self, textures: &[Texture]) -> Result<Vec<u8>, super::pack::LibraryError> {
+        let named = self.chosen.iter().zip(textures);
+        let named: Vec<NamedAsset<'_>> = named
+            .map(|((index, _), texture)| NamedAsset {
+                name: &self.manifest.entries[*index].name,
+                bytes: &texture.asset,
+            })
+            .collect();
+        encode(&named)
+    }
+
+    fn rows(&self, textures: &[Texture]) -> Vec<Row> {
+        let pairs = self.chosen.iter().zip(textures);
+        pairs
+            .map(|((index, key), texture)| Row {
+                name: self.manifest.entries[*index].name.clone(),
+                source: self.manifest.entries[*index].origin.key(),
+                key: key.to_string(),
+                cached: texture.cached,
+                bytes: texture.asset.len(),
+                facts: texture.facts.clone(),
+            })
+            .collect()
+    }
+}
+
+/// The key of every texture, in the order of the manifest.
+fn keys(manifest: &Manifest, request: &Request<'_>) -> Result<Vec<Key>, Failures> {
+    let entries = &manifest.entries;
+    // Files are read in parallel; a texture of others has no file.
+    let contents: Vec<Result<Option<Key>, Cause>> = entries
+        .par_iter()
+        .map(|entry| match &entry.origin {
+            Origin::Import(file) => content(file).map(Some),
+            Origin::Asset { file, texture } => {
+                asset(file, texture.as_deref()).map(|bytes| Some(Key::of(&bytes)))
+            }
+            _ => Ok(None),
+        })
+        .collect();
+    let mut failures: Failures = Vec::new();
+    let mut files = Vec::with_capacity(entries.len());
+    for (entry, content) in entries.iter().zip(contents) {
+        match content {
+            Ok(key) => files.push(key),
+            Err(cause) => {
+                failures.push(Box::new(EntryError::new(entry, cause)));
+                files.push(None);
+            }
+        }
+    }
+    if !failures.is_empty() {
+        return Err(failures);
+    }
+    // Where a texture lies, in an order in which those that it is made of come first.
+    let mut places: Vec<Option<Key>> = vec![None; entries.len()];
+    for index in order(entries) {
+        let entry = &entries[index];
+        let parts = Parts::new(entry.origin.key());
+        let of = |parts: Parts, other: usize| {
+            let name = parts.text(&entries[other].name);
+            name.part(places[other].as_ref().map_or(&[][..], |key| key.bytes()))
+        };
+        let parts = match &entry.origin {
+            Origin::Prompt(text) => parts.text(text).part(&entry.options.seed.to_le_bytes()),
+            Origin::Import(file) | Origin::Asset { file, .. } => {
+                let name = file.file_name().unwrap_or_default().to_string_lossy();
+                let content = files[index].as_ref().map_or(&[][..], |key| key.bytes());
+                parts.text(&name).part(content)
+            }
+            Origin::Blend { a, b, t } => of(of(parts, *a), *b).number(*t),
+            Origin::Compose {
+                tap,
+                slide,
+                friction,
+            } => of(of(of(parts, *tap), *slide), *friction),
+        };
+        places[index] = Some(edited(parts, &entry.options.edit).key());
+    }
+    let all = entries.iter().zip(&places);
+    Ok(all
+        .map(|(entry, place)| {
+            let options = &entry.options;
+            let parts = Parts::new("texture 1").text(&request.program);
+            let pinned = &request.pinned;
+            let parts = if is_learned(&entry.origin) {
+                let crcs = [pinned.model_crc32, pinned.text_encoder_crc32];
+                let crcs = crcs.map(u32::to_le_bytes).concat();
+                parts.text(&pinned.backend).part(&crcs)
+            } else {
+                parts
+            };
+            parts
+                .text(&pinned.asperity)
+                .text(&entry.name)
+                .part(place.as_ref().map_or(&[][..], |key| key.bytes()))
+                .text(&options.fidelity.to_string())
+                .number(options.rate_hz.unwrap_or(0.0))
+                .number(options.loudness_db.unwrap_or(f64::INFINITY))
+                .part(&[u8::from(options.preview)])
+                .key()
+        })
+        .collect())
+}
+
+fn edited(parts: Parts, edit: &Sliders) -> Parts {
+    AXES.into_iter()
+        .fold(parts, |parts, axis| parts.number(edit.along(axis)))
+}
+
+fn content(file: &Path) -> Result<Key, Cause> {
+    let bytes = input::read(file, Kind::Hatt).map_err(|problem| {
+        cause(InputError {
+            file: file.to_owned(),
+            problem,
+        })
+    })?;
+    Ok(Key::of(&bytes))
+}

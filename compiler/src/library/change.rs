@@ -1,0 +1,140 @@
+//! What changed between two versions of a texture.
+
+use crate::{
+    back_end::raise::raise,
+    model::{
+        TextureModel,
+        mixture::{self, Field},
+    },
+    passes::{ceiling, reduce::Reference},
+};
+use asperity_formats::Asset;
+use serde::Serialize;
+use std::fmt;
+
+/// What changed between two versions of a texture.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Change {
+    /// Sections that differ, by their tags.
+    pub sections: Vec<String>,
+    /// RMS distance of the log spectra over 10–450 Hz, level included, dB: at 95 % of the places of
+    /// the old grid, and at the worst. `None` where rates differ, or where one sounds and the other
+    /// is silent.
+    pub spectrum_db: Option<[f64; 2]>,
+    /// Largest RMS of the vibration's force over the grid, N: old and new.
+    pub vibration_n: [f64; 2],
+    /// Largest force of a tap, N: old and new.
+    pub tap_n: [f64; 2],
+    /// Stiffness of the wall, N/m: old and new.
+    pub stiffness_n_m: [f64; 2],
+    /// Coefficient of friction: old and new.
+    pub mu: [f64; 2],
+    /// Whether the picture is another one.
+    pub picture: bool,
+    /// Whether a hand can meet the change: anything but picture, provenance, latent and history.
+    pub haptic: bool,
+}
+
+impl Change {
+    /// What changed; `None` if nothing did.
+    #[must_use]
+    pub fn between(old: &Asset<'_>, new: &Asset<'_>) -> Option<Self> {
+        let sections = sections(old, new);
+        if sections.is_empty() {
+            return None;
+        }
+        let haptic = sections
+            .iter()
+            .any(|tag| tag.starts_with(|first: char| first.is_ascii_uppercase()) && tag != "NAME");
+        let (before, after) = (raise(old), raise(new));
+        let both = |figure: fn(&TextureModel) -> f64| [figure(&before), figure(&after)];
+        Some(Self {
+            spectrum_db: spectrum_db(&before, &after),
+            vibration_n: both(|t| {
+                t.gains.vib_s2_m * t.gains.f_max_n * ceiling::loudest_m_s2(&t.grid)
+            }),
+            tap_n: both(tap_n),
+            stiffness_n_m: both(|t| t.wall.stiffness_n_m),
+            mu: both(|t| t.friction.mu),
+            picture: old.preview_png() != new.preview_png(),
+            haptic,
+            sections,
+        })
+    }
+}
+
+fn sections(old: &Asset<'_>, new: &Asset<'_>) -> Vec<String> {
+    let of = |asset: &Asset<'_>| -> Vec<([u8; 4], Vec<u8>)> {
+        let body = |s| asset.section(&s).unwrap_or_default().to_vec();
+        asset.sections().map(|s| (s.tag, body(s))).collect()
+    };
+    let (old, new) = (of(old), of(new));
+    let mut tags: Vec<[u8; 4]> = Vec::new();
+    for (mine, theirs) in [(&old, &new), (&new, &old)] {
+        let changed = mine.iter().filter(|section| !theirs.contains(section));
+        tags.extend(changed.map(|(tag, _)| *tag));
+    }
+    tags.sort_unstable();
+    tags.dedup();
+    tags.iter()
+        .map(|tag| String::from_utf8_lossy(tag).into_owned())
+        .collect()
+}
+
+fn spectrum_db(old: &TextureModel, new: &TextureModel) -> Option<[f64; 2]> {
+    if old.grid == new.grid {
+        return Some([0.0, 0.0]);
+    }
+    if old.grid.sample_rate_hz != new.grid.sample_rate_hz {
+        return None;
+    }
+    // The places of a grid need an area, which a parsed one has.
+    let field = Field::new(&new.grid);
+    let inside = |&(v, f): &(f64, f64)| field.locate(v, f).is_some();
+    if !mixture::places(&old.grid).iter().all(inside) {
+        return None;
+    }
+    let distances = Reference::new(&old.grid)?.distances(&new.grid)?;
+    let (p95, worst) = distances.summary();
+    worst.is_finite().then_some([p95, worst])
+}
+
+fn tap_n(texture: &TextureModel) -> f64 {
+    let samples = texture
+        .taps
+        .traces
+        .iter()
+        .flat_map(|trace| &trace.accel_m_s2);
+    texture.gains.effective_mass_kg * samples.fold(0.0, |most: f64, a| most.max(a.abs()))
+}
+
+/// The figures that changed, in a line.
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        match self.spectrum_db {
+            Some([_, worst]) if worst == 0.0 => {}
+            Some([p95, worst]) => parts.push(format!("spectra {p95:.2} dB, {worst:.2} at worst")),
+            None => parts.push("spectra not comparable".into()),
+        }
+        let pairs = [
+            ("vibration", self.vibration_n, "N", 3),
+            ("tap", self.tap_n, "N", 3),
+            ("wall", self.stiffness_n_m, "N/m", 0),
+            ("μ", self.mu, "", 3),
+        ];
+        for (what, [old, new], unit, digits) in pairs {
+            if old != new {
+                let figure = format!("{what} {old:.digits$} → {new:.digits$} {unit}");
+                parts.push(figure.trim_end().to_owned());
+            }
+        }
+        if self.picture {
+            parts.push("picture".into());
+        }
+        if parts.is_empty() {
+            parts.push(self.sections.join(", "));
+        }
+        f.write_str(&parts.join("; "))
+    }
+}

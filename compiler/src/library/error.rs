@@ -1,0 +1,107 @@
+//! Why a library was not built.
+
+use super::manifest::{Entry, Place};
+use crate::diagnostic::Diagnostic;
+use thiserror::Error;
+
+/// What went wrong with one texture, on any thread.
+pub(super) type Cause = Box<dyn Diagnostic + Send + Sync>;
+
+/// For `map_err`: one cause.
+pub(super) fn cause(error: impl Diagnostic + Send + Sync + 'static) -> Cause {
+    Box::new(error)
+}
+
+/// Why a texture of a manifest could not be made.
+#[derive(Debug, Error)]
+#[error("{place}: {name:?}: {key}: {cause}")]
+pub struct EntryError {
+    /// Where it stands.
+    pub place: Place,
+    /// Its name.
+    pub name: String,
+    /// Key of its source.
+    pub key: &'static str,
+    /// What went wrong.
+    pub cause: Cause,
+}
+
+impl EntryError {
+    pub(super) fn new(entry: &Entry, cause: Cause) -> Self {
+        Self {
+            place: entry.place.clone(),
+            name: entry.name.clone(),
+            key: entry.origin.key(),
+            cause,
+        }
+    }
+}
+
+impl Diagnostic for EntryError {
+    fn remedy(&self) -> String {
+        self.cause.remedy()
+    }
+}
+
+/// Why textures do not become a library.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LibraryFault {
+    /// Some could not be made.
+    #[error("no library was written: {failed} of {total} textures failed, the others are {kept}")]
+    Unfinished {
+        /// Textures that failed.
+        failed: usize,
+        /// All textures.
+        total: usize,
+        /// Where the others are.
+        kept: &'static str,
+    },
+    /// Two libraries have textures of one name that differ.
+    #[error("{name:?} is in {first} and in {second}, and they differ")]
+    Differ {
+        /// The name.
+        name: String,
+        /// The library that was given first.
+        first: String,
+        /// The other one.
+        second: String,
+    },
+    /// A library with a scene.
+    #[error("{0}: a library with a scene")]
+    Scene(String),
+    /// An asset where a library is wanted.
+    #[error("{0}: an asset, a library is wanted")]
+    NoLibrary(String),
+    /// There is a texture of that name.
+    #[error("{file}: there is a texture {name:?} already")]
+    Taken {
+        /// The library.
+        file: String,
+        /// The name.
+        name: String,
+    },
+    /// A name that no texture can have.
+    #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
+    Name(String),
+}
+
+impl Diagnostic for LibraryFault {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Unfinished { .. } => {
+                "correct what failed and build again: only that is made then".into()
+            }
+            Self::Differ { .. } => {
+                "build the shards of one manifest with one version and one model".into()
+            }
+            Self::Scene(_) => "build the scene again with `asperity build`".into(),
+            Self::NoLibrary(_) => "give a library (.aspl)".into(),
+            Self::Taken { .. } | Self::Name(_) => "choose another name".into(),
+        }
+    }
+
+    fn is_usage(&self) -> bool {
+        matches!(self, Self::Name(_))
+    }
+}

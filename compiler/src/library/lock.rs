@@ -1,0 +1,257 @@
+//! The lock file: which model and versions a library was built with.
+
+use crate::{
+    diagnostic::Diagnostic,
+    input::{self, InputError, InputProblem, Kind},
+    toml_error::TomlError,
+};
+use serde::Deserialize;
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+use thiserror::Error;
+
+/// Version of the lock file.
+const FORMAT: u32 = 1;
+
+/// What decides the bytes of every texture besides its entry.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pinned {
+    /// Version of this program.
+    pub asperity: String,
+    /// Name of the learned model.
+    pub model: String,
+    /// CRC-32 of its files.
+    pub model_crc32: u32,
+    /// Name of the text encoder.
+    pub text_encoder: String,
+    /// CRC-32 of its files.
+    pub text_encoder_crc32: u32,
+    /// What runs the networks.
+    pub backend: String,
+}
+
+/// A lock file beside its manifest.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lock {
+    file: PathBuf,
+    found: Option<Pinned>,
+}
+
+/// Why a lock does not hold.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LockError {
+    /// It cannot be read.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// It is not what this version writes.
+    #[error("{file}: {error}", file = file.display())]
+    Syntax {
+        /// The lock file.
+        file: PathBuf,
+        /// Where it is wrong.
+        error: TomlError,
+    },
+    /// It was written by a later version.
+    #[error("{file}: format {found}, this version reads {FORMAT}", file = file.display())]
+    Format {
+        /// The lock file.
+        file: PathBuf,
+        /// Its format.
+        found: u32,
+    },
+    /// There is none, and one is asked for.
+    #[error("{file}: there is no lock file", file = file.display())]
+    Missing {
+        /// Where it would be.
+        file: PathBuf,
+    },
+    /// Model or versions are not those that it pins.
+    #[error("{file}: {drift}", file = file.display(), drift = drift.join("; "))]
+    Drift {
+        /// The lock file.
+        file: PathBuf,
+        /// What differs.
+        drift: Vec<String>,
+    },
+}
+
+impl Diagnostic for LockError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Input(error) => error.remedy(),
+            Self::Syntax { .. } | Self::Format { .. } => {
+                "remove it, and build once without --locked to write it anew".into()
+            }
+            Self::Missing { .. } => "build once without --locked, and commit the lock file".into(),
+            Self::Drift { .. } => {
+                "use the pinned model and version, or build without --locked to pin these".into()
+            }
+        }
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Raw {
+    format: u32,
+    asperity: String,
+    model: String,
+    model_crc32: String,
+    text_encoder: String,
+    text_encoder_crc32: String,
+    backend: String,
+}
+
+impl Pinned {
+    /// Every field by name, as text.
+    fn fields(&self) -> [(&'static str, String); 6] {
+        [
+            ("asperity", self.asperity.clone()),
+            ("model", self.model.clone()),
+            ("model_crc32", format!("{:08x}", self.model_crc32)),
+            ("text_encoder", self.text_encoder.clone()),
+            (
+                "text_encoder_crc32",
+                format!("{:08x}", self.text_encoder_crc32),
+            ),
+            ("backend", self.backend.clone()),
+        ]
+    }
+}
+
+impl Lock {
+    /// The lock of a manifest: `FILE.lock`, which may not be there.
+    ///
+    /// # Errors
+    /// [`LockError`] for a lock file that cannot be read.
+    pub fn beside(manifest: &Path) -> Result<Self, LockError> {
+        let mut name = manifest.as_os_str().to_owned();
+        name.push(".lock");
+        let file = PathBuf::from(name);
+        let text = match input::read_text(&file, Kind::Settings) {
+            Ok(text) => text,
+            Err(InputProblem::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
+                return Ok(Self { file, found: None });
+            }
+            Err(problem) => return Err(InputError { file, problem }.into()),
+        };
+        let wrong = |error: &toml::de::Error| LockError::Syntax {
+            file: file.clone(),
+            error: TomlError::new(&text, error),
+        };
+        let raw: Raw = toml::from_str(&text).map_err(|error| wrong(&error))?;
+        if raw.format != FORMAT {
+            let found = raw.format;
+            return Err(LockError::Format { file, found });
+        }
+        // A number that is none differs from every CRC but 0, which no model has.
+        let number = |text: &str| u32::from_str_radix(text, 16).unwrap_or(0);
+        let found = Some(Pinned {
+            model_crc32: number(&raw.model_crc32),
+            text_encoder_crc32: number(&raw.text_encoder_crc32),
+            asperity: raw.asperity,
+            model: raw.model,
+            text_encoder: raw.text_encoder,
+            backend: raw.backend,
+        });
+        Ok(Self { file, found })
+    }
+
+    /// The lock file.
+    #[must_use]
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// What differs from the lock, a line each; empty where there is no lock.
+    #[must_use]
+    pub fn drift(&self, now: &Pinned) -> Vec<String> {
+        let Some(found) = &self.found else {
+            return Vec::new();
+        };
+        let pairs = found.fields().into_iter().zip(now.fields());
+        pairs
+            .filter(|((_, was), (_, is))| was != is)
+            .map(|((name, was), (_, is))| format!("{name} was {was}, is {is}"))
+            .collect()
+    }
+
+    /// Refuses what the lock does not pin, and a lock that is not there.
+    ///
+    /// # Errors
+    /// [`LockError::Missing`] and [`LockError::Drift`].
+    pub fn hold(&self, now: &Pinned) -> Result<(), LockError> {
+        let file = self.file.clone();
+        if self.found.is_none() {
+            return Err(LockError::Missing { file });
+        }
+        let drift = self.drift(now);
+        if drift.is_empty() {
+            Ok(())
+        } else {
+            Err(LockError::Drift { file, drift })
+        }
+    }
+
+    /// The text of a lock file; `None` where the lock holds it already.
+    #[must_use]
+    pub fn text(&self, now: &Pinned) -> Option<String> {
+        if self.found.as_ref() == Some(now) {
+            return None;
+        }
+        let mut text = format!(
+            "# Written by `asperity build`. Commit it with the manifest; --locked refuses drift.\nformat = {FORMAT}\n"
+        );
+        for (name, value) in now.fields() {
+            // JSON's escapes are TOML's.
+            let quoted = serde_json::Value::from(value);
+            text += &format!("{name} = {quoted}\n");
+        }
+        Some(text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pinned() -> Pinned {
+        Pinned {
+            asperity: "0.1.0".into(),
+            model: "re\"ference".into(),
+            model_crc32: 0xdead,
+            text_encoder: "minilm".into(),
+            text_encoder_crc32: 7,
+            backend: "portable".into(),
+        }
+    }
+
+    #[test]
+    fn a_lock_reads_back_and_names_what_drifts() {
+        let folder = tempfile::tempdir().unwrap();
+        let manifest = folder.path().join("library.toml");
+        let none = Lock::beside(&manifest).unwrap();
+        assert!(matches!(
+            none.hold(&pinned()),
+            Err(LockError::Missing { .. })
+        ));
+        std::fs::write(none.file(), none.text(&pinned()).unwrap()).unwrap();
+        let lock = Lock::beside(&manifest).unwrap();
+        assert!(lock.hold(&pinned()).is_ok() && lock.text(&pinned()).is_none());
+        let other = Pinned {
+            model_crc32: 0xbeef,
+            ..pinned()
+        };
+        let error = lock.hold(&other).unwrap_err().to_string();
+        assert!(
+            error.contains("model_crc32 was 0000dead, is 0000beef"),
+            "{error}"
+        );
+        std::fs::write(lock.file(), "format = 1\nwhat = 2\n").unwrap();
+        let error = Lock::beside(&manifest).unwrap_err();
+        assert!(matches!(error, LockError::Syntax { .. }), "{error}");
+    }
+}

@@ -1,0 +1,393 @@
+//! Making one texture of a manifest.
+
+use super::{
+    error::{Cause, cause},
+    facts::Facts,
+    manifest::{Entry, Manifest, Options, Origin},
+    rename::renamed,
+};
+use crate::{
+    back_end::{raise::raise, source::Source},
+    edit::{
+        EditError, History, How, Latents, Made, Memory, Origin as Making, Part,
+        Source as Ingredient, Studio, encode, equal_loudness, remember, remembered,
+    },
+    front_ends::{hatt, model_file, prompt},
+    model::{Provenance, TextureModel, attributes},
+    passes::reduce::Fidelity,
+    pipeline::{Pipeline, Preview, Settings, Timings},
+};
+use asperity_formats::Asset;
+use std::{
+    collections::HashMap,
+    path::Path,
+    sync::{Mutex, PoisonError},
+};
+
+/// A texture that was made.
+pub(super) struct Finished {
+    pub(super) asset: Vec<u8>,
+    pub(super) facts: Facts,
+    pub(super) timings: Timings,
+}
+
+/// Makes textures of a manifest, on any number of threads.
+pub(super) struct Maker<'a> {
+    manifest: &'a Manifest,
+    /// `None` where no texture needs the learned model.
+    studio: Option<&'a Studio<'a>>,
+    /// What was found out of textures that others are made of.
+    known: Mutex<HashMap<usize, Known>>,
+}
+
+/// Where a texture lies in the latent space, before and apart from how it is compiled.
+#[derive(Clone)]
+struct Known {
+    latents: Latents,
+    prompt: Option<String>,
+    provenance: Option<Provenance>,
+    warnings: Vec<String>,
+    certainty: Option<f64>,
+}
+
+/// Whether a source needs the learned model.
+pub(super) fn is_learned(origin: &Origin) -> bool {
+    match origin {
+        Origin::Prompt(_) | Origin::Blend { .. } | Origin::Compose { .. } => true,
+        Origin::Import(_) | Origin::Asset { .. } => false,
+    }
+}
+
+/// The bytes of an asset that a manifest names.
+pub(super) fn asset(file: &Path, texture: Option<&str>) -> Result<Vec<u8>, Cause> {
+    let mut source = Source::open(file).map_err(cause)?;
+    let bytes = source.choose(texture).map_err(cause)?;
+    match Asset::parse(&bytes) {
+        Ok(_) => Ok(bytes),
+        Err(error) => Err(cause(source.error(texture, error.into()))),
+    }
+}
+
+impl<'a> Maker<'a> {
+    pub(super) fn new(manifest: &'a Manifest, studio: Option<&'a Studio<'a>>) -> Self {
+        Self {
+            manifest,
+            studio,
+            known: Mutex::default(),
+        }
+    }
+
+    /// Makes the texture at an index of the manifest.
+    pub(super) fn make(&self, index: usize) -> Result<Finished, Cause> {
+        let entry = &self.manifest.entries[index];
+        let options = &entry.options;
+        match &entry.origin {
+            Origin::Prompt(text) if options.edit.are_still() && options.loudness_db.is_none() => {
+                self.prompted(entry, text)
+            }
+            Origin::Import(file) => imported(entry, file),
+            Origin::Asset { file, texture } => taken(entry, file, texture.as_deref()),
+            _ => self.mixed(index),
+        }
+    }
+
+    fn studio(&self) -> Result<&'a Studio<'a>, Cause> {
+        // The build opens one where any texture needs it.
+        self.studio.ok_or_else(|| cause(prompt::PromptError::Empty))
+    }
+
+    /// A prompt as `asperity compile` makes it.
+    fn prompted(&self, entry: &Entry, text: &str) -> Result<Finished, Cause> {
+        let studio = self.studio()?;
+        let authored = studio
+            .author()
+            .author(text, &prompt_options(&entry.options))
+            .map_err(cause)?;
+        let memory = Memory {
+            model_crc32: studio.model_crc32(),
+            latents: Latents::whole(authored.z),
+            history: History::default(),
+        };
+        let haptic_bytes =
+            authored.lowered.haptic_bytes + entry.name.len() - authored.texture.name.len();
+        let asked_s2_m = authored.whole.gains.vib_s2_m;
+        let mut facts = Facts::of(
+            &authored.texture,
+            &authored.attributes,
+            haptic_bytes,
+            asked_s2_m,
+        );
+        facts.certainty = Some(authored.certainty);
+        facts.warnings = authored.warnings();
+        let asset = renamed(&authored.lowered.bytes, &entry.name)
+            .and_then(|bytes| remember(&bytes, &memory))
+            .map_err(|error| cause(EditError::from(error)))?;
+        Ok(Finished {
+            asset,
+            facts,
+            timings: authored.timings,
+        })
+    }
+
+    /// A texture that is decoded from latents: a blend, a composition, an edited prompt.
+    fn mixed(&self, index: usize) -> Result<Finished, Cause> {
+        let studio = self.studio()?;
+        let entry = &self.manifest.entries[index];
+        let options = &entry.options;
+        let known = self.latents(index)?;
+        let history = History {
+            made: self.making(entry)?,
+            loudness_db: options.loudness_db,
+            ..History::default()
+        };
+        let history = self.with_edit(index, history)?;
+        let provenance = known
+            .provenance
+            .unwrap_or_else(|| studio.provenance("build"));
+        let how = how(options);
+        let Made {
+            bytes,
+            texture,
+            haptic_bytes,
+            asked_s2_m,
+            attributes,
+            timings,
+            ..
+        } = studio
+            .compile(&known.latents, &entry.name, provenance, history, &how)
+            .map_err(cause)?;
+        let mut facts = Facts::of(&texture, &attributes, haptic_bytes, asked_s2_m);
+        facts.certainty = known.certainty;
+        facts.warnings = known.warnings;
+        Ok(Finished {
+            asset: bytes,
+            facts,
+            timings,
+        })
+    }
+
+    /// How a mixture was made, for its history.
+    fn making(&self, entry: &Entry) -> Result<Option<Making>, Cause> {
+        let ingredient = |index: usize| -> Result<Ingredient, Cause> {
+            let known = self.latents(index)?;
+            let name = &self.manifest.entries[index].name;
+            Ok(Ingredient::new(
+                name,
+                known.prompt.as_deref(),
+                &known.latents,
+            ))
+        };
+        Ok(match entry.origin {
+            Origin::Blend { a, b, t } => Some(Making::Blend {
+                a: ingredient(a)?,
+                b: ingredient(b)?,
+                t,
+            }),
+            Origin::Compose {
+                tap,
+                slide,
+                friction,
+            } => Some(Making::Compose {
+                tap: ingredient(tap)?,
+                slide: ingredient(slide)?,
+                friction: ingredient(friction)?,
+            }),
+            _ => None,
+        })
+    }
+
+    /// The history with the entry's own edit as its last step.
+    fn with_edit(&self, index: usize, mut history: History) -> Result<History, Cause> {
+        let edit = self.manifest.entries[index].options.edit;
+        if !edit.are_still() {
+            let before = self.unedited(index)?.latents;
+            history.steps.push(crate::edit::Step::new(edit, &before));
+        }
+        Ok(history)
+    }
+
+    /// Where a texture lies, edit included. What it is made of is found out first, without
+    /// recursion: a chain may be as long as the manifest.
+    fn latents(&self, index: usize) -> Result<Known, Cause> {
+        let mut stack = vec![index];
+        while let Some(&top) = stack.last() {
+            if self.find(top).is_some() {
+                stack.pop();
+                continue;
+            }
+            let parts = self.manifest.entries[top].origin.parts().into_iter();
+            let open: Vec<usize> = parts.filter(|&part| self.find(part).is_none()).collect();
+            if open.is_empty() {
+                let found = self.found_out(top)?;
+                let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+                known.insert(top, found);
+                drop(known);
+                stack.pop();
+            } else {
+                stack.extend(open);
+            }
+        }
+        self.find(index).ok_or_else(|| {
+            cause(EditError::NoLatent(
+                self.manifest.entries[index].name.clone(),
+            ))
+        })
+    }
+
+    fn find(&self, index: usize) -> Option<Known> {
+        let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        known.get(&index).cloned()
+    }
+
+    fn found_out(&self, index: usize) -> Result<Known, Cause> {
+        let mut known = self.unedited(index)?;
+        let edit = &self.manifest.entries[index].options.edit;
+        if !edit.are_still() {
+            let how = how(&self.manifest.entries[index].options);
+            let studio = self.studio()?;
+            known.latents = studio.edited(&known.latents, edit, &how).map_err(cause)?;
+        }
+        Ok(known)
+    }
+
+    /// Where a texture lies before its edit; what it is made of is known.
+    fn unedited(&self, index: usize) -> Result<Known, Cause> {
+        let studio = self.studio()?;
+        let entry = &self.manifest.entries[index];
+        let part = |index: usize| self.latents(index).map(|known| known.latents);
+        let plain = |latents: Latents| Known {
+            latents,
+            prompt: None,
+            provenance: None,
+            warnings: Vec::new(),
+            certainty: None,
+        };
+        let encoded = |texture: &TextureModel| -> Result<Known, Cause> {
+            let encoded = encode(studio, texture, Part::recorded(texture)).map_err(cause)?;
+            Ok(plain(encoded.latents))
+        };
+        Ok(match &entry.origin {
+            Origin::Prompt(text) => {
+                let options = prompt::Options {
+                    preview: false,
+                    fidelity: Fidelity::Full,
+                    ..prompt_options(&entry.options)
+                };
+                let authored = studio.author().author(text, &options).map_err(cause)?;
+                Known {
+                    latents: Latents::whole(authored.z),
+                    prompt: Some(text.clone()),
+                    warnings: authored.warnings(),
+                    certainty: Some(authored.certainty),
+                    provenance: Some(authored.texture.provenance),
+                }
+            }
+            Origin::Import(file) => encoded(&whole(file)?)?,
+            Origin::Asset { file, texture } => {
+                let bytes = asset(file, texture.as_deref())?;
+                let asset = Asset::parse(&bytes).map_err(|e| cause(EditError::from(e)))?;
+                match remembered(&asset).map_err(cause)? {
+                    Some(memory) if memory.model_crc32 == studio.model_crc32() => Known {
+                        prompt: asset.provenance().and_then(|p| p.prompt).map(str::to_owned),
+                        ..plain(memory.latents)
+                    },
+                    _ => encoded(&raise(&asset))?,
+                }
+            }
+            Origin::Blend { a, b, t } => plain(Latents::between(&part(*a)?, &part(*b)?, *t)),
+            Origin::Compose {
+                tap,
+                slide,
+                friction,
+            } => plain(Latents {
+                tap: part(*tap)?.tap,
+                slide: part(*slide)?.slide,
+                friction: part(*friction)?.friction,
+            }),
+        })
+    }
+}
+
+fn how(options: &Options) -> How {
+    How {
+        fidelity: options.fidelity,
+        rate_hz: options.rate_hz,
+        preview: options.preview,
+    }
+}
+
+fn prompt_options(options: &Options) -> prompt::Options {
+    prompt::Options {
+        seed: options.seed,
+        fidelity: options.fidelity,
+        rate_hz: options.rate_hz,
+        preview: options.preview,
+    }
+}
+
+/// The whole texture of an import, before it is reduced.
+fn whole(file: &Path) -> Result<TextureModel, Cause> {
+    let is_model = file
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+    if is_model {
+        let options = model_file::Options {
+            fidelity: Fidelity::Full,
+            rate_hz: None,
+            preview: false,
+        };
+        Ok(model_file::import(file, &options).map_err(cause)?.whole)
+    } else {
+        Ok(hatt::import(file, None).map_err(cause)?.whole)
+    }
+}
+
+fn imported(entry: &Entry, file: &Path) -> Result<Finished, Cause> {
+    let options = &entry.options;
+    let mut texture = whole(file)?;
+    texture.name.clone_from(&entry.name);
+    if let Some(level_db) = options.loudness_db {
+        equal_loudness(&mut texture, level_db);
+    }
+    let mut pipeline = Pipeline::default();
+    let settings = Settings {
+        rate_hz: options.rate_hz,
+        fidelity: options.fidelity,
+        preview: options.preview.then_some(Preview {
+            families: &[],
+            seed: texture.provenance.seed,
+        }),
+        stabilise: false,
+    };
+    let compiled = pipeline.compile(texture, &settings).map_err(cause)?;
+    let asked_s2_m = compiled.whole.gains.vib_s2_m;
+    let haptic_bytes = compiled.lowered.haptic_bytes;
+    Ok(Finished {
+        facts: Facts::of(
+            &compiled.texture,
+            &attributes::of(&compiled.texture),
+            haptic_bytes,
+            asked_s2_m,
+        ),
+        asset: compiled.lowered.bytes,
+        timings: pipeline.timings().clone(),
+    })
+}
+
+fn taken(entry: &Entry, file: &Path, texture: Option<&str>) -> Result<Finished, Cause> {
+    let bytes = renamed(&asset(file, texture)?, &entry.name)
+        .map_err(|error| cause(EditError::from(error)))?;
+    let asset = Asset::parse(&bytes).map_err(|error| cause(EditError::from(error)))?;
+    let model = raise(&asset);
+    let facts = Facts::of(
+        &model,
+        &attributes::of(&model),
+        asset.haptic_len(),
+        model.gains.vib_s2_m,
+    );
+    Ok(Finished {
+        facts,
+        asset: bytes,
+        timings: Timings::default(),
+    })
+}

@@ -1,0 +1,116 @@
+//! A checked entry of a manifest.
+
+use crate::{edit::Sliders, passes::reduce::Fidelity};
+use std::{
+    fmt,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+/// Where an entry stands.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// The file.
+    pub file: Arc<Path>,
+    /// Line, 1-based.
+    pub line: usize,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.file.display(), self.line)
+    }
+}
+
+/// A texture that a library is to have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// Its name, unique in the library.
+    pub name: String,
+    /// What it is made of.
+    pub origin: Origin,
+    /// How it is made.
+    pub options: Options,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// What a texture is made of. Paths are such that they can be opened; textures are named by their
+/// index in the manifest.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Origin {
+    /// A prompt.
+    Prompt(String),
+    /// A material of the HaTT (`.xml`), or a model of one's own (`.json`).
+    Import(PathBuf),
+    /// An asset, or one texture of a library.
+    Asset {
+        /// The file.
+        file: PathBuf,
+        /// The texture of a library.
+        texture: Option<String>,
+    },
+    /// Between two other textures.
+    Blend {
+        /// At t = 0.
+        a: usize,
+        /// At t = 1.
+        b: usize,
+        /// Where between them, 0..=1.
+        t: f64,
+    },
+    /// Parts of other textures.
+    Compose {
+        /// What tapping feels like.
+        tap: usize,
+        /// What sliding feels like.
+        slide: usize,
+        /// Where friction comes from.
+        friction: usize,
+    },
+}
+
+impl Origin {
+    /// The key that a manifest states it under.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Prompt(_) => "prompt",
+            Self::Import(_) => "import",
+            Self::Asset { .. } => "asset",
+            Self::Blend { .. } => "blend",
+            Self::Compose { .. } => "compose",
+        }
+    }
+
+    /// The other textures that it is made of.
+    #[must_use]
+    pub fn parts(&self) -> Vec<usize> {
+        match *self {
+            Self::Blend { a, b, .. } => vec![a, b],
+            Self::Compose {
+                tap,
+                slide,
+                friction,
+            } => vec![tap, slide, friction],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// How a texture is made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// 0 for what a prompt means, others for variations of it.
+    pub seed: u64,
+    /// How much of the texture is kept.
+    pub fidelity: Fidelity,
+    /// Rate of the AR models, Hz; that of the source if `None`.
+    pub rate_hz: Option<f64>,
+    /// Whether a preview is drawn.
+    pub preview: bool,
+    /// Level that the vibration is brought to, dB re 1 N RMS; none is.
+    pub loudness_db: Option<f64>,
+    /// What is moved after it was decoded.
+    pub edit: Sliders,
+}

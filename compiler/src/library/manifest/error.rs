@@ -1,0 +1,164 @@
+//! What is wrong with a manifest, and where.
+
+use crate::{diagnostic::Diagnostic, input::InputProblem};
+use std::{fmt, path::PathBuf};
+use thiserror::Error;
+
+/// One fault of a manifest: file, line, key, reason.
+#[derive(Debug, Error)]
+#[error("{}{}{}{problem}", file.display(), At(*line), Key(key))]
+pub struct ManifestError {
+    /// The file.
+    pub file: PathBuf,
+    /// Line, 1-based; `None` for the file as a whole.
+    pub line: Option<usize>,
+    /// Path of the key, such as `blend.t`; empty for the row or the file.
+    pub key: String,
+    /// What is wrong.
+    pub problem: ManifestProblem,
+}
+
+struct At(Option<usize>);
+
+impl fmt::Display for At {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(line) => write!(f, ":{line}: "),
+            None => f.write_str(": "),
+        }
+    }
+}
+
+struct Key<'a>(&'a str);
+
+impl fmt::Display for Key<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            "" => Ok(()),
+            key => write!(f, "{key}: "),
+        }
+    }
+}
+
+/// What is wrong.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ManifestProblem {
+    /// The file cannot be read, is too large, or is not UTF-8.
+    #[error(transparent)]
+    Input(#[from] InputProblem),
+    /// It is not what its name says.
+    #[error("{0}")]
+    Syntax(String),
+    /// Its name ends in nothing that is known.
+    #[error("a manifest is .toml, .csv or .jsonl")]
+    Kind,
+    /// There is no texture in it.
+    #[error("no texture")]
+    Empty,
+    /// More textures than a manifest may list.
+    #[error("more than {0} textures")]
+    TooMany(usize),
+    /// A key that is not known there.
+    #[error("no such key; there are {known}")]
+    UnknownKey {
+        /// What there is.
+        known: String,
+    },
+    /// A value of another type.
+    #[error("{found}, where {wanted} is wanted")]
+    Type {
+        /// What was wanted.
+        wanted: &'static str,
+        /// What was found.
+        found: &'static str,
+    },
+    /// A value that is not accepted.
+    #[error("{found:?}, where {wanted} is wanted")]
+    Value {
+        /// What was wanted.
+        wanted: String,
+        /// What was found.
+        found: String,
+    },
+    /// A name that no texture can have.
+    #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
+    Name(String),
+    /// The row has no source, or several.
+    #[error("{found}; one of prompt, import, asset, blend and compose is wanted")]
+    Origin {
+        /// What was found.
+        found: String,
+    },
+    /// The prompt shows nothing.
+    #[error("the prompt is empty")]
+    EmptyPrompt,
+    /// A key that does not go with the source.
+    #[error("it does not go with {origin}")]
+    Misplaced {
+        /// Key of the source.
+        origin: &'static str,
+    },
+    /// Two textures of one name.
+    #[error("{name:?} is also the name of the texture at {other}")]
+    SameName {
+        /// The name.
+        name: String,
+        /// Where it stands first.
+        other: String,
+    },
+    /// A texture that is not in the manifest.
+    #[error("no texture {0:?} in this manifest")]
+    NoSuchTexture(String),
+    /// Blends that are made of each other.
+    #[error("made of itself: {0}")]
+    Cycle(String),
+    /// A manifest that includes itself.
+    #[error("included by itself: {0}")]
+    IncludeCycle(String),
+    /// A manifest that is included twice.
+    #[error("{0} is included twice")]
+    IncludedTwice(String),
+    /// More faults than are told.
+    #[error("there are more faults")]
+    More,
+    /// A file that is not there.
+    #[error("{file}: {problem}", file = file.display())]
+    File {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        problem: InputProblem,
+    },
+}
+
+impl Diagnostic for ManifestError {
+    fn remedy(&self) -> String {
+        match &self.problem {
+            ManifestProblem::Input(problem) => problem.remedy(),
+            ManifestProblem::Syntax(_) | ManifestProblem::Kind => {
+                "see the examples in docs/libraries.md".into()
+            }
+            ManifestProblem::Empty => "add a [[texture]] with a name and a prompt".into(),
+            ManifestProblem::TooMany(_) => "split the manifest, and merge the libraries".into(),
+            ManifestProblem::More => "correct these first".into(),
+            ManifestProblem::UnknownKey { .. } => "correct the key, or remove it".into(),
+            ManifestProblem::Type { .. } | ManifestProblem::Value { .. } => {
+                "correct the value".into()
+            }
+            ManifestProblem::Name(_) => "choose another name".into(),
+            ManifestProblem::Origin { .. } => "leave one of them".into(),
+            ManifestProblem::EmptyPrompt => {
+                "describe a surface, such as \"rough abrasive sheet\"".into()
+            }
+            ManifestProblem::Misplaced { .. } => "remove the key".into(),
+            ManifestProblem::SameName { .. } => "rename one of them".into(),
+            ManifestProblem::NoSuchTexture(_) => "add it, or correct the name".into(),
+            ManifestProblem::Cycle(_) => "give one of them another source".into(),
+            ManifestProblem::IncludeCycle(_) | ManifestProblem::IncludedTwice(_) => {
+                "remove one of the includes".into()
+            }
+            ManifestProblem::File { problem, .. } => problem.remedy(),
+        }
+    }
+}

@@ -1,0 +1,395 @@
+//! Reading a manifest with all that it includes.
+
+use super::{
+    check::{Draft, DraftOrigin, Reference},
+    csv_file,
+    entry::{Entry, Origin, Place},
+    error::{ManifestError, ManifestProblem},
+    graph, json_file,
+    row::{Field, MAX_FAULTS, MAX_ROWS, Sheet, Value},
+    toml_file,
+    values::{Checker, Stated},
+};
+use crate::input::{self, Kind};
+use std::{
+    collections::HashMap,
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+/// A checked manifest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Manifest {
+    /// The file.
+    pub file: PathBuf,
+    /// Its textures in ascending order of name.
+    pub entries: Vec<Entry>,
+    /// Model, text encoder and back end, as far as it states them.
+    pub setup: Setup,
+    /// Every other file that it reads: includes, imports, assets.
+    pub sources: Vec<PathBuf>,
+}
+
+/// What turns prompts into textures, as far as a manifest states it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Setup {
+    /// A model folder.
+    pub model: Option<PathBuf>,
+    /// A text encoder, as `--text-encoder` takes it.
+    pub text_encoder: Option<String>,
+    /// A back end, as `--backend` takes it.
+    pub backend: Option<String>,
+}
+
+/// Whether a TOML text is a scene rather than a library: it has surfaces, or a servo rate.
+#[must_use]
+pub fn is_scene(text: &str) -> bool {
+    match toml::de::DeTable::parse(text) {
+        Ok(top) => {
+            let has = |key| top.get_ref().contains_key(key);
+            has("surface") || has("servo_rate_hz")
+        }
+        // Whoever wants a scene reads of scenes.
+        Err(_) => text.contains("[[surface]]") || text.contains("servo_rate_hz"),
+    }
+}
+
+impl Manifest {
+    /// Reads and checks a manifest; paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// Every fault of every file, in the order of files and lines.
+    pub fn read(file: &Path) -> Result<Self, Vec<ManifestError>> {
+        let text = text(file).map_err(|error| vec![error])?;
+        Self::of_text(file, &text)
+    }
+
+    /// Checks the text of a manifest.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn of_text(file: &Path, text: &str) -> Result<Self, Vec<ManifestError>> {
+        let mut reader = Reader::default();
+        reader.take(file, text, &Stated::default());
+        reader.manifest(file)
+    }
+}
+
+/// The most that the kinds of manifests may have: TOML is read with the lines of all values.
+fn kind(file: &Path) -> Kind {
+    if syntax(file) == Some(Syntax::Toml) {
+        Kind::Scene
+    } else {
+        Kind::Manifest
+    }
+}
+
+fn text(file: &Path) -> Result<String, ManifestError> {
+    input::read_text(file, kind(file)).map_err(|problem| whole(file, problem.into()))
+}
+
+/// A fault of a file as a whole.
+fn whole(file: &Path, problem: ManifestProblem) -> ManifestError {
+    ManifestError {
+        file: file.to_owned(),
+        line: None,
+        key: String::new(),
+        problem,
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Syntax {
+    Toml,
+    Csv,
+    JsonLines,
+}
+
+fn syntax(file: &Path) -> Option<Syntax> {
+    let Some(extension) = file.extension() else {
+        // A pipe of the shell has a number for a name.
+        return Some(Syntax::Toml);
+    };
+    match extension.to_str()?.to_ascii_lowercase().as_str() {
+        "toml" => Some(Syntax::Toml),
+        "csv" => Some(Syntax::Csv),
+        "jsonl" | "ndjson" => Some(Syntax::JsonLines),
+        _ => None,
+    }
+}
+
+#[derive(Default)]
+struct Reader {
+    drafts: Vec<Draft>,
+    /// Rows of all files so far.
+    rows: usize,
+    errors: Vec<ManifestError>,
+    sources: Vec<PathBuf>,
+    setup: Setup,
+    /// Files that are being read, each including the next.
+    open: Vec<PathBuf>,
+    /// Files that were read.
+    read: Vec<PathBuf>,
+}
+
+impl Reader {
+    fn take(&mut self, file: &Path, text: &str, outer: &Stated) {
+        let Some(sheet) = self.sheet(file, text) else {
+            return;
+        };
+        let first = self.open.is_empty();
+        // By its own name, so that a file is known by whatever path it is reached.
+        self.open
+            .push(fs::canonicalize(file).unwrap_or_else(|_| file.to_owned()));
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let place = Place {
+            file: Arc::from(file),
+            line: 1,
+        };
+        let mut checker = Checker {
+            file: &place,
+            folder,
+            errors: &mut self.errors,
+        };
+        for field in &sheet.unknown {
+            let known = "include, defaults, texture".into();
+            checker.fault(
+                field.line,
+                &field.key,
+                ManifestProblem::UnknownKey { known },
+            );
+        }
+        let mut stated = outer.clone();
+        if let Some(row) = &sheet.defaults {
+            let (own, setup) = checker.defaults(row, first);
+            stated = own.within(outer);
+            for (key, value) in setup {
+                match key.as_str() {
+                    "model" => self.setup.model = Some(folder.join(value)),
+                    "text_encoder" => self.setup.text_encoder = Some(value),
+                    _ => self.setup.backend = Some(value),
+                }
+            }
+        }
+        self.rows += sheet.rows.len();
+        if self.rows > MAX_ROWS {
+            checker.fault(1, "", ManifestProblem::TooMany(MAX_ROWS));
+            return;
+        }
+        for row in &sheet.rows {
+            if checker.errors.len() > MAX_FAULTS {
+                break;
+            }
+            self.drafts.extend(checker.row(row, &stated));
+        }
+        for field in &sheet.include {
+            self.include(field, &place, folder, &stated);
+        }
+        self.open.pop();
+    }
+
+    fn sheet(&mut self, file: &Path, text: &str) -> Option<Sheet> {
+        let mut fault = |line: usize, message: String| {
+            self.errors.push(ManifestError {
+                file: file.to_owned(),
+                line: Some(line),
+                key: String::new(),
+                problem: ManifestProblem::Syntax(message),
+            });
+        };
+        match syntax(file) {
+            Some(Syntax::Toml) => toml_file::parse(text)
+                .map_err(|error| fault(error.line, error.to_string()))
+                .ok(),
+            Some(Syntax::Csv) => csv_file::parse(text)
+                .map_err(|(line, message)| fault(line, message))
+                .ok(),
+            Some(Syntax::JsonLines) => {
+                let (sheet, wrong) = json_file::parse(text);
+                wrong
+                    .into_iter()
+                    .for_each(|(line, message)| fault(line, message));
+                Some(sheet)
+            }
+            None => {
+                self.errors.push(whole(file, ManifestProblem::Kind));
+                None
+            }
+        }
+    }
+
+    fn include(&mut self, field: &Field, place: &Place, folder: &Path, stated: &Stated) {
+        let mut checker = Checker {
+            file: place,
+            folder,
+            errors: &mut self.errors,
+        };
+        let Value::Text(_) = field.value else {
+            let (wanted, found) = ("the path of a manifest", field.value.kind());
+            checker.fault(
+                field.line,
+                "include",
+                ManifestProblem::Type { wanted, found },
+            );
+            return;
+        };
+        let Some(file) = checker.file(field, "include") else {
+            return;
+        };
+        let own = fs::canonicalize(&file).unwrap_or_else(|_| file.clone());
+        let shown = |path: &PathBuf| {
+            path.file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned()
+        };
+        if let Some(from) = self.open.iter().position(|open| *open == own) {
+            let chain = self.open[from..].iter().chain([&own]);
+            let chain: Vec<String> = chain.map(shown).collect();
+            let problem = ManifestProblem::IncludeCycle(chain.join(" → "));
+            checker.fault(field.line, "include", problem);
+            return;
+        }
+        if self.read.contains(&own) {
+            let problem = ManifestProblem::IncludedTwice(shown(&own));
+            checker.fault(field.line, "include", problem);
+            return;
+        }
+        match text(&file) {
+            Ok(text) => {
+                self.take(&file, &text, stated);
+                self.sources.push(file);
+                self.read.push(own);
+            }
+            Err(error) => self.errors.push(error),
+        }
+    }
+
+    /// Checks all textures together.
+    fn manifest(mut self, file: &Path) -> Result<Manifest, Vec<ManifestError>> {
+        let complete = self.errors.is_empty();
+        let mut drafts = std::mem::take(&mut self.drafts);
+        // Stable: of two textures of one name, the first stays first.
+        drafts.sort_by(|a, b| a.name.cmp(&b.name));
+        for pair in drafts.windows(2) {
+            if let [first, second] = pair
+                && first.name == second.name
+            {
+                let problem = ManifestProblem::SameName {
+                    name: second.name.clone(),
+                    other: first.place.to_string(),
+                };
+                self.fault(&second.place, second.place.line, "name", problem);
+            }
+        }
+        let index: HashMap<String, usize> = drafts
+            .iter()
+            .enumerate()
+            .rev()
+            .map(|(index, draft)| (draft.name.clone(), index))
+            .collect();
+        let mut entries = Vec::with_capacity(drafts.len());
+        for draft in drafts {
+            if let Some(origin) = self.resolved(draft.origin, &draft.place, &index, complete) {
+                entries.push(Entry {
+                    name: draft.name,
+                    origin,
+                    options: draft.options,
+                    place: draft.place,
+                });
+            }
+        }
+        if self.errors.is_empty()
+            && let Some(cycle) = graph::cycle(&entries)
+        {
+            let names: Vec<String> = cycle
+                .iter()
+                .map(|&i| format!("{:?}", entries[i].name))
+                .collect();
+            let entry = &entries[cycle[0]];
+            let problem = ManifestProblem::Cycle(names.join(" → "));
+            self.fault(
+                &entry.place.clone(),
+                entry.place.line,
+                entry.origin.key(),
+                problem,
+            );
+        }
+        if entries.is_empty() && self.errors.is_empty() {
+            self.errors.push(whole(file, ManifestProblem::Empty));
+        }
+        if self.errors.is_empty() {
+            Ok(Manifest {
+                file: file.to_owned(),
+                entries,
+                setup: self.setup,
+                sources: self.sources,
+            })
+        } else {
+            self.errors
+                .sort_by(|a, b| (&a.file, a.line).cmp(&(&b.file, b.line)));
+            Err(self.errors)
+        }
+    }
+
+    fn fault(&mut self, place: &Place, line: usize, key: &str, problem: ManifestProblem) {
+        self.errors.push(ManifestError {
+            file: place.file.to_path_buf(),
+            line: Some(line),
+            key: key.to_owned(),
+            problem,
+        });
+    }
+
+    /// The source with indices for names. Where rows were left out because of faults, a name may
+    /// be one of theirs and is not called missing.
+    fn resolved(
+        &mut self,
+        origin: DraftOrigin,
+        place: &Place,
+        index: &HashMap<String, usize>,
+        complete: bool,
+    ) -> Option<Origin> {
+        let mut find = |reference: Reference| {
+            let found = index.get(&reference.name).copied();
+            if found.is_none() && complete {
+                let problem = ManifestProblem::NoSuchTexture(reference.name);
+                self.errors.push(ManifestError {
+                    file: place.file.to_path_buf(),
+                    line: Some(reference.line),
+                    key: reference.key.to_owned(),
+                    problem,
+                });
+            }
+            found
+        };
+        Some(match origin {
+            DraftOrigin::Prompt(prompt) => Origin::Prompt(prompt),
+            DraftOrigin::Import(file) => {
+                self.sources.push(file.clone());
+                Origin::Import(file)
+            }
+            DraftOrigin::Asset { file, texture } => {
+                self.sources.push(file.clone());
+                Origin::Asset { file, texture }
+            }
+            DraftOrigin::Blend { a, b, t } => {
+                let (a, b) = (find(a), find(b));
+                Origin::Blend { a: a?, b: b?, t }
+            }
+            DraftOrigin::Compose {
+                tap,
+                slide,
+                friction,
+            } => {
+                let (tap, slide, friction) = (find(tap), find(slide), find(friction));
+                Origin::Compose {
+                    tap: tap?,
+                    slide: slide?,
+                    friction: friction?,
+                }
+            }
+        })
+    }
+}

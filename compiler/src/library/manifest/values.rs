@@ -1,0 +1,202 @@
+//! The values of fields, each of its type and in its range. What is not is a fault, and the check
+//! goes on.
+
+use super::{
+    entry::Place,
+    error::{ManifestError, ManifestProblem},
+    row::{Field, Value},
+};
+use crate::{
+    edit::Sliders,
+    passes::{reduce::Fidelity, rerate},
+};
+use std::path::Path;
+
+/// Keys of a texture's options.
+pub(super) const OPTIONS: [&str; 6] = ["seed", "fidelity", "rate", "preview", "loudness", "edit"];
+/// Range of `loudness`, dB re 1 N RMS.
+const LOUDNESS_DB: (f64, f64) = (-120.0, 0.0);
+
+/// Options as far as a row or the defaults state them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Stated {
+    pub(super) seed: Option<u64>,
+    pub(super) fidelity: Option<Fidelity>,
+    pub(super) rate_hz: Option<f64>,
+    pub(super) preview: Option<bool>,
+    pub(super) loudness_db: Option<f64>,
+    pub(super) edit: Option<Sliders>,
+}
+
+impl Stated {
+    /// These, and `outer` where they say nothing.
+    pub(super) fn within(&self, outer: &Self) -> Self {
+        Self {
+            seed: self.seed.or(outer.seed),
+            fidelity: self.fidelity.or(outer.fidelity),
+            rate_hz: self.rate_hz.or(outer.rate_hz),
+            preview: self.preview.or(outer.preview),
+            loudness_db: self.loudness_db.or(outer.loudness_db),
+            edit: self.edit.or(outer.edit),
+        }
+    }
+}
+
+/// Takes the faults of a file.
+pub(super) struct Checker<'a> {
+    pub(super) file: &'a Place,
+    pub(super) folder: &'a Path,
+    pub(super) errors: &'a mut Vec<ManifestError>,
+}
+
+impl Checker<'_> {
+    pub(super) fn fault(&mut self, line: usize, key: &str, problem: ManifestProblem) {
+        self.errors.push(ManifestError {
+            file: self.file.file.to_path_buf(),
+            line: Some(line),
+            key: key.to_owned(),
+            problem,
+        });
+    }
+
+    pub(super) fn text<'v>(&mut self, field: &'v Field, key: &str) -> Option<&'v str> {
+        match &field.value {
+            Value::Text(text) => Some(text),
+            other => self.wrong_type(field.line, key, "a text", other),
+        }
+    }
+
+    pub(super) fn wrong_type<T>(
+        &mut self,
+        line: usize,
+        key: &str,
+        wanted: &'static str,
+        found: &Value,
+    ) -> Option<T> {
+        let found = found.kind();
+        self.fault(line, key, ManifestProblem::Type { wanted, found });
+        None
+    }
+
+    pub(super) fn wrong_value<T>(
+        &mut self,
+        line: usize,
+        key: &str,
+        wanted: String,
+        found: String,
+    ) -> Option<T> {
+        self.fault(line, key, ManifestProblem::Value { wanted, found });
+        None
+    }
+
+    pub(super) fn number(
+        &mut self,
+        field: &Field,
+        key: &str,
+        (low, high): (f64, f64),
+        untyped: bool,
+    ) -> Option<f64> {
+        let number = match &field.value {
+            Value::Number(number) => *number,
+            Value::Whole(number) => *number as f64,
+            Value::Text(text) if untyped => match text.trim().parse() {
+                Ok(number) => number,
+                Err(_) => return self.wrong_type(field.line, key, "a number", &field.value),
+            },
+            other => return self.wrong_type(field.line, key, "a number", other),
+        };
+        // A NaN is in no range.
+        if (low..=high).contains(&number) {
+            Some(number)
+        } else {
+            let wanted = format!("a number in {low}..={high}");
+            self.wrong_value(field.line, key, wanted, number.to_string())
+        }
+    }
+
+    fn whole(&mut self, field: &Field, key: &str, untyped: bool) -> Option<u64> {
+        const WANTED: &str = "a whole number, 0 or more";
+        match &field.value {
+            Value::Whole(number) => Some(*number),
+            Value::Text(text) if untyped => match text.trim().parse() {
+                Ok(number) => Some(number),
+                Err(_) => self.wrong_value(field.line, key, WANTED.into(), text.clone()),
+            },
+            other => self.wrong_type(field.line, key, WANTED, other),
+        }
+    }
+
+    fn boolean(&mut self, field: &Field, key: &str, untyped: bool) -> Option<bool> {
+        match &field.value {
+            Value::Bool(is) => Some(*is),
+            Value::Text(text) if untyped && text == "true" => Some(true),
+            Value::Text(text) if untyped && text == "false" => Some(false),
+            other => self.wrong_type(field.line, key, "true or false", other),
+        }
+    }
+
+    pub(super) fn unknown(&mut self, field: &Field, prefix: &str, known: &[&str]) {
+        let key = format!("{prefix}{}", field.key);
+        let known = known.join(", ");
+        self.fault(field.line, &key, ManifestProblem::UnknownKey { known });
+    }
+
+    /// One option; whether the key is one.
+    pub(super) fn option(&mut self, field: &Field, untyped: bool, stated: &mut Stated) -> bool {
+        let key = field.key.as_str();
+        match key {
+            "seed" => stated.seed = self.whole(field, key, untyped),
+            "fidelity" => stated.fidelity = self.fidelity(field),
+            "rate" => {
+                stated.rate_hz = self.number(field, key, rerate::RATE_RANGE_HZ, untyped);
+            }
+            "preview" => stated.preview = self.boolean(field, key, untyped),
+            "loudness" => {
+                stated.loudness_db = self.number(field, key, LOUDNESS_DB, untyped);
+            }
+            "edit" => stated.edit = self.edit(field, untyped),
+            _ => return false,
+        }
+        true
+    }
+
+    fn fidelity(&mut self, field: &Field) -> Option<Fidelity> {
+        let text = match &field.value {
+            Value::Text(text) => text.clone(),
+            Value::Whole(order) => order.to_string(),
+            other => {
+                return self.wrong_type(field.line, "fidelity", "full, auto or an order", other);
+            }
+        };
+        match text.parse() {
+            Ok(fidelity) => Some(fidelity),
+            Err(wanted) => self.wrong_value(field.line, "fidelity", wanted, text),
+        }
+    }
+
+    fn edit(&mut self, field: &Field, untyped: bool) -> Option<Sliders> {
+        const KEYS: [&str; 4] = ["rougher", "sharper", "harder", "slipperier"];
+        let Value::Table(inner) = &field.value else {
+            return self.wrong_type(field.line, "edit", "a table", &field.value);
+        };
+        let mut sliders = Sliders::default();
+        for slider in inner {
+            let place = match slider.key.as_str() {
+                "rougher" => &mut sliders.rougher,
+                "sharper" => &mut sliders.sharper,
+                "harder" => &mut sliders.harder,
+                "slipperier" => &mut sliders.slipperier,
+                _ => {
+                    self.unknown(slider, "edit.", &KEYS);
+                    continue;
+                }
+            };
+            let key = format!("edit.{}", slider.key);
+            let range = (-Sliders::LARGEST, Sliders::LARGEST);
+            if let Some(step) = self.number(slider, &key, range, untyped) {
+                *place = step;
+            }
+        }
+        Some(sliders)
+    }
+}

@@ -1,0 +1,39 @@
+//! Parts of a library become the library.
+
+use super::{
+    error::LibraryFault,
+    pack::{NamedAsset, encode},
+    shelf::Shelf,
+};
+use crate::diagnostic::{Failures, one};
+use std::collections::BTreeMap;
+
+/// The library of all textures of these libraries: the bytes that one build gives. A texture may be
+/// in several of them if it is the same everywhere.
+///
+/// # Errors
+/// [`LibraryFault::Differ`] for every name that means different textures.
+pub fn merge(parts: &[Shelf]) -> Result<Vec<u8>, Failures> {
+    let mut all: BTreeMap<&str, (&str, &[u8])> = BTreeMap::new();
+    let mut failures: Failures = Vec::new();
+    for part in parts {
+        for (name, bytes) in &part.textures {
+            let (first, kept) = all.entry(name).or_insert((&part.shown, bytes));
+            if kept != bytes {
+                failures.push(Box::new(LibraryFault::Differ {
+                    name: name.clone(),
+                    first: (*first).to_owned(),
+                    second: part.shown.clone(),
+                }));
+            }
+        }
+    }
+    if !failures.is_empty() {
+        return Err(failures);
+    }
+    let named: Vec<NamedAsset<'_>> = all
+        .into_iter()
+        .map(|(name, (_, bytes))| NamedAsset { name, bytes })
+        .collect();
+    encode(&named).map_err(one)
+}

@@ -1,0 +1,78 @@
+//! What a build did.
+
+use super::{facts::Facts, shard::Shard};
+use serde::Serialize;
+use std::fmt;
+
+/// What a build did.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Bytes of the library.
+    pub bytes: usize,
+    /// Textures that were made.
+    pub made: usize,
+    /// Textures that the cache had.
+    pub cached: usize,
+    /// Part that was built, as `i/n`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shard: Option<String>,
+    /// Textures whose vibration the auto-gain lowered.
+    pub lowered: usize,
+    /// The textures in order of name.
+    pub textures: Vec<Row>,
+}
+
+/// One texture.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// Its name.
+    pub name: String,
+    /// `prompt`, `import`, `asset`, `blend` or `compose`.
+    pub source: &'static str,
+    /// Its key in the cache.
+    pub key: String,
+    /// Whether the cache had it.
+    pub cached: bool,
+    /// Bytes of the asset.
+    pub bytes: usize,
+    /// Its figures.
+    #[serde(flatten)]
+    pub facts: Facts,
+}
+
+impl Report {
+    pub(super) fn new(textures: Vec<Row>, bytes: usize, shard: Option<Shard>) -> Self {
+        let cached = textures.iter().filter(|row| row.cached).count();
+        let lowered = textures
+            .iter()
+            .filter(|row| row.facts.vibration_factor < 1.0);
+        Self {
+            bytes,
+            made: textures.len() - cached,
+            cached,
+            shard: shard.map(|shard| shard.to_string()),
+            lowered: lowered.count(),
+            textures,
+        }
+    }
+}
+
+/// One line.
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = self.textures.len();
+        write!(f, "{count} textures")?;
+        if let Some(shard) = &self.shard {
+            write!(f, " of part {shard}")?;
+        }
+        write!(
+            f,
+            ", {} made, {} from the cache, {} bytes",
+            self.made, self.cached, self.bytes
+        )?;
+        if self.lowered > 0 {
+            write!(f, "; auto-gain lowered {}", self.lowered)?;
+        }
+        writeln!(f)
+    }
+}

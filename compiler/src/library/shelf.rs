@@ -1,0 +1,85 @@
+//! All textures of a library in memory.
+
+use super::error::LibraryFault;
+use crate::{
+    back_end::source::{Source, SourceError},
+    diagnostic::{Failures, one},
+};
+use asperity_formats::Asset;
+use std::path::Path;
+
+/// All textures of a library, or the one of an asset, in order of name. Each is checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shelf {
+    /// The file as a report calls it.
+    pub shown: String,
+    /// Names with the bytes of their assets.
+    pub textures: Vec<(String, Vec<u8>)>,
+    /// Whether the file is a library rather than an asset.
+    pub is_library: bool,
+    /// Whether it has a scene.
+    pub has_scene: bool,
+}
+
+impl Shelf {
+    /// Reads a library or an asset; `-` is standard input.
+    ///
+    /// # Errors
+    /// [`SourceError`] for a file that cannot be used.
+    pub fn open(file: &Path) -> Result<Self, SourceError> {
+        let mut source = Source::open(file)?;
+        let shown = source.shown();
+        let Some(names) = source.names() else {
+            let bytes = source.choose(None)?;
+            let parsed = Asset::parse(&bytes).map(|asset| asset.name().to_owned());
+            let name = parsed.map_err(|e| source.error(None, e.into()))?;
+            return Ok(Self {
+                shown,
+                textures: vec![(name, bytes)],
+                is_library: false,
+                has_scene: false,
+            });
+        };
+        let mut textures = Vec::with_capacity(names.len());
+        for (index, name) in names.into_iter().enumerate() {
+            let bytes = source.texture(index)?;
+            if let Err(error) = Asset::parse(&bytes) {
+                return Err(source.error(Some(&name), error.into()));
+            }
+            textures.push((name, bytes));
+        }
+        Ok(Self {
+            shown,
+            textures,
+            is_library: true,
+            has_scene: !source.surfaces()?.is_empty(),
+        })
+    }
+
+    /// Reads a library without a scene, to write another one of its textures.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open), and [`LibraryFault`] for an asset or a scene.
+    pub fn library(file: &Path) -> Result<Self, Failures> {
+        let shelf = Self::open(file).map_err(one)?;
+        if !shelf.is_library {
+            return Err(one(LibraryFault::NoLibrary(shelf.shown)));
+        }
+        if shelf.has_scene {
+            return Err(one(LibraryFault::Scene(shelf.shown)));
+        }
+        Ok(shelf)
+    }
+
+    /// The texture that `wanted` means: a name, or an index from 0.
+    #[must_use]
+    pub fn position(&self, wanted: &str) -> Option<usize> {
+        let named = self.textures.iter().position(|(name, _)| name == wanted);
+        named.or_else(|| {
+            wanted
+                .parse()
+                .ok()
+                .filter(|&n: &usize| n < self.textures.len())
+        })
+    }
+}

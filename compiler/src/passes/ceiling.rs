@@ -1,0 +1,216 @@
+//! Auto-gain: gains that a device can hold, for each texture on its own.
+//!
+//! A device gives its peak force for moments and its continuous force for hours. The ceiling lowers
+//! `g_vib` until the RMS of the vibration stays within the continuous force everywhere on the grid,
+//!
+//! ```text
+//! g_vib·F_max·rms(v, F_n) ≤ F_c,   F_c = F_max·0.88/3.3
+//! ```
+//!
+//! and then both gains until wall, friction, vibration (at three times its RMS) and tap together
+//! stay within the peak wherever the wall alone is within F_c. A harder push than that takes the
+//! whole device by itself, and the limiter shortens the sum. Models and traces stay as they are, so
+//! the objective attributes do.
+
+use crate::{
+    model::{
+        Gains, ModelGrid, Numerator, TextureModel,
+        mixture::{self, Field},
+    },
+    signal::{level, reflection, spectrum::ArmaModel},
+};
+use serde::Serialize;
+
+/// Continuous force of the 3D Systems Touch over its peak force: 0.88 N of 3.3 N.
+pub const CONTINUOUS_SHARE: f64 = 0.88 / 3.3;
+/// Multiples of its RMS that a vibration is given room for. Noise exceeds them once in 370 samples.
+const CREST: f64 = 3.0;
+/// Room for rounding: gains are stored in binary32, levels in binary16.
+const ROOM: f64 = 0.999;
+/// Frequencies that the power of a model with zeros is averaged over.
+const POINTS: usize = 2048;
+
+/// What the ceiling made of the gains.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Ceiling {
+    /// Continuous force of the device, N.
+    pub continuous_n: f64,
+    /// Largest RMS of the vibration's force over the grid, as it was, N.
+    pub asked_n: f64,
+    /// The same under the ceiling, N.
+    pub rms_n: f64,
+    /// Factor on the vibration's gain, above 0 and at most 1.
+    pub vibration: f64,
+    /// Factor on the effective mass, hence on taps, above 0 and at most 1.
+    pub taps: f64,
+}
+
+impl Ceiling {
+    /// Whether a gain was lowered.
+    #[must_use]
+    pub fn lowers(&self) -> bool {
+        self.vibration < 1.0 || self.taps < 1.0
+    }
+}
+
+/// Lowers the gains of a texture as far as its device asks, never raises them.
+pub fn limit(texture: &mut TextureModel) -> Ceiling {
+    let gains = texture.gains;
+    let peak_n = gains.f_max_n;
+    let continuous_n = CONTINUOUS_SHARE * peak_n;
+    let levels = levels(&texture.grid);
+    let to_force = gains.vib_s2_m * gains.f_max_n;
+    let asked_n = to_force * levels.iter().map(|at| at.rms_m_s2).fold(0.0, f64::max);
+    let mut vibration = factor(continuous_n, asked_n);
+    for at in levels.iter().filter(|at| at.force_n <= continuous_n) {
+        // Wall and friction stand at right angles; the vibration goes along the friction.
+        let along_n = (peak_n * peak_n - at.force_n * at.force_n).sqrt();
+        let room_n = along_n - texture.friction.mu * at.force_n;
+        // Where friction alone takes the device, no gain of the vibration helps.
+        if room_n > 0.0 {
+            vibration = vibration.min(factor(room_n, CREST * to_force * at.rms_m_s2));
+        }
+    }
+    let taps = taps(texture, continuous_n);
+    texture.gains = Gains {
+        vib_s2_m: gains.vib_s2_m * vibration,
+        effective_mass_kg: gains.effective_mass_kg * taps,
+        ..gains
+    };
+    Ceiling {
+        continuous_n,
+        asked_n,
+        rms_n: asked_n * vibration,
+        vibration,
+        taps,
+    }
+}
+
+/// The factor on the effective mass: m_eff·a(t) + k·v·t stays within the peak while the wall's
+/// k·v·t, of a hand that does not slow down, is within the continuous force.
+fn taps(texture: &TextureModel, continuous_n: f64) -> f64 {
+    let rate_hz = texture.taps.sample_rate_hz;
+    let (peak_n, mass_kg) = (texture.gains.f_max_n, texture.gains.effective_mass_kg);
+    let mut taps = 1.0_f64;
+    for trace in &texture.taps.traces {
+        for (n, accel_m_s2) in trace.accel_m_s2.iter().enumerate() {
+            let wall_n = texture.wall.stiffness_n_m * trace.speed_m_s * n as f64 / rate_hz;
+            if wall_n <= continuous_n {
+                taps = taps.min(factor(peak_n - wall_n, mass_kg * accel_m_s2));
+            }
+        }
+    }
+    taps
+}
+
+/// What takes `asked` to `most`; 1 where it is within already.
+fn factor(most: f64, asked: f64) -> f64 {
+    if asked > most {
+        ROOM * most / asked
+    } else {
+        1.0
+    }
+}
+
+/// The vibration at a place of the grid.
+struct Level {
+    force_n: f64,
+    rms_m_s2: f64,
+}
+
+fn levels(grid: &ModelGrid) -> Vec<Level> {
+    let field = Field::new(grid);
+    mixture::places(grid)
+        .into_iter()
+        .filter_map(|(speed_mm_s, force_n)| {
+            let model = field.model(&field.locate(speed_mm_s, force_n)?);
+            Some(Level {
+                force_n,
+                rms_m_s2: rms_m_s2(&model, grid.numerator),
+            })
+        })
+        .collect()
+}
+
+/// Largest RMS of the vibration anywhere on a grid, m/s².
+#[must_use]
+pub fn loudest_m_s2(grid: &ModelGrid) -> f64 {
+    let all = levels(grid);
+    all.iter().map(|at| at.rms_m_s2).fold(0.0, f64::max)
+}
+
+/// RMS of what a model vibrates with, m/s².
+fn rms_m_s2(model: &ArmaModel, numerator: Numerator) -> f64 {
+    if numerator == Numerator::Nyquist {
+        // An unstable model is verified away later; its level counts as it is.
+        return reflection::step_down(&model.a).map_or(model.level_m_s2, |reflection| {
+            model.level_m_s2 * level::nyquist_rms_of(&reflection)
+        });
+    }
+    let half = model.sample_rate_hz / 2.0;
+    let power = |n: usize| model.power((n as f64 + 0.5) / POINTS as f64 * half);
+    ((0..POINTS).map(power).sum::<f64>() / POINTS as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{front_ends::builtin, model::attributes};
+
+    fn louder(factor: f64) -> TextureModel {
+        let mut texture = builtin::texture();
+        for vertex in &mut texture.grid.vertices {
+            vertex.sigma_m_s2 *= factor;
+        }
+        texture
+    }
+
+    #[test]
+    fn a_texture_within_the_device_keeps_its_gains() {
+        let mut texture = builtin::texture();
+        let ceiling = limit(&mut texture);
+        assert!(!ceiling.lowers(), "{ceiling:?}");
+        assert_eq!(texture, builtin::texture());
+    }
+
+    #[test]
+    fn a_loud_texture_comes_down_to_the_continuous_force_and_feels_as_rough_by_its_attributes() {
+        let mut texture = louder(300.0);
+        let before = attributes::of(&texture);
+        let ceiling = limit(&mut texture);
+        assert!(ceiling.asked_n > 0.88 && ceiling.vibration < 1.0);
+        let rms_n = texture.gains.vib_s2_m * texture.gains.f_max_n * loudest_m_s2(&texture.grid);
+        assert!(
+            rms_n <= 0.88 && (rms_n - ceiling.rms_n).abs() < 1e-9,
+            "{rms_n}"
+        );
+        assert_eq!(attributes::of(&texture), before);
+        // The second time there is nothing to lower.
+        assert!(!limit(&mut texture).lowers());
+    }
+
+    #[test]
+    fn a_tap_beyond_the_peak_comes_down_to_it() {
+        let mut texture = builtin::texture();
+        for trace in &mut texture.taps.traces {
+            trace.accel_m_s2.iter_mut().for_each(|a| *a *= 50.0);
+        }
+        assert!(limit(&mut texture).taps < 1.0);
+        let largest = texture.taps.traces.iter().flat_map(|t| &t.accel_m_s2);
+        let largest_n = texture.gains.effective_mass_kg * largest.fold(0.0, |m: f64, &a| m.max(a));
+        assert!(largest_n <= texture.gains.f_max_n, "{largest_n}");
+    }
+
+    #[test]
+    fn the_closed_form_and_the_average_agree() {
+        let texture = builtin::texture();
+        let vertex = texture.grid.vertices.last().unwrap();
+        let model = ArmaModel::at_vertex(&texture.grid, vertex);
+        let closed = rms_m_s2(&model, Numerator::Nyquist);
+        let average = rms_m_s2(&model, Numerator::Lsf);
+        assert!(
+            (closed - average).abs() <= 1e-3 * closed,
+            "{closed} {average}"
+        );
+    }
+}

@@ -1,0 +1,378 @@
+//! Libraries as a user builds them: the same bytes whatever the way, faults by file and line, work
+//! that is not lost.
+
+use super::*;
+
+/// Runs what must succeed.
+fn good(folder: &Path, arguments: &[&str]) -> String {
+    let output = asperity(folder, arguments);
+    assert!(
+        output.status.success(),
+        "{arguments:?}: {}",
+        text(&output.stderr)
+    );
+    text(&output.stdout)
+}
+
+const MANIFEST: &str = "include = [\"more.csv\", \"lines.jsonl\"]\n\
+    [defaults]\npreview = false\n\
+    [[texture]]\nname = \"sheet\"\nprompt = \"rough abrasive sheet\"\n\
+    [[texture]]\nname = \"cork\"\nprompt = \"cork\"\nseed = 3\nfidelity = 8\n\
+    [[texture]]\nname = \"wood\"\nimport = \"wood.xml\"\nfidelity = \"auto\"\n\
+    [[texture]]\nname = \"grit\"\nasset = \"good.asp\"\n\
+    [[texture]]\nname = \"between\"\nblend = { a = \"sheet\", b = \"cork\", t = 0.25 }\n\
+    [[texture]]\nname = \"of wood\"\nblend = { a = \"wood\", b = \"grit\" }\n\
+    [[texture]]\nname = \"mixed\"\ncompose = { tap = \"cork\", slide = \"between\" }\n\
+    edit = { rougher = 10 }\n";
+
+/// A manifest of every kind of entry, with all that it names.
+fn manifest() -> TempDir {
+    let inputs = inputs();
+    let write = |name: &str, content: &str| {
+        fs::write(inputs.path().join(name), content).expect("an input");
+    };
+    write("library.toml", MANIFEST);
+    write(
+        "more.csv",
+        "name,prompt,seed\nice,wet ice,\nfelt,soft felt,2\n",
+    );
+    write(
+        "lines.jsonl",
+        "{\"prompt\": \"brushed steel\", \"loudness\": -30}\n",
+    );
+    inputs
+}
+
+fn bytes(folder: &Path, file: &str) -> Vec<u8> {
+    fs::read(folder.join(file)).expect("a file")
+}
+
+#[test]
+fn order_threads_cache_and_parts_do_not_change_a_byte() {
+    let inputs = manifest();
+    let folder = inputs.path();
+    let build = ["build", "library.toml", "--cache", "cache", "-o"];
+    let said = good(folder, &[&build[..], &["one.aspl"]].concat());
+    assert!(
+        said.contains("10 textures, 10 made, 0 from the cache"),
+        "{said}"
+    );
+    let one = bytes(folder, "one.aspl");
+    // Again: all of it from the cache.
+    let said = good(folder, &[&build[..], &["again.aspl"]].concat());
+    assert!(said.contains("0 made, 10 from the cache"), "{said}");
+    assert!(bytes(folder, "again.aspl") == one);
+    // Another order of the same textures, on one thread, without a cache.
+    let (head, tail) = MANIFEST.split_at(MANIFEST.find("[[texture]]").expect("textures"));
+    let mut textures: Vec<&str> = tail.split("[[texture]]\n").skip(1).collect();
+    textures.reverse();
+    let other = format!("{head}[[texture]]\n{}", textures.join("[[texture]]\n"));
+    fs::write(folder.join("other.toml"), other).expect("a manifest");
+    let output = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args(["build", "other.toml", "--no-cache", "-o", "other.aspl"])
+        .env("RAYON_NUM_THREADS", "1")
+        .current_dir(folder)
+        .output()
+        .expect("it runs");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(bytes(folder, "other.aspl") == one);
+    // Parts, each with a cache of its own, joined in another order.
+    for part in ["1/3", "2/3", "3/3"] {
+        let (cache, file) = (format!("c{}", &part[..1]), format!("p{}.aspl", &part[..1]));
+        let shard = ["build", "library.toml", "--shard", part];
+        good(
+            folder,
+            &[&shard[..], &["--cache", &cache, "-o", &file]].concat(),
+        );
+    }
+    good(
+        folder,
+        &[
+            "merge",
+            "p3.aspl",
+            "p1.aspl",
+            "p2.aspl",
+            "-o",
+            "merged.aspl",
+        ],
+    );
+    assert!(bytes(folder, "merged.aspl") == one);
+    // Split and merged.
+    good(folder, &["split", "one.aspl", "-o", "assets"]);
+    assert!(entries(&folder.join("assets")).contains(&"of wood.asp".to_owned()));
+    good(folder, &["split", "one.aspl", "-o", "parts", "--into", "4"]);
+    let parts: Vec<String> = (1..=4).map(|n| format!("parts/part-{n}.aspl")).collect();
+    let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+    good(
+        folder,
+        &[&["merge"], &parts[..], &["-o", "whole.aspl"]].concat(),
+    );
+    assert!(bytes(folder, "whole.aspl") == one);
+}
+
+#[test]
+fn a_prompt_of_a_library_is_the_texture_that_compile_makes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::write(folder.join("p.csv"), "prompt,preview\ncork,false\n").expect("a manifest");
+    good(folder, &["build", "p.csv", "--no-cache", "-o", "p.aspl"]);
+    good(folder, &["extract", "p.aspl", "cork", "-o", "cork.asp"]);
+    good(
+        folder,
+        &["compile", "cork", "--no-preview", "-o", "own.asp"],
+    );
+    assert!(bytes(folder, "cork.asp") == bytes(folder, "own.asp"));
+    let listed = good(folder, &["list", "p.aspl", "--json"]);
+    let listed: serde_json::Value = serde_json::from_str(&listed).expect("JSON");
+    assert_eq!(listed["textures"][0]["prompt"], "cork");
+    assert_eq!(listed["textures"][0]["has_latent"], true);
+}
+
+#[test]
+fn every_fault_of_a_manifest_is_told_at_once_with_file_line_and_key() {
+    let inputs = inputs();
+    let folder = inputs.path();
+    fs::write(
+        folder.join("bad.toml"),
+        "include = [\"bad.csv\", \"none.toml\", \"bad.toml\"]\n[defaults]\nseeds = 1\n\
+         [[texture]]\nname = \"a\\u0007b\"\nprompt = \"x\"\n\
+         [[texture]]\nname = \"two\"\nprompt = \"x\"\nasset = \"good.asp\"\n\
+         [[texture]]\nname = \"gone\"\nimport = \"gone.xml\"\n\
+         [[texture]]\nname = \"same\"\nprompt = \"x\"\nfidelity = 99\n\
+         [[texture]]\nname = \"blend\"\nblend = { a = \"p\", t = 2 }\n\
+         [[texture]]\nname = \"nothing\"\n\
+         [[texture]]\nname = \"kept\"\nasset = \"good.asp\"\nseed = 4\n",
+    )
+    .expect("a manifest");
+    fs::write(
+        folder.join("bad.csv"),
+        "name,prompt,seed\nx,,1\ny,stone,many\n",
+    )
+    .expect("a manifest");
+    let output = asperity(folder, &["build", "bad.toml", "--check"]);
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    for fault in [
+        "bad.toml:1: include: none.toml: cannot read it",
+        "bad.toml:1: include: included by itself: bad.toml → bad.toml",
+        "bad.toml:3: defaults.seeds: no such key",
+        "bad.toml:5: name: ",
+        "bad.toml:10: prompt and asset",
+        "bad.toml:13: import: gone.xml: cannot read it",
+        "bad.toml:17: fidelity: ",
+        "bad.toml:20: blend.b: nothing",
+        "bad.toml:20: blend.t: \"2\", where a number in 0..=1",
+        "bad.toml:21: nothing that it is made of",
+        "bad.toml:26: seed: it does not go with asset",
+        "bad.csv:2: nothing that it is made of",
+        "bad.csv:3: seed: \"many\"",
+    ] {
+        assert!(error.contains(fault), "{fault:?} not in {error}");
+    }
+    assert!(!error.contains('\u{7}'));
+    assert_eq!(error.matches("error: ").count(), 13, "{error}");
+    // Faults that show only in all of it together.
+    fs::write(
+        folder.join("bad.toml"),
+        "[[texture]]\nname = \"a\"\nblend = { a = \"b\", b = \"cork\" }\n\
+         [[texture]]\nname = \"b\"\nblend = { a = \"a\", b = \"cork\" }\n\
+         [[texture]]\nname = \"cork\"\nprompt = \"cork\"\n",
+    )
+    .expect("a manifest");
+    refused(
+        folder,
+        &["build", "bad.toml", "--check"],
+        &["bad.toml:1", "made of itself", "\"a\" → \"b\""],
+    );
+    fs::write(
+        folder.join("bad.toml"),
+        "[[texture]]\nname = \"a\"\nprompt = \"x\"\n[[texture]]\nname = \"a\"\nprompt = \"y\"\n\
+         [[texture]]\nname = \"b\"\nblend = { a = \"a\", b = \"c\" }\n",
+    )
+    .expect("a manifest");
+    let named = [
+        "bad.toml:4: name: \"a\" is also",
+        "bad.toml:1",
+        "bad.toml:9: blend.b: no texture \"c\"",
+    ];
+    refused(folder, &["build", "bad.toml", "-o", "out.aspl"], &named);
+}
+
+#[test]
+fn one_bad_entry_fails_with_its_line_and_the_others_are_kept() {
+    let inputs = inputs();
+    let folder = inputs.path();
+    fs::write(
+        folder.join("mixed.toml"),
+        "[[texture]]\nname = \"good\"\nimport = \"mixed/a.xml\"\n\
+         [[texture]]\nname = \"bad\"\nimport = \"mixed/b.xml\"\n",
+    )
+    .expect("a manifest");
+    let build = ["build", "mixed.toml", "--cache", "cache", "-o", "out.aspl"];
+    let output = asperity(folder, &build);
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(error.contains("mixed.toml:4: \"bad\": import: "), "{error}");
+    assert!(
+        error.contains("1 of 2 textures failed, the others are in the cache"),
+        "{error}"
+    );
+    assert!(!folder.join("out.aspl").exists());
+    fs::write(folder.join("mixed/b.xml"), material("B")).expect("a material");
+    let said = good(folder, &build);
+    assert!(said.contains("1 made, 1 from the cache"), "{said}");
+}
+
+#[test]
+fn a_tampered_entry_is_made_again() {
+    let inputs = inputs();
+    let folder = inputs.path();
+    fs::write(
+        folder.join("one.toml"),
+        "[[texture]]\nname = \"w\"\nimport = \"wood.xml\"\n",
+    )
+    .expect("a manifest");
+    let build = ["build", "one.toml", "--cache", "cache", "-o", "out.aspl"];
+    good(folder, &build);
+    let first = bytes(folder, "out.aspl");
+    let shelf = fs::read_dir(folder.join("cache")).expect("a cache").next();
+    let shelf = shelf.expect("a shelf").expect("it").path();
+    let entry = fs::read_dir(shelf).expect("a shelf").next();
+    let entry = entry.expect("an entry").expect("it").path();
+    let mut content = fs::read(&entry).expect("it");
+    let last = content.len() - 100;
+    content[last] ^= 1;
+    fs::write(&entry, content).expect("it");
+    let said = good(folder, &build);
+    assert!(said.contains("1 made, 0 from the cache"), "{said}");
+    assert!(bytes(folder, "out.aspl") == first);
+    // What decides the bytes decides the key.
+    let other = material("Wood").replace("<mu>0.4</mu>", "<mu>0.5</mu>");
+    fs::write(folder.join("wood.xml"), other).expect("a material");
+    let said = good(folder, &build);
+    assert!(said.contains("1 made"), "{said}");
+    assert!(bytes(folder, "out.aspl") != first);
+}
+
+#[test]
+fn a_lock_pins_the_model_and_refuses_another() {
+    let inputs = inputs();
+    let folder = inputs.path();
+    fs::write(
+        folder.join("l.toml"),
+        "[[texture]]\nname = \"w\"\nimport = \"wood.xml\"\n",
+    )
+    .expect("a manifest");
+    let build = ["build", "l.toml", "--no-cache", "-o", "out.aspl"];
+    let locked = [&build[..], &["--locked"]].concat();
+    refused(folder, &locked, &["l.toml.lock", "no lock file"]);
+    good(folder, &build);
+    good(folder, &locked);
+    let lock = fs::read_to_string(folder.join("l.toml.lock")).expect("a lock");
+    let at = lock.find("model_crc32 = \"").expect("a CRC") + 15;
+    let other = format!("{}00000000{}", &lock[..at], &lock[at + 8..]);
+    fs::write(folder.join("l.toml.lock"), other).expect("a lock");
+    refused(
+        folder,
+        &locked,
+        &["l.toml.lock", "model_crc32 was 00000000"],
+    );
+    let output = asperity(folder, &build);
+    assert!(text(&output.stderr).contains("pins that now"));
+    assert_eq!(
+        fs::read_to_string(folder.join("l.toml.lock")).expect("a lock"),
+        lock
+    );
+}
+
+#[test]
+fn a_difference_is_told_in_figures_and_by_the_exit_status() {
+    let inputs = inputs();
+    let folder = inputs.path();
+    let write = |name: &str, mu: &str, extra: &str| {
+        let other = material("Wood").replace("<mu>0.4</mu>", mu);
+        fs::write(folder.join("wood.xml"), other).expect("a material");
+        let manifest = format!("[[texture]]\nname = \"w\"\nimport = \"wood.xml\"\n{extra}");
+        fs::write(folder.join("m.toml"), manifest).expect("a manifest");
+        good(folder, &["build", "m.toml", "--no-cache", "-o", name]);
+    };
+    write("old.aspl", "<mu>0.4</mu>", "");
+    write(
+        "new.aspl",
+        "<mu>0.5</mu>",
+        "[[texture]]\nname = \"g\"\nasset = \"good.asp\"\n",
+    );
+    assert!(good(folder, &["diff", "old.aspl", "old.aspl"]).contains("1 the same"));
+    let output = asperity(folder, &["diff", "old.aspl", "new.aspl"]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("+ g\n") && said.contains("~ w: μ 0.400 → 0.500"),
+        "{said}"
+    );
+    assert_eq!(text(&output.stderr), "");
+    let output = asperity(
+        folder,
+        &["diff", "old.aspl", "new.aspl", "--json", "--within", "1"],
+    );
+    assert_eq!(output.status.code(), Some(1));
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(json["added"][0], "g");
+    assert_eq!(json["changed"]["w"]["spectrum_db"][1], 0.0);
+}
+
+#[test]
+fn textures_are_renamed_and_a_name_is_given_once() {
+    let inputs = manifest();
+    let folder = inputs.path();
+    good(folder, &["import", "hatt", "mixed/a.xml", "-o", "a.aspl"]);
+    good(folder, &["merge", "a.aspl", "good.asp", "-o", "two.aspl"]);
+    good(
+        folder,
+        &["rename", "two.aspl", "A", "B", "-o", "renamed.aspl"],
+    );
+    good(folder, &["extract", "renamed.aspl", "B", "-o", "b.asp"]);
+    let asset = bytes(folder, "b.asp");
+    assert_eq!(
+        asperity_formats::Asset::parse(&asset)
+            .expect("an asset")
+            .name(),
+        "B"
+    );
+    good(
+        folder,
+        &["rename", "renamed.aspl", "B", "A", "-o", "back.aspl"],
+    );
+    assert!(bytes(folder, "back.aspl") == bytes(folder, "two.aspl"));
+    let other = asperity_formats::Asset::parse(&bytes(folder, "good.asp"))
+        .expect("it")
+        .name()
+        .to_owned();
+    refused(
+        folder,
+        &["rename", "two.aspl", "A", &other, "-o", "x.aspl"],
+        &["already"],
+    );
+    refused(
+        folder,
+        &["rename", "two.aspl", "nobody", "x", "-o", "x.aspl"],
+        &["nobody"],
+    );
+    let output = asperity(
+        folder,
+        &["rename", "two.aspl", "A", "a\u{7}", "-o", "x.aspl"],
+    );
+    assert_eq!(output.status.code(), Some(2));
+    refused(
+        folder,
+        &[
+            "merge",
+            "a.aspl",
+            "renamed.aspl",
+            "none.aspl",
+            "-o",
+            "x.aspl",
+        ],
+        &["none.aspl"],
+    );
+}
