@@ -1,6 +1,7 @@
 //! `asperity-lab`: measures Asperity without a device on the desk.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod error;
 mod feel;
 mod pareto;
@@ -22,7 +23,8 @@ use error::Plain;
   asperity-lab feel
   asperity-lab feel brick.asp --plot feel.png --wav feel.wav
   asperity-lab stability
-  asperity-lab pareto --out charts")]
+  asperity-lab pareto --out charts
+  asperity-lab bench --seconds 5,60")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -36,6 +38,7 @@ enum Command {
     Feel(feel::Arguments),
     Stability(stability::Arguments),
     Pareto(pareto::Arguments),
+    Bench(bench::Arguments),
     /// Run one kernel, for counting
     #[command(name = cost::COMMAND, hide = true)]
     Kernel {
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
         Command::Feel(arguments) => feel::run(arguments, console).map(|()| true),
         Command::Stability(arguments) => stability::run(arguments, console),
         Command::Pareto(arguments) => pareto::run(arguments, console).map(|()| true),
+        Command::Bench(arguments) => bench::run(arguments, console).map(|()| true),
         Command::Kernel { numbers } => kernel(numbers).map(|()| true),
     };
     match result {

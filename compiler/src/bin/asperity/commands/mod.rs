@@ -6,10 +6,12 @@ mod compile;
 mod doctor;
 mod import_hatt;
 mod import_model;
+mod import_recording;
 mod inference;
 mod inspect;
 mod outputs;
 mod plot;
+mod record_check;
 mod render;
 mod timings;
 
@@ -21,6 +23,8 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     match cli.command {
         Command::Import(Import::Hatt(args)) => import_hatt::run(&args, console),
         Command::Import(Import::Model(args)) => import_model::run(&args, console),
+        Command::Import(Import::Recording(args)) => import_recording::run(&args, console),
+        Command::RecordCheck(args) => record_check::run(&args, console),
         Command::Build(args) => build::run(&args, console),
         Command::Compile(args) => compile::run(&args, console),
         Command::Doctor(args) => doctor::run(&args, console),
