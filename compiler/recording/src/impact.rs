@@ -26,8 +26,9 @@ const IN_AIR: usize = 40;
 const SPEEDS_M_S: (f64, f64) = (0.02, 2.0);
 /// Samples of height that give the speed: the last ones before contact.
 const SLOPE: usize = 12;
-/// Around the contact that the load shows, the transient is looked for, s.
-const SEARCH_S: (f64, f64) = (0.012, 0.012);
+/// Around the contact that the load shows, the transient is looked for, s. The load is low-passed, so
+/// it shows contact early.
+const SEARCH_S: (f64, f64) = (0.012, 0.035);
 /// A transient begins where this part of its peak is reached.
 const ONSET: f64 = 0.15;
 /// Samples that are cut before the onset.
@@ -140,7 +141,7 @@ fn speed_by_height(timeline: &Timeline, onset: usize) -> Option<f64> {
             .sum();
         Some(-product / norm * RATE_HZ)
     };
-    (onset.saturating_sub(4)..onset + 28)
+    (onset.saturating_sub(4)..onset + 40)
         .filter_map(slope)
         .reduce(f64::max)
 }

@@ -9,7 +9,7 @@ use crate::random::unit;
 /// Impact speeds that a person tries, m/s.
 const TAPS_M_S: [f64; 4] = [0.06, 0.11, 0.19, 0.32];
 /// Strokes between two lifts.
-const STROKES: usize = 14;
+const STROKES: usize = 10;
 /// Slowest stroke, mm/s, and least load, N.
 const LEAST: (f64, f64) = (20.0, 0.25);
 /// Fastest stroke, mm/s, and largest load, N: what the device can bear with friction and vibration.
@@ -32,7 +32,7 @@ pub fn script(seed: u64, seconds: f64, (max_speed_mm_s, max_force_n): (f64, f64)
             duration_s: between(1.2, 1.8),
         });
         planned_s += 1.5;
-        for speed_m_s in TAPS_M_S {
+        for speed_m_s in TAPS_M_S.into_iter().chain(TAPS_M_S) {
             motions.push(Motion::Tap {
                 speed_m_s: speed_m_s * between(0.92, 1.08),
             });

@@ -5,7 +5,7 @@ use crate::cli::ImportRecording;
 use asperity::{
     console::Console,
     diagnostic::{Failures, one},
-    recording::{self, Options},
+    recording::{self, Options, RecordingFailure},
 };
 use asperity_recording::check::Severity;
 use std::path::PathBuf;
@@ -28,7 +28,9 @@ pub(crate) fn run(args: &ImportRecording, console: Console) -> Result<(), Failur
     activity.set_message("importing");
     let imported = recording::import(&args.folder, &model, &options).map_err(one)?;
     if let Some(file) = plot {
-        outputs.beside(file, recording::sheet(&imported).map_err(one)?);
+        let sheet =
+            recording::sheet(&imported).map_err(|error| one(RecordingFailure::from(error)))?;
+        outputs.beside(file, sheet);
     }
     if let Some(file) = report {
         let mut text = format!("{:#}", recording::json(&imported)).into_bytes();
