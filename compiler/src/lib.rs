@@ -5,7 +5,7 @@
 //!
 //! | folder | holds |
 //! |---|---|
-//! | `front_ends/` | what makes a texture: [`prompt`] with its [`text`] encoders and the [`learned`] model, [`hatt`], [`model_file`], [`builtin`] |
+//! | `front_ends/` | what makes a texture: [`prompt`] with its [`text`] encoders and the [`learned`] model, [`hatt`], [`recording`], [`model_file`], [`builtin`] |
 //! | `model/` | the [`model`] between the ends: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
 //! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`output`], [`source`], [`raise`] |
@@ -42,7 +42,7 @@ pub mod toml_error;
 // Users name a module without its folder, so that files can move between the stages.
 pub use back_end::{lower, output, raise, source, verify};
 pub use front_ends::{
-    builtin, embedded, hatt, imported, inference, learned, model_file, prompt, text,
+    builtin, embedded, hatt, imported, inference, learned, model_file, prompt, recording, text,
 };
 pub use model::{attributes, defaults, mesh, mixture};
 pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};

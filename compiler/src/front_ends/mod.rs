@@ -8,4 +8,5 @@ pub mod inference;
 pub mod learned;
 pub mod model_file;
 pub mod prompt;
+pub mod recording;
 pub mod text;

@@ -24,6 +24,9 @@ use std::path::PathBuf;
   asperity import model bench.json -o bench.asp
   asperity build library.toml -o library.aspl
   asperity edit sandpaper.asp --rougher 20 -o rougher.asp
+  asperity record-check oak/
+  asperity import recording oak/ -o oak.asp --plot oak.png
+  asperity build desk.toml -o desk.aspl --target cortex-m4f@16MHz
 
 A file that is written to `-` goes to standard output, and the report then to standard error. An
 output that is also an input, or another output, is refused.
@@ -67,6 +70,8 @@ pub(crate) enum Command {
     /// Import recorded textures, and models of one's own
     #[command(subcommand)]
     Import(Import),
+    /// Check a recording: a verdict for each channel, and what to do about it
+    RecordCheck(RecordCheck),
     /// Write the built-in synthetic texture
     Builtin(Builtin),
     /// Show everything in an asset or a library
@@ -182,6 +187,77 @@ pub(crate) enum Import {
     Hatt(ImportHatt),
     /// Import a model of one's own, or one that --emit-model wrote
     Model(ImportModel),
+    /// Make a texture of a recording: acceleration, force and motion of a tool on a surface
+    Recording(ImportRecording),
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A recording is a folder with recording.toml and CSV, WAV or NumPy files; \
+docs/recording.md lists every key. The check aligns the files and looks for clipping, drop-outs, \
+impossible values, clock drift, delays, hum and wrong units. A folder without recording.toml gets \
+a proposal from the files' headers. Exit status 1 if a fault was found.
+
+Examples:
+  asperity record-check oak/
+  asperity record-check oak/ --json"
+)]
+pub(crate) struct RecordCheck {
+    /// The folder
+    pub(crate) folder: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The recording is checked and aligned, cut into segments of steady speed and \
+force, and fitted by AR models on a grid of speed and force; friction and taps are measured. \
+Vertices, order and smoothing are those that predict held-out segments best. What was not recorded \
+is completed by the learned model, and the report says so. docs/recording.md explains every step.
+
+Examples:
+  asperity import recording oak/ -o oak.asp
+  asperity import recording oak/ -o oak.asp --plot oak.png --report oak.json
+  asperity import recording oak/ -o oak.asp --fidelity full --emit-model oak-model.json"
+)]
+pub(crate) struct ImportRecording {
+    /// The folder
+    pub(crate) folder: PathBuf,
+    /// The asset to write; `-` is standard output
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// How much of the models is kept: all, the least within 0.5 dB, or an AR order
+    #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
+    pub(crate) fidelity: Fidelity,
+    /// Rate of the AR models, Hz: that of the servo loop [default: 1000]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
+    /// Import in spite of faults that the check found
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// A model folder that `asperity-train fit` wrote, instead of the embedded one
+    #[arg(long, value_name = "DIR")]
+    pub(crate) model: Option<PathBuf>,
+    /// Draw no preview
+    #[arg(long)]
+    pub(crate) no_preview: bool,
+    /// Draw all steps on one sheet
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) plot: Option<PathBuf>,
+    /// Write the report of all steps as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// Write the texture before its reduction as JSON, for `asperity import model`
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) emit_model: Option<PathBuf>,
+    /// Print the report as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print on standard error how long each step took
+    #[arg(long)]
+    pub(crate) timings: bool,
 }
 
 #[derive(Debug, Args)]

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod device;
+mod bench;
 mod error;
 mod feel;
 mod pareto;
@@ -24,7 +25,8 @@ use error::Plain;
   asperity-lab feel brick.asp --plot feel.png --wav feel.wav
   asperity-lab stability
   asperity-lab pareto --out charts
-  asperity-lab device list")]
+  asperity-lab device list
+  asperity-lab bench --seconds 5,60")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -39,6 +41,7 @@ enum Command {
     Stability(stability::Arguments),
     Pareto(pareto::Arguments),
     Device(device::Arguments),
+    Bench(bench::Arguments),
     /// Run one kernel, for counting
     #[command(name = cost::COMMAND, hide = true)]
     Kernel {
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
         Command::Stability(arguments) => stability::run(arguments, console),
         Command::Device(arguments) => device::run(arguments, console),
         Command::Pareto(arguments) => pareto::run(arguments, console).map(|()| true),
+        Command::Bench(arguments) => bench::run(arguments, console).map(|()| true),
         Command::Kernel { numbers } => kernel(numbers).map(|()| true),
     };
     match result {

@@ -8,6 +8,7 @@ mod doctor;
 mod file_names;
 mod import_hatt;
 mod import_model;
+mod import_recording;
 mod inference;
 mod inspect;
 mod library;
@@ -16,6 +17,7 @@ mod mixing;
 mod outputs;
 mod plot;
 mod preview;
+mod record_check;
 mod render;
 mod timings;
 
@@ -27,6 +29,8 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     match cli.command {
         Command::Import(Import::Hatt(args)) => import_hatt::run(&args, console),
         Command::Import(Import::Model(args)) => import_model::run(&args, console),
+        Command::Import(Import::Recording(args)) => import_recording::run(&args, console),
+        Command::RecordCheck(args) => record_check::run(&args, console),
         Command::Build(args) => build::run(&args, console),
         Command::Merge(args) => library::merge::run(&args, console),
         Command::List(args) => library::list::run(&args, console),

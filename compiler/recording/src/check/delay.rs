@@ -1,0 +1,181 @@
+//! Delays between files: what one of them shows early, another shows late.
+
+use super::verdict::{Finding, Kind, Severity};
+use crate::{
+    description::Quantity,
+    reader::Recording,
+    signal::{
+        correlate,
+        filter::{band_pass, derivative},
+    },
+    timeline::{Aligned, RATE_HZ, velocity},
+};
+
+/// Largest delay that is looked for, s.
+const REACH_S: f64 = 0.08;
+/// Delay that is a fault, s: touch lags by more, and a stroke changes its speed meanwhile.
+const FAULT_S: f64 = 0.008;
+/// Least correlation that tells a delay.
+const LEAST_CORRELATION: f64 = 0.25;
+/// A peak must stand above its rivals.
+const LEAST_LEAD: f64 = 0.02;
+/// Vibration that accelerometer and force sensor share, Hz.
+const VIBRATION_HZ: (f64, f64) = (30.0, 250.0);
+/// Motion that accelerometer and position share, Hz.
+const MOTION_HZ: (f64, f64) = (2.0, 7.0);
+/// Half lengths of the filters, samples.
+const HALF: (usize, usize) = (60, 300);
+/// Least rate of a force sensor that shows vibration, Hz.
+const FAST_HZ: f64 = 600.0;
+
+/// By how much a file comes after that of the acceleration.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct FileDelay {
+    pub file: String,
+    pub late_s: f64,
+}
+
+type Pairs = Vec<(Vec<f64>, Vec<f64>)>;
+
+/// The delay of every file, and what is to be said about it.
+pub(super) fn check(recording: &Recording, aligned: &Aligned) -> (Vec<FileDelay>, Vec<Finding>) {
+    let (mut delays, mut findings) = (Vec::new(), Vec::new());
+    let file_of = |quantity| {
+        recording
+            .channels
+            .iter()
+            .find(|c| c.quantity == quantity)
+            .map(|c| c.file.clone())
+    };
+    let Some(reference) = file_of(Quantity::Acceleration) else {
+        return (delays, findings);
+    };
+    for (quantity, how) in [
+        (Quantity::Position, "motion"),
+        (Quantity::Force, "vibration"),
+    ] {
+        let Some(file) = file_of(quantity).filter(|file| *file != reference) else {
+            continue;
+        };
+        if delays.iter().any(|known: &FileDelay| known.file == file) {
+            continue;
+        }
+        let of_position = delays
+            .iter()
+            .find(|known| Some(&known.file) == file_of(Quantity::Position).as_ref())
+            .map_or(0.0, |known| known.late_s);
+        let found = match quantity {
+            Quantity::Position => lag(&motion(recording, aligned)),
+            // Friction turns with the stroke, which the position shows.
+            _ => lag(&vibration(recording, aligned))
+                .or_else(|| Some(lag(&friction(recording, aligned))? + of_position)),
+        };
+        let Some(late_s) = found else {
+            let what =
+                format!("its delay cannot be told: it shares no {how} with the accelerometer");
+            findings.push(Finding::of_file(
+                &file,
+                Kind::Delay,
+                Severity::Note,
+                what,
+                "tap the surface a few times at start and end",
+            ));
+            continue;
+        };
+        let what = format!(
+            "misaligned: it comes {:.1} ms after the accelerometer; corrected",
+            1e3 * late_s
+        );
+        let severity = if late_s.abs() > FAULT_S {
+            Severity::Fault
+        } else {
+            Severity::Good
+        };
+        findings.push(Finding::of_file(
+            &file,
+            Kind::Delay,
+            severity,
+            what,
+            "start all devices by one trigger, or give `start_s`",
+        ));
+        delays.push(FileDelay { file, late_s });
+    }
+    (delays, findings)
+}
+
+fn lag(pairs: &Pairs) -> Option<f64> {
+    let pairs: Vec<(&[f64], &[f64])> = pairs.iter().map(|(x, y)| (&x[..], &y[..])).collect();
+    let found = correlate::delay(&pairs, (REACH_S * RATE_HZ) as usize)?;
+    let clear =
+        found.correlation > LEAST_CORRELATION && found.correlation > found.rival + LEAST_LEAD;
+    clear.then_some(found.samples / RATE_HZ)
+}
+
+fn both(
+    recording: &Recording,
+    aligned: &Aligned,
+    of: [Quantity; 2],
+    prepare: impl Fn(Quantity, &[f64]) -> Vec<f64>,
+) -> Pairs {
+    let [first, second] = of.map(|quantity| aligned.axes(recording, quantity));
+    let pairs = first.into_iter().zip(second);
+    pairs
+        .filter_map(|(x, y)| Some((prepare(of[0], x?), prepare(of[1], y?))))
+        .collect()
+}
+
+/// Acceleration, and what the position says of it.
+pub(super) fn motion(recording: &Recording, aligned: &Aligned) -> Pairs {
+    let band = (MOTION_HZ.0 / RATE_HZ, MOTION_HZ.1 / RATE_HZ);
+    both(
+        recording,
+        aligned,
+        [Quantity::Acceleration, Quantity::Position],
+        |quantity, axis| {
+            let slow = band_pass(axis, band, HALF.1);
+            if quantity == Quantity::Position {
+                derivative(&derivative(&slow))
+                    .into_iter()
+                    .map(|x| x * RATE_HZ * RATE_HZ)
+                    .collect()
+            } else {
+                slow
+            }
+        },
+    )
+}
+
+/// Acceleration and force of a tool that vibrates.
+pub(super) fn vibration(recording: &Recording, aligned: &Aligned) -> Pairs {
+    let is_fast =
+        |c: &crate::channel::Channel| c.quantity != Quantity::Force || c.clock.rate_hz >= FAST_HZ;
+    if !recording.channels.iter().all(is_fast) {
+        return Vec::new();
+    }
+    let band = (VIBRATION_HZ.0 / RATE_HZ, VIBRATION_HZ.1 / RATE_HZ);
+    both(
+        recording,
+        aligned,
+        [Quantity::Acceleration, Quantity::Force],
+        |_, axis| band_pass(axis, band, HALF.0),
+    )
+}
+
+/// The direction of motion, and the force against it.
+fn friction(recording: &Recording, aligned: &Aligned) -> Pairs {
+    let Some([vx, vy]) = velocity(recording, aligned) else {
+        return Vec::new();
+    };
+    let [fx, fy, _] = aligned.axes(recording, Quantity::Force);
+    let speed: Vec<f64> = vx
+        .iter()
+        .zip(&vy)
+        .map(|(x, y)| libm::hypot(*x, *y).max(0.01))
+        .collect();
+    let unit = |v: &[f64]| v.iter().zip(&speed).map(|(v, speed)| v / speed).collect();
+    let against = |f: &[f64]| f.iter().map(|x| -x).collect();
+    [(vx, fx), (vy, fy)]
+        .into_iter()
+        .filter_map(|(v, f)| Some((unit(&v), against(f?))))
+        .collect()
+}

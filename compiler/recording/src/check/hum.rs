@@ -1,0 +1,81 @@
+//! Mains hum: a steady line at 50 or 60 Hz while the tool is in the air.
+
+use super::verdict::{Finding, Kind, Severity};
+use crate::{
+    description::Quantity,
+    reader::Recording,
+    signal::{
+        quantile::{mean, median},
+        spectrum::{hann, omegas, periodogram},
+    },
+    timeline::{Aligned, RATE_HZ, Timeline},
+};
+
+/// Samples of a stretch, 1 s: lines 4 Hz wide are told apart.
+const STRETCH: usize = 1000;
+/// A line as many times stronger than its neighbourhood is hum.
+const LINE: f64 = 30.0;
+/// Stretches that are looked at.
+const MOST: usize = 20;
+/// Fewest stretches.
+const FEWEST: usize = 2;
+
+pub(super) fn check(recording: &Recording, aligned: &Aligned, timeline: &Timeline) -> Vec<Finding> {
+    let mut starts = Vec::new();
+    let mut n = 0;
+    while n + STRETCH <= timeline.len() && starts.len() < MOST {
+        match timeline.contact[n..n + STRETCH]
+            .iter()
+            .rposition(|touches| *touches)
+        {
+            Some(last) => n += last + 1,
+            None => {
+                starts.push(n);
+                n += STRETCH / 2;
+            }
+        }
+    }
+    if starts.len() < FEWEST {
+        return Vec::new();
+    }
+    let window = hann(STRETCH);
+    let fine = |from, to, count| omegas(RATE_HZ, from, to, count);
+    let mut findings = Vec::new();
+    for (channel, samples) in recording.channels.iter().zip(&aligned.channels) {
+        if !matches!(channel.quantity, Quantity::Acceleration | Quantity::Force) {
+            continue;
+        }
+        for mains_hz in [50.0, 60.0] {
+            let power = |omegas: &[f64]| -> Vec<f64> {
+                let mut sum = vec![0.0; omegas.len()];
+                for &start in &starts {
+                    let stretch = &samples[start..start + STRETCH];
+                    let level = mean(stretch);
+                    let free: Vec<f64> = stretch.iter().map(|x| x - level).collect();
+                    for (sum, p) in sum.iter_mut().zip(periodogram(&free, &window, omegas)) {
+                        *sum += p / starts.len() as f64;
+                    }
+                }
+                sum
+            };
+            let line = power(&fine(mains_hz - 0.5, mains_hz + 0.5, 3))
+                .into_iter()
+                .fold(0.0, f64::max);
+            let mut around = power(&fine(mains_hz - 8.0, mains_hz - 4.0, 5));
+            around.extend(power(&fine(mains_hz + 4.0, mains_hz + 8.0, 5)));
+            if line > LINE * median(around) {
+                let rms = (2.0 * line * 1.5 / STRETCH as f64).sqrt();
+                let what = format!("hum at {mains_hz} Hz, some {rms:.2e} SI RMS in the air");
+                findings.push(Finding::of_channel(
+                    &channel.file,
+                    &channel.label,
+                    Kind::Hum,
+                    Severity::Warning,
+                    what,
+                    "shield the cable and ground the tool",
+                ));
+            }
+        }
+    }
+    findings
+}

@@ -1,0 +1,203 @@
+//! Units that cannot be right: gravity, inertia and motion are the same for everybody.
+
+use super::{
+    delay::{motion, vibration},
+    verdict::{Finding, Kind, Severity},
+};
+use crate::{
+    description::{GRAVITY_M_S2, Quantity},
+    reader::Recording,
+    signal::quantile::{mean, quantile},
+    timeline::{Aligned, Timeline},
+};
+
+/// Factors by which people get units wrong.
+const FACTORS: [f64; 7] = [
+    1.0,
+    9.806_65,
+    1.0 / 9.806_65,
+    1000.0,
+    1e-3,
+    9806.65,
+    1.0 / 9806.65,
+];
+/// How far from a factor a ratio may lie.
+const GRAVITY_TOLERANCE: f64 = 1.25;
+const MOTION_TOLERANCE: f64 = 1.8;
+const MASS_TOLERANCE: f64 = 2.6;
+/// Least correlation of two channels that measure the same.
+const LEAST_CORRELATION: f64 = 0.3;
+/// Speeds of strokes, mm/s, and loads, N, that a hand has.
+const SPEEDS_MM_S: (f64, f64) = (2.0, 3000.0);
+const LOADS_N: (f64, f64) = (0.02, 100.0);
+
+pub(super) fn check(recording: &Recording, aligned: &Aligned, timeline: &Timeline) -> Vec<Finding> {
+    let mut wrong: Vec<(Quantity, f64, &'static str)> = Vec::new();
+    let gravity = gravity_factor(recording, aligned);
+    let of_accel = gravity.unwrap_or(1.0);
+    if of_accel != 1.0 {
+        wrong.push((Quantity::Acceleration, of_accel, "gravity"));
+    }
+    // Both hold the acceleration against another channel.
+    let of_motion =
+        ratio(&motion(recording, aligned)).and_then(|r| factor(r / of_accel, MOTION_TOLERANCE));
+    let of_mass = recording.description.tool.mass_kg.and_then(|mass_kg| {
+        let inverse = ratio(&vibration(recording, aligned))?;
+        factor(1.0 / (inverse * mass_kg) * of_accel, MASS_TOLERANCE)
+    });
+    match (of_motion, of_mass) {
+        (Some(motion), Some(mass))
+            if gravity.is_none() && motion != 1.0 && (motion * mass - 1.0).abs() < 1e-3 =>
+        {
+            wrong.push((
+                Quantity::Acceleration,
+                motion,
+                "the motion and the tool's mass",
+            ));
+        }
+        (motion, mass) => {
+            if let Some(motion) = motion.filter(|f| *f != 1.0) {
+                wrong.push((
+                    Quantity::Position,
+                    1.0 / motion,
+                    "the acceleration of the same motion",
+                ));
+            }
+            if let Some(mass) = mass.filter(|f| *f != 1.0) {
+                wrong.push((Quantity::Force, mass, "the tool's mass times its vibration"));
+            }
+        }
+    }
+    let moving = quantile(timeline.speed_mm_s.iter().copied(), 0.9);
+    let motion_known =
+        wrong.iter().any(|(q, ..)| *q == Quantity::Position) || of_motion == Some(1.0);
+    let quantity = if has(recording, Quantity::Speed) {
+        Quantity::Speed
+    } else {
+        Quantity::Position
+    };
+    if !motion_known && let Some(f) = beyond(moving, SPEEDS_MM_S) {
+        wrong.push((quantity, f, "the speed of a hand"));
+    }
+    let loads = timeline
+        .load_n
+        .iter()
+        .zip(&timeline.contact)
+        .filter(|(_, touches)| **touches)
+        .map(|(load, _)| *load);
+    let pressed = quantile(loads, 0.9).max(quantile(timeline.load_n.iter().copied(), 0.98));
+    let force_known = wrong.iter().any(|(q, ..)| *q == Quantity::Force);
+    if !force_known && let Some(f) = beyond(pressed, LOADS_N) {
+        wrong.push((Quantity::Force, f, "the load of a hand"));
+    }
+    wrong
+        .into_iter()
+        .map(|(quantity, factor, by)| finding(recording, quantity, factor, by))
+        .collect()
+}
+
+fn has(recording: &Recording, quantity: Quantity) -> bool {
+    recording.channels.iter().any(|c| c.quantity == quantity)
+}
+
+fn finding(recording: &Recording, quantity: Quantity, factor: f64, by: &str) -> Finding {
+    let file = recording
+        .channels
+        .iter()
+        .find(|c| c.quantity == quantity)
+        .map_or("", |c| &c.file);
+    let words = if factor > 1.0 {
+        format!("{factor:.4} times too large")
+    } else {
+        format!("{:.4} times too small", 1.0 / factor)
+    };
+    let what = format!("wrong unit: its values are {words}, by {by}");
+    let remedy = format!("correct `unit` of {quantity} in recording.toml");
+    Finding::of_channel(
+        file,
+        &quantity.to_string(),
+        Kind::Unit,
+        Severity::Fault,
+        what,
+        &remedy,
+    )
+}
+
+/// By which factor the acceleration at rest differs from gravity; `None` for a sensor without a
+/// steady part.
+fn gravity_factor(recording: &Recording, aligned: &Aligned) -> Option<f64> {
+    let axes: Vec<&Vec<f64>> = recording
+        .channels
+        .iter()
+        .zip(&aligned.channels)
+        .filter(|(channel, _)| channel.quantity == Quantity::Acceleration)
+        .map(|(_, samples)| samples)
+        .collect();
+    let steady = axes
+        .iter()
+        .map(|axis| mean(axis))
+        .map(|x| x * x)
+        .sum::<f64>()
+        .sqrt();
+    let moving = axes
+        .iter()
+        .map(|axis| quantile(axis.iter().map(|x| (x - mean(axis)).abs()), 0.5))
+        .fold(0.0, f64::max);
+    if axes.len() < 3 || steady < moving {
+        return None;
+    }
+    factor(steady / GRAVITY_M_S2, GRAVITY_TOLERANCE)
+}
+
+/// RMS of the first over RMS of the second of pairs that go together.
+fn ratio(pairs: &[(Vec<f64>, Vec<f64>)]) -> Option<f64> {
+    let power = |axis: &[f64]| axis.iter().map(|x| x * x).sum::<f64>();
+    // One axis at a time: the largest is the surest.
+    let mut best: Option<(f64, f64)> = None;
+    let reach = 30;
+    for (x, y) in pairs {
+        let found = crate::signal::correlate::delay(&[(x, y)], reach)?;
+        if found.correlation > LEAST_CORRELATION
+            && best.is_none_or(|(known, _)| found.correlation > known)
+        {
+            // The part of the first that goes with the second.
+            best = Some((
+                found.correlation,
+                found.correlation * (power(x) / power(y)).sqrt(),
+            ));
+        }
+    }
+    best.map(|(_, ratio)| ratio)
+}
+
+/// The factor next to a ratio, if one is near.
+fn factor(ratio: f64, tolerance: f64) -> Option<f64> {
+    FACTORS.into_iter().find(|factor| {
+        let off = ratio / factor;
+        off < tolerance && off > 1.0 / tolerance
+    })
+}
+
+/// The power of 1000 that brings a value into a range.
+fn beyond(value: f64, (low, high): (f64, f64)) -> Option<f64> {
+    if value > high {
+        Some(1000.0)
+    } else if value < low && value > 0.0 {
+        Some(1e-3)
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_factors_that_people_confuse_are_named() {
+        assert_eq!(factor(1.1, 1.25), Some(1.0));
+        assert_eq!(factor(0.11, 1.25), Some(1.0 / 9.806_65));
+        assert_eq!(factor(970.0, 1.25), Some(1000.0));
+        assert_eq!(factor(3.0, 1.25), None);
+    }
+}

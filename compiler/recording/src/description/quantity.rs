@@ -1,0 +1,109 @@
+//! Quantities, their units, and the factors to SI.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// What a channel measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quantity {
+    /// Acceleration of the tool.
+    Acceleration,
+    /// Force between tool and surface.
+    Force,
+    /// Torque; read and checked, not used.
+    Torque,
+    /// Position of the tool's tip.
+    Position,
+    /// Speed of the tool's tip.
+    Speed,
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Acceleration => "acceleration",
+            Self::Force => "force",
+            Self::Torque => "torque",
+            Self::Position => "position",
+            Self::Speed => "speed",
+        })
+    }
+}
+
+/// A unit of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// As a description writes it.
+    pub name: &'static str,
+    /// What it is a unit of.
+    pub quantity: Quantity,
+    /// SI units in one of it.
+    pub to_si: f64,
+}
+
+const fn unit(name: &'static str, quantity: Quantity, to_si: f64) -> Unit {
+    Unit {
+        name,
+        quantity,
+        to_si,
+    }
+}
+
+/// Standard gravity, m/s².
+pub const GRAVITY_M_S2: f64 = 9.806_65;
+
+const UNITS: [Unit; 19] = [
+    unit("m/s^2", Quantity::Acceleration, 1.0),
+    unit("m/s²", Quantity::Acceleration, 1.0),
+    unit("mm/s^2", Quantity::Acceleration, 1e-3),
+    unit("g", Quantity::Acceleration, GRAVITY_M_S2),
+    unit("mg", Quantity::Acceleration, 1e-3 * GRAVITY_M_S2),
+    unit("N", Quantity::Force, 1.0),
+    unit("mN", Quantity::Force, 1e-3),
+    unit("kN", Quantity::Force, 1e3),
+    unit("kgf", Quantity::Force, GRAVITY_M_S2),
+    unit("gf", Quantity::Force, 1e-3 * GRAVITY_M_S2),
+    unit("N*m", Quantity::Torque, 1.0),
+    unit("N*mm", Quantity::Torque, 1e-3),
+    unit("m", Quantity::Position, 1.0),
+    unit("mm", Quantity::Position, 1e-3),
+    unit("um", Quantity::Position, 1e-6),
+    unit("cm", Quantity::Position, 1e-2),
+    unit("m/s", Quantity::Speed, 1.0),
+    unit("mm/s", Quantity::Speed, 1e-3),
+    unit("cm/s", Quantity::Speed, 1e-2),
+];
+
+impl Unit {
+    /// The unit of a quantity with this name.
+    #[must_use]
+    pub fn named(name: &str, quantity: Quantity) -> Option<Self> {
+        UNITS
+            .into_iter()
+            .find(|unit| unit.name == name && unit.quantity == quantity)
+    }
+
+    /// All units of a quantity, for an error.
+    #[must_use]
+    pub fn all(quantity: Quantity) -> String {
+        let names: Vec<&str> = UNITS
+            .iter()
+            .filter(|unit| unit.quantity == quantity)
+            .map(|unit| unit.name)
+            .collect();
+        names.join(", ")
+    }
+
+    /// The unit in which the project reports a quantity: SI.
+    #[must_use]
+    pub fn si(quantity: Quantity) -> &'static str {
+        match quantity {
+            Quantity::Acceleration => "m/s²",
+            Quantity::Force => "N",
+            Quantity::Torque => "N*m",
+            Quantity::Position => "m",
+            Quantity::Speed => "m/s",
+        }
+    }
+}

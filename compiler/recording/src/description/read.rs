@@ -1,0 +1,299 @@
+//! Reads and checks a description.
+
+use super::{
+    propose::propose,
+    quantity::{Quantity, Unit},
+    schema::{Axis, Channel, Column, Description, SensorFile, Tool},
+};
+use crate::error::{Problem, RecordingError};
+use serde::Deserialize;
+use std::{io::Read, path::Path};
+use toml::Spanned;
+
+/// Name of the description in its folder.
+pub const FILE_NAME: &str = "recording.toml";
+/// Most bytes of a description.
+pub const MAX_BYTES: u64 = 1024 * 1024;
+/// Most files and most channels of a file.
+const MAX_ENTRIES: usize = 64;
+/// Range of rates, Hz.
+const RATES_HZ: (f64, f64) = (10.0, 200_000.0);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawDescription {
+    name: String,
+    device: Option<String>,
+    #[serde(default)]
+    tool: Tool,
+    #[serde(default)]
+    file: Vec<Spanned<RawFile>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawFile {
+    path: String,
+    rate_hz: Option<Spanned<f64>>,
+    clock: Option<Column>,
+    clock_unit: Option<Spanned<String>>,
+    #[serde(default)]
+    start_s: f64,
+    #[serde(default)]
+    channel: Vec<Spanned<RawChannel>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawChannel {
+    column: Column,
+    quantity: Quantity,
+    axis: Option<Axis>,
+    unit: Spanned<String>,
+    scale: Option<f64>,
+    range: Option<[f64; 2]>,
+}
+
+/// Reads the description of a folder.
+///
+/// # Errors
+/// [`RecordingError`] with the line at fault; with a proposal where the folder has none.
+pub fn read(folder: &Path) -> Result<Description, RecordingError> {
+    let path = folder.join(FILE_NAME);
+    if !folder.is_dir() {
+        let kind = std::io::Error::other("it is no folder");
+        return Err(RecordingError::of(folder, Problem::Unreadable(kind)));
+    }
+    if !path.exists() {
+        let proposal = propose(folder);
+        return Err(RecordingError::of(
+            folder,
+            Problem::NoDescription { proposal },
+        ));
+    }
+    let mut text = String::new();
+    let unreadable = |error| RecordingError::of(&path, Problem::Unreadable(error));
+    let file = std::fs::File::open(&path).map_err(unreadable)?;
+    let read = file
+        .take(MAX_BYTES + 1)
+        .read_to_string(&mut text)
+        .map_err(unreadable)?;
+    if read as u64 > MAX_BYTES {
+        let problem = Problem::Toml(format!("has more than {MAX_BYTES} bytes"));
+        return Err(RecordingError::of(&path, problem));
+    }
+    parse(&text, &path)
+}
+
+fn parse(text: &str, path: &Path) -> Result<Description, RecordingError> {
+    let line_of = |offset: usize| 1 + text[..offset.min(text.len())].matches('\n').count() as u64;
+    let raw: RawDescription = toml::from_str(text).map_err(|error| RecordingError {
+        file: path.to_owned(),
+        line: error.span().map(|span| line_of(span.start)),
+        problem: Problem::Toml(error.message().to_owned()),
+    })?;
+    let field = |offset: usize, field: &'static str, value: String, rule: &str| {
+        let rule = rule.to_owned();
+        RecordingError::at(path, line_of(offset), Problem::Field { field, value, rule })
+    };
+    if raw.name.trim().is_empty() || raw.name.len() > 64 {
+        return Err(field(0, "name", raw.name, "must have 1 to 64 bytes"));
+    }
+    if let Some(mass_kg) = raw.tool.mass_kg
+        && !(mass_kg > 0.0 && mass_kg < 10.0)
+    {
+        let at = text.find("mass_kg").unwrap_or(0);
+        return Err(field(
+            at,
+            "mass_kg",
+            mass_kg.to_string(),
+            "must be above 0 and below 10",
+        ));
+    }
+    if raw.file.is_empty() || raw.file.len() > MAX_ENTRIES {
+        let value = format!("{} entries", raw.file.len());
+        return Err(field(
+            0,
+            "file",
+            value,
+            "must have 1 to 64 entries [[file]]",
+        ));
+    }
+    let mut files = Vec::with_capacity(raw.file.len());
+    for entry in raw.file {
+        let at = entry.span().start;
+        let entry = entry.into_inner();
+        let inside = Path::new(&entry.path)
+            .components()
+            .all(|part| matches!(part, std::path::Component::Normal(_)));
+        if entry.path.is_empty() || !inside {
+            return Err(field(
+                at,
+                "path",
+                entry.path,
+                "must name a file inside the folder",
+            ));
+        }
+        let (low, high) = RATES_HZ;
+        if let Some(rate) = &entry.rate_hz
+            && !(*rate.get_ref() >= low && *rate.get_ref() <= high)
+        {
+            let (at, value) = (rate.span().start, rate.get_ref().to_string());
+            return Err(field(
+                at,
+                "rate_hz",
+                value,
+                "must lie between 10 and 200000",
+            ));
+        }
+        if !entry.start_s.is_finite() {
+            return Err(field(
+                at,
+                "start_s",
+                entry.start_s.to_string(),
+                "must be finite",
+            ));
+        }
+        let clock_s = match entry
+            .clock_unit
+            .as_ref()
+            .map(|unit| unit.get_ref().as_str())
+        {
+            None | Some("s") => 1.0,
+            Some("ms") => 1e-3,
+            Some("us") => 1e-6,
+            Some("ns") => 1e-9,
+            Some(other) => {
+                let at = entry
+                    .clock_unit
+                    .as_ref()
+                    .map_or(at, |unit| unit.span().start);
+                return Err(field(
+                    at,
+                    "clock_unit",
+                    other.to_owned(),
+                    "is none of s, ms, us, ns",
+                ));
+            }
+        };
+        if entry.channel.is_empty() || entry.channel.len() > MAX_ENTRIES {
+            let value = format!("{} entries", entry.channel.len());
+            return Err(field(
+                at,
+                "channel",
+                value,
+                "must have 1 to 64 entries [[file.channel]]",
+            ));
+        }
+        let mut channels = Vec::with_capacity(entry.channel.len());
+        for raw in entry.channel {
+            let at = raw.span().start;
+            let raw = raw.into_inner();
+            let Some(unit) = Unit::named(raw.unit.get_ref(), raw.quantity) else {
+                let rule = format!(
+                    "is no unit of {}: {}",
+                    raw.quantity,
+                    Unit::all(raw.quantity)
+                );
+                let at = raw.unit.span().start;
+                return Err(field(at, "unit", raw.unit.into_inner(), &rule));
+            };
+            let scale = raw.scale.unwrap_or(1.0);
+            if !scale.is_finite() || scale == 0.0 {
+                return Err(field(
+                    at,
+                    "scale",
+                    scale.to_string(),
+                    "must be finite and not 0",
+                ));
+            }
+            if let Some([low, high]) = raw.range
+                && (low.is_nan() || high.is_nan() || low >= high)
+            {
+                return Err(field(
+                    at,
+                    "range",
+                    format!("[{low}, {high}]"),
+                    "must ascend",
+                ));
+            }
+            channels.push(Channel {
+                column: raw.column,
+                quantity: raw.quantity,
+                axis: raw.axis.unwrap_or(Axis::Along),
+                unit,
+                scale,
+                range: raw.range,
+            });
+        }
+        files.push(SensorFile {
+            file: entry.path,
+            line: line_of(at),
+            rate_hz: entry.rate_hz.map(Spanned::into_inner),
+            clock: entry.clock,
+            clock_s,
+            start_s: entry.start_s,
+            channels,
+        });
+    }
+    Ok(Description {
+        name: raw.name,
+        device: raw.device,
+        tool: raw.tool,
+        files,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = r#"
+name = "oak"
+[tool]
+mass_kg = 0.05
+[[file]]
+path = "accel.csv"
+clock = "t"
+clock_unit = "ms"
+[[file.channel]]
+column = "az"
+quantity = "acceleration"
+axis = "z"
+unit = "g"
+range = [-16, 16]
+"#;
+
+    fn fault(text: &str) -> String {
+        parse(text, Path::new("recording.toml"))
+            .expect_err("a fault")
+            .to_string()
+    }
+
+    #[test]
+    fn a_description_says_what_it_means() {
+        let oak = parse(GOOD, Path::new("recording.toml")).expect("valid");
+        let channel = &oak.files[0].channels[0];
+        assert_eq!(oak.files[0].clock_s, 1e-3);
+        assert!((channel.factor() - 9.80665).abs() < 1e-9);
+        assert_eq!(channel.label(), "acceleration z");
+    }
+
+    #[test]
+    fn a_fault_is_named_with_its_line_and_what_would_be_right() {
+        let unit = fault(&GOOD.replace("\"g\"", "\"gee\""));
+        assert!(
+            unit.starts_with("recording.toml:13: unit = \"gee\""),
+            "{unit}"
+        );
+        assert!(unit.contains("m/s^2"), "{unit}");
+        let key = fault(&GOOD.replace("axis", "axes"));
+        assert!(
+            key.starts_with("recording.toml:12: unknown field `axes`"),
+            "{key}"
+        );
+        assert!(fault(&GOOD.replace("accel.csv", "../x.csv")).contains("inside the folder"));
+        assert!(fault("name = \"x\"").contains("[[file]]"));
+        assert!(fault(&GOOD.replace("0.05", "-1")).contains("recording.toml:4: mass_kg"));
+    }
+}

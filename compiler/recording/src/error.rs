@@ -1,0 +1,154 @@
+//! What can be wrong with a recording, where, and what to do about it.
+
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// A recording that cannot be read or used.
+#[derive(Debug, Error)]
+#[error("{}{}: {problem}", file.display(), line.map(|line| format!(":{line}")).unwrap_or_default())]
+pub struct RecordingError {
+    /// The file at fault, or the folder.
+    pub file: PathBuf,
+    /// The line or row at fault, from 1.
+    pub line: Option<u64>,
+    /// What is wrong.
+    #[source]
+    pub problem: Problem,
+}
+
+impl RecordingError {
+    /// A problem of a whole file.
+    pub fn of(file: impl Into<PathBuf>, problem: Problem) -> Self {
+        Self {
+            file: file.into(),
+            line: None,
+            problem,
+        }
+    }
+
+    /// A problem at a line or row.
+    pub fn at(file: impl Into<PathBuf>, line: u64, problem: Problem) -> Self {
+        Self {
+            file: file.into(),
+            line: Some(line),
+            problem,
+        }
+    }
+
+    /// What the user can do, in one sentence.
+    #[must_use]
+    pub fn remedy(&self) -> String {
+        self.problem.remedy()
+    }
+}
+
+/// What is wrong with a recording.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Problem {
+    /// A file could not be read.
+    #[error("cannot be read ({0})")]
+    Unreadable(#[source] std::io::Error),
+    /// The folder has no description; one is proposed from the files' headers.
+    #[error("the folder has no recording.toml")]
+    NoDescription {
+        /// A description to start from.
+        proposal: Option<String>,
+    },
+    /// The description is not valid TOML, or lacks a key.
+    #[error("{0}")]
+    Toml(String),
+    /// A key has a value that means nothing.
+    #[error("{field} = {value:?} {rule}")]
+    Field {
+        /// The key.
+        field: &'static str,
+        /// Its value.
+        value: String,
+        /// What holds for it.
+        rule: String,
+    },
+    /// A data file has no such column.
+    #[error("has no column {column:?}; it has {found}")]
+    NoColumn {
+        /// The column.
+        column: String,
+        /// The columns that there are.
+        found: String,
+    },
+    /// A value is no number.
+    #[error("column {column:?} holds {value:?}, which is no number")]
+    NotANumber {
+        /// The column.
+        column: String,
+        /// What it holds.
+        value: String,
+    },
+    /// A data file is damaged or of an unknown kind.
+    #[error("{0}")]
+    Format(String),
+    /// The clock runs backwards or stands still.
+    #[error("the clock goes from {before_s} s to {now_s} s")]
+    ClockBackwards {
+        /// Time of the row before, s.
+        before_s: f64,
+        /// Time of this row, s.
+        now_s: f64,
+    },
+    /// A gap that is too long to be bridged.
+    #[error("the clock jumps by {gap_s:.3} s")]
+    Gap {
+        /// Its length, s.
+        gap_s: f64,
+    },
+    /// The stated rate is not the clock's.
+    #[error("rate_hz says {stated_hz} Hz, the clock says {clock_hz:.3} Hz")]
+    RateContradiction {
+        /// As the description says.
+        stated_hz: f64,
+        /// As the clock says.
+        clock_hz: f64,
+    },
+    /// A quantity without which there is no texture is missing.
+    #[error("{0}")]
+    Missing(String),
+    /// There is too little to make a texture of.
+    #[error("{0}")]
+    TooLittle(String),
+}
+
+impl Problem {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Unreadable(_) => "check the name under `file` in recording.toml".into(),
+            Self::NoDescription {
+                proposal: Some(text),
+            } => format!(
+                "write recording.toml; this one fits the files' headers, quantities and units are \
+                 guesses:\n{text}"
+            ),
+            Self::NoDescription { proposal: None } => {
+                "give a folder with recording.toml and CSV, WAV or NumPy files".into()
+            }
+            Self::Toml(_) | Self::Field { .. } => {
+                "docs/recording.md lists every key with its values".into()
+            }
+            Self::NoColumn { .. } => "name one of these under `column` in recording.toml".into(),
+            Self::NotANumber { .. } => {
+                "write numbers with a point; leave a missing value empty or write NaN".into()
+            }
+            Self::Format(_) => "give CSV with a header line, WAV, or NumPy .npy files".into(),
+            Self::ClockBackwards { .. } => {
+                "sort the rows by time, or leave `clock` out and give `rate_hz`".into()
+            }
+            Self::Gap { .. } => "split the recording at the gap into two folders".into(),
+            Self::RateContradiction { .. } => "leave `rate_hz` out, or correct `clock_unit`".into(),
+            Self::Missing(_) => {
+                "record what is missing, or name its channel in recording.toml".into()
+            }
+            Self::TooLittle(_) => {
+                "stroke for a minute at many speeds and forces; docs/recording.md says how".into()
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! From a folder to what its sensors say of a surface.
+
+use super::{
+    error::RecordingFailure,
+    grid::{self, GridFit},
+};
+use asperity_recording::{
+    RecordingError,
+    autoregression::{self, Score},
+    axes,
+    check::{self, Checked},
+    description::Quantity,
+    friction::{self, Friction},
+    impact::{self, Impact, Transient},
+    reader::{self, Recording},
+    steady::{self, Steady},
+    timeline::Timeline,
+};
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
+
+/// Least time of steady strokes, s, and stretches.
+const LEAST_STROKES: (f64, usize) = (3.0, 8);
+/// Order and number of stretches with which methods are compared.
+const COMPARED: (usize, usize) = (16, 40);
+
+/// A step and the time that it took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Its name.
+    pub name: &'static str,
+    /// Its time.
+    pub took: Duration,
+}
+
+/// What the sensors say.
+#[derive(Debug)]
+pub struct Analysis {
+    /// The files.
+    pub recording: Recording,
+    /// The verdicts.
+    pub checked: Checked,
+    /// Motion and load.
+    pub timeline: Timeline,
+    /// Part of the vibration that lies along one direction, 0..=1: what a principal component keeps.
+    pub principal_share: f64,
+    /// Steady strokes.
+    pub steady: Steady,
+    /// How well methods predict, of the vibration as one axis.
+    pub methods: Vec<Score>,
+    /// The grid.
+    pub fit: GridFit,
+    /// Friction, if forces along the surface were recorded.
+    pub friction: Option<Friction>,
+    /// All impacts.
+    pub impacts: Vec<Impact>,
+    /// Transients by speed.
+    pub transients: Vec<Transient>,
+    /// The steps, in order.
+    pub steps: Vec<Step>,
+}
+
+#[derive(Default)]
+struct Steps(Vec<Step>);
+
+impl Steps {
+    fn run<T>(&mut self, name: &'static str, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let result = work();
+        self.0.push(Step {
+            name,
+            took: start.elapsed(),
+        });
+        result
+    }
+}
+
+/// Reads and checks a recording.
+///
+/// # Errors
+/// [`RecordingError`] for files that cannot be read or aligned.
+pub fn check(folder: &Path) -> Result<(Recording, Checked, Timeline), RecordingError> {
+    let recording = reader::load(folder)?;
+    let (checked, timeline) = check::check(&recording)?;
+    Ok((recording, checked, timeline))
+}
+
+/// Takes a recording through all steps. With `force`, faults do not stop it.
+///
+/// # Errors
+/// [`RecordingFailure`] for a recording that cannot be read, is faulty, or too short.
+pub fn analyse(folder: &Path, force: bool) -> Result<Analysis, RecordingFailure> {
+    let mut steps = Steps::default();
+    let recording = steps.run("read", || reader::load(folder))?;
+    let (checked, timeline) = steps.run("check and align", || check::check(&recording))?;
+    let faults: Vec<_> = checked.stopping().collect();
+    if let (Some(first), false) = (faults.first(), force) {
+        return Err(RecordingFailure::Faulty {
+            folder: folder.to_owned(),
+            count: faults.len(),
+            first: format!("{} {}: {}", first.file, first.channel, first.what),
+            remedy: first.remedy.clone(),
+        });
+    }
+    let (vibration, one_axis, principal_share) = steps.run("one axis", || {
+        let vibration = steady::vibration(&timeline);
+        let one_axis = axes::dft321(&vibration);
+        let (_, share) = axes::principal(&vibration);
+        (vibration, one_axis, share)
+    });
+    let steady = steps.run("segments", || steady::segments(&timeline, &vibration));
+    let (least_s, least) = LEAST_STROKES;
+    let too_few = || RecordingFailure::TooFewStrokes {
+        folder: folder.to_owned(),
+        found_s: steady.covered_s(),
+        segments: steady.segments.len(),
+        least_s,
+    };
+    if steady.covered_s() < least_s || steady.segments.len() < least {
+        return Err(too_few());
+    }
+    let methods = steps.run("models", || {
+        let every = steady.segments.len().div_ceil(COMPARED.1);
+        let stretches = steady
+            .segments
+            .iter()
+            .step_by(every)
+            .map(|s| &one_axis[s.start..s.start + s.length]);
+        autoregression::compare(stretches, COMPARED.0)
+    });
+    let fit = steps
+        .run("grid", || grid::fit(&steady))
+        .ok_or_else(too_few)?;
+    let friction = steps.run("friction", || friction::friction(&timeline));
+    let (impacts, transients) = steps.run("taps", || {
+        let late_s = recording
+            .channels
+            .iter()
+            .find(|c| c.quantity == Quantity::Acceleration)
+            .map_or(0.0, |c| checked.late_of(&c.file));
+        let impacts = impact::impacts(&recording, &timeline, late_s);
+        let transients = impact::transients(&impacts);
+        (impacts, transients)
+    });
+    Ok(Analysis {
+        recording,
+        checked,
+        timeline,
+        principal_share,
+        steady,
+        methods,
+        fit,
+        friction,
+        impacts,
+        transients,
+        steps: steps.0,
+    })
+}

@@ -1,0 +1,70 @@
+//! What was not recorded, from the latent of what was.
+
+use crate::{
+    learned::{
+        LearnedModel, ModelError, Present,
+        complete::{ar_channels, taps_of_grid},
+        friction,
+    },
+    model::{Gains, ModelGrid, TapBank},
+};
+use serde::Serialize;
+
+/// Materials that are proposed.
+const PROPOSED: usize = 3;
+
+/// A training material near a recording.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Nearest {
+    /// Its name.
+    pub name: String,
+    /// Its family.
+    pub family: String,
+    /// Cosine between the latents.
+    pub cosine: f64,
+}
+
+/// What the learned model says of a grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Completed {
+    /// The nearest materials, the nearest first.
+    pub nearest: Vec<Nearest>,
+    /// Taps that go with the grid.
+    pub taps: TapBank,
+    /// Coefficient of friction of the nearest materials.
+    pub mu: f64,
+    /// Stiffness of their walls, N/m.
+    pub stiffness_n_m: f64,
+}
+
+/// Encodes a grid and decodes what goes with it.
+///
+/// # Errors
+/// [`ModelError`] when a network fails.
+pub fn complete(
+    model: &LearnedModel,
+    grid: &ModelGrid,
+    gains: &Gains,
+) -> Result<Completed, ModelError> {
+    let description = model.description();
+    let z = model.encode(Present::Ar(&ar_channels(&description.grid, grid)))?;
+    let neighbours = friction::neighbours(&z, &description.anchors, description.friction);
+    let nearest = neighbours
+        .iter()
+        .take(PROPOSED)
+        .map(|neighbour| {
+            let anchor = &description.anchors[neighbour.index];
+            Nearest {
+                name: anchor.name.clone(),
+                family: anchor.family.clone(),
+                cosine: neighbour.cosine,
+            }
+        })
+        .collect();
+    Ok(Completed {
+        nearest,
+        taps: taps_of_grid(model, grid, gains)?,
+        mu: friction::mu(&neighbours, &description.anchors),
+        stiffness_n_m: friction::stiffness_n_m(&neighbours, &description.anchors),
+    })
+}

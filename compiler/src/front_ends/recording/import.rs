@@ -1,0 +1,112 @@
+//! From a folder of sensor files to a verified asset.
+
+use super::{
+    analyse::{Analysis, analyse},
+    complete::{Completed, complete},
+    error::RecordingFailure,
+    texture::{Sources, texture},
+};
+use crate::{
+    back_end::{raise::raise, verify::VerifyError},
+    front_ends::imported::{Report, errors_at_vertices, errors_over_grid},
+    learned::LearnedModel,
+    model::{TextureModel, defaults},
+    passes::reduce::Fidelity,
+    pipeline::{Pass, Pipeline, PipelineError, Preview, Settings},
+};
+use asperity_formats::Asset;
+use std::path::Path;
+
+/// What a user can ask of an import.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// How much of the model the asset keeps.
+    pub fidelity: Fidelity,
+    /// Rate of the AR models, Hz; that of the analysis, 1 kHz, if `None`.
+    pub rate_hz: Option<f64>,
+    /// Whether a preview is drawn.
+    pub preview: bool,
+    /// Whether faults of the recording are let pass.
+    pub force: bool,
+}
+
+/// An imported recording.
+#[derive(Debug)]
+pub struct RecordingImport {
+    /// The asset.
+    pub bytes: Vec<u8>,
+    /// Its figures.
+    pub report: Report,
+    /// The texture before reduction.
+    pub whole: TextureModel,
+    /// What the sensors said.
+    pub analysis: Analysis,
+    /// What the learned model said.
+    pub completed: Completed,
+    /// Where each part comes from.
+    pub sources: Sources,
+    /// The time of every pass.
+    pub pipeline: Pipeline,
+}
+
+/// Imports a recording.
+///
+/// # Errors
+/// [`RecordingFailure`]; nothing is written either way.
+pub fn import(
+    folder: &Path,
+    model: &LearnedModel,
+    options: &Options,
+) -> Result<RecordingImport, RecordingFailure> {
+    let mut pipeline = Pipeline::default();
+    let analysis = pipeline.run(Pass::Read, || analyse(folder, options.force))?;
+    let completed = pipeline.run(Pass::Complete, || {
+        complete(model, &analysis.fit.grid, &defaults::gains())
+    })?;
+    let (whole, sources) = texture(&analysis, &completed, crc32(&analysis));
+    let settings = Settings {
+        rate_hz: options.rate_hz,
+        fidelity: options.fidelity,
+        preview: options.preview.then_some(Preview {
+            families: &[],
+            seed: 0,
+        }),
+        stabilise: whole.grid.numerator == crate::model::Numerator::Nyquist,
+    };
+    let fail = |cause: PipelineError| RecordingFailure::Pipeline {
+        folder: folder.to_owned(),
+        cause,
+    };
+    let mut compiled = pipeline.compile(whole, &settings).map_err(fail)?;
+    let errors_db = pipeline.run(Pass::Compare, || {
+        let asset = Asset::parse(&compiled.lowered.bytes).map_err(VerifyError::from)?;
+        let stored = raise(&asset).grid;
+        if options.fidelity == Fidelity::Full {
+            return Ok(errors_at_vertices(&compiled.whole.grid, &stored));
+        }
+        let (errors_db, (p95_db, worst_db)) = errors_over_grid(&compiled.whole.grid, &stored);
+        (compiled.reduction.p95_db, compiled.reduction.worst_db) = (p95_db, worst_db);
+        Ok(errors_db)
+    });
+    let errors_db = errors_db.map_err(fail)?;
+    Ok(RecordingImport {
+        report: Report::new(&compiled, options.fidelity, &errors_db),
+        bytes: compiled.lowered.bytes,
+        whole: compiled.whole,
+        analysis,
+        completed,
+        sources,
+        pipeline,
+    })
+}
+
+/// CRC-32 of all samples that were used.
+fn crc32(analysis: &Analysis) -> u32 {
+    let mut hasher = crc32fast::Hasher::new();
+    for channel in &analysis.recording.channels {
+        for sample in &channel.samples {
+            hasher.update(&sample.to_le_bytes());
+        }
+    }
+    hasher.finalize()
+}

@@ -1,0 +1,25 @@
+//! The recording front end: sensor files of a tool on a surface become a texture.
+//!
+//! `asperity-recording` reads, checks and aligns the files, and finds segments, friction and impacts.
+//! Here they become a [`TextureModel`](crate::model::TextureModel). What was not recorded is
+//! completed by the learned model and marked so.
+
+mod analyse;
+mod complete;
+mod error;
+mod grid;
+mod import;
+mod local;
+mod report;
+mod sheet;
+mod texture;
+mod vertex;
+
+pub use analyse::{Analysis, Step, analyse, check};
+pub use complete::{Completed, Nearest, complete};
+pub use error::RecordingFailure;
+pub use grid::{GridFit, Tried, VertexFacts, fit};
+pub use import::{Options, RecordingImport, import};
+pub use report::json;
+pub use sheet::{HEIGHT_PX, WIDTH_PX, sheet};
+pub use texture::{Sources, texture};

@@ -1,0 +1,135 @@
+//! An analysis as a texture.
+
+use super::{analyse::Analysis, complete::Completed};
+use crate::model::{
+    Friction, FrictionAnchor, Provenance, TapBank, TapTrace, TextureModel, Wall, defaults,
+};
+use asperity_recording::impact::TAP_RATE_HZ;
+use serde::Serialize;
+
+/// Fewest impact speeds that make a bank.
+const FEWEST_SPEEDS: usize = 2;
+/// Largest part of the device's force that a tap may take.
+const TAP_SHARE: f64 = 0.95;
+
+/// Where each part of a texture comes from.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Sources {
+    /// `recorded`.
+    pub grid: &'static str,
+    /// `recorded` or `completed`.
+    pub taps: &'static str,
+    /// `recorded` or `completed`.
+    pub friction: &'static str,
+    /// `completed`: no sensor of a tool tells the stiffness of a wall.
+    pub wall: &'static str,
+    /// Factor by which recorded taps were lowered to what the device can give.
+    pub tap_scale: f64,
+}
+
+/// The texture of an analysis; what it lacks is taken from `completed`.
+#[must_use]
+pub fn texture(
+    analysis: &Analysis,
+    completed: &Completed,
+    source_crc32: u32,
+) -> (TextureModel, Sources) {
+    let description = &analysis.recording.description;
+    let gains = defaults::gains();
+    let recorded_taps = analysis.transients.len() >= FEWEST_SPEEDS;
+    let (taps, tap_scale) = if recorded_taps {
+        bank(
+            analysis,
+            TAP_SHARE * gains.f_max_n / gains.effective_mass_kg,
+        )
+    } else {
+        (completed.taps.clone(), 1.0)
+    };
+    let mu = analysis
+        .friction
+        .as_ref()
+        .map_or(completed.mu, |friction| friction.mu)
+        .max(0.0);
+    let say = |recorded: bool| if recorded { "recorded" } else { "completed" };
+    let sources = Sources {
+        grid: "recorded",
+        taps: say(recorded_taps),
+        friction: say(analysis.friction.is_some()),
+        wall: "completed",
+        tap_scale,
+    };
+    let notes = format!(
+        "Grid recorded with {} over {:.0} s of steady strokes. Taps {}{}. Friction {}. Wall by the nearest materials of the learned model. Gains and masses are unconfirmed defaults.",
+        description.device.as_deref().unwrap_or("an unnamed device"),
+        analysis.steady.covered_s(),
+        sources.taps,
+        if tap_scale < 1.0 {
+            format!(", scaled by {tap_scale:.2} to what the device can give")
+        } else {
+            String::new()
+        },
+        sources.friction,
+    );
+    let texture = TextureModel {
+        name: description.name.clone(),
+        grid: analysis.fit.grid.clone(),
+        taps,
+        friction: Friction {
+            mu,
+            anchors: vec![FrictionAnchor {
+                name: description.name.clone(),
+                mu,
+                weight: 1.0,
+            }],
+        },
+        wall: Wall {
+            stiffness_n_m: completed.stiffness_n_m,
+            damping_n_s_m: defaults::DAMPING_N_S_M,
+        },
+        gains,
+        provenance: Provenance {
+            generator: format!("asperity {} import recording", env!("CARGO_PKG_VERSION")),
+            source: analysis
+                .recording
+                .folder
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
+            source_crc32,
+            prompt: None,
+            seed: 0,
+            fidelity: "full".into(),
+            taps_synthetic: !recorded_taps,
+            lsf_error_db: 0.0,
+            notes,
+        },
+    };
+    (texture, sources)
+}
+
+/// The recorded transients as a bank within ±`limit_m_s2`. One factor lowers all of them, so that
+/// their ratios stay.
+fn bank(analysis: &Analysis, limit_m_s2: f64) -> (TapBank, f64) {
+    let peak = analysis
+        .transients
+        .iter()
+        .flat_map(|t| &t.accel_m_s2)
+        .fold(0.0_f64, |peak, a| peak.max(a.abs()));
+    let scale = (limit_m_s2 / peak.max(1e-300)).min(1.0);
+    let traces = analysis
+        .transients
+        .iter()
+        .map(|t| TapTrace {
+            speed_m_s: t.speed_m_s,
+            accel_m_s2: t.accel_m_s2.iter().map(|a| a * scale).collect(),
+        })
+        .collect();
+    (
+        TapBank {
+            sample_rate_hz: TAP_RATE_HZ,
+            traces,
+        },
+        scale,
+    )
+}

@@ -1,0 +1,34 @@
+//! What can go wrong on the bench.
+
+use asperity::{diagnostic::Diagnostic, recording::RecordingFailure};
+use thiserror::Error;
+
+/// A bench that could not run.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BenchError {
+    /// A texture that the runtime cannot render.
+    #[error("{name}: {what}")]
+    Texture {
+        /// Its name.
+        name: String,
+        /// What is wrong.
+        what: String,
+    },
+    /// A file of the recording.
+    #[error("the recording cannot be written ({0})")]
+    Write(#[from] std::io::Error),
+    /// The import.
+    #[error(transparent)]
+    Import(#[from] RecordingFailure),
+}
+
+impl Diagnostic for BenchError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Texture { .. } => "give another texture".into(),
+            Self::Write(_) => "free space in the folder for temporary files".into(),
+            Self::Import(error) => error.remedy(),
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! The bench as an experiment: a learning curve, and what the check finds.
+
+use asperity::{model::TextureModel, recording};
+use asperity_recording::check::Severity;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::{
+    error::BenchError,
+    fault::{Fault, faulty},
+    perform::perform,
+    sensors::{Sensors, record},
+    truth::{Comparison, compare},
+};
+
+/// One texture after some seconds of recording.
+#[derive(Debug, Clone, Serialize)]
+pub struct Row {
+    /// The texture.
+    pub name: String,
+    /// Seconds of recording.
+    pub seconds: f64,
+    /// How far it is from the truth; `None` where the import refused it.
+    pub comparison: Option<Comparison>,
+    /// Why it was refused.
+    pub refused: Option<String>,
+    /// Measured vertices and AR order.
+    pub vertices: usize,
+    /// AR order.
+    pub order: usize,
+}
+
+/// Records every texture for some seconds and imports what the sensors wrote.
+///
+/// # Errors
+/// [`BenchError`] of the first texture that cannot be rendered or recorded.
+pub fn learn(
+    textures: &[TextureModel],
+    seconds: f64,
+    seed: u64,
+    done: impl Fn() + Sync,
+) -> Result<Vec<Row>, BenchError> {
+    textures
+        .par_iter()
+        .enumerate()
+        .map(|(index, texture)| {
+            let seed = seed.wrapping_mul(1000).wrapping_add(index as u64);
+            let performance = perform(texture, seconds, seed)?;
+            let folder = Scratch::new(seed)?;
+            record(
+                &performance,
+                texture,
+                &Sensors::seeded(seed),
+                seed,
+                &folder.0,
+            )?;
+            let analysis = recording::analyse(&folder.0, false);
+            done();
+            Ok(match analysis {
+                Ok(analysis) => Row {
+                    name: texture.name.clone(),
+                    seconds,
+                    comparison: Some(compare(texture, &performance, &analysis)),
+                    refused: None,
+                    vertices: analysis.fit.facts.len(),
+                    order: analysis.fit.chosen.order,
+                },
+                Err(error) => Row {
+                    name: texture.name.clone(),
+                    seconds,
+                    comparison: None,
+                    refused: Some(error.to_string()),
+                    vertices: 0,
+                    order: 0,
+                },
+            })
+        })
+        .collect()
+}
+
+/// A folder for the files of one recording, removed when it is dropped.
+struct Scratch(std::path::PathBuf);
+
+impl Scratch {
+    fn new(seed: u64) -> std::io::Result<Self> {
+        let name = format!("asperity-bench-{}-{seed}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&path)?;
+        Ok(Self(path))
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        // What is left in the folder for temporary files does no harm.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Figures over all textures of one length.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Figures {
+    /// Seconds of recording.
+    pub seconds: f64,
+    /// Textures that came back.
+    pub imported: usize,
+    /// Textures that were refused.
+    pub refused: usize,
+    /// Median over textures of their median cell, dB RMS.
+    pub median_db: f64,
+    /// 95 % quantile over the cells of all textures, dB RMS.
+    pub p95_db: f64,
+    /// Median over textures of the mean size of the level's error, dB.
+    pub level_db: f64,
+    /// 95 % quantile over all cells of the same, dB.
+    pub level_p95_db: f64,
+    /// Median and 95 % quantile of the error of μ, percent.
+    pub mu_percent: (f64, f64),
+    /// Median and 95 % quantile of the taps, dB RMS over third octaves.
+    pub taps_db: (f64, f64),
+    /// Median number of measured vertices.
+    pub vertices: f64,
+}
+
+/// The figures of rows of one length.
+#[must_use]
+pub fn summary(rows: &[Row]) -> Figures {
+    use asperity_recording::signal::quantile::{mean, median, quantile};
+    let came: Vec<&Comparison> = rows
+        .iter()
+        .filter_map(|row| row.comparison.as_ref())
+        .collect();
+    let levels = |c: &Comparison| c.levels_db.iter().map(|x| x.abs()).collect::<Vec<f64>>();
+    let both = |values: Vec<f64>| {
+        (
+            median(values.iter().copied()),
+            quantile(values.iter().copied(), 0.95),
+        )
+    };
+    Figures {
+        seconds: rows.first().map_or(0.0, |row| row.seconds),
+        imported: came.len(),
+        refused: rows.len() - came.len(),
+        median_db: median(came.iter().map(|c| median(c.cells_db.iter().copied()))),
+        p95_db: quantile(came.iter().flat_map(|c| c.cells_db.iter().copied()), 0.95),
+        level_db: median(came.iter().map(|c| mean(&levels(c)))),
+        level_p95_db: quantile(came.iter().flat_map(|c| levels(c)), 0.95),
+        mu_percent: both(
+            came.iter()
+                .filter_map(|c| c.mu)
+                .map(|mu| 100.0 * mu.abs())
+                .collect(),
+        ),
+        taps_db: both(
+            came.iter()
+                .flat_map(|c| c.taps_db.iter().copied())
+                .collect(),
+        ),
+        vertices: median(
+            rows.iter()
+                .filter(|row| row.comparison.is_some())
+                .map(|row| row.vertices as f64),
+        ),
+    }
+}
+
+/// What the check found of faulty and of clean recordings.
+#[derive(Debug, Clone, Serialize)]
+pub struct Checks {
+    /// Faulty recordings.
+    pub faulty: usize,
+    /// Those whose fault was found and named with its file.
+    pub named: usize,
+    /// What was missed.
+    pub missed: Vec<String>,
+    /// Clean recordings.
+    pub clean: usize,
+    /// Warnings and faults in clean recordings.
+    pub false_alarms: Vec<String>,
+}
+
+/// Checks `count` faulty and as many clean recordings of some seconds.
+///
+/// # Errors
+/// [`BenchError`] of a texture that cannot be rendered or recorded.
+pub fn checks(
+    textures: &[TextureModel],
+    count: usize,
+    seconds: f64,
+    seed: u64,
+    done: impl Fn() + Sync,
+) -> Result<Checks, BenchError> {
+    let one = |index: usize| -> Result<(Option<String>, Vec<String>), BenchError> {
+        let seed = seed.wrapping_mul(10_000).wrapping_add(index as u64);
+        let texture = &textures[index % textures.len()];
+        let performance = perform(texture, seconds, seed)?;
+        let folder = Scratch::new(seed)?;
+        record(
+            &performance,
+            texture,
+            &Sensors::seeded(seed),
+            seed,
+            &folder.0,
+        )?;
+        let alarms = match recording::check(&folder.0) {
+            Ok((_, checked, _)) => checked
+                .at_least(Severity::Warning)
+                .map(|f| format!("{}, seed {seed}: {f}", texture.name))
+                .collect(),
+            Err(error) => vec![format!("{}, seed {seed}: {error}", texture.name)],
+        };
+        let fault = Fault::ALL[index % Fault::ALL.len()];
+        let file = faulty(&performance, texture, fault, seed, &folder.0)?;
+        let missed = match recording::check(&folder.0) {
+            Ok((_, checked, _)) if fault.is_named(&checked, file) => None,
+            Ok((_, checked, _)) => {
+                let found: Vec<String> = checked
+                    .at_least(Severity::Good)
+                    .map(|f| format!("{} {}", f.file, f.what))
+                    .collect();
+                Some(format!(
+                    "{}, seed {seed}: {fault:?} in {file}; found: {}",
+                    texture.name,
+                    found.join("; ")
+                ))
+            }
+            Err(error) => Some(format!(
+                "{}, seed {seed}: {fault:?} in {file}: {error}",
+                texture.name
+            )),
+        };
+        done();
+        Ok((missed, alarms))
+    };
+    let results: Vec<_> = (0..count)
+        .into_par_iter()
+        .map(one)
+        .collect::<Result<_, _>>()?;
+    let missed: Vec<String> = results.iter().filter_map(|r| r.0.clone()).collect();
+    Ok(Checks {
+        faulty: count,
+        named: count - missed.len(),
+        missed,
+        clean: count,
+        false_alarms: results.into_iter().flat_map(|r| r.1).collect(),
+    })
+}

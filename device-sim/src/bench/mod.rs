@@ -1,0 +1,21 @@
+//! A virtual bench: known textures are stroked and tapped, simulated sensors write files, and what an
+//! import makes of the files is held against the truth.
+//!
+//! The importer gets what a sensor would: three axes of acceleration with gravity, noise and a clock
+//! of their own, force with noise and bias, the measured position. It never sees the texture.
+
+mod error;
+mod fault;
+mod lab;
+mod perform;
+mod script;
+mod sensors;
+mod truth;
+
+pub use error::BenchError;
+pub use fault::{Fault, faulty};
+pub use lab::{Checks, Figures, Row, checks, learn, summary};
+pub use perform::{Performance, perform};
+pub use script::script;
+pub use sensors::{Sensors, record};
+pub use truth::{Comparison, compare};

@@ -1,0 +1,230 @@
+//! `asperity-lab bench`: known textures, recorded by simulated sensors and imported again.
+
+use std::{fmt::Write as _, path::PathBuf};
+
+use asperity::{
+    builtin,
+    console::Console,
+    diagnostic::{Failures, one},
+    embedded, hatt,
+    inference::Backend,
+    learned::{LearnedModel, texture::build},
+    model::{Provenance, TextureModel},
+};
+use asperity_sim::bench::{self, Checks, Figures, Row, Sensors};
+
+use crate::error::Plain;
+
+/// Reference textures that are decoded where no HaTT is given.
+const REFERENCE: usize = 24;
+
+/// Record known textures with simulated sensors, import them, and compare with the truth
+///
+/// A hand strokes and taps every texture on a simulated Touch with irregular motion. An accelerometer,
+/// a force sensor and the device write files with noise, gravity, delay and drift. What an import
+/// makes of the files is held against the texture that was touched, at every part of the plane of
+/// speed and force that was visited.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab bench
+  asperity-lab bench --hatt materials/ --seconds 5,15,60,300
+  asperity-lab bench --checks 100
+  asperity-lab bench --write oak --seconds 30        a recording to try the import with
+
+Without --hatt, the textures are the built-in one and materials of the learned model.")]
+pub(crate) struct Arguments {
+    /// Folder of HaTT XML files
+    #[arg(long, value_name = "DIR")]
+    hatt: Option<PathBuf>,
+    /// Seconds of recording, one or several
+    #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = seconds)]
+    seconds: Vec<f64>,
+    /// At most so many textures
+    #[arg(long, value_name = "N")]
+    textures: Option<usize>,
+    /// Check so many faulty and as many clean recordings of 20 s instead
+    #[arg(long, value_name = "N", conflicts_with = "write")]
+    checks: Option<usize>,
+    /// Write one recording of the first texture into this folder instead; made if its parent exists
+    #[arg(long, value_name = "DIR")]
+    write: Option<PathBuf>,
+    /// Seed of everything random
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if (3.0..=1200.0).contains(&value) => Ok(value),
+        _ => Err("must be 3 to 1200 s".into()),
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
+    let mut textures = textures(arguments)?;
+    textures.truncate(arguments.textures.unwrap_or(usize::MAX).max(1));
+    if let Some(folder) = &arguments.write {
+        return write(arguments, &textures[0], folder, console);
+    }
+    if let Some(count) = arguments.checks {
+        let bar = console.bar(count, "checking");
+        let checks =
+            bench::checks(&textures, count, 20.0, arguments.seed, || bar.inc(1)).map_err(one)?;
+        bar.finish_and_clear();
+        return print(&checks, checks_text(&checks), arguments.json, console);
+    }
+    let mut all: Vec<(Figures, Vec<Row>)> = Vec::new();
+    for &seconds in &arguments.seconds {
+        let bar = console.bar(textures.len(), "recording and importing");
+        let rows = bench::learn(&textures, seconds, arguments.seed, || bar.inc(1)).map_err(one)?;
+        bar.finish_and_clear();
+        all.push((bench::summary(&rows), rows));
+    }
+    let text = figures_text(&all);
+    // Figures of single materials of others stay with their owner.
+    let figures: Vec<&Figures> = all.iter().map(|(figures, _)| figures).collect();
+    print(&figures, text, arguments.json, console)
+}
+
+fn print(
+    value: &impl serde::Serialize,
+    text: String,
+    json: bool,
+    console: Console,
+) -> Result<(), Failures> {
+    if json {
+        let json = serde_json::to_value(value)
+            .map_err(|error| Plain::failure(error, "report this error"))?;
+        console.json(&json).map_err(one)
+    } else {
+        console.text(&text).map_err(one)
+    }
+}
+
+fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
+    let mut text = String::from(
+        "| seconds | textures | spectrum, median dB | 95 % dB | level, mean dB | 95 % dB | μ, median % | 95 % | taps, median dB | 95 % dB | vertices |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for (f, rows) in all {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "| {:.0} | {} of {} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} |",
+            f.seconds,
+            f.imported,
+            rows.len(),
+            f.median_db,
+            f.p95_db,
+            f.level_db,
+            f.level_p95_db,
+            f.mu_percent.0,
+            f.mu_percent.1,
+            f.taps_db.0,
+            f.taps_db.1,
+            f.vertices
+        );
+        for row in rows {
+            if let Some(why) = &row.refused {
+                let _ = writeln!(text, "  {} refused: {why}", row.name);
+            }
+        }
+    }
+    text
+}
+
+fn checks_text(checks: &Checks) -> String {
+    let mut text = format!(
+        "{} of {} faults found and named\n{} false alarms in {} clean recordings\n",
+        checks.named,
+        checks.faulty,
+        checks.false_alarms.len(),
+        checks.clean
+    );
+    for line in checks.missed.iter().map(|m| format!("missed: {m}")).chain(
+        checks
+            .false_alarms
+            .iter()
+            .map(|a| format!("false alarm: {a}")),
+    ) {
+        text += &line;
+        text.push('\n');
+    }
+    text
+}
+
+fn write(
+    arguments: &Arguments,
+    texture: &TextureModel,
+    folder: &PathBuf,
+    console: Console,
+) -> Result<(), Failures> {
+    let fail = |error: std::io::Error| {
+        Plain::failure(
+            format!("{}: {error}", folder.display()),
+            "give a folder that can be made",
+        )
+    };
+    if folder.exists() {
+        return Err(Plain::failure(
+            format!("{} exists", folder.display()),
+            "give a folder that is not there yet",
+        ));
+    }
+    std::fs::create_dir(folder).map_err(fail)?;
+    let performance = bench::perform(texture, arguments.seconds[0], arguments.seed).map_err(one)?;
+    bench::record(
+        &performance,
+        texture,
+        &Sensors::seeded(arguments.seed),
+        arguments.seed,
+        folder,
+    )
+    .map_err(fail)?;
+    let text = format!(
+        "{}: {:.0} s of {}, {} impacts\n",
+        folder.display(),
+        arguments.seconds[0],
+        texture.name,
+        performance.impacts.len()
+    );
+    console.text(&text).map_err(one)
+}
+
+/// The textures that are touched.
+fn textures(arguments: &Arguments) -> Result<Vec<TextureModel>, Failures> {
+    if let Some(folder) = &arguments.hatt {
+        let files = hatt::files(folder).map_err(one)?;
+        return files
+            .iter()
+            .map(|file| {
+                let material = hatt::bytes(file)
+                    .and_then(|bytes| hatt::parse(file, &bytes))
+                    .map_err(one)?;
+                let name = file.file_name().unwrap_or_default().to_string_lossy();
+                Ok(hatt::to_model(&material, &name, 0))
+            })
+            .collect();
+    }
+    let model = LearnedModel::load(embedded::model(), &Backend::Portable).map_err(one)?;
+    let anchors = &model.description().anchors;
+    let every = anchors.len().div_ceil(REFERENCE).max(1);
+    let mut textures = vec![builtin::texture()];
+    for anchor in anchors.iter().step_by(every) {
+        let Ok(z) = anchor.z.clone().try_into() else {
+            continue;
+        };
+        let decoded = model.decode(&z).map_err(one)?;
+        let (texture, _) = build(
+            model.description(),
+            &decoded,
+            &z,
+            anchor.name.clone(),
+            Provenance::default(),
+        );
+        textures.push(texture);
+    }
+    Ok(textures)
+}
