@@ -5,9 +5,13 @@
 //! allocate nor print, and they return within the period.
 
 mod fault;
+mod null;
+mod open;
 mod uri;
 
 pub use fault::Fault;
+pub use null::NullDevice;
+pub use open::{OpenError, open};
 pub use uri::{Scheme, Uri, UriError};
 
 /// What a device says in one servo period.

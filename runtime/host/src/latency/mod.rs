@@ -1,0 +1,1 @@
+//! How punctual a servo loop is.
