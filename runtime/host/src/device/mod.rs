@@ -70,3 +70,21 @@ pub trait Device: Send {
         Ok(())
     }
 }
+
+impl<D: Device + ?Sized> Device for &mut D {
+    fn description(&self) -> &Description {
+        (**self).description()
+    }
+
+    fn read(&mut self) -> Result<Reading, Fault> {
+        (**self).read()
+    }
+
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+        (**self).write(force_n)
+    }
+
+    fn recover(&mut self) -> Result<(), Fault> {
+        (**self).recover()
+    }
+}

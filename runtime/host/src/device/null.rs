@@ -22,8 +22,9 @@ impl NullDevice {
             description: Description {
                 name: "no device".into(),
                 serial: None,
-                peak_force_n: f32::MAX,
-                continuous_force_n: f32::MAX,
+                // A Touch's, so that the same forces are rendered.
+                peak_force_n: 3.3,
+                continuous_force_n: 3.3,
                 unconfirmed: Vec::new(),
             },
             z_m,

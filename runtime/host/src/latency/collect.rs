@@ -3,7 +3,7 @@
 use super::{
     conditions::Conditions,
     facts::Facts,
-    run::{Counts, Interval, Run, empty},
+    run::{Counts, Interval, Run, add, empty},
     worst::insert,
 };
 use crate::servo::{Overrun, Record, Settings, Stage};
@@ -59,7 +59,7 @@ impl Collector {
         }
         for (stage, histogram) in Stage::ALL.into_iter().zip(&mut self.current) {
             if let Some(ns) = times.of(stage) {
-                histogram.saturating_record(ns);
+                add(histogram, ns, 1);
             }
         }
         self.last_ns = at_ns;

@@ -17,6 +17,14 @@ pub(super) fn empty() -> Histogram<u64> {
     Histogram::new(DIGITS).unwrap_or_else(|_| unreachable!("{DIGITS} digits are allowed"))
 }
 
+/// Adds a value so many times. The histogram grows to hold it; what none can hold counts as its
+/// largest.
+pub(super) fn add(histogram: &mut Histogram<u64>, value: u64, count: u64) {
+    if histogram.record_n(value, count).is_err() {
+        histogram.saturating_record_n(value, count);
+    }
+}
+
 impl Counts {
     /// The values of a histogram.
     #[must_use]
@@ -32,7 +40,7 @@ impl Counts {
     /// Adds them to a histogram.
     pub(super) fn add_to(&self, histogram: &mut Histogram<u64>) {
         for &(value, count) in &self.0 {
-            histogram.saturating_record_n(value, count);
+            add(histogram, value, count);
         }
     }
 

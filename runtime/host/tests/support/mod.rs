@@ -8,7 +8,7 @@ use asperity_host::servo::{Event, Observer, Record, Virtual};
 use asperity_runtime::{Config, HostTexture, Renderer};
 
 /// The built-in texture in a slot, and a renderer for it.
-pub fn texture(rate_hz: f32) -> (Box<HostTexture>, Renderer) {
+pub(crate) fn texture(rate_hz: f32) -> (Box<HostTexture>, Renderer) {
     let bytes = include_bytes!("../../../tests/data/builtin-v1.asp");
     let mut texture = Box::new(HostTexture::new());
     let asset = Asset::parse(bytes).expect("a committed asset");
@@ -22,31 +22,31 @@ pub fn texture(rate_hz: f32) -> (Box<HostTexture>, Renderer) {
 
 /// What a device does in one call of `read` or `write`.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Act {
+pub(crate) struct Act {
     /// Time that the call takes, ns.
-    pub takes_ns: u64,
+    pub(crate) takes_ns: u64,
     /// What it fails with.
-    pub fault: Option<Fault>,
+    pub(crate) fault: Option<Fault>,
     /// Nothing new.
-    pub old: bool,
+    pub(crate) old: bool,
 }
 
 /// A stylus that strokes 1.5 mm deep, and a script of calls by their number.
-pub struct Scripted<F, G> {
-    pub clock: Virtual,
-    pub read: F,
-    pub write: G,
-    pub reads: u64,
-    pub writes: u64,
-    pub forces: Vec<[f32; 3]>,
-    pub recoveries: Vec<Result<(), Fault>>,
+pub(crate) struct Scripted<F, G> {
+    pub(crate) clock: Virtual,
+    pub(crate) read: F,
+    pub(crate) write: G,
+    pub(crate) reads: u64,
+    pub(crate) writes: u64,
+    pub(crate) forces: Vec<[f32; 3]>,
+    pub(crate) recoveries: Vec<Result<(), Fault>>,
     /// Time that a recovery takes, ns.
-    pub recovery_ns: u64,
+    pub(crate) recovery_ns: u64,
     description: Description,
 }
 
 impl<F: FnMut(u64) -> Act, G: FnMut(u64) -> Act> Scripted<F, G> {
-    pub fn new(clock: &Virtual, read: F, write: G) -> Self {
+    pub(crate) fn new(clock: &Virtual, read: F, write: G) -> Self {
         Self {
             clock: clock.clone(),
             read,
@@ -105,9 +105,9 @@ impl<F: FnMut(u64) -> Act + Send, G: FnMut(u64) -> Act + Send> Device for Script
 
 /// Keeps everything.
 #[derive(Debug, Default)]
-pub struct Kept {
-    pub records: Vec<Record>,
-    pub events: Vec<Event>,
+pub(crate) struct Kept {
+    pub(crate) records: Vec<Record>,
+    pub(crate) events: Vec<Event>,
 }
 
 impl Observer for Kept {
@@ -121,6 +121,6 @@ impl Observer for Kept {
 }
 
 /// Length of a vector.
-pub fn length(v: [f32; 3]) -> f32 {
+pub(crate) fn length(v: [f32; 3]) -> f32 {
     v.iter().map(|x| x * x).sum::<f32>().sqrt()
 }
