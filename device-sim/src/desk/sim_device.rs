@@ -50,9 +50,7 @@ impl SimDevice {
                 serial: None,
                 peak_force_n: config.actuator.peak_force_n as f32,
                 continuous_force_n: config.actuator.continuous_force_n as f32,
-                unconfirmed: (config.unconfirmed.iter())
-                    .map(|field| format!("{field} is unconfirmed on a device"))
-                    .collect(),
+                unconfirmed: unconfirmed(config),
             },
             pace,
             tick_s: 1.0 / f64::from(rate_hz),
@@ -94,6 +92,15 @@ impl SimDevice {
             left_s -= step_s;
         }
     }
+}
+
+/// One sentence for all fields that nobody has confirmed.
+fn unconfirmed(config: &DeviceConfig) -> Vec<String> {
+    if config.unconfirmed.is_empty() {
+        return Vec::new();
+    }
+    let fields = config.unconfirmed.join(", ");
+    vec![format!("nobody has confirmed on a device: {fields}")]
 }
 
 impl Device for SimDevice {

@@ -94,7 +94,7 @@ impl Trace {
         let [x, y, z] = output.force_n;
         write!(out, ",{x},{y},{z},{}", output.flags.bits())?;
         for stage in Stage::PARTS {
-            write!(out, ",{}", 1e-3 * times.of(stage).unwrap_or(0) as f64)?;
+            write!(out, ",{:.3}", 1e-3 * times.of(stage).unwrap_or(0) as f64)?;
         }
         let fault = record.reading.err().or(record.written.err());
         match fault {

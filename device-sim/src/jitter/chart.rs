@@ -14,13 +14,13 @@ const HEADING_PX: f32 = 130.0;
 const STEPS: u32 = 8;
 
 /// Stages that are drawn, with their colours. The interval between wake-ups is about a period and
-/// would hide the others.
+/// would hide the others. The later ones cover the earlier ones.
 const DRAWN: [(Stage, Color, &str); 5] = [
+    (Stage::Total, ink::LIGHT, "due to written"),
     (Stage::WakeUp, ink::BLUE, "wake-up"),
     (Stage::Read, ink::GREEN, "read"),
     (Stage::Compute, ink::VERMILION, "compute"),
     (Stage::Write, ink::ORANGE, "write"),
-    (Stage::Total, ink::BLACK, "due to written"),
 ];
 
 /// Draws a run as PNG.
@@ -64,7 +64,7 @@ fn heading(canvas: &mut Canvas, run: &Run) {
 fn panel(outer: Rect, x: Axis, y: Axis, letter: char, title: &str) -> Panel {
     let mut panel = Panel::new(outer, x, y).letter(letter).title(title);
     panel.margins = Margins {
-        top: 112.0,
+        top: 142.0,
         right: 48.0,
         ..panel.margins
     };
@@ -94,6 +94,12 @@ fn curve(histogram: &Histogram<u64>) -> Vec<(f64, f64)> {
     points.collect()
 }
 
+/// The sum of the stages is wider, since its largest part lies upon it.
+fn stroke_of(stage: Stage, color: Color) -> Stroke {
+    let wider = if stage == Stage::Total { 2.5 } else { 1.0 };
+    Stroke::new(color, wider * size::LINE)
+}
+
 fn percentiles(canvas: &mut Canvas, outer: Rect, run: &Run, cyclictest: Option<&Wakeups>) {
     let ticks = run.facts.ticks.max(10) as f64;
     let corrected = run.corrected(Stage::WakeUp);
@@ -108,23 +114,25 @@ fn percentiles(canvas: &mut Canvas, outer: Rect, run: &Run, cyclictest: Option<&
     );
     panel.draw_frame(canvas);
     let mut keys = Vec::new();
-    if let Some(wakeups) = cyclictest {
-        let stroke = Stroke::new(ink::SKY, 2.0 * size::LINE);
-        panel.line(canvas, curve(&wakeups.counts.histogram()), stroke);
-        keys.push((Key::Line(stroke), "cyclictest's wake-up"));
-    }
     for (stage, color, name) in DRAWN {
-        let stroke = Stroke::new(color, size::LINE);
+        let stroke = stroke_of(stage, color);
         panel.line(canvas, curve(&run.raw(stage)), stroke);
         keys.push((Key::Line(stroke), name));
+    }
+    let mut others = Vec::new();
+    if let Some(wakeups) = cyclictest {
+        let stroke = Stroke::new(ink::SKY, size::LINE);
+        panel.line(canvas, curve(&wakeups.counts.histogram()), stroke);
+        others.push((Key::Line(stroke), "cyclictest's wake-up"));
     }
     if corrected != run.raw(Stage::WakeUp) {
         let stroke = Stroke::new(ink::BLUE, size::LINE).dashed();
         panel.line(canvas, curve(&corrected), stroke);
-        keys.push((Key::Line(stroke), "corrected"));
+        others.push((Key::Line(stroke), "wake-up, corrected for omitted ticks"));
     }
     let area = panel.area();
-    legend(canvas, (area.x, area.y - 22.0), area.right(), &keys);
+    legend(canvas, (area.x, area.y - 52.0), area.right(), &keys);
+    legend(canvas, (area.x, area.y - 22.0), area.right(), &others);
 }
 
 fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
@@ -141,7 +149,7 @@ fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
     panel.draw_frame(canvas);
     let mut keys = Vec::new();
     for (stage, color, name) in DRAWN {
-        let stroke = Stroke::new(color, size::LINE);
+        let stroke = stroke_of(stage, color);
         let longest = run.intervals.iter().filter_map(|interval| {
             let (ns, _) = interval.stage(stage).0.last()?;
             Some((interval.start_s + 0.5 * interval.length_s, us(*ns)))
@@ -161,7 +169,8 @@ fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
         Some(outline),
     );
     let key = Key::Point(Marker::Circle, 7.0, Some(ink::PAPER), Some(outline));
-    keys.push((key, "worst"));
     let area = panel.area();
-    legend(canvas, (area.x, area.y - 22.0), area.right(), &keys);
+    legend(canvas, (area.x, area.y - 52.0), area.right(), &keys);
+    let worst = [(key, "the ten worst ticks")];
+    legend(canvas, (area.x, area.y - 22.0), area.right(), &worst);
 }

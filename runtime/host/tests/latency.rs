@@ -64,12 +64,7 @@ fn conditions() -> Conditions {
 }
 
 /// A run in virtual time; `stall` is a reading that takes so long.
-fn run(
-    periods: u64,
-    overrun: Overrun,
-    injection: Option<&str>,
-    stall: Option<(u64, u64)>,
-) -> Run {
+fn run(periods: u64, overrun: Overrun, injection: Option<&str>, stall: Option<(u64, u64)>) -> Run {
     let clock = Virtual::new();
     clock.wake_late_by(WAKE_NS);
     let injection: Option<Injection> = injection.map(|text| text.parse().expect(text));
@@ -150,8 +145,9 @@ fn a_delay_in_one_of_a_thousand_ticks_is_found_in_its_stage_and_nowhere_else() {
             assert_eq!(longer, 100, "{text}: one tick of a thousand");
             let base = without.max();
             let at = |quantile| with.value_at_quantile(quantile);
-            assert!(at(0.9989) <= base && close(at(0.999_1), with.max()));
-            assert!(at(0.999_1) >= 300_000 && with.max() <= 301_000 + base);
+            assert!(at(0.9989) <= base && at(0.999_1) >= 300_000);
+            // As long as the delay and the stage together, told to a thousandth.
+            assert!(with.max() <= (300_000 + base) / 1000 * 1001);
         }
         let total = above(&run.raw(Stage::Total), 300_000);
         assert_eq!(total, 100, "the sum has it as well");
@@ -169,20 +165,14 @@ fn ticks_that_were_not_recorded_are_put_back_by_the_correction() {
     let stall = Some((500, 10_500_000));
     let skipped = run(2000, Overrun::Skip, None, stall);
     assert_eq!(skipped.facts.missed, 9);
-    let (raw, corrected) = (
-        skipped.raw(Stage::WakeUp),
-        skipped.corrected(Stage::WakeUp),
-    );
+    let (raw, corrected) = (skipped.raw(Stage::WakeUp), skipped.corrected(Stage::WakeUp));
     let late = |histogram: &Histogram<u64>| above(histogram, 1_000_000);
     assert_eq!((late(&raw), late(&corrected)), (1, 9));
     let made_up = run(2000, Overrun::CatchUp, None, stall);
     assert_eq!(made_up.facts.missed, 9);
     // Those that were made up for were recorded as late as they were.
     assert_eq!(late(&made_up.raw(Stage::WakeUp)), 9);
-    assert_eq!(
-        made_up.corrected(Stage::WakeUp),
-        made_up.raw(Stage::WakeUp)
-    );
+    assert_eq!(made_up.corrected(Stage::WakeUp), made_up.raw(Stage::WakeUp));
     let worst = &skipped.facts.worst;
     assert_eq!((worst[0].stage.as_str(), worst[0].period), ("read", 500));
     assert_eq!((worst[1].stage.as_str(), worst[1].period), ("wakeup", 510));
@@ -206,7 +196,10 @@ fn a_log_reads_back_and_runs_add_up() {
         assert_eq!(count(&both), count(&a) + count(&b));
     }
     assert!(both.intervals[both.intervals.len() - 1].start_s >= 60.0);
-    assert_eq!(read_log(&write_log(&both).expect("a log")).expect("a log"), both);
+    assert_eq!(
+        read_log(&write_log(&both).expect("a log")).expect("a log"),
+        both
+    );
 }
 
 #[test]
@@ -247,7 +240,10 @@ fn a_distribution_ends_with_all_values() {
     let last = &rows[rows.len() - 1];
     assert_eq!(last[1..], [1.0, histogram.len() as f64]);
     assert!((last[0] - 1e-3 * histogram.max() as f64).abs() < 0.001);
-    assert!(rows.windows(2).all(|two| two[0][0] <= two[1][0] && two[0][2] <= two[1][2]));
+    assert!(
+        rows.windows(2)
+            .all(|two| two[0][0] <= two[1][0] && two[0][2] <= two[1][2])
+    );
     assert!(text.contains("#[Mean    =") && text.contains("#[Buckets ="));
 }
 
@@ -262,7 +258,10 @@ fn a_shift_is_told_apart_from_none_and_the_tail_only_with_enough_values() {
         shifts.iter().find(same).expect("it is told").clone()
     };
     let none = compare(&calm, &calm, 1);
-    assert!(none.iter().all(|shift| shift.shift_ns == 0 && !shift.is_clear()));
+    assert!(
+        none.iter()
+            .all(|shift| shift.shift_ns == 0 && !shift.is_clear())
+    );
     let shifts = compare(&calm, &delayed, 1);
     assert_eq!(shifts, compare(&calm, &delayed, 1), "the same seed");
     for percentile in ["99", "99.9"] {
@@ -291,8 +290,19 @@ fn what_cyclictest_writes_is_read() {
 #[test]
 fn delays_are_read_and_what_is_none_is_refused() {
     let read = |text: &str| text.parse::<Injection>();
-    assert_eq!(read("compute:300:1000").map(|i| i.to_string()), Ok("compute:300:1000".into()));
-    for bad in ["", "compute", "wakeup:300:1000", "read:0:10", "read:1:1", "read:1:2:3", "read:-1:9"] {
+    assert_eq!(
+        read("compute:300:1000").map(|i| i.to_string()),
+        Ok("compute:300:1000".into())
+    );
+    for bad in [
+        "",
+        "compute",
+        "wakeup:300:1000",
+        "read:0:10",
+        "read:1:1",
+        "read:1:2:3",
+        "read:-1:9",
+    ] {
         assert!(read(bad).is_err(), "{bad}");
     }
 }

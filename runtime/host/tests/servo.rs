@@ -58,8 +58,7 @@ fn run(
         texture: &texture,
         state: State::new(1),
     };
-    let report =
-        ServoLoop::new(&mut device, render, clock, &mut kept, settings).run(&NEVER);
+    let report = ServoLoop::new(&mut device, render, clock, &mut kept, settings).run(&NEVER);
     Run {
         report,
         kept,
@@ -169,12 +168,7 @@ fn two_lost_readings_are_held_and_the_third_is_safe() {
             calm,
             0,
         );
-        let was_safe = |n: usize| {
-            run.kept.records[n]
-                .output
-                .flags
-                .contains(Flags::SAFE_STATE)
-        };
+        let was_safe = |n: usize| run.kept.records[n].output.flags.contains(Flags::SAFE_STATE);
         assert_eq!((300..599).any(was_safe), safe, "{lost} lost");
         assert_eq!(was_safe(302), safe, "within a tick of what may be held");
         assert_eq!(run.report.read_faults, lost);
@@ -217,7 +211,12 @@ fn a_device_that_says_nothing_new_is_silent_after_three_ticks() {
         fault: Fault::TimedOut,
     };
     assert_eq!(run.kept.events[0], failed);
-    assert!(run.kept.records[302].output.flags.contains(Flags::SAFE_STATE));
+    assert!(
+        run.kept.records[302]
+            .output
+            .flags
+            .contains(Flags::SAFE_STATE)
+    );
     assert_within_limits(&run);
 }
 
@@ -297,7 +296,10 @@ fn a_slow_reader_loses_records_and_never_a_tick() {
 #[test]
 fn a_rate_that_does_not_fit_is_refused() {
     assert_eq!(Settings::at(1000).check(1000.0), Ok(()));
-    assert_eq!(Settings::at(100).check(100.0), Err(SettingsError::Rate(100)));
+    assert_eq!(
+        Settings::at(100).check(100.0),
+        Err(SettingsError::Rate(100))
+    );
     assert!(matches!(
         Settings::at(1000).check(2000.0),
         Err(SettingsError::OtherRate { .. })

@@ -236,7 +236,10 @@ fn check_folder(folder: &Path) -> Result<(), Failures> {
         return Ok(());
     }
     Err(Plain::failure(
-        format!("{}: no folder, and none can be made there", folder.display()),
+        format!(
+            "{}: no folder, and none can be made there",
+            folder.display()
+        ),
         "give a folder whose parent exists",
     ))
 }
@@ -308,7 +311,8 @@ fn tell(
             .iter()
             .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
             .collect();
-        output::write_folder_beside(arguments.options.file.as_slice(), folder, &named).map_err(one)?;
+        output::write_folder_beside(arguments.options.file.as_slice(), folder, &named)
+            .map_err(one)?;
     }
     if arguments.json {
         console.json(&json).map_err(one)
@@ -340,7 +344,9 @@ fn merge(logs: &[PathBuf], output: &Path, console: Console) -> Result<(), Failur
     let file = outputs.open(output).map_err(one)?;
     let console = console.beside(&outputs);
     let mut runs = logs.iter().map(|path| read(path));
-    let Some(first) = runs.next() else { return Ok(()) };
+    let Some(first) = runs.next() else {
+        return Ok(());
+    };
     let mut merged = first?;
     for (run, path) in runs.zip(&logs[1..]) {
         let run = run?;

@@ -264,7 +264,10 @@ impl<'c> Attendant<'c> {
         match prepared {
             Ok(()) => {
                 self.reloads += 1;
-                self.say(&format!("{}: loaded anew, {}", texture.origin, texture.name));
+                self.say(&format!(
+                    "{}: loaded anew, {}",
+                    texture.origin, texture.name
+                ));
                 true
             }
             Err(PrepareError::NoneSpare) => false,
@@ -314,7 +317,8 @@ impl<'c> Attendant<'c> {
 
     /// A line for the user, beside the status line.
     fn say(&self, text: &str) {
-        self.status.suspend(|| self.console.aside(&format!("{text}\n")));
+        self.status
+            .suspend(|| self.console.aside(&format!("{text}\n")));
     }
 
     /// The status line: rate, missed periods, force, contact, safe state.
@@ -416,7 +420,7 @@ impl<'c> Attendant<'c> {
             report.stale, report.read_faults, report.write_faults, report.recoveries
         );
         text += &format!(
-            "runtime    {} taps, safe state {} times, {} ticks at the peak, {} at the slew limit\n",
+            "runtime    {} taps, {} safe states, {} ticks at the peak, {} at the slew limit\n",
             report.counters.taps,
             report.counters.faults,
             report.counters.peak_limited,

@@ -11,7 +11,7 @@ pub enum OpenError {
     #[error(transparent)]
     Uri(#[from] UriError),
     /// A setting has a value that is none.
-    #[error("{uri}: {key} must be {rule}")]
+    #[error("`{uri}`: {key} must be {rule}")]
     Setting {
         /// The device.
         uri: String,
@@ -21,7 +21,7 @@ pub enum OpenError {
         rule: &'static str,
     },
     /// This program has no such device.
-    #[error("{uri}: this program cannot open devices of the kind {scheme}:")]
+    #[error("`{uri}`: this program cannot open devices of the kind {scheme}:")]
     NotHere {
         /// The device.
         uri: String,
@@ -29,7 +29,7 @@ pub enum OpenError {
         scheme: &'static str,
     },
     /// The device was found, or its library, and could not be used.
-    #[error("{uri}: {why}")]
+    #[error("`{uri}`: {why}")]
     Failed {
         /// The device.
         uri: String,
@@ -56,7 +56,8 @@ impl OpenError {
     pub fn remedy(&self) -> String {
         match self {
             Self::Uri(_) | Self::Setting { .. } => {
-                "write SCHEME:WHICH?key=value&key=value, for example `null:?z_mm=-1`".into()
+                "write SCHEME:WHICH?key=value&key=value, such as `null:?z_mm=-1` or `sim:?grip=firm`"
+                    .into()
             }
             Self::NotHere { .. } => "use null: or sim:".into(),
             Self::Failed { remedy, .. } => remedy.clone(),
@@ -93,7 +94,13 @@ mod tests {
         };
         assert_eq!(height("null:").expect("no device"), 0.05);
         assert_eq!(height("null:?z_mm=-1").expect("no device"), -0.001);
-        for bad in ["null:?z_mm=deep", "null:?z_mm=1e9", "null:?z_mm=nan", "null:?depth=1", "sim:"] {
+        for bad in [
+            "null:?z_mm=deep",
+            "null:?z_mm=1e9",
+            "null:?z_mm=nan",
+            "null:?depth=1",
+            "sim:",
+        ] {
             let error = height(bad).expect_err(bad);
             assert!(!error.remedy().is_empty(), "{error}");
         }

@@ -27,7 +27,12 @@ impl Collector {
     /// Collects the records of a loop with these settings, which began at `began_s` s since 1970,
     /// in intervals of `interval_ns`.
     #[must_use]
-    pub fn new(settings: &Settings, conditions: Conditions, began_s: f64, interval_ns: u64) -> Self {
+    pub fn new(
+        settings: &Settings,
+        conditions: Conditions,
+        began_s: f64,
+        interval_ns: u64,
+    ) -> Self {
         Self {
             facts: Facts {
                 ticks: 0,

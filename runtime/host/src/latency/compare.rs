@@ -109,15 +109,25 @@ struct Sampled {
 impl Sampled {
     fn of(run: &Run, stage: Stage) -> Self {
         let counts = |counts: &Counts| counts.0.clone();
-        let intervals: Vec<_> = run.intervals.iter().map(|i| counts(i.stage(stage))).collect();
-        let mut values: Vec<u64> = intervals.iter().flatten().map(|&(value, _)| value).collect();
+        let intervals: Vec<_> = run
+            .intervals
+            .iter()
+            .map(|i| counts(i.stage(stage)))
+            .collect();
+        let mut values: Vec<u64> = intervals
+            .iter()
+            .flatten()
+            .map(|&(value, _)| value)
+            .collect();
         values.sort_unstable();
         values.dedup();
         let total = intervals.iter().flatten().map(|&(_, count)| count).sum();
         let index = |value| values.partition_point(|&other| other < value);
         let intervals = intervals.iter().map(|counts| {
             let counts = counts.iter();
-            counts.map(|&(value, count)| (index(value), count)).collect()
+            counts
+                .map(|&(value, count)| (index(value), count))
+                .collect()
         });
         Self {
             intervals: intervals.collect(),

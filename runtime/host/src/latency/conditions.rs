@@ -38,8 +38,12 @@ impl Machine {
         let cpu = cpu.unwrap_or(0);
         let info = line("/proc/cpuinfo");
         let field = |name: &str| {
-            let line = info.as_deref()?.lines().find(|line| line.starts_with(name))?;
-            line.split_once(':').map(|(_, value)| value.trim().to_owned())
+            let line = info
+                .as_deref()?
+                .lines()
+                .find(|line| line.starts_with(name))?;
+            line.split_once(':')
+                .map(|(_, value)| value.trim().to_owned())
         };
         let command_line = line("/proc/cmdline").unwrap_or_default();
         let option = |name: &str| {
@@ -54,9 +58,7 @@ impl Machine {
             processors: std::thread::available_parallelism().map_or(1, Into::into),
             virtual_machine: field("flags")
                 .map(|flags| flags.split(' ').any(|flag| flag == "hypervisor")),
-            clock_source: line(
-                "/sys/devices/system/clocksource/clocksource0/current_clocksource",
-            ),
+            clock_source: line("/sys/devices/system/clocksource/clocksource0/current_clocksource"),
             governor: line(&format!(
                 "/sys/devices/system/cpu/cpu{cpu}/cpufreq/scaling_governor"
             )),

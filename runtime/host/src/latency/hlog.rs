@@ -103,10 +103,7 @@ pub fn read_log(bytes: &[u8]) -> Result<Run, LogError> {
     let mut intervals: Vec<Interval> = Vec::new();
     let entries = IntervalLogIterator::new(bytes).filter(|entry| {
         // Start and base time were read with the facts.
-        !matches!(
-            entry,
-            Ok(LogEntry::StartTime(_) | LogEntry::BaseTime(_))
-        )
+        !matches!(entry, Ok(LogEntry::StartTime(_) | LogEntry::BaseTime(_)))
     });
     for (index, entry) in entries.enumerate() {
         let Ok(LogEntry::Interval(entry)) = entry else {

@@ -51,7 +51,8 @@ impl Percentiles {
             p99_9,
             p99_99,
             p99_999,
-            max: histogram.max(),
+            // In the resolution of the others.
+            max: histogram.value_at_quantile(1.0),
         }
     }
 

@@ -85,6 +85,9 @@ mod tests {
         let mut later = schedule;
         later.advance(2500);
         assert_eq!(later.due_ns(), 2_505_000_000);
-        assert_eq!(Schedule::new(10_000, 0).missed(u64::MAX), 184_467_440_737_095);
+        assert_eq!(
+            Schedule::new(10_000, 0).missed(u64::MAX),
+            184_467_440_737_095
+        );
     }
 }

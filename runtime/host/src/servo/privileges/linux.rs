@@ -53,8 +53,8 @@ pub(super) fn acquire(
 
 fn lock_memory() -> Result<(), Refusal> {
     let limited = getrlimit(Resource::Memlock).current.is_some();
-    let capable = capabilities(None)
-        .is_ok_and(|sets| sets.effective.contains(CapabilitySet::IPC_LOCK));
+    let capable =
+        capabilities(None).is_ok_and(|sets| sets.effective.contains(CapabilitySet::IPC_LOCK));
     if limited && !capable {
         // Locked within a limit, the process would die of the first allocation beyond it.
         return Err(Refusal {
@@ -78,7 +78,9 @@ fn shallow_idle() -> Result<File, Refusal> {
     };
     open().map_err(|error| Refusal {
         why: format!("{IDLE_FILE}: {error}"),
-        remedy: format!("sudo setfacl -m u:$USER:rw {IDLE_FILE}, until the next start of the system"),
+        remedy: format!(
+            "sudo setfacl -m u:$USER:rw {IDLE_FILE}, until the next start of the system"
+        ),
     })
 }
 

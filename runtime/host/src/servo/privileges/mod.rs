@@ -11,12 +11,12 @@
 //!
 //! Nobody has tested the columns of macOS and Windows.
 
-mod policy;
-mod stack;
-mod system;
 #[cfg_attr(target_os = "linux", path = "linux.rs")]
 #[cfg_attr(not(target_os = "linux"), path = "elsewhere.rs")]
 mod platform;
+mod policy;
+mod stack;
+mod system;
 
 pub use policy::{Policy, PolicyError};
 

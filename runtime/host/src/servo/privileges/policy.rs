@@ -23,7 +23,9 @@ pub enum Policy {
 
 /// Why a text is no policy.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("`{0}` is no policy: write other, fifo, fifo:1 to fifo:99, deadline, or deadline:5 to deadline:90 (percent of a period)")]
+#[error(
+    "`{0}` is no policy: write other, fifo, fifo:1 to fifo:99, deadline, or deadline:5 to deadline:90 (percent of a period)"
+)]
 pub struct PolicyError(String);
 
 impl FromStr for Policy {
@@ -74,7 +76,15 @@ mod tests {
         assert_eq!(parse("fifo"), Ok(Policy::Fifo { priority: 80 }));
         assert_eq!(parse("fifo:5"), Ok(Policy::Fifo { priority: 5 }));
         assert_eq!(parse("deadline:20"), Ok(Policy::Deadline { percent: 20 }));
-        for bad in ["", "fifo:", "fifo:0", "fifo:100", "deadline:99", "rr", "other:1"] {
+        for bad in [
+            "",
+            "fifo:",
+            "fifo:0",
+            "fifo:100",
+            "deadline:99",
+            "rr",
+            "other:1",
+        ] {
             assert!(parse(bad).is_err(), "{bad}");
         }
     }

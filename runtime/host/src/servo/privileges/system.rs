@@ -15,7 +15,8 @@ mod calls {
             sched_priority: priority.into(),
         };
         // SAFETY: 0 is the calling thread, and the structure outlives the call, which reads it.
-        let result = unsafe { libc::sched_setscheduler(0, libc::SCHED_FIFO, &raw const parameters) };
+        let result =
+            unsafe { libc::sched_setscheduler(0, libc::SCHED_FIFO, &raw const parameters) };
         checked(result.into())
     }
 
