@@ -147,14 +147,7 @@ fn a_changed_file_is_felt_anew_and_a_broken_one_is_not() {
     replace(&lower(0.5));
     let mut command = lab(folder.path());
     command.args([
-        "servo",
-        "grit.asp",
-        "--device",
-        "null:",
-        "--watch",
-        "--record",
-        "t.csv",
-        "--json",
+        "servo", "grit.asp", "--device", "null:", "--watch", "--record", "t.csv", "--json",
     ]);
     let child = command
         .args(PLAIN)

@@ -83,7 +83,7 @@ impl<T, C: Clock> Delayed<T, C> {
         };
         let calls = &mut self.calls[usize::from(stage == Stage::Write)];
         *calls += 1;
-        if *calls % injection.every == 0 {
+        if calls.is_multiple_of(injection.every) {
             // Through `sleep_until`, so that a virtual clock passes.
             self.clock
                 .sleep_until(self.clock.now_ns() + injection.delay_ns);

@@ -122,5 +122,5 @@ impl Observer for Kept {
 
 /// Length of a vector.
 pub(crate) fn length(v: [f32; 3]) -> f32 {
-    v.iter().map(|x| x * x).sum::<f32>().sqrt()
+    asperity_runtime::math::norm(v)
 }
