@@ -146,8 +146,8 @@ fn a_delay_in_one_of_a_thousand_ticks_is_found_in_its_stage_and_nowhere_else() {
             let base = without.max();
             let at = |quantile| with.value_at_quantile(quantile);
             assert!(at(0.9989) <= base && at(0.999_1) >= 300_000);
-            // As long as the delay and the stage together, told to a thousandth.
-            assert!(with.max() <= (300_000 + base) / 1000 * 1001);
+            // As long as the delay and the stage together; a cell of the histogram is 256 ns wide.
+            assert!(with.max() < 300_000 + base + 256);
         }
         let total = above(&run.raw(Stage::Total), 300_000);
         assert_eq!(total, 100, "the sum has it as well");
