@@ -4,8 +4,9 @@
 //! [`Hand`](hand::Hand) pulls the stylus of a [`Device`](device::Device). A
 //! [`Servo`](servo::Servo), which is a renderer, possibly behind a
 //! [`FaultInjector`](fault::FaultInjector), answers every measured position with a force.
-//! Nothing here reads a clock: time passes when the caller says so, and the same seed gives the
-//! same bytes.
+//! Nothing there reads a clock: time passes when the caller says so, and the same seed gives the
+//! same bytes. [`desk`] is the one place with a clock: it runs a texture or a scene in a servo loop
+//! of [`asperity_host`], on a real device or on the simulated one.
 //!
 //! | module | holds |
 //! |---|---|
@@ -17,6 +18,8 @@
 //! | [`fault`] | NaN, dropped, stale, stuck and late samples |
 //! | [`session`] | the loop, and the record of every tick |
 //! | [`feel`] | a session on a texture, with its summary, CSV, sheet and sound |
+//! | [`desk`] | a servo loop on a texture or a scene; the simulated device behind the host's trait |
+//! | [`jitter`] | how punctual that loop is: tables, JSON, pictures |
 //! | [`labs`] | alternatives to the tick, which only the charts need |
 //! | [`stability`] | where methods fail: a table of our method and others |
 //!
@@ -28,10 +31,12 @@
 pub mod axis;
 pub mod bench;
 pub mod config;
+pub mod desk;
 pub mod device;
 pub mod fault;
 pub mod feel;
 pub mod hand;
+pub mod jitter;
 pub mod labs;
 mod random;
 pub mod servo;

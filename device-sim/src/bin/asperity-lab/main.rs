@@ -5,7 +5,10 @@ mod device;
 mod bench;
 mod error;
 mod feel;
+mod jitter;
+mod loop_options;
 mod pareto;
+mod servo;
 mod stability;
 
 use std::process::ExitCode;
@@ -23,6 +26,8 @@ use error::Plain;
 #[command(after_help = "Examples:
   asperity-lab feel
   asperity-lab feel brick.asp --plot feel.png --wav feel.wav
+  asperity-lab servo brick.asp --device sim: --watch
+  asperity-lab jitter --seconds 10 --cyclictest
   asperity-lab stability
   asperity-lab pareto --out charts
   asperity-lab device list
@@ -38,6 +43,8 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Feel(feel::Arguments),
+    Servo(servo::Arguments),
+    Jitter(jitter::Arguments),
     Stability(stability::Arguments),
     Pareto(pareto::Arguments),
     Device(device::Arguments),
@@ -50,11 +57,16 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    asperity::output::clean_up_on_interrupt();
     let arguments: Arguments = console::arguments();
+    // A servo loop takes the force to zero first.
+    if !matches!(arguments.command, Command::Servo(_) | Command::Jitter(_)) {
+        asperity::output::clean_up_on_interrupt();
+    }
     let console = Console::new(arguments.quiet);
     let result = match &arguments.command {
         Command::Feel(arguments) => feel::run(arguments, console).map(|()| true),
+        Command::Servo(arguments) => servo::run(arguments, console).map(|()| true),
+        Command::Jitter(arguments) => jitter::run(arguments, console).map(|()| true),
         Command::Stability(arguments) => stability::run(arguments, console),
         Command::Device(arguments) => device::run(arguments, console),
         Command::Pareto(arguments) => pareto::run(arguments, console).map(|()| true),

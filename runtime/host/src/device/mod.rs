@@ -9,11 +9,15 @@ pub mod falcon;
 mod fault;
 #[cfg(feature = "usb")]
 pub mod touch;
+mod null;
+mod open;
 mod uri;
 #[cfg(feature = "usb")]
 pub mod usb;
 
 pub use fault::Fault;
+pub use null::NullDevice;
+pub use open::{OpenError, open};
 pub use uri::{Scheme, Uri, UriError};
 
 /// What a device says in one servo period.
@@ -70,5 +74,23 @@ pub trait Device: Send {
     /// [`Fault`] while the device is still away.
     fn recover(&mut self) -> Result<(), Fault> {
         Ok(())
+    }
+}
+
+impl<D: Device + ?Sized> Device for &mut D {
+    fn description(&self) -> &Description {
+        (**self).description()
+    }
+
+    fn read(&mut self) -> Result<Reading, Fault> {
+        (**self).read()
+    }
+
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+        (**self).write(force_n)
+    }
+
+    fn recover(&mut self) -> Result<(), Fault> {
+        (**self).recover()
     }
 }

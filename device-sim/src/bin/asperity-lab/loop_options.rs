@@ -1,0 +1,138 @@
+//! Options of the commands that run a servo loop.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::time::Duration;
+
+use asperity::diagnostic::{Failures, one};
+use asperity_host::device::Uri;
+use asperity_host::servo::privileges::{Grant, Policy, Wanted};
+use asperity_host::servo::{Monotonic, Overrun, Settings};
+use asperity_sim::desk::{Desk, Surface, open};
+
+use crate::error::Plain;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct LoopOptions {
+    /// Texture (.asp), library (.aspl) or scene; the built-in texture without it
+    pub(crate) file: Option<PathBuf>,
+    /// Which texture of a library, by name or index
+    #[arg(long, value_name = "NAME", requires = "file")]
+    pub(crate) texture: Option<String>,
+    /// Servo rate, 250 to 10000 Hz; that of the texture's models without it
+    #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(250..=10_000))]
+    pub(crate) rate: Option<u32>,
+    /// What happens to periods that were missed
+    #[arg(long, value_enum, default_value = "skip")]
+    pub(crate) overrun: OverrunName,
+    /// Scheduling: other, fifo, fifo:PRIORITY, deadline, deadline:PERCENT
+    #[arg(long, value_name = "POLICY", default_value = "fifo")]
+    pub(crate) policy: Policy,
+    /// Run the loop on this processor alone
+    #[arg(long, value_name = "N")]
+    pub(crate) cpu: Option<usize>,
+    /// Stop sleeping so many µs early and wait for the time instead (0 to 1000)
+    #[arg(long, value_name = "US", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1000))]
+    pub(crate) spin: u64,
+    /// Do not lock memory
+    #[arg(long)]
+    pub(crate) no_lock: bool,
+    /// Let processors go into deep idle states
+    #[arg(long)]
+    pub(crate) deep_idle: bool,
+    /// Seed of the texture's excitation
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
+}
+
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+pub(crate) enum OverrunName {
+    /// Skip them; the next sample says how many passed
+    Skip,
+    /// Make up for them, one tick right after the other
+    CatchUp,
+    /// End the loop
+    Stop,
+}
+
+impl LoopOptions {
+    pub(crate) fn surface(&self) -> Result<Surface, Failures> {
+        let surface = match &self.file {
+            None => Surface::built_in(),
+            Some(path) => Surface::read(path, self.texture.as_deref()),
+        };
+        surface.map_err(one)
+    }
+
+    pub(crate) fn rate_hz(&self, surface: &Surface) -> u32 {
+        self.rate.unwrap_or_else(|| surface.rate_hz())
+    }
+
+    pub(crate) fn desk(&self, uri: &Uri, rate_hz: u32) -> Result<Desk, Failures> {
+        open(uri, rate_hz).map_err(one)
+    }
+
+    pub(crate) fn settings(&self, rate_hz: u32, seconds: Option<f64>) -> Settings {
+        Settings {
+            overrun: match self.overrun {
+                OverrunName::Skip => Overrun::Skip,
+                OverrunName::CatchUp => Overrun::CatchUp,
+                OverrunName::Stop => Overrun::Stop,
+            },
+            periods: seconds.map(|seconds| (seconds * f64::from(rate_hz)).round() as u64),
+            ..Settings::at(rate_hz)
+        }
+    }
+
+    pub(crate) fn clock(&self) -> Monotonic {
+        Monotonic::spinning(Duration::from_micros(self.spin))
+    }
+
+    pub(crate) fn wanted(&self) -> Wanted {
+        Wanted {
+            policy: self.policy,
+            lock_memory: !self.no_lock,
+            cpu: self.cpu,
+            shallow_idle: !self.deep_idle,
+        }
+    }
+}
+
+/// One line for each request that the system refused.
+pub(crate) fn refusals(grants: &[Grant]) -> Vec<String> {
+    let refused = grants.iter().filter_map(|grant| {
+        let refusal = grant.refusal.as_ref()?;
+        Some(format!(
+            "{} ({}) was refused: {}; {}",
+            grant.what, grant.wanted, refusal.why, refusal.remedy
+        ))
+    });
+    refused.collect()
+}
+
+/// Set by the first interrupt or request to terminate.
+pub(crate) fn stop_on_interrupt() -> Result<Arc<AtomicBool>, Failures> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let set = Arc::clone(&stop);
+    ctrlc::set_handler(move || set.store(true, Relaxed)).map_err(|error| {
+        Plain::failure(
+            format!("cannot watch for interrupts: {error}"),
+            "report this as a bug",
+        )
+    })?;
+    Ok(stop)
+}
+
+/// A name of a device.
+pub(crate) fn device(text: &str) -> Result<Uri, String> {
+    text.parse::<Uri>().map_err(|error| error.to_string())
+}
+
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if (0.1..=86_400.0).contains(&value) => Ok(value),
+        Ok(_) => Err("must be 0.1 to 86400 s".into()),
+        Err(_) => Err("not a number of seconds".into()),
+    }
+}

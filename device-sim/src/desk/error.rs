@@ -1,0 +1,100 @@
+//! Why a servo loop cannot run on a desk.
+
+use crate::config::ConfigError;
+use asperity::diagnostic::Diagnostic;
+use asperity::source::SourceError;
+use asperity_formats::FormatError;
+use asperity_host::device::OpenError;
+use asperity_host::servo::SettingsError;
+use asperity_runtime::{LoadError, SceneError};
+use std::io;
+
+/// Why a servo loop cannot run on a desk.
+#[derive(Debug, thiserror::Error)]
+pub enum DeskError {
+    /// The file is no texture and no scene.
+    #[error(transparent)]
+    Source(#[from] SourceError),
+    /// The bytes of a texture or a library are damaged.
+    #[error("{origin}: {cause}")]
+    Format {
+        /// The file.
+        origin: String,
+        /// What is wrong.
+        cause: FormatError,
+    },
+    /// The texture does not fit the slot or the servo rate.
+    #[error("{origin}: {cause}")]
+    Load {
+        /// The file.
+        origin: String,
+        /// What is wrong.
+        cause: LoadError,
+    },
+    /// The scene does not fit.
+    #[error("{origin}: {cause}")]
+    Scene {
+        /// The file.
+        origin: String,
+        /// What is wrong.
+        cause: SceneError,
+    },
+    /// The built-in texture cannot be made.
+    #[error("{0}")]
+    BuiltIn(String),
+    /// The device cannot be opened.
+    #[error(transparent)]
+    Open(#[from] OpenError),
+    /// The file of a simulated device or grip was refused.
+    #[error(transparent)]
+    Simulated(#[from] ConfigError),
+    /// No renderer can serve the device.
+    #[error("the device cannot be served: {0}")]
+    Config(#[from] asperity_runtime::ConfigError),
+    /// The loop cannot run at this rate.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// The system has no room for a thread.
+    #[error("cannot start the servo thread: {0}")]
+    Thread(io::Error),
+    /// The servo thread panicked.
+    #[error("the servo thread ended by a bug")]
+    Bug,
+}
+
+impl Diagnostic for DeskError {
+    fn is_usage(&self) -> bool {
+        match self {
+            Self::Source(error) => error.is_usage(),
+            Self::Open(error) => !matches!(error, OpenError::Failed { .. }),
+            Self::Settings(_) => true,
+            Self::Load { cause, .. } => matches!(cause, LoadError::Rate { .. }),
+            _ => false,
+        }
+    }
+
+    fn remedy(&self) -> String {
+        match self {
+            Self::Source(error) => error.remedy(),
+            Self::Format { .. } => "make the file again from its source".into(),
+            Self::Load {
+                cause: LoadError::Rate { model_hz, .. },
+                ..
+            } => format!("give --rate {model_hz}, or 2, 3, … 20 times as much"),
+            Self::Load { .. } | Self::Scene { .. } => {
+                "make the texture again with fewer vertices or a lower order".into()
+            }
+            Self::BuiltIn(_) | Self::Bug => "report this as a bug".into(),
+            Self::Open(error) => match error {
+                OpenError::NotHere { .. } => {
+                    "use sim:, a simulated Touch with a simulated hand, or null:".into()
+                }
+                other => other.remedy(),
+            },
+            Self::Simulated(error) => error.remedy(),
+            Self::Config(_) => "change the value in the device file".into(),
+            Self::Settings(_) => "give --rate 250 to 10000".into(),
+            Self::Thread(_) => "close other programs, or raise `ulimit -u`".into(),
+        }
+    }
+}

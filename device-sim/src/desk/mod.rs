@@ -1,0 +1,23 @@
+//! A servo loop on a texture or a scene, on a device or a simulated one.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `surface` | what is touched, read from a file |
+//! | `open` | devices by name, `sim:` among them |
+//! | `sim_device` | the simulated device and hand behind the host's trait |
+//! | `run` | one run of the loop on its thread |
+//! | `trace` | every tick as a row of CSV |
+
+mod error;
+mod open;
+mod run;
+mod sim_device;
+mod surface;
+mod trace;
+
+pub use error::DeskError;
+pub use open::{Desk, open};
+pub use run::{Attended, Setup, run};
+pub use sim_device::{Pace, SimDevice};
+pub use surface::Surface;
+pub use trace::{COLUMNS, Trace};

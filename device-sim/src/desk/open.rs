@@ -1,0 +1,73 @@
+//! Devices by name.
+
+use super::error::DeskError;
+use super::sim_device::{Pace, SimDevice};
+use crate::device::DeviceConfig;
+use crate::hand::{Grip, GripPreset};
+use asperity_host::device::{self, Device, OpenError, Scheme, Uri};
+use asperity_runtime::{Config, Limits, MechanicsConfig};
+use std::path::Path;
+
+/// Settings of `sim:`.
+const SETTINGS: [&str; 3] = ["grip", "seed", "time"];
+
+/// An open device, and what the runtime must know of it.
+pub struct Desk {
+    /// The device.
+    pub device: Box<dyn Device>,
+    /// What its own mechanics absorb: those of a Touch where nobody knows better.
+    pub mechanics: MechanicsConfig,
+}
+
+impl Desk {
+    /// The configuration of a renderer for this device.
+    #[must_use]
+    pub fn config(&self, rate_hz: u32) -> Config {
+        Config {
+            servo_rate_hz: rate_hz as f32,
+            limits: Limits {
+                peak_n: self.device.description().peak_force_n,
+                ..Config::default().limits
+            },
+            mechanics: self.mechanics,
+            ..Config::default()
+        }
+    }
+}
+
+/// Opens a device by its name for a servo loop at `rate_hz`: what the host has, and
+/// `sim:FILE.toml?grip=light&seed=1&time=real`, where everything after the colon may be left out.
+/// `grip` is `light`, `firm` or a file, `time` is `real` or `stepped`. The simulated device takes a
+/// period of the loop as its own, whatever its file says.
+///
+/// # Errors
+/// [`DeskError::Open`] and [`DeskError::Simulated`].
+pub fn open(uri: &Uri, rate_hz: u32) -> Result<Desk, DeskError> {
+    if uri.scheme != Scheme::Sim {
+        return Ok(Desk {
+            device: device::open(uri, rate_hz)?,
+            mechanics: Config::default().mechanics,
+        });
+    }
+    uri.allow(&SETTINGS).map_err(OpenError::from)?;
+    let config = match uri.which.as_str() {
+        "" => DeviceConfig::touch()?,
+        path => DeviceConfig::load(Path::new(path))?,
+    };
+    let grip = match uri.setting("grip").unwrap_or("light") {
+        "light" => Grip::preset(GripPreset::Light)?,
+        "firm" => Grip::preset(GripPreset::Firm)?,
+        path => Grip::load(Path::new(path))?,
+    };
+    let seed = uri.setting("seed").unwrap_or("1").parse();
+    let seed = seed.map_err(|_| OpenError::setting(uri, "seed", "a whole number"))?;
+    let pace = match uri.setting("time").unwrap_or("real") {
+        "real" => Pace::RealTime,
+        "stepped" => Pace::Stepped,
+        _ => return Err(OpenError::setting(uri, "time", "real or stepped").into()),
+    };
+    Ok(Desk {
+        device: Box::new(SimDevice::new(&config, grip, seed, rate_hz, pace)),
+        mechanics: config.mechanics_config(),
+    })
+}

@@ -1,0 +1,176 @@
+//! The sheet of a run: percentiles of every stage, and the latest tick of each interval.
+
+use asperity_host::latency::{Run, Wakeups};
+use asperity_host::servo::Stage;
+use asperity_plot::{
+    Axis, Canvas, Color, Key, Margins, Marker, Panel, PlotError, Rect, Stroke, TextStyle, ink,
+    legend, size,
+};
+use hdrhistogram::Histogram;
+
+const SIZE: (f32, f32) = (2400.0, 1000.0);
+const HEADING_PX: f32 = 130.0;
+/// Steps of the percentile in each half of the distance to 100 %.
+const STEPS: u32 = 8;
+
+/// Stages that are drawn, with their colours. The interval between wake-ups is about a period and
+/// would hide the others. The later ones cover the earlier ones.
+const DRAWN: [(Stage, Color, &str); 5] = [
+    (Stage::Total, ink::LIGHT, "due to written"),
+    (Stage::WakeUp, ink::BLUE, "wake-up"),
+    (Stage::Read, ink::GREEN, "read"),
+    (Stage::Compute, ink::VERMILION, "compute"),
+    (Stage::Write, ink::ORANGE, "write"),
+];
+
+/// Draws a run as PNG.
+///
+/// # Errors
+/// [`PlotError`].
+pub fn draw(run: &Run, cyclictest: Option<&Wakeups>) -> Result<Vec<u8>, PlotError> {
+    let mut canvas = Canvas::new(SIZE.0 as u32, SIZE.1 as u32)?;
+    heading(&mut canvas, run);
+    let half = 0.5 * SIZE.0;
+    let place = |column: f32| {
+        let height = SIZE.1 - HEADING_PX;
+        Rect::new(column * half, HEADING_PX, half, height)
+    };
+    percentiles(&mut canvas, place(0.0), run, cyclictest);
+    over_time(&mut canvas, place(1.0), run);
+    canvas.png()
+}
+
+fn heading(canvas: &mut Canvas, run: &Run) {
+    let facts = &run.facts;
+    let title = "Latency of the servo loop";
+    canvas.text(title, (30.0, 62.0), &TextStyle::new(size::HEADING).bold());
+    let style = TextStyle::new(size::LABEL).color(ink::GREY);
+    let mut below = format!(
+        "{} ticks of {} µs, {} missed",
+        facts.ticks,
+        facts.period_ns / 1000,
+        facts.missed
+    );
+    if let Some(conditions) = facts.conditions.first() {
+        below += &format!(
+            "; {}, load {}, {}",
+            conditions.device, conditions.load, conditions.machine.kernel
+        );
+    }
+    let line = canvas.fitted(&below, &style, SIZE.0 - 60.0);
+    canvas.text(&line, (30.0, 106.0), &style);
+}
+
+fn panel(outer: Rect, x: Axis, y: Axis, letter: char, title: &str) -> Panel {
+    let mut panel = Panel::new(outer, x, y).letter(letter).title(title);
+    panel.margins = Margins {
+        top: 142.0,
+        right: 48.0,
+        ..panel.margins
+    };
+    panel
+}
+
+/// µs, no less than what is drawn.
+fn us(ns: u64) -> f64 {
+    (1e-3 * ns as f64).max(LOWEST_US)
+}
+
+const LOWEST_US: f64 = 0.02;
+
+/// The axis of latencies up to the largest, µs.
+fn latencies(label: &str, largest_ns: u64) -> Axis {
+    Axis::log(label, LOWEST_US, 2.0 * us(largest_ns).max(1.0))
+}
+
+/// Points (one tick in so many, µs) of a distribution.
+fn curve(histogram: &Histogram<u64>) -> Vec<(f64, f64)> {
+    let total = histogram.len() as f64;
+    let steps = histogram.iter_quantiles(STEPS);
+    let points = steps.map(|step| {
+        let beyond = (1.0 - step.quantile_iterated_to()).max(1.0 / total);
+        (1.0 / beyond, us(step.value_iterated_to()))
+    });
+    points.collect()
+}
+
+/// The sum of the stages is wider, since its largest part lies upon it.
+fn stroke_of(stage: Stage, color: Color) -> Stroke {
+    let wider = if stage == Stage::Total { 2.5 } else { 1.0 };
+    Stroke::new(color, wider * size::LINE)
+}
+
+fn percentiles(canvas: &mut Canvas, outer: Rect, run: &Run, cyclictest: Option<&Wakeups>) {
+    let ticks = run.facts.ticks.max(10) as f64;
+    let corrected = run.corrected(Stage::WakeUp);
+    let largest = run.raw(Stage::Total).max().max(corrected.max());
+    let largest = largest.max(cyclictest.map_or(0, |wakeups| wakeups.max_ns));
+    let panel = panel(
+        outer,
+        Axis::log("One tick in so many takes longer", 1.0, ticks),
+        latencies("Latency (µs)", largest),
+        'a',
+        "Percentiles",
+    );
+    panel.draw_frame(canvas);
+    let mut keys = Vec::new();
+    for (stage, color, name) in DRAWN {
+        let stroke = stroke_of(stage, color);
+        panel.line(canvas, curve(&run.raw(stage)), stroke);
+        keys.push((Key::Line(stroke), name));
+    }
+    let mut others = Vec::new();
+    if let Some(wakeups) = cyclictest {
+        let stroke = Stroke::new(ink::SKY, size::LINE);
+        panel.line(canvas, curve(&wakeups.counts.histogram()), stroke);
+        others.push((Key::Line(stroke), "cyclictest's wake-up"));
+    }
+    if corrected != run.raw(Stage::WakeUp) {
+        let stroke = Stroke::new(ink::BLUE, size::LINE).dashed();
+        panel.line(canvas, curve(&corrected), stroke);
+        others.push((Key::Line(stroke), "wake-up, corrected for omitted ticks"));
+    }
+    let area = panel.area();
+    legend(canvas, (area.x, area.y - 52.0), area.right(), &keys);
+    legend(canvas, (area.x, area.y - 22.0), area.right(), &others);
+}
+
+fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
+    let end_s = run.intervals.last();
+    let end_s = end_s.map_or(1.0, |last| last.start_s + last.length_s);
+    let largest = run.raw(Stage::Total).max();
+    let panel = panel(
+        outer,
+        Axis::new("Time (s)", 0.0, end_s),
+        latencies("Longest of an interval (µs)", largest),
+        'b',
+        "The longest of each interval, and the worst ticks",
+    );
+    panel.draw_frame(canvas);
+    let mut keys = Vec::new();
+    for (stage, color, name) in DRAWN {
+        let stroke = stroke_of(stage, color);
+        let longest = run.intervals.iter().filter_map(|interval| {
+            let (ns, _) = interval.stage(stage).0.last()?;
+            Some((interval.start_s + 0.5 * interval.length_s, us(*ns)))
+        });
+        panel.line(canvas, longest, stroke);
+        keys.push((Key::Line(stroke), name));
+    }
+    let outline = Stroke::new(ink::BLACK, size::FRAME);
+    let worst = run.facts.worst.iter();
+    let worst = worst.map(|tick| (tick.t_s, us(tick.total_ns)));
+    panel.points(
+        canvas,
+        worst,
+        Marker::Circle,
+        7.0,
+        Some(ink::PAPER),
+        Some(outline),
+    );
+    let key = Key::Point(Marker::Circle, 7.0, Some(ink::PAPER), Some(outline));
+    let area = panel.area();
+    legend(canvas, (area.x, area.y - 52.0), area.right(), &keys);
+    let worst = [(key, "the ten worst ticks")];
+    legend(canvas, (area.x, area.y - 22.0), area.right(), &worst);
+}

@@ -1,0 +1,163 @@
+//! A run, and a comparison of two, for a person.
+
+use asperity_host::latency::{Conditions, Percentiles, QUANTILES, Run, Shift, Wakeups};
+use asperity_host::servo::Stage;
+use std::fmt::Write as _;
+
+/// The report of a run.
+#[must_use]
+pub fn report(run: &Run, cyclictest: Option<&Wakeups>) -> String {
+    let facts = &run.facts;
+    let mut text = format!(
+        "{} ticks of {} µs, {} missed, longest gap {} µs\n\n",
+        facts.ticks,
+        us(facts.period_ns),
+        facts.missed,
+        us(facts.longest_gap_ns)
+    );
+    let mut heading = format!("{:<22}", "µs");
+    for (_, name) in QUANTILES {
+        let _ = write!(heading, "{name:>10}");
+    }
+    text += &format!("{heading}{:>10}\n", "max");
+    let mut row = |name: &str, percentiles: &Percentiles| {
+        let mut line = format!("{name:<22}");
+        for ns in percentiles.values().into_iter().chain([percentiles.max]) {
+            let _ = write!(line, "{:>10}", us(ns));
+        }
+        text += &format!("{line}\n");
+    };
+    for stage in Stage::ALL {
+        let raw = run.percentiles(stage);
+        row(stage.name(), &raw);
+        let corrected = Percentiles::of(&run.corrected(stage));
+        if corrected != raw {
+            row(&format!("  {}, corrected", stage.name()), &corrected);
+        }
+    }
+    if let Some(wakeups) = cyclictest {
+        let mut percentiles = Percentiles::of(&wakeups.counts.histogram());
+        percentiles.max = wakeups.max_ns;
+        row("cyclictest's wakeup", &percentiles);
+    }
+    if facts.lost > 0 {
+        let _ = writeln!(text, "\n{} ticks are in no histogram", facts.lost);
+    }
+    text += "\nworst ticks, µs\n";
+    let _ = writeln!(
+        text,
+        "{:>10} {:>10}  {:<8} {:>9} {:>9} {:>9} {:>9} {:>9}",
+        "tick", "s", "stage", "total", "wakeup", "read", "compute", "write"
+    );
+    for tick in &facts.worst {
+        let _ = writeln!(
+            text,
+            "{:>10} {:>10.4}  {:<8} {:>9} {:>9} {:>9} {:>9} {:>9}",
+            tick.period,
+            tick.t_s,
+            tick.stage,
+            us(tick.total_ns),
+            us(tick.wakeup_ns),
+            us(tick.read_ns),
+            us(tick.compute_ns),
+            us(tick.write_ns)
+        );
+    }
+    for conditions in &facts.conditions {
+        text += &format!("\n{}", conditions_of(conditions));
+    }
+    text
+}
+
+fn conditions_of(conditions: &Conditions) -> String {
+    let machine = &conditions.machine;
+    let told = |value: &Option<String>| value.clone().unwrap_or_else(|| "none told".into());
+    let kind = match machine.virtual_machine {
+        Some(true) => "a virtual machine",
+        Some(false) => "no virtual machine",
+        None => "unknown whether virtual",
+    };
+    let or_none = |list: &[String]| {
+        if list.is_empty() {
+            "nothing".into()
+        } else {
+            list.join(", ")
+        }
+    };
+    let mut text = format!(
+        "kernel     {}, preemption {}\nmachine    {}, {} processors, {kind}, clock {}, load {}\n",
+        machine.kernel,
+        machine.preemption,
+        told(&machine.processor),
+        machine.processors,
+        told(&machine.clock_source),
+        told(&machine.load_average),
+    );
+    text += &format!(
+        "settings   governor {}, isolated {}, nohz_full {}, rcu_nocbs {}\n",
+        told(&machine.governor),
+        told(&machine.isolated),
+        told(&machine.nohz_full),
+        told(&machine.rcu_nocbs),
+    );
+    text += &format!(
+        "granted    {}\nrefused    {}\n",
+        or_none(&conditions.granted),
+        or_none(&conditions.refused)
+    );
+    text += &format!(
+        "loop       {} Hz, overrun {}, spin {} µs, device {}, texture {}, load {}, delay {}, asperity {}\n",
+        conditions.rate_hz,
+        conditions.overrun,
+        conditions.spin_us,
+        conditions.device,
+        conditions.texture,
+        conditions.load,
+        conditions.injected.as_deref().unwrap_or("none"),
+        conditions.version
+    );
+    text
+}
+
+/// A comparison of two runs.
+#[must_use]
+pub fn shifts(shifts: &[Shift]) -> String {
+    let mut text = format!(
+        "{:<9} {:>7} {:>10} {:>10} {:>10}  {}\n",
+        "stage", "%", "A µs", "B µs", "shift µs", "95 % confidence"
+    );
+    for shift in shifts {
+        let confidence = match shift.confidence_ns {
+            None => "too few values".to_owned(),
+            Some([low, high]) => {
+                let mark = if shift.is_clear() { "  clear" } else { "" };
+                format!("{} to {}{mark}", signed_us(low), signed_us(high))
+            }
+        };
+        let _ = writeln!(
+            text,
+            "{:<9} {:>7} {:>10} {:>10} {:>10}  {confidence}",
+            shift.stage,
+            shift.percentile,
+            us(shift.a_ns),
+            us(shift.b_ns),
+            signed_us(shift.shift_ns),
+        );
+    }
+    text
+}
+
+/// Nanoseconds as µs, with as many digits as a histogram has.
+fn us(ns: u64) -> String {
+    let us = 1e-3 * ns as f64;
+    match ns {
+        0..10_000 => format!("{us:.2}"),
+        10_000..100_000 => format!("{us:.1}"),
+        _ => format!("{us:.0}"),
+    }
+}
+
+fn signed_us(ns: i64) -> String {
+    let sign = if ns < 0 { "−" } else { "+" };
+    format!("{sign}{}", us(ns.unsigned_abs()))
+}

@@ -1,0 +1,272 @@
+//! `asperity-lab servo` and `asperity-lab jitter` as a user calls them. Nothing here depends on how
+//! punctual the machine is.
+
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead as _, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Without what only some machines grant.
+const PLAIN: [&str; 5] = ["--policy", "other", "--no-lock", "--deep-idle", "--quiet"];
+
+fn lab(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity-lab"));
+    command.current_dir(folder).stdin(Stdio::null());
+    command
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    // Merging and comparing run no loop.
+    let no_loop = ["merge", "compare"].contains(&arguments[1]);
+    let plain = if no_loop { &PLAIN[4..] } else { &PLAIN };
+    let output = lab(folder).args(arguments).args(plain).output();
+    output.expect("the command starts")
+}
+
+fn ok(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {errors}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).expect("JSON")
+}
+
+#[test]
+fn a_session_on_the_stepped_device_is_recorded_tick_by_tick() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let device = "sim:?time=stepped&seed=2";
+    let told = ok(
+        folder.path(),
+        &[
+            "servo",
+            "--device",
+            device,
+            "--seconds",
+            "1",
+            "--record",
+            "t.csv",
+            "--json",
+        ],
+    );
+    let told = json(&told);
+    let ticks = told["ticks"].as_u64().expect("a number");
+    let missed = told["missed"].as_u64().expect("a number");
+    assert!(ticks + missed >= 1000, "{told}");
+    assert_eq!(told["ended_without_force"], true);
+    assert_eq!(told["read_faults"], 0);
+    let rows = fs::read_to_string(folder.path().join("t.csv")).expect("a table");
+    let lost = told["lost_records"].as_u64().expect("a number");
+    assert_eq!(rows.lines().count() as u64 + lost, ticks + 1);
+    let columns = rows.lines().map(|row| row.split(',').count());
+    assert!(columns.clone().all(|count| count == 22));
+}
+
+#[test]
+fn a_record_goes_to_standard_output_and_the_report_beside_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = [
+        "servo",
+        "--device",
+        "null:",
+        "--seconds",
+        "0.2",
+        "--record",
+        "-",
+    ];
+    let output = run(folder.path(), &arguments);
+    assert!(output.status.success());
+    assert!(output.stdout.starts_with(b"period,t_s,"));
+    let report = String::from_utf8(output.stderr).expect("text");
+    assert!(report.contains("the force is zero"), "{report}");
+}
+
+/// Waits until a loop runs: the record that it writes beside `t.csv` has rows.
+#[cfg(unix)]
+fn wait_for_rows(folder: &Path) {
+    let began = Instant::now();
+    let rows = |entry: std::io::Result<fs::DirEntry>| {
+        let entry = entry.expect("an entry");
+        let is_asset = entry.path().extension().is_some_and(|name| name == "asp");
+        !is_asset && entry.metadata().is_ok_and(|metadata| metadata.len() > 1000)
+    };
+    while !fs::read_dir(folder).expect("a folder").any(rows) {
+        assert!(began.elapsed() < Duration::from_secs(60), "it never began");
+        sleep(Duration::from_millis(10));
+    }
+}
+
+#[cfg(unix)]
+fn interrupt(child: &Child) {
+    let id = child.id().to_string();
+    let killed = Command::new("kill").args(["-INT", &id]).status();
+    assert!(killed.expect("kill").success());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_the_loop_without_force_and_keeps_the_record() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = lab(folder.path());
+    command.args(["servo", "--device", "sim:", "--record", "t.csv", "--json"]);
+    let child = command.args(PLAIN).stdout(Stdio::piped()).spawn();
+    let child = child.expect("the command starts");
+    wait_for_rows(folder.path());
+    interrupt(&child);
+    let output = child.wait_with_output().expect("it ends");
+    assert!(output.status.success());
+    let told = json(&String::from_utf8(output.stdout).expect("text"));
+    assert_eq!(
+        (&told["end"], &told["ended_without_force"]),
+        (&"asked to".into(), &true.into())
+    );
+    assert!(folder.path().join("t.csv").is_file());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_changed_file_is_felt_anew_and_a_broken_one_is_not() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lower = |mu: f64| {
+        let mut texture = asperity::builtin::texture();
+        texture.friction.mu = mu;
+        asperity::lower::lower(&texture, None)
+            .expect("built in")
+            .bytes
+    };
+    let file = folder.path().join("grit.asp");
+    let replace = |bytes: &[u8]| {
+        fs::write(folder.path().join("next"), bytes).expect("a file");
+        fs::rename(folder.path().join("next"), &file).expect("renamed");
+    };
+    replace(&lower(0.5));
+    let mut command = lab(folder.path());
+    command.args([
+        "servo", "grit.asp", "--device", "null:", "--watch", "--record", "t.csv", "--json",
+    ]);
+    let child = command
+        .args(PLAIN)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn();
+    let mut child = child.expect("the command starts");
+    wait_for_rows(folder.path());
+    let mut said = BufReader::new(child.stderr.take().expect("a pipe")).lines();
+    let mut until = |words: &str| {
+        let line = said.find(|line| line.as_ref().is_ok_and(|line| line.contains(words)));
+        assert!(line.is_some(), "{words}");
+    };
+    replace(b"no texture");
+    until("the old one stays");
+    replace(&lower(1.0));
+    until("loaded anew");
+    interrupt(&child);
+    let output = child.wait_with_output().expect("it ends");
+    let told = json(&String::from_utf8(output.stdout).expect("text"));
+    assert_eq!(told["ended_without_force"], true);
+    assert_eq!(told["reloads"], 1);
+}
+
+#[test]
+fn a_run_is_written_merged_and_compared() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let told = ok(
+        folder.path(),
+        &[
+            "jitter",
+            "--seconds",
+            "2",
+            "--out",
+            "a",
+            "--inject",
+            "compute:300:100",
+            "--json",
+        ],
+    );
+    let told = json(&told);
+    let ticks = told["ticks"].as_u64().expect("a number");
+    assert!(ticks > 100 && told["missed"].is_u64());
+    assert_eq!(told["period_ns"], 1_000_000);
+    for stage in ["wakeup_ns", "compute_ns", "read_ns", "write_ns", "total_ns"] {
+        for key in ["p50", "p99", "p99_9", "max"] {
+            assert!(told[stage][key].is_u64(), "{stage} {key}");
+        }
+    }
+    // However late the machine is, one tick in a hundred computes for 300 µs or more.
+    assert!(told["compute_ns"]["max"].as_u64() >= Some(300_000));
+    assert_eq!(told["conditions"]["injected"], "compute:300:100");
+    assert_eq!(told["worst"].as_array().map(Vec::len), Some(10));
+    for name in [
+        "run.json",
+        "percentiles.csv",
+        "run.hlog",
+        "wakeup.hgrm",
+        "compute-corrected.hgrm",
+    ] {
+        assert!(at("a").join(name).is_file(), "{name}");
+    }
+    assert!(
+        fs::read(at("a/jitter.png"))
+            .expect("a picture")
+            .starts_with(b"\x89PNG")
+    );
+    ok(folder.path(), &["jitter", "--seconds", "1", "--out", "b"]);
+    ok(
+        folder.path(),
+        &[
+            "jitter",
+            "merge",
+            "a/run.hlog",
+            "b/run.hlog",
+            "-o",
+            "both.hlog",
+        ],
+    );
+    let shifts = ok(
+        folder.path(),
+        &["jitter", "compare", "a/run.hlog", "both.hlog", "--json"],
+    );
+    let shifts = json(&shifts);
+    let median = shifts["shifts"].as_array().expect("an array").iter();
+    let median = median.filter(|shift| shift["stage"] == "compute" && shift["percentile"] == "50");
+    assert_eq!(median.count(), 1);
+}
+
+#[test]
+fn what_cannot_be_is_refused_before_anything_runs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("x.hlog"), "no log\n").expect("a file");
+    for (arguments, status, words) in [
+        (&["servo", "--device", "phantom:"][..], 2, "phantom:"),
+        (&["servo", "--device", "null:?deep=1"], 2, "z_mm"),
+        (
+            &["servo", "--device", "sim:?time=fast"],
+            2,
+            "real or stepped",
+        ),
+        (
+            &["servo", "--device", "null:", "--rate", "1500"],
+            2,
+            "--rate 1000",
+        ),
+        (&["servo", "none.asp", "--device", "null:"], 1, "none.asp"),
+        (&["jitter", "--inject", "read:1:1"], 2, "read:1:1"),
+        (&["jitter", "--out", "no/such/folder"], 1, "no/such/folder"),
+        (&["jitter", "compare", "x.hlog", "x.hlog"], 1, "x.hlog"),
+    ] {
+        let output = run(folder.path(), arguments);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(
+            output.status.code(),
+            Some(status),
+            "{arguments:?}: {errors}"
+        );
+        assert!(errors.contains(words), "{arguments:?}: {errors}");
+    }
+}

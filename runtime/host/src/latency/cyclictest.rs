@@ -1,0 +1,174 @@
+//! Wake-up latencies of `cyclictest`, of the package rt-tests, in the same run.
+//!
+//! It is started with the same interval, policy, priority and processor. Both loops begin at a full
+//! second of the monotonic clock, cyclictest half a period later, so that they never wait for each
+//! other on one processor.
+
+use super::run::Counts;
+use crate::servo::privileges::Policy;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use thiserror::Error;
+
+/// Latencies of up to so many µs are told apart; larger ones are known by their maximum.
+const TOLD_APART_US: u32 = 20_000;
+
+/// Why there is nothing of cyclictest.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CyclictestError {
+    /// It is not installed.
+    #[error("cyclictest is not installed: apt-get install rt-tests")]
+    Missing,
+    /// It cannot be started, or ended badly.
+    #[error("cyclictest failed: {0}")]
+    Failed(String),
+    /// It has no such interval.
+    #[error("cyclictest takes intervals of whole µs that fit into a second, not {0} Hz")]
+    Rate(u32),
+    /// It does not set this policy.
+    #[error("cyclictest has no SCHED_DEADLINE")]
+    Policy,
+    /// Its file is not what version 2 of rt-tests writes.
+    #[error("cannot read what cyclictest wrote: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// cyclictest at work.
+#[derive(Debug)]
+pub struct Cyclictest {
+    child: Child,
+}
+
+/// What cyclictest measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wakeups {
+    /// Version of rt-tests.
+    pub version: String,
+    /// Its command line.
+    pub command: String,
+    /// Latencies in ns, cut to µs as cyclictest counts them.
+    pub counts: Counts,
+    /// Latencies of more than 20 ms, which are in no count.
+    pub beyond: u64,
+    /// The largest, ns.
+    pub max_ns: u64,
+}
+
+impl Cyclictest {
+    /// Starts it for so many ticks; it writes its results to `json`.
+    ///
+    /// # Errors
+    /// [`CyclictestError`].
+    pub fn start(
+        rate_hz: u32,
+        ticks: u64,
+        policy: Policy,
+        cpu: Option<usize>,
+        json: &Path,
+    ) -> Result<Self, CyclictestError> {
+        if 1_000_000 % rate_hz != 0 {
+            return Err(CyclictestError::Rate(rate_hz));
+        }
+        let interval_us = 1_000_000 / rate_hz;
+        let mut command = Command::new("cyclictest");
+        command
+            .args(["--quiet", "--mlockall", "--threads=1"])
+            .arg(format!("--interval={interval_us}"))
+            .arg(format!("--loops={ticks}"))
+            .arg(format!("--histogram={TOLD_APART_US}"))
+            .arg(format!("--secaligned={}", interval_us / 2))
+            .arg(format!("--json={}", json.display()));
+        match policy {
+            Policy::Other => command.arg("--policy=other"),
+            Policy::Fifo { priority } => {
+                command.args(["--policy=fifo".into(), format!("--priority={priority}")])
+            }
+            Policy::Deadline { .. } => return Err(CyclictestError::Policy),
+        };
+        if let Some(cpu) = cpu {
+            command.arg(format!("--affinity={cpu}"));
+        }
+        command.stdin(Stdio::null()).stdout(Stdio::null());
+        let child = command.stderr(Stdio::piped()).spawn();
+        let child = child.map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => CyclictestError::Missing,
+            _ => CyclictestError::Failed(error.to_string()),
+        })?;
+        Ok(Self { child })
+    }
+
+    /// Waits until it has ended and reads its results.
+    ///
+    /// # Errors
+    /// [`CyclictestError`].
+    pub fn finish(mut self, json: &Path) -> Result<Wakeups, CyclictestError> {
+        let failed = |error: io::Error| CyclictestError::Failed(error.to_string());
+        let mut said = String::new();
+        if let Some(mut stderr) = self.child.stderr.take() {
+            io::Read::read_to_string(&mut stderr, &mut said).map_err(failed)?;
+        }
+        let status = self.child.wait().map_err(failed)?;
+        if !status.success() {
+            let last = said.lines().last().unwrap_or("no message");
+            return Err(CyclictestError::Failed(format!("{status}: {last}")));
+        }
+        Wakeups::parse(&std::fs::read(json).map_err(failed)?)
+    }
+}
+
+impl Drop for Cyclictest {
+    fn drop(&mut self) {
+        // It has ended already where it was waited for.
+        if matches!(self.child.try_wait(), Ok(None)) {
+            let _ = self.child.kill();
+            let _ = self.child.wait();
+        }
+    }
+}
+
+#[derive(Deserialize)]
+struct File {
+    #[serde(rename = "cmdline:", alias = "cmdline", default)]
+    command: String,
+    #[serde(rename = "rt_test_version:", alias = "rt_test_version", default)]
+    version: String,
+    thread: BTreeMap<String, Thread>,
+}
+
+#[derive(Deserialize)]
+struct Thread {
+    histogram: BTreeMap<u64, u64>,
+    cycles: u64,
+    max: u64,
+}
+
+impl Wakeups {
+    /// Reads what `cyclictest --json` of rt-tests 2 writes.
+    ///
+    /// # Errors
+    /// [`CyclictestError::Json`].
+    pub fn parse(bytes: &[u8]) -> Result<Self, CyclictestError> {
+        let file: File = serde_json::from_slice(bytes)?;
+        let mut counts: BTreeMap<u64, u64> = BTreeMap::new();
+        let (mut cycles, mut max_ns) = (0, 0);
+        for thread in file.thread.values() {
+            for (us, count) in &thread.histogram {
+                *counts.entry(1000 * us).or_default() += count;
+            }
+            cycles += thread.cycles;
+            max_ns = max_ns.max(1000 * thread.max);
+        }
+        let counted: u64 = counts.values().sum();
+        Ok(Self {
+            version: file.version,
+            command: file.command,
+            counts: Counts(counts.into_iter().collect()),
+            beyond: cycles.saturating_sub(counted),
+            max_ns,
+        })
+    }
+}

@@ -1,0 +1,44 @@
+//! The servo loop: a thread of its own that reads a device, renders, and writes the force, once a
+//! period.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `periods` | the loop, generic over device, renderer, clock and observer |
+//! | `schedule` | due times without drift, and missed periods |
+//! | `clock` | the system's monotonic clock, and a virtual one |
+//! | `sampler` | stale readings, lost forces and elapsed periods |
+//! | `faults` | runs of faults: reported once, and when to recover |
+//! | `render` | the runtime behind one trait: a texture, an exchange of textures, a scene |
+//! | `record`, `times` | what a tick leaves behind |
+//! | `outlet` | records and events to another thread |
+//! | `privileges` | real-time policy, locked memory, a processor of its own |
+//! | `thread` | all of it on a thread |
+//!
+//! What must stay absent from the loop: allocation, locks, printing, files, and waiting for anyone
+//! but the clock and the device. `tests/no_alloc.rs` runs it under an allocator that counts.
+
+mod clock;
+mod faults;
+mod outlet;
+mod periods;
+pub mod privileges;
+mod record;
+mod render;
+mod report;
+mod sampler;
+mod schedule;
+mod settings;
+mod thread;
+mod times;
+
+pub use clock::{Clock, Monotonic, SECOND_NS, Virtual};
+pub use faults::Event;
+pub use outlet::{Inlet, Outlet, queues};
+pub use periods::ServoLoop;
+pub use record::{Observer, Record};
+pub use render::{Fixed, InScene, Played, Render};
+pub use report::{End, Report};
+pub use schedule::Schedule;
+pub use settings::{Overrun, RATES_HZ, Settings, SettingsError};
+pub use thread::{Servo, Start};
+pub use times::{Stage, Times};

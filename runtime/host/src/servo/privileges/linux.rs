@@ -1,0 +1,125 @@
+//! Linux.
+
+use super::{Grant, Policy, Refusal, Wanted, system};
+use rustix::{
+    mm::{MlockAllFlags, mlockall},
+    process::{Resource, getrlimit},
+    thread::{CapabilitySet, CpuSet, capabilities, sched_setaffinity, set_current_timer_slack},
+};
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write as _};
+use std::num::NonZeroU64;
+
+/// Lets a command ask for real-time policies and lock its memory.
+const CAPABILITIES: &str = "sudo setcap cap_sys_nice,cap_ipc_lock+ep \"$(which asperity-lab)\"";
+/// As long as this file is open, processors stay in states that take at most so many µs to leave.
+const IDLE_FILE: &str = "/dev/cpu_dma_latency";
+
+pub(super) fn acquire(
+    wanted: &Wanted,
+    rate_hz: u32,
+    grants: &mut Vec<Grant>,
+    held: &mut Vec<File>,
+) {
+    let mut answer = |what, wanted: String, answer: Result<(), Refusal>| {
+        grants.push(Grant {
+            what,
+            wanted,
+            refusal: answer.err(),
+        });
+    };
+    if wanted.lock_memory {
+        answer("memory", "locked".into(), lock_memory());
+    }
+    if wanted.shallow_idle {
+        let opened = shallow_idle().map(|file| held.push(file));
+        answer("idle", "shallow".into(), opened);
+    }
+    if let Some(cpu) = wanted.cpu {
+        answer("processor", cpu.to_string(), pin(cpu));
+    }
+    // Without it, timers of ordinary threads are up to 50 µs late on purpose.
+    let slack = set_current_timer_slack(NonZeroU64::new(1));
+    let slack = slack.map_err(|error| Refusal {
+        why: error.to_string(),
+        remedy: "use a real-time policy, which has no timer slack".into(),
+    });
+    answer("timer slack", "1 ns".into(), slack);
+    if wanted.policy != Policy::Other {
+        let policy = schedule(wanted, rate_hz);
+        answer("policy", wanted.policy.to_string(), policy);
+    }
+}
+
+fn lock_memory() -> Result<(), Refusal> {
+    let limited = getrlimit(Resource::Memlock).current.is_some();
+    let capable =
+        capabilities(None).is_ok_and(|sets| sets.effective.contains(CapabilitySet::IPC_LOCK));
+    if limited && !capable {
+        // Locked within a limit, the process would die of the first allocation beyond it.
+        return Err(Refusal {
+            why: "the limit of locked memory (ulimit -l) is not `unlimited`".into(),
+            remedy: format!(
+                "{CAPABILITIES}, or add `@realtime - memlock unlimited` to /etc/security/limits.conf and join the group realtime"
+            ),
+        });
+    }
+    mlockall(MlockAllFlags::CURRENT | MlockAllFlags::FUTURE).map_err(|error| Refusal {
+        why: error.to_string(),
+        remedy: CAPABILITIES.into(),
+    })
+}
+
+fn shallow_idle() -> Result<File, Refusal> {
+    let open = || -> io::Result<File> {
+        let mut file = OpenOptions::new().write(true).open(IDLE_FILE)?;
+        file.write_all(&0_i32.to_ne_bytes())?;
+        Ok(file)
+    };
+    open().map_err(|error| Refusal {
+        why: format!("{IDLE_FILE}: {error}"),
+        remedy: format!(
+            "sudo setfacl -m u:$USER:rw {IDLE_FILE}, until the next start of the system"
+        ),
+    })
+}
+
+fn pin(cpu: usize) -> Result<(), Refusal> {
+    let refusal = |why| Refusal {
+        why,
+        remedy: "choose a processor that /sys/devices/system/cpu/online lists, and taskset allows"
+            .into(),
+    };
+    if cpu >= CpuSet::MAX_CPU {
+        return Err(refusal(format!("there is no processor {cpu}")));
+    }
+    let mut set = CpuSet::new();
+    set.set(cpu);
+    sched_setaffinity(None, &set).map_err(|error| refusal(error.to_string()))
+}
+
+fn schedule(wanted: &Wanted, rate_hz: u32) -> Result<(), Refusal> {
+    let remedy = |error: &io::Error| match (wanted.policy, error.raw_os_error()) {
+        (Policy::Deadline { .. }, Some(libc::EBUSY)) => {
+            "ask for a smaller share, such as deadline:20; the kernel has promised the rest".into()
+        }
+        (Policy::Deadline { .. }, Some(libc::EPERM)) if wanted.cpu.is_some() => {
+            "leave out --cpu: a thread with a deadline may run on every processor".into()
+        }
+        _ => format!(
+            "{CAPABILITIES}, or add `@realtime - rtprio 95` to /etc/security/limits.conf and join the group realtime"
+        ),
+    };
+    let scheduled = match wanted.policy {
+        Policy::Other => Ok(()),
+        Policy::Fifo { priority } => system::set_fifo(priority),
+        Policy::Deadline { percent } => {
+            let period_ns = 1_000_000_000 / u64::from(rate_hz.max(1));
+            system::set_deadline(period_ns * u64::from(percent) / 100, period_ns)
+        }
+    };
+    scheduled.map_err(|error| Refusal {
+        why: error.to_string(),
+        remedy: remedy(&error),
+    })
+}

@@ -1,0 +1,92 @@
+//! What a servo thread asks of the system, each acquired if permitted and otherwise reported with
+//! what grants it.
+//!
+//! | asked | Linux | macOS | Windows |
+//! |---|---|---|---|
+//! | policy | SCHED_FIFO, SCHED_DEADLINE | QoS class *user interactive* | MMCSS, task *Pro Audio* |
+//! | memory | `mlockall` | – | – |
+//! | processor | affinity | – | – |
+//! | shallow idle | `/dev/cpu_dma_latency` | – | – |
+//! | timer slack | 1 ns | – | – |
+//!
+//! Nobody has tested the columns of macOS and Windows.
+
+#[cfg_attr(target_os = "linux", path = "linux.rs")]
+#[cfg_attr(not(target_os = "linux"), path = "elsewhere.rs")]
+mod platform;
+mod policy;
+mod stack;
+mod system;
+
+pub use policy::{Policy, PolicyError};
+
+use std::fs::File;
+
+/// What to ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wanted {
+    /// How the thread is scheduled.
+    pub policy: Policy,
+    /// Keep all memory of the process in RAM.
+    pub lock_memory: bool,
+    /// Run on this processor alone.
+    pub cpu: Option<usize>,
+    /// Keep processors out of deep idle states.
+    pub shallow_idle: bool,
+}
+
+impl Wanted {
+    /// Everything, at priority 80 of SCHED_FIFO, on no processor in particular.
+    pub const REAL_TIME: Self = Self {
+        policy: Policy::Fifo { priority: 80 },
+        lock_memory: true,
+        cpu: None,
+        shallow_idle: true,
+    };
+
+    /// Nothing: what an ordinary thread has.
+    pub const NOTHING: Self = Self {
+        policy: Policy::Other,
+        lock_memory: false,
+        cpu: None,
+        shallow_idle: false,
+    };
+}
+
+/// The answer to one request.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Grant {
+    /// What was asked for, such as `policy`.
+    pub what: &'static str,
+    /// What was asked for in particular, such as `SCHED_FIFO 80`.
+    pub wanted: String,
+    /// Why it was refused, if it was.
+    pub refusal: Option<Refusal>,
+}
+
+/// Why a request was refused, and what grants it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refusal {
+    /// What the system says.
+    pub why: String,
+    /// What the user can do, a command where there is one.
+    pub remedy: String,
+}
+
+/// What the thread has. Dropping it gives up what is held by an open file.
+#[derive(Debug)]
+pub(super) struct Acquired {
+    pub(super) grants: Vec<Grant>,
+    _held: Vec<File>,
+}
+
+/// Asks for everything that is wanted, for the calling thread.
+pub(super) fn acquire(wanted: &Wanted, rate_hz: u32) -> Acquired {
+    let mut acquired = Acquired {
+        grants: Vec::new(),
+        _held: Vec::new(),
+    };
+    platform::acquire(wanted, rate_hz, &mut acquired.grants, &mut acquired._held);
+    stack::touch();
+    acquired
+}

@@ -1,0 +1,50 @@
+//! What a tick leaves behind, and who takes it.
+
+use super::{faults::Event, times::Times};
+use crate::device::{Fault, Reading};
+use asperity_runtime::{Output, Sample};
+
+/// Everything about one tick.
+#[derive(Debug, Clone, Copy)]
+pub struct Record {
+    /// Period since the loop began; ticks that were missed leave gaps.
+    pub period: u64,
+    /// Periods that were missed just before this tick.
+    pub missed: u64,
+    /// When each stage ended.
+    pub times: Times,
+    /// What the device said.
+    pub reading: Result<Reading, Fault>,
+    /// What the runtime was given.
+    pub sample: Sample,
+    /// What the runtime answered.
+    pub output: Output,
+    /// Whether the force reached the device.
+    pub written: Result<(), Fault>,
+}
+
+/// Takes records and events on the servo thread. It neither allocates, locks, prints nor waits.
+pub trait Observer {
+    /// A tick has ended.
+    fn tick(&mut self, record: &Record);
+
+    /// Something happened that is reported once.
+    fn event(&mut self, event: Event);
+}
+
+/// Nobody looks.
+impl Observer for () {
+    fn tick(&mut self, _: &Record) {}
+
+    fn event(&mut self, _: Event) {}
+}
+
+impl<O: Observer + ?Sized> Observer for &mut O {
+    fn tick(&mut self, record: &Record) {
+        (**self).tick(record);
+    }
+
+    fn event(&mut self, event: Event) {
+        (**self).event(event);
+    }
+}

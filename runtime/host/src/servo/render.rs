@@ -1,0 +1,73 @@
+//! What answers a sample with a force.
+
+use asperity_runtime::{
+    Counters, Output, Player, Renderer, Sample, Scene, SceneState, State, Texture,
+};
+
+/// Answers one sample with one output, once in a servo period.
+pub trait Render {
+    /// One tick. It neither allocates, locks nor prints.
+    fn tick(&mut self, sample: &Sample) -> Output;
+
+    /// What happened since the start.
+    fn counters(&self) -> Counters;
+}
+
+/// One texture, which may be exchanged for another while the loop runs.
+pub struct Played<'r, 'q, 'a> {
+    /// The renderer.
+    pub renderer: &'r Renderer,
+    /// The servo's half of the exchange.
+    pub player: Player<'q, 'a>,
+}
+
+impl Render for Played<'_, '_, '_> {
+    fn tick(&mut self, sample: &Sample) -> Output {
+        self.renderer.tick_player(&mut self.player, sample)
+    }
+
+    fn counters(&self) -> Counters {
+        *self.player.state().counters()
+    }
+}
+
+/// A scene of several surfaces.
+pub struct InScene<'r, 'a, const N: usize> {
+    /// The renderer.
+    pub renderer: &'r Renderer,
+    /// The scene.
+    pub scene: &'r Scene<'a, N>,
+    /// Everything that changes from tick to tick.
+    pub state: SceneState,
+}
+
+impl<const N: usize> Render for InScene<'_, '_, N> {
+    fn tick(&mut self, sample: &Sample) -> Output {
+        self.renderer
+            .tick_scene(self.scene, &mut self.state, sample)
+    }
+
+    fn counters(&self) -> Counters {
+        *self.state.state().counters()
+    }
+}
+
+/// One texture that stays.
+pub struct Fixed<'r> {
+    /// The renderer.
+    pub renderer: &'r Renderer,
+    /// The texture.
+    pub texture: &'r Texture,
+    /// Everything that changes from tick to tick.
+    pub state: State,
+}
+
+impl Render for Fixed<'_> {
+    fn tick(&mut self, sample: &Sample) -> Output {
+        self.renderer.tick(self.texture, &mut self.state, sample)
+    }
+
+    fn counters(&self) -> Counters {
+        *self.state.counters()
+    }
+}

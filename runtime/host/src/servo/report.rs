@@ -1,0 +1,62 @@
+//! What a servo loop did.
+
+use asperity_runtime::Counters;
+
+/// Why a loop ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// Somebody asked for it.
+    Asked,
+    /// Its time was over.
+    Over,
+    /// Periods were missed, and its policy is to stop.
+    Overrun,
+}
+
+/// What a servo loop did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Report {
+    /// Why it ended.
+    pub end: End,
+    /// Ticks.
+    pub ticks: u64,
+    /// Periods without a tick of their own time: skipped, or made up for later.
+    pub missed: u64,
+    /// Those that were made up for.
+    pub caught_up: u64,
+    /// Periods without a tick because a recovery was under way.
+    pub paused: u64,
+    /// Ticks in which the device gave nothing new.
+    pub stale: u64,
+    /// Ticks in which reading failed.
+    pub read_faults: u64,
+    /// Ticks in which writing failed.
+    pub write_faults: u64,
+    /// Recoveries that were tried.
+    pub recoveries: u64,
+    /// Longest time from one wake-up to the next, ns.
+    pub longest_gap_ns: u64,
+    /// The last force was zero and reached the device.
+    pub ended_without_force: bool,
+    /// Counts of the runtime.
+    pub counters: Counters,
+}
+
+impl Report {
+    pub(super) fn new() -> Self {
+        Self {
+            end: End::Asked,
+            ticks: 0,
+            missed: 0,
+            caught_up: 0,
+            paused: 0,
+            stale: 0,
+            read_faults: 0,
+            write_faults: 0,
+            recoveries: 0,
+            longest_gap_ns: 0,
+            ended_without_force: false,
+            counters: Counters::default(),
+        }
+    }
+}
