@@ -4,8 +4,11 @@
 //! Once a period the servo thread calls [`Device::read`] and [`Device::write`]. These two neither
 //! allocate nor print, and they return within the period.
 
+pub mod dhd;
 mod fault;
+pub mod openhaptics;
 mod uri;
+pub mod vendor_library;
 
 pub use fault::Fault;
 pub use uri::{Scheme, Uri, UriError};
