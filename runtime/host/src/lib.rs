@@ -1,5 +1,7 @@
 //! Asperity on a desk: what a servo loop on a computer with an operating system needs.
 //!
-//! [`device`] is what the loop talks to, one trait for every device.
+//! [`device`] is what the loop talks to, one trait for every device. [`recording`] keeps sessions
+//! in files that can be rendered again.
 
 pub mod device;
+pub mod recording;

@@ -26,7 +26,7 @@ fn read_until(
     }
 }
 
-fn wait(what: &str, done: impl Fn() -> bool) {
+fn wait(what: &str, mut done: impl FnMut() -> bool) {
     let until = Instant::now() + Duration::from_secs(5);
     while !done() {
         assert!(Instant::now() < until, "{what}");
@@ -107,19 +107,20 @@ fn a_large_force_is_released_by_small_steps_on_drop_and_after_a_panic() {
         return;
     };
     let uri = fake.uri("openhaptics", "Right Device");
-    let panicked = std::thread::spawn({
-        let uri = uri.clone();
-        move || {
+    let panicked = std::thread::scope(|scope| {
+        let panicking = scope.spawn(|| {
             let mut device = OpenHaptics::open(&uri).expect("a device");
             // Up by steps, as the runtime's limiter gives them.
-            for n in 1..=30 {
-                device.write([0.1 * n as f32, 0.0, 0.0]).expect("write");
-                std::thread::sleep(Duration::from_millis(2));
+            for n in 1..=15 {
+                let force = 0.2 * n as f32;
+                wait("the force arrives", || {
+                    device.write([force, 0.0, 0.0]).is_ok() && fake.force_n()[0] == f64::from(force)
+                });
             }
             panic!("on purpose");
-        }
-    })
-    .join();
+        });
+        panicking.join()
+    });
     assert!(panicked.is_err());
     assert_eq!(fake.force_n(), [0.0; 3]);
     assert!(

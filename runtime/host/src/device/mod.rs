@@ -7,6 +7,7 @@
 pub mod dhd;
 mod fault;
 pub mod openhaptics;
+pub mod replay;
 mod uri;
 pub mod vendor_library;
 
