@@ -6,8 +6,10 @@
 
 pub mod dhd;
 mod fault;
+pub mod faulty;
 pub mod openhaptics;
 pub mod replay;
+pub mod supervised;
 mod uri;
 pub mod vendor_library;
 

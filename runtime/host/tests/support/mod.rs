@@ -23,7 +23,13 @@ pub(crate) struct Fake {
 pub(crate) fn build(name: &str, options: &[&str]) -> Option<(PathBuf, tempfile::TempDir)> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(format!("lib{name}.so"));
-    let source = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/fake/{name}.c"));
+    // Tests of other packages use this file too.
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let source = root
+        .ancestors()
+        .map(|folder| folder.join(format!("runtime/host/tests/fake/{name}.c")))
+        .find(|source| source.exists())
+        .expect("a file of this repository");
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".into());
     let ran = Command::new(&compiler)
         .args(["-shared", "-fPIC", "-O1", "-Wall", "-Werror", "-o"])
