@@ -190,7 +190,9 @@ fn a_file_that_is_cut_anywhere_is_read_up_to_its_last_whole_block() {
     let whole = file(&entries);
     let head = file(&[]).len();
     let mut seen = Vec::new();
-    for length in (0..whole.len() - 16).step_by(7).chain(whole.len() - 16..whole.len())
+    for length in (0..whole.len() - 16)
+        .step_by(7)
+        .chain(whole.len() - 16..whole.len())
     {
         match read(&whole[..length]) {
             Ok(recording) => {

@@ -283,7 +283,6 @@ impl<D: Device> Supervised<D> {
     pub fn recover(&mut self) -> Result<(), Fault> {
         self.device.recover()?;
         self.tally.recoveries += 1;
-        self.write_fault = None;
         Ok(())
     }
 }

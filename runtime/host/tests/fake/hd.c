@@ -27,7 +27,9 @@ static atomic_uint init_error;   /* error of hdInitDevice */
 static atomic_uint calibration = 0x5000;
 static atomic_int manual_only, frozen, is_open, force_on, running, in_frame, out_of_frame;
 static atomic_uint periods;
+#ifndef MANUAL
 static pthread_t thread;
+#endif
 static Callback callback;
 static void *user;
 static double position[3] = {1, 2, 3}, velocity[3], force[3], last_force[3];
