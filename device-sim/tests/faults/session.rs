@@ -18,17 +18,12 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
         .sqrt()
 }
 
-/// Ten minutes at 1 kHz in an optimised build or where `ASPERITY_PERIODS` says so, else one.
+/// Ten minutes at 1 kHz, or what `ASPERITY_PERIODS` says.
 fn periods() -> u64 {
     let asked = std::env::var("ASPERITY_PERIODS").ok();
-    asked.map_or(
-        if cfg!(debug_assertions) {
-            60_000
-        } else {
-            600_000
-        },
-        |text| text.parse().expect("ASPERITY_PERIODS: a number of periods"),
-    )
+    asked.map_or(600_000, |text| {
+        text.parse().expect("ASPERITY_PERIODS: a number of periods")
+    })
 }
 
 #[test]

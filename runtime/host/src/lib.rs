@@ -1,7 +1,8 @@
 //! Asperity on a desk: what a servo loop on a computer with an operating system needs.
 //!
 //! [`device`] is what the loop talks to, one trait for every device. [`recording`] keeps sessions
-//! in files that can be rendered again.
+//! in files that can be rendered again. [`profile`] says how a device answers a force.
 
 pub mod device;
+pub mod profile;
 pub mod recording;
