@@ -10,6 +10,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`axis`] | one axis: mass, friction, a hand's pull, implicit integration |
+//! | [`calibration`] | a sweep, the acceleration that follows, a profile of both |
 //! | [`device`] | the device: quantisation, delay, limits, workspace, and its TOML file |
 //! | [`hand`] | grip, motions, seeded script |
 //! | [`servo`] | whatever answers a position with a force |
@@ -25,6 +26,7 @@
 #![forbid(unsafe_code)]
 
 pub mod axis;
+pub mod calibration;
 pub mod config;
 pub mod device;
 pub mod fault;

@@ -33,7 +33,7 @@ static pthread_t thread;
 static Callback callback;
 static void *user;
 static double position[3] = {1, 2, 3}, velocity[3], force[3], last_force[3];
-static double largest_step, push[3];
+static double largest_step, largest_force, push[3];
 static int buttons;
 
 static void note(const char *text) {
@@ -65,6 +65,7 @@ void fake_place(double x, double y, double z) {
 void fake_buttons(int mask) { buttons = mask; }
 double fake_force(int axis) { return force[axis]; }
 double fake_largest_step(void) { return largest_step; }
+double fake_largest_force(void) { return largest_force; }
 unsigned fake_periods(void) { return periods; }
 int fake_is_open(void) { return is_open; }
 int fake_out_of_frame(void) { return out_of_frame; }
@@ -96,16 +97,18 @@ void hdBeginFrame(unsigned device) {
 void hdEndFrame(unsigned device) {
   if (device != 7 || !in_frame) out_of_frame = 1;
   in_frame = 0;
-  double way = 0;
+  double way = 0, size = 0;
   for (int i = 0; i < 3; i++) {
     double step = force[i] - last_force[i];
     way += step * step;
+    size += force[i] * force[i];
     last_force[i] = force[i];
     /* A mass of 0.1 kg with much damping, in mm. */
     velocity[i] += 1e-3 * (1e3 * (force[i] + push[i]) / 0.1 - 50 * velocity[i]);
     position[i] += 1e-3 * velocity[i];
   }
   if (sqrt(way) > largest_step) largest_step = sqrt(way);
+  if (sqrt(size) > largest_force) largest_force = sqrt(size);
 }
 
 #ifndef WITHOUT_hdGetError

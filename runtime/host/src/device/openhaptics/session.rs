@@ -10,8 +10,12 @@ use super::scheduled::Scheduled;
 use crate::device::Fault;
 use crate::device::vendor_library::VendorError;
 
-/// How long a release waits for the force to reach zero, and for the first measurement.
-const PATIENCE: Duration = Duration::from_millis(200);
+/// How long opening waits for the first measurement.
+const OPENING: Duration = Duration::from_secs(2);
+/// How long a release waits for the force to reach zero.
+const RELEASE: Duration = Duration::from_secs(1);
+/// After this long without a period the scheduler stands still.
+const STANDSTILL: Duration = Duration::from_millis(100);
 
 /// How a device is calibrated, in words.
 const HOW: &str = "put the stylus into the inkwell of the device (older models: into the pose that \
@@ -70,7 +74,7 @@ impl Session {
 
     /// Waits until the scheduler has run once, so that a dead one is an error of opening.
     fn wait_for_a_period(&self, shown: &str) -> Result<(), VendorError> {
-        let until = Instant::now() + PATIENCE;
+        let until = Instant::now() + OPENING;
         while Instant::now() < until {
             if let Some(code) = self.scheduled.take_fault() {
                 return Err(refusal(&self.hd, shown, "reading its position", Code(code)));
@@ -91,13 +95,13 @@ impl Session {
 impl Drop for Session {
     fn drop(&mut self) {
         self.scheduled.stop();
-        let until = Instant::now() + PATIENCE;
+        let until = Instant::now() + RELEASE;
         let mut seen = (self.scheduled.periods(), Instant::now());
         while !self.scheduled.is_released() && Instant::now() < until {
             std::thread::sleep(Duration::from_millis(1));
             if self.scheduled.periods() != seen.0 {
                 seen = (self.scheduled.periods(), Instant::now());
-            } else if seen.1.elapsed() > Duration::from_millis(20) {
+            } else if seen.1.elapsed() > STANDSTILL {
                 // The scheduler stands still: nobody can lower the force.
                 break;
             }
