@@ -146,7 +146,9 @@ fn a_servo_loop_that_hangs_leaves_no_force_behind() {
     };
     let mut device = OpenHaptics::open(&fake.uri("openhaptics", "")).expect("a device");
     device.write([0.0, 0.0, 1.0]).expect("write");
-    wait("the force arrives", || fake.number("fake_largest_force") == 1.0);
+    wait("the force arrives", || {
+        fake.number("fake_largest_force") == 1.0
+    });
     wait("the force goes", || fake.force_n() == [0.0; 3]);
     drop(device);
 }

@@ -8,7 +8,7 @@
 //!
 //! Nothing here reads a clock, allocates or waits, apart from [`Supervised::recover`].
 
-use asperity_runtime::{Config, Sample};
+use asperity_runtime::{Config, Sample, math::norm};
 
 use super::{Device, Fault, Reading};
 
@@ -258,7 +258,7 @@ impl<D: Device> Supervised<D> {
     /// A force no farther from the one that the device holds than the slew limit allows.
     fn eased(&self, force_n: [f32; 3]) -> [f32; 3] {
         let way: [f32; 3] = std::array::from_fn(|axis| force_n[axis] - self.held_n[axis]);
-        let length = way.iter().map(|x| x * x).sum::<f32>().sqrt();
+        let length = norm(way);
         // The runtime keeps the limit itself, but for rounding, so its forces pass as they are.
         if length <= self.slew_n * (1.0 + 1e-5) {
             return force_n;

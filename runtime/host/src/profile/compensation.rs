@@ -95,7 +95,7 @@ fn levinson(r: &[f64; MOST_TAPS]) -> Vec<f64> {
     // A floor 70 dB down keeps the recursion well-conditioned.
     let mut error = r[0] * (1.0 + 1e-7);
     for order in 1..MOST_TAPS {
-        if !(error > 0.0) {
+        if error.is_nan() || error <= 0.0 {
             break;
         }
         let sum: f64 = (0..order).map(|k| a[k] * r[order - k]).sum();
@@ -128,7 +128,7 @@ fn is_minimum_phase(taps: &[f64]) -> bool {
     while a.len() > 1 {
         let last = a.len() - 1;
         let reflection = a[last] / a[0];
-        if !(reflection.abs() < 1.0) {
+        if reflection.is_nan() || reflection.abs() >= 1.0 {
             return false;
         }
         let rest = 1.0 - reflection * reflection;

@@ -120,7 +120,7 @@ pub fn estimate(
             needed: LEAST,
         });
     }
-    if !(rate_hz >= 900.0) {
+    if rate_hz.is_nan() || rate_hz < 900.0 {
         return Err(ResponseError::Rate { rate_hz });
     }
     let finite = |at: &usize| force_n[*at].is_finite() && accel_m_s2[*at].is_finite();
@@ -138,7 +138,7 @@ pub fn estimate(
         let freq_hz = (n + 1) as f64 * step_hz;
         let in_band = (BAND_HZ.0..=BAND_HZ.1).contains(&freq_hz);
         // 60 dB below the loudest bin is leakage.
-        if !(spectra.force > 1e-6 * loudest) {
+        if spectra.force <= 1e-6 * loudest {
             if in_band {
                 return Err(ResponseError::Silent { freq_hz });
             }

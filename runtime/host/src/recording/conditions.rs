@@ -145,8 +145,10 @@ mod tests {
 
     #[test]
     fn conditions_read_back_to_the_bit() {
-        let mut config = Config::default();
-        config.servo_rate_hz = 1000.0 / 3.0;
+        let mut config = Config {
+            servo_rate_hz: 1000.0 / 3.0,
+            ..Config::default()
+        };
         config.limits.slew_n_s = f32::MIN_POSITIVE;
         config.mechanics.position_step_m = 5.5e-5 + f32::EPSILON;
         for solid in [

@@ -75,8 +75,8 @@ impl Dhd {
 
     /// Opens the device with a serial number, the first one without.
     pub(super) fn open(&self, serial: Option<u16>) -> Result<Number, Code> {
-        // SAFETY: plain numbers.
         let number = match serial {
+            // SAFETY: a plain number.
             Some(serial) => unsafe { (self.functions.open_serial)(c_int::from(serial)) },
             // SAFETY: no argument.
             None => unsafe { (self.functions.open)() },

@@ -263,6 +263,9 @@ impl Device for Dhd {
 
     fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
         let device = self.device()?;
+        // The runtime gives no such force. Nobody else's may reach an arm.
+        let finite = force_n.iter().all(|x| x.is_finite());
+        let force_n = if finite { force_n } else { [0.0; 3] };
         match self.functions.set_force(device, to_device(force_n)) {
             Ok(kind) => {
                 self.saturated += u64::from(kind == dhd::MOTOR_SATURATED);

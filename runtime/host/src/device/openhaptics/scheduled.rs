@@ -5,6 +5,8 @@
 
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering::Relaxed};
 
+use asperity_runtime::math::norm;
+
 use super::snapshot::Snapshot;
 
 /// Periods without a new command after which the force goes to zero.
@@ -46,6 +48,9 @@ pub(super) struct Scheduled {
 impl Scheduled {
     /// Commands a force in the device's frame, N. Servo thread.
     pub(super) fn command(&self, force_n: [f32; 3]) {
+        // The runtime gives no such force. Nobody else's may reach an arm.
+        let finite = force_n.iter().all(|x| x.is_finite());
+        let force_n = if finite { force_n } else { [0.0; 3] };
         self.wanted.publish(force_n.map(f32::to_bits));
     }
 
@@ -132,9 +137,8 @@ impl Scheduled {
 /// One small step from one force to another.
 fn toward(from: [f32; 3], to: [f32; 3]) -> [f32; 3] {
     let way: [f32; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
-    let length = way.iter().map(|x| x * x).sum::<f32>().sqrt();
-    // Also where a force is not finite.
-    if !(length > RELEASE_STEP_N) {
+    let length = norm(way);
+    if length <= RELEASE_STEP_N {
         return to;
     }
     let share = RELEASE_STEP_N / length;
@@ -190,6 +194,17 @@ mod tests {
             shared.force_n();
         }
         assert!(shared.is_released());
+    }
+
+    #[test]
+    fn a_force_that_is_not_finite_never_reaches_the_device() {
+        let shared = Scheduled::default();
+        for bad in [f32::NAN, f32::INFINITY] {
+            shared.command([1.0, 0.0, 0.0]);
+            assert_eq!(shared.force_n(), [1.0, 0.0, 0.0]);
+            shared.command([0.0, bad, 1.0]);
+            assert_eq!(shared.force_n(), [0.0; 3]);
+        }
     }
 
     #[test]
