@@ -12,6 +12,7 @@
 //! |---|---|
 //! | [`axis`] | one axis: mass, friction, a hand's pull, implicit integration |
 //! | [`bench`] | known textures, recorded by simulated sensors and held against what comes back |
+//! | [`calibration`] | a sweep, the acceleration that follows, a profile of both |
 //! | [`device`] | the device: quantisation, delay, limits, workspace, and its TOML file |
 //! | [`hand`] | grip, motions, seeded script |
 //! | [`servo`] | whatever answers a position with a force |
@@ -30,6 +31,7 @@
 
 pub mod axis;
 pub mod bench;
+pub mod calibration;
 pub mod config;
 pub mod desk;
 pub mod device;

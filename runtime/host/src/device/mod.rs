@@ -4,16 +4,22 @@
 //! Once a period the servo thread calls [`Device::read`] and [`Device::write`]. These two neither
 //! allocate nor print, and they return within the period.
 
+pub mod dhd;
 pub mod exercise;
 pub mod falcon;
 mod fault;
-#[cfg(feature = "usb")]
-pub mod touch;
+pub mod faulty;
 mod null;
 mod open;
+pub mod openhaptics;
+pub mod replay;
+pub mod supervised;
+#[cfg(feature = "usb")]
+pub mod touch;
 mod uri;
 #[cfg(feature = "usb")]
 pub mod usb;
+pub mod vendor_library;
 
 pub use fault::Fault;
 pub use null::NullDevice;

@@ -1,0 +1,9 @@
+//! Faults around every kind of device: the force stays within its limits, goes to zero, comes back,
+//! and each fault is told once.
+
+mod servo;
+mod session;
+mod simulated;
+#[path = "../../../runtime/host/tests/support/mod.rs"]
+mod support;
+mod table;

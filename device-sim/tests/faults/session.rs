@@ -1,0 +1,133 @@
+//! A long session with faults: nothing leaves its limits, no tick is lost, and all of it is
+//! rendered again to the bit.
+
+use std::io::Write;
+
+use asperity_host::device::faulty::{Injected, Plan};
+use asperity_host::device::supervised::Report;
+use asperity_host::recording::{Encoder, Ending, Recording, render_again};
+use asperity_runtime::Config;
+
+use crate::servo::{Servo, asset, conditions, load};
+use crate::simulated::Simulated;
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3)
+        .map(|axis| (a[axis] - b[axis]).powi(2))
+        .sum::<f64>()
+        .sqrt()
+}
+
+/// Ten minutes at 1 kHz, or what `ASPERITY_PERIODS` says.
+fn periods() -> u64 {
+    let asked = std::env::var("ASPERITY_PERIODS").ok();
+    asked.map_or(600_000, |text| {
+        text.parse().expect("ASPERITY_PERIODS: a number of periods")
+    })
+}
+
+#[test]
+fn strokes_and_taps_with_one_percent_of_faults() {
+    let bytes = asset();
+    let texture = load(&bytes);
+    let periods = periods();
+    let limits = Config::default().limits;
+    let slew_n = f64::from(limits.slew_n_s) / f64::from(Config::default().servo_rate_hz);
+    // An exploration lasts about twelve seconds.
+    let cycles = (periods / 10_000) as usize + 2;
+    let mut servo = Servo::new(Simulated::new(1, cycles), &texture, Plan::all(0.01, 8), 2);
+    let mut encoder = Encoder::new(Vec::new(), &conditions(&bytes, "sim:")).expect("a vector");
+    let (mut began, mut ended, mut missed, mut contacts) = (0_u64, 0_u64, 0_u64, 0_u64);
+    let (mut largest, mut steepest, mut steepest_rendered) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut last, mut last_rendered) = ([0.0; 3], [0.0; 3]);
+    for _ in 0..periods {
+        let period = servo.period();
+        let rendered = period.entry.force_n.map(f64::from);
+        steepest_rendered = steepest_rendered.max(distance(rendered, last_rendered));
+        last_rendered = rendered;
+        // What the hand feels. A device that loses its plug loses its force at once, whoever asks.
+        let felt = servo.faulty().inner().force_n();
+        largest = largest.max(distance(felt, [0.0; 3]));
+        if servo.faulty().running() != Some(Injected::Unplugged) {
+            steepest = steepest.max(distance(felt, last));
+        }
+        last = felt;
+        contacts += u64::from(period.output.depth_m > 0.0);
+        missed += u64::from(period.entry.sample.elapsed_ticks.saturating_sub(1));
+        match period.report {
+            Some(Report::Began(_)) => began += 1,
+            Some(Report::Ended { .. }) => ended += 1,
+            None => {}
+        }
+        encoder.push(&period.entry).expect("a vector takes all");
+    }
+    let counts = servo.faulty().counts();
+    for kind in Injected::ALL {
+        assert!(counts.of(kind) > 0, "{} never ran", kind.name());
+    }
+    assert!(contacts > periods / 4, "the hand touched: {contacts}");
+
+    // The converter rounds a force to a step of 12 bits over ±3.3 N, on each axis.
+    let rounding_n = 3.0_f64.sqrt() * 6.6 / 4095.0;
+    assert!(
+        largest <= f64::from(limits.peak_n) + rounding_n,
+        "{largest} N"
+    );
+    assert!(
+        steepest <= slew_n * (1.0 + 1e-5) + rounding_n,
+        "{steepest} N in a period"
+    );
+    assert!(
+        steepest_rendered <= slew_n * (1.0 + 1e-5),
+        "{steepest_rendered} N in a period"
+    );
+
+    // Every period had a tick, and only clock steps skipped any.
+    let tally = servo.device.tally();
+    let counters = *servo.state.counters();
+    assert_eq!(
+        (tally.periods, u64::from(counters.ticks)),
+        (periods, periods)
+    );
+    let pending = u64::from(servo.device.device_mut().take_clock_step());
+    assert_eq!(tally.missed + pending, servo.faulty().skipped());
+    assert_eq!(u64::from(counters.missed_ticks), missed);
+    // Bad samples are those of faults, and the period after a force that did not arrive.
+    let harmless = [Injected::Duplicate, Injected::Stuck, Injected::ClockStep];
+    let harmful: u64 = counts.total() - harmless.map(|kind| counts.of(kind)).iter().sum::<u64>();
+    let bad = u64::from(counters.bad_samples);
+    let after = tally.write_faults;
+    assert!(
+        bad <= harmful + after,
+        "{bad} bad samples of {harmful} faults and {after} after them"
+    );
+    assert!(
+        bad >= harmful - counts.of(Injected::WriteFailed) - 2,
+        "{bad} of {harmful}"
+    );
+    // Each fault is told once, and its end as well.
+    assert_eq!(began, tally.episodes);
+    assert!(ended == began || ended + 1 == began);
+    assert!(began <= harmful && began > 0);
+
+    let (file, summary) = encoder.finish(0).expect("a vector takes all");
+    let recording = Recording::read(&mut &file[..]).expect("a recording");
+    assert_eq!(recording.ending, Ending::Whole(summary));
+    let comparison = render_again(&recording, |_| Some(bytes.clone())).expect("rendered");
+    assert!(
+        comparison.is_same() && comparison.compared == periods,
+        "{comparison:?}"
+    );
+    let line = format!(
+        "{periods} periods, {contacts} in contact; injected {} ({:.2} %), bad samples {bad}, safe state {} times, \
+         reported {began}; peak {largest:.3} N, steepest {steepest:.3} N, rendered {steepest_rendered:.3} N in a period; \
+         file {:.1} bytes a tick, rendered again with 0 differences\n",
+        counts.total(),
+        100.0 * counts.total() as f64 / periods as f64,
+        counters.faults,
+        file.len() as f64 / periods as f64,
+    );
+    std::io::stdout()
+        .write_all(line.as_bytes())
+        .expect("printed");
+}

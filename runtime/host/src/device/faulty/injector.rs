@@ -1,0 +1,345 @@
+//! A device behind faults.
+
+use rand_core::{Rng, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::plan::{Counts, Injected, Plan, PlanError};
+use crate::device::{Description, Device, Fault, Reading};
+
+/// A device behind faults. Injectors stack.
+#[derive(Debug)]
+pub struct Faulty<D> {
+    inner: D,
+    plan: Plan,
+    rng: Xoshiro256PlusPlus,
+    /// What runs, and for how many periods more.
+    running: Option<(Injected, u32)>,
+    /// What this period has.
+    now: Option<Injected>,
+    last: Reading,
+    clock_step: u32,
+    counts: Counts,
+    /// Periods that clock steps skipped.
+    skipped: u64,
+}
+
+impl<D: Device> Faulty<D> {
+    /// Puts a device behind the faults of a plan.
+    ///
+    /// # Errors
+    /// [`PlanError`], as [`Plan::check`].
+    pub fn new(inner: D, plan: Plan, seed: u64) -> Result<Self, PlanError> {
+        plan.check()?;
+        Ok(Self {
+            inner,
+            plan,
+            rng: Xoshiro256PlusPlus::seed_from_u64(seed),
+            running: None,
+            now: None,
+            last: Reading {
+                position_m: [0.0; 3],
+                fresh: false,
+                buttons: 0,
+            },
+            clock_step: 0,
+            counts: Counts::default(),
+            skipped: 0,
+        })
+    }
+
+    /// The device behind the faults.
+    pub fn inner(&self) -> &D {
+        &self.inner
+    }
+
+    /// The device behind the faults.
+    pub fn inner_mut(&mut self) -> &mut D {
+        &mut self.inner
+    }
+
+    /// In how many periods each kind ran.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Periods that clock steps skipped.
+    pub fn skipped(&self) -> u64 {
+        self.skipped
+    }
+
+    /// The fault of the last reading.
+    pub fn running(&self) -> Option<Injected> {
+        self.now
+    }
+
+    /// Starts a fault with the next reading; it replaces one that runs. A clock step skips
+    /// `periods` periods at once.
+    pub fn start(&mut self, kind: Injected, periods: u32) {
+        self.running = (periods > 0).then_some((kind, periods));
+    }
+
+    /// Periods by which the clock has jumped since the last call. A loop adds them to those that
+    /// passed by its own clock.
+    pub fn take_clock_step(&mut self) -> u32 {
+        std::mem::take(&mut self.clock_step)
+    }
+
+    fn draw(&mut self) -> Option<Injected> {
+        if self.running.is_none() {
+            let mut left = (self.rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+            for (kind, rate) in Injected::ALL.into_iter().zip(self.plan.rates) {
+                if left < rate.probability {
+                    let periods = 1 + self.rng.next_u64() % u64::from(rate.longest_periods);
+                    self.running = Some((kind, periods as u32));
+                    break;
+                }
+                left -= rate.probability;
+            }
+        }
+        let (kind, periods) = self.running?;
+        if kind == Injected::ClockStep {
+            self.clock_step = self.clock_step.saturating_add(periods);
+            self.skipped += u64::from(periods);
+            self.running = None;
+        } else {
+            self.running = (periods > 1).then_some((kind, periods - 1));
+        }
+        self.counts.0[kind as usize] += 1;
+        Some(kind)
+    }
+
+    /// One of some values.
+    fn one_of<const N: usize>(&mut self, values: [f32; N]) -> f32 {
+        values[(self.rng.next_u64() % N as u64) as usize]
+    }
+
+    /// A reading with another coordinate.
+    fn spoiled(&mut self, mut reading: Reading, coordinate: f32) -> Reading {
+        reading.position_m[(self.rng.next_u64() % 3) as usize] = coordinate;
+        reading
+    }
+}
+
+impl<D: Device> Device for Faulty<D> {
+    fn description(&self) -> &Description {
+        self.inner.description()
+    }
+
+    fn read(&mut self) -> Result<Reading, Fault> {
+        self.now = self.draw();
+        let read = self.inner.read();
+        let Some(kind) = self.now else {
+            let reading = read?;
+            self.last = reading;
+            return Ok(reading);
+        };
+        match kind {
+            Injected::Lost => Err(Fault::TimedOut),
+            Injected::Late => Ok(Reading {
+                fresh: false,
+                ..self.last
+            }),
+            Injected::Duplicate => Ok(self.last),
+            Injected::Stuck => Ok(Reading {
+                position_m: self.last.position_m,
+                ..read?
+            }),
+            Injected::NotFinite => {
+                let coordinate = self.one_of([f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+                Ok(self.spoiled(read?, coordinate))
+            }
+            Injected::OutOfRange => {
+                let coordinate = self.one_of([-5.0, 2.5, 1e20]);
+                Ok(self.spoiled(read?, coordinate))
+            }
+            Injected::ShortTransfer => Err(Fault::ShortTransfer {
+                got: (self.rng.next_u64() % 16) as u16,
+                wanted: 16,
+            }),
+            Injected::Stalled => Err(Fault::Stalled),
+            Injected::Unplugged => Err(Fault::Disconnected),
+            Injected::WriteFailed | Injected::ClockStep => {
+                let reading = read?;
+                self.last = reading;
+                Ok(reading)
+            }
+        }
+    }
+
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+        match self.now {
+            Some(Injected::Unplugged) => {
+                // Without its plug it has no force; what it says to that is lost too.
+                let _ = self.inner.write([0.0; 3]);
+                Err(Fault::Disconnected)
+            }
+            Some(Injected::WriteFailed) => Err(Fault::TimedOut),
+            _ => self.inner.write(force_n),
+        }
+    }
+
+    fn recover(&mut self) -> Result<(), Fault> {
+        match self.running {
+            Some((Injected::Unplugged, _)) => Err(Fault::Disconnected),
+            _ => self.inner.recover(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Walks a metre to the right in a thousand readings, and remembers the last force.
+    #[derive(Debug)]
+    struct Walk {
+        description: Description,
+        steps: u32,
+        force_n: [f32; 3],
+    }
+
+    fn walk() -> Walk {
+        Walk {
+            description: Description {
+                name: "walk".into(),
+                serial: None,
+                peak_force_n: 1.0,
+                continuous_force_n: 1.0,
+                unconfirmed: Vec::new(),
+            },
+            steps: 0,
+            force_n: [0.0; 3],
+        }
+    }
+
+    impl Device for Walk {
+        fn description(&self) -> &Description {
+            &self.description
+        }
+
+        fn read(&mut self) -> Result<Reading, Fault> {
+            self.steps += 1;
+            Ok(Reading {
+                position_m: [1e-3 * self.steps as f32, 0.0, 0.0],
+                fresh: true,
+                buttons: self.steps,
+            })
+        }
+
+        fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+            self.force_n = force_n;
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn each_fault_is_what_the_table_says() {
+        let mut device = Faulty::new(walk(), Plan::default(), 1).expect("a plan");
+        let mut run = |kind: Injected| {
+            let good = device.read().expect("no fault");
+            device.write([0.5, 0.0, 0.0]).expect("no fault");
+            device.start(kind, 2);
+            let read = device.read();
+            let wrote = device.write([0.7, 0.0, 0.0]);
+            let skipped = device.take_clock_step();
+            let force = device.inner().force_n[0];
+            // The second period of the fault.
+            let _ = device.read();
+            (good, read, wrote, skipped, force)
+        };
+        for kind in Injected::ALL {
+            let (good, read, wrote, skipped, force) = run(kind);
+            let next = Reading {
+                position_m: [good.position_m[0] + 1e-3, 0.0, 0.0],
+                fresh: true,
+                buttons: good.buttons + 1,
+            };
+            let near = |reading: Reading| {
+                (reading.position_m[0] - next.position_m[0]).abs() < 1e-6
+                    && reading.buttons == next.buttons
+            };
+            match kind {
+                Injected::Lost => assert_eq!(read, Err(Fault::TimedOut)),
+                Injected::Late => assert_eq!(
+                    read,
+                    Ok(Reading {
+                        fresh: false,
+                        ..good
+                    })
+                ),
+                Injected::Duplicate => assert_eq!(read, Ok(good)),
+                Injected::Stuck => assert_eq!(
+                    read,
+                    Ok(Reading {
+                        position_m: good.position_m,
+                        ..next
+                    })
+                ),
+                Injected::NotFinite => assert!(
+                    !read
+                        .expect("a reading")
+                        .position_m
+                        .iter()
+                        .all(|x| x.is_finite())
+                ),
+                Injected::OutOfRange => assert!(
+                    read.expect("a reading")
+                        .position_m
+                        .iter()
+                        .any(|x| x.abs() > 1.0)
+                ),
+                Injected::ShortTransfer => {
+                    assert!(matches!(read, Err(Fault::ShortTransfer { wanted: 16, .. })))
+                }
+                Injected::Stalled => assert_eq!(read, Err(Fault::Stalled)),
+                Injected::Unplugged => assert_eq!(read, Err(Fault::Disconnected)),
+                Injected::WriteFailed | Injected::ClockStep => {
+                    assert!(near(read.expect("a reading")))
+                }
+            }
+            let expected = match kind {
+                Injected::Unplugged => (Err(Fault::Disconnected), 0, 0.0),
+                Injected::WriteFailed => (Err(Fault::TimedOut), 0, 0.5),
+                Injected::ClockStep => (Ok(()), 2, 0.7),
+                _ => (Ok(()), 0, 0.7),
+            };
+            assert_eq!((wrote, skipped, force), expected, "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn faults_come_at_their_rate_and_the_same_seed_gives_the_same_ones() {
+        let run = |seed| {
+            let mut device = Faulty::new(walk(), Plan::all(0.11, 1), seed).expect("a plan");
+            let read: Vec<String> = (0..100_000)
+                .map(|_| format!("{:?}", device.read()))
+                .collect();
+            (device.counts(), read)
+        };
+        let (counts, read) = run(7);
+        for kind in Injected::ALL {
+            // The bound is five standard deviations of a binomial count.
+            let off = (counts.of(kind) as f64 - 1000.0).abs();
+            assert!(
+                off < 5.0 * f64::sqrt(1000.0),
+                "{kind:?}: {}",
+                counts.of(kind)
+            );
+        }
+        assert_eq!(read, run(7).1);
+        assert_ne!(read, run(8).1);
+    }
+
+    #[test]
+    fn injectors_stack_and_bad_plans_are_refused_by_name() {
+        let inner =
+            Faulty::new(walk(), Plan::default().with(Injected::Lost, 1.0, 1), 1).expect("a plan");
+        let mut outer = Faulty::new(inner, Plan::default(), 1).expect("a plan");
+        assert_eq!(outer.read(), Err(Fault::TimedOut));
+        let refused = |plan: Plan| plan.check().expect_err("a bad plan").to_string();
+        assert!(refused(Plan::default().with(Injected::Late, f64::NAN, 1)).contains("late"));
+        assert!(refused(Plan::default().with(Injected::Stuck, 0.1, 0)).contains("stuck"));
+        assert!(refused(Plan::all(1.2, 1)).contains("more than 1"));
+        assert!(Plan::all(1.0, 1).check().is_ok());
+    }
+}

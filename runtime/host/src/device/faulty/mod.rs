@@ -1,0 +1,25 @@
+//! Seeded faults around any device.
+//!
+//! At most one fault runs at a time. While none runs, each period starts one with the
+//! probabilities of the plan. The device behind goes on in any case: what it measured is thrown
+//! away, as a lost packet is.
+//!
+//! | fault | a reading gives | a force |
+//! |---|---|---|
+//! | lost | [`Fault::TimedOut`](super::Fault) | arrives |
+//! | late | the last reading, not fresh | arrives |
+//! | duplicate | the last reading once more, as if fresh | arrives |
+//! | stuck | fresh buttons at the last position | arrives |
+//! | not finite | a coordinate that is NaN or infinite | arrives |
+//! | out of range | a coordinate some metres away | arrives |
+//! | short transfer | [`Fault::ShortTransfer`](super::Fault) | arrives |
+//! | stalled | [`Fault::Stalled`](super::Fault) | arrives |
+//! | unplugged | [`Fault::Disconnected`](super::Fault) | does not arrive, and the device has none |
+//! | write failed | what was measured | does not arrive; the device keeps the last one |
+//! | clock step | what was measured, and [`Faulty::take_clock_step`] says how many periods are gone | arrives |
+
+mod injector;
+mod plan;
+
+pub use injector::Faulty;
+pub use plan::{Counts, Injected, Plan, PlanError, Rate};

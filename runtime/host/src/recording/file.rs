@@ -1,0 +1,271 @@
+//! The file as a whole: magic, version, conditions, blocks.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Write};
+use std::path::Path;
+
+use super::block::{self, Kind, Next};
+use super::record::{self, Before};
+use super::{Conditions, Entry, RecordingError, TextureInfo};
+
+/// The first bytes of a recording.
+const MAGIC: [u8; 4] = *b"ASPR";
+/// The version that is written and read.
+const VERSION: u16 = 1;
+/// Records of a full block: a quarter of a second at 1 kHz.
+const PER_BLOCK: usize = 250;
+
+/// What was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Summary {
+    /// Ticks in the file.
+    pub recorded: u64,
+    /// Ticks that were lost, since the queue was full.
+    pub lost: u64,
+}
+
+/// Writes a recording, block by block.
+#[derive(Debug)]
+pub struct Encoder<W: Write> {
+    to: W,
+    body: Vec<u8>,
+    before: Before,
+    in_block: usize,
+    recorded: u64,
+}
+
+impl<W: Write> Encoder<W> {
+    /// Begins a recording.
+    ///
+    /// # Errors
+    /// [`RecordingError::Io`].
+    pub fn new(mut to: W, conditions: &Conditions) -> Result<Self, RecordingError> {
+        let head = serde_json::to_vec(conditions).map_err(std::io::Error::from)?;
+        to.write_all(&MAGIC)?;
+        to.write_all(&VERSION.to_le_bytes())?;
+        to.write_all(&[0; 2])?;
+        block::write(&mut to, Kind::Conditions, &head)?;
+        Ok(Self {
+            to,
+            body: Vec::new(),
+            before: Before::default(),
+            in_block: 0,
+            recorded: 0,
+        })
+    }
+
+    /// Appends a tick. Every 250 ticks a block goes out.
+    ///
+    /// # Errors
+    /// [`RecordingError::Io`].
+    pub fn push(&mut self, entry: &Entry) -> Result<(), RecordingError> {
+        record::encode(&mut self.body, &mut self.before, entry);
+        self.in_block += 1;
+        self.recorded += 1;
+        if self.in_block == PER_BLOCK {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    /// Says which texture is the next to play.
+    ///
+    /// # Errors
+    /// [`RecordingError::Io`].
+    pub fn announce(&mut self, texture: &TextureInfo) -> Result<(), RecordingError> {
+        self.flush()?;
+        let body = serde_json::to_vec(texture).map_err(std::io::Error::from)?;
+        Ok(block::write(&mut self.to, Kind::Texture, &body)?)
+    }
+
+    /// Writes what is waiting.
+    ///
+    /// # Errors
+    /// [`RecordingError::Io`].
+    pub fn flush(&mut self) -> Result<(), RecordingError> {
+        if self.in_block > 0 {
+            let mut body = Vec::with_capacity(self.body.len() + 4);
+            record::put(&mut body, self.in_block as u64);
+            body.append(&mut self.body);
+            block::write(&mut self.to, Kind::Ticks, &body)?;
+            (self.before, self.in_block) = (Before::default(), 0);
+        }
+        Ok(self.to.flush()?)
+    }
+
+    /// Ends the recording.
+    ///
+    /// # Errors
+    /// [`RecordingError::Io`].
+    pub fn finish(mut self, lost: u64) -> Result<(W, Summary), RecordingError> {
+        self.flush()?;
+        let recorded = self.recorded;
+        let mut body = Vec::new();
+        record::put(&mut body, recorded);
+        record::put(&mut body, lost);
+        block::write(&mut self.to, Kind::End, &body)?;
+        self.to.flush()?;
+        Ok((self.to, Summary { recorded, lost }))
+    }
+}
+
+/// How a file ends.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Ending {
+    /// It is whole.
+    Whole(Summary),
+    /// It was cut or damaged; what stands before is read.
+    Cut {
+        /// Bytes that were read.
+        at: u64,
+        /// What is wrong there.
+        why: &'static str,
+    },
+}
+
+/// A recording that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// Under which conditions it was made.
+    pub conditions: Conditions,
+    /// The textures that played after the first, in order.
+    pub textures: Vec<TextureInfo>,
+    /// Every tick.
+    pub entries: Vec<Entry>,
+    /// How the file ends.
+    pub ending: Ending,
+}
+
+impl Recording {
+    /// Opens and reads a file.
+    ///
+    /// # Errors
+    /// [`RecordingError`].
+    pub fn open(path: &Path) -> Result<Self, RecordingError> {
+        Self::read(&mut BufReader::new(File::open(path)?))
+    }
+
+    /// Reads a recording. One that was cut is read up to its last whole block.
+    ///
+    /// # Errors
+    /// [`RecordingError`]: no recording, a newer one, or one whose conditions are damaged.
+    pub fn read(from: &mut impl Read) -> Result<Self, RecordingError> {
+        let mut from = Counted { from, count: 0 };
+        let conditions = head(&mut from)?;
+        let (mut textures, mut entries) = (Vec::new(), Vec::new());
+        let ending = loop {
+            let at = from.count;
+            let malformed = |why| RecordingError::Malformed { at, why };
+            match block::read(&mut from)? {
+                Next::Block(Kind::Ticks, body) => ticks(&body, &mut entries).map_err(malformed)?,
+                Next::Block(Kind::Texture, body) => {
+                    let texture = serde_json::from_slice(&body);
+                    textures.push(
+                        texture.map_err(|_| malformed("this is no description of a texture"))?,
+                    );
+                }
+                Next::Block(Kind::End, body) => {
+                    let summary = end(&body).map_err(malformed)?;
+                    if summary.recorded != entries.len() as u64 {
+                        return Err(malformed("the count of ticks at the end is another"));
+                    }
+                    break Ending::Whole(summary);
+                }
+                Next::Block(Kind::Conditions, _) => {
+                    return Err(malformed("conditions stand twice"));
+                }
+                Next::Block(Kind::Unknown, _) => {}
+                Next::End => {
+                    break Ending::Cut {
+                        at,
+                        why: "the file ends without an end block",
+                    };
+                }
+                Next::Broken(why) => break Ending::Cut { at, why },
+            }
+        };
+        Ok(Self {
+            conditions,
+            textures,
+            entries,
+            ending,
+        })
+    }
+
+    /// Ticks that are missing between those that were recorded.
+    #[must_use]
+    pub fn lost(&self) -> u64 {
+        self.entries
+            .iter()
+            .map(|entry| u64::from(entry.lost_before))
+            .sum()
+    }
+}
+
+/// Magic, version and conditions.
+fn head(from: &mut impl Read) -> Result<Conditions, RecordingError> {
+    let mut start = [0; 8];
+    let got = block::fill(from, &mut start)?;
+    if got < 4 || start[..4] != MAGIC {
+        return Err(RecordingError::Foreign {
+            found: start[..got.min(4)].to_vec(),
+        });
+    }
+    let damaged = |why: &str| RecordingError::Conditions { why: why.into() };
+    if got < start.len() {
+        return Err(damaged("the file ends before them"));
+    }
+    let found = u16::from_le_bytes([start[4], start[5]]);
+    if found != VERSION {
+        return Err(RecordingError::Version {
+            found,
+            known: VERSION,
+        });
+    }
+    match block::read(from)? {
+        Next::Block(Kind::Conditions, body) => {
+            serde_json::from_slice(&body).map_err(|error| damaged(&error.to_string()))
+        }
+        Next::Block(..) => Err(damaged("another block stands in their place")),
+        Next::End => Err(damaged("the file ends before them")),
+        Next::Broken(why) => Err(damaged(why)),
+    }
+}
+
+fn ticks(mut body: &[u8], entries: &mut Vec<Entry>) -> Result<(), &'static str> {
+    let count = record::take(&mut body)?;
+    // A record has two bytes at least, so a wrong count reserves no memory.
+    if count > body.len() as u64 / 2 {
+        return Err("a block states more ticks than it has bytes for");
+    }
+    entries.reserve(count as usize);
+    let mut before = Before::default();
+    for _ in 0..count {
+        entries.push(record::decode(&mut body, &mut before)?);
+    }
+    if body.is_empty() {
+        Ok(())
+    } else {
+        Err("bytes follow the last tick of a block")
+    }
+}
+
+fn end(mut body: &[u8]) -> Result<Summary, &'static str> {
+    let recorded = record::take(&mut body)?;
+    let lost = record::take(&mut body)?;
+    Ok(Summary { recorded, lost })
+}
+
+/// Counts the bytes that were read.
+struct Counted<'a, R> {
+    from: &'a mut R,
+    count: u64,
+}
+
+impl<R: Read> Read for Counted<'_, R> {
+    fn read(&mut self, bytes: &mut [u8]) -> std::io::Result<usize> {
+        let got = self.from.read(bytes)?;
+        self.count += got as u64;
+        Ok(got)
+    }
+}

@@ -1,0 +1,23 @@
+//! Sessions in files: every sample, every force, and the conditions that reproduce them.
+//!
+//! `docs/recording-format.md` specifies the bytes. A servo thread hands an [`Entry`] a tick to a
+//! [`Recorder`], which never waits. A thread of its own writes the file, in blocks with a checksum
+//! each, so that a file that was cut is readable up to its last whole block. [`Recording`] reads
+//! one, [`csv`] exports it, and [`render_again`] renders it anew and compares every bit of force.
+
+mod block;
+mod conditions;
+pub mod csv;
+mod entry;
+mod error;
+mod file;
+mod record;
+mod recorder;
+mod render_again;
+
+pub use conditions::{Conditions, TextureInfo};
+pub use entry::Entry;
+pub use error::RecordingError;
+pub use file::{Encoder, Ending, Recording, Summary};
+pub use recorder::{Recorder, Writing, start};
+pub use render_again::{Comparison, Difference, RenderAgainError, render_again, render_again_with};
