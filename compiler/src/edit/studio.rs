@@ -21,6 +21,7 @@ use crate::{
     },
     passes::reduce::Fidelity,
     pipeline::{Compiled, Pass, Pipeline, Preview, Settings, Timings},
+    views::preview,
 };
 use asperity_formats::Asset;
 
@@ -348,14 +349,11 @@ impl<'a> Studio<'a> {
         if let Some(level_db) = history.loudness_db {
             equal_loudness(&mut texture, level_db);
         }
-        let families = self.families(&latents.friction);
-        let families: Vec<(&str, f64)> = families.iter().map(|(f, w)| (f.as_str(), *w)).collect();
         let settings = Settings {
             rate_hz: how.rate_hz,
             fidelity: how.fidelity,
             preview: how.preview.then_some(Preview {
-                families: &families,
-                seed: texture.provenance.seed,
+                size_px: preview::SIZE,
             }),
             stabilise: true,
         };
@@ -380,14 +378,5 @@ impl<'a> Studio<'a> {
             stabilised,
             timings: pipeline.timings().clone(),
         })
-    }
-
-    /// Families of the nearest materials with their weights, which tint a preview.
-    fn families(&self, z: &Latent) -> Vec<(String, f64)> {
-        let description = self.author.model().description();
-        let near = friction::neighbours(z, &description.anchors, description.friction);
-        near.iter()
-            .map(|n| (description.anchors[n.index].family.clone(), n.weight))
-            .collect()
     }
 }

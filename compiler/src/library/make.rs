@@ -16,6 +16,7 @@ use crate::{
     model::{Provenance, TextureModel, attributes},
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Preview, Settings, Timings},
+    views::preview,
 };
 use asperity_formats::Asset;
 use std::{
@@ -322,6 +323,7 @@ fn prompt_options(options: &Options) -> prompt::Options {
         fidelity: options.fidelity,
         rate_hz: options.rate_hz,
         preview: options.preview,
+        preview_px: preview::SIZE,
     }
 }
 
@@ -335,6 +337,7 @@ fn whole(file: &Path) -> Result<TextureModel, Cause> {
             fidelity: Fidelity::Full,
             rate_hz: None,
             preview: false,
+            preview_px: preview::SIZE,
         };
         Ok(model_file::import(file, &options).map_err(cause)?.whole)
     } else {
@@ -354,8 +357,7 @@ fn imported(entry: &Entry, file: &Path) -> Result<Finished, Cause> {
         rate_hz: options.rate_hz,
         fidelity: options.fidelity,
         preview: options.preview.then_some(Preview {
-            families: &[],
-            seed: texture.provenance.seed,
+            size_px: preview::SIZE,
         }),
         stabilise: false,
     };

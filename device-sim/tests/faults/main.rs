@@ -4,6 +4,6 @@
 mod servo;
 mod session;
 mod simulated;
-#[path = "../../../runtime/host/tests/support/mod.rs"]
-mod support;
+#[path = "../../../runtime/host/tests/fakes/mod.rs"]
+mod fakes;
 mod table;

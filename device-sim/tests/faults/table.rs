@@ -16,7 +16,7 @@ use asperity_runtime::{Config, HostTexture};
 
 use crate::servo::{Period, Servo, asset, conditions, load};
 use crate::simulated::Simulated;
-use crate::support::{Fake, alone};
+use crate::fakes::{Fake, alone};
 
 /// Periods of a fault, 1 of which is a clock step over as many periods.
 const LASTS: u32 = 20;

@@ -13,6 +13,7 @@ use crate::{
     model::{TextureModel, defaults},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, PipelineError, Preview, Settings},
+    views::preview,
 };
 use asperity_formats::Asset;
 use std::path::Path;
@@ -68,8 +69,7 @@ pub fn import(
         rate_hz: options.rate_hz,
         fidelity: options.fidelity,
         preview: options.preview.then_some(Preview {
-            families: &[],
-            seed: 0,
+            size_px: preview::SIZE,
         }),
         stabilise: whole.grid.numerator == crate::model::Numerator::Nyquist,
     };

@@ -106,8 +106,8 @@ fn whole(author: &Author, prompt: &str, seed: u64) -> Result<Authored, PromptErr
     let options = Options {
         seed,
         fidelity: Fidelity::Full,
-        rate_hz: None,
         preview: false,
+        ..Options::default()
     };
     author.author(prompt, &options)
 }
