@@ -12,7 +12,7 @@ use asperity::input::{self, InputError, Kind};
 use asperity_host::profile::compensation::{self, Design};
 use asperity_host::profile::response::{self, Response, ResponseError};
 use asperity_host::profile::sweep::Sweep;
-use asperity_host::profile::{ForceLimits, Mechanics, Profile, ProfileError, Timing};
+use asperity_host::profile::{FIELDS, ForceLimits, Mechanics, Profile, ProfileError, Timing};
 
 use crate::axis::Pull;
 use crate::device::{Device, DeviceConfig};
@@ -250,13 +250,13 @@ fn even(times_s: &[f64]) -> Result<(), f64> {
     }
 }
 
-/// A profile of the simulated device, before it is measured.
+/// A profile of the simulated device, before it is measured. A simulation confirms nothing.
 #[must_use]
 pub fn profile_of(config: &DeviceConfig) -> Profile {
     let least = |values: [f64; 3]| values.into_iter().fold(f64::INFINITY, f64::min) as f32;
     Profile {
         name: config.name.clone(),
-        unconfirmed: Vec::new(),
+        unconfirmed: FIELDS.map(str::to_owned).to_vec(),
         limits: ForceLimits {
             peak_n: config.actuator.peak_force_n as f32,
             continuous_n: config.actuator.continuous_force_n as f32,
@@ -412,6 +412,13 @@ mod tests {
         }
         let error = again.fit("a.csv").expect_err("too short");
         assert!(error.to_string().contains("too few"), "{error}");
+    }
+
+    #[test]
+    fn a_profile_of_a_simulation_says_that_nothing_in_it_is_confirmed() {
+        let profile = profile_of(&devices()[1]);
+        assert_eq!(profile.unconfirmed, FIELDS);
+        assert!(Profile::from_toml(&profile.to_toml(), "simulated.toml").is_ok());
     }
 
     #[test]

@@ -50,7 +50,11 @@ fn sample(n: usize) -> Sample {
     } else {
         -0.002
     };
-    let position_m = [0.03 * libm::sinf(6.0 * t_s), 0.01 * libm::cosf(2.0 * t_s), z];
+    let position_m = [
+        0.03 * libm::sinf(6.0 * t_s),
+        0.01 * libm::cosf(2.0 * t_s),
+        z,
+    ];
     match n % 997 {
         500..504 => Sample::STALE,
         504 => Sample {

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 pub const MOST_TAPS: usize = 8;
 
 /// Every name that `unconfirmed` may hold.
-const FIELDS: [&str; 9] = [
+pub const FIELDS: [&str; 9] = [
     "limits.peak_n",
     "limits.continuous_n",
     "limits.slew_n_s",

@@ -107,6 +107,10 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     }
     if let (Some(file), Some(path)) = (profile_file, &arguments.output) {
         report += &format!("profile    {}\n", display(path));
+        let field = "compensation.taps".to_owned();
+        if arguments.table_file.is_none() && !profile.unconfirmed.contains(&field) {
+            profile.unconfirmed.push(field);
+        }
         profile.compensation = Some(design.filter);
         outputs
             .fill(file, profile.to_toml().as_bytes())
