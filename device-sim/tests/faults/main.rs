@@ -1,9 +1,9 @@
 //! Faults around every kind of device: the force stays within its limits, goes to zero, comes back,
 //! and each fault is told once.
 
+#[path = "../../../runtime/host/tests/fakes/mod.rs"]
+mod fakes;
 mod servo;
 mod session;
 mod simulated;
-#[path = "../../../runtime/host/tests/fakes/mod.rs"]
-mod fakes;
 mod table;

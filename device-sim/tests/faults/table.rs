@@ -14,9 +14,9 @@ use asperity_host::device::{Description, Device, Fault, Reading};
 use asperity_host::recording::{Encoder, Recording};
 use asperity_runtime::{Config, HostTexture};
 
+use crate::fakes::{Fake, alone};
 use crate::servo::{Period, Servo, asset, conditions, load};
 use crate::simulated::Simulated;
-use crate::fakes::{Fake, alone};
 
 /// Periods of a fault, 1 of which is a clock step over as many periods.
 const LASTS: u32 = 20;

@@ -1,8 +1,8 @@
 //! `asperity-lab`: measures Asperity without a device on the desk.
 #![forbid(unsafe_code)]
 
-mod device;
 mod bench;
+mod device;
 mod error;
 mod feel;
 mod jitter;

@@ -1,6 +1,8 @@
 //! From the name of a device to the device.
 
-use super::{Device, NullDevice, Scheme, Uri, UriError};
+use super::{
+    Device, NullDevice, Scheme, Uri, UriError, dhd::Dhd, openhaptics::OpenHaptics, replay::Replay,
+};
 use thiserror::Error;
 
 /// Why a device cannot be opened.
@@ -59,6 +61,9 @@ impl OpenError {
                 "write SCHEME:WHICH?key=value&key=value, such as `null:?z_mm=-1` or `sim:?grip=firm`"
                     .into()
             }
+            Self::NotHere { scheme: "touch", .. } => {
+                "its frames are the vendor's secret: use openhaptics: with the vendor's library".into()
+            }
             Self::NotHere { .. } => "use null: or sim:".into(),
             Self::Failed { remedy, .. } => remedy.clone(),
         }
@@ -73,10 +78,35 @@ impl OpenError {
 pub fn open(uri: &Uri, _rate_hz: u32) -> Result<Box<dyn Device>, OpenError> {
     match uri.scheme {
         Scheme::Null => Ok(Box::new(NullDevice::open(uri)?)),
+        Scheme::OpenHaptics => match OpenHaptics::open(uri) {
+            Ok(device) => Ok(Box::new(device)),
+            Err(error) => Err(failed(uri, &error, error.remedy())),
+        },
+        Scheme::Dhd => match Dhd::open(uri) {
+            Ok(device) => Ok(Box::new(device)),
+            Err(error) => Err(failed(uri, &error, error.remedy())),
+        },
+        Scheme::Replay => match Replay::open(uri) {
+            Ok(device) => Ok(Box::new(device)),
+            Err(error) => Err(failed(uri, &error, error.remedy())),
+        },
+        #[cfg(feature = "usb")]
+        Scheme::Falcon => match super::falcon::on_usb::open(uri) {
+            Ok(device) => Ok(Box::new(device)),
+            Err(error) => Err(failed(uri, &error, error.remedy())),
+        },
         scheme => Err(OpenError::NotHere {
             uri: uri.to_string(),
             scheme: scheme.name(),
         }),
+    }
+}
+
+fn failed(uri: &Uri, why: &dyn std::fmt::Display, remedy: impl Into<String>) -> OpenError {
+    OpenError::Failed {
+        uri: uri.to_string(),
+        why: why.to_string(),
+        remedy: remedy.into(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! `asperity-lab device`: devices on USB, real and virtual.
 
+mod calibrate;
 mod exercise;
 mod list;
 mod probe;
@@ -15,7 +16,8 @@ use clap::Subcommand;
   asperity-lab device list
   asperity-lab device probe falcon:?firmware=falcon.bin
   asperity-lab device exercise falcon: --ticks 10000
-  asperity-lab device serve falcon")]
+  asperity-lab device serve falcon
+  asperity-lab device calibrate -o touch.toml")]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -27,6 +29,7 @@ enum Command {
     Probe(probe::Arguments),
     Exercise(exercise::Arguments),
     Serve(serve::Arguments),
+    Calibrate(calibrate::Arguments),
 }
 
 /// Gives whether everything is well.
@@ -36,6 +39,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
         Command::Probe(arguments) => probe::run(arguments, console),
         Command::Exercise(arguments) => exercise::run(arguments, console),
         Command::Serve(arguments) => serve::run(arguments, console).map(|()| true),
+        Command::Calibrate(arguments) => calibrate::run(arguments, console).map(|()| true),
     }
 }
 
