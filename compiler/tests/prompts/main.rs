@@ -3,6 +3,7 @@
 mod clip;
 mod completion;
 mod latents;
+mod modifiers;
 mod words;
 
 use asperity::{inference::Backend, prompt::Author};

@@ -3,8 +3,6 @@
 use super::AUTHOR;
 use asperity::{
     attributes::{self, Attributes},
-    learned::texture,
-    model::Provenance,
     pipeline::PipelineError,
     prompt::{Options, PromptError},
     reduce::Fidelity,
@@ -24,17 +22,7 @@ fn plain() -> Options {
 
 /// Attributes of the decoder's own texture: neither reduced nor lowered.
 fn attributes(prompt: &str) -> Attributes {
-    let model = AUTHOR.model();
-    let z = AUTHOR.project(prompt).unwrap().z;
-    let decoded = model.decode(&z).unwrap();
-    let (texture, _) = texture::build(
-        model.description(),
-        &decoded,
-        &z,
-        "x".into(),
-        Provenance::default(),
-    );
-    attributes::of(&texture)
+    attributes::of(&AUTHOR.texture(prompt).unwrap())
 }
 
 #[test]

@@ -1,0 +1,117 @@
+//! What modifiers do to a thing, and what is said to be a guess.
+
+use super::AUTHOR;
+use asperity::attributes::{self, Attributes};
+use rayon::prelude::*;
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+struct File {
+    modifiers: Vec<Modified>,
+    between: Vec<Between>,
+}
+
+#[derive(Deserialize)]
+struct Modified {
+    from: String,
+    to: String,
+    attribute: String,
+    direction: String,
+    kind: String,
+}
+
+#[derive(Deserialize)]
+struct Between {
+    more: String,
+    less: String,
+    phrase: String,
+    attribute: String,
+}
+
+fn evaluation(file: &str) -> String {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/evaluation/");
+    std::fs::read_to_string(format!("{folder}{file}")).expect(file)
+}
+
+/// An attribute on a scale on which a person notices 1.
+fn scale(attribute: &str, a: &Attributes) -> f64 {
+    match attribute {
+        "rough" => a.rough_db.expect("a level") / 1.6,
+        "slippery" => -a.mu.ln() / 1.1_f64.ln(),
+        _ => a.hard_hz.expect("taps").ln() / 1.15_f64.ln(),
+    }
+}
+
+fn read(prompt: &str) -> Attributes {
+    attributes::of(&AUTHOR.texture(prompt).expect(prompt))
+}
+
+#[test]
+fn modifiers_move_the_right_way_and_are_noticed() {
+    let file: File = toml::from_str(&evaluation("modifiers.toml")).expect("modifiers.toml");
+    let steps: Vec<(f64, &Modified)> = file
+        .modifiers
+        .par_iter()
+        .map(|m| {
+            let step = scale(&m.attribute, &read(&m.to)) - scale(&m.attribute, &read(&m.from));
+            (if m.direction == "more" { step } else { -step }, m)
+        })
+        .collect();
+    let count = |holds: fn(f64) -> bool| steps.iter().filter(|(step, _)| holds(*step)).count();
+    let (right, noticed, all) = (count(|x| x > 0.0), count(|x| x > 1.0), steps.len());
+    for (step, m) in steps.iter().filter(|(step, _)| *step <= 0.0) {
+        println!(
+            "{} {step:.1}: {} to {} ({})",
+            m.attribute, m.from, m.to, m.kind
+        );
+    }
+    println!("{right} of {all} the right way, {noticed} noticed");
+    assert!(right * 100 >= all * LEAST_RIGHT, "{right} of {all}");
+    assert!(noticed * 100 >= all * LEAST_NOTICED, "{noticed} of {all}");
+    for b in &file.between {
+        let [more, less, middle] =
+            [&b.more, &b.less, &b.phrase].map(|p| scale(&b.attribute, &read(p)));
+        assert!(
+            more >= middle && middle >= less,
+            "{}: {less} {middle} {more}",
+            b.phrase
+        );
+    }
+}
+
+/// Percent of the modifiers that move the right way.
+const LEAST_RIGHT: usize = 90;
+/// Percent that a person notices.
+const LEAST_NOTICED: usize = 80;
+
+#[test]
+fn what_people_touch_is_familiar_and_nonsense_is_not() {
+    let unfamiliar = |file: &str| {
+        let text = evaluation(file);
+        let lines: Vec<&str> = text.lines().collect();
+        let far = lines
+            .par_iter()
+            .filter(|line| AUTHOR.project(line).expect(line).unfamiliar);
+        let count = far.count();
+        println!("{file}: {count} of {} unfamiliar", lines.len());
+        count as f64 / lines.len() as f64
+    };
+    assert!(unfamiliar("touchable.txt") <= 0.05);
+    assert!(unfamiliar("nonsense.txt") >= 0.9);
+}
+
+#[test]
+fn a_name_is_its_material() {
+    let anchors = &AUTHOR.model().description().anchors;
+    let right = anchors.par_iter().filter(|anchor| {
+        let z = AUTHOR.project(&anchor.name).expect("a name").z;
+        let dot = |other: &[f32]| -> f32 {
+            let norm = other.iter().map(|x| x * x).sum::<f32>().sqrt();
+            other.iter().zip(&z).map(|(x, y)| x * y).sum::<f32>() / norm
+        };
+        anchors.iter().all(|other| dot(&other.z) <= dot(&anchor.z))
+    });
+    let right = right.count();
+    println!("{right} of {} names", anchors.len());
+    assert!(right * 100 >= anchors.len() * 95);
+}
