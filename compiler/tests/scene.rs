@@ -145,8 +145,8 @@ fn budgets_are_kept_and_a_tighter_one_never_costs_less_error() {
     for bytes in [
         whole.bytes,
         whole.bytes - 1,
-        whole.bytes - 1000,
-        whole.bytes - 2000,
+        whole.bytes - 800,
+        whole.bytes - 1600,
     ] {
         let built = within(None, Some(bytes)).unwrap();
         assert!(built.bytes.len() <= bytes, "{bytes}");

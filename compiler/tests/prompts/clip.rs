@@ -53,7 +53,7 @@ fn files() -> Files {
     let mut graph = GraphBuilder::new("projection");
     let batch = || Dim::named("B");
     let x = graph.input("embedding", ElementType::F32, &[batch(), Dim::Fixed(WIDTH)]);
-    for (name, columns) in [("z", 64), ("similarity", anchors)] {
+    for (name, columns) in [("z", 64), ("similarity", anchors), ("familiarity", 1)] {
         let values = (0..WIDTH * columns)
             .map(|n| (n as f32 * 0.71).cos() * 0.2)
             .collect();

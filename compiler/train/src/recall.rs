@@ -1,8 +1,9 @@
 //! A text that is clearly about one material is drawn to that material's latent.
 //!
 //! Prototypes are the mean caption, the name and every synonym of each material. With
-//! `p = softmax(e·c/τ)` over the prototypes c, `z ← z + ‖p‖·(Σ p·z_m − z)`: a name comes out as
-//! its material, and what is like many prototypes, or like none, stays nearly where it was.
+//! `w = exp((e·c − 1)/τ)` over the prototypes c and W its sum over the phrases of the lexicon,
+//! `z ← (Σ w·z_m + W·z)/(Σ w + W)`: a name comes out as its material, and what is like a phrase of
+//! the lexicon stays where the regression put it.
 
 use crate::{captions::Captions, memory::TextMemory, trained::MaterialLatent};
 use asperity::learned::description::LATENT;
@@ -18,7 +19,12 @@ pub(crate) struct Recall {
     pub(crate) scales: Vec<f32>,
     /// The material's place among the anchors, one a prototype.
     pub(crate) owners: Vec<usize>,
+    /// First of the memory's examples that is a phrase of the lexicon.
+    pub(crate) phrases_from: usize,
 }
+
+/// Added to W, so that a text like nothing stays where it was.
+pub(crate) const LEAST: f32 = 1e-30;
 
 impl Recall {
     /// Of materials; `None` at a temperature of zero.
@@ -42,47 +48,53 @@ impl Recall {
             }
         }
         let (codes, scales) = memory.codes_of(&vectors);
+        let texts = materials
+            .iter()
+            .map(|m| captions.training[m.material].len());
         Some(Self {
             temperature: temperature as f32,
             codes,
             scales,
             owners,
+            phrases_from: texts.sum(),
         })
     }
 
     /// Draws the latents of text vectors, given on the memory's directions.
     pub(crate) fn draw(
         &self,
+        memory: &TextMemory,
         materials: &[MaterialLatent],
         directions: &[Vec<f32>],
         latents: &mut [[f32; LATENT]],
     ) {
+        let phrases = (
+            &memory.codes[self.phrases_from * memory.kept..],
+            &memory.scales[self.phrases_from..],
+        );
         for (direction, z) in directions.iter().zip(latents) {
-            let shares = self.shares(direction);
-            let clarity = shares.iter().map(|share| share * share).sum::<f32>().sqrt();
-            let mut recalled = [0.0; LATENT];
-            for (share, &owner) in shares.iter().zip(&self.owners) {
-                let pairs = recalled.iter_mut().zip(&materials[owner].mean);
-                pairs.for_each(|(sum, x)| *sum += share * x);
+            let prototypes = self.weights(direction, &self.codes, &self.scales);
+            let kept: f32 = self.weights(direction, phrases.0, phrases.1).iter().sum();
+            let kept = kept + LEAST;
+            let mut drawn = z.map(|x| x * kept);
+            for (weight, &owner) in prototypes.iter().zip(&self.owners) {
+                let pairs = drawn.iter_mut().zip(&materials[owner].mean);
+                pairs.for_each(|(sum, x)| *sum += weight * x);
             }
-            let pairs = z.iter_mut().zip(&recalled);
-            pairs.for_each(|(z, recalled)| *z += clarity * (recalled - *z));
+            let total = prototypes.iter().sum::<f32>() + kept;
+            *z = drawn.map(|x| x / total);
         }
     }
 
-    fn shares(&self, direction: &[f32]) -> Vec<f32> {
-        let rows = self.codes.chunks(direction.len().max(1)).zip(&self.scales);
-        let logits: Vec<f32> = rows
-            .map(|(codes, scale)| {
-                let pairs = codes.iter().zip(direction);
-                let product: f32 = pairs.map(|(&code, x)| f32::from(code) * x).sum();
-                product * scale / self.temperature
-            })
-            .collect();
-        let most = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-        let weights: Vec<f32> = logits.iter().map(|x| libm::expf(x - most)).collect();
-        let sum: f32 = weights.iter().sum();
-        weights.iter().map(|weight| weight / sum).collect()
+    /// `exp((e·c − 1)/τ)` of rows in 8 bits.
+    fn weights(&self, direction: &[f32], codes: &[i8], scales: &[f32]) -> Vec<f32> {
+        let rows = codes.chunks(direction.len().max(1)).zip(scales);
+        rows.map(|(codes, scale)| {
+            let pairs = codes.iter().zip(direction);
+            let product: f32 = pairs.map(|(&code, x)| f32::from(code) * x).sum();
+            libm::expf((product * scale - 1.0) / self.temperature)
+        })
+        .collect()
     }
 }
 
@@ -91,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_clear_text_takes_the_latent_of_its_material_and_a_doubtful_one_is_drawn_in_part() {
+    fn a_name_takes_the_latent_of_its_material_and_a_phrase_keeps_its_own() {
         let material = |value: f32| MaterialLatent {
             material: 0,
             mean: [value; LATENT],
@@ -100,18 +112,31 @@ mod tests {
         let materials = [material(1.0), material(3.0)];
         let recall = Recall {
             temperature: 0.02,
-            codes: vec![100, 0, 0, 100],
+            codes: vec![100, 0, 0, 0, 100, 0],
             scales: vec![0.01; 2],
             owners: vec![0, 1],
+            phrases_from: 1,
         };
-        let directions = [vec![1.0, 0.0], vec![0.7, 0.7]];
-        let mut latents = [[0.0; LATENT]; 2];
-        recall.draw(&materials, &directions, &mut latents);
-        assert!((latents[0][5] - 1.0).abs() < 1e-6);
-        let part = 2.0 * 0.5_f32.sqrt();
-        assert!(
-            (latents[1][5] - part).abs() < 1e-5,
-            "‖(½, ½)‖ of their mean, 2"
-        );
+        let memory = TextMemory {
+            concentration: 1.0,
+            width: 3,
+            basis: Vec::new(),
+            kept: 3,
+            codes: vec![100, 0, 0, 0, 0, 100],
+            scales: vec![0.01; 2],
+            coefficients: Vec::new(),
+            coefficient_scales: [0.0; LATENT],
+            mean: [0.0; LATENT],
+        };
+        let directions = [
+            vec![1.0, 0.0, 0.0],
+            vec![0.0, 0.0, 1.0],
+            vec![0.0, 0.7, 0.7],
+        ];
+        let mut latents = [[-5.0; LATENT]; 3];
+        recall.draw(&memory, &materials, &directions, &mut latents);
+        for (z, expected) in latents.iter().zip([1.0, -5.0, -1.0]) {
+            assert!((z[5] - expected).abs() < 1e-4, "{} {expected}", z[5]);
+        }
     }
 }

@@ -179,7 +179,12 @@ impl Trained {
             let projected = vectors.chunks(CHUNK).flat_map(|chunk| {
                 let mut latents = memory.project(chunk);
                 if let Some(recall) = &self.recall {
-                    recall.draw(&self.materials, &memory.directions(chunk), &mut latents);
+                    recall.draw(
+                        memory,
+                        &self.materials,
+                        &memory.directions(chunk),
+                        &mut latents,
+                    );
                 }
                 latents
             });

@@ -8,7 +8,7 @@ use crate::{
     network::{GAPS, LOG_VARIANCE_BOUND, Trunk, gap_matrix, gap_offsets},
     normaliser::{LSFS, TAP_VALUES},
     parameters::Slot,
-    recall::Recall,
+    recall::{LEAST, Recall},
     trained::Trained,
 };
 use asperity::learned::description::LATENT;
@@ -85,25 +85,21 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
 fn soft_maximum(writer: &mut Writer<'_>, likeness: &Value) -> Value {
     let sharp = writer.times(likeness, SHARPNESS);
     let terms = writer.graph.unary("Exp", &sharp);
-    // An input from opset 13 on, which these graphs are beyond.
-    let axes = writer.graph.integers(&[1]);
-    let keep = ("keepdims", Attribute::Int(1));
-    let sum = writer
-        .graph
-        .node("ReduceSum", &[Some(&terms), Some(&axes)], &[keep]);
+    let sum = row_sum(writer, &terms);
     let sum = writer.plus(&sum, f32::MIN_POSITIVE);
     let logarithm = writer.graph.unary("Log", &sum);
     let scaled = writer.times(&logarithm, 1.0 / SHARPNESS);
     writer.plus(&scaled, 1.0)
 }
 
-/// `z + ‖p‖·(p·Z − z)`, p = softmax(e·c/τ) over prototypes c, as [`Recall::draw`].
+/// `(Σ w·z_m + W·z)/(Σ w + W)`, as [`Recall::draw`]; `likeness` is that of the memory's examples.
 fn recalled(
     writer: &mut Writer<'_>,
     trained: &Trained,
     recall: &Recall,
     z: Value,
     direction: &Value,
+    likeness: (&Value, usize),
 ) -> Value {
     let count = recall.owners.len();
     let width = recall.codes.len() / count.max(1);
@@ -114,19 +110,34 @@ fn recalled(
         .collect();
     let means = writer.table("prototypes.latents", &[count, LATENT], means);
     let inputs = [Some(direction), Some(&prototypes)];
-    let logits = writer.graph.node("MatMul", &inputs, &[]);
-    let logits = writer.times(&logits, 1.0 / recall.temperature);
-    let shares = writer.graph.softmax(&logits, 1);
-    let inputs = [Some(&shares), Some(&means)];
-    let recalled = writer.graph.node("MatMul", &inputs, &[]);
-    let attributes = [
-        ("axes", Attribute::Ints(vec![1])),
-        ("keepdims", Attribute::Int(1)),
-    ];
-    let clarity = writer.graph.node("ReduceL2", &[Some(&shares)], &attributes);
-    let difference = writer.graph.sub(&recalled, &z);
-    let change = writer.graph.mul(&difference, &clarity);
-    writer.graph.add(&z, &change)
+    let nearness = writer.graph.node("MatMul", &inputs, &[]);
+    let nearness = writer.plus(&nearness, -1.0);
+    let exponent = writer.times(&nearness, 1.0 / recall.temperature);
+    let weights = writer.graph.unary("Exp", &exponent);
+    let inputs = [Some(&weights), Some(&means)];
+    let drawn = writer.graph.node("MatMul", &inputs, &[]);
+    let (likeness, examples) = likeness;
+    let phrases = (recall.phrases_from as i64, examples as i64);
+    let phrases = writer.graph.slice(likeness, 1, phrases.0, phrases.1);
+    let exponent = writer.times(&phrases, 1.0 / recall.temperature);
+    let phrases = writer.graph.unary("Exp", &exponent);
+    let kept = row_sum(writer, &phrases);
+    let kept = writer.plus(&kept, LEAST);
+    let own = writer.graph.mul(&z, &kept);
+    let numerator = writer.graph.add(&drawn, &own);
+    let total = row_sum(writer, &weights);
+    let total = writer.graph.add(&total, &kept);
+    writer.graph.div(&numerator, &total)
+}
+
+/// The sum of each row, [B, 1].
+fn row_sum(writer: &mut Writer<'_>, x: &Value) -> Value {
+    // An input from opset 13 on, which these graphs are beyond.
+    let axes = writer.graph.integers(&[1]);
+    let keep = ("keepdims", Attribute::Int(1));
+    writer
+        .graph
+        .node("ReduceSum", &[Some(x), Some(&axes)], &[keep])
 }
 
 /// 8-bit rows as a matrix of columns, [width, rows].
@@ -202,7 +213,7 @@ fn from_memory(
     let mean = writer.row("memory.mean", &memory.mean);
     let z = writer.graph.add(&from_mean, &mean);
     let z = match &trained.recall {
-        Some(recall) => recalled(writer, trained, recall, z, direction),
+        Some(recall) => recalled(writer, trained, recall, z, direction, (&likeness, count)),
         None => z,
     };
     (z, likeness)

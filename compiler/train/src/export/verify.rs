@@ -15,8 +15,7 @@ use asperity_nn::{Portable, Session, Tensor};
 
 /// Largest difference of an output, relative to its largest value or 1.
 const LIMIT: f64 = 1e-4;
-/// The same of the latent of a text: the recall's softmax multiplies the rounding of a cosine by
-/// 1/τ.
+/// The same of the latent of a text: the recall multiplies the rounding of a cosine by 1/τ.
 const TEXT_LIMIT: f64 = 1e-3;
 /// Materials, captions and latents that are compared.
 const SAMPLES: usize = 24;

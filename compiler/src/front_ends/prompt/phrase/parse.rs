@@ -156,10 +156,14 @@ fn quality(words: &[String], at: usize) -> Option<Found> {
     let (mut from, mut to) = (at, at + 1);
     let mut range = PLAIN;
     let mut denied = false;
+    let mut stressed = false;
     let mut less = false;
     while let Some(before) = from.checked_sub(1) {
         let word = words[before].as_str();
         match word {
+            // "not at all rough"
+            "all" if before > 0 && words[before - 1] == "at" => stressed = true,
+            "at" if stressed => {}
             "not" | "never" | "non" => denied = true,
             "more" => {}
             "less" | "least" => less = true,
@@ -186,7 +190,9 @@ fn quality(words: &[String], at: usize) -> Option<Found> {
             });
         }
     }
-    if denied {
+    if denied && stressed {
+        range = NOT_AT_ALL;
+    } else if denied {
         range = if range == (1.65, 1.9) {
             (-0.8, -0.6)
         } else {
