@@ -96,16 +96,16 @@ impl<L: Lanes<N>, const N: usize> Poles<L, N> {
     #[inline(always)]
     pub(super) fn add(&mut self, sample: L, left: &Complex4) {
         let left = Self::widened(left);
-        for part in 0..PARTS {
-            self.0[part] = self.0[part] + left[part] * sample;
+        for (sum, left) in self.0.iter_mut().zip(left) {
+            *sum = *sum + left * sample;
         }
     }
 
     #[inline(always)]
     pub(super) fn plus(&self, other: &Self) -> Self {
         let mut sum = *self;
-        for part in 0..PARTS {
-            sum.0[part] = sum.0[part] + other.0[part];
+        for (sum, other) in sum.0.iter_mut().zip(other.0) {
+            *sum = *sum + other;
         }
         sum
     }
