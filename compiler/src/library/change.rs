@@ -113,7 +113,7 @@ impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
         match self.spectrum_db {
-            Some([_, worst]) if worst == 0.0 => {}
+            Some([_, 0.0]) => {}
             Some([p95, worst]) => parts.push(format!("spectra {p95:.2} dB, {worst:.2} at worst")),
             None => parts.push("spectra not comparable".into()),
         }

@@ -191,9 +191,9 @@ fn held_out(steady: &Steady, choice: Choice) -> f64 {
                 return f64::INFINITY;
             };
             let weight = segment.length as f64;
-            for n in 0..POINTS {
-                let s = model[n] + noise(steady, n, segment.power[n]);
-                sum += weight * (libm::log(s) + segment.power[n] / s);
+            for (n, (model, power)) in model.iter().zip(&segment.power).enumerate() {
+                let s = model + noise(steady, n, *power);
+                sum += weight * (libm::log(s) + power / s);
                 count += weight;
             }
         }
