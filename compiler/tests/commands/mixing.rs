@@ -17,7 +17,7 @@ fn bytes(folder: &Path, file: &str) -> Vec<u8> {
 /// Two textures of prompts.
 fn textures() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    for (prompt, file) in [("abrasive sheet", "sheet.asp"), ("felt", "felt.asp")] {
+    for (prompt, file) in [("sandpaper", "sheet.asp"), ("felt", "felt.asp")] {
         made(
             folder.path(),
             &["compile", prompt, "--no-preview", "-o", file],

@@ -98,7 +98,7 @@ fn a_prompt_goes_through_a_tower_with_a_projection_of_its_width() {
     let shipped = LearnedModel::load(embedded::model(), &backend).unwrap();
     let refused = Author::new(clip(), shipped).err().unwrap().to_string();
     assert!(
-        refused.contains("384") && refused.contains("32"),
+        refused.contains("480") && refused.contains("32"),
         "{refused}"
     );
 }

@@ -10,8 +10,8 @@ use asperity::{
 use rayon::prelude::*;
 use serde_json::Value;
 
-/// Rightly ordered share of the committed pairs, each attribute.
-const LEAST_SHARE: f64 = 0.90;
+/// Rightly ordered share of the committed pairs: rough, slippery, hard.
+const LEAST_SHARES: [(&str, f64); 3] = [("rough", 0.94), ("slippery", 0.82), ("hard", 0.88)];
 
 fn plain() -> Options {
     Options {
@@ -47,7 +47,7 @@ fn everyday_words_are_ordered_as_any_person_would() {
         "slippery" => -a.mu,
         _ => a.hard_hz.unwrap(),
     };
-    for attribute in ["rough", "slippery", "hard"] {
+    for (attribute, least_share) in LEAST_SHARES {
         let rows = pairs[attribute].as_array().unwrap();
         assert!(rows.len() >= 100, "{attribute}");
         let right = rows
@@ -59,7 +59,7 @@ fn everyday_words_are_ordered_as_any_person_would() {
             .count();
         let share = right as f64 / rows.len() as f64;
         assert!(
-            share >= LEAST_SHARE,
+            share >= least_share,
             "{attribute}: {right} of {}",
             rows.len()
         );
