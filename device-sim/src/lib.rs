@@ -11,7 +11,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`axis`] | one axis: mass, friction, a hand's pull, implicit integration |
-//! | [`bench`] | known textures, recorded by simulated sensors and held against what comes back |
+//! | [`mod@bench`] | known textures, recorded by simulated sensors and held against what comes back |
 //! | [`calibration`] | a sweep, the acceleration that follows, a profile of both |
 //! | [`device`] | the device: quantisation, delay, limits, workspace, and its TOML file |
 //! | [`hand`] | grip, motions, seeded script |

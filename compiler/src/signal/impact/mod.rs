@@ -1,10 +1,10 @@
 //! The transient of an impact: a contact that closes and opens, a hand behind it, a surface that
 //! rings.
 //!
-//! 1. [`pulse`]: Hertz's contact. Its time falls as v^(−1/5) with the impact speed v, and its force
+//! 1. `pulse`: Hertz's contact. Its time falls as v^(−1/5) with the impact speed v, and its force
 //!    grows as v^(6/5). Losses that rise with speed (Hunt and Crossley, 1975) lean it forward, and a
 //!    soft thing keeps a dent, so the contact opens sooner than it closed.
-//! 2. [`resonator`]: the hand, which holds a part of the stylus at the contact resonance, and the
+//! 2. `resonator`: the hand, which holds a part of the stylus at the contact resonance, and the
 //!    first modes of the surface, which the pulse excites.
 //!
 //! [`Impact::of_material`] has the constants. What no measurement decides is marked *chosen*. The
