@@ -2,7 +2,7 @@
 
 use super::{
     Change, Changes, Phrase,
-    table::{self, NOT, NOT_AT_ALL, PLAIN, Range, Signs},
+    table::{self, LITTLE, NOT, NOT_AT_ALL, NOT_VERY, PLAIN, Range, Signs, VERY},
 };
 
 /// Words that name nothing by themselves.
@@ -167,7 +167,7 @@ fn quality(words: &[String], at: usize) -> Option<Found> {
             "not" | "never" | "non" => denied = true,
             "more" => {}
             "less" | "least" => less = true,
-            "a" if range == (0.35, 0.5) => {}
+            "a" if range == LITTLE => {}
             "being" | "be" if before > 0 && words[before - 1] == "without" => {}
             "without" => denied = true,
             _ => match table::degree(word) {
@@ -193,11 +193,7 @@ fn quality(words: &[String], at: usize) -> Option<Found> {
     if denied && stressed {
         range = NOT_AT_ALL;
     } else if denied {
-        range = if range == (1.65, 1.9) {
-            (-0.8, -0.6)
-        } else {
-            NOT
-        };
+        range = if range == VERY { NOT_VERY } else { NOT };
     } else if less {
         range = (-range.1, -range.0);
     }

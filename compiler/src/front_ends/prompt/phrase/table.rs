@@ -49,7 +49,13 @@ fn find(table: &str, word: &str) -> Option<Signs> {
 pub(super) type Range = (f64, f64);
 
 /// Without a word of degree.
-pub(super) const PLAIN: Range = (1.0, 1.3);
+pub(super) const PLAIN: Range = (1.0, 1.5);
+/// A little.
+pub(super) const LITTLE: Range = (0.35, 0.5);
+/// With stress.
+pub(super) const VERY: Range = (1.85, 2.6);
+/// Denied with stress upon the degree: "not very".
+pub(super) const NOT_VERY: Range = (-0.8, -0.6);
 /// Denied.
 pub(super) const NOT: Range = (-1.3, -1.0);
 /// Denied with stress.
@@ -62,7 +68,7 @@ const DEGREES: [(&[&str], Range); 5] = [
         &[
             "slightly", "mildly", "faintly", "little", "bit", "touch", "somewhat",
         ],
-        (0.35, 0.5),
+        LITTLE,
     ),
     (
         &[
@@ -90,7 +96,7 @@ const DEGREES: [(&[&str], Range); 5] = [
             "lot",
             "particularly",
         ],
-        (1.65, 1.9),
+        VERY,
     ),
     (
         &[
@@ -109,7 +115,7 @@ const DEGREES: [(&[&str], Range); 5] = [
             "intensely",
             "rock",
         ],
-        (2.3, 2.6),
+        (2.95, 3.6),
     ),
 ];
 
