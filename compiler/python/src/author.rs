@@ -6,7 +6,7 @@ use crate::{
     texture::Texture,
 };
 use asperity::{
-    embedded,
+    edit, embedded,
     inference::{Backend, BackendName},
     prompt::{self, Authored, Options, PromptError},
     text::{TextEncoder, TextEncoderChoice, clip::Clip},
@@ -93,7 +93,8 @@ pub(crate) fn compile(
         if prompt.trim().is_empty() {
             return Err(refused(PromptError::Empty));
         }
-        shared()?.author(prompt, &options).map_err(refused)
+        let author = shared()?;
+        remembered(&author, author.author(prompt, &options))
     })?;
     told(py, authored)
 }
@@ -174,7 +175,8 @@ impl Author {
         preview: bool,
     ) -> PyResult<Texture> {
         let options = options(seed, fidelity, rate, preview);
-        let authored = py.detach(|| self.author.author(prompt, &options).map_err(refused))?;
+        let authored = self.author.author(prompt, &options);
+        let authored = py.detach(|| remembered(&self.author, authored))?;
         told(py, authored)
     }
 }
@@ -212,6 +214,16 @@ fn options(seed: Seed, fidelity: Fidelity, rate_hz: Option<f64>, preview: bool) 
         preview,
         ..Options::default()
     }
+}
+
+/// With the latent that it was decoded from in its asset, as the command writes it.
+fn remembered(
+    author: &prompt::Author,
+    authored: Result<Authored, PromptError>,
+) -> Result<Authored, Failure> {
+    let mut authored = authored.map_err(refused)?;
+    edit::remember_prompt(author, &mut authored).map_err(edit::EditError::from)?;
+    Ok(authored)
 }
 
 /// The error in the words of Python, where those of the command would not do.

@@ -93,7 +93,7 @@ def test_the_report_is_that_of_the_command(texture, command, tmp_path):
 
 def test_a_prompt_far_from_everything_warns():
     with pytest.warns(asperity.AsperityWarning, match="far from everything"):
-        asperity.compile("qwertz uiop")
+        asperity.compile("the square root of minus one")
 
 
 def test_notebooks_show_the_sheet_that_plot_draws(texture, command, tmp_path):

@@ -1,7 +1,10 @@
 //! What an asset remembers of its making: latents and history, outside the haptic sections.
 
 use super::{error::EditError, history::History, latents::Latents};
-use crate::front_ends::learned::{Latent, description::LATENT};
+use crate::front_ends::{
+    learned::{Latent, description::LATENT},
+    prompt::{Author, Authored},
+};
 use asperity_formats::{Asset, EncodeError, assemble, assembled_len};
 
 const LATENT_TAG: [u8; 4] = *b"late";
@@ -38,6 +41,20 @@ pub fn remember(asset: &[u8], memory: &Memory) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = vec![0; assembled_len(&sections)];
     assemble(&sections, &mut bytes)?;
     Ok(bytes)
+}
+
+/// Lets the asset of a prompt remember its latent, which an author's model decoded.
+///
+/// # Errors
+/// [`EncodeError`], for bytes that are no asset.
+pub fn remember_prompt(author: &Author, authored: &mut Authored) -> Result<(), EncodeError> {
+    let memory = Memory {
+        model_crc32: author.model().crc32(),
+        latents: Latents::whole(authored.z),
+        history: History::default(),
+    };
+    authored.lowered.bytes = remember(&authored.lowered.bytes, &memory)?;
+    Ok(())
 }
 
 fn latent_body(memory: &Memory) -> Vec<u8> {

@@ -23,7 +23,7 @@ pub use explain::{Explanation, WordEffect, explain};
 pub use history::{History, Origin, Source, Step};
 pub use latents::Latents;
 pub use loudness::equal_loudness;
-pub use memory::{Memory, remember, remembered};
+pub use memory::{Memory, remember, remember_prompt, remembered};
 pub use report::attributes_line;
 pub use scale::{AXES, Axis, Scale};
 pub use sliders::Sliders;

@@ -20,6 +20,22 @@ pub struct Files {
 }
 
 impl Files {
+    /// CRC-32 of all files, which tells one model from another.
+    #[must_use]
+    pub fn crc32(&self) -> u32 {
+        let mut crc = crc32fast::Hasher::new();
+        crc.update(self.description.as_bytes());
+        for network in [
+            &self.text_projection,
+            &self.ar_decoder,
+            &self.tap_decoder,
+            &self.encoder,
+        ] {
+            crc.update(network);
+        }
+        crc.finalize()
+    }
+
     /// Reads a model folder.
     ///
     /// # Errors

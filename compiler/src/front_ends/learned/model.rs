@@ -50,6 +50,7 @@ pub enum Present<'a> {
 
 /// A learned model on a back end.
 pub struct LearnedModel {
+    crc32: u32,
     description: ModelDescription,
     text_projection: Box<dyn Session>,
     ar_decoder: Box<dyn Session>,
@@ -72,6 +73,7 @@ impl LearnedModel {
                 message: error.to_string(),
             })?;
         check(&description)?;
+        let crc32 = files.crc32();
         let session = |file: &str, bytes: Cow<'static, [u8]>| {
             backend
                 .session(bytes)
@@ -81,6 +83,7 @@ impl LearnedModel {
                 })
         };
         Ok(Self {
+            crc32,
             description,
             text_projection: session("text_projection.onnx", files.text_projection)?,
             ar_decoder: session("ar_decoder.onnx", files.ar_decoder)?,
@@ -89,6 +92,12 @@ impl LearnedModel {
             encoder_bytes: files.encoder,
             backend: *backend,
         })
+    }
+
+    /// CRC-32 of its files.
+    #[must_use]
+    pub fn crc32(&self) -> u32 {
+        self.crc32
     }
 
     /// The description of the model.

@@ -5,7 +5,7 @@ use crate::cli::Compile;
 use asperity::{
     console::Console,
     diagnostic::{Failures, one},
-    edit::{EditError, History, Latents, Memory, Studio, explain, remember},
+    edit::{EditError, Studio, explain, remember_prompt},
     output::display,
     pipeline::{Pipeline, PipelineError},
     prompt::{self, Options},
@@ -28,14 +28,8 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         preview_px: args.preview_size,
     };
     let mut authored = author.author(&args.prompt, &options).map_err(one)?;
-    let studio = Studio::new(&author, inference::model_crc32(&args.inference)?);
-    let memory = Memory {
-        model_crc32: studio.model_crc32(),
-        latents: Latents::whole(authored.z),
-        history: History::default(),
-    };
-    let bytes = remember(&authored.lowered.bytes, &memory);
-    authored.lowered.bytes = bytes.map_err(|error| one(EditError::from(error)))?;
+    remember_prompt(&author, &mut authored).map_err(|error| one(EditError::from(error)))?;
+    let studio = Studio::new(&author, author.model().crc32());
     let explanation = args.explain.then(|| explain(&studio, &args.prompt));
     let explanation = explanation.transpose().map_err(one)?;
     if let Some(file) = sheet {

@@ -45,21 +45,7 @@ fn model_folder(options: &Inference) -> Result<Files, Failures> {
 
 /// CRC-32 of the model that the options name.
 pub(crate) fn model_crc32(options: &Inference) -> Result<u32, Failures> {
-    Ok(crc32_of(&model_folder(options)?))
-}
-
-fn crc32_of(files: &Files) -> u32 {
-    let mut crc = crc32fast::Hasher::new();
-    crc.update(files.description.as_bytes());
-    for network in [
-        &files.text_projection,
-        &files.ar_decoder,
-        &files.tap_decoder,
-        &files.encoder,
-    ] {
-        crc.update(network);
-    }
-    crc.finalize()
+    Ok(model_folder(options)?.crc32())
 }
 
 /// What decides the bytes of a texture besides its manifest.
@@ -87,7 +73,7 @@ pub(crate) fn pinned(options: &Inference) -> Result<Pinned, Failures> {
     Ok(Pinned {
         asperity: env!("CARGO_PKG_VERSION").to_owned(),
         model: named.name,
-        model_crc32: crc32_of(&files),
+        model_crc32: files.crc32(),
         text_encoder,
         text_encoder_crc32,
         backend: options.backend.to_string(),
