@@ -4,6 +4,7 @@ use crate::error::Failure;
 use asperity::{
     inspect::Document,
     plot::{self, AssetBytes},
+    preview,
     raise::raise,
     source::{SourceError, SourceProblem},
 };
@@ -63,7 +64,10 @@ impl Contents {
             haptic: asset.haptic_len(),
             total: asset.total_len(),
         };
-        plot::sheet(&raise(&asset), Some(sizes)).map_err(|error| {
+        let picture = asset
+            .preview_png()
+            .and_then(|png| preview::stored(png).ok());
+        plot::sheet_with_picture(&raise(&asset), Some(sizes), picture.as_ref()).map_err(|error| {
             let message = format!("the sheet cannot be drawn: {error}");
             Failure::new(message, "free memory and try again")
         })

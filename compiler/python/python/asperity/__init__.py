@@ -3,7 +3,7 @@
 >>> import asperity
 >>> texture = asperity.compile("rough abrasive sheet with gritty particles")
 >>> texture.grid.order
-16
+17
 >>> renderer = asperity.Renderer(texture, seed=1)
 >>> felt = renderer.render([[0.0, 0.0, -0.001]] * 100)
 >>> bool(felt.has(asperity.Flags.CONTACT).all())
