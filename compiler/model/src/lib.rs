@@ -24,6 +24,13 @@ pub static TEXT_ENCODER: &[u8] = &parts::TEXT_ENCODER;
 /// The word pieces of the text encoder: lines `piece TAB id`, sorted by the bytes of the piece.
 pub static VOCABULARY: &str = include_str!("../vocab.tsv");
 
+/// The merges of CLIP's byte-pair encoding, most frequent first, below a head line: what its
+/// 49,408 tokens are made by.
+pub static CLIP_MERGES: &str = include_str!("../clip_merges.txt");
+
+/// CRC-32 of the files of [`FOLDER`], one after another. A test compares.
+pub const MODEL_CRC32: u32 = 0xcc7c_f44d;
+
 /// The files of a model folder, which `--model DIR` takes, with their names.
 pub static FOLDER: [(&str, &[u8]); 5] = [
     ("model.json", DESCRIPTION.as_bytes()),

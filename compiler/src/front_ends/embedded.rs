@@ -6,8 +6,8 @@ use crate::front_ends::{
     text::{Vocabulary, WithWords, WordTable, minilm::MiniLm},
 };
 use asperity_model::{
-    AR_DECODER, DESCRIPTION, ENCODER, TAP_DECODER, TEXT_ENCODER, TEXT_PROJECTION, VOCABULARY,
-    WORD_ROWS, WORD_VECTORS, WORD_WIDTH,
+    AR_DECODER, DESCRIPTION, ENCODER, MODEL_CRC32, TAP_DECODER, TEXT_ENCODER, TEXT_PROJECTION,
+    VOCABULARY, WORD_ROWS, WORD_VECTORS, WORD_WIDTH,
 };
 
 /// The files of the shipped model.
@@ -19,6 +19,7 @@ pub fn model() -> Files {
         ar_decoder: AR_DECODER.into(),
         tap_decoder: TAP_DECODER.into(),
         encoder: ENCODER.into(),
+        known_crc32: Some(MODEL_CRC32),
     }
 }
 
@@ -55,4 +56,15 @@ pub fn sizes() -> (usize, usize) {
         TEXT_ENCODER.len() + VOCABULARY.len() + WORD_ROWS.len() + WORD_VECTORS.len(),
         model,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stated_checksum_is_that_of_the_files() {
+        let files = model();
+        assert_eq!(files.crc32(), files.checksum(), "set `MODEL_CRC32` anew");
+    }
 }

@@ -67,6 +67,7 @@ fn files() -> Files {
     Files {
         description: serde_json::to_string(&description).unwrap().into(),
         text_projection: graph.finish().unwrap().into(),
+        known_crc32: None,
         ..shipped
     }
 }

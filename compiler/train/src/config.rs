@@ -240,6 +240,9 @@ pub struct Memory {
     /// τ of the softmax over materials, by the cosine with their mean captions, whose mean latent
     /// a text that is clearly about one material is drawn to; 0 for none.
     pub recall_temperature: f64,
+    /// How much a caption counts beside a name or a surely rated phrase: captions speak of several
+    /// things at once, and few of them are about what slides.
+    pub caption_weight: f64,
 }
 
 /// How μ is read from the anchors.

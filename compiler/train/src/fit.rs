@@ -6,6 +6,7 @@ use crate::{
     checkpoint::{self, Identity},
     config::Config,
     error::FitError,
+    material::MaterialLatent,
     memory::TextMemory,
     network::Network,
     normaliser::{Coded, Normaliser, check},
@@ -14,7 +15,7 @@ use crate::{
     recall::Recall,
     rng::{Purpose, Stream},
     text_stage,
-    trained::{MaterialLatent, Seen, Trained, posteriors},
+    trained::{Seen, Trained, posteriors},
     vae::{Run, State},
 };
 use asperity::{learned::description::LATENT, text::TextEncoder};

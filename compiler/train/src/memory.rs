@@ -325,6 +325,7 @@ mod tests {
             iterations: 200,
             directions: 3,
             recall_temperature: 0.0,
+            caption_weight: 1.0,
         };
         let views: Vec<&[f32]> = vectors.iter().map(Vec::as_slice).collect();
         let weights = vec![1.0; views.len()];

@@ -5,7 +5,7 @@
 //! `z ← (Σ w·z_m + W·z)/(Σ w + W)`: a name comes out as its material, and what is like a phrase of
 //! the lexicon stays where the regression put it.
 
-use crate::{captions::Captions, memory::TextMemory, trained::MaterialLatent};
+use crate::{captions::Captions, material::MaterialLatent, memory::TextMemory};
 use asperity::learned::description::LATENT;
 
 /// Prototypes on the principal directions of a memory, in 8 bits.

@@ -6,11 +6,11 @@ use crate::{
     batch::add_noise,
     captions::{Captions, cosine, unit},
     config::TextStage,
+    material::MaterialLatent,
     network::{Mode, TextProjection, matrix, unit_rows},
     parameters::Parameters,
     progress::Progress,
     rng::{Purpose, Stream},
-    trained::MaterialLatent,
     vae::learning_rate,
 };
 use asperity::learned::description::LATENT;
@@ -70,12 +70,17 @@ impl Examples {
             shares,
             weight,
         };
+        let of_caption = stage.memory.as_ref().map_or(1.0, |how| how.caption_weight);
         let mut of_captions = Vec::new();
         for (index, material) in materials.iter().enumerate() {
-            for vector in &captions.training[material.material] {
+            let texts = &captions.training[material.material];
+            let names_from = texts.len() - captions.names[material.material];
+            for (place, vector) in texts.iter().enumerate() {
                 let mut shares = vec![0.0; materials.len()];
                 shares[index] = 1.0;
-                of_captions.push(example(vector, shares, 1.0));
+                let is_name = place >= names_from;
+                let weight = if is_name { 1.0 } else { of_caption as f32 };
+                of_captions.push(example(vector, shares, weight));
             }
         }
         let lexicon = captions

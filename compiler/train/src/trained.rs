@@ -3,6 +3,7 @@
 use crate::{
     coding,
     config::Config,
+    material::MaterialLatent,
     memory::TextMemory,
     network::{Mode, Network, TextProjection, matrix},
     normaliser::{AR, Coded, LSFS, Normaliser, TAP_VALUES},
@@ -36,17 +37,6 @@ pub struct Gaussian {
     pub mean: [f32; LATENT],
     /// log σ².
     pub log_variance: [f32; LATENT],
-}
-
-/// A training material in the latent.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MaterialLatent {
-    /// Index into the corpus.
-    pub material: usize,
-    /// Mean of its instances' posterior means.
-    pub mean: [f32; LATENT],
-    /// Unit mean of its training captions.
-    pub caption: Vec<f32>,
 }
 
 /// A trained model.

@@ -82,7 +82,7 @@ pub(crate) fn measure(
                 if asked.0.iter().all(|phrase| dot(phrase, vector) <= NEAR) {
                     known.0.push(vector);
                     known.1.push(numbers(rating));
-                    known.2.push(1.0);
+                    known.2.push(how.caption_weight as f32);
                 }
             }
         }

@@ -17,12 +17,21 @@ pub struct Files {
     pub tap_decoder: Cow<'static, [u8]>,
     /// `encoder.onnx`.
     pub encoder: Cow<'static, [u8]>,
+    /// Their [`Files::checksum`] where it was computed ahead of time, so that 20 MB need not be read
+    /// for it.
+    pub known_crc32: Option<u32>,
 }
 
 impl Files {
     /// CRC-32 of all files, which tells one model from another.
     #[must_use]
     pub fn crc32(&self) -> u32 {
+        self.known_crc32.unwrap_or_else(|| self.checksum())
+    }
+
+    /// CRC-32 of all files, computed.
+    #[must_use]
+    pub fn checksum(&self) -> u32 {
         let mut crc = crc32fast::Hasher::new();
         crc.update(self.description.as_bytes());
         for network in [
@@ -55,6 +64,7 @@ impl Files {
             ar_decoder: bytes("ar_decoder.onnx")?.into(),
             tap_decoder: bytes("tap_decoder.onnx")?.into(),
             encoder: bytes("encoder.onnx")?.into(),
+            known_crc32: None,
         })
     }
 }

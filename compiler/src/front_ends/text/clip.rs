@@ -9,12 +9,15 @@ use crate::{
     front_ends::inference::Backend,
     input::{self, Kind},
 };
+use asperity_model::CLIP_MERGES;
 use asperity_nn::{Dim, ElementType, Port, Session, Tensor};
 use instant_clip_tokenizer::Tokenizer;
 use std::path::{Path, PathBuf};
 
 /// Tokens that CLIP reads, start and end marks included; shorter texts are padded.
 pub const CONTEXT: usize = 77;
+/// Tokens of the vocabulary.
+const VOCABULARY: u16 = 49_408;
 /// File names that are looked for, in this order.
 pub const FILES: [&str; 2] = ["text_model.onnx", "model.onnx"];
 /// Outputs that are preferred, in this order.
@@ -56,6 +59,9 @@ impl Clip {
     /// # Errors
     /// [`TextError::Signature`] for other inputs or outputs than a text tower's.
     pub fn new(session: Box<dyn Session>) -> Result<Self, TextError> {
+        // A vocabulary that is only as long as CLIP reads it: the tokenizer's own is five times so.
+        let tokeniser = Tokenizer::with_vocabulary(CLIP_MERGES.as_bytes(), VOCABULARY)
+            .map_err(|error| TextError::Network(error.to_string()))?;
         let is_ids = |port: &&Port| {
             matches!(port.element_type, ElementType::I64 | ElementType::I32)
                 && !port.name.contains("mask")
@@ -98,7 +104,7 @@ impl Clip {
             .clone();
         let mut clip = Self {
             session,
-            tokeniser: Tokenizer::new(),
+            tokeniser,
             ids,
             mask,
             output,

@@ -107,6 +107,7 @@ fn text_stage(s: &TextStage) -> Result<(), ConfigError> {
             "text_stage.memory.recall_temperature",
             memory.recall_temperature,
         )?;
+        positive("text_stage.memory.caption_weight", memory.caption_weight)?;
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Pieces of graphs that several networks share.
 
+use super::halves::Halves;
 use crate::parameters::{Linear, Parameters, Slot};
 use asperity_nn::{
     Dim, ElementType, Tensor,
@@ -40,7 +41,7 @@ impl<'a> Writer<'a> {
         self.graph.constant(name, Tensor::f32(shape, values))
     }
 
-    /// A learned matrix.
+    /// A learned row.
     pub(super) fn parameter(&mut self, slot: Slot) -> Value {
         let parameter = self.parameters.get(slot);
         let shape = [parameter.rows, parameter.columns];
@@ -50,13 +51,45 @@ impl<'a> Writer<'a> {
         )
     }
 
-    /// `x·W + b`.
+    /// `x·W + b`, W in 16 bits.
     pub(super) fn linear(&mut self, layer: Linear, x: &Value) -> Value {
-        let weight = self.parameter(layer.weight);
+        let weight = self.parameters.get(layer.weight);
         let bias = self.parameters.get(layer.bias);
         let values = Tensor::f32(&[bias.columns], bias.values.clone());
         let bias = self.graph.constant(&bias.name, values);
-        self.graph.gemm(x, &weight, &bias)
+        let (high, low) = self.halves(&weight.name, &weight.values, weight.columns);
+        let product = self.graph.gemm(x, &high, &bias);
+        let rest = self.graph.node("MatMul", &[Some(x), Some(&low)], &[]);
+        self.graph.add(&product, &rest)
+    }
+
+    /// `x·W` for a matrix of so many columns, W in 16 bits.
+    pub(super) fn product(
+        &mut self,
+        name: &str,
+        x: &Value,
+        values: &[f32],
+        columns: usize,
+    ) -> Value {
+        let (high, low) = self.halves(name, values, columns);
+        let product = self.graph.node("MatMul", &[Some(x), Some(&high)], &[]);
+        let rest = self.graph.node("MatMul", &[Some(x), Some(&low)], &[]);
+        self.graph.add(&product, &rest)
+    }
+
+    /// A matrix as the sum of two of 8 bits: half the bytes of f32, and an error below 1/60,000 of
+    /// the largest weight of each column. A back end may keep both as they are.
+    fn halves(&mut self, name: &str, values: &[f32], columns: usize) -> (Value, Value) {
+        let (high, low) = Halves::of(values, columns).constants(columns);
+        let mut matrix = |name: String, (codes, scales): (Tensor, Tensor)| {
+            let codes = self.graph.constant(&name, codes);
+            let scales = self.graph.constant(&format!("{name}.scales"), scales);
+            let axis = ("axis", Attribute::Int(1));
+            let inputs = [Some(&codes), Some(&scales)];
+            self.graph.node("DequantizeLinear", &inputs, &[axis])
+        };
+        let high = matrix(format!("{name}.high"), high);
+        (high, matrix(format!("{name}.low"), low))
     }
 
     /// Layers with ReLU between them.

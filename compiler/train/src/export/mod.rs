@@ -7,6 +7,7 @@ mod description;
 mod folder;
 mod gain;
 mod graph;
+mod halves;
 mod networks;
 mod ridge;
 mod verify;

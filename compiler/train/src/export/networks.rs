@@ -54,7 +54,6 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
             columns[row * count + column] = *x;
         }
     }
-    let captions = writer.table("mean_captions", &[width, count], columns);
     let attributes = [
         ("axes", Attribute::Ints(vec![1])),
         ("keepdims", Attribute::Int(1)),
@@ -64,8 +63,7 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
         .node("ReduceL2", &[Some(&embedding)], &attributes);
     let norm = writer.plus(&norm, f32::MIN_POSITIVE);
     let direction = writer.graph.div(&embedding, &norm);
-    let inputs = [Some(&direction), Some(&captions)];
-    let similarity = writer.graph.node("MatMul", &inputs, &[]);
+    let similarity = writer.product("mean_captions", &direction, &columns, count);
     let (z, likeness) = match &trained.memory {
         Some(memory) => from_memory(&mut writer, trained, memory, &direction),
         None => {
@@ -176,9 +174,7 @@ fn from_memory(
     direction: &Value,
 ) -> (Value, Value) {
     let (width, count) = (memory.kept, memory.scales.len());
-    let basis = writer.table("memory.basis", &[memory.width, width], memory.basis.clone());
-    let inputs = [Some(direction), Some(&basis)];
-    let direction = &writer.graph.node("MatMul", &inputs, &[]);
+    let direction = &writer.product("memory.basis", direction, &memory.basis, width);
     let kept = dequantised(
         writer,
         "memory.vectors",

@@ -66,6 +66,8 @@ pub(crate) fn pinned(options: &Inference) -> Result<Pinned, Failures> {
             let mut crc = crc32fast::Hasher::new();
             crc.update(asperity_model::TEXT_ENCODER);
             crc.update(asperity_model::VOCABULARY.as_bytes());
+            crc.update(asperity_model::WORD_ROWS.as_bytes());
+            crc.update(asperity_model::WORD_VECTORS);
             ("minilm".to_owned(), crc.finalize())
         }
         TextEncoderChoice::Clip(folder) => ("clip".to_owned(), folder_crc32(folder)?),

@@ -1,0 +1,14 @@
+//! Where a training material lies in the latent, and what its captions say.
+
+use asperity::learned::description::LATENT;
+
+/// A training material in the latent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MaterialLatent {
+    /// Index into the corpus.
+    pub material: usize,
+    /// Mean of its instances' posterior means.
+    pub mean: [f32; LATENT],
+    /// Unit mean of its training captions.
+    pub caption: Vec<f32>,
+}
