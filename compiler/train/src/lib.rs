@@ -8,6 +8,7 @@
 mod adam;
 mod batch;
 mod captions;
+mod certainty;
 mod checkpoint;
 mod coding;
 pub mod config;
@@ -39,9 +40,10 @@ mod weights;
 mod words_held_out;
 
 pub use captions::Captions;
+pub use certainty::{calibration_error, certainty_curve};
 pub use config::Config;
 pub use error::FitError;
-pub use export::{ExportError, ModelFiles, certainty_curve, export};
+pub use export::{ExportError, ModelFiles, export};
 pub use fit::{Checkpoints, fit, fit_on, fit_with_checkpoints, on_threads};
 pub use material::MaterialLatent;
 pub use metrics::{Metrics, Retrieval, measure};

@@ -5,6 +5,7 @@
 
 use crate::{
     captions::{Captions, dot},
+    certainty::calibration_error,
     config::Memory,
     memory::{TextMemory, regress},
     rng::{Purpose, Stream},
@@ -39,6 +40,9 @@ pub struct WordsHeldOut {
     /// Familiarity of each, and 1 if all three ratings are within [`TOLERANCE`], else 0.
     #[serde(skip)]
     pub trials: Vec<(f64, f64)>,
+    /// Expected calibration error of the certainty that these trials give, see
+    /// [`calibration_error`].
+    pub calibration_error: f64,
     /// Familiarity below which a text is unfamiliar: 95 % of the phrases, each left out, are more
     /// familiar.
     pub unfamiliar: f64,
@@ -100,6 +104,7 @@ pub(crate) fn measure(
         .iter()
         .zip(&asked.1)
         .map(|(said, truth)| right(said, truth));
+    let trials: Vec<(f64, f64)> = familiarity.into_iter().zip(trials).collect();
     let column = |rows: &[[f32; 3]], k: usize| -> Vec<f64> {
         rows.iter().map(|row| f64::from(row[k])).collect()
     };
@@ -116,7 +121,8 @@ pub(crate) fn measure(
         spearman: std::array::from_fn(|k| {
             spearman(&column(&said, k), &column(&asked.1, k)).unwrap_or_default()
         }),
-        trials: familiarity.into_iter().zip(trials).collect(),
+        calibration_error: calibration_error(&trials),
+        trials,
         unfamiliar: left_out[(UNFAMILIAR * left_out.len() as f64) as usize],
     }
 }

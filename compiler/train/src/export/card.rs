@@ -131,6 +131,11 @@ fn card(
             text,
             "| the same, Spearman's ρ | {rough:.3}, {slippery:.3}, {hard:.3} |"
         )?;
+        writeln!(
+            text,
+            "| expected calibration error of the certainty, by halves of these phrases | {:.3} |",
+            words.calibration_error
+        )?;
     }
     for axis in &description.axes {
         writeln!(

@@ -1,6 +1,7 @@
 //! `model.json`.
 
-use super::{attributes, certainty_curve, ridge};
+use super::{attributes, ridge};
+use crate::certainty::certainty_curve;
 use crate::{metrics::Metrics, trained::Trained};
 use asperity::learned::description::{
     Anchor, AttributeAxis, CorpusDescription, FORMAT, FrictionDescription, GridDescription,

@@ -2,7 +2,6 @@
 
 mod attributes;
 mod card;
-mod certainty;
 mod description;
 mod folder;
 mod gain;
@@ -11,8 +10,6 @@ mod halves;
 mod networks;
 mod ridge;
 mod verify;
-
-pub use certainty::certainty_curve;
 
 use crate::{captions::Captions, metrics::Metrics, trained::Trained, weights};
 use asperity::{diagnostic::Diagnostic, output::OutputError};

@@ -13,7 +13,7 @@ pub use fold::{Fold, Material, Predictor};
 pub use summary::{Folds, Metric, Ranks};
 
 use super::{EvaluateError, Watch, cache, cache::Cache, signature::Signature};
-use crate::{captions::Captions, config::Config, export::certainty_curve};
+use crate::{captions::Captions, certainty::certainty_curve, config::Config};
 use asperity::learned::description::CertaintyCurve;
 use asperity_corpus::Corpus;
 use fold::Setting;

@@ -25,16 +25,16 @@ pub(super) fn section(part: &Retrieval) -> String {
         format!("{:.0}", 0.5 * (part.materials as f64 + 1.0)),
     ]);
     let (latent, baseline) = (&part.latent, part.baseline());
-    let verdict = if latent.top_1.low > baseline.top_1.high {
-        "more often, beyond both intervals"
+    let (verdict, how_far) = if latent.top_1.low > baseline.top_1.high {
+        ("more often than", ", beyond both intervals")
     } else if latent.top_1.hits > baseline.top_1.hits {
-        "more often, within the intervals"
+        ("more often than", ", within the intervals")
     } else {
-        "no more often"
+        ("no more often than", "")
     };
     text += &format!(
-        "\n**Answer.** The latent puts the right material first {verdict} than the better TF-IDF \
-         ({:.1} % against {:.1} %), and among five in {:.1} % against {:.1} %.\n",
+        "\n**Answer.** The latent puts the right material first {verdict} the better TF-IDF \
+         ({:.1} % against {:.1} %{how_far}), and among five in {:.1} % against {:.1} %.\n",
         100.0 * latent.top_1.share,
         100.0 * baseline.top_1.share,
         100.0 * latent.top_5.share,

@@ -1,9 +1,11 @@
 //! From the similarity of a prompt to how far its texture can be trusted.
 
-use asperity::learned::description::CertaintyCurve;
+use asperity::learned::{certainty, description::CertaintyCurve};
 
 /// Knots of a curve, at most.
 const KNOTS: usize = 8;
+/// Bins of the calibration error.
+const BINS: usize = 10;
 
 /// The curve through trials, each a similarity and how well it went (0..=1): means of
 /// groups of equal size, made monotone by pooling neighbours that are out of order.
@@ -37,6 +39,30 @@ pub fn certainty_curve(trials: &[(f64, f64)]) -> CertaintyCurve {
     }
 }
 
+/// Expected calibration error: |certainty − share that went well|, averaged over [`BINS`] bins of
+/// certainty by how many trials each holds. Every second trial makes the curve that the others are
+/// held against, and the other way round.
+#[must_use]
+pub fn calibration_error(trials: &[(f64, f64)]) -> f64 {
+    let half = |first: usize| -> Vec<(f64, f64)> {
+        let every_second = trials.iter().skip(first).step_by(2);
+        every_second.copied().collect()
+    };
+    let halves = [half(0), half(1)];
+    let mut bins = [(0.0, 0.0); BINS];
+    for (known, asked) in [(&halves[0], &halves[1]), (&halves[1], &halves[0])] {
+        let curve = certainty_curve(known);
+        for &(similarity, well) in asked {
+            let said = certainty(&curve, similarity);
+            let bin = &mut bins[((said * BINS as f64) as usize).min(BINS - 1)];
+            bin.0 += said;
+            bin.1 += well;
+        }
+    }
+    let apart: f64 = bins.iter().map(|(said, well)| f64::abs(said - well)).sum();
+    apart / trials.len().max(1) as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,6 +82,18 @@ mod tests {
     fn failure_at_high_similarity_is_pooled() {
         let curve = certainty_curve(&[(0.1, 1.0), (0.9, 0.0)]);
         assert_eq!((curve.similarity, curve.certainty), (vec![0.5], vec![0.5]));
+    }
+
+    #[test]
+    fn a_certainty_that_holds_has_no_error_and_one_that_does_not_has_its_own() {
+        // Every pair of neighbours is alike, so both halves say the same.
+        let like = |n: u32| f64::from(u8::from(n / 2 % 10 < n / 200));
+        let holds: Vec<(f64, f64)> = (0..2000).map(|n| (f64::from(n / 2), like(n))).collect();
+        assert!(calibration_error(&holds) < 0.02);
+        // One half goes well, the other never does.
+        let fails: Vec<(f64, f64)> = (0..2000).map(|n| (0.5, f64::from(n % 2))).collect();
+        assert!((calibration_error(&fails) - 1.0).abs() < 1e-9);
+        assert_eq!(calibration_error(&[]), 0.0);
     }
 
     #[test]
