@@ -118,7 +118,11 @@ fn train(
     checkpoints: Checkpoints<'_>,
     bar: &mut Bar,
 ) -> Result<Metrics, Failure> {
-    let (corpus, lexicon) = corpus(args, config)?;
+    let (corpus, mut lexicon) = corpus(args, config)?;
+    if config.text_stage.is_none() {
+        // Nothing reads it, and it is two thirds of the texts.
+        lexicon.clear();
+    }
     let captions = captions(args, &corpus, &lexicon, encoder).map_err(boxed)?;
     let made = make_folder(state)?;
     let all: Vec<usize> = (0..corpus.materials.len()).collect();
