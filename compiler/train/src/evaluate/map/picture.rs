@@ -11,8 +11,12 @@ const WIDTH: f32 = 2400.0;
 const HEIGHT: f32 = 1160.0;
 const LEGEND: f32 = 260.0;
 const RADIUS: f32 = 9.0;
-/// Distance of lines in the legend.
+/// Distance of lines in the legend, at most.
 const LINE: f32 = 46.0;
+/// First line of the legend.
+const TOP: f32 = 90.0;
+/// Below this a sign is filled, from it on hollow.
+const FILLED: usize = INKS * MARKERS.len();
 const MARKERS: [Marker; 4] = [
     Marker::Circle,
     Marker::Square,
@@ -63,33 +67,39 @@ pub(in crate::evaluate) fn draw(map: &Map) -> Result<Vec<u8>, PlotError> {
         panel.draw_frame(&mut canvas);
         for spot in &map.places {
             let family = families.iter().position(|f| *f == spot.family).unwrap_or(0);
-            let (marker, color) = sign(family);
+            let (marker, fill, outline) = sign(family);
             let [x, y] = place(spot);
-            let outline = Stroke::new(ink::PAPER, 1.5);
             panel.points(
                 &mut canvas,
                 [(x, y)],
                 marker,
                 RADIUS,
-                Some(color),
+                Some(fill),
                 Some(outline),
             );
         }
     }
     let style = TextStyle::new(size::TICK).align(Align::Left, VAlign::Middle);
+    let line = LINE.min((HEIGHT - TOP - LINE) / families.len().max(1) as f32);
     for (index, family) in families.iter().enumerate() {
-        let at = (WIDTH - LEGEND + 40.0, 90.0 + LINE * index as f32);
-        let (marker, color) = sign(index);
-        canvas.marker(at, marker, RADIUS, Some(color), None);
+        let at = (WIDTH - LEGEND + 40.0, TOP + line * index as f32);
+        let (marker, fill, outline) = sign(index);
+        canvas.marker(at, marker, RADIUS, Some(fill), Some(outline));
         let name = canvas.fitted(family, &style, LEGEND - 80.0);
         canvas.text(&name, (at.0 + 24.0, at.1), &style);
     }
     canvas.png()
 }
 
-fn sign(family: usize) -> (Marker, Color) {
-    (
+/// Shape, fill and outline of a family.
+fn sign(family: usize) -> (Marker, Color, Stroke) {
+    let (marker, color) = (
         MARKERS[family / INKS % MARKERS.len()],
         ink::category(family),
-    )
+    );
+    if family < FILLED {
+        (marker, color, Stroke::new(ink::PAPER, 1.5))
+    } else {
+        (marker, ink::PAPER, Stroke::new(color, 3.0))
+    }
 }
