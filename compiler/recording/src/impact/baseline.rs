@@ -92,10 +92,10 @@ fn powers(x: f64) -> [f64; TERMS] {
 mod tests {
     use super::*;
 
-    /// A hand stopped within 60 ms, and a transient of 4 ms on it that is no stronger.
+    /// A hand stopped as slowly as hands are, below 10 Hz, and a transient of 4 ms on it that is no stronger.
     #[test]
     fn the_hand_is_told_from_a_transient_as_strong_as_itself() {
-        let hand = |n: usize| 4.0 * libm::exp(-((n as f64 - 450.0) / 250.0).powi(2));
+        let hand = |n: usize| 4.0 * libm::exp(-((n as f64 - 450.0) / 400.0).powi(2));
         let stretch: Vec<f64> = (0..850)
             .map(|n| {
                 let transient = if (400..440).contains(&n) { 4.0 } else { 0.0 };

@@ -151,7 +151,7 @@ mod tests {
     fn impact(speed_m_s: f64, late: usize, sign: f64) -> Impact {
         let accel_m_s2 = (0..TAP_SAMPLES)
             .map(|n| {
-                let t = n as f64 - 5.0 - late as f64;
+                let t = n as f64 - 20.0 - late as f64;
                 100.0 * sign * speed_m_s * libm::exp(-(t / 4.0).powi(2))
             })
             .collect();

@@ -110,7 +110,7 @@ mod tests {
         (0..10_000)
             .map(|n| {
                 let t_s = f64::from(n) / RATE_HZ - 1.0;
-                let hand = 6.0 * libm::exp(-((t_s - 0.01) / 0.03).powi(2));
+                let hand = 6.0 * libm::exp(-((t_s - 0.01) / 0.04).powi(2));
                 let tap = if with_tap { tap(t_s) } else { 0.0 };
                 (9.81 + hand + tap + 0.1 * noise()) as f32
             })
