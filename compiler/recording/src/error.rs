@@ -11,8 +11,7 @@ pub struct RecordingError {
     pub file: PathBuf,
     /// The line or row at fault, from 1.
     pub line: Option<u64>,
-    /// What is wrong.
-    #[source]
+    /// What is wrong. It is told with the place, so it is no source besides.
     pub problem: Problem,
 }
 
@@ -121,12 +120,11 @@ impl Problem {
     fn remedy(&self) -> String {
         match self {
             Self::Unreadable(_) => "check the name under `file` in recording.toml".into(),
-            Self::NoDescription {
-                proposal: Some(text),
-            } => format!(
-                "write recording.toml; this one fits the files' headers, quantities and units are \
-                 guesses:\n{text}"
-            ),
+            Self::NoDescription { proposal: Some(_) } => {
+                "save what `asperity record-check` prints as recording.toml in the folder, and correct \
+                 its guesses"
+                    .into()
+            }
             Self::NoDescription { proposal: None } => {
                 "give a folder with recording.toml and CSV, WAV or NumPy files".into()
             }

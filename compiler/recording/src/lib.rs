@@ -24,6 +24,7 @@ pub mod channel;
 pub mod check;
 pub mod description;
 mod error;
+mod file;
 pub mod friction;
 pub mod impact;
 pub mod reader;

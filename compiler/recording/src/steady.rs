@@ -2,7 +2,8 @@
 //!
 //! A stretch is as long as speed and load stay near their means, within bounds. What the sensors
 //! themselves make is known from the air and reported beside it. What lies below [`FLOOR_HZ`] is
-//! motion of the hand: it is filled from above.
+//! motion of the hand, and above [`CEILING_HZ`] the resampling to the timeline removes power: both are
+//! filled from the neighbouring band.
 
 use crate::{
     signal::{filter::high_pass, quantile::mean, spectrum::hann},
@@ -14,13 +15,18 @@ use std::{f64::consts::PI, sync::Arc};
 /// Lags of the autocorrelation that a segment keeps.
 pub const LAGS: usize = 48;
 /// Band in which segments are compared with models, Hz.
-pub const BAND_HZ: (f64, f64) = (14.0, 450.0);
+pub const BAND_HZ: (f64, f64) = (14.0, 447.0);
 /// Frequencies of a segment's spectrum over [`BAND_HZ`].
 pub const POINTS: usize = 224;
 /// Below it is the hand, Hz.
 pub const FLOOR_HZ: f64 = 14.0;
 /// Band that fills what lies below, Hz.
 const FILL_HZ: (f64, f64) = (14.0, 26.0);
+/// Above it the resampling takes power away, Hz, and the window carries the loss down. A model that
+/// must follow this edge has fewer poles for the surface.
+pub const CEILING_HZ: f64 = 448.0;
+/// Band that fills what lies above, Hz.
+const FILL_ABOVE_HZ: (f64, f64) = (424.0, 448.0);
 /// Cut-off of the high-pass, Hz, and its half length, samples.
 const HIGH_PASS: (f64, usize) = (8.0, 400);
 /// Shortest and longest stretch, samples.
@@ -269,6 +275,8 @@ impl Analyser {
         let bin = |freq_hz: f64| (freq_hz * TRANSFORM as f64 / RATE_HZ) as usize;
         let fill = mean(&power[bin(FILL_HZ.0)..bin(FILL_HZ.1)]);
         power[..bin(FLOOR_HZ)].fill(fill);
+        let fill = mean(&power[bin(FILL_ABOVE_HZ.0)..bin(FILL_ABOVE_HZ.1)]);
+        power[bin(CEILING_HZ)..].fill(fill);
         // The autocorrelation of the window, by which that of the stretch is too small.
         let of_window = lags(&self.transform(&window));
         let lags = lags(&power)

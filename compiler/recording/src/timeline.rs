@@ -144,6 +144,8 @@ pub struct Timeline {
     pub height_m: Option<Vec<f64>>,
     /// Load along the normal, N, pressing counted positive.
     pub load_n: Vec<f64>,
+    /// The same load before it is low-passed, N: it shows when a contact begins.
+    pub unsmoothed_load_n: Vec<f64>,
     /// Bias of the load that was taken away, N.
     pub bias_n: f64,
     /// Force against the motion, N, if it was recorded.
@@ -185,7 +187,7 @@ impl Timeline {
         let velocity = velocity(recording, aligned);
         let speed_mm_s = speed_mm_s(recording, aligned, velocity.as_ref())
             .ok_or_else(|| missing("position in the plane, axes x and y, and no speed"))?;
-        let (load_n, bias_n) = pressing(load);
+        let (load_n, bias_n, sign) = pressing(load);
         let steady_m_s2: Vec<f64> = accel.iter().map(|axis| mean(axis)).collect();
         let accel_m_s2 = accel
             .iter()
@@ -204,6 +206,7 @@ impl Timeline {
             speed_mm_s,
             height_m: aligned.axes(recording, Quantity::Position)[2].map(<[f64]>::to_vec),
             drag_n: drag_n(recording, aligned, velocity.as_ref(), &contact),
+            unsmoothed_load_n: load.iter().map(|x| sign * x - sign * bias_n).collect(),
             load_n,
             bias_n,
             contact,
@@ -290,8 +293,9 @@ fn speed_mm_s(
     )
 }
 
-/// The load with pressing positive, free of the bias that it shows in the air.
-fn pressing(load: &[f64]) -> (Vec<f64>, f64) {
+/// The load with pressing positive, free of the bias that it shows in the air, that bias, and the sign
+/// of pressing.
+fn pressing(load: &[f64]) -> (Vec<f64>, f64, f64) {
     let smooth = slow(load);
     let middle = median(smooth.iter().copied());
     let (low, high) = (
@@ -313,6 +317,7 @@ fn pressing(load: &[f64]) -> (Vec<f64>, f64) {
     (
         smooth.into_iter().map(|x| sign * x - bias).collect(),
         sign * bias,
+        sign,
     )
 }
 

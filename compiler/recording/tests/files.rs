@@ -1,6 +1,7 @@
 //! Bad files are refused with the file and the line; what can be mended is mended and told.
 
 use asperity_recording::{
+    Problem,
     check::{self, Kind, Severity},
     reader,
 };
@@ -85,12 +86,21 @@ fn refused(folder: &Path) -> (String, String) {
 fn a_folder_without_description_gets_a_proposal() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("all.csv"), table(1, |_, _| {})).expect("written");
-    let (what, remedy) = refused(folder.path());
-    assert!(what.ends_with("has no recording.toml"), "{what}");
+    let error = reader::load(folder.path()).expect_err("refused");
+    assert!(error.to_string().ends_with("has no recording.toml"));
+    let Problem::NoDescription {
+        proposal: Some(proposal),
+    } = &error.problem
+    else {
+        panic!("no proposal: {error}");
+    };
     assert!(
-        remedy.contains("column = \"az\"") && remedy.contains("clock = \"t\""),
-        "{remedy}"
+        proposal.contains("column = \"az\"") && proposal.contains("clock = \"t\""),
+        "{proposal}"
     );
+    // The proposal is a description as it stands.
+    fs::write(folder.path().join("recording.toml"), proposal).expect("written");
+    reader::load(folder.path()).expect("a recording");
 }
 
 #[test]

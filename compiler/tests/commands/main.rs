@@ -6,6 +6,7 @@ mod mixing;
 mod models;
 mod outputs;
 mod pictures;
+mod recording;
 mod refusals;
 mod results;
 

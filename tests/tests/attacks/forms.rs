@@ -35,7 +35,7 @@ const fn long(program: Program, line: &'static str, target: &'static str, seed: 
     }
 }
 
-pub(crate) const FORMS: [Form; 36] = [
+pub(crate) const FORMS: [Form; 42] = [
     form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
@@ -208,6 +208,42 @@ pub(crate) const FORMS: [Form; 36] = [
         "feel --seconds 1 --grip in.toml --csv out.csv",
         "in.toml",
         Seed::Grip,
+    ),
+    form(
+        Compiler,
+        "record-check oak",
+        "oak/recording.toml",
+        Seed::Recording,
+    ),
+    form(
+        Compiler,
+        "record-check oak",
+        "oak/accel.wav",
+        Seed::RecordedWave,
+    ),
+    form(
+        Compiler,
+        "record-check oak",
+        "oak/force.npy",
+        Seed::RecordedArray,
+    ),
+    form(
+        Compiler,
+        "record-check oak",
+        "oak/position.csv",
+        Seed::RecordedTable,
+    ),
+    long(
+        Compiler,
+        "import recording oak -o out.asp --no-preview",
+        "oak/recording.toml",
+        Seed::Recording,
+    ),
+    long(
+        Compiler,
+        "import recording oak -o out.asp --no-preview",
+        "oak/position.csv",
+        Seed::RecordedTable,
     ),
     long(
         Lab,

@@ -14,6 +14,7 @@ mod forms;
 mod mutate;
 mod pieces;
 mod programs;
+mod recording;
 mod run;
 mod seeds;
 mod strange;

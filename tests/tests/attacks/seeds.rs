@@ -1,6 +1,6 @@
 //! Valid inputs of every kind, which attacks start from.
 
-use crate::support::builtin;
+use crate::{recording, support::builtin};
 use asperity_formats::{SceneSurface, Solid, library};
 use asperity_tests::texture::{Kind, random};
 use std::{fmt::Write as _, fs, os::unix::fs::symlink, path::Path};
@@ -22,6 +22,10 @@ pub(crate) enum Seed {
     Device,
     Grip,
     Counts,
+    Recording,
+    RecordedWave,
+    RecordedArray,
+    RecordedTable,
 }
 
 impl Seed {
@@ -29,7 +33,13 @@ impl Seed {
     pub(crate) const fn is_text(self) -> bool {
         !matches!(
             self,
-            Self::Asset | Self::Library | Self::Scene | Self::Projection | Self::TapDecoder
+            Self::Asset
+                | Self::Library
+                | Self::Scene
+                | Self::Projection
+                | Self::TapDecoder
+                | Self::RecordedWave
+                | Self::RecordedArray
         )
     }
 }
@@ -44,6 +54,9 @@ pub(crate) struct Seeds {
     shipped: TempDir,
     trajectory: String,
     material: String,
+    wave: Vec<u8>,
+    array: Vec<u8>,
+    table: String,
 }
 
 const DESCRIPTION: &str = "servo_rate_hz = 1000
@@ -85,6 +98,9 @@ impl Seeds {
             asset,
             trajectory: trajectory(),
             material: material(),
+            wave: recording::wave(),
+            array: recording::array(),
+            table: recording::table(),
         }
     }
 
@@ -104,12 +120,16 @@ impl Seeds {
             Seed::Device => DEVICE.as_bytes(),
             Seed::Grip => GRIP.as_bytes(),
             Seed::Counts => COUNTS.as_bytes(),
+            Seed::Recording => recording::DESCRIPTION.as_bytes(),
+            Seed::RecordedWave => &self.wave,
+            Seed::RecordedArray => &self.array,
+            Seed::RecordedTable => self.table.as_bytes(),
         }
     }
 
     /// Writes the valid files that the commands read besides the attacked one.
     pub(crate) fn write(&self, folder: &Path) {
-        for name in ["", "materials", "model", "clip"] {
+        for name in ["", "materials", "model", "clip", "oak"] {
             fs::create_dir_all(folder.join(name)).expect("a folder");
         }
         for (name, seed) in [
@@ -118,6 +138,10 @@ impl Seeds {
             ("stroke.csv", Seed::Trajectory),
             ("wood.xml", Seed::Material),
             ("scene.toml", Seed::Description),
+            ("oak/recording.toml", Seed::Recording),
+            ("oak/accel.wav", Seed::RecordedWave),
+            ("oak/force.npy", Seed::RecordedArray),
+            ("oak/position.csv", Seed::RecordedTable),
         ] {
             fs::write(folder.join(name), self.bytes(seed)).expect("a valid input");
         }

@@ -8,6 +8,8 @@ use std::ops::Range;
 const LEAST_PLATEAUS: (usize, usize) = (3, 8);
 /// An extreme nearer to zero than this fraction of the larger one is rest.
 const AT_REST: f64 = 0.3;
+/// Steps of the converter inside an extreme whose samples are held against those at it.
+const INSIDE: f32 = 3.0;
 /// Shortest run of one value that is a drop-out, s and samples.
 const LEAST_HELD: (f64, f64) = (0.004, 8.0);
 /// A step as many times the 99 % quantile of steps ends a drop-out of a slow signal.
@@ -117,6 +119,9 @@ fn clipped(channel: &Channel) -> Vec<Range<u64>> {
         let spans = plateaus(&channel.samples, extreme as f32);
         let samples: u64 = spans.iter().map(|span| span.end - span.start).sum();
         let at_limit = limit.is_some_and(|limit| extreme.abs() >= 0.998 * limit.abs());
+        if !at_limit && !stands_out(&channel.samples, extreme as f32) {
+            continue;
+        }
         let (least_spans, least_samples) = LEAST_PLATEAUS;
         if (spans.len() >= least_spans && samples >= least_samples as u64)
             || (at_limit && samples >= 3)
@@ -125,6 +130,24 @@ fn clipped(channel: &Channel) -> Vec<Range<u64>> {
         }
     }
     all
+}
+
+/// Whether an extreme holds more samples than the values just inside it. That of noise over a few steps
+/// of a converter does not; that of a signal that is cut off does.
+fn stands_out(samples: &[f32], extreme: f32) -> bool {
+    let step = samples
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .filter(|step| *step > 0.0)
+        .fold(f32::INFINITY, f32::min);
+    let within = |steps: f32| {
+        samples
+            .iter()
+            .filter(|x| (**x - extreme).abs() < steps * step)
+            .count()
+    };
+    let (at, near) = (within(0.5), within(INSIDE + 0.5));
+    near - at < at
 }
 
 /// Stretches of at least two samples at a value.
@@ -164,4 +187,33 @@ fn held(channel: &Channel) -> Vec<Range<u64>> {
         .filter(|run| !slow || run.jump_after > large)
         .map(|run| run.start..run.start + run.length)
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cut_signal_stands_out_and_noise_over_a_few_steps_does_not() {
+        let mut state = 1_u64;
+        let noise: Vec<f32> = (0..4000)
+            .map(|_| {
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1_442_695_040_888_963_407);
+                // Nine steps of a converter.
+                ((state >> 33) % 9) as f32 * 0.01
+            })
+            .collect();
+        assert!(!stands_out(&noise, 0.08) && !stands_out(&noise, 0.0));
+        let cut: Vec<f32> = (0..4000)
+            .map(|n| {
+                let value = libm::sinf(n as f32 * 0.037) + 0.1 * noise[n];
+                // A converter of 16 bits.
+                (value.clamp(-0.6, 0.6) * 32768.0).round() / 32768.0
+            })
+            .collect();
+        let top = cut.iter().copied().fold(0.0, f32::max);
+        assert!(stands_out(&cut, top));
+    }
 }

@@ -5,7 +5,10 @@ use super::{
     quantity::{Quantity, Unit},
     schema::{Axis, Channel, Column, Description, SensorFile, Tool},
 };
-use crate::error::{Problem, RecordingError};
+use crate::{
+    error::{Problem, RecordingError},
+    file,
+};
 use serde::Deserialize;
 use std::{io::Read, path::Path};
 use toml::Spanned;
@@ -73,7 +76,7 @@ pub fn read(folder: &Path) -> Result<Description, RecordingError> {
     }
     let mut text = String::new();
     let unreadable = |error| RecordingError::of(&path, Problem::Unreadable(error));
-    let file = std::fs::File::open(&path).map_err(unreadable)?;
+    let file = file::open(&path)?;
     let read = file
         .take(MAX_BYTES + 1)
         .read_to_string(&mut text)

@@ -1,7 +1,10 @@
 //! Comma, semicolon or tab separated values with one header line.
 
 use super::{EachRow, Header, unreadable};
-use crate::error::{Problem, RecordingError};
+use crate::{
+    error::{Problem, RecordingError},
+    file::{self, Lines},
+};
 use csv::{ByteRecord, Reader, ReaderBuilder, Trim};
 use std::{
     fs::File,
@@ -12,23 +15,21 @@ use std::{
 /// Longest header line, bytes; a binary file has no line end for long.
 const MAX_HEADER: u64 = 64 * 1024;
 
-fn open(path: &Path) -> Result<Reader<File>, RecordingError> {
-    let mut first = String::new();
-    let file = File::open(path).map_err(unreadable(path))?;
-    BufReader::new(file.take(MAX_HEADER))
-        .read_line(&mut first)
+fn open(path: &Path) -> Result<Reader<Lines<File>>, RecordingError> {
+    let mut first = Vec::new();
+    BufReader::new(file::open(path)?.take(MAX_HEADER))
+        .read_until(b'\n', &mut first)
         .map_err(unreadable(path))?;
-    let count = |separator: char| first.matches(separator).count();
-    let delimiter = [',', ';', '\t']
+    let count = |separator: u8| first.iter().filter(|byte| **byte == separator).count();
+    let delimiter = [b',', b';', b'\t']
         .into_iter()
         .max_by_key(|&separator| count(separator))
-        .unwrap_or(',');
-    let file = File::open(path).map_err(unreadable(path))?;
+        .unwrap_or(b',');
     Ok(ReaderBuilder::new()
-        .delimiter(delimiter as u8)
+        .delimiter(delimiter)
         .comment(Some(b'#'))
         .trim(Trim::All)
-        .from_reader(file))
+        .from_reader(Lines::new(file::open(path)?)))
 }
 
 fn damaged(path: &Path) -> impl Fn(csv::Error) -> RecordingError + '_ {
@@ -67,6 +68,7 @@ pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
         columns,
         named: true,
         rate_hz: None,
+        full_scale: false,
     })
 }
 

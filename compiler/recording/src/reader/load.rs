@@ -70,13 +70,22 @@ impl FileClock {
 /// # Errors
 /// [`RecordingError`] with the file and the line at fault.
 pub fn load(folder: &Path) -> Result<Recording, RecordingError> {
+    load_at_most(folder, MAX_KEPT)
+}
+
+/// The same with another number of values that are kept of all channels together. Rows beyond are
+/// read and checked, one at a time.
+///
+/// # Errors
+/// [`RecordingError`] with the file and the line at fault.
+pub fn load_at_most(folder: &Path, max_kept: usize) -> Result<Recording, RecordingError> {
     let description = description::read(folder)?;
     let channels: usize = description
         .files
         .iter()
         .map(|file| file.channels.len())
         .sum();
-    let keep = MAX_KEPT / channels.max(1);
+    let keep = max_kept / channels.max(1);
     let mut recording = Recording {
         folder: folder.to_owned(),
         channels: Vec::with_capacity(channels),
@@ -212,7 +221,7 @@ fn read_file(
         |((described, samples), mut numbers)| {
             numbers.finish();
             // A WAV of integers cannot hold more than full scale.
-            let of_file = (header.rate_hz.is_some()).then_some([-1.0, 1.0]);
+            let of_file = header.full_scale.then_some([-1.0, 1.0]);
             let range = described
                 .range
                 .map(|range| range.map(|x| x * described.unit.to_si));

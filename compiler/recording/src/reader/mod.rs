@@ -5,7 +5,7 @@ mod load;
 mod npy;
 mod wav;
 
-pub use load::{MAX_KEPT, Recording, load};
+pub use load::{MAX_KEPT, Recording, load, load_at_most};
 
 use crate::error::{Problem, RecordingError};
 use std::path::Path;
@@ -19,6 +19,8 @@ pub struct Header {
     pub named: bool,
     /// Rows a second, if the file says so.
     pub rate_hz: Option<f64>,
+    /// Whether no value can lie outside ±1, as in a WAV of integers.
+    pub full_scale: bool,
 }
 
 /// A row: its line from 1 and its values, NaN where one is missing. What comes back says whether to

@@ -4,7 +4,10 @@
 //! parser generator along, so these lines read it.
 
 use super::{EachRow, Header, unreadable};
-use crate::error::{Problem, RecordingError};
+use crate::{
+    error::{Problem, RecordingError},
+    file,
+};
 use std::{
     fs::File,
     io::{BufReader, Read},
@@ -35,7 +38,7 @@ struct Array {
 
 fn open(path: &Path) -> Result<Array, RecordingError> {
     let damaged = |what: &str| RecordingError::of(path, Problem::Format(what.to_owned()));
-    let mut reader = BufReader::new(File::open(path).map_err(unreadable(path))?);
+    let mut reader = BufReader::new(file::open(path)?);
     let mut start = [0; 8];
     reader.read_exact(&mut start).map_err(unreadable(path))?;
     if start[..6] != *b"\x93NUMPY" {
@@ -108,6 +111,7 @@ pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
         columns: (0..columns).map(|column| column.to_string()).collect(),
         named: false,
         rate_hz: None,
+        full_scale: false,
     })
 }
 

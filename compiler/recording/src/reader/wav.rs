@@ -1,12 +1,15 @@
 //! WAV: 8 to 32 bit and float, any number of channels. Full scale is 1.
 
 use super::{EachRow, Header};
-use crate::error::{Problem, RecordingError};
+use crate::{
+    error::{Problem, RecordingError},
+    file,
+};
 use hound::{SampleFormat, WavReader};
 use std::{fs::File, io::BufReader, path::Path};
 
 fn open(path: &Path) -> Result<WavReader<BufReader<File>>, RecordingError> {
-    WavReader::open(path).map_err(damaged(path))
+    WavReader::new(BufReader::new(file::open(path)?)).map_err(damaged(path))
 }
 
 fn damaged(path: &Path) -> impl Fn(hound::Error) -> RecordingError + '_ {
@@ -24,6 +27,7 @@ pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
             .collect(),
         named: false,
         rate_hz: Some(f64::from(spec.sample_rate)),
+        full_scale: spec.sample_format == SampleFormat::Int,
     })
 }
 

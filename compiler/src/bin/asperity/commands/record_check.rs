@@ -6,7 +6,10 @@ use asperity::{
     diagnostic::{Diagnostic, Failures, one},
     recording,
 };
-use asperity_recording::check::{Checked, Severity};
+use asperity_recording::{
+    Problem,
+    check::{Checked, Severity},
+};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -25,7 +28,19 @@ impl Diagnostic for Faulty {
 }
 
 pub(crate) fn run(args: &RecordCheck, console: Console) -> Result<(), Failures> {
-    let (_, checked, _) = recording::check(&args.folder).map_err(one)?;
+    let checked = match recording::check(&args.folder) {
+        Ok((_, checked, _)) => checked,
+        Err(error) => {
+            if let Problem::NoDescription {
+                proposal: Some(proposal),
+            } = &error.problem
+                && !args.json
+            {
+                console.text(proposal).map_err(one)?;
+            }
+            return Err(one(error));
+        }
+    };
     let printed = if args.json {
         let json = serde_json::to_value(&checked).unwrap_or_default();
         console.json(&json)

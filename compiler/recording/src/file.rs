@@ -1,0 +1,77 @@
+//! Files that end, and lines that end: what else a path may lead to would be read for ever.
+
+use crate::error::{Problem, RecordingError};
+use std::{
+    fs::File,
+    io::{self, Read},
+    path::Path,
+};
+
+/// Longest line of a table, bytes.
+const MAX_LINE: usize = 64 * 1024;
+
+/// Opens a regular file. Pipes, sockets and devices have no end and are refused.
+pub(crate) fn open(path: &Path) -> Result<File, RecordingError> {
+    let unreadable = |error| RecordingError::of(path, Problem::Unreadable(error));
+    let metadata = std::fs::metadata(path).map_err(unreadable)?;
+    if !metadata.is_file() {
+        let problem = Problem::Format("is no file with an end".into());
+        return Err(RecordingError::of(path, problem));
+    }
+    File::open(path).map_err(unreadable)
+}
+
+/// A reader that fails where a line is longer than any table has.
+#[derive(Debug)]
+pub(crate) struct Lines<R> {
+    inner: R,
+    /// Bytes since the last line end.
+    length: usize,
+}
+
+impl<R> Lines<R> {
+    pub(crate) fn new(inner: R) -> Self {
+        Self { inner, length: 0 }
+    }
+}
+
+impl<R: Read> Read for Lines<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let room = buffer.len().min(MAX_LINE);
+        let count = self.inner.read(&mut buffer[..room])?;
+        let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
+        self.length = match buffer[..count].iter().rposition(is_end) {
+            Some(end) => count - end - 1,
+            None => self.length + count,
+        };
+        if self.length > MAX_LINE {
+            return Err(io::Error::other("a line is longer than 64 KiB"));
+        }
+        Ok(count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_may_be_many_and_not_endless() {
+        let mut text = String::new();
+        let many = "1,2\n".repeat(100_000);
+        Lines::new(many.as_bytes())
+            .read_to_string(&mut text)
+            .expect("short lines");
+        assert_eq!(text.len(), many.len());
+        let error = Lines::new(io::repeat(0))
+            .read_to_end(&mut Vec::new())
+            .expect_err("endless");
+        assert!(error.to_string().contains("longer than 64 KiB"));
+    }
+
+    #[test]
+    fn a_device_is_no_file() {
+        let error = open(Path::new(if cfg!(unix) { "/dev/zero" } else { "." })).expect_err("none");
+        assert!(error.to_string().contains("is no file"), "{error}");
+    }
+}
