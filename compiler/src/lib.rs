@@ -5,12 +5,13 @@
 //!
 //! | folder | holds |
 //! |---|---|
-//! | `front_ends/` | what makes a texture: [`prompt`] with its [`text`] encoders and the [`learned`] model, [`hatt`], [`recording`], [`model_file`], [`builtin`] |
+//! | `front_ends/` | what makes a texture: [`prompt`] with its [`text`] encoders and the [`learned`] model, [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`] |
 //! | `model/` | the [`model`] between the ends: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
 //! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`output`], [`source`], [`raise`] |
 //! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
 //! | `edit/` | mixing and editing in the latent: [`edit`] |
+//! | `interchange/` | other tools' formats: the [`interchange`] |
 //! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`resample`], [`spectrum`], [`impact`], [`tap_synthesis`] |
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`listen`], [`render`] |
 //!
@@ -31,6 +32,7 @@ pub mod console;
 pub mod diagnostic;
 pub mod edit;
 pub mod input;
+pub mod interchange;
 pub mod library;
 pub mod model;
 pub mod pipeline;
@@ -42,7 +44,8 @@ pub mod toml_error;
 // Users name a module without its folder, so that files can move between the stages.
 pub use back_end::{lower, output, raise, source, verify};
 pub use front_ends::{
-    builtin, embedded, hatt, imported, inference, learned, model_file, prompt, recording, text,
+    builtin, effects, embedded, hatt, imported, inference, learned, model_file, prompt, recording,
+    text,
 };
 pub use model::{attributes, defaults, mesh, mixture};
 pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};

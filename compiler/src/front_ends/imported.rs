@@ -1,12 +1,13 @@
 //! What an import gives: an asset, and how far it is from its source.
 
 use crate::{
-    back_end::lower::ErrorSummary,
+    back_end::{lower::ErrorSummary, raise::raise, verify::VerifyError},
     model::{ModelGrid, TextureModel},
     passes::reduce::{self, Fidelity, Reference},
-    pipeline::{Compiled, Timings},
+    pipeline::{Compiled, PipelineError, Timings},
     signal::spectrum::{ArmaModel, log_spectral_distance_db},
 };
+use asperity_formats::Asset;
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -138,4 +139,21 @@ pub(crate) fn errors_at_vertices(whole: &ModelGrid, stored: &ModelGrid) -> Vec<f
             log_spectral_distance_db(&exact, &ArmaModel::at_vertex(stored, kept))
         })
         .collect()
+}
+
+/// Distances of an asset from the texture before its reduction, dB: at the vertices in full, else
+/// over the grid, of which the report of the reduction then holds the figures.
+pub(crate) fn compare(
+    compiled: &mut Compiled,
+    fidelity: Fidelity,
+) -> Result<Vec<f64>, PipelineError> {
+    let asset = Asset::parse(&compiled.lowered.bytes).map_err(VerifyError::from)?;
+    let stored = raise(&asset).grid;
+    if fidelity == Fidelity::Full {
+        return Ok(errors_at_vertices(&compiled.whole.grid, &stored));
+    }
+    let (errors_db, (p95_db, worst_db)) = errors_over_grid(&compiled.whole.grid, &stored);
+    compiled.reduction.p95_db = p95_db;
+    compiled.reduction.worst_db = worst_db;
+    Ok(errors_db)
 }

@@ -1,6 +1,7 @@
-//! What makes a texture: words, recordings, a model of one's own, a formula.
+//! What makes a texture: words, recordings, effects, a model of one's own, a formula.
 
 pub mod builtin;
+pub mod effects;
 pub mod embedded;
 pub mod hatt;
 pub mod imported;

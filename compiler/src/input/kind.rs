@@ -15,6 +15,8 @@ pub enum Kind {
     Hatt,
     /// An intermediate model, JSON.
     Model,
+    /// Effects of another tool, JSON.
+    Effects,
     /// A scene or a manifest, TOML.
     Scene,
     /// A manifest, CSV or JSON lines.
@@ -39,10 +41,11 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Asset,
         Self::Hatt,
         Self::Model,
+        Self::Effects,
         Self::Scene,
         Self::Manifest,
         Self::Settings,
@@ -60,9 +63,12 @@ impl Kind {
     pub const fn max_bytes(self) -> u64 {
         match self {
             Self::Asset | Self::Network => 64 * MIB,
-            Self::Hatt | Self::Model | Self::Manifest | Self::Description | Self::Vocabulary => {
-                16 * MIB
-            }
+            Self::Hatt
+            | Self::Model
+            | Self::Effects
+            | Self::Manifest
+            | Self::Description
+            | Self::Vocabulary => 16 * MIB,
             Self::Scene | Self::Settings | Self::Counts => MIB,
             Self::Corpus => 4 * MIB,
             Self::Trajectory => 1024 * MIB,
@@ -80,6 +86,7 @@ impl Kind {
                 "give a model file of the Penn Haptic Texture Toolkit, `Models_<name>.xml`"
             }
             Self::Model => "give a model as docs/model.md describes it",
+            Self::Effects => "cut the file into shorter effects",
             Self::Scene => "give a scene as docs/scenes.md describes it",
             Self::Manifest => "split the manifest, and include its parts",
             Self::Settings => "compare with device-sim/devices/touch.toml or a file of grips/",
@@ -99,6 +106,7 @@ impl fmt::Display for Kind {
             Self::Asset => "an asset",
             Self::Hatt => "a HaTT material",
             Self::Model => "a model file",
+            Self::Effects => "a file of effects",
             Self::Scene => "a scene",
             Self::Manifest => "a manifest",
             Self::Settings => "a file of settings",

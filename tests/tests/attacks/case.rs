@@ -95,11 +95,18 @@ impl Attack {
         let words: Vec<&str> = line.split(' ').collect();
         let outputs = words.iter().filter(|word| word.starts_with("out"));
         // Of what lies in an output folder, the programs choose the names.
-        let inside = ["Wood.asp", "Test.asp", "wood.asp"].map(|name| format!("out/{name}"));
+        let inside = ["Wood.asp", "Test.asp", "wood.asp", "a.csv", "b.csv"];
+        let inside = inside.map(|name| format!("out/{name}"));
+        // The header of a C array lies beside it.
+        let header = line.contains("c-array").then(|| "out.h".to_owned());
         Self {
             program,
             command: line,
-            outputs: outputs.map(|&word| word.to_owned()).chain(inside).collect(),
+            outputs: outputs
+                .map(|&word| word.to_owned())
+                .chain(inside)
+                .chain(header)
+                .collect(),
             arguments: words.iter().map(OsString::from).collect(),
             target: target.to_owned(),
             input,
@@ -144,8 +151,9 @@ impl Attack {
             self.told += &format!(", written to {place:?}");
             if place == "materials" {
                 // A folder of assets goes there.
-                self.outputs
-                    .extend(["materials/Wood.asp", "materials/Test.asp"].map(String::from));
+                self.outputs.extend(
+                    ["Wood.asp", "Test.asp", "a.csv", "b.csv"].map(|n| format!("materials/{n}")),
+                );
             }
         }
     }

@@ -35,7 +35,7 @@ const fn long(program: Program, line: &'static str, target: &'static str, seed: 
     }
 }
 
-pub(crate) const FORMS: [Form; 42] = [
+pub(crate) const FORMS: [Form; 50] = [
     form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
@@ -124,6 +124,54 @@ pub(crate) const FORMS: [Form; 42] = [
         "import model in.json -o out.asp --fidelity auto --rate 2000 --json",
         "in.json",
         Seed::Model,
+    ),
+    form(
+        Compiler,
+        "import haptic in.haptic -o out.asp --no-preview",
+        "in.haptic",
+        Seed::Haptic,
+    ),
+    form(
+        Compiler,
+        "import ahap in.ahap -o out.asp --no-preview --json",
+        "in.ahap",
+        Seed::Ahap,
+    ),
+    form(
+        Compiler,
+        "import hjif in.hjif -o out.asp --no-preview --fidelity full",
+        "in.hjif",
+        Seed::Hjif,
+    ),
+    form(
+        Compiler,
+        "export in.asp --to hjif -o out.hjif --json",
+        "in.asp",
+        Seed::Asset,
+    ),
+    form(
+        Compiler,
+        "export in.asp --to gltf -o out.gltf --size 64",
+        "in.asp",
+        Seed::Asset,
+    ),
+    form(
+        Compiler,
+        "export in.aspl --texture a --to ahap -o out.ahap --taps",
+        "in.aspl",
+        Seed::Library,
+    ),
+    form(
+        Compiler,
+        "export in.aspl --to c-array -o out.c",
+        "in.aspl",
+        Seed::Scene,
+    ),
+    form(
+        Compiler,
+        "export in.aspl --to csv -o out --time 0.3",
+        "in.aspl",
+        Seed::Library,
     ),
     form(
         Compiler,

@@ -109,13 +109,16 @@ fn once(bytes: &mut Vec<u8>, seed: Seed, seeds: &Seeds, draw: &mut Draw) -> Stri
             format!("{range:?} repeated {times} times at {at}")
         }
         4 => {
-            const OTHERS: [Seed; 8] = [
+            const OTHERS: [Seed; 11] = [
                 Seed::Asset,
                 Seed::Library,
                 Seed::Scene,
                 Seed::Trajectory,
                 Seed::Material,
                 Seed::Model,
+                Seed::Haptic,
+                Seed::Ahap,
+                Seed::Hjif,
                 Seed::Description,
                 Seed::Device,
             ];

@@ -35,6 +35,21 @@ const fn piece(
 type Line = (Program, &'static str, &'static str);
 const HATT: Line = (Compiler, "import hatt in.xml -o out.asp", "in.xml");
 const MODEL: Line = (Compiler, "import model in.json -o out.asp", "in.json");
+const HAPTIC: Line = (
+    Compiler,
+    "import haptic in.haptic -o out.asp --no-preview",
+    "in.haptic",
+);
+const AHAP: Line = (
+    Compiler,
+    "import ahap in.ahap -o out.asp --no-preview",
+    "in.ahap",
+);
+const HJIF: Line = (
+    Compiler,
+    "import hjif in.hjif -o out.asp --no-preview",
+    "in.hjif",
+);
 const BUILD: Line = (Compiler, "build in.toml -o out.aspl", "in.toml");
 const GRIP: Line = (Lab, "feel --seconds 1 --grip in.toml", "in.toml");
 const DEVICE: Line = (Lab, "feel --seconds 1 --device in.toml", "in.toml");
@@ -59,7 +74,7 @@ const NETWORK: Line = (
 
 const PROMPT_LINE: Line = (Compiler, "compile PROMPT -o out.asp --no-preview", PROMPT);
 
-pub(crate) const PIECES: [Piece; 42] = [
+pub(crate) const PIECES: [Piece; 46] = [
     piece(PROMPT_LINE, "one word of 120,000 letters", |_| {
         b"a".repeat(120_000)
     }),
@@ -248,10 +263,90 @@ pub(crate) const PIECES: [Piece; 42] = [
         bytes.extend(nodes);
         bytes
     }),
+    piece(
+        HAPTIC,
+        "one envelope over 600 s with 100,000 points",
+        |_| {
+            let points = numbered(100_000, |n| {
+                let t_s = 0.006 * n as f64;
+                format!("{}{{\"time\":{t_s},\"amplitude\":0.5}}", comma(n))
+            });
+            [
+                b"{\"version\":{\"major\":1,\"minor\":0,\"patch\":0},\"signals\":{\"continuous\":\
+              {\"envelopes\":{\"amplitude\":[",
+                &points[..],
+                b"]}}}}",
+            ]
+            .concat()
+        },
+    ),
+    piece(AHAP, "40,000 events of 30 s at once", |_| {
+        let events = numbered(40_000, |n| {
+            let comma = comma(n);
+            format!(
+                "{comma}{{\"Event\":{{\"Time\":0,\"EventType\":\"HapticContinuous\",\
+                 \"EventDuration\":30,\"EventParameters\":[]}}}}"
+            )
+        });
+        [b"{\"Version\":1,\"Pattern\":[", &events[..], b"]}"].concat()
+    }),
+    piece(
+        AHAP,
+        "20,000 transients under a curve of 50,000 points",
+        |_| {
+            let events = numbered(20_000, |n| {
+                format!("{{\"Event\":{{\"Time\":{n}e-2,\"EventType\":\"HapticTransient\"}}}},")
+            });
+            let points = numbered(50_000, |n| {
+                format!("{}{{\"Time\":{n}e-3,\"ParameterValue\":1}}", comma(n))
+            });
+            [
+                b"{\"Version\":1,\"Pattern\":[",
+                &events[..],
+                b"{\"ParameterCurve\":{\"ParameterID\":\"HapticIntensityControl\",\"Time\":0,\
+              \"ParameterCurveControlPoints\":[",
+                &points[..],
+                b"]}}]}",
+            ]
+            .concat()
+        },
+    ),
+    piece(
+        HJIF,
+        "one effect of 5,000 keyframes that is referred to 50,000 times",
+        |_| {
+            let frames = numbered(5000, |n| {
+                let comma = comma(n);
+                format!("{comma}{{\"relative_position\":{n},\"amplitude_modulation\":0.1}}")
+            });
+            let effects = numbered(50_000, |n| {
+                let comma = comma(n);
+                format!("{comma}{{\"effect_type\":\"Reference\",\"id\":1,\"position\":0}}")
+            });
+            [
+            b"{\"version\":\"2023\",\"profile\":\"Main\",\"level\":1,\"date\":\"\",\"description\":\"\",\
+              \"perceptions\":[{\"id\":0,\"avatar_id\":0,\"description\":\"\",\
+              \"perception_modality\":\"Vibrotactile\",\"effect_library\":[{\"id\":1,\
+              \"effect_type\":\"Basis\",\"position\":0,\"keyframes\":[",
+            &frames[..],
+            b"]}],\"channels\":[{\"id\":0,\"description\":\"\",\"gain\":1,\"mixing_coefficient\":1,\
+              \"body_part_mask\":0,\"bands\":[{\"band_type\":\"Curve\",\"curve_type\":\"Linear\",\
+              \"lower_frequency_limit\":0,\"upper_frequency_limit\":500,\"effects\":[",
+            &effects[..],
+            b"]}]}]}]}",
+        ]
+        .concat()
+        },
+    ),
 ];
 
 fn numbered(count: usize, one: impl Fn(usize) -> String) -> Vec<u8> {
     (0..count).map(one).collect::<String>().into_bytes()
+}
+
+/// What stands before the `n`th entry of a list.
+fn comma(n: usize) -> &'static str {
+    if n == 0 { "" } else { "," }
 }
 
 fn attributes(count: usize) -> Vec<u8> {

@@ -1,6 +1,7 @@
 //! Valid inputs of every kind, which attacks start from.
 
 use crate::{recording, support::builtin};
+use asperity::interchange::{ClipFormat, Options, export, session};
 use asperity_formats::{SceneSurface, Solid, library};
 use asperity_tests::texture::{Kind, random};
 use std::{fmt::Write as _, fs, os::unix::fs::symlink, path::Path};
@@ -15,6 +16,9 @@ pub(crate) enum Seed {
     Trajectory,
     Material,
     Model,
+    Haptic,
+    Ahap,
+    Hjif,
     Description,
     ModelFolder,
     Projection,
@@ -50,6 +54,8 @@ pub(crate) struct Seeds {
     library: Vec<u8>,
     scene: Vec<u8>,
     model: Vec<u8>,
+    /// What the built-in texture exports to: `.haptic`, AHAP, HJIF.
+    effects: [Vec<u8>; 3],
     /// The shipped model as a folder.
     shipped: TempDir,
     trajectory: String,
@@ -94,6 +100,7 @@ impl Seeds {
             library: encoded(&named, &[]),
             scene: encoded(&named, &[surface(0), surface(1)]),
             model: asperity::model_file::to_json(&asperity::builtin::texture()),
+            effects: [ClipFormat::Haptic, ClipFormat::Ahap, ClipFormat::Hjif].map(effects),
             shipped,
             asset,
             trajectory: trajectory(),
@@ -113,6 +120,9 @@ impl Seeds {
             Seed::Trajectory => self.trajectory.as_bytes(),
             Seed::Material => self.material.as_bytes(),
             Seed::Model => &self.model,
+            Seed::Haptic => &self.effects[0],
+            Seed::Ahap => &self.effects[1],
+            Seed::Hjif => &self.effects[2],
             Seed::Description => DESCRIPTION.as_bytes(),
             Seed::ModelFolder => asperity_model::DESCRIPTION.as_bytes(),
             Seed::Projection => asperity_model::TEXT_PROJECTION,
@@ -152,6 +162,22 @@ impl Seeds {
             symlink(file, folder.join("model").join(name)).expect("a link");
         }
     }
+}
+
+/// A short stroke and taps of the built-in texture in a format.
+fn effects(format: ClipFormat) -> Vec<u8> {
+    let bytes = builtin();
+    let asset = asperity_formats::Asset::parse(&bytes).expect("the built-in texture");
+    let options = Options {
+        session: session(None, None, Some(0.3), true),
+        rate_hz: None,
+        seed: 0,
+        full_scale_m_s2: None,
+        tap_full_scale_m_s2: None,
+        size_px: 64,
+    };
+    let exported = export(&asset, format, &options);
+    exported.expect("an export of the built-in texture").bytes
 }
 
 fn surface(texture: u16) -> SceneSurface {

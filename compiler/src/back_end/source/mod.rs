@@ -229,6 +229,25 @@ impl Source {
         Ok(names.into_iter().nth(index))
     }
 
+    /// Bytes of the whole library; `None` for an asset. Every texture is checked.
+    ///
+    /// # Errors
+    /// [`SourceError`] for a failed read, a library that is too large to be held in memory, and a
+    /// damaged texture.
+    pub fn library(&mut self) -> Result<Option<Vec<u8>>, SourceError> {
+        let Some(names) = self.names() else {
+            return Ok(None);
+        };
+        for (index, name) in names.iter().enumerate() {
+            let bytes = self.texture(index)?;
+            if let Err(error) = asperity_formats::Asset::parse(&bytes) {
+                return Err(self.error(Some(name), error.into()));
+            }
+        }
+        self.surfaces()?;
+        self.read(0, self.len, None).map(Some)
+    }
+
     fn index(&self, names: &[String], wanted: Option<&str>) -> Result<usize, SourceError> {
         let count = names.len();
         match wanted {

@@ -1,8 +1,10 @@
 //! The command line: commands, arguments, help.
 
+mod interchange;
 mod library;
 mod mixing;
 
+pub(crate) use interchange::{Export, ImportEffects};
 pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
 pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};
 
@@ -26,6 +28,7 @@ use std::path::PathBuf;
   asperity edit sandpaper.asp --rougher 20 -o rougher.asp
   asperity record-check oak/
   asperity import recording oak/ -o oak.asp --plot oak.png
+  asperity export grit.asp --to ahap -o grit.ahap
   asperity build desk.toml -o desk.aspl --target cortex-m4f@16MHz
 
 A file that is written to `-` goes to standard output, and the report then to standard error. An
@@ -67,7 +70,9 @@ pub(crate) enum Command {
     Edit(Edit),
     /// Make a texture of the latent of a recording, so that it can be mixed and edited
     Encode(Encode),
-    /// Import recorded textures, and models of one's own
+    /// Write a texture or a library in another tool's format, and say what that loses
+    Export(Export),
+    /// Import recorded textures, other tools' effects, and models of one's own
     #[command(subcommand)]
     Import(Import),
     /// Check a recording: a verdict for each channel, and what to do about it
@@ -189,6 +194,12 @@ pub(crate) enum Import {
     Model(ImportModel),
     /// Make a texture of a recording: acceleration, force and motion of a tool on a surface
     Recording(ImportRecording),
+    /// Make a texture of a `.haptic` file of NiceVibrations
+    Haptic(ImportEffects),
+    /// Make a texture of an Apple Haptic and Audio Pattern
+    Ahap(ImportEffects),
+    /// Make a texture of an HJIF file, MPEG haptics
+    Hjif(ImportEffects),
 }
 
 #[derive(Debug, Args)]

@@ -2,13 +2,11 @@
 
 use super::{error::ModelFileError, read::read};
 use crate::{
-    back_end::{raise::raise, verify::VerifyError},
-    front_ends::imported::{Imported, Report, errors_at_vertices, errors_over_grid},
+    front_ends::imported::{Imported, Report, compare},
     model::TextureModel,
     passes::reduce::Fidelity,
-    pipeline::{Compiled, Pass, Pipeline, PipelineError, Preview, Settings},
+    pipeline::{Pass, Pipeline, PipelineError, Preview, Settings},
 };
-use asperity_formats::Asset;
 use std::path::Path;
 
 /// What a user can ask of an import.
@@ -69,16 +67,4 @@ fn with_source((mut texture, crc32): (TextureModel, u32), file: &Path) -> Textur
         .into_owned();
     provenance.source_crc32 = crc32;
     texture
-}
-
-fn compare(compiled: &mut Compiled, fidelity: Fidelity) -> Result<Vec<f64>, PipelineError> {
-    let asset = Asset::parse(&compiled.lowered.bytes).map_err(VerifyError::from)?;
-    let stored = raise(&asset).grid;
-    if fidelity == Fidelity::Full {
-        return Ok(errors_at_vertices(&compiled.whole.grid, &stored));
-    }
-    let (errors_db, (p95_db, worst_db)) = errors_over_grid(&compiled.whole.grid, &stored);
-    compiled.reduction.p95_db = p95_db;
-    compiled.reduction.worst_db = worst_db;
-    Ok(errors_db)
 }

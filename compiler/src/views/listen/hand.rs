@@ -25,11 +25,6 @@ pub(super) struct Hand<'a> {
 }
 
 impl Hand<'_> {
-    /// No sound for a time, s.
-    pub(super) fn silence(&self, time_s: f32) -> Vec<f64> {
-        vec![0.0; self.ticks(time_s)]
-    }
-
     fn ticks(&self, time_s: f32) -> usize {
         (time_s * self.rate_hz).round() as usize
     }

@@ -7,6 +7,7 @@ use crate::{back_end::raise::raise, diagnostic::Diagnostic, signal::resample::re
 use asperity_formats::Asset;
 use asperity_runtime::{Config, ConfigError, HostTexture, LoadError, Renderer};
 use hand::Hand;
+pub(crate) use sound::wav;
 use thiserror::Error;
 
 /// Rate of the sound, Hz.
@@ -154,17 +155,30 @@ impl Diagnostic for ListenError {
     }
 }
 
+/// The accelerations of a session, part by part, before device gain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Performance {
+    /// Rate of the loop, Hz.
+    pub rate_hz: f32,
+    /// Strokes, each with its vibration, m/s².
+    pub strokes: Vec<(Stroke, Vec<f64>)>,
+    /// Impact speeds, m/s, each with its transient, m/s².
+    pub taps: Vec<(f32, Vec<f64>)>,
+    /// What a user should know.
+    pub warnings: Vec<String>,
+}
+
 /// Renders a session on the texture of an asset in a loop at `rate_hz`, or at the texture's own
-/// rate. The same asset, session and seed give the same bytes.
+/// rate. The same asset, session and seed give the same numbers.
 ///
 /// # Errors
 /// [`ListenError`].
-pub fn listen(
+pub fn perform(
     asset: &Asset<'_>,
     session: &Session,
     rate_hz: Option<f32>,
     seed: u64,
-) -> Result<Heard, ListenError> {
+) -> Result<Performance, ListenError> {
     let texture = || asset.name().to_owned();
     let speeds = tap_speeds(asset);
     if session.strokes.is_empty() && speeds.is_empty() {
@@ -193,39 +207,70 @@ pub fn listen(
         seed,
     };
     let mut warnings = Vec::new();
-    let mut scraping = Vec::new();
-    for (index, stroke) in session.strokes.iter().enumerate() {
-        scraping.extend(hand.stroke(stroke, index as u64));
-        scraping.extend(hand.silence(PAUSE_S));
-    }
-    let mut tapping = Vec::new();
+    let numbered = (0u64..).zip(&session.strokes);
+    let strokes = numbered
+        .map(|(number, stroke)| (*stroke, hand.stroke(stroke, number)))
+        .collect();
+    let mut taps = Vec::new();
     if session.taps {
         if speeds.is_empty() {
             warnings.push("the texture holds no taps".to_owned());
         }
-        for &speed_m_s in &speeds {
-            tapping.extend(hand.tap(speed_m_s));
-            tapping.extend(hand.silence(PAUSE_S));
-        }
+        taps = speeds
+            .iter()
+            .map(|&speed_m_s| (speed_m_s, hand.tap(speed_m_s)))
+            .collect();
     }
     let fastest = raise(asset)
         .grid
         .vertices
         .iter()
         .fold(0.0, |v, x| x.speed_mm_s.max(v));
-    if session
-        .strokes
-        .iter()
-        .any(|s| f64::from(s.speed_mm_s) > fastest)
-    {
+    let beyond = |stroke: &Stroke| f64::from(stroke.speed_mm_s) > fastest;
+    if session.strokes.iter().any(beyond) {
         warnings.push(format!(
             "the texture is known up to {fastest:.0} mm/s; faster strokes sound as at that speed"
         ));
     }
+    Ok(Performance {
+        rate_hz,
+        strokes,
+        taps,
+        warnings,
+    })
+}
+
+/// Renders a session as [`perform`] does, as a sound. The same asset, session and seed give the
+/// same bytes.
+///
+/// # Errors
+/// [`ListenError`].
+pub fn listen(
+    asset: &Asset<'_>,
+    session: &Session,
+    rate_hz: Option<f32>,
+    seed: u64,
+) -> Result<Heard, ListenError> {
+    let performed = perform(asset, session, rate_hz, seed)?;
+    let rate_hz = performed.rate_hz;
+    let pause = vec![0.0; (PAUSE_S * rate_hz).round() as usize];
+    let paused = |signal: Vec<f64>| signal.into_iter().chain(pause.iter().copied());
+    let (strokes, taps) = (performed.strokes.len(), performed.taps.len());
+    let scraping: Vec<f64> = performed
+        .strokes
+        .into_iter()
+        .flat_map(|(_, signal)| paused(signal))
+        .collect();
+    let tapping: Vec<f64> = performed
+        .taps
+        .into_iter()
+        .flat_map(|(_, signal)| paused(signal))
+        .collect();
     let raised = |signal: &[f64]| resample(signal, rate_hz.round() as u32, SOUND_HZ);
     let (scraping, tapping) = (raised(&scraping), raised(&tapping));
-    let strokes = sound::part(session.strokes.len(), &scraping);
-    let taps = sound::part(if session.taps { speeds.len() } else { 0 }, &tapping);
+    let strokes = sound::part(strokes, &scraping);
+    let taps = sound::part(taps, &tapping);
+    let mut warnings = performed.warnings;
     if strokes.count > 0 && strokes.gain_per_m_s2 == 0.0 {
         warnings.push("the strokes are silent: the texture does not vibrate".to_owned());
     }

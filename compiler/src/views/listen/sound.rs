@@ -27,7 +27,7 @@ pub(super) fn levelled(parts: &[(&[f64], &Part)]) -> Vec<i16> {
 }
 
 /// The samples as a WAV file.
-pub(super) fn wav(samples: &[i16]) -> Result<Vec<u8>, hound::Error> {
+pub(crate) fn wav(samples: &[i16]) -> Result<Vec<u8>, hound::Error> {
     let spec = hound::WavSpec {
         channels: 1,
         sample_rate: SOUND_HZ,

@@ -5,7 +5,9 @@ mod build_scene;
 mod builtin;
 mod compile;
 mod doctor;
+mod export;
 mod file_names;
+mod import_effects;
 mod import_hatt;
 mod import_model;
 mod import_recording;
@@ -22,7 +24,7 @@ mod render;
 mod timings;
 
 use crate::cli::{Cli, Command, Import};
-use asperity::{console::Console, diagnostic::Failures};
+use asperity::{console::Console, diagnostic::Failures, effects::Kind};
 
 pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     let console = Console::new(cli.quiet);
@@ -30,6 +32,10 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
         Command::Import(Import::Hatt(args)) => import_hatt::run(&args, console),
         Command::Import(Import::Model(args)) => import_model::run(&args, console),
         Command::Import(Import::Recording(args)) => import_recording::run(&args, console),
+        Command::Import(Import::Haptic(args)) => import_effects::run(&args, Kind::Haptic, console),
+        Command::Import(Import::Ahap(args)) => import_effects::run(&args, Kind::Ahap, console),
+        Command::Import(Import::Hjif(args)) => import_effects::run(&args, Kind::Hjif, console),
+        Command::Export(args) => export::run(&args, console),
         Command::RecordCheck(args) => record_check::run(&args, console),
         Command::Build(args) => build::run(&args, console),
         Command::Merge(args) => library::merge::run(&args, console),

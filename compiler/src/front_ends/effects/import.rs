@@ -1,0 +1,227 @@
+//! From a file of effects to a verified asset.
+
+use super::{stroke, tap};
+use crate::{
+    front_ends::{
+        imported::{Imported, Report, compare},
+        learned::edges,
+    },
+    input,
+    interchange::{EffectError, EffectProblem, ahap, haptic, hjif, playback::Track},
+    model::{Friction, ModelGrid, Numerator, Provenance, TapBank, TextureModel, defaults},
+    passes::{reduce::Fidelity, triangulate},
+    pipeline::{Pass, Pipeline, PipelineError, Preview, Settings},
+    signal::tap_synthesis,
+};
+use asperity_formats::limits::MAX_NAME_BYTES;
+use std::path::Path;
+
+/// The grid reaches this many times the speed and the force of the stroke.
+const REACH: f64 = 2.0;
+
+/// What a file is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// `.haptic` of NiceVibrations.
+    Haptic,
+    /// The Apple Haptic and Audio Pattern.
+    Ahap,
+    /// The interchange form of MPEG haptics.
+    Hjif,
+}
+
+impl Kind {
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Haptic => "haptic",
+            Self::Ahap => "ahap",
+            Self::Hjif => "hjif",
+        }
+    }
+}
+
+/// What a user can ask of an import.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Name of the texture; that of the file if `None`.
+    pub name: Option<String>,
+    /// Speed of the stroke, mm/s.
+    pub speed_mm_s: f64,
+    /// Normal force of the stroke, N.
+    pub force_n: f64,
+    /// Acceleration of a full scale in strokes, m/s².
+    pub full_scale_m_s2: f64,
+    /// Acceleration of a full scale in taps, m/s².
+    pub tap_full_scale_m_s2: f64,
+    /// Impact speed of the loudest tap, m/s.
+    pub tap_speed_m_s: f64,
+    /// Coefficient of friction, of which the file says nothing.
+    pub mu: f64,
+    /// How much of the model the asset keeps.
+    pub fidelity: Fidelity,
+    /// Rate of the AR models, Hz; 1000 if `None`.
+    pub rate_hz: Option<f64>,
+    /// Width and height of the preview, pixels; none is drawn if `None`.
+    pub preview_px: Option<u32>,
+}
+
+/// Imports a file: read, play, model, compile, compare. The strings are what a user should know.
+///
+/// # Errors
+/// [`EffectError`]; nothing is written either way.
+pub fn import(
+    file: &Path,
+    kind: Kind,
+    options: &Options,
+) -> Result<(Imported, Vec<String>), EffectError> {
+    let fail = |field: String, problem: EffectProblem| EffectError {
+        file: file.to_owned(),
+        field,
+        problem,
+    };
+    let mut pipeline = Pipeline::default();
+    let read = pipeline.run(Pass::Read, || {
+        let bytes =
+            input::read(file, input::Kind::Effects).map_err(|e| fail(String::new(), e.into()))?;
+        let text = input::text(&bytes).map_err(|e| fail(String::new(), e.into()))?;
+        let track = match kind {
+            Kind::Haptic => haptic::read(text),
+            Kind::Ahap => ahap::read(text),
+            Kind::Hjif => hjif::read(text),
+        };
+        let track = track.map_err(|(field, problem)| fail(field, problem))?;
+        Ok::<_, EffectError>((track, crc32fast::hash(&bytes)))
+    });
+    let (track, crc32) = read?;
+    let mut warnings = track.warnings.clone();
+    let stated = options.name.clone();
+    let name = stated.unwrap_or_else(|| stem(file));
+    if name.is_empty() || name.len() > MAX_NAME_BYTES || name.chars().any(char::is_control) {
+        return Err(fail(String::new(), EffectProblem::Name(name)));
+    }
+    let mut whole = pipeline
+        .run(Pass::Decode, || {
+            texture(&track, name, kind, options, &mut warnings)
+        })
+        .ok_or_else(|| fail(String::new(), EffectProblem::Silent))?;
+    whole.provenance.source = file
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    whole.provenance.source_crc32 = crc32;
+    let settings = Settings {
+        rate_hz: options.rate_hz,
+        fidelity: options.fidelity,
+        preview: options.preview_px.map(|size_px| Preview { size_px }),
+        stabilise: true,
+    };
+    let failed = |cause: PipelineError| fail(String::new(), cause.into());
+    let mut compiled = pipeline.compile(whole, &settings).map_err(failed)?;
+    let errors_db = pipeline
+        .run(Pass::Compare, || compare(&mut compiled, options.fidelity))
+        .map_err(failed)?;
+    let report = Report::new(&compiled, options.fidelity, &errors_db);
+    let imported = Imported {
+        bytes: compiled.lowered.bytes,
+        report,
+        whole: compiled.whole,
+        timings: pipeline.timings().clone(),
+    };
+    Ok((imported, warnings))
+}
+
+/// The name of a file without its ending, as an asset can hold it.
+fn stem(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let plain: String = stem
+        .chars()
+        .map(|c| if c.is_control() { '_' } else { c })
+        .collect();
+    let mut end = plain.len().min(MAX_NAME_BYTES);
+    while !plain.is_char_boundary(end) {
+        end -= 1;
+    }
+    plain[..end].to_owned()
+}
+
+/// The texture of a track; `None` for one that does not sound.
+fn texture(
+    track: &Track,
+    name: String,
+    kind: Kind,
+    options: &Options,
+    warnings: &mut Vec<String>,
+) -> Option<TextureModel> {
+    let vertex = stroke::vertex(
+        track,
+        options.speed_mm_s,
+        options.force_n,
+        options.full_scale_m_s2,
+    );
+    let sounds = vertex.sigma_m_s2 > 0.0;
+    let taps: Vec<_> = track
+        .transients
+        .iter()
+        .filter(|t| t.amplitude > 0.0)
+        .copied()
+        .collect();
+    if !sounds && taps.is_empty() {
+        return None;
+    }
+    let vertices = edges::close(
+        vec![vertex],
+        REACH * options.speed_mm_s,
+        REACH * options.force_n,
+    );
+    let grid = ModelGrid {
+        sample_rate_hz: f64::from(stroke::MODEL_HZ),
+        order: stroke::ORDER,
+        numerator: Numerator::Nyquist,
+        triangles: triangulate::delaunay(&vertices),
+        vertices,
+    };
+    let gains = defaults::gains();
+    let synthetic = taps.is_empty();
+    let bank: TapBank = if synthetic {
+        warnings
+            .push("the file has no transients: the taps are synthesised from its spectrum".into());
+        tap_synthesis::bank(tap_synthesis::frequency_hz(&grid), &gains)
+    } else {
+        tap::bank(&taps, options.tap_speed_m_s, options.tap_full_scale_m_s2)
+    };
+    if !sounds {
+        warnings.push("the file has transients alone: the texture does not vibrate".into());
+    }
+    let generator = format!(
+        "asperity {} import {}",
+        env!("CARGO_PKG_VERSION"),
+        kind.name()
+    );
+    Some(TextureModel {
+        name,
+        taps: bank,
+        grid,
+        friction: Friction {
+            mu: options.mu,
+            anchors: Vec::new(),
+        },
+        wall: defaults::wall(),
+        gains,
+        provenance: Provenance {
+            generator,
+            taps_synthetic: synthetic,
+            notes: format!(
+                "One stroke at {} mm/s and {} N; a full scale is {} m/s² in strokes and {} m/s² in \
+                 taps. Friction, wall and gains are not the file's.",
+                options.speed_mm_s,
+                options.force_n,
+                options.full_scale_m_s2,
+                options.tap_full_scale_m_s2
+            ),
+            ..Provenance::default()
+        },
+    })
+}

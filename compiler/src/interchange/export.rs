@@ -1,0 +1,331 @@
+//! A texture in a format by its name, and what of it the format carries.
+
+use super::{
+    ahap, c_array,
+    clip::{Clip, Scale, Take},
+    csv,
+    error::{ExportError, Fault},
+    gltf, haptic, hjif, hmpg,
+    playback::{PLAY_HZ, Track},
+    rust_source,
+    third_octave::{Loss, Shape, loss},
+    wav,
+};
+use crate::{
+    back_end::raise::raise,
+    signal::resample::resample,
+    views::listen::{Session, Stroke, perform},
+};
+use asperity_formats::Asset;
+use serde::Serialize;
+use std::{fmt, str::FromStr};
+
+/// Speed, mm/s, force, N, and time, s, of a stroke that nothing is said of.
+const STROKE: Stroke = Stroke {
+    speed_mm_s: 100.0,
+    force_n: 1.0,
+    time_s: 1.0,
+};
+/// Bands up to this part of the rate of the loop count.
+const TOP: f64 = 0.45;
+
+/// A format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Source text with the bytes of an asset or a library.
+    Source(Language),
+    /// Strokes and taps, or what can be said of them.
+    Clip(ClipFormat),
+}
+
+/// A language of source text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "each is called what it is")]
+pub enum Language {
+    C,
+    Rust,
+}
+
+/// A format that takes a clip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "each is called what it is")]
+pub enum ClipFormat {
+    Hjif,
+    Hmpg,
+    Ahap,
+    Haptic,
+    Gltf,
+    Wav,
+    Csv,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Self; 9] = [
+        Self::Source(Language::C),
+        Self::Source(Language::Rust),
+        Self::Clip(ClipFormat::Hjif),
+        Self::Clip(ClipFormat::Hmpg),
+        Self::Clip(ClipFormat::Ahap),
+        Self::Clip(ClipFormat::Haptic),
+        Self::Clip(ClipFormat::Gltf),
+        Self::Clip(ClipFormat::Wav),
+        Self::Clip(ClipFormat::Csv),
+    ];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Source(Language::C) => "c-array",
+            Self::Source(Language::Rust) => "rust",
+            Self::Clip(format) => format.name(),
+        }
+    }
+
+    /// The end of its files' names.
+    #[must_use]
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Source(Language::C) => "c",
+            Self::Source(Language::Rust) => "rs",
+            Self::Clip(format) => format.name(),
+        }
+    }
+}
+
+impl ClipFormat {
+    /// Its name, and the end of its files' names.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hjif => "hjif",
+            Self::Hmpg => "hmpg",
+            Self::Ahap => "ahap",
+            Self::Haptic => "haptic",
+            Self::Gltf => "gltf",
+            Self::Wav => "wav",
+            Self::Csv => "csv",
+        }
+    }
+}
+
+impl FromStr for Format {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let found = Self::ALL.into_iter().find(|format| format.name() == text);
+        let names = Self::ALL.map(Self::name).join(", ");
+        found.ok_or_else(|| format!("one of {names}"))
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What a user can ask of an export.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// What the hand does.
+    pub session: Session,
+    /// Rate of the loop, Hz; that of the texture if `None`.
+    pub rate_hz: Option<f32>,
+    /// Seed of the excitation.
+    pub seed: u64,
+    /// Acceleration of a full scale in strokes, m/s²; the largest one if `None`.
+    pub full_scale_m_s2: Option<f64>,
+    /// Acceleration of a full scale in taps, m/s²; the largest one if `None`.
+    pub tap_full_scale_m_s2: Option<f64>,
+    /// Width and height of pictures, pixels.
+    pub size_px: u32,
+}
+
+/// One stroke and the taps, or what is asked for: a stroke, or taps alone.
+#[must_use]
+pub fn session(
+    speed_mm_s: Option<f32>,
+    force_n: Option<f32>,
+    time_s: Option<f32>,
+    taps: bool,
+) -> Session {
+    let stated = speed_mm_s.is_some() || force_n.is_some() || time_s.is_some();
+    let stroke = Stroke {
+        speed_mm_s: speed_mm_s.unwrap_or(STROKE.speed_mm_s),
+        force_n: force_n.unwrap_or(STROKE.force_n),
+        time_s: time_s.unwrap_or(STROKE.time_s),
+    };
+    Session {
+        strokes: if taps && !stated {
+            Vec::new()
+        } else {
+            vec![stroke]
+        },
+        taps: taps || !stated,
+    }
+}
+
+/// A texture in a format.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exported {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// What the format carries; `None` where it holds the asset itself.
+    pub scale: Option<Scale>,
+    /// Every stroke and tap.
+    pub carried: Vec<Carried>,
+    /// What a user should know.
+    pub warnings: Vec<String>,
+}
+
+/// What a format carries of a stroke or a tap.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Carried {
+    /// What the hand did.
+    pub part: String,
+    /// The difference in third octaves; `None` for a part that does not sound.
+    pub loss: Option<Loss>,
+}
+
+/// The bytes of an asset or a library as source text: the file, and its header if `header` names one.
+#[must_use]
+pub fn export_bytes(
+    language: Language,
+    name: &str,
+    about: &[String],
+    bytes: &[u8],
+    header: Option<&str>,
+) -> (Vec<u8>, Option<Vec<u8>>) {
+    let symbol = c_array::symbol(name);
+    if language == Language::Rust {
+        return (rust_source::write(&symbol, about, bytes), None);
+    }
+    let written = c_array::write(&symbol, about, bytes, header);
+    (written.source, header.map(|_| written.header))
+}
+
+/// The clip that an asset gives.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn clip(asset: &Asset<'_>, options: &Options) -> Result<(Clip, Vec<String>), ExportError> {
+    let performance = perform(asset, &options.session, options.rate_hz, options.seed)?;
+    let scales = (options.full_scale_m_s2, options.tap_full_scale_m_s2);
+    let clip = Clip::new(asset.name(), &performance, scales.0, scales.1);
+    Ok((clip, performance.warnings))
+}
+
+/// A texture in a format that takes a clip. The same asset and options give the same bytes.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn export(
+    asset: &Asset<'_>,
+    format: ClipFormat,
+    options: &Options,
+) -> Result<Exported, ExportError> {
+    let (clip, mut warnings) = clip(asset, options)?;
+    let back = |track: Result<Track, Fault>| {
+        track.map_err(|(field, problem)| ExportError::ReadBack {
+            texture: asset.name().to_owned(),
+            problem: format!("{field}: {problem}"),
+        })
+    };
+    let (bytes, track) = match format {
+        ClipFormat::Haptic => {
+            let bytes = haptic::write(&clip);
+            let track = back(haptic::read(&String::from_utf8_lossy(&bytes)))?;
+            (bytes, Some(track))
+        }
+        ClipFormat::Ahap => {
+            let bytes = ahap::write(&clip);
+            let track = back(ahap::read(&String::from_utf8_lossy(&bytes)))?;
+            (bytes, Some(track))
+        }
+        ClipFormat::Hjif => {
+            let bytes = hjif::write(&clip);
+            let track = back(hjif::read(&String::from_utf8_lossy(&bytes)))?;
+            (bytes, Some(hjif::as_played(track)))
+        }
+        ClipFormat::Hmpg => {
+            let strokes_end_s = clip
+                .strokes
+                .last()
+                .map_or(0.0, |take| take.end_s(clip.rate_hz));
+            let limit_s = hmpg::MAX_TICK as f64 / f64::from(hjif::TIMESCALE) - 0.01;
+            if strokes_end_s > limit_s {
+                return Err(ExportError::TooLong {
+                    texture: asset.name().to_owned(),
+                    format: format.name(),
+                    seconds: strokes_end_s,
+                    limit_s,
+                });
+            }
+            let document = hmpg::quantised(&hjif::document(&clip));
+            let track = back(hjif::play(&document))?;
+            (hmpg::write(&document), Some(hjif::as_played(track)))
+        }
+        ClipFormat::Gltf => {
+            let bytes = gltf::write(&raise(asset), &clip, options.size_px)?;
+            let track = gltf::vibration(&clip).map(|v| gltf::played(&clip, v));
+            warnings
+                .push("glTF holds one level and one frequency of the vibration, and no tap".into());
+            (bytes, Some(track.unwrap_or_default()))
+        }
+        ClipFormat::Wav => (wav::write(&wav::samples(&clip))?, None),
+        ClipFormat::Csv => (csv::write(&clip), None),
+    };
+    let played = match (&track, format) {
+        (Some(track), _) => Some((track.continuous(PLAY_HZ), track.taps(PLAY_HZ))),
+        (None, ClipFormat::Wav) => {
+            let played = wav::played(&wav::samples(&clip), PLAY_HZ);
+            Some((played.clone(), played))
+        }
+        _ => None,
+    };
+    let clipped = clip.clipped();
+    if clipped > 0.0 && format != ClipFormat::Csv {
+        let percent = 100.0 * clipped;
+        warnings.push(format!(
+            "{percent:.2} % of the samples exceed the full scale and are cut off"
+        ));
+    }
+    Ok(Exported {
+        bytes,
+        scale: (format != ClipFormat::Csv).then_some(clip.scale),
+        carried: carried(&clip, played),
+        warnings,
+    })
+}
+
+/// The loss of each part, where something is played; none where the samples themselves are kept.
+fn carried(clip: &Clip, played: Option<(Vec<f64>, Vec<f64>)>) -> Vec<Carried> {
+    let top_hz = TOP * f64::from(clip.rate_hz);
+    let part = |take: &Take, played: Option<&Vec<f64>>, scale: f64, shape: Shape| {
+        let source = resample(&take.signal_m_s2, clip.rate_hz, PLAY_HZ);
+        let from = (take.start_s * f64::from(PLAY_HZ)).round() as usize;
+        let found: Vec<f64> = match played {
+            None => source.clone(),
+            Some(played) => {
+                let samples = played.iter().skip(from).copied();
+                let padded = samples.chain(std::iter::repeat(0.0));
+                padded.take(source.len()).map(|x| scale * x).collect()
+            }
+        };
+        Carried {
+            part: take.label.clone(),
+            loss: loss(&source, &found, f64::from(PLAY_HZ), top_hz, shape),
+        }
+    };
+    let strokes = clip.strokes.iter().map(|take| {
+        let played = played.as_ref().map(|p| &p.0);
+        part(take, played, clip.scale.stroke_m_s2, Shape::Steady)
+    });
+    let taps = clip.taps.iter().map(|take| {
+        let played = played.as_ref().map(|p| &p.1);
+        part(take, played, clip.scale.tap_m_s2, Shape::Transient)
+    });
+    strokes.chain(taps).collect()
+}

@@ -1,0 +1,77 @@
+//! Reading effects of strangers: JSON by its path, and numbers within their ranges.
+
+use super::{
+    error::{EffectProblem, Fault},
+    playback::Track,
+};
+use serde::de::DeserializeOwned;
+
+/// The latest time of an effect, s.
+pub(super) const MAX_S: f64 = 600.0;
+/// All tones and curves together, s.
+const MAX_PLAYED_S: f64 = 1200.0;
+/// Most transients.
+const MAX_TRANSIENTS: usize = 4096;
+
+/// JSON as a type, or the path of what is not of it.
+pub(super) fn json<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
+    let mut json = serde_json::Deserializer::from_str(text);
+    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        let path = error.path().to_string();
+        let field = if path == "." { String::new() } else { path };
+        (field, EffectProblem::Json(error.inner().to_string()))
+    })?;
+    let trailing = |e: serde_json::Error| (String::new(), EffectProblem::Json(e.to_string()));
+    json.end().map_err(trailing)?;
+    Ok(value)
+}
+
+/// A number within a range.
+pub(super) fn within(
+    field: impl FnOnce() -> String,
+    value: f64,
+    low: f64,
+    high: f64,
+) -> Result<f64, Fault> {
+    if (low..=high).contains(&value) {
+        return Ok(value);
+    }
+    let rule = format!("{low} to {high}");
+    Err((field(), EffectProblem::Value { value, rule }))
+}
+
+/// A time, s, not before the one before it.
+pub(super) fn time(field: impl Fn() -> String, value: f64, previous: f64) -> Result<f64, Fault> {
+    let value = within(&field, value, 0.0, MAX_S)?;
+    if value < previous {
+        return Err((field(), EffectProblem::Order { value, previous }));
+    }
+    Ok(value)
+}
+
+/// A track that is played in bounded time, with its transients in order.
+pub(super) fn bounded(mut track: Track) -> Result<Track, Fault> {
+    let too_many = |what, found, limit| {
+        let problem = EffectProblem::TooMany { what, found, limit };
+        Err((String::new(), problem))
+    };
+    let spans = |first: Option<f64>, last: Option<f64>| last.unwrap_or(0.0) - first.unwrap_or(0.0);
+    let tones = track.tones.iter();
+    let tones = tones.map(|t| spans(t.first().map(|p| p.t_s), t.last().map(|p| p.t_s)));
+    let curves = track.curves.iter();
+    let curves = curves.map(|c| spans(c.first().map(|p| p.t_s), c.last().map(|p| p.t_s)));
+    let played_s: f64 = tones.chain(curves).sum();
+    if played_s > MAX_PLAYED_S {
+        return too_many(
+            "seconds of continuous effects in all",
+            played_s,
+            MAX_PLAYED_S,
+        );
+    }
+    let count = track.transients.len();
+    if count > MAX_TRANSIENTS {
+        return too_many("transients", count as f64, MAX_TRANSIENTS as f64);
+    }
+    track.transients.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+    Ok(track)
+}
