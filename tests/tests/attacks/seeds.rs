@@ -22,6 +22,9 @@ pub(crate) enum Seed {
     Device,
     Grip,
     Counts,
+    Measurement,
+    Profile,
+    Ids,
 }
 
 impl Seed {
@@ -44,6 +47,7 @@ pub(crate) struct Seeds {
     shipped: TempDir,
     trajectory: String,
     material: String,
+    measurement: String,
 }
 
 const DESCRIPTION: &str = "servo_rate_hz = 1000
@@ -67,6 +71,12 @@ sphere = { center_m = [0, 0, 0.2], radius_m = 0.1 }
 const COUNTS: &str = "factor,name,instructions\norder,ar 20,2100\narithmetic,fixed,1900.5\n";
 const DEVICE: &str = include_str!("../../../device-sim/devices/touch.toml");
 const GRIP: &str = include_str!("../../../device-sim/grips/light.toml");
+const IDS: &str = include_str!("../../../runtime/host/src/device/usb/ids.toml");
+/// A device's profile, with a filter.
+const PROFILE: &str = concat!(
+    include_str!("../../../runtime/host/devices/touch.toml"),
+    "\n[compensation]\nrate_hz = 1000.0\ntaps = [1.25, -0.3, 0.05]\n"
+);
 
 impl Seeds {
     pub(crate) fn new() -> Self {
@@ -85,6 +95,7 @@ impl Seeds {
             asset,
             trajectory: trajectory(),
             material: material(),
+            measurement: measurement(),
         }
     }
 
@@ -104,6 +115,9 @@ impl Seeds {
             Seed::Device => DEVICE.as_bytes(),
             Seed::Grip => GRIP.as_bytes(),
             Seed::Counts => COUNTS.as_bytes(),
+            Seed::Measurement => self.measurement.as_bytes(),
+            Seed::Profile => PROFILE.as_bytes(),
+            Seed::Ids => IDS.as_bytes(),
         }
     }
 
@@ -118,6 +132,7 @@ impl Seeds {
             ("stroke.csv", Seed::Trajectory),
             ("wood.xml", Seed::Material),
             ("scene.toml", Seed::Description),
+            ("sweep.csv", Seed::Measurement),
         ] {
             fs::write(folder.join(name), self.bytes(seed)).expect("a valid input");
         }
@@ -163,6 +178,19 @@ fn trajectory() -> String {
         let z_mm = (2.0 - 0.05 * f64::from(n)).max(-1.0);
         // Writing to a string cannot fail.
         let _ = writeln!(csv, "{t_s},{},{},{z_mm}", 100.0 * t_s, -0.01 * f64::from(n));
+        csv
+    })
+}
+
+/// A force of noise on a mass of 45 g, 4 s at 1 kHz.
+fn measurement() -> String {
+    let mut seed = 1_u64;
+    (0..4000).fold("t_s,force_n,accel_m_s2\n".to_owned(), |mut csv, n| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        let force_n = (seed >> 40) as f64 / f64::from(1 << 23) - 1.0;
+        let (t_s, accel_m_s2) = (f64::from(n) / 1000.0, force_n / 0.045);
+        // Writing to a string cannot fail.
+        let _ = writeln!(csv, "{t_s},{force_n},{accel_m_s2}");
         csv
     })
 }
