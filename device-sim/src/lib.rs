@@ -21,6 +21,7 @@
 //! | [`feel`] | a session on a texture, with its summary, CSV, sheet and sound |
 //! | [`desk`] | a servo loop on a texture or a scene; the simulated device behind the host's trait |
 //! | [`jitter`] | how punctual that loop is: tables, JSON, pictures |
+//! | [`voice`] | a device's compensation filter in a texture's models and taps |
 //! | [`labs`] | alternatives to the tick, which only the charts need |
 //! | [`stability`] | where methods fail: a table of our method and others |
 //!
@@ -45,3 +46,4 @@ pub mod servo;
 pub mod session;
 mod signal;
 pub mod stability;
+pub mod voice;

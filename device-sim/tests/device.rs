@@ -1,6 +1,9 @@
 //! `asperity-lab device` as a user sees it where no device is needed. `.ci/check-usb` shows the
 //! states of a device.
 
+#[path = "../../runtime/host/tests/fakes/mod.rs"]
+mod fakes;
+
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::process::{Command, Output, Stdio};
 
@@ -50,10 +53,15 @@ fn what_is_written_wrongly_is_refused_with_the_remedy() {
         (&["probe", "phantom:"], 1, "phantom:"),
         (&["probe", "falcon:?colour=red"], 1, "colour"),
         (&["probe", "falcon:?tries=0"], 1, "1 to 100"),
-        (&["probe", "sim:"], 1, "not on USB"),
+        (&["probe", "sim:nowhere.toml"], 1, "nowhere.toml"),
+        (&["probe", "sim:?grip=iron"], 1, "iron"),
+        (&["probe", "null:?depth=1"], 1, "depth"),
         (&["probe", "--seconds", "1e9"], 2, "0.1 to 60"),
         (&["exercise", "touch:"], 1, "touch:"),
         (&["exercise"], 2, "URI"),
+        (&["faults", "touch:"], 1, "over USB"),
+        (&["faults", "phantom:"], 1, "phantom:"),
+        (&["faults", "null:", "--peak-n", "100"], 2, "0.1 to 8.9"),
         (&["serve"], 2, "DEVICES"),
         (&["serve", "falcon", "--listen", "nowhere"], 2, "--listen"),
         (&["serve", "falcon", "--faults", "2"], 2, "0 to 1"),
@@ -68,6 +76,166 @@ fn what_is_written_wrongly_is_refused_with_the_remedy() {
         );
         assert!(output.stdout.is_empty(), "{arguments:?}");
     }
+}
+
+/// What is on USB depends on the machine; `.ci/check-usb` and the tests of the list show each state.
+#[test]
+fn a_list_ends_well_whatever_is_plugged_in_and_a_probe_says_what_to_do() {
+    let output = lab(&["list"]);
+    let said = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for words in [
+        "OpenHaptics HD",
+        "Force Dimension SDK",
+        "sim:, null:, replay:FILE",
+    ] {
+        assert!(said.contains(words), "{words} in {said}");
+    }
+    let value: serde_json::Value =
+        serde_json::from_slice(&lab(&["list", "--json"]).stdout).expect("JSON");
+    assert_eq!(value["anywhere"][0], "sim:");
+    assert_eq!(value["libraries"][0]["uri"], "openhaptics:");
+    let works = value["usb"].as_bool().expect("whether there is USB");
+    if !works {
+        assert!(
+            said.contains("USB cannot be used here") && said.contains("  help: "),
+            "{said}"
+        );
+        for arguments in [
+            &["probe"][..],
+            &["probe", "falcon:"],
+            &["probe", "touch:"],
+            &["list", "--watch"],
+        ] {
+            let output = lab(arguments);
+            assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+            let said = text(&output.stderr);
+            assert!(
+                said.contains("USB cannot be used here") && said.contains("/dev/bus/usb"),
+                "{said}"
+            );
+        }
+    }
+}
+
+#[test]
+fn devices_without_usb_are_probed_too() {
+    let output = lab(&["probe", "null:", "--seconds", "0.1"]);
+    let said = text(&output.stdout);
+    assert!(
+        output.status.success() && said.contains("position 0.00, 0.00, 50.00 mm"),
+        "{said}"
+    );
+    let output = lab(&["probe", "sim:?time=stepped", "--seconds", "0.1", "--json"]);
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert!(
+        output.status.success() && value["devices"][0]["works"] == true,
+        "{value}"
+    );
+}
+
+#[test]
+fn a_vendor_library_is_probed_and_what_is_wrong_with_one_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let script = folder.path().join("libHD.so");
+    std::fs::write(&script, "#!/bin/sh\n").expect("a file");
+    let script = script.display().to_string();
+    let mut cases = vec![
+        (
+            "openhaptics:".to_owned(),
+            "not installed",
+            "ASPERITY_OPENHAPTICS",
+        ),
+        ("dhd:".to_owned(), "not installed", "ASPERITY_DHD"),
+        (
+            "dhd:?lib=/nowhere.so".to_owned(),
+            "/nowhere.so",
+            "check the path",
+        ),
+        (
+            format!("openhaptics:?lib={script}"),
+            "no shared library",
+            "name the shared library",
+        ),
+    ];
+    let value: serde_json::Value =
+        serde_json::from_slice(&lab(&["list", "--json"]).stdout).expect("JSON");
+    for (n, library) in value["libraries"]
+        .as_array()
+        .expect("libraries")
+        .iter()
+        .enumerate()
+        .rev()
+    {
+        // A machine of a lab may have one.
+        if library["state"] != "not_installed" {
+            cases.remove(n);
+        }
+    }
+    let whole = fakes::build("hd", &[]);
+    let lacking = fakes::build("hd", &["-DWITHOUT_hdGetError"]);
+    if let Some((path, _)) = &lacking {
+        let uri = format!("openhaptics:?lib={}", path.display());
+        cases.push((uri, "hdGetError", "install a newer OpenHaptics HD"));
+    }
+    for (uri, problem, remedy) in &cases {
+        let output = lab(&["probe", uri]);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{uri}: {said}");
+        assert!(
+            said.contains(problem) && said.contains(remedy),
+            "{uri}: {said}"
+        );
+    }
+    let Some((path, _folder)) = &whole else {
+        return;
+    };
+    let output = lab(&[
+        "probe",
+        &format!("openhaptics:?lib={}", path.display()),
+        "--seconds",
+        "0.3",
+    ]);
+    let said = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(
+        said.contains("no force was commanded") && said.contains("unconfirmed"),
+        "{said}"
+    );
+    // The list finds it by the variable.
+    let output = Command::new(env!("CARGO_BIN_EXE_asperity-lab"))
+        .args(["device", "list"])
+        .env("ASPERITY_OPENHAPTICS", path)
+        .env("ASPERITY_DHD", path)
+        .output()
+        .expect("the command runs");
+    let said = text(&output.stdout);
+    assert!(
+        output.status.success() && said.contains("ready: openhaptics:"),
+        "{said}"
+    );
+    assert!(said.contains("it has no function dhd"), "{said}");
+}
+
+#[test]
+fn every_fault_is_put_on_a_device() {
+    let output = lab(&["faults", "sim:?time=stepped&grip=firm", "--json"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let faults = value["faults"].as_array().expect("faults");
+    assert_eq!(faults.len(), 11);
+    for fault in faults {
+        assert!(
+            fault["broken"].is_null() && fault["row"]["disturbed"] == 0,
+            "{fault}"
+        );
+    }
+    let output = lab(&["faults", "null:"]);
+    let said = text(&output.stdout);
+    assert!(
+        output.status.success() && said.contains("| unplugged |"),
+        "{said}"
+    );
 }
 
 #[test]

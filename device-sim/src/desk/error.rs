@@ -1,10 +1,12 @@
 //! Why a servo loop cannot run on a desk.
 
 use crate::config::ConfigError;
+use crate::voice::VoiceError;
 use asperity::diagnostic::Diagnostic;
 use asperity::source::SourceError;
 use asperity_formats::FormatError;
 use asperity_host::device::OpenError;
+use asperity_host::profile::ProfileError;
 use asperity_host::servo::SettingsError;
 use asperity_runtime::{LoadError, SceneError};
 use std::io;
@@ -39,6 +41,17 @@ pub enum DeskError {
         /// What is wrong.
         cause: SceneError,
     },
+    /// The texture does not take the filter of a profile.
+    #[error("{origin}: {cause}")]
+    Voice {
+        /// The file.
+        origin: String,
+        /// What is wrong.
+        cause: VoiceError,
+    },
+    /// The profile of the device is refused.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
     /// The built-in texture cannot be made.
     #[error("{0}")]
     BuiltIn(String),
@@ -84,6 +97,8 @@ impl Diagnostic for DeskError {
             Self::Load { .. } | Self::Scene { .. } => {
                 "make the texture again with fewer vertices or a lower order".into()
             }
+            Self::Voice { cause, .. } => cause.remedy(),
+            Self::Profile(error) => error.remedy().into(),
             Self::BuiltIn(_) | Self::Bug => "report this as a bug".into(),
             Self::Open(error) => match error {
                 OpenError::NotHere { .. } => {

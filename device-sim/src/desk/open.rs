@@ -5,6 +5,7 @@ use super::sim_device::{Pace, SimDevice};
 use crate::device::DeviceConfig;
 use crate::hand::{Grip, GripPreset};
 use asperity_host::device::{self, Device, OpenError, Scheme, Uri};
+use asperity_host::profile::Profile;
 use asperity_runtime::{Config, Limits, MechanicsConfig};
 use std::path::Path;
 
@@ -17,13 +18,15 @@ pub struct Desk {
     pub device: Box<dyn Device>,
     /// What its own mechanics absorb: those of a Touch where nobody knows better.
     pub mechanics: MechanicsConfig,
+    /// What a profile says of it, if one was given: it counts more than the above.
+    pub profile: Option<Profile>,
 }
 
 impl Desk {
     /// The configuration of a renderer for this device.
     #[must_use]
     pub fn config(&self, rate_hz: u32) -> Config {
-        Config {
+        let config = Config {
             servo_rate_hz: rate_hz as f32,
             limits: Limits {
                 peak_n: self.device.description().peak_force_n,
@@ -31,7 +34,18 @@ impl Desk {
             },
             mechanics: self.mechanics,
             ..Config::default()
-        }
+        };
+        let Some(profile) = &self.profile else {
+            return config;
+        };
+        let mut ours = profile.apply(&config);
+        // A profile cannot make a device stronger than it says it is.
+        ours.limits.peak_n = if ours.limits.peak_n < config.limits.peak_n {
+            ours.limits.peak_n
+        } else {
+            config.limits.peak_n
+        };
+        ours
     }
 }
 
@@ -47,6 +61,7 @@ pub fn open(uri: &Uri, rate_hz: u32) -> Result<Desk, DeskError> {
         return Ok(Desk {
             device: device::open(uri, rate_hz)?,
             mechanics: Config::default().mechanics,
+            profile: None,
         });
     }
     uri.allow(&SETTINGS).map_err(OpenError::from)?;
@@ -69,5 +84,6 @@ pub fn open(uri: &Uri, rate_hz: u32) -> Result<Desk, DeskError> {
     Ok(Desk {
         device: Box::new(SimDevice::new(&config, grip, seed, rate_hz, pace)),
         mechanics: config.mechanics_config(),
+        profile: None,
     })
 }

@@ -1,8 +1,10 @@
 //! What is touched: a texture, or a scene of several.
 
 use super::error::DeskError;
+use crate::voice;
 use asperity::source::Source;
 use asperity_formats::{Asset, FormatError, Library};
+use asperity_host::profile::Compensation;
 use asperity_host::servo::RATES_HZ;
 use std::path::Path;
 
@@ -47,6 +49,25 @@ impl Surface {
         }
         let bytes = source.choose(texture)?;
         Self::of_texture(bytes, origin)
+    }
+
+    /// The same in a device's own voice: its textures went through the filter of a profile.
+    ///
+    /// # Errors
+    /// [`DeskError::Voice`].
+    pub fn in_voice(self, filter: &Compensation) -> Result<Self, DeskError> {
+        let bytes = if self.is_scene {
+            voice::scene(&self.bytes, filter)
+        } else {
+            voice::asset(&self.bytes, filter)
+        };
+        match bytes {
+            Ok(bytes) => Ok(Self { bytes, ..self }),
+            Err(cause) => Err(DeskError::Voice {
+                origin: self.origin,
+                cause,
+            }),
+        }
     }
 
     fn of_texture(bytes: Vec<u8>, origin: String) -> Result<Self, DeskError> {

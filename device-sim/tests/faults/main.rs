@@ -3,6 +3,7 @@
 
 #[path = "../../../runtime/host/tests/fakes/mod.rs"]
 mod fakes;
+mod falcon;
 mod servo;
 mod session;
 mod simulated;

@@ -5,7 +5,7 @@ use asperity_host::device::Device;
 use asperity_host::device::faulty::{Faulty, Plan};
 use asperity_host::device::supervised::{Plausible, Report, Supervised};
 use asperity_host::recording::{Conditions, Entry, TextureInfo};
-use asperity_runtime::{Config, Flags, HostTexture, Output, Renderer, State};
+use asperity_runtime::{Config, HostTexture, Output, Renderer, State};
 
 pub(crate) const SEED: u64 = 11;
 
@@ -39,16 +39,6 @@ pub(crate) struct Period {
     pub(crate) entry: Entry,
     pub(crate) output: Output,
     pub(crate) report: Option<Report>,
-}
-
-impl Period {
-    pub(crate) fn is_safe(&self) -> bool {
-        self.output.flags.contains(Flags::SAFE_STATE)
-    }
-
-    pub(crate) fn is_whole(&self) -> bool {
-        !self.is_safe() && !self.output.flags.contains(Flags::RAMPING)
-    }
 }
 
 /// The loop.

@@ -6,22 +6,17 @@
 use std::path::Path;
 
 use asperity_host::device::dhd::Dhd;
+use asperity_host::device::faulty::trial::{AFTER, LASTS, Row, Trial};
 use asperity_host::device::faulty::{Injected, Plan};
 use asperity_host::device::openhaptics::OpenHaptics;
 use asperity_host::device::replay::{AtEnd, Replay};
-use asperity_host::device::supervised::Report;
 use asperity_host::device::{Description, Device, Fault, Reading};
 use asperity_host::recording::{Encoder, Recording};
 use asperity_runtime::{Config, HostTexture};
 
 use crate::fakes::{Fake, alone};
-use crate::servo::{Period, Servo, asset, conditions, load};
+use crate::servo::{SEED, Servo, asset, conditions, load};
 use crate::simulated::Simulated;
-
-/// Periods of a fault, 1 of which is a clock step over as many periods.
-const LASTS: u32 = 20;
-/// Periods in which everything must be well again.
-const AFTER: u32 = 400;
 
 /// A device in free air that takes any force.
 struct Null(Description);
@@ -54,72 +49,21 @@ fn null() -> Null {
     })
 }
 
-/// What a fault did on a back end.
-#[derive(Debug, Default, PartialEq)]
-struct Row {
-    /// Periods from the first one with the fault to the safe state; `None` if it never came.
-    safe_after: Option<u32>,
-    /// Periods from there to a fiftieth of the force: a ramp may have begun by then.
-    zero_after: Option<u32>,
-    /// Periods from the end of the fault to the whole force.
-    whole_after: Option<u32>,
-    /// The force before the fault, N.
-    before_n: f32,
-    /// The largest change of the force that the device holds, N in a period.
-    steepest_n: f32,
-    /// Times that the safe state was entered, and that a fault was told.
-    faults: u32,
-    reports: u32,
-}
-
 /// Runs one fault; `hand` moves the device before each period.
 fn run<D: Device>(
-    mut servo: Servo<'_, D>,
+    device: D,
+    texture: &HostTexture,
     kind: Injected,
     warm_up: u32,
-    mut hand: impl FnMut(u32),
+    hand: impl FnMut(u32),
 ) -> Row {
-    let mut row = Row::default();
-    let length = |v: [f32; 3]| v.iter().map(|x| x * x).sum::<f32>().sqrt();
-    for n in 0..warm_up {
-        hand(n);
-        let period = servo.period();
-        row.before_n = length(period.output.force_n);
-    }
-    let faults = servo.state.counters().faults;
-    servo.device.device_mut().start(kind, LASTS);
-    let lasts = if kind == Injected::ClockStep {
-        1
-    } else {
-        LASTS
+    let trial = Trial {
+        texture,
+        config: &Config::default(),
+        warm_up,
+        seed: SEED,
     };
-    let mut held = servo.device.held_n();
-    for n in 0..lasts + AFTER {
-        hand(warm_up + n);
-        let period = servo.period();
-        let now = servo.device.held_n();
-        let step = length([now[0] - held[0], now[1] - held[1], now[2] - held[2]]);
-        if servo.faulty().running() != Some(Injected::Unplugged) {
-            row.steepest_n = row.steepest_n.max(step);
-        }
-        held = now;
-        note(&mut row, &period, n, lasts, length(period.output.force_n));
-    }
-    row.faults = servo.state.counters().faults - faults;
-    row
-}
-
-fn note(row: &mut Row, period: &Period, n: u32, lasts: u32, force_n: f32) {
-    if period.is_safe() && row.safe_after.is_none() {
-        row.safe_after = Some(n);
-    }
-    if row.safe_after.is_some() && force_n <= 0.02 * row.before_n && row.zero_after.is_none() {
-        row.zero_after = Some(n - row.safe_after.unwrap_or(n));
-    }
-    if n >= lasts && period.is_whole() && row.whole_after.is_none() {
-        row.whole_after = Some(n - lasts);
-    }
-    row.reports += u32::from(matches!(period.report, Some(Report::Began(_))));
+    trial.run(device, kind, hand).expect("a configuration")
 }
 
 /// A stroke at a depth of 6 mm, m in the world frame.
@@ -147,26 +91,19 @@ fn columns(texture: &'static HostTexture, bytes: &[u8]) -> Vec<Column> {
     let mut columns: Vec<Column> = vec![
         (
             "null",
-            Box::new(move |kind| run(Servo::new(null(), texture, plan, 1), kind, 50, |_| ())),
+            Box::new(move |kind| run(null(), texture, kind, 50, |_| ())),
         ),
         (
             "replay",
             Box::new(move |kind| {
                 let replay =
                     Replay::new(recording.clone(), AtEnd::Leave, "test").expect("a replay");
-                run(Servo::new(replay, texture, plan, 1), kind, warm_up, |_| ())
+                run(replay, texture, kind, warm_up, |_| ())
             }),
         ),
         (
             "simulated Touch",
-            Box::new(move |kind| {
-                run(
-                    Servo::new(Simulated::new(1, 2), texture, plan, 1),
-                    kind,
-                    warm_up,
-                    |_| (),
-                )
-            }),
+            Box::new(move |kind| run(Simulated::new(1, 2), texture, kind, warm_up, |_| ())),
         ),
     ];
     if let (Some(hd), Some(dhd)) = (Fake::new("hd", &["-DMANUAL"]), Fake::new("dhd", &[])) {
@@ -176,7 +113,7 @@ fn columns(texture: &'static HostTexture, bytes: &[u8]) -> Vec<Column> {
                 let _alone = alone();
                 let device = OpenHaptics::open(&hd.uri("openhaptics", "")).expect("a device");
                 let period = hd.function::<extern "C" fn()>("fake_period");
-                run(Servo::new(device, texture, plan, 1), kind, 500, |n| {
+                run(device, texture, kind, 500, |n| {
                     // The device's frame: x right, y up, z toward the user, mm.
                     let [x, y, z] = stroke(n).map(|m| 1e3 * m);
                     hd.place([x, z, -y]);
@@ -188,7 +125,7 @@ fn columns(texture: &'static HostTexture, bytes: &[u8]) -> Vec<Column> {
             "DHD, fake",
             Box::new(move |kind| {
                 let device = Dhd::open(&dhd.uri("dhd", "")).expect("a device");
-                run(Servo::new(device, texture, plan, 1), kind, 500, |n| {
+                run(device, texture, kind, 500, |n| {
                     // The device's frame: x toward the user, y right, z up, m.
                     let [x, y, z] = stroke(n);
                     dhd.place([-y, x, z]);
@@ -199,24 +136,12 @@ fn columns(texture: &'static HostTexture, bytes: &[u8]) -> Vec<Column> {
     columns
 }
 
-/// What the runtime promises for a fault: the periods to the safe state, if it comes.
-fn promised(kind: Injected) -> Option<u32> {
-    match kind {
-        // They look like a hand at rest.
-        Injected::Duplicate | Injected::Stuck => None,
-        // The jump shows in the period after it.
-        Injected::ClockStep => Some(1),
-        // The first period still has its sample; the next two are held.
-        Injected::WriteFailed => Some(3),
-        _ => Some(2),
-    }
-}
-
 #[test]
 fn every_fault_on_every_back_end() {
     let bytes = asset();
     let texture: &'static HostTexture = Box::leak(load(&bytes));
-    let slew_n = Config::default().limits.slew_n_s / Config::default().servo_rate_hz;
+    let limits = Config::default().limits;
+    let slew_n = limits.slew_n_s / Config::default().servo_rate_hz;
     let mut columns = columns(texture, &bytes);
     let whole = columns.len() == 5;
     let mut table = String::from(
@@ -227,19 +152,7 @@ fn every_fault_on_every_back_end() {
         for (name, column) in &mut columns {
             let row = column(kind);
             let what = format!("{} on {name}: {row:?}", kind.name());
-            assert_eq!(row.safe_after, promised(kind), "{what}");
-            // Both come at most once, and the force is gone within the steps that the slew limit asks for.
-            let safe = u32::from(row.safe_after.is_some());
-            let told = if kind == Injected::ClockStep { 0 } else { safe };
-            assert_eq!((row.faults, row.reports), (safe, told), "{what}");
-            assert!(
-                row.zero_after
-                    .is_none_or(|periods| periods <= (3.3 / slew_n).ceil() as u32),
-                "{what}"
-            );
-            assert_eq!(row.zero_after.is_some(), safe == 1, "{what}");
-            assert!(row.whole_after.is_some(), "{what}");
-            assert!(row.steepest_n <= slew_n * (1.0 + 1e-5), "{what}");
+            assert_eq!(row.broken(kind, limits.peak_n, slew_n), None, "{what}");
             assert!(*name == "null" || row.before_n > 0.1, "{what}");
             let periods =
                 |count: Option<u32>| count.map_or("–".into(), |count| format!("{count} ms"));

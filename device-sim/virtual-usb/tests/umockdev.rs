@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use asperity_formats::Asset;
 use asperity_host::device::exercise::{Plan, exercise};
+use asperity_host::device::falcon::link::LinkCounts;
 use asperity_host::device::falcon::on_usb;
 use asperity_host::device::touch::{Face, identify, open as open_touch};
 use asperity_host::device::usb::scan::scan;
@@ -26,6 +27,8 @@ use asperity_virtual_usb::{AnyDevice, Port, Socket};
 
 /// Names the bridge; `.ci/check-usb` sets it.
 const BRIDGE: &str = "ASPERITY_USB_BRIDGE";
+/// Time for what a machine without other work does in a second or two.
+const PATIENCE: Duration = Duration::from_secs(120);
 /// What the child is told.
 const TOLD: &str = "ASPERITY_USB_CHILD";
 
@@ -131,11 +134,7 @@ fn child_homes_and_pushes() {
     let begun = Instant::now();
     let mut fresh = 0;
     while fresh < 300 {
-        assert!(
-            begun.elapsed() < Duration::from_secs(120),
-            "{:?}",
-            falcon.counts()
-        );
+        assert!(begun.elapsed() < PATIENCE, "{:?}", falcon.counts());
         match falcon.read() {
             Ok(reading) => {
                 fresh += u32::from(reading.fresh);
@@ -214,8 +213,9 @@ fn child_feels_a_texture() {
         (report.ticks, report.beyond_limits, report.lost),
         (plan.ticks, 0, false)
     );
+    // A busy machine makes more ticks stale than the faults do.
     assert!(
-        report.fresh > plan.ticks / 2 && report.contact > 0,
+        report.fresh > plan.ticks / 10 && report.contact > 0,
         "{report:?}"
     );
 }
@@ -225,11 +225,18 @@ fn child_feels_a_texture() {
 fn over_usb_a_device_that_is_plugged_out_and_in_is_told() {
     let served = Served::new(Port::new(running()));
     let socket = served.socket.clone();
+    // The child says when it has seen the device, however long that takes.
+    let folder = tempfile::tempdir().expect("a folder");
+    let seen = folder.path().join("seen");
+    let waited_for = seen.clone();
     let unplugging = std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_secs(4));
+        let begun = Instant::now();
+        while !waited_for.exists() && begun.elapsed() < PATIENCE {
+            std::thread::sleep(Duration::from_millis(20));
+        }
         socket.port().unplug(2.0);
     });
-    served.child("child_watches", "", &[]);
+    served.child("child_watches", &seen.display().to_string(), &[]);
     unplugging.join().expect("it unplugs");
 }
 
@@ -239,11 +246,14 @@ fn child_watches() {
     let ids = Ids::built_in().expect("the list");
     let begun = Instant::now();
     let mut events = Vec::new();
-    let seen = watch(&ids, |event| {
+    let watched = watch(&ids, |event| {
+        if event.is_some() && events.is_empty() {
+            std::fs::write(told(), "").expect("a file");
+        }
         events.extend(event);
-        events.len() < 3 && begun.elapsed() < Duration::from_secs(60)
+        events.len() < 3 && begun.elapsed() < PATIENCE
     });
-    seen.expect("USB");
+    watched.expect("USB");
     println!("hot-plug by libusb: {}; {events:#?}", has_hotplug());
     let [
         Event::Arrived(first),
@@ -354,19 +364,23 @@ fn over_usb_stalls_short_transfers_and_time_outs_are_told_apart() {
 #[ignore = "a child"]
 fn child_counts_faults() {
     let mut falcon = on_usb::open(&"falcon:".parse().expect("a name")).expect("a Falcon");
+    let of = |counts: LinkCounts| match told().as_str() {
+        "stalled" => counts.stalled,
+        "short" => counts.short,
+        "timed out" => counts.timed_out,
+        other => panic!("{other}"),
+    };
     let begun = Instant::now();
-    while begun.elapsed() < Duration::from_secs(3) {
+    let counts = loop {
         let _ = falcon.read();
         let _ = falcon.write([0.0; 3]);
         std::thread::sleep(Duration::from_millis(1));
-    }
-    let counts = falcon.counts();
+        let counts = falcon.counts();
+        if of(counts) > 2 && counts.received > 50 {
+            break counts;
+        }
+        assert!(begun.elapsed() < PATIENCE, "{}: {counts:?}", told());
+    };
     println!("{}: {counts:?}", told());
-    let seen = [counts.stalled, counts.short, counts.timed_out];
-    let meant = ["stalled", "short", "timed out"]
-        .iter()
-        .position(|name| *name == told());
-    let meant = meant.expect("one of the three");
-    assert!(seen[meant] > 0 && counts.received > 50, "{counts:?}");
     assert_eq!(counts.failed, 0, "{counts:?}");
 }

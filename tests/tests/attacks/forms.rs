@@ -35,7 +35,7 @@ const fn long(program: Program, line: &'static str, target: &'static str, seed: 
     }
 }
 
-pub(crate) const FORMS: [Form; 50] = [
+pub(crate) const FORMS: [Form; 55] = [
     form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
@@ -292,6 +292,36 @@ pub(crate) const FORMS: [Form; 50] = [
         "import recording oak -o out.asp --no-preview",
         "oak/position.csv",
         Seed::RecordedTable,
+    ),
+    form(
+        Lab,
+        "device calibrate in.csv -o out.toml",
+        "in.csv",
+        Seed::Measurement,
+    ),
+    form(
+        Lab,
+        "device calibrate sweep.csv --profile in.toml -o out.toml",
+        "in.toml",
+        Seed::Profile,
+    ),
+    form(
+        Lab,
+        "servo good.asp --device null: --profile in.toml --policy other --no-lock --seconds 0.1",
+        "in.toml",
+        Seed::Profile,
+    ),
+    form(
+        Lab,
+        "device probe sim:in.toml?time=stepped --seconds 0.1 --json",
+        "in.toml",
+        Seed::Device,
+    ),
+    form(
+        Lab,
+        "device list --rules --ids in.toml",
+        "in.toml",
+        Seed::Ids,
     ),
     long(
         Lab,

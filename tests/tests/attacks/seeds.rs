@@ -30,6 +30,9 @@ pub(crate) enum Seed {
     RecordedWave,
     RecordedArray,
     RecordedTable,
+    Measurement,
+    Profile,
+    Ids,
 }
 
 impl Seed {
@@ -63,6 +66,7 @@ pub(crate) struct Seeds {
     wave: Vec<u8>,
     array: Vec<u8>,
     table: String,
+    measurement: String,
 }
 
 const DESCRIPTION: &str = "servo_rate_hz = 1000
@@ -86,6 +90,12 @@ sphere = { center_m = [0, 0, 0.2], radius_m = 0.1 }
 const COUNTS: &str = "factor,name,instructions\norder,ar 20,2100\narithmetic,fixed,1900.5\n";
 const DEVICE: &str = include_str!("../../../device-sim/devices/touch.toml");
 const GRIP: &str = include_str!("../../../device-sim/grips/light.toml");
+const IDS: &str = include_str!("../../../runtime/host/src/device/usb/ids.toml");
+/// A device's profile, with a filter.
+const PROFILE: &str = concat!(
+    include_str!("../../../runtime/host/devices/touch.toml"),
+    "\n[compensation]\nrate_hz = 1000.0\ntaps = [1.25, -0.3, 0.05]\n"
+);
 
 impl Seeds {
     pub(crate) fn new() -> Self {
@@ -108,6 +118,7 @@ impl Seeds {
             wave: recording::wave(),
             array: recording::array(),
             table: recording::table(),
+            measurement: measurement(),
         }
     }
 
@@ -134,6 +145,9 @@ impl Seeds {
             Seed::RecordedWave => &self.wave,
             Seed::RecordedArray => &self.array,
             Seed::RecordedTable => self.table.as_bytes(),
+            Seed::Measurement => self.measurement.as_bytes(),
+            Seed::Profile => PROFILE.as_bytes(),
+            Seed::Ids => IDS.as_bytes(),
         }
     }
 
@@ -152,6 +166,7 @@ impl Seeds {
             ("oak/accel.wav", Seed::RecordedWave),
             ("oak/force.npy", Seed::RecordedArray),
             ("oak/position.csv", Seed::RecordedTable),
+            ("sweep.csv", Seed::Measurement),
         ] {
             fs::write(folder.join(name), self.bytes(seed)).expect("a valid input");
         }
@@ -213,6 +228,19 @@ fn trajectory() -> String {
         let z_mm = (2.0 - 0.05 * f64::from(n)).max(-1.0);
         // Writing to a string cannot fail.
         let _ = writeln!(csv, "{t_s},{},{},{z_mm}", 100.0 * t_s, -0.01 * f64::from(n));
+        csv
+    })
+}
+
+/// A force of noise on a mass of 45 g, 4 s at 1 kHz.
+fn measurement() -> String {
+    let mut seed = 1_u64;
+    (0..4000).fold("t_s,force_n,accel_m_s2\n".to_owned(), |mut csv, n| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        let force_n = (seed >> 40) as f64 / f64::from(1 << 23) - 1.0;
+        let (t_s, accel_m_s2) = (f64::from(n) / 1000.0, force_n / 0.045);
+        // Writing to a string cannot fail.
+        let _ = writeln!(csv, "{t_s},{force_n},{accel_m_s2}");
         csv
     })
 }

@@ -7,9 +7,10 @@ use std::time::Duration;
 
 use asperity::diagnostic::{Failures, one};
 use asperity_host::device::Uri;
+use asperity_host::profile::Profile;
 use asperity_host::servo::privileges::{Grant, Policy, Wanted};
 use asperity_host::servo::{Monotonic, Overrun, Settings};
-use asperity_sim::desk::{Desk, Surface, open};
+use asperity_sim::desk::{Desk, DeskError, Surface, open};
 
 use crate::error::Plain;
 
@@ -20,6 +21,10 @@ pub(crate) struct LoopOptions {
     /// Which texture of a library, by name or index
     #[arg(long, value_name = "NAME", requires = "file")]
     pub(crate) texture: Option<String>,
+    /// Profile of the device, TOML: its limits and mechanics, and the filter that evens out its
+    /// response, which goes into the texture as it is loaded
+    #[arg(long, value_name = "TOML")]
+    pub(crate) profile: Option<PathBuf>,
     /// Servo rate, 250 to 10000 Hz; that of the texture's models without it
     #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(250..=10_000))]
     pub(crate) rate: Option<u32>,
@@ -58,11 +63,24 @@ pub(crate) enum OverrunName {
 
 impl LoopOptions {
     pub(crate) fn surface(&self) -> Result<Surface, Failures> {
+        self.read().map_err(one)
+    }
+
+    /// What is touched, as the file holds it now, in the voice of the device's profile.
+    pub(crate) fn read(&self) -> Result<Surface, DeskError> {
         let surface = match &self.file {
             None => Surface::built_in(),
             Some(path) => Surface::read(path, self.texture.as_deref()),
-        };
-        surface.map_err(one)
+        }?;
+        match self.profile()?.and_then(|profile| profile.compensation) {
+            Some(filter) => surface.in_voice(&filter),
+            None => Ok(surface),
+        }
+    }
+
+    fn profile(&self) -> Result<Option<Profile>, DeskError> {
+        let path = self.profile.as_deref();
+        Ok(path.map(Profile::load).transpose()?)
     }
 
     pub(crate) fn rate_hz(&self, surface: &Surface) -> u32 {
@@ -70,7 +88,15 @@ impl LoopOptions {
     }
 
     pub(crate) fn desk(&self, uri: &Uri, rate_hz: u32) -> Result<Desk, Failures> {
-        open(uri, rate_hz).map_err(one)
+        let opened = || {
+            // Nothing is opened for a profile that is refused.
+            let profile = self.profile()?;
+            Ok::<Desk, DeskError>(Desk {
+                profile,
+                ..open(uri, rate_hz)?
+            })
+        };
+        opened().map_err(one)
     }
 
     pub(crate) fn settings(&self, rate_hz: u32, seconds: Option<f64>) -> Settings {

@@ -142,8 +142,8 @@ fn add(a: Report, b: Report) -> Report {
 /// Looks after a loop from another thread.
 struct Attendant<'c> {
     console: Console,
-    /// The file that may change, and which texture of it.
-    watched: Option<(&'c Path, Option<&'c str>)>,
+    /// The file that may change, and what it is read with.
+    watched: Option<(&'c Path, &'c LoopOptions)>,
     seen: Option<(SystemTime, u64)>,
     outputs: Outputs,
     record: Option<(OutputId, Trace)>,
@@ -169,8 +169,9 @@ impl<'c> Attendant<'c> {
         rate_hz: u32,
     ) -> Result<Self, Failures> {
         let file = arguments.options.file.as_deref();
-        let texture = arguments.options.texture.as_deref();
-        let watched = file.filter(|_| arguments.watch).map(|path| (path, texture));
+        let watched = file
+            .filter(|_| arguments.watch)
+            .map(|path| (path, &arguments.options));
         let record = match record {
             None => None,
             Some(id) => {
@@ -348,13 +349,13 @@ impl<'c> Attendant<'c> {
     /// What the file holds now, if it has changed and can be read. A file that is just being
     /// written is looked at again.
     fn changed(&mut self) -> Option<Surface> {
-        let (path, texture) = self.watched?;
+        let (path, options) = self.watched?;
         let now = stamp(path)?;
         if self.seen == Some(now) {
             return None;
         }
         self.seen = Some(now);
-        match Surface::read(path, texture) {
+        match options.read() {
             Ok(surface) => Some(surface),
             Err(error) => {
                 self.say(&format!("{}\n  the old one stays", told(&error)));

@@ -6,8 +6,10 @@ use asperity::console::Console;
 use asperity::diagnostic::{Failures, one};
 use asperity::output::{Outputs, display};
 use asperity_host::profile::sweep::Sweep;
-use asperity_sim::calibration::{Measured, base, simulate};
+use asperity_sim::calibration::{Measured, base, draw, simulate};
 use asperity_sim::device::DeviceConfig;
+
+use crate::error::Plain;
 
 /// Fit a device's response from a commanded force and an acceleration, and write its profile
 ///
@@ -19,7 +21,8 @@ use asperity_sim::device::DeviceConfig;
 #[command(after_help = "Examples:
   asperity-lab device calibrate                          the simulated Touch
   asperity-lab device calibrate --table sweep.csv        its table, as a pattern
-  asperity-lab device calibrate measured.csv --profile touch.toml -o mine.toml
+  asperity-lab device calibrate measured.csv --profile touch.toml -o mine.toml --plot mine.png
+  asperity-lab servo brick.asp --device falcon: --profile mine.toml
 
 The sweep: 20 Hz to 0.48 of the rate and back in 20 s, at --amplitude. Hold the stylus by a
 thread or a weak spring. No table of real hardware has been fitted yet.")]
@@ -38,6 +41,9 @@ pub(crate) struct Arguments {
     /// Write the table of the simulated sweep; `-` is standard output
     #[arg(long, value_name = "OUT.csv", conflicts_with = "table_file")]
     table: Option<PathBuf>,
+    /// Draw the response without and with the filter, and the coherence; `-` is standard output
+    #[arg(long, value_name = "OUT.png")]
+    plot: Option<PathBuf>,
     /// Write the profile with its filter; `-` is standard output
     #[arg(short, long, value_name = "OUT.toml")]
     output: Option<PathBuf>,
@@ -60,6 +66,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let mut outputs = Outputs::beside(inputs);
     let mut open = |path: &Option<PathBuf>| outputs.open_if(path.as_deref()).map_err(one);
     let table_file = open(&arguments.table)?;
+    let plot_file = open(&arguments.plot)?;
     let profile_file = open(&arguments.output)?;
     let console = console.beside(&outputs);
 
@@ -104,6 +111,12 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         outputs
             .fill(file, measured.to_csv().as_bytes())
             .map_err(one)?;
+    }
+    if let (Some(file), Some(path)) = (plot_file, &arguments.plot) {
+        report += &format!("plot       {}\n", display(path));
+        let drawn = draw(&origin, &response, &design);
+        let png = drawn.map_err(|error| Plain::failure(error, "report this as a bug"))?;
+        outputs.fill(file, &png).map_err(one)?;
     }
     if let (Some(file), Some(path)) = (profile_file, &arguments.output) {
         report += &format!("profile    {}\n", display(path));

@@ -2,6 +2,8 @@
 
 mod calibrate;
 mod exercise;
+mod faults;
+mod inventory;
 mod list;
 mod probe;
 mod serve;
@@ -16,6 +18,7 @@ use clap::Subcommand;
   asperity-lab device list
   asperity-lab device probe falcon:?firmware=falcon.bin
   asperity-lab device exercise falcon: --ticks 10000
+  asperity-lab device faults falcon: --peak-n 1
   asperity-lab device serve falcon
   asperity-lab device calibrate -o touch.toml")]
 pub(crate) struct Arguments {
@@ -28,6 +31,7 @@ enum Command {
     List(list::Arguments),
     Probe(probe::Arguments),
     Exercise(exercise::Arguments),
+    Faults(faults::Arguments),
     Serve(serve::Arguments),
     Calibrate(calibrate::Arguments),
 }
@@ -38,6 +42,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
         Command::List(arguments) => list::run(arguments, console).map(|()| true),
         Command::Probe(arguments) => probe::run(arguments, console),
         Command::Exercise(arguments) => exercise::run(arguments, console),
+        Command::Faults(arguments) => faults::run(arguments, console),
         Command::Serve(arguments) => serve::run(arguments, console).map(|()| true),
         Command::Calibrate(arguments) => calibrate::run(arguments, console).map(|()| true),
     }

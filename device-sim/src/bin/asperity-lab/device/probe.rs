@@ -17,17 +17,20 @@ use crate::error::Plain;
 /// See whether a device works
 ///
 /// A Falcon is opened, given its firmware if it has none, and sent commands without force for two
-/// seconds. A Touch is identified, and nothing is sent to it: its protocol is not public. Without
-/// a URI the devices on USB are probed in turn. The exit status is 1 if one does not work.
+/// seconds. A Touch on USB is identified, and nothing is sent to it: its protocol is not public.
+/// Any other device is opened, read and told to give no force. Without a URI the devices on USB are
+/// probed in turn. The exit status is 1 if one does not work.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab device probe
   asperity-lab device probe 'falcon:?firmware=falcon.bin&tries=20'
   asperity-lab device probe touch: --json
+  asperity-lab device probe openhaptics:?lib=/opt/openhaptics/libHD.so
 
 Settings of falcon: are firmware=FILE, tries=N, peak_n=N, motor_step=COUNTS, ids=TOML.")]
 pub(crate) struct Arguments {
-    /// Which device: falcon:, touch:, with a serial number or BUS-ADDRESS behind the colon
+    /// Which device, such as falcon:, touch:, openhaptics: or dhd:; behind the colon a serial number,
+    /// a name or BUS-ADDRESS
     #[arg(value_name = "URI")]
     uri: Option<String>,
     /// Time of the commands, s (0.1 to 60)
@@ -82,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
 
 pub(super) fn parse(text: &str) -> Result<Uri, Failures> {
     text.parse::<Uri>()
-        .map_err(|error| Plain::failure(error, "write for instance `falcon:` or `touch:`"))
+        .map_err(|error| Plain::failure(error, "write for instance `falcon:` or `openhaptics:`"))
 }
 
 /// The devices of ours on USB.
@@ -123,10 +126,81 @@ fn probe(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
     match uri.scheme {
         Scheme::Falcon => falcon(uri, seconds),
         Scheme::Touch => touch(uri),
-        other => Err((
-            format!("`{}:` is not on USB", other.name()),
-            "name a falcon: or a touch:".into(),
-        )),
+        _ => any(uri, seconds),
+    }
+}
+
+/// A device that is not on USB: it is read a thousand times a second and told to give no force.
+fn any(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
+    use asperity::diagnostic::Diagnostic as _;
+    const RATE_HZ: u32 = 1000;
+    let desk = asperity_sim::desk::open(uri, RATE_HZ);
+    let mut device = desk
+        .map_err(|error| (error.to_string(), error.remedy()))?
+        .device;
+    let begun = Instant::now();
+    let (mut readings, mut fresh, mut faults) = (0_u64, 0_u64, 0_u64);
+    let mut last = Err(Fault::TimedOut);
+    let mut buttons = 0;
+    while begun.elapsed().as_secs_f64() < seconds {
+        readings += 1;
+        match device.read() {
+            Ok(reading) => {
+                fresh += u64::from(reading.fresh);
+                buttons |= reading.buttons;
+                last = Ok(reading.position_m);
+            }
+            Err(fault) => {
+                faults += 1;
+                last = Err(fault);
+            }
+        }
+        // A fault shows in the next reading.
+        let _ = device.write([0.0; 3]);
+        std::thread::sleep(Duration::from_micros(1_000_000 / u64::from(RATE_HZ)));
+    }
+    let rate_hz = fresh as f64 / begun.elapsed().as_secs_f64();
+    let description = device.description();
+    let serial = description.serial.as_deref().unwrap_or("no serial number");
+    let position = match &last {
+        Ok(position_m) => {
+            let [x, y, z] = position_m.map(|metres| metres * 1e3);
+            format!("position {x:.2}, {y:.2}, {z:.2} mm, buttons {buttons:#b}")
+        }
+        Err(fault) => format!("no position: {fault}"),
+    };
+    let mut text = format!(
+        "{}  {serial}\n  {readings} readings: {fresh} new ({rate_hz:.0} Hz), {faults} faults; no force was \
+         commanded\n  {position}\n  forces: {:.2} N at most, {:.2} N for long\n",
+        description.name, description.peak_force_n, description.continuous_force_n,
+    );
+    for sentence in &description.unconfirmed {
+        text += &format!("  unconfirmed: {sentence}\n");
+    }
+    let value = json!({
+        "uri": uri.to_string(),
+        "name": description.name,
+        "serial": description.serial,
+        "works": fresh > 0,
+        "readings": readings,
+        "fresh": fresh,
+        "faults": faults,
+        "rate_hz": rate_hz,
+        "position_m": last.ok(),
+        "buttons": buttons,
+        "peak_force_n": description.peak_force_n,
+        "continuous_force_n": description.continuous_force_n,
+        "unconfirmed": description.unconfirmed,
+    });
+    if fresh > 0 {
+        Ok(Probed { text, value })
+    } else {
+        let why = last.err().unwrap_or(Fault::TimedOut);
+        Err((
+            format!("{} gives no position: {why}", description.name),
+            "see what the table of docs/vendor.md says, and try the vendor's own test program"
+                .into(),
+        ))
     }
 }
 
@@ -141,7 +215,7 @@ fn touch(uri: &Uri) -> Result<Probed, Problem> {
     let limits =
         "Its protocol is not public: nothing was sent to it, and it cannot be felt over USB.";
     let next = "Install the vendor's OpenHaptics and its driver, and use openhaptics:.";
-    let mut value = super::list::value(&found);
+    let mut value = super::inventory::value(&found);
     value["works"] = true.into();
     value["notes"] = json!([face, limits, next]);
     Ok(Probed {

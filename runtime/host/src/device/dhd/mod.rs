@@ -16,7 +16,7 @@ mod library;
 
 use self::constants as dhd;
 use self::library::{Code, Dhd as Functions, Number};
-use super::vendor_library::{Library, Source, VendorError};
+use super::vendor_library::{Library, LibraryError, Source, VendorError};
 use super::{Description, Device, Fault, Reading, Uri};
 
 /// How the library is found. The vendor's robotics library contains it.
@@ -39,6 +39,18 @@ const PEAK_N: f32 = 8.0;
 /// How a device is calibrated, in words.
 const HOW: &str = "calibrate it as the vendor's manual says: move it to its resting place at \
                    start-up, or run the vendor's HapticInit; then try again";
+
+/// Whether the library can be used: its path, or the name by which the system found it. `setting`
+/// is the value of `lib=`. The library is loaded for a moment, and no function of it is called.
+///
+/// # Errors
+/// [`LibraryError`], with what to do.
+pub fn installed(setting: Option<&str>) -> Result<String, LibraryError> {
+    let library = Library::load(&SOURCE, setting)?;
+    let path = library.path().to_owned();
+    Functions::find(library)?;
+    Ok(path)
+}
 
 /// A device of the DHD. Dropping it sets the force to zero and closes the device.
 #[derive(Debug)]

@@ -30,7 +30,11 @@ impl<D: Device> Faulty<D> {
     /// [`PlanError`], as [`Plan::check`].
     pub fn new(inner: D, plan: Plan, seed: u64) -> Result<Self, PlanError> {
         plan.check()?;
-        Ok(Self {
+        Ok(Self::unchecked(inner, plan, seed))
+    }
+
+    pub(super) fn unchecked(inner: D, plan: Plan, seed: u64) -> Self {
+        Self {
             inner,
             plan,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
@@ -44,7 +48,7 @@ impl<D: Device> Faulty<D> {
             clock_step: 0,
             counts: Counts::default(),
             skipped: 0,
-        })
+        }
     }
 
     /// The device behind the faults.

@@ -17,9 +17,12 @@
 //! | unplugged | [`Fault::Disconnected`](super::Fault) | does not arrive, and the device has none |
 //! | write failed | what was measured | does not arrive; the device keeps the last one |
 //! | clock step | what was measured, and [`Faulty::take_clock_step`] says how many periods are gone | arrives |
+//!
+//! [`trial`] runs one of them in the middle of a contact, and says what became of the force.
 
 mod injector;
 mod plan;
+pub mod trial;
 
 pub use injector::Faulty;
 pub use plan::{Counts, Injected, Plan, PlanError, Rate};

@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use self::constants as hd;
 use self::library::Hd;
 use self::session::{Session, fault};
-use super::vendor_library::{Library, Source, VendorError};
+use super::vendor_library::{Library, LibraryError, Source, VendorError};
 use super::{Description, Device, Fault, Reading, Uri};
 
 /// How the library is found.
@@ -60,6 +60,18 @@ impl Drop for Claim {
     fn drop(&mut self) {
         IN_USE.store(false, SeqCst);
     }
+}
+
+/// Whether the library can be used: its path, or the name by which the system found it. `setting`
+/// is the value of `lib=`. The library is loaded for a moment, and no function of it is called.
+///
+/// # Errors
+/// [`LibraryError`], with what to do.
+pub fn installed(setting: Option<&str>) -> Result<String, LibraryError> {
+    let library = Library::load(&SOURCE, setting)?;
+    let path = library.path().to_owned();
+    Hd::find(library)?;
+    Ok(path)
 }
 
 /// A device of OpenHaptics HD. Dropping it takes the force to zero by small steps, stops the

@@ -66,7 +66,8 @@ impl UsbError {
         match self {
             Self::Ids(error) => error.remedy(),
             Self::NoUsb(_) => {
-                "check that /dev/bus/usb exists and is visible here; a container needs it passed in"
+                "check that /dev/bus/usb exists and is visible here; a container needs it passed in \
+                 (`--device /dev/bus/usb`). `sim:` needs no USB"
                     .into()
             }
             Self::NotFound { .. } => {

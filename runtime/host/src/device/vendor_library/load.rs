@@ -67,6 +67,11 @@ impl Library {
         }
     }
 
+    /// The file, or the name that the system found.
+    pub(in crate::device) fn path(&self) -> &str {
+        &self.path
+    }
+
     /// A function of the library.
     ///
     /// # Safety

@@ -1,0 +1,325 @@
+//! What can be opened here, in words and as JSON.
+
+use asperity::shown::plain;
+use asperity_host::device::usb::scan::{Access, Found, refuse};
+use asperity_host::device::usb::{Kind, UsbError};
+use asperity_host::device::vendor_library::LibraryError;
+use asperity_host::device::{dhd, openhaptics};
+use serde_json::{Value, json};
+
+/// Devices that need neither USB nor a vendor's library.
+const ANYWHERE: [&str; 3] = ["sim:", "null:", "replay:FILE"];
+
+/// What can be opened.
+pub(super) struct Inventory {
+    /// What is on USB, or why nobody can tell.
+    pub(super) usb: Result<Vec<Found>, UsbError>,
+    pub(super) libraries: Vec<VendorLibrary>,
+    /// Whether devices that are none of ours are shown.
+    pub(super) all: bool,
+}
+
+/// A vendor's library.
+pub(super) struct VendorLibrary {
+    product: &'static str,
+    uri: &'static str,
+    /// Its path, or why it cannot be used.
+    found: Result<String, LibraryError>,
+}
+
+/// The vendors' libraries that there are.
+pub(super) fn libraries() -> Vec<VendorLibrary> {
+    vec![
+        VendorLibrary {
+            product: openhaptics::SOURCE.product,
+            uri: "openhaptics:",
+            found: openhaptics::installed(None),
+        },
+        VendorLibrary {
+            product: dhd::SOURCE.product,
+            uri: "dhd:",
+            found: dhd::installed(None),
+        },
+    ]
+}
+
+impl VendorLibrary {
+    fn state(&self) -> &'static str {
+        match self.found {
+            Ok(_) => "ready",
+            Err(LibraryError::NotFound { .. }) => "not_installed",
+            Err(_) => "unusable",
+        }
+    }
+
+    fn line(&self) -> String {
+        let Self { product, uri, .. } = self;
+        match &self.found {
+            Ok(path) => format!("{product}  {}\n  ready: {uri}\n", plain(path)),
+            // The loader's words tell nothing more.
+            Err(error @ LibraryError::NotFound { .. }) => {
+                format!(
+                    "{product}\n  not installed: {uri} needs it\n  help: {}\n",
+                    error.remedy()
+                )
+            }
+            Err(error) => format!(
+                "{product}\n  {}\n  help: {}\n",
+                plain(&error.to_string()),
+                plain(&error.remedy())
+            ),
+        }
+    }
+
+    fn value(&self) -> Value {
+        let mut value = json!({
+            "product": self.product,
+            "uri": self.uri,
+            "state": self.state(),
+            "path": self.found.as_ref().ok(),
+        });
+        if let Err(error) = &self.found {
+            value["problem"] = error.to_string().into();
+            value["remedy"] = error.remedy().into();
+        }
+        value
+    }
+}
+
+impl Inventory {
+    fn shown(&self) -> Vec<&Found> {
+        let found = self.usb.iter().flatten();
+        found
+            .filter(|found| self.all || found.kind.is_some())
+            .collect()
+    }
+
+    /// Problem and remedy where USB shows no device of ours.
+    fn problem(&self) -> Option<(String, String)> {
+        match &self.usb {
+            Err(error) => Some((error.to_string(), error.remedy())),
+            Ok(found) if found.iter().any(|found| found.kind.is_some()) => None,
+            Ok(found) => Some((
+                format!(
+                    "no haptic device is plugged in ({} other devices on USB)",
+                    found.len()
+                ),
+                "plug it in and switch its power on; `--all` lists everything, and if yours is \
+                 there under other ids, put them into a list for --ids"
+                    .into(),
+            )),
+        }
+    }
+
+    pub(super) fn text(&self) -> String {
+        let mut text = String::new();
+        if let Some((problem, remedy)) = self.problem() {
+            text += &format!("{problem}\n  help: {remedy}\n");
+        }
+        for found in self.shown() {
+            text += &line(found);
+        }
+        for library in &self.libraries {
+            text += &library.line();
+        }
+        text + &format!("Anywhere: {}\n", ANYWHERE.join(", "))
+    }
+
+    pub(super) fn value(&self) -> Value {
+        let devices: Vec<Value> = self.shown().into_iter().map(value).collect();
+        let libraries: Vec<Value> = self.libraries.iter().map(VendorLibrary::value).collect();
+        let mut value = json!({
+            "usb": self.usb.is_ok(),
+            "devices": devices,
+            "libraries": libraries,
+            "anywhere": ANYWHERE,
+        });
+        if let Some((problem, remedy)) = self.problem() {
+            value["problem"] = problem.into();
+            value["remedy"] = remedy.into();
+        }
+        value
+    }
+}
+
+/// The name to open a device by, if it can be opened over USB.
+fn uri(found: &Found) -> Option<String> {
+    let which = found.serial.clone();
+    let which = which.unwrap_or_else(|| format!("{}-{}", found.bus, found.address));
+    match found.kind? {
+        Kind::Falcon => Some(format!("falcon:{which}")),
+        Kind::Touch => Some(format!("touch:{which}")),
+    }
+}
+
+fn state(found: &Found) -> (&'static str, String) {
+    match (&found.access, found.kind) {
+        (Access::Ready, Some(Kind::Touch)) => (
+            "identified",
+            "identified; forces go through its vendor's library: openhaptics:".into(),
+        ),
+        (Access::Ready, _) => (
+            "ready",
+            format!("ready: {}", uri(found).unwrap_or_default()),
+        ),
+        (Access::NotPermitted, _) => ("not_permitted", "this user may not open it".into()),
+        (Access::InUse, _) => ("in_use", "in use by another program or driver".into()),
+        (Access::Failed(problem), _) => ("failed", format!("cannot be opened: {problem}")),
+        (Access::Unknown, _) => ("unknown", "none of ours; not opened".into()),
+    }
+}
+
+/// What is to be said of a device on USB.
+pub(super) fn line(found: &Found) -> String {
+    // What a device says of itself is no part of our text.
+    let serial = found.serial.as_deref().map(plain);
+    let serial = serial.as_deref().unwrap_or("no serial number");
+    let mut text = format!(
+        "{}  {:04x}:{:04x}  {}  {}\n  {}\n",
+        found.name,
+        found.vendor,
+        found.product,
+        serial,
+        found.node(),
+        plain(&state(found).1)
+    );
+    if let Err(error) = refuse(found, &found.access) {
+        text += &format!("  help: {}\n", error.remedy());
+    }
+    text
+}
+
+pub(super) fn value(found: &Found) -> Value {
+    let mut value = json!({
+        "name": found.name,
+        "kind": found.kind,
+        "vendor": format!("{:04x}", found.vendor),
+        "product": format!("{:04x}", found.product),
+        "serial": found.serial,
+        "node": found.node(),
+        "uri": uri(found),
+        "state": state(found).0,
+    });
+    if let Err(error) = refuse(found, &found.access) {
+        value["problem"] = error.to_string().into();
+        value["remedy"] = error.remedy().into();
+    }
+    value
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(access: Access, kind: Option<Kind>) -> Found {
+        Found {
+            bus: 1,
+            address: 7,
+            vendor: 0x0403,
+            product: 0xcb48,
+            kind,
+            name: "Novint Falcon".into(),
+            serial: Some("AB\u{1b}[31m12".into()),
+            interface_classes: Vec::new(),
+            access,
+        }
+    }
+
+    fn missing() -> VendorLibrary {
+        VendorLibrary {
+            product: "OpenHaptics HD",
+            uri: "openhaptics:",
+            found: Err(LibraryError::NotFound {
+                product: "OpenHaptics HD",
+                names: "libHD.so".into(),
+                variable: "ASPERITY_OPENHAPTICS",
+                message: "no such file".into(),
+            }),
+        }
+    }
+
+    fn inventory(usb: Result<Vec<Found>, UsbError>) -> Inventory {
+        Inventory {
+            usb,
+            libraries: vec![missing()],
+            all: false,
+        }
+    }
+
+    #[test]
+    fn every_state_says_what_is_so_and_what_to_do() {
+        let falcon = Some(Kind::Falcon);
+        let failed = Access::Failed("Input/Output Error".into());
+        for (usb, state, words) in [
+            (
+                Err(UsbError::NoUsb("Other error".into())),
+                None,
+                ["USB cannot be used here", "/dev/bus/usb"],
+            ),
+            (
+                Ok(vec![]),
+                None,
+                ["no haptic device is plugged in", "switch its power on"],
+            ),
+            (
+                Ok(vec![found(Access::Unknown, None)]),
+                None,
+                ["1 other devices on USB", "--ids"],
+            ),
+            (
+                Ok(vec![found(Access::NotPermitted, falcon)]),
+                Some("not_permitted"),
+                ["this user may not open it", "help: "],
+            ),
+            (
+                Ok(vec![found(Access::InUse, falcon)]),
+                Some("in_use"),
+                ["in use by another program", "lsof"],
+            ),
+            (
+                Ok(vec![found(failed, falcon)]),
+                Some("failed"),
+                ["Input/Output Error", "plug the device out and in"],
+            ),
+            (
+                Ok(vec![found(Access::Ready, falcon)]),
+                Some("ready"),
+                ["ready: falcon:", "AB"],
+            ),
+            (
+                Ok(vec![found(Access::Ready, Some(Kind::Touch))]),
+                Some("identified"),
+                ["its vendor's library", "openhaptics:"],
+            ),
+        ] {
+            let works = usb.is_ok();
+            let inventory = inventory(usb);
+            let (text, value) = (inventory.text(), inventory.value());
+            for word in words {
+                assert!(text.contains(word), "{word} in {text}");
+            }
+            assert_eq!(value["usb"], works);
+            assert_eq!(value["devices"][0]["state"].as_str(), state, "{value}");
+            // The rest is told whatever USB says.
+            for word in [
+                "not installed: openhaptics:",
+                "ASPERITY_OPENHAPTICS",
+                "sim:, null:",
+            ] {
+                assert!(text.contains(word), "{word} in {text}");
+            }
+            assert_eq!(value["libraries"][0]["state"], "not_installed");
+            assert_eq!(value["anywhere"][0], "sim:");
+            assert!(!text.contains('\u{1b}'), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_none_of_ours_is_shown_on_request() {
+        let mut inventory = inventory(Ok(vec![found(Access::Unknown, None)]));
+        assert!(!inventory.text().contains("none of ours"));
+        inventory.all = true;
+        assert!(inventory.text().contains("none of ours; not opened"));
+        assert_eq!(inventory.value()["devices"][0]["state"], "unknown");
+    }
+}
