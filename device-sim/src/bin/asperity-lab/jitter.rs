@@ -328,7 +328,7 @@ fn bug(error: impl std::fmt::Display) -> Failures {
 
 /// Reads an interval log.
 fn read(path: &Path) -> Result<Run, Failures> {
-    let bytes = input::read(path, Kind::Trajectory).map_err(|problem| {
+    let bytes = input::read(path, Kind::Log).map_err(|problem| {
         let file = path.to_owned();
         one(InputError { file, problem })
     })?;

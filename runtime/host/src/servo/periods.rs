@@ -64,11 +64,7 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
         Self {
             schedule: Schedule::new(settings.rate_hz, 0),
             recovery: Recovery::new(settings.rate_hz),
-            device: Supervised::new(
-                Heard::new(device),
-                render.config(),
-                Plausible::default(),
-            ),
+            device: Supervised::new(Heard::new(device), render.config(), Plausible::default()),
             render,
             clock,
             observer,
@@ -141,7 +137,8 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
         let due_ns = self.schedule.due_ns();
         let missed = self.wait();
         let woken_ns = self.clock.now_ns();
-        let periods = (self.settings.pace).periods(self.report.ticks, self.passed.saturating_add(1));
+        let periods =
+            (self.settings.pace).periods(self.report.ticks, self.passed.saturating_add(1));
         self.passed = 0;
         let read_faults = self.device.tally().read_faults;
         let seen = self.device.read(periods);

@@ -15,8 +15,8 @@ use asperity_runtime::{Flags, PrepareError, Preparer};
 use asperity_sim::desk::{Attended, Recorder, Surface};
 use indicatif::ProgressBar;
 
-use super::summary::{self, Session, Told};
 use super::Arguments;
+use super::summary::{self, Session, Told};
 use crate::loop_options::refusals;
 
 /// Time between two looks at the queues.
@@ -279,9 +279,13 @@ impl<'c> Attendant<'c> {
         }
         // The session is told even where its record was lost.
         if self.json {
-            self.console.json(&summary::json(session, &told)).map_err(one)?;
+            self.console
+                .json(&summary::json(session, &told))
+                .map_err(one)?;
         } else {
-            self.console.text(&summary::text(session, &told)).map_err(one)?;
+            self.console
+                .text(&summary::text(session, &told))
+                .map_err(one)?;
         }
         failure
     }

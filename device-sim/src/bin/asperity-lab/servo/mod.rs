@@ -80,9 +80,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let mut outputs = Outputs::beside(inputs(arguments));
     let form = arguments.record.as_deref().map(Form::of);
     let form = form.transpose().map_err(one)?;
-    let output = outputs
-        .open_if(arguments.record.as_deref())
-        .map_err(one)?;
+    let output = outputs.open_if(arguments.record.as_deref()).map_err(one)?;
     let console = console.beside(&outputs);
     let mut surface = options.surface()?;
     let (mut desk, rate_hz) = options.desk(&arguments.device, &surface)?;
@@ -157,8 +155,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
 
 /// The files that are read.
 fn inputs(arguments: &Arguments) -> Vec<PathBuf> {
-    let replayed = (arguments.device.scheme == Scheme::Replay)
-        .then(|| PathBuf::from(&arguments.device.which));
+    let replayed =
+        (arguments.device.scheme == Scheme::Replay).then(|| PathBuf::from(&arguments.device.which));
     let file = arguments.options.file.clone();
     file.into_iter().chain(replayed).collect()
 }
