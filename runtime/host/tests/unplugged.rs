@@ -6,7 +6,7 @@ mod support;
 use asperity_host::device::faulty::{Faulty, Injected, Plan};
 use asperity_host::device::{Description, Device, Fault, Reading};
 use asperity_host::servo::{Event, Fixed, Report, ServoLoop, Settings, Virtual};
-use asperity_runtime::{Config, Flags, State};
+use asperity_runtime::{Config, Flags, Renderer, State};
 use std::sync::atomic::AtomicBool;
 use support::{Act, Kept, Scripted, length, texture};
 
@@ -91,8 +91,18 @@ struct Session {
 }
 
 fn session(periods: u64, plan: Plan, starts: Option<(u64, Injected, u32)>) -> Session {
+    session_with(&Config::default(), periods, plan, starts)
+}
+
+fn session_with(
+    config: &Config,
+    periods: u64,
+    plan: Plan,
+    starts: Option<(u64, Injected, u32)>,
+) -> Session {
     let clock = Virtual::new();
-    let (texture, renderer) = texture(1000.0);
+    let (texture, _) = texture(config.servo_rate_hz);
+    let renderer = Renderer::new(config).expect("a configuration");
     let calm = |_| Act::default();
     let mut scripted = Scripted::new(&clock, calm, calm);
     scripted.recovers = true;
@@ -215,14 +225,18 @@ fn no_fault_of_any_kind_makes_a_force_beyond_the_limits() {
 
 #[test]
 fn what_a_device_holds_is_left_at_the_slew_limit() {
-    // Its forces do not arrive for 40 periods, in which the wanted force goes to zero.
-    let run = session(
-        1500,
-        Plan::default(),
-        Some((300, Injected::WriteFailed, 40)),
-    );
-    assert!(run.report.eased > 0 && run.report.write_faults == 40);
-    assert!(largest_step(&run.taken) <= SLEW_N, "at the motors as well");
+    // Forces do not arrive for 40 periods, in which the wanted force goes to zero. At 0.1 N a tick
+    // the device holds more than one step.
+    let mut config = Config::default();
+    config.limits.slew_n_s = 100.0;
+    let starts = Some((300, Injected::WriteFailed, 40));
+    let run = session_with(&config, 1500, Plan::default(), starts);
+    assert_eq!(run.report.write_faults, 40);
+    assert!(run.report.eased > 0, "one force at least");
+    let most = 0.1 * (1.0 + 1e-5);
+    assert!(largest_step(&run.taken) <= most, "at the motors as well");
+    assert!(run.taken.iter().any(|force| length(*force) > 0.3));
+    assert!(run.report.ended_without_force);
 }
 
 #[test]

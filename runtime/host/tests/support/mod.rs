@@ -79,7 +79,9 @@ impl<F: FnMut(u64) -> Act + Send, G: FnMut(u64) -> Act + Send> Device for Script
         let act = (self.read)(self.reads);
         self.reads += 1;
         self.clock.pass(act.takes_ns);
-        let x_m = 1e-4 * (self.reads % 200) as f32;
+        // There and back, since a hand does not jump.
+        let phase = self.reads % 400;
+        let x_m = 1e-4 * phase.min(400 - phase) as f32;
         match act.fault {
             Some(fault) => Err(fault),
             None => Ok(Reading {
