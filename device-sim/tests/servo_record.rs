@@ -170,8 +170,8 @@ fn every_kind_of_device_says_what_to_do() {
     let folder = tempfile::tempdir().expect("a folder");
     for (uri, words) in [
         ("touch:", "openhaptics:"),
-        ("openhaptics:no/libHD.so", "libHD"),
-        ("dhd:no/libdhd.so", "libdhd"),
+        ("openhaptics:?lib=none.so", "none.so"),
+        ("dhd:?lib=none.so", "none.so"),
         ("falcon:nobody", "alcon"),
         ("replay:", "replay:FILE"),
         ("sim:none.toml", "none.toml"),

@@ -43,6 +43,11 @@ pub enum DeskError {
     /// The built-in texture cannot be made.
     #[error("{0}")]
     BuiltIn(String),
+    /// A device that is only identified.
+    #[error(
+        "`{0}`: a Touch is identified over USB, and not moved: its frames are its vendor's secret"
+    )]
+    IdentifiedOnly(String),
     /// The device cannot be opened.
     #[error(transparent)]
     Open(#[from] OpenError),
@@ -87,7 +92,10 @@ impl Diagnostic for DeskError {
         match self {
             Self::Source(error) => error.is_usage(),
             Self::Open(error) => !matches!(error, OpenError::Failed { .. }),
-            Self::Settings(_) | Self::RecordName(_) | Self::RecordedRate { .. } => true,
+            Self::Settings(_)
+            | Self::IdentifiedOnly(_)
+            | Self::RecordName(_)
+            | Self::RecordedRate { .. } => true,
             Self::Load { cause, .. } => matches!(cause, LoadError::Rate { .. }),
             _ => false,
         }
@@ -105,10 +113,8 @@ impl Diagnostic for DeskError {
                 "make the texture again with fewer vertices or a lower order".into()
             }
             Self::BuiltIn(_) | Self::Bug => "report this as a bug".into(),
-            Self::Open(OpenError::NotHere {
-                scheme: "touch", ..
-            }) => {
-                "touch: only identifies a Touch (`asperity-lab device probe touch:`), since its frames are the vendor's secret; use openhaptics: with the vendor's library".into()
+            Self::IdentifiedOnly(_) => {
+                "use openhaptics: with the vendor's library, or `asperity-lab device probe touch:` to see its state".into()
             }
             Self::Open(error) => error.remedy(),
             Self::RecordName(_) => {

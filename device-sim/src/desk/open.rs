@@ -55,6 +55,7 @@ pub fn open(uri: &Uri, rate_hz: u32) -> Result<Desk, DeskError> {
     match uri.scheme {
         Scheme::Sim => simulated(uri, rate_hz),
         Scheme::Replay => replay::open(uri),
+        Scheme::Touch => Err(DeskError::IdentifiedOnly(uri.to_string())),
         _ => Ok(Desk {
             device: device::open(uri, rate_hz)?,
             mechanics: Config::default().mechanics,
