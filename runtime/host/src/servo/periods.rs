@@ -101,12 +101,13 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
             }
         };
         self.report.end = end;
+        // A device that falls silent while it is let go has no fault.
+        self.report.episodes = self.device.tally().episodes;
         self.report.ended_without_force = self.fade_out();
         self.report.counters = self.render.counters();
         let tally = self.device.tally();
         self.report.read_faults = tally.read_faults;
         self.report.write_faults = tally.write_faults;
-        self.report.episodes = tally.episodes;
         self.report.eased = tally.eased;
         self.report
     }
