@@ -53,10 +53,10 @@ fn heading(canvas: &mut Canvas, run: &Run) {
     );
     if let Some(conditions) = facts.conditions.first() {
         let granted = conditions.granted.iter();
-        let policy = granted.filter_map(|asked| asked.strip_prefix("policy: "));
+        let mut policy = granted.filter_map(|asked| asked.strip_prefix("policy: "));
         below += &format!(
             "; {}, {}, load {}",
-            policy.last().unwrap_or("no policy granted"),
+            policy.next_back().unwrap_or("no policy granted"),
             conditions.device,
             conditions.load
         );
