@@ -92,8 +92,6 @@ fn a_recorded_session_is_played_to_the_same_bits() {
         "{}",
         errors(&output)
     );
-    let told: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    assert!(number(&told["replay"]["different"]) > 0, "another texture");
 }
 
 #[test]
