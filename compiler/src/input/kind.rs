@@ -27,6 +27,8 @@ pub enum Kind {
     Corpus,
     /// A trajectory, CSV; read row by row.
     Trajectory,
+    /// An interval log of `asperity-lab jitter`.
+    Log,
     /// Counted instructions, CSV.
     Counts,
     /// `model.json` of a model folder.
@@ -51,6 +53,7 @@ impl Kind {
         Self::Settings,
         Self::Corpus,
         Self::Trajectory,
+        Self::Log,
         Self::Counts,
         Self::Description,
         Self::Network,
@@ -71,7 +74,8 @@ impl Kind {
             | Self::Vocabulary => 16 * MIB,
             Self::Scene | Self::Settings | Self::Counts => MIB,
             Self::Corpus => 4 * MIB,
-            Self::Trajectory => 1024 * MIB,
+            // A log of a day takes half of it.
+            Self::Trajectory | Self::Log => 1024 * MIB,
             // The text tower of CLIP ViT-L/14 takes 472 MiB.
             Self::TextEncoder => 480 * MIB,
         }
@@ -92,6 +96,7 @@ impl Kind {
             Self::Settings => "compare with device-sim/devices/touch.toml or a file of grips/",
             Self::Corpus => "split the file: every .toml file of the folder is read",
             Self::Trajectory => "cut the trajectory into several files",
+            Self::Log => "give a run.hlog that `asperity-lab jitter --out` wrote",
             Self::Counts => "give a table as `cortex-m designs` prints it",
             Self::Description | Self::Network => "give a folder that `asperity-train fit` wrote",
             Self::TextEncoder => "export the text tower alone, in half precision if need be",
@@ -112,6 +117,7 @@ impl fmt::Display for Kind {
             Self::Settings => "a file of settings",
             Self::Corpus => "a file of the corpus",
             Self::Trajectory => "a trajectory",
+            Self::Log => "an interval log",
             Self::Counts => "a table of counts",
             Self::Description => "a model's description",
             Self::Network => "a model's network",

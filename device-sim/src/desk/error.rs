@@ -10,6 +10,7 @@ use asperity_host::profile::ProfileError;
 use asperity_host::servo::SettingsError;
 use asperity_runtime::{LoadError, SceneError};
 use std::io;
+use std::path::PathBuf;
 
 /// Why a servo loop cannot run on a desk.
 #[derive(Debug, thiserror::Error)]
@@ -55,6 +56,11 @@ pub enum DeskError {
     /// The built-in texture cannot be made.
     #[error("{0}")]
     BuiltIn(String),
+    /// A device that is only identified.
+    #[error(
+        "`{0}`: a Touch is identified over USB, and not moved: its frames are its vendor's secret"
+    )]
+    IdentifiedOnly(String),
     /// The device cannot be opened.
     #[error(transparent)]
     Open(#[from] OpenError),
@@ -70,6 +76,25 @@ pub enum DeskError {
     /// The system has no room for a thread.
     #[error("cannot start the servo thread: {0}")]
     Thread(io::Error),
+    /// A name that says nothing of how to record.
+    #[error("{}: the name does not say how to record", .0.display())]
+    RecordName(PathBuf),
+    /// The record cannot be written.
+    #[error("{}: the record cannot be written: {cause}", path.display())]
+    Record {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        cause: io::Error,
+    },
+    /// A rate other than the one at which a recording was made.
+    #[error("the recording was made at {recorded_hz} Hz, and cannot be played at {asked_hz} Hz")]
+    RecordedRate {
+        /// Its rate.
+        recorded_hz: f32,
+        /// The one that was asked for.
+        asked_hz: u32,
+    },
     /// The servo thread panicked.
     #[error("the servo thread ended by a bug")]
     Bug,
@@ -80,7 +105,10 @@ impl Diagnostic for DeskError {
         match self {
             Self::Source(error) => error.is_usage(),
             Self::Open(error) => !matches!(error, OpenError::Failed { .. }),
-            Self::Settings(_) => true,
+            Self::Settings(_)
+            | Self::IdentifiedOnly(_)
+            | Self::RecordName(_)
+            | Self::RecordedRate { .. } => true,
             Self::Load { cause, .. } => matches!(cause, LoadError::Rate { .. }),
             _ => false,
         }
@@ -100,12 +128,15 @@ impl Diagnostic for DeskError {
             Self::Voice { cause, .. } => cause.remedy(),
             Self::Profile(error) => error.remedy().into(),
             Self::BuiltIn(_) | Self::Bug => "report this as a bug".into(),
-            Self::Open(error) => match error {
-                OpenError::NotHere { .. } => {
-                    "use sim:, a simulated Touch with a simulated hand, or null:".into()
-                }
-                other => other.remedy(),
-            },
+            Self::IdentifiedOnly(_) => {
+                "use openhaptics: with the vendor's library, or `asperity-lab device probe touch:` to see its state".into()
+            }
+            Self::Open(error) => error.remedy(),
+            Self::RecordName(_) => {
+                "give OUT.aspr for a recording that replay: plays, or OUT.csv for a table".into()
+            }
+            Self::Record { .. } => "free some space, or record fewer seconds".into(),
+            Self::RecordedRate { .. } => "leave out --rate".into(),
             Self::Simulated(error) => error.remedy(),
             Self::Config(_) => "change the value in the device file".into(),
             Self::Settings(_) => "give --rate 250 to 10000".into(),

@@ -5,11 +5,15 @@
 //! | `surface` | what is touched, read from a file |
 //! | `open` | devices by name, `sim:` among them |
 //! | `sim_device` | the simulated device and hand behind the host's trait |
+//! | `replay` | a recording as a device: its conditions, and whether forces repeat |
 //! | `run` | one run of the loop on its thread |
+//! | `recorder` | every tick into a file, on a thread of its own |
 //! | `trace` | every tick as a row of CSV |
 
 mod error;
 mod open;
+mod recorder;
+mod replay;
 mod run;
 mod sim_device;
 mod surface;
@@ -17,6 +21,8 @@ mod trace;
 
 pub use error::DeskError;
 pub use open::{Desk, open};
+pub use recorder::{Form, Recorder, Written};
+pub use replay::{Repeated, Replayed};
 pub use run::{Attended, Setup, run};
 pub use sim_device::{Pace, SimDevice};
 pub use surface::Surface;

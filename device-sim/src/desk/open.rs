@@ -1,11 +1,13 @@
 //! Devices by name.
 
 use super::error::DeskError;
+use super::replay::{self, Replayed};
 use super::sim_device::{Pace, SimDevice};
 use crate::device::DeviceConfig;
 use crate::hand::{Grip, GripPreset};
 use asperity_host::device::{self, Device, OpenError, Scheme, Uri};
 use asperity_host::profile::Profile;
+use asperity_host::servo::Pace as LoopPace;
 use asperity_runtime::{Config, Limits, MechanicsConfig};
 use std::path::Path;
 
@@ -20,12 +22,19 @@ pub struct Desk {
     pub mechanics: MechanicsConfig,
     /// What a profile says of it, if one was given: it counts more than the above.
     pub profile: Option<Profile>,
+    /// How many periods lie between two of its readings.
+    pub pace: LoopPace,
+    /// What a recording says of the session that it holds.
+    pub replayed: Option<Replayed>,
 }
 
 impl Desk {
-    /// The configuration of a renderer for this device.
+    /// The configuration of a renderer for this device; for a recording, the recorded one.
     #[must_use]
     pub fn config(&self, rate_hz: u32) -> Config {
+        if let Some(replayed) = &self.replayed {
+            return replayed.conditions.config.clone();
+        }
         let config = Config {
             servo_rate_hz: rate_hz as f32,
             limits: Limits {
@@ -57,13 +66,21 @@ impl Desk {
 /// # Errors
 /// [`DeskError::Open`] and [`DeskError::Simulated`].
 pub fn open(uri: &Uri, rate_hz: u32) -> Result<Desk, DeskError> {
-    if uri.scheme != Scheme::Sim {
-        return Ok(Desk {
+    match uri.scheme {
+        Scheme::Sim => simulated(uri, rate_hz),
+        Scheme::Replay => replay::open(uri),
+        Scheme::Touch => Err(DeskError::IdentifiedOnly(uri.to_string())),
+        _ => Ok(Desk {
             device: device::open(uri, rate_hz)?,
             mechanics: Config::default().mechanics,
             profile: None,
-        });
+            pace: LoopPace::Clock,
+            replayed: None,
+        }),
     }
+}
+
+fn simulated(uri: &Uri, rate_hz: u32) -> Result<Desk, DeskError> {
     uri.allow(&SETTINGS).map_err(OpenError::from)?;
     let config = match uri.which.as_str() {
         "" => DeviceConfig::touch()?,
@@ -85,5 +102,10 @@ pub fn open(uri: &Uri, rate_hz: u32) -> Result<Desk, DeskError> {
         device: Box::new(SimDevice::new(&config, grip, seed, rate_hz, pace)),
         mechanics: config.mechanics_config(),
         profile: None,
+        pace: match pace {
+            Pace::RealTime => LoopPace::Clock,
+            Pace::Stepped => LoopPace::Stepped,
+        },
+        replayed: None,
     })
 }

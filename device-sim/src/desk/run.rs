@@ -86,10 +86,7 @@ pub fn run<O: Observer + Send>(
     })?;
     let mut exchange = Exchange::new();
     let (mut preparer, player) = exchange.split(&mut playing, [&mut a, &mut b], setup.seed);
-    let render = Played {
-        renderer: &renderer,
-        player,
-    };
+    let render = Played::new(&renderer, player);
     spawn(setup, render, device, observer, Some(&mut preparer), attend)
 }
 

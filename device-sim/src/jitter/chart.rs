@@ -47,18 +47,43 @@ fn heading(canvas: &mut Canvas, run: &Run) {
     let style = TextStyle::new(size::LABEL).color(ink::GREY);
     let mut below = format!(
         "{} ticks of {} µs, {} missed",
-        facts.ticks,
+        grouped(facts.ticks),
         facts.period_ns / 1000,
-        facts.missed
+        grouped(facts.missed)
     );
     if let Some(conditions) = facts.conditions.first() {
+        let granted = conditions.granted.iter();
+        let mut policy = granted.filter_map(|asked| asked.strip_prefix("policy: "));
         below += &format!(
-            "; {}, load {}, {}",
-            conditions.device, conditions.load, conditions.machine.kernel
+            "; {}, {}, load {}",
+            policy.next_back().unwrap_or("no policy granted"),
+            conditions.device,
+            conditions.load
         );
+        if let Some(injected) = &conditions.injected {
+            below += &format!(", delay {injected}");
+        }
+        below += &format!("; {}", conditions.machine.kernel);
     }
     let line = canvas.fitted(&below, &style, SIZE.0 - 60.0);
     canvas.text(&line, (30.0, 106.0), &style);
+}
+
+/// A number with a comma before each three digits.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let groups: Vec<&str> = digits
+        .as_bytes()
+        .rchunks(3)
+        .rev()
+        .filter_map(|group| std::str::from_utf8(group).ok())
+        .collect();
+    groups.join(",")
+}
+
+/// The stroke of the length of a period.
+fn period_stroke() -> Stroke {
+    Stroke::new(ink::GREY, size::FRAME).dashed()
 }
 
 fn panel(outer: Rect, x: Axis, y: Axis, letter: char, title: &str) -> Panel {
@@ -113,13 +138,15 @@ fn percentiles(canvas: &mut Canvas, outer: Rect, run: &Run, cyclictest: Option<&
         "Percentiles",
     );
     panel.draw_frame(canvas);
+    let period = us(run.facts.period_ns);
+    panel.line(canvas, [(1.0, period), (ticks, period)], period_stroke());
     let mut keys = Vec::new();
     for (stage, color, name) in DRAWN {
         let stroke = stroke_of(stage, color);
         panel.line(canvas, curve(&run.raw(stage)), stroke);
         keys.push((Key::Line(stroke), name));
     }
-    let mut others = Vec::new();
+    let mut others = vec![(Key::Line(period_stroke()), "a period")];
     if let Some(wakeups) = cyclictest {
         let stroke = Stroke::new(ink::SKY, size::LINE);
         panel.line(canvas, curve(&wakeups.counts.histogram()), stroke);
@@ -147,6 +174,8 @@ fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
         "The longest of each interval, and the worst ticks",
     );
     panel.draw_frame(canvas);
+    let period = us(run.facts.period_ns);
+    panel.line(canvas, [(0.0, period), (end_s, period)], period_stroke());
     let mut keys = Vec::new();
     for (stage, color, name) in DRAWN {
         let stroke = stroke_of(stage, color);
@@ -171,6 +200,9 @@ fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
     let key = Key::Point(Marker::Circle, 7.0, Some(ink::PAPER), Some(outline));
     let area = panel.area();
     legend(canvas, (area.x, area.y - 52.0), area.right(), &keys);
-    let worst = [(key, "the ten worst ticks")];
+    let worst = [
+        (Key::Line(period_stroke()), "a period"),
+        (key, "the ten worst ticks"),
+    ];
     legend(canvas, (area.x, area.y - 22.0), area.right(), &worst);
 }

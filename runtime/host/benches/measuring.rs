@@ -63,6 +63,7 @@ fn round() -> f64 {
 
 fn record() -> Record {
     Record {
+        tick: 0,
         period: 0,
         missed: 0,
         times: Times::default(),
@@ -82,6 +83,7 @@ fn record() -> Record {
             friction_n: 0.0,
             flags: Flags::default(),
         },
+        exchanges: 0,
         written: Ok(()),
     }
 }

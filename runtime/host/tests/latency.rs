@@ -9,7 +9,7 @@ use asperity_host::latency::{
 use asperity_host::servo::{
     Fixed, Observer, Overrun, Record, Render, ServoLoop, Settings, Stage, Virtual,
 };
-use asperity_runtime::{Counters, Output, Sample, State};
+use asperity_runtime::{Config, Counters, Output, Sample, State};
 use hdrhistogram::Histogram;
 use std::sync::atomic::AtomicBool;
 use support::{Act, Scripted, texture};
@@ -40,6 +40,10 @@ impl<R: Render> Render for Taking<R> {
     fn tick(&mut self, sample: &Sample) -> Output {
         self.1.pass(COMPUTE_NS);
         self.0.tick(sample)
+    }
+
+    fn config(&self) -> &Config {
+        self.0.config()
     }
 
     fn counters(&self) -> Counters {

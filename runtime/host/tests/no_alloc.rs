@@ -118,10 +118,7 @@ fn ticks_faults_exchanges_and_full_queues_allocate_nothing() {
     let report = std::thread::scope(|scope| {
         let start = Start {
             device: &mut device,
-            render: Played {
-                renderer: &renderer,
-                player,
-            },
+            render: Played::new(&renderer, player),
             observer: outlet,
             settings: Settings::at(10_000),
             clock: Monotonic::spinning(Duration::from_micros(20)),

@@ -8,6 +8,7 @@ use asperity::diagnostic::{Diagnostic, Failures, one};
 pub(crate) struct Plain {
     what: String,
     remedy: String,
+    is_usage: bool,
 }
 
 impl Plain {
@@ -15,6 +16,16 @@ impl Plain {
         one(Self {
             what: what.to_string(),
             remedy: remedy.into(),
+            is_usage: false,
+        })
+    }
+
+    /// The command was called wrongly.
+    pub(crate) fn usage(what: impl std::fmt::Display, remedy: impl Into<String>) -> Failures {
+        one(Self {
+            what: what.to_string(),
+            remedy: remedy.into(),
+            is_usage: true,
         })
     }
 }
@@ -22,5 +33,9 @@ impl Plain {
 impl Diagnostic for Plain {
     fn remedy(&self) -> String {
         self.remedy.clone()
+    }
+
+    fn is_usage(&self) -> bool {
+        self.is_usage
     }
 }

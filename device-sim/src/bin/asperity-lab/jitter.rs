@@ -140,12 +140,12 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
 }
 
 fn measure(arguments: &Arguments, console: Console) -> Result<(), Failures> {
-    let stop = stop_on_interrupt()?;
+    let interrupt = stop_on_interrupt()?;
+    let stop = &*interrupt.stop;
     let options = &arguments.options;
     let surface = options.surface()?;
-    let rate_hz = options.rate_hz(&surface);
-    let mut desk = options.desk(&arguments.device, rate_hz)?;
-    let mut settings = options.settings(rate_hz, Some(arguments.seconds));
+    let (mut desk, rate_hz) = options.desk(&arguments.device, &surface)?;
+    let mut settings = options.settings(&desk, rate_hz, Some(arguments.seconds));
     if let Some(folder) = &arguments.out {
         check_folder(folder)?;
     }
@@ -192,8 +192,8 @@ fn measure(arguments: &Arguments, console: Console) -> Result<(), Failures> {
         clock: options.clock(),
         wanted: options.wanted(),
         injection: arguments.inject,
-        seed: options.seed,
-        stop: &stop,
+        seed: options.seed(&desk),
+        stop,
     };
     let mut measured = None;
     let (outlet, inlet) = queues(QUEUE_S * rate_hz as usize);
@@ -210,6 +210,7 @@ fn measure(arguments: &Arguments, console: Console) -> Result<(), Failures> {
     })
     .map_err(one)?;
     drop((desk, loading));
+    interrupt.released.store(true, Relaxed);
     bar.set_message("waiting for cyclictest");
     let wakeups = other.and_then(|cyclictest| {
         let finished = if stop.load(Relaxed) {
@@ -327,7 +328,7 @@ fn bug(error: impl std::fmt::Display) -> Failures {
 
 /// Reads an interval log.
 fn read(path: &Path) -> Result<Run, Failures> {
-    let bytes = input::read(path, Kind::Trajectory).map_err(|problem| {
+    let bytes = input::read(path, Kind::Log).map_err(|problem| {
         let file = path.to_owned();
         one(InputError { file, problem })
     })?;

@@ -46,9 +46,9 @@ pub(crate) struct LoopOptions {
     /// Let processors go into deep idle states
     #[arg(long)]
     pub(crate) deep_idle: bool,
-    /// Seed of the texture's excitation
-    #[arg(long, default_value_t = 1)]
-    pub(crate) seed: u64,
+    /// Seed of the texture's excitation; without it 1, or that of a recording that is played
+    #[arg(long)]
+    pub(crate) seed: Option<u64>,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
@@ -83,23 +83,37 @@ impl LoopOptions {
         Ok(path.map(Profile::load).transpose()?)
     }
 
-    pub(crate) fn rate_hz(&self, surface: &Surface) -> u32 {
-        self.rate.unwrap_or_else(|| surface.rate_hz())
-    }
-
-    pub(crate) fn desk(&self, uri: &Uri, rate_hz: u32) -> Result<Desk, Failures> {
-        let opened = || {
-            // Nothing is opened for a profile that is refused.
-            let profile = self.profile()?;
-            Ok::<Desk, DeskError>(Desk {
-                profile,
-                ..open(uri, rate_hz)?
-            })
+    /// Opens a device, and says at which rate it runs: a recording at its own.
+    pub(crate) fn desk(&self, uri: &Uri, surface: &Surface) -> Result<(Desk, u32), Failures> {
+        let asked_hz = self.rate.unwrap_or_else(|| surface.rate_hz());
+        // Nothing is opened for a profile that is refused.
+        let profile = self.profile().map_err(one)?;
+        let desk = Desk {
+            profile,
+            ..open(uri, asked_hz).map_err(one)?
         };
-        opened().map_err(one)
+        let Some(replayed) = &desk.replayed else {
+            return Ok((desk, asked_hz));
+        };
+        let recorded_hz = replayed.conditions.config.servo_rate_hz;
+        if self.rate.is_some_and(|rate| rate as f32 != recorded_hz) {
+            return Err(one(DeskError::RecordedRate {
+                recorded_hz,
+                asked_hz,
+            }));
+        }
+        // A rate that no loop has is refused when the loop begins.
+        Ok((desk, recorded_hz as u32))
     }
 
-    pub(crate) fn settings(&self, rate_hz: u32, seconds: Option<f64>) -> Settings {
+    /// Seed of the excitation on a desk.
+    pub(crate) fn seed(&self, desk: &Desk) -> u64 {
+        let recorded = desk.replayed.as_ref();
+        self.seed
+            .unwrap_or_else(|| recorded.map_or(1, |replayed| replayed.conditions.seed))
+    }
+
+    pub(crate) fn settings(&self, desk: &Desk, rate_hz: u32, seconds: Option<f64>) -> Settings {
         Settings {
             overrun: match self.overrun {
                 OverrunName::Skip => Overrun::Skip,
@@ -107,6 +121,7 @@ impl LoopOptions {
                 OverrunName::Stop => Overrun::Stop,
             },
             periods: seconds.map(|seconds| (seconds * f64::from(rate_hz)).round() as u64),
+            pace: desk.pace.clone(),
             ..Settings::at(rate_hz)
         }
     }
@@ -137,17 +152,33 @@ pub(crate) fn refusals(grants: &[Grant]) -> Vec<String> {
     refused.collect()
 }
 
-/// Set by the first interrupt or request to terminate.
-pub(crate) fn stop_on_interrupt() -> Result<Arc<AtomicBool>, Failures> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&stop);
-    ctrlc::set_handler(move || set.store(true, Relaxed)).map_err(|error| {
+/// What an interrupt (Ctrl-C, a request to terminate) does.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Interrupt {
+    /// Set by the first one: the loop is to end.
+    pub(crate) stop: Arc<AtomicBool>,
+    /// To be set when the device is released. Another interrupt then ends the program at once,
+    /// such as while it waits for a disk.
+    pub(crate) released: Arc<AtomicBool>,
+}
+
+/// Watches for interrupts.
+pub(crate) fn stop_on_interrupt() -> Result<Interrupt, Failures> {
+    let interrupt = Interrupt::default();
+    let set = interrupt.clone();
+    ctrlc::set_handler(move || {
+        let again = set.stop.swap(true, Relaxed);
+        if again && set.released.load(Relaxed) {
+            std::process::exit(130);
+        }
+    })
+    .map_err(|error| {
         Plain::failure(
             format!("cannot watch for interrupts: {error}"),
             "report this as a bug",
         )
     })?;
-    Ok(stop)
+    Ok(interrupt)
 }
 
 /// A name of a device.

@@ -2,7 +2,7 @@
 
 use crate::device::{Description, Device, Fault, Reading};
 use crate::servo::{Clock, Render, Stage};
-use asperity_runtime::{Counters, Output, Sample};
+use asperity_runtime::{Config, Counters, Output, Sample};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
@@ -117,7 +117,15 @@ impl<R: Render, C: Clock> Render for Delayed<R, C> {
         self.inner.tick(sample)
     }
 
+    fn config(&self) -> &Config {
+        self.inner.config()
+    }
+
     fn counters(&self) -> Counters {
         self.inner.counters()
+    }
+
+    fn exchanges(&self) -> u32 {
+        self.inner.exchanges()
     }
 }

@@ -1,8 +1,9 @@
 //! Sessions in files: every sample, every force, and the conditions that reproduce them.
 //!
 //! `docs/recording-format.md` specifies the bytes. A servo thread hands an [`Entry`] a tick to a
-//! [`Recorder`], which never waits. A thread of its own writes the file, in blocks with a checksum
-//! each, so that a file that was cut is readable up to its last whole block. [`Recording`] reads
+//! [`Recorder`], which never waits; [`FromServo`] makes entries of what a servo loop sends to another
+//! thread. The file is written in blocks with a checksum each, so that one that was cut is readable
+//! up to its last whole block. [`Recording`] reads
 //! one, [`csv`] exports it, and [`render_again`] renders it anew and compares every bit of force.
 
 mod block;
@@ -11,6 +12,8 @@ pub mod csv;
 mod entry;
 mod error;
 mod file;
+mod from_servo;
+mod pace;
 mod record;
 mod recorder;
 mod render_again;
@@ -19,5 +22,7 @@ pub use conditions::{Conditions, TextureInfo};
 pub use entry::Entry;
 pub use error::RecordingError;
 pub use file::{Encoder, Ending, Recording, Summary};
+pub use from_servo::FromServo;
+pub use pace::pace;
 pub use recorder::{Recorder, Writing, start};
 pub use render_again::{Comparison, Difference, RenderAgainError, render_again, render_again_with};

@@ -6,34 +6,42 @@
 //! | `periods` | the loop, generic over device, renderer, clock and observer |
 //! | `schedule` | due times without drift, and missed periods |
 //! | `clock` | the system's monotonic clock, and a virtual one |
-//! | `sampler` | stale readings, lost forces and elapsed periods |
-//! | `faults` | runs of faults: reported once, and when to recover |
+//! | `pace` | how many periods lie between two readings |
+//! | `heard` | what the supervised device said, for the records |
+//! | `recovery` | when a device that fails is asked to recover |
+//! | `event` | what is told once: faults, their end, recoveries that failed |
 //! | `render` | the runtime behind one trait: a texture, an exchange of textures, a scene |
 //! | `record`, `times` | what a tick leaves behind |
 //! | `outlet` | records and events to another thread |
 //! | `privileges` | real-time policy, locked memory, a processor of its own |
 //! | `thread` | all of it on a thread |
 //!
+//! Faults are the matter of [`Supervised`](crate::device::supervised::Supervised), through which the
+//! loop reads and writes its device.
+//!
 //! What must stay absent from the loop: allocation, locks, printing, files, and waiting for anyone
 //! but the clock and the device. `tests/no_alloc.rs` runs it under an allocator that counts.
 
 mod clock;
-mod faults;
+mod event;
+mod heard;
 mod outlet;
+mod pace;
 mod periods;
 pub mod privileges;
 mod record;
+mod recovery;
 mod render;
 mod report;
-mod sampler;
 mod schedule;
 mod settings;
 mod thread;
 mod times;
 
 pub use clock::{Clock, Monotonic, SECOND_NS, Virtual};
-pub use faults::Event;
+pub use event::Event;
 pub use outlet::{Inlet, Outlet, queues};
+pub use pace::Pace;
 pub use periods::ServoLoop;
 pub use record::{Observer, Record};
 pub use render::{Fixed, InScene, Played, Render};

@@ -4,7 +4,7 @@
 //! Memory is allocated when the queues are made, and not after.
 
 use super::{
-    faults::Event,
+    event::Event,
     record::{Observer, Record},
 };
 use rtrb::{Consumer, Producer, RingBuffer};

@@ -4,21 +4,26 @@
 //! sleep until due → read → sample → render → write → record
 //! ```
 //!
+//! The device is [`Supervised`]: what it does not give is a stale sample, and a force after ones that
+//! did not arrive stays within the slew limit of the one that it holds.
+//!
 //! Between two sleeps the loop neither allocates, locks nor prints. Only [`Device::recover`] may:
 //! it runs while the device is away and the force is zero, and the periods that it takes are
 //! counted apart.
 
 use super::{
     clock::Clock,
-    faults::{Event, Faults},
+    event::Event,
+    heard::Heard,
     record::{Observer, Record},
+    recovery::Recovery,
     render::Render,
     report::{End, Report},
-    sampler::Sampler,
     schedule::Schedule,
     settings::{Overrun, Settings},
     times::Times,
 };
+use crate::device::supervised::{Plausible, Supervised};
 use crate::device::{Device, Fault, Reading};
 use asperity_runtime::Sample;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -28,16 +33,19 @@ const ENDING_S: u64 = 2;
 
 /// A device, what renders its samples, a clock, and who looks on.
 pub struct ServoLoop<'d, D: ?Sized, R, C, O> {
-    device: &'d mut D,
+    device: Supervised<Heard<'d, D>>,
     render: R,
     clock: C,
     observer: O,
     settings: Settings,
     schedule: Schedule,
-    sampler: Sampler,
-    faults: Faults,
+    recovery: Recovery,
     report: Report,
     period: u64,
+    /// Periods without a tick since the last one.
+    passed: u32,
+    /// The force goes to zero for good.
+    is_ending: bool,
     woken_before_ns: u64,
     /// Ticks that [`Overrun::CatchUp`] still owes.
     owed: u64,
@@ -55,15 +63,16 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
     pub fn new(device: &'d mut D, render: R, clock: C, observer: O, settings: Settings) -> Self {
         Self {
             schedule: Schedule::new(settings.rate_hz, 0),
-            faults: Faults::new(settings.rate_hz),
-            device,
+            recovery: Recovery::new(settings.rate_hz),
+            device: Supervised::new(Heard::new(device), render.config(), Plausible::default()),
             render,
             clock,
             observer,
             settings,
-            sampler: Sampler::default(),
             report: Report::new(),
             period: 0,
+            passed: 0,
+            is_ending: false,
             woken_before_ns: 0,
             owed: 0,
         }
@@ -83,29 +92,43 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
             if stop.load(Relaxed) {
                 break End::Asked;
             }
-            if (self.settings.periods).is_some_and(|periods| self.period >= periods) {
+            let over = (self.settings.periods).is_some_and(|periods| self.period >= periods);
+            if over || self.settings.pace.is_over(self.report.ticks) {
                 break End::Over;
             }
-            if ticked.force_is_zero && self.faults.wants_recovery(self.woken_before_ns) {
+            if ticked.force_is_zero && self.recovery.is_due(self.woken_before_ns) {
                 self.recover();
             }
         };
         self.report.end = end;
+        // A device that falls silent while it is let go has no fault.
+        self.report.episodes = self.device.tally().episodes;
         self.report.ended_without_force = self.fade_out();
         self.report.counters = self.render.counters();
+        let tally = self.device.tally();
+        self.report.read_faults = tally.read_faults;
+        self.report.write_faults = tally.write_faults;
+        self.report.eased = tally.eased;
         self.report
     }
 
     /// Stale samples: the runtime holds two, then takes the force to zero at the slew limit.
     fn fade_out(&mut self) -> bool {
+        self.is_ending = true;
         let longest = ENDING_S * u64::from(self.settings.rate_hz);
         for _ in 0..longest {
             let ticked = self.tick(Some(Sample::STALE));
-            if ticked.force_is_zero {
-                return ticked.reached || self.device.write([0.0; 3]).is_ok();
+            // A device that took none of the last forces holds one that is eased to zero here.
+            if ticked.force_is_zero && (!ticked.reached || self.device.held_n() == [0.0; 3]) {
+                return ticked.reached || self.release();
             }
         }
-        self.device.write([0.0; 3]).is_ok()
+        self.release()
+    }
+
+    /// A last try to take the force away.
+    fn release(&mut self) -> bool {
+        self.device.write([0.0; 3]).is_ok() && self.device.held_n() == [0.0; 3]
     }
 
     /// One period. `sample` is given in place of what the device says.
@@ -115,17 +138,25 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
         let due_ns = self.schedule.due_ns();
         let missed = self.wait();
         let woken_ns = self.clock.now_ns();
-        let reading = self.device.read();
+        let periods =
+            (self.settings.pace).periods(self.report.ticks, self.passed.saturating_add(1));
+        self.passed = 0;
+        let read_faults = self.device.tally().read_faults;
+        let seen = self.device.read(periods);
         let read_ns = self.clock.now_ns();
-        let measured = self.sampler.sample(&reading);
-        let sample = sample.unwrap_or(measured);
+        let sample = sample.unwrap_or(seen.sample);
         let output = self.render.tick(&sample);
         let computed_ns = self.clock.now_ns();
         let written = self.device.write(output.force_n);
         let written_ns = self.clock.now_ns();
 
-        self.sampler.written(written.is_ok());
+        let refused = self.device.tally().read_faults > read_faults;
+        let reading = match self.device.device().last() {
+            Ok(_) if refused => Err(Fault::Garbled),
+            heard => heard,
+        };
         let record = Record {
+            tick: self.report.ticks,
             period: self.period,
             missed,
             times: Times {
@@ -139,9 +170,15 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
             reading,
             sample,
             output,
+            exchanges: self.render.exchanges(),
             written,
         };
         self.observer.tick(&record);
+        // That a device falls silent while it is let go is nothing to tell.
+        if let Some(report) = seen.report.filter(|_| !self.is_ending) {
+            self.observer.event(Event::of(report, self.period));
+        }
+        self.recovery.note(seen.fault.is_some());
         self.count(&record);
         self.woken_before_ns = woken_ns;
         self.schedule.advance(1);
@@ -185,11 +222,12 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
     /// Lets periods pass without a tick.
     fn skip(&mut self, periods: u64) {
         self.schedule.advance(periods);
-        self.sampler.pass(periods);
+        let passed = u32::try_from(periods).unwrap_or(u32::MAX);
+        self.passed = self.passed.saturating_add(passed);
         self.period += periods;
     }
 
-    /// Counts a tick, and reports the beginning and the end of a run of faults.
+    /// Counts a tick.
     #[inline]
     fn count(&mut self, record: &Record) {
         self.report.ticks += 1;
@@ -197,14 +235,7 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
             self.report.longest_gap_ns = self.report.longest_gap_ns.max(gap_ns);
         }
         let fresh = matches!(record.reading, Ok(Reading { fresh: true, .. }));
-        let silent = self.faults.freshness(fresh);
         self.report.stale += u64::from(!fresh);
-        self.report.read_faults += u64::from(record.reading.is_err());
-        self.report.write_faults += u64::from(record.written.is_err());
-        let fault: Option<Fault> = record.reading.err().or(record.written.err()).or(silent);
-        if let Some(event) = self.faults.note(self.period, fault) {
-            self.observer.event(event);
-        }
     }
 
     /// Lets the device recover, and goes on with the period after.
@@ -213,11 +244,14 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
         self.report.recoveries += 1;
         let recovered = self.device.recover();
         let now_ns = self.clock.now_ns();
-        if let Err(fault) = recovered {
-            let period = self.period;
-            self.observer.event(Event::NotRecovered { period, fault });
+        match recovered {
+            Ok(()) => self.report.recovered += 1,
+            Err(fault) => {
+                let period = self.period;
+                self.observer.event(Event::NotRecovered { period, fault });
+            }
         }
-        self.faults.tried(now_ns);
+        self.recovery.tried(now_ns);
         let passed = self.schedule.missed(now_ns);
         self.report.paused += passed;
         self.owed = 0;

@@ -1,24 +1,28 @@
 //! What a tick leaves behind, and who takes it.
 
-use super::{faults::Event, times::Times};
+use super::{event::Event, times::Times};
 use crate::device::{Fault, Reading};
 use asperity_runtime::{Output, Sample};
 
 /// Everything about one tick.
 #[derive(Debug, Clone, Copy)]
 pub struct Record {
+    /// Ticks since the loop began; a record that is lost on the way leaves a gap.
+    pub tick: u64,
     /// Period since the loop began; ticks that were missed leave gaps.
     pub period: u64,
     /// Periods that were missed just before this tick.
     pub missed: u64,
     /// When each stage ended.
     pub times: Times,
-    /// What the device said.
+    /// What the device said; a position that no hand can have is [`Fault::Garbled`].
     pub reading: Result<Reading, Fault>,
     /// What the runtime was given.
     pub sample: Sample,
     /// What the runtime answered.
     pub output: Output,
+    /// How often another texture has begun to play, up to this tick.
+    pub exchanges: u32,
     /// Whether the force reached the device.
     pub written: Result<(), Fault>,
 }

@@ -28,12 +28,18 @@ pub struct Report {
     pub paused: u64,
     /// Ticks in which the device gave nothing new.
     pub stale: u64,
-    /// Ticks in which reading failed.
+    /// Ticks in which reading failed, implausible positions included.
     pub read_faults: u64,
     /// Ticks in which writing failed.
     pub write_faults: u64,
     /// Recoveries that were tried.
     pub recoveries: u64,
+    /// Those after which the device was back.
+    pub recovered: u64,
+    /// Faults of the device, each counted once however long it lasted.
+    pub episodes: u64,
+    /// Forces that went to the device by way of the slew limit, since it held an older one.
+    pub eased: u64,
     /// Longest time from one wake-up to the next, ns.
     pub longest_gap_ns: u64,
     /// The last force was zero and reached the device.
@@ -54,6 +60,9 @@ impl Report {
             read_faults: 0,
             write_faults: 0,
             recoveries: 0,
+            recovered: 0,
+            episodes: 0,
+            eased: 0,
             longest_gap_ns: 0,
             ended_without_force: false,
             counters: Counters::default(),

@@ -1,5 +1,6 @@
 //! How a servo loop runs.
 
+use super::pace::Pace;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
@@ -45,6 +46,8 @@ pub struct Settings {
     pub periods: Option<u64>,
     /// When the first tick is due on the loop's clock, ns; a period after the start without it.
     pub start_ns: Option<u64>,
+    /// How many periods lie between two readings.
+    pub pace: Pace,
 }
 
 /// Why a loop cannot run.
@@ -73,6 +76,7 @@ impl Settings {
             overrun: Overrun::Skip,
             periods: None,
             start_ns: None,
+            pace: Pace::Clock,
         }
     }
 

@@ -42,6 +42,8 @@ pub(crate) struct Scripted<F, G> {
     pub(crate) recoveries: Vec<Result<(), Fault>>,
     /// Time that a recovery takes, ns.
     pub(crate) recovery_ns: u64,
+    /// Whether a recovery brings it back.
+    pub(crate) recovers: bool,
     description: Description,
 }
 
@@ -56,6 +58,7 @@ impl<F: FnMut(u64) -> Act, G: FnMut(u64) -> Act> Scripted<F, G> {
             forces: Vec::new(),
             recoveries: Vec::new(),
             recovery_ns: 0,
+            recovers: false,
             description: Description {
                 name: "scripted".into(),
                 serial: None,
@@ -76,7 +79,9 @@ impl<F: FnMut(u64) -> Act + Send, G: FnMut(u64) -> Act + Send> Device for Script
         let act = (self.read)(self.reads);
         self.reads += 1;
         self.clock.pass(act.takes_ns);
-        let x_m = 1e-4 * (self.reads % 200) as f32;
+        // There and back, since a hand does not jump.
+        let phase = self.reads % 400;
+        let x_m = 1e-4 * phase.min(400 - phase) as f32;
         match act.fault {
             Some(fault) => Err(fault),
             None => Ok(Reading {
@@ -97,7 +102,11 @@ impl<F: FnMut(u64) -> Act + Send, G: FnMut(u64) -> Act + Send> Device for Script
 
     fn recover(&mut self) -> Result<(), Fault> {
         self.clock.pass(self.recovery_ns);
-        let result = Err(Fault::Disconnected);
+        let result = if self.recovers {
+            Ok(())
+        } else {
+            Err(Fault::Disconnected)
+        };
         self.recoveries.push(result);
         result
     }

@@ -1,0 +1,129 @@
+//! No damage goes unnoticed.
+
+use asperity_host::recording::{Ending, RecordingError};
+
+use crate::session::{BUILTIN, conditions, entries, file, read};
+
+#[test]
+fn a_file_that_is_cut_anywhere_is_read_up_to_its_last_whole_block() {
+    let entries = entries(1100);
+    let whole = file(&entries);
+    let head = file(&[]).len();
+    let mut seen = Vec::new();
+    for length in (0..whole.len() - 16)
+        .step_by(7)
+        .chain(whole.len() - 16..whole.len())
+    {
+        match read(&whole[..length]) {
+            Ok(recording) => {
+                assert!(matches!(recording.ending, Ending::Cut { .. }), "{length}");
+                let got = recording.entries.len();
+                assert!(got.is_multiple_of(250) || got == 1100, "whole blocks only");
+                assert!(
+                    recording
+                        .entries
+                        .iter()
+                        .zip(&entries)
+                        .all(|(read, wrote)| read.has_bits_of(wrote))
+                );
+                seen.push(got);
+            }
+            Err(RecordingError::Foreign { .. }) => assert!(length < 4),
+            Err(error) => assert!(
+                matches!(error, RecordingError::Conditions { .. }) && length < head,
+                "{length}: {error}"
+            ),
+        }
+    }
+    assert!(
+        seen.is_sorted()
+            && [0, 250, 500, 750, 1000, 1100]
+                .iter()
+                .all(|count| seen.contains(count))
+    );
+}
+
+#[test]
+fn a_flipped_bit_anywhere_is_noticed() {
+    let whole = file(&entries(600));
+    let good = read(&whole).expect("a recording");
+    for at in (0..whole.len()).step_by(5) {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 1 << (at % 8);
+        match read(&bytes) {
+            // The two bytes after the version are free.
+            Ok(recording) if (6..8).contains(&at) => {
+                assert_eq!(recording.entries.len(), good.entries.len())
+            }
+            Ok(recording) => {
+                assert!(matches!(recording.ending, Ending::Cut { .. }), "{at}");
+                assert!(
+                    recording
+                        .entries
+                        .iter()
+                        .zip(&good.entries)
+                        .all(|(read, wrote)| read.has_bits_of(wrote))
+                );
+            }
+            Err(error) => assert!(!error.to_string().is_empty() && !error.remedy().is_empty()),
+        }
+    }
+}
+
+#[test]
+fn foreign_newer_and_hostile_files_give_clear_errors() {
+    let whole = file(&entries(10));
+    for bytes in [&b""[..], b"AS", b"\x89PNG\r\n\x1a\n", BUILTIN] {
+        assert!(matches!(read(bytes), Err(RecordingError::Foreign { .. })));
+    }
+    let mut newer = whole.clone();
+    newer[4] = 2;
+    let error = read(&newer).expect_err("newer");
+    assert!(
+        matches!(error, RecordingError::Version { found: 2, known: 1 }),
+        "{error}"
+    );
+
+    // Blocks with a right checksum and wrong contents.
+    let block = |kind: u8, body: &[u8]| {
+        let mut bytes = vec![kind];
+        bytes.extend_from_slice(&(body.len() as u32).to_le_bytes());
+        bytes.extend_from_slice(body);
+        let checksum = crc32fast::hash(&bytes);
+        bytes.extend_from_slice(&checksum.to_le_bytes());
+        bytes
+    };
+    let head = |conditions: &[u8]| [b"ASPR\x01\0\0\0".as_slice(), &block(0, conditions)].concat();
+    assert!(matches!(
+        read(&head(b"{}")),
+        Err(RecordingError::Conditions { .. })
+    ));
+    assert!(matches!(
+        read(&head(b"\xff")),
+        Err(RecordingError::Conditions { .. })
+    ));
+    let good = serde_json::to_vec(&conditions()).expect("JSON");
+    let with = |kind, body: &[u8]| read(&[head(&good), block(kind, body)].concat());
+    for (kind, body) in [
+        (1, &b"\xff\xff\xff\xff\x0f"[..]),
+        (1, b"\x01\xff\xff"),
+        (1, b"\x01\x08\x00"),
+        (1, b"\x00\x00"),
+        (1, b"\x01\x00\x08\x63\x00"),
+        (2, b"nothing"),
+        (3, b"\x05\x00"),
+        (3, b""),
+        (0, b"{}"),
+    ] {
+        let error = with(kind, body).expect_err("malformed");
+        assert!(
+            matches!(error, RecordingError::Malformed { at: 8.., .. }),
+            "{kind} {body:?}: {error}"
+        );
+    }
+    let later = with(77, b"of a later version").expect("skipped");
+    assert!(matches!(later.ending, Ending::Cut { .. }) && later.entries.is_empty());
+    // A length of 4 GiB asks for no memory.
+    let long = read(&[head(&good), vec![1, 255, 255, 255, 255]].concat()).expect("cut");
+    assert!(matches!(long.ending, Ending::Cut { .. }));
+}
