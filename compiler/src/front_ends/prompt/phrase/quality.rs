@@ -134,7 +134,7 @@ fn afterwards(words: &[String], found: Found, about: Use) -> Found {
     if about != Use::Edit {
         return found;
     }
-    const JOIN: [&str; 6] = ["by", "but", "only", "just", "a", "though"];
+    const JOIN: [&str; 7] = ["and", "by", "but", "only", "just", "a", "though"];
     let mut to = found.to;
     while words
         .get(to)

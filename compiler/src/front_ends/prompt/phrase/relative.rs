@@ -150,7 +150,8 @@ const FILLERS: [&str; 106] = [
 /// Reads an edit.
 #[must_use]
 pub fn relative(text: &str) -> Relative {
-    let words = words(text);
+    // "more like silk, firmer": a thing ends at a comma.
+    let words = words(&text.replace([',', ';'], " and "));
     let (head, towards) = towards(&words);
     let (changes, rest) =
         quality::divide(&head, Use::Edit).unwrap_or_else(|| (Changes::default(), head.clone()));
@@ -258,6 +259,9 @@ mod tests {
             ("suede leather", 0.75)
         );
         assert!(found.changes.hard.is_some() && found.unread.is_empty());
+        let comma = relative("more like silk, firmer");
+        assert_eq!(comma.towards.map(|t| t.thing).as_deref(), Some("silk"));
+        assert!(comma.changes.hard.is_some());
         assert!(relative("I would like it smoother").towards.is_none());
     }
 
