@@ -38,13 +38,13 @@ fn textures() -> Vec<Latents> {
 /// A step of 10 up or down moves its attribute by 10 ± 3 and every other by at most 5, wherever
 /// that stays on the slider: beyond 0 and 100 there may be no material to go by.
 #[test]
-#[ignore = "not so everywhere: some edits of roughness and hardness miss by up to 6 steps"]
+#[ignore = "its table has not been measured since edits move the rest after decoding"]
 fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
     let studio = Studio::new(&AUTHOR, 0);
     let how = How {
         fidelity: Fidelity::Auto,
         rate_hz: None,
-        preview: false,
+        preview_px: None,
     };
     let textures = textures();
     let cases: Vec<(usize, Axis, f64)> = (0..textures.len())
@@ -119,7 +119,7 @@ fn no_texture_vibrates_beyond_the_continuous_force() {
     let how = How {
         fidelity: Fidelity::Auto,
         rate_hz: None,
-        preview: false,
+        preview_px: None,
     };
     let far = |latents: &Latents, factor: f32| Latents::whole(latents.slide.map(|x| factor * x));
     let textures: Vec<Latents> = textures()

@@ -6,8 +6,9 @@ use crate::{
     look::Look,
     noise::hash,
     pattern::Pattern,
+    stems::stems,
     table::{Material, TABLE, Table},
-    words::{Said, read, stems},
+    words::{Said, read},
 };
 
 /// Width of the piece of surface that fine grain is drawn on, mm.
@@ -21,9 +22,9 @@ const USUAL_MU: f64 = 0.45;
 /// Centroid of a tap below which the fine grain blurs, Hz.
 const SOFT_HZ: f64 = 300.0;
 
-/// The look of a description: what its words name, else what its neighbours are, else how it
+/// The pattern of a description and its look: what its words name, else what its neighbours are, else how it
 /// feels.
-pub(crate) fn choose(description: &Description<'_>) -> Look {
+pub(crate) fn choose(description: &Description<'_>) -> (Pattern, Look) {
     let table: &Table = &TABLE;
     let said = read(description.words, table);
     let material = match said.material {
@@ -32,7 +33,6 @@ pub(crate) fn choose(description: &Description<'_>) -> Look {
             .unwrap_or_else(|| of_feel(description.feel, table)),
     };
     let mut look = Look {
-        pattern: material.pattern,
         colors: colors(&material, &said),
         cells: material.cells,
         fineness: 1.0,
@@ -45,7 +45,7 @@ pub(crate) fn choose(description: &Description<'_>) -> Look {
     if let Some(feel) = description.feel {
         felt(&mut look, feel);
     }
-    look
+    (material.pattern, look)
 }
 
 /// Level, wavelength, friction and hardness move the look within bounds that leave it the
@@ -194,7 +194,7 @@ mod tests {
     use super::*;
     use crate::color::parse;
 
-    fn described<'a>(words: &'a str, nearest: &'a [(&'a str, f64)]) -> Look {
+    fn described<'a>(words: &'a str, nearest: &'a [(&'a str, f64)]) -> (Pattern, Look) {
         choose(&Description {
             words,
             nearest,
@@ -211,14 +211,10 @@ mod tests {
             ("saddle hide", 0.15),
             ("smooth calf", 0.10),
         ];
-        assert_eq!(described("xyzzy", &nearest).pattern, Pattern::Velvet);
+        assert_eq!(described("xyzzy", &nearest).0, Pattern::Velvet);
         let leathers = [("denim", 0.35), ("saddle hide", 0.3), ("smooth calf", 0.3)];
-        let look = described("xyzzy", &leathers);
-        assert_eq!(
-            look.pattern,
-            Pattern::Leather,
-            "two that agree outweigh one"
-        );
+        let (pattern, look) = described("xyzzy", &leathers);
+        assert_eq!(pattern, Pattern::Leather, "two that agree outweigh one");
         let (a, b) = (parse("#8c4c24").unwrap(), parse("#7a3c20").unwrap());
         let between = (luminance(a) + luminance(b)) / 2.0;
         assert!((luminance(look.colors[0]) - between).abs() < 0.01);
@@ -226,16 +222,13 @@ mod tests {
 
     #[test]
     fn a_known_word_outweighs_neighbours_and_a_family_stands_in() {
-        assert_eq!(described("cork", &[("velvet", 1.0)]).pattern, Pattern::Cork);
-        assert_eq!(
-            described("xyzzy", &[("woods", 1.0)]).pattern,
-            Pattern::Board
-        );
+        assert_eq!(described("cork", &[("velvet", 1.0)]).0, Pattern::Cork);
+        assert_eq!(described("xyzzy", &[("woods", 1.0)]).0, Pattern::Board);
     }
 
     #[test]
     fn a_dye_leaves_the_mortar() {
-        let (red, blue) = (described("brick", &[]), described("blue brick", &[]));
+        let (red, blue) = (described("brick", &[]).1, described("blue brick", &[]).1);
         assert_eq!(red.colors[2], blue.colors[2]);
         assert!(blue.colors[0][2] > blue.colors[0][0] && red.colors[0][0] > red.colors[0][2]);
     }
@@ -255,6 +248,7 @@ mod tests {
                 feel: Some(feel),
                 seed: 0,
             })
+            .1
         };
         let usual = with(feel);
         assert!(
@@ -293,6 +287,7 @@ mod tests {
                 feel: None,
                 seed,
             })
+            .1
             .seed
         };
         assert_eq!(of("Red brick", 3), of("red bricks", 3));

@@ -3,7 +3,7 @@
 //! | file | says |
 //! |---|---|
 //! | [`description`](Description) | what a picture is made of |
-//! | `words`, `table`, `choose` | which pattern, in which colours: `data/materials.toml` |
+//! | `stems`, `table`, `words`, `choose` | which pattern, in which colours: `data/materials.toml` |
 //! | `pattern/` | a synthesis for each pattern class |
 //! | `noise`, `surface` | what they draw with; all repeats after one patch |
 //! | `light`, `palette`, `encode` | one light, few colours, PNG |
@@ -29,6 +29,7 @@ mod look;
 mod noise;
 mod palette;
 mod pattern;
+mod stems;
 mod surface;
 mod table;
 mod words;
@@ -68,8 +69,8 @@ impl Picture {
         if !SIZES.contains(&size) {
             return Err(SizeError(size));
         }
-        let look = choose::choose(description);
-        let mut surface = pattern::draw(&look, size as usize);
+        let (pattern, look) = choose::choose(description);
+        let mut surface = pattern::draw(pattern, &look, size as usize);
         for (k, texel) in surface.texels.iter_mut().enumerate() {
             texel.height *= look.relief;
             if look.grain.1 > 0.0 {

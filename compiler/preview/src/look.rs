@@ -1,11 +1,10 @@
-//! What is drawn: a pattern with its colours, size and depth.
+//! How a pattern is drawn: its colours, size and depth.
 
-use crate::{color::Rgb, pattern::Pattern};
+use crate::color::Rgb;
 
 /// Everything a pattern needs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Look {
-    pub(crate) pattern: Pattern,
     /// Colours of the pattern's parts; the last one stands for those that are left out.
     pub(crate) colors: Vec<Rgb>,
     /// How many features go over the patch; the pattern's own number if `None`.

@@ -3,7 +3,7 @@
 use crate::{
     color::{self, Rgb},
     pattern::Pattern,
-    words::stems,
+    stems::stems,
 };
 use serde::{Deserialize, Deserializer, de::Error as _};
 use std::{collections::BTreeMap, sync::LazyLock};

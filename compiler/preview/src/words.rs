@@ -2,6 +2,7 @@
 
 use crate::{
     color::Rgb,
+    stems::stems,
     table::{Finish, Material, Table},
 };
 
@@ -13,9 +14,6 @@ const BESIDE: &[&str] = &[
 /// Words that say what the subject is not.
 const NOT: &[&str] = &["not", "no", "without", "than", "less", "never", "non"];
 
-/// Plurals that no ending tells.
-const IRREGULAR: &[(&str, &str)] = &[("leaves", "leaf"), ("loaves", "loaf"), ("teeth", "tooth")];
-
 /// What the words say.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Said<'a> {
@@ -24,33 +22,6 @@ pub(crate) struct Said<'a> {
     /// All finishes together.
     pub(crate) brightness: f32,
     pub(crate) gloss: f32,
-}
-
-/// Words in lower case without their plural ending.
-pub(crate) fn stems(text: &str) -> Vec<String> {
-    text.split(|c: char| !c.is_alphanumeric() && c != '\'')
-        .filter(|word| !word.is_empty())
-        .map(|word| stem(&word.to_lowercase()))
-        .collect()
-}
-
-fn stem(word: &str) -> String {
-    let cut = |ending: &str, new: &str| {
-        let stem = word.strip_suffix(ending).filter(|stem| stem.len() >= 3)?;
-        Some(format!("{stem}{new}"))
-    };
-    if let Some(singular) = IRREGULAR.iter().find(|(plural, _)| *plural == word) {
-        return singular.1.to_owned();
-    }
-    if word.ends_with("ss") || word.ends_with("us") {
-        return word.to_owned();
-    }
-    cut("ies", "y")
-        .or_else(|| cut("'s", ""))
-        .or_else(|| cut("shes", "sh"))
-        .or_else(|| cut("ches", "ch"))
-        .or_else(|| cut("s", ""))
-        .unwrap_or_else(|| word.to_owned())
 }
 
 /// Reads a prompt. The material with the longest name counts; among equals the last one of the

@@ -46,6 +46,9 @@ pub enum EditError {
     /// The edit moves nothing.
     #[error("the edit asks for nothing")]
     NothingAsked,
+    /// Nothing in the words of an edit is understood.
+    #[error("the edit {0:?} says nothing of rough, slippery or hard, and names nothing to be like")]
+    NotUnderstood(String),
     /// The texture has no such part.
     #[error("{name:?} has no {part} to encode")]
     NoPart {
@@ -80,7 +83,13 @@ impl Diagnostic for EditError {
                 "give the folder of its model with --model, or compile its prompt again".into()
             }
             Self::NothingToUndo(_) => "leave --undo out".into(),
-            Self::NothingAsked => "give a slider, such as --rougher 20, or --undo".into(),
+            Self::NothingAsked => {
+                "give a slider, such as --rougher 20, words with --prompt, or --undo".into()
+            }
+            Self::NotUnderstood(_) => {
+                "say it relatively, as in \"less gritty, more waxy\" or \"more like leather\""
+                    .into()
+            }
             Self::NoPart { .. } => {
                 "encode the part that it has: --part taps or --part slide".into()
             }
@@ -93,7 +102,7 @@ impl Diagnostic for EditError {
 
     fn is_usage(&self) -> bool {
         match self {
-            Self::NothingAsked => true,
+            Self::NothingAsked | Self::NotUnderstood(_) => true,
             Self::Source(error) => error.is_usage(),
             Self::Prompt(error) => error.is_usage(),
             Self::Pipeline(error) => error.is_usage(),

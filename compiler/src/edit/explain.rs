@@ -11,7 +11,7 @@ use crate::{
         learned::{Latent, description::LATENT},
         prompt,
     },
-    model::attributes::Attributes,
+    model::attributes::{self, Attributes},
 };
 use rayon::prelude::*;
 use serde::Serialize;
@@ -83,8 +83,7 @@ pub fn explain(studio: &Studio<'_>, text: &str) -> Result<Explanation, EditError
 }
 
 fn seen(studio: &Studio<'_>, text: &str) -> Result<Attributes, EditError> {
-    let prompted = studio.author().project(text)?;
-    studio.attributes(&Latents::whole(prompted.z))
+    Ok(attributes::of(&studio.author().texture(text)?))
 }
 
 fn mean(studio: &Studio<'_>) -> Latent {

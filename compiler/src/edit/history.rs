@@ -4,11 +4,12 @@ use super::{
     latents::{Latents, of_hex, to_hex},
     sliders::Sliders,
 };
+use crate::front_ends::prompt::Shift;
 use asperity_formats::limits::MAX_HISTORY_BYTES;
 use serde::{Deserialize, Serialize};
 
 /// How a texture was made, and every edit since. A texture of a prompt has an empty history,
-/// because its provenance names prompt and seed.
+/// because its provenance names prompt and seed; or only a shift, where the prompt has a grammar.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct History {
@@ -18,6 +19,9 @@ pub struct History {
     /// Level that all textures were brought to, dB re 1 N RMS of force; none is the default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loudness_db: Option<f64>,
+    /// What moves after decoding. [`remember`](super::remember) takes it from the latents.
+    #[serde(default, skip_serializing_if = "Shift::is_none")]
+    pub shift: Shift,
     /// Edits, the oldest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub steps: Vec<Step>,
@@ -65,6 +69,9 @@ pub struct Source {
     pub prompt: Option<String>,
     /// Its latents as hexadecimal text, one or three.
     pub latents: Vec<String>,
+    /// What moved after it was decoded.
+    #[serde(default, skip_serializing_if = "Shift::is_none")]
+    pub shift: Shift,
 }
 
 impl Source {
@@ -75,13 +82,14 @@ impl Source {
             name: name.to_owned(),
             prompt: prompt.map(str::to_owned),
             latents: hex(latents),
+            shift: latents.shift,
         }
     }
 
     /// Its latents; `None` if they are damaged.
     #[must_use]
     pub fn latents(&self) -> Option<Latents> {
-        unhex(&self.latents)
+        Some(unhex(&self.latents)?.shifted(self.shift))
     }
 }
 
@@ -89,10 +97,16 @@ impl Source {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
-    /// What was asked for.
+    /// What was asked for, or what its words came to.
     pub edit: Sliders,
+    /// The words, if it was asked for in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub prompt: Option<String>,
     /// The latents before it as hexadecimal text, one or three.
     pub before: Vec<String>,
+    /// What moved after they were decoded.
+    #[serde(default, skip_serializing_if = "Shift::is_none")]
+    pub shift: Shift,
 }
 
 impl Step {
@@ -101,14 +115,25 @@ impl Step {
     pub fn new(edit: Sliders, before: &Latents) -> Self {
         Self {
             edit,
+            prompt: None,
             before: hex(before),
+            shift: before.shift,
+        }
+    }
+
+    /// The same edit, asked for in words.
+    #[must_use]
+    pub fn worded(self, prompt: &str) -> Self {
+        Self {
+            prompt: Some(prompt.to_owned()),
+            ..self
         }
     }
 
     /// The latents before it; `None` if they are damaged.
     #[must_use]
     pub fn before(&self) -> Option<Latents> {
-        unhex(&self.before)
+        Some(unhex(&self.before)?.shifted(self.shift))
     }
 }
 
@@ -160,7 +185,10 @@ mod tests {
     fn a_history_reads_back_and_forgets_its_oldest_edits_where_it_would_not_fit() {
         let latents = Latents {
             tap: [0.5; 64],
-            ..Latents::whole([-0.25; 64])
+            ..Latents::whole([-0.25; 64]).shifted(Shift {
+                rough_db: 5.1,
+                ..Shift::default()
+            })
         };
         let edit = Sliders {
             rougher: 20.0,

@@ -1,6 +1,10 @@
-//! Where a texture lies in the latent space: as a whole, or each of its parts for itself.
+//! Where a texture lies in the latent space: as a whole, or each of its parts for itself; and what
+//! moves after it was decoded.
 
-use crate::front_ends::learned::{Latent, description::LATENT};
+use crate::front_ends::{
+    learned::{Latent, description::LATENT},
+    prompt::Shift,
+};
 
 /// The latents of what is felt in sliding, in tapping and as friction. A prompt gives one for all
 /// three.
@@ -12,6 +16,9 @@ pub struct Latents {
     pub tap: Latent,
     /// μ and its anchors.
     pub friction: Latent,
+    /// What moves after decoding: roughness of the slide, hardness of the tap, slipperiness of the
+    /// friction.
+    pub shift: Shift,
 }
 
 impl Latents {
@@ -22,6 +29,28 @@ impl Latents {
             slide: z,
             tap: z,
             friction: z,
+            shift: Shift::default(),
+        }
+    }
+
+    /// The same, moved by this shift once it is decoded.
+    #[must_use]
+    pub fn shifted(self, shift: Shift) -> Self {
+        Self { shift, ..self }
+    }
+
+    /// The parts of three textures.
+    #[must_use]
+    pub fn composed(tap: &Self, slide: &Self, friction: &Self) -> Self {
+        Self {
+            slide: slide.slide,
+            tap: tap.tap,
+            friction: friction.friction,
+            shift: Shift {
+                rough_db: slide.shift.rough_db,
+                slippery: friction.shift.slippery,
+                hard: tap.shift.hard,
+            },
         }
     }
 
@@ -39,6 +68,7 @@ impl Latents {
             slide: mix(&a.slide, &b.slide),
             tap: mix(&a.tap, &b.tap),
             friction: mix(&a.friction, &b.friction),
+            shift: Shift::between(&a.shift, &b.shift, t),
         }
     }
 
@@ -48,7 +78,8 @@ impl Latents {
         self.slide == self.tap && self.slide == self.friction
     }
 
-    /// The latents in the order of a file: one, or sliding, tapping and friction.
+    /// The latents in the order of a file: one, or sliding, tapping and friction; without the
+    /// shift, which the history holds.
     #[must_use]
     pub fn parts(&self) -> Vec<Latent> {
         if self.is_whole() {
@@ -67,6 +98,7 @@ impl Latents {
                 slide: *slide,
                 tap: *tap,
                 friction: *friction,
+                shift: Shift::default(),
             }),
             _ => None,
         }
@@ -122,13 +154,18 @@ mod tests {
         let a = Latents::whole(latent(0.1));
         let b = Latents {
             tap: latent(3.0),
-            ..Latents::whole(latent(0.7))
+            ..Latents::whole(latent(0.7)).shifted(Shift {
+                hard: 0.4,
+                ..Shift::default()
+            })
         };
         assert_eq!(Latents::between(&a, &b, 0.0), a);
         assert_eq!(Latents::between(&a, &b, 1.0), b);
         let middle = Latents::between(&a, &b, 0.5);
         assert!((middle.slide[0] - 0.4).abs() < 1e-6 && (middle.tap[0] - 1.55).abs() < 1e-6);
-        assert_eq!(Latents::of_parts(&middle.parts()), Some(middle));
+        assert_eq!(middle.shift.hard, 0.2);
+        let read = Latents::of_parts(&middle.parts());
+        assert_eq!(read.map(|read| read.shifted(middle.shift)), Some(middle));
         assert_eq!(Latents::of_parts(&a.parts()), Some(a));
     }
 }

@@ -27,7 +27,11 @@ pub struct Memory {
 /// [`EncodeError`] for bytes that are no asset.
 pub fn remember(asset: &[u8], memory: &Memory) -> Result<Vec<u8>, EncodeError> {
     let latent = latent_body(memory);
-    let history = memory.history.json();
+    let history = History {
+        shift: memory.latents.shift,
+        ..memory.history.clone()
+    };
+    let json = history.json();
     let asset = Asset::parse(asset)?;
     let mut sections: Vec<([u8; 4], &[u8])> = asset
         .sections()
@@ -35,8 +39,8 @@ pub fn remember(asset: &[u8], memory: &Memory) -> Result<Vec<u8>, EncodeError> {
         .filter_map(|section| Some((section.tag, asset.section(&section)?)))
         .collect();
     sections.push((LATENT_TAG, &latent));
-    if !memory.history.is_empty() {
-        sections.push((HISTORY_TAG, history.as_bytes()));
+    if !history.is_empty() {
+        sections.push((HISTORY_TAG, json.as_bytes()));
     }
     let mut bytes = vec![0; assembled_len(&sections)];
     assemble(&sections, &mut bytes)?;
@@ -50,7 +54,7 @@ pub fn remember(asset: &[u8], memory: &Memory) -> Result<Vec<u8>, EncodeError> {
 pub fn remember_prompt(author: &Author, authored: &mut Authored) -> Result<(), EncodeError> {
     let memory = Memory {
         model_crc32: author.model().crc32(),
-        latents: Latents::whole(authored.z),
+        latents: Latents::whole(authored.z).shifted(authored.shift),
         history: History::default(),
     };
     authored.lowered.bytes = remember(&authored.lowered.bytes, &memory)?;
@@ -85,7 +89,7 @@ pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, EditError> {
     let Some(latents) = Latents::of_parts(&parts) else {
         return Ok(None);
     };
-    let history = match asset.history() {
+    let history: History = match asset.history() {
         None => History::default(),
         Some(json) => serde_json::from_str(json).map_err(|error| EditError::History {
             name: asset.name().to_owned(),
@@ -94,7 +98,7 @@ pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, EditError> {
     };
     Ok(Some(Memory {
         model_crc32: stored.model_crc32,
-        latents,
+        latents: latents.shifted(history.shift),
         history,
     }))
 }
@@ -123,10 +127,12 @@ mod tests {
         assert_eq!(once.len() - plain.len(), 12 + 8 + 4 * LATENT);
         assert_eq!(haptic(&once), haptic(&plain));
         memory.latents.tap = [1.0; LATENT];
+        memory.latents.shift.hard = -0.1;
         memory.history = History::of(Origin::Encode {
             name: "x".into(),
             part: "slide".into(),
         });
+        memory.history.shift = memory.latents.shift;
         let twice = remember(&once, &memory).unwrap();
         let found = remembered(&Asset::parse(&twice).unwrap()).unwrap();
         assert_eq!(found, Some(memory));

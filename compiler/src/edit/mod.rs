@@ -4,6 +4,7 @@
 //! them again after they were blended, composed, or moved along the [`Sliders`]; from there on a
 //! texture goes the way of every other. `docs/libraries.md` shows the commands.
 
+mod edited;
 mod encode;
 mod error;
 mod explain;
@@ -16,6 +17,7 @@ mod scale;
 mod sliders;
 mod solve;
 mod studio;
+mod worded;
 
 pub use encode::{Encoded, Part, encode};
 pub use error::EditError;
@@ -28,3 +30,4 @@ pub use report::attributes_line;
 pub use scale::{AXES, Axis, Scale};
 pub use sliders::Sliders;
 pub use studio::{How, Made, Studio};
+pub use worded::Worded;

@@ -1,7 +1,10 @@
 //! The scale of the sliders: 0 to 100 between the materials of the model that have the least and
 //! the most of an attribute.
 
-use crate::{front_ends::learned::description::ModelDescription, model::attributes::Attributes};
+use crate::{
+    front_ends::{learned::description::ModelDescription, prompt::Shift},
+    model::attributes::Attributes,
+};
 use serde::Serialize;
 
 /// An attribute that a slider moves.
@@ -118,6 +121,26 @@ impl Scale {
         let (low, high) = self.ranges[axis as usize];
         axis.of(attributes)
             .map(|x| 100.0 * (x - low) / (high - low))
+    }
+
+    /// The shift that moves attributes by these steps from where they are, in the order of
+    /// [`AXES`]; the centroid of the vibration stays.
+    pub(super) fn shift(&self, from: &Attributes, steps: [f64; 4]) -> Shift {
+        let unit = |axis: Axis| {
+            let (low, high) = self.ranges[axis as usize];
+            (high - low) / 100.0
+        };
+        let by = |axis: Axis| steps[axis as usize] * unit(axis);
+        let log_ratio = |from: f64, to: f64| {
+            // No edit asks for less than a hundredth.
+            libm::log(to.max(0.01 * from) / from)
+        };
+        let hard = from.hard_hz.filter(|hz| *hz > 0.0);
+        Shift {
+            rough_db: by(Axis::Rough),
+            slippery: -log_ratio(from.mu, from.mu - by(Axis::Slippery)),
+            hard: hard.map_or(0.0, |hz| log_ratio(hz, hz + by(Axis::Hard))),
+        }
     }
 
     /// The attribute at 0 and at 100 of its slider, in its own unit.

@@ -6,14 +6,13 @@ use super::{
     latents::Latents,
     loudness::equal_loudness,
     memory::{Memory, remember, remembered},
-    scale::{AXES, Axis, Scale},
-    sliders::Sliders,
-    solve::{Metric, along, reach},
+    scale::Scale,
+    solve::Metric,
 };
 use crate::{
     front_ends::{
-        learned::{Decoded, Latent, friction, texture},
-        prompt::Author,
+        learned::{Decoded, friction, texture},
+        prompt::{Author, phrase::adjust::adjust},
     },
     model::{
         Provenance, TextureModel,
@@ -27,18 +26,11 @@ use asperity_formats::Asset;
 
 /// Everything that mixes and edits: an author's model, and where its sliders lie.
 pub struct Studio<'a> {
-    author: &'a Author,
+    pub(super) author: &'a Author,
     model_crc32: u32,
-    scale: Scale,
-    metric: Metric,
+    pub(super) scale: Scale,
+    pub(super) metric: Metric,
 }
-
-/// Times that a way is corrected by what is kept at its end.
-const CORRECTIONS: usize = 6;
-/// Distance at which no more is corrected, steps of a slider.
-const NEAR: f64 = 0.5;
-/// Steps that a correction may aim beyond what was asked for.
-const FARTHER: f64 = 30.0;
 
 /// How an asset is compiled once its latents are known.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,8 +39,8 @@ pub struct How {
     pub fidelity: Fidelity,
     /// Rate of the AR models, Hz; the decoder's own if `None`.
     pub rate_hz: Option<f64>,
-    /// Whether a preview is drawn.
-    pub preview: bool,
+    /// Width and height of the preview, pixels; none is drawn if `None`.
+    pub preview_px: Option<u32>,
 }
 
 /// A compiled texture with its memory.
@@ -138,7 +130,10 @@ impl<'a> Studio<'a> {
         How {
             fidelity: fidelity.and_then(Result::ok).unwrap_or(Fidelity::Auto),
             rate_hz: (rate_hz != own_hz).then_some(rate_hz),
-            preview: asset.preview_png().is_some(),
+            // What is no picture of a known size is drawn at the usual one.
+            preview_px: asset
+                .preview_png()
+                .map(|png| preview::width(png).unwrap_or(preview::SIZE)),
         }
     }
 
@@ -189,6 +184,7 @@ impl<'a> Studio<'a> {
                 friction::neighbours(&latents.tap, &description.anchors, description.friction);
             texture.wall.stiffness_n_m = friction::stiffness_n_m(&near, &description.anchors);
         }
+        adjust(&mut texture, &latents.shift);
         Ok(texture)
     }
 
@@ -228,109 +224,6 @@ impl<'a> Studio<'a> {
         Ok(attributes::of(&kept))
     }
 
-    /// The latents after an edit. Each slider moves its attribute by as many steps of the scale, as
-    /// far as the model's materials allow, and leaves the others where they are: level and centroid
-    /// of the vibration lie in what sliding was decoded from, the centroid of the taps in what
-    /// tapping was, μ in friction. What counts is the asset, whose vertices are fewer than those
-    /// that are decoded, so the way is corrected by what is kept at its end.
-    ///
-    /// # Errors
-    /// As [`kept_attributes`](Self::kept_attributes).
-    pub fn edited(
-        &self,
-        latents: &Latents,
-        sliders: &Sliders,
-        how: &How,
-    ) -> Result<Latents, EditError> {
-        let before = self.kept_attributes(latents, how)?;
-        let mut aim = *sliders;
-        let mut best = (f64::INFINITY, *latents);
-        for _ in 0..CORRECTIONS {
-            let edited = self.moved(latents, sliders, &aim)?;
-            let after = self.kept_attributes(&edited, how)?;
-            let missing = AXES.map(|axis| {
-                let place = |attributes| self.scale.place(axis, attributes).unwrap_or(0.0);
-                sliders.along(axis) - (place(&after) - place(&before))
-            });
-            let worst = missing.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-            if worst < best.0 {
-                best = (worst, edited);
-            }
-            if worst < NEAR {
-                break;
-            }
-            for (axis, missing) in AXES.into_iter().zip(missing) {
-                let furthest = sliders.along(axis).abs() + FARTHER;
-                let step = aim.along(axis) + missing;
-                *aim.along_mut(axis) = step.clamp(-furthest, furthest);
-            }
-        }
-        Ok(best.1)
-    }
-
-    /// The latents after a move to these aims, of the parts that the sliders ask to move. Attributes
-    /// are those of what is decoded.
-    fn moved(
-        &self,
-        latents: &Latents,
-        sliders: &Sliders,
-        aim: &Sliders,
-    ) -> Result<Latents, EditError> {
-        let before = self.attributes(latents)?;
-        let mut edited = *latents;
-        let asked = |axis: Axis| sliders.along(axis) != 0.0;
-        let target = |axis: Axis| {
-            let place = self.scale.place(axis, &before);
-            place.map(|place| place + aim.along(axis))
-        };
-        let gradient = |axis: Axis| self.scale.gradients[axis as usize].as_slice();
-        if asked(Axis::Rough) || asked(Axis::Sharp) {
-            let axes = [Axis::Rough, Axis::Sharp];
-            if let [Some(rough), Some(sharp)] = axes.map(target) {
-                let look = |z: &Latent| self.seen(z, &axes);
-                let gradients = axes.map(gradient);
-                let found = reach(
-                    &latents.slide,
-                    &gradients,
-                    &self.metric,
-                    &[rough, sharp],
-                    look,
-                )?;
-                edited.slide = found.z;
-            }
-        }
-        if asked(Axis::Hard)
-            && let Some(hard) = target(Axis::Hard)
-        {
-            let look = |z: &Latent| self.seen(z, &[Axis::Hard]);
-            let gradients = [gradient(Axis::Hard)];
-            edited.tap = reach(&latents.tap, &gradients, &self.metric, &[hard], look)?.z;
-        }
-        if asked(Axis::Slippery)
-            && let Some(slippery) = target(Axis::Slippery)
-        {
-            let description = self.author.model().description();
-            let look = |z: &Latent| {
-                let near = friction::neighbours(z, &description.anchors, description.friction);
-                let attributes = Attributes {
-                    mu: friction::mu(&near, &description.anchors),
-                    ..before
-                };
-                self.scale.place(Axis::Slippery, &attributes).unwrap_or(0.0)
-            };
-            let gradient = gradient(Axis::Slippery);
-            edited.friction = along(&latents.friction, gradient, &self.metric, slippery, look);
-        }
-        Ok(edited)
-    }
-
-    /// Places on the sliders of what one latent decodes to.
-    fn seen(&self, z: &Latent, axes: &[Axis]) -> Result<Option<Vec<f64>>, EditError> {
-        let attributes = self.attributes(&Latents::whole(*z))?;
-        let places = axes.iter().map(|&axis| self.scale.place(axis, &attributes));
-        Ok(places.collect())
-    }
-
     /// Compiles latents to an asset that remembers them.
     ///
     /// # Errors
@@ -352,9 +245,7 @@ impl<'a> Studio<'a> {
         let settings = Settings {
             rate_hz: how.rate_hz,
             fidelity: how.fidelity,
-            preview: how.preview.then_some(Preview {
-                size_px: preview::SIZE,
-            }),
+            preview: how.preview_px.map(|size_px| Preview { size_px }),
             stabilise: true,
         };
         let Compiled {

@@ -319,7 +319,7 @@ fn keys(manifest: &Manifest, request: &Request<'_>) -> Result<Vec<Key>, Failures
                 .text(&options.fidelity.to_string())
                 .number(options.rate_hz.unwrap_or(0.0))
                 .number(options.loudness_db.unwrap_or(f64::INFINITY))
-                .part(&[u8::from(options.preview)])
+                .part(&options.preview_px.unwrap_or(0).to_le_bytes())
                 .key()
         })
         .collect())

@@ -106,7 +106,7 @@ impl<'a> Maker<'a> {
             .map_err(cause)?;
         let memory = Memory {
             model_crc32: studio.model_crc32(),
-            latents: Latents::whole(authored.z),
+            latents: Latents::whole(authored.z).shifted(authored.shift),
             history: History::default(),
         };
         let haptic_bytes =
@@ -276,7 +276,7 @@ impl<'a> Maker<'a> {
                 };
                 let authored = studio.author().author(text, &options).map_err(cause)?;
                 Known {
-                    latents: Latents::whole(authored.z),
+                    latents: Latents::whole(authored.z).shifted(authored.shift),
                     prompt: Some(text.clone()),
                     warnings: authored.warnings(),
                     certainty: Some(authored.certainty),
@@ -300,11 +300,11 @@ impl<'a> Maker<'a> {
                 tap,
                 slide,
                 friction,
-            } => plain(Latents {
-                tap: part(*tap)?.tap,
-                slide: part(*slide)?.slide,
-                friction: part(*friction)?.friction,
-            }),
+            } => plain(Latents::composed(
+                &part(*tap)?,
+                &part(*slide)?,
+                &part(*friction)?,
+            )),
         })
     }
 }
@@ -313,7 +313,7 @@ fn how(options: &Options) -> How {
     How {
         fidelity: options.fidelity,
         rate_hz: options.rate_hz,
-        preview: options.preview,
+        preview_px: options.preview_px,
     }
 }
 
@@ -322,8 +322,8 @@ fn prompt_options(options: &Options) -> prompt::Options {
         seed: options.seed,
         fidelity: options.fidelity,
         rate_hz: options.rate_hz,
-        preview: options.preview,
-        preview_px: preview::SIZE,
+        preview: options.preview_px.is_some(),
+        preview_px: options.preview_px.unwrap_or(preview::SIZE),
     }
 }
 
@@ -356,9 +356,7 @@ fn imported(entry: &Entry, file: &Path) -> Result<Finished, Cause> {
     let settings = Settings {
         rate_hz: options.rate_hz,
         fidelity: options.fidelity,
-        preview: options.preview.then_some(Preview {
-            size_px: preview::SIZE,
-        }),
+        preview: options.preview_px.map(|size_px| Preview { size_px }),
         stabilise: false,
     };
     let compiled = pipeline.compile(texture, &settings).map_err(cause)?;

@@ -69,6 +69,17 @@ pub fn png(texture: &TextureModel, size_px: u32) -> Result<Vec<u8>, PreviewError
     Ok(draw(texture, size_px)?.compact_png()?)
 }
 
+/// Width of a picture that an asset holds, pixels; `None` for what is no PNG, or of a size that no
+/// picture is drawn at.
+#[must_use]
+pub fn width(bytes: &[u8]) -> Option<u32> {
+    let reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .ok()?;
+    let (width, _) = reader.info().size();
+    SIZES.contains(&width).then_some(width)
+}
+
 /// A picture that an asset holds, as RGB bytes with its width and height.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Stored {

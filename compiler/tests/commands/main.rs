@@ -1,5 +1,7 @@
 //! `asperity` as a user meets it: exit status, what errors name, nothing left over.
 
+mod grammar;
+mod interrupted;
 mod library;
 mod messages;
 mod mixing;

@@ -30,9 +30,9 @@ macro_rules! patterns {
             pub(crate) const ALL: &[Self] = &[$(Self::$name,)*];
         }
 
-        /// The surface of a look, `size` pixels wide and high.
-        pub(crate) fn draw(look: &Look, size: usize) -> Surface {
-            match look.pattern { $(Pattern::$name => $module::$function(look, size),)* }
+        /// The surface of a pattern in a look, `size` pixels wide and high.
+        pub(crate) fn draw(pattern: Pattern, look: &Look, size: usize) -> Surface {
+            match pattern { $(Pattern::$name => $module::$function(look, size),)* }
         }
     };
 }

@@ -5,6 +5,7 @@ use super::{
     meaning::Meaning,
     name::{shortened, title},
     phrase::adjust,
+    things::Things,
     understood::{Understood, check, understood},
     variation::varied,
 };
@@ -27,6 +28,7 @@ const KEPT_PROMPT_BYTES: usize = 2048;
 pub struct Author {
     text: Box<dyn TextEncoder>,
     model: LearnedModel,
+    pub(super) things: Things,
 }
 
 impl Author {
@@ -37,7 +39,11 @@ impl Author {
     pub fn new(text: Box<dyn TextEncoder>, model: LearnedModel) -> Result<Self, ModelError> {
         let expected = model.description().text_encoder.width;
         if text.width() == expected {
-            Ok(Self { text, model })
+            Ok(Self {
+                text,
+                model,
+                things: Things::default(),
+            })
         } else {
             Err(ModelError::Width {
                 expected,
@@ -141,6 +147,7 @@ impl Author {
             lowered,
             preview,
             z,
+            shift,
             nearest,
             certainty: prompted.certainty,
             unfamiliar: prompted.unfamiliar,

@@ -1,6 +1,6 @@
 //! What can be asked of a prompt's texture, and what there is to know of it.
 
-use super::understood::Understood;
+use super::{phrase::adjust::Shift, understood::Understood};
 use crate::{
     back_end::{lower::Lowered, verify::VerifyReport},
     front_ends::learned::Latent,
@@ -50,6 +50,8 @@ pub struct Authored {
     pub preview: Option<Vec<u8>>,
     /// The latent it was decoded from.
     pub z: Latent,
+    /// What the grammar of the prompt moved after that.
+    pub shift: Shift,
     /// The nearest materials, which friction is interpolated from.
     pub nearest: Vec<Nearest>,
     /// Objective attributes.

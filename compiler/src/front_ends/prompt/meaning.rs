@@ -40,22 +40,24 @@ impl Author {
         match phrase::parse(prompt) {
             Phrase::Plain => Ok(plain),
             Phrase::Changed { base, changes } => {
-                let base = self.attributes(&self.project(&base)?.z)?;
+                let (_, base) = self.thing(&base)?;
                 let shift = adjust::from_base(&base, &self.attributes(&z)?, &changes);
                 Ok(Meaning { z, shift })
             }
             Phrase::Between(first, second) => {
-                let (first, second) = (self.project(&first)?.z, self.project(&second)?.z);
+                let ((first, at_first), (second, at_second)) =
+                    (self.thing(&first)?, self.thing(&second)?);
                 let z = std::array::from_fn(|k| 0.5 * (first[k] + second[k]));
-                let ends = (self.attributes(&first)?, self.attributes(&second)?);
-                let shift = adjust::to_middle(&ends.0, &ends.1, &self.attributes(&z)?);
+                let shift = adjust::to_middle(&at_first, &at_second, &self.attributes(&z)?);
                 Ok(Meaning { z, shift })
             }
             Phrase::Covered { inside, cover } => {
-                let (inside, z) = (self.project(&inside)?.z, self.project(&cover)?.z);
-                let (inside, cover) = (self.attributes(&inside)?, self.attributes(&z)?);
-                let [_, _, hard] = adjust::to_middle(&inside, &cover, &cover).0;
-                let shift = Shift([None, None, hard]);
+                let (_, inside) = self.thing(&inside)?;
+                let (z, cover) = self.thing(&cover)?;
+                let shift = Shift {
+                    hard: adjust::to_middle(&inside, &cover, &cover).hard,
+                    ..Shift::default()
+                };
                 Ok(Meaning { z, shift })
             }
         }
@@ -86,6 +88,17 @@ impl Author {
         let prompt = bare(prompt);
         let anchors = &self.model().description().anchors;
         anchors.iter().any(|anchor| bare(&anchor.name) == prompt)
+    }
+
+    /// Latent and attributes of a thing that a phrase names. Prompts of a library have few of them.
+    fn thing(&self, text: &str) -> Result<(Latent, Attributes), PromptError> {
+        if let Some(known) = self.things.get(text) {
+            return Ok(known);
+        }
+        let z = self.project(text)?.z;
+        let found = (z, self.attributes(&z)?);
+        self.things.keep(text, found);
+        Ok(found)
     }
 
     fn attributes(&self, z: &Latent) -> Result<Attributes, PromptError> {

@@ -11,6 +11,7 @@ mod meaning;
 mod name;
 pub mod phrase;
 mod report;
+mod things;
 mod understood;
 mod variation;
 
@@ -18,4 +19,5 @@ pub use author::{Author, Prompted};
 pub use authored::{Authored, Nearest, Options};
 pub use error::PromptError;
 pub use meaning::Meaning;
+pub use phrase::adjust::Shift;
 pub use understood::{Understood, check};

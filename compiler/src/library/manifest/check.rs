@@ -6,7 +6,7 @@ use super::{
     row::{Field, Row, Value},
     values::{Checker, OPTIONS, Stated},
 };
-use crate::{front_ends::prompt, input::InputProblem, passes::reduce::Fidelity};
+use crate::{front_ends::prompt, input::InputProblem, passes::reduce::Fidelity, views::preview};
 use asperity_formats::limits::MAX_NAME_BYTES;
 use std::{fs, io, path::PathBuf};
 
@@ -303,7 +303,11 @@ fn options(stated: &Stated, own: &Stated, origin: &DraftOrigin) -> Options {
             Fidelity::Auto
         }),
         rate_hz: stated.rate_hz,
-        preview: stated.preview.unwrap_or(!import),
+        preview_px: match stated.preview_px {
+            None => (!import).then_some(preview::SIZE),
+            Some(0) => None,
+            size => size,
+        },
         loudness_db: stated.loudness_db,
         edit: stated.edit.filter(|_| !import).unwrap_or_default(),
     }

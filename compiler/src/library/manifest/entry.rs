@@ -107,8 +107,8 @@ pub struct Options {
     pub fidelity: Fidelity,
     /// Rate of the AR models, Hz; that of the source if `None`.
     pub rate_hz: Option<f64>,
-    /// Whether a preview is drawn.
-    pub preview: bool,
+    /// Width and height of the preview, pixels; none is drawn if `None`.
+    pub preview_px: Option<u32>,
     /// Level that the vibration is brought to, dB re 1 N RMS; none is.
     pub loudness_db: Option<f64>,
     /// What is moved after it was decoded.

@@ -9,11 +9,14 @@ use super::{
 use crate::{
     edit::Sliders,
     passes::{reduce::Fidelity, rerate},
+    views::preview,
 };
 use std::path::Path;
 
 /// Keys of a texture's options.
 pub(super) const OPTIONS: [&str; 6] = ["seed", "fidelity", "rate", "preview", "loudness", "edit"];
+/// What `preview` takes.
+const PREVIEW: &str = "true, false or a size";
 /// Range of `loudness`, dB re 1 N RMS.
 const LOUDNESS_DB: (f64, f64) = (-120.0, 0.0);
 
@@ -23,7 +26,8 @@ pub(super) struct Stated {
     pub(super) seed: Option<u64>,
     pub(super) fidelity: Option<Fidelity>,
     pub(super) rate_hz: Option<f64>,
-    pub(super) preview: Option<bool>,
+    /// Pixels, 0 for none.
+    pub(super) preview_px: Option<u32>,
     pub(super) loudness_db: Option<f64>,
     pub(super) edit: Option<Sliders>,
 }
@@ -35,7 +39,7 @@ impl Stated {
             seed: self.seed.or(outer.seed),
             fidelity: self.fidelity.or(outer.fidelity),
             rate_hz: self.rate_hz.or(outer.rate_hz),
-            preview: self.preview.or(outer.preview),
+            preview_px: self.preview_px.or(outer.preview_px),
             loudness_db: self.loudness_db.or(outer.loudness_db),
             edit: self.edit.or(outer.edit),
         }
@@ -126,13 +130,28 @@ impl Checker<'_> {
         }
     }
 
-    fn boolean(&mut self, field: &Field, key: &str, untyped: bool) -> Option<bool> {
-        match &field.value {
-            Value::Bool(is) => Some(*is),
-            Value::Text(text) if untyped && text == "true" => Some(true),
-            Value::Text(text) if untyped && text == "false" => Some(false),
-            other => self.wrong_type(field.line, key, "true or false", other),
-        }
+    /// `false` for 0 pixels, `true` for the usual size, or a size.
+    fn preview(&mut self, field: &Field, untyped: bool) -> Option<u32> {
+        let size = match &field.value {
+            Value::Bool(drawn) => return Some(if *drawn { preview::SIZE } else { 0 }),
+            Value::Text(text) if untyped && text == "true" => return Some(preview::SIZE),
+            Value::Text(text) if untyped && text == "false" => return Some(0),
+            Value::Whole(size) => Some(*size),
+            Value::Text(text) if untyped => text.trim().parse().ok(),
+            other => return self.wrong_type(field.line, "preview", PREVIEW, other),
+        };
+        let size = size.and_then(|size| u32::try_from(size).ok());
+        let drawn = size.filter(|size| preview::SIZES.contains(size));
+        drawn.or_else(|| {
+            let (low, high) = (preview::SIZES.start(), preview::SIZES.end());
+            let wanted = format!("{PREVIEW} of {low} to {high} pixels");
+            let found = match &field.value {
+                Value::Whole(size) => size.to_string(),
+                Value::Text(text) => text.clone(),
+                other => other.kind().to_owned(),
+            };
+            self.wrong_value(field.line, "preview", wanted, found)
+        })
     }
 
     pub(super) fn unknown(&mut self, field: &Field, prefix: &str, known: &[&str]) {
@@ -150,7 +169,7 @@ impl Checker<'_> {
             "rate" => {
                 stated.rate_hz = self.number(field, key, rerate::RATE_RANGE_HZ, untyped);
             }
-            "preview" => stated.preview = self.boolean(field, key, untyped),
+            "preview" => stated.preview_px = self.preview(field, untyped),
             "loudness" => {
                 stated.loudness_db = self.number(field, key, LOUDNESS_DB, untyped);
             }

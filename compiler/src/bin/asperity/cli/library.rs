@@ -21,6 +21,7 @@ clock. Where a budget is too small, fidelity is lowered where that costs the lea
 Examples:
   asperity build library.toml -o library.aspl
   asperity build prompts.csv -o prompts.aspl --json
+  asperity build library.toml -o small.aspl --preview-size 128
   asperity build library.toml --check
   asperity build library.toml -o part1.aspl --shard 1/4 --locked
   asperity build desk.toml -o desk.aspl --target cortex-m4f@48MHz --share 5
@@ -48,6 +49,12 @@ pub(crate) struct Build {
     /// Refuse a model or a version that the lock file does not pin
     #[arg(long)]
     pub(crate) locked: bool,
+    /// Draw no preview, whatever the manifest says
+    #[arg(long)]
+    pub(crate) no_preview: bool,
+    /// Width and height of every preview, pixels: 64 to 1024 [default: as the manifest says, or 256]
+    #[arg(long, value_name = "PX", value_parser = super::pixels, conflicts_with = "no_preview")]
+    pub(crate) preview_size: Option<u32>,
     /// Scenes: where a tick has to fit, a processor and its clock, or a number of instructions
     #[arg(long, value_name = "cortex-m4f@168MHz|INSTRUCTIONS")]
     pub(crate) target: Option<Target>,

@@ -17,6 +17,9 @@ pub(crate) struct Mixed {
     /// Draw no preview
     #[arg(long)]
     pub(crate) no_preview: bool,
+    /// Width and height of the preview, pixels: 64 to 1024 [default: as the texture has it, or 256]
+    #[arg(long, value_name = "PX", value_parser = super::pixels, conflicts_with = "no_preview")]
+    pub(crate) preview_size: Option<u32>,
     #[command(flatten)]
     pub(crate) inference: Inference,
     /// Print JSON
@@ -83,11 +86,15 @@ pub(crate) struct Compose {
     after_help = "A slider of 0 to 100 spans the materials of the model, from the 5 % that have the \
 least of an attribute to the 5 % that have the most. Each option moves its attribute by as many \
 steps, down if it is negative, and leaves the others where they are. What the model cannot reach \
-is said. The asset remembers every edit; --undo takes back the last one.
+is moved after decoding. --prompt says in words what changes from where the texture is: qualities \
+with their degree, and things to be more like. The asset remembers every edit; --undo takes back \
+the last one.
 
 Examples:
   asperity edit sheet.asp --rougher 20 -o rougher.asp
   asperity edit sheet.asp --rougher 20 --harder -10 --slipperier 5 -o other.asp
+  asperity edit sheet.asp --prompt \"less gritty, more waxy\" -o waxy.asp
+  asperity edit sheet.asp --prompt \"a bit softer, more like leather\" -o soft.asp
   asperity edit other.asp --undo -o sheet-again.asp"
 )]
 pub(crate) struct Edit {
@@ -105,8 +112,11 @@ pub(crate) struct Edit {
     /// Steps of friction, less of it if positive
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true)]
     pub(crate) slipperier: Option<f64>,
+    /// What changes, in words, such as "less gritty, more waxy"
+    #[arg(long, value_name = "TEXT", conflicts_with_all = ["rougher", "sharper", "harder", "slipperier"])]
+    pub(crate) prompt: Option<String>,
     /// Take back the last edit
-    #[arg(long, conflicts_with_all = ["rougher", "sharper", "harder", "slipperier"])]
+    #[arg(long, conflicts_with_all = ["rougher", "sharper", "harder", "slipperier", "prompt"])]
     pub(crate) undo: bool,
     #[command(flatten)]
     pub(crate) mixed: Mixed,

@@ -8,6 +8,7 @@ use crate::model::{
     TextureModel,
     attributes::{self, Attributes},
 };
+use serde::{Deserialize, Serialize};
 
 /// One step of a change: roughness in dB, slipperiness as −ln μ, hardness as ln of the centroid.
 /// Half a step is noticed (amplitude 1.6 dB, frequency 18 %, friction 10 %).
@@ -25,12 +26,55 @@ const TAP_SHARE: f64 = 0.95;
 /// Corrections of a tap's time, since a cut end moves the centroid.
 const CORRECTIONS: usize = 6;
 
-/// How far the attributes of a texture are to move: roughness, dB; −ln μ; ln of the tap's centroid.
-/// `None` leaves one as it is.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Shift(pub [Option<f64>; 3]);
+/// How far the attributes of a texture move after it was decoded; 0 leaves one as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Shift {
+    /// Level of the vibration, dB.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub rough_db: f64,
+    /// −ln μ.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub slippery: f64,
+    /// ln of the centroid of a tap.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub hard: f64,
+}
 
-/// Attributes on the scales of [`Shift`].
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
+}
+
+impl Shift {
+    /// A shift of three numbers on the scales of [`scales`], `None` for 0.
+    fn of([rough, slippery, hard]: [Option<f64>; 3]) -> Self {
+        Self {
+            rough_db: rough.unwrap_or(0.0),
+            slippery: slippery.unwrap_or(0.0),
+            hard: hard.unwrap_or(0.0),
+        }
+    }
+
+    /// Whether nothing moves.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self == &Self::default()
+    }
+
+    /// The shift between two, part by part: `(1 − t)·a + t·b`.
+    #[must_use]
+    pub fn between(a: &Self, b: &Self, t: f64) -> Self {
+        let mix = |a: f64, b: f64| (1.0 - t) * a + t * b;
+        Self {
+            rough_db: mix(a.rough_db, b.rough_db),
+            slippery: mix(a.slippery, b.slippery),
+            hard: mix(a.hard, b.hard),
+        }
+    }
+}
+
+/// Attributes on the scales of [`Shift`]: dB, −ln μ, ln Hz.
 #[must_use]
 pub fn scales(attributes: &Attributes) -> [Option<f64>; 3] {
     [
@@ -46,7 +90,7 @@ pub fn scales(attributes: &Attributes) -> [Option<f64>; 3] {
 pub fn from_base(base: &Attributes, learned: &Attributes, changes: &Changes) -> Shift {
     let changes = [changes.rough, changes.slippery, changes.hard];
     let (base, learned) = (scales(base), scales(learned));
-    Shift(std::array::from_fn(|k| {
+    Shift::of(std::array::from_fn(|k| {
         let (change, base, learned): (Change, f64, f64) = (changes[k]?, base[k]?, learned[k]?);
         let steps = (learned - base) / STEP[k];
         Some(STEP[k] * (steps.clamp(change.least, change.most) - steps))
@@ -57,28 +101,33 @@ pub fn from_base(base: &Attributes, learned: &Attributes, changes: &Changes) -> 
 #[must_use]
 pub fn to_middle(first: &Attributes, second: &Attributes, now: &Attributes) -> Shift {
     let (first, second, now) = (scales(first), scales(second), scales(now));
-    Shift(std::array::from_fn(|k| {
+    Shift::of(std::array::from_fn(|k| {
         Some(0.5 * (first[k]? + second[k]?) - now[k]?)
     }))
 }
 
 /// Moves a texture.
 pub fn adjust(texture: &mut TextureModel, shift: &Shift) {
-    let now = scales(&attributes::of(texture));
-    let [rough, slippery, hard] = shift.0;
-    if let Some(change_db) = rough {
-        let change_db = change_db.clamp(-LARGEST_CHANGE_DB, LARGEST_CHANGE_DB);
+    let Shift {
+        rough_db,
+        slippery,
+        hard,
+    } = *shift;
+    if rough_db != 0.0 {
+        let change_db = rough_db.clamp(-LARGEST_CHANGE_DB, LARGEST_CHANGE_DB);
         let factor = libm::exp10(change_db / 20.0);
         for vertex in &mut texture.grid.vertices {
             vertex.sigma_m_s2 *= factor;
         }
     }
-    if let Some(change) = slippery {
-        let mu = texture.friction.mu * libm::exp(-change);
+    if slippery != 0.0 {
+        let mu = texture.friction.mu * libm::exp(-slippery);
         texture.friction.mu = mu.clamp(MU.0, MU.1);
     }
-    if let (Some(change), Some(now)) = (hard, now[2]) {
-        tap(texture, now + change);
+    if hard != 0.0
+        && let Some(now) = scales(&attributes::of(texture))[2]
+    {
+        tap(texture, now + hard);
     }
 }
 
@@ -148,8 +197,9 @@ mod tests {
             (2, 0.4),
             (2, -0.3),
         ] {
-            let mut shift = Shift::default();
-            shift.0[k] = Some(change);
+            let mut moved = [None; 3];
+            moved[k] = Some(change);
+            let shift = Shift::of(moved);
             let target = scales(&old)[k].expect("defined") + change;
             let mut after = before.clone();
             adjust(&mut after, &shift);
@@ -179,10 +229,10 @@ mod tests {
         for (learned_db, steps) in [(-3.0, 1.0), (5.5, 1.1), (30.0, 1.3)] {
             let rough_db = base.rough_db.map(|db| db + learned_db);
             let learned = Attributes { rough_db, ..base };
-            let shift = from_base(&base, &learned, &changes).0;
-            let moved = learned_db + shift[0].expect("a change");
+            let shift = from_base(&base, &learned, &changes);
+            let moved = learned_db + shift.rough_db;
             assert!((moved - 5.0 * steps).abs() < 1e-9, "{learned_db}");
-            assert_eq!(shift[1..], [None, None]);
+            assert_eq!((shift.slippery, shift.hard), (0.0, 0.0));
         }
     }
 }

@@ -8,9 +8,13 @@
 
 pub mod adjust;
 mod parse;
+mod quality;
+mod relative;
 mod table;
+mod words;
 
 pub use parse::parse;
+pub use relative::{Relative, Towards, relative};
 
 /// How far one attribute is to go from that of the base, in steps of [`adjust::STEP`].
 ///

@@ -1,37 +1,11 @@
 //! A prompt into what it is about and what changes it.
 
 use super::{
-    Change, Changes, Phrase,
-    table::{self, LITTLE, NOT, NOT_AT_ALL, NOT_VERY, PLAIN, Range, Signs, VERY},
+    Phrase,
+    quality::{self, Use},
+    table,
+    words::{EMPTY, words},
 };
-
-/// Words that name nothing by themselves.
-const EMPTY: [&str; 24] = [
-    "a",
-    "an",
-    "the",
-    "some",
-    "any",
-    "something",
-    "anything",
-    "thing",
-    "one",
-    "ones",
-    "it",
-    "its",
-    "of",
-    "kind",
-    "sort",
-    "piece",
-    "bits",
-    "parts",
-    "is",
-    "are",
-    "at",
-    "all",
-    "and",
-    "only",
-];
 
 /// Divides a prompt.
 #[must_use]
@@ -41,20 +15,6 @@ pub fn parse(prompt: &str) -> Phrase {
         .or_else(|| covered(&words))
         .or_else(|| changed(&words))
         .unwrap_or(Phrase::Plain)
-}
-
-/// Lower-case words; "isn't" is "is not".
-fn words(prompt: &str) -> Vec<String> {
-    let lower = prompt.to_lowercase().replace('’', "'");
-    let mut words = Vec::new();
-    for word in lower.split(|c: char| !(c.is_alphanumeric() || c == '\'')) {
-        match word.strip_suffix("n't") {
-            Some(verb) => words.extend([verb.to_owned(), "not".to_owned()]),
-            None if word.is_empty() => {}
-            None => words.push(word.trim_matches('\'').to_owned()),
-        }
-    }
-    words
 }
 
 /// A text of words that name something; `None` where nothing is named.
@@ -106,153 +66,12 @@ fn covered(words: &[String]) -> Option<Phrase> {
     })
 }
 
-/// A quality that was found, and the words that it took.
-struct Found {
-    signs: Signs,
-    range: Range,
-    /// Words from..to.
-    from: usize,
-    to: usize,
-}
-
 fn changed(words: &[String]) -> Option<Phrase> {
-    let mut changes = Changes::default();
-    let mut base: Vec<String> = Vec::new();
-    let mut any = false;
-    let mut at = 0;
-    while at < words.len() {
-        if let Some(found) = quality(words, at) {
-            apply(&mut changes, &found);
-            any = true;
-            // Words of degree and denial before it were taken already.
-            let taken = at - found.from;
-            base.truncate(base.len().saturating_sub(taken));
-            at = found.to;
-        } else {
-            base.push(words[at].clone());
-            at += 1;
-        }
-    }
-    if !any {
-        return None;
-    }
-    let base = tidy(base);
+    let (changes, base) = quality::divide(words, Use::Thing)?;
     Some(Phrase::Changed {
-        base: thing(&base)?,
+        base: thing(&tidy(base))?,
         changes,
     })
-}
-
-/// The quality whose adjective stands here, or whose noun follows "without" here.
-fn quality(words: &[String], at: usize) -> Option<Found> {
-    let word = words[at].as_str();
-    if word == "without" || word == "no" || word == "lacking" {
-        return lacked(words, at);
-    }
-    let (signs, compared) = match table::adjective(word) {
-        Some(signs) => (signs, false),
-        None => (table::compared(word)?, true),
-    };
-    let (mut from, mut to) = (at, at + 1);
-    let mut range = PLAIN;
-    let mut denied = false;
-    let mut stressed = false;
-    let mut less = false;
-    while let Some(before) = from.checked_sub(1) {
-        let word = words[before].as_str();
-        match word {
-            // "not at all rough"
-            "all" if before > 0 && words[before - 1] == "at" => stressed = true,
-            "at" if stressed => {}
-            "not" | "never" | "non" => denied = true,
-            "more" => {}
-            "less" | "least" => less = true,
-            "a" if range == LITTLE => {}
-            "being" | "be" if before > 0 && words[before - 1] == "without" => {}
-            "without" => denied = true,
-            _ => match table::degree(word) {
-                Some(found) => range = found,
-                None => break,
-            },
-        }
-        from = before;
-    }
-    if words.get(to).is_some_and(|word| word == "at")
-        && words.get(to + 1).is_some_and(|w| w == "all")
-    {
-        to += 2;
-        if denied {
-            return Some(Found {
-                signs,
-                range: NOT_AT_ALL,
-                from,
-                to,
-            });
-        }
-    }
-    if denied && stressed {
-        range = NOT_AT_ALL;
-    } else if denied {
-        range = if range == VERY { NOT_VERY } else { NOT };
-    } else if less {
-        range = (-range.1, -range.0);
-    }
-    if compared && words.get(to).is_some_and(|word| word == "than") {
-        // "a rougher cloth than X": what is compared with follows.
-        to += 1;
-    }
-    Some(Found {
-        signs,
-        range,
-        from,
-        to,
-    })
-}
-
-/// "without its roughness", "that has no tread".
-fn lacked(words: &[String], at: usize) -> Option<Found> {
-    let mut to = at + 1;
-    while words
-        .get(to)
-        .is_some_and(|word| EMPTY.contains(&word.as_str()))
-    {
-        to += 1;
-    }
-    let word = words.get(to)?;
-    let signs = table::noun(word).or_else(|| table::adjective(word))?;
-    Some(Found {
-        signs,
-        range: NOT,
-        from: at,
-        to: to + 1,
-    })
-}
-
-fn apply(changes: &mut Changes, found: &Found) {
-    let attributes = [&mut changes.rough, &mut changes.slippery, &mut changes.hard];
-    for (change, sign) in attributes.into_iter().zip(found.signs) {
-        if sign == 0 {
-            continue;
-        }
-        let (least, most) = found.range;
-        let new = if sign > 0 {
-            Change { least, most }
-        } else {
-            Change {
-                least: -most,
-                most: -least,
-            }
-        };
-        // The strongest word counts; they do not add up.
-        let stronger = change.is_none_or(|old| strength(new) > strength(old));
-        if stronger {
-            *change = Some(new);
-        }
-    }
-}
-
-fn strength(change: Change) -> f64 {
-    (change.least + change.most).abs()
 }
 
 /// The base without what only joined it to its changes.
@@ -295,8 +114,9 @@ fn tidy(mut base: Vec<String>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::Change, *};
 
+    /// The base, and where rough, slippery and hard go.
     fn signs(prompt: &str) -> (String, [f64; 3]) {
         let Phrase::Changed { base, changes } = parse(prompt) else {
             panic!("{prompt}: {:?}", parse(prompt));
@@ -331,6 +151,7 @@ mod tests {
             ("wood without its roughness", "wood", [-1.0, 0.0, 0.0]),
             ("a sole that has no grip", "a sole", [0.0, 1.0, 0.0]),
             ("less gritty sandpaper", "sandpaper", [-1.0, 0.0, 0.0]),
+            ("rubber with less grip", "rubber", [0.0, 1.0, 0.0]),
             ("polished stone", "stone", [-1.0, 1.0, 0.0]),
         ] {
             assert_eq!(signs(prompt), (base.to_owned(), expected), "{prompt}");

@@ -4,6 +4,9 @@
 const ADJECTIVES: &str = include_str!("adjectives.tsv");
 /// Nouns of qualities, for "without its grit": the same.
 const NOUNS: &str = include_str!("nouns.tsv");
+/// What is a quality in an edit alone: the same.
+const EDIT_ADJECTIVES: &str = include_str!("edit_adjectives.tsv");
+const EDIT_NOUNS: &str = include_str!("edit_nouns.tsv");
 
 /// Where rough, slippery and hard go.
 pub(super) type Signs = [i8; 3];
@@ -13,8 +16,48 @@ pub(super) fn adjective(word: &str) -> Option<Signs> {
     find(ADJECTIVES, word)
 }
 
+/// The signs of an adjective or a verb that is a quality in an edit alone: in a prompt it names a
+/// material, or is better left to the text vector.
+pub(super) fn edit_adjective(word: &str) -> Option<Signs> {
+    find(EDIT_ADJECTIVES, word)
+}
+
+/// The same of a noun.
+pub(super) fn edit_noun(word: &str) -> Option<Signs> {
+    find(EDIT_NOUNS, word)
+}
+
+/// Whether a word before a noun asks for more of it (`true`) or for less; of an edit also verbs.
+pub(super) fn direction(word: &str, edit: bool) -> Option<bool> {
+    const MORE: [&str; 4] = ["more", "extra", "added", "additional"];
+    const LESS: [&str; 2] = ["less", "fewer"];
+    const RAISE: [&str; 9] = [
+        "add",
+        "increase",
+        "increased",
+        "raise",
+        "boost",
+        "strengthen",
+        "higher",
+        "up",
+        "double",
+    ];
+    const LOWER: [&str; 20] = [
+        "reduce", "reduced", "decrease", "lower", "remove", "cut", "drop", "lose", "weaken",
+        "take", "tame", "kill", "soften", "ease", "minimise", "minimize", "down", "halve", "away",
+        "rid",
+    ];
+    if MORE.contains(&word) || (edit && RAISE.contains(&word)) {
+        Some(true)
+    } else if LESS.contains(&word) || (edit && LOWER.contains(&word)) {
+        Some(false)
+    } else {
+        None
+    }
+}
+
 /// The signs of an adjective's comparative or superlative: "rougher", "grippiest".
-pub(super) fn compared(word: &str) -> Option<Signs> {
+pub(super) fn compared(word: &str, adjective: impl Fn(&str) -> Option<Signs>) -> Option<Signs> {
     let stem = word
         .strip_suffix("er")
         .or_else(|| word.strip_suffix("est"))?;
@@ -51,7 +94,7 @@ pub(super) type Range = (f64, f64);
 /// Without a word of degree.
 pub(super) const PLAIN: Range = (1.0, 1.5);
 /// A little.
-pub(super) const LITTLE: Range = (0.35, 0.5);
+pub(super) const LITTLE: Range = (0.4, 0.5);
 /// With stress.
 pub(super) const VERY: Range = (1.85, 2.6);
 /// Denied with stress upon the degree: "not very".
@@ -66,7 +109,18 @@ const DEGREES: [(&[&str], Range); 5] = [
     (&["hardly", "barely", "scarcely"], (-0.3, -0.1)),
     (
         &[
-            "slightly", "mildly", "faintly", "little", "bit", "touch", "somewhat",
+            "slightly",
+            "mildly",
+            "faintly",
+            "little",
+            "bit",
+            "touch",
+            "somewhat",
+            "tad",
+            "marginally",
+            "smidge",
+            "shade",
+            "gently",
         ],
         LITTLE,
     ),
@@ -94,6 +148,13 @@ const DEGREES: [(&[&str], Range); 5] = [
             "truly",
             "far",
             "lot",
+            "lots",
+            "way",
+            "considerably",
+            "significantly",
+            "substantially",
+            "noticeably",
+            "twice",
             "particularly",
         ],
         VERY,
@@ -131,7 +192,7 @@ mod tests {
 
     #[test]
     fn tables_are_sorted_whole_and_say_something() {
-        for table in [ADJECTIVES, NOUNS] {
+        for table in [ADJECTIVES, NOUNS, EDIT_ADJECTIVES, EDIT_NOUNS] {
             let words: Vec<&str> = table
                 .lines()
                 .filter_map(|line| line.split('\t').next())
@@ -156,11 +217,11 @@ mod tests {
             ("grippier", "grippy"),
             ("flattest", "flat"),
         ] {
-            assert_eq!(compared(word), adjective(plain), "{word}");
-            assert!(compared(word).is_some(), "{word}");
+            assert_eq!(compared(word, adjective), adjective(plain), "{word}");
+            assert!(compared(word, adjective).is_some(), "{word}");
         }
         for other in ["rubber", "leather", "paper", "water", "silver"] {
-            assert_eq!(compared(other), None, "{other}");
+            assert_eq!(compared(other, adjective), None, "{other}");
         }
     }
 

@@ -56,7 +56,13 @@ pub(crate) fn run(args: &Arguments, text: &str, console: Console) -> Result<(), 
             return Err(one(Usage::ForScenes(option)));
         }
     }
-    let manifest = Manifest::of_text(&args.scene, text).map_err(boxed)?;
+    let mut manifest = Manifest::of_text(&args.scene, text).map_err(boxed)?;
+    for entry in &mut manifest.entries {
+        let size = &mut entry.options.preview_px;
+        *size = size
+            .filter(|_| !args.no_preview)
+            .map(|px| args.preview_size.unwrap_or(px));
+    }
     let inference = setup(&args.inference, &manifest)?;
     if args.check {
         return checked(args, &manifest, console);

@@ -9,6 +9,7 @@ use asperity::{
     console::Console,
     diagnostic::Failures,
     edit::{History, How, Latents, Origin, Studio},
+    preview::SIZE,
 };
 use serde_json::json;
 
@@ -21,9 +22,10 @@ pub(crate) fn run(args: &Blend, console: Console) -> Result<(), Failures> {
     let studio = Studio::new(&author, crc32);
     let (from, at_a) = studio.source(&a).map_err(failed)?;
     let (to, at_b) = studio.source(&b).map_err(failed)?;
+    let own = studio.how(&a);
     let how = How {
-        preview: mixing.previews(),
-        ..studio.how(&a)
+        preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        ..own
     };
     let name = mixing.name(&format!("{} – {}", a.name(), b.name()));
     let history = History::of(Origin::Blend {

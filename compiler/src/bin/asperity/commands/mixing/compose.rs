@@ -9,6 +9,7 @@ use asperity::{
     console::Console,
     diagnostic::Failures,
     edit::{History, How, Latents, Origin, Studio},
+    preview::SIZE,
 };
 use serde_json::json;
 
@@ -24,16 +25,13 @@ pub(crate) fn run(args: &Compose, console: Console) -> Result<(), Failures> {
     let (of_tap, at_tap) = studio.source(&tap).map_err(failed)?;
     let (of_slide, at_slide) = studio.source(&slide).map_err(failed)?;
     let (of_friction, at_friction) = studio.source(&friction).map_err(failed)?;
+    let own = studio.how(&slide);
     let how = How {
-        preview: mixing.previews(),
-        ..studio.how(&slide)
+        preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        ..own
     };
     let name = mixing.name(&format!("{} tapped, {} slid", tap.name(), slide.name()));
-    let latents = Latents {
-        tap: at_tap.tap,
-        slide: at_slide.slide,
-        friction: at_friction.friction,
-    };
+    let latents = Latents::composed(&at_tap, &at_slide, &at_friction);
     let history = History::of(Origin::Compose {
         tap: of_tap,
         slide: of_slide,

@@ -9,7 +9,10 @@ use asperity::{
     attributes,
     console::Console,
     diagnostic::Failures,
-    edit::{AXES, EditError, History, How, Latents, Made, Sliders, Step, Studio, attributes_line},
+    edit::{
+        AXES, EditError, History, How, Latents, Made, Memory, Sliders, Step, Studio, Worded,
+        attributes_line,
+    },
     model::Provenance,
     raise::raise,
 };
@@ -26,8 +29,7 @@ pub(crate) fn run(args: &Edit, console: Console) -> Result<(), Failures> {
         harder: args.harder.unwrap_or(0.0),
         slipperier: args.slipperier.unwrap_or(0.0),
     };
-    // Relative wording (`--prompt "less gritty"`) would give latents here as sliders do.
-    if sliders.are_still() && !args.undo {
+    if sliders.are_still() && !args.undo && args.prompt.is_none() {
         return Err(failed(EditError::NothingAsked));
     }
     let input = Input::of(&args.file);
@@ -39,29 +41,21 @@ pub(crate) fn run(args: &Edit, console: Console) -> Result<(), Failures> {
     let memory = studio.memory(&asset).map_err(failed)?;
     let own = studio.how(&asset);
     let how = How {
-        preview: own.preview && mixing.previews(),
+        preview_px: mixing.preview_px(own.preview_px),
         ..own
     };
-    let (latents, history) = if args.undo {
-        undone(asset.name(), memory.history).map_err(failed)?
-    } else {
-        let edited = studio
-            .edited(&memory.latents, &sliders, &how)
-            .map_err(failed)?;
-        let mut history = memory.history;
-        history.steps.push(Step::new(sliders, &memory.latents));
-        (edited, history)
-    };
+    let done = done(args, &sliders, &studio, memory, asset.name(), &how).map_err(failed)?;
     let before = attributes::of(&raise(&asset));
-    let made = compiled(&studio, &asset, &mixing, &latents, history, &how)?;
-    let after = made.attributes;
+    let made = compiled(&studio, &asset, &mixing, &done, &how)?;
     let moved = AXES.map(|axis| {
         let place = |attributes| studio.scale().place(axis, attributes).unwrap_or(0.0);
-        (axis, place(&after) - place(&before))
+        (axis, place(&made.attributes) - place(&before))
     });
-    let mut warnings = Vec::new();
-    for (axis, by) in moved.into_iter().filter(|_| !args.undo) {
-        let asked = sliders.along(axis);
+    let mut warnings = done.warnings;
+    for (axis, by) in moved {
+        let Some(asked) = done.asked.map(|asked| asked.along(axis)) else {
+            continue;
+        };
         if (by - asked).abs() > NEAR {
             let name = axis.name();
             warnings.push(format!(
@@ -77,9 +71,75 @@ pub(crate) fn run(args: &Edit, console: Console) -> Result<(), Failures> {
         .map(|(axis, by)| format!("{} {by:+.1}", axis.name()))
         .join(", ");
     let before = attributes_line(&before, studio.scale());
-    let more = json!({ "moved": Value::Object(by), "undone": args.undo });
-    let lines = [("before", before), ("moved", line)];
+    let more = json!({ "moved": Value::Object(by), "undone": args.undo, "prompt": args.prompt });
+    let mut lines = vec![("before", before), ("moved", line)];
+    if let Some(towards) = done.towards {
+        lines.insert(0, ("towards", towards));
+    }
     mixing.finish(&studio, &made, more, &lines, &warnings)
+}
+
+/// What an edit comes to.
+struct Done {
+    latents: Latents,
+    history: History,
+    /// Steps that every attribute should have moved; `None` where that is not said.
+    asked: Option<Sliders>,
+    towards: Option<String>,
+    warnings: Vec<String>,
+}
+
+fn done(
+    args: &Edit,
+    sliders: &Sliders,
+    studio: &Studio<'_>,
+    memory: Memory,
+    name: &str,
+    how: &How,
+) -> Result<Done, EditError> {
+    let Memory {
+        latents,
+        mut history,
+        ..
+    } = memory;
+    if args.undo {
+        let (latents, history) = undone(name, history)?;
+        return Ok(Done {
+            latents,
+            history,
+            asked: None,
+            towards: None,
+            warnings: Vec::new(),
+        });
+    }
+    let Some(text) = &args.prompt else {
+        history.steps.push(Step::new(*sliders, &latents));
+        return Ok(Done {
+            latents: studio.edited(&latents, sliders, how)?,
+            history,
+            asked: Some(*sliders),
+            towards: None,
+            warnings: Vec::new(),
+        });
+    };
+    let Worded {
+        latents: edited,
+        sliders,
+        towards,
+        unread,
+    } = studio.worded(&latents, text, how)?;
+    history
+        .steps
+        .push(Step::new(sliders, &latents).worded(text));
+    let not_read = (!unread.is_empty()).then(|| format!("not understood: {}", unread.join(", ")));
+    Ok(Done {
+        latents: edited,
+        history,
+        // After a way to a thing every attribute has moved.
+        asked: towards.is_none().then_some(sliders),
+        towards: towards.map(|t| format!("{:.0} % of the way to {:?}", 100.0 * t.share, t.thing)),
+        warnings: not_read.into_iter().collect(),
+    })
 }
 
 /// The latents before the last edit, and the history without it.
@@ -99,13 +159,12 @@ fn compiled(
     studio: &Studio<'_>,
     asset: &Asset<'_>,
     mixing: &Mixing<'_>,
-    latents: &Latents,
-    history: History,
+    done: &Done,
     how: &How,
 ) -> Result<Made, Failures> {
     let name = mixing.name(asset.name());
     let provenance: Provenance = raise(asset).provenance;
     studio
-        .compile(latents, &name, provenance, history, how)
+        .compile(&done.latents, &name, provenance, done.history.clone(), how)
         .map_err(failed)
 }

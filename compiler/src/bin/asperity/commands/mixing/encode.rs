@@ -10,6 +10,7 @@ use asperity::{
     diagnostic::Failures,
     edit::{History, How, Origin, Part, Studio, encode},
     model::Provenance,
+    preview::SIZE,
     raise::raise,
     reduce::Fidelity,
 };
@@ -30,11 +31,12 @@ pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
         name: asset.name().to_owned(),
         part: part.name().to_owned(),
     });
+    let own = studio.how(&asset);
     let how = How {
         // A recording is kept in full; what is decoded is as compact as a prompt's texture.
         fidelity: Fidelity::Auto,
-        preview: mixing.previews(),
-        ..studio.how(&asset)
+        preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        ..own
     };
     let provenance = Provenance {
         prompt: texture.provenance.prompt.clone(),

@@ -66,9 +66,10 @@ impl<'a> Mixing<'a> {
         name[..end].trim_end().to_owned()
     }
 
-    /// Whether a preview is drawn where the texture had one.
-    pub(super) fn previews(&self) -> bool {
-        !self.args.no_preview
+    /// The size of the preview, where the texture that is kept has this one; none if it is unwanted.
+    pub(super) fn preview_px(&self, own: Option<u32>) -> Option<u32> {
+        let size = self.args.preview_size.or(own);
+        size.filter(|_| !self.args.no_preview)
     }
 
     /// Writes the asset, and prints what it is. `more` goes into the JSON, `lines` into the text.

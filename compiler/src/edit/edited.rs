@@ -1,0 +1,219 @@
+//! Edits along the sliders: through the latent space as far as it goes, the rest after decoding.
+
+use super::{
+    error::EditError,
+    latents::Latents,
+    scale::{AXES, Axis},
+    sliders::Sliders,
+    solve::{along, reach},
+    studio::{How, Studio},
+};
+use crate::{
+    front_ends::{
+        learned::{Latent, friction},
+        prompt::Shift,
+    },
+    model::attributes::Attributes,
+};
+
+/// Times that a way through the latent space is corrected by what is kept at its end.
+const CORRECTIONS: usize = 4;
+/// Times that what is missing there is moved after decoding.
+const CLOSINGS: usize = 4;
+/// Distance at which no more is corrected, steps of a slider.
+const NEAR: f64 = 0.5;
+/// Steps that a correction may aim beyond what was asked for.
+const FARTHER: f64 = 30.0;
+/// Steps by which the centroid of the vibration may miss, before a way through the latent space is
+/// given up for one that leaves the centroid as it is.
+const SHARP: f64 = 2.5;
+
+/// Steps that an edit missed, in the order of [`AXES`].
+type Missing = [f64; 4];
+
+fn worst(missing: &Missing) -> f64 {
+    missing.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
+impl Studio<'_> {
+    /// The latents after an edit. Each slider moves its attribute by as many steps of the scale and
+    /// leaves the others where they are: level and centroid of the vibration lie in what sliding was
+    /// decoded from, the centroid of the taps in what tapping was, μ in friction.
+    ///
+    /// The latents go the shortest way among the model's materials. What they miss, for want of
+    /// materials or because the asset keeps fewer vertices than are decoded, is moved after decoding,
+    /// as the grammar of a prompt does. The centroid of the vibration has no such move.
+    ///
+    /// # Errors
+    /// As [`kept_attributes`](Self::kept_attributes).
+    pub fn edited(
+        &self,
+        latents: &Latents,
+        sliders: &Sliders,
+        how: &How,
+    ) -> Result<Latents, EditError> {
+        if sliders.are_still() {
+            return Ok(*latents);
+        }
+        let before = self.kept_attributes(latents, how)?;
+        let through = self.through(latents, sliders, how, &before)?;
+        let (missing, edited) = self.closed(through, sliders, how, &before)?;
+        let sharp = missing[Axis::Sharp as usize].abs();
+        if sharp > SHARP && sliders.sharper == 0.0 {
+            let (plain, shifted) = self.closed(*latents, sliders, how, &before)?;
+            if worst(&plain) < worst(&missing) {
+                return Ok(shifted);
+            }
+        }
+        Ok(edited)
+    }
+
+    /// The latents after a way through the latent space, corrected by what is kept at its end.
+    fn through(
+        &self,
+        latents: &Latents,
+        sliders: &Sliders,
+        how: &How,
+        before: &Attributes,
+    ) -> Result<Latents, EditError> {
+        let mut aim = *sliders;
+        let mut best = (f64::INFINITY, *latents);
+        for _ in 0..CORRECTIONS {
+            let edited = self.moved(latents, sliders, &aim)?;
+            let missing = self.missing(&edited, sliders, how, before)?;
+            // What is missing of the others can be moved after decoding.
+            let sharp = missing[Axis::Sharp as usize].abs();
+            let distance = sharp.max(0.5 * worst(&missing));
+            if distance < best.0 {
+                best = (distance, edited);
+            }
+            if worst(&missing) < NEAR {
+                break;
+            }
+            for (axis, missing) in AXES.into_iter().zip(missing) {
+                let furthest = sliders.along(axis).abs() + FARTHER;
+                let step = aim.along(axis) + missing;
+                *aim.along_mut(axis) = step.clamp(-furthest, furthest);
+            }
+        }
+        Ok(best.1)
+    }
+
+    /// The latents with a shift that moves what is still missing, and what is missing then.
+    fn closed(
+        &self,
+        latents: Latents,
+        sliders: &Sliders,
+        how: &How,
+        before: &Attributes,
+    ) -> Result<(Missing, Latents), EditError> {
+        let mut now = latents;
+        let mut best: Option<(Missing, Latents)> = None;
+        for _ in 0..=CLOSINGS {
+            let after = self.kept_attributes(&now, how)?;
+            let missing = self.missing_from(&after, sliders, before);
+            if best.is_none_or(|(least, _)| worst(&missing) < worst(&least)) {
+                best = Some((missing, now));
+            }
+            let closable = AXES.map(|axis| match axis {
+                Axis::Sharp => 0.0,
+                _ => missing[axis as usize],
+            });
+            if worst(&closable) < NEAR {
+                break;
+            }
+            let more = self.scale.shift(&after, closable);
+            now.shift = Shift {
+                rough_db: now.shift.rough_db + more.rough_db,
+                slippery: now.shift.slippery + more.slippery,
+                hard: now.shift.hard + more.hard,
+            };
+        }
+        Ok(best.unwrap_or(([0.0; 4], latents)))
+    }
+
+    fn missing(
+        &self,
+        edited: &Latents,
+        sliders: &Sliders,
+        how: &How,
+        before: &Attributes,
+    ) -> Result<Missing, EditError> {
+        let after = self.kept_attributes(edited, how)?;
+        Ok(self.missing_from(&after, sliders, before))
+    }
+
+    fn missing_from(&self, after: &Attributes, sliders: &Sliders, before: &Attributes) -> Missing {
+        AXES.map(|axis| {
+            let places = self
+                .scale
+                .place(axis, after)
+                .zip(self.scale.place(axis, before));
+            places.map_or(0.0, |(after, before)| {
+                sliders.along(axis) - (after - before)
+            })
+        })
+    }
+
+    /// The latents after a move to these aims, of the parts that the sliders ask to move. Attributes
+    /// are those of what is decoded.
+    fn moved(
+        &self,
+        latents: &Latents,
+        sliders: &Sliders,
+        aim: &Sliders,
+    ) -> Result<Latents, EditError> {
+        let before = self.attributes(latents)?;
+        let mut edited = *latents;
+        let asked = |axis: Axis| sliders.along(axis) != 0.0;
+        let target = |axis: Axis| {
+            let place = self.scale.place(axis, &before);
+            place.map(|place| place + aim.along(axis))
+        };
+        let gradient = |axis: Axis| self.scale.gradients[axis as usize].as_slice();
+        if asked(Axis::Rough) || asked(Axis::Sharp) {
+            let axes = [Axis::Rough, Axis::Sharp];
+            if let [Some(rough), Some(sharp)] = axes.map(target) {
+                let look = |z: &Latent| self.seen(z, &latents.shift, &axes);
+                let (start, gradients) = (&latents.slide, axes.map(gradient));
+                edited.slide = reach(start, &gradients, &self.metric, &[rough, sharp], look)?.z;
+            }
+        }
+        if asked(Axis::Hard)
+            && let Some(hard) = target(Axis::Hard)
+        {
+            let look = |z: &Latent| self.seen(z, &latents.shift, &[Axis::Hard]);
+            let gradients = [gradient(Axis::Hard)];
+            edited.tap = reach(&latents.tap, &gradients, &self.metric, &[hard], look)?.z;
+        }
+        if asked(Axis::Slippery)
+            && let Some(slippery) = target(Axis::Slippery)
+        {
+            let description = self.author.model().description();
+            let factor = libm::exp(-latents.shift.slippery);
+            let look = |z: &Latent| {
+                let near = friction::neighbours(z, &description.anchors, description.friction);
+                let attributes = Attributes {
+                    mu: factor * friction::mu(&near, &description.anchors),
+                    ..before
+                };
+                self.scale.place(Axis::Slippery, &attributes).unwrap_or(0.0)
+            };
+            let gradient = gradient(Axis::Slippery);
+            edited.friction = along(&latents.friction, gradient, &self.metric, slippery, look);
+        }
+        Ok(edited)
+    }
+
+    /// Places on the sliders of what one latent decodes to.
+    fn seen(
+        &self,
+        z: &Latent,
+        shift: &Shift,
+        axes: &[Axis],
+    ) -> Result<Option<Vec<f64>>, EditError> {
+        let attributes = self.attributes(&Latents::whole(*z).shifted(*shift))?;
+        let places = axes.iter().map(|&axis| self.scale.place(axis, &attributes));
+        Ok(places.collect())
+    }
+}

@@ -1,0 +1,82 @@
+//! Edits in words: "less gritty, more waxy".
+
+use super::{
+    error::EditError,
+    latents::Latents,
+    scale::{Axis, Scale},
+    sliders::Sliders,
+    studio::{How, Studio},
+};
+use crate::{
+    front_ends::prompt::{
+        Shift,
+        phrase::{Towards, adjust::from_base, relative},
+    },
+    model::attributes::Attributes,
+};
+
+/// An edit that was asked for in words.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Worded {
+    /// The latents after it.
+    pub latents: Latents,
+    /// The steps that its words came to, after the way to a thing.
+    pub sliders: Sliders,
+    /// The thing that it went towards.
+    pub towards: Option<Towards>,
+    /// Words that were not understood.
+    pub unread: Vec<String>,
+}
+
+impl Studio<'_> {
+    /// The latents after an edit in words. A likeness ("more like leather") is a blend with the
+    /// texture of its words; every other change moves an attribute as far from where it is as the
+    /// grammar of `compile` would move it from that of a thing.
+    ///
+    /// # Errors
+    /// [`EditError::NotUnderstood`] where the words ask for nothing; else as
+    /// [`edited`](Self::edited).
+    pub fn worded(&self, latents: &Latents, text: &str, how: &How) -> Result<Worded, EditError> {
+        let asked = relative(text);
+        if asked.is_nothing() {
+            return Err(EditError::NotUnderstood(text.to_owned()));
+        }
+        let base = self.kept_attributes(latents, how)?;
+        let mut start = *latents;
+        if let Some(towards) = &asked.towards {
+            let prompted = self.author.project(&towards.thing)?;
+            let meaning = self.author.meaning(&towards.thing, prompted.z)?;
+            let thing = Latents::whole(meaning.z).shifted(meaning.shift);
+            start = Latents::between(latents, &thing, towards.share);
+        }
+        let now = self.kept_attributes(&start, how)?;
+        let shift = from_base(&base, &now, &asked.changes);
+        let sliders = steps(&self.scale, &now, &shift);
+        Ok(Worded {
+            latents: self.edited(&start, &sliders, how)?,
+            sliders,
+            towards: asked.towards,
+            unread: asked.unread,
+        })
+    }
+}
+
+/// The steps of the sliders that a shift moves attributes by from where they are.
+fn steps(scale: &Scale, from: &Attributes, shift: &Shift) -> Sliders {
+    let to = Attributes {
+        rough_db: from.rough_db.map(|db| db + shift.rough_db),
+        mu: from.mu * libm::exp(-shift.slippery),
+        hard_hz: from.hard_hz.map(|hz| hz * libm::exp(shift.hard)),
+        ..*from
+    };
+    let by = |axis: Axis| {
+        let apart = scale.place(axis, &to).zip(scale.place(axis, from));
+        apart.map_or(0.0, |(to, from)| to - from)
+    };
+    Sliders {
+        rougher: by(Axis::Rough),
+        sharper: 0.0,
+        harder: by(Axis::Hard),
+        slipperier: by(Axis::Slippery),
+    }
+}

@@ -1,0 +1,282 @@
+//! Qualities in a text: "very rough", "not at all slippery", "without its grit", "more grip".
+
+use super::{
+    Change, Changes,
+    table::{self, LITTLE, NOT, NOT_AT_ALL, NOT_VERY, PLAIN, Range, Signs, VERY},
+    words::EMPTY,
+};
+
+/// What a text is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Use {
+    /// A thing, which a prompt names beside its qualities.
+    Thing,
+    /// An edit of a texture at hand. More words count, and "too rough" asks for less.
+    Edit,
+}
+
+/// Words between a direction and its noun: "more of the grip", "add some grit".
+const BETWEEN: [&str; 10] = [
+    "of", "the", "its", "a", "an", "any", "some", "in", "that", "all",
+];
+
+/// A quality that was found, and the words that it took.
+struct Found {
+    signs: Signs,
+    range: Range,
+    /// Words from..to.
+    from: usize,
+    to: usize,
+}
+
+/// Divides words into qualities and all others; `None` where there is no quality.
+pub(super) fn divide(words: &[String], about: Use) -> Option<(Changes, Vec<String>)> {
+    let mut changes = Changes::default();
+    let mut base: Vec<String> = Vec::new();
+    let mut any = false;
+    let mut at = 0;
+    while at < words.len() {
+        if let Some(found) = quality(words, at, about) {
+            apply(&mut changes, &found);
+            any = true;
+            // Words of degree and denial before it were taken already.
+            let taken = at - found.from;
+            base.truncate(base.len().saturating_sub(taken));
+            at = found.to;
+        } else {
+            base.push(words[at].clone());
+            at += 1;
+        }
+    }
+    any.then_some((changes, base))
+}
+
+/// The quality whose adjective stands here, or whose noun follows "without" or "more" here.
+fn quality(words: &[String], at: usize, about: Use) -> Option<Found> {
+    let word = words[at].as_str();
+    if ["without", "no", "lacking"].contains(&word) {
+        return lacked(words, at, about);
+    }
+    if let Some(found) = directed(words, at, about) {
+        return Some(found);
+    }
+    let (signs, compared) = match adjective(word, about) {
+        Some(signs) => (signs, false),
+        None => (compared(word, about)?, true),
+    };
+    let (mut from, mut to) = (at, at + 1);
+    let mut range = PLAIN;
+    let mut denied = false;
+    let mut stressed = false;
+    let mut less = false;
+    let mut too = false;
+    while let Some(before) = from.checked_sub(1) {
+        let word = words[before].as_str();
+        match word {
+            // "not at all rough"
+            "all" if before > 0 && words[before - 1] == "at" => stressed = true,
+            "at" if stressed => {}
+            "not" | "never" | "non" => denied = true,
+            "more" => {}
+            "less" | "least" => less = true,
+            "a" if range == LITTLE => {}
+            "being" | "be" if before > 0 && words[before - 1] == "without" => {}
+            "without" => denied = true,
+            // "not as rough", "twice as rough", "half as rough"
+            "as" if before > 0
+                && ["not", "twice", "half"].contains(&words[before - 1].as_str()) =>
+            {
+                if words[before - 1] == "not" {
+                    range = VERY;
+                }
+            }
+            "half" if words[before + 1] == "as" => less = true,
+            "too" if about == Use::Edit => too = true,
+            _ => match table::degree(word) {
+                // "ever so slightly": the nearest degree counts.
+                Some(found) if range == PLAIN => range = found,
+                Some(_) => {}
+                None => break,
+            },
+        }
+        from = before;
+    }
+    let next = |to: usize| words.get(to).map(String::as_str);
+    if next(to) == Some("at") && next(to + 1) == Some("all") {
+        to += 2;
+        stressed |= denied;
+    }
+    if about == Use::Edit && next(to) == Some("enough") {
+        // "not rough enough" asks for more.
+        to += 1;
+    } else if denied && stressed {
+        range = NOT_AT_ALL;
+    } else if denied {
+        range = if range == VERY { NOT_VERY } else { NOT };
+    } else if less || too {
+        range = (-range.1, -range.0);
+    }
+    if compared && next(to) == Some("than") {
+        // "a rougher cloth than X": what is compared with follows.
+        to += 1;
+    }
+    let found = Found {
+        signs,
+        range,
+        from,
+        to,
+    };
+    Some(afterwards(words, found, about))
+}
+
+/// The degree that follows: "rougher by a lot", "softer, but only slightly".
+fn afterwards(words: &[String], found: Found, about: Use) -> Found {
+    if about != Use::Edit {
+        return found;
+    }
+    const JOIN: [&str; 7] = ["and", "by", "but", "only", "just", "a", "though"];
+    let mut to = found.to;
+    while words
+        .get(to)
+        .is_some_and(|word| JOIN.contains(&word.as_str()))
+    {
+        to += 1;
+    }
+    let Some(range) = words.get(to).and_then(|word| table::degree(word)) else {
+        return found;
+    };
+    // "rougher, much softer": the degree belongs to what follows.
+    let follows = words.get(to + 1).is_some_and(|word| {
+        word == "more"
+            || word == "less"
+            || adjective(word, about).is_some()
+            || compared(word, about).is_some()
+    });
+    let less = (-PLAIN.1, -PLAIN.0);
+    let range = match found.range {
+        _ if follows || range.0 < 0.0 => return found,
+        PLAIN => range,
+        was if was == less => (-range.1, -range.0),
+        _ => return found,
+    };
+    Found {
+        range,
+        to: to + 1,
+        ..found
+    }
+}
+
+/// "without its roughness", "that has no tread".
+fn lacked(words: &[String], at: usize, about: Use) -> Option<Found> {
+    let mut to = at + 1;
+    // "without its grit", "without so much grip"
+    while words.get(to).is_some_and(|word| {
+        EMPTY.contains(&word.as_str()) || (about == Use::Edit && table::degree(word).is_some())
+    }) {
+        to += 1;
+    }
+    let word = words.get(to)?;
+    let signs = noun(word, about).or_else(|| adjective(word, about))?;
+    Some(Found {
+        signs,
+        range: NOT,
+        from: at,
+        to: to + 1,
+    })
+}
+
+/// "more grip", "a bit less friction"; of an edit also "add some grit", "reduce the roughness".
+fn directed(words: &[String], at: usize, about: Use) -> Option<Found> {
+    let up = match table::direction(&words[at], about == Use::Edit) {
+        Some(up) => up,
+        None => return turned(words, at, about),
+    };
+    let mut to = at + 1;
+    let mut range = None;
+    while let Some(word) = words.get(to) {
+        if let Some(found) = table::degree(word).filter(|_| about == Use::Edit) {
+            range = Some(found);
+        } else if !BETWEEN.contains(&word.as_str()) {
+            break;
+        }
+        to += 1;
+    }
+    // "more rough" is read from its adjective.
+    let signs = words.get(to).and_then(|word| noun(word, about))?;
+    let mut from = at;
+    while let Some(before) = from.checked_sub(1) {
+        match table::degree(&words[before]) {
+            Some(found) => range = Some(found),
+            None if words[before] == "a" && range == Some(LITTLE) => {}
+            None => break,
+        }
+        from = before;
+    }
+    let (least, most) = range.filter(|range| range.0 > 0.0).unwrap_or(PLAIN);
+    let range = if up { (least, most) } else { (-most, -least) };
+    let found = Found {
+        signs,
+        range,
+        from,
+        to: to + 1,
+    };
+    Some(afterwards(words, found, about))
+}
+
+/// "the friction up", "grip down a little", of an edit alone.
+fn turned(words: &[String], at: usize, about: Use) -> Option<Found> {
+    let signs = noun(&words[at], about).filter(|_| about == Use::Edit)?;
+    let range = match words.get(at + 1)?.as_str() {
+        "up" | "higher" | "more" => PLAIN,
+        "down" | "lower" | "less" => (-PLAIN.1, -PLAIN.0),
+        _ => return None,
+    };
+    let found = Found {
+        signs,
+        range,
+        from: at,
+        to: at + 2,
+    };
+    Some(afterwards(words, found, about))
+}
+
+fn adjective(word: &str, about: Use) -> Option<Signs> {
+    let edit = || table::edit_adjective(word).filter(|_| about == Use::Edit);
+    table::adjective(word).or_else(edit)
+}
+
+fn compared(word: &str, about: Use) -> Option<Signs> {
+    table::compared(word, |stem| adjective(stem, about))
+}
+
+fn noun(word: &str, about: Use) -> Option<Signs> {
+    let edit = || table::edit_noun(word).filter(|_| about == Use::Edit);
+    table::noun(word).or_else(edit)
+}
+
+fn apply(changes: &mut Changes, found: &Found) {
+    let attributes = [&mut changes.rough, &mut changes.slippery, &mut changes.hard];
+    for (change, sign) in attributes.into_iter().zip(found.signs) {
+        if sign == 0 {
+            continue;
+        }
+        let (least, most) = found.range;
+        let new = if sign > 0 {
+            Change { least, most }
+        } else {
+            Change {
+                least: -most,
+                most: -least,
+            }
+        };
+        // The strongest word counts; they do not add up.
+        let stronger = change.is_none_or(|old| strength(new) > strength(old));
+        if stronger {
+            *change = Some(new);
+        }
+    }
+}
+
+fn strength(change: Change) -> f64 {
+    (change.least + change.most).abs()
+}

@@ -1,0 +1,71 @@
+//! Edits in words go the way that the words say, and far enough to be noticed.
+
+use asperity::{
+    attributes::Attributes,
+    edit::{How, Latents, Studio},
+    inference::Backend,
+    prompt::Author,
+    reduce::Fidelity,
+};
+use rayon::prelude::*;
+use std::sync::LazyLock;
+
+static AUTHOR: LazyLock<Author> =
+    LazyLock::new(|| Author::embedded(&Backend::Portable).expect("the shipped model loads"));
+
+/// A thing, an edit in words, and where it goes; written for this test, by who wrote the grammar.
+const EDITS: &str = include_str!("relative_edits.tsv");
+
+/// An attribute on a scale on which a person notices 1: 1.6 dB, 10 % of friction, 15 % in Hz.
+fn scale(attribute: &str, a: &Attributes) -> f64 {
+    match attribute {
+        "rough" => a.rough_db.expect("a level") / 1.6,
+        "slippery" => -libm::log(a.mu) / libm::log(1.1),
+        "hard" => libm::log(a.hard_hz.expect("taps")) / libm::log(1.15),
+        other => panic!("{other}"),
+    }
+}
+
+fn latents(prompt: &str) -> Latents {
+    let z = AUTHOR.project(prompt).expect(prompt).z;
+    let meaning = AUTHOR.meaning(prompt, z).expect(prompt);
+    Latents::whole(meaning.z).shifted(meaning.shift)
+}
+
+/// The smallest step of an edit in the ways that it should go, in what a person notices.
+fn step(studio: &Studio<'_>, line: &str) -> f64 {
+    let how = How {
+        fidelity: Fidelity::Auto,
+        rate_hz: None,
+        preview_px: None,
+    };
+    let fields: Vec<&str> = line.split('\t').collect();
+    let [thing, text, ways] = fields[..] else {
+        panic!("{line:?}");
+    };
+    let before = latents(thing);
+    let after = studio.worded(&before, text, &how).expect(line).latents;
+    let [before, after] = [before, after].map(|z| studio.kept_attributes(&z, &how).expect(line));
+    let steps = ways.split(' ').map(|way| {
+        let (attribute, sign) = way.split_at(way.len() - 1);
+        let step = scale(attribute, &after) - scale(attribute, &before);
+        if sign == "+" { step } else { -step }
+    });
+    steps.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn edits_in_words_go_the_right_way_and_are_noticed() {
+    let studio = Studio::new(&AUTHOR, 0);
+    let lines: Vec<&str> = EDITS.lines().collect();
+    assert_eq!(lines.len(), 60);
+    let steps: Vec<f64> = lines.par_iter().map(|line| step(&studio, line)).collect();
+    for (line, step) in lines.iter().zip(&steps).filter(|(_, step)| **step <= 1.0) {
+        println!("{step:+.2}: {line}");
+    }
+    let count = |least: f64| steps.iter().filter(|step| **step > least).count();
+    let (right, noticed, all) = (count(0.0), count(1.0), steps.len());
+    println!("{right} of {all} go the right way, {noticed} are noticed");
+    assert!(right * 100 >= all * 95, "{right} of {all}");
+    assert!(noticed * 100 >= all * 85, "{noticed} of {all}");
+}
