@@ -132,11 +132,9 @@ fn one_texture_has_the_same_spectrum_on_devices_that_differ_by_24_db() {
         all.push((before, after));
     }
     for (one, other) in [(0, 1), (1, 2), (0, 2)] {
-        let apart = |of: fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>| {
-            let pairs = of(&all[one]).iter().zip(of(&all[other]));
-            largest(pairs.map(|(a, b)| a - b))
-        };
-        let (before, after) = (apart(|levels| &levels.0), apart(|levels| &levels.1));
+        let apart = |a: &[f64], b: &[f64]| largest(a.iter().zip(b).map(|(a, b)| a - b));
+        let before = apart(&all[one].0, &all[other].0);
+        let after = apart(&all[one].1, &all[other].1);
         println!(
             "devices {one} and {other}: {before:.1} dB apart, {after:.2} dB with their filters"
         );

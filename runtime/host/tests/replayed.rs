@@ -95,8 +95,11 @@ fn played(recording: &Recording, seed: u64) -> (Kept, End, (u64, u64)) {
     impl<R: Render> Render for Late<R> {
         fn tick(&mut self, sample: &asperity_runtime::Sample) -> asperity_runtime::Output {
             self.2 += 1;
-            self.1
-                .pass(if self.2 % 331 == 0 { 5 * PERIOD_NS } else { 0 });
+            self.1.pass(if self.2.is_multiple_of(331) {
+                5 * PERIOD_NS
+            } else {
+                0
+            });
             self.0.tick(sample)
         }
         fn config(&self) -> &Config {

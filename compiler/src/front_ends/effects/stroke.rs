@@ -51,7 +51,7 @@ pub(super) fn vertex(
 /// Line spectral frequencies, and the RMS where the signal sounds.
 fn model(played: &[f64]) -> (Vec<f64>, f64) {
     let signal = sounding(&resample(played, PLAY_HZ, MODEL_HZ));
-    let white = lsf::towards_white_noise(&vec![0.0; ORDER], 1.0);
+    let white = lsf::towards_white_noise(&[0.0; ORDER], 1.0);
     let energy: f64 = signal.iter().map(|x| x * x).sum();
     if energy <= 0.0 {
         return (white, 0.0);
