@@ -313,7 +313,7 @@ pub(crate) const FORMS: [Form; 55] = [
     ),
     form(
         Lab,
-        "device probe sim:in.toml?time=stepped --seconds 0.1 --json",
+        "device probe sim:in.toml?time=stepped --seconds 0.1",
         "in.toml",
         Seed::Device,
     ),
