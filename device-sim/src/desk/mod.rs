@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `surface` | what is touched, read from a file |
 //! | `open` | devices by name, `sim:` among them |
+//! | `opened` | an open device, and what the runtime must know of it |
 //! | `sim_device` | the simulated device and hand behind the host's trait |
 //! | `replay` | a recording as a device: its conditions, and whether forces repeat |
 //! | `run` | one run of the loop on its thread |
@@ -12,6 +13,7 @@
 
 mod error;
 mod open;
+mod opened;
 mod recorder;
 mod replay;
 mod run;
@@ -20,9 +22,9 @@ mod surface;
 mod trace;
 
 pub use error::DeskError;
-pub use open::{Desk, open};
+pub use open::open;
+pub use opened::{Desk, Repeated, Replayed};
 pub use recorder::{Form, Recorder, Written};
-pub use replay::{Repeated, Replayed};
 pub use run::{Attended, Setup, run};
 pub use sim_device::{Pace, SimDevice};
 pub use surface::Surface;

@@ -1,62 +1,18 @@
 //! Devices by name.
 
 use super::error::DeskError;
-use super::replay::{self, Replayed};
+use super::opened::Desk;
+use super::replay;
 use super::sim_device::{Pace, SimDevice};
 use crate::device::DeviceConfig;
 use crate::hand::{Grip, GripPreset};
-use asperity_host::device::{self, Device, OpenError, Scheme, Uri};
-use asperity_host::profile::Profile;
+use asperity_host::device::{self, OpenError, Scheme, Uri};
 use asperity_host::servo::Pace as LoopPace;
-use asperity_runtime::{Config, Limits, MechanicsConfig};
+use asperity_runtime::Config;
 use std::path::Path;
 
 /// Settings of `sim:`.
 const SETTINGS: [&str; 3] = ["grip", "seed", "time"];
-
-/// An open device, and what the runtime must know of it.
-pub struct Desk {
-    /// The device.
-    pub device: Box<dyn Device>,
-    /// What its own mechanics absorb: those of a Touch where nobody knows better.
-    pub mechanics: MechanicsConfig,
-    /// What a profile says of it, if one was given: it counts more than the above.
-    pub profile: Option<Profile>,
-    /// How many periods lie between two of its readings.
-    pub pace: LoopPace,
-    /// What a recording says of the session that it holds.
-    pub replayed: Option<Replayed>,
-}
-
-impl Desk {
-    /// The configuration of a renderer for this device; for a recording, the recorded one.
-    #[must_use]
-    pub fn config(&self, rate_hz: u32) -> Config {
-        if let Some(replayed) = &self.replayed {
-            return replayed.conditions.config.clone();
-        }
-        let config = Config {
-            servo_rate_hz: rate_hz as f32,
-            limits: Limits {
-                peak_n: self.device.description().peak_force_n,
-                ..Config::default().limits
-            },
-            mechanics: self.mechanics,
-            ..Config::default()
-        };
-        let Some(profile) = &self.profile else {
-            return config;
-        };
-        let mut ours = profile.apply(&config);
-        // A profile cannot make a device stronger than it says it is.
-        ours.limits.peak_n = if ours.limits.peak_n < config.limits.peak_n {
-            ours.limits.peak_n
-        } else {
-            config.limits.peak_n
-        };
-        ours
-    }
-}
 
 /// Opens a device by its name for a servo loop at `rate_hz`: what the host has, and
 /// `sim:FILE.toml?grip=light&seed=1&time=real`, where everything after the colon may be left out.

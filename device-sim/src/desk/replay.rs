@@ -1,40 +1,12 @@
 //! A recording as a device: the conditions of its session, and whether forces repeat.
 
 use super::error::DeskError;
-use super::open::Desk;
+use super::opened::{Desk, Repeated, Replayed};
 use asperity_host::device::replay::Replay;
 use asperity_host::device::{Description, Device, Fault, OpenError, Reading, Uri};
-use asperity_host::recording::{Conditions, pace};
+use asperity_host::recording::pace;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
-
-/// What a recording says of the session that it holds.
-#[derive(Debug, Clone)]
-pub struct Replayed {
-    /// Its conditions.
-    pub conditions: Conditions,
-    /// How many other textures played after the first.
-    pub exchanges: usize,
-    /// Ticks that were not recorded.
-    pub lost: u64,
-    /// How many forces repeat.
-    pub repeated: Arc<Repeated>,
-}
-
-/// How many forces of a replay are those of the recording.
-#[derive(Debug, Default)]
-pub struct Repeated {
-    forces: AtomicU64,
-    different: AtomicU64,
-}
-
-impl Repeated {
-    /// Forces that were compared, and how many of them differ in a bit.
-    #[must_use]
-    pub fn counts(&self) -> (u64, u64) {
-        (self.forces.load(Relaxed), self.different.load(Relaxed))
-    }
-}
+use std::sync::atomic::Ordering::Relaxed;
 
 /// A recording that tells how it compares from its servo thread.
 struct Compared {
