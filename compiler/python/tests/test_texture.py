@@ -107,7 +107,9 @@ def test_notebooks_show_the_sheet_that_plot_draws(texture, command, tmp_path):
 
 def test_the_repr_names_what_matters(texture):
     text = repr(texture)
-    for part in (repr(texture.name).replace("'", '"'), "order 17", "1000 Hz", "dB", "mu 0.737"):
+    name = repr(texture.name).replace("'", '"')
+    order, mu = f"order {texture.grid.order}", f"mu {texture.attributes.mu:.3f}"
+    for part in (name, order, "1000 Hz", "dB", mu):
         assert part in text
     assert "float64 (29, 17)" in repr(texture.grid)
 

@@ -2,8 +2,8 @@
 
 >>> import asperity
 >>> texture = asperity.compile("rough abrasive sheet with gritty particles")
->>> texture.grid.order
-17
+>>> texture.grid.sample_rate_hz
+1000.0
 >>> renderer = asperity.Renderer(texture, seed=1)
 >>> felt = renderer.render([[0.0, 0.0, -0.001]] * 100)
 >>> bool(felt.has(asperity.Flags.CONTACT).all())
