@@ -43,11 +43,6 @@ fn model_folder(options: &Inference) -> Result<Files, Failures> {
     }
 }
 
-/// CRC-32 of the model that the options name.
-pub(crate) fn model_crc32(options: &Inference) -> Result<u32, Failures> {
-    Ok(model_folder(options)?.crc32())
-}
-
 /// What decides the bytes of a texture besides its manifest.
 pub(crate) fn pinned(options: &Inference) -> Result<Pinned, Failures> {
     #[derive(serde::Deserialize)]

@@ -52,8 +52,9 @@ impl<'a> Mixing<'a> {
 
     /// The author, and the CRC-32 of its model.
     pub(super) fn author(&self) -> Result<(Author, u32), Failures> {
-        let crc32 = inference::model_crc32(&self.args.inference)?;
-        Ok((inference::author(&self.args.inference)?, crc32))
+        let author = inference::author(&self.args.inference)?;
+        let crc32 = author.model().crc32();
+        Ok((author, crc32))
     }
 
     /// The name that a user gave, or else this one, shortened to what an asset can hold.
