@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::{
     error::BenchError,
     fault::{Fault, faulty},
-    perform::perform,
+    perform::{perform, perform_sine},
     sensors::{Sensors, record},
     truth::{Comparison, compare},
 };
@@ -179,6 +179,9 @@ pub struct Checks {
     pub false_alarms: Vec<String>,
 }
 
+/// Every so many clean recordings, one has strokes of a single sine.
+const SINES: usize = 4;
+
 /// Checks `count` faulty and as many clean recordings of some seconds.
 ///
 /// # Errors
@@ -194,14 +197,13 @@ pub fn checks(
         let seed = seed.wrapping_mul(10_000).wrapping_add(index as u64);
         let texture = &textures[index % textures.len()];
         let performance = perform(texture, seconds, seed)?;
+        let clean = if index % SINES == SINES - 1 {
+            &perform_sine(texture, seconds, seed)?
+        } else {
+            &performance
+        };
         let folder = Scratch::new(seed)?;
-        record(
-            &performance,
-            texture,
-            &Sensors::seeded(seed),
-            seed,
-            &folder.0,
-        )?;
+        record(clean, texture, &Sensors::seeded(seed), seed, &folder.0)?;
         let alarms = match recording::check(&folder.0) {
             Ok((_, checked, _)) => checked
                 .at_least(Severity::Warning)

@@ -4,10 +4,13 @@ use asperity::{lower, model::TextureModel};
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Limits, Renderer};
 
-use super::{error::BenchError, script::script};
+use super::{
+    error::BenchError,
+    script::{script, sine},
+};
 use crate::{
     device::DeviceConfig,
-    hand::{Grip, GripPreset},
+    hand::{Grip, GripPreset, Script},
     servo::RenderedTexture,
     session::{Record, Session},
 };
@@ -26,6 +29,27 @@ pub struct Performance {
 /// # Errors
 /// [`BenchError::Texture`] for a texture that the runtime cannot render.
 pub fn perform(texture: &TextureModel, seconds: f64, seed: u64) -> Result<Performance, BenchError> {
+    follow(texture, seconds, seed, script)
+}
+
+/// Lets a hand stroke to and fro as evenly as a machine, after a few taps.
+///
+/// # Errors
+/// [`BenchError::Texture`] for a texture that the runtime cannot render.
+pub fn perform_sine(
+    texture: &TextureModel,
+    seconds: f64,
+    seed: u64,
+) -> Result<Performance, BenchError> {
+    follow(texture, seconds, seed, sine)
+}
+
+fn follow(
+    texture: &TextureModel,
+    seconds: f64,
+    seed: u64,
+    script: fn(u64, f64, (f64, f64)) -> Script,
+) -> Result<Performance, BenchError> {
     let fail = |what: String| BenchError::Texture {
         name: texture.name.clone(),
         what,

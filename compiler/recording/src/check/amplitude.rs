@@ -4,8 +4,13 @@ use super::verdict::{Finding, Kind, Severity};
 use crate::{channel::Channel, description::Quantity};
 use std::ops::Range;
 
-/// Plateaus at an extreme that are clipping, and samples on them.
-const LEAST_PLATEAUS: (usize, usize) = (3, 8);
+/// Visits to an extreme that are clipping, and samples of them.
+const LEAST_VISITS: (usize, u64) = (2, 3);
+/// Samples of a single stretch at an extreme that is clipping.
+const LEAST_PLATEAU: u64 = 8;
+/// Samples inside an extreme that are held against those at it, and at least so many.
+const RIVALS: usize = 4;
+const LEAST_RIVALS: usize = 256;
 /// An extreme nearer to zero than this fraction of the larger one is rest.
 const AT_REST: f64 = 0.3;
 /// Steps of the converter inside an extreme whose samples are held against those at it.
@@ -14,6 +19,8 @@ const INSIDE: f32 = 3.0;
 const LEAST_HELD: (f64, f64) = (0.004, 8.0);
 /// A step as many times the 99 % quantile of steps ends a drop-out of a slow signal.
 const LARGE_STEP: f64 = 4.0;
+/// A step as many times the 99 % quantile of steps, there and back, is a spike of a motion.
+const SPIKE: f64 = 6.0;
 /// Part of the samples in runs above which a channel is coarse.
 const COARSE: f64 = 0.1;
 
@@ -77,6 +84,21 @@ pub(super) fn check(channel: &Channel) -> (Vec<Finding>, Vec<Range<u64>>) {
         ));
         bad.extend(held);
     }
+    let spikes = spikes(channel);
+    if let Some(&first) = spikes.first() {
+        let what = format!(
+            "impossible: {} values far from both neighbours, the first {:.4} SI at {:.3} s",
+            spikes.len(),
+            channel.samples[first],
+            channel.clock.time_s(first as f64)
+        );
+        findings.push(finding(
+            Kind::Impossible,
+            what,
+            "look for a loose cable or an overflow; correct these values in the file",
+        ));
+        bad.extend(spikes.iter().map(|&n| n as u64..n as u64 + 1));
+    }
     let limit = largest(channel.quantity);
     let extreme = numbers.max.abs().max(numbers.min.abs());
     if extreme > limit {
@@ -101,6 +123,25 @@ fn largest(quantity: Quantity) -> f64 {
     }
 }
 
+/// Values of a motion that jump away from both neighbours: nothing that a hand holds does.
+fn spikes(channel: &Channel) -> Vec<usize> {
+    if !matches!(channel.quantity, Quantity::Position | Quantity::Speed) {
+        return Vec::new();
+    }
+    let large = (SPIKE * channel.numbers.steps.quantile(0.99)) as f32;
+    let jumps = |triple: &[f32]| {
+        let (rise, fall) = (triple[1] - triple[0], triple[1] - triple[2]);
+        large > 0.0 && rise.abs() > large && fall.abs() > large && rise * fall > 0.0
+    };
+    channel
+        .samples
+        .windows(3)
+        .enumerate()
+        .filter(|(_, triple)| jumps(triple))
+        .map(|(before, _)| before + 1)
+        .collect()
+}
+
 /// Stretches at which the channel stands at its extremes.
 fn clipped(channel: &Channel) -> Vec<Range<u64>> {
     if !matches!(channel.quantity, Quantity::Acceleration | Quantity::Force) {
@@ -116,16 +157,14 @@ fn clipped(channel: &Channel) -> Vec<Range<u64>> {
         if extreme.abs() < AT_REST * reach {
             continue;
         }
-        let spans = plateaus(&channel.samples, extreme as f32);
+        let spans = visits(&channel.samples, extreme as f32);
         let samples: u64 = spans.iter().map(|span| span.end - span.start).sum();
+        let longest = spans.iter().map(|span| span.end - span.start).max();
         let at_limit = limit.is_some_and(|limit| extreme.abs() >= 0.998 * limit.abs());
-        if !at_limit && !stands_out(&channel.samples, extreme as f32) {
-            continue;
-        }
-        let (least_spans, least_samples) = LEAST_PLATEAUS;
-        if (spans.len() >= least_spans && samples >= least_samples as u64)
-            || (at_limit && samples >= 3)
-        {
+        let often = spans.len() >= LEAST_VISITS.0 && samples >= LEAST_VISITS.1
+            || longest >= Some(LEAST_PLATEAU);
+        let stands_out = || stands_out(&channel.samples, extreme as f32);
+        if at_limit && samples >= LEAST_VISITS.1 || often && stands_out() {
             all.extend(spans);
         }
     }
@@ -133,37 +172,48 @@ fn clipped(channel: &Channel) -> Vec<Range<u64>> {
 }
 
 /// Whether an extreme holds more samples than the values just inside it. That of noise over a few steps
-/// of a converter does not; that of a signal that is cut off does.
+/// of a converter does not, nor that of a sine, nor that of a period that repeats itself to the bit. That
+/// of a signal that is cut off does.
 fn stands_out(samples: &[f32], extreme: f32) -> bool {
-    let step = samples
+    // Distances from the extreme, of the samples on its side.
+    let mut inside: Vec<f32> = samples
+        .iter()
+        .map(|x| (x - extreme).abs())
+        .filter(|away| *away < 0.5 * extreme.abs())
+        .collect();
+    let at = inside.iter().filter(|away| **away == 0.0).count();
+    let kept = at + (RIVALS * at).max(LEAST_RIVALS);
+    if inside.len() > kept {
+        inside.select_nth_unstable_by(kept, f32::total_cmp);
+        inside.truncate(kept);
+    }
+    inside.sort_unstable_by(f32::total_cmp);
+    let step = inside
         .windows(2)
-        .map(|pair| (pair[1] - pair[0]).abs())
+        .map(|pair| pair[1] - pair[0])
         .filter(|step| *step > 0.0)
         .fold(f32::INFINITY, f32::min);
-    let within = |steps: f32| {
-        samples
-            .iter()
-            .filter(|x| (**x - extreme).abs() < steps * step)
-            .count()
-    };
-    let (at, near) = (within(0.5), within(INSIDE + 0.5));
-    near - at < at
+    let near = inside
+        .iter()
+        .filter(|away| **away < (INSIDE + 0.5) * step)
+        .count()
+        - at;
+    let repeated = inside[at..]
+        .chunk_by(|a, b| a == b)
+        .map(<[f32]>::len)
+        .max()
+        .unwrap_or(0);
+    2 * at > 3 * near && at > 2 * repeated
 }
 
-/// Stretches of at least two samples at a value.
-fn plateaus(samples: &[f32], value: f32) -> Vec<Range<u64>> {
-    let mut spans = Vec::new();
-    let mut start = None;
-    for (index, &x) in samples.iter().enumerate() {
-        match (x == value, start) {
-            (true, None) => start = Some(index),
-            (false, Some(first)) => {
-                if index - first >= 2 {
-                    spans.push(first as u64..index as u64);
-                }
-                start = None;
-            }
-            _ => {}
+/// Stretches at a value, of one sample or more.
+fn visits(samples: &[f32], value: f32) -> Vec<Range<u64>> {
+    let mut spans: Vec<Range<u64>> = Vec::new();
+    for (index, _) in samples.iter().enumerate().filter(|(_, x)| **x == value) {
+        let index = index as u64;
+        match spans.last_mut() {
+            Some(last) if last.end == index => last.end += 1,
+            _ => spans.push(index..index + 1),
         }
     }
     spans
@@ -192,6 +242,21 @@ fn held(channel: &Channel) -> Vec<Range<u64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sines_do_not_stand_out() {
+        for period in [17.0, 40.0, 83.7] {
+            let sine = |n: usize| libm::sin(std::f64::consts::TAU * n as f64 / period) as f32;
+            let exact: Vec<f32> = (0..20_000).map(sine).collect();
+            // Every period to the bit, and by a converter of 12 bits.
+            let again: Vec<f32> = (0..20_000).map(|n| sine(n % 40)).collect();
+            let coarse: Vec<f32> = exact.iter().map(|x| (x * 2048.0).round()).collect();
+            for signal in [exact, again, coarse] {
+                let top = signal.iter().copied().fold(0.0, f32::max);
+                assert!(!stands_out(&signal, top), "{period}");
+            }
+        }
+    }
 
     #[test]
     fn a_cut_signal_stands_out_and_noise_over_a_few_steps_does_not() {

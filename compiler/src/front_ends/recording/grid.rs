@@ -1,27 +1,26 @@
 //! The grid of a recording: how wide a neighbourhood, which form, how many vertices.
 //!
-//! Each choice is the one that predicts best the segments that it has not seen. The measure is
-//! Whittle's: the mean of ln S + P/S over segments and frequencies, where S is the spectrum of the
-//! model with that of the sensors' noise, and P the power of the segment. Half a hundredth of it is
-//! some 0.5 dB RMS.
+//! Each choice is the one that predicts best, by Whittle's measure, the segments that it has not seen.
+//! Half a hundredth of it is some 0.5 dB RMS.
 
 use super::{
+    clusters::centres,
     local::Local,
+    refine::refine,
     vertex::{Form, vertex},
+    whittle,
 };
 use crate::{
     front_ends::learned::edges,
-    model::{GridVertex, ModelGrid, Numerator, mixture::Field},
+    model::{GridVertex, ModelGrid, Numerator},
     passes::triangulate,
-    signal::spectrum::Angles,
 };
 use asperity_recording::{
-    steady::{POINTS, Segment, Steady, frequencies_hz},
+    steady::{Segment, Steady},
     timeline::RATE_HZ,
 };
 use rayon::prelude::*;
 use serde::Serialize;
-use std::f64::consts::TAU;
 
 /// Widths that are tried, standard deviations of what was visited.
 const WIDTHS: [f64; 6] = [0.25, 0.35, 0.5, 0.7, 1.0, 2.0];
@@ -32,6 +31,9 @@ const ORDERS: [usize; 6] = [4, 8, 12, 16, 20, 24];
 /// Parts that are held out in turn, and the time that stays together, s.
 const FOLDS: usize = 4;
 const BLOCK_S: f64 = 3.0;
+/// Seconds of vibration that the neighbourhood of a vertex counts as, where all vertices are moved to
+/// explain the segments together.
+const PRIORS_S: [f64; 3] = [0.1, 0.5, 2.0];
 /// What another vertex or coefficient must gain, in Whittle's measure.
 const LEAST_GAIN: f64 = 4e-4;
 /// The rectangle of the grid reaches beyond what was visited by this factor.
@@ -48,6 +50,9 @@ pub struct Tried {
     pub width: f64,
     /// Vertices that are measured.
     pub vertices: usize,
+    /// Seconds that the neighbourhood of a vertex counts as beside the segments that its mixtures meet;
+    /// `None` where it alone counts.
+    pub prior_s: Option<f64>,
     /// Whittle's measure on held-out segments.
     pub held_out: f64,
 }
@@ -85,6 +90,7 @@ struct Choice {
     form: Form,
     width: f64,
     vertices: usize,
+    prior_s: Option<f64>,
 }
 
 /// The grid of the segments; `None` of fewer than two.
@@ -101,6 +107,7 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
         },
         width: 0.5,
         vertices: 12,
+        prior_s: None,
     };
     let at_most = (steady.segments.len() / 3).max(1);
     for round in 0..2 {
@@ -124,11 +131,24 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
             );
         }
     }
+    let together = COUNTS
+        .into_iter()
+        .filter(|count| *count <= at_most && *count >= best.vertices.min(12))
+        .flat_map(|vertices| {
+            PRIORS_S.map(|prior_s| Choice {
+                vertices,
+                prior_s: Some(prior_s),
+                ..best
+            })
+        });
+    let together: Vec<Choice> = [best].into_iter().chain(together).collect();
+    best = least(steady, together.into_iter(), 0.0, &mut tried);
     let (grid, facts) = build(steady, &steady.segments.iter().collect::<Vec<_>>(), best)?;
-    let chosen = *tried
-        .iter()
-        .rev()
-        .find(|tried| tried.vertices == best.vertices && tried.width == best.width)?;
+    let chosen = *tried.iter().rev().find(|tried| {
+        tried.vertices == best.vertices
+            && tried.width == best.width
+            && tried.prior_s == best.prior_s
+    })?;
     Some(GridFit {
         grid,
         facts,
@@ -154,6 +174,7 @@ fn least(
         nyquist_zero: choice.form.numerator == Numerator::Nyquist,
         width: choice.width,
         vertices: choice.vertices,
+        prior_s: choice.prior_s,
         held_out: *held_out,
     };
     tried.extend(choices.iter().zip(&errors).map(record));
@@ -181,55 +202,19 @@ fn held_out(steady: &Steady, choice: Choice) -> f64 {
         if out.is_empty() {
             continue;
         }
-        let Some((grid, _)) = build(steady, &seen, choice) else {
+        let measured = build(steady, &seen, choice)
+            .and_then(|(grid, _)| whittle::measure(steady, &grid, &out));
+        let Some((own, weight)) = measured else {
             return f64::INFINITY;
         };
-        let field = Field::new(&grid);
-        let angles = angles();
-        for segment in out {
-            let Some(model) = powers(&field, &angles, segment.speed_mm_s, segment.force_n) else {
-                return f64::INFINITY;
-            };
-            let weight = segment.length as f64;
-            for (n, (model, power)) in model.iter().zip(&segment.power).enumerate() {
-                let s = model + noise(steady, n, *power);
-                sum += weight * (libm::log(s) + power / s);
-                count += weight;
-            }
-        }
+        sum += own;
+        count += weight;
     }
     if count > 0.0 {
         sum / count
     } else {
         f64::INFINITY
     }
-}
-
-fn angles() -> Angles {
-    Angles::new(
-        frequencies_hz()
-            .into_iter()
-            .map(|freq_hz| TAU * freq_hz / RATE_HZ),
-    )
-}
-
-/// Power of the sensors' noise at a frequency, and never nothing.
-fn noise(steady: &Steady, n: usize, power: f64) -> f64 {
-    steady.noise_power.as_ref().map_or(0.0, |noise| noise[n]) + 1e-9 * power + 1e-15
-}
-
-fn powers(field: &Field<'_>, angles: &Angles, speed_mm_s: f64, force_n: f64) -> Option<Vec<f64>> {
-    let model = field.model(&field.locate(speed_mm_s, force_n)?);
-    let level = model.level_m_s2 * model.level_m_s2;
-    let below = angles.squared_magnitudes(&model.a);
-    Some(
-        angles
-            .squared_magnitudes(&model.b)
-            .into_iter()
-            .zip(below)
-            .map(|(b, a)| level * b / a)
-            .collect(),
-    )
 }
 
 /// The grid of some segments, and the facts of its measured vertices.
@@ -245,142 +230,42 @@ fn build(
         |pick: fn(&Segment) -> f64| steady.segments.iter().map(pick).fold(0.0, f64::max) * BEYOND;
     let corner = (largest(|s| s.speed_mm_s), largest(|s| s.force_n));
     let local = Local::new(steady, segments.iter().copied());
-    let mut facts = Vec::new();
+    let mut seconds = Vec::new();
     let mut interior: Vec<GridVertex> = Vec::new();
     for (speed_mm_s, force_n) in centres(segments, choice.vertices, corner) {
         let estimate = local.at(speed_mm_s, force_n, choice.width)?;
         let Some(vertex) = vertex(speed_mm_s, force_n, &estimate.lags, choice.form) else {
             continue;
         };
-        facts.push(VertexFacts {
-            speed_mm_s,
-            force_n,
-            seconds: estimate.samples / RATE_HZ,
-            residual_db: residual_db(steady, segments, &vertex, choice.form),
-        });
+        seconds.push(estimate.samples / RATE_HZ);
         interior.push(vertex);
     }
     if interior.is_empty() {
         return None;
     }
     let vertices = edges::close(interior, corner.0, corner.1);
-    let grid = ModelGrid {
+    let mut grid = ModelGrid {
         sample_rate_hz: RATE_HZ,
         order: choice.form.order,
         numerator: choice.form.numerator,
         triangles: triangulate::delaunay(&vertices),
         vertices,
     };
+    if let Some(prior_s) = choice.prior_s {
+        // The places stay, and with them the triangles.
+        let interior = refine(&grid, steady, segments, prior_s);
+        grid.vertices = edges::close(interior, corner.0, corner.1);
+    }
+    let facts = grid
+        .vertices
+        .iter()
+        .zip(seconds)
+        .map(|(vertex, seconds)| VertexFacts {
+            speed_mm_s: vertex.speed_mm_s,
+            force_n: vertex.force_n,
+            seconds,
+            residual_db: whittle::residual_db(steady, segments, vertex, choice.form),
+        })
+        .collect();
     Some((grid, facts))
-}
-
-/// Centres of clusters in the plane of speed and force. The first ones are far apart, and Lloyd's
-/// steps move them to the middle of their segments.
-fn centres(segments: &[&Segment], count: usize, corner: (f64, f64)) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64, f64)> = segments
-        .iter()
-        .map(|s| {
-            (
-                s.speed_mm_s / corner.0,
-                s.force_n / corner.1,
-                s.length as f64,
-            )
-        })
-        .collect();
-    let distance = |p: &(f64, f64, f64), c: &(f64, f64)| (p.0 - c.0).powi(2) + (p.1 - c.1).powi(2);
-    let nearest = |p: &(f64, f64, f64), all: &[(f64, f64)]| {
-        all.iter()
-            .map(|c| distance(p, c))
-            .fold(f64::INFINITY, f64::min)
-    };
-    let total: f64 = points.iter().map(|p| p.2).sum();
-    let mean = |pick: fn(&(f64, f64, f64)) -> f64| {
-        points.iter().map(|p| p.2 * pick(p)).sum::<f64>() / total
-    };
-    let mut found = vec![(mean(|p| p.0), mean(|p| p.1))];
-    while found.len() < count.min(points.len()) {
-        let next = points
-            .iter()
-            .max_by(|a, b| nearest(a, &found).total_cmp(&nearest(b, &found)));
-        let Some(next) = next.filter(|p| nearest(p, &found) > 1e-6) else {
-            break;
-        };
-        found.push((next.0, next.1));
-    }
-    for _ in 0..30 {
-        let mut sums = vec![(0.0, 0.0, 0.0); found.len()];
-        for p in &points {
-            let own = (0..found.len())
-                .min_by(|&a, &b| distance(p, &found[a]).total_cmp(&distance(p, &found[b])))
-                .unwrap_or(0);
-            sums[own] = (
-                sums[own].0 + p.2 * p.0,
-                sums[own].1 + p.2 * p.1,
-                sums[own].2 + p.2,
-            );
-        }
-        let next: Vec<(f64, f64)> = sums
-            .iter()
-            .zip(&found)
-            .map(|(s, old)| {
-                if s.2 > 0.0 {
-                    (s.0 / s.2, s.1 / s.2)
-                } else {
-                    *old
-                }
-            })
-            .collect();
-        if next == found {
-            break;
-        }
-        found = next;
-    }
-    found
-        .into_iter()
-        .map(|(x, y)| (x * corner.0, y * corner.1))
-        .collect()
-}
-
-/// RMS over bands of the power of the nearest segments over the model, dB.
-fn residual_db(steady: &Steady, segments: &[&Segment], vertex: &GridVertex, form: Form) -> f64 {
-    const BANDS: usize = 8;
-    const NEAREST: usize = 12;
-    let mut near: Vec<&&Segment> = segments.iter().collect();
-    let away = |s: &Segment| {
-        (s.speed_mm_s / vertex.speed_mm_s - 1.0).powi(2)
-            + (s.force_n / vertex.force_n - 1.0).powi(2)
-    };
-    near.sort_by(|a, b| away(a).total_cmp(&away(b)));
-    near.truncate(NEAREST);
-    let angles = angles();
-    let cosines: Vec<f64> = vertex.lsf_rad.iter().map(|w| libm::cos(*w)).collect();
-    let below = angles.squared_magnitudes_of_lsf(&cosines);
-    let above = match form.numerator {
-        Numerator::Nyquist => angles.squared_magnitudes(&[1.0, 1.0]),
-        _ => vec![1.0; POINTS],
-    };
-    let band = POINTS / BANDS;
-    let shares: Vec<f64> = (0..BANDS)
-        .map(|index| {
-            let span = index * band..(index + 1) * band;
-            let ratio = |s: &Segment| {
-                let level = s.lags[0];
-                span.clone()
-                    .map(|n| {
-                        s.power[n]
-                            / (level
-                                * (vertex.sigma_m_s2.powi(2) * above[n] / below[n]
-                                    + noise(steady, n, 0.0)))
-                    })
-                    .sum::<f64>()
-            };
-            near.iter().map(|s| ratio(s)).sum::<f64>()
-        })
-        .collect();
-    let db: Vec<f64> = shares
-        .iter()
-        .map(|share| 10.0 * libm::log10(share.max(1e-300)))
-        .collect();
-    let mean = db.iter().sum::<f64>() / BANDS as f64;
-    (db.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / BANDS as f64).sqrt()
 }

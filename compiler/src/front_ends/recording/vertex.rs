@@ -78,7 +78,7 @@ pub(super) fn vertex(
 }
 
 /// Frequencies moved towards even spacing as little as leaves them far enough apart.
-fn apart(lsf_rad: Vec<f64>) -> Vec<f64> {
+pub(super) fn apart(lsf_rad: Vec<f64>) -> Vec<f64> {
     let even = PI / (lsf_rad.len() + 1) as f64;
     let gap = lsf::smallest_gap(&lsf_rad);
     if gap >= LEAST_GAP_RAD {
