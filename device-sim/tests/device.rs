@@ -5,6 +5,7 @@
 mod fakes;
 
 use std::io::{BufRead as _, BufReader, Read as _};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 use asperity_virtual_usb::usbip::client::Client;
@@ -114,6 +115,11 @@ fn a_list_ends_well_whatever_is_plugged_in_and_a_probe_says_what_to_do() {
                 said.contains("USB cannot be used here") && said.contains("/dev/bus/usb"),
                 "{said}"
             );
+            if cfg!(target_os = "linux") && !Path::new("/dev/bus/usb").exists() {
+                let so = "cannot be used here: there is no /dev/bus/usb";
+                let to_do = "start a container with `--device /dev/bus/usb`";
+                assert!(said.contains(so) && said.contains(to_do), "{said}");
+            }
         }
     }
 }

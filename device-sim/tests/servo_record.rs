@@ -1,6 +1,7 @@
 //! `asperity-lab servo --record` and `--device replay:` as a user calls them, and what every kind of
 //! device answers. Nothing here depends on how punctual the machine is.
 
+use asperity_formats::{SceneSurface, Solid, library};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -92,6 +93,60 @@ fn a_recorded_session_is_played_to_the_same_bits() {
         "{}",
         errors(&output)
     );
+}
+
+/// A library with a scene: the built-in texture on a board, whose top is at this height.
+fn scene(top_m: f32) -> Vec<u8> {
+    let texture = asperity::lower::lower(&asperity::builtin::texture(), None);
+    let texture = texture.expect("built in").bytes;
+    let board = SceneSurface {
+        solid: Solid::Box {
+            center_m: [0.0, 0.0, top_m - 0.05],
+            half_extents_m: [0.15, 0.15, 0.05],
+        },
+        from_m: [-0.2; 3],
+        to_m: [0.2; 3],
+        texture: 0,
+    };
+    let mut bytes = vec![0; 1 << 20];
+    let used = library::encode_scene(&[("grit", &texture)], &[board], &mut bytes);
+    bytes.truncate(used.expect("a scene"));
+    bytes
+}
+
+#[test]
+fn a_recorded_scene_is_played_to_the_same_bits_and_another_one_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, top_m) in [("desk.aspl", 0.0), ("other.aspl", 0.003)] {
+        fs::write(folder.path().join(name), scene(top_m)).expect("a file");
+    }
+    let record = ["--device", "sim:?grip=firm&time=stepped", "--seconds", "3"];
+    let told = ok(
+        folder.path(),
+        &[&["desk.aspl"], &record[..], &["--record", "s.aspr"]].concat(),
+    );
+    let lost = number(&told["lost_records"]);
+    let replay = |file: &[&str]| {
+        let output = servo(
+            folder.path(),
+            &[file, &["--device", "replay:s.aspr", "--json"]].concat(),
+        );
+        assert!(output.status.success(), "{}", errors(&output));
+        let told: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        (number(&told["replay"]["different"]), errors(&output))
+    };
+    let (different, said) = replay(&["desk.aspl"]);
+    assert!(!said.contains("the recording is of"), "{said}");
+    assert!(lost > 0 || different == 0, "{different} forces differ");
+    for other in [&["other.aspl"][..], &[]] {
+        let (different, said) = replay(other);
+        assert!(
+            said.contains("the recording is of a scene of 1 surfaces (CRC-32 ")
+                && said.contains("is another one"),
+            "{said}"
+        );
+        assert!(different > 0, "the warning is for a reason: {other:?}");
+    }
 }
 
 #[test]

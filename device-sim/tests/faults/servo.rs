@@ -29,6 +29,7 @@ pub(crate) fn conditions(bytes: &[u8], device: &str) -> Conditions {
         program: "test".into(),
         device: device.into(),
         texture: Some(TextureInfo::of("built in", bytes)),
+        scene: None,
         seed: SEED,
         config: Config::default(),
     }

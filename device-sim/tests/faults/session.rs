@@ -38,11 +38,13 @@ fn strokes_and_taps_with_one_percent_of_faults() {
     let mut servo = Servo::new(Simulated::new(1, cycles), &texture, Plan::all(0.01, 8), 2);
     let mut encoder = Encoder::new(Vec::new(), &conditions(&bytes, "sim:")).expect("a vector");
     let (mut began, mut ended, mut missed, mut contacts) = (0_u64, 0_u64, 0_u64, 0_u64);
-    let (mut largest, mut steepest, mut steepest_rendered) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut largest, mut steepest) = (0.0_f64, 0.0_f64);
+    let (mut largest_rendered, mut steepest_rendered) = (0.0_f64, 0.0_f64);
     let (mut last, mut last_rendered) = ([0.0; 3], [0.0; 3]);
     for _ in 0..periods {
         let period = servo.period();
         let rendered = period.entry.force_n.map(f64::from);
+        largest_rendered = largest_rendered.max(distance(rendered, [0.0; 3]));
         steepest_rendered = steepest_rendered.max(distance(rendered, last_rendered));
         last_rendered = rendered;
         // What the hand feels. A device that loses its plug loses its force at once, whoever asks.
@@ -72,6 +74,10 @@ fn strokes_and_taps_with_one_percent_of_faults() {
     assert!(
         largest <= f64::from(limits.peak_n) + rounding_n,
         "{largest} N"
+    );
+    assert!(
+        largest_rendered <= f64::from(limits.peak_n) * (1.0 + 1e-5),
+        "{largest_rendered} N"
     );
     assert!(
         steepest <= slew_n * (1.0 + 1e-5) + rounding_n,
@@ -120,7 +126,8 @@ fn strokes_and_taps_with_one_percent_of_faults() {
     );
     let line = format!(
         "{periods} periods, {contacts} in contact; injected {} ({:.2} %), bad samples {bad}, safe state {} times, \
-         reported {began}; peak {largest:.3} N, steepest {steepest:.3} N, rendered {steepest_rendered:.3} N in a period; \
+         reported {began}; peak {largest:.3} N, steepest {steepest:.3} N in a period; rendered {largest_rendered:.4} N \
+         and {steepest_rendered:.4} N; \
          file {:.1} bytes a tick, rendered again with 0 differences\n",
         counts.total(),
         100.0 * counts.total() as f64 / periods as f64,

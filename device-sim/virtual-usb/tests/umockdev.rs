@@ -18,6 +18,7 @@ use asperity_host::device::usb::scan::scan;
 use asperity_host::device::usb::watch::{Event, has_hotplug, watch};
 use asperity_host::device::usb::{Access, Ids, Kind, UsbError};
 use asperity_host::device::{Device as _, Fault};
+use asperity_host::recording::{Conditions, Encoder, Entry, Recording, TextureInfo, render_again};
 use asperity_runtime::{Config, HostTexture};
 use asperity_virtual_usb::falcon::{Falcon, Quirks, image};
 use asperity_virtual_usb::fault::Rates;
@@ -207,8 +208,29 @@ fn child_feels_a_texture() {
         seed: 1,
         patience: 600,
     };
-    let report = exercise(&mut falcon, &texture, &plan).expect("a configuration");
+    let conditions = Conditions {
+        program: "test".into(),
+        device: "falcon:".into(),
+        texture: Some(TextureInfo::of("built in", bytes)),
+        scene: None,
+        seed: plan.seed,
+        config: plan.config(falcon.description()),
+    };
+    let mut encoder = Encoder::new(Vec::new(), &conditions).expect("a vector");
+    let report = exercise(&mut falcon, &texture, &plan, |sample, output| {
+        let entry = Entry::new(*sample, output);
+        encoder.push(&entry).expect("a vector takes all");
+    });
+    let report = report.expect("a configuration");
     println!("{report:#?}\n{:?}", falcon.counts());
+    let (file, _) = encoder.finish(0).expect("a vector takes all");
+    let recording = Recording::read(&mut &file[..]).expect("a recording");
+    let again = render_again(&recording, |_| Some(bytes.to_vec())).expect("rendered");
+    println!("rendered again: {again:?}");
+    // While the device is away, further ticks let go of the force.
+    assert!(again.is_same() && again.compared >= u64::from(report.ticks));
+    let told = report.faults.values().sum::<u32>();
+    assert_eq!(report.fresh + report.stale + told, report.ticks);
     assert_eq!(
         (report.ticks, report.beyond_limits, report.lost),
         (plan.ticks, 0, false)

@@ -8,4 +8,5 @@ pub mod device;
 pub mod latency;
 pub mod profile;
 pub mod recording;
+mod regular;
 pub mod servo;

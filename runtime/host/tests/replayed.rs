@@ -71,6 +71,7 @@ fn recording(records: &[Record]) -> Recording {
         program: "test".into(),
         device: "scripted".into(),
         texture: Some(TextureInfo::of("built in", BUILTIN)),
+        scene: None,
         seed: SEED,
         config: Config::default(),
     };

@@ -6,10 +6,10 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
+use asperity_runtime::{Config, HostTexture, Output, Renderer, Sample, State};
 use serde::Serialize;
 
-use super::{Device, Fault};
+use super::{Description, Device, Fault};
 
 /// Time that a device has for its answer where the ticks wait for it.
 const ANSWER: Duration = Duration::from_millis(50);
@@ -27,6 +27,21 @@ pub struct Plan {
     pub seed: u64,
     /// Times that a lost device is looked for, each up to 0.1 s, before it is given up.
     pub patience: u32,
+}
+
+impl Plan {
+    /// What the renderer is told of a device.
+    #[must_use]
+    pub fn config(&self, device: &Description) -> Config {
+        let mut config = Config::default();
+        let most = device.peak_force_n;
+        config.limits.peak_n = if self.peak_n < most {
+            self.peak_n
+        } else {
+            most
+        };
+        config
+    }
 }
 
 /// What became of it.
@@ -64,7 +79,8 @@ pub struct Report {
     pub seconds: f64,
 }
 
-/// Runs a texture on a device.
+/// Runs a texture on a device. `each` sees what the renderer was given and what it answered, in every
+/// tick, those included that let go of the force while the device is away.
 ///
 /// # Errors
 /// A configuration that the renderer refuses.
@@ -72,14 +88,9 @@ pub fn exercise(
     device: &mut dyn Device,
     texture: &HostTexture,
     plan: &Plan,
+    mut each: impl FnMut(&Sample, &Output),
 ) -> Result<Report, asperity_runtime::config::ConfigError> {
-    let mut config = Config::default();
-    let most = device.description().peak_force_n;
-    config.limits.peak_n = if plan.peak_n < most {
-        plan.peak_n
-    } else {
-        most
-    };
+    let config = plan.config(device.description());
     let renderer = Renderer::new(&config)?;
     let mut state = State::new(plan.seed);
     let mut report = Report {
@@ -126,6 +137,7 @@ pub fn exercise(
             }
         };
         let output = renderer.tick(texture, &mut state, &sample);
+        each(&sample, &output);
         report.contact += u32::from(output.flags.contains(asperity_runtime::Flags::CONTACT));
         report.safe += u32::from(output.flags.contains(asperity_runtime::Flags::SAFE_STATE));
         report.see(output.force_n, &mut before);
@@ -138,6 +150,7 @@ pub fn exercise(
             // The force goes to zero before anybody waits.
             while before != [0.0; 3] {
                 let output = renderer.tick(texture, &mut state, &Sample::STALE);
+                each(&Sample::STALE, &output);
                 report.see(output.force_n, &mut before);
                 let _ = device.write(output.force_n);
             }

@@ -13,8 +13,9 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use thiserror::Error;
 
-/// Latencies of up to so many µs are told apart; larger ones are known by their maximum.
-const TOLD_APART_US: u32 = 20_000;
+/// Latencies of up to so many µs are told apart: the most that cyclictest takes. Larger ones are in no
+/// percentile.
+const TOLD_APART_US: u32 = 1_000_000;
 
 /// Why there is nothing of cyclictest.
 #[derive(Debug, Error)]
@@ -52,7 +53,7 @@ pub struct Wakeups {
     pub command: String,
     /// Latencies in ns, cut to µs as cyclictest counts them.
     pub counts: Counts,
-    /// Latencies of more than 20 ms, which are in no count.
+    /// Latencies of more than a second, which are in no count.
     pub beyond: u64,
     /// The largest, ns.
     pub max_ns: u64,

@@ -14,6 +14,7 @@ pub use error::ProfileError;
 
 use std::path::Path;
 
+use crate::regular;
 use asperity_runtime::{Config, Limits, MechanicsConfig};
 use serde::{Deserialize, Serialize};
 
@@ -108,7 +109,7 @@ impl Profile {
         const MOST: u64 = 1 << 20;
         let file = path.display().to_string();
         let mut text = String::new();
-        std::fs::File::open(path)
+        regular::open(path)
             .and_then(|opened| opened.take(MOST).read_to_string(&mut text))
             .map_err(|cause| ProfileError::Read {
                 file: file.clone(),

@@ -6,20 +6,20 @@ use asperity_runtime::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Which asset played.
+/// Which asset, or which library of a scene, played.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TextureInfo {
     /// Name for people.
     pub name: String,
-    /// CRC-32 of all bytes of the asset.
+    /// CRC-32 of all its bytes.
     pub crc32: u32,
-    /// Bytes of the asset.
+    /// How many bytes it has.
     pub bytes: u64,
 }
 
 impl TextureInfo {
-    /// What identifies an asset.
+    /// What identifies an asset or a library.
     #[must_use]
     pub fn of(name: impl Into<String>, asset: &[u8]) -> Self {
         Self {
@@ -45,6 +45,10 @@ pub struct Conditions {
     pub device: String,
     /// The texture that played first; `None` for what is no single texture, such as a scene.
     pub texture: Option<TextureInfo>,
+    /// The library of the scene that played. `None` for a texture, and in files of programs that did
+    /// not write it; readers before this field skip it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<TextureInfo>,
     /// Seed of the excitation.
     pub seed: u64,
     /// What the renderer was told, servo rate included.
@@ -167,6 +171,7 @@ mod tests {
                 program: "test".into(),
                 device: "null:".into(),
                 texture: Some(TextureInfo::of("a \"b\"\n", b"123456789")),
+                scene: None,
                 seed: u64::MAX,
                 config: config.clone(),
             };
@@ -179,5 +184,30 @@ mod tests {
                 "the checksum's check value"
             );
         }
+    }
+
+    /// Other programs write and read the same version, with and without the scene.
+    #[test]
+    fn a_scene_is_named_and_fields_that_are_not_known_are_skipped() {
+        let scene = TextureInfo::of("a scene of 2 surfaces", b"123456789");
+        let conditions = Conditions {
+            program: "test".into(),
+            device: "sim:".into(),
+            texture: None,
+            scene: Some(scene.clone()),
+            seed: 1,
+            config: Config::default(),
+        };
+        let mut value = serde_json::to_value(&conditions).expect("JSON");
+        assert_eq!(value["scene"]["crc32"], 0xCBF4_3926_u32);
+        value["of_a_later_program"] = 1.into();
+        let back: Conditions = serde_json::from_value(value.clone()).expect("skipped");
+        assert_eq!(back.scene, Some(scene));
+        let fields = value.as_object_mut().expect("an object");
+        fields.remove("scene");
+        let back: Conditions = serde_json::from_value(value).expect("the scene may be absent");
+        assert_eq!(back.scene, None);
+        let without = serde_json::to_string(&back).expect("JSON");
+        assert!(!without.contains("\"scene\""), "{without}");
     }
 }

@@ -1,8 +1,9 @@
 //! The file as a whole: magic, version, conditions, blocks.
 
-use std::fs::File;
 use std::io::{BufReader, Read, Write};
 use std::path::Path;
+
+use crate::regular;
 
 use super::block::{self, Kind, Next};
 use super::record::{self, Before};
@@ -142,7 +143,7 @@ impl Recording {
     /// # Errors
     /// [`RecordingError`].
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
-        Self::read(&mut BufReader::new(File::open(path)?))
+        Self::read(&mut BufReader::new(regular::open(path)?))
     }
 
     /// Reads a recording. One that was cut is read up to its last whole block.

@@ -34,6 +34,7 @@ pub(crate) fn conditions() -> Conditions {
         program: "test 1.0".into(),
         device: "null:".into(),
         texture: Some(TextureInfo::of("built in", BUILTIN)),
+        scene: None,
         seed: SEED,
         config: Config::default(),
     }

@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     };
     let activity = console.activity();
     activity.set_message("a texture on the device; pull the grip out and push it in once");
-    let report = exercise(&mut falcon, &texture, &plan).map_err(|error| bug(&error))?;
+    let report = exercise(&mut falcon, &texture, &plan, |_, _| ()).map_err(|error| bug(&error))?;
     activity.finish_and_clear();
     let counts = falcon.counts();
     if arguments.json {

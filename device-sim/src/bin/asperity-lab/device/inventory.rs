@@ -209,6 +209,8 @@ pub(super) fn value(found: &Found) -> Value {
 
 #[cfg(test)]
 mod tests {
+    use asperity_host::device::usb::Absence;
+
     use super::*;
 
     fn found(access: Access, kind: Option<Kind>) -> Found {
@@ -252,9 +254,12 @@ mod tests {
         let failed = Access::Failed("Input/Output Error".into());
         for (usb, state, words) in [
             (
-                Err(UsbError::NoUsb("Other error".into())),
+                Err(UsbError::NoUsb(Absence::NoNodes)),
                 None,
-                ["USB cannot be used here", "/dev/bus/usb"],
+                [
+                    "USB cannot be used here: there is no /dev/bus/usb",
+                    "--device /dev/bus/usb",
+                ],
             ),
             (
                 Ok(vec![]),

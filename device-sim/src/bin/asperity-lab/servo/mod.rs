@@ -94,11 +94,16 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let seed = options.seed(&desk);
     let recorder = match (arguments.record.as_deref(), form, output) {
         (Some(path), Some(form), Some(output)) => {
+            let played = TextureInfo::of(surface.name.clone(), &surface.bytes);
+            let (texture, scene) = match surface.is_scene {
+                false => (Some(played), None),
+                true => (None, Some(played)),
+            };
             let conditions = Conditions {
                 program: concat!("asperity-lab ", env!("CARGO_PKG_VERSION")).into(),
                 device: arguments.device.to_string(),
-                texture: (!surface.is_scene)
-                    .then(|| TextureInfo::of(surface.name.clone(), &surface.bytes)),
+                texture,
+                scene,
                 seed,
                 config: config.clone(),
             };
@@ -168,14 +173,23 @@ fn differences(desk: &Desk, surface: &Surface, options: &LoopOptions) -> Vec<Str
     };
     let conditions = &replayed.conditions;
     let mut told = Vec::new();
-    match &conditions.texture {
-        Some(texture) if surface.is_scene || !texture.is(&surface.bytes) => told.push(format!(
+    match (&conditions.texture, &conditions.scene) {
+        (Some(texture), _) if surface.is_scene || !texture.is(&surface.bytes) => told.push(format!(
             "the recording is of texture \"{}\" (CRC-32 {:08x}), and {} is another one: other forces",
             texture.name, texture.crc32, surface.origin
         )),
-        None if !surface.is_scene => {
+        (None, Some(scene)) if !surface.is_scene || !scene.is(&surface.bytes) => told.push(format!(
+            "the recording is of {} (CRC-32 {:08x}), and {} is another one: name its file, or expect \
+             other forces",
+            scene.name, scene.crc32, surface.origin
+        )),
+        (None, None) if !surface.is_scene => {
             told.push("the recording is of a scene: name its file, or expect other forces".into());
         }
+        (None, None) => told.push(format!(
+            "the recording does not say of which scene it is: other forces unless it is {}",
+            surface.origin
+        )),
         _ => {}
     }
     if options.seed.is_some_and(|seed| seed != conditions.seed) {

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::absence::Absence;
 use super::ids::IdsError;
 use super::permission;
 
@@ -14,7 +15,7 @@ pub enum UsbError {
     Ids(#[from] IdsError),
     /// libusb does not start.
     #[error("USB cannot be used here: {0}")]
-    NoUsb(String),
+    NoUsb(#[from] Absence),
     /// Nothing with these ids is plugged in.
     #[error("no {what} is plugged in{}", named(which))]
     NotFound {
@@ -65,11 +66,7 @@ impl UsbError {
     pub fn remedy(&self) -> String {
         match self {
             Self::Ids(error) => error.remedy(),
-            Self::NoUsb(_) => {
-                "check that /dev/bus/usb exists and is visible here; a container needs it passed in \
-                 (`--device /dev/bus/usb`). `sim:` needs no USB"
-                    .into()
-            }
+            Self::NoUsb(absence) => absence.remedy().into(),
             Self::NotFound { .. } => {
                 "plug it in, switch its power on, and see `asperity-lab device list --all`; if it is \
                  there under other ids, put them into a list for --ids"

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use rusb::{Context, Device, DeviceHandle, UsbContext as _};
 
+use super::absence::Absence;
 use super::error::UsbError;
 use super::ids::{Ids, Kind};
 
@@ -89,7 +90,7 @@ const TRIES: u32 = 5;
 /// # Errors
 /// [`UsbError::NoUsb`].
 pub(super) fn context() -> Result<Context, UsbError> {
-    Context::new().map_err(|error| UsbError::NoUsb(error.to_string()))
+    Ok(Context::new().map_err(Absence::here)?)
 }
 
 /// Everything that is plugged in. Devices of the list are opened for a moment to read their serial
@@ -109,7 +110,7 @@ pub(crate) fn devices(ids: &Ids) -> Result<Vec<(Found, Device<Context>)>, UsbErr
     let list = loop {
         let listed = context().and_then(|context| {
             let list = context.devices();
-            list.map_err(|error| UsbError::NoUsb(error.to_string()))
+            Ok(list.map_err(Absence::here)?)
         });
         tries += 1;
         match listed {
