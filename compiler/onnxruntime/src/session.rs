@@ -1,10 +1,16 @@
 //! A network on ONNX Runtime.
 
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::{
+    path::Path,
+    sync::{Mutex, OnceLock, PoisonError},
+};
 
 use asperity_nn::{Bytes, Dim, ElementType, Port, RunError, Session, Tensor, check_inputs};
 use ort::{
-    session::{SessionInputValue, builder::GraphOptimizationLevel},
+    session::{
+        SessionInputValue,
+        builder::{GraphOptimizationLevel, SessionBuilder},
+    },
     value::{DynValue, Outlet, Tensor as OrtTensor, TensorElementType, TensorRef, ValueType},
 };
 use thiserror::Error;
@@ -73,7 +79,27 @@ impl OnnxRuntime {
     /// As [`from_bytes`](Self::from_bytes).
     pub fn with_threads(bytes: &[u8], threads: usize) -> Result<Self, LoadError> {
         library()?;
-        let session = commit(bytes, threads).map_err(LoadError::Model)?;
+        // Level 1: higher ones fuse int8 weights into kernels that drift from the model.
+        let session = builder(GraphOptimizationLevel::Level1, threads)
+            .and_then(|mut builder| builder.commit_from_memory(bytes))
+            .map_err(|error| LoadError::Model(error.to_string()))?;
+        Self::new(session)
+    }
+
+    /// Loads a large model in floats from its file, which may have its weights in others beside
+    /// it. It runs on `threads` threads with every optimisation.
+    ///
+    /// # Errors
+    /// As [`from_bytes`](Self::from_bytes).
+    pub fn from_file(file: &Path, threads: usize) -> Result<Self, LoadError> {
+        library()?;
+        let session = builder(GraphOptimizationLevel::Level3, threads)
+            .and_then(|mut builder| builder.commit_from_file(file))
+            .map_err(|error| LoadError::Model(error.to_string()))?;
+        Self::new(session)
+    }
+
+    fn new(session: ort::session::Session) -> Result<Self, LoadError> {
         let inputs = ports("input", session.inputs())?;
         let outputs = ports("output", session.outputs())?;
         Ok(Self {
@@ -109,18 +135,11 @@ fn library() -> Result<&'static Discovery, NotFound> {
     Ok(LIBRARY.get_or_init(|| discovery))
 }
 
-fn commit(bytes: &[u8], threads: usize) -> Result<ort::session::Session, String> {
-    fn text(error: impl std::error::Error) -> String {
-        error.to_string()
-    }
-    let builder = ort::session::Session::builder().map_err(text)?;
-    // Level 1: higher ones fuse int8 weights into kernels that drift from the model.
-    let builder = builder
-        .with_optimization_level(GraphOptimizationLevel::Level1)
-        .map_err(text)?;
-    let builder = builder.with_intra_threads(threads.max(1)).map_err(text)?;
-    let mut builder = builder.with_inter_threads(1).map_err(text)?;
-    builder.commit_from_memory(bytes).map_err(text)
+fn builder(level: GraphOptimizationLevel, threads: usize) -> Result<SessionBuilder, ort::Error> {
+    let builder = ort::session::Session::builder()?;
+    let builder = builder.with_optimization_level(level)?;
+    let builder = builder.with_intra_threads(threads.max(1))?;
+    Ok(builder.with_inter_threads(1)?)
 }
 
 impl Session for OnnxRuntime {

@@ -8,7 +8,8 @@
 //! | `noise`, `surface` | what they draw with; all repeats after one patch |
 //! | `light`, `palette`, `encode` | one light, few colours, PNG |
 //!
-//! The same description gives the same bytes on every machine: + − × ÷ √ in 32 bits, and `libm`.
+//! The same description gives the same bytes on every machine: + − × ÷ √ in 32 bits, and `libm`. Every
+//! pixel is drawn by itself, on any number of threads.
 //!
 //! ```
 //! use asperity_preview::{Description, Picture, SIZE};
@@ -37,6 +38,7 @@ mod words;
 pub use description::{Description, Feel};
 pub use encode::EncodeError;
 
+use rayon::prelude::*;
 use std::ops::RangeInclusive;
 use surface::Surface;
 use thiserror::Error;
@@ -71,7 +73,8 @@ impl Picture {
         }
         let (pattern, look) = choose::choose(description);
         let mut surface = pattern::draw(pattern, &look, size as usize);
-        for (k, texel) in surface.texels.iter_mut().enumerate() {
+        let texels = surface.texels.par_iter_mut().with_min_len(surface::RUN);
+        texels.enumerate().for_each(|(k, texel)| {
             texel.height *= look.relief;
             if look.grain.1 > 0.0 {
                 let place = |pixel: usize| (pixel as f32 + 0.5) / size as f32;
@@ -79,7 +82,7 @@ impl Picture {
                 let (cells, strength) = look.grain;
                 texel.height += strength * noise::gradient(u, v, cells, cells, look.seed ^ 5);
             }
-        }
+        });
         let pixels = light::shade(&surface);
         Ok(Self { surface, pixels })
     }
@@ -101,7 +104,7 @@ impl Picture {
     /// # Errors
     /// [`EncodeError`] when the encoder fails.
     pub fn png(&self) -> Result<Vec<u8>, EncodeError> {
-        encode::color(&self.pixels, self.surface.size)
+        encode::color(&self.pixels, self.surface.size, &[])
     }
 
     /// The picture as PNG with a palette: at most [`COMPACT_BYTES`] at [`SIZE`] pixels, and as
@@ -110,8 +113,7 @@ impl Picture {
     /// # Errors
     /// [`EncodeError`] when the encoder fails.
     pub fn compact_png(&self) -> Result<Vec<u8>, EncodeError> {
-        let limit = COMPACT_BYTES * self.pixels.len() / (SIZE * SIZE) as usize;
-        encode::compact(&self.pixels, self.surface.size, limit)
+        compact_png(&self.pixels, self.size(), &[])
     }
 
     /// Heights as PNG: 16 bits, linear, from the lowest to the highest.
@@ -129,4 +131,26 @@ impl Picture {
     pub fn normal_png(&self) -> Result<Vec<u8>, EncodeError> {
         encode::normals(&light::slopes(&self.surface), self.surface.size)
     }
+}
+
+/// A picture that was made elsewhere as PNG with every colour: `size`² sRGB pixels, row by row.
+/// `texts` are kept in it: a key of PNG's specification, such as `Comment`, and UTF-8.
+///
+/// # Errors
+/// [`EncodeError`] when the encoder fails, and for another number of pixels.
+pub fn png(pixels: &[[u8; 3]], size: u32, texts: &[(&str, &str)]) -> Result<Vec<u8>, EncodeError> {
+    encode::color(pixels, size as usize, texts)
+}
+
+/// The same with a palette, as small as [`Picture::compact_png`].
+///
+/// # Errors
+/// As [`fn@png`].
+pub fn compact_png(
+    pixels: &[[u8; 3]],
+    size: u32,
+    texts: &[(&str, &str)],
+) -> Result<Vec<u8>, EncodeError> {
+    let limit = COMPACT_BYTES * pixels.len() / (SIZE * SIZE) as usize;
+    encode::compact(pixels, size as usize, limit, texts)
 }

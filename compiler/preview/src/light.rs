@@ -2,8 +2,9 @@
 
 use crate::{
     color::{encoded, lit, mix},
-    surface::Surface,
+    surface::{RUN, Surface},
 };
+use rayon::prelude::*;
 
 /// Way to the light: right, down, towards the eye; of length 1.
 const TO_LIGHT: [f32; 3] = [-0.48, -0.52, 0.706_5];
@@ -40,8 +41,10 @@ pub(crate) fn shade(surface: &Surface) -> Vec<[u8; 3]> {
         let length = (x * x + y * y + z * z).sqrt();
         [x / length, y / length, z / length]
     };
-    let texels = surface.texels.iter().zip(slopes).zip(mean);
+    let texels = surface.texels.par_iter().with_min_len(RUN);
     texels
+        .zip(slopes)
+        .zip(mean)
         .map(|((texel, (dx, dy)), mean)| {
             let length = (dx * dx + dy * dy + 1.0).sqrt();
             let along = |way: [f32; 3]| (way[2] - way[0] * dx - way[1] * dy) / length;

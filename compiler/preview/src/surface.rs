@@ -1,6 +1,10 @@
 //! A piece of surface: heights and colours, before light falls on it.
 
 use crate::color::{Rgb, mix};
+use rayon::prelude::*;
+
+/// Pixels that one thread draws in a run, at least.
+pub(crate) const RUN: usize = 4096;
 
 /// What a pixel knows of the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,15 +29,14 @@ pub(crate) struct Surface {
 
 impl Surface {
     /// A surface that says for each place (u, v) in 0..1 what is there.
-    pub(crate) fn of(size: usize, at: impl Fn(f32, f32) -> Texel) -> Self {
-        let mut texels = Vec::with_capacity(size * size);
+    pub(crate) fn of(size: usize, at: impl Fn(f32, f32) -> Texel + Sync) -> Self {
         let place = |pixel: usize| (pixel as f32 + 0.5) / size as f32;
-        for y in 0..size {
-            for x in 0..size {
-                texels.push(at(place(x), place(y)));
-            }
+        let texel = |k: usize| at(place(k % size), place(k / size));
+        let texels = (0..size * size).into_par_iter().with_min_len(RUN);
+        Self {
+            size,
+            texels: texels.map(texel).collect(),
         }
-        Self { size, texels }
     }
 
     /// Puts a thing around (u, v), no larger than `radius` patches. `shape` gets the way from the

@@ -1,5 +1,6 @@
 //! `asperity` as a user meets it: exit status, what errors name, nothing left over.
 
+mod diffusion;
 mod grammar;
 mod interrupted;
 mod library;

@@ -1,9 +1,11 @@
 //! The command line: commands, arguments, help.
 
+mod diffusion;
 mod interchange;
 mod library;
 mod mixing;
 
+pub(crate) use diffusion::Diffusion;
 pub(crate) use interchange::{Export, ImportEffects};
 pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
 pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};
@@ -124,11 +126,13 @@ pub(crate) struct Compile {
     #[command(flatten)]
     pub(crate) inference: Inference,
     /// Draw no preview
-    #[arg(long)]
+    #[arg(long, conflicts_with = "diffusion")]
     pub(crate) no_preview: bool,
     /// Width and height of the preview, pixels: 64 to 1024
     #[arg(long, value_name = "PX", default_value_t = preview::SIZE, value_parser = pixels, conflicts_with = "no_preview")]
     pub(crate) preview_size: u32,
+    #[command(flatten)]
+    pub(crate) diffusion: Diffusion,
     /// Draw the texture on one sheet, as `asperity plot` does
     #[arg(long, value_name = "FILE.png")]
     pub(crate) plot: Option<PathBuf>,
@@ -443,10 +447,15 @@ all their colours from what the asset says: prompt or name, seed, nearest materi
 texture feels. All of them repeat in both directions. Heights have 16 bits and are linear. Normals \
 are in tangent space with green up, as glTF and OpenGL have them.
 
+With --diffusion, Stable Diffusion makes the picture from the texture's prompt, or else its name, \
+at its own size or at --size. The folder is the user's own; docs/preview.md says how to export it. \
+ONNX Runtime must be installed: `asperity doctor` says how.
+
 Examples:
   asperity preview grit.asp -o grit.png
   asperity preview hatt.aspl --texture Cork -o cork.png
-  asperity preview grit.asp -o grit.png --size 1024 --height grit-height.png --normal grit-normal.png"
+  asperity preview grit.asp -o grit.png --size 1024 --height grit-height.png --normal grit-normal.png
+  asperity preview oak.asp -o oak.png --diffusion ./sd2-base --steps 30 --tile"
 )]
 pub(crate) struct Preview {
     /// An asset (.asp) or a library (.aspl); `-` is standard input
@@ -458,14 +467,22 @@ pub(crate) struct Preview {
     #[arg(long, value_name = "PX", value_parser = pixels)]
     pub(crate) size: Option<u32>,
     /// Draw the picture anew, even if the asset holds one
-    #[arg(long)]
+    #[arg(long, conflicts_with = "diffusion")]
     pub(crate) redraw: bool,
     /// Write the heights as well
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png", conflicts_with = "diffusion")]
     pub(crate) height: Option<PathBuf>,
     /// Write the normals as well
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png", conflicts_with = "diffusion")]
     pub(crate) normal: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) diffusion: Diffusion,
+    /// What the picture shows, as it is [default: the texture's prompt, as a texture from above]
+    #[arg(long, value_name = "TEXT", requires = "diffusion")]
+    pub(crate) prompt: Option<String>,
+    /// Seed of the noise [default: the texture's]
+    #[arg(long, value_name = "N", requires = "diffusion")]
+    pub(crate) seed: Option<u64>,
     /// One texture of a library, by name or index from 0
     #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,

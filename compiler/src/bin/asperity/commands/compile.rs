@@ -1,10 +1,11 @@
 //! `asperity compile`.
 
-use super::{inference, outputs::TextureOutputs, plot, timings};
+use super::{diffusion, inference, outputs::TextureOutputs, plot, timings};
 use crate::cli::Compile;
 use asperity::{
     console::Console,
     diagnostic::{Failures, one},
+    diffusion::framed,
     edit::{EditError, Studio, explain, remember_prompt},
     output::display,
     pipeline::{Pipeline, PipelineError},
@@ -15,7 +16,8 @@ use asperity_formats::Asset;
 pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     // Before half a second of loading.
     prompt::check(&args.prompt).map_err(one)?;
-    let inputs = inference::files(&args.inference);
+    let mut inputs = inference::files(&args.inference);
+    inputs.extend(diffusion::files(&args.diffusion));
     let mut outputs = TextureOutputs::open(&inputs, &args.output, args.emit_model.as_deref())?;
     let sheet = outputs.open_if(args.plot.as_deref())?;
     let console = outputs.console(console);
@@ -24,10 +26,24 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         seed: args.seed,
         fidelity: args.fidelity,
         rate_hz: args.rate,
-        preview: !args.no_preview,
+        preview: !args.no_preview && args.diffusion.diffusion.is_none(),
         preview_px: args.preview_size,
     };
     let mut authored = author.author(&args.prompt, &options).map_err(one)?;
+    let mut painted = None;
+    if let Some(folder) = &args.diffusion.diffusion {
+        let drawn = diffusion::drawn(
+            folder,
+            &args.diffusion,
+            framed(args.prompt.trim()),
+            args.seed,
+            Some(args.preview_size),
+            console,
+        )?;
+        let png = drawn.compact_png().map_err(one)?;
+        authored.illustrate(png, &drawn.note).map_err(one)?;
+        painted = Some(drawn.note);
+    }
     remember_prompt(&author, &mut authored).map_err(|error| one(EditError::from(error)))?;
     let studio = Studio::new(&author, author.model().crc32());
     let explanation = args.explain.then(|| explain(&studio, &args.prompt));
@@ -49,11 +65,15 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
             // Plain structures of numbers and strings always serialise.
             json["words"] = serde_json::to_value(&explanation.words).unwrap_or_default();
         }
+        if let Some(note) = painted {
+            json["preview"] = note.into();
+        }
         console.json(&json)
     } else {
         let words = explanation.map_or_else(String::new, |explanation| explanation.text());
+        let preview = painted.map_or_else(String::new, |note| format!("  preview      {note}\n"));
         console.text(&format!(
-            "{}\n{}{words}",
+            "{}\n{}{preview}{words}",
             display(&args.output),
             authored.text()
         ))

@@ -16,6 +16,9 @@ use std::path::{Path, PathBuf};
 /// The author that the options describe.
 pub(crate) fn author(options: &Inference) -> Result<Author, Failures> {
     let backend = Backend::open(options.backend).map_err(one)?;
+    if options.model.is_none() && options.text_encoder == TextEncoderChoice::MiniLm {
+        return Author::embedded(&backend).map_err(one);
+    }
     let text = text_encoder(options, &backend)?;
     Author::new(text, model(options, &backend)?).map_err(one)
 }

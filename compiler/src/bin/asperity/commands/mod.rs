@@ -4,6 +4,7 @@ mod build;
 mod build_scene;
 mod builtin;
 mod compile;
+mod diffusion;
 mod doctor;
 mod export;
 mod file_names;

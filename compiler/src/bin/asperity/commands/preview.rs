@@ -1,9 +1,11 @@
 //! `asperity preview`.
 
+use super::diffusion;
 use crate::cli::Preview;
 use asperity::{
     console::Console,
     diagnostic::{Failures, one},
+    diffusion::prompt_of,
     output::{Outputs, display},
     preview::{self, PreviewError, SIZE},
     raise::raise,
@@ -12,7 +14,9 @@ use asperity::{
 use asperity_formats::Asset;
 
 pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
-    let mut outputs = Outputs::beside([&args.file]);
+    let mut inputs = diffusion::files(&args.diffusion);
+    inputs.push(args.file.clone());
+    let mut outputs = Outputs::beside(inputs);
     let color = outputs.open(&args.output).map_err(one)?;
     let height = outputs.open_if(args.height.as_deref()).map_err(one)?;
     let normal = outputs.open_if(args.normal.as_deref()).map_err(one)?;
@@ -23,8 +27,28 @@ pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
     let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
     let anew = args.redraw || args.size.is_some() || height.is_some() || normal.is_some();
     let stored = asset.preview_png();
-    let report = match stored.filter(|_| !anew) {
-        Some(png) => {
+    let report = match (&args.diffusion.diffusion, stored.filter(|_| !anew)) {
+        (Some(folder), _) => {
+            let texture = raise(&asset);
+            let prompt = args.prompt.clone();
+            let drawn = diffusion::drawn(
+                folder,
+                &args.diffusion,
+                prompt.unwrap_or_else(|| prompt_of(&texture)),
+                args.seed.unwrap_or(texture.provenance.seed),
+                args.size,
+                console,
+            )?;
+            let png = drawn.png().map_err(one)?;
+            outputs.fill(color, &png).map_err(one)?;
+            let size_px = drawn.size_px();
+            format!(
+                "{size_px} × {size_px} pixels, {} bytes, {}",
+                png.len(),
+                drawn.note
+            )
+        }
+        (None, Some(png)) => {
             // Read before it is passed on, so that what is no picture is not written as one.
             let size = preview::stored(png).map_err(one)?;
             outputs.fill(color, png).map_err(one)?;
@@ -35,7 +59,7 @@ pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
                 png.len()
             )
         }
-        None => {
+        (None, None) => {
             let size_px = args.size.unwrap_or(SIZE);
             let encoded = |e| one(PreviewError::Encode(e));
             let picture = preview::draw(&raise(&asset), size_px).map_err(one)?;

@@ -1,0 +1,356 @@
+//! What a texture looks like to Stable Diffusion, from an ONNX folder that the user brings.
+//!
+//! The picture follows from the prompt alone: unlike [`preview`](super::preview), it knows nothing
+//! of how the texture feels.
+
+use crate::{
+    diagnostic::Diagnostic,
+    front_ends::inference::{Backend, BackendName},
+    input::{self, InputError, InputProblem, Kind, Opened},
+    model::TextureModel,
+    shown::plain,
+};
+use asperity_diffusion::{
+    DiffusionError, Parts, Picture, Request, StableDiffusion,
+    folder::{
+        MERGES, MODEL_INDEX, SCHEDULER_CONFIG, TEXT_ENCODER, TOKENIZER_CONFIG, UNET, UNET_CONFIG,
+        VAE_CONFIG, VAE_DECODER, VOCABULARY,
+    },
+};
+use asperity_nn::Session;
+use asperity_onnxruntime::NotFound;
+use asperity_preview::EncodeError;
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+use thiserror::Error;
+
+pub use asperity_diffusion::Method;
+
+/// Why there is no picture.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PictureError {
+    /// ONNX Runtime is not installed.
+    #[error("--diffusion runs on ONNX Runtime: {0}")]
+    Backend(NotFound),
+    /// A part of the folder is not there.
+    #[error("{}: the diffusion folder has no such file", .0.display())]
+    Missing(PathBuf),
+    /// A part cannot be read.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A back end refuses a network.
+    #[error("{}: {message}", file.display())]
+    Network {
+        /// The file.
+        file: PathBuf,
+        /// What the back end says.
+        message: String,
+        /// Which it is.
+        backend: BackendName,
+    },
+    /// A part is of another model, or fails at work.
+    #[error("{}: {error}", folder.display())]
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// Part and problem.
+        error: Box<DiffusionError>,
+    },
+    /// The picture cannot be encoded.
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+}
+
+impl Diagnostic for PictureError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Backend(error) => error.remedy(),
+            Self::Missing(_) => {
+                "export the whole folder with `optimum-cli export onnx --model MODEL \
+                 DIR`; docs/preview.md lists its parts"
+                    .into()
+            }
+            Self::Input(error) => error.remedy(),
+            Self::Network { backend, .. } => match backend {
+                BackendName::Portable => "leave --diffusion-backend out, for ONNX Runtime".into(),
+                BackendName::OnnxRuntime => "export the folder again, all files of a network \
+                     beside each other, or install a newer onnxruntime"
+                    .into(),
+            },
+            Self::Folder { error, .. } => error.remedy(),
+            Self::Encode(_) => "give another --size".into(),
+        }
+    }
+}
+
+/// What is asked of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// What the picture shows.
+    pub prompt: String,
+    /// What it does not show; may be empty.
+    pub negative: String,
+    /// Steps from noise to the picture.
+    pub steps: usize,
+    /// How far each step goes towards the prompt; 1 leaves the negative prompt out.
+    pub guidance: f32,
+    /// How steps are taken.
+    pub method: Method,
+    /// Seed of the noise.
+    pub seed: u64,
+    /// Whether the picture repeats in both directions.
+    pub tile: bool,
+}
+
+/// A model of a folder.
+pub struct Model {
+    folder: PathBuf,
+    diffusion: StableDiffusion,
+}
+
+/// A picture, with what made it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Drawn {
+    picture: Picture,
+    prompt: String,
+    negative: String,
+    /// Model, method, steps, guidance and seed, for people: `by diffusion: …`.
+    pub note: String,
+    /// Tokens of the prompt that did not fit.
+    pub cut: usize,
+}
+
+/// The prompt that a picture of a texture is made from: its prompt, or else its name, [`framed`].
+#[must_use]
+pub fn prompt_of(texture: &TextureModel) -> String {
+    framed(
+        texture
+            .provenance
+            .prompt
+            .as_deref()
+            .unwrap_or(&texture.name),
+    )
+}
+
+/// A prompt of how something feels as one of a texture that is seen from above.
+#[must_use]
+pub fn framed(prompt: &str) -> String {
+    format!("{prompt}, texture, top view, seamless")
+}
+
+/// The files of a folder, as far as they are there: its parts, and weights beside the networks.
+#[must_use]
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let parts = [
+        SCHEDULER_CONFIG,
+        VOCABULARY,
+        TEXT_ENCODER,
+        UNET,
+        VAE_DECODER,
+    ];
+    let folders = parts
+        .iter()
+        .filter_map(|part| folder.join(part).parent().map(Path::to_owned));
+    let listed = folders.flat_map(|folder| {
+        let entries = std::fs::read_dir(folder).into_iter().flatten();
+        entries.filter_map(|entry| Some(entry.ok()?.path()))
+    });
+    listed
+        .chain([folder.join(MODEL_INDEX)])
+        .filter(|path| path.is_file())
+        .collect()
+}
+
+/// Opens a folder on a back end.
+///
+/// # Errors
+/// [`PictureError`] with the file, and what is wrong with it.
+pub fn open(folder: &Path, backend: BackendName) -> Result<Model, PictureError> {
+    let parts = [
+        MODEL_INDEX,
+        SCHEDULER_CONFIG,
+        VOCABULARY,
+        MERGES,
+        TEXT_ENCODER,
+        UNET,
+        VAE_DECODER,
+    ];
+    // Before gigabytes are read.
+    if let Some(missing) = parts.iter().map(|part| folder.join(part)).find(is_missing) {
+        return Err(PictureError::Missing(missing));
+    }
+    let text = |part: &str, kind: Kind| -> Result<String, InputError> {
+        let file = folder.join(part);
+        input::read_text(&file, kind).map_err(|problem| InputError { file, problem })
+    };
+    let optional = |part: &str| -> Result<Option<String>, InputError> {
+        match is_missing(&folder.join(part)) {
+            true => Ok(None),
+            false => text(part, Kind::DiffusionConfig).map(Some),
+        }
+    };
+    let texts = (
+        text(MODEL_INDEX, Kind::DiffusionConfig)?,
+        text(SCHEDULER_CONFIG, Kind::DiffusionConfig)?,
+        text(VOCABULARY, Kind::Vocabulary)?,
+        text(MERGES, Kind::Vocabulary)?,
+    );
+    let configs = (
+        optional(TOKENIZER_CONFIG)?,
+        optional(UNET_CONFIG)?,
+        optional(VAE_CONFIG)?,
+    );
+    let running = Backend::open(backend).map_err(|error| PictureError::Backend(error.cause()))?;
+    let network = |part: &str| network(&folder.join(part), &running, backend);
+    let (model_index, scheduler_config, vocabulary, merges) = texts;
+    let (tokenizer_config, unet_config, vae_config) = configs;
+    let diffusion = StableDiffusion::new(Parts {
+        model_index,
+        scheduler_config,
+        vocabulary,
+        merges,
+        tokenizer_config,
+        unet_config,
+        vae_config,
+        text_encoder: network(TEXT_ENCODER)?,
+        unet: network(UNET)?,
+        vae_decoder: network(VAE_DECODER)?,
+    });
+    let folder = folder.to_owned();
+    match diffusion {
+        Ok(diffusion) => Ok(Model { folder, diffusion }),
+        Err(error) => Err(PictureError::Folder {
+            folder,
+            error: error.into(),
+        }),
+    }
+}
+
+/// Only what is not there: a link that leads nowhere is, and reading says why it fails.
+fn is_missing(file: &PathBuf) -> bool {
+    let found = std::fs::symlink_metadata(file);
+    found.is_err_and(|error| error.kind() == io::ErrorKind::NotFound)
+}
+
+fn network(
+    file: &Path,
+    running: &Backend,
+    backend: BackendName,
+) -> Result<Box<dyn Session>, PictureError> {
+    let unreadable = |problem: InputProblem| {
+        let file = file.to_owned();
+        PictureError::from(InputError { file, problem })
+    };
+    let refused = |message: String| PictureError::Network {
+        file: file.to_owned(),
+        message,
+        backend,
+    };
+    match backend {
+        BackendName::Portable => {
+            let bytes = input::read(file, Kind::DiffusionNetwork).map_err(unreadable)?;
+            running.session(bytes.into()).map_err(refused)
+        }
+        BackendName::OnnxRuntime => {
+            // It reads the file itself, and weights beside it: only what a file is, is checked.
+            match input::open(file).map_err(unreadable)? {
+                Opened::File(_) => running.session_of_file(file).map_err(refused),
+                Opened::Pipe(_) => Err(refused("a pipe, not a file".into())),
+            }
+        }
+    }
+}
+
+impl Model {
+    /// Makes a picture, `size_px` wide and high or as the model makes it. `on_step` is called after
+    /// each step with how many are done.
+    ///
+    /// # Errors
+    /// [`PictureError::Folder`] when a network fails, or gives what is no number.
+    pub fn draw(
+        &self,
+        options: &Options,
+        size_px: Option<u32>,
+        on_step: &mut dyn FnMut(usize),
+    ) -> Result<Drawn, PictureError> {
+        let request = Request {
+            prompt: &options.prompt,
+            negative: &options.negative,
+            steps: options.steps,
+            guidance: options.guidance,
+            method: options.method,
+            seed: options.seed,
+            tile: options.tile,
+        };
+        let sampled = self.diffusion.sample(&request, on_step);
+        let sampled = sampled.map_err(|error| PictureError::Folder {
+            folder: self.folder.clone(),
+            error: error.into(),
+        })?;
+        let picture = match size_px {
+            Some(size) => sampled.picture.resized(size as usize, options.tile),
+            None => sampled.picture,
+        };
+        let repeats = if options.tile { ", repeats" } else { "" };
+        Ok(Drawn {
+            picture,
+            prompt: options.prompt.clone(),
+            negative: options.negative.clone(),
+            note: format!(
+                "by diffusion: {}, {}, {} steps, guidance {}, seed {}{repeats}",
+                self.diffusion.name(),
+                options.method,
+                options.steps,
+                options.guidance,
+                options.seed
+            ),
+            cut: sampled.cut,
+        })
+    }
+}
+
+impl Drawn {
+    /// Width and height, pixels.
+    #[must_use]
+    pub fn size_px(&self) -> u32 {
+        self.picture.size as u32
+    }
+
+    /// The picture as PNG with every colour, which says what made it.
+    ///
+    /// # Errors
+    /// [`PictureError::Encode`] when the encoder fails.
+    pub fn png(&self) -> Result<Vec<u8>, PictureError> {
+        let prompt = plain(&self.prompt);
+        let negative = format!("not: {}", plain(&self.negative));
+        let mut texts = vec![
+            ("Software", concat!("asperity ", env!("CARGO_PKG_VERSION"))),
+            ("Description", &*prompt),
+            ("Comment", self.note.as_str()),
+        ];
+        if !self.negative.is_empty() {
+            texts.push(("Comment", negative.as_str()));
+        }
+        Ok(asperity_preview::png(
+            &self.picture.pixels,
+            self.size_px(),
+            &texts,
+        )?)
+    }
+
+    /// The picture as an asset keeps it: with a palette, as small as one that is drawn.
+    ///
+    /// # Errors
+    /// As [`png`](Self::png).
+    pub fn compact_png(&self) -> Result<Vec<u8>, PictureError> {
+        let texts = [("Comment", self.note.as_str())];
+        Ok(asperity_preview::compact_png(
+            &self.picture.pixels,
+            self.size_px(),
+            &texts,
+        )?)
+    }
+}
