@@ -13,7 +13,7 @@
 //! | `edit/` | mixing and editing in the latent: [`edit`] |
 //! | `interchange/` | other tools' formats: the [`interchange`] |
 //! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`resample`], [`spectrum`], [`impact`], [`tap_synthesis`] |
-//! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`listen`], [`render`] |
+//! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`diffusion`], [`listen`], [`render`] |
 //!
 //! [`pipeline`] runs the passes and the back end, and times them: every command that makes an
 //! asset takes this one way. [`scene`] packs several textures within a budget. A command reads its
@@ -50,4 +50,4 @@ pub use front_ends::{
 pub use model::{attributes, defaults, mesh, mixture};
 pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};
 pub use signal::{impact, level, levinson, lsf, reflection, resample, spectrum, tap_synthesis};
-pub use views::{inspect, listen, plot, preview, render};
+pub use views::{diffusion, inspect, listen, plot, preview, render};

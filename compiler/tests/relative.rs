@@ -27,8 +27,8 @@ fn scale(attribute: &str, a: &Attributes) -> f64 {
 }
 
 fn latents(prompt: &str) -> Latents {
-    let z = AUTHOR.project(prompt).expect(prompt).z;
-    let meaning = AUTHOR.meaning(prompt, z).expect(prompt);
+    let prompted = AUTHOR.project(prompt).expect(prompt);
+    let meaning = AUTHOR.meaning(prompt, &prompted).expect(prompt);
     Latents::whole(meaning.z).shifted(meaning.shift)
 }
 

@@ -1,11 +1,6 @@
 //! Which words moved which attribute, by occlusion: the prompt is read again without each word.
 
-use super::{
-    error::EditError,
-    latents::Latents,
-    scale::{AXES, Axis},
-    studio::Studio,
-};
+use super::{error::EditError, latents::Latents, scale::AXES, studio::Studio};
 use crate::{
     front_ends::{
         learned::{Latent, description::LATENT},
@@ -39,47 +34,118 @@ pub struct Explanation {
     pub words: Vec<WordEffect>,
 }
 
-/// Words that are looked at; each costs a run of the text encoder.
+/// Words that are looked at.
 const MOST_WORDS: usize = 64;
+/// Words that are told apart in every company; each one more doubles the prompts to be read.
+const MOST_TOGETHER: usize = 6;
 
-/// Attributes a prompt to its words. Of a single word the mean of all materials is taken away
-/// instead.
+/// Attributes a prompt to its words. A word's effect is what taking it away does, in the mean over
+/// all orders in which the words could be taken away (its Shapley value), so that words which say
+/// the same share it. Articles and prepositions, and every word where more than six
+/// say something, are taken away from the whole prompt alone. Without any word, the mean of all
+/// materials is left.
 ///
 /// # Errors
 /// [`EditError`] for an empty prompt or a failing network.
 pub fn explain(studio: &Studio<'_>, text: &str) -> Result<Explanation, EditError> {
     let words: Vec<&str> = text.split_whitespace().take(MOST_WORDS).collect();
-    let with = seen(studio, text)?;
-    let effects: Result<Vec<WordEffect>, EditError> = (0..words.len())
-        .into_par_iter()
-        .map(|index| {
-            let rest: Vec<&str> = words
+    let telling: Vec<usize> = (0..words.len()).filter(|&n| tells(words[n])).collect();
+    let together: &[usize] = if telling.len() <= MOST_TOGETHER {
+        &telling
+    } else {
+        &[]
+    };
+    // First the prompts with some of those words, by the bits of a number; then those without one of the others.
+    let some = |set: usize| -> Vec<usize> {
+        let left = |n: &usize| {
+            together
                 .iter()
-                .enumerate()
-                .filter(|(other, _)| *other != index)
-                .map(|(_, word)| *word)
-                .collect();
-            let rest = rest.join(" ");
-            let without = if prompt::check(&rest).is_ok() {
-                seen(studio, &rest)?
-            } else {
-                studio.attributes(&Latents::whole(mean(studio)))?
-            };
-            let moved = |axis: Axis| {
-                let place = |attributes| studio.scale().place(axis, attributes).unwrap_or(0.0);
-                place(&with) - place(&without)
-            };
-            let [rough, sharp, hard, slippery] = AXES.map(moved);
-            Ok(WordEffect {
-                word: words[index].to_owned(),
-                rough,
-                sharp,
-                hard,
-                slippery,
-            })
+                .position(|t| t == n)
+                .is_none_or(|k| set >> k & 1 == 1)
+        };
+        (0..words.len()).filter(left).collect()
+    };
+    let sets = 1_usize << together.len();
+    let alone: Vec<usize> = (0..words.len()).filter(|n| !together.contains(n)).collect();
+    let without = alone
+        .iter()
+        .map(|&out| (0..words.len()).filter(|&n| n != out).collect());
+    let kept: Vec<Vec<usize>> = (0..sets).map(some).chain(without).collect();
+    let texts: Vec<String> = kept
+        .iter()
+        .map(|kept| {
+            let says = kept.iter().any(|&n| tells(words[n]));
+            let kept: Vec<&str> = kept.iter().map(|&n| words[n]).collect();
+            if says { kept.join(" ") } else { String::new() }
         })
         .collect();
-    Ok(Explanation { words: effects? })
+    let read = texts.iter().filter(|text| !text.is_empty());
+    let read: Vec<&str> = read.map(String::as_str).collect();
+    studio.author().read_ahead(&read);
+    let places: Result<Vec<[f64; 4]>, EditError> =
+        texts.par_iter().map(|text| places(studio, text)).collect();
+    let places = places?;
+    let count = together.len();
+    let effects = (0..words.len()).map(|word| {
+        let Some(own) = together.iter().position(|&n| n == word) else {
+            let at = sets + alone.iter().position(|&n| n == word).unwrap_or(0);
+            return apart(&places[sets - 1], &places[at], 1.0);
+        };
+        let mut sum = [0.0; 4];
+        for set in (0..sets).filter(|set| set >> own & 1 == 0) {
+            let others = set.count_ones() as usize;
+            // The share of orders in which just these words are there before it.
+            let share = 1.0 / (count * choices(count - 1, others)) as f64;
+            let more = apart(&places[set | 1 << own], &places[set], share);
+            sum.iter_mut()
+                .zip(more)
+                .for_each(|(sum, more)| *sum += more);
+        }
+        sum
+    });
+    let effects = effects
+        .zip(&words)
+        .map(|([rough, sharp, hard, slippery], word)| WordEffect {
+            word: (*word).to_owned(),
+            rough,
+            sharp,
+            hard,
+            slippery,
+        });
+    Ok(Explanation {
+        words: effects.collect(),
+    })
+}
+
+/// Ways to choose `k` of `n`.
+fn choices(n: usize, k: usize) -> usize {
+    (0..k).fold(1, |ways, i| ways * (n - i) / (i + 1))
+}
+
+fn apart(with: &[f64; 4], without: &[f64; 4], share: f64) -> [f64; 4] {
+    std::array::from_fn(|axis| share * (with[axis] - without[axis]))
+}
+
+/// Whether a word says something of a surface by itself.
+fn tells(word: &str) -> bool {
+    const SILENT: [&str; 24] = [
+        "a", "an", "the", "and", "or", "of", "on", "in", "for", "from", "with", "without", "to",
+        "at", "by", "as", "is", "it", "its", "that", "this", "like", "but", "my",
+    ];
+    let word = word
+        .trim_matches(|c: char| !c.is_alphanumeric())
+        .to_lowercase();
+    !word.is_empty() && !SILENT.contains(&word.as_str())
+}
+
+/// Where a text lies on the sliders; the mean of all materials where it is empty.
+fn places(studio: &Studio<'_>, text: &str) -> Result<[f64; 4], EditError> {
+    let attributes = if prompt::check(text).is_ok() {
+        seen(studio, text)?
+    } else {
+        studio.attributes(&Latents::whole(mean(studio)))?
+    };
+    Ok(AXES.map(|axis| studio.scale().place(axis, &attributes).unwrap_or(0.0)))
 }
 
 fn seen(studio: &Studio<'_>, text: &str) -> Result<Attributes, EditError> {

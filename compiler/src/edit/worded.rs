@@ -45,7 +45,7 @@ impl Studio<'_> {
         let mut start = *latents;
         if let Some(towards) = &asked.towards {
             let prompted = self.author.project(&towards.thing)?;
-            let meaning = self.author.meaning(&towards.thing, prompted.z)?;
+            let meaning = self.author.meaning(&towards.thing, &prompted)?;
             let thing = Latents::whole(meaning.z).shifted(meaning.shift);
             start = Latents::between(latents, &thing, towards.share);
         }

@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use asperity_nn::{Bytes, Portable, Session};
 use asperity_onnxruntime::OnnxRuntime;
-use std::{borrow::Cow, fmt, str::FromStr};
+use std::{borrow::Cow, fmt, num::NonZero, path::Path, str::FromStr, thread};
 use thiserror::Error;
 
 /// What runs the networks.
@@ -52,6 +52,14 @@ impl fmt::Display for BackendName {
 #[error("ONNX Runtime: {0}")]
 pub struct BackendError(#[from] asperity_onnxruntime::NotFound);
 
+impl BackendError {
+    /// Where ONNX Runtime was looked for.
+    #[must_use]
+    pub fn cause(self) -> asperity_onnxruntime::NotFound {
+        self.0
+    }
+}
+
 impl Diagnostic for BackendError {
     fn remedy(&self) -> String {
         format!(
@@ -93,6 +101,25 @@ impl Backend {
             Self::OnnxRuntime => {
                 let session = OnnxRuntime::from_bytes(&bytes).map_err(|error| error.to_string())?;
                 Ok(Box::new(session))
+            }
+        }
+    }
+
+    /// Loads a large network, whose weights may lie in files beside it. ONNX Runtime reads them
+    /// itself, whatever their size, and runs them on all processors.
+    ///
+    /// # Errors
+    /// What the back end says of it.
+    pub fn session_of_file(&self, file: &Path) -> Result<Box<dyn Session>, String> {
+        match self {
+            Self::Portable => {
+                let bytes = std::fs::read(file).map_err(|error| error.to_string())?;
+                self.session(bytes.into())
+            }
+            Self::OnnxRuntime => {
+                let threads = thread::available_parallelism().map_or(1, NonZero::get);
+                let session = OnnxRuntime::from_file(file, threads);
+                Ok(Box::new(session.map_err(|error| error.to_string())?))
             }
         }
     }

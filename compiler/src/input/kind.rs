@@ -39,11 +39,15 @@ pub enum Kind {
     TextEncoder,
     /// A tokenizer's vocabulary.
     Vocabulary,
+    /// A configuration in a diffusion folder, JSON.
+    DiffusionConfig,
+    /// A network in a diffusion folder, ONNX, that the portable engine reads.
+    DiffusionNetwork,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 17] = [
         Self::Asset,
         Self::Hatt,
         Self::Model,
@@ -59,20 +63,22 @@ impl Kind {
         Self::Network,
         Self::TextEncoder,
         Self::Vocabulary,
+        Self::DiffusionConfig,
+        Self::DiffusionNetwork,
     ];
 
     /// The most bytes that are read.
     #[must_use]
     pub const fn max_bytes(self) -> u64 {
         match self {
-            Self::Asset | Self::Network => 64 * MIB,
+            Self::Asset | Self::Network | Self::DiffusionNetwork => 64 * MIB,
             Self::Hatt
             | Self::Model
             | Self::Effects
             | Self::Manifest
             | Self::Description
             | Self::Vocabulary => 16 * MIB,
-            Self::Scene | Self::Settings | Self::Counts => MIB,
+            Self::Scene | Self::Settings | Self::Counts | Self::DiffusionConfig => MIB,
             Self::Corpus => 4 * MIB,
             // A log of a day takes half of it.
             Self::Trajectory | Self::Log => 1024 * MIB,
@@ -101,6 +107,8 @@ impl Kind {
             Self::Description | Self::Network => "give a folder that `asperity-train fit` wrote",
             Self::TextEncoder => "export the text tower alone, in half precision if need be",
             Self::Vocabulary => "give the vocabulary that belongs to the text encoder",
+            Self::DiffusionConfig => "give a folder that `optimum-cli export onnx` wrote",
+            Self::DiffusionNetwork => "leave --diffusion-backend out, for ONNX Runtime",
         }
     }
 }
@@ -123,6 +131,8 @@ impl fmt::Display for Kind {
             Self::Network => "a model's network",
             Self::TextEncoder => "a text encoder",
             Self::Vocabulary => "a vocabulary",
+            Self::DiffusionConfig => "a configuration of a diffusion folder",
+            Self::DiffusionNetwork => "a diffusion network on the portable engine",
         })
     }
 }

@@ -7,14 +7,14 @@ use super::{
     key::{Key, Parts},
     lock::Pinned,
     make::{Maker, asset, is_learned},
-    manifest::{Manifest, Origin, order},
+    manifest::{Edit, Manifest, Options, Origin, order},
     pack::{NamedAsset, encode},
     report::{Report, Row},
     shard::Shard,
 };
 use crate::{
     diagnostic::{Failures, one},
-    edit::{AXES, Sliders, Studio},
+    edit::{AXES, Studio},
     front_ends::prompt::Author,
     input::{self, InputError, Kind},
     pipeline::{Pass, Pipeline, Timings},
@@ -24,6 +24,9 @@ use std::{
     path::Path,
     sync::{Mutex, PoisonError},
 };
+
+/// Prompts that are read together before the first of them is made.
+const TOGETHER: usize = 64;
 
 /// What is asked of a build besides its manifest.
 #[derive(Debug)]
@@ -128,12 +131,22 @@ impl<'a> Build<'a> {
             .map(|(author, crc32)| Studio::new(author, *crc32));
         let maker = Maker::new(self.manifest, studio.as_ref());
         let shared = Mutex::new((Timings::default(), None));
+        let together = TOGETHER.min(missing.len().div_ceil(rayon::current_num_threads()));
         let made: Vec<Result<Texture, EntryError>> = missing
-            .par_iter()
-            .map(|&n| {
-                let made = self.made(n, &maker, &shared);
-                done();
-                made
+            .par_chunks(together.max(1))
+            .flat_map(|some| {
+                let mut reading = Pipeline::default();
+                reading.run(Pass::Text, || {
+                    maker.read_ahead(some.iter().map(|&n| self.chosen[n].0));
+                });
+                let mut all = shared.lock().unwrap_or_else(PoisonError::into_inner);
+                all.0.merge(reading.timings());
+                drop(all);
+                some.par_iter().map(|&n| {
+                    let made = self.made(n, &maker, &shared);
+                    done();
+                    made
+                })
             })
             .collect();
         let (timings, unwritable) = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -290,6 +303,7 @@ fn keys(manifest: &Manifest, request: &Request<'_>) -> Result<Vec<Key>, Failures
                 let content = files[index].as_ref().map_or(&[][..], |key| key.bytes());
                 parts.text(&name).part(content)
             }
+            Origin::Of(other) => of(parts, *other),
             Origin::Blend { a, b, t } => of(of(parts, *a), *b).number(*t),
             Origin::Compose {
                 tap,
@@ -297,7 +311,7 @@ fn keys(manifest: &Manifest, request: &Request<'_>) -> Result<Vec<Key>, Failures
                 friction,
             } => of(of(of(parts, *tap), *slide), *friction),
         };
-        places[index] = Some(edited(parts, &entry.options.edit).key());
+        places[index] = Some(edited(parts, &entry.options).key());
     }
     let all = entries.iter().zip(&places);
     Ok(all
@@ -325,9 +339,20 @@ fn keys(manifest: &Manifest, request: &Request<'_>) -> Result<Vec<Key>, Failures
         .collect())
 }
 
-fn edited(parts: Parts, edit: &Sliders) -> Parts {
-    AXES.into_iter()
-        .fold(parts, |parts, axis| parts.number(edit.along(axis)))
+/// With the edit, and what it is measured on: the asset, at its fidelity and rate.
+fn edited(parts: Parts, options: &Options) -> Parts {
+    if options.edit.is_still() {
+        return parts;
+    }
+    let parts = parts
+        .text(&options.fidelity.to_string())
+        .number(options.rate_hz.unwrap_or(0.0));
+    match &options.edit {
+        Edit::Steps(sliders) => AXES
+            .into_iter()
+            .fold(parts, |parts, axis| parts.number(sliders.along(axis))),
+        Edit::Words(words) => parts.text(words),
+    }
 }
 
 fn content(file: &Path) -> Result<Key, Cause> {

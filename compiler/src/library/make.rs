@@ -3,14 +3,14 @@
 use super::{
     error::{Cause, cause},
     facts::Facts,
-    manifest::{Entry, Manifest, Options, Origin},
+    manifest::{Edit, Entry, Manifest, Options, Origin},
     rename::renamed,
 };
 use crate::{
     back_end::{raise::raise, source::Source},
     edit::{
         EditError, History, How, Latents, Made, Memory, Origin as Making, Part,
-        Source as Ingredient, Studio, encode, equal_loudness, remember, remembered,
+        Source as Ingredient, Step, Studio, Worded, encode, equal_loudness, remember, remembered,
     },
     front_ends::{hatt, model_file, prompt},
     model::{Provenance, TextureModel, attributes},
@@ -49,12 +49,27 @@ struct Known {
     provenance: Option<Provenance>,
     warnings: Vec<String>,
     certainty: Option<f64>,
+    /// How it was made, and its edits. The level of loudness is that of the entry.
+    history: History,
+}
+
+impl Known {
+    fn of(latents: Latents, history: History) -> Self {
+        Self {
+            latents,
+            prompt: None,
+            provenance: None,
+            warnings: Vec::new(),
+            certainty: None,
+            history,
+        }
+    }
 }
 
 /// Whether a source needs the learned model.
 pub(super) fn is_learned(origin: &Origin) -> bool {
     match origin {
-        Origin::Prompt(_) | Origin::Blend { .. } | Origin::Compose { .. } => true,
+        Origin::Prompt(_) | Origin::Of(_) | Origin::Blend { .. } | Origin::Compose { .. } => true,
         Origin::Import(_) | Origin::Asset { .. } => false,
     }
 }
@@ -78,12 +93,25 @@ impl<'a> Maker<'a> {
         }
     }
 
+    /// Reads the prompts of some entries together, which changes nothing but time.
+    pub(super) fn read_ahead(&self, indices: impl Iterator<Item = usize>) {
+        let prompts: Vec<&str> = indices
+            .filter_map(|index| match &self.manifest.entries[index].origin {
+                Origin::Prompt(text) => Some(text.as_str()),
+                _ => None,
+            })
+            .collect();
+        if let Some(studio) = self.studio {
+            studio.author().read_ahead(&prompts);
+        }
+    }
+
     /// Makes the texture at an index of the manifest.
     pub(super) fn make(&self, index: usize) -> Result<Finished, Cause> {
         let entry = &self.manifest.entries[index];
         let options = &entry.options;
         match &entry.origin {
-            Origin::Prompt(text) if options.edit.are_still() && options.loudness_db.is_none() => {
+            Origin::Prompt(text) if options.edit.is_still() && options.loudness_db.is_none() => {
                 self.prompted(entry, text)
             }
             Origin::Import(file) => imported(entry, file),
@@ -130,18 +158,16 @@ impl<'a> Maker<'a> {
         })
     }
 
-    /// A texture that is decoded from latents: a blend, a composition, an edited prompt.
+    /// A texture that is decoded from latents: a blend, a composition, whatever is edited.
     fn mixed(&self, index: usize) -> Result<Finished, Cause> {
         let studio = self.studio()?;
         let entry = &self.manifest.entries[index];
         let options = &entry.options;
         let known = self.latents(index)?;
         let history = History {
-            made: self.making(entry)?,
             loudness_db: options.loudness_db,
-            ..History::default()
+            ..known.history
         };
-        let history = self.with_edit(index, history)?;
         let provenance = known
             .provenance
             .unwrap_or_else(|| studio.provenance("build"));
@@ -165,46 +191,6 @@ impl<'a> Maker<'a> {
             facts,
             timings,
         })
-    }
-
-    /// How a mixture was made, for its history.
-    fn making(&self, entry: &Entry) -> Result<Option<Making>, Cause> {
-        let ingredient = |index: usize| -> Result<Ingredient, Cause> {
-            let known = self.latents(index)?;
-            let name = &self.manifest.entries[index].name;
-            Ok(Ingredient::new(
-                name,
-                known.prompt.as_deref(),
-                &known.latents,
-            ))
-        };
-        Ok(match entry.origin {
-            Origin::Blend { a, b, t } => Some(Making::Blend {
-                a: ingredient(a)?,
-                b: ingredient(b)?,
-                t,
-            }),
-            Origin::Compose {
-                tap,
-                slide,
-                friction,
-            } => Some(Making::Compose {
-                tap: ingredient(tap)?,
-                slide: ingredient(slide)?,
-                friction: ingredient(friction)?,
-            }),
-            _ => None,
-        })
-    }
-
-    /// The history with the entry's own edit as its last step.
-    fn with_edit(&self, index: usize, mut history: History) -> Result<History, Cause> {
-        let edit = self.manifest.entries[index].options.edit;
-        if !edit.are_still() {
-            let before = self.unedited(index)?.latents;
-            history.steps.push(crate::edit::Step::new(edit, &before));
-        }
-        Ok(history)
     }
 
     /// Where a texture lies, edit included. What it is made of is found out first, without
@@ -242,12 +228,32 @@ impl<'a> Maker<'a> {
 
     fn found_out(&self, index: usize) -> Result<Known, Cause> {
         let mut known = self.unedited(index)?;
-        let edit = &self.manifest.entries[index].options.edit;
-        if !edit.are_still() {
-            let how = how(&self.manifest.entries[index].options);
-            let studio = self.studio()?;
-            known.latents = studio.edited(&known.latents, edit, &how).map_err(cause)?;
+        let options = &self.manifest.entries[index].options;
+        if options.edit.is_still() {
+            return Ok(known);
         }
+        let (studio, how, before) = (self.studio()?, how(options), known.latents);
+        let step = match &options.edit {
+            Edit::Steps(sliders) => {
+                known.latents = studio.edited(&before, sliders, &how).map_err(cause)?;
+                Step::new(*sliders, &before)
+            }
+            Edit::Words(words) => {
+                let Worded {
+                    latents,
+                    sliders,
+                    unread,
+                    ..
+                } = studio.worded(&before, words, &how).map_err(cause)?;
+                known.latents = latents;
+                if !unread.is_empty() {
+                    let unread = unread.join(", ");
+                    known.warnings.push(format!("not understood: {unread}"));
+                }
+                Step::new(sliders, &before).worded(words)
+            }
+        };
+        known.history.steps.push(step);
         Ok(known)
     }
 
@@ -255,17 +261,21 @@ impl<'a> Maker<'a> {
     fn unedited(&self, index: usize) -> Result<Known, Cause> {
         let studio = self.studio()?;
         let entry = &self.manifest.entries[index];
-        let part = |index: usize| self.latents(index).map(|known| known.latents);
-        let plain = |latents: Latents| Known {
-            latents,
-            prompt: None,
-            provenance: None,
-            warnings: Vec::new(),
-            certainty: None,
+        let ingredient = |index: usize| -> Result<(Latents, Ingredient), Cause> {
+            let Known {
+                latents, prompt, ..
+            } = self.latents(index)?;
+            let name = &self.manifest.entries[index].name;
+            Ok((latents, Ingredient::new(name, prompt.as_deref(), &latents)))
         };
-        let encoded = |texture: &TextureModel| -> Result<Known, Cause> {
-            let encoded = encode(studio, texture, Part::recorded(texture)).map_err(cause)?;
-            Ok(plain(encoded.latents))
+        let encoded = |texture: &TextureModel, name: &str| -> Result<Known, Cause> {
+            let part = Part::recorded(texture);
+            let latents = encode(studio, texture, part).map_err(cause)?.latents;
+            let made = Making::Encode {
+                name: name.to_owned(),
+                part: part.name().to_owned(),
+            };
+            Ok(Known::of(latents, History::of(made)))
         };
         Ok(match &entry.origin {
             Origin::Prompt(text) => {
@@ -281,30 +291,44 @@ impl<'a> Maker<'a> {
                     warnings: authored.warnings(),
                     certainty: Some(authored.certainty),
                     provenance: Some(authored.texture.provenance),
+                    history: History::default(),
                 }
             }
-            Origin::Import(file) => encoded(&whole(file)?)?,
+            Origin::Import(file) => encoded(&whole(file)?, &entry.name)?,
             Origin::Asset { file, texture } => {
                 let bytes = asset(file, texture.as_deref())?;
                 let asset = Asset::parse(&bytes).map_err(|e| cause(EditError::from(e)))?;
                 match remembered(&asset).map_err(cause)? {
                     Some(memory) if memory.model_crc32 == studio.model_crc32() => Known {
                         prompt: asset.provenance().and_then(|p| p.prompt).map(str::to_owned),
-                        ..plain(memory.latents)
+                        provenance: Some(raise(&asset).provenance),
+                        ..Known::of(memory.latents, memory.history)
                     },
-                    _ => encoded(&raise(&asset))?,
+                    _ => encoded(&raise(&asset), asset.name())?,
                 }
             }
-            Origin::Blend { a, b, t } => plain(Latents::between(&part(*a)?, &part(*b)?, *t)),
+            Origin::Of(other) => self.latents(*other)?,
+            Origin::Blend { a, b, t } => {
+                let ((at_a, a), (at_b, b)) = (ingredient(*a)?, ingredient(*b)?);
+                let latents = Latents::between(&at_a, &at_b, *t);
+                Known::of(latents, History::of(Making::Blend { a, b, t: *t }))
+            }
             Origin::Compose {
                 tap,
                 slide,
                 friction,
-            } => plain(Latents::composed(
-                &part(*tap)?,
-                &part(*slide)?,
-                &part(*friction)?,
-            )),
+            } => {
+                let (at_tap, tap) = ingredient(*tap)?;
+                let (at_slide, slide) = ingredient(*slide)?;
+                let (at_friction, friction) = ingredient(*friction)?;
+                let made = Making::Compose {
+                    tap,
+                    slide,
+                    friction,
+                };
+                let latents = Latents::composed(&at_tap, &at_slide, &at_friction);
+                Known::of(latents, History::of(made))
+            }
         })
     }
 }

@@ -23,7 +23,9 @@ const MANIFEST: &str = "include = [\"more.csv\", \"lines.jsonl\"]\n\
     [[texture]]\nname = \"between\"\nblend = { a = \"sheet\", b = \"cork\", t = 0.25 }\n\
     [[texture]]\nname = \"of wood\"\nblend = { a = \"wood\", b = \"grit\" }\n\
     [[texture]]\nname = \"mixed\"\ncompose = { tap = \"cork\", slide = \"between\" }\n\
-    edit = { rougher = 10 }\n";
+    edit = { rougher = 10 }\n\
+    [[texture]]\nname = \"softer\"\nof = \"mixed\"\n\
+    edit = { prompt = \"a bit softer, more like leather\" }\n";
 
 /// A manifest of every kind of entry, with all that it names.
 fn manifest() -> TempDir {
@@ -54,13 +56,13 @@ fn order_threads_cache_and_parts_do_not_change_a_byte() {
     let build = ["build", "library.toml", "--cache", "cache", "-o"];
     let said = good(folder, &[&build[..], &["one.aspl"]].concat());
     assert!(
-        said.contains("10 textures, 10 made, 0 from the cache"),
+        said.contains("11 textures, 11 made, 0 from the cache"),
         "{said}"
     );
     let one = bytes(folder, "one.aspl");
     // Again: all of it from the cache.
     let said = good(folder, &[&build[..], &["again.aspl"]].concat());
-    assert!(said.contains("0 made, 10 from the cache"), "{said}");
+    assert!(said.contains("0 made, 11 from the cache"), "{said}");
     assert!(bytes(folder, "again.aspl") == one);
     // Another order of the same textures, on one thread, without a cache.
     let (head, tail) = MANIFEST.split_at(MANIFEST.find("[[texture]]").expect("textures"));
@@ -129,6 +131,46 @@ fn a_prompt_of_a_library_is_the_texture_that_compile_makes() {
 }
 
 #[test]
+fn an_edit_of_a_library_is_that_of_the_command() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::write(
+        folder.join("e.csv"),
+        "name,prompt,of,edit.prompt,edit.rougher,preview\n\
+         towel,terry towel,,,,false\n\
+         rough,,towel,,10,false\n\
+         edited,,rough,\"less gritty, more like silk\",,false\n",
+    )
+    .expect("a manifest");
+    good(folder, &["build", "e.csv", "--no-cache", "-o", "e.aspl"]);
+    let edit = |from: &str, how: &[&str], to: &str, name: &str| {
+        let to = ["--no-preview", "--name", name, "-o", to];
+        good(folder, &[&["edit", from], how, &to[..]].concat());
+    };
+    edit("e.aspl#towel", &["--rougher", "10"], "rough.asp", "rough");
+    let words = ["--prompt", "less gritty, more like silk"];
+    edit("rough.asp", &words, "edited.asp", "edited");
+    for name in ["rough", "edited"] {
+        let (built, own) = (format!("{name}-built.asp"), format!("{name}.asp"));
+        good(folder, &["extract", "e.aspl", name, "-o", &built]);
+        assert!(bytes(folder, &built) == bytes(folder, &own), "{name}");
+    }
+    good(
+        folder,
+        &[
+            "edit",
+            "edited-built.asp",
+            "--undo",
+            "-o",
+            "back.asp",
+            "--name",
+            "rough",
+        ],
+    );
+    assert!(bytes(folder, "back.asp") == bytes(folder, "rough.asp"));
+}
+
+#[test]
 fn every_fault_of_a_manifest_is_told_at_once_with_file_line_and_key() {
     let inputs = inputs();
     let folder = inputs.path();
@@ -141,12 +183,14 @@ fn every_fault_of_a_manifest_is_told_at_once_with_file_line_and_key() {
          [[texture]]\nname = \"same\"\nprompt = \"x\"\nfidelity = 99\n\
          [[texture]]\nname = \"blend\"\nblend = { a = \"p\", t = 2 }\n\
          [[texture]]\nname = \"nothing\"\n\
-         [[texture]]\nname = \"kept\"\nasset = \"good.asp\"\nseed = 4\n",
+         [[texture]]\nname = \"kept\"\nasset = \"good.asp\"\nseed = 4\n\
+         [[texture]]\nname = \"other\"\nof = \"kept\"\n\
+         edit = { prompt = \"nice\", rougher = 3, softer = 1 }\n",
     )
     .expect("a manifest");
     fs::write(
         folder.join("bad.csv"),
-        "name,prompt,seed\nx,,1\ny,stone,many\n",
+        "name,prompt,seed\nx,,1\ny,stone,many\nsame,cork,1\n",
     )
     .expect("a manifest");
     let output = asperity(folder, &["build", "bad.toml", "--check"]);
@@ -164,13 +208,18 @@ fn every_fault_of_a_manifest_is_told_at_once_with_file_line_and_key() {
         "bad.toml:20: blend.t: \"2\", where a number in 0..=1",
         "bad.toml:21: nothing that it is made of",
         "bad.toml:26: seed: it does not go with asset",
+        "bad.toml:30: edit.prompt: \"nice\" says nothing of rough",
+        "bad.toml:30: edit.rougher: it does not go with edit.prompt",
+        "bad.toml:30: edit.softer: no such key",
         "bad.csv:2: nothing that it is made of",
         "bad.csv:3: seed: \"many\"",
+        // Its namesake has another fault.
+        "bad.csv:4: name: \"same\" is also",
     ] {
         assert!(error.contains(fault), "{fault:?} not in {error}");
     }
     assert!(!error.contains('\u{7}'));
-    assert_eq!(error.matches("error: ").count(), 13, "{error}");
+    assert_eq!(error.matches("error: ").count(), 17, "{error}");
     // Faults that show only in all of it together.
     fs::write(
         folder.join("bad.toml"),

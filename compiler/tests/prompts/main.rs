@@ -4,6 +4,7 @@ mod clip;
 mod completion;
 mod latents;
 mod modifiers;
+mod together;
 mod words;
 
 use asperity::{inference::Backend, prompt::Author};

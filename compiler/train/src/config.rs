@@ -243,6 +243,10 @@ pub struct Memory {
     /// How much a caption counts beside a name or a surely rated phrase: captions speak of several
     /// things at once, and few of them are about what slides.
     pub caption_weight: f64,
+    /// γ of the regression of the three attributes.
+    pub felt_concentration: f64,
+    /// How much a caption counts there.
+    pub felt_caption_weight: f64,
 }
 
 /// How μ is read from the anchors.

@@ -6,6 +6,7 @@ use crate::{
     checkpoint::{self, Identity},
     config::Config,
     error::FitError,
+    feel::{self, Feel, Felt},
     material::MaterialLatent,
     memory::TextMemory,
     network::Network,
@@ -127,6 +128,7 @@ pub(crate) struct Session<'a> {
     network: Network,
     instances: Instances,
     ratings: Vec<Option<Rating>>,
+    felt: Vec<Felt>,
     pub(crate) state: State,
 }
 
@@ -173,6 +175,7 @@ impl<'a> Session<'a> {
                 friction,
             },
             ratings: chosen().map(|(_, material)| material.rating).collect(),
+            felt: chosen().map(|(_, material)| feel::of(material)).collect(),
             state: State::new(parameters),
         })
     }
@@ -228,6 +231,7 @@ impl<'a> Session<'a> {
             text_history: Vec::new(),
             memory: None,
             recall: None,
+            feel: None,
         };
         if let Some(stage) = &self.config.text_stage {
             let seed = self.config.seed;
@@ -241,6 +245,11 @@ impl<'a> Session<'a> {
                     });
                 let (materials, captions) = (&trained.materials, self.captions);
                 trained.recall = Recall::new(&memory, materials, captions, how.recall_temperature);
+                let felt = (self.felt.as_slice(), self.ratings.as_slice());
+                trained.feel =
+                    Feel::fit(&memory, materials, felt, captions, how, |step, of, left| {
+                        progress.text_epoch(step, of, left)
+                    });
                 trained.memory = Some(memory);
                 return trained;
             }

@@ -6,6 +6,7 @@
 //! [`Trained`] that encodes, decodes and projects.
 
 mod adam;
+mod attributes;
 mod batch;
 mod captions;
 mod certainty;
@@ -16,6 +17,7 @@ mod eigen;
 mod error;
 pub mod evaluate;
 mod export;
+mod feel;
 mod fit;
 mod loss;
 mod material;

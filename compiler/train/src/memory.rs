@@ -51,7 +51,6 @@ impl TextMemory {
         how: &Memory,
         mut done: impl FnMut(usize, usize, f32),
     ) -> Self {
-        let count = vectors.len();
         let width = vectors.first().map_or(0, |vector| vector.len());
         let device = Device::flex();
         let kept = how.directions.min(width);
@@ -62,12 +61,6 @@ impl TextMemory {
             .collect();
         let projected = matrix(all, width, &device).matmul(matrix(basis.clone(), kept, &device));
         let (codes, scales) = in_8_bits(&numbers(projected), kept);
-        let mut mean = [0.0; LATENT];
-        for target in targets {
-            mean.iter_mut()
-                .zip(target)
-                .for_each(|(sum, x)| *sum += x / count as f32);
-        }
         let mut memory = Self {
             concentration: how.concentration as f32,
             width,
@@ -77,20 +70,11 @@ impl TextMemory {
             scales,
             coefficients: Vec::new(),
             coefficient_scales: [0.0; LATENT],
-            mean,
+            mean: [0.0; LATENT],
         };
-        let gram = {
-            let kept = memory.vectors(&device);
-            let likeness = kept.clone().matmul(kept.transpose());
-            memory.kernel(likeness)
-        };
-        let centred = targets
-            .iter()
-            .flat_map(|z| z.iter().zip(&mean).map(|(x, mean)| x - mean));
-        let wanted = matrix(centred.collect(), LATENT, &device);
-        let ridge = weights.iter().map(|w| how.ridge as f32 / w.max(1e-3));
-        let ridge = matrix(ridge.collect(), 1, &device);
-        let found = numbers(conjugate_gradients(gram, wanted, ridge, how, &mut done));
+        let (mean, found) = memory.solve(memory.concentration, targets, weights, how, &mut done);
+        memory.mean = mean;
+        let found = found.as_flattened();
         for (row, x) in found.iter().enumerate() {
             let scale = &mut memory.coefficient_scales[row % LATENT];
             *scale = scale.max(x.abs() / FULL_SCALE);
@@ -101,6 +85,48 @@ impl TextMemory {
             .map(|(at, x)| libm::roundf(x / scale(at)) as i8)
             .collect();
         memory
+    }
+
+    /// Regresses values of its examples on their kept vectors: their mean, and the coefficients of
+    /// each example.
+    pub(crate) fn solve<const N: usize>(
+        &self,
+        concentration: f32,
+        values: &[[f32; N]],
+        weights: &[f32],
+        how: &Memory,
+        done: &mut impl FnMut(usize, usize, f32),
+    ) -> ([f32; N], Vec<[f32; N]>) {
+        let device = Device::flex();
+        let gram = {
+            let kept = self.vectors(&device);
+            let likeness = kept.clone().matmul(kept.transpose());
+            kernel(likeness, concentration)
+        };
+        let mean = mean(values);
+        let ridge = ridge(weights, how, &device);
+        let found = conjugate_gradients(gram, centred(values, &mean, &device), ridge, how, done);
+        (mean, numbers(found).as_chunks::<N>().0.to_vec())
+    }
+
+    /// What a regression says of text vectors.
+    pub(crate) fn apply<const N: usize>(
+        &self,
+        vectors: &[&[f32]],
+        concentration: f32,
+        coefficients: &[[f32; N]],
+        mean: &[f32; N],
+    ) -> Vec<[f32; N]> {
+        if vectors.is_empty() {
+            return Vec::new();
+        }
+        let device = Device::flex();
+        let asked = self.on_directions(vectors, &device);
+        let likeness = asked.matmul(self.vectors(&device).transpose());
+        let coefficients = matrix(coefficients.as_flattened().to_vec(), N, &device);
+        let mean = matrix(mean.to_vec(), N, &device);
+        let said = kernel(likeness, concentration).matmul(coefficients) + mean;
+        numbers(said).as_chunks::<N>().0.to_vec()
     }
 
     /// Text vectors of length one, on the principal directions.
@@ -159,24 +185,11 @@ impl TextMemory {
 
     /// Latents of text vectors.
     pub(crate) fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
-        if vectors.is_empty() {
-            return Vec::new();
-        }
-        let device = Device::flex();
-        let asked = self.on_directions(vectors, &device);
-        let likeness = asked.matmul(self.vectors(&device).transpose());
-        let coefficients = self.coefficients.chunks(LATENT).flat_map(|row| {
-            let scaled = row.iter().zip(&self.coefficient_scales);
-            scaled.map(|(&code, scale)| f32::from(code) * scale)
-        });
-        let coefficients = matrix(coefficients.collect(), LATENT, &device);
-        let mean = matrix(self.mean.to_vec(), LATENT, &device);
-        let z = self.kernel(likeness).matmul(coefficients) + mean;
-        let numbers = numbers(z);
-        numbers
-            .chunks_exact(LATENT)
-            .map(|row| std::array::from_fn(|k| row[k]))
-            .collect()
+        let rows = self.coefficients.as_chunks::<LATENT>().0.iter();
+        let coefficients: Vec<[f32; LATENT]> = rows
+            .map(|row| std::array::from_fn(|k| f32::from(row[k]) * self.coefficient_scales[k]))
+            .collect();
+        self.apply(vectors, self.concentration, &coefficients, &self.mean)
     }
 
     /// Kept vectors [n, K].
@@ -188,10 +201,32 @@ impl TextMemory {
             .flat_map(|(row, scale)| row.iter().map(move |&code| f32::from(code) * scale));
         matrix(values.collect(), self.kept, device)
     }
+}
 
-    fn kernel(&self, likeness: Tensor<2>) -> Tensor<2> {
-        ((likeness - 1.0) * self.concentration).exp()
+fn kernel(likeness: Tensor<2>, concentration: f32) -> Tensor<2> {
+    ((likeness - 1.0) * concentration).exp()
+}
+
+fn mean<const N: usize>(values: &[[f32; N]]) -> [f32; N] {
+    let mut mean = [0.0; N];
+    for value in values {
+        let pairs = mean.iter_mut().zip(value);
+        pairs.for_each(|(sum, x)| *sum += x / values.len() as f32);
     }
+    mean
+}
+
+fn centred<const N: usize>(values: &[[f32; N]], mean: &[f32; N], device: &Device) -> Tensor<2> {
+    let centred = values
+        .iter()
+        .flat_map(|v| v.iter().zip(mean).map(|(x, mean)| x - mean));
+    matrix(centred.collect(), N, device)
+}
+
+/// λ/w of each example, a column.
+fn ridge(weights: &[f32], how: &Memory, device: &Device) -> Tensor<2> {
+    let ridge = weights.iter().map(|w| how.ridge as f32 / w.max(1e-3));
+    matrix(ridge.collect(), 1, device)
 }
 
 /// Values at `asked`, by regression on `vectors` and their `values`, with the kernel and the ridge
@@ -206,20 +241,12 @@ pub(crate) fn regress<const N: usize>(
     let device = Device::flex();
     let width = vectors.first().map_or(0, |vector| vector.len());
     let rows = |vectors: &[&[f32]]| matrix(vectors.concat(), width, &device);
-    let kernel = |likeness: Tensor<2>| ((likeness - 1.0) * how.concentration as f32).exp();
+    let kernel = |likeness| kernel(likeness, how.concentration as f32);
     let known = rows(vectors);
     let gram = kernel(known.clone().matmul(known.clone().transpose()));
-    let mut mean = [0.0; N];
-    for value in values {
-        let pairs = mean.iter_mut().zip(value);
-        pairs.for_each(|(sum, x)| *sum += x / values.len() as f32);
-    }
-    let centred = values
-        .iter()
-        .flat_map(|v| v.iter().zip(&mean).map(|(x, mean)| x - mean));
-    let wanted = matrix(centred.collect(), N, &device);
-    let ridge = weights.iter().map(|w| how.ridge as f32 / w.max(1e-3));
-    let ridge = matrix(ridge.collect(), 1, &device);
+    let mean = mean(values);
+    let wanted = centred(values, &mean, &device);
+    let ridge = ridge(weights, how, &device);
     let found = conjugate_gradients(gram, wanted, ridge, how, &mut |_, _, _| ());
     let said = kernel(rows(asked).matmul(known.transpose())).matmul(found);
     let said = numbers(said + matrix(mean.to_vec(), N, &device));
@@ -326,6 +353,8 @@ mod tests {
             directions: 3,
             recall_temperature: 0.0,
             caption_weight: 1.0,
+            felt_concentration: 4.0,
+            felt_caption_weight: 0.02,
         };
         let views: Vec<&[f32]> = vectors.iter().map(Vec::as_slice).collect();
         let weights = vec![1.0; views.len()];

@@ -6,7 +6,6 @@
 //! the lexicon stays where the regression put it.
 
 use crate::{captions::Captions, material::MaterialLatent, memory::TextMemory};
-use asperity::learned::description::LATENT;
 
 /// Prototypes on the principal directions of a memory, in 8 bits.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,29 +59,30 @@ impl Recall {
         })
     }
 
-    /// Draws the latents of text vectors, given on the memory's directions.
-    pub(crate) fn draw(
+    /// Draws what is said of text vectors, given on the memory's directions, to what is so of the
+    /// materials.
+    pub(crate) fn draw<const N: usize>(
         &self,
         memory: &TextMemory,
-        materials: &[MaterialLatent],
+        materials: &[[f32; N]],
         directions: &[Vec<f32>],
-        latents: &mut [[f32; LATENT]],
+        said: &mut [[f32; N]],
     ) {
         let phrases = (
             &memory.codes[self.phrases_from * memory.kept..],
             &memory.scales[self.phrases_from..],
         );
-        for (direction, z) in directions.iter().zip(latents) {
+        for (direction, said) in directions.iter().zip(said) {
             let prototypes = self.weights(direction, &self.codes, &self.scales);
             let kept: f32 = self.weights(direction, phrases.0, phrases.1).iter().sum();
             let kept = kept + LEAST;
-            let mut drawn = z.map(|x| x * kept);
+            let mut drawn = said.map(|x| x * kept);
             for (weight, &owner) in prototypes.iter().zip(&self.owners) {
-                let pairs = drawn.iter_mut().zip(&materials[owner].mean);
+                let pairs = drawn.iter_mut().zip(&materials[owner]);
                 pairs.for_each(|(sum, x)| *sum += weight * x);
             }
             let total = prototypes.iter().sum::<f32>() + kept;
-            *z = drawn.map(|x| x / total);
+            *said = drawn.map(|x| x / total);
         }
     }
 
@@ -101,15 +101,11 @@ impl Recall {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity::learned::description::LATENT;
 
     #[test]
     fn a_name_takes_the_latent_of_its_material_and_a_phrase_keeps_its_own() {
-        let material = |value: f32| MaterialLatent {
-            material: 0,
-            mean: [value; LATENT],
-            caption: Vec::new(),
-        };
-        let materials = [material(1.0), material(3.0)];
+        let materials = [[1.0; LATENT], [3.0; LATENT]];
         let recall = Recall {
             temperature: 0.02,
             codes: vec![100, 0, 0, 0, 100, 0],

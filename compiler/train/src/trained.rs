@@ -3,6 +3,7 @@
 use crate::{
     coding,
     config::Config,
+    feel::{Feel, Felt},
     material::MaterialLatent,
     memory::TextMemory,
     network::{Mode, Network, TextProjection, matrix},
@@ -58,6 +59,8 @@ pub struct Trained {
     pub(crate) memory: Option<TextMemory>,
     /// Draws what the memory says to a material.
     pub(crate) recall: Option<Recall>,
+    /// How rough, slippery and hard texts are, beside the memory.
+    pub(crate) feel: Option<Feel>,
 }
 
 impl Trained {
@@ -162,19 +165,30 @@ impl Trained {
         instance
     }
 
+    /// How rough, slippery and hard the words of text vectors are; nothing from a model that does not
+    /// say.
+    pub(crate) fn feel(&self, vectors: &[&[f32]]) -> Vec<Felt> {
+        match (&self.feel, &self.memory) {
+            (Some(feel), Some(memory)) => {
+                let chunks = vectors.chunks(CHUNK);
+                chunks
+                    .flat_map(|chunk| feel.ask(memory, self.recall.as_ref(), chunk))
+                    .collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// The latents that text vectors project to.
     #[must_use]
     pub fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
         if let Some(memory) = &self.memory {
+            let means: Vec<_> = self.materials.iter().map(|m| m.mean).collect();
             let projected = vectors.chunks(CHUNK).flat_map(|chunk| {
                 let mut latents = memory.project(chunk);
                 if let Some(recall) = &self.recall {
-                    recall.draw(
-                        memory,
-                        &self.materials,
-                        &memory.directions(chunk),
-                        &mut latents,
-                    );
+                    let directions = memory.directions(chunk);
+                    recall.draw(memory, &means, &directions, &mut latents);
                 }
                 latents
             });

@@ -1,6 +1,7 @@
 //! Named matrices as safetensors.
 
 use crate::{
+    feel::Feel,
     memory::TextMemory,
     parameters::{Parameter, Parameters},
     trained::Trained,
@@ -148,7 +149,8 @@ pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
         Table::new(&[low, high], 2),
     );
     let memory = trained.memory.iter().flat_map(memory);
-    let all = own.chain(text).chain(memory).chain(statistics);
+    let feel = trained.feel.iter().flat_map(feel);
+    let all = own.chain(text).chain(memory).chain(feel).chain(statistics);
     let tables: Vec<_> = all.chain([bounds]).collect();
     write(&tables, "weights; matrices are inputs × outputs")
 }
@@ -168,6 +170,19 @@ fn memory(memory: &TextMemory) -> [(String, Table); 7] {
         ("concentration", column(&[memory.concentration])),
     ]
     .map(|(name, table)| (format!("memory.{name}"), table))
+}
+
+fn feel(feel: &Feel) -> [(String, Table); 4] {
+    [
+        ("coefficients", feel.coefficients.as_flattened()),
+        ("materials", feel.materials.as_flattened()),
+        ("mean", feel.mean.as_slice()),
+        ("concentration", &[feel.concentration]),
+    ]
+    .map(|(name, values)| {
+        let columns = values.len().min(feel.mean.len());
+        (format!("feel.{name}"), Table::new(values, columns))
+    })
 }
 
 /// The tables of parameters under a prefix.

@@ -5,11 +5,17 @@ use super::{
     description::{LATENT, ModelDescription},
     error::ModelError,
     files::Files,
-    network::{run, take},
+    network::{has, run, take},
 };
 use crate::front_ends::inference::Backend;
 use asperity_nn::Session;
 use std::{borrow::Cow, sync::OnceLock};
+
+/// Rows of a batch at most: what they come to in the networks stays in the second-level cache.
+const BATCH: usize = 16;
+
+/// Roughness, slipperiness and hardness of words.
+const FELT: usize = 3;
 
 /// A latent code.
 pub type Latent = [f32; LATENT];
@@ -19,6 +25,9 @@ pub type Latent = [f32; LATENT];
 pub struct Projected {
     /// The latent.
     pub z: Latent,
+    /// How rough, slippery and hard the words are, as dB, −ln μ and ln Hz; `None` from a projection
+    /// without that output.
+    pub felt: Option<[f32; FELT]>,
     /// Cosine of the text with the mean caption of every anchor, in their order.
     pub similarity: Vec<f32>,
     /// A soft maximum of its cosines with the examples of the projection: 1 and more for what the
@@ -111,24 +120,53 @@ impl LearnedModel {
     /// # Errors
     /// [`ModelError`] for a vector of another width, or when the network fails.
     pub fn project(&self, vector: &[f32]) -> Result<Projected, ModelError> {
+        self.projected(&[vector]).map(|mut all| all.remove(0))
+    }
+
+    /// The latents of several text vectors, a batch at a time.
+    ///
+    /// # Errors
+    /// As [`project`](Self::project).
+    pub fn project_all(&self, vectors: &[&[f32]]) -> Result<Vec<Projected>, ModelError> {
+        let mut all = Vec::with_capacity(vectors.len());
+        for batch in vectors.chunks(BATCH) {
+            all.extend(self.projected(batch)?);
+        }
+        Ok(all)
+    }
+
+    fn projected(&self, vectors: &[&[f32]]) -> Result<Vec<Projected>, ModelError> {
         let expected = self.description.text_encoder.width;
-        if vector.len() != expected {
+        if let Some(other) = vectors.iter().find(|vector| vector.len() != expected) {
             return Err(ModelError::Width {
                 expected,
-                found: vector.len(),
+                found: other.len(),
             });
         }
         const FILE: &str = "text_projection.onnx";
+        let (count, anchors) = (vectors.len(), self.description.anchors.len());
         let outputs = run(
             FILE,
             self.text_projection.as_ref(),
-            &[("embedding", &[1, expected], vector)],
+            &[("embedding", &[count, expected], &vectors.concat())],
         )?;
-        Ok(Projected {
-            z: latent(&take(FILE, &outputs, "z", LATENT)?),
-            similarity: take(FILE, &outputs, "similarity", self.description.anchors.len())?,
-            familiarity: take(FILE, &outputs, "familiarity", 1)?[0],
-        })
+        let z = take(FILE, &outputs, "z", count * LATENT)?;
+        let felt = if has(&outputs, "felt") {
+            Some(take(FILE, &outputs, "felt", count * FELT)?)
+        } else {
+            None
+        };
+        let similarity = take(FILE, &outputs, "similarity", count * anchors)?;
+        let familiarity = take(FILE, &outputs, "familiarity", count)?;
+        let row = |n: usize| Projected {
+            z: latent(&z[n * LATENT..]),
+            felt: felt
+                .as_ref()
+                .map(|felt| std::array::from_fn(|k| felt[n * FELT + k])),
+            similarity: similarity[n * anchors..(n + 1) * anchors].to_vec(),
+            familiarity: familiarity[n],
+        };
+        Ok((0..count).map(row).collect())
     }
 
     /// The parameters that a latent decodes to. Components beyond ±10³ are clamped and NaN becomes
@@ -137,27 +175,51 @@ impl LearnedModel {
     /// # Errors
     /// [`ModelError::Network`] when a network fails.
     pub fn decode(&self, z: &Latent) -> Result<Decoded, ModelError> {
-        let z = z.map(|x| if x.is_nan() { 0.0 } else { x.clamp(-1e3, 1e3) });
+        self.decoded(std::slice::from_ref(z))
+            .map(|mut all| all.remove(0))
+    }
+
+    /// The parameters that several latents decode to, a batch at a time.
+    ///
+    /// # Errors
+    /// As [`decode`](Self::decode).
+    pub fn decode_all(&self, latents: &[Latent]) -> Result<Vec<Decoded>, ModelError> {
+        let mut all = Vec::with_capacity(latents.len());
+        for batch in latents.chunks(BATCH) {
+            all.extend(self.decoded(batch)?);
+        }
+        Ok(all)
+    }
+
+    fn decoded(&self, latents: &[Latent]) -> Result<Vec<Decoded>, ModelError> {
+        let count = latents.len();
+        let z: Vec<f32> = latents
+            .as_flattened()
+            .iter()
+            .map(|x| if x.is_nan() { 0.0 } else { x.clamp(-1e3, 1e3) })
+            .collect();
         let grid = &self.description.grid;
         let bins = grid.speeds_mm_s.len();
-        let (file, shape) = ("ar_decoder.onnx", [1, LATENT]);
+        let (file, shape) = ("ar_decoder.onnx", [count, LATENT]);
         let outputs = run(file, self.ar_decoder.as_ref(), &[("z", &shape, &z)])?;
-        let lsf_rad = take(file, &outputs, "lsf_rad", bins * grid.order)?;
-        let level_db = take(file, &outputs, "level_db", bins)?;
+        let lsf_rad = take(file, &outputs, "lsf_rad", count * bins * grid.order)?;
+        let level_db = take(file, &outputs, "level_db", count * bins)?;
         let taps = &self.description.taps;
         let file = "tap_decoder.onnx";
         let outputs = run(file, self.tap_decoder.as_ref(), &[("z", &shape, &z)])?;
-        let taps_m_s2 = take(
-            file,
-            &outputs,
-            "taps_m_s2",
-            taps.speeds_m_s.len() * taps.samples,
-        )?;
-        Ok(Decoded {
-            lsf_rad,
-            level_db,
-            taps_m_s2,
-        })
+        let samples = taps.speeds_m_s.len() * taps.samples;
+        let taps_m_s2 = take(file, &outputs, "taps_m_s2", count * samples)?;
+        let part = |all: &[f32], n: usize| {
+            let size = all.len() / count;
+            all[n * size..(n + 1) * size].to_vec()
+        };
+        Ok((0..count)
+            .map(|n| Decoded {
+                lsf_rad: part(&lsf_rad, n),
+                level_db: part(&level_db, n),
+                taps_m_s2: part(&taps_m_s2, n),
+            })
+            .collect())
     }
 
     /// The mean of the posterior, given the modalities that are present.

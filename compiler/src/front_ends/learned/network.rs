@@ -29,6 +29,11 @@ pub(super) fn run(
     })
 }
 
+/// Whether there is an output of this name.
+pub(super) fn has(outputs: &[(String, Tensor)], name: &str) -> bool {
+    outputs.iter().any(|(output, _)| output == name)
+}
+
 /// The output of this name, which must be finite and of this length.
 ///
 /// # Errors

@@ -2,9 +2,9 @@
 
 use super::{
     Authored, Nearest, Options, PromptError,
-    meaning::Meaning,
+    ahead::{Ahead, Read},
     name::{shortened, title},
-    phrase::adjust,
+    phrase::adjust::{self, Scales},
     things::Things,
     understood::{Understood, check, understood},
     variation::varied,
@@ -13,22 +13,27 @@ use crate::{
     front_ends::{
         embedded,
         inference::Backend,
-        learned::{self, Files, Latent, LearnedModel, ModelError, friction::Neighbour, texture},
+        learned::{
+            self, Decoded, Files, Latent, LearnedModel, ModelError, friction::Neighbour, texture,
+        },
         text::TextEncoder,
     },
     model::{Provenance, TextureModel, attributes},
     pipeline::{Compiled, Pass, Pipeline, Preview, Settings},
 };
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 
 /// Bytes of a prompt that the provenance keeps.
 const KEPT_PROMPT_BYTES: usize = 2048;
 
 /// Everything that turns prompts into textures; loaded once, asked often.
 pub struct Author {
-    text: Box<dyn TextEncoder>,
+    pub(super) text: Box<dyn TextEncoder>,
     model: LearnedModel,
     pub(super) things: Things,
+    pub(super) ahead: Ahead,
+    /// Whether its networks give a row of a batch the bits that it gets alone.
+    pub(super) together: bool,
 }
 
 impl Author {
@@ -43,6 +48,8 @@ impl Author {
                 text,
                 model,
                 things: Things::default(),
+                ahead: Ahead::default(),
+                together: false,
             })
         } else {
             Err(ModelError::Width {
@@ -59,7 +66,10 @@ impl Author {
     pub fn embedded(backend: &Backend) -> Result<Self, ModelError> {
         let text = embedded::text_encoder(backend)?;
         let model = LearnedModel::load(embedded::model(), backend)?;
-        Self::new(Box::new(text), model)
+        Ok(Self {
+            together: matches!(backend, Backend::Portable),
+            ..Self::new(Box::new(text), model)?
+        })
     }
 
     /// An author of a model folder.
@@ -87,14 +97,15 @@ impl Author {
     pub fn project(&self, prompt: &str) -> Result<Prompted, PromptError> {
         check(prompt)?;
         let prompt = prompt.trim();
-        let encoded = self.text.encode(prompt)?;
-        let projected = self.model.project(&encoded.vector)?;
+        let read = self.read(prompt)?;
+        let (encoded, projected) = (&read.0, &read.1);
         let similarity = projected
             .similarity
             .iter()
             .fold(f64::NEG_INFINITY, |best, &s| best.max(f64::from(s)));
         Ok(Prompted {
             z: projected.z,
+            felt: projected.felt.map(|felt| felt.map(|x| Some(x.into()))),
             similarity,
             familiarity: f64::from(projected.familiarity),
             certainty: learned::certainty(
@@ -107,6 +118,23 @@ impl Author {
         })
     }
 
+    fn read(&self, prompt: &str) -> Result<Read, PromptError> {
+        if let Some(read) = self.ahead.read(prompt) {
+            return Ok(read);
+        }
+        let encoded = self.text.encode(prompt)?;
+        let projected = self.model.project(&encoded.vector)?;
+        Ok(Arc::new((encoded, projected)))
+    }
+
+    /// The parameters that a latent decodes to.
+    pub(super) fn decoded(&self, z: &Latent) -> Result<Arc<Decoded>, ModelError> {
+        match self.ahead.decoded(z) {
+            Some(decoded) => Ok(decoded),
+            None => Ok(Arc::new(self.model.decode(z)?)),
+        }
+    }
+
     /// The texture of a prompt, verified.
     ///
     /// # Errors
@@ -115,11 +143,16 @@ impl Author {
         let mut pipeline = Pipeline::default();
         let prompt = prompt.trim();
         let prompted = pipeline.run(Pass::Text, || self.project(prompt))?;
-        let Meaning { z, shift } = pipeline.run(Pass::Text, || self.meaning(prompt, prompted.z))?;
+        let (z, wanted) = pipeline.run(Pass::Text, || self.said(prompt, &prompted))?;
+        let meant = pipeline.run(Pass::Decode, || self.meant(z, wanted))?;
+        let shift = meant.shift;
         let spread = &self.model.description().spread;
-        let z = varied(z, spread, options.seed);
-        let (mut texture, neighbours) =
-            pipeline.run(Pass::Decode, || self.decode(&z, prompt, options.seed))?;
+        let z = varied(meant.z, spread, options.seed);
+        let decoded = pipeline.run(Pass::Decode, || match options.seed {
+            0 => Ok(meant.decoded),
+            _ => self.decoded(&z),
+        })?;
+        let (mut texture, neighbours) = self.named(&decoded, &z, prompt, options.seed);
         adjust::adjust(&mut texture, &shift);
         let nearest = self.nearest(&neighbours);
         let settings = Settings {
@@ -161,14 +194,15 @@ impl Author {
         })
     }
 
-    fn decode(
+    /// A decoded latent with the prompt's name and provenance.
+    fn named(
         &self,
+        decoded: &Decoded,
         z: &Latent,
         prompt: &str,
         seed: u64,
-    ) -> Result<(TextureModel, Vec<Neighbour>), PromptError> {
+    ) -> (TextureModel, Vec<Neighbour>) {
         let description = self.model.description();
-        let decoded = self.model.decode(z)?;
         let synthetic = if description.corpus.taps_synthetic {
             "Trained on synthetic taps. "
         } else {
@@ -189,7 +223,7 @@ impl Author {
             ..Provenance::default()
         };
         let name = title(prompt);
-        Ok(texture::build(description, &decoded, z, name, provenance))
+        texture::build(description, decoded, z, name, provenance)
     }
 
     fn nearest(&self, neighbours: &[Neighbour]) -> Vec<Nearest> {
@@ -213,6 +247,8 @@ impl Author {
 pub struct Prompted {
     /// The latent.
     pub z: Latent,
+    /// The attributes that the words ask for, if the model says.
+    pub felt: Option<Scales>,
     /// Largest cosine with a material's mean caption.
     pub similarity: f64,
     /// Soft maximum of the cosines with all that the projection was trained on.

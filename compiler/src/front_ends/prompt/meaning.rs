@@ -1,19 +1,21 @@
 //! Where a prompt lies in the latent, and how far its grammar moves the texture from there.
 
 use super::{
-    Author, PromptError,
+    Author, PromptError, Prompted,
     phrase::{
         self, Phrase,
-        adjust::{self, Shift},
+        adjust::{self, Scales, Shift},
     },
+    things::Thing,
 };
 use crate::{
-    front_ends::learned::{Latent, texture},
+    front_ends::learned::{Decoded, Latent, texture},
     model::{
         Provenance, TextureModel,
         attributes::{self, Attributes},
     },
 };
+use std::sync::Arc;
 
 /// What a prompt means.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,45 +24,63 @@ pub struct Meaning {
     pub z: Latent,
     /// How far attributes move from what the latent decodes to.
     pub shift: Shift,
+    /// What the latent decodes to.
+    pub decoded: Arc<Decoded>,
 }
 
 impl Author {
-    /// The meaning of a prompt whose text vector lies at `z`.
+    /// The meaning of a prompt that was [projected](Author::project).
+    ///
+    /// The words say how rough, slippery and hard a thing is, and the latent says all the rest: the
+    /// decoded texture is moved to the attributes of the words. Grammar moves these.
     ///
     /// # Errors
     /// [`PromptError`] for a failing network.
-    pub fn meaning(&self, prompt: &str, z: Latent) -> Result<Meaning, PromptError> {
-        let plain = Meaning {
-            z,
-            shift: Shift::default(),
+    pub fn meaning(&self, prompt: &str, prompted: &Prompted) -> Result<Meaning, PromptError> {
+        let (z, wanted) = self.said(prompt, prompted)?;
+        self.meant(z, wanted)
+    }
+
+    /// The latent of a prompt, and the attributes that its words ask for.
+    pub(super) fn said(
+        &self,
+        prompt: &str,
+        prompted: &Prompted,
+    ) -> Result<(Latent, Option<Scales>), PromptError> {
+        let phrase = if self.names_a_material(prompt) {
+            Phrase::Plain
+        } else {
+            phrase::parse(prompt)
         };
-        if self.names_a_material(prompt) {
-            return Ok(plain);
-        }
-        match phrase::parse(prompt) {
-            Phrase::Plain => Ok(plain),
+        Ok(match phrase {
+            Phrase::Plain => (prompted.z, prompted.felt),
             Phrase::Changed { base, changes } => {
-                let (_, base) = self.thing(&base)?;
-                let shift = adjust::from_base(&base, &self.attributes(&z)?, &changes);
-                Ok(Meaning { z, shift })
+                let base = self.thing(&base)?;
+                let said = self.wanted(prompted)?;
+                let wanted = adjust::changed(&base.wanted, &said, &changes);
+                (prompted.z, Some(wanted))
             }
             Phrase::Between(first, second) => {
-                let ((first, at_first), (second, at_second)) =
-                    (self.thing(&first)?, self.thing(&second)?);
-                let z = std::array::from_fn(|k| 0.5 * (first[k] + second[k]));
-                let shift = adjust::to_middle(&at_first, &at_second, &self.attributes(&z)?);
-                Ok(Meaning { z, shift })
+                let (first, second) = (self.thing(&first)?, self.thing(&second)?);
+                let z = std::array::from_fn(|k| 0.5 * (first.z[k] + second.z[k]));
+                (z, Some(adjust::middle(&first.wanted, &second.wanted)))
             }
             Phrase::Covered { inside, cover } => {
-                let (_, inside) = self.thing(&inside)?;
-                let (z, cover) = self.thing(&cover)?;
-                let shift = Shift {
-                    hard: adjust::to_middle(&inside, &cover, &cover).hard,
-                    ..Shift::default()
-                };
-                Ok(Meaning { z, shift })
+                let (inside, cover) = (self.thing(&inside)?, self.thing(&cover)?);
+                let [rough, slippery, _] = cover.wanted;
+                let [_, _, hard] = adjust::middle(&inside.wanted, &cover.wanted);
+                (cover.z, Some([rough, slippery, hard]))
             }
-        }
+        })
+    }
+
+    /// What a latent decodes to, and the way from there to what is wanted.
+    pub(super) fn meant(&self, z: Latent, wanted: Option<Scales>) -> Result<Meaning, PromptError> {
+        let decoded = self.decoded(&z)?;
+        let shift = wanted.map_or_else(Shift::default, |wanted| {
+            adjust::to(&wanted, &self.attributes(&z, &decoded))
+        });
+        Ok(Meaning { z, shift, decoded })
     }
 
     /// The decoder's texture of a prompt: neither varied nor reduced.
@@ -69,9 +89,9 @@ impl Author {
     /// [`PromptError`] for an empty prompt or a failing network.
     pub fn texture(&self, prompt: &str) -> Result<TextureModel, PromptError> {
         let prompt = prompt.trim();
-        let meaning = self.meaning(prompt, self.project(prompt)?.z)?;
-        let mut texture = self.plain(&meaning.z)?;
-        adjust::adjust(&mut texture, &meaning.shift);
+        let Meaning { z, shift, decoded } = self.meaning(prompt, &self.project(prompt)?)?;
+        let mut texture = self.plain(&z, &decoded);
+        adjust::adjust(&mut texture, &shift);
         Ok(texture)
     }
 
@@ -90,25 +110,36 @@ impl Author {
         anchors.iter().any(|anchor| bare(&anchor.name) == prompt)
     }
 
-    /// Latent and attributes of a thing that a phrase names. Prompts of a library have few of them.
-    fn thing(&self, text: &str) -> Result<(Latent, Attributes), PromptError> {
+    /// A thing that a phrase names. Prompts of a library have few of them.
+    fn thing(&self, text: &str) -> Result<Thing, PromptError> {
         if let Some(known) = self.things.get(text) {
             return Ok(known);
         }
-        let z = self.project(text)?.z;
-        let found = (z, self.attributes(&z)?);
+        let prompted = self.project(text)?;
+        let found = Thing {
+            z: prompted.z,
+            wanted: self.wanted(&prompted)?,
+        };
         self.things.keep(text, found);
         Ok(found)
     }
 
-    fn attributes(&self, z: &Latent) -> Result<Attributes, PromptError> {
-        Ok(attributes::of(&self.plain(z)?))
+    /// The attributes that words ask for, or those of the decoded texture where the model does not
+    /// say.
+    fn wanted(&self, prompted: &Prompted) -> Result<Scales, PromptError> {
+        if let Some(felt) = prompted.felt {
+            return Ok(felt);
+        }
+        let decoded = self.decoded(&prompted.z)?;
+        Ok(adjust::scales(&self.attributes(&prompted.z, &decoded)))
     }
 
-    fn plain(&self, z: &Latent) -> Result<TextureModel, PromptError> {
-        let description = self.model().description();
-        let decoded = self.model().decode(z)?;
+    fn attributes(&self, z: &Latent, decoded: &Decoded) -> Attributes {
+        attributes::of(&self.plain(z, decoded))
+    }
+
+    fn plain(&self, z: &Latent, decoded: &Decoded) -> TextureModel {
         let (name, provenance) = (String::new(), Provenance::default());
-        Ok(texture::build(description, &decoded, z, name, provenance).0)
+        texture::build(self.model().description(), decoded, z, name, provenance).0
     }
 }

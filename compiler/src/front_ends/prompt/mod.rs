@@ -4,9 +4,11 @@
 //! it was trained on and decodes the latent, the [grammar](phrase) of the prompt moves what a vector
 //! misses, and the [pipeline](crate::pipeline) does the rest.
 
+mod ahead;
 mod author;
 mod authored;
 mod error;
+mod illustrated;
 mod meaning;
 mod name;
 pub mod phrase;

@@ -14,6 +14,14 @@ pub trait TextEncoder: Send + Sync {
     /// # Errors
     /// [`TextError`] when the network fails or answers with another width.
     fn encode(&self, text: &str) -> Result<Encoded, TextError>;
+    /// The unit vectors of several texts, each to the bit what [`encode`](Self::encode) gives, where
+    /// the network treats every row of a batch by itself and sums it in the same order.
+    ///
+    /// # Errors
+    /// As [`encode`](Self::encode), for the first text that fails.
+    fn encode_all(&self, texts: &[&str]) -> Result<Vec<Encoded>, TextError> {
+        texts.iter().map(|text| self.encode(text)).collect()
+    }
     /// Whether it has tokens for a word. An encoder of bytes has them for every word.
     fn reads(&self, word: &str) -> bool {
         let _ = word;

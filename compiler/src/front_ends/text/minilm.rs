@@ -11,6 +11,8 @@ use asperity_nn::{Session, Tensor};
 pub const WIDTH: usize = 384;
 /// Tokens it reads at most, `[CLS]` and `[SEP]` included.
 pub const MAX_TOKENS: usize = 128;
+/// Tokens of a batch at most: what they come to in the network stays in the second-level cache.
+const BATCH_TOKENS: usize = 128;
 
 /// The encoder on a back end.
 pub struct MiniLm {
@@ -63,10 +65,42 @@ impl TextEncoder for MiniLm {
     }
 
     fn encode(&self, text: &str) -> Result<Encoded, TextError> {
-        let (ids, cut) = self.tokens(text)?;
-        let tokens = ids.len();
+        let mut encoded = self.encode_all(&[text])?;
+        encoded
+            .pop()
+            .ok_or_else(|| TextError::Network("no output".into()))
+    }
+
+    fn encode_all(&self, texts: &[&str]) -> Result<Vec<Encoded>, TextError> {
+        let read: Result<Vec<_>, TextError> = texts.iter().map(|text| self.tokens(text)).collect();
+        let read = read?;
+        // Without padding, texts of one length make a batch.
+        let mut order: Vec<usize> = (0..texts.len()).collect();
+        order.sort_by_key(|&text| read[text].0.len());
+        let mut encoded: Vec<Option<Encoded>> = vec![None; texts.len()];
+        for of_one_length in order.chunk_by(|&a, &b| read[a].0.len() == read[b].0.len()) {
+            let tokens = read[of_one_length[0]].0.len();
+            for batch in of_one_length.chunks((BATCH_TOKENS / tokens).max(1)) {
+                let ids = batch.iter().flat_map(|&text| read[text].0.iter().copied());
+                let vectors = self.run(batch.len(), tokens, ids.collect())?;
+                for (&text, vector) in batch.iter().zip(vectors.chunks(WIDTH)) {
+                    encoded[text] = Some(Encoded {
+                        vector: unit(vector.to_vec())?,
+                        tokens,
+                        cut: read[text].1,
+                    });
+                }
+            }
+        }
+        Ok(encoded.into_iter().flatten().collect())
+    }
+}
+
+impl MiniLm {
+    /// The vectors of a batch of texts of one length, one after the other.
+    fn run(&self, texts: usize, tokens: usize, ids: Vec<i64>) -> Result<Vec<f32>, TextError> {
         let input = Tensor::I64 {
-            shape: vec![1, tokens],
+            shape: vec![texts, tokens],
             data: ids,
         };
         let outputs = self
@@ -74,15 +108,11 @@ impl TextEncoder for MiniLm {
             .run(&[("input_ids", &input)])
             .map_err(|error| TextError::Network(error.to_string()))?;
         match outputs.into_iter().next() {
-            Some((_, Tensor::F32 { data, .. })) if data.len() == WIDTH => Ok(Encoded {
-                vector: unit(data)?,
-                tokens,
-                cut,
-            }),
+            Some((_, Tensor::F32 { data, .. })) if data.len() == texts * WIDTH => Ok(data),
             Some((name, other)) => Err(TextError::Signature {
                 field: name,
                 found: format!("{:?}", other.shape()),
-                expected: format!("f32 [1, {WIDTH}]"),
+                expected: format!("f32 [{texts}, {WIDTH}]"),
             }),
             None => Err(TextError::Network("no output".into())),
         }

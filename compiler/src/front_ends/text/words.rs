@@ -148,7 +148,21 @@ impl<E: TextEncoder> TextEncoder for WithWords<E> {
     }
 
     fn encode(&self, text: &str) -> Result<Encoded, TextError> {
-        let mut encoded = self.sentence.encode(text)?;
+        self.with_words(text, self.sentence.encode(text)?)
+    }
+
+    fn encode_all(&self, texts: &[&str]) -> Result<Vec<Encoded>, TextError> {
+        let encoded = self.sentence.encode_all(texts)?;
+        let pairs = texts.iter().zip(encoded);
+        pairs
+            .map(|(text, encoded)| self.with_words(text, encoded))
+            .collect()
+    }
+}
+
+impl<E: TextEncoder> WithWords<E> {
+    /// Both views of a text, given the sentence encoder's.
+    fn with_words(&self, text: &str, mut encoded: Encoded) -> Result<Encoded, TextError> {
         match self.table.vector(text) {
             Some(words) => {
                 let of_sentence = SENTENCE.sqrt();

@@ -11,7 +11,7 @@ use asperity_formats::limits::MAX_NAME_BYTES;
 use std::{fs, io, path::PathBuf};
 
 /// Keys of a texture's source.
-const ORIGINS: [&str; 5] = ["prompt", "import", "asset", "blend", "compose"];
+const ORIGINS: [&str; 6] = ["prompt", "import", "asset", "of", "blend", "compose"];
 /// Keys of the defaults besides the options.
 const SETUP: [&str; 3] = ["model", "text_encoder", "backend"];
 
@@ -31,6 +31,7 @@ pub(super) enum DraftOrigin {
         file: PathBuf,
         texture: Option<String>,
     },
+    Of(Reference),
     Blend {
         a: Reference,
         b: Reference,
@@ -73,8 +74,8 @@ impl Checker<'_> {
         (stated, setup)
     }
 
-    /// One texture; `None` where a fault keeps it from being one.
-    pub(super) fn row(&mut self, row: &Row, defaults: &Stated) -> Option<Draft> {
+    /// The name of one row, where it has one, and its texture, unless a fault keeps it from being one.
+    pub(super) fn row(&mut self, row: &Row, defaults: &Stated) -> (Option<String>, Option<Draft>) {
         let before = self.errors.len();
         let mut stated = Stated::default();
         let mut sources = Vec::new();
@@ -112,20 +113,21 @@ impl Checker<'_> {
         if let Some(origin) = &origin {
             self.placed(row, origin);
         }
-        let (Some(origin), Some(name), true) = (origin, name, self.errors.len() == before) else {
-            return None;
+        let (Some(origin), Some(named), true) = (origin, &name, self.errors.len() == before) else {
+            return (name, None);
         };
         let options = options(&stated.within(defaults), &stated, &origin);
         let place = Place {
             file: self.file.file.clone(),
             line: row.line,
         };
-        Some(Draft {
-            name,
+        let draft = Draft {
+            name: named.clone(),
             origin,
             options,
             place,
-        })
+        };
+        (name, Some(draft))
     }
 
     /// The name, or else what the prompt begins with.
@@ -186,6 +188,11 @@ impl Checker<'_> {
                 };
                 Some(DraftOrigin::Asset { file, texture })
             }
+            "of" => Some(DraftOrigin::Of(Reference {
+                name: self.text(field, "of")?.to_owned(),
+                key: "of",
+                line: field.line,
+            })),
             "blend" => {
                 let inner = self.table(field, "blend", &["a", "b", "t"])?;
                 let a = self.reference(inner, "blend.a", field.line);
@@ -276,6 +283,7 @@ impl Checker<'_> {
             DraftOrigin::Import(_) => ("import", &["texture", "seed", "edit"]),
             // It is taken as it is.
             DraftOrigin::Asset { .. } => ("asset", &OPTIONS),
+            DraftOrigin::Of(_) => ("of", &["texture", "seed"]),
             DraftOrigin::Blend { .. } => ("blend", &["texture", "seed"]),
             DraftOrigin::Compose { .. } => ("compose", &["texture", "seed"]),
         };
@@ -309,7 +317,7 @@ fn options(stated: &Stated, own: &Stated, origin: &DraftOrigin) -> Options {
             size => size,
         },
         loudness_db: stated.loudness_db,
-        edit: stated.edit.filter(|_| !import).unwrap_or_default(),
+        edit: stated.edit.clone().filter(|_| !import).unwrap_or_default(),
     }
 }
 

@@ -50,6 +50,8 @@ pub enum Origin {
         /// The texture of a library.
         texture: Option<String>,
     },
+    /// Another texture, to be edited.
+    Of(usize),
     /// Between two other textures.
     Blend {
         /// At t = 0.
@@ -78,6 +80,7 @@ impl Origin {
             Self::Prompt(_) => "prompt",
             Self::Import(_) => "import",
             Self::Asset { .. } => "asset",
+            Self::Of(_) => "of",
             Self::Blend { .. } => "blend",
             Self::Compose { .. } => "compose",
         }
@@ -87,6 +90,7 @@ impl Origin {
     #[must_use]
     pub fn parts(&self) -> Vec<usize> {
         match *self {
+            Self::Of(of) => vec![of],
             Self::Blend { a, b, .. } => vec![a, b],
             Self::Compose {
                 tap,
@@ -112,5 +116,28 @@ pub struct Options {
     /// Level that the vibration is brought to, dB re 1 N RMS; none is.
     pub loudness_db: Option<f64>,
     /// What is moved after it was decoded.
-    pub edit: Sliders,
+    pub edit: Edit,
+}
+
+/// An edit, as [`Studio`](crate::edit::Studio) makes it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Edit {
+    /// Along the sliders.
+    Steps(Sliders),
+    /// In words.
+    Words(String),
+}
+
+impl Default for Edit {
+    fn default() -> Self {
+        Self::Steps(Sliders::default())
+    }
+}
+
+impl Edit {
+    /// Whether nothing is moved.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        matches!(self, Self::Steps(sliders) if sliders.are_still())
+    }
 }

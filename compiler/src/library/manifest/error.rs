@@ -85,7 +85,7 @@ pub enum ManifestProblem {
     #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
     Name(String),
     /// The row has no source, or several.
-    #[error("{found}; one of prompt, import, asset, blend and compose is wanted")]
+    #[error("{found}; one of prompt, import, asset, of, blend and compose is wanted")]
     Origin {
         /// What was found.
         found: String,
@@ -99,6 +99,9 @@ pub enum ManifestProblem {
         /// Key of the source.
         origin: &'static str,
     },
+    /// Words of an edit that ask for nothing.
+    #[error("{0:?} says nothing of rough, slippery or hard, and names nothing to be like")]
+    NoChange(String),
     /// Two textures of one name.
     #[error("{name:?} is also the name of the texture at {other}")]
     SameName {
@@ -152,6 +155,10 @@ impl Diagnostic for ManifestError {
                 "describe a surface, such as \"rough abrasive sheet\"".into()
             }
             ManifestProblem::Misplaced { .. } => "remove the key".into(),
+            ManifestProblem::NoChange(_) => {
+                "say it relatively, as in \"less gritty, more waxy\" or \"more like leather\""
+                    .into()
+            }
             ManifestProblem::SameName { .. } => "rename one of them".into(),
             ManifestProblem::NoSuchTexture(_) => "add it, or correct the name".into(),
             ManifestProblem::Cycle(_) => "give one of them another source".into(),

@@ -122,6 +122,8 @@ fn syntax(file: &Path) -> Option<Syntax> {
 #[derive(Default)]
 struct Reader {
     drafts: Vec<Draft>,
+    /// Names of all rows, of those with a fault, too.
+    names: Vec<(String, Place)>,
     /// Rows of all files so far.
     rows: usize,
     errors: Vec<ManifestError>,
@@ -181,7 +183,14 @@ impl Reader {
             if checker.errors.len() > MAX_FAULTS {
                 break;
             }
-            self.drafts.extend(checker.row(row, &stated));
+            let (name, draft) = checker.row(row, &stated);
+            let line = row.line;
+            let place = || Place {
+                line,
+                ..place.clone()
+            };
+            self.names.extend(name.map(|name| (name, place())));
+            self.drafts.extend(draft);
         }
         for field in &sheet.include {
             self.include(field, &place, folder, &stated);
@@ -270,19 +279,21 @@ impl Reader {
     fn manifest(mut self, file: &Path) -> Result<Manifest, Vec<ManifestError>> {
         let complete = self.errors.is_empty();
         let mut drafts = std::mem::take(&mut self.drafts);
+        let mut names = std::mem::take(&mut self.names);
         // Stable: of two textures of one name, the first stays first.
-        drafts.sort_by(|a, b| a.name.cmp(&b.name));
-        for pair in drafts.windows(2) {
-            if let [first, second] = pair
-                && first.name == second.name
+        names.sort_by(|a, b| a.0.cmp(&b.0));
+        for pair in names.windows(2) {
+            if let [(first, other), (second, place)] = pair
+                && first == second
             {
                 let problem = ManifestProblem::SameName {
-                    name: second.name.clone(),
-                    other: first.place.to_string(),
+                    name: second.clone(),
+                    other: other.to_string(),
                 };
-                self.fault(&second.place, second.place.line, "name", problem);
+                self.fault(place, place.line, "name", problem);
             }
         }
+        drafts.sort_by(|a, b| a.name.cmp(&b.name));
         let index: HashMap<String, usize> = drafts
             .iter()
             .enumerate()
@@ -374,6 +385,7 @@ impl Reader {
                 self.sources.push(file.clone());
                 Origin::Asset { file, texture }
             }
+            DraftOrigin::Of(of) => Origin::Of(find(of)?),
             DraftOrigin::Blend { a, b, t } => {
                 let (a, b) = (find(a), find(b));
                 Origin::Blend { a: a?, b: b?, t }

@@ -2,12 +2,13 @@
 //! goes on.
 
 use super::{
-    entry::Place,
+    entry::{Edit, Place},
     error::{ManifestError, ManifestProblem},
     row::{Field, Value},
 };
 use crate::{
     edit::Sliders,
+    front_ends::prompt::phrase::relative,
     passes::{reduce::Fidelity, rerate},
     views::preview,
 };
@@ -29,7 +30,7 @@ pub(super) struct Stated {
     /// Pixels, 0 for none.
     pub(super) preview_px: Option<u32>,
     pub(super) loudness_db: Option<f64>,
-    pub(super) edit: Option<Sliders>,
+    pub(super) edit: Option<Edit>,
 }
 
 impl Stated {
@@ -41,7 +42,7 @@ impl Stated {
             rate_hz: self.rate_hz.or(outer.rate_hz),
             preview_px: self.preview_px.or(outer.preview_px),
             loudness_db: self.loudness_db.or(outer.loudness_db),
-            edit: self.edit.or(outer.edit),
+            edit: self.edit.clone().or_else(|| outer.edit.clone()),
         }
     }
 }
@@ -193,11 +194,14 @@ impl Checker<'_> {
         }
     }
 
-    fn edit(&mut self, field: &Field, untyped: bool) -> Option<Sliders> {
-        const KEYS: [&str; 4] = ["rougher", "sharper", "harder", "slipperier"];
+    fn edit(&mut self, field: &Field, untyped: bool) -> Option<Edit> {
+        const KEYS: [&str; 5] = ["rougher", "sharper", "harder", "slipperier", "prompt"];
         let Value::Table(inner) = &field.value else {
             return self.wrong_type(field.line, "edit", "a table", &field.value);
         };
+        if let Some(words) = inner.iter().find(|inner| inner.key == "prompt") {
+            return self.words(words, inner, &KEYS);
+        }
         let mut sliders = Sliders::default();
         for slider in inner {
             let place = match slider.key.as_str() {
@@ -216,6 +220,26 @@ impl Checker<'_> {
                 *place = step;
             }
         }
-        Some(sliders)
+        Some(Edit::Steps(sliders))
+    }
+
+    /// An edit in words, which has no sliders beside it.
+    fn words(&mut self, words: &Field, inner: &[Field], known: &[&str]) -> Option<Edit> {
+        for other in inner.iter().filter(|other| other.key != "prompt") {
+            if known.contains(&other.key.as_str()) {
+                let origin = "edit.prompt";
+                let key = format!("edit.{}", other.key);
+                self.fault(other.line, &key, ManifestProblem::Misplaced { origin });
+            } else {
+                self.unknown(other, "edit.", known);
+            }
+        }
+        let text = self.text(words, "edit.prompt")?.trim();
+        if relative(text).is_nothing() {
+            let problem = ManifestProblem::NoChange(text.to_owned());
+            self.fault(words.line, "edit.prompt", problem);
+            return None;
+        }
+        Some(Edit::Words(text.to_owned()))
     }
 }

@@ -108,6 +108,14 @@ fn text_stage(s: &TextStage) -> Result<(), ConfigError> {
             memory.recall_temperature,
         )?;
         positive("text_stage.memory.caption_weight", memory.caption_weight)?;
+        positive(
+            "text_stage.memory.felt_concentration",
+            memory.felt_concentration,
+        )?;
+        positive(
+            "text_stage.memory.felt_caption_weight",
+            memory.felt_caption_weight,
+        )?;
     }
     Ok(())
 }

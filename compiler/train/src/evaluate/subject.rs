@@ -1,17 +1,26 @@
 //! The model under evaluation, read from its folder: what is measured is what ships.
 
-use super::{EvaluateError, cache, signature::Signature};
+use super::{
+    EvaluateError, cache,
+    signature::{Objective, Signature},
+};
 use crate::trained::Seen;
 use asperity::{
+    attributes,
     inference::Backend,
     learned::{
         Decoded, Files, Latent, LearnedModel, ModelError, Present, Projected,
-        description::ModelDescription, friction,
+        description::ModelDescription, friction, texture,
     },
+    model::Provenance,
+    prompt::phrase::adjust,
 };
 use asperity_corpus::{BINS, CHANNELS, Instance, ORDER, TAP_SAMPLES, TAPS};
 use rayon::prelude::*;
 use std::path::Path;
+
+/// The level that stands for a texture that does not sound, dB.
+const SILENT_DB: f64 = -100.0;
 
 /// A model folder on a back end.
 pub(super) struct Subject {
@@ -110,6 +119,30 @@ impl Subject {
             })
         });
         Ok(textures.collect::<Result<_, ModelError>>()?)
+    }
+
+    /// Attributes of the textures of texts: what the latents decode to, moved to what the words ask
+    /// for where the model says.
+    pub(super) fn felt(&self, projected: &[Projected]) -> Result<Vec<Objective>, EvaluateError> {
+        let felt = projected.par_iter().map(|said| {
+            let decoded = self.model.decode(&said.z)?;
+            let (name, provenance) = (String::new(), Provenance::default());
+            let description = self.description();
+            let (mut texture, _) = texture::build(description, &decoded, &said.z, name, provenance);
+            if let Some(felt) = said.felt {
+                let wanted = felt.map(|x| Some(f64::from(x)));
+                let shift = adjust::to(&wanted, &attributes::of(&texture));
+                adjust::adjust(&mut texture, &shift);
+            }
+            let attributes = attributes::of(&texture);
+            Ok(Objective {
+                rough_db: attributes.rough_db.unwrap_or(SILENT_DB),
+                sharp_hz: attributes.sharp_hz.unwrap_or_default(),
+                hard_hz: attributes.hard_hz.unwrap_or_default(),
+                mu: attributes.mu,
+            })
+        });
+        Ok(felt.collect::<Result<_, ModelError>>()?)
     }
 
     /// μ from the neighbours of a latent.

@@ -1,8 +1,7 @@
 //! `model.json`.
 
-use super::{attributes, ridge};
-use crate::certainty::certainty_curve;
-use crate::{metrics::Metrics, trained::Trained};
+use super::ridge;
+use crate::{attributes, certainty::certainty_curve, metrics::Metrics, trained::Trained};
 use asperity::learned::description::{
     Anchor, AttributeAxis, CorpusDescription, FORMAT, FrictionDescription, GridDescription,
     ModelDescription, TapDescription, TextEncoderDescription,

@@ -1,6 +1,5 @@
 //! From a trained model to a model folder.
 
-mod attributes;
 mod card;
 mod description;
 mod folder;

@@ -24,6 +24,9 @@ pub(super) const AR_DECODER: &str = "ar_decoder.onnx";
 pub(super) const TAP_DECODER: &str = "tap_decoder.onnx";
 pub(super) const ENCODER: &str = "encoder.onnx";
 
+/// Roughness, slipperiness, hardness.
+const FELT: usize = 3;
+
 type File = (&'static str, Vec<u8>);
 
 /// Names and bytes of the four.
@@ -43,7 +46,8 @@ fn finish(file: &'static str, writer: &Writer<'_>) -> Result<File, ExportError> 
 }
 
 /// `embedding` [B, W] → `z` [B, 64], `similarity` [B, M], its cosine with the mean caption of
-/// every material, and `familiarity` [B, 1].
+/// every material, `familiarity` [B, 1], and from a memory with a lexicon `felt` [B, 3]: dB, −ln μ
+/// and ln Hz.
 fn text_projection(trained: &Trained) -> Writer<'_> {
     let mut writer = Writer::new("text_projection", &trained.projection_parameters);
     let (width, count) = (trained.width, trained.materials.len());
@@ -64,15 +68,18 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
     let norm = writer.plus(&norm, f32::MIN_POSITIVE);
     let direction = writer.graph.div(&embedding, &norm);
     let similarity = writer.product("mean_captions", &direction, &columns, count);
-    let (z, likeness) = match &trained.memory {
+    let Remembered { z, felt, likeness } = match &trained.memory {
         Some(memory) => from_memory(&mut writer, trained, memory, &direction),
-        None => {
-            let likeness = writer.plus(&similarity, -1.0);
-            let z = writer.chain(&trained.projection.layers, &embedding);
-            (z, likeness)
-        }
+        None => Remembered {
+            z: writer.chain(&trained.projection.layers, &embedding),
+            felt: None,
+            likeness: writer.plus(&similarity, -1.0),
+        },
     };
     writer.output("z", &z, &[LATENT]);
+    if let Some(felt) = felt {
+        writer.output("felt", &felt, &[FELT]);
+    }
     writer.output("similarity", &similarity, &[count]);
     let familiarity = soft_maximum(&mut writer, &likeness);
     writer.output("familiarity", &familiarity, &[1]);
@@ -90,23 +97,34 @@ fn soft_maximum(writer: &mut Writer<'_>, likeness: &Value) -> Value {
     writer.plus(&scaled, 1.0)
 }
 
-/// `(Σ w·z_m + W·z)/(Σ w + W)`, as [`Recall::draw`]; `likeness` is that of the memory's examples.
+/// What a memory says of a text.
+struct Remembered {
+    z: Value,
+    felt: Option<Value>,
+    /// e·e_i − 1.
+    likeness: Value,
+}
+
+/// `(Σ w·x_m + W·x)/(Σ w + W)`, as [`Recall::draw`], of a latent x and perhaps of attributes behind
+/// it; `likeness` is that of the memory's examples.
 fn recalled(
     writer: &mut Writer<'_>,
     trained: &Trained,
     recall: &Recall,
-    z: Value,
+    said: &Value,
     direction: &Value,
     likeness: (&Value, usize),
 ) -> Value {
     let count = recall.owners.len();
     let width = recall.codes.len() / count.max(1);
     let prototypes = dequantised(writer, "prototypes", &recall.codes, width, &recall.scales);
-    let means = recall.owners.iter();
-    let means: Vec<f32> = means
-        .flat_map(|&owner| trained.materials[owner].mean)
-        .collect();
-    let means = writer.table("prototypes.latents", &[count, LATENT], means);
+    let mut means = Vec::new();
+    for &owner in &recall.owners {
+        means.extend(trained.materials[owner].mean);
+        means.extend(trained.feel.iter().flat_map(|feel| feel.materials[owner]));
+    }
+    let columns = means.len() / count.max(1);
+    let means = writer.table("prototypes.materials", &[count, columns], means);
     let inputs = [Some(direction), Some(&prototypes)];
     let nearness = writer.graph.node("MatMul", &inputs, &[]);
     let nearness = writer.plus(&nearness, -1.0);
@@ -121,7 +139,7 @@ fn recalled(
     let phrases = writer.graph.unary("Exp", &exponent);
     let kept = row_sum(writer, &phrases);
     let kept = writer.plus(&kept, LEAST);
-    let own = writer.graph.mul(&z, &kept);
+    let own = writer.graph.mul(said, &kept);
     let numerator = writer.graph.add(&drawn, &own);
     let total = row_sum(writer, &weights);
     let total = writer.graph.add(&total, &kept);
@@ -165,14 +183,14 @@ fn dequantised(
     writer.graph.node("DequantizeLinear", &inputs, &[axis])
 }
 
-/// The latent `z̄ + exp(γ(e·e_i − 1))·a`, recalled, and `e·e_i − 1`: 8-bit vectors on their
-/// principal directions and 8-bit coefficients.
+/// The latent `z̄ + exp(γ(e·e_i − 1))·a` and the attributes by the same with a γ of their own, recalled:
+/// 8-bit vectors on their principal directions, and 8-bit coefficients of the latent.
 fn from_memory(
     writer: &mut Writer<'_>,
     trained: &Trained,
     memory: &TextMemory,
     direction: &Value,
-) -> (Value, Value) {
+) -> Remembered {
     let (width, count) = (memory.kept, memory.scales.len());
     let direction = &writer.product("memory.basis", direction, &memory.basis, width);
     let kept = dequantised(
@@ -186,8 +204,7 @@ fn from_memory(
         .graph
         .node("MatMul", &[Some(direction), Some(&kept)], &[]);
     let likeness = writer.plus(&likeness, -1.0);
-    let exponent = writer.times(&likeness, memory.concentration);
-    let kernel = writer.graph.unary("Exp", &exponent);
+    let kernel = kernel(writer, &likeness, memory.concentration);
     let coefficients = Tensor::I8 {
         shape: vec![count, LATENT],
         data: memory
@@ -208,11 +225,40 @@ fn from_memory(
         .node("MatMul", &[Some(&kernel), Some(&coefficients)], &[]);
     let mean = writer.row("memory.mean", &memory.mean);
     let z = writer.graph.add(&from_mean, &mean);
-    let z = match &trained.recall {
-        Some(recall) => recalled(writer, trained, recall, z, direction, (&likeness, count)),
+    let felt = trained.feel.as_ref().map(|feel| {
+        let kernel = self::kernel(writer, &likeness, feel.concentration);
+        let coefficients = feel.coefficients.as_flattened();
+        let felt = writer.product("feel.coefficients", &kernel, coefficients, FELT);
+        let mean = writer.row("feel.mean", &feel.mean);
+        writer.graph.add(&felt, &mean)
+    });
+    let Some(recall) = &trained.recall else {
+        return Remembered { z, felt, likeness };
+    };
+    let said = match &felt {
+        Some(felt) => writer.graph.concat(&[&z, felt], 1),
         None => z,
     };
-    (z, likeness)
+    let said = recalled(
+        writer,
+        trained,
+        recall,
+        &said,
+        direction,
+        (&likeness, count),
+    );
+    let (latent, all) = (LATENT as i64, (LATENT + FELT) as i64);
+    Remembered {
+        z: writer.graph.slice(&said, 1, 0, latent),
+        felt: felt.map(|_| writer.graph.slice(&said, 1, latent, all)),
+        likeness,
+    }
+}
+
+/// `exp(γ·likeness)`.
+fn kernel(writer: &mut Writer<'_>, likeness: &Value, concentration: f32) -> Value {
+    let exponent = writer.times(likeness, concentration);
+    writer.graph.unary("Exp", &exponent)
 }
 
 /// `z` [B, 64] → `lsf_rad` [B, 18, 21] and `level_db` [B, 18].

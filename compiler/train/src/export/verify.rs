@@ -75,6 +75,10 @@ pub(super) fn check(
         "z",
         &trained.project(&vectors).concat(),
     )?;
+    let felt = trained.feel(&vectors);
+    if !felt.is_empty() {
+        compare(TEXT_PROJECTION, &text, "felt", felt.as_flattened())?;
+    }
     let cosines = vectors
         .iter()
         .flat_map(|vector| trained.materials.iter().map(|m| cosine(vector, &m.caption)));
@@ -148,7 +152,7 @@ fn compare(
             break;
         }
     }
-    let limit = if (file, output) == (TEXT_PROJECTION, "z") {
+    let limit = if file == TEXT_PROJECTION && ["z", "felt"].contains(&output) {
         TEXT_LIMIT
     } else {
         LIMIT

@@ -74,9 +74,12 @@ impl Shift {
     }
 }
 
-/// Attributes on the scales of [`Shift`]: dB, −ln μ, ln Hz.
+/// Attributes on the scales of [`Shift`]: dB, −ln μ, ln Hz; `None` for one that is not defined.
+pub type Scales = [Option<f64>; 3];
+
+/// Attributes on their scales.
 #[must_use]
-pub fn scales(attributes: &Attributes) -> [Option<f64>; 3] {
+pub fn scales(attributes: &Attributes) -> Scales {
     [
         attributes.rough_db,
         Some(-libm::log(attributes.mu.max(f64::MIN_POSITIVE))),
@@ -84,26 +87,38 @@ pub fn scales(attributes: &Attributes) -> [Option<f64>; 3] {
     ]
 }
 
-/// How far a texture whose attributes are `learned` is to move so that it differs from its base as
-/// the changes say.
+/// What is `said`, moved so that it differs from its base as the changes say.
 #[must_use]
-pub fn from_base(base: &Attributes, learned: &Attributes, changes: &Changes) -> Shift {
+pub fn changed(base: &Scales, said: &Scales, changes: &Changes) -> Scales {
     let changes = [changes.rough, changes.slippery, changes.hard];
-    let (base, learned) = (scales(base), scales(learned));
-    Shift::of(std::array::from_fn(|k| {
-        let (change, base, learned): (Change, f64, f64) = (changes[k]?, base[k]?, learned[k]?);
-        let steps = (learned - base) / STEP[k];
-        Some(STEP[k] * (steps.clamp(change.least, change.most) - steps))
-    }))
+    std::array::from_fn(|k| {
+        let moved = || {
+            let (change, base, said): (Change, f64, f64) = (changes[k]?, base[k]?, said[k]?);
+            let steps = (said - base) / STEP[k];
+            Some(base + STEP[k] * steps.clamp(change.least, change.most))
+        };
+        moved().or(said[k])
+    })
 }
 
-/// How far a texture is to move to the middle of two others.
+/// The middle of two.
 #[must_use]
-pub fn to_middle(first: &Attributes, second: &Attributes, now: &Attributes) -> Shift {
-    let (first, second, now) = (scales(first), scales(second), scales(now));
-    Shift::of(std::array::from_fn(|k| {
-        Some(0.5 * (first[k]? + second[k]?) - now[k]?)
-    }))
+pub fn middle(first: &Scales, second: &Scales) -> Scales {
+    std::array::from_fn(|k| Some(0.5 * (first[k]? + second[k]?)))
+}
+
+/// How far a texture is to move to what is wanted; one that it does not define, or of which nothing
+/// is wanted, stays.
+#[must_use]
+pub fn to(wanted: &Scales, now: &Attributes) -> Shift {
+    let now = scales(now);
+    Shift::of(std::array::from_fn(|k| Some(wanted[k]? - now[k]?)))
+}
+
+/// How far a texture is to move so that it differs from its base as the changes say.
+#[must_use]
+pub fn from_base(base: &Attributes, now: &Attributes, changes: &Changes) -> Shift {
+    to(&changed(&scales(base), &scales(now), changes), now)
 }
 
 /// Moves a texture.

@@ -60,3 +60,16 @@ pub enum Phrase {
         cover: String,
     },
 }
+
+impl Phrase {
+    /// The things that it names, unless it is one thing as a whole.
+    #[must_use]
+    pub fn things(self) -> Vec<String> {
+        match self {
+            Self::Plain => Vec::new(),
+            Self::Changed { base, .. } => vec![base],
+            Self::Between(first, second) => vec![first, second],
+            Self::Covered { inside, cover } => vec![inside, cover],
+        }
+    }
+}

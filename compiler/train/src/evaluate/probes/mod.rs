@@ -218,8 +218,7 @@ fn ask<'p>(
         .map(|prompt| texts.vector(prompt))
         .collect::<Result<_, _>>()?;
     let projected = subject.project(&vectors)?;
-    let latents: Vec<_> = projected.iter().map(|said| said.z).collect();
-    let decoded = subject.decode(&latents)?;
+    let decoded = subject.felt(&projected)?;
     watch.done(distinct.len());
     let found = vectors.iter().zip(&projected).zip(decoded);
     let felt = found.map(|((vector, said), decoded)| {
@@ -229,7 +228,7 @@ fn ask<'p>(
             .map(|phrase| dot(vector, &phrase.vector))
             .collect();
         Felt {
-            decoded: decoded.signature.objective,
+            decoded,
             material: known.materials[nearest(&said.similarity)].objective,
             phrase: known
                 .lexicon

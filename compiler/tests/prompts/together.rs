@@ -1,0 +1,25 @@
+//! Prompts that are read a batch at a time.
+
+use asperity::{inference::Backend, prompt::Author};
+
+#[test]
+fn prompts_read_together_are_to_the_bit_what_they_are_alone() {
+    const PROMPTS: [&str; 8] = [
+        "cork",
+        "felt",
+        "rough ice",
+        "between towel and whiteboard",
+        "foam, but firmer",
+        "a wooden chair covered with velvet",
+        "the cold and slightly rusty railing of an iron bridge in the rain",
+        "kork ☃",
+    ];
+    let together = Author::embedded(&Backend::Portable).expect("the shipped model loads");
+    together.read_ahead(&PROMPTS);
+    for prompt in PROMPTS {
+        let (one, all) = (super::AUTHOR.project(prompt), together.project(prompt));
+        assert_eq!(one.expect(prompt), all.expect(prompt), "{prompt}");
+        let (one, all) = (super::AUTHOR.texture(prompt), together.texture(prompt));
+        assert_eq!(one.expect(prompt), all.expect(prompt), "{prompt}");
+    }
+}
