@@ -2,6 +2,7 @@
 //! with. The criterion benches and the commands `instructions` and `paired` share them.
 #![forbid(unsafe_code)]
 
+pub mod callgrind;
 pub mod evict;
 pub mod load;
 pub mod motion;

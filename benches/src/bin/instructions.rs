@@ -9,6 +9,7 @@
 
 use asperity_benches::{
     Rig,
+    callgrind::count,
     load::{Loading, Work},
     motion::Motion,
     queries::queries,
@@ -16,7 +17,7 @@ use asperity_benches::{
     texture::texture,
 };
 use asperity_formats::{Asset, Numerator};
-use std::{env, error::Error, ffi::OsStr, hint::black_box, process::Command};
+use std::{env, error::Error, hint::black_box};
 
 /// First argument of the measured program that loads.
 const LOADING: &str = "load";
@@ -161,18 +162,4 @@ fn count_motion(
 ) -> Result<u64, Box<dyn Error>> {
     let numbers = [texture, motion, ratio as usize, ticks as usize];
     count(&numbers.map(|number| number.to_string()))
-}
-
-fn count<A: AsRef<OsStr>>(arguments: &[A]) -> Result<u64, Box<dyn Error>> {
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(env::current_exe()?)
-        .args(arguments)
-        .output()
-        .map_err(|error| format!("valgrind cannot be started ({error}); install it"))?;
-    let log = String::from_utf8_lossy(&output.stderr);
-    log.lines()
-        .find_map(|line| line.split("Collected :").nth(1))
-        .and_then(|count| count.trim().parse().ok())
-        .ok_or_else(|| format!("valgrind counted nothing:\n{log}").into())
 }

@@ -35,7 +35,10 @@ const fn long(program: Program, line: &'static str, target: &'static str, seed: 
     }
 }
 
-pub(crate) const FORMS: [Form; 55] = [
+const PAINT: &str =
+    "preview good.asp -o out.png --diffusion sd --diffusion-backend portable --steps 2 --tile";
+
+pub(crate) const FORMS: [Form; 65] = [
     form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
@@ -185,6 +188,8 @@ pub(crate) const FORMS: [Form; 55] = [
         "in.toml",
         Seed::Description,
     ),
+    form(Compiler, "build in.toml --check", "in.toml", Seed::Manifest),
+    form(Compiler, "build in.csv --check", "in.csv", Seed::Rows),
     form(
         Compiler,
         "build scene.toml -o out.aspl",
@@ -280,6 +285,54 @@ pub(crate) const FORMS: [Form; 55] = [
         "record-check oak",
         "oak/position.csv",
         Seed::RecordedTable,
+    ),
+    form(
+        Compiler,
+        PAINT,
+        "sd/model_index.json",
+        Seed::Diffusion("model_index.json"),
+    ),
+    form(
+        Compiler,
+        PAINT,
+        "sd/scheduler/scheduler_config.json",
+        Seed::Diffusion("scheduler/scheduler_config.json"),
+    ),
+    form(
+        Compiler,
+        PAINT,
+        "sd/tokenizer/vocab.json",
+        Seed::Diffusion("tokenizer/vocab.json"),
+    ),
+    form(
+        Compiler,
+        PAINT,
+        "sd/tokenizer/merges.txt",
+        Seed::Diffusion("tokenizer/merges.txt"),
+    ),
+    form(
+        Compiler,
+        PAINT,
+        "sd/tokenizer/tokenizer_config.json",
+        Seed::Diffusion("tokenizer/tokenizer_config.json"),
+    ),
+    form(
+        Compiler,
+        PAINT,
+        "sd/text_encoder/model.onnx",
+        Seed::Diffusion("text_encoder/model.onnx"),
+    ),
+    form(
+        Compiler,
+        PAINT,
+        "sd/unet/model.onnx",
+        Seed::Diffusion("unet/model.onnx"),
+    ),
+    form(
+        Compiler,
+        PAINT,
+        "sd/vae_decoder/model.onnx",
+        Seed::Diffusion("vae_decoder/model.onnx"),
     ),
     long(
         Compiler,

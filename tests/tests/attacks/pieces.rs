@@ -5,6 +5,7 @@ use crate::{
     programs::Program::{self, Compiler, Lab},
     seeds::{Seed, Seeds},
 };
+use asperity_diffusion::tiny;
 
 /// As a target: the word of the line that is replaced, instead of a file.
 pub(crate) const PROMPT: &str = "PROMPT";
@@ -72,9 +73,16 @@ const NETWORK: Line = (
     "clip/model.onnx",
 );
 
+const PAINT: &str =
+    "preview good.asp -o out.png --diffusion sd --diffusion-backend portable --steps 2";
+const SCHEDULE: Line = (Compiler, PAINT, "sd/scheduler/scheduler_config.json");
+const VOCABULARY: Line = (Compiler, PAINT, "sd/tokenizer/vocab.json");
+const MERGES: Line = (Compiler, PAINT, "sd/tokenizer/merges.txt");
+const UNET: Line = (Compiler, PAINT, "sd/unet/model.onnx");
+
 const PROMPT_LINE: Line = (Compiler, "compile PROMPT -o out.asp --no-preview", PROMPT);
 
-pub(crate) const PIECES: [Piece; 46] = [
+pub(crate) const PIECES: [Piece; 53] = [
     piece(PROMPT_LINE, "one word of 120,000 letters", |_| {
         b"a".repeat(120_000)
     }),
@@ -338,7 +346,44 @@ pub(crate) const PIECES: [Piece; 46] = [
         .concat()
         },
     ),
+    piece(
+        SCHEDULE,
+        "100,000 trained steps that leave no picture",
+        |_| b"{\"num_train_timesteps\": 100000, \"beta_schedule\": \"linear\"}".to_vec(),
+    ),
+    piece(SCHEDULE, "500,000 lists within each other", |_| {
+        b"[".repeat(500_000)
+    }),
+    piece(VOCABULARY, "1,000,000 tokens", |_| {
+        let tokens = numbered(1_000_000, |n| format!("{}\"{n}\":{n}", comma(n)));
+        [b"{", &tokens[..], b"}"].concat()
+    }),
+    piece(MERGES, "1,000,000 merges", |_| b"c o\n".repeat(1_000_000)),
+    piece(UNET, "a network that gives NaN", |_| {
+        let options = tiny::Options {
+            is_broken: true,
+            ..tiny::Options::default()
+        };
+        part(&options, "unet/model.onnx")
+    }),
+    piece(UNET, "the UNet of a wider text encoder", |_| {
+        let options = tiny::Options {
+            unet_text_width: 1024,
+            ..tiny::Options::default()
+        };
+        part(&options, "unet/model.onnx")
+    }),
+    piece(UNET, "the decoder instead of the UNet", |_| {
+        part(&tiny::Options::default(), "vae_decoder/model.onnx")
+    }),
 ];
+
+/// A part of a tiny diffusion folder.
+fn part(options: &tiny::Options, part: &str) -> Vec<u8> {
+    let files = tiny::folder(options);
+    let found = files.into_iter().find(|(name, _)| *name == part);
+    found.expect("a part of the tiny folder").1
+}
 
 fn numbered(count: usize, one: impl Fn(usize) -> String) -> Vec<u8> {
     (0..count).map(one).collect::<String>().into_bytes()

@@ -2,6 +2,7 @@
 
 use crate::{recording, support::builtin};
 use asperity::interchange::{ClipFormat, Options, export, session};
+use asperity_diffusion::tiny;
 use asperity_formats::{SceneSurface, Solid, library};
 use asperity_tests::texture::{Kind, random};
 use std::{fmt::Write as _, fs, os::unix::fs::symlink, path::Path};
@@ -20,6 +21,8 @@ pub(crate) enum Seed {
     Ahap,
     Hjif,
     Description,
+    Manifest,
+    Rows,
     ModelFolder,
     Projection,
     TapDecoder,
@@ -33,11 +36,16 @@ pub(crate) enum Seed {
     Measurement,
     Profile,
     Ids,
+    /// A part of a diffusion folder, by its path in it.
+    Diffusion(&'static str),
 }
 
 impl Seed {
     /// Whether the input is lines of text.
-    pub(crate) const fn is_text(self) -> bool {
+    pub(crate) fn is_text(self) -> bool {
+        if let Self::Diffusion(part) = self {
+            return !part.ends_with(".onnx");
+        }
         !matches!(
             self,
             Self::Asset
@@ -67,6 +75,8 @@ pub(crate) struct Seeds {
     array: Vec<u8>,
     table: String,
     measurement: String,
+    /// A tiny diffusion folder.
+    diffusion: Vec<(&'static str, Vec<u8>)>,
 }
 
 const DESCRIPTION: &str = "servo_rate_hz = 1000
@@ -87,6 +97,35 @@ box = { center_m = [0, 0, 0], half_extents_m = [0.1, 0.1, 0.1] }
 texture = \"good\"
 sphere = { center_m = [0, 0, 0.2], radius_m = 0.1 }
 ";
+/// A library of every kind of entry.
+const MANIFEST: &str = "\
+[defaults]
+preview = false
+[[texture]]
+name = \"cork\"
+prompt = \"cork\"
+seed = 3
+[[texture]]
+name = \"wood\"
+import = \"wood.xml\"
+fidelity = 8
+[[texture]]
+name = \"grit\"
+asset = \"good.asp\"
+[[texture]]
+name = \"between\"
+blend = { a = \"cork\", b = \"grit\", t = 0.25 }
+[[texture]]
+name = \"mixed\"
+compose = { tap = \"cork\", slide = \"between\" }
+edit = { rougher = 10 }
+[[texture]]
+name = \"softer\"
+of = \"mixed\"
+edit = { prompt = \"a bit softer, more like leather\" }
+";
+const ROWS: &str =
+    "name,prompt,of,seed,edit.prompt\ncork,cork,,3,\nsofter,,cork,,\"softer, rougher\"\n";
 const COUNTS: &str = "factor,name,instructions\norder,ar 20,2100\narithmetic,fixed,1900.5\n";
 const DEVICE: &str = include_str!("../../../device-sim/devices/touch.toml");
 const GRIP: &str = include_str!("../../../device-sim/grips/light.toml");
@@ -119,6 +158,7 @@ impl Seeds {
             array: recording::array(),
             table: recording::table(),
             measurement: measurement(),
+            diffusion: tiny::folder(&tiny::Options::default()),
         }
     }
 
@@ -135,6 +175,8 @@ impl Seeds {
             Seed::Ahap => &self.effects[1],
             Seed::Hjif => &self.effects[2],
             Seed::Description => DESCRIPTION.as_bytes(),
+            Seed::Manifest => MANIFEST.as_bytes(),
+            Seed::Rows => ROWS.as_bytes(),
             Seed::ModelFolder => asperity_model::DESCRIPTION.as_bytes(),
             Seed::Projection => asperity_model::TEXT_PROJECTION,
             Seed::TapDecoder => asperity_model::TAP_DECODER,
@@ -148,6 +190,10 @@ impl Seeds {
             Seed::Measurement => self.measurement.as_bytes(),
             Seed::Profile => PROFILE.as_bytes(),
             Seed::Ids => IDS.as_bytes(),
+            Seed::Diffusion(part) => {
+                let found = self.diffusion.iter().find(|(name, _)| *name == part);
+                &found.expect("a part of the tiny folder").1
+            }
         }
     }
 
@@ -169,6 +215,11 @@ impl Seeds {
             ("sweep.csv", Seed::Measurement),
         ] {
             fs::write(folder.join(name), self.bytes(seed)).expect("a valid input");
+        }
+        for (part, bytes) in &self.diffusion {
+            let file = folder.join("sd").join(part);
+            fs::create_dir_all(file.parent().expect("the folder of a part")).expect("a folder");
+            fs::write(file, bytes).expect("a valid input");
         }
         let other = self.material.replace("<material>Wood", "<material>Test");
         fs::write(folder.join("materials/other.xml"), other).expect("a valid input");
