@@ -329,8 +329,10 @@ fn whatever_the_bus_loses_no_force_and_no_step_is_beyond_its_limit() {
         "each fault came: {all}"
     );
     assert!(fresh > 200 && faults > 0, "{all}");
-    // A force of (3, −3, 3) N has 5.2 N.
-    assert!(felt.largest_force_n < 5.2 * 1.05, "{all}");
+    // A force of (3, −3, 3) N has 5.2 N. It is made for where the grip was at the newest answer that
+    // came through; where it is by then, the same torques may push a little harder.
+    assert!(felt.largest_meant_n < 5.2 * 1.01, "{all}");
+    assert!(felt.largest_force_n < 8.9 * 1.03, "{all}");
     assert!(
         felt.largest_step <= 1536 && felt.unhomed_forces == 0,
         "{all}"

@@ -1,10 +1,11 @@
 //! The grip: a mass on three legs, held by a hand that homes it, then strokes and taps.
 
+use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use asperity_host::device::falcon::frame::{ALL_HOMED, Command};
 use asperity_host::device::falcon::geometry::{CENTRE_M, count};
-use asperity_host::device::falcon::kinematics::{inverse, jacobian};
+use asperity_host::device::falcon::kinematics::{Jacobian, inverse, jacobian};
 use asperity_host::device::falcon::motors;
 
 /// Steps of integration in a millisecond.
@@ -19,6 +20,8 @@ const HAND_N_S_M: f64 = 8.0;
 const INDEX_M: [f64; 3] = [CENTRE_M[0], CENTRE_M[1], CENTRE_M[2] + 0.015];
 /// How far the grip goes each way, m: the end stops.
 const STOP_M: f64 = 0.028;
+/// Answers that are remembered: more than a computer may go without a new one and still push.
+pub const TOLD: usize = 32;
 
 /// What the motors were told, and did.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -34,6 +37,10 @@ pub struct Felt {
     pub pushes_at_first: u64,
     /// Largest force at the grip, N.
     pub largest_force_n: f64,
+    /// Largest force of a command where the grip was at one of the last [`TOLD`] answers, N. A
+    /// computer knows no newer place: what `largest_force_n` is above this, the grip's way since
+    /// then made.
+    pub largest_meant_n: f64,
     /// Commands with a force while an encoder had not found its zero.
     pub unhomed_forces: u64,
     /// Time with a force, s.
@@ -58,6 +65,8 @@ pub struct Grip {
     /// Whether the hand does its script; otherwise it holds still.
     pub busy: bool,
     felt: Felt,
+    /// Legs where the grip was at the last commands, each of which was answered.
+    told: VecDeque<Jacobian>,
 }
 
 impl Grip {
@@ -76,6 +85,7 @@ impl Grip {
             time_s: 0.0,
             busy: true,
             felt: Felt::default(),
+            told: VecDeque::with_capacity(TOLD + 1),
         };
         grip.forget_zeros();
         grip
@@ -128,9 +138,19 @@ impl Grip {
         }
         self.motors = command.motors;
         self.homing = command.homing;
-        let [x, y, z] = self.force_n();
-        let force_n = (x * x + y * y + z * z).sqrt();
-        self.felt.largest_force_n = self.felt.largest_force_n.max(force_n);
+        let Some(rows) = self.legs() else {
+            return;
+        };
+        self.told.push_front(rows);
+        self.told.truncate(TOLD);
+        let size_n = |rows: &Jacobian| {
+            let [x, y, z] = motors::force_n(command.motors, rows);
+            (x * x + y * y + z * z).sqrt()
+        };
+        let felt = &mut self.felt;
+        felt.largest_force_n = felt.largest_force_n.max(size_n(&rows));
+        let meant_n = self.told.iter().map(size_n).fold(f64::INFINITY, f64::min);
+        felt.largest_meant_n = felt.largest_meant_n.max(meant_n);
     }
 
     pub(super) fn encoders(&self) -> [i16; 3] {
@@ -143,9 +163,13 @@ impl Grip {
 
     /// Force of the motors at the grip, N.
     fn force_n(&self) -> [f64; 3] {
+        self.legs()
+            .map_or([0.0; 3], |rows| motors::force_n(self.motors, &rows))
+    }
+
+    fn legs(&self) -> Option<Jacobian> {
         let position = self.in_device();
-        let rows = inverse(position).and_then(|angles| jacobian(position, angles));
-        rows.map_or([0.0; 3], |rows| motors::force_n(self.motors, &rows))
+        inverse(position).and_then(|angles| jacobian(position, angles))
     }
 
     fn in_device(&self) -> [f64; 3] {

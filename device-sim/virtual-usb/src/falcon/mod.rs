@@ -20,7 +20,7 @@ use super::descriptor::{Descriptors, Endpoint, Interface};
 use super::{Answer, Device, Setup};
 use boot::Boot;
 pub use boot::Quirks;
-pub use grip::{Felt, Grip};
+pub use grip::{Felt, Grip, TOLD};
 
 /// Status bytes that the chip puts before every packet: lines as they are at rest.
 const STATUS: [u8; 2] = [0x01, 0x60];

@@ -15,7 +15,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use super::frame::{Command, FRAME_BYTES, Frames};
-use super::ftdi::{PACKET_BYTES, STATUS_BYTES, payload};
+use super::ftdi::{self, PACKET_BYTES, STATUS_BYTES, Setting, payload};
 use super::motors::approach;
 use super::slot::{Held, Slot};
 use super::transport::{Direction, TransferError, Transport};
@@ -207,6 +207,7 @@ impl Shared {
 fn receive(transport: &dyn Transport, shared: &Shared) {
     let mut frames = Frames::default();
     let mut last = Instant::now();
+    let mut newest = None;
     while !shared.stop.load(Ordering::Acquire) {
         let mut packet = [0; PACKET_BYTES];
         match transport.receive(&mut packet, PATIENCE) {
@@ -214,7 +215,10 @@ fn receive(transport: &dyn Transport, shared: &Shared) {
                 if length < STATUS_BYTES {
                     shared.short.fetch_add(1, Ordering::Relaxed);
                 }
-                if let Some(answer) = frames.push(payload(&packet[..length])) {
+                newest = frames.push(payload(&packet[..length])).or(newest);
+                // More waits behind a full packet, and is newer.
+                let drained = length < PACKET_BYTES;
+                if let Some(answer) = newest.take_if(|_| drained) {
                     shared.newest.put_answer(&answer);
                     shared.received.fetch_add(1, Ordering::Relaxed);
                     last = Instant::now();
@@ -232,6 +236,10 @@ fn receive(transport: &dyn Transport, shared: &Shared) {
                 if !shared.met(error, transport, Direction::In) {
                     return;
                 }
+                // What waits is as old as the transfer, and what came before lacks its end.
+                let _ = ftdi::set(transport, &[Setting::PurgeReceived]);
+                frames.clear();
+                newest = None;
             }
         }
         if last.elapsed() > DEVICE_SILENT {

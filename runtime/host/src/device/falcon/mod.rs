@@ -31,6 +31,7 @@ mod slot;
 pub mod transport;
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use firmware::FirmwareError;
 use frame::Command;
@@ -39,7 +40,7 @@ use homing::Homing;
 use link::{Link, LinkCounts};
 pub use open::{OpenError, Opened, Opener};
 use settings::Settings;
-use transport::Transport;
+use transport::{Direction, Transport};
 
 use super::{Description, Device, Fault, Reading};
 
@@ -57,7 +58,7 @@ pub struct Falcon {
     /// Sequence of the answer that was read last.
     seen: u8,
     last: Option<(Reading, [f64; 3])>,
-    encoders: Option<[i16; 3]>,
+    encoders: Option<([i16; 3], Instant)>,
     /// Readings in a row that brought nothing new.
     stale: u32,
     counts_before: LinkCounts,
@@ -155,8 +156,9 @@ impl Device for Falcon {
             self.encoders = None;
             return Err(Fault::NotCalibrated);
         }
-        let before = self.encoders.replace(answer.encoders);
-        if before.is_some_and(|before| jumps(before, answer.encoders)) {
+        let now = Instant::now();
+        let before = self.encoders.replace((answer.encoders, now));
+        if before.is_some_and(|(before, at)| jumps(before, answer.encoders, now - at)) {
             return Err(Fault::Garbled);
         }
         let angles = answer.encoders.map(geometry::angle);
@@ -211,7 +213,7 @@ impl Device for Falcon {
         // Answers come only to commands.
         for _ in 0..50 {
             self.command([0; 3])?;
-            std::thread::sleep(std::time::Duration::from_millis(2));
+            std::thread::sleep(Duration::from_millis(2));
             match self.read() {
                 Ok(_) => return Ok(()),
                 Err(Fault::NotCalibrated | Fault::TimedOut) => {}
@@ -230,14 +232,20 @@ impl Device for Falcon {
 /// the grip was.
 const STALE: u32 = 20;
 
-/// Counts that no thigh turns between two answers that follow each other: some 20 mm.
-const JUMP: i32 = 512;
+/// Counts that no thigh turns between two answers that follow each other at once, in a millisecond
+/// more, and at all: some 4, 2.5 and 20 mm. A frame torn in the middle of a number is off by a
+/// multiple of 16, 256 or 4096 counts; 16 are 0.6 mm, and the others are refused.
+const JUMP: f32 = 96.0;
+const JUMP_PER_MS: f32 = 64.0;
+const LARGEST_JUMP: f32 = 512.0;
 
 /// Whether two answers cannot follow each other. The protocol has no sum, so a frame whose middle
 /// was lost looks like one. It is refused once; the next answer is compared with it.
-fn jumps(before: [i16; 3], after: [i16; 3]) -> bool {
+fn jumps(before: [i16; 3], after: [i16; 3], between: Duration) -> bool {
+    let limit = JUMP + JUMP_PER_MS * between.as_secs_f32() * 1e3;
+    let limit = limit.min(LARGEST_JUMP) as i32;
     let mut pairs = before.into_iter().zip(after);
-    pairs.any(|(before, after)| (i32::from(after) - i32::from(before)).abs() > JUMP)
+    pairs.any(|(before, after)| (i32::from(after) - i32::from(before)).abs() > limit)
 }
 
 /// Opens the device and has its firmware run.
@@ -252,7 +260,11 @@ fn start(
 }
 
 fn make_run(transport: &Arc<dyn Transport>, settings: &Settings) -> Result<(), OpenError> {
-    let running = ftdi::set(&**transport, &ftdi::RUNNING)
+    // A stall stays with the endpoint, whoever had the device open when it came.
+    let running = transport
+        .clear_stall(Direction::In)
+        .and_then(|()| transport.clear_stall(Direction::Out))
+        .and_then(|()| ftdi::set(&**transport, &ftdi::RUNNING))
         .and_then(|()| firmware::answers(&**transport))
         .map_err(FirmwareError::from)?;
     if running.is_some() {
