@@ -24,7 +24,8 @@ pub struct Console {
 }
 
 impl Console {
-    /// A console that shows progress on a terminal unless it is quiet.
+    /// A console that shows progress on a terminal, and reports what was written, unless it is
+    /// quiet.
     #[must_use]
     pub fn new(quiet: bool) -> Self {
         Self {
@@ -49,6 +50,18 @@ impl Console {
     /// no failure.
     pub fn text(&self, text: &str) -> Result<(), OutputError> {
         self.print(&plain(text))
+    }
+
+    /// Writes what a command did, such as how large a file became: a quiet console does not. What
+    /// was asked for is [`text`](Self::text).
+    ///
+    /// # Errors
+    /// As [`text`](Self::text).
+    pub fn report(&self, text: &str) -> Result<(), OutputError> {
+        if self.quiet {
+            return Ok(());
+        }
+        self.text(text)
     }
 
     /// Writes a result for programs as it is, and a line break.

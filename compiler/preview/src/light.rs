@@ -41,6 +41,11 @@ pub(crate) fn shade(surface: &Surface) -> Vec<[u8; 3]> {
         let length = (x * x + y * y + z * z).sqrt();
         [x / length, y / length, z / length]
     };
+    let exponent = |gloss: f32| 6.0 + 70.0 * gloss;
+    let flat = |gloss: f32| libm::powf(middle[2], exponent(gloss));
+    // Most materials are equally glossy all over.
+    let usual = surface.texels.first().map_or(0.0, |texel| texel.gloss);
+    let usual_flat = flat(usual);
     let texels = surface.texels.par_iter().with_min_len(RUN);
     texels
         .zip(slopes)
@@ -53,9 +58,12 @@ pub(crate) fn shade(surface: &Surface) -> Vec<[u8; 3]> {
             let light = (AMBIENT + (1.0 - AMBIENT) * facing) * hollow;
             let mut color = lit(texel.color, light);
             let shine = if texel.gloss > 0.0 {
-                let exponent = 6.0 + 70.0 * texel.gloss;
-                let flat = libm::powf(middle[2], exponent);
-                let mirrored = libm::powf(along(middle).max(0.0), exponent);
+                let flat = if texel.gloss == usual {
+                    usual_flat
+                } else {
+                    flat(texel.gloss)
+                };
+                let mirrored = libm::powf(along(middle).max(0.0), exponent(texel.gloss));
                 texel.gloss * (mirrored - flat)
             } else {
                 0.0

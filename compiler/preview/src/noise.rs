@@ -3,6 +3,8 @@
 //! A place is (u, v) in patches. A lattice has a whole number of cells a patch, so its noise is
 //! the same at u and u + 1. Only + − × ÷ √ are used: the same bits on every machine.
 
+use std::cell::Cell as Remembered;
+
 /// A well-mixed number of a cell of a lattice.
 #[must_use]
 pub(crate) fn hash(x: i32, y: i32, seed: u32) -> u32 {
@@ -69,29 +71,87 @@ pub(crate) fn wave(turns: f32) -> f32 {
     libm::sinf(core::f32::consts::TAU * fract(turns))
 }
 
+/// Cells that a thread remembers of each kind of noise; a pattern asks for some twenty at a pixel.
+const SLOTS: usize = 256;
+
+/// A lattice's numbers of cells and seed, and one of its cells, not wrapped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Key {
+    cell: (i32, i32),
+    cells: (i32, i32),
+    seed: u32,
+}
+
+impl Key {
+    /// No lattice has 0 cells.
+    const NONE: Self = Self {
+        cell: (0, 0),
+        cells: (0, 0),
+        seed: 0,
+    };
+
+    /// Where the cell is remembered.
+    fn slot(self) -> usize {
+        let cell = (self.cell.0 as u32).wrapping_add((self.cell.1 as u32) << 12);
+        let lattice = self.seed.wrapping_mul(0x85EB_CA77) ^ ((self.cells.0 as u32) << 21);
+        (cell ^ lattice).wrapping_mul(0x9E37_79B1) as usize >> (32 - SLOTS.ilog2())
+    }
+}
+
+/// Slopes at the four corners of a cell: upper left, upper right, lower left, lower right.
+type Slopes = [(f32, f32); 4];
+
+thread_local! {
+    // Neighbouring pixels mostly lie in one cell, so that few hashes are computed. What is
+    // remembered is what would be computed: the same bits, whoever drew before.
+    static SLOPES: [Remembered<(Key, Slopes)>; SLOTS] =
+        const { [const { Remembered::new((Key::NONE, [(0.0, 0.0); 4])) }; SLOTS] };
+    static POINTS: [Remembered<(Key, f32, Points)>; SLOTS] =
+        const { [const { Remembered::new((Key::NONE, 0.0, [(0, 0.0, 0.0); 9])) }; SLOTS] };
+}
+
+/// The slopes of a cell's corners.
+fn slopes(key: Key) -> Slopes {
+    let ((x0, y0), (nx, ny)) = (key.cell, key.cells);
+    let (xa, xb) = (wrapped(x0, nx), wrapped(x0 + 1, nx));
+    let (ya, yb) = (wrapped(y0, ny), wrapped(y0 + 1, ny));
+    let slope = |x: i32, y: i32| {
+        let h = hash(x, y, key.seed);
+        // Slopes on a square rather than a circle: no sine, and nobody sees it.
+        (
+            (h & 0xFFFF) as f32 * (2.0 / 65535.0) - 1.0,
+            (h >> 16) as f32 * (2.0 / 65535.0) - 1.0,
+        )
+    };
+    [slope(xa, ya), slope(xb, ya), slope(xa, yb), slope(xb, yb)]
+}
+
 /// Gradient noise of `nx` × `ny` cells a patch, about −1..1.
 #[must_use]
 pub(crate) fn gradient(u: f32, v: f32, nx: i32, ny: i32, seed: u32) -> f32 {
     let (x, y) = (u * nx as f32, v * ny as f32);
     let (x0, y0) = (floor(x), floor(y));
-    let (fx, fy) = (x - x0 as f32, y - y0 as f32);
-    let (xa, xb) = (wrapped(x0, nx), wrapped(x0 + 1, nx));
-    let (ya, yb) = (wrapped(y0, ny), wrapped(y0 + 1, ny));
-    let corner = |ix: i32, iy: i32, dx: f32, dy: f32| {
-        let h = hash(ix, iy, seed);
-        // Slopes on a square rather than a circle: no sine, and nobody sees it.
-        let gx = (h & 0xFFFF) as f32 * (2.0 / 65535.0) - 1.0;
-        let gy = (h >> 16) as f32 * (2.0 / 65535.0) - 1.0;
-        gx * dx + gy * dy
+    let key = Key {
+        cell: (x0, y0),
+        cells: (nx, ny),
+        seed,
     };
+    let [a, b, c, d] = SLOPES.with(|all| {
+        let slot = &all[key.slot()];
+        let (known, slopes_there) = slot.get();
+        if known == key {
+            return slopes_there;
+        }
+        let found = slopes(key);
+        slot.set((key, found));
+        found
+    });
+    let (fx, fy) = (x - x0 as f32, y - y0 as f32);
+    let corner = |(gx, gy): (f32, f32), dx: f32, dy: f32| gx * dx + gy * dy;
     let fade = |t: f32| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
     let (sx, sy) = (fade(fx), fade(fy));
-    let top = lerp(corner(xa, ya, fx, fy), corner(xb, ya, fx - 1.0, fy), sx);
-    let bottom = lerp(
-        corner(xa, yb, fx, fy - 1.0),
-        corner(xb, yb, fx - 1.0, fy - 1.0),
-        sx,
-    );
+    let top = lerp(corner(a, fx, fy), corner(b, fx - 1.0, fy), sx);
+    let bottom = lerp(corner(c, fx, fy - 1.0), corner(d, fx - 1.0, fy - 1.0), sx);
     1.6 * lerp(top, bottom, sy)
 }
 
@@ -127,32 +187,59 @@ pub(crate) struct Cell {
     pub(crate) way: (f32, f32),
 }
 
+/// Hashes and places of the points in and around a cell, row by row; places in cells.
+type Points = [(u32, f32, f32); 9];
+
+/// The points in and around a cell.
+fn points(key: Key, jitter: f32) -> Points {
+    let ((x0, y0), (nx, ny)) = (key.cell, key.cells);
+    let mut points = [(0, 0.0, 0.0); 9];
+    for (k, point) in (0..).zip(&mut points) {
+        let (x, y) = (x0 + k % 3 - 1, y0 + k / 3 - 1);
+        let h = hash(wrapped(x, nx), wrapped(y, ny), key.seed);
+        *point = (
+            h,
+            x as f32 + 0.5 + jitter * ((h & 0xFFFF) as f32 / 65535.0 - 0.5),
+            y as f32 + 0.5 + jitter * ((h >> 16) as f32 / 65535.0 - 0.5),
+        );
+    }
+    points
+}
+
 /// The cell of a place among points strewn over `nx` × `ny` cells; `jitter` 0 leaves the points
 /// in the middle of their cells, 1 strews them all over.
 #[must_use]
 pub(crate) fn cell(u: f32, v: f32, nx: i32, ny: i32, jitter: f32, seed: u32) -> Cell {
     let (x, y) = (u * nx as f32, v * ny as f32);
-    let (x0, y0) = (floor(x), floor(y));
+    let key = Key {
+        cell: (floor(x), floor(y)),
+        cells: (nx, ny),
+        seed,
+    };
+    let points = POINTS.with(|all| {
+        let slot = &all[key.slot()];
+        let (known, known_jitter, points_there) = slot.get();
+        if known == key && known_jitter == jitter {
+            return points_there;
+        }
+        let found = points(key, jitter);
+        slot.set((key, jitter, found));
+        found
+    });
     let (mut best, mut next) = (f32::MAX, f32::MAX);
     let (mut way, mut other, mut id) = ((0.0, 0.0), (0.0, 0.0), 0);
-    for j in -1..=1 {
-        let row = wrapped(y0 + j, ny);
-        for i in -1..=1 {
-            let h = hash(wrapped(x0 + i, nx), row, seed);
-            let px = (x0 + i) as f32 + 0.5 + jitter * ((h & 0xFFFF) as f32 / 65535.0 - 0.5);
-            let py = (y0 + j) as f32 + 0.5 + jitter * ((h >> 16) as f32 / 65535.0 - 0.5);
-            let (dx, dy) = (x - px, y - py);
-            let d = dx * dx + dy * dy;
-            if d < best {
-                next = best;
-                other = way;
-                best = d;
-                way = (dx, dy);
-                id = h;
-            } else if d < next {
-                next = d;
-                other = (dx, dy);
-            }
+    for (h, px, py) in points {
+        let (dx, dy) = (x - px, y - py);
+        let d = dx * dx + dy * dy;
+        if d < best {
+            next = best;
+            other = way;
+            best = d;
+            way = (dx, dy);
+            id = h;
+        } else if d < next {
+            next = d;
+            other = (dx, dy);
         }
     }
     let (px, py) = (way.0 - other.0, way.1 - other.1);

@@ -245,6 +245,10 @@ pub(super) fn chips(look: &Look, size: usize) -> Surface {
         let seed = chance.id();
         surface.stamp(place, along.max(across) * 1.1, |dx, dy| {
             let (a, b) = ((dx * c + dy * s) / along, (dy * c - dx * s) / across);
+            // Most of the square lies outside, where no sine is needed.
+            if a.abs() > 1.1 || b.abs() >= 1.0 {
+                return None;
+            }
             let ragged = 0.12 * wave(3.1 * b + unit(seed)) + 0.06 * wave(7.3 * b);
             (a.abs() < 0.9 + ragged && b.abs() < 1.0).then(|| Texel {
                 height: level + tilt * across * b,

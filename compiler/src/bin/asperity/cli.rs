@@ -41,7 +41,8 @@ Exit status: 0 success, 1 failure, 2 wrong usage."
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
-    /// Show no progress; results and warnings are printed all the same
+    /// Show no progress and no report of what was written; what was asked for, --json and warnings
+    /// are printed all the same
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
 }

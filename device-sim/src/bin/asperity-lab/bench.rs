@@ -190,7 +190,7 @@ fn write(
         texture.name,
         performance.impacts.len()
     );
-    console.text(&text).map_err(one)
+    console.report(&text).map_err(one)
 }
 
 /// The textures that are touched.

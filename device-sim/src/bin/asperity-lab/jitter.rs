@@ -369,7 +369,7 @@ fn merge(logs: &[PathBuf], output: &Path, console: Console) -> Result<(), Failur
     outputs.commit().map_err(one)?;
     let ticks = merged.facts.ticks;
     console
-        .text(&format!(
+        .report(&format!(
             "{}: {} runs, {ticks} ticks\n",
             display(output),
             logs.len()

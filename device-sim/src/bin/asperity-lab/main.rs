@@ -35,7 +35,8 @@ use error::Plain;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
-    /// Show no progress; results and warnings are printed all the same
+    /// Show no progress and no report of what was written; what was asked for, --json and warnings
+    /// are printed all the same
     #[arg(long, short, global = true)]
     quiet: bool,
 }

@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Build, text: &str, console: Console) -> Result<(), Fail
         // Without an output, --check was given.
         let (file, count) = (args.scene.display(), description.textures.len());
         let report = format!("{file}: a scene of {count} textures, no fault\n");
-        return console.text(&report).map_err(one);
+        return console.report(&report).map_err(one);
     };
     let mut inputs = vec![args.scene.clone()];
     inputs.extend(description.sources.iter().cloned());
@@ -94,7 +94,7 @@ pub(crate) fn run(args: &Build, text: &str, console: Console) -> Result<(), Fail
         json["warnings"] = warnings.into();
         console.json(&json.to_string())
     } else {
-        console.text(&format!("{}\n{}", display(output), built.report))
+        console.report(&format!("{}\n{}", display(output), built.report))
     };
     printed.map_err(one)?;
     timings::print(args.timings, &pipeline, console);

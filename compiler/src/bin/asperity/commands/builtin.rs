@@ -27,7 +27,7 @@ pub(crate) fn run(args: &Builtin, console: Console) -> Result<(), Failures> {
         lowered.bytes.len(),
         lowered.lsf_error.rms_db
     );
-    console.text(&report).map_err(one)?;
+    console.report(&report).map_err(one)?;
     timings::print(args.timings, &pipeline, console);
     Ok(())
 }

@@ -70,13 +70,12 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         }
         console.json(&json)
     } else {
-        let words = explanation.map_or_else(String::new, |explanation| explanation.text());
+        let words = explanation
+            .as_ref()
+            .map_or_else(String::new, |found| found.text());
         let preview = painted.map_or_else(String::new, |note| format!("  preview      {note}\n"));
-        console.text(&format!(
-            "{}\n{}{preview}{words}",
-            display(&args.output),
-            authored.text()
-        ))
+        let report = format!("{}\n{}{preview}", display(&args.output), authored.text());
+        console.report(&report).and_then(|()| console.text(&words))
     };
     printed.map_err(one)?;
     timings::print(args.timings, &pipeline, console);

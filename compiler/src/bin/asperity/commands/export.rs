@@ -71,7 +71,7 @@ fn source(args: &Export, language: Language, console: Console) -> Result<(), Fai
         }))
     } else {
         let to = display(&args.output);
-        console.text(&format!(
+        console.report(&format!(
             "{to}: {} bytes of {name} as {}\n",
             bytes.len(),
             args.to
@@ -111,7 +111,7 @@ fn clips(args: &Export, format: ClipFormat, console: Console) -> Result<(), Fail
         json["output"] = display(&args.output).to_string().into();
         console.json(&json)
     } else {
-        console.text(&report(&display(&args.output).to_string(), &exported))
+        console.report(&report(&display(&args.output).to_string(), &exported))
     };
     printed.map_err(one)
 }
@@ -168,7 +168,7 @@ fn folder(
         for ((_, exported), (file, _)) in all() {
             text += &report(file, exported);
         }
-        console.text(&text)
+        console.report(&text)
     };
     printed.map_err(one)
 }

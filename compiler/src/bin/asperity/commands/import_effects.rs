@@ -34,7 +34,7 @@ pub(crate) fn run(args: &ImportEffects, kind: Kind, console: Console) -> Result<
         json["warnings"] = warnings.into();
         console.json(&json)
     } else {
-        console.text(&format!("{}\n", imported.report))
+        console.report(&format!("{}\n", imported.report))
     };
     printed.map_err(one)?;
     timings::print(args.timings, &pipeline, console);

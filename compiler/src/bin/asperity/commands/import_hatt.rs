@@ -167,7 +167,7 @@ pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
         pipeline.merge(&material.timings);
     }
     target.write(&imported, &inputs, &mut pipeline)?;
-    console.text(&figures(&imported)).map_err(one)?;
+    console.report(&figures(&imported)).map_err(one)?;
     timings::print(args.timings, &pipeline, console);
     Ok(())
 }

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &ImportModel, console: Console) -> Result<(), Failures> 
     let printed = if args.json {
         console.json(&imported.json())
     } else {
-        console.text(&format!("{}\n", imported.report))
+        console.report(&format!("{}\n", imported.report))
     };
     printed.map_err(one)?;
     timings::print(args.timings, &pipeline, console);

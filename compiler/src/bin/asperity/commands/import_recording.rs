@@ -51,7 +51,7 @@ pub(crate) fn run(args: &ImportRecording, console: Console) -> Result<(), Failur
     let printed = if args.json {
         console.json(&recording::json(&imported))
     } else {
-        console.text(&format!("{imported}\n"))
+        console.report(&format!("{imported}\n"))
     };
     printed.map_err(one)?;
     if args.timings {

@@ -24,7 +24,7 @@ pub(crate) fn run(args: &Listen, console: Console) -> Result<(), Failures> {
     outputs.fill(sound, &heard.wav).map_err(one)?;
     outputs.commit().map_err(one)?;
     console.warnings(&heard.warnings, false);
-    console.text(&report(&args.output, &heard)).map_err(one)
+    console.report(&report(&args.output, &heard)).map_err(one)
 }
 
 fn report(path: &Path, heard: &Heard) -> String {

@@ -86,6 +86,6 @@ pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
     };
     outputs.commit().map_err(one)?;
     console
-        .text(&format!("{}: {report}\n", display(&args.output)))
+        .report(&format!("{}: {report}\n", display(&args.output)))
         .map_err(one)
 }

@@ -67,5 +67,5 @@ pub(crate) fn run(args: &Render, console: Console) -> Result<(), Failures> {
         report.taps,
         report.peak_force_n
     );
-    console.text(&report).map_err(one)
+    console.report(&report).map_err(one)
 }

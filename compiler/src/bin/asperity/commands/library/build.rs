@@ -118,7 +118,7 @@ pub(crate) fn run(args: &Arguments, text: &str, console: Console) -> Result<(), 
         json["warnings"] = warnings.into();
         console.json(&json)
     } else {
-        console.text(&format!("{}: {}", display(output), built.report))
+        console.report(&format!("{}: {}", display(output), built.report))
     };
     printed.map_err(one)?;
     timings::print(args.timings, &pipeline, console);
@@ -139,7 +139,7 @@ fn checked(args: &Arguments, manifest: &Manifest, console: Console) -> Result<()
         console.json(&json!({ "textures": count, "files": manifest.sources.len() }))
     } else {
         let file = args.scene.display();
-        console.text(&format!("{file}: {count} textures, no fault\n"))
+        console.report(&format!("{file}: {count} textures, no fault\n"))
     };
     printed.map_err(one)
 }

@@ -28,5 +28,5 @@ pub(crate) fn run(args: &Extract, console: Console) -> Result<(), Failures> {
     outputs.fill(output, &bytes).map_err(one)?;
     outputs.commit().map_err(one)?;
     let report = format!("{}: {} bytes\n", display(&args.output), bytes.len());
-    console.text(&report).map_err(one)
+    console.report(&report).map_err(one)
 }

@@ -25,5 +25,5 @@ pub(crate) fn run(args: &Merge, console: Console) -> Result<(), Failures> {
     outputs.commit().map_err(one)?;
     let (to, count) = (display(&args.output), parts.len());
     let report = format!("{to}: {count} libraries joined, {} bytes\n", bytes.len());
-    console.text(&report).map_err(one)
+    console.report(&report).map_err(one)
 }

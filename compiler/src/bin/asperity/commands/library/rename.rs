@@ -52,5 +52,5 @@ pub(crate) fn run(args: &Rename, console: Console) -> Result<(), Failures> {
     outputs.fill(output, &bytes).map_err(one)?;
     outputs.commit().map_err(one)?;
     let report = format!("{}: {before:?} is {name:?}\n", display(&args.output));
-    console.text(&report).map_err(one)
+    console.report(&report).map_err(one)
 }

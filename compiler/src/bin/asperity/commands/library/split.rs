@@ -22,7 +22,7 @@ pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
         .collect();
     write_folder_beside(std::slice::from_ref(&args.file), &args.output, &listed).map_err(one)?;
     let report = format!("{}: {} files\n", display(&args.output), files.len());
-    console.text(&report).map_err(one)
+    console.report(&report).map_err(one)
 }
 
 /// One asset a texture, under the name that the index gives it.

@@ -108,7 +108,7 @@ impl<'a> Mixing<'a> {
             for (what, value) in lines.iter().chain(&own) {
                 text += &format!("  {what:<12} {value}\n");
             }
-            self.console.text(&text)
+            self.console.report(&text)
         };
         printed.map_err(one)?;
         timings::print(self.args.timings, &pipeline, self.console);
