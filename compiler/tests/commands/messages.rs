@@ -288,3 +288,37 @@ fn every_command_takes_quiet() {
     let quiet = asperity(inputs.path(), &["inspect", "good.asp", "--quiet"]);
     assert_eq!(text(&quiet.stdout), text(&loud.stdout));
 }
+
+#[test]
+fn a_quiet_command_that_writes_files_prints_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect(name);
+    write("stroke.csv", &stroke());
+    write("names.csv", "name,prompt\nfelt,felt\ncork,cork\n");
+    let commands = [
+        "builtin -o builtin.asp",
+        "compile felt -o felt.asp --preview-size 64",
+        "compile cork -o cork.asp --no-preview",
+        "preview felt.asp -o felt.png",
+        "listen felt.asp -o felt.wav",
+        "plot felt.asp -o sheet.png",
+        "render felt.asp --trajectory stroke.csv -o felt.csv",
+        "export felt.asp --to csv -o stroke-of-felt.csv",
+        "export felt.asp --to c-array -o felt.h",
+        "edit felt.asp --rougher 10 -o rough.asp",
+        "blend felt.asp cork.asp -t 0.5 -o half.asp",
+        "compose --tap felt.asp --slide cork.asp -o both.asp",
+        "build names.csv --check",
+        "build names.csv -o names.aspl",
+        "rename names.aspl cork bark -o bark.aspl",
+        "extract names.aspl felt -o taken.asp",
+        "split names.aspl -o parts",
+    ];
+    for command in commands {
+        let arguments: Vec<&str> = command.split(' ').chain(["--quiet"]).collect();
+        let output = asperity(folder.path(), &arguments);
+        let printed = (text(&output.stdout), text(&output.stderr));
+        assert!(output.status.success(), "{command}: {printed:?}");
+        assert_eq!(printed, Default::default(), "{command}");
+    }
+}

@@ -234,7 +234,8 @@ const STALE: u32 = 20;
 
 /// Counts that no thigh turns between two answers that follow each other at once, in a millisecond
 /// more, and at all: some 4, 2.5 and 20 mm. A frame torn in the middle of a number is off by a
-/// multiple of 16, 256 or 4096 counts; 16 are 0.6 mm, and the others are refused.
+/// multiple of 16, 256 or 4096 counts: 16 are 0.6 mm, and 256 are refused where answers come within
+/// 2.5 ms.
 const JUMP: f32 = 96.0;
 const JUMP_PER_MS: f32 = 64.0;
 const LARGEST_JUMP: f32 = 512.0;
@@ -273,4 +274,29 @@ fn make_run(transport: &Arc<dyn Transport>, settings: &Settings) -> Result<(), O
     let bytes = settings.firmware_bytes()?.ok_or(OpenError::NoFirmware)?;
     firmware::load(&**transport, &bytes, settings.tries)?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn torn_numbers_are_refused_and_fast_hands_are_not() {
+        let after = |counts: i16, ms: f32| {
+            let between = Duration::from_secs_f32(1e-3 * ms);
+            jumps([7, -300, 0], [7, -300 + counts, 0], between)
+        };
+        for ms in [0.0, 0.3, 1.0, 2.0] {
+            assert!(
+                after(256, ms) && after(-256, ms) && after(4096, ms),
+                "{ms} ms"
+            );
+        }
+        assert!(after(4096, 1000.0));
+        for ms in [0.3_f32, 1.0, 3.0, 5.0] {
+            // 2 m/s, at 26 counts a millimetre.
+            let counts = (2.0 * 26.0 * ms) as i16;
+            assert!(!after(counts, ms) && !after(-counts, ms), "{ms} ms");
+        }
+    }
 }
