@@ -2,7 +2,7 @@
 
 use crate::{
     coding,
-    config::Config,
+    config::{Config, Excitation},
     feel::{Feel, Felt},
     material::MaterialLatent,
     memory::TextMemory,
@@ -153,10 +153,17 @@ impl Trained {
             taps_m_s2: [[0.0; TAP_SAMPLES]; TAPS],
         };
         let (low, high) = self.normaliser.level_bounds_db;
+        let (least, most) = self.normaliser.excitation_bounds;
         for (bin, lsf_rad) in lsf_rad.chunks(ORDER).enumerate() {
             instance.lsf_rad[bin].copy_from_slice(lsf_rad);
             let coding = self.normaliser.coding.excitation;
-            let level_db = coding::decode(coding, lsf_rad, excitation[bin]);
+            let code = match coding {
+                // Rounding may reach a variance of zero, and LSFs pressed together an infinite
+                // gain: their product would be no number.
+                Excitation::Variance => excitation[bin].clamp(least, most),
+                Excitation::Level | Excitation::LogSigma => excitation[bin],
+            };
+            let level_db = coding::decode(coding, lsf_rad, code);
             instance.level_db[bin] = level_db.clamp(low, high);
         }
         for (trace, samples) in instance.taps_m_s2.iter_mut().zip(taps.chunks(TAP_SAMPLES)) {

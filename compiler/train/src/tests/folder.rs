@@ -5,11 +5,12 @@ use crate::{
     Captions, Checkpoints, Config, EpochLoss, FitError, ModelFiles, Progress, Silent, Trained,
     config::Excitation,
     export, fit_on, fit_with_checkpoints, measure,
+    rng::{Purpose, Stream},
     synthetic::{self, WordBag},
 };
 use asperity::{
     inference::Backend,
-    learned::{Files, LearnedModel},
+    learned::{Files, LearnedModel, description::LATENT},
 };
 use asperity_corpus::Corpus;
 
@@ -77,6 +78,41 @@ fn the_compiler_loads_what_is_written_and_decodes_the_same() {
             assert!((x - y).abs() < 1e-2, "{x} {y}");
         }
     }
+}
+
+#[test]
+fn a_model_of_few_epochs_and_a_wide_range_of_variances_is_written() {
+    let (mut corpus, captions) = data();
+    // Smallest and largest variance lie further apart than the digits of an f32 reach.
+    for (material, by_db) in corpus.materials.iter_mut().zip([-60.0, 40.0]) {
+        for instance in material
+            .instances
+            .iter_mut()
+            .chain([&mut material.prototype])
+        {
+            instance.level_db.iter_mut().for_each(|x| *x += by_db);
+        }
+    }
+    let mut config = short();
+    config.optimiser.epochs = 1;
+    config.coding.excitation = Excitation::Variance;
+    let trained = fit_on(&corpus, &MATERIALS, &captions, &config, &mut Silent).unwrap();
+    let (low, high) = trained.normaliser().level_bounds_db;
+    let mut stream = Stream::new(5, Purpose::Epoch, 0);
+    for scale in [1.0, 30.0, 1e3, 1e4] {
+        let latents: Vec<[f32; LATENT]> = (0..20)
+            .map(|_| std::array::from_fn(|_| scale * stream.normal()))
+            .collect();
+        for instance in trained.decode(&latents) {
+            let bounded = |x: &f32| (low..=high).contains(x);
+            assert!(
+                instance.level_db.iter().all(bounded),
+                "{scale}: {:?}",
+                instance.level_db
+            );
+        }
+    }
+    exported_of(&trained, &corpus, &captions);
 }
 
 #[test]
