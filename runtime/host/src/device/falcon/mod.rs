@@ -243,8 +243,12 @@ const LARGEST_JUMP: f32 = 512.0;
 /// Whether two answers cannot follow each other. The protocol has no sum, so a frame whose middle
 /// was lost looks like one. It is refused once; the next answer is compared with it.
 fn jumps(before: [i16; 3], after: [i16; 3], between: Duration) -> bool {
-    let limit = JUMP + JUMP_PER_MS * between.as_secs_f32() * 1e3;
-    let limit = limit.min(LARGEST_JUMP) as i32;
+    let moved = JUMP + JUMP_PER_MS * between.as_secs_f32() * 1e3;
+    let limit = if moved < LARGEST_JUMP {
+        moved as i32
+    } else {
+        LARGEST_JUMP as i32
+    };
     let mut pairs = before.into_iter().zip(after);
     pairs.any(|(before, after)| (i32::from(after) - i32::from(before)).abs() > limit)
 }
