@@ -265,6 +265,18 @@ fn an_unplugged_device_is_told_at_once_and_taken_up_again() {
 }
 
 #[test]
+fn an_endpoint_that_stalled_while_it_was_opened_does_not_keep_it_away() {
+    let stalls = Rates {
+        of: [1.0, 0.0, 0.0, 0.0],
+        away_s: 0.0,
+    };
+    let socket = Socket::new(Port::with_faults(Virtual::running(), stalls, 1));
+    assert!(open(&socket, Settings::default()).is_err());
+    socket.port().set_rates(Rates::default());
+    open(&socket, Settings::default()).expect("a Falcon");
+}
+
+#[test]
 fn a_device_that_lost_its_power_is_loaded_and_homed_again() {
     let firmware = file(&image::image(4000));
     let device = Virtual::new(Quirks::default()).paced_by_commands(1e-3);
@@ -330,9 +342,9 @@ fn whatever_the_bus_loses_no_force_and_no_step_is_beyond_its_limit() {
     );
     assert!(fresh > 200 && faults > 0, "{all}");
     // A force of (3, −3, 3) N has 5.2 N. It is made for where the grip was at the newest answer that
-    // came through; where it is by then, the same torques may push a little harder.
+    // came through; where it is by then, the same torques push a little harder.
     assert!(felt.largest_meant_n < 5.2 * 1.01, "{all}");
-    assert!(felt.largest_force_n < 8.9 * 1.03, "{all}");
+    assert!(felt.largest_force_n < 5.2 * 1.05, "{all}");
     assert!(
         felt.largest_step <= 1536 && felt.unhomed_forces == 0,
         "{all}"

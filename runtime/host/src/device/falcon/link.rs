@@ -6,7 +6,8 @@
 //! receives, that would be the period. With two the period is that of the commands.
 //!
 //! Safety lies here as well. No command steps a motor by more than a limit from what was last sent,
-//! whatever was lost in between. If the servo thread falls silent, the motors go to zero by such
+//! whatever was lost in between. No answer counts that waited behind a transfer which failed: it
+//! tells where the grip was. If the servo thread falls silent, the motors go to zero by such
 //! steps.
 
 use std::sync::Arc;
