@@ -30,12 +30,9 @@ pub(crate) struct Surface {
 impl Surface {
     /// A surface that says for each place (u, v) in 0..1 what is there.
     pub(crate) fn of(size: usize, at: impl Fn(f32, f32) -> Texel + Sync) -> Self {
-        let place = |pixel: usize| (pixel as f32 + 0.5) / size as f32;
-        let texel = |k: usize| at(place(k % size), place(k / size));
-        let texels = (0..size * size).into_par_iter().with_min_len(RUN);
         Self {
             size,
-            texels: texels.map(texel).collect(),
+            texels: field(size, at),
         }
     }
 
@@ -43,25 +40,39 @@ impl Surface {
     /// middle in patches and says what is there, if anything. What is higher hides what is lower.
     pub(crate) fn stamp(
         &mut self,
-        (u, v): (f32, f32),
+        place: (f32, f32),
         radius: f32,
         shape: impl Fn(f32, f32) -> Option<Texel>,
     ) {
-        let n = self.size as f32;
-        let first = |c: f32| crate::noise::floor((c - radius) * n);
-        let last = |c: f32| crate::noise::floor((c + radius) * n) + 1;
-        let size = self.size as i32;
-        for y in first(v)..=last(v) {
-            let row = y.rem_euclid(size) as usize * self.size;
-            let dy = (y as f32 + 0.5) / n - v;
-            for x in first(u)..=last(u) {
-                let dx = (x as f32 + 0.5) / n - u;
-                let old = &mut self.texels[row + x.rem_euclid(size) as usize];
-                if let Some(new) = shape(dx, dy).filter(|new| new.height >= old.height) {
-                    *old = new;
-                }
+        let mut whole = Band {
+            size: self.size,
+            first: 0,
+            texels: &mut self.texels,
+        };
+        whole.stamp(place, radius, shape);
+    }
+
+    /// Puts each thing on the surface, in their order. Bands of rows are drawn at the same time, so
+    /// `stamp` meets each thing once a band.
+    pub(crate) fn stamp_each<T: Sync>(
+        &mut self,
+        things: &[T],
+        stamp: impl Fn(&mut Band<'_>, &T) + Sync,
+    ) {
+        let size = self.size;
+        let rows = RUN.div_ceil(size);
+        let bands = self.texels.par_chunks_mut(rows * size).enumerate();
+        bands.for_each(|(k, texels)| {
+            let first = k * rows;
+            let mut band = Band {
+                size,
+                first,
+                texels,
+            };
+            for thing in things {
+                stamp(&mut band, thing);
             }
-        }
+        });
     }
 
     /// Draws a thread through the points: round, `width` patches wide, `lift` patches high over
@@ -91,6 +102,55 @@ impl Surface {
                         glow: 0.0,
                     })
                 });
+            }
+        }
+    }
+}
+
+/// What is at the middle of each pixel, row by row; places (u, v) are in 0..1.
+pub(crate) fn field<T: Send>(size: usize, at: impl Fn(f32, f32) -> T + Sync) -> Vec<T> {
+    let place = |pixel: usize| (pixel as f32 + 0.5) / size as f32;
+    let pixels = (0..size * size).into_par_iter().with_min_len(RUN);
+    pixels
+        .map(|k| at(place(k % size), place(k / size)))
+        .collect()
+}
+
+/// Some rows of a surface, one below the other.
+pub(crate) struct Band<'a> {
+    /// Width and height of the whole surface, pixels.
+    size: usize,
+    /// Its first row.
+    first: usize,
+    texels: &'a mut [Texel],
+}
+
+impl Band<'_> {
+    /// As [`Surface::stamp`], on these rows only.
+    pub(crate) fn stamp(
+        &mut self,
+        (u, v): (f32, f32),
+        radius: f32,
+        shape: impl Fn(f32, f32) -> Option<Texel>,
+    ) {
+        let n = self.size as f32;
+        let first = |c: f32| crate::noise::floor((c - radius) * n);
+        let last = |c: f32| crate::noise::floor((c + radius) * n) + 1;
+        let size = self.size as i32;
+        let rows = self.texels.len() / self.size;
+        for y in first(v)..=last(v) {
+            let row = (y.rem_euclid(size) as usize).wrapping_sub(self.first);
+            if row >= rows {
+                continue;
+            }
+            let row = row * self.size;
+            let dy = (y as f32 + 0.5) / n - v;
+            for x in first(u)..=last(u) {
+                let dx = (x as f32 + 0.5) / n - u;
+                let old = &mut self.texels[row + x.rem_euclid(size) as usize];
+                if let Some(new) = shape(dx, dy).filter(|new| new.height >= old.height) {
+                    *old = new;
+                }
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::{
     color::{lit, mix},
     look::Look,
     noise::{cell, dome, floor, fract, gradient, hash, lerp, nth, octaves, step, unit, wave},
-    surface::{Surface, Texel},
+    surface::{Surface, Texel, field},
 };
 
 /// Bands of light that a curved room throws on metal, −1..1, constant along u where `n` is 0.
@@ -204,10 +204,16 @@ pub(super) fn crumple(look: &Look, size: usize) -> Surface {
         }
         sum
     };
+    let heights = field(size, height);
+    // The slope towards the light, over whole pixels.
+    let far = (0.004 * size as f32).round().max(1.0) as usize;
     Surface::of(size, |u, v| {
-        let h = height(u, v);
+        let pixel = |c: f32| (c * size as f32) as usize;
+        let at = |x: usize, y: usize| heights[y % size * size + x % size];
+        let (x, y) = (pixel(u), pixel(v));
+        let h = at(x, y);
         let glow = if shine > 0.3 {
-            let s = (height(u + 0.004, v + 0.004) - h) / 0.004;
+            let s = (at(x + far, y + far) - h) * size as f32 / far as f32;
             0.75 * step(0.18, 0.5, s) * step(1.3, 0.7, s) * shine - 0.35 * step(-0.1, -0.8, s)
         } else {
             0.0

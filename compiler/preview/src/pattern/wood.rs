@@ -1,7 +1,7 @@
 //! Wood, bark, cork and what is made of chips.
 
 use crate::{
-    color::{lit, mix},
+    color::{Rgb, lit, mix},
     look::Look,
     noise::{
         Sequence, cell, dome, floor, fract, gradient, hash, lerp, nth, octaves, step, unit, wave,
@@ -221,6 +221,43 @@ pub(super) fn cork(look: &Look, size: usize) -> Surface {
     })
 }
 
+/// A flat chip that lies somewhere: lengths in patches.
+struct Chip {
+    place: (f32, f32),
+    along: f32,
+    across: f32,
+    color: Rgb,
+    /// Cosine and sine of its turn.
+    way: (f32, f32),
+    level: f32,
+    tilt: f32,
+    /// Of its ragged ends and its grain, turns.
+    phase: f32,
+}
+
+impl Chip {
+    /// What of it is so far from its middle.
+    fn at(&self, dx: f32, dy: f32) -> Option<Texel> {
+        let (c, s) = self.way;
+        let (a, b) = (
+            (dx * c + dy * s) / self.along,
+            (dy * c - dx * s) / self.across,
+        );
+        // Most of the square lies outside, where no sine is needed.
+        if a.abs() > 1.1 || b.abs() >= 1.0 {
+            return None;
+        }
+        let ragged = 0.12 * wave(3.1 * b + self.phase) + 0.06 * wave(7.3 * b);
+        let tone = 1.0 + 0.10 * wave(2.5 * b + 0.3 * a + self.phase) + 0.05 * wave(9.0 * b);
+        (a.abs() < 0.9 + ragged).then(|| Texel {
+            height: self.level + self.tilt * self.across * b,
+            color: lit(self.color, tone),
+            gloss: 0.0,
+            glow: 0.0,
+        })
+    }
+}
+
 /// Flat chips or flakes thrown over each other.
 pub(super) fn chips(look: &Look, size: usize) -> Surface {
     let n = look.count(9.0);
@@ -232,35 +269,26 @@ pub(super) fn chips(look: &Look, size: usize) -> Surface {
     });
     let mut chance = Sequence::new(look.seed);
     let count = n * n * 7;
-    for k in 0..count {
-        let place = (chance.next(), chance.next());
-        let turn = chance.next();
-        let (along, across) = (
-            (0.45 + 0.75 * chance.next()) / n as f32,
-            (0.16 + 0.30 * chance.next()) / n as f32,
-        );
-        let color = lit(look.any(chance.next()), 0.72 + 0.5 * chance.next());
-        let (c, s) = (wave(turn + 0.25), wave(turn));
-        let (level, tilt) = (0.020 * k as f32 / count as f32, 0.10 * chance.signed());
-        let seed = chance.id();
-        surface.stamp(place, along.max(across) * 1.1, |dx, dy| {
-            let (a, b) = ((dx * c + dy * s) / along, (dy * c - dx * s) / across);
-            // Most of the square lies outside, where no sine is needed.
-            if a.abs() > 1.1 || b.abs() >= 1.0 {
-                return None;
+    let chips: Vec<Chip> = (0..count)
+        .map(|k| {
+            let place = (chance.next(), chance.next());
+            let turn = chance.next();
+            Chip {
+                place,
+                along: (0.45 + 0.75 * chance.next()) / n as f32,
+                across: (0.16 + 0.30 * chance.next()) / n as f32,
+                color: lit(look.any(chance.next()), 0.72 + 0.5 * chance.next()),
+                way: (wave(turn + 0.25), wave(turn)),
+                level: 0.020 * k as f32 / count as f32,
+                tilt: 0.10 * chance.signed(),
+                phase: unit(chance.id()),
             }
-            let ragged = 0.12 * wave(3.1 * b + unit(seed)) + 0.06 * wave(7.3 * b);
-            (a.abs() < 0.9 + ragged && b.abs() < 1.0).then(|| Texel {
-                height: level + tilt * across * b,
-                color: lit(
-                    color,
-                    1.0 + 0.10 * wave(2.5 * b + 0.3 * a + unit(seed)) + 0.05 * wave(9.0 * b),
-                ),
-                gloss: 0.0,
-                glow: 0.0,
-            })
-        });
-    }
+        })
+        .collect();
+    surface.stamp_each(&chips, |band, chip| {
+        let radius = chip.along.max(chip.across) * 1.1;
+        band.stamp(chip.place, radius, |dx, dy| chip.at(dx, dy));
+    });
     surface
 }
 

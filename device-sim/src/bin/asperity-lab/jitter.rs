@@ -176,7 +176,6 @@ fn measure(arguments: &Arguments, console: Console) -> Result<(), Failures> {
         version: env!("CARGO_PKG_VERSION").into(),
     };
 
-    // Both loops begin at a full second, half a period apart.
     let json = folder.path().join("cyclictest.json");
     let mut other = None;
     if arguments.cyclictest {
@@ -184,7 +183,8 @@ fn measure(arguments: &Arguments, console: Console) -> Result<(), Failures> {
         let started = Cyclictest::start(rate_hz, ticks, options.policy, options.cpu, &json);
         other = started.map_err(|error| warn_of(&error, console)).ok();
         let now_ns = options.clock().now_ns();
-        settings.start_ns = Some((now_ns / SECOND_NS + 2) * SECOND_NS);
+        let second_ns = (now_ns / SECOND_NS + 2) * SECOND_NS;
+        settings.start_ns = Some(second_ns + Cyclictest::offset_ns(rate_hz));
     }
     let setup = Setup {
         config: desk.config(rate_hz),

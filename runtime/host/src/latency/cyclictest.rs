@@ -1,8 +1,9 @@
 //! Wake-up latencies of `cyclictest`, of the package rt-tests, in the same run.
 //!
-//! It is started with the same interval, policy, priority and processor. Both loops begin at a full
-//! second of the monotonic clock, cyclictest half a period later, so that they never wait for each
-//! other on one processor.
+//! It is started with the same interval, policy, priority and processor. Our loop begins a quarter of
+//! a period after a full second of the monotonic clock, cyclictest three quarters after it: they never
+//! wait for each other on one processor, and neither wakes with the kernel's own tick, which comes at
+//! full milliseconds.
 
 use super::run::Counts;
 use crate::servo::privileges::Policy;
@@ -60,6 +61,13 @@ pub struct Wakeups {
 }
 
 impl Cyclictest {
+    /// How long after a full second of the monotonic clock a loop at this rate begins, ns, to be
+    /// compared with it.
+    #[must_use]
+    pub fn offset_ns(rate_hz: u32) -> u64 {
+        1_000_000_000 / u64::from(rate_hz) / 4
+    }
+
     /// Starts it for so many ticks; it writes its results to `json`.
     ///
     /// # Errors
@@ -81,7 +89,7 @@ impl Cyclictest {
             .arg(format!("--interval={interval_us}"))
             .arg(format!("--loops={ticks}"))
             .arg(format!("--histogram={TOLD_APART_US}"))
-            .arg(format!("--secaligned={}", interval_us / 2))
+            .arg(format!("--secaligned={}", 3 * interval_us / 4))
             .arg(format!("--json={}", json.display()));
         match policy {
             Policy::Other => command.arg("--policy=other"),
