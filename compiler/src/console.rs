@@ -64,6 +64,19 @@ impl Console {
         self.text(text)
     }
 
+    /// Writes a result that may have gone into files, too: a [`report`](Self::report) where it has,
+    /// else all that was asked for.
+    ///
+    /// # Errors
+    /// As [`text`](Self::text).
+    pub fn result_of(&self, wrote: bool, text: &str) -> Result<(), OutputError> {
+        if wrote {
+            self.report(text)
+        } else {
+            self.text(text)
+        }
+    }
+
     /// Writes a result for programs as it is, and a line break.
     ///
     /// # Errors

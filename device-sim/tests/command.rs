@@ -293,7 +293,7 @@ fn one_output_is_piped_and_the_summary_goes_beside_it() {
         ("--plot", b"\x89PNG"),
         ("--wav", b"RIFF"),
     ] {
-        let feel = ["feel", "--seconds", "1", "--quiet", option];
+        let feel = ["feel", "--seconds", "1", option];
         let file = lab(folder.path(), &[&feel[..], &["out"]].concat());
         let piped = lab(folder.path(), &[&feel[..], &["-"]].concat());
         assert!(piped.status.success(), "{}", text(&piped.stderr));
@@ -328,6 +328,25 @@ fn every_command_takes_quiet() {
     for command in [&[][..], &["feel"], &["stability"], &["pareto"]] {
         let help = lab(folder.path(), &[command, &["--help"]].concat());
         assert!(text(&help.stdout).contains("--quiet"), "{command:?}");
+    }
+}
+
+#[test]
+fn a_quiet_command_that_writes_files_prints_nothing_and_another_its_result() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (command, prints) in [
+        ("feel --seconds 1 --csv felt.csv --wav felt.wav", false),
+        ("feel --seconds 1", true),
+        ("jitter --seconds 1 --policy other --no-lock --deep-idle --out run", false),
+        ("device calibrate sim: --seconds 2 -o profile.toml", false),
+        ("device serve --firmware-file virtual.bin", false),
+    ] {
+        let arguments: Vec<&str> = command.split(' ').chain(["--quiet"]).collect();
+        let output = lab(folder.path(), &arguments);
+        let error = text(&output.stderr);
+        assert!(output.status.success(), "{command}: {error}");
+        assert_eq!(!output.stdout.is_empty(), prints, "{command}");
+        assert_eq!(error, "", "{command}");
     }
 }
 

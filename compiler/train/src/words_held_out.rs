@@ -155,7 +155,7 @@ fn familiarity(known: &[&[f32]], asked: &[&[f32]]) -> Vec<f64> {
 
 /// The group of each phrase, numbered from 0: phrases nearer than [`NEAR`] share one, by chains,
 /// too.
-fn groups(phrases: &[&[f32]]) -> Vec<usize> {
+pub(crate) fn groups(phrases: &[&[f32]]) -> Vec<usize> {
     let near: Vec<Vec<usize>> = phrases
         .par_iter()
         .enumerate()

@@ -1,13 +1,15 @@
 //! What a trained model is worth: a report of a model folder.
 //!
-//! Six parts, each measured alone and kept when finished:
+//! Eight parts, each measured alone and kept when finished:
 //! 1. [`clustering`]: materials in the latent, beside the paper's figures, and what the
 //!    latent still says of its inputs;
 //! 2. [`retrieval`]: materials found by captions never trained on;
 //! 3. [`held_out`]: textures of materials never trained on, by k-fold cross-validation;
 //! 4. [`probes`]: paraphrases, negations, and pairs that people rank;
 //! 5. [`midpoints`]: what lies halfway between two materials;
-//! 6. [`map`]: pictures of the anchors.
+//! 6. [`map`]: pictures of the anchors;
+//! 7. [`names`]: materials found by their names, and by synonyms left out of training;
+//! 8. [`held_out`]: taps completed from AR models, and AR models from taps.
 
 mod cache;
 pub mod clustering;
@@ -17,6 +19,7 @@ mod error;
 pub mod held_out;
 pub mod map;
 pub mod midpoints;
+pub mod names;
 pub mod probes;
 mod report;
 pub mod retrieval;
@@ -85,17 +88,23 @@ pub enum Part {
     Midpoints,
     /// 6
     Map,
+    /// 7
+    Names,
+    /// 8
+    Completion,
 }
 
 impl Part {
     /// All of them, in their order.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Clustering,
         Self::Retrieval,
         Self::HeldOut,
         Self::Probes,
         Self::Midpoints,
         Self::Map,
+        Self::Names,
+        Self::Completion,
     ];
 }
 
@@ -103,9 +112,9 @@ impl FromStr for Part {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let number: usize = text.parse().map_err(|_| "a number from 1 to 6")?;
+        let number: usize = text.parse().map_err(|_| "a number from 1 to 8")?;
         let part = number.checked_sub(1).and_then(|index| Self::ALL.get(index));
-        part.copied().ok_or_else(|| "a number from 1 to 6".into())
+        part.copied().ok_or_else(|| "a number from 1 to 8".into())
     }
 }
 
@@ -216,6 +225,12 @@ pub fn evaluate(
         watch.begin("map", 1);
         Ok(map::measure(subject))
     })?;
+    report.names = cache.part("names", "", asked(Part::Names), || {
+        let (captions, config) = (&bench.captions, &bench.config);
+        names::measure(subject, &bench.corpus, captions, materials, config, watch)
+    })?;
+    report.completion =
+        held_out::completion::measure(&inputs, &cache, asked(Part::Completion), watch)?;
     report.write(options.report)?;
     Ok(report)
 }

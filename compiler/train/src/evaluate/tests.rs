@@ -70,6 +70,9 @@ fn measured(bench: &Bench<'_>, folder: &Path, watch: &mut dyn Watch) -> Report {
     report.probes = probes::measure(subject, &known, &bench.texts, watch).ok();
     report.midpoints = midpoints::measure(subject, signatures).ok();
     report.map = Some(map::measure(subject));
+    let (captions, config) = (&bench.captions, &bench.config);
+    report.names = names::measure(subject, corpus, captions, materials, config, watch).ok();
+    report.completion = held_out::completion::measure(&inputs, &cache, true, watch).unwrap();
     report
 }
 
@@ -78,7 +81,8 @@ struct NoTraining;
 
 impl Watch for NoTraining {
     fn begin(&mut self, what: &str, _: usize) {
-        assert!(!what.starts_with("without"), "{what}");
+        let trains = what.starts_with("without") || what.starts_with("completion");
+        assert!(!trains, "{what}");
     }
     fn done(&mut self, _: usize) {}
 }
@@ -127,7 +131,7 @@ fn every_part_is_measured_written_and_kept() {
         );
     }
     let text = fs::read_to_string(folder.path().join("report.md")).unwrap();
-    for section in 1..=6 {
+    for section in 1..=8 {
         assert!(
             text.contains(&format!("\n## {section}. ")),
             "section {section}"
@@ -179,7 +183,7 @@ fn an_interrupt_is_named_and_a_foreign_corpus_is_refused() {
 #[test]
 fn parts_and_corpora_are_read_as_they_are_written() {
     assert_eq!("3".parse(), Ok(Part::HeldOut));
-    assert!("0".parse::<Part>().is_err() && "7".parse::<Part>().is_err());
+    assert!("0".parse::<Part>().is_err() && "9".parse::<Part>().is_err());
     assert_eq!(Part::Map.to_string(), "6");
     assert_eq!("hatt:x".parse(), Ok(CorpusSource::Hatt("x".into())));
     assert_eq!("reference".parse(), Ok(CorpusSource::Reference(None)));

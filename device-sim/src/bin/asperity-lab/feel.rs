@@ -134,7 +134,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     outputs.commit().map_err(one)?;
     activity.finish_and_clear();
     let report = format!("{}\n", report.trim_end());
-    console.text(&report).map_err(one)
+    let wrote = arguments.csv.is_some() || arguments.plot.is_some() || arguments.wav.is_some();
+    console.result_of(wrote, &report).map_err(one)
 }
 
 /// Bytes of the asset to feel, and where it came from.

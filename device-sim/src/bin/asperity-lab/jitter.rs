@@ -318,7 +318,8 @@ fn tell(
     if arguments.json {
         console.json(&json).map_err(one)
     } else {
-        console.text(&report(run, wakeups)).map_err(one)
+        let wrote = arguments.out.is_some();
+        console.result_of(wrote, &report(run, wakeups)).map_err(one)
     }
 }
 

@@ -89,7 +89,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let printed = if arguments.json {
         console.json(&json::encode(&results))
     } else {
-        console.text(&report(&results))
+        console.result_of(arguments.out.is_some(), &report(&results))
     };
     printed.map_err(one)
 }

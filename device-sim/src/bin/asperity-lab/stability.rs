@@ -66,7 +66,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
         console.json(&text).map_err(one)?;
         console.aside(&format!("{}\n", table.summary()));
     } else {
-        console.text(&format!("{table}\n")).map_err(one)?;
+        let wrote = arguments.out.is_some();
+        console.result_of(wrote, &format!("{table}\n")).map_err(one)?;
     }
     let [_, failed, _] = table.counts();
     Ok(failed == 0)

@@ -21,7 +21,7 @@ use std::{num::NonZeroUsize, path::PathBuf};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   asperity-train evaluate --model model -o report
-  asperity-train evaluate --model model --parts 1,2,4 -o report
+  asperity-train evaluate --model model --parts 1,2,7 -o report
   asperity-train evaluate --model hatt-model --corpus hatt:HaTT/Models -o hatt-report
   asperity-train evaluate --model model --parts 3 --folds 3 --fold-epochs 40 -o quick
 
@@ -33,8 +33,9 @@ pub(crate) struct Evaluate {
     /// The corpus it was trained on: `reference`, `reference:DIR` or `hatt:DIR`
     #[arg(long, default_value = "reference", value_name = "CORPUS")]
     corpus: CorpusSource,
-    /// 1 clustering, 2 retrieval, 3 held-out materials, 4 words, 5 midpoints, 6 pictures
-    #[arg(long, value_delimiter = ',', default_value = "1,2,3,4,5,6")]
+    /// 1 clustering, 2 retrieval, 3 held-out materials, 4 words, 5 midpoints, 6 pictures, 7 names,
+    /// 8 completion
+    #[arg(long, value_delimiter = ',', default_value = "1,2,3,4,5,6,7,8")]
     parts: Vec<Part>,
     /// Recipe of the folds instead of the model's own: `paper`, `reference`, `hatt`, or a TOML
     /// file

@@ -83,23 +83,9 @@ pub(super) fn run(
     what: &str,
     watch: &mut dyn Watch,
 ) -> Result<Fold, EvaluateError> {
-    let Setting {
-        corpus,
-        captions,
-        config,
-        ..
-    } = *setting;
-    let positions = (0..setting.materials.len()).filter(|p| held_out.binary_search(p).is_err());
-    let positions: Vec<usize> = positions.collect();
+    let corpus = setting.corpus;
+    let (trained, positions) = train(setting, setting.config, held_out, what, watch)?;
     let training: Vec<usize> = positions.iter().map(|&p| setting.materials[p]).collect();
-    let text_epochs = config.text_stage.as_ref().map_or(0, |stage| stage.epochs);
-    let epochs = config.optimiser.epochs;
-    let mut progress = Training::begin(watch, what, epochs, text_epochs);
-    let trained = fit_on(corpus, &training, captions, config, &mut progress);
-    let trained = trained.map_err(|error| match error {
-        FitError::Interrupted { .. } => EvaluateError::Interrupted { what: what.into() },
-        other => other.into(),
-    })?;
     let anchors = anchors(&trained, corpus);
     let asked = Asked {
         setting,
@@ -109,6 +95,30 @@ pub(super) fn run(
         positions: &positions,
     };
     Ok(asked.all(held_out))
+}
+
+/// Trains a configuration without the materials at the positions `held_out`; the positions of the
+/// others, in the order of the model's materials.
+pub(super) fn train(
+    setting: &Setting<'_>,
+    config: &Config,
+    held_out: &[usize],
+    what: &str,
+    watch: &mut dyn Watch,
+) -> Result<(Trained, Vec<usize>), EvaluateError> {
+    let positions = (0..setting.materials.len()).filter(|p| held_out.binary_search(p).is_err());
+    let positions: Vec<usize> = positions.collect();
+    let training: Vec<usize> = positions.iter().map(|&p| setting.materials[p]).collect();
+    let text_epochs = config.text_stage.as_ref().map_or(0, |stage| stage.epochs);
+    let epochs = config.optimiser.epochs;
+    let mut progress = Training::begin(watch, what, epochs, text_epochs);
+    let (corpus, captions) = (setting.corpus, setting.captions);
+    let trained = fit_on(corpus, &training, captions, config, &mut progress);
+    let trained = trained.map_err(|error| match error {
+        FitError::Interrupted { .. } => EvaluateError::Interrupted { what: what.into() },
+        other => other.into(),
+    })?;
+    Ok((trained, positions))
 }
 
 /// A trained fold and its baselines.
@@ -235,7 +245,7 @@ fn anchors(trained: &Trained, corpus: &Corpus) -> Vec<Anchor> {
 }
 
 /// Mean LSFs, levels, samples and friction.
-fn mean_texture(corpus: &Corpus, training: &[usize]) -> Signature {
+pub(super) fn mean_texture(corpus: &Corpus, training: &[usize]) -> Signature {
     let all = || training.iter().map(|&m| &corpus.materials[m].prototype);
     let share = 1.0 / training.len().max(1) as f64;
     let average = |value: &dyn Fn(&Instance) -> f32| -> f32 {

@@ -3,11 +3,13 @@
 //! Two ways to hold out: single materials, spread over the families, and whole families,
 //! whose captions calibrate how certain a prompt is by how near it lies to the training.
 
+pub(super) mod completion;
 mod errors;
 mod fold;
 mod split;
 mod summary;
 
+pub use completion::{Completed, Completion, Direction};
 pub use errors::{METRICS, NAMES, Trial};
 pub use fold::{Fold, Material, Predictor};
 pub use summary::{Folds, Metric, Ranks};

@@ -4,17 +4,20 @@
 mod bars;
 mod charts;
 mod clustering;
+mod completion;
 mod held_out;
 mod midpoints;
+mod names;
 mod probes;
 mod retrieval;
 
 use super::{
     Bench, EvaluateError,
     clustering::Clustering,
-    held_out::HeldOut,
+    held_out::{Completion, HeldOut},
     map::{self, Map},
     midpoints::Midpoints,
+    names::Names,
     probes::Probing,
     retrieval::Retrieval,
 };
@@ -66,6 +69,10 @@ pub struct Report {
     pub midpoints: Option<Midpoints>,
     /// Part 6.
     pub map: Option<Map>,
+    /// Part 7.
+    pub names: Option<Names>,
+    /// Part 8.
+    pub completion: Option<Completion>,
 }
 
 /// `certainty.json`: the curve for a model description, and the one that also looks at
@@ -102,6 +109,8 @@ impl Report {
             probes: None,
             midpoints: None,
             map: None,
+            names: None,
+            completion: None,
         }
     }
 
@@ -155,6 +164,8 @@ impl Report {
             self.probes.as_ref().map(probes::section),
             self.midpoints.as_ref().map(midpoints::section),
             self.map.as_ref().map(midpoints::map),
+            self.names.as_ref().map(names::section),
+            self.completion.as_ref().map(completion::section),
         ];
         for section in sections.into_iter().flatten() {
             text.push('\n');

@@ -43,7 +43,7 @@ pub(super) fn section(part: &Retrieval) -> String {
     text
 }
 
-fn line(found: &Found) -> String {
+pub(super) fn line(found: &Found) -> String {
     row(&[
         found.by.clone(),
         percent(found.top_1),

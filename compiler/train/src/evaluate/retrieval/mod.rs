@@ -11,7 +11,7 @@ use crate::captions::Captions;
 use asperity::learned::friction::cosine;
 use asperity_corpus::Corpus;
 use serde::{Deserialize, Serialize};
-use tfidf::{TfIdf, Words};
+pub(super) use tfidf::{TfIdf, Words};
 
 /// Ranks of the right material, by one way of asking.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -109,7 +109,7 @@ pub(super) fn measure(
     })
 }
 
-fn found(by: &str, own: &[usize], scores: impl Iterator<Item = Vec<f64>>) -> Found {
+pub(super) fn found(by: &str, own: &[usize], scores: impl Iterator<Item = Vec<f64>>) -> Found {
     let ranks: Vec<f64> = scores.zip(own).map(|(s, &own)| rank(&s, own)).collect();
     let reciprocal: f64 = ranks.iter().map(|rank| 1.0 / rank).sum();
     Found {

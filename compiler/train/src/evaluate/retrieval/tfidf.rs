@@ -5,23 +5,25 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Which words count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Words {
+pub(in crate::evaluate) enum Words {
     /// All of them.
     All,
     /// Those of three letters or more that are no English stop words.
     Content,
+    /// In their place, runs of three characters of each, a space at either end.
+    Trigrams,
 }
 
 /// A document a material, of its training captions: tf = 1 + ln n, idf = ln((1 + N)/(1 + df))
 /// + 1, unit length.
-pub(super) struct TfIdf {
+pub(in crate::evaluate) struct TfIdf {
     kept: Words,
     idf: BTreeMap<String, f64>,
     documents: Vec<BTreeMap<String, f64>>,
 }
 
 impl TfIdf {
-    pub(super) fn new(documents: &[Vec<&str>], kept: Words) -> Self {
+    pub(in crate::evaluate) fn new(documents: &[Vec<&str>], kept: Words) -> Self {
         let counted: Vec<BTreeMap<String, f64>> =
             documents.iter().map(|texts| count(texts, kept)).collect();
         let mut frequency: BTreeMap<String, f64> = BTreeMap::new();
@@ -42,7 +44,7 @@ impl TfIdf {
     }
 
     /// Cosine of a text with every document.
-    pub(super) fn scores(&self, text: &str) -> Vec<f64> {
+    pub(in crate::evaluate) fn scores(&self, text: &str) -> Vec<f64> {
         let asked = weigh(&count(&[text], self.kept), &self.idf);
         let score = |document: &BTreeMap<String, f64>| -> f64 {
             let shared = asked
@@ -57,8 +59,15 @@ impl TfIdf {
 fn count(texts: &[&str], kept: Words) -> BTreeMap<String, f64> {
     let mut counts = BTreeMap::new();
     for word in texts.iter().flat_map(|text| words(text)) {
-        if kept == Words::All || !is_stop_word(&word) {
-            *counts.entry(word).or_default() += 1.0;
+        match kept {
+            Words::Content if is_stop_word(&word) => {}
+            Words::All | Words::Content => *counts.entry(word).or_default() += 1.0,
+            Words::Trigrams => {
+                let padded: Vec<char> = format!(" {word} ").chars().collect();
+                for run in padded.windows(3) {
+                    *counts.entry(run.iter().collect()).or_default() += 1.0;
+                }
+            }
         }
     }
     counts
@@ -99,6 +108,17 @@ mod tests {
         assert_eq!(index.scores("unheard"), [0.0; 3]);
         let itself = index.scores("the rough brick")[0];
         assert!((itself - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn runs_of_characters_see_what_words_do_not() {
+        let documents = [vec!["sandpaper"], vec!["velvet"]];
+        let of = |terms| TfIdf::new(&documents, terms).scores("sandpapers");
+        assert_eq!(of(Words::All), [0.0; 2]);
+        let [same, other] = of(Words::Trigrams)[..] else {
+            panic!("two documents");
+        };
+        assert!(same > 0.8 && other == 0.0, "{same} {other}");
     }
 
     #[test]

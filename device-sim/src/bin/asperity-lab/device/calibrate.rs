@@ -130,5 +130,6 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
             .map_err(one)?;
     }
     outputs.commit().map_err(one)?;
-    console.text(&report).map_err(one)
+    let wrote = arguments.output.is_some() || arguments.table.is_some() || arguments.plot.is_some();
+    console.result_of(wrote, &report).map_err(one)
 }

@@ -107,7 +107,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
             "{}: a firmware for the virtual Falcon alone\n",
             display(path)
         );
-        console.text(&text).map_err(one)?;
+        console.report(&text).map_err(one)?;
     }
     if arguments.devices.is_empty() {
         return Ok(());
@@ -163,7 +163,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     for (n, socket) in sockets.iter().enumerate() {
         text += &format!("1-{}: {}\n", n + 1, summary(&socket.port()));
     }
-    console.text(&text).map_err(one)
+    console.report(&text).map_err(one)
 }
 
 /// What became of a device.
