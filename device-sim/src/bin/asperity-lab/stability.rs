@@ -67,7 +67,9 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
         console.aside(&format!("{}\n", table.summary()));
     } else {
         let wrote = arguments.out.is_some();
-        console.result_of(wrote, &format!("{table}\n")).map_err(one)?;
+        console
+            .result_of(wrote, &format!("{table}\n"))
+            .map_err(one)?;
     }
     let [_, failed, _] = table.counts();
     Ok(failed == 0)
