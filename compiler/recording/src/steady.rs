@@ -6,7 +6,11 @@
 //! filled from the neighbouring band.
 
 use crate::{
-    signal::{filter::high_pass, quantile::mean, spectrum::hann},
+    signal::{
+        filter::high_pass,
+        quantile::{mean, quantile},
+        spectrum::hann,
+    },
     timeline::{RATE_HZ, Timeline},
 };
 use realfft::{RealFftPlanner, RealToComplex};
@@ -46,6 +50,8 @@ const WHITENER: usize = 10;
 /// Bartlett's statistic above which a stretch is not stationary. Its 10⁻⁵ quantile is 25.9; a speed
 /// within its bounds adds some.
 const LARGEST_STATISTIC: f64 = 34.0;
+/// A stretch in the air with more than so many times the power of their lower quartile is no rest.
+const LOUD: f64 = 1.3;
 /// Length of the transform.
 const TRANSFORM: usize = 2048;
 
@@ -153,11 +159,11 @@ pub fn segments(timeline: &Timeline, axes: &[Vec<f64>]) -> Steady {
         .map(|(start, length)| analyser.spectrum(axes, start, length))
         .collect();
     if !air.is_empty() {
-        // The quietest third: a hand that knocks against the tool is no noise of the sensor.
-        let mut air = air;
-        air.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
-        air.truncate(air.len().div_ceil(3).max(3).min(air.len()));
-        let (lags, power): (Vec<_>, Vec<_>) = air.into_iter().unzip();
+        // A hand that knocks against the tool is no noise of the sensor. The quietest stretches alone
+        // would say too little.
+        let limit = LOUD * quantile(air.iter().map(|(lags, _)| lags[0]), 0.25);
+        let quiet = air.into_iter().filter(|(lags, _)| lags[0] <= limit);
+        let (lags, power): (Vec<_>, Vec<_>) = quiet.unzip();
         found.noise_lags = Some(average(&lags));
         found.noise_power = Some(average(&power));
     }

@@ -30,7 +30,8 @@ pub struct Row {
     pub order: usize,
 }
 
-/// Records every texture for some seconds and imports what the sensors wrote.
+/// Records every texture for some seconds and imports what the sensors wrote. The noise of the
+/// accelerometer is `noise` times the usual one.
 ///
 /// # Errors
 /// [`BenchError`] of the first texture that cannot be rendered or recorded.
@@ -38,6 +39,7 @@ pub fn learn(
     textures: &[TextureModel],
     seconds: f64,
     seed: u64,
+    noise: f64,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Row>, BenchError> {
     textures
@@ -47,20 +49,16 @@ pub fn learn(
             let seed = seed.wrapping_mul(1000).wrapping_add(index as u64);
             let performance = perform(texture, seconds, seed)?;
             let folder = Scratch::new(seed)?;
-            record(
-                &performance,
-                texture,
-                &Sensors::seeded(seed),
-                seed,
-                &folder.0,
-            )?;
+            let mut sensors = Sensors::seeded(seed);
+            sensors.accel_noise *= noise;
+            record(&performance, texture, &sensors, seed, &folder.0)?;
             let analysis = recording::analyse(&folder.0, false);
             done();
             Ok(match analysis {
                 Ok(analysis) => Row {
                     name: texture.name.clone(),
                     seconds,
-                    comparison: Some(compare(texture, &performance, &analysis)),
+                    comparison: Some(compare(texture, &performance, &sensors, &analysis)),
                     refused: None,
                     vertices: analysis.fit.facts.len(),
                     order: analysis.fit.chosen.order,
@@ -130,7 +128,7 @@ pub fn summary(rows: &[Row]) -> Figures {
         .iter()
         .filter_map(|row| row.comparison.as_ref())
         .collect();
-    let levels = |c: &Comparison| c.levels_db.iter().map(|x| x.abs()).collect::<Vec<f64>>();
+    let levels = |c: &Comparison| c.cells.iter().map(|c| c.level_db.abs()).collect::<Vec<f64>>();
     let both = |values: Vec<f64>| {
         (
             median(values.iter().copied()),
@@ -141,8 +139,8 @@ pub fn summary(rows: &[Row]) -> Figures {
         seconds: rows.first().map_or(0.0, |row| row.seconds),
         imported: came.len(),
         refused: rows.len() - came.len(),
-        median_db: median(came.iter().map(|c| median(c.cells_db.iter().copied()))),
-        p95_db: quantile(came.iter().flat_map(|c| c.cells_db.iter().copied()), 0.95),
+        median_db: median(came.iter().map(|c| median(c.cells.iter().map(|c| c.error_db)))),
+        p95_db: quantile(came.iter().flat_map(|c| c.cells.iter().map(|c| c.error_db)), 0.95),
         level_db: median(came.iter().map(|c| mean(&levels(c)))),
         level_p95_db: quantile(came.iter().flat_map(|c| levels(c)), 0.95),
         mu_percent: both(

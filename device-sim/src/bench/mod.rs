@@ -18,4 +18,4 @@ pub use lab::{Checks, Figures, Row, checks, learn, summary};
 pub use perform::{Performance, perform, perform_sine};
 pub use script::{script, sine};
 pub use sensors::{Sensors, record};
-pub use truth::{Comparison, compare};
+pub use truth::{Cell, Comparison, compare};

@@ -1,34 +1,57 @@
-//! What the segments near a speed and a force say: local regression of levels and autocorrelations.
+//! What the segments near a speed and a force say: local regression of spectra.
 //!
-//! Both are linear in ln v and ln F over a neighbourhood: the level as a logarithm, so that a power
-//! law is met exactly, the normalised autocorrelation as it is. The width of the neighbourhood is
-//! that which predicts held-out segments best.
+//! In every band the logarithm of the power is linear in ln v and ln F over a neighbourhood, so that a power
+//! law is met exactly; within a band the power over the band's is linear. The width of the neighbourhood
+//! is that which predicts held-out segments best.
+//!
+//! The sensors' noise N adds to the power L of a band, and what is measured varies as (L + N)². A
+//! logarithm of what is left after N is subtracted would be biased where L is small, and may not exist.
+//! So L is the generalised linear model E\[P\] = exp(β·x) + N (McCullagh and Nelder, 1989) by
+//! Fisher's scoring, in which a segment weighs (L/(L + N))² of its time. Where the noise hides a band,
+//! the louder segments of the neighbourhood say how it goes on.
 
-use asperity_recording::steady::{LAGS, Segment, Steady};
+use asperity_recording::{
+    steady::{BAND_HZ, LAGS, POINTS, Segment, Steady, frequencies_hz},
+    timeline::RATE_HZ,
+};
+use std::f64::consts::TAU;
 
 /// Offsets of the logarithms: below them, speed and force count linearly.
 const OFFSETS: (f64, f64) = (10.0, 0.1);
-/// Least part of the power that is believed to be signal where the sensors' noise is subtracted.
-const LEAST_SIGNAL: f64 = 0.02;
+/// Bands of the regression, some 31 Hz each.
+const BANDS: usize = 14;
+/// Least part of the noise that the power of a band is believed to be.
+const LEAST_SIGNAL: f64 = 0.003;
+/// Least power of a frequency relative to its band.
+const LEAST_SHAPE: f64 = 0.02;
 /// Ridge of the regression, in units of the weight of one mean segment: with few neighbours the
 /// slopes are small.
 const RIDGE: f64 = 0.3;
+/// Steps of Fisher's scoring, and the largest change of a coefficient in one.
+const STEPS: usize = 12;
+const LARGEST_STEP: f64 = 2.0;
 
 /// A segment, ready to be regressed.
 #[derive(Debug, Clone)]
 struct Row {
     place: [f64; 2],
     weight: f64,
-    ln_power: f64,
-    shape: Vec<f64>,
+    /// Power at every frequency and of every band, noise included.
+    power: Vec<f64>,
+    bands: Vec<f64>,
 }
 
 /// The segments of a recording, in coordinates of unit variance.
 #[derive(Debug, Clone)]
 pub(super) struct Local {
     rows: Vec<Row>,
+    /// Power of the sensors' noise at every frequency and of every band.
+    noise: Vec<f64>,
+    noise_bands: Vec<f64>,
     centre: [f64; 2],
     scale: [f64; 2],
+    /// From powers to an autocorrelation.
+    transform: Transform,
 }
 
 /// What is so at a speed and a force.
@@ -47,27 +70,18 @@ fn coordinates(speed_mm_s: f64, force_n: f64) -> [f64; 2] {
     ]
 }
 
+/// A segment near a place, the way to it, and its weight in samples.
+type Near<'a> = (&'a Row, [f64; 2], f64);
+
 impl Local {
-    /// Of segments, with the sensors' noise taken away.
+    /// Of segments, under the sensors' noise.
     pub(super) fn new<'a>(steady: &Steady, segments: impl Iterator<Item = &'a Segment>) -> Self {
-        let silent = vec![0.0; LAGS + 1];
-        let noise = steady.noise_lags.as_ref().unwrap_or(&silent);
         let mut rows: Vec<Row> = segments
-            .map(|segment| {
-                let share =
-                    (noise[0] / segment.lags[0]).min(1.0 - LEAST_SIGNAL) / noise[0].max(1e-300);
-                let lags: Vec<f64> = segment
-                    .lags
-                    .iter()
-                    .zip(noise)
-                    .map(|(r, n)| r - share * segment.lags[0] * n)
-                    .collect();
-                Row {
-                    place: coordinates(segment.speed_mm_s, segment.force_n),
-                    weight: segment.length as f64,
-                    ln_power: libm::log(lags[0]),
-                    shape: lags.iter().map(|r| r / lags[0]).collect(),
-                }
+            .map(|segment| Row {
+                place: coordinates(segment.speed_mm_s, segment.force_n),
+                weight: segment.length as f64,
+                power: segment.power.clone(),
+                bands: bands(&segment.power),
             })
             .collect();
         let total: f64 = rows.iter().map(|row| row.weight).sum();
@@ -82,10 +96,17 @@ impl Local {
         for row in &mut rows {
             row.place = [0, 1].map(|axis| (row.place[axis] - centre[axis]) / scale[axis]);
         }
+        let noise = steady
+            .noise_power
+            .clone()
+            .unwrap_or_else(|| vec![0.0; POINTS]);
         Self {
             rows,
+            noise_bands: bands(&noise),
+            noise,
             centre,
             scale,
+            transform: Transform::new(),
         }
     }
 
@@ -96,7 +117,7 @@ impl Local {
         let place = [0, 1].map(|axis| (place[axis] - self.centre[axis]) / self.scale[axis]);
         let mean_weight =
             self.rows.iter().map(|row| row.weight).sum::<f64>() / self.rows.len() as f64;
-        let mut near: Vec<(&Row, [f64; 2], f64)> = self
+        let mut near: Vec<Near<'_>> = self
             .rows
             .iter()
             .map(|row| {
@@ -110,59 +131,186 @@ impl Local {
             return None;
         }
         near.retain(|(.., w)| *w > 1e-4 * mean_weight);
-        // The same regression for every quantity: a row of the solution gives the value at the place.
-        let mut normal = [[0.0; 3]; 3];
-        for (_, [x, y], w) in &near {
-            let row = [1.0, *x, *y];
-            for i in 0..3 {
-                for j in 0..3 {
-                    normal[i][j] += w * row[i] * row[j];
-                }
-            }
+        let slopes = RIDGE * mean_weight;
+        let mut power = vec![0.0; POINTS];
+        let mut variance = 0.0;
+        for (band, power) in power.chunks_exact_mut(POINTS / BANDS).enumerate() {
+            variance += self.band(&near, band, slopes, power)? / BANDS as f64;
         }
-        normal[1][1] += RIDGE * mean_weight;
-        normal[2][2] += RIDGE * mean_weight;
-        let first = first_row_of_inverse(&normal)?;
-        let shares: Vec<f64> = near
-            .iter()
-            .map(|(_, [x, y], w)| w * (first[0] + first[1] * x + first[2] * y))
-            .collect();
-        let power = libm::exp(
-            near.iter()
-                .zip(&shares)
-                .map(|((row, ..), s)| s * row.ln_power)
-                .sum(),
-        );
-        let lags = (0..=LAGS)
-            .map(|lag| {
-                power
-                    * near
-                        .iter()
-                        .zip(&shares)
-                        .map(|((row, ..), s)| s * row.shape[lag])
-                        .sum::<f64>()
-            })
-            .collect();
-        // The variance of the value is Σ s²/length.
-        let variance: f64 = near
-            .iter()
-            .zip(&shares)
-            .map(|((row, ..), s)| s * s / row.weight)
-            .sum();
         Some(Estimate {
-            lags,
+            lags: self.transform.lags(&power),
             samples: 1.0 / variance,
         })
     }
+
+    /// The powers of a band at the place; returns the relative variance of its level, 1/samples.
+    fn band(
+        &self,
+        near: &[Near<'_>],
+        band: usize,
+        slopes: f64,
+        power: &mut [f64],
+    ) -> Option<f64> {
+        let noise = self.noise_bands[band];
+        let fit = Fit::new(near, band, noise, slopes)?;
+        let parts: Vec<(f64, f64)> = near
+            .iter()
+            .map(|(_, away, _)| {
+                let level = fit.level(*away);
+                (level, level / (level + noise))
+            })
+            .collect();
+        let mut normal = ridge(slopes, 0.0);
+        for ((_, [x, y], w), (_, part)) in near.iter().zip(&parts) {
+            add(&mut normal, [1.0, *x, *y], w * part * part);
+        }
+        let first = inverse(&normal)?[0];
+        let mut variance = 0.0;
+        let mut shape = vec![0.0; power.len()];
+        for ((row, [x, y], w), (level, part)) in near.iter().zip(&parts) {
+            let share = w * part * part * (first[0] + first[1] * x + first[2] * y);
+            variance += (share / part).powi(2) / row.weight;
+            let from = band * power.len();
+            for (k, sum) in shape.iter_mut().enumerate() {
+                *sum += share * (row.power[from + k] - self.noise[from + k]) / level;
+            }
+        }
+        let level = fit.level([0.0; 2]);
+        for (power, shape) in power.iter_mut().zip(shape) {
+            *power = level * shape.max(LEAST_SHAPE);
+        }
+        Some(variance)
+    }
 }
 
-fn first_row_of_inverse(m: &[[f64; 3]; 3]) -> Option<[f64; 3]> {
+fn bands(power: &[f64]) -> Vec<f64> {
+    let size = POINTS / BANDS;
+    power
+        .chunks_exact(size)
+        .map(|band| band.iter().sum::<f64>() / size as f64)
+        .collect()
+}
+
+/// The power of a band around a place: its logarithm there and the slopes.
+struct Fit {
+    beta: [f64; 3],
+    least: f64,
+}
+
+impl Fit {
+    fn new(near: &[Near<'_>], band: usize, noise: f64, slopes: f64) -> Option<Self> {
+        let samples: f64 = near.iter().map(|(.., w)| w).sum();
+        let mean = near.iter().map(|(row, _, w)| w * row.bands[band]).sum::<f64>() / samples;
+        let least = (LEAST_SIGNAL * noise).max(1e-9 * mean).max(1e-300);
+        let mut fit = Self {
+            beta: [libm::log((mean - noise).max(least)), 0.0, 0.0],
+            least,
+        };
+        for _ in 0..STEPS {
+            let mut normal = ridge(slopes, 1e-6 * samples);
+            let mut gradient = [0.0, -slopes * fit.beta[1], -slopes * fit.beta[2]];
+            for (row, away, w) in near {
+                let level = fit.level(*away);
+                let weight = w * (level / (level + noise)).powi(2);
+                let terms = [1.0, away[0], away[1]];
+                add(&mut normal, terms, weight);
+                let residual = (row.bands[band] - level - noise) / level;
+                for (sum, x) in gradient.iter_mut().zip(terms) {
+                    *sum += weight * residual * x;
+                }
+            }
+            let step = inverse(&normal)?
+                .map(|row| row.iter().zip(gradient).map(|(x, y)| x * y).sum::<f64>());
+            for (x, step) in fit.beta.iter_mut().zip(step) {
+                *x += step.clamp(-LARGEST_STEP, LARGEST_STEP);
+            }
+            if step.iter().all(|step| step.abs() < 1e-3) {
+                break;
+            }
+        }
+        Some(fit)
+    }
+
+    /// Power at a place this far away, (m/s²)².
+    fn level(&self, [x, y]: [f64; 2]) -> f64 {
+        let [value, slope_x, slope_y] = self.beta;
+        libm::exp((value + slope_x * x + slope_y * y).clamp(-100.0, 100.0)).max(self.least)
+    }
+}
+
+/// The inverse cosine transform of a spectrum that goes on at its ends.
+#[derive(Debug, Clone)]
+struct Transform {
+    /// Frequencies below and above those of a segment.
+    beyond: (usize, usize),
+    /// Cosines of every lag at every frequency.
+    cosines: Vec<Vec<f64>>,
+}
+
+/// Frequencies at each end whose mean goes on.
+const ENDS: usize = 12;
+
+impl Transform {
+    fn new() -> Self {
+        let inner = frequencies_hz();
+        let step_hz = (BAND_HZ.1 - BAND_HZ.0) / (POINTS - 1) as f64;
+        let below = (BAND_HZ.0 / step_hz) as usize;
+        let above = ((0.5 * RATE_HZ - BAND_HZ.1) / step_hz) as usize;
+        let all = (0..below)
+            .map(|n| (n as f64 + 0.5) * BAND_HZ.0 / below as f64)
+            .chain(inner)
+            .chain((1..=above).map(|n| BAND_HZ.1 + n as f64 * step_hz));
+        let cosines = all
+            .map(|freq_hz| {
+                (0..=LAGS)
+                    .map(|lag| libm::cos(TAU * freq_hz / RATE_HZ * lag as f64))
+                    .collect()
+            })
+            .collect();
+        Self {
+            beyond: (below, above),
+            cosines,
+        }
+    }
+
+    fn lags(&self, power: &[f64]) -> Vec<f64> {
+        let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+        let (low, high) = (mean(&power[..ENDS]), mean(&power[POINTS - ENDS..]));
+        let all = std::iter::repeat_n(low, self.beyond.0)
+            .chain(power.iter().copied())
+            .chain(std::iter::repeat_n(high, self.beyond.1));
+        let mut lags = vec![0.0; LAGS + 1];
+        for (power, cosines) in all.zip(&self.cosines) {
+            for (sum, cosine) in lags.iter_mut().zip(cosines) {
+                *sum += power * cosine;
+            }
+        }
+        let count = self.cosines.len() as f64;
+        lags.into_iter().map(|lag| lag / count).collect()
+    }
+}
+
+/// The normal equations before any segment.
+fn ridge(slopes: f64, value: f64) -> [[f64; 3]; 3] {
+    [[value, 0.0, 0.0], [0.0, slopes, 0.0], [0.0, 0.0, slopes]]
+}
+
+fn add(normal: &mut [[f64; 3]; 3], terms: [f64; 3], weight: f64) {
+    for (row, x) in normal.iter_mut().zip(terms) {
+        for (sum, y) in row.iter_mut().zip(terms) {
+            *sum += weight * x * y;
+        }
+    }
+}
+
+/// The inverse of a symmetric matrix.
+fn inverse(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     let cofactor = |i: usize, j: usize| {
         let (a, b) = ((i + 1) % 3, (i + 2) % 3);
         let (c, d) = ((j + 1) % 3, (j + 2) % 3);
         m[a][c] * m[b][d] - m[a][d] * m[b][c]
     };
-    let row = [cofactor(0, 0), cofactor(1, 0), cofactor(2, 0)];
     let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
-    (determinant.abs() > 1e-300).then(|| row.map(|x| x / determinant))
+    (determinant.abs() > 1e-300)
+        .then(|| [0, 1, 2].map(|i| [0, 1, 2].map(|j| cofactor(j, i) / determinant)))
 }
