@@ -34,7 +34,9 @@ const FILL_ABOVE_HZ: (f64, f64) = (424.0, 448.0);
 /// Cut-off of the high-pass, Hz, and its half length, samples.
 const HIGH_PASS: (f64, usize) = (8.0, 400);
 /// Shortest and longest stretch, samples.
-const LENGTHS: (usize, usize) = (200, 800);
+const LENGTHS: (usize, usize) = (100, 800);
+/// Length of a stretch in the air, samples.
+const IN_AIR: usize = 250;
 /// Speed may differ from the mean by this fraction, or by so many mm/s.
 const SPEED_BOUND: (f64, f64) = (0.15, 5.0);
 /// The same of the load, N.
@@ -217,8 +219,9 @@ fn spans(timeline: &Timeline) -> Vec<(usize, usize)> {
     spans
 }
 
+/// Stretches in the air. A hand that taps gives short ones.
 fn in_air(timeline: &Timeline) -> Vec<(usize, usize)> {
-    let length = 400;
+    let length = IN_AIR;
     let mut found = Vec::new();
     let mut start = 0;
     while start + length <= timeline.len() {
