@@ -32,7 +32,7 @@ pub const CEILING_HZ: f64 = 448.0;
 /// Band that fills what lies above, Hz.
 const FILL_ABOVE_HZ: (f64, f64) = (424.0, 448.0);
 /// Cut-off of the high-pass, Hz, and its half length, samples.
-const HIGH_PASS: (f64, usize) = (8.0, 400);
+const HIGH_PASS: (f64, usize) = (11.0, 400);
 /// Shortest and longest stretch, samples.
 const LENGTHS: (usize, usize) = (100, 800);
 /// Length of a stretch in the air, samples.

@@ -27,6 +27,8 @@ const LEAST_SHAPE: f64 = 0.02;
 /// Ridge of the regression, in units of the weight of one mean segment: with few neighbours the
 /// slopes are small.
 const RIDGE: f64 = 0.3;
+/// Spread of the power of a band about a power law over the whole plane, nepers.
+const SPREAD: f64 = 0.7;
 /// Steps of Fisher's scoring, and the largest change of a coefficient in one.
 const STEPS: usize = 12;
 const LARGEST_STEP: f64 = 2.0;
@@ -50,6 +52,8 @@ pub(super) struct Local {
     noise_bands: Vec<f64>,
     centre: [f64; 2],
     scale: [f64; 2],
+    /// Power law of every band over the whole plane, about its centre.
+    everywhere: Vec<[f64; 3]>,
     /// From powers to an autocorrelation.
     transform: Transform,
 }
@@ -100,12 +104,23 @@ impl Local {
             .noise_power
             .clone()
             .unwrap_or_else(|| vec![0.0; POINTS]);
+        let noise_bands = bands(&noise);
+        let all: Vec<Near<'_>> = rows.iter().map(|row| (row, row.place, row.weight)).collect();
+        let slopes = RIDGE * total / rows.len().max(1) as f64;
+        let everywhere = noise_bands
+            .iter()
+            .enumerate()
+            .map(|(band, noise)| {
+                Fit::new(&all, band, *noise, slopes, None).map_or([0.0; 3], |fit| fit.beta)
+            })
+            .collect();
         Self {
             rows,
-            noise_bands: bands(&noise),
+            noise_bands,
             noise,
             centre,
             scale,
+            everywhere,
             transform: Transform::new(),
         }
     }
@@ -132,10 +147,27 @@ impl Local {
         }
         near.retain(|(.., w)| *w > 1e-4 * mean_weight);
         let slopes = RIDGE * mean_weight;
+        // Where the noise hides a band, it is as loud as the power law of the plane says, beside the
+        // other bands.
+        let laws: Vec<[f64; 3]> = self
+            .everywhere
+            .iter()
+            .map(|[value, x, y]| [value + x * place[0] + y * place[1], *x, *y])
+            .collect();
+        let (mut offset, mut weight) = (0.0, 0.0);
+        for (band, law) in laws.iter().enumerate() {
+            let noise = self.noise_bands[band];
+            let fit = Fit::new(&near, band, noise, slopes, Some(*law))?;
+            offset += fit.weight * (fit.beta[0] - law[0]);
+            weight += fit.weight;
+        }
+        offset /= weight;
         let mut power = vec![0.0; POINTS];
         let mut variance = 0.0;
         for (band, power) in power.chunks_exact_mut(POINTS / BANDS).enumerate() {
-            variance += self.band(&near, band, slopes, power)? / BANDS as f64;
+            let [value, x, y] = laws[band];
+            let law = [value + offset, x, y];
+            variance += self.band(&near, band, slopes, law, power)? / BANDS as f64;
         }
         Some(Estimate {
             lags: self.transform.lags(&power),
@@ -149,10 +181,11 @@ impl Local {
         near: &[Near<'_>],
         band: usize,
         slopes: f64,
+        law: [f64; 3],
         power: &mut [f64],
     ) -> Option<f64> {
         let noise = self.noise_bands[band];
-        let fit = Fit::new(near, band, noise, slopes)?;
+        let fit = Fit::new(near, band, noise, slopes, Some(law))?;
         let parts: Vec<(f64, f64)> = near
             .iter()
             .map(|(_, away, _)| {
@@ -195,25 +228,41 @@ fn bands(power: &[f64]) -> Vec<f64> {
 struct Fit {
     beta: [f64; 3],
     least: f64,
+    /// Samples without noise that know as much of the value.
+    weight: f64,
 }
 
 impl Fit {
-    fn new(near: &[Near<'_>], band: usize, noise: f64, slopes: f64) -> Option<Self> {
+    /// `law` is what the value and the slopes are without any segment.
+    fn new(
+        near: &[Near<'_>],
+        band: usize,
+        noise: f64,
+        slopes: f64,
+        law: Option<[f64; 3]>,
+    ) -> Option<Self> {
         let samples: f64 = near.iter().map(|(.., w)| w).sum();
         let mean = near.iter().map(|(row, _, w)| w * row.bands[band]).sum::<f64>() / samples;
         let least = (LEAST_SIGNAL * noise).max(1e-9 * mean).max(1e-300);
+        let start = libm::log((mean - noise).max(least));
+        let prior = law.unwrap_or([start, 0.0, 0.0]);
+        // A band of 1/14 of the width tells its level to 1/√(samples/14).
+        let held = law.map_or(1e-6 * samples, |_| BANDS as f64 / (SPREAD * SPREAD));
         let mut fit = Self {
-            beta: [libm::log((mean - noise).max(least)), 0.0, 0.0],
+            beta: [start, prior[1], prior[2]],
             least,
+            weight: 0.0,
         };
         for _ in 0..STEPS {
-            let mut normal = ridge(slopes, 1e-6 * samples);
-            let mut gradient = [0.0, -slopes * fit.beta[1], -slopes * fit.beta[2]];
+            let mut normal = ridge(slopes, held);
+            let mut gradient = [0, 1, 2].map(|k| normal[k][k] * (prior[k] - fit.beta[k]));
+            fit.weight = 0.0;
             for (row, away, w) in near {
                 let level = fit.level(*away);
                 let weight = w * (level / (level + noise)).powi(2);
                 let terms = [1.0, away[0], away[1]];
                 add(&mut normal, terms, weight);
+                fit.weight += weight;
                 let residual = (row.bands[band] - level - noise) / level;
                 for (sum, x) in gradient.iter_mut().zip(terms) {
                     *sum += weight * residual * x;
