@@ -128,7 +128,12 @@ pub fn summary(rows: &[Row]) -> Figures {
         .iter()
         .filter_map(|row| row.comparison.as_ref())
         .collect();
-    let levels = |c: &Comparison| c.cells.iter().map(|c| c.level_db.abs()).collect::<Vec<f64>>();
+    let levels = |c: &Comparison| {
+        c.cells
+            .iter()
+            .map(|c| c.level_db.abs())
+            .collect::<Vec<f64>>()
+    };
     let both = |values: Vec<f64>| {
         (
             median(values.iter().copied()),
@@ -139,8 +144,14 @@ pub fn summary(rows: &[Row]) -> Figures {
         seconds: rows.first().map_or(0.0, |row| row.seconds),
         imported: came.len(),
         refused: rows.len() - came.len(),
-        median_db: median(came.iter().map(|c| median(c.cells.iter().map(|c| c.error_db)))),
-        p95_db: quantile(came.iter().flat_map(|c| c.cells.iter().map(|c| c.error_db)), 0.95),
+        median_db: median(
+            came.iter()
+                .map(|c| median(c.cells.iter().map(|c| c.error_db))),
+        ),
+        p95_db: quantile(
+            came.iter().flat_map(|c| c.cells.iter().map(|c| c.error_db)),
+            0.95,
+        ),
         level_db: median(came.iter().map(|c| mean(&levels(c)))),
         level_p95_db: quantile(came.iter().flat_map(|c| levels(c)), 0.95),
         mu_percent: both(

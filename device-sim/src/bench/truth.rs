@@ -67,9 +67,8 @@ pub fn compare(
     let noise = 3.0 * sensors.accel_noise.powi(2) * 0.5 * truth.grid.sample_rate_hz;
     let mut cells = Vec::new();
     for (place, visit) in visited(&truth.grid, performance) {
-        let at = |field: &Field<'_>| {
-            Some(field.model(&field.locate(visit.speed_mm_s, visit.force_n)?))
-        };
+        let at =
+            |field: &Field<'_>| Some(field.model(&field.locate(visit.speed_mm_s, visit.force_n)?));
         let (Some(model), Some(true_model)) = (at(&found), at(&exact)) else {
             continue;
         };

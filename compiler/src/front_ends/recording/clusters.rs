@@ -78,3 +78,34 @@ pub(super) fn centres(
         .map(|[x, y, _]| (x * corner.0, y * corner.1))
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_vertices_stand_where_the_level_is_steep() {
+        let segments: Vec<Segment> = (0..400)
+            .map(|n| Segment {
+                start: 0,
+                length: 400,
+                speed_mm_s: 10.0 + 10.0 * f64::from(n % 20),
+                force_n: 0.1 + 0.1 * f64::from(n / 20),
+                lags: Vec::new(),
+                power: Vec::new(),
+                statistic: 0.0,
+            })
+            .collect();
+        let all: Vec<&Segment> = segments.iter().collect();
+        let slow = |steepness: f64| {
+            let heights: Vec<f64> = segments
+                .iter()
+                .map(|s| steepness * 4.0 * libm::log(s.speed_mm_s))
+                .collect();
+            let found = centres(&all, &heights, 16, (200.0, 2.0));
+            assert_eq!(found.len(), 16);
+            found.iter().filter(|place| place.0 < 60.0).count()
+        };
+        assert!(slow(0.15) > slow(0.0) + 2, "{} {}", slow(0.15), slow(0.0));
+    }
+}

@@ -105,7 +105,10 @@ impl Local {
             .clone()
             .unwrap_or_else(|| vec![0.0; POINTS]);
         let noise_bands = bands(&noise);
-        let all: Vec<Near<'_>> = rows.iter().map(|row| (row, row.place, row.weight)).collect();
+        let all: Vec<Near<'_>> = rows
+            .iter()
+            .map(|row| (row, row.place, row.weight))
+            .collect();
         let slopes = RIDGE * total / rows.len().max(1) as f64;
         let everywhere = noise_bands
             .iter()
@@ -242,7 +245,11 @@ impl Fit {
         law: Option<[f64; 3]>,
     ) -> Option<Self> {
         let samples: f64 = near.iter().map(|(.., w)| w).sum();
-        let mean = near.iter().map(|(row, _, w)| w * row.bands[band]).sum::<f64>() / samples;
+        let mean = near
+            .iter()
+            .map(|(row, _, w)| w * row.bands[band])
+            .sum::<f64>()
+            / samples;
         let least = (LEAST_SIGNAL * noise).max(1e-9 * mean).max(1e-300);
         let start = libm::log((mean - noise).max(least));
         let prior = law.unwrap_or([start, 0.0, 0.0]);
@@ -362,4 +369,110 @@ fn inverse(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
     (determinant.abs() > 1e-300)
         .then(|| [0, 1, 2].map(|i| [0, 1, 2].map(|j| cofactor(j, i) / determinant)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        front_ends::recording::vertex::{Form, vertex},
+        model::Numerator,
+        signal::{lsf, spectrum::squared_magnitude},
+    };
+
+    const NOISE: f64 = 1.0;
+    const A: [f64; 3] = [1.0, -0.9, 0.5];
+
+    /// Power of an AR model whose level is a power law.
+    fn truth(speed_mm_s: f64, force_n: f64, freq_hz: f64) -> f64 {
+        let level = 4.0 * libm::pow(speed_mm_s / 100.0, 1.4) * libm::pow(force_n, 0.8);
+        level / squared_magnitude(&A, TAU * freq_hz / RATE_HZ)
+    }
+
+    /// Segments of half a second at irregular places, under white noise.
+    fn steady(noise_is_known: bool) -> Steady {
+        let mut state = 9_u64;
+        let mut unit = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) as f64 + 0.5) / f64::from(1_u32 << 31)
+        };
+        let segments = (0..150)
+            .map(|n| {
+                let speed_mm_s = 12.0 * libm::pow(16.0, unit());
+                let force_n = 0.25 * libm::pow(8.0, unit());
+                let power: Vec<f64> = frequencies_hz()
+                    .into_iter()
+                    .map(|f| -libm::log(unit()) * (truth(speed_mm_s, force_n, f) + NOISE))
+                    .collect();
+                Segment {
+                    start: 500 * n,
+                    length: 500,
+                    speed_mm_s,
+                    force_n,
+                    lags: vec![power.iter().sum::<f64>() / POINTS as f64; LAGS + 1],
+                    power,
+                    statistic: 0.0,
+                }
+            })
+            .collect();
+        Steady {
+            segments,
+            noise_lags: None,
+            noise_power: noise_is_known.then(|| vec![NOISE; POINTS]),
+            rejected: 0,
+        }
+    }
+
+    /// Mean and RMS of the model over the truth, dB.
+    fn error_db(steady: &Steady, speed_mm_s: f64, force_n: f64) -> (f64, f64) {
+        let local = Local::new(steady, steady.segments.iter());
+        let lags = local.at(speed_mm_s, force_n, 0.5).expect("segments").lags;
+        let form = Form {
+            order: 6,
+            numerator: Numerator::None,
+        };
+        let found = vertex(speed_mm_s, force_n, &lags, form).expect("a model");
+        let a = lsf::to_polynomial(&found.lsf_rad);
+        let db: Vec<f64> = frequencies_hz()
+            .into_iter()
+            .map(|freq_hz| {
+                let power = found.sigma_m_s2 * found.sigma_m_s2
+                    / squared_magnitude(&a, TAU * freq_hz / RATE_HZ);
+                10.0 * libm::log10(power / truth(speed_mm_s, force_n, freq_hz))
+            })
+            .collect();
+        let mean = db.iter().sum::<f64>() / POINTS as f64;
+        let square = db.iter().map(|x| x * x).sum::<f64>() / POINTS as f64;
+        (mean, square.sqrt())
+    }
+
+    #[test]
+    fn an_ar_model_under_white_noise_of_known_power_comes_back_without_bias() {
+        // The mean power is 4 dB above the noise, and 5 dB below it.
+        for (speed_mm_s, force_n) in [(80.0, 0.8), (25.0, 0.5)] {
+            let (mean, rms) = error_db(&steady(true), speed_mm_s, force_n);
+            assert!(mean.abs() < 0.7 && rms < 1.2, "{mean} {rms}");
+        }
+        let (mean, _) = error_db(&steady(false), 25.0, 0.5);
+        assert!(
+            mean > 5.0,
+            "noise that is not known counts as signal: {mean}"
+        );
+    }
+
+    #[test]
+    fn the_lags_of_a_spectrum_are_those_of_its_model() {
+        let power: Vec<f64> = frequencies_hz()
+            .into_iter()
+            .map(|freq_hz| 1.0 / squared_magnitude(&[1.0, -0.5], TAU * freq_hz / RATE_HZ))
+            .collect();
+        // r_k = 0.5^k/(1 − 0.25).
+        let lags = Transform::new().lags(&power);
+        for (k, r) in lags.iter().take(5).enumerate() {
+            let expected = libm::pow(0.5, k as f64) / 0.75;
+            assert!((r - expected).abs() < 0.02, "{k}: {r} {expected}");
+        }
+    }
 }
