@@ -17,7 +17,7 @@ use asperity_recording::{
 use std::f64::consts::TAU;
 
 /// Offsets of the logarithms: below them, speed and force count linearly.
-const OFFSETS: (f64, f64) = (10.0, 0.1);
+const OFFSETS: (f64, f64) = (3.0, 0.03);
 /// Bands of the regression, some 31 Hz each.
 const BANDS: usize = 14;
 /// Least part of the noise that the power of a band is believed to be.
@@ -27,6 +27,8 @@ const LEAST_SHAPE: f64 = 0.02;
 /// Ridge of the regression, in units of the weight of one mean segment: with few neighbours the
 /// slopes are small.
 const RIDGE: f64 = 0.3;
+/// Spread of the power of a frequency about that of its band, as a part of it.
+const CONTRAST: f64 = 0.5;
 /// Spread of the power of a band about a power law over the whole plane, nepers.
 const SPREAD: f64 = 0.7;
 /// Steps of Fisher's scoring, and the largest change of a coefficient in one.
@@ -201,19 +203,27 @@ impl Local {
             add(&mut normal, [1.0, *x, *y], w * part * part);
         }
         let first = inverse(&normal)?[0];
-        let mut variance = 0.0;
+        let (mut variance, mut of_shape) = (0.0, 0.0);
         let mut shape = vec![0.0; power.len()];
         for ((row, [x, y], w), (level, part)) in near.iter().zip(&parts) {
             let share = w * part * part * (first[0] + first[1] * x + first[2] * y);
-            variance += (share / part).powi(2) / row.weight;
+            let own = (share / part).powi(2);
+            variance += own / row.weight;
+            of_shape += own;
             let from = band * power.len();
             for (k, sum) in shape.iter_mut().enumerate() {
                 *sum += share * (row.power[from + k] - self.noise[from + k]) / level;
             }
         }
-        let level = fit.level([0.0; 2]);
+        // A frequency of a segment varies as much as it is strong. What noise makes of the shape is no
+        // shape, and does not change the power of the band.
+        let kept = CONTRAST * CONTRAST / (CONTRAST * CONTRAST + of_shape);
+        for x in &mut shape {
+            *x = (1.0 + kept * (*x - 1.0)).max(LEAST_SHAPE);
+        }
+        let scale = fit.level([0.0; 2]) * shape.len() as f64 / shape.iter().sum::<f64>();
         for (power, shape) in power.iter_mut().zip(shape) {
-            *power = level * shape.max(LEAST_SHAPE);
+            *power = scale * shape;
         }
         Some(variance)
     }
