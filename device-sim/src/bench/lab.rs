@@ -10,7 +10,7 @@ use super::{
     fault::{Fault, faulty},
     perform::{perform, perform_sine},
     sensors::{Sensors, record},
-    truth::{Comparison, compare},
+    truth::{Cell, Comparison, compare},
 };
 
 /// One texture after some seconds of recording.
@@ -95,6 +95,11 @@ impl Drop for Scratch {
     }
 }
 
+/// Largest error that a cell should have, dB RMS.
+pub const GOAL_DB: f64 = 3.0;
+/// Power over the noise of the accelerometer's three axes from which a cell counts as loud, dB.
+pub const LOUD_DB: f64 = 10.0;
+
 /// Figures over all textures of one length.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Figures {
@@ -106,8 +111,16 @@ pub struct Figures {
     pub refused: usize,
     /// Median over textures of their median cell, dB RMS.
     pub median_db: f64,
-    /// 95 % quantile over the cells of all textures, dB RMS.
+    /// Visited cells of all textures.
+    pub cells: usize,
+    /// 95 % quantile over all cells, dB RMS.
     pub p95_db: f64,
+    /// Cells within [`GOAL_DB`], percent.
+    pub within_percent: f64,
+    /// Cells at least [`LOUD_DB`] over the accelerometer's noise, percent.
+    pub loud_percent: f64,
+    /// 95 % quantile over these, dB RMS.
+    pub loud_p95_db: f64,
     /// Median over textures of the mean size of the level's error, dB.
     pub level_db: f64,
     /// 95 % quantile over all cells of the same, dB.
@@ -140,6 +153,14 @@ pub fn summary(rows: &[Row]) -> Figures {
             quantile(values.iter().copied(), 0.95),
         )
     };
+    let cells: Vec<Cell> = came.iter().flat_map(|c| c.cells.iter().copied()).collect();
+    let loud: Vec<f64> = cells
+        .iter()
+        .filter(|c| c.over_noise_db >= LOUD_DB)
+        .map(|c| c.error_db)
+        .collect();
+    let within = cells.iter().filter(|c| c.error_db <= GOAL_DB).count();
+    let percent = |part: usize| 100.0 * part as f64 / cells.len().max(1) as f64;
     Figures {
         seconds: rows.first().map_or(0.0, |row| row.seconds),
         imported: came.len(),

@@ -4,24 +4,18 @@
 //! law is met exactly; within a band the power over the band's is linear. The width of the neighbourhood
 //! is that which predicts held-out segments best.
 //!
-//! The sensors' noise N adds to the power L of a band, and what is measured varies as (L + N)². A
-//! logarithm of what is left after N is subtracted would be biased where L is small, and may not exist.
-//! So L is the generalised linear model E\[P\] = exp(β·x) + N (McCullagh and Nelder, 1989) by
-//! Fisher's scoring, in which a segment weighs (L/(L + N))² of its time. Where the noise hides a band,
-//! the louder segments of the neighbourhood say how it goes on.
+//! Where the sensors' noise hides a band, the louder segments of the neighbourhood say how it goes on, and
+//! beyond them the power law of the whole plane. What noise makes of the shape within a band is shrunk
+//! towards a flat one.
 
-use asperity_recording::{
-    steady::{BAND_HZ, LAGS, POINTS, Segment, Steady, frequencies_hz},
-    timeline::RATE_HZ,
+use super::{
+    band::{BANDS, Fit, Measured, add, inverse, ridge},
+    lags::Transform,
 };
-use std::f64::consts::TAU;
+use asperity_recording::steady::{POINTS, Segment, Steady};
 
 /// Offsets of the logarithms: below them, speed and force count linearly.
 const OFFSETS: (f64, f64) = (3.0, 0.03);
-/// Bands of the regression, some 31 Hz each.
-const BANDS: usize = 14;
-/// Least part of the noise that the power of a band is believed to be.
-const LEAST_SIGNAL: f64 = 0.003;
 /// Least power of a frequency relative to its band.
 const LEAST_SHAPE: f64 = 0.02;
 /// Ridge of the regression, in units of the weight of one mean segment: with few neighbours the
@@ -29,11 +23,6 @@ const LEAST_SHAPE: f64 = 0.02;
 const RIDGE: f64 = 0.3;
 /// Spread of the power of a frequency about that of its band, as a part of it.
 const CONTRAST: f64 = 0.5;
-/// Spread of the power of a band about a power law over the whole plane, nepers.
-const SPREAD: f64 = 0.7;
-/// Steps of Fisher's scoring, and the largest change of a coefficient in one.
-const STEPS: usize = 12;
-const LARGEST_STEP: f64 = 2.0;
 
 /// A segment, ready to be regressed.
 #[derive(Debug, Clone)]
@@ -63,7 +52,7 @@ pub(super) struct Local {
 /// What is so at a speed and a force.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Estimate {
-    /// Autocorrelation at lags 0..=[`LAGS`], (m/s²)².
+    /// Autocorrelation at the first lags, (m/s²)².
     pub(super) lags: Vec<f64>,
     /// Samples that it rests on.
     pub(super) samples: f64,
@@ -116,7 +105,8 @@ impl Local {
             .iter()
             .enumerate()
             .map(|(band, noise)| {
-                Fit::new(&all, band, *noise, slopes, None).map_or([0.0; 3], |fit| fit.beta)
+                Fit::new(&measured(&all, band), *noise, slopes, None)
+                    .map_or([0.0; 3], |fit| fit.beta)
             })
             .collect();
         Self {
@@ -162,7 +152,7 @@ impl Local {
         let (mut offset, mut weight) = (0.0, 0.0);
         for (band, law) in laws.iter().enumerate() {
             let noise = self.noise_bands[band];
-            let fit = Fit::new(&near, band, noise, slopes, Some(*law))?;
+            let fit = Fit::new(&measured(&near, band), noise, slopes, Some(*law))?;
             offset += fit.weight * (fit.beta[0] - law[0]);
             weight += fit.weight;
         }
@@ -190,7 +180,7 @@ impl Local {
         power: &mut [f64],
     ) -> Option<f64> {
         let noise = self.noise_bands[band];
-        let fit = Fit::new(near, band, noise, slopes, Some(law))?;
+        let fit = Fit::new(&measured(near, band), noise, slopes, Some(law))?;
         let parts: Vec<(f64, f64)> = near
             .iter()
             .map(|(_, away, _)| {
@@ -229,156 +219,22 @@ impl Local {
     }
 }
 
+/// What the segments say of a band.
+fn measured(near: &[Near<'_>], band: usize) -> Vec<Measured> {
+    let one = |(row, away, weight): &Near<'_>| Measured {
+        power: row.bands[band],
+        away: *away,
+        weight: *weight,
+    };
+    near.iter().map(one).collect()
+}
+
 fn bands(power: &[f64]) -> Vec<f64> {
     let size = POINTS / BANDS;
     power
         .chunks_exact(size)
         .map(|band| band.iter().sum::<f64>() / size as f64)
         .collect()
-}
-
-/// The power of a band around a place: its logarithm there and the slopes.
-struct Fit {
-    beta: [f64; 3],
-    least: f64,
-    /// Samples without noise that know as much of the value.
-    weight: f64,
-}
-
-impl Fit {
-    /// `law` is what the value and the slopes are without any segment.
-    fn new(
-        near: &[Near<'_>],
-        band: usize,
-        noise: f64,
-        slopes: f64,
-        law: Option<[f64; 3]>,
-    ) -> Option<Self> {
-        let samples: f64 = near.iter().map(|(.., w)| w).sum();
-        let mean = near
-            .iter()
-            .map(|(row, _, w)| w * row.bands[band])
-            .sum::<f64>()
-            / samples;
-        let least = (LEAST_SIGNAL * noise).max(1e-9 * mean).max(1e-300);
-        let start = libm::log((mean - noise).max(least));
-        let prior = law.unwrap_or([start, 0.0, 0.0]);
-        // A band of 1/14 of the width tells its level to 1/√(samples/14).
-        let held = law.map_or(1e-6 * samples, |_| BANDS as f64 / (SPREAD * SPREAD));
-        let mut fit = Self {
-            beta: [start, prior[1], prior[2]],
-            least,
-            weight: 0.0,
-        };
-        for _ in 0..STEPS {
-            let mut normal = ridge(slopes, held);
-            let mut gradient = [0, 1, 2].map(|k| normal[k][k] * (prior[k] - fit.beta[k]));
-            fit.weight = 0.0;
-            for (row, away, w) in near {
-                let level = fit.level(*away);
-                let weight = w * (level / (level + noise)).powi(2);
-                let terms = [1.0, away[0], away[1]];
-                add(&mut normal, terms, weight);
-                fit.weight += weight;
-                let residual = (row.bands[band] - level - noise) / level;
-                for (sum, x) in gradient.iter_mut().zip(terms) {
-                    *sum += weight * residual * x;
-                }
-            }
-            let step = inverse(&normal)?
-                .map(|row| row.iter().zip(gradient).map(|(x, y)| x * y).sum::<f64>());
-            for (x, step) in fit.beta.iter_mut().zip(step) {
-                *x += step.clamp(-LARGEST_STEP, LARGEST_STEP);
-            }
-            if step.iter().all(|step| step.abs() < 1e-3) {
-                break;
-            }
-        }
-        Some(fit)
-    }
-
-    /// Power at a place this far away, (m/s²)².
-    fn level(&self, [x, y]: [f64; 2]) -> f64 {
-        let [value, slope_x, slope_y] = self.beta;
-        libm::exp((value + slope_x * x + slope_y * y).clamp(-100.0, 100.0)).max(self.least)
-    }
-}
-
-/// The inverse cosine transform of a spectrum that goes on at its ends.
-#[derive(Debug, Clone)]
-struct Transform {
-    /// Frequencies below and above those of a segment.
-    beyond: (usize, usize),
-    /// Cosines of every lag at every frequency.
-    cosines: Vec<Vec<f64>>,
-}
-
-/// Frequencies at each end whose mean goes on.
-const ENDS: usize = 12;
-
-impl Transform {
-    fn new() -> Self {
-        let inner = frequencies_hz();
-        let step_hz = (BAND_HZ.1 - BAND_HZ.0) / (POINTS - 1) as f64;
-        let below = (BAND_HZ.0 / step_hz) as usize;
-        let above = ((0.5 * RATE_HZ - BAND_HZ.1) / step_hz) as usize;
-        let all = (0..below)
-            .map(|n| (n as f64 + 0.5) * BAND_HZ.0 / below as f64)
-            .chain(inner)
-            .chain((1..=above).map(|n| BAND_HZ.1 + n as f64 * step_hz));
-        let cosines = all
-            .map(|freq_hz| {
-                (0..=LAGS)
-                    .map(|lag| libm::cos(TAU * freq_hz / RATE_HZ * lag as f64))
-                    .collect()
-            })
-            .collect();
-        Self {
-            beyond: (below, above),
-            cosines,
-        }
-    }
-
-    fn lags(&self, power: &[f64]) -> Vec<f64> {
-        let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
-        let (low, high) = (mean(&power[..ENDS]), mean(&power[POINTS - ENDS..]));
-        let all = std::iter::repeat_n(low, self.beyond.0)
-            .chain(power.iter().copied())
-            .chain(std::iter::repeat_n(high, self.beyond.1));
-        let mut lags = vec![0.0; LAGS + 1];
-        for (power, cosines) in all.zip(&self.cosines) {
-            for (sum, cosine) in lags.iter_mut().zip(cosines) {
-                *sum += power * cosine;
-            }
-        }
-        let count = self.cosines.len() as f64;
-        lags.into_iter().map(|lag| lag / count).collect()
-    }
-}
-
-/// The normal equations before any segment.
-fn ridge(slopes: f64, value: f64) -> [[f64; 3]; 3] {
-    [[value, 0.0, 0.0], [0.0, slopes, 0.0], [0.0, 0.0, slopes]]
-}
-
-fn add(normal: &mut [[f64; 3]; 3], terms: [f64; 3], weight: f64) {
-    for (row, x) in normal.iter_mut().zip(terms) {
-        for (sum, y) in row.iter_mut().zip(terms) {
-            *sum += weight * x * y;
-        }
-    }
-}
-
-/// The inverse of a symmetric matrix.
-fn inverse(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
-    let cofactor = |i: usize, j: usize| {
-        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-        let (c, d) = ((j + 1) % 3, (j + 2) % 3);
-        m[a][c] * m[b][d] - m[a][d] * m[b][c]
-    };
-    let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
-    (determinant.abs() > 1e-300)
-        .then(|| [0, 1, 2].map(|i| [0, 1, 2].map(|j| cofactor(j, i) / determinant)))
 }
 
 #[cfg(test)]
@@ -389,6 +245,11 @@ mod tests {
         model::Numerator,
         signal::{lsf, spectrum::squared_magnitude},
     };
+    use asperity_recording::{
+        steady::{LAGS, frequencies_hz},
+        timeline::RATE_HZ,
+    };
+    use std::f64::consts::TAU;
 
     const NOISE: f64 = 1.0;
     const A: [f64; 3] = [1.0, -0.9, 0.5];
@@ -470,19 +331,5 @@ mod tests {
             mean > 5.0,
             "noise that is not known counts as signal: {mean}"
         );
-    }
-
-    #[test]
-    fn the_lags_of_a_spectrum_are_those_of_its_model() {
-        let power: Vec<f64> = frequencies_hz()
-            .into_iter()
-            .map(|freq_hz| 1.0 / squared_magnitude(&[1.0, -0.5], TAU * freq_hz / RATE_HZ))
-            .collect();
-        // r_k = 0.5^k/(1 − 0.25).
-        let lags = Transform::new().lags(&power);
-        for (k, r) in lags.iter().take(5).enumerate() {
-            let expected = libm::pow(0.5, k as f64) / 0.75;
-            assert!((r - expected).abs() < 0.02, "{k}: {r} {expected}");
-        }
     }
 }

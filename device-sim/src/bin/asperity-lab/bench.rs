@@ -130,18 +130,22 @@ fn print(
 
 fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
     let mut text = String::from(
-        "| seconds | textures | spectrum, median dB | 95 % dB | level, mean dB | 95 % dB | μ, median % | 95 % | taps, median dB | 95 % dB | vertices |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| seconds | textures | cells | spectrum, median dB | 95 % dB | within 3 dB, % | 10 dB over noise, % | their 95 % dB | level, mean dB | 95 % dB | μ, median % | 95 % | taps, median dB | 95 % dB | vertices |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for (f, rows) in all {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "| {:.0} | {} of {} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} |",
+            "| {:.0} | {} of {} | {} | {:.2} | {:.2} | {:.1} | {:.0} | {:.2} | {:.2} | {:.2} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} |",
             f.seconds,
             f.imported,
             rows.len(),
+            f.cells,
             f.median_db,
             f.p95_db,
+            f.within_percent,
+            f.loud_percent,
+            f.loud_p95_db,
             f.level_db,
             f.level_p95_db,
             f.mu_percent.0,
