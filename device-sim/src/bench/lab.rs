@@ -169,10 +169,11 @@ pub fn summary(rows: &[Row]) -> Figures {
             came.iter()
                 .map(|c| median(c.cells.iter().map(|c| c.error_db))),
         ),
-        p95_db: quantile(
-            came.iter().flat_map(|c| c.cells.iter().map(|c| c.error_db)),
-            0.95,
-        ),
+        cells: cells.len(),
+        p95_db: quantile(cells.iter().map(|c| c.error_db), 0.95),
+        within_percent: percent(within),
+        loud_percent: percent(loud.len()),
+        loud_p95_db: quantile(loud, 0.95),
         level_db: median(came.iter().map(|c| mean(&levels(c)))),
         level_p95_db: quantile(came.iter().flat_map(|c| levels(c)), 0.95),
         mu_percent: both(
