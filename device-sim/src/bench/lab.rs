@@ -10,7 +10,7 @@ use super::{
     fault::{Fault, faulty},
     perform::{perform, perform_sine},
     sensors::{Sensors, record},
-    truth::{Comparison, compare},
+    truth::{Cell, Comparison, compare},
 };
 
 /// One texture after some seconds of recording.
@@ -30,7 +30,8 @@ pub struct Row {
     pub order: usize,
 }
 
-/// Records every texture for some seconds and imports what the sensors wrote.
+/// Records every texture for some seconds and imports what the sensors wrote. The noise of the
+/// accelerometer is `noise` times the usual one.
 ///
 /// # Errors
 /// [`BenchError`] of the first texture that cannot be rendered or recorded.
@@ -38,6 +39,7 @@ pub fn learn(
     textures: &[TextureModel],
     seconds: f64,
     seed: u64,
+    noise: f64,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Row>, BenchError> {
     textures
@@ -47,20 +49,16 @@ pub fn learn(
             let seed = seed.wrapping_mul(1000).wrapping_add(index as u64);
             let performance = perform(texture, seconds, seed)?;
             let folder = Scratch::new(seed)?;
-            record(
-                &performance,
-                texture,
-                &Sensors::seeded(seed),
-                seed,
-                &folder.0,
-            )?;
+            let mut sensors = Sensors::seeded(seed);
+            sensors.accel_noise *= noise;
+            record(&performance, texture, &sensors, seed, &folder.0)?;
             let analysis = recording::analyse(&folder.0, false);
             done();
             Ok(match analysis {
                 Ok(analysis) => Row {
                     name: texture.name.clone(),
                     seconds,
-                    comparison: Some(compare(texture, &performance, &analysis)),
+                    comparison: Some(compare(texture, &performance, &sensors, &analysis)),
                     refused: None,
                     vertices: analysis.fit.facts.len(),
                     order: analysis.fit.chosen.order,
@@ -97,6 +95,11 @@ impl Drop for Scratch {
     }
 }
 
+/// Largest error that a cell should have, dB RMS.
+pub const GOAL_DB: f64 = 3.0;
+/// Power over the noise of the accelerometer's three axes from which a cell counts as loud, dB.
+pub const LOUD_DB: f64 = 10.0;
+
 /// Figures over all textures of one length.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Figures {
@@ -108,8 +111,16 @@ pub struct Figures {
     pub refused: usize,
     /// Median over textures of their median cell, dB RMS.
     pub median_db: f64,
-    /// 95 % quantile over the cells of all textures, dB RMS.
+    /// Visited cells of all textures.
+    pub cells: usize,
+    /// 95 % quantile over all cells, dB RMS.
     pub p95_db: f64,
+    /// Cells within [`GOAL_DB`], percent.
+    pub within_percent: f64,
+    /// Cells at least [`LOUD_DB`] over the accelerometer's noise, percent.
+    pub loud_percent: f64,
+    /// 95 % quantile over these, dB RMS.
+    pub loud_p95_db: f64,
     /// Median over textures of the mean size of the level's error, dB.
     pub level_db: f64,
     /// 95 % quantile over all cells of the same, dB.
@@ -130,19 +141,39 @@ pub fn summary(rows: &[Row]) -> Figures {
         .iter()
         .filter_map(|row| row.comparison.as_ref())
         .collect();
-    let levels = |c: &Comparison| c.levels_db.iter().map(|x| x.abs()).collect::<Vec<f64>>();
+    let levels = |c: &Comparison| {
+        c.cells
+            .iter()
+            .map(|c| c.level_db.abs())
+            .collect::<Vec<f64>>()
+    };
     let both = |values: Vec<f64>| {
         (
             median(values.iter().copied()),
             quantile(values.iter().copied(), 0.95),
         )
     };
+    let cells: Vec<Cell> = came.iter().flat_map(|c| c.cells.iter().copied()).collect();
+    let loud: Vec<f64> = cells
+        .iter()
+        .filter(|c| c.over_noise_db >= LOUD_DB)
+        .map(|c| c.error_db)
+        .collect();
+    let within = cells.iter().filter(|c| c.error_db <= GOAL_DB).count();
+    let percent = |part: usize| 100.0 * part as f64 / cells.len().max(1) as f64;
     Figures {
         seconds: rows.first().map_or(0.0, |row| row.seconds),
         imported: came.len(),
         refused: rows.len() - came.len(),
-        median_db: median(came.iter().map(|c| median(c.cells_db.iter().copied()))),
-        p95_db: quantile(came.iter().flat_map(|c| c.cells_db.iter().copied()), 0.95),
+        median_db: median(
+            came.iter()
+                .map(|c| median(c.cells.iter().map(|c| c.error_db))),
+        ),
+        cells: cells.len(),
+        p95_db: quantile(cells.iter().map(|c| c.error_db), 0.95),
+        within_percent: percent(within),
+        loud_percent: percent(loud.len()),
+        loud_p95_db: quantile(loud, 0.95),
         level_db: median(came.iter().map(|c| mean(&levels(c)))),
         level_p95_db: quantile(came.iter().flat_map(|c| levels(c)), 0.95),
         mu_percent: both(

@@ -14,8 +14,8 @@ mod truth;
 
 pub use error::BenchError;
 pub use fault::{Fault, faulty};
-pub use lab::{Checks, Figures, Row, checks, learn, summary};
+pub use lab::{Checks, Figures, GOAL_DB, LOUD_DB, Row, checks, learn, summary};
 pub use perform::{Performance, perform, perform_sine};
 pub use script::{script, sine};
 pub use sensors::{Sensors, record};
-pub use truth::{Comparison, compare};
+pub use truth::{Cell, Comparison, compare};

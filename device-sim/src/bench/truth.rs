@@ -8,7 +8,12 @@ use asperity::{
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-use super::{perform::Performance, sensors::tap_at};
+use asperity_recording::timeline::RATE_HZ;
+
+use super::{
+    perform::Performance,
+    sensors::{Sensors, tap_at},
+};
 
 /// Size of a cell of the plane, mm/s and N, and the ticks in contact that make it visited.
 const CELL: (f64, f64) = (25.0, 0.3);
@@ -19,34 +24,66 @@ const SLOWEST_MM_S: f64 = 10.0;
 const TAP_BAND_HZ: (f64, f64) = (60.0, 1600.0);
 const TAP_DEPTH_DB: f64 = 20.0;
 
+/// A visited part of the plane, and how far the texture is from the truth in the middle of its visits.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Cell {
+    /// Mean speed of the visits, mm/s.
+    pub speed_mm_s: f64,
+    /// Mean force of the visits, N.
+    pub force_n: f64,
+    /// Time in contact, s.
+    pub seconds: f64,
+    /// Time in steady strokes that the import used, s.
+    pub steady_s: f64,
+    /// True level over the noise of the accelerometer's three axes, dB.
+    pub over_noise_db: f64,
+    /// RMS of the log spectra over 10–450 Hz, level included, dB.
+    pub error_db: f64,
+    /// Level found over the true one, dB.
+    pub level_db: f64,
+}
+
 /// How far a texture is from the truth.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
-    /// RMS of the log spectra over 10–450 Hz at every visited cell, level included, dB.
-    pub cells_db: Vec<f64>,
-    /// Difference of the levels at every visited cell, dB.
-    pub levels_db: Vec<f64>,
+    /// Every visited cell.
+    pub cells: Vec<Cell>,
     /// Relative error of μ; `None` where it was not recorded.
     pub mu: Option<f64>,
     /// RMS over third octaves at every recorded impact speed, dB.
     pub taps_db: Vec<f64>,
 }
 
-/// Compares an analysis with the texture that was touched.
+/// Compares an analysis with the texture that was touched by `sensors`.
 #[must_use]
-pub fn compare(truth: &TextureModel, performance: &Performance, analysis: &Analysis) -> Comparison {
+pub fn compare(
+    truth: &TextureModel,
+    performance: &Performance,
+    sensors: &Sensors,
+    analysis: &Analysis,
+) -> Comparison {
     let (found, exact) = (Field::new(&analysis.fit.grid), Field::new(&truth.grid));
-    let (mut cells_db, mut levels_db) = (Vec::new(), Vec::new());
-    for (speed_mm_s, force_n) in visited(&truth.grid, performance) {
-        let at = |field: &Field<'_>| Some(field.model(&field.locate(speed_mm_s, force_n)?));
+    let steady = steady_time(analysis);
+    let noise = 3.0 * sensors.accel_noise.powi(2) * 0.5 * truth.grid.sample_rate_hz;
+    let mut cells = Vec::new();
+    for (place, visit) in visited(&truth.grid, performance) {
+        let at =
+            |field: &Field<'_>| Some(field.model(&field.locate(visit.speed_mm_s, visit.force_n)?));
         let (Some(model), Some(true_model)) = (at(&found), at(&exact)) else {
             continue;
         };
         let (Some(level), Some(true_level)) = (model.vibration(), true_model.vibration()) else {
             continue;
         };
-        cells_db.push(log_spectral_distance_db(&model, &true_model));
-        levels_db.push(10.0 * libm::log10(level.power / true_level.power));
+        cells.push(Cell {
+            speed_mm_s: visit.speed_mm_s,
+            force_n: visit.force_n,
+            seconds: visit.seconds,
+            steady_s: steady.get(&place).copied().unwrap_or(0.0),
+            over_noise_db: 10.0 * libm::log10(true_level.power / noise.max(1e-30)),
+            error_db: log_spectral_distance_db(&model, &true_model),
+            level_db: 10.0 * libm::log10(level.power / true_level.power),
+        });
     }
     let taps_db = analysis
         .transients
@@ -54,8 +91,7 @@ pub fn compare(truth: &TextureModel, performance: &Performance, analysis: &Analy
         .filter_map(|t| tap_db(&truth.taps, t.speed_m_s, &t.accel_m_s2, 10_000.0))
         .collect();
     Comparison {
-        cells_db,
-        levels_db,
+        cells,
         mu: analysis
             .friction
             .as_ref()
@@ -64,10 +100,24 @@ pub fn compare(truth: &TextureModel, performance: &Performance, analysis: &Analy
     }
 }
 
-/// Middle of the visits of every cell that was visited long enough.
-fn visited(grid: &ModelGrid, performance: &Performance) -> Vec<(f64, f64)> {
+/// Column and row of a cell.
+type Place = (u32, u32);
+
+fn place(speed_mm_s: f64, force_n: f64) -> Place {
+    ((speed_mm_s / CELL.0) as u32, (force_n / CELL.1) as u32)
+}
+
+/// The visits of a cell.
+struct Visit {
+    speed_mm_s: f64,
+    force_n: f64,
+    seconds: f64,
+}
+
+/// The cells that were visited long enough.
+fn visited(grid: &ModelGrid, performance: &Performance) -> Vec<(Place, Visit)> {
     let (width, height) = asperity::mesh::corner(grid);
-    let mut cells: BTreeMap<(u32, u32), (usize, f64, f64)> = BTreeMap::new();
+    let mut cells: BTreeMap<Place, (usize, f64, f64)> = BTreeMap::new();
     for record in &performance.records {
         let (speed, force) = (
             f64::from(record.output.speed_mm_s),
@@ -76,16 +126,37 @@ fn visited(grid: &ModelGrid, performance: &Performance) -> Vec<(f64, f64)> {
         if force <= 0.0 || speed < SLOWEST_MM_S || speed > width || force > height {
             continue;
         }
-        let cell = cells
-            .entry(((speed / CELL.0) as u32, (force / CELL.1) as u32))
-            .or_default();
+        let cell = cells.entry(place(speed, force)).or_default();
         *cell = (cell.0 + 1, cell.1 + speed, cell.2 + force);
     }
     cells
-        .into_values()
-        .filter(|cell| cell.0 >= VISITED)
-        .map(|(n, speed, force)| (speed / n as f64, force / n as f64))
+        .into_iter()
+        .filter(|(_, cell)| cell.0 >= VISITED)
+        .map(|(place, (n, speed, force))| {
+            let visit = Visit {
+                speed_mm_s: speed / n as f64,
+                force_n: force / n as f64,
+                seconds: n as f64 / RATE_HZ,
+            };
+            (place, visit)
+        })
         .collect()
+}
+
+/// Time that the steady segments of an analysis spend in every cell, s.
+fn steady_time(analysis: &Analysis) -> BTreeMap<Place, f64> {
+    let mut cells: BTreeMap<Place, f64> = BTreeMap::new();
+    let mut end = 0;
+    for segment in &analysis.steady.segments {
+        let last = segment.start + segment.length;
+        // Neighbours overlap.
+        let new = last.saturating_sub(segment.start.max(end));
+        *cells
+            .entry(place(segment.speed_mm_s, segment.force_n.max(0.0)))
+            .or_default() += new as f64 / RATE_HZ;
+        end = end.max(last);
+    }
+    cells
 }
 
 /// RMS difference of the third octaves of a transient and of the truth at its speed, dB.

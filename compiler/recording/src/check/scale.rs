@@ -141,7 +141,10 @@ fn gravity_factor(recording: &Recording, aligned: &Aligned) -> Option<f64> {
         .sqrt();
     let moving = axes
         .iter()
-        .map(|axis| quantile(axis.iter().map(|x| (x - mean(axis)).abs()), 0.5))
+        .map(|axis| {
+            let middle = mean(axis);
+            quantile(axis.iter().map(|x| (x - middle).abs()), 0.5)
+        })
         .fold(0.0, f64::max);
     if axes.len() < 3 || steady < moving {
         return None;

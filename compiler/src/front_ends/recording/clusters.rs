@@ -2,30 +2,40 @@
 
 use asperity_recording::steady::Segment;
 
+/// Speed and force in parts of the corner, and height.
+type Place = [f64; 3];
+/// A segment with its weight.
+type Point = (Place, f64);
+
 /// Centres of clusters in the plane of speed and force. The first ones are far apart, and Lloyd's
 /// steps move them to the middle of their segments.
-pub(super) fn centres(segments: &[&Segment], count: usize, corner: (f64, f64)) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64, f64)> = segments
+///
+/// Segments are as far apart as their places are, in parts of the `corner`, and their `heights`: a level that
+/// is steep takes more clusters.
+pub(super) fn centres(
+    segments: &[&Segment],
+    heights: &[f64],
+    count: usize,
+    corner: (f64, f64),
+) -> Vec<(f64, f64)> {
+    let points: Vec<Point> = segments
         .iter()
-        .map(|s| {
-            (
-                s.speed_mm_s / corner.0,
-                s.force_n / corner.1,
-                s.length as f64,
-            )
+        .zip(heights)
+        .map(|(s, height)| {
+            let place = [s.speed_mm_s / corner.0, s.force_n / corner.1, *height];
+            (place, s.length as f64)
         })
         .collect();
-    let distance = |p: &(f64, f64, f64), c: &(f64, f64)| (p.0 - c.0).powi(2) + (p.1 - c.1).powi(2);
-    let nearest = |p: &(f64, f64, f64), all: &[(f64, f64)]| {
+    let distance =
+        |p: &Point, c: &Place| -> f64 { p.0.iter().zip(c).map(|(x, y)| (x - y).powi(2)).sum() };
+    let nearest = |p: &Point, all: &[Place]| {
         all.iter()
             .map(|c| distance(p, c))
             .fold(f64::INFINITY, f64::min)
     };
-    let total: f64 = points.iter().map(|p| p.2).sum();
-    let mean = |pick: fn(&(f64, f64, f64)) -> f64| {
-        points.iter().map(|p| p.2 * pick(p)).sum::<f64>() / total
-    };
-    let mut found = vec![(mean(|p| p.0), mean(|p| p.1))];
+    let total: f64 = points.iter().map(|p| p.1).sum();
+    let middle = [0, 1, 2].map(|axis| points.iter().map(|p| p.1 * p.0[axis]).sum::<f64>() / total);
+    let mut found: Vec<Place> = vec![middle];
     while found.len() < count.min(points.len()) {
         let next = points
             .iter()
@@ -33,26 +43,26 @@ pub(super) fn centres(segments: &[&Segment], count: usize, corner: (f64, f64)) -
         let Some(next) = next.filter(|p| nearest(p, &found) > 1e-6) else {
             break;
         };
-        found.push((next.0, next.1));
+        found.push(next.0);
     }
     for _ in 0..30 {
-        let mut sums = vec![(0.0, 0.0, 0.0); found.len()];
+        let mut sums = vec![([0.0; 3], 0.0); found.len()];
         for p in &points {
             let own = (0..found.len())
                 .min_by(|&a, &b| distance(p, &found[a]).total_cmp(&distance(p, &found[b])))
                 .unwrap_or(0);
-            sums[own] = (
-                sums[own].0 + p.2 * p.0,
-                sums[own].1 + p.2 * p.1,
-                sums[own].2 + p.2,
-            );
+            let (sum, weight) = &mut sums[own];
+            for (sum, x) in sum.iter_mut().zip(p.0) {
+                *sum += p.1 * x;
+            }
+            *weight += p.1;
         }
-        let next: Vec<(f64, f64)> = sums
+        let next: Vec<Place> = sums
             .iter()
             .zip(&found)
-            .map(|(s, old)| {
-                if s.2 > 0.0 {
-                    (s.0 / s.2, s.1 / s.2)
+            .map(|((sum, weight), old)| {
+                if *weight > 0.0 {
+                    sum.map(|x| x / weight)
                 } else {
                     *old
                 }
@@ -65,6 +75,37 @@ pub(super) fn centres(segments: &[&Segment], count: usize, corner: (f64, f64)) -
     }
     found
         .into_iter()
-        .map(|(x, y)| (x * corner.0, y * corner.1))
+        .map(|[x, y, _]| (x * corner.0, y * corner.1))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_vertices_stand_where_the_level_is_steep() {
+        let segments: Vec<Segment> = (0..400)
+            .map(|n| Segment {
+                start: 0,
+                length: 400,
+                speed_mm_s: 10.0 + 10.0 * f64::from(n % 20),
+                force_n: 0.1 + 0.1 * f64::from(n / 20),
+                lags: Vec::new(),
+                power: Vec::new(),
+                statistic: 0.0,
+            })
+            .collect();
+        let all: Vec<&Segment> = segments.iter().collect();
+        let slow = |steepness: f64| {
+            let heights: Vec<f64> = segments
+                .iter()
+                .map(|s| steepness * 4.0 * libm::log(s.speed_mm_s))
+                .collect();
+            let found = centres(&all, &heights, 16, (200.0, 2.0));
+            assert_eq!(found.len(), 16);
+            found.iter().filter(|place| place.0 < 60.0).count()
+        };
+        assert!(slow(0.15) > slow(0.0) + 2, "{} {}", slow(0.15), slow(0.0));
+    }
 }

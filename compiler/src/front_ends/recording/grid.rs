@@ -26,6 +26,9 @@ use serde::Serialize;
 const WIDTHS: [f64; 6] = [0.25, 0.35, 0.5, 0.7, 1.0, 2.0];
 /// Numbers of vertices that are tried.
 const COUNTS: [usize; 8] = [1, 3, 5, 8, 12, 16, 20, 25];
+/// Distances that are tried for a level e times as high, beside a way across the whole plane: vertices
+/// stand where the level is steep.
+const STEEPNESSES: [f64; 3] = [0.0, 0.05, 0.15];
 /// AR orders that are tried.
 const ORDERS: [usize; 6] = [4, 8, 12, 16, 20, 24];
 /// Parts that are held out in turn, and the time that stays together, s.
@@ -50,6 +53,8 @@ pub struct Tried {
     pub width: f64,
     /// Vertices that are measured.
     pub vertices: usize,
+    /// How much a difference in level counts where vertices are placed.
+    pub steepness: f64,
     /// Seconds that the neighbourhood of a vertex counts as beside the segments that its mixtures meet;
     /// `None` where it alone counts.
     pub prior_s: Option<f64>,
@@ -90,6 +95,7 @@ struct Choice {
     form: Form,
     width: f64,
     vertices: usize,
+    steepness: f64,
     prior_s: Option<f64>,
 }
 
@@ -107,6 +113,7 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
         },
         width: 0.5,
         vertices: 12,
+        steepness: 0.05,
         prior_s: None,
     };
     let at_most = (steady.segments.len() / 3).max(1);
@@ -119,6 +126,8 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
             .map(|vertices| Choice { vertices, ..best })
             .collect();
         best = least(steady, counts.into_iter(), LEAST_GAIN, &mut tried);
+        let steepnesses = STEEPNESSES.map(|steepness| Choice { steepness, ..best });
+        best = least(steady, steepnesses.into_iter(), 0.0, &mut tried);
         if round == 0 {
             let forms = ORDERS.into_iter().flat_map(|order| {
                 [Numerator::None, Numerator::Nyquist].map(|numerator| Form { order, numerator })
@@ -147,6 +156,7 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
     let chosen = *tried.iter().rev().find(|tried| {
         tried.vertices == best.vertices
             && tried.width == best.width
+            && tried.steepness == best.steepness
             && tried.prior_s == best.prior_s
     })?;
     Some(GridFit {
@@ -174,6 +184,7 @@ fn least(
         nyquist_zero: choice.form.numerator == Numerator::Nyquist,
         width: choice.width,
         vertices: choice.vertices,
+        steepness: choice.steepness,
         prior_s: choice.prior_s,
         held_out: *held_out,
     };
@@ -217,6 +228,13 @@ fn held_out(steady: &Steady, choice: Choice) -> f64 {
     }
 }
 
+/// The logarithm of a segment's power without the sensors' noise, and of a fifth of the noise where
+/// there is less.
+fn ln_level(steady: &Steady, segment: &Segment) -> f64 {
+    let noise = steady.noise_lags.as_ref().map_or(0.0, |lags| lags[0]);
+    libm::log((segment.lags[0] - noise).max(0.2 * noise).max(1e-300))
+}
+
 /// The grid of some segments, and the facts of its measured vertices.
 fn build(
     steady: &Steady,
@@ -232,7 +250,11 @@ fn build(
     let local = Local::new(steady, segments.iter().copied());
     let mut seconds = Vec::new();
     let mut interior: Vec<GridVertex> = Vec::new();
-    for (speed_mm_s, force_n) in centres(segments, choice.vertices, corner) {
+    let heights: Vec<f64> = segments
+        .iter()
+        .map(|segment| choice.steepness * ln_level(steady, segment))
+        .collect();
+    for (speed_mm_s, force_n) in centres(segments, &heights, choice.vertices, corner) {
         let estimate = local.at(speed_mm_s, force_n, choice.width)?;
         let Some(vertex) = vertex(speed_mm_s, force_n, &estimate.lags, choice.form) else {
             continue;

@@ -5,12 +5,14 @@
 //! completed by the learned model and marked so.
 
 mod analyse;
+mod band;
 mod blocks;
 mod clusters;
 mod complete;
 mod error;
 mod grid;
 mod import;
+mod lags;
 mod local;
 mod refine;
 mod report;

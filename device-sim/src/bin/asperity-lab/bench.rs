@@ -42,6 +42,15 @@ pub(crate) struct Arguments {
     /// At most so many textures
     #[arg(long, value_name = "N")]
     textures: Option<usize>,
+    /// Only every so many of the textures
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    every: usize,
+    /// Noise of the accelerometer, times the usual 80 µg/√Hz
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    noise: f64,
+    /// Write every visited cell of every texture into this CSV file
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["write", "checks"])]
+    cells: Option<PathBuf>,
     /// Check so many faulty and as many clean recordings of 20 s instead
     #[arg(long, value_name = "N", conflicts_with = "write")]
     checks: Option<usize>,
@@ -65,6 +74,10 @@ fn seconds(text: &str) -> Result<f64, String> {
 
 pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
     let mut textures = textures(arguments)?;
+    textures = textures
+        .into_iter()
+        .step_by(arguments.every.max(1))
+        .collect();
     textures.truncate(arguments.textures.unwrap_or(usize::MAX).max(1));
     if let Some(folder) = &arguments.write {
         return write(arguments, &textures[0], folder, console);
@@ -79,9 +92,20 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let mut all: Vec<(Figures, Vec<Row>)> = Vec::new();
     for &seconds in &arguments.seconds {
         let bar = console.bar(textures.len(), "recording and importing");
-        let rows = bench::learn(&textures, seconds, arguments.seed, || bar.inc(1)).map_err(one)?;
+        let rows = bench::learn(&textures, seconds, arguments.seed, arguments.noise, || {
+            bar.inc(1);
+        })
+        .map_err(one)?;
         bar.finish_and_clear();
         all.push((bench::summary(&rows), rows));
+    }
+    if let Some(path) = &arguments.cells {
+        std::fs::write(path, cells_csv(&all)).map_err(|error| {
+            Plain::failure(
+                format!("{}: {error}", path.display()),
+                "give a file that can be written",
+            )
+        })?;
     }
     let text = figures_text(&all);
     // Figures of single materials of others stay with their owner.
@@ -106,18 +130,22 @@ fn print(
 
 fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
     let mut text = String::from(
-        "| seconds | textures | spectrum, median dB | 95 % dB | level, mean dB | 95 % dB | μ, median % | 95 % | taps, median dB | 95 % dB | vertices |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| seconds | textures | cells | spectrum, median dB | 95 % dB | within 3 dB, % | 10 dB over noise, % | their 95 % dB | level, mean dB | 95 % dB | μ, median % | 95 % | taps, median dB | 95 % dB | vertices |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for (f, rows) in all {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "| {:.0} | {} of {} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} |",
+            "| {:.0} | {} of {} | {} | {:.2} | {:.2} | {:.1} | {:.0} | {:.2} | {:.2} | {:.2} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} |",
             f.seconds,
             f.imported,
             rows.len(),
+            f.cells,
             f.median_db,
             f.p95_db,
+            f.within_percent,
+            f.loud_percent,
+            f.loud_p95_db,
             f.level_db,
             f.level_p95_db,
             f.mu_percent.0,
@@ -133,6 +161,33 @@ fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
         }
     }
     text
+}
+
+fn cells_csv(all: &[(Figures, Vec<Row>)]) -> String {
+    let mut csv = String::from(
+        "texture,recorded_s,vertices,order,speed_mm_s,force_n,seconds,steady_s,over_noise_db,error_db,level_db\n",
+    );
+    for row in all.iter().flat_map(|(_, rows)| rows) {
+        for cell in row.comparison.iter().flat_map(|c| &c.cells) {
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                csv,
+                "\"{}\",{:.0},{},{},{:.2},{:.3},{:.3},{:.3},{:.2},{:.3},{:.3}",
+                row.name.replace('"', "\"\""),
+                row.seconds,
+                row.vertices,
+                row.order,
+                cell.speed_mm_s,
+                cell.force_n,
+                cell.seconds,
+                cell.steady_s,
+                cell.over_noise_db,
+                cell.error_db,
+                cell.level_db
+            );
+        }
+    }
+    csv
 }
 
 fn checks_text(checks: &Checks) -> String {
