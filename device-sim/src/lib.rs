@@ -13,6 +13,7 @@
 //! | [`axis`] | one axis: mass, friction, a hand's pull, implicit integration |
 //! | [`mod@bench`] | known textures, recorded by simulated sensors and held against what comes back |
 //! | [`calibration`] | a sweep, the acceleration that follows, a profile of both |
+//! | [`capture`] | a recording of a real surface: sensors on ports and files, coverage, the folder |
 //! | [`device`] | the device: quantisation, delay, limits, workspace, and its TOML file |
 //! | [`hand`] | grip, motions, seeded script |
 //! | [`servo`] | whatever answers a position with a force |
@@ -33,6 +34,7 @@
 pub mod axis;
 pub mod bench;
 pub mod calibration;
+pub mod capture;
 pub mod config;
 pub mod desk;
 pub mod device;

@@ -35,9 +35,23 @@ pub struct Comparison {
 /// Compares an analysis with the texture that was touched.
 #[must_use]
 pub fn compare(truth: &TextureModel, performance: &Performance, analysis: &Analysis) -> Comparison {
+    let visits = performance.records.iter().map(|record| {
+        let output = &record.output;
+        (output.speed_mm_s, output.normal_force_n)
+    });
+    compare_at(truth, visits, analysis)
+}
+
+/// The same for the speed, mm/s, and the load, N, of every millisecond.
+#[must_use]
+pub fn compare_at(
+    truth: &TextureModel,
+    visits: impl IntoIterator<Item = (f32, f32)>,
+    analysis: &Analysis,
+) -> Comparison {
     let (found, exact) = (Field::new(&analysis.fit.grid), Field::new(&truth.grid));
     let (mut cells_db, mut levels_db) = (Vec::new(), Vec::new());
-    for (speed_mm_s, force_n) in visited(&truth.grid, performance) {
+    for (speed_mm_s, force_n) in visited(&truth.grid, visits) {
         let at = |field: &Field<'_>| Some(field.model(&field.locate(speed_mm_s, force_n)?));
         let (Some(model), Some(true_model)) = (at(&found), at(&exact)) else {
             continue;
@@ -65,14 +79,14 @@ pub fn compare(truth: &TextureModel, performance: &Performance, analysis: &Analy
 }
 
 /// Middle of the visits of every cell that was visited long enough.
-fn visited(grid: &ModelGrid, performance: &Performance) -> Vec<(f64, f64)> {
+fn visited(
+    grid: &ModelGrid,
+    visits: impl IntoIterator<Item = (f32, f32)>,
+) -> Vec<(f64, f64)> {
     let (width, height) = asperity::mesh::corner(grid);
     let mut cells: BTreeMap<(u32, u32), (usize, f64, f64)> = BTreeMap::new();
-    for record in &performance.records {
-        let (speed, force) = (
-            f64::from(record.output.speed_mm_s),
-            f64::from(record.output.normal_force_n),
-        );
+    for (speed, force) in visits {
+        let (speed, force) = (f64::from(speed), f64::from(force));
         if force <= 0.0 || speed < SLOWEST_MM_S || speed > width || force > height {
             continue;
         }

@@ -1,0 +1,216 @@
+//! A recording as a folder: `recording.toml`, `touch.csv` and `accel.csv`.
+
+use super::columns::Channel;
+use super::take::{Load, Take};
+use asperity_recording::description::{Axis, Quantity};
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::ops::Range;
+
+/// Files of a recording: its description, the device, the sensor.
+pub const FILES: [&str; 3] = ["recording.toml", "touch.csv", "accel.csv"];
+/// Longest gap that an import bridges, s, with a margin.
+const MOST_GAP_S: f64 = 0.9;
+/// Shortest recording that is kept, s.
+const LEAST_S: f64 = 1.0;
+
+/// What a recording says of itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct About {
+    /// Name of the material.
+    pub name: String,
+    /// Device and sensor.
+    pub device: String,
+    /// The tool.
+    pub tool: Option<String>,
+    /// Its mass, kg.
+    pub mass_kg: Option<f64>,
+    /// Largest acceleration of the sensor, in the unit of its channels.
+    pub full_acceleration: Option<f64>,
+    /// Largest force of the sensor, in the unit of its channels.
+    pub full_force: Option<f64>,
+}
+
+/// What of a take makes a recording: the time that both files cover without a long gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Times of the samples on the loop's clock, s.
+    times_s: Vec<f64>,
+    touches: Range<usize>,
+    samples: Range<usize>,
+    /// When it begins on the loop's clock, s.
+    begin_s: f64,
+    /// How long it is, s.
+    pub seconds: f64,
+    /// Samples a second.
+    pub rate_hz: f64,
+    /// Whether what came after a gap was left out.
+    pub is_cut: bool,
+}
+
+impl Part {
+    /// Rows of the device, and samples of the sensor.
+    #[must_use]
+    pub fn rows(&self) -> (usize, usize) {
+        (self.touches.len(), self.samples.len())
+    }
+}
+
+/// Times without a long gap from the first on: how many.
+fn unbroken(times_s: &[f64]) -> usize {
+    let gap = times_s.windows(2).position(|pair| pair[1] - pair[0] > MOST_GAP_S);
+    gap.map_or(times_s.len(), |before| before + 1)
+}
+
+/// What of a take is worth keeping; `None` where device and sensor have less than a second together.
+#[must_use]
+pub fn part(take: &Take) -> Option<Part> {
+    let times_s = take.times_s();
+    let touched_s: Vec<f64> = take.touches().iter().map(|touch| 1e-9 * touch.at_ns as f64).collect();
+    let begin_s = touched_s.first()?.max(*times_s.first()?);
+    let after = |times_s: &[f64]| times_s.partition_point(|t_s| *t_s < begin_s);
+    let (first_touch, first_sample) = (after(&touched_s), after(&times_s));
+    let touch_count = unbroken(touched_s.get(first_touch..)?);
+    let sample_count = unbroken(times_s.get(first_sample..)?);
+    if touch_count < 2 || sample_count < 2 {
+        return None;
+    }
+    let touches = first_touch..first_touch + touch_count;
+    let samples = first_sample..first_sample + sample_count;
+    let is_cut = touches.end < touched_s.len() || samples.end < times_s.len();
+    let end_s = touched_s[touches.end - 1].min(times_s[samples.end - 1]);
+    let until = |times_s: &[f64]| times_s.partition_point(|t_s| *t_s <= end_s);
+    let touches = touches.start..touches.end.min(until(&touched_s));
+    let samples = samples.start..samples.end.min(until(&times_s));
+    let seconds = end_s - begin_s;
+    if seconds < LEAST_S || touches.len() < 2 || samples.len() < 2 {
+        return None;
+    }
+    let sampled_s = times_s[samples.end - 1] - times_s[samples.start];
+    Some(Part {
+        rate_hz: (samples.len() - 1) as f64 / sampled_s,
+        times_s,
+        touches,
+        samples,
+        begin_s,
+        seconds,
+        is_cut,
+    })
+}
+
+/// Writes one of the [`FILES`] of a recording.
+///
+/// # Errors
+/// [`io::Error`] of what is written to.
+pub fn write(
+    which: usize,
+    about: &About,
+    take: &Take,
+    part: &Part,
+    to: &mut impl Write,
+) -> io::Result<()> {
+    match which {
+        0 => to.write_all(description(about, take).as_bytes()),
+        1 => touch(take, part, to),
+        _ => accel(take, part, to),
+    }
+}
+
+fn touch(take: &Take, part: &Part, file: &mut impl Write) -> io::Result<()> {
+    let mut file = io::BufWriter::new(file);
+    let has_force = take.load() == Load::Loop;
+    file.write_all(if has_force {
+        b"t_s,x,y,z,fx,fy,fz\n"
+    } else {
+        b"t_s,x,y,z\n"
+    })?;
+    for touch in &take.touches()[part.touches.clone()] {
+        let t_s = 1e-9 * touch.at_ns as f64 - part.begin_s;
+        let [x, y, z] = touch.place_m.map(|x_m| 1e3 * f64::from(x_m));
+        write!(file, "{t_s:.6},{x:.4},{y:.4},{z:.4}")?;
+        if has_force {
+            let [x, y, z] = touch.force_n;
+            write!(file, ",{x:.5},{y:.5},{z:.5}")?;
+        }
+        file.write_all(b"\n")?;
+    }
+    file.flush()
+}
+
+fn accel(take: &Take, part: &Part, file: &mut impl Write) -> io::Result<()> {
+    let mut file = io::BufWriter::new(file);
+    file.write_all(b"t_s")?;
+    for channel in take.channels() {
+        write!(file, ",{}", channel.name())?;
+    }
+    file.write_all(b"\n")?;
+    for sample in part.samples.clone() {
+        write!(file, "{:.7}", part.times_s[sample] - part.begin_s)?;
+        for value in take.values(sample) {
+            // Nothing stands for a missing value.
+            if value.is_finite() {
+                write!(file, ",{value}")?;
+            } else {
+                file.write_all(b",")?;
+            }
+        }
+        file.write_all(b"\n")?;
+    }
+    file.flush()
+}
+
+/// A string of TOML. Its escapes are those of JSON.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007f")
+}
+
+fn description(about: &About, take: &Take) -> String {
+    let mut text = format!(
+        "name = {}\ndevice = {}\n",
+        quoted(&about.name),
+        quoted(&about.device)
+    );
+    if about.tool.is_some() || about.mass_kg.is_some() {
+        text += "\n[tool]\n";
+    }
+    // Writing to a string cannot fail.
+    if let Some(tool) = &about.tool {
+        let _ = writeln!(text, "name = {}", quoted(tool));
+    }
+    if let Some(mass_kg) = about.mass_kg {
+        let _ = writeln!(text, "mass_kg = {mass_kg:?}");
+    }
+    let file = |path: &str| format!("\n[[file]]\npath = \"{path}\"\nclock = \"t_s\"\n");
+    let channel = |column: &str, quantity: Quantity, axis: Axis, unit: &str| {
+        format!(
+            "[[file.channel]]\ncolumn = \"{column}\"\nquantity = \"{quantity}\"\naxis = \"{axis}\"\nunit = \"{unit}\"\n"
+        )
+    };
+    let axes = [Axis::X, Axis::Y, Axis::Z];
+    text += &file(FILES[1]);
+    for axis in axes {
+        text += &channel(&axis.to_string(), Quantity::Position, axis, "mm");
+    }
+    if take.load() == Load::Loop {
+        for axis in axes {
+            text += &channel(&format!("f{axis}"), Quantity::Force, axis, "N");
+        }
+    }
+    text += &file(FILES[2]);
+    for measured in take.channels() {
+        let Channel {
+            quantity,
+            axis,
+            unit,
+        } = measured;
+        text += &channel(&measured.name(), quantity, axis, unit.name);
+        let full = match quantity {
+            Quantity::Force => about.full_force,
+            _ => about.full_acceleration,
+        };
+        if let Some(full) = full {
+            let _ = writeln!(text, "range = [-{full:?}, {full:?}]");
+        }
+    }
+    text
+}
