@@ -17,6 +17,6 @@ pub use fault::{Fault, faulty};
 pub use lab::{Checks, Figures, Row, checks, learn, summary};
 pub use perform::{Performance, perform, perform_sine};
 pub use script::{script, sine};
-pub use sensors::{Sensors, record};
 pub(crate) use sensors::{BENT_S, GRAVITY_M_S2, HAND_HALF, across, of_tool};
+pub use sensors::{Sensors, record};
 pub use truth::{Comparison, compare, compare_at};

@@ -134,12 +134,7 @@ pub(super) fn measure(
         start_s: BENT_S,
         rate_hz: TICK_HZ,
     };
-    let normal = resample(
-        &as_f32(&across(&vibration)),
-        bent,
-        accel_clock,
-        count,
-    );
+    let normal = resample(&as_f32(&across(&vibration)), bent, accel_clock, count);
     accel[2].iter_mut().zip(normal).for_each(|(a, b)| *a += b);
     for &(tick, speed_m_s) in &performance.impacts {
         add_tap(

@@ -79,10 +79,7 @@ pub fn compare_at(
 }
 
 /// Middle of the visits of every cell that was visited long enough.
-fn visited(
-    grid: &ModelGrid,
-    visits: impl IntoIterator<Item = (f32, f32)>,
-) -> Vec<(f64, f64)> {
+fn visited(grid: &ModelGrid, visits: impl IntoIterator<Item = (f32, f32)>) -> Vec<(f64, f64)> {
     let (width, height) = asperity::mesh::corner(grid);
     let mut cells: BTreeMap<(u32, u32), (usize, f64, f64)> = BTreeMap::new();
     for (speed, force) in visits {

@@ -114,7 +114,10 @@ mod tests {
         let two = [(0.0, 5.0), (100.0, 5.3)];
         let line = line_under(&two, Some(1e-3)).expect("a line");
         assert_eq!(line.scale, 1e-3);
-        assert!((line.host_s(100.0) - 5.1).abs() < 1e-9, "nothing arrives early");
+        assert!(
+            (line.host_s(100.0) - 5.1).abs() < 1e-9,
+            "nothing arrives early"
+        );
         assert_eq!(line_under(&two[..1], None), None);
         assert_eq!(line_under(&[], Some(1.0)), None);
         assert!(line_under(&two, None).is_some());

@@ -37,7 +37,10 @@ impl Coverage {
                 })
             };
             if !(2..=MOST).contains(&edges.len()) {
-                return fail(&format!("{} edges, and 2 to {MOST} make bands", edges.len()));
+                return fail(&format!(
+                    "{} edges, and 2 to {MOST} make bands",
+                    edges.len()
+                ));
             }
             if edges.iter().any(|edge| !(1e-3..=1e4).contains(edge)) {
                 return fail("an edge is outside 0.001 to 10000");
@@ -110,7 +113,10 @@ impl Coverage {
     pub fn covered(&self) -> (usize, usize) {
         // Sums of tenths of a second.
         let enough = |seconds: &&f64| **seconds > self.need_s - 1e-6;
-        (self.seconds.iter().filter(enough).count(), self.seconds.len())
+        (
+            self.seconds.iter().filter(enough).count(),
+            self.seconds.len(),
+        )
     }
 
     /// Whether every cell has all of its seconds.
@@ -128,7 +134,8 @@ impl Coverage {
         let cells = (0..forces).flat_map(|force| (0..speeds).map(move |speed| (speed, force)));
         let lacking = cells.filter(|&cell| self.seconds[self.index(cell)] <= self.need_s - 1e-6);
         lacking.min_by(|&a, &b| {
-            let far = |(speed, force): (usize, usize)| speed.abs_diff(from.0) + force.abs_diff(from.1);
+            let far =
+                |(speed, force): (usize, usize)| speed.abs_diff(from.0) + force.abs_diff(from.1);
             let by_seconds = || self.seconds[self.index(a)].total_cmp(&self.seconds[self.index(b)]);
             far(a).cmp(&far(b)).then_with(by_seconds)
         })
@@ -137,7 +144,10 @@ impl Coverage {
     /// Seconds of every cell: a row for each band of force.
     #[must_use]
     pub fn rows(&self) -> Vec<Vec<f64>> {
-        self.seconds.chunks(self.bands().0).map(<[f64]>::to_vec).collect()
+        self.seconds
+            .chunks(self.bands().0)
+            .map(<[f64]>::to_vec)
+            .collect()
     }
 }
 
@@ -169,7 +179,11 @@ mod tests {
             assert!(grid.part(next) < 1.0);
             asked.push(next);
             for _ in 0..5 {
-                grid.add(grid.speed(next.0)[0] + 1.0, grid.force(next.1)[0] + 0.01, 0.1);
+                grid.add(
+                    grid.speed(next.0)[0] + 1.0,
+                    grid.force(next.1)[0] + 0.01,
+                    0.1,
+                );
             }
             at = next;
         }
@@ -191,7 +205,9 @@ mod tests {
     #[test]
     fn edges_that_make_no_bands_are_refused_by_name() {
         let refused = |speeds: &[f64], forces: &[f64]| {
-            Coverage::new(speeds, forces, 1.0).expect_err("no grid").axis
+            Coverage::new(speeds, forces, 1.0)
+                .expect_err("no grid")
+                .axis
         };
         assert_eq!(refused(&[20.0], &[0.1, 1.0]), "speeds");
         assert_eq!(refused(&[20.0, 20.0], &[0.1, 1.0]), "speeds");

@@ -103,19 +103,25 @@ impl Diagnostic for SensorError {
             Self::Open { cause, .. } if cause.kind() == io::ErrorKind::PermissionDenied => {
                 "join the group of the port, often `dialout`, and log in again".into()
             }
-            Self::Open { .. } => "plug it in, or give another port; `ls /dev/serial/by-id` lists them".into(),
+            Self::Open { .. } => {
+                "plug it in, or give another port; `ls /dev/serial/by-id` lists them".into()
+            }
             Self::Read { .. } | Self::Ended(_) => "check the cable, and record again".into(),
             Self::Stalled { .. } => {
                 "check that the board runs, or that the program which writes the file does".into()
             }
             Self::Garbage { .. } | Self::LongLine { .. } => {
-                "check ?baud=, and that the board sends lines of numbers as docs/recording.md says".into()
+                "check ?baud=, and that the board sends lines of numbers as docs/recording.md says"
+                    .into()
             }
             Self::Header { .. } => {
-                "send `#t_us,ax_g,ay_g,az_g` as the board does its columns, or give ?columns=".into()
+                "send `#t_us,ax_g,ay_g,az_g` as the board does its columns, or give ?columns="
+                    .into()
             }
             Self::Restarted { .. } => "check the board's supply, and record again".into(),
-            Self::Changed { .. } => "let the other program write one file from beginning to end".into(),
+            Self::Changed { .. } => {
+                "let the other program write one file from beginning to end".into()
+            }
         }
     }
 }

@@ -138,10 +138,14 @@ impl Exploration {
     fn look_for_tap(&mut self, t_s: f64, height_m: f64, load_n: f64) {
         let Some(bias_n) = self.bias_n else { return };
         if load_n - bias_n > self.contact_n() {
-            let is_landing = self.touched_s.is_none_or(|touched_s| t_s - touched_s > AIR_S);
+            let is_landing = self
+                .touched_s
+                .is_none_or(|touched_s| t_s - touched_s > AIR_S);
             if is_landing {
                 let speed_m_s = self.landing_m_s();
-                let band = TAPS_M_S.windows(2).position(|b| speed_m_s >= b[0] && speed_m_s < b[1]);
+                let band = TAPS_M_S
+                    .windows(2)
+                    .position(|b| speed_m_s >= b[0] && speed_m_s < b[1]);
                 if let Some(band) = band {
                     self.taps[band] += 1;
                 }
@@ -149,7 +153,11 @@ impl Exploration {
             self.touched_s = Some(t_s);
         }
         self.heights.push_back((t_s, height_m));
-        while self.heights.front().is_some_and(|(first_s, _)| t_s - first_s > LANDING_S.0) {
+        while self
+            .heights
+            .front()
+            .is_some_and(|(first_s, _)| t_s - first_s > LANDING_S.0)
+        {
             self.heights.pop_front();
         }
     }
@@ -159,7 +167,8 @@ impl Exploration {
         let mut steepest = 0.0_f64;
         for (n, &(from_s, from_m)) in self.heights.iter().enumerate() {
             let later = self.heights.iter().skip(n + 1);
-            let Some(&(to_s, to_m)) = later.clone().find(|(to_s, _)| to_s - from_s >= LANDING_S.1) else {
+            let Some(&(to_s, to_m)) = later.clone().find(|(to_s, _)| to_s - from_s >= LANDING_S.1)
+            else {
                 break;
             };
             steepest = steepest.max((from_m - to_m) / (to_s - from_s));
@@ -215,9 +224,12 @@ impl Exploration {
         if self.rest.len() > pieces {
             self.rest.pop_front();
         }
-        let (least, most) = self.rest.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| {
-            (l.min(*x), m.max(*x))
-        });
+        let (least, most) = self
+            .rest
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| {
+                (l.min(*x), m.max(*x))
+            });
         if self.rest.len() == pieces && most - least < REST_N {
             self.bias_n = Some(self.rest.iter().sum::<f64>() / pieces as f64);
             self.air_s = REST_S;
@@ -226,7 +238,8 @@ impl Exploration {
 
     fn stretch(&mut self) {
         let count = self.pieces.len() as f64;
-        let mean = |pick: fn(&(f64, f64, f64)) -> f64| self.pieces.iter().map(pick).sum::<f64>() / count;
+        let mean =
+            |pick: fn(&(f64, f64, f64)) -> f64| self.pieces.iter().map(pick).sum::<f64>() / count;
         let (speed_mm_s, load_n) = (mean(|p| p.0), mean(|p| p.1));
         let (part, least_mm_s, least_n) = STEADY;
         let is_steady = self.pieces.iter().all(|(speed, load, _)| {
@@ -275,7 +288,10 @@ impl Exploration {
         if let Some(band) = self.taps.iter().position(|taps| *taps < self.plan.taps) {
             return Ask::Tap(band);
         }
-        self.plan.coverage.next(self.cell).map_or(Ask::Nothing, Ask::Stroke)
+        self.plan
+            .coverage
+            .next(self.cell)
+            .map_or(Ask::Nothing, Ask::Stroke)
     }
 }
 

@@ -12,7 +12,8 @@ struct Tool {
 impl Tool {
     fn new(is_sensor: bool, bias_n: f64) -> Self {
         let plan = Plan {
-            coverage: Coverage::new(&[20.0, 50.0, 100.0, 200.0], &[0.3, 1.0, 2.0], 1.0).expect("a grid"),
+            coverage: Coverage::new(&[20.0, 50.0, 100.0, 200.0], &[0.3, 1.0, 2.0], 1.0)
+                .expect("a grid"),
             taps: 1,
             air_s: 2.0,
             is_sensor,
@@ -67,14 +68,19 @@ fn a_session_goes_from_air_over_taps_to_strokes_and_ends() {
     }
     assert_eq!((strokes, tool.exploration.ask()), (6, Ask::Nothing));
     let now = tool.exploration.now();
-    assert!((now.load_n - 1.5).abs() < 0.51 && now.touches == Some(true), "{now:?}");
+    assert!(
+        (now.load_n - 1.5).abs() < 0.51 && now.touches == Some(true),
+        "{now:?}"
+    );
 }
 
 #[test]
 fn what_is_not_steady_covers_nothing() {
     let mut tool = Tool::new(false, 0.0);
     // A load that goes from nothing to 2 N and back five times a second.
-    tool.go(5.0, [0.07, 0.0, 0.0], |t_s| 1.0 + libm::sin(std::f64::consts::TAU * 5.0 * t_s));
+    tool.go(5.0, [0.07, 0.0, 0.0], |t_s| {
+        1.0 + libm::sin(std::f64::consts::TAU * 5.0 * t_s)
+    });
     let unsteady: f64 = tool.exploration.coverage().rows().concat().iter().sum();
     assert!(unsteady < 0.5, "{unsteady} s");
     // Nor does a tool in the air, or one that rests on the surface.
@@ -88,7 +94,10 @@ fn what_is_not_steady_covers_nothing() {
 fn a_bias_is_taken_while_the_force_rests_and_not_while_it_moves() {
     let mut tool = Tool::new(true, -0.8);
     tool.go(6.0, [0.05, 0.0, 0.0], |t_s| 0.4 * libm::sin(3.0 * t_s));
-    assert_eq!((tool.exploration.ask(), tool.exploration.now().touches), (Ask::Air, None));
+    assert_eq!(
+        (tool.exploration.ask(), tool.exploration.now().touches),
+        (Ask::Air, None)
+    );
     tool.go(2.5, [0.0; 3], |_| 0.0);
     assert_eq!(tool.exploration.now().touches, Some(false));
     assert!(tool.exploration.now().load_n.abs() < 0.02);

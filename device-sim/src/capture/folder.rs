@@ -1,8 +1,12 @@
 //! A recording as a folder: `recording.toml`, `touch.csv` and `accel.csv`.
 
 use super::columns::Channel;
-use super::take::{Load, Take};
+use super::take::{Load, Take, Touch};
+use crate::random::unit;
 use asperity_recording::description::{Axis, Quantity};
+use asperity_recording::signal::quantile::median;
+use rand_core::SeedableRng as _;
+use rand_xoshiro::Xoshiro256PlusPlus;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::ops::Range;
@@ -11,6 +15,15 @@ use std::ops::Range;
 pub const FILES: [&str; 3] = ["recording.toml", "touch.csv", "accel.csv"];
 /// Longest gap that an import bridges, s, with a margin.
 const MOST_GAP_S: f64 = 0.9;
+/// Shortest gap of a clock that an import sees, s and periods; it takes anything less for jitter.
+const GAP: (f64, f64) = (0.005, 3.0);
+/// Step of the sensor's clock, in periods, at which samples were lost.
+const LOST: f64 = 1.75;
+/// Times that differ by less are the same, s.
+const SAME_S: f64 = 1e-8;
+/// Dither on the force of a loop, N. It is exact, and holds one value while a sliding tool does not
+/// sink; a check would take that for a drop-out.
+const DITHER_N: f64 = 0.001;
 /// Shortest recording that is kept, s.
 const LEAST_S: f64 = 1.0;
 
@@ -58,7 +71,9 @@ impl Part {
 
 /// Times without a long gap from the first on: how many.
 fn unbroken(times_s: &[f64]) -> usize {
-    let gap = times_s.windows(2).position(|pair| pair[1] - pair[0] > MOST_GAP_S);
+    let gap = times_s
+        .windows(2)
+        .position(|pair| pair[1] - pair[0] > MOST_GAP_S);
     gap.map_or(times_s.len(), |before| before + 1)
 }
 
@@ -66,7 +81,11 @@ fn unbroken(times_s: &[f64]) -> usize {
 #[must_use]
 pub fn part(take: &Take) -> Option<Part> {
     let times_s = take.times_s();
-    let touched_s: Vec<f64> = take.touches().iter().map(|touch| 1e-9 * touch.at_ns as f64).collect();
+    let touched_s: Vec<f64> = take
+        .touches()
+        .iter()
+        .map(|touch| 1e-9 * touch.at_ns as f64)
+        .collect();
     let begin_s = touched_s.first()?.max(*times_s.first()?);
     let after = |times_s: &[f64]| times_s.partition_point(|t_s| *t_s < begin_s);
     let (first_touch, first_sample) = (after(&touched_s), after(&times_s));
@@ -86,9 +105,8 @@ pub fn part(take: &Take) -> Option<Part> {
     if seconds < LEAST_S || touches.len() < 2 || samples.len() < 2 {
         return None;
     }
-    let sampled_s = times_s[samples.end - 1] - times_s[samples.start];
     Some(Part {
-        rate_hz: (samples.len() - 1) as f64 / sampled_s,
+        rate_hz: 1.0 / period_s(&times_s[samples.clone()]),
         times_s,
         touches,
         samples,
@@ -96,6 +114,18 @@ pub fn part(take: &Take) -> Option<Part> {
         seconds,
         is_cut,
     })
+}
+
+/// Time from sample to sample, s. Some may be lost, which the median does not see; a coarse clock
+/// gives several samples one time, which the mean does not see.
+fn period_s(times_s: &[f64]) -> f64 {
+    let mean_s = (times_s[times_s.len() - 1] - times_s[0]) / (times_s.len() - 1) as f64;
+    let middle_s = median(times_s.windows(2).map(|pair| pair[1] - pair[0]));
+    if middle_s > 0.5 * mean_s && middle_s < mean_s {
+        middle_s
+    } else {
+        mean_s
+    }
 }
 
 /// Writes one of the [`FILES`] of a recording.
@@ -116,6 +146,8 @@ pub fn write(
     }
 }
 
+/// The device on an even clock. Between two readings a place is interpolated, so that a period that
+/// was missed bends no clock; longer gaps stay.
 fn touch(take: &Take, part: &Part, file: &mut impl Write) -> io::Result<()> {
     let mut file = io::BufWriter::new(file);
     let has_force = take.load() == Load::Loop;
@@ -124,28 +156,66 @@ fn touch(take: &Take, part: &Part, file: &mut impl Write) -> io::Result<()> {
     } else {
         b"t_s,x,y,z\n"
     })?;
-    for touch in &take.touches()[part.touches.clone()] {
-        let t_s = 1e-9 * touch.at_ns as f64 - part.begin_s;
-        let [x, y, z] = touch.place_m.map(|x_m| 1e3 * f64::from(x_m));
-        write!(file, "{t_s:.6},{x:.4},{y:.4},{z:.4}")?;
-        if has_force {
-            let [x, y, z] = touch.force_n;
-            write!(file, ",{x:.5},{y:.5},{z:.5}")?;
+    let touches = &take.touches()[part.touches.clone()];
+    let tick_s = 1.0 / take.rate_hz();
+    let gap_s = GAP.0.max(GAP.1 * tick_s);
+    let at_s = |touch: &Touch| 1e-9 * touch.at_ns as f64 - part.begin_s;
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+    let mut row = 0_u64;
+    for pair in touches.windows(2) {
+        let (from_s, to_s) = (at_s(&pair[0]), at_s(&pair[1]));
+        loop {
+            let t_s = row as f64 * tick_s;
+            if t_s > to_s + SAME_S {
+                break;
+            }
+            row += 1;
+            if t_s < from_s - SAME_S || (to_s - from_s > gap_s && t_s > from_s + SAME_S) {
+                continue;
+            }
+            let share = (t_s - from_s) / (to_s - from_s);
+            let between = |from: f32, to: f32| f64::from(from) + share * f64::from(to - from);
+            write!(file, "{t_s:.6}")?;
+            for (from, to) in pair[0].place_m.iter().zip(pair[1].place_m) {
+                write!(file, ",{:.4}", 1e3 * between(*from, to))?;
+            }
+            if has_force {
+                for (from, to) in pair[0].force_n.iter().zip(pair[1].force_n) {
+                    let dither_n = DITHER_N * (2.0 * unit(&mut rng) - 1.0);
+                    write!(file, ",{:.5}", between(*from, to) + dither_n)?;
+                }
+            }
+            file.write_all(b"\n")?;
         }
-        file.write_all(b"\n")?;
     }
     file.flush()
 }
 
+/// The sensor on the loop's clock. Where one or a few samples are missing, rows without values stand.
 fn accel(take: &Take, part: &Part, file: &mut impl Write) -> io::Result<()> {
     let mut file = io::BufWriter::new(file);
+    let channels = take.channels();
     file.write_all(b"t_s")?;
-    for channel in take.channels() {
+    for channel in &channels {
         write!(file, ",{}", channel.name())?;
     }
     file.write_all(b"\n")?;
+    let period_s = 1.0 / part.rate_hz;
+    let gap_s = GAP.0.max(GAP.1 * period_s);
+    let mut before_s = None;
     for sample in part.samples.clone() {
-        write!(file, "{:.7}", part.times_s[sample] - part.begin_s)?;
+        let t_s = part.times_s[sample] - part.begin_s;
+        let step_s = before_s.replace(t_s).map_or(0.0, |before_s| t_s - before_s);
+        if step_s > LOST * period_s && step_s <= gap_s && take.tells_samples_apart(period_s) {
+            let lost = (step_s / period_s).round() as usize - 1;
+            for n in 1..=lost {
+                let share = n as f64 / (lost + 1) as f64;
+                write!(file, "{:.7}", t_s - step_s + share * step_s)?;
+                file.write_all(&b",".repeat(channels.len()))?;
+                file.write_all(b"\n")?;
+            }
+        }
+        write!(file, "{t_s:.7}")?;
         for value in take.values(sample) {
             // Nothing stands for a missing value.
             if value.is_finite() {
@@ -161,7 +231,9 @@ fn accel(take: &Take, part: &Part, file: &mut impl Write) -> io::Result<()> {
 
 /// A string of TOML. Its escapes are those of JSON.
 fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007f")
+    serde_json::Value::from(text)
+        .to_string()
+        .replace('\u{7f}', "\\u007f")
 }
 
 fn description(about: &About, take: &Take) -> String {
@@ -214,3 +286,7 @@ fn description(about: &About, take: &Take) -> String {
     }
     text
 }
+
+#[cfg(test)]
+#[path = "folder_tests.rs"]
+mod tests;

@@ -56,7 +56,9 @@ impl FromStr for Sensor {
             name: name.chars().take(200).collect(),
             why: why.into(),
         };
-        let (scheme, rest) = name.split_once(':').ok_or_else(|| fail("it names no kind of sensor"))?;
+        let (scheme, rest) = name
+            .split_once(':')
+            .ok_or_else(|| fail("it names no kind of sensor"))?;
         let (which, settings) = rest.split_once('?').unwrap_or((rest, ""));
         let (kind, known): (_, &[&str]) = match scheme {
             "serial" => (Kind::Serial, &["baud", "columns", "delay_ms", "g", "n"]),
@@ -86,7 +88,10 @@ impl FromStr for Sensor {
                 .split_once('=')
                 .ok_or_else(|| fail(&format!("`{setting}` is no setting; write key=value")))?;
             if !known.contains(&key) {
-                return Err(fail(&format!("it has {}, and no `{key}`", known.join(", "))));
+                return Err(fail(&format!(
+                    "it has {}, and no `{key}`",
+                    known.join(", ")
+                )));
             }
             let number = |low: f64, high: f64| match value.parse::<f64>() {
                 Ok(number) if number >= low && number <= high => Ok(number),
@@ -103,15 +108,20 @@ impl FromStr for Sensor {
                 }
                 _ => {
                     let layout = Layout::parse(value);
-                    sensor.columns = Some(layout.map_err(|why| fail(&format!("columns: it {why}")))?);
+                    sensor.columns =
+                        Some(layout.map_err(|why| fail(&format!("columns: it {why}")))?);
                 }
             }
         }
         if kind == Kind::Wav && sensor.full_acceleration.is_none() {
             return Err(fail("g is missing: what full scale is, such as g=16"));
         }
-        let has_force = |layout: &Layout| layout.has(asperity_recording::description::Quantity::Force);
-        if kind == Kind::Wav && sensor.full_force.is_none() && sensor.columns.as_ref().is_some_and(has_force) {
+        let has_force =
+            |layout: &Layout| layout.has(asperity_recording::description::Quantity::Force);
+        if kind == Kind::Wav
+            && sensor.full_force.is_none()
+            && sensor.columns.as_ref().is_some_and(has_force)
+        {
             return Err(fail("n is missing: the force of full scale, such as n=20"));
         }
         Ok(sensor)
@@ -131,7 +141,11 @@ impl Sensor {
                     acceleration: self.full_acceleration.unwrap_or(1.0),
                     force: self.full_force.unwrap_or(1.0),
                 };
-                Reader::start(Wav::follow(Path::new(&self.which), self.columns.clone(), full))
+                Reader::start(Wav::follow(
+                    Path::new(&self.which),
+                    self.columns.clone(),
+                    full,
+                ))
             }
             Kind::Serial => self.serial()?,
         };

@@ -1,7 +1,7 @@
 //! Everything of a recording, in memory, while it is made.
 
 use super::clock::{ClockLine, line_under};
-use super::columns::Channel;
+use super::columns::{Channel, Column};
 use super::exploration::{Exploration, Plan};
 use super::reader::{Batch, Told};
 use super::samples::Samples;
@@ -32,6 +32,8 @@ pub struct Touch {
 #[derive(Debug)]
 pub struct Take {
     load: Load,
+    /// Ticks a second.
+    rate_hz: f64,
     /// The device moves on by due times, and not by the clock.
     is_stepped: bool,
     /// Time by which the sensor is known to be late, s.
@@ -48,15 +50,16 @@ pub struct Take {
 }
 
 impl Take {
-    /// Nothing is recorded yet.
+    /// Nothing is recorded yet, of a loop at `rate_hz` and a sensor that is known to be late.
     #[must_use]
-    pub fn new(plan: Plan, is_stepped: bool, delay_s: f64) -> Self {
+    pub fn new(plan: Plan, rate_hz: f64, is_stepped: bool, delay_s: f64) -> Self {
         Self {
             load: if plan.is_sensor {
                 Load::Sensor
             } else {
                 Load::Loop
             },
+            rate_hz,
             is_stepped,
             delay_s,
             exploration: Exploration::new(plan),
@@ -102,11 +105,17 @@ impl Take {
         let told = self.told.get_or_insert_with(|| told.clone());
         let width = told.layout.channels().count();
         if let (Some(place), Load::Sensor) = (told.layout.load(), self.load) {
-            let unit = told.layout.channels().nth(place).map_or(1.0, |c| c.unit.to_si);
+            let unit = told
+                .layout
+                .channels()
+                .nth(place)
+                .map_or(1.0, |c| c.unit.to_si);
             let loads = batch.samples.values.iter().skip(place).step_by(width);
             let (sum, count) = loads
                 .filter(|load| load.is_finite())
-                .fold((0.0, 0), |(sum, count), load| (sum + f64::from(*load), count + 1));
+                .fold((0.0, 0), |(sum, count), load| {
+                    (sum + f64::from(*load), count + 1)
+                });
             if count > 0 {
                 self.load_n = unit * sum / f64::from(count);
             }
@@ -136,6 +145,22 @@ impl Take {
         6 * self.touches.len() + self.samples.values.len() > self.most
     }
 
+    /// Ticks a second.
+    #[must_use]
+    pub fn rate_hz(&self) -> f64 {
+        self.rate_hz
+    }
+
+    /// Whether the sensor's own time is fine enough to tell samples apart that lie so far from each
+    /// other.
+    pub(super) fn tells_samples_apart(&self, period_s: f64) -> bool {
+        let columns = self.told.iter().flat_map(|told| told.layout.columns());
+        columns.into_iter().all(|column| match column {
+            Column::Clock(unit_s) => *unit_s <= 0.5 * period_s,
+            _ => true,
+        })
+    }
+
     /// Rows of the device.
     #[must_use]
     pub fn touches(&self) -> &[Touch] {
@@ -146,7 +171,8 @@ impl Take {
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
         let told = self.told.iter();
-        told.flat_map(|told| told.layout.channels().copied()).collect()
+        told.flat_map(|told| told.layout.channels().copied())
+            .collect()
     }
 
     /// Values of a sample.
@@ -157,7 +183,9 @@ impl Take {
     }
 
     fn channels_count(&self) -> usize {
-        self.told.as_ref().map_or(1, |told| told.layout.channels().count())
+        self.told
+            .as_ref()
+            .map_or(1, |told| told.layout.channels().count())
     }
 
     /// From the sensor's own time to the loop's, once enough came.

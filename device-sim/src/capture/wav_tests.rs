@@ -31,7 +31,11 @@ struct Growing {
 impl Growing {
     fn new(layout: &str) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let wav = Wav::follow(&folder.path().join("a.wav"), Layout::parse(layout).ok(), FULL);
+        let wav = Wav::follow(
+            &folder.path().join("a.wav"),
+            Layout::parse(layout).ok(),
+            FULL,
+        );
         Self {
             folder,
             wav,
@@ -44,8 +48,12 @@ impl Growing {
     }
 
     fn write(&self, bytes: &[u8]) {
-        let file = OpenOptions::new().append(true).create(true).open(self.path());
-        file.and_then(|mut file| file.write_all(bytes)).expect("it grows");
+        let file = OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open(self.path());
+        file.and_then(|mut file| file.write_all(bytes))
+            .expect("it grows");
     }
 
     fn read(&mut self) -> Result<(), SensorError> {
@@ -74,7 +82,8 @@ fn a_file_is_followed_byte_by_byte_from_before_it_is_there() {
 #[test]
 fn every_width_and_an_extensible_header_give_the_same_value() {
     let half = 0x4000_0000_i32.to_le_bytes();
-    let mut extensible = b"RIFF\0\0\0\0WAVELIST\x03\0\0\0abc\0fmt \x28\0\0\0\xfe\xff\x01\0".to_vec();
+    let mut extensible =
+        b"RIFF\0\0\0\0WAVELIST\x03\0\0\0abc\0fmt \x28\0\0\0\xfe\xff\x01\0".to_vec();
     extensible.extend(8000_u32.to_le_bytes());
     extensible.extend(32_000_u32.to_le_bytes());
     extensible.extend([4, 0, 32, 0, 22, 0, 32, 0, 0, 0, 0, 0, 3, 0]);
@@ -104,9 +113,21 @@ fn a_header_that_lies_is_refused_with_what_it_states() {
         (header(2, 16, 8000), "a", "2 channels"),
         (header(1, 16, 8000), "t_us,a", "1 channels"),
         (header(2, 16, 8000), "t_us,a", "no place for a clock"),
-        (b"RIFF\0\0\0\0WAVEfmt \xff\xff\xff\xff".to_vec(), "a", "bytes"),
-        (b"RIFF\0\0\0\0WAVEdata\0\0\0\0".to_vec(), "a", "before their format"),
-        ([&b"RIFF\0\0\0\0WAVE"[..], &[b'x'; 70_000]].concat(), "a", ""),
+        (
+            b"RIFF\0\0\0\0WAVEfmt \xff\xff\xff\xff".to_vec(),
+            "a",
+            "bytes",
+        ),
+        (
+            b"RIFF\0\0\0\0WAVEdata\0\0\0\0".to_vec(),
+            "a",
+            "before their format",
+        ),
+        (
+            [&b"RIFF\0\0\0\0WAVE"[..], &[b'x'; 70_000]].concat(),
+            "a",
+            "",
+        ),
     ] {
         let mut growing = Growing::new(layout);
         growing.write(&bytes);
@@ -127,7 +148,8 @@ fn a_file_that_is_shortened_replaced_or_rewritten_is_an_error() {
     let damages: [(&str, fn(&Path)); 3] = [
         ("shortened", |path| {
             let file = OpenOptions::new().write(true).open(path);
-            file.and_then(|file| file.set_len(50)).expect("it is shortened");
+            file.and_then(|file| file.set_len(50))
+                .expect("it is shortened");
         }),
         ("replaced", |path| {
             let bytes = fs::read(path).expect("the file");
@@ -138,7 +160,8 @@ fn a_file_that_is_shortened_replaced_or_rewritten_is_an_error() {
             let mut bytes = fs::read(path).expect("the file");
             bytes[24] ^= 1;
             let file = OpenOptions::new().write(true).open(path);
-            file.and_then(|mut file| file.write_all(&bytes)).expect("it is changed");
+            file.and_then(|mut file| file.write_all(&bytes))
+                .expect("it is changed");
         }),
     ];
     for (part, damage) in damages {
@@ -160,7 +183,8 @@ fn a_length_that_is_corrected_at_the_end_is_no_change() {
     let mut bytes = fs::read(growing.path()).expect("the file");
     bytes[40..44].copy_from_slice(&64_u32.to_le_bytes());
     let file = OpenOptions::new().write(true).open(growing.path());
-    file.and_then(|mut file| file.write_all(&bytes)).expect("as arecord ends");
+    file.and_then(|mut file| file.write_all(&bytes))
+        .expect("as arecord ends");
     for _ in 0..SELDOM + 1 {
         growing.read().expect("the same file");
     }

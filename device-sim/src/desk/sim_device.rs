@@ -1,7 +1,7 @@
 //! The simulated device, held by a simulated hand, behind the host's trait.
 
-use crate::bench;
 use crate::axis::{AxisState, Pull};
+use crate::bench;
 use crate::device::{Device as Mechanism, DeviceConfig};
 use crate::hand::{Grip, HOVER_M, Hand, Intent, Script};
 use asperity_host::device::{Description, Device, Fault, Reading};

@@ -105,14 +105,17 @@ impl Attendant {
             }
             if self.end.is_none() {
                 let touches = self.take.touches();
-                let last_ns = touches.last().map_or(begin_ns, |touch| touch.at_ns.max(begin_ns));
+                let last_ns = touches
+                    .last()
+                    .map_or(begin_ns, |touch| touch.at_ns.max(begin_ns));
                 self.end = self.ends(stop, clock.now_ns().saturating_sub(last_ns) > GONE_NS);
             }
             if self.end.is_some() {
                 end_of_run.store(true, Relaxed);
             }
             if shown.elapsed() >= SELDOM {
-                self.status.set_message(screen::picture(self.take.exploration()));
+                self.status
+                    .set_message(screen::picture(self.take.exploration()));
                 shown = Instant::now();
             }
             sleep(LOOK);

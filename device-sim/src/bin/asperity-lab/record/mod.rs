@@ -75,10 +75,20 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     tool_mass: Option<f64>,
     /// Edges of the bands of speed, mm/s
-    #[arg(long, value_name = "MM_S,…", value_delimiter = ',', default_value = "20,40,80,160,300")]
+    #[arg(
+        long,
+        value_name = "MM_S,…",
+        value_delimiter = ',',
+        default_value = "20,40,80,160,300"
+    )]
     speeds: Vec<f64>,
     /// Edges of the bands of force, N
-    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "0.2,0.5,1,2")]
+    #[arg(
+        long,
+        value_name = "N,…",
+        value_delimiter = ',',
+        default_value = "0.2,0.5,1,2"
+    )]
     forces: Vec<f64>,
     /// Seconds of steady strokes that each cell of the grid needs (0.1 to 60)
     #[arg(long, value_name = "S", default_value_t = 2.0, value_parser = cell_seconds)]
@@ -158,15 +168,20 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         Kind::Simulated => reader,
         _ => wait_for_sensor(reader, &interrupt)?,
     };
-    let measures_load = reader.told().is_some_and(|told| told.layout.load().is_some());
+    let measures_load = reader
+        .told()
+        .is_some_and(|told| told.layout.load().is_some());
     if !is_played && !measures_load {
-        let has_force = reader.told().is_some_and(|told| told.layout.has(Quantity::Force));
+        let has_force = reader
+            .told()
+            .is_some_and(|told| told.layout.has(Quantity::Force));
         let what = if has_force {
             "the sensor measures a force, and not that along z"
         } else {
             "nothing measures the force on the surface"
         };
-        let remedy = "let the sensor send fz_N beside the acceleration, or give FILE for the device to play";
+        let remedy =
+            "let the sensor send fz_N beside the acceleration, or give FILE for the device to play";
         return Err(Plain::failure(what, remedy));
     }
 
@@ -179,9 +194,14 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     }
     let simulated = (arguments.accel.kind == Kind::Simulated).then(|| {
         let mass_kg = surface.as_ref().map_or(MASS_KG, effective_mass_kg);
-        (Simulated::new(f64::from(rate_hz), mass_kg, arguments.accel.seed), to_sensor)
+        (
+            Simulated::new(f64::from(rate_hz), mass_kg, arguments.accel.seed),
+            to_sensor,
+        )
     });
-    let known_s = simulated.as_ref().map_or(0.0, |(simulated, _)| simulated.delay_s());
+    let known_s = simulated
+        .as_ref()
+        .map_or(0.0, |(simulated, _)| simulated.delay_s());
     let plan = Plan {
         coverage,
         taps: arguments.taps,
@@ -189,9 +209,17 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         is_sensor: measures_load,
     };
     let is_stepped = desk.pace != Pace::Clock;
-    let take = Take::new(plan, is_stepped, arguments.accel.delay_s + known_s);
+    let late_s = arguments.accel.delay_s + known_s;
+    let take = Take::new(plan, f64::from(rate_hz), is_stepped, late_s);
     let mut attendant = Attendant::new(console, take, reader, simulated);
-    run_on(arguments, &mut desk, rate_hz, surface.as_ref(), &mut attendant, &interrupt)?;
+    run_on(
+        arguments,
+        &mut desk,
+        rate_hz,
+        surface.as_ref(),
+        &mut attendant,
+        &interrupt,
+    )?;
     let device = desk.device.description().name.clone();
     // The device is released before anything else can fail or wait.
     drop(desk);
@@ -243,7 +271,10 @@ fn material(arguments: &Arguments) -> Result<String, Failures> {
     let folder = arguments.folder.file_name().unwrap_or_default();
     name(&folder.to_string_lossy()).map_err(|why| {
         Plain::usage(
-            format!("the name of {} is none of a material: it {why}", arguments.folder.display()),
+            format!(
+                "the name of {} is none of a material: it {why}",
+                arguments.folder.display()
+            ),
             "give --name",
         )
     })
@@ -266,13 +297,18 @@ fn wait_for_sensor(reader: Reader, interrupt: &Interrupt) -> Result<Reader, Fail
         }
         if interrupt.stop.load(Relaxed) {
             let what = "interrupted before the sensor sent anything: nothing is left";
-            return Err(Plain::failure(what, "let the sensor send before you record"));
+            return Err(Plain::failure(
+                what,
+                "let the sensor send before you record",
+            ));
         }
         if reader.is_over() {
             let (_, ended) = reader.end();
             return Err(match ended {
                 Err(error) => one(error),
-                Ok(()) => Plain::failure("the sensor's thread ended by a bug", "report this as a bug"),
+                Ok(()) => {
+                    Plain::failure("the sensor's thread ended by a bug", "report this as a bug")
+                }
             });
         }
         sleep(Duration::from_millis(5));
@@ -281,7 +317,9 @@ fn wait_for_sensor(reader: Reader, interrupt: &Interrupt) -> Result<Reader, Fail
 
 fn effective_mass_kg(surface: &Surface) -> f64 {
     let asset = Asset::parse(&surface.bytes).ok();
-    asset.map_or(MASS_KG, |asset| f64::from(asset.coupling().effective_mass_kg))
+    asset.map_or(MASS_KG, |asset| {
+        f64::from(asset.coupling().effective_mass_kg)
+    })
 }
 
 /// Runs the loop until the recording ends.

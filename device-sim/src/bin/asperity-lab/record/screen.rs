@@ -78,7 +78,11 @@ pub(super) fn ask(exploration: &Exploration) -> String {
     }
 }
 
-fn hint(value: f64, [low, high]: [f64; 2], [more, less]: [&'static str; 2]) -> Option<&'static str> {
+fn hint(
+    value: f64,
+    [low, high]: [f64; 2],
+    [more, less]: [&'static str; 2],
+) -> Option<&'static str> {
     if value < low {
         Some(more)
     } else if value >= high {

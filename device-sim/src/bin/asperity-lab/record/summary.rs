@@ -37,10 +37,16 @@ impl Summary<'_> {
         let Recorded { counts, lost, .. } = self.recorded;
         let mut warnings = Vec::new();
         if counts.bad_lines > 0 {
-            warnings.push(format!("{} lines of the sensor were no samples", counts.bad_lines));
+            warnings.push(format!(
+                "{} lines of the sensor were no samples",
+                counts.bad_lines
+            ));
         }
         if counts.missing > 0 {
-            warnings.push(format!("{} values of the sensor are missing", counts.missing));
+            warnings.push(format!(
+                "{} values of the sensor are missing",
+                counts.missing
+            ));
         }
         if *lost != (0, 0) {
             warnings.push(format!(
