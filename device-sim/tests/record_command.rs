@@ -159,7 +159,7 @@ fn what_cannot_be_recorded_is_refused_and_leaves_nothing() {
         (["--speeds", "40,20"], "do not ascend"),
         (["--forces", "0,1"], "forces"),
         (["--cell-seconds", "nan"], "0.1 to 60"),
-        (["--tool-mass", "-1"], "above 0"),
+        (["--tool-mass", "0"], "above 0"),
         (["--seconds", "0"], "0.1 to 86400"),
     ] {
         let output = record(path, &[&sim[..], &more].concat());

@@ -115,7 +115,7 @@ impl Diagnostic for SensorError {
                     .into()
             }
             Self::Header { .. } => {
-                "send `#t_us,ax_g,ay_g,az_g` as the board does its columns, or give ?columns="
+                "let the board send `#t_us,ax_g,ay_g,az_g` every second, or give ?columns=; check ?baud="
                     .into()
             }
             Self::Restarted { .. } => "check the board's supply, and record again".into(),

@@ -10,6 +10,8 @@ use super::samples::{Counts, Samples};
 
 /// Longest line, bytes.
 const LONGEST: usize = 1024;
+/// Most bytes of lines before a header: five seconds of a fast line.
+const HEADLESS: usize = 1 << 20;
 /// Lines in a row that are no samples, at most.
 const BAD_IN_A_ROW: u32 = 64;
 /// A counter of 32 bits wraps.
@@ -25,6 +27,8 @@ pub struct LineDecoder {
     line: Vec<u8>,
     is_first: bool,
     in_a_row: u32,
+    /// Bytes of lines before the header.
+    headless: usize,
     counts: Counts,
     row: Vec<f32>,
     /// Last value of the clock or the count, and what its wraps add.
@@ -48,6 +52,7 @@ impl LineDecoder {
             line: Vec::with_capacity(LONGEST),
             is_first: true,
             in_a_row: 0,
+            headless: 0,
             counts: Counts::default(),
             row: Vec::new(),
             last: None,
@@ -104,6 +109,18 @@ impl LineDecoder {
             // The rest of a line that began before the port was opened, which may look like one.
             return Ok(());
         }
+        if self.layout.is_none() {
+            // Whoever waits for samples tells that no header comes.
+            self.counts.bad_lines += 1;
+            self.headless += line.len();
+            if self.headless > HEADLESS {
+                return Err(SensorError::Header {
+                    name: self.name.clone(),
+                    why: format!("did not come in {HEADLESS} bytes"),
+                });
+            }
+            return Ok(());
+        }
         match self.sample(line)? {
             Line::Good(own) => {
                 self.in_a_row = 0;
@@ -135,6 +152,8 @@ impl LineDecoder {
             (Ok(_), Some(_)) => Err(fail("changed while samples came".into())),
             (Ok(new), None) => {
                 self.layout = Some(new);
+                // What came before could not be read, and was not damaged.
+                self.counts.bad_lines = 0;
                 Ok(())
             }
             // A comment, or a header that was cut.
@@ -234,12 +253,6 @@ impl LineDecoder {
     }
 
     fn garbage(&self, line: &[u8]) -> SensorError {
-        if self.layout.is_none() {
-            return SensorError::Header {
-                name: self.name.clone(),
-                why: "did not come".into(),
-            };
-        }
         let shown = &line[..line.len().min(40)];
         SensorError::Garbage {
             name: self.name.clone(),
@@ -315,8 +328,18 @@ mod tests {
         let error = fed(&mut lines, &b"\x1b[31m\xfe\n".repeat(70)).expect_err("garbage");
         assert!(matches!(error, SensorError::Garbage { .. }), "{error}");
         assert!(!error.to_string().contains('\x1b'));
-        let error = fed(&mut decoder(), &b"1,2,3\n".repeat(70)).expect_err("no header");
-        assert!(error.to_string().contains("header did not come"), "{error}");
+        let mut no_header = decoder();
+        assert!(
+            fed(&mut no_header, &b"1,2,3\n".repeat(700))
+                .expect("it waits")
+                .is_empty()
+        );
+        assert_eq!(no_header.counts().bad_lines, 699);
+        fed(&mut no_header, b"#ax,ay,az\n1,2,3\n").expect("a header");
+        assert_eq!(
+            (no_header.counts().bad_lines, no_header.counts().samples),
+            (0, 1)
+        );
         let error = fed(&mut decoder(), &[0; 5000]).expect_err("a long line");
         assert!(matches!(error, SensorError::LongLine { .. }), "{error}");
     }

@@ -108,6 +108,22 @@ impl Reader {
     }
 }
 
+/// Why no sample came.
+fn stalled(source: &dyn Source, patience: Duration) -> SensorError {
+    let name = source.name().to_owned();
+    if source.layout().is_none() && source.counts().bad_lines > 0 {
+        return SensorError::Header {
+            name,
+            why: "did not come".into(),
+        };
+    }
+    SensorError::Stalled {
+        name,
+        what: "no sample came",
+        seconds: patience.as_secs(),
+    }
+}
+
 fn read(
     source: &mut dyn Source,
     to: &SyncSender<Batch>,
@@ -125,11 +141,7 @@ fn read(
             read?;
             let patience = if told.get().is_some() { STALLED } else { FIRST };
             if last.elapsed() > patience {
-                return Err(SensorError::Stalled {
-                    name: source.name().to_owned(),
-                    what: "no sample came",
-                    seconds: patience.as_secs(),
-                });
+                return Err(stalled(source, patience));
             }
             continue;
         }

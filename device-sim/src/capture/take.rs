@@ -142,7 +142,8 @@ impl Take {
     /// Whether an import would keep no more.
     #[must_use]
     pub fn is_full(&self) -> bool {
-        6 * self.touches.len() + self.samples.values.len() > self.most
+        // A time takes as much room as two values.
+        8 * self.touches.len() + 2 * self.samples.len() + self.samples.values.len() > self.most
     }
 
     /// Ticks a second.

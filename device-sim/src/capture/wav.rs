@@ -93,22 +93,22 @@ impl Wav {
 
     /// Opens the file once its header is whole.
     fn begin(&mut self) -> Result<(), SensorError> {
-        let mut file = match File::open(&self.path) {
+        let fail = |cause| SensorError::Open {
+            name: self.name.clone(),
+            cause,
+        };
+        // Opening a pipe would wait for its writer.
+        let opened = fs::metadata(&self.path).and_then(|data| {
+            if !data.is_file() {
+                return Err(io::Error::other("it is no file"));
+            }
+            File::open(&self.path)
+        });
+        let mut file = match opened {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-            Err(cause) => {
-                return Err(SensorError::Open {
-                    name: self.name.clone(),
-                    cause,
-                });
-            }
+            Err(cause) => return Err(fail(cause)),
         };
-        if !file.metadata().is_ok_and(|data| data.is_file()) {
-            return Err(SensorError::Open {
-                name: self.name.clone(),
-                cause: io::Error::other("it is no file"),
-            });
-        }
         let header = |why: String| SensorError::Header {
             name: self.name.clone(),
             why,

@@ -60,6 +60,8 @@ pub(super) struct Attendant {
     end: Option<End>,
     failures: Failures,
     lost_records: u64,
+    /// Samples that were lost before the loop began.
+    unused: u64,
     pub(super) report: Option<Report>,
 }
 
@@ -79,6 +81,7 @@ impl Attendant {
             end: None,
             failures: Failures::new(),
             lost_records: 0,
+            unused: 0,
             report: None,
         }
     }
@@ -94,6 +97,9 @@ impl Attendant {
         for refusal in refusals(attended.grants) {
             self.console.warn(&refusal);
         }
+        // What came while the device was opened is of no use, and was not lost.
+        while self.reader.batch().is_some() {}
+        self.unused = self.reader.lost();
         let clock = Monotonic::default();
         let begin_ns = clock.now_ns();
         let mut shown = Instant::now();
@@ -171,7 +177,7 @@ impl Attendant {
                 self.take.batch(told, &batch);
             }
         }
-        let lost_samples = self.reader.lost();
+        let lost_samples = self.reader.lost() - self.unused;
         let (counts, ended) = self.reader.end();
         if let Err(error) = ended {
             self.failures.extend(one(error));
