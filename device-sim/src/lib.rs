@@ -5,7 +5,7 @@
 //! [`Servo`](servo::Servo), which is a renderer, possibly behind a
 //! [`FaultInjector`](fault::FaultInjector), answers every measured position with a force.
 //! Nothing there reads a clock: time passes when the caller says so, and the same seed gives the
-//! same bytes. [`desk`] is the one place with a clock: it runs a texture or a scene in a servo loop
+//! same bytes. Clocks are read in [`capture`] and [`desk`] alone; the latter runs a texture or a scene in a servo loop
 //! of [`asperity_host`], on a real device or on the simulated one.
 //!
 //! | module | holds |

@@ -210,6 +210,8 @@ mod sensors {
     /// The board's end of a line, and the name of the other one.
     fn pty() -> (File, String) {
         let board = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a pseudo-terminal");
+        // The commands of other tests do not hold the port.
+        rustix::io::fcntl_setfd(&board, rustix::io::FdFlags::CLOEXEC).expect("flags");
         grantpt(&board).expect("it is granted");
         unlockpt(&board).expect("it is unlocked");
         let name = ptsname(&board, Vec::new()).expect("a name");
