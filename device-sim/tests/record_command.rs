@@ -232,7 +232,7 @@ mod sensors {
                 0.01 * a
             )
         };
-        let header = if from % 1000 == 0 {
+        let header = if from.is_multiple_of(1000) {
             "#t_us,ax_g,ay_g,az_g,fz_N\r\n"
         } else {
             ""

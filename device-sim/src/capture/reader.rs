@@ -99,7 +99,6 @@ impl Reader {
     }
 
     /// Ends the thread. Gives what came, and why nothing came any more.
-    #[must_use]
     pub fn end(self) -> (Counts, Result<(), SensorError>) {
         self.stop.store(true, Relaxed);
         // A thread that panicked has said so.

@@ -219,7 +219,7 @@ impl Source for Wav {
             self.begin()?;
         }
         self.looks += 1;
-        if self.looks % SELDOM == 0 {
+        if self.looks.is_multiple_of(SELDOM) {
             self.check_header()?;
         }
         self.frames(into)?;
