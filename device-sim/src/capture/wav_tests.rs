@@ -22,6 +22,9 @@ fn header(channels: u16, bits: u16, rate_hz: u32) -> Vec<u8> {
     bytes
 }
 
+/// What is done to a file, and what is said of it.
+type Damage = (&'static str, fn(&Path));
+
 struct Growing {
     folder: tempfile::TempDir,
     wav: Wav,
@@ -145,7 +148,7 @@ fn a_header_that_lies_is_refused_with_what_it_states() {
 #[test]
 fn a_file_that_is_shortened_replaced_or_rewritten_is_an_error() {
     let whole = [header(1, 16, 8000), vec![1; 64]].concat();
-    let damages: [(&str, fn(&Path)); 3] = [
+    let damages: [Damage; 3] = [
         ("shortened", |path| {
             let file = OpenOptions::new().write(true).open(path);
             file.and_then(|file| file.set_len(50))
