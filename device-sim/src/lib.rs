@@ -5,7 +5,7 @@
 //! [`Servo`](servo::Servo), which is a renderer, possibly behind a
 //! [`FaultInjector`](fault::FaultInjector), answers every measured position with a force.
 //! Nothing there reads a clock: time passes when the caller says so, and the same seed gives the
-//! same bytes. [`desk`] is the one place with a clock: it runs a texture or a scene in a servo loop
+//! same bytes. Clocks are read in [`capture`] and [`desk`] alone; the latter runs a texture or a scene in a servo loop
 //! of [`asperity_host`], on a real device or on the simulated one.
 //!
 //! | module | holds |
@@ -13,6 +13,7 @@
 //! | [`axis`] | one axis: mass, friction, a hand's pull, implicit integration |
 //! | [`mod@bench`] | known textures, recorded by simulated sensors and held against what comes back |
 //! | [`calibration`] | a sweep, the acceleration that follows, a profile of both |
+//! | [`capture`] | a recording of a real surface: sensors on ports and files, coverage, the folder |
 //! | [`device`] | the device: quantisation, delay, limits, workspace, and its TOML file |
 //! | [`hand`] | grip, motions, seeded script |
 //! | [`servo`] | whatever answers a position with a force |
@@ -33,6 +34,7 @@
 pub mod axis;
 pub mod bench;
 pub mod calibration;
+pub mod capture;
 pub mod config;
 pub mod desk;
 pub mod device;

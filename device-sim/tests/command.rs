@@ -325,7 +325,7 @@ fn a_toml_file_of_megabytes_and_escapes_gives_a_short_plain_error() {
 #[test]
 fn every_command_takes_quiet() {
     let folder = tempfile::tempdir().expect("a folder");
-    for command in [&[][..], &["feel"], &["stability"], &["pareto"]] {
+    for command in [&[][..], &["feel"], &["stability"], &["pareto"], &["record"]] {
         let help = lab(folder.path(), &[command, &["--help"]].concat());
         assert!(text(&help.stdout).contains("--quiet"), "{command:?}");
     }

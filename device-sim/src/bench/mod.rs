@@ -17,5 +17,6 @@ pub use fault::{Fault, faulty};
 pub use lab::{Checks, Figures, GOAL_DB, LOUD_DB, Row, checks, learn, summary};
 pub use perform::{Performance, perform, perform_sine};
 pub use script::{script, sine};
+pub(crate) use sensors::{BENT_S, GRAVITY_M_S2, HAND_HALF, across, of_tool};
 pub use sensors::{Sensors, record};
-pub use truth::{Cell, Comparison, compare};
+pub use truth::{Cell, Comparison, compare, compare_at};

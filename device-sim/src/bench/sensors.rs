@@ -21,13 +21,15 @@ use crate::random::unit;
 /// Rate of the ticks, Hz.
 const TICK_HZ: f64 = 1000.0;
 /// Standard gravity, m/s².
-const GRAVITY_M_S2: f64 = 9.806_65;
+pub(crate) const GRAVITY_M_S2: f64 = 9.806_65;
 /// Motion of the hand ends here, Hz. What is faster is vibration, which the texture makes.
 const HAND_HZ: f64 = 8.0;
+/// Half the length of the filter that tells it, ticks.
+pub(crate) const HAND_HALF: usize = 120;
 /// Parts of the vibration along the stroke and along the normal: their squares add up to one.
 const SHARES: (f64, f64) = (0.8, 0.6);
 /// The part along the normal comes later: the tool bends, s.
-const BENT_S: f64 = 0.0007;
+pub(crate) const BENT_S: f64 = 0.0007;
 /// Time over which the direction of a stroke is taken, ticks.
 const DIRECTION: usize = 15;
 
@@ -121,37 +123,9 @@ pub(super) fn measure(
     };
     let column =
         |pick: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..records.len()).map(pick).collect() };
-    // Where the stroke goes.
-    let ahead = |n: usize| (n + DIRECTION).min(records.len() - 1);
-    let behind = |n: usize| n.saturating_sub(DIRECTION);
-    let along = |n: usize, axis: usize| {
-        let step = |axis: usize| records[ahead(n)].true_m[axis] - records[behind(n)].true_m[axis];
-        let length = libm::hypot(step(0), step(1));
-        if length > 1e-7 {
-            step(axis) / length
-        } else {
-            0.0
-        }
-    };
-    let vibration = |n: usize| f64::from(records[n].output.vib_m_s2);
-    let mut sources = [0, 1, 2].map(|axis| {
-        let slow = low_pass(
-            &column(&|n| records[n].true_m[axis]),
-            HAND_HZ / TICK_HZ,
-            120,
-        );
-        let accel = derivative(&derivative(&slow));
-        column(&|n| {
-            let hand = accel[n] * TICK_HZ * TICK_HZ;
-            let felt = if axis < 2 {
-                SHARES.0 * vibration(n) * along(n, axis)
-            } else {
-                0.0
-            };
-            hand + felt
-        })
-    });
-    sources[2].iter_mut().for_each(|a| *a += GRAVITY_M_S2);
+    let places: Vec<[f64; 3]> = records.iter().map(|record| record.true_m).collect();
+    let vibration = column(&|n| f64::from(records[n].output.vib_m_s2));
+    let sources = of_tool(&places, &vibration, TICK_HZ);
     let accel_clock = clock(0, sensors.accel_hz);
     let count = (seconds * accel_clock.rate_hz) as usize;
     let as_f32 = |x: &[f64]| -> Vec<f32> { x.iter().map(|x| *x as f32).collect() };
@@ -160,12 +134,7 @@ pub(super) fn measure(
         start_s: BENT_S,
         rate_hz: TICK_HZ,
     };
-    let normal = resample(
-        &as_f32(&column(&|n| SHARES.1 * vibration(n))),
-        bent,
-        accel_clock,
-        count,
-    );
+    let normal = resample(&as_f32(&across(&vibration)), bent, accel_clock, count);
     accel[2].iter_mut().zip(normal).for_each(|(a, b)| *a += b);
     for &(tick, speed_m_s) in &performance.impacts {
         add_tap(
@@ -215,6 +184,44 @@ pub(super) fn measure(
         force,
         position,
     }
+}
+
+/// Acceleration of the tool at every tick without what comes later along the normal, m/s²: the slow
+/// motion of the hand, gravity, and the vibration along the stroke.
+pub(crate) fn of_tool(places_m: &[[f64; 3]], vibration: &[f64], rate_hz: f64) -> [Vec<f64>; 3] {
+    let count = places_m.len();
+    // Where the stroke goes.
+    let along = |n: usize, axis: usize| {
+        let (ahead, behind) = ((n + DIRECTION).min(count - 1), n.saturating_sub(DIRECTION));
+        let step = |axis: usize| places_m[ahead][axis] - places_m[behind][axis];
+        let length = libm::hypot(step(0), step(1));
+        if length > 1e-7 {
+            step(axis) / length
+        } else {
+            0.0
+        }
+    };
+    let mut sources = [0, 1, 2].map(|axis| {
+        let axis_m: Vec<f64> = places_m.iter().map(|place_m| place_m[axis]).collect();
+        let slow = low_pass(&axis_m, HAND_HZ / rate_hz, HAND_HALF);
+        let accel = derivative(&derivative(&slow));
+        let felt = |n: usize| {
+            let felt = if axis < 2 {
+                SHARES.0 * vibration[n] * along(n, axis)
+            } else {
+                0.0
+            };
+            accel[n] * rate_hz * rate_hz + felt
+        };
+        (0..count).map(felt).collect::<Vec<f64>>()
+    });
+    sources[2].iter_mut().for_each(|a| *a += GRAVITY_M_S2);
+    sources
+}
+
+/// The part of the vibration along the normal, which comes [`BENT_S`] later, m/s².
+pub(crate) fn across(vibration: &[f64]) -> Vec<f64> {
+    vibration.iter().map(|v| SHARES.1 * v).collect()
 }
 
 /// Adds the transient of an impact.

@@ -62,11 +62,27 @@ pub fn compare(
     sensors: &Sensors,
     analysis: &Analysis,
 ) -> Comparison {
+    let visits = performance.records.iter().map(|record| {
+        let output = &record.output;
+        (output.speed_mm_s, output.normal_force_n)
+    });
+    compare_at(truth, visits, sensors.accel_noise, analysis)
+}
+
+/// The same for the speed, mm/s, and the load, N, of every millisecond, and the density of the noise
+/// of each axis of the accelerometer, m/s²/√Hz.
+#[must_use]
+pub fn compare_at(
+    truth: &TextureModel,
+    visits: impl IntoIterator<Item = (f32, f32)>,
+    accel_noise: f64,
+    analysis: &Analysis,
+) -> Comparison {
     let (found, exact) = (Field::new(&analysis.fit.grid), Field::new(&truth.grid));
     let steady = steady_time(analysis);
-    let noise = 3.0 * sensors.accel_noise.powi(2) * 0.5 * truth.grid.sample_rate_hz;
+    let noise = 3.0 * accel_noise.powi(2) * 0.5 * truth.grid.sample_rate_hz;
     let mut cells = Vec::new();
-    for (place, visit) in visited(&truth.grid, performance) {
+    for (place, visit) in visited(&truth.grid, visits) {
         let at =
             |field: &Field<'_>| Some(field.model(&field.locate(visit.speed_mm_s, visit.force_n)?));
         let (Some(model), Some(true_model)) = (at(&found), at(&exact)) else {
@@ -115,14 +131,11 @@ struct Visit {
 }
 
 /// The cells that were visited long enough.
-fn visited(grid: &ModelGrid, performance: &Performance) -> Vec<(Place, Visit)> {
+fn visited(grid: &ModelGrid, visits: impl IntoIterator<Item = (f32, f32)>) -> Vec<(Place, Visit)> {
     let (width, height) = asperity::mesh::corner(grid);
     let mut cells: BTreeMap<Place, (usize, f64, f64)> = BTreeMap::new();
-    for record in &performance.records {
-        let (speed, force) = (
-            f64::from(record.output.speed_mm_s),
-            f64::from(record.output.normal_force_n),
-        );
+    for (speed, force) in visits {
+        let (speed, force) = (f64::from(speed), f64::from(force));
         if force <= 0.0 || speed < SLOWEST_MM_S || speed > width || force > height {
             continue;
         }

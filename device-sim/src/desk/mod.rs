@@ -8,6 +8,7 @@
 //! | `sim_device` | the simulated device and hand behind the host's trait |
 //! | `replay` | a recording as a device: its conditions, and whether forces repeat |
 //! | `run` | one run of the loop on its thread |
+//! | `unfelt` | one that renders nothing: the tool touches a real surface |
 //! | `recorder` | every tick into a file, on a thread of its own |
 //! | `trace` | every tick as a row of CSV |
 
@@ -20,12 +21,14 @@ mod run;
 mod sim_device;
 mod surface;
 mod trace;
+mod unfelt;
 
 pub use error::DeskError;
 pub use open::open;
 pub use opened::{Desk, Repeated, Replayed};
 pub use recorder::{Form, Recorder, Written};
 pub use run::{Attended, Setup, run};
-pub use sim_device::{Pace, SimDevice};
+pub use sim_device::{Hands, Pace, SimDevice};
 pub use surface::Surface;
 pub use trace::{COLUMNS, Trace};
+pub use unfelt::run_unfelt;

@@ -3,7 +3,7 @@
 use super::error::DeskError;
 use super::opened::Desk;
 use super::replay;
-use super::sim_device::{Pace, SimDevice};
+use super::sim_device::{Hands, Pace, SimDevice};
 use crate::device::DeviceConfig;
 use crate::hand::{Grip, GripPreset};
 use asperity_host::device::{self, OpenError, Scheme, Uri};
@@ -12,11 +12,11 @@ use asperity_runtime::Config;
 use std::path::Path;
 
 /// Settings of `sim:`.
-const SETTINGS: [&str; 3] = ["grip", "seed", "time"];
+const SETTINGS: [&str; 4] = ["grip", "hand", "seed", "time"];
 
 /// Opens a device by its name for a servo loop at `rate_hz`: what the host has, and
 /// `sim:FILE.toml?grip=light&seed=1&time=real`, where everything after the colon may be left out.
-/// `grip` is `light`, `firm` or a file, `time` is `real` or `stepped`. The simulated device takes a
+/// `grip` is `light`, `firm` or a file, `hand` is `explore` or `record`, `time` is `real` or `stepped`. The simulated device takes a
 /// period of the loop as its own, whatever its file says.
 ///
 /// # Errors
@@ -54,8 +54,14 @@ fn simulated(uri: &Uri, rate_hz: u32) -> Result<Desk, DeskError> {
         "stepped" => Pace::Stepped,
         _ => return Err(OpenError::setting(uri, "time", "real or stepped").into()),
     };
+    let hand = match uri.setting("hand").unwrap_or("explore") {
+        "explore" => Hands::Explore,
+        "record" => Hands::Record,
+        _ => return Err(OpenError::setting(uri, "hand", "explore or record").into()),
+    };
+    let device = SimDevice::with(&config, grip, seed, rate_hz, pace, hand);
     Ok(Desk {
-        device: Box::new(SimDevice::new(&config, grip, seed, rate_hz, pace)),
+        device: Box::new(device),
         mechanics: config.mechanics_config(),
         profile: None,
         pace: match pace {

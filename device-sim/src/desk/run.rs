@@ -90,7 +90,7 @@ pub fn run<O: Observer + Send>(
     spawn(setup, render, device, observer, Some(&mut preparer), attend)
 }
 
-fn spawn<'q, 'a, R: Render + Send, O: Observer + Send>(
+pub(super) fn spawn<'q, 'a, R: Render + Send, O: Observer + Send>(
     setup: Setup<'_>,
     render: R,
     device: &mut dyn Device,

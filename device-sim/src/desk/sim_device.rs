@@ -1,6 +1,7 @@
 //! The simulated device, held by a simulated hand, behind the host's trait.
 
 use crate::axis::{AxisState, Pull};
+use crate::bench;
 use crate::device::{Device as Mechanism, DeviceConfig};
 use crate::hand::{Grip, HOVER_M, Hand, Intent, Script};
 use asperity_host::device::{Description, Device, Fault, Reading};
@@ -21,6 +22,20 @@ pub enum Pace {
     RealTime,
 }
 
+/// What a simulated hand does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hands {
+    /// It explores: taps, a press, a few strokes, a rest.
+    Explore,
+    /// It records: taps, and strokes at all speeds and forces.
+    Record,
+}
+
+/// Seconds of strokes that a hand which records has planned.
+const RECORDED_S: f64 = 36_000.0;
+/// Speed, mm/s, and force, N, up to which it strokes.
+const RECORDED_TO: (f64, f64) = (300.0, 3.0);
+
 /// A simulated device with a hand that explores the plane z = 0, cycle after cycle.
 #[derive(Debug)]
 pub struct SimDevice {
@@ -39,9 +54,25 @@ impl SimDevice {
     /// A device at rest, hovering over the middle of the surface, for a servo loop at `rate_hz`.
     #[must_use]
     pub fn new(config: &DeviceConfig, grip: Grip, seed: u64, rate_hz: u32, pace: Pace) -> Self {
+        Self::with(config, grip, seed, rate_hz, pace, Hands::Explore)
+    }
+
+    /// The same with a hand that does something else.
+    #[must_use]
+    pub fn with(
+        config: &DeviceConfig,
+        grip: Grip,
+        seed: u64,
+        rate_hz: u32,
+        pace: Pace,
+        hand: Hands,
+    ) -> Self {
         let half_extents_m = config.half_extents_m();
         let start_m = [0.0, 0.0, HOVER_M.min(0.5 * half_extents_m[2])];
-        let script = Script::exploration(seed, CYCLES, half_extents_m);
+        let script = match hand {
+            Hands::Explore => Script::exploration(seed, CYCLES, half_extents_m),
+            Hands::Record => bench::script(seed, RECORDED_S, RECORDED_TO),
+        };
         Self {
             mechanism: Mechanism::new(config, grip.mass_kg, start_m),
             hand: Hand::new(grip, script, start_m),

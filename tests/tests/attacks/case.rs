@@ -95,7 +95,16 @@ impl Attack {
         let words: Vec<&str> = line.split(' ').collect();
         let outputs = words.iter().filter(|word| word.starts_with("out"));
         // Of what lies in an output folder, the programs choose the names.
-        let inside = ["Wood.asp", "Test.asp", "wood.asp", "a.csv", "b.csv"];
+        let inside = [
+            "Wood.asp",
+            "Test.asp",
+            "wood.asp",
+            "a.csv",
+            "b.csv",
+            "accel.csv",
+            "touch.csv",
+            "recording.toml",
+        ];
         let inside = inside.map(|name| format!("out/{name}"));
         // The header of a C array lies beside it.
         let header = line.contains("c-array").then(|| "out.h".to_owned());

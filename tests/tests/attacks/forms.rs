@@ -38,7 +38,7 @@ const fn long(program: Program, line: &'static str, target: &'static str, seed: 
 const PAINT: &str =
     "preview good.asp -o out.png --diffusion sd --diffusion-backend portable --steps 2 --tile";
 
-pub(crate) const FORMS: [Form; 65] = [
+pub(crate) const FORMS: [Form; 68] = [
     form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
@@ -363,6 +363,24 @@ pub(crate) const FORMS: [Form; 65] = [
         "servo good.asp --device null: --profile in.toml --policy other --no-lock --seconds 0.1",
         "in.toml",
         Seed::Profile,
+    ),
+    form(
+        Lab,
+        "record out in.asp --device sim:?time=stepped --accel sim: --seconds 1.5 --policy other --no-lock",
+        "in.asp",
+        Seed::Asset,
+    ),
+    long(
+        Lab,
+        "record out --device null: --accel wav:in.wav?g=16 --seconds 1 --policy other --no-lock",
+        "in.wav",
+        Seed::RecordedWave,
+    ),
+    long(
+        Lab,
+        "record out --device null: --accel serial:in.txt --seconds 1 --policy other --no-lock",
+        "in.txt",
+        Seed::RecordedTable,
     ),
     form(
         Lab,

@@ -50,13 +50,7 @@ pub fn write_folder_beside(
     let made = if folder.is_dir() {
         None
     } else {
-        let mut list = unfinished();
-        fs::create_dir(folder).map_err(|e| match e.kind() {
-            io::ErrorKind::AlreadyExists => fail("is a file", io::ErrorKind::NotADirectory.into()),
-            _ => fail("cannot make the folder", e),
-        })?;
-        list.push(folder.to_owned());
-        Some(MadeFolder(folder))
+        Some(NewFolder::make(folder)?)
     };
     let mut outputs = Outputs::beside(inputs);
     for (name, bytes) in files {
@@ -70,20 +64,48 @@ pub fn write_folder_beside(
     Ok(())
 }
 
-/// A folder that is removed again, if it is empty, unless it is kept.
-struct MadeFolder<'a>(&'a Path);
+/// A folder that was made for files. It is removed again, if it is empty, unless it is kept.
+#[derive(Debug)]
+pub struct NewFolder(PathBuf);
 
-impl MadeFolder<'_> {
-    fn keep(self) {
-        unfinished().retain(|other| other != self.0);
+impl NewFolder {
+    /// Makes a folder whose parent exists.
+    ///
+    /// # Errors
+    /// [`OutputError`], also where there is a file or a folder already.
+    pub fn make(folder: &Path) -> Result<Self, OutputError> {
+        let fail = |doing, source| OutputError {
+            path: folder.to_owned(),
+            doing,
+            source,
+        };
+        let mut list = unfinished();
+        fs::create_dir(folder).map_err(|e| match e.kind() {
+            io::ErrorKind::AlreadyExists if folder.is_dir() => fail("is there already", e),
+            io::ErrorKind::AlreadyExists => fail("is a file", io::ErrorKind::NotADirectory.into()),
+            _ => fail("cannot make the folder", e),
+        })?;
+        list.push(folder.to_owned());
+        Ok(Self(folder.to_owned()))
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// Lets it stay.
+    pub fn keep(self) {
+        unfinished().retain(|other| *other != self.0);
         std::mem::forget(self);
     }
 }
 
-impl Drop for MadeFolder<'_> {
+impl Drop for NewFolder {
     fn drop(&mut self) {
-        unfinished().retain(|other| other != self.0);
+        unfinished().retain(|other| *other != self.0);
         // A folder that is not empty holds finished files and stays.
-        let _ = fs::remove_dir(self.0);
+        let _ = fs::remove_dir(&self.0);
     }
 }

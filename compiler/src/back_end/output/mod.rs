@@ -17,10 +17,10 @@ mod unfinished;
 
 pub use atomic::AtomicFile;
 pub use error::{OpenError, OutputError};
-pub use folder::{write_folder, write_folder_beside};
+pub use folder::{NewFolder, write_folder, write_folder_beside};
 pub use outputs::{OutputId, Outputs};
 pub use stream::{display, is_standard_output};
-pub use unfinished::clean_up_on_interrupt;
+pub use unfinished::{clean_up_and_exit, clean_up_on_interrupt};
 
 use std::path::Path;
 

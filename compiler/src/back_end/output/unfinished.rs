@@ -19,13 +19,17 @@ pub(super) fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
 /// status 130. For a command's `main`; calling it twice has no effect.
 pub fn clean_up_on_interrupt() {
     // Fails only where a handler is set already.
-    let _ = ctrlc::set_handler(|| {
-        let list = unfinished();
-        // Folders come before what was put into them.
-        for path in list.iter().rev() {
-            let _ = fs::remove_file(path).or_else(|_| fs::remove_dir(path));
-        }
-        // Still under the lock: no new file can appear.
-        std::process::exit(130);
-    });
+    let _ = ctrlc::set_handler(|| clean_up_and_exit());
+}
+
+/// Removes what is unfinished and exits with status 130, as an interrupt does. For a command with a
+/// handler of its own.
+pub fn clean_up_and_exit() -> ! {
+    let list = unfinished();
+    // Folders come before what was put into them.
+    for path in list.iter().rev() {
+        let _ = fs::remove_file(path).or_else(|_| fs::remove_dir(path));
+    }
+    // Still under the lock: no new file can appear.
+    std::process::exit(130);
 }

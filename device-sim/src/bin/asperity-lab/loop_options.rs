@@ -106,6 +106,14 @@ impl LoopOptions {
         Ok((desk, recorded_hz as u32))
     }
 
+    /// Opens a device on which nothing is rendered, at 1 kHz unless a rate was asked for.
+    pub(crate) fn free_desk(&self, uri: &Uri) -> Result<(Desk, u32), Failures> {
+        let rate_hz = self.rate.unwrap_or(1000);
+        let profile = self.profile().map_err(one)?;
+        let desk = open(uri, rate_hz).map_err(one)?;
+        Ok((Desk { profile, ..desk }, rate_hz))
+    }
+
     /// Seed of the excitation on a desk.
     pub(crate) fn seed(&self, desk: &Desk) -> u64 {
         let recorded = desk.replayed.as_ref();
@@ -169,7 +177,7 @@ pub(crate) fn stop_on_interrupt() -> Result<Interrupt, Failures> {
     ctrlc::set_handler(move || {
         let again = set.stop.swap(true, Relaxed);
         if again && set.released.load(Relaxed) {
-            std::process::exit(130);
+            asperity::output::clean_up_and_exit();
         }
     })
     .map_err(|error| {

@@ -8,6 +8,7 @@ mod feel;
 mod jitter;
 mod loop_options;
 mod pareto;
+mod record;
 mod servo;
 mod stability;
 
@@ -31,7 +32,8 @@ use error::Plain;
   asperity-lab stability
   asperity-lab pareto --out charts
   asperity-lab device list
-  asperity-lab bench --seconds 5,60")]
+  asperity-lab bench --seconds 5,60
+  asperity-lab record oak --device sim:?hand=record --accel sim:")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -50,6 +52,7 @@ enum Command {
     Pareto(pareto::Arguments),
     Device(device::Arguments),
     Bench(bench::Arguments),
+    Record(record::Arguments),
     /// Run one kernel, for counting
     #[command(name = cost::COMMAND, hide = true)]
     Kernel {
@@ -60,7 +63,11 @@ enum Command {
 fn main() -> ExitCode {
     let arguments: Arguments = console::arguments();
     // A servo loop takes the force to zero first.
-    if !matches!(arguments.command, Command::Servo(_) | Command::Jitter(_)) {
+    let has_loop = matches!(
+        arguments.command,
+        Command::Servo(_) | Command::Jitter(_) | Command::Record(_)
+    );
+    if !has_loop {
         asperity::output::clean_up_on_interrupt();
     }
     let console = Console::new(arguments.quiet);
@@ -72,6 +79,7 @@ fn main() -> ExitCode {
         Command::Device(arguments) => device::run(arguments, console),
         Command::Pareto(arguments) => pareto::run(arguments, console).map(|()| true),
         Command::Bench(arguments) => bench::run(arguments, console).map(|()| true),
+        Command::Record(arguments) => record::run(arguments, console).map(|()| true),
         Command::Kernel { numbers } => kernel(numbers).map(|()| true),
     };
     match result {

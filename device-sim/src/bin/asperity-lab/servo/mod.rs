@@ -35,7 +35,8 @@ use summary::Session;
   asperity-lab servo all.aspl --texture Cork --device null: --rate 2000 --policy deadline
 
 Devices:
-  sim:[FILE.toml][?grip=light|firm|FILE.toml&seed=N&time=real|stepped]  a simulated Touch and hand
+  sim:[FILE.toml][?grip=light|firm|FILE.toml&hand=explore|record&seed=N&time=real|stepped]
+                                 a simulated Touch and hand
   null:[?z_mm=Z]                 rests somewhere and takes any force
   replay:FILE.aspr[?end=loop]    a recorded session, under its own conditions
   falcon:, openhaptics:, dhd:    devices; `asperity-lab device list` shows them, and

@@ -1,0 +1,127 @@
+//! Why nothing can be recorded.
+
+use asperity::diagnostic::Diagnostic;
+use std::io;
+
+/// Why a sensor gives nothing, or gives no more.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SensorError {
+    /// The name of a sensor is none.
+    #[error("`{name}`: {why}")]
+    Name {
+        /// As it was given.
+        name: String,
+        /// What is wrong.
+        why: String,
+    },
+    /// It cannot be opened.
+    #[error("{name}: cannot open it: {cause}")]
+    Open {
+        /// The port or file.
+        name: String,
+        /// Why.
+        cause: io::Error,
+    },
+    /// It cannot be read any more.
+    #[error("{name}: cannot read it: {cause}")]
+    Read {
+        /// The port or file.
+        name: String,
+        /// Why.
+        cause: io::Error,
+    },
+    /// Nothing came for some time.
+    #[error("{name}: {what} for {seconds} s")]
+    Stalled {
+        /// The port or file.
+        name: String,
+        /// What did not happen.
+        what: &'static str,
+        /// How long.
+        seconds: u64,
+    },
+    /// It was unplugged, or whoever wrote has gone.
+    #[error("{0}: it has ended; was it unplugged?")]
+    Ended(String),
+    /// What came is not the line protocol.
+    #[error("{name}: {count} lines in a row are no samples, such as `{example}`")]
+    Garbage {
+        /// The port.
+        name: String,
+        /// How many.
+        count: u32,
+        /// One of them, shortened and escaped.
+        example: String,
+    },
+    /// A line does not end.
+    #[error("{name}: a line has more than {most} bytes")]
+    LongLine {
+        /// The port.
+        name: String,
+        /// Most bytes.
+        most: usize,
+    },
+    /// Its header is wrong, missing or another one than before.
+    #[error("{name}: its header {why}")]
+    Header {
+        /// The port or file.
+        name: String,
+        /// What is wrong.
+        why: String,
+    },
+    /// Its own clock or count went back.
+    #[error("{name}: its clock went back from {before} to {now}; it has restarted")]
+    Restarted {
+        /// The port.
+        name: String,
+        /// The last value.
+        before: f64,
+        /// The one after.
+        now: f64,
+    },
+    /// A followed file was shortened, replaced or changed.
+    #[error("{name}: {what} while it was read")]
+    Changed {
+        /// The file.
+        name: String,
+        /// What happened to it.
+        what: &'static str,
+    },
+}
+
+impl Diagnostic for SensorError {
+    fn is_usage(&self) -> bool {
+        matches!(self, Self::Name { .. })
+    }
+
+    fn remedy(&self) -> String {
+        match self {
+            Self::Name { .. } => {
+                "write serial:PORT?baud=115200, wav:FILE?g=16 or sim:, as --help says".into()
+            }
+            Self::Open { cause, .. } if cause.kind() == io::ErrorKind::PermissionDenied => {
+                "join the group of the port, often `dialout`, and log in again".into()
+            }
+            Self::Open { .. } => {
+                "plug it in, or give another port; `ls /dev/serial/by-id` lists them".into()
+            }
+            Self::Read { .. } | Self::Ended(_) => "check the cable, and record again".into(),
+            Self::Stalled { .. } => {
+                "check that the board runs, or that the program which writes the file does".into()
+            }
+            Self::Garbage { .. } | Self::LongLine { .. } => {
+                "check ?baud=, and that the board sends lines of numbers as docs/recording.md says"
+                    .into()
+            }
+            Self::Header { .. } => {
+                "let the board send `#t_us,ax_g,ay_g,az_g` every second, or give ?columns=; check ?baud="
+                    .into()
+            }
+            Self::Restarted { .. } => "check the board's supply, and record again".into(),
+            Self::Changed { .. } => {
+                "let the other program write one file from beginning to end".into()
+            }
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Everything of a recording, in memory, while it is made.
+
+use super::clock::{ClockLine, line_under};
+use super::columns::{Channel, Column};
+use super::exploration::{Exploration, Plan};
+use super::reader::{Batch, Told};
+use super::samples::Samples;
+use asperity_host::servo::Record;
+use asperity_recording::reader::MAX_KEPT;
+
+/// Where the load on the surface comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Load {
+    /// The force that the loop renders.
+    Loop,
+    /// The sensor, which measures it beside the acceleration.
+    Sensor,
+}
+
+/// The device at one tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// When, on the loop's clock, ns.
+    pub at_ns: u64,
+    /// Where the tool is, m.
+    pub place_m: [f32; 3],
+    /// The force that the loop renders, N.
+    pub force_n: [f32; 3],
+}
+
+/// A recording that is being made.
+#[derive(Debug)]
+pub struct Take {
+    load: Load,
+    /// Ticks a second.
+    rate_hz: f64,
+    /// The device moves on by due times, and not by the clock.
+    is_stepped: bool,
+    /// Time by which the sensor is known to be late, s.
+    delay_s: f64,
+    exploration: Exploration,
+    touches: Vec<Touch>,
+    told: Option<Told>,
+    samples: Samples,
+    /// Own time and time of arrival of the last sample of each batch, s.
+    arrivals: Vec<(f64, f64)>,
+    /// Newest load that the sensor told, N.
+    load_n: f64,
+    most: usize,
+}
+
+impl Take {
+    /// Nothing is recorded yet, of a loop at `rate_hz` and a sensor that is known to be late.
+    #[must_use]
+    pub fn new(plan: Plan, rate_hz: f64, is_stepped: bool, delay_s: f64) -> Self {
+        Self {
+            load: if plan.is_sensor {
+                Load::Sensor
+            } else {
+                Load::Loop
+            },
+            rate_hz,
+            is_stepped,
+            delay_s,
+            exploration: Exploration::new(plan),
+            touches: Vec::new(),
+            told: None,
+            samples: Samples::default(),
+            arrivals: Vec::new(),
+            load_n: f64::NAN,
+            most: MAX_KEPT,
+        }
+    }
+
+    /// Takes what the device did in a tick. A position that is not new is left out.
+    pub fn tick(&mut self, record: &Record) {
+        let Ok(reading) = record.reading else { return };
+        if !reading.fresh {
+            return;
+        }
+        let at_ns = if self.is_stepped {
+            record.times.due_ns
+        } else {
+            record.times.read_ns
+        };
+        if self.touches.last().is_some_and(|last| last.at_ns >= at_ns) {
+            return;
+        }
+        let touch = Touch {
+            at_ns,
+            place_m: reading.position_m,
+            force_n: record.output.force_n,
+        };
+        self.touches.push(touch);
+        let load_n = match self.load {
+            Load::Loop => f64::from(record.output.normal_force_n),
+            Load::Sensor => self.load_n,
+        };
+        let place_m = reading.position_m.map(f64::from);
+        self.exploration.take(1e-9 * at_ns as f64, place_m, load_n);
+    }
+
+    /// Takes what a sensor sent at once. Samples that come before the first tick wait for it.
+    pub fn batch(&mut self, told: &Told, batch: &Batch) {
+        let told = self.told.get_or_insert_with(|| told.clone());
+        let width = told.layout.channels().count();
+        if let (Some(place), Load::Sensor) = (told.layout.load(), self.load) {
+            let unit = told
+                .layout
+                .channels()
+                .nth(place)
+                .map_or(1.0, |c| c.unit.to_si);
+            let loads = batch.samples.values.iter().skip(place).step_by(width);
+            let (sum, count) = loads
+                .filter(|load| load.is_finite())
+                .fold((0.0, 0), |(sum, count), load| {
+                    (sum + f64::from(*load), count + 1)
+                });
+            if count > 0 {
+                self.load_n = unit * sum / f64::from(count);
+            }
+        }
+        if let Some(last) = batch.samples.own.last() {
+            self.arrivals.push((*last, 1e-9 * batch.arrived_ns as f64));
+        }
+        self.samples.own.extend_from_slice(&batch.samples.own);
+        self.samples.values.extend_from_slice(&batch.samples.values);
+    }
+
+    /// What was visited, and what is to be done next.
+    #[must_use]
+    pub fn exploration(&self) -> &Exploration {
+        &self.exploration
+    }
+
+    /// Where the load comes from.
+    #[must_use]
+    pub fn load(&self) -> Load {
+        self.load
+    }
+
+    /// Whether an import would keep no more.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        // A time takes as much room as two values.
+        8 * self.touches.len() + 2 * self.samples.len() + self.samples.values.len() > self.most
+    }
+
+    /// Ticks a second.
+    #[must_use]
+    pub fn rate_hz(&self) -> f64 {
+        self.rate_hz
+    }
+
+    /// Whether the sensor's own time is fine enough to tell samples apart that lie so far from each
+    /// other.
+    pub(super) fn tells_samples_apart(&self, period_s: f64) -> bool {
+        let columns = self.told.iter().flat_map(|told| told.layout.columns());
+        columns.into_iter().all(|column| match column {
+            Column::Clock(unit_s) => *unit_s <= 0.5 * period_s,
+            _ => true,
+        })
+    }
+
+    /// Rows of the device.
+    #[must_use]
+    pub fn touches(&self) -> &[Touch] {
+        &self.touches
+    }
+
+    /// What the sensor measures.
+    #[must_use]
+    pub fn channels(&self) -> Vec<Channel> {
+        let told = self.told.iter();
+        told.flat_map(|told| told.layout.channels().copied())
+            .collect()
+    }
+
+    /// Values of a sample.
+    #[must_use]
+    pub fn values(&self, sample: usize) -> &[f32] {
+        let width = self.channels_count();
+        &self.samples.values[sample * width..][..width]
+    }
+
+    fn channels_count(&self) -> usize {
+        self.told
+            .as_ref()
+            .map_or(1, |told| told.layout.channels().count())
+    }
+
+    /// From the sensor's own time to the loop's, once enough came.
+    #[must_use]
+    pub fn clock(&self) -> Option<ClockLine> {
+        line_under(&self.arrivals, self.told.as_ref()?.stated_scale)
+    }
+
+    /// Times of all samples on the loop's clock, s.
+    #[must_use]
+    pub fn times_s(&self) -> Vec<f64> {
+        let Some(clock) = self.clock() else {
+            return Vec::new();
+        };
+        let own = self.samples.own.iter();
+        own.map(|own| clock.host_s(*own) - self.delay_s).collect()
+    }
+}

@@ -1,0 +1,54 @@
+//! A loop that renders nothing: the tool touches a real surface.
+
+use super::error::DeskError;
+use super::run::{Attended, Setup, spawn};
+use asperity_host::device::Device;
+use asperity_host::servo::{Observer, Render, Report};
+use asperity_runtime::{Config, Counters, Flags, Output, Renderer, Sample};
+
+/// Renders no force.
+struct Unfelt {
+    config: Config,
+}
+
+impl Render for Unfelt {
+    fn tick(&mut self, _: &Sample) -> Output {
+        Output {
+            force_n: [0.0; 3],
+            depth_m: 0.0,
+            speed_mm_s: 0.0,
+            normal_force_n: 0.0,
+            vib_m_s2: 0.0,
+            tap_n: 0.0,
+            friction_n: 0.0,
+            flags: Flags::default(),
+        }
+    }
+
+    fn config(&self) -> &Config {
+        &self.config
+    }
+
+    fn counters(&self) -> Counters {
+        Counters::default()
+    }
+}
+
+/// Runs a loop that renders no force, as [`run`](super::run()) runs one on a texture.
+///
+/// # Errors
+/// [`DeskError`] for a device or a rate that do not fit.
+pub fn run_unfelt<O: Observer + Send>(
+    setup: Setup<'_>,
+    device: &mut dyn Device,
+    observer: O,
+    attend: impl FnOnce(Attended<'_, '_, '_, '_>),
+) -> Result<Report, DeskError> {
+    // What no renderer takes is refused here as well.
+    Renderer::new(&setup.config)?;
+    setup.settings.check(setup.config.servo_rate_hz)?;
+    let render = Unfelt {
+        config: setup.config.clone(),
+    };
+    spawn(setup, render, device, observer, None, attend)
+}
