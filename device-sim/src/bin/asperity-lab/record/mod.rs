@@ -34,10 +34,10 @@ use summary::Summary;
 /// what was recorded until then is kept. `asperity import recording DIR` makes a texture of it.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
-  asperity-lab record oak --device sim:?grip=firm&hand=record --accel sim: --seconds 60
-  asperity-lab record oak --device falcon: --accel serial:/dev/ttyACM0?baud=921600
+  asperity-lab record oak --device 'sim:?grip=firm&hand=record' --accel sim: --seconds 60
+  asperity-lab record oak --device falcon: --accel 'serial:/dev/ttyACM0?baud=921600'
   arecord -D hw:1 -f S24_3LE -r 8000 -c 3 oak.wav &
-  asperity-lab record oak --device openhaptics: --accel wav:oak.wav?columns=ax,ay,fz&g=16&n=20
+  asperity-lab record oak --device openhaptics: --accel 'wav:oak.wav?columns=ax,ay,fz&g=16&n=20'
   asperity-lab record played oak.asp --device dhd: --accel serial:/dev/ttyACM0
 
 Devices are those of `asperity-lab servo`. Without FILE a device renders no force, and the tool
