@@ -2,6 +2,7 @@
 
 use super::AUTHOR;
 use asperity::attributes::{self, Attributes};
+use asperity::prompt::phrase::{Phrase, parse};
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -66,6 +67,14 @@ fn modifiers_move_the_right_way_and_are_noticed() {
         );
     }
     println!("{right} of {all} the right way, {noticed} noticed");
+    let plain = |m: &Modified| parse(&m.to) == Phrase::Plain;
+    for (who, grammar) in [("read by the grammar", true), ("left to the text vector", false)] {
+        let steps = steps.iter().filter(|(_, m)| plain(m) != grammar);
+        let steps: Vec<f64> = steps.map(|(step, _)| *step).collect();
+        let count = |least: f64| steps.iter().filter(|&&step| step > least).count();
+        let (right, noticed, all) = (count(0.0), count(1.0), steps.len());
+        println!("{who}: {right} of {all} the right way, {noticed} noticed");
+    }
     assert!(right * 100 >= all * LEAST_RIGHT, "{right} of {all}");
     assert!(noticed * 100 >= all * LEAST_NOTICED, "{noticed} of {all}");
     for b in &file.between {
