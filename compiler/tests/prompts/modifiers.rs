@@ -68,7 +68,10 @@ fn modifiers_move_the_right_way_and_are_noticed() {
     }
     println!("{right} of {all} the right way, {noticed} noticed");
     let plain = |m: &Modified| parse(&m.to) == Phrase::Plain;
-    for (who, grammar) in [("read by the grammar", true), ("left to the text vector", false)] {
+    for (who, grammar) in [
+        ("read by the grammar", true),
+        ("left to the text vector", false),
+    ] {
         let steps = steps.iter().filter(|(_, m)| plain(m) != grammar);
         let steps: Vec<f64> = steps.map(|(step, _)| *step).collect();
         let count = |least: f64| steps.iter().filter(|&&step| step > least).count();
