@@ -107,18 +107,10 @@ pub fn principal(axes: &[Vec<f64>]) -> (Vec<f64>, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signal::noise::white;
 
     fn noise(seed: u64, count: usize) -> Vec<f64> {
-        let mut state = seed;
-        let mut next = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
-        };
-        (0..count)
-            .map(|_| (0..4).map(|_| next()).sum::<f64>())
-            .collect()
+        white(seed, count, 4)
     }
 
     fn power(signal: &[f64]) -> f64 {

@@ -376,24 +376,12 @@ fn bartlett(axes: &[Vec<f64>], start: usize, length: usize, whitener: &[f64]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn white(seed: u64, count: usize) -> Vec<f64> {
-        let mut state = seed;
-        let mut next = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
-        };
-        (0..count)
-            .map(|_| (0..12).map(|_| next()).sum::<f64>())
-            .collect()
-    }
+    use crate::signal::noise::white;
 
     #[test]
     fn the_noise_of_the_sensors_is_known_to_two_percent_in_spite_of_knocks() {
         let analyser = Analyser::new();
-        let mut axes: Vec<Vec<f64>> = (1..=3).map(|seed| white(seed, 20_000)).collect();
+        let mut axes: Vec<Vec<f64>> = (1..=3).map(|seed| white(seed, 20_000, 12)).collect();
         let exact: f64 = axes
             .iter()
             .map(|axis| axis.iter().map(|x| x * x).sum::<f64>() / axis.len() as f64)

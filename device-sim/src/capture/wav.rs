@@ -1,7 +1,8 @@
 //! A WAV file that another program is writing, such as `arecord` or `sox`.
 //!
 //! Such a program states a length that is 0, or far too large, until it ends; the length of the file
-//! is what counts here. Everything else of the header must stay.
+//! is what counts here. hound, which imports read with, refuses such lengths. Everything else of the
+//! header must stay.
 
 use super::columns::{Column, Layout};
 use super::error::SensorError;

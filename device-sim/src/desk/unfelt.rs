@@ -2,9 +2,10 @@
 
 use super::error::DeskError;
 use super::run::{Attended, Setup, spawn};
+use crate::servo::silence;
 use asperity_host::device::Device;
 use asperity_host::servo::{Observer, Render, Report};
-use asperity_runtime::{Config, Counters, Flags, Output, Renderer, Sample};
+use asperity_runtime::{Config, Counters, Output, Renderer, Sample};
 
 /// Renders no force.
 struct Unfelt {
@@ -13,16 +14,7 @@ struct Unfelt {
 
 impl Render for Unfelt {
     fn tick(&mut self, _: &Sample) -> Output {
-        Output {
-            force_n: [0.0; 3],
-            depth_m: 0.0,
-            speed_mm_s: 0.0,
-            normal_force_n: 0.0,
-            vib_m_s2: 0.0,
-            tap_n: 0.0,
-            friction_n: 0.0,
-            flags: Flags::default(),
-        }
+        silence()
     }
 
     fn config(&self) -> &Config {

@@ -98,19 +98,11 @@ pub fn information_order(variances: &[f64], samples: f64) -> usize {
 mod tests {
     use super::*;
     use crate::autoregression::is_stable;
+    use crate::signal::noise::white;
 
     /// Gaussian enough noise through A(z) and B(z).
     fn synthetic(a: &[f64], b: &[f64], count: usize) -> Vec<f64> {
-        let mut state = 1_u64;
-        let mut uniform = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
-        };
-        let e: Vec<f64> = (0..count)
-            .map(|_| (0..12).map(|_| uniform()).sum())
-            .collect();
+        let e = white(1, count, 12);
         let mut y: Vec<f64> = Vec::new();
         for n in 0..count {
             let past = |x: &[f64], c: &[f64]| -> f64 {

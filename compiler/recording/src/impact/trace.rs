@@ -85,6 +85,7 @@ fn onset(stretch: &[f64], hand: &Baseline) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signal::noise::Uniform;
 
     const RATE_HZ: f64 = 5000.0;
 
@@ -100,19 +101,13 @@ mod tests {
 
     /// The tap at 1 s upon a hand that is stopped as hard, with gravity and the noise of a sensor.
     fn samples(with_tap: bool) -> Vec<f32> {
-        let mut state = 3_u64;
-        let mut noise = move || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
-        };
+        let mut noise = Uniform(3);
         (0..10_000)
             .map(|n| {
                 let t_s = f64::from(n) / RATE_HZ - 1.0;
                 let hand = 6.0 * libm::exp(-((t_s - 0.01) / 0.04).powi(2));
                 let tap = if with_tap { tap(t_s) } else { 0.0 };
-                (9.81 + hand + tap + 0.1 * noise()) as f32
+                (9.81 + hand + tap + 0.1 * noise.next()) as f32
             })
             .collect()
     }

@@ -66,18 +66,11 @@ pub fn delay(pairs: &[(&[f64], &[f64])], reach: usize) -> Option<Delay> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signal::noise::white;
 
     #[test]
     fn a_shifted_signal_is_found_where_it_lies() {
-        let mut state = 1_u64;
-        let noise: Vec<f64> = (0..2000)
-            .map(|_| {
-                state = state
-                    .wrapping_mul(6_364_136_223_846_793_005)
-                    .wrapping_add(1_442_695_040_888_963_407);
-                (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
-            })
-            .collect();
+        let noise = white(1, 2000, 1);
         let early = &noise[100..1900];
         let late = &noise[83..1883];
         let found = delay(&[(early, late)], 50).expect("long enough");

@@ -3,6 +3,8 @@
 pub mod correlate;
 pub mod filter;
 pub mod kaiser;
+#[cfg(test)]
+pub(crate) mod noise;
 pub mod quantile;
 pub mod resample;
 pub mod spectrum;

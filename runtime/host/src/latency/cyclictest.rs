@@ -2,8 +2,8 @@
 //!
 //! It is started with the same interval, policy, priority and processor. Our loop begins a quarter of
 //! a period after a full second of the monotonic clock, cyclictest three quarters after it: they never
-//! wait for each other on one processor, and neither wakes with the kernel's own tick, which comes at
-//! full milliseconds.
+//! wait for each other on one processor, and at 1 kHz neither wakes with the kernel's own tick, which
+//! comes at full milliseconds.
 
 use super::run::Counts;
 use crate::servo::privileges::Policy;

@@ -5,7 +5,7 @@
 
 use super::{
     Inputs,
-    errors::{NAMES, errors},
+    errors::{METRICS, NAMES, errors},
     fold::{Setting, mean_texture, train},
     split,
 };
@@ -112,7 +112,7 @@ pub struct Completion {
 }
 
 /// Errors of a fold's materials: a direction, a material, a predictor, one of [`NAMES`].
-type Errors = Vec<Vec<[Vec<f64>; PREDICTORS]>>;
+type Errors = Vec<Vec<[[f64; METRICS]; PREDICTORS]>>;
 
 /// Trains and asks all folds; those in the cache are not trained again. `None` where a fold is
 /// neither there nor asked for.
@@ -149,7 +149,7 @@ pub(in crate::evaluate) fn measure(
         let key = format!("{:08x} {held_out:?}", cache::checksum([toml.as_bytes()]));
         let what = format!("completion {number}/{folds}");
         let fold = cache.part(&file, &key, asked, || {
-            let (trained, positions) = train(&setting, &config, held_out, &what, watch)?;
+            let (trained, positions) = train(&setting, held_out, &what, watch)?;
             Ok(complete(&setting, &trained, &positions, held_out))
         })?;
         match fold {
@@ -204,7 +204,7 @@ fn complete(
                     .iter()
                     .min_by(|&&a, &&b| apart(a).total_cmp(&apart(b)));
                 let nearest = nearest.map_or(&mean, |&q| &setting.signatures[q]);
-                [completed, &mean, nearest, both].map(|said| errors(said, truth).to_vec())
+                [completed, &mean, nearest, both].map(|said| errors(said, truth))
             })
             .collect()
         })
@@ -268,7 +268,7 @@ mod tests {
         };
         assert!(Given::Ar.withheld().iter().all(of_taps));
         assert!(!Given::Taps.withheld().iter().any(of_taps));
-        let material = |x: f64, y: f64| [x, y, 2.0, 0.0].map(|error| vec![error; NAMES.len()]);
+        let material = |x: f64, y: f64| [x, y, 2.0, 0.0].map(|error| [error; METRICS]);
         let fold = vec![
             vec![material(1.0, 3.0), material(3.0, 1.0)],
             vec![material(1.0, 5.0); 2],

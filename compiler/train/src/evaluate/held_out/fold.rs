@@ -84,7 +84,7 @@ pub(super) fn run(
     watch: &mut dyn Watch,
 ) -> Result<Fold, EvaluateError> {
     let corpus = setting.corpus;
-    let (trained, positions) = train(setting, setting.config, held_out, what, watch)?;
+    let (trained, positions) = train(setting, held_out, what, watch)?;
     let training: Vec<usize> = positions.iter().map(|&p| setting.materials[p]).collect();
     let anchors = anchors(&trained, corpus);
     let asked = Asked {
@@ -97,11 +97,10 @@ pub(super) fn run(
     Ok(asked.all(held_out))
 }
 
-/// Trains a configuration without the materials at the positions `held_out`; the positions of the
+/// Trains without the materials at the positions `held_out`; the positions of the
 /// others, in the order of the model's materials.
 pub(super) fn train(
     setting: &Setting<'_>,
-    config: &Config,
     held_out: &[usize],
     what: &str,
     watch: &mut dyn Watch,
@@ -109,6 +108,7 @@ pub(super) fn train(
     let positions = (0..setting.materials.len()).filter(|p| held_out.binary_search(p).is_err());
     let positions: Vec<usize> = positions.collect();
     let training: Vec<usize> = positions.iter().map(|&p| setting.materials[p]).collect();
+    let config = setting.config;
     let text_epochs = config.text_stage.as_ref().map_or(0, |stage| stage.epochs);
     let epochs = config.optimiser.epochs;
     let mut progress = Training::begin(watch, what, epochs, text_epochs);
