@@ -5,22 +5,13 @@
 //! completed by the learned model and marked so.
 
 mod analyse;
-mod band;
-mod blocks;
-mod clusters;
 mod complete;
 mod error;
 mod grid;
 mod import;
-mod lags;
-mod local;
-mod refine;
 mod report;
-mod shape;
 mod sheet;
 mod texture;
-mod vertex;
-mod whittle;
 
 pub use analyse::{Analysis, Step, analyse, check};
 pub use complete::{Completed, Nearest, complete};

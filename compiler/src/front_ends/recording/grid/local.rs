@@ -241,7 +241,7 @@ fn bands(power: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::{
-        front_ends::recording::vertex::{Form, vertex},
+        front_ends::recording::grid::vertex::{Form, vertex},
         model::Numerator,
         signal::{lsf, spectrum::squared_magnitude},
     };
