@@ -226,6 +226,7 @@ impl Texture {
             friction: FrictionParts {
                 mu: self.mu,
                 anchors: &[],
+                law: &self.law,
             },
             coupling: self.coupling,
             provenance: None,
