@@ -6,9 +6,9 @@ use crate::{
 };
 
 /// Codes of a millimetre per second.
-const PER_MM_S: f64 = 16.0;
+const PER_MM_S: f32 = 16.0;
 /// Codes of a factor of 1.
-const PER_ONE: f64 = 8192.0;
+const PER_ONE: f32 = 8192.0;
 /// Bytes of a point.
 const POINT_LEN: usize = 4;
 
@@ -33,8 +33,8 @@ impl LawPoint {
     /// these ranges and for values that are not finite.
     #[must_use]
     pub fn nearest(speed_mm_s: f64, factor: f64) -> Option<Self> {
-        let code = |value: f64, scale: f64| {
-            let rounded = value * scale + 0.5;
+        let code = |value: f64, scale: f32| {
+            let rounded = value * f64::from(scale) + 0.5;
             // A cast truncates.
             (value >= 0.0 && rounded < 65536.0).then_some(rounded as u16)
         };
@@ -44,21 +44,22 @@ impl LawPoint {
         })
     }
 
-    /// Tangential speed, mm/s.
+    /// Tangential speed, mm/s, exact in f32.
     #[must_use]
-    pub fn speed_mm_s(self) -> f64 {
-        f64::from(self.speed_code) / PER_MM_S
+    pub fn speed_mm_s(self) -> f32 {
+        f32::from(self.speed_code) / PER_MM_S
     }
 
-    /// Factor of μ.
+    /// Factor of μ, exact in f32.
     #[must_use]
-    pub fn factor(self) -> f64 {
-        f64::from(self.factor_code) / PER_ONE
+    pub fn factor(self) -> f32 {
+        f32::from(self.factor_code) / PER_ONE
     }
 }
 
 impl<'a> FrictionLaw<'a> {
     /// Reads a law; `mu` is the μ that its factors multiply.
+    #[inline(never)]
     pub(crate) fn parse(reader: &mut Reader<'a>, mu: f32) -> Result<Self, FormatError> {
         let count = usize::from(reader.u8("friction.law.count")?);
         if !(limits::MIN_LAW_POINTS..=limits::MAX_LAW_POINTS).contains(&count) {
@@ -78,16 +79,16 @@ impl<'a> FrictionLaw<'a> {
                 return Err(FormatError::invalid(
                     "friction.law.speed_mm_s",
                     index,
-                    point.speed_mm_s(),
+                    f64::from(point.speed_mm_s()),
                     "speeds must ascend",
                 ));
             }
             last = Some(point.speed_code);
-            if f64::from(mu) * point.factor() > f64::from(limits::MAX_MU) {
+            if mu * point.factor() > limits::MAX_MU {
                 return Err(FormatError::invalid(
                     "friction.law.factor",
                     index,
-                    point.factor(),
+                    f64::from(point.factor()),
                     "μ times the factor must be 10 at most",
                 ));
             }
@@ -113,8 +114,8 @@ mod tests {
         for step in 0..4000 {
             let (speed, factor) = (f64::from(step) * 1.0237, f64::from(step) * 0.001_999);
             let point = LawPoint::nearest(speed, factor).unwrap();
-            assert!((point.speed_mm_s() - speed).abs() <= 0.5 / PER_MM_S);
-            assert!((point.factor() - factor).abs() <= 0.5 / PER_ONE);
+            assert!((f64::from(point.speed_mm_s()) - speed).abs() <= 0.5 / 16.0);
+            assert!((f64::from(point.factor()) - factor).abs() <= 0.5 / 8192.0);
         }
         for (speed, factor) in [
             (-0.01, 1.0),

@@ -202,7 +202,7 @@ fn read_all(asset: &Asset<'_>) -> f64 {
     let png = asset.preview_png().map_or(0, <[u8]>::len) as f64;
     let law = asset.friction().law();
     let law = law.into_iter().flat_map(|law| law.points());
-    let law = law.map(|p| p.speed_mm_s() + p.factor());
+    let law = law.map(|p| f64::from(p.speed_mm_s() + p.factor()));
     let numbers = lsf.chain(taps).chain(anchors).chain(law).chain(vertices);
     numbers.sum::<f64>() + png
 }

@@ -49,7 +49,7 @@ fn walk(bytes: &[u8], asset: &Asset<'_>) {
     }
     assert!(asset.friction().anchors().all(|a| !a.name.is_empty()));
     if let Some(law) = asset.friction().law() {
-        let speeds: Vec<f64> = law.points().map(|p| p.speed_mm_s()).collect();
+        let speeds: Vec<f32> = law.points().map(|p| p.speed_mm_s()).collect();
         assert!((2..=8).contains(&speeds.len()) && speeds.is_sorted());
     }
     let mut end = None;

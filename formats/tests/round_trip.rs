@@ -203,7 +203,7 @@ fn as_plain(bytes: &[u8]) -> spec_reader::Plain {
             .map(|a| (a.name.into(), a.mu, a.weight))
             .collect(),
         law: asset.friction().law().map_or(vec![], |law| {
-            law.points().map(|p| (p.speed_mm_s(), p.factor())).collect()
+            law.points().map(|p| (p.speed_mm_s().into(), p.factor().into())).collect()
         }),
         coupling: [
             surface.stiffness_n_m,
@@ -255,7 +255,8 @@ proptest! {
         prop_assert_eq!(&plain.triangles, &parts.triangles);
         prop_assert_eq!(&plain.anchors, &parts.anchors);
         prop_assert_eq!(plain.mu, parts.mu);
-        let law: Vec<_> = parts.law.iter().map(|p| (p.speed_mm_s(), p.factor())).collect();
+        let law: Vec<_> = parts.law.iter()
+            .map(|p| (f64::from(p.speed_mm_s()), f64::from(p.factor()))).collect();
         prop_assert_eq!(&plain.law, &law);
         prop_assert_eq!(&plain.preview_png, &parts.preview_png);
         prop_assert_eq!(plain.provenance.map(|p| p.seed), parts.provenance.map(|p| p.seed));

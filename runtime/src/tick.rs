@@ -111,6 +111,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         );
         let speed = velocity.slide(normal, &mut state.direction)
             * Quantity::<A, MillimetrePerMetre>::whole(1000);
+        let mu = mu(speed);
 
         // F_n n̂: the wall. Its spring is the load.
         let normal_force = wall.step(depth, velocity.outward);
@@ -118,7 +119,6 @@ impl<A: RenderArithmetic> Renderer<A> {
         flags = flags.and(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)));
 
         // F_t: friction of the load.
-        let mu = mu(speed);
         let friction = self
             .bristle
             .step(&mut state.friction, gated.motion, normal, load, mu);

@@ -26,7 +26,7 @@ use crate::{
         unit::{Fraction, FrictionCoefficient, FrictionFactor, MillimetrePerSecond},
     },
 };
-use asperity_formats::{self as formats, limits::MAX_LAW_POINTS};
+use asperity_formats::{self as formats, LawPoint, limits::MAX_LAW_POINTS};
 
 /// A difference of factors below this is none: 10 µN at 10 N.
 const SMALLEST_REMAINDER: f32 = 1e-6;
@@ -49,24 +49,22 @@ impl FrictionLaw {
         factors: [0; MAX_LAW_POINTS],
     };
 
-    /// The law of an asset.
-    pub(crate) fn new(law: Option<formats::FrictionLaw<'_>>) -> Self {
-        let mut table = Self::NONE;
+    /// Takes the law of an asset, in place.
+    #[inline(never)]
+    pub(crate) fn load(&mut self, law: Option<formats::FrictionLaw<'_>>) {
+        *self = Self::NONE;
         let Some(law) = law else {
-            return table;
+            return;
         };
-        table.speeds = [u16::MAX; MAX_LAW_POINTS];
-        let mut last = 0;
-        let slots = table.speeds.iter_mut().zip(&mut table.factors);
         let mut points = law.points();
-        for (speed, factor) in slots {
-            if let Some(point) = points.next() {
-                *speed = point.speed_code;
-                last = point.factor_code;
-            }
-            *factor = last;
+        let mut last = LawPoint::default();
+        for (speed, factor) in self.speeds.iter_mut().zip(&mut self.factors) {
+            last = points.next().unwrap_or(LawPoint {
+                speed_code: u16::MAX,
+                ..last
+            });
+            (*speed, *factor) = (last.speed_code, last.factor_code);
         }
-        table
     }
 
     /// Whether there is a law. The speeds of one ascend, so its last one is above 0.
@@ -346,6 +344,8 @@ mod tests {
 
     #[test]
     fn without_a_law_there_is_none() {
-        assert!(!FrictionLaw::new(None).is_some());
+        let mut law = law(LAWS[0]);
+        law.load(None);
+        assert!(!law.is_some());
     }
 }

@@ -8,7 +8,7 @@ use crate::{
     model::orders::Orders,
     quantity::{Quantity, unit::ExcitationLevel},
     render_arithmetic::RenderArithmetic,
-    stage::{friction_law::FrictionLaw, recursion::Recursion, upsample::Upsampler},
+    stage::{recursion::Recursion, upsample::Upsampler},
     update::plan::Plan,
 };
 use asperity_formats::{Asset, FormatError, Grid, Numerator, Taps};
@@ -88,7 +88,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
             id.rotate_left(5) ^ section.crc32
         });
         self.coupling = Coupling::new(asset.coupling(), asset.friction().mu());
-        self.law = FrictionLaw::new(asset.friction().law());
+        self.law.load(asset.friction().law());
         self.recursion = Recursion::new(grid.ar_order(), grid.ma_order());
         self.load_models(grid);
         self.plan = Plan::new(&self.models, ticks);

@@ -1,7 +1,7 @@
 //! The report of an import, for machines and for people.
 
 use super::{analyse::Analysis, import::RecordingImport};
-use asperity_recording::friction::Law;
+use asperity_recording::friction::{Friction, Law};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -81,19 +81,22 @@ impl fmt::Display for RecordingImport {
                     Law::Coulomb => "as Coulomb says".to_owned(),
                     Law::Power {
                         of_speed, of_load, ..
-                    } => format!("goes as v^{of_speed:.2}·F^{of_load:.2}, rendered as Coulomb's"),
+                    } => format!("goes as v^{of_speed:.2}·F^{of_load:.2}"),
                     Law::Stribeck {
                         sliding,
                         rest,
                         v_s_mm_s,
                     } => format!(
-                        "falls from {rest:.2} to {sliding:.2} over {v_s_mm_s:.0} mm/s, rendered as Coulomb's"
+                        "goes from {rest:.2} to {sliding:.2} over {v_s_mm_s:.0} mm/s"
                     ),
                 };
                 writeln!(
                     f,
-                    "friction  μ = {:.3} ± {:.3} over {} blocks, {law}",
-                    friction.mu, friction.spread, friction.blocks
+                    "friction  μ = {:.3} ± {:.3} over {} blocks, {law}{}",
+                    friction.mu,
+                    friction.spread,
+                    friction.blocks,
+                    rendered(friction)
                 )?;
                 if friction.stick_slip > 0.02 {
                     writeln!(
@@ -136,5 +139,23 @@ impl fmt::Display for RecordingImport {
             .map(|n| format!("{} ({}, {:.2})", n.name, n.family, n.cosine))
             .collect();
         write!(f, "nearest   {}", nearest.join(", "))
+    }
+}
+
+/// What of a law is rendered.
+fn rendered(friction: &Friction) -> String {
+    let of_load = matches!(friction.law, Law::Power { of_load, .. } if of_load != 0.0);
+    if friction.depends_on_speed() {
+        let [slow, fast] = friction.speeds_mm_s;
+        let load = if of_load {
+            ", at the median load whatever the load"
+        } else {
+            ""
+        };
+        format!(", rendered over speed from {slow:.0} to {fast:.0} mm/s{load}")
+    } else if friction.law == Law::Coulomb {
+        String::new()
+    } else {
+        ", rendered as Coulomb's: it depends on the load alone".to_owned()
     }
 }
