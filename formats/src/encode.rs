@@ -1,11 +1,10 @@
 //! Writing an asset into a caller's buffer.
 
 use crate::{
-    Anchor, Asset, Coupling, FormatError, LawPoint, LsfCode, Numerator, Provenance, Vertex, VertexKind,
+    Anchor, Asset, Coupling, FormatError, LawPoint, LsfCode, Numerator, Provenance, Vertex,
+    VertexKind,
     checksum::crc32,
-    header::{
-        self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_LAW, VERSION_WITHOUT_LAW,
-    },
+    header::{self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_LAW, VERSION_WITHOUT_LAW},
     taps::FULL_SCALE,
     wire::Writer,
 };

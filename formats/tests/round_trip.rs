@@ -203,7 +203,9 @@ fn as_plain(bytes: &[u8]) -> spec_reader::Plain {
             .map(|a| (a.name.into(), a.mu, a.weight))
             .collect(),
         law: asset.friction().law().map_or(vec![], |law| {
-            law.points().map(|p| (p.speed_mm_s().into(), p.factor().into())).collect()
+            law.points()
+                .map(|p| (p.speed_mm_s().into(), p.factor().into()))
+                .collect()
         }),
         coupling: [
             surface.stiffness_n_m,

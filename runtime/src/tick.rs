@@ -84,9 +84,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         texture: &Texture<S, A>,
         state: &mut State<A>,
         sample: &Sample<A>,
-        mu: impl FnOnce(
-            Quantity<A, MillimetrePerSecond>,
-        ) -> Quantity<A, FrictionCoefficient>,
+        mu: impl FnOnce(Quantity<A, MillimetrePerSecond>) -> Quantity<A, FrictionCoefficient>,
         sound: impl FnOnce(&mut Vibration<A>, bool) -> Sounded<A>,
     ) -> Output<A> {
         let Touched {

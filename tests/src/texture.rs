@@ -2,8 +2,8 @@
 
 use crate::draw::Draw;
 use asperity_formats::{
-    AssetParts, Coupling, FrictionParts, GridParts, LawPoint, LsfCode, ModelParts, Numerator, TapParts,
-    Vertex, VertexKind, encode,
+    AssetParts, Coupling, FrictionParts, GridParts, LawPoint, LsfCode, ModelParts, Numerator,
+    TapParts, Vertex, VertexKind, encode,
 };
 
 /// [`asperity_runtime::HostTexture`] in any arithmetic.

@@ -1,8 +1,8 @@
 //! The way back: the f64 model that the bytes of an asset describe.
 
 use crate::model::{
-    Friction, FrictionAnchor, FrictionLaw, Gains, GridVertex, LawPoint, ModelGrid, Numerator, Provenance, TapBank,
-    TapTrace, TextureModel, VertexKind, Wall,
+    Friction, FrictionAnchor, FrictionLaw, Gains, GridVertex, LawPoint, ModelGrid, Numerator,
+    Provenance, TapBank, TapTrace, TextureModel, VertexKind, Wall,
 };
 use asperity_formats as formats;
 use asperity_formats::{Asset, LsfCode};

@@ -238,8 +238,11 @@ impl<'a> Maker<'a> {
         if options.edit.is_still() {
             return Ok(known);
         }
-        let (studio, how, before) =
-            (self.studio()?, how(options, known.law.clone()), known.latents);
+        let (studio, how, before) = (
+            self.studio()?,
+            how(options, known.law.clone()),
+            known.latents,
+        );
         let step = match &options.edit {
             Edit::Steps(sliders) => {
                 known.latents = studio.edited(&before, sliders, &how).map_err(cause)?;

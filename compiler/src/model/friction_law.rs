@@ -3,6 +3,9 @@
 use asperity_formats::limits::{MAX_LAW_POINTS, MAX_MU, MIN_LAW_POINTS};
 use serde::{Deserialize, Serialize};
 
+/// Below this factor a distance is no longer relative.
+const LEAST_FACTOR: f64 = 0.01;
+
 /// A law of friction over speed: `μ(v) = μ·f(v)` with f on straight lines between the points,
 /// constant below the first and above the last one. Speeds ascend.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -23,19 +26,21 @@ pub struct LawPoint {
 }
 
 impl FrictionLaw {
-    /// The law through points of ascending speed. Of more than 8, those stay that are missed most.
-    /// `None` for fewer than 2.
+    /// The law through points of ascending speed and factors above 0. Of more than 8, those speeds
+    /// stay between which straight lines are nearest to the points, and their factors are the best
+    /// in the sense of least squares, both relative. `None` for fewer than 2 points.
     #[must_use]
-    pub fn through(mut points: Vec<LawPoint>) -> Option<Self> {
+    pub fn through(points: Vec<LawPoint>) -> Option<Self> {
         if points.len() < MIN_LAW_POINTS {
             return None;
         }
-        while points.len() > MAX_LAW_POINTS {
-            let miss = |at: usize| bend(&points[at - 1..=at + 1]);
-            let least = (1..points.len() - 1).min_by(|&a, &b| miss(a).total_cmp(&miss(b)))?;
-            points.remove(least);
+        if points.len() <= MAX_LAW_POINTS {
+            return Some(Self { points });
         }
-        Some(Self { points })
+        let knots = knots(&points);
+        Some(Self {
+            points: fitted(&points, &knots),
+        })
     }
 
     /// The factor at a speed, mm/s.
@@ -85,18 +90,83 @@ impl FrictionLaw {
     }
 }
 
-/// By how much the straight line between the outer two of three points misses the middle one, times
-/// the distance over which it does.
-fn bend(three: &[LawPoint]) -> f64 {
-    let [low, middle, high] = three else {
+/// The largest relative distance of points from the straight line between the first and the last.
+fn bend(points: &[LawPoint]) -> f64 {
+    let (Some(low), Some(high)) = (points.first(), points.last()) else {
         return 0.0;
     };
-    let span = high.speed_mm_s - low.speed_mm_s;
-    let part = (middle.speed_mm_s - low.speed_mm_s) / span;
-    let straight = low.factor + (high.factor - low.factor) * part;
-    // Over the logarithm of speed: a hand is slow as often as fast.
-    let decades = libm::log(high.speed_mm_s.max(1.0) / low.speed_mm_s.max(1.0));
-    (straight / middle.factor.max(1e-9) - 1.0).abs() * decades
+    let slope = (high.factor - low.factor) / (high.speed_mm_s - low.speed_mm_s);
+    let miss = |p: &LawPoint| {
+        let straight = low.factor + slope * (p.speed_mm_s - low.speed_mm_s);
+        (straight - p.factor).abs() / p.factor.max(LEAST_FACTOR)
+    };
+    let inner = points.get(1..points.len() - 1).unwrap_or_default();
+    inner.iter().map(miss).fold(0.0, f64::max)
+}
+
+/// Indices of the 8 points between which the worst straight line is best, the ends among them: by
+/// dynamic programming over the number of lines and the point that they reach.
+fn knots(points: &[LawPoint]) -> Vec<usize> {
+    let lines = MAX_LAW_POINTS - 1;
+    // The worst line so far, and where the last one begins.
+    let mut reached = vec![(f64::INFINITY, 0); points.len()];
+    reached[0].0 = 0.0;
+    let mut begun = Vec::with_capacity(lines);
+    for _ in 0..lines {
+        let further = |end: usize| {
+            let from = |start: usize| (reached[start].0.max(bend(&points[start..=end])), start);
+            let best = (0..end).map(from).min_by(|a, b| a.0.total_cmp(&b.0));
+            best.unwrap_or((f64::INFINITY, 0))
+        };
+        let next: Vec<(f64, usize)> = (0..points.len()).map(further).collect();
+        begun.push(next.iter().map(|at| at.1).collect::<Vec<_>>());
+        reached = next;
+    }
+    let mut knots = vec![points.len() - 1];
+    for starts in begun.iter().rev() {
+        let end = knots[knots.len() - 1];
+        knots.push(starts[end]);
+    }
+    knots.reverse();
+    knots
+}
+
+/// Factors at the knots that are nearest to all points: the normal equations of hat functions, which
+/// have three diagonals.
+fn fitted(points: &[LawPoint], knots: &[usize]) -> Vec<LawPoint> {
+    let count = knots.len();
+    let (mut diagonal, mut beside) = (vec![0.0; count], vec![0.0; count]);
+    let mut right = vec![0.0; count];
+    for (index, point) in points.iter().enumerate() {
+        let at = knots.partition_point(|&k| k <= index).clamp(1, count - 1) - 1;
+        let (low, high) = (
+            points[knots[at]].speed_mm_s,
+            points[knots[at + 1]].speed_mm_s,
+        );
+        let above = (point.speed_mm_s - low) / (high - low);
+        let weight = 1.0 / point.factor.max(LEAST_FACTOR).powi(2);
+        for (knot, hat) in [(at, 1.0 - above), (at + 1, above)] {
+            diagonal[knot] += weight * hat * hat;
+            right[knot] += weight * hat * point.factor;
+        }
+        beside[at] += weight * above * (1.0 - above);
+    }
+    for knot in 1..count {
+        let ratio = beside[knot - 1] / diagonal[knot - 1];
+        diagonal[knot] -= ratio * beside[knot - 1];
+        right[knot] -= ratio * right[knot - 1];
+    }
+    let mut factor = 0.0;
+    let mut fitted: Vec<LawPoint> = Vec::with_capacity(count);
+    for knot in (0..count).rev() {
+        factor = (right[knot] - beside[knot] * factor) / diagonal[knot];
+        fitted.push(LawPoint {
+            speed_mm_s: points[knots[knot]].speed_mm_s,
+            factor: factor.max(0.0),
+        });
+    }
+    fitted.reverse();
+    fitted
 }
 
 #[cfg(test)]
@@ -128,7 +198,7 @@ mod tests {
                 let off = law.factor_at(v) / f(v) - 1.0;
                 assert!(off.abs() < 0.01, "{v} mm/s: {off}");
             }
-            assert_eq!(law.factor_at(0.0), f(20.0), "constant below");
+            assert_eq!(law.factor_at(0.0), law.points[0].factor, "constant below");
             assert_eq!(law.factor_at(1e4), law.points[7].factor, "constant above");
         }
     }
@@ -140,8 +210,10 @@ mod tests {
             for (t, within) in [(0.0, 1e-9), (0.5, 0.02), (1.0, 1e-9)] {
                 let mixed = FrictionLaw::between(Some(&a), Some(&b), t).unwrap();
                 let exact = (1.0 - t) * a.factor_at(v) + t * b.factor_at(v);
-                // Points that bend nothing are those that go.
-                assert!((mixed.factor_at(v) / exact - 1.0).abs() <= within, "{v} {t}");
+                assert!(
+                    (mixed.factor_at(v) / exact - 1.0).abs() <= within,
+                    "{v} {t}"
+                );
             }
         }
         let half = FrictionLaw::between(Some(&a), None, 0.5).unwrap();

@@ -161,7 +161,14 @@ fn friction_that_depends_on_speed_comes_back_and_is_said_to_be_rendered() {
     let laws: [&dyn Fn(f64) -> f64; 2] = [&falling, &rising];
     for mu_at in laws {
         let folder = recorded(&table_with(&strokes, mu_at), Some(&description()));
-        let arguments = ["import", "recording", "oak", "-o", "oak.asp", "--no-preview"];
+        let arguments = [
+            "import",
+            "recording",
+            "oak",
+            "-o",
+            "oak.asp",
+            "--no-preview",
+        ];
         let import = asperity(folder.path(), &arguments);
         assert!(import.status.success(), "{}", text(&import.stderr));
         let said = [text(&import.stdout), text(&import.stderr)].concat();
@@ -175,13 +182,22 @@ fn friction_that_depends_on_speed_comes_back_and_is_said_to_be_rendered() {
             .as_array()
             .expect("a law")
             .iter()
-            .map(|p| (p["speed_mm_s"].as_f64().unwrap(), p["factor"].as_f64().unwrap()))
+            .map(|p| {
+                (
+                    p["speed_mm_s"].as_f64().unwrap(),
+                    p["factor"].as_f64().unwrap(),
+                )
+            })
             .collect();
         let rendered = |v: f64| {
             let above = points.partition_point(|p| p.0 <= v);
             let (from, to) = (above.saturating_sub(1), above.min(points.len() - 1));
             let ((slow, at_slow), (fast, at_fast)) = (points[from], points[to]);
-            let part = if from == to { 0.0 } else { (v - slow) / (fast - slow) };
+            let part = if from == to {
+                0.0
+            } else {
+                (v - slow) / (fast - slow)
+            };
             mu * (at_slow + (at_fast - at_slow) * part)
         };
         for speed_mm_s in [30.0, 70.0, 150.0] {

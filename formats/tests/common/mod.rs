@@ -9,8 +9,8 @@
 pub mod spec_reader;
 
 use asperity_formats::{
-    Anchor, AssetParts, Coupling, EncodeError, FrictionParts, GridParts, LawPoint, LsfCode, ModelParts,
-    Numerator, Provenance, TapParts, Vertex, VertexKind, encode,
+    Anchor, AssetParts, Coupling, EncodeError, FrictionParts, GridParts, LawPoint, LsfCode,
+    ModelParts, Numerator, Provenance, TapParts, Vertex, VertexKind, encode,
 };
 
 /// LSF codes, MA LSF codes and gain.

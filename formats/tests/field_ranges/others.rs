@@ -91,7 +91,10 @@ fn numbers_of_friction_and_surface() {
 fn rejected_law(at: usize, piece: &[u8], expect: &Expect) {
     let mut bytes = falling().encode();
     let (start, len) = span(&bytes, FRICTION);
-    assert!(LAW + at + piece.len() <= len, "the patch leaves its section");
+    assert!(
+        LAW + at + piece.len() <= len,
+        "the patch leaves its section"
+    );
     put(&mut bytes, start + LAW + at, piece);
     seal(&mut bytes);
     let case = format!("byte {at} of the law = {piece:02x?}");
@@ -124,7 +127,11 @@ fn the_law_of_friction() {
     put(&mut bytes, start + LAW + 3, &40_961_u16.to_le_bytes());
     seal(&mut bytes);
     let wrong = Invalid("friction.law.factor", 0, 40_961.0 / 8192.0);
-    check(Asset::parse(&bytes).unwrap_err(), &wrong, "2 times more than 5");
+    check(
+        Asset::parse(&bytes).unwrap_err(),
+        &wrong,
+        "2 times more than 5",
+    );
 }
 
 #[test]

@@ -257,7 +257,8 @@ mod tests {
 
     /// Straight lines in f64.
     fn straight(points: &[(u16, u16)], speed_mm_s: f64) -> f64 {
-        let at = |(speed, factor): (u16, u16)| (f64::from(speed) / 16.0, f64::from(factor) / 8192.0);
+        let at =
+            |(speed, factor): (u16, u16)| (f64::from(speed) / 16.0, f64::from(factor) / 8192.0);
         let (first, last) = (at(points[0]), at(points[points.len() - 1]));
         if speed_mm_s <= first.0 {
             return first.1;
@@ -303,7 +304,9 @@ mod tests {
                 // Steep lines: half a thousandth of a mm/s of rounding.
                 let steepest = points
                     .windows(2)
-                    .map(|p| f64::from(p[0].1.abs_diff(p[1].1)) / f64::from(p[1].0 - p[0].0) / 512.0)
+                    .map(|p| {
+                        f64::from(p[0].1.abs_diff(p[1].1)) / f64::from(p[1].0 - p[0].0) / 512.0
+                    })
                     .fold(0.0, f64::max);
                 for found in found {
                     let error = (f64::from(found) - exact).abs();

@@ -85,7 +85,9 @@ impl Oracle {
             mu: asset.friction().mu().into(),
             law: asset.friction().law().map_or(Vec::new(), |law| {
                 let points = law.points();
-                points.map(|p| (p.speed_mm_s().into(), p.factor().into())).collect()
+                points
+                    .map(|p| (p.speed_mm_s().into(), p.factor().into()))
+                    .collect()
             }),
             coupling: *asset.coupling(),
             bad_in_a_row: 0,
@@ -155,7 +157,13 @@ impl Oracle {
         let vib = self.vibration(speed * 1000.0, normal_force, touching && !safe);
         let tap = f64::from(self.coupling.effective_mass_kg) * self.tap(distance);
         let mu = self.mu * self.factor(speed * 1000.0);
-        let friction = self.friction(tangential, motion, mu * normal_force, normal_force, touching);
+        let friction = self.friction(
+            tangential,
+            motion,
+            mu * normal_force,
+            normal_force,
+            touching,
+        );
 
         let damped = normal_force - damping * outward;
         let wall = if touching { damped.max(0.0) } else { 0.0 };
@@ -354,7 +362,11 @@ impl Oracle {
                 return above + (below - above) * (speed_mm_s - slow) / (fast - slow);
             }
         }
-        if speed_mm_s < first.0 { first.1 } else { last.1 }
+        if speed_mm_s < first.0 {
+            first.1
+        } else {
+            last.1
+        }
     }
 
     /// The bristle with deflection d. Each tick keeps the fraction 1/(1 + T/τ) of it, with

@@ -13,8 +13,8 @@ pub use summary::ErrorSummary;
 use crate::model::{Numerator, TextureModel, VertexKind, mesh};
 use asperity_formats as formats;
 use asperity_formats::{
-    Anchor, AssetParts, Coupling, EncodeError, FormatError, FrictionParts, GridParts, ModelParts, TapParts,
-    limits,
+    Anchor, AssetParts, Coupling, EncodeError, FormatError, FrictionParts, GridParts, ModelParts,
+    TapParts, limits,
 };
 use table::ModelTable;
 use trace::quantise_trace;
@@ -165,7 +165,11 @@ fn law(texture: &TextureModel) -> Result<Vec<formats::LawPoint>, EncodeError> {
             code.ok_or_else(|| {
                 let faster = formats::LawPoint::nearest(point.speed_mm_s, 1.0).is_none();
                 let (field, value, rule) = if faster {
-                    ("friction.law.speed_mm_s", point.speed_mm_s, "0 to 4095.9 mm/s")
+                    (
+                        "friction.law.speed_mm_s",
+                        point.speed_mm_s,
+                        "0 to 4095.9 mm/s",
+                    )
                 } else {
                     ("friction.law.factor", point.factor, "0 to 7.9999")
                 };

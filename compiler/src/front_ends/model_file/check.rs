@@ -6,8 +6,8 @@ use super::{
 };
 use crate::{
     model::{
-        self, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace, TextureModel, Wall,
-        defaults, mesh,
+        self, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace,
+        TextureModel, Wall, defaults, mesh,
     },
     passes::triangulate,
     signal::tap_synthesis,

@@ -86,9 +86,7 @@ impl fmt::Display for RecordingImport {
                         sliding,
                         rest,
                         v_s_mm_s,
-                    } => format!(
-                        "goes from {rest:.2} to {sliding:.2} over {v_s_mm_s:.0} mm/s"
-                    ),
+                    } => format!("goes from {rest:.2} to {sliding:.2} over {v_s_mm_s:.0} mm/s"),
                 };
                 writeln!(
                     f,

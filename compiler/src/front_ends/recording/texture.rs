@@ -2,7 +2,8 @@
 
 use super::{analyse::Analysis, complete::Completed};
 use crate::model::{
-    Friction, FrictionAnchor, FrictionLaw, LawPoint, Provenance, TapBank, TapTrace, TextureModel, Wall, defaults,
+    Friction, FrictionAnchor, FrictionLaw, LawPoint, Provenance, TapBank, TapTrace, TextureModel,
+    Wall, defaults,
 };
 use asperity_recording::impact::TAP_RATE_HZ;
 use serde::Serialize;
@@ -74,11 +75,7 @@ pub fn texture(
             String::new()
         },
         sources.friction,
-        if law.is_some() {
-            ", over speed"
-        } else {
-            ""
-        },
+        if law.is_some() { ", over speed" } else { "" },
     );
     let texture = TextureModel {
         name: description.name.clone(),

@@ -15,12 +15,13 @@ const STIFFNESS_N_M: f64 = 500.0;
 
 /// A silent surface with a μ of 0.7 at rest that a law multiplies.
 fn material(points: &[(f64, f64)]) -> Material {
-    let mut model = Material::silent(STIFFNESS_N_M, 0.1).expect("built in").model;
+    let mut model = Material::silent(STIFFNESS_N_M, 0.1)
+        .expect("built in")
+        .model;
     model.friction.mu = 0.7;
-    let points = points.iter().map(|&(speed_mm_s, factor)| LawPoint {
-        speed_mm_s,
-        factor,
-    });
+    let points = points
+        .iter()
+        .map(|&(speed_mm_s, factor)| LawPoint { speed_mm_s, factor });
     model.friction.law = FrictionLaw::through(points.collect());
     Material::new(model).expect("lowered")
 }
@@ -103,13 +104,19 @@ fn a_hand_slides_over_a_falling_law() {
         let middle = &sliding[sliding.len() / 4..3 * sliding.len() / 4];
         let mean = middle.iter().sum::<f64>() / middle.len() as f64;
         let square = middle.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
-        ((square / middle.len() as f64).sqrt() / mean, middle.len() as f64 * TICK_S)
+        (
+            (square / middle.len() as f64).sqrt() / mean,
+            middle.len() as f64 * TICK_S,
+        )
     };
     let (falls, constant) = (stribeck(), material(&[]));
     for speed_m_s in [0.03, 0.05, 0.08, 0.12] {
         let ((with, _), (without, seconds)) =
             (wobble(&falls, speed_m_s), wobble(&constant, speed_m_s));
         println!("{speed_m_s} m/s: {with:.4} with, {without:.4} without, {seconds:.2} s");
-        assert!(with < 0.2, "{speed_m_s} m/s: {with} of the speed, {without} without a law");
+        assert!(
+            with < 0.2,
+            "{speed_m_s} m/s: {with} of the speed, {without} without a law"
+        );
     }
 }
