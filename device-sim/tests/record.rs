@@ -148,44 +148,7 @@ fn the_texture_that_was_stroked_comes_back_from_the_folder() {
         write(which, &about, take, &part, &mut file).expect("room");
     }
 
-    let (rec, checked, _) = recording::check(folder.path()).expect("a recording");
-    for c in &rec.channels {
-        let n = &c.numbers;
-        println!(
-            "{} {} count {} in_runs {} runs {} p50 {} p99 {} min {} max {}",
-            c.file,
-            c.label,
-            n.count,
-            n.in_runs,
-            n.runs.len(),
-            n.steps.quantile(0.5),
-            n.steps.quantile(0.99),
-            n.min,
-            n.max
-        );
-        let mut hist = std::collections::BTreeMap::new();
-        let mut l = 1;
-        for p in c.samples.windows(2) {
-            if p[0] == p[1] {
-                l += 1
-            } else {
-                *hist
-                    .entry(if l < 10 { l } else { l / 10 * 10 })
-                    .or_insert(0) += 1;
-                l = 1
-            }
-        }
-        println!("  {hist:?}");
-        let mut r: Vec<_> = n.runs.iter().filter(|r| r.length >= 8).collect();
-        r.sort_by(|a, b| {
-            b.jump_before
-                .min(b.jump_after)
-                .total_cmp(&a.jump_before.min(a.jump_after))
-        });
-        for r in r.iter().take(12) {
-            println!("   {r:?}");
-        }
-    }
+    let (_, checked, _) = recording::check(folder.path()).expect("a recording");
     let faults: Vec<String> = checked
         .at_least(Severity::Fault)
         .map(ToString::to_string)
