@@ -82,13 +82,13 @@ fn a_tap_in_free_air_takes_the_resonance_away() {
         errors_db(&compensated),
     );
     println!("rigid {rigid_db:.2?}, left {left_db:.2?}, compensated {compensated_db:.2?} dB");
-    assert!(left_db.0 > rigid_db.0 + 3.0 && left_db.2 > rigid_db.2 + 3.0);
+    assert!(left_db.0 > rigid_db.0 + 4.0 && left_db.2 > rigid_db.2 + 4.0);
     assert!(
         compensated_db.0 < rigid_db.0 + 0.3,
         "{compensated_db:?} {rigid_db:?}"
     );
     assert!(
-        compensated_db.2 < rigid_db.2 + 1.0,
+        compensated_db.2 < rigid_db.2 + 0.3,
         "{compensated_db:?} {rigid_db:?}"
     );
 }
@@ -149,5 +149,8 @@ fn without_a_height_impact_speeds_come_from_the_acceleration() {
         by_height.taps_db,
         with_height.speed_source,
     );
-    assert!(ratios.len() >= 8, "{ratios:?}");
+    assert!(ratios.len() >= 12, "{ratios:?}");
+    let off = median(ratios.iter().copied());
+    assert!((-0.25..0.05).contains(&off), "{off}: {ratios:?}");
+    assert!(median(comparison.taps_db.iter().copied()) < 2.0);
 }

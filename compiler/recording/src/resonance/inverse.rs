@@ -12,7 +12,7 @@
 use realfft::{RealFftPlanner, num_complex::Complex};
 
 /// √ε: G is at most 1/2√ε = 32 dB, and within 1 dB of the inverse down to |H| = 3 √ε, which is reached at
-/// 4.7 times the frequency of the resonance.
+/// 5.3 times the frequency of the resonance.
 const ROOT_EPSILON: f64 = 0.0125;
 /// Samples that are transformed at once, and those on each side that are not used: the inverse has rung
 /// out within them.
