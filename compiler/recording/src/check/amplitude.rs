@@ -245,7 +245,7 @@ fn held(channel: &Channel) -> Vec<Range<u64>> {
         .count();
     let repeats = matches!(channel.quantity, Quantity::Position | Quantity::Speed)
         || coarse
-        || 2 * rests >= long().count() && (rests > 1 || long().all(|run| run.start == 0));
+        || 2 * rests >= long().count();
     let large = LARGE_STEP * numbers.steps.quantile(0.99);
     // Where a channel often is, it may be at rest until something strikes it: a force in the air.
     let is_usual = |run: &Run| {
