@@ -30,8 +30,8 @@ pub struct Row {
     pub order: usize,
 }
 
-/// Records every texture for some seconds and imports what the sensors wrote. The noise of the
-/// accelerometer is `noise` times the usual one.
+/// Records every texture for some seconds and imports what the sensors wrote. `alter` changes the
+/// usual sensors.
 ///
 /// # Errors
 /// [`BenchError`] of the first texture that cannot be rendered or recorded.
@@ -39,7 +39,7 @@ pub fn learn(
     textures: &[TextureModel],
     seconds: f64,
     seed: u64,
-    noise: f64,
+    alter: impl Fn(&mut Sensors) + Sync,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Row>, BenchError> {
     textures
@@ -50,7 +50,7 @@ pub fn learn(
             let performance = perform(texture, seconds, seed)?;
             let folder = Scratch::new(seed)?;
             let mut sensors = Sensors::seeded(seed);
-            sensors.accel_noise *= noise;
+            alter(&mut sensors);
             record(&performance, texture, &sensors, seed, &folder.0)?;
             let analysis = recording::analyse(&folder.0, false);
             done();

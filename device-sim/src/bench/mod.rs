@@ -10,6 +10,7 @@ mod lab;
 mod perform;
 mod script;
 mod sensors;
+mod tool;
 mod truth;
 
 pub use error::BenchError;
@@ -19,4 +20,5 @@ pub use perform::{Performance, perform, perform_sine};
 pub use script::{script, sine};
 pub(crate) use sensors::{BENT_S, GRAVITY_M_S2, HAND_HALF, across, of_tool};
 pub use sensors::{Sensors, record};
+pub use tool::{MOST_FREE_TAPS, Resonance};
 pub use truth::{Cell, Comparison, compare, compare_at};

@@ -1,7 +1,11 @@
 //! The report of an import, for machines and for people.
 
 use super::{analyse::Analysis, import::RecordingImport};
-use asperity_recording::friction::{Friction, Law};
+use asperity_recording::{
+    friction::{Friction, Law},
+    impact::SpeedSource,
+    resonance::{FreeAir, Resonance},
+};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -28,12 +32,13 @@ pub fn json(import: &RecordingImport) -> Value {
     json!({
         "name": import.report.name,
         "check": analysis.checked,
+        "resonance": { "free_air_taps": analysis.free_air.taps, "compensated": analysis.free_air.resonances },
         "axes": { "method": "dft321", "principal_share": analysis.principal_share },
         "segments": { "used": segments, "rejected": analysis.steady.rejected, "covered_s": analysis.steady.covered_s() },
         "methods": analysis.methods,
         "grid": { "chosen": analysis.fit.chosen, "tried": analysis.fit.tried, "vertices": analysis.fit.facts },
         "friction": analysis.friction,
-        "taps": { "impacts": analysis.impacts.len(), "speeds": taps },
+        "taps": { "impacts": analysis.impacts.len(), "speed_source": analysis.speed_source, "speeds": taps },
         "sources": import.sources,
         "nearest": import.completed.nearest,
         "asset": { "vertices": import.report.vertices, "triangles": import.report.triangles, "error": import.report.error, "reduction": import.report.reduction, "bytes": { "haptic": import.report.haptic_bytes, "total": import.report.total_bytes } },
@@ -47,14 +52,17 @@ impl fmt::Display for RecordingImport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Analysis {
             checked,
+            free_air,
             steady,
             fit,
             friction,
             impacts,
             transients,
+            speed_source,
             ..
         } = &self.analysis;
         writeln!(f, "{}", self.report)?;
+        writeln!(f, "resonance {}", resonance_text(free_air))?;
         writeln!(
             f,
             "strokes   {:.1} s steady in {} segments of {:.1} s in contact, {} rejected",
@@ -122,7 +130,7 @@ impl fmt::Display for RecordingImport {
                     self.sources.tap_scale
                 )?;
             }
-            writeln!(f)?;
+            writeln!(f, "\n          {}", speeds_text(speed_source))?;
         } else {
             writeln!(
                 f,
@@ -155,5 +163,49 @@ fn rendered(friction: &Friction) -> String {
         String::new()
     } else {
         ", rendered as Coulomb's: it depends on the load alone".to_owned()
+    }
+}
+
+/// What free-air taps showed, and what was done.
+fn resonance_text(free_air: &FreeAir) -> String {
+    if free_air.taps == 0 {
+        return "of tool and sensor left: there is no tap in free air".into();
+    }
+    let taps = |count: usize| format!("{count} {}", if count == 1 { "tap" } else { "taps" });
+    if free_air.resonances.is_empty() {
+        return format!(
+            "of tool and sensor: none in {} in free air; nothing was changed",
+            taps(free_air.taps)
+        );
+    }
+    let of_axis = |r: &Resonance| {
+        format!(
+            "{} {:.0} ± {:.0} Hz, Q {:.1} ± {:.1} ({})",
+            r.axis,
+            r.freq_hz,
+            r.freq_spread_hz,
+            r.q,
+            r.q_spread,
+            taps(r.taps)
+        )
+    };
+    let axes: Vec<String> = free_air.resonances.iter().map(of_axis).collect();
+    format!("of tool and sensor compensated: {}", axes.join("; "))
+}
+
+/// Where impact speeds come from, and how far two sources agree.
+fn speeds_text(source: &SpeedSource) -> String {
+    let by = match source.source {
+        "position" => "speeds by the height",
+        _ => "speeds by the integrated acceleration: no position along z was recorded",
+    };
+    match (source.integrated_over_position, source.apart) {
+        (Some(off), Some(apart)) => format!(
+            "{by}; those of the integrated acceleration differ by {:+.0} % in the median ({:.0} % in size) of {}",
+            100.0 * off,
+            100.0 * apart,
+            source.by_both
+        ),
+        _ => by.into(),
     }
 }

@@ -11,7 +11,7 @@ use asperity::{
     learned::{LearnedModel, texture::build},
     model::{Provenance, TextureModel},
 };
-use asperity_sim::bench::{self, Checks, Figures, Row, Sensors};
+use asperity_sim::bench::{self, Checks, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors};
 
 use crate::error::Plain;
 
@@ -48,6 +48,15 @@ pub(crate) struct Arguments {
     /// Noise of the accelerometer, times the usual 80 µg/√Hz
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
     noise: f64,
+    /// Frequency in Hz and Q of the resonance of the tool with its accelerometer
+    #[arg(long, value_name = "HZ,Q", conflicts_with = "checks")]
+    resonance: Option<Resonance>,
+    /// Tap the tool so often in free air at the start
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(..=MOST_FREE_TAPS as i64), conflicts_with = "checks")]
+    free_taps: u8,
+    /// Record no position along z
+    #[arg(long, conflicts_with = "checks")]
+    no_height: bool,
     /// Write every visited cell of every texture into this CSV file
     #[arg(long, value_name = "FILE", conflicts_with_all = ["write", "checks"])]
     cells: Option<PathBuf>,
@@ -63,6 +72,16 @@ pub(crate) struct Arguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
+}
+
+impl Arguments {
+    /// Changes the usual sensors as asked.
+    fn alter(&self, sensors: &mut Sensors) {
+        sensors.accel_noise *= self.noise;
+        sensors.resonance = self.resonance;
+        sensors.free_taps = usize::from(self.free_taps);
+        sensors.has_height = !self.no_height;
+    }
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -92,10 +111,9 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let mut all: Vec<(Figures, Vec<Row>)> = Vec::new();
     for &seconds in &arguments.seconds {
         let bar = console.bar(textures.len(), "recording and importing");
-        let rows = bench::learn(&textures, seconds, arguments.seed, arguments.noise, || {
-            bar.inc(1);
-        })
-        .map_err(one)?;
+        let alter = |sensors: &mut Sensors| arguments.alter(sensors);
+        let rows =
+            bench::learn(&textures, seconds, arguments.seed, alter, || bar.inc(1)).map_err(one)?;
         bar.finish_and_clear();
         all.push((bench::summary(&rows), rows));
     }
@@ -230,14 +248,9 @@ fn write(
     }
     std::fs::create_dir(folder).map_err(fail)?;
     let performance = bench::perform(texture, arguments.seconds[0], arguments.seed).map_err(one)?;
-    bench::record(
-        &performance,
-        texture,
-        &Sensors::seeded(arguments.seed),
-        arguments.seed,
-        folder,
-    )
-    .map_err(fail)?;
+    let mut sensors = Sensors::seeded(arguments.seed);
+    arguments.alter(&mut sensors);
+    bench::record(&performance, texture, &sensors, arguments.seed, folder).map_err(fail)?;
     let text = format!(
         "{}: {:.0} s of {}, {} impacts\n",
         folder.display(),
