@@ -24,12 +24,17 @@ use serde::Serialize;
 const BELOW: [f64; 2] = [0.25, 0.5];
 /// The border above what was visited, in parts of its largest value: half an octave.
 const ABOVE: f64 = std::f64::consts::SQRT_2;
-/// An axis that was visited over less than this ratio has one line in its middle, otherwise two.
+/// An axis that was visited over less than this ratio tells no slope, and has one line in its middle;
+/// otherwise it has two.
 const NARROW: f64 = 1.5;
-/// Parts of the slopes that are tried, and the width of the neighbourhood with which they are, standard
-/// deviations.
+/// The visited range of an axis is taken to begin no lower than this part of its largest value.
+const LEAST_PART: f64 = 0.01;
+/// Parts of the slopes that are tried.
 const PARTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+/// Least width of the neighbourhood at the visited border, standard deviations, and how often it is
+/// doubled where that holds no segments.
 const WIDTH: f64 = 0.5;
+const DOUBLINGS: i32 = 4;
 /// Part of the segments that are held out at an end, and how many are looked at.
 const OUTERMOST: f64 = 0.25;
 const LOOKED_AT: usize = 32;
@@ -64,6 +69,11 @@ impl Slopes {
 
 /// The part of the slopes that predicts the outermost segments of an end best.
 fn kept(steady: &Steady, of: fn(&Segment) -> f64, above: bool) -> Option<f64> {
+    let all: Vec<&Segment> = steady.segments.iter().collect();
+    let (least, largest) = range(&all, of);
+    if largest < NARROW * least {
+        return Some(0.0);
+    }
     let at = if above { 1.0 - OUTERMOST } else { OUTERMOST };
     let cut = quantile(steady.segments.iter().map(of), at);
     let (out, rest): (Vec<&Segment>, Vec<&Segment>) = steady
@@ -78,7 +88,7 @@ fn kept(steady: &Steady, of: fn(&Segment) -> f64, above: bool) -> Option<f64> {
     let mut errors = [0.0; PARTS.len()];
     for segment in out.iter().step_by(out.len().div_ceil(LOOKED_AT)) {
         let to = (segment.speed_mm_s, segment.force_n);
-        let from = local.spectrum(visited.nearest(to), WIDTH)?;
+        let from = at_border(&local, visited.nearest(to), WIDTH)?;
         for (error, part) in errors.iter_mut().zip(PARTS) {
             let power = local.moved(&from, visited.nearest(to), to, [part; 2]);
             *error += segment.length as f64 * whittle::of_power(steady, &power, segment);
@@ -97,14 +107,9 @@ pub(super) struct Visited {
 
 impl Visited {
     pub(super) fn new(segments: &[&Segment]) -> Self {
-        let range = |of: fn(&Segment) -> f64| {
-            let values = segments.iter().map(|s| of(s));
-            let least = values.clone().fold(f64::INFINITY, f64::min);
-            (least, values.fold(least, f64::max))
-        };
         Self {
-            speed_mm_s: range(|s| s.speed_mm_s),
-            force_n: range(|s| s.force_n),
+            speed_mm_s: range(segments, |s| s.speed_mm_s),
+            force_n: range(segments, |s| s.force_n),
         }
     }
 
@@ -114,6 +119,21 @@ impl Visited {
             force_n.clamp(self.force_n.0, self.force_n.1),
         )
     }
+}
+
+fn range(segments: &[&Segment], of: fn(&Segment) -> f64) -> (f64, f64) {
+    let values = || segments.iter().map(|s| of(s));
+    let largest = values().fold(0.0, f64::max);
+    let least = values().fold(largest, f64::min);
+    (least.max(LEAST_PART * largest), largest)
+}
+
+/// The spectrum at a place of the visited border, of which corners may be far from any segment.
+fn at_border(local: &Local, place: (f64, f64), width: f64) -> Option<Vec<f64>> {
+    (0..=DOUBLINGS).find_map(|n| {
+        let width = width.max(WIDTH) * f64::from(1 << n);
+        local.spectrum(place, width)
+    })
 }
 
 /// The vertices that close the rectangle around what all segments visited, as some of them have it. They
@@ -141,7 +161,7 @@ pub(super) fn ring(
     for place in places(false) {
         let from = visited.nearest(place);
         if from != place && known.iter().all(|(at, _)| *at != from) {
-            known.push((from, local.spectrum(from, width)?));
+            known.push((from, at_border(local, from, width)?));
         }
     }
     let mean = |power: &[f64]| power.iter().sum::<f64>() / power.len() as f64;
