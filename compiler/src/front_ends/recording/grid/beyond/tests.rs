@@ -67,15 +67,16 @@ fn over_db(grid: &ModelGrid, place: (f64, f64), power: f64) -> f64 {
 fn a_power_law_goes_on_beyond_what_was_visited_and_rest_is_silent() {
     let law = |v: f64, f: f64| libm::pow(v / 100.0, 1.6) * libm::pow(f, 0.8);
     let grid = grid(&steady((40.0, 160.0), (0.5, 2.0), law), 12);
-    for (v, f) in [
-        (20.0, 1.0),
-        (10.0, 1.0),
-        (210.0, 1.0),
-        (80.0, 0.25),
-        (80.0, 2.7),
+    // A quarter of the slowest speed may be louder: speeds count as ln(v + 3 mm/s), which alone is 1 dB.
+    for (v, f, most_db) in [
+        (20.0, 1.0, 2.0),
+        (10.0, 1.0, 3.0),
+        (210.0, 1.0, 2.0),
+        (80.0, 0.25, 2.0),
+        (80.0, 2.7, 2.0),
     ] {
         let off_db = over_db(&grid, (v, f), law(v, f));
-        assert!(off_db.abs() < 2.0, "{v} mm/s, {f} N: {off_db} dB");
+        assert!(off_db.abs() < most_db, "{v} mm/s, {f} N: {off_db} dB");
     }
     for place in [(0.0, 1.0), (80.0, 0.0), (0.0, 0.0)] {
         assert!(over_db(&grid, place, 1.0) < -200.0, "{place:?}");
