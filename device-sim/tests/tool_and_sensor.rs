@@ -12,7 +12,7 @@ use asperity_recording::{
         quantile::{median, quantile},
     },
 };
-use asperity_sim::bench::{self, Comparison, Performance, Resonance, Sensors};
+use asperity_sim::bench::{self, Comparison, Performance, Resonance, Sensors, Until};
 
 /// Two rounds of taps.
 const SECONDS: f64 = 42.0;
@@ -58,7 +58,8 @@ fn errors_db(comparison: &Comparison) -> (f64, f64, f64) {
 
 #[test]
 fn a_tap_in_free_air_takes_the_resonance_away() {
-    let performance = bench::perform(&builtin::texture(), SECONDS, SEED).expect("it renders");
+    let performance =
+        bench::perform(&builtin::texture(), Until::Seconds(SECONDS), SEED).expect("it renders");
     let resonance = Some(Resonance {
         freq_hz: 300.0,
         q: 8.0,
@@ -97,7 +98,7 @@ fn a_tap_in_free_air_takes_the_resonance_away() {
 fn sensors_without_a_resonance_show_none_with_and_without_a_tap() {
     let texture = builtin::texture();
     for seed in 1..=20 {
-        let performance = bench::perform(&texture, 8.0, seed).expect("it renders");
+        let performance = bench::perform(&texture, Until::Seconds(8.0), seed).expect("it renders");
         let free_taps = (seed % 3) as usize;
         let (folder, _) = written(&performance, seed, |s| s.free_taps = free_taps);
         let (recording, checked, timeline) = recording::check(folder.path()).expect("read");
@@ -110,7 +111,8 @@ fn sensors_without_a_resonance_show_none_with_and_without_a_tap() {
 
 #[test]
 fn without_a_height_impact_speeds_come_from_the_acceleration() {
-    let performance = bench::perform(&builtin::texture(), SECONDS, SEED).expect("it renders");
+    let performance =
+        bench::perform(&builtin::texture(), Until::Seconds(SECONDS), SEED).expect("it renders");
     let (analysis, comparison) = imported(&performance, |s| s.has_height = false);
     assert_eq!(analysis.speed_source.source, "acceleration");
     let near = |at_s: f64| {

@@ -24,6 +24,11 @@ pub fn json(import: &RecordingImport) -> Value {
         .iter()
         .map(|t| json!({ "speed_m_s": t.speed_m_s, "impacts": t.impacts, "spread": t.spread }))
         .collect();
+    let extrapolated: Vec<Value> = analysis
+        .fit
+        .extrapolated()
+        .map(|v| json!({ "speed_mm_s": v.speed_mm_s, "force_n": v.force_n }))
+        .collect();
     let steps: Vec<Value> = analysis
         .steps
         .iter()
@@ -36,7 +41,7 @@ pub fn json(import: &RecordingImport) -> Value {
         "axes": { "method": "dft321", "principal_share": analysis.principal_share },
         "segments": { "used": segments, "rejected": analysis.steady.rejected, "covered_s": analysis.steady.covered_s() },
         "methods": analysis.methods,
-        "grid": { "chosen": analysis.fit.chosen, "tried": analysis.fit.tried, "vertices": analysis.fit.facts },
+        "grid": { "chosen": analysis.fit.chosen, "tried": analysis.fit.tried, "vertices": analysis.fit.facts, "extrapolated": extrapolated, "slopes_kept": analysis.fit.beyond },
         "friction": analysis.friction,
         "taps": { "impacts": analysis.impacts.len(), "speed_source": analysis.speed_source, "speeds": taps },
         "sources": import.sources,
@@ -79,8 +84,9 @@ impl fmt::Display for RecordingImport {
         };
         writeln!(
             f,
-            "grid      {} measured vertices, AR order {}{zero}, chosen by held-out segments",
+            "grid      {} measured vertices, {} extrapolated beyond what was visited, AR order {}{zero}, chosen by held-out segments",
             fit.facts.len(),
+            fit.extrapolated().count(),
             chosen.order
         )?;
         match friction {
