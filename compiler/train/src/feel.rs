@@ -93,7 +93,8 @@ impl Feel {
         let mut felt = memory.apply(vectors, self.concentration, &self.coefficients, &self.mean);
         if let Some(recall) = recall {
             let directions = memory.directions(vectors);
-            recall.draw(memory, &self.materials, &directions, &mut felt);
+            let familiar = recall.how.felt_familiar;
+            recall.draw(&self.materials, familiar, &directions, &mut felt);
         }
         felt
     }

@@ -142,11 +142,6 @@ impl TextMemory {
             .collect()
     }
 
-    /// Vectors on the principal directions in 8 bits: codes, and what a code of each is worth.
-    pub(crate) fn codes_of(&self, vectors: &[&[f32]]) -> (Vec<i8>, Vec<f32>) {
-        in_8_bits(&self.directions(vectors).concat(), self.kept)
-    }
-
     fn on_directions(&self, vectors: &[&[f32]], device: &Device) -> Tensor<2> {
         let units: Vec<f32> = vectors
             .iter()
@@ -274,7 +269,7 @@ fn principal_directions(vectors: &[&[f32]], width: usize, kept: usize) -> Vec<f3
 }
 
 /// Codes of rows, and what a code of each row is worth.
-fn in_8_bits(rows: &[f32], width: usize) -> (Vec<i8>, Vec<f32>) {
+pub(crate) fn in_8_bits(rows: &[f32], width: usize) -> (Vec<i8>, Vec<f32>) {
     let (mut codes, mut scales) = (Vec::with_capacity(rows.len()), Vec::new());
     for row in rows.chunks(width.max(1)) {
         let peak = row
@@ -351,7 +346,7 @@ mod tests {
             ridge,
             iterations: 200,
             directions: 3,
-            recall_temperature: 0.0,
+            recall: None,
             caption_weight: 1.0,
             felt_concentration: 4.0,
             felt_caption_weight: 0.02,

@@ -195,7 +195,7 @@ impl Trained {
                 let mut latents = memory.project(chunk);
                 if let Some(recall) = &self.recall {
                     let directions = memory.directions(chunk);
-                    recall.draw(memory, &means, &directions, &mut latents);
+                    recall.draw(&means, recall.how.familiar, &directions, &mut latents);
                 }
                 latents
             });

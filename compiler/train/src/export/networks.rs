@@ -8,7 +8,7 @@ use crate::{
     network::{GAPS, LOG_VARIANCE_BOUND, Trunk, gap_matrix, gap_offsets},
     normaliser::{LSFS, TAP_VALUES},
     parameters::Slot,
-    recall::{LEAST, Recall},
+    recall::Recall,
     trained::Trained,
 };
 use asperity::learned::description::LATENT;
@@ -58,15 +58,7 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
             columns[row * count + column] = *x;
         }
     }
-    let attributes = [
-        ("axes", Attribute::Ints(vec![1])),
-        ("keepdims", Attribute::Int(1)),
-    ];
-    let norm = writer
-        .graph
-        .node("ReduceL2", &[Some(&embedding)], &attributes);
-    let norm = writer.plus(&norm, f32::MIN_POSITIVE);
-    let direction = writer.graph.div(&embedding, &norm);
+    let direction = unit_rows(&mut writer, &embedding);
     let similarity = writer.product("mean_captions", &direction, &columns, count);
     let Remembered { z, felt, likeness } = match &trained.memory {
         Some(memory) => from_memory(&mut writer, trained, memory, &direction),
@@ -105,45 +97,74 @@ struct Remembered {
     likeness: Value,
 }
 
-/// `(Σ w·x_m + W·x)/(Σ w + W)`, as [`Recall::draw`], of a latent x and perhaps of attributes behind
-/// it; `likeness` is that of the memory's examples.
+/// The latent and the attributes of a text drawn to its material, as [`Recall::draw`].
 fn recalled(
     writer: &mut Writer<'_>,
     trained: &Trained,
     recall: &Recall,
-    said: &Value,
+    (z, felt): (&Value, Option<&Value>),
     direction: &Value,
-    likeness: (&Value, usize),
-) -> Value {
-    let count = recall.owners.len();
-    let width = recall.codes.len() / count.max(1);
+) -> (Value, Option<Value>) {
+    let (count, width) = (recall.owners.len(), recall.discriminant.offset.len());
+    let basis = &recall.discriminant.basis;
+    let placed = exact_product(writer, "recall.basis", direction, basis, width);
+    let offset = writer.row("recall.offset", &recall.discriminant.offset);
+    let placed = writer.graph.add(&placed, &offset);
+    let placed = unit_rows(writer, &placed);
     let prototypes = dequantised(writer, "prototypes", &recall.codes, width, &recall.scales);
-    let mut means = Vec::new();
-    for &owner in &recall.owners {
-        means.extend(trained.materials[owner].mean);
-        means.extend(trained.feel.iter().flat_map(|feel| feel.materials[owner]));
-    }
-    let columns = means.len() / count.max(1);
-    let means = writer.table("prototypes.materials", &[count, columns], means);
-    let inputs = [Some(direction), Some(&prototypes)];
+    let inputs = [Some(&placed), Some(&prototypes)];
     let nearness = writer.graph.node("MatMul", &inputs, &[]);
     let nearness = writer.plus(&nearness, -1.0);
-    let exponent = writer.times(&nearness, 1.0 / recall.temperature);
+    let exponent = writer.times(&nearness, 1.0 / recall.how.temperature as f32);
+    let log_weights = writer.row("prototypes.log_weights", &recall.log_weights);
+    let exponent = writer.graph.add(&exponent, &log_weights);
     let weights = writer.graph.unary("Exp", &exponent);
-    let inputs = [Some(&weights), Some(&means)];
-    let drawn = writer.graph.node("MatMul", &inputs, &[]);
-    let (likeness, examples) = likeness;
-    let phrases = (recall.phrases_from as i64, examples as i64);
-    let phrases = writer.graph.slice(likeness, 1, phrases.0, phrases.1);
-    let exponent = writer.times(&phrases, 1.0 / recall.temperature);
-    let phrases = writer.graph.unary("Exp", &exponent);
-    let kept = row_sum(writer, &phrases);
-    let kept = writer.plus(&kept, LEAST);
-    let own = writer.graph.mul(said, &kept);
-    let numerator = writer.graph.add(&drawn, &own);
     let total = row_sum(writer, &weights);
-    let total = writer.graph.add(&total, &kept);
-    writer.graph.div(&numerator, &total)
+    let mut draw = |name: &str, rows: Vec<f32>, said: &Value, familiar: f64| {
+        let rows = writer.table(name, &[count, rows.len() / count.max(1)], rows);
+        let inputs = [Some(&weights), Some(&rows)];
+        let drawn = writer.graph.node("MatMul", &inputs, &[]);
+        let kept = recall.likeness(familiar as f32);
+        let own = writer.times(said, kept);
+        let numerator = writer.graph.add(&drawn, &own);
+        let total = writer.plus(&total, kept);
+        writer.graph.div(&numerator, &total)
+    };
+    let owners = recall.owners.iter();
+    let means = owners.flat_map(|&owner| trained.materials[owner].mean);
+    let z = draw("prototypes.z", means.collect(), z, recall.how.familiar);
+    let felt = trained.feel.as_ref().zip(felt).map(|(feel, felt)| {
+        let owners = recall.owners.iter();
+        let rows = owners.flat_map(|&owner| feel.materials[owner]).collect();
+        draw("prototypes.felt", rows, felt, recall.how.felt_familiar)
+    });
+    (z, felt)
+}
+
+/// `x·W` for a matrix of so many columns, W as it is: where a τ divides what follows, or where the
+/// rounding of many thousand rows would add up.
+fn exact_product(
+    writer: &mut Writer<'_>,
+    name: &str,
+    x: &Value,
+    values: &[f32],
+    columns: usize,
+) -> Value {
+    let rows = values.len() / columns.max(1);
+    let matrix = writer.table(name, &[rows, columns], values.to_vec());
+    let inputs = [Some(x), Some(&matrix)];
+    writer.graph.node("MatMul", &inputs, &[])
+}
+
+/// Rows of length one, [B, W].
+fn unit_rows(writer: &mut Writer<'_>, x: &Value) -> Value {
+    let attributes = [
+        ("axes", Attribute::Ints(vec![1])),
+        ("keepdims", Attribute::Int(1)),
+    ];
+    let norm = writer.graph.node("ReduceL2", &[Some(x)], &attributes);
+    let norm = writer.plus(&norm, f32::MIN_POSITIVE);
+    writer.graph.div(x, &norm)
 }
 
 /// The sum of each row, [B, 1].
@@ -192,7 +213,7 @@ fn from_memory(
     direction: &Value,
 ) -> Remembered {
     let (width, count) = (memory.kept, memory.scales.len());
-    let direction = &writer.product("memory.basis", direction, &memory.basis, width);
+    let direction = &exact_product(writer, "memory.basis", direction, &memory.basis, width);
     let kept = dequantised(
         writer,
         "memory.vectors",
@@ -228,31 +249,15 @@ fn from_memory(
     let felt = trained.feel.as_ref().map(|feel| {
         let kernel = self::kernel(writer, &likeness, feel.concentration);
         let coefficients = feel.coefficients.as_flattened();
-        let felt = writer.product("feel.coefficients", &kernel, coefficients, FELT);
+        let felt = exact_product(writer, "feel.coefficients", &kernel, coefficients, FELT);
         let mean = writer.row("feel.mean", &feel.mean);
         writer.graph.add(&felt, &mean)
     });
     let Some(recall) = &trained.recall else {
         return Remembered { z, felt, likeness };
     };
-    let said = match &felt {
-        Some(felt) => writer.graph.concat(&[&z, felt], 1),
-        None => z,
-    };
-    let said = recalled(
-        writer,
-        trained,
-        recall,
-        &said,
-        direction,
-        (&likeness, count),
-    );
-    let (latent, all) = (LATENT as i64, (LATENT + FELT) as i64);
-    Remembered {
-        z: writer.graph.slice(&said, 1, 0, latent),
-        felt: felt.map(|_| writer.graph.slice(&said, 1, latent, all)),
-        likeness,
-    }
+    let (z, felt) = recalled(writer, trained, recall, (&z, felt.as_ref()), direction);
+    Remembered { z, felt, likeness }
 }
 
 /// `exp(γ·likeness)`.
