@@ -83,6 +83,7 @@ pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usiz
                 mu: 0.4,
                 weight: 1.0,
             }],
+            law: &[],
         },
         coupling: Coupling {
             stiffness_n_m: 500.0,

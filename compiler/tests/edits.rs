@@ -49,6 +49,7 @@ fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
         fidelity: Fidelity::Auto,
         rate_hz: None,
         preview_px: None,
+        law: None,
     };
     let textures = textures();
     let cases: Vec<(usize, Axis, f64)> = (0..textures.len())
@@ -130,6 +131,7 @@ fn no_texture_vibrates_beyond_the_continuous_force() {
         fidelity: Fidelity::Auto,
         rate_hz: None,
         preview_px: None,
+        law: None,
     };
     let far = |latents: &Latents, factor: f32| Latents::whole(latents.slide.map(|x| factor * x));
     let textures: Vec<Latents> = textures()

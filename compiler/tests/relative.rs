@@ -38,6 +38,7 @@ fn step(studio: &Studio<'_>, line: &str) -> f64 {
         fidelity: Fidelity::Auto,
         rate_hz: None,
         preview_px: None,
+        law: None,
     };
     let fields: Vec<&str> = line.split('\t').collect();
     let [thing, text, ways] = fields[..] else {

@@ -98,7 +98,7 @@ impl<'a> Asset<'a> {
             name: text("name", 0, haptic(header::NAME))?,
             grid: Grid::parse(haptic(header::GRID))?,
             taps: Taps::parse(haptic(header::TAPS))?,
-            friction: Friction::parse(haptic(header::FRICTION))?,
+            friction: Friction::parse(haptic(header::FRICTION), header.version)?,
             coupling: Coupling::parse(haptic(header::SURFACE))?,
             provenance: ancillary(
                 find(header::PROVENANCE),
@@ -109,7 +109,7 @@ impl<'a> Asset<'a> {
         })
     }
 
-    /// Version the asset was written in.
+    /// Version the asset was written in: 2 if its friction has a law, else 1.
     #[must_use]
     pub const fn version(&self) -> u16 {
         self.header.version
@@ -133,7 +133,7 @@ impl<'a> Asset<'a> {
         &self.taps
     }
 
-    /// μ and its anchors.
+    /// μ, its anchors and its law.
     #[must_use]
     pub const fn friction(&self) -> &Friction<'a> {
         &self.friction

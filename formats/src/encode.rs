@@ -1,9 +1,10 @@
 //! Writing an asset into a caller's buffer.
 
 use crate::{
-    Anchor, Asset, Coupling, FormatError, LsfCode, Numerator, Provenance, Vertex, VertexKind,
+    Anchor, Asset, Coupling, FormatError, LawPoint, LsfCode, Numerator, Provenance, Vertex,
+    VertexKind,
     checksum::crc32,
-    header::{self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION},
+    header::{self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_LAW, VERSION_WITHOUT_LAW},
     taps::FULL_SCALE,
     wire::Writer,
 };
@@ -74,6 +75,9 @@ pub struct FrictionParts<'a> {
     pub mu: f32,
     /// Its anchors.
     pub anchors: &'a [Anchor<'a>],
+    /// Points of its law over speed, 2 to 8; none for friction that does not depend on speed. With
+    /// a law the asset is of version 2.
+    pub law: &'a [LawPoint],
 }
 
 /// Why an asset could not be written.
@@ -155,7 +159,11 @@ pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeErr
     let total_len = table.section;
     let mut writer = Writer::new(out, 0);
     writer.bytes(&MAGIC)?;
-    writer.u16(VERSION)?;
+    writer.u16(if parts.friction.law.is_empty() {
+        VERSION_WITHOUT_LAW
+    } else {
+        VERSION_WITH_LAW
+    })?;
     writer.u8(sections as u8)?;
     writer.u8(0)?;
     writer.u32(total_len as u32)?;
@@ -324,6 +332,13 @@ fn write_friction(
         writer.f32(anchor.weight)?;
         writer.u8(byte("friction.anchor.name", anchor.name.len())?)?;
         writer.bytes(anchor.name.as_bytes())?;
+    }
+    if !friction.law.is_empty() {
+        writer.u8(byte("friction.law.points", friction.law.len())?)?;
+    }
+    for point in friction.law {
+        writer.u16(point.speed_code)?;
+        writer.u16(point.factor_code)?;
     }
     Ok(writer.position())
 }

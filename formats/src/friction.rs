@@ -1,13 +1,20 @@
-//! FRIC: μ and the anchors it was interpolated from.
+//! FRIC: μ, the anchors it was interpolated from and, in version 2, its law over speed.
 
-use crate::{FormatError, error::in_range, limits, wire::Reader};
+use crate::{
+    FormatError, FrictionLaw,
+    error::in_range,
+    header::{VERSION_WITH_LAW, VERSION_WITHOUT_LAW},
+    limits,
+    wire::Reader,
+};
 
-/// Coulomb friction.
+/// Coulomb friction, or friction that depends on speed.
 #[derive(Debug, Clone, Copy)]
 pub struct Friction<'a> {
     mu: f32,
     count: usize,
     anchors: &'a [u8],
+    law: Option<FrictionLaw<'a>>,
 }
 
 /// A named reference material with a known μ.
@@ -22,8 +29,30 @@ pub struct Anchor<'a> {
 }
 
 impl<'a> Friction<'a> {
-    pub(crate) fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
+    /// Reads the section of an asset of this version.
+    pub(crate) fn parse(bytes: &'a [u8], version: u16) -> Result<Self, FormatError> {
         let mut reader = Reader::new(bytes);
+        let mut friction = Self::without_law(&mut reader, bytes)?;
+        if version >= VERSION_WITH_LAW {
+            friction.law = Some(FrictionLaw::parse(&mut reader, friction.mu)?);
+        }
+        reader.finish("friction")?;
+        Ok(friction)
+    }
+
+    /// The version that an asset with this section has.
+    pub(crate) fn version_of(bytes: &[u8]) -> u16 {
+        let mut reader = Reader::new(bytes);
+        let law_follows =
+            Friction::without_law(&mut reader, bytes).is_ok() && reader.finish("friction").is_err();
+        if law_follows {
+            VERSION_WITH_LAW
+        } else {
+            VERSION_WITHOUT_LAW
+        }
+    }
+
+    fn without_law(reader: &mut Reader<'a>, bytes: &'a [u8]) -> Result<Self, FormatError> {
         let mu = in_range(
             "friction.mu",
             0,
@@ -42,16 +71,26 @@ impl<'a> Friction<'a> {
         }
         let anchors = bytes.get(5..).unwrap_or_default();
         for index in 0..count {
-            read_anchor(&mut reader, index)?;
+            read_anchor(reader, index)?;
         }
-        reader.finish("friction")?;
-        Ok(Self { mu, count, anchors })
+        Ok(Self {
+            mu,
+            count,
+            anchors,
+            law: None,
+        })
     }
 
-    /// Coefficient of kinetic friction.
+    /// Coefficient of kinetic friction; where there is a law, what its factors multiply.
     #[must_use]
     pub const fn mu(&self) -> f32 {
         self.mu
+    }
+
+    /// How μ depends on speed, where it does.
+    #[must_use]
+    pub const fn law(&self) -> Option<FrictionLaw<'a>> {
+        self.law
     }
 
     /// The anchors, in stored order.

@@ -2,8 +2,12 @@
 
 use crate::{FormatError, checksum::crc32, limits, wire::array_at};
 
-/// Version of the asset format that this crate writes.
-pub const VERSION: u16 = 1;
+/// Latest version of the asset format; an asset is written in the lowest one that can hold it.
+pub const VERSION: u16 = VERSION_WITH_LAW;
+/// The version of an asset whose friction has no law.
+pub(crate) const VERSION_WITHOUT_LAW: u16 = 1;
+/// The version of an asset whose friction has a law.
+pub(crate) const VERSION_WITH_LAW: u16 = 2;
 /// First bytes of an asset.
 pub(crate) const MAGIC: [u8; 4] = *b"ASPT";
 /// Bytes before the section table.
@@ -11,7 +15,7 @@ pub(crate) const FIXED_LEN: usize = 20;
 /// Bytes of a table entry.
 pub(crate) const ENTRY_LEN: usize = 12;
 
-/// Every section of version 1, in file order. A runtime needs the haptic ones, in upper case. The
+/// Every section, in file order. A runtime needs the haptic ones, in upper case. The
 /// ancillary ones, in lower case, are optional and skipped where unknown.
 pub(crate) const NAME: [u8; 4] = *b"NAME";
 pub(crate) const GRID: [u8; 4] = *b"GRID";

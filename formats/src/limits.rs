@@ -12,6 +12,10 @@ pub const MAX_TAPS: usize = 16;
 pub const MAX_TAP_SAMPLES: usize = 1024;
 /// Friction anchors.
 pub const MAX_ANCHORS: usize = 16;
+/// Fewest points of a law of friction over speed.
+pub const MIN_LAW_POINTS: usize = 2;
+/// Most points of a law of friction over speed.
+pub const MAX_LAW_POINTS: usize = 8;
 /// Bytes of a name (texture or anchor), UTF-8.
 pub const MAX_NAME_BYTES: usize = 64;
 /// Bytes of the provenance section.

@@ -1,9 +1,9 @@
 //! An asset of given sections: what changes some sections of another asset and keeps the rest.
 
 use crate::{
-    Asset, EncodeError,
+    Asset, EncodeError, Friction,
     checksum::crc32,
-    header::{ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION},
+    header::{ENTRY_LEN, FIXED_LEN, FRICTION, HAPTIC, MAGIC, VERSION_WITHOUT_LAW},
     wire::Writer,
 };
 
@@ -38,7 +38,8 @@ pub fn assemble(sections: &[([u8; 4], &[u8])], out: &mut [u8]) -> Result<usize, 
         .fold(table_end, |sum, (_, body)| sum + body.len());
     let mut writer = Writer::new(out, 0);
     writer.bytes(&MAGIC)?;
-    writer.u16(VERSION)?;
+    let friction = sections.iter().find(|(tag, _)| *tag == FRICTION);
+    writer.u16(friction.map_or(VERSION_WITHOUT_LAW, |(_, body)| Friction::version_of(body)))?;
     writer.u8(count)?;
     writer.u8(0)?;
     writer.u32(total_len as u32)?;

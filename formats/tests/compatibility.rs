@@ -1,9 +1,11 @@
-//! A reader of version 1 accepts what later files may add.
+//! A reader accepts what later files may add, and each version has its own friction.
 
 mod common;
 
-use asperity_formats::{Asset, VERSION};
-use common::{append_section, replace_section, section::PROVENANCE, small, span};
+use asperity_formats::{Asset, FormatError, VERSION, assemble, assembled_len};
+use common::{
+    append_section, falling, put, replace_section, seal_header, section::PROVENANCE, small, span,
+};
 
 #[test]
 fn unknown_ancillary_sections_are_carried_and_skipped() {
@@ -75,7 +77,86 @@ fn a_prefix_of_haptic_len_bytes_is_enough_for_a_runtime() {
     assert!(haptic.grid().triangles().eq(whole.grid().triangles()));
     assert!(haptic.provenance().is_none(), "not read");
     assert!(haptic.preview_png().is_none(), "not read");
-    assert_eq!(haptic.version(), VERSION);
+    assert_eq!(haptic.version(), 1);
     // With the whole file at hand, the haptic reader still reads only its part.
     assert!(Asset::parse_haptic(&bytes).unwrap().preview_png().is_none());
+}
+
+#[test]
+fn only_an_asset_with_a_law_of_friction_is_of_version_2() {
+    assert_eq!(VERSION, 2);
+    assert_eq!(small().encode()[4..6], [1, 0]);
+    assert_eq!(falling().encode()[4..6], [2, 0]);
+}
+
+/// A reader of version 1 rejects a later version before it reads any further, so it never takes the
+/// law for something else. Nor does today's reader, if the version is forged.
+#[test]
+fn a_law_is_never_read_as_part_of_another_version() {
+    let mut bytes = falling().encode();
+    put(&mut bytes, 4, &[1, 0]);
+    seal_header(&mut bytes);
+    let error = Asset::parse(&bytes).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            FormatError::TooLong {
+                field: "friction",
+                ..
+            }
+        ),
+        "{error:?}"
+    );
+    let mut bytes = small().encode();
+    put(&mut bytes, 4, &[2, 0]);
+    seal_header(&mut bytes);
+    let error = Asset::parse(&bytes).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            FormatError::TooShort {
+                field: "friction.law.count",
+                ..
+            }
+        ),
+        "{error:?}"
+    );
+    put(&mut bytes, 4, &[3, 0]);
+    seal_header(&mut bytes);
+    assert_eq!(
+        Asset::parse(&bytes).map(drop),
+        Err(FormatError::Version {
+            found: 3,
+            supported: 2
+        })
+    );
+}
+
+#[test]
+fn an_asset_that_is_assembled_of_sections_keeps_its_law_and_its_version() {
+    for parts in [small(), falling()] {
+        let bytes = parts.encode();
+        let asset = Asset::parse(&bytes).unwrap();
+        let sections: Vec<_> = (asset.sections())
+            .map(|section| (section.tag, asset.section(&section).unwrap()))
+            .collect();
+        let mut again = vec![0; assembled_len(&sections)];
+        assemble(&sections, &mut again).unwrap();
+        assert_eq!(again, bytes);
+    }
+}
+
+#[test]
+fn the_committed_asset_with_a_law_is_what_is_written_today() {
+    let bytes = falling().encode();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/law-v2.asp");
+    if std::env::var_os("ASPERITY_BLESS").is_some() {
+        std::fs::write(path, &bytes).unwrap();
+    }
+    let committed = std::fs::read(path).unwrap();
+    assert!(
+        committed == bytes,
+        "the writer changed its bytes; if version 2 was never released, run\n\
+         ASPERITY_BLESS=1 cargo test -p asperity-formats --test compatibility"
+    );
 }

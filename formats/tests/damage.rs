@@ -3,7 +3,7 @@
 mod common;
 
 use asperity_formats::{Asset, FormatError, Library, library};
-use common::{full, small};
+use common::{falling, full, small};
 
 /// Parses the whole asset, and the part that a runtime reads.
 fn read(bytes: &[u8]) -> (Result<(), FormatError>, Result<(), FormatError>) {
@@ -15,7 +15,7 @@ fn read(bytes: &[u8]) -> (Result<(), FormatError>, Result<(), FormatError>) {
 
 #[test]
 fn an_asset_truncated_at_any_byte_is_too_short() {
-    for parts in [small(), full()] {
+    for parts in [small(), full(), falling()] {
         let bytes = parts.encode();
         let haptic_len = Asset::parse(&bytes).unwrap().haptic_len();
         for len in 0..bytes.len() {
@@ -38,7 +38,7 @@ fn an_asset_truncated_at_any_byte_is_too_short() {
 
 #[test]
 fn any_flipped_bit_of_an_asset_is_found() {
-    for parts in [small(), full()] {
+    for parts in [small(), full(), falling()] {
         let mut bytes = parts.encode();
         let haptic_len = Asset::parse(&bytes).unwrap().haptic_len();
         for bit in 0..bytes.len() * 8 {
@@ -58,18 +58,20 @@ fn any_flipped_bit_of_an_asset_is_found() {
 
 #[test]
 fn any_byte_of_any_value_is_an_error_or_the_original() {
-    let original = small().encode();
-    let mut bytes = original.clone();
-    for at in 0..bytes.len() {
-        for value in 0..=255 {
-            bytes[at] = value;
-            assert_eq!(
-                read(&bytes).0.is_ok(),
-                value == original[at],
-                "byte {at} = {value}"
-            );
+    for parts in [small(), falling()] {
+        let original = parts.encode();
+        let mut bytes = original.clone();
+        for at in 0..bytes.len() {
+            for value in 0..=255 {
+                bytes[at] = value;
+                assert_eq!(
+                    read(&bytes).0.is_ok(),
+                    value == original[at],
+                    "byte {at} = {value}"
+                );
+            }
+            bytes[at] = original[at];
         }
-        bytes[at] = original[at];
     }
 }
 

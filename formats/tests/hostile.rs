@@ -3,7 +3,7 @@
 mod common;
 
 use asperity_formats::{Asset, FormatError, Library, library};
-use common::{append_section, full, put, seal, seal_header, section::GRID, small, span};
+use common::{append_section, falling, full, put, seal, seal_header, section::GRID, small, span};
 use proptest::{collection::vec, prelude::*};
 
 #[test]
@@ -200,7 +200,11 @@ fn read_all(asset: &Asset<'_>) -> f64 {
         .vertices()
         .map(|v| f64::from(v.speed_mm_s + v.force_n + v.sigma_m_s2));
     let png = asset.preview_png().map_or(0, <[u8]>::len) as f64;
-    lsf.chain(taps).chain(anchors).chain(vertices).sum::<f64>() + png
+    let law = asset.friction().law();
+    let law = law.into_iter().flat_map(|law| law.points());
+    let law = law.map(|p| f64::from(p.speed_mm_s() + p.factor()));
+    let numbers = lsf.chain(taps).chain(anchors).chain(law).chain(vertices);
+    numbers.sum::<f64>() + png
 }
 
 proptest! {
@@ -210,9 +214,9 @@ proptest! {
     #[test]
     fn sealed_damage_is_rejected_or_reads_as_finite_numbers(
         patches in vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
-        table in any::<bool>(),
+        (table, law) in any::<(bool, bool)>(),
     ) {
-        let mut bytes = small().encode();
+        let mut bytes = if law { falling() } else { small() }.encode();
         for (at, value) in patches {
             let from = if table { 0 } else { 20 + 12 * 7 };
             let range = bytes.len() - from;

@@ -8,7 +8,7 @@ use asperity_formats::{
     Asset, Library, library,
     taps::{BLOCK, side_by_side},
 };
-use common::{crc32, put, seal, seal_header, section, small, span};
+use common::{crc32, falling, put, seal, seal_header, section, small, span};
 
 /// Bytes to try: all of them, or those next to a carry or a change of sign.
 fn values() -> impl Iterator<Item = u8> {
@@ -48,6 +48,10 @@ fn walk(bytes: &[u8], asset: &Asset<'_>) {
         }
     }
     assert!(asset.friction().anchors().all(|a| !a.name.is_empty()));
+    if let Some(law) = asset.friction().law() {
+        let speeds: Vec<f32> = law.points().map(|p| p.speed_mm_s()).collect();
+        assert!((2..=8).contains(&speeds.len()) && speeds.is_sorted());
+    }
     let mut end = None;
     for section in asset.sections() {
         assert!(end.is_none_or(|end| end == section.offset), "a gap");
@@ -84,7 +88,7 @@ fn header_and_table_lead_nowhere_outside() {
 
 #[test]
 fn bodies_lead_nowhere_outside() {
-    let original = small().encode();
+    let original = falling().encode();
     let (mut accepted, mut refused) = (0_u32, 0_u32);
     for section in [
         section::NAME,

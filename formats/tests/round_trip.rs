@@ -3,7 +3,9 @@
 
 mod common;
 
-use asperity_formats::{Asset, Coupling, EncodeError, FormatError, Numerator, Vertex, VertexKind};
+use asperity_formats::{
+    Asset, Coupling, EncodeError, FormatError, LawPoint, Numerator, Vertex, VertexKind,
+};
 use common::{Parts, full, lattice, small, spec_reader};
 use proptest::{collection::vec, prelude::*};
 
@@ -106,11 +108,19 @@ fn traces() -> impl Strategy<Value = Vec<(f32, Vec<f32>)>> {
     })
 }
 
+/// No law, or 2 to 8 points of ascending speeds.
+fn law() -> impl Strategy<Value = Vec<(u16, u16)>> {
+    let speeds = proptest::collection::btree_set(any::<u16>(), 2..=8);
+    let points = (speeds, vec(any::<u16>(), 8))
+        .prop_map(|(speeds, factors)| speeds.into_iter().zip(factors).collect());
+    proptest::option::of(points).prop_map(Option::unwrap_or_default)
+}
+
 prop_compose! {
     fn parts()(
         grid in grid(), name in name(), traces in traces(),
         rates in (100.0_f32..2e5, 100.0_f32..2e5), mu in 0.0_f32..10.0,
-        anchors in vec((name(), 0.0_f32..10.0, 0.0_f32..=1.0), 0..=16),
+        anchors in vec((name(), 0.0_f32..10.0, 0.0_f32..=1.0), 0..=16), law in law(),
         surface in (1e-3_f32..1e5, 0.0_f32..1e3, 0.0_f32..1e3, 0.0_f32..100.0, 1e-3_f32..1e4),
         metadata in any::<(bool, u64, u32, bool)>(), png in vec(any::<u8>(), 0..50), preview in any::<bool>(),
     ) -> Parts {
@@ -120,6 +130,15 @@ prop_compose! {
         (parts.grid_rate_hz, parts.tap_rate_hz) = rates;
         parts.mu = mu;
         parts.anchors = anchors;
+        // μ times a factor is 10 at most.
+        let highest = (10.0 / f64::from(mu) * 8192.0).floor().clamp(0.0, 65535.0) as u16;
+        parts.law = law
+            .into_iter()
+            .map(|(speed_code, factor_code)| LawPoint {
+                speed_code,
+                factor_code: factor_code.min(highest),
+            })
+            .collect();
         parts.coupling = Coupling {
             stiffness_n_m: surface.0,
             damping_n_s_m: surface.1,
@@ -183,6 +202,11 @@ fn as_plain(bytes: &[u8]) -> spec_reader::Plain {
             .anchors()
             .map(|a| (a.name.into(), a.mu, a.weight))
             .collect(),
+        law: asset.friction().law().map_or(vec![], |law| {
+            law.points()
+                .map(|p| (p.speed_mm_s().into(), p.factor().into()))
+                .collect()
+        }),
         coupling: [
             surface.stiffness_n_m,
             surface.damping_n_s_m,
@@ -233,6 +257,9 @@ proptest! {
         prop_assert_eq!(&plain.triangles, &parts.triangles);
         prop_assert_eq!(&plain.anchors, &parts.anchors);
         prop_assert_eq!(plain.mu, parts.mu);
+        let law: Vec<_> = parts.law.iter()
+            .map(|p| (f64::from(p.speed_mm_s()), f64::from(p.factor()))).collect();
+        prop_assert_eq!(&plain.law, &law);
         prop_assert_eq!(&plain.preview_png, &parts.preview_png);
         prop_assert_eq!(plain.provenance.map(|p| p.seed), parts.provenance.map(|p| p.seed));
         for (read, (ar, ma, gain)) in plain.models.iter().zip(&parts.models) {

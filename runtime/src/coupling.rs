@@ -21,7 +21,7 @@ pub(crate) struct Coupling<A: Arithmetic> {
     f_max: Quantity<A, Newton>,
     /// g_vib·F_max of the vibration, kg.
     pub(crate) vib_mass: Quantity<A, Kilogram>,
-    /// Coefficient of kinetic friction μ.
+    /// Coefficient of kinetic friction μ, before its law.
     pub(crate) mu: Quantity<A, FrictionCoefficient>,
 }
 

@@ -1,6 +1,7 @@
 //! The way from one texture to the next while in contact.
 //!
-//! Wall, gains and friction go to the new texture as a one-pole. The old vibration goes on until
+//! Wall, gains and friction go to the new texture as a one-pole, and so does the factor of a law of
+//! friction. The old vibration goes on until
 //! the first model of the new texture is made. The new vibration then starts from silence, and the
 //! last output of the old one fades beside it. So no step of the force is larger than the steps of
 //! a texture by itself.
@@ -18,6 +19,7 @@ use crate::{
     sample::{Output, Sample},
     stage::{
         contact::DistanceField,
+        friction_law::FactorCrossing,
         recursion::{Recursion, Sounded},
         upsample::Upsampler,
         vibration::Vibration,
@@ -35,6 +37,8 @@ const FADE: f32 = 0.75;
 pub(crate) struct Crossing<A: RenderArithmetic> {
     /// Wall, gains and friction.
     coupling: Coupling<A>,
+    /// The factor of μ.
+    factor: FactorCrossing<A>,
     /// Recursion of the vibration at work.
     recursion: Recursion,
     /// Ticks that a sample of the vibration at work lasts.
@@ -53,6 +57,7 @@ impl<A: RenderArithmetic> Crossing<A> {
     /// No wall, no friction, silence.
     pub(crate) const START: Self = Self {
         coupling: Coupling::NONE,
+        factor: FactorCrossing::START,
         recursion: Recursion::new(0, 0),
         ticks_per_sample: 1,
         heard: Quantity::ZERO,
@@ -78,6 +83,7 @@ impl<A: RenderArithmetic> Crossing<A> {
     ) {
         let ticks = texture.ticks_per_sample();
         if !vibration.is_on(texture.id()) {
+            self.factor.begin();
             if self.ticks_per_sample == ticks {
                 vibration.begin(texture.id(), texture.plan.cycle);
                 self.changing = true;
@@ -153,9 +159,12 @@ impl<A: RenderArithmetic> Renderer<A> {
         let following = || self.following.of(&texture.plan);
         crossing.prepare(&mut state.vibration, texture, following);
         let upsampler = texture.upsampler();
+        let mut factor = crossing.factor;
+        let mu = |speed| factor.of(coupling.mu, &texture.law, speed, fraction);
         let sound =
             |vibration: &mut Vibration<A>, sounding| crossing.sound(vibration, upsampler, sounding);
-        let output = self.force(touched, texture, state, sample, sound);
+        let output = self.force(touched, texture, state, sample, mu, sound);
+        crossing.factor = factor;
         state.vibration.query(
             texture,
             Quantity(output.speed_mm_s),

@@ -5,8 +5,8 @@ use crate::{
     model::{barycentric::WeightSearch, mixture::RowMixture, section_pair::SectionProduct},
     range::Checked,
     stage::{
-        excitation::GaussianCubic, gate::Positions, limiter::Shortening, recursion::InnerProduct,
-        velocity::Differences, wall::Pushing,
+        excitation::GaussianCubic, friction_law::FactorLookup, gate::Positions,
+        limiter::Shortening, recursion::InnerProduct, velocity::Differences, wall::Pushing,
     },
 };
 
@@ -22,6 +22,7 @@ pub trait RenderArithmetic:
     + InnerProduct
     + Shortening
     + Pushing
+    + FactorLookup
 {
 }
 

@@ -4,7 +4,7 @@
 //! F = F_n n̂ − F_t t̂ + F_vib t̂
 //! ```
 //!
-//! with F_n = kδ − bḋ + m_eff·a_tap, F_t ≤ μkδ and F_vib = g_vib·F_max·y\[n\]: the paper's force
+//! with F_n = kδ − bḋ + m_eff·a_tap, F_t ≤ μ(v)·kδ and F_vib = g_vib·F_max·y\[n\]: the paper's force
 //! equation, whose wall also has damping and whose friction has a bristle. A tick is the sum of
 //! the stages in this order; each is a file in [`stage`](crate::stage).
 //!
@@ -18,7 +18,10 @@ use crate::{
     config::VibrationAxis,
     coupling::Coupling,
     events::Flags,
-    quantity::{Quantity, unit::MillimetrePerMetre},
+    quantity::{
+        Quantity,
+        unit::{FrictionCoefficient, MillimetrePerMetre, MillimetrePerSecond},
+    },
     render_arithmetic::RenderArithmetic,
     renderer::Renderer,
     sample::{Output, Sample},
@@ -59,7 +62,8 @@ impl<A: RenderArithmetic> Renderer<A> {
         let sound = |vibration: &mut Vibration<A>, sounding| {
             vibration.sound(recursion, upsampler, sounding)
         };
-        let output = self.force(touched, texture, state, sample, sound);
+        let mu = |speed| texture.friction_at(speed);
+        let output = self.force(touched, texture, state, sample, mu, sound);
         if state.vibration.takes_query() {
             state.wall = self.wall_of(&texture.coupling);
         }
@@ -71,8 +75,8 @@ impl<A: RenderArithmetic> Renderer<A> {
         output
     }
 
-    /// The force equation on what is touched. `sound` steps the vibration and is told whether it
-    /// may be heard.
+    /// The force equation on what is touched. `mu` gives μ at a speed; `sound` steps the vibration
+    /// and is told whether it may be heard.
     #[inline(always)]
     pub(crate) fn force<S: Capacity>(
         &self,
@@ -80,6 +84,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         texture: &Texture<S, A>,
         state: &mut State<A>,
         sample: &Sample<A>,
+        mu: impl FnOnce(Quantity<A, MillimetrePerSecond>) -> Quantity<A, FrictionCoefficient>,
         sound: impl FnOnce(&mut Vibration<A>, bool) -> Sounded<A>,
     ) -> Output<A> {
         let Touched {
@@ -104,6 +109,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         );
         let speed = velocity.slide(normal, &mut state.direction)
             * Quantity::<A, MillimetrePerMetre>::whole(1000);
+        let mu = mu(speed);
 
         // F_n n̂: the wall. Its spring is the load.
         let normal_force = wall.step(depth, velocity.outward);
@@ -111,7 +117,6 @@ impl<A: RenderArithmetic> Renderer<A> {
         flags = flags.and(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)));
 
         // F_t: friction of the load.
-        let mu = coupling.mu;
         let friction = self
             .bristle
             .step(&mut state.friction, gated.motion, normal, load, mu);

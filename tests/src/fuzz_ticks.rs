@@ -4,7 +4,7 @@
 use crate::{
     draw::Draw,
     force_limits::ForceLimits,
-    texture::{HostSlot, Kind, random},
+    texture::{HostSlot, Kind, random, random_law},
 };
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
@@ -129,6 +129,11 @@ fn texture<A: RenderArithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<H
     );
     texture.traces.truncate(draw.below(14));
     texture.mu = draw.range(0.0, 10.0) as f32;
+    if draw.below(2) == 0 {
+        // μ times a factor is 10 at most.
+        let highest = (9.99 / f64::from(texture.mu)).min(7.99);
+        texture.law = random_law(&mut draw, 400.0, highest);
+    }
     texture.coupling.vib_s2_m = [0.05, 1.0, 1000.0][draw.below(3)];
     texture.coupling.stiffness_n_m = [1.0, 500.0, 1e5][draw.below(3)];
     texture.coupling.damping_n_s_m = [0.0, 0.2, 1e3][draw.below(3)];

@@ -2,8 +2,8 @@
 
 use crate::draw::Draw;
 use asperity_formats::{
-    AssetParts, Coupling, FrictionParts, GridParts, LsfCode, ModelParts, Numerator, TapParts,
-    Vertex, VertexKind, encode,
+    AssetParts, Coupling, FrictionParts, GridParts, LawPoint, LsfCode, ModelParts, Numerator,
+    TapParts, Vertex, VertexKind, encode,
 };
 
 /// [`asperity_runtime::HostTexture`] in any arithmetic.
@@ -39,6 +39,8 @@ pub struct Texture {
     pub traces: Vec<(f32, Vec<f32>)>,
     /// Coefficient of friction.
     pub mu: f32,
+    /// Its law over speed, or no points.
+    pub law: Vec<LawPoint>,
     /// Wall and gains.
     pub coupling: Coupling,
 }
@@ -155,6 +157,7 @@ pub fn random(seed: u64, kind: Kind) -> Texture {
         tap_rate_hz: 10_000.0,
         traces,
         mu: draw.range(0.1, 1.2) as f32,
+        law: Vec::new(),
         coupling: Coupling {
             stiffness_n_m: 500.0,
             damping_n_s_m: 0.2,
@@ -163,6 +166,21 @@ pub fn random(seed: u64, kind: Kind) -> Texture {
             f_max_n: 3.3,
         },
     }
+}
+
+/// A random law of friction of 2 to 8 points up to a speed, with factors up to a limit.
+#[must_use]
+pub fn random_law(draw: &mut Draw, fastest_mm_s: f64, highest: f64) -> Vec<LawPoint> {
+    let mut speeds: Vec<f64> = (0..2 + draw.below(7))
+        .map(|_| draw.range(0.0, fastest_mm_s))
+        .collect();
+    speeds.sort_by(f64::total_cmp);
+    // Apart by a code at least.
+    let apart = |(index, speed): (usize, f64)| speed + index as f64 / 8.0;
+    let points = speeds.into_iter().enumerate().map(apart);
+    points
+        .filter_map(|speed| LawPoint::nearest(speed, draw.range(0.0, highest)))
+        .collect()
 }
 
 /// The triangles of a lattice of vertices stored row after row.
@@ -226,6 +244,7 @@ impl Texture {
             friction: FrictionParts {
                 mu: self.mu,
                 anchors: &[],
+                law: &self.law,
             },
             coupling: self.coupling,
             provenance: None,

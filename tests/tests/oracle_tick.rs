@@ -9,7 +9,7 @@ use asperity_runtime::{
 use asperity_tests::{
     draw::Draw,
     oracle::{Oracle, Tick},
-    texture::{HostSlot, Kind, random},
+    texture::{HostSlot, Kind, random, random_law},
     trajectory::{strokes, strokes_at},
 };
 
@@ -180,6 +180,20 @@ fn strokes_and_taps_on_a_plane_with_every_kind_of_texture() {
         let worst = compare(&bytes, &Config::default(), seed, &samples);
         assert!(worst[0].0.hardest_tap_n > 0.1, "no tap: {worst:?}");
         assert_close(&worst, 1000.0, &format!("{kind:?}"));
+    }
+}
+
+/// Laws that fall and rise over the speeds of the strokes, at every rate.
+#[test]
+fn friction_that_depends_on_speed() {
+    let mut draw = Draw::new(60);
+    for (seed, kind) in (60..).zip(kinds()) {
+        let mut texture = random(seed, kind);
+        texture.law = random_law(&mut draw, 200.0, 2.0);
+        let bytes = texture.encode();
+        let samples = fresh(strokes(seed, 10_000));
+        let worst = compare(&bytes, &Config::default(), seed, &samples);
+        assert_close(&worst, 1000.0, &format!("law, {kind:?}"));
     }
 }
 

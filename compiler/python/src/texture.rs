@@ -130,11 +130,21 @@ impl Texture {
         for anchor in &friction.anchors {
             anchors.append(record(py, "FrictionAnchor", anchor)?)?;
         }
+        let law = match &friction.law {
+            Some(law) => {
+                let points = PyList::empty(py);
+                for point in &law.points {
+                    points.append(record(py, "LawPoint", point)?)?;
+                }
+                points.into_any()
+            }
+            None => py.None().into_bound(py),
+        };
         let mu = friction.mu.into_bound_py_any(py)?;
         of_fields(
             py,
             "Friction",
-            [("mu", mu), ("anchors", anchors.into_any())],
+            [("mu", mu), ("anchors", anchors.into_any()), ("law", law)],
         )
     }
 

@@ -31,8 +31,39 @@ pub struct Friction {
     pub blocks: usize,
     /// The simplest law that the data ask for.
     pub law: Law,
+    /// Speeds between which 96 % of the blocks lie, mm/s.
+    pub speeds_mm_s: [f64; 2],
+    /// Median load of the blocks, N.
+    pub load_n: f64,
     /// Part of the sliding time in which the tool sticks and slips, 0..=1.
     pub stick_slip: f64,
+}
+
+impl Friction {
+    /// μ at a speed, mm/s, and the median load, as the law has it.
+    #[must_use]
+    pub fn mu_at(&self, speed_mm_s: f64) -> f64 {
+        match self.law {
+            Law::Coulomb => self.mu,
+            Law::Power {
+                mu,
+                of_speed,
+                of_load,
+            } => mu * libm::pow(speed_mm_s / 100.0, of_speed) * libm::pow(self.load_n, of_load),
+            Law::Stribeck {
+                sliding,
+                rest,
+                v_s_mm_s,
+            } => sliding + (rest - sliding) * libm::exp(-speed_mm_s / v_s_mm_s),
+        }
+    }
+
+    /// Whether the law changes μ by speed by more than 5 % over the recorded speeds.
+    #[must_use]
+    pub fn depends_on_speed(&self) -> bool {
+        let [slow, fast] = self.speeds_mm_s.map(|speed| self.mu_at(speed));
+        (slow - fast).abs() > LEAST_EFFECT * self.mu
+    }
 }
 
 /// How μ depends on speed and load.
@@ -116,6 +147,8 @@ pub fn friction(timeline: &Timeline) -> Option<Friction> {
         spread: 0.5 * (quantile(all(), 0.84) - quantile(all(), 0.16)),
         blocks: blocks.len(),
         law: law(&blocks, mu),
+        speeds_mm_s: [0.02, 0.98].map(|q| quantile(blocks.iter().map(|b| b.speed_mm_s), q)),
+        load_n: median(blocks.iter().map(|b| b.load_n)),
         stick_slip: f64::from(sticking) / f64::from(sliding.max(1)),
     })
 }

@@ -9,6 +9,7 @@
 //! | read | [`reader`] | channels in SI units, with what was wrong with their numbers |
 //! | align | [`timeline`] | all channels on one clock at 1 kHz |
 //! | check | [`check`] | a verdict for each channel, and what to do about it |
+//! | resonance | [`resonance`] | that of tool and sensor, by taps in free air, and the acceleration without it |
 //! | one axis | [`axes`] | three axes as one signal with their spectrum |
 //! | segments | [`steady`] | stretches of steady speed and force |
 //! | models | [`autoregression`] | AR and ARMA models of a stretch, by several methods |
@@ -28,6 +29,7 @@ mod file;
 pub mod friction;
 pub mod impact;
 pub mod reader;
+pub mod resonance;
 pub mod signal;
 pub mod steady;
 pub mod timeline;

@@ -1,8 +1,8 @@
 //! The way back: the f64 model that the bytes of an asset describe.
 
 use crate::model::{
-    Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,
-    TapTrace, TextureModel, VertexKind, Wall,
+    Friction, FrictionAnchor, FrictionLaw, Gains, GridVertex, LawPoint, ModelGrid, Numerator,
+    Provenance, TapBank, TapTrace, TextureModel, VertexKind, Wall,
 };
 use asperity_formats as formats;
 use asperity_formats::{Asset, LsfCode};
@@ -36,6 +36,7 @@ pub fn raise(asset: &Asset<'_>) -> TextureModel {
                     weight: f64::from(anchor.weight),
                 })
                 .collect(),
+            law: law(asset),
         },
         wall: Wall {
             stiffness_n_m: f64::from(coupling.stiffness_n_m),
@@ -48,6 +49,19 @@ pub fn raise(asset: &Asset<'_>) -> TextureModel {
         },
         provenance: asset.provenance().map(provenance).unwrap_or_default(),
     }
+}
+
+/// How the friction of an asset depends on speed, if it does.
+#[must_use]
+pub fn law(asset: &Asset<'_>) -> Option<FrictionLaw> {
+    let law = asset.friction().law()?;
+    let points = law.points().map(|point| LawPoint {
+        speed_mm_s: f64::from(point.speed_mm_s()),
+        factor: f64::from(point.factor()),
+    });
+    Some(FrictionLaw {
+        points: points.collect(),
+    })
 }
 
 fn grid(grid: &formats::Grid<'_>) -> ModelGrid {

@@ -10,12 +10,13 @@ use super::{
     solve::Metric,
 };
 use crate::{
+    back_end::raise,
     front_ends::{
         learned::{Decoded, friction, texture},
         prompt::{Author, phrase::adjust::adjust},
     },
     model::{
-        Provenance, TextureModel,
+        FrictionLaw, Provenance, TextureModel,
         attributes::{self, Attributes},
     },
     passes::reduce::Fidelity,
@@ -41,6 +42,9 @@ pub struct How {
     pub rate_hz: Option<f64>,
     /// Width and height of the preview, pixels; none is drawn if `None`.
     pub preview_px: Option<u32>,
+    /// How friction depends on speed, of which latents say nothing: its factors multiply what they
+    /// say of μ.
+    pub law: Option<FrictionLaw>,
 }
 
 /// A compiled texture with its memory.
@@ -134,6 +138,7 @@ impl<'a> Studio<'a> {
             preview_px: asset
                 .preview_png()
                 .map(|png| preview::width(png).unwrap_or(preview::SIZE)),
+            law: raise::law(asset),
         }
     }
 
@@ -239,6 +244,8 @@ impl<'a> Studio<'a> {
         let mut pipeline = Pipeline::default();
         let texture = pipeline.run(Pass::Decode, || self.texture(latents, name, provenance));
         let mut texture = texture?;
+        let mu = texture.friction.mu;
+        texture.friction.law = how.law.clone().map(|law| law.beside(mu));
         if let Some(level_db) = history.loudness_db {
             equal_loudness(&mut texture, level_db);
         }

@@ -70,6 +70,7 @@ pub fn texture() -> TextureModel {
                 mu: MU,
                 weight: 1.0,
             }],
+            law: None,
         },
         wall: defaults::wall(),
         gains,

@@ -3,7 +3,7 @@
 use crate::{
     back_end::raise::raise,
     model::{
-        TextureModel,
+        FrictionLaw, TextureModel,
         mixture::{self, Field},
     },
     passes::{ceiling, reduce::Reference},
@@ -29,6 +29,9 @@ pub struct Change {
     pub stiffness_n_m: [f64; 2],
     /// Coefficient of friction: old and new.
     pub mu: [f64; 2],
+    /// Its law over speed, factors of μ: old and new. Absent where neither has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<[Option<FrictionLaw>; 2]>,
     /// Whether the picture is another one.
     pub picture: bool,
     /// Whether a hand can meet the change: anything but picture, provenance, latent and history.
@@ -56,6 +59,8 @@ impl Change {
             tap_n: both(tap_n),
             stiffness_n_m: both(|t| t.wall.stiffness_n_m),
             mu: both(|t| t.friction.mu),
+            law: (before.friction.law.is_some() || after.friction.law.is_some())
+                .then(|| [&before, &after].map(|t| t.friction.law.clone())),
             picture: old.preview_png() != new.preview_png(),
             haptic,
             sections,
@@ -128,6 +133,15 @@ impl fmt::Display for Change {
                 let figure = format!("{what} {old:.digits$} → {new:.digits$} {unit}");
                 parts.push(figure.trim_end().to_owned());
             }
+        }
+        if let Some([old, new]) = &self.law
+            && old != new
+        {
+            let way = |law: &Option<FrictionLaw>| match law {
+                Some(law) => format!("law of {} points", law.points.len()),
+                None => "no law".to_owned(),
+            };
+            parts.push(format!("μ over speed: {} → {}", way(old), way(new)));
         }
         if self.picture {
             parts.push("picture".into());

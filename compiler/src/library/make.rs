@@ -7,13 +7,16 @@ use super::{
     rename::renamed,
 };
 use crate::{
-    back_end::{raise::raise, source::Source},
+    back_end::{
+        raise::{self, raise},
+        source::Source,
+    },
     edit::{
         EditError, History, How, Latents, Made, Memory, Origin as Making, Part,
         Source as Ingredient, Step, Studio, Worded, encode, equal_loudness, remember, remembered,
     },
     front_ends::{hatt, model_file, prompt},
-    model::{Provenance, TextureModel, attributes},
+    model::{FrictionLaw, Provenance, TextureModel, attributes},
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Preview, Settings, Timings},
     views::preview,
@@ -49,6 +52,8 @@ struct Known {
     provenance: Option<Provenance>,
     warnings: Vec<String>,
     certainty: Option<f64>,
+    /// How its friction depends on speed.
+    law: Option<FrictionLaw>,
     /// How it was made, and its edits. The level of loudness is that of the entry.
     history: History,
 }
@@ -61,6 +66,7 @@ impl Known {
             provenance: None,
             warnings: Vec::new(),
             certainty: None,
+            law: None,
             history,
         }
     }
@@ -171,7 +177,7 @@ impl<'a> Maker<'a> {
         let provenance = known
             .provenance
             .unwrap_or_else(|| studio.provenance("build"));
-        let how = how(options);
+        let how = how(options, known.law);
         let Made {
             bytes,
             texture,
@@ -232,7 +238,11 @@ impl<'a> Maker<'a> {
         if options.edit.is_still() {
             return Ok(known);
         }
-        let (studio, how, before) = (self.studio()?, how(options), known.latents);
+        let (studio, how, before) = (
+            self.studio()?,
+            how(options, known.law.clone()),
+            known.latents,
+        );
         let step = match &options.edit {
             Edit::Steps(sliders) => {
                 known.latents = studio.edited(&before, sliders, &how).map_err(cause)?;
@@ -261,12 +271,11 @@ impl<'a> Maker<'a> {
     fn unedited(&self, index: usize) -> Result<Known, Cause> {
         let studio = self.studio()?;
         let entry = &self.manifest.entries[index];
-        let ingredient = |index: usize| -> Result<(Latents, Ingredient), Cause> {
-            let Known {
-                latents, prompt, ..
-            } = self.latents(index)?;
+        let ingredient = |index: usize| -> Result<(Known, Ingredient), Cause> {
+            let known = self.latents(index)?;
             let name = &self.manifest.entries[index].name;
-            Ok((latents, Ingredient::new(name, prompt.as_deref(), &latents)))
+            let ingredient = Ingredient::new(name, known.prompt.as_deref(), &known.latents);
+            Ok((known, ingredient))
         };
         let encoded = |texture: &TextureModel, name: &str| -> Result<Known, Cause> {
             let part = Part::recorded(texture);
@@ -275,7 +284,10 @@ impl<'a> Maker<'a> {
                 name: name.to_owned(),
                 part: part.name().to_owned(),
             };
-            Ok(Known::of(latents, History::of(made)))
+            Ok(Known {
+                law: texture.friction.law.clone(),
+                ..Known::of(latents, History::of(made))
+            })
         };
         Ok(match &entry.origin {
             Origin::Prompt(text) => {
@@ -290,6 +302,7 @@ impl<'a> Maker<'a> {
                     prompt: Some(text.clone()),
                     warnings: authored.warnings(),
                     certainty: Some(authored.certainty),
+                    law: None,
                     provenance: Some(authored.texture.provenance),
                     history: History::default(),
                 }
@@ -302,6 +315,7 @@ impl<'a> Maker<'a> {
                     Some(memory) if memory.model_crc32 == studio.model_crc32() => Known {
                         prompt: asset.provenance().and_then(|p| p.prompt).map(str::to_owned),
                         provenance: Some(raise(&asset).provenance),
+                        law: raise::law(&asset),
                         ..Known::of(memory.latents, memory.history)
                     },
                     _ => encoded(&raise(&asset), asset.name())?,
@@ -310,8 +324,11 @@ impl<'a> Maker<'a> {
             Origin::Of(other) => self.latents(*other)?,
             Origin::Blend { a, b, t } => {
                 let ((at_a, a), (at_b, b)) = (ingredient(*a)?, ingredient(*b)?);
-                let latents = Latents::between(&at_a, &at_b, *t);
-                Known::of(latents, History::of(Making::Blend { a, b, t: *t }))
+                let latents = Latents::between(&at_a.latents, &at_b.latents, *t);
+                Known {
+                    law: FrictionLaw::between(at_a.law.as_ref(), at_b.law.as_ref(), *t),
+                    ..Known::of(latents, History::of(Making::Blend { a, b, t: *t }))
+                }
             }
             Origin::Compose {
                 tap,
@@ -326,18 +343,23 @@ impl<'a> Maker<'a> {
                     slide,
                     friction,
                 };
-                let latents = Latents::composed(&at_tap, &at_slide, &at_friction);
-                Known::of(latents, History::of(made))
+                let latents =
+                    Latents::composed(&at_tap.latents, &at_slide.latents, &at_friction.latents);
+                Known {
+                    law: at_friction.law,
+                    ..Known::of(latents, History::of(made))
+                }
             }
         })
     }
 }
 
-fn how(options: &Options) -> How {
+fn how(options: &Options, law: Option<FrictionLaw>) -> How {
     How {
         fidelity: options.fidelity,
         rate_hz: options.rate_hz,
         preview_px: options.preview_px,
+        law,
     }
 }
 

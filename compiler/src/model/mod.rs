@@ -4,10 +4,12 @@
 
 pub mod attributes;
 pub mod defaults;
+mod friction_law;
 pub mod mesh;
 pub mod mixture;
 mod texture;
 
+pub use friction_law::{FrictionLaw, LawPoint};
 pub use texture::{
     Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,
     TapTrace, TextureModel, VertexKind, Wall,

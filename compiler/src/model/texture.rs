@@ -1,5 +1,6 @@
 //! The types of a texture model, in f64 and SI units.
 
+use super::FrictionLaw;
 use serde::{Deserialize, Serialize};
 
 /// A texture before quantisation, as every front end makes it.
@@ -11,7 +12,7 @@ pub struct TextureModel {
     pub grid: ModelGrid,
     /// Recorded or synthesised tapping transients; may be empty.
     pub taps: TapBank,
-    /// Coulomb friction and the anchors it was interpolated from.
+    /// Friction and the anchors it was interpolated from.
     pub friction: Friction,
     /// The virtual wall.
     pub wall: Wall,
@@ -98,13 +99,31 @@ pub struct TapTrace {
     pub accel_m_s2: Vec<f64>,
 }
 
-/// Coulomb friction.
+/// Coulomb friction, or friction that depends on speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Friction {
-    /// Coefficient of kinetic friction, ≥ 0.
+    /// Coefficient of kinetic friction, ≥ 0; with a law, what its factors multiply.
     pub mu: f64,
     /// What μ was interpolated from.
     pub anchors: Vec<FrictionAnchor>,
+    /// How μ depends on speed, if it does.
+    pub law: Option<FrictionLaw>,
+}
+
+impl Friction {
+    /// μ at a speed, mm/s.
+    #[must_use]
+    pub fn mu_at(&self, speed_mm_s: f64) -> f64 {
+        let factor = self.law.as_ref().map_or(1.0, |l| l.factor_at(speed_mm_s));
+        self.mu * factor
+    }
+
+    /// The largest μ at any speed.
+    #[must_use]
+    pub fn highest_mu(&self) -> f64 {
+        let highest = |law: &FrictionLaw| law.points.iter().map(|p| p.factor).fold(0.0, f64::max);
+        self.mu * self.law.as_ref().map_or(1.0, highest)
+    }
 }
 
 /// A named reference material with a known μ.

@@ -65,7 +65,7 @@ pub fn limit(texture: &mut TextureModel) -> Ceiling {
     for at in levels.iter().filter(|at| at.force_n <= continuous_n) {
         // Wall and friction stand at right angles; the vibration goes along the friction.
         let along_n = (peak_n * peak_n - at.force_n * at.force_n).sqrt();
-        let room_n = along_n - texture.friction.mu * at.force_n;
+        let room_n = along_n - texture.friction.mu_at(at.speed_mm_s) * at.force_n;
         // Where friction alone takes the device, no gain of the vibration helps.
         if room_n > 0.0 {
             vibration = vibration.min(factor(room_n, CREST * to_force * at.rms_m_s2));
@@ -114,6 +114,7 @@ fn factor(most: f64, asked: f64) -> f64 {
 
 /// The vibration at a place of the grid.
 struct Level {
+    speed_mm_s: f64,
     force_n: f64,
     rms_m_s2: f64,
 }
@@ -125,6 +126,7 @@ fn levels(grid: &ModelGrid) -> Vec<Level> {
         .filter_map(|(speed_mm_s, force_n)| {
             let model = field.model(&field.locate(speed_mm_s, force_n)?);
             Some(Level {
+                speed_mm_s,
                 force_n,
                 rms_m_s2: rms_m_s2(&model, grid.numerator),
             })

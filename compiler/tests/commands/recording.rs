@@ -18,9 +18,14 @@ const STROKES: [(f64, f64); 9] = [
 ];
 const STROKE: usize = 1200;
 
-/// A table at 1 kHz: a second in the air, then `strokes` of the strokes, with vibration that grows with
-/// the speed and a friction of 0.3.
+/// [`table_with`] a friction of 0.3.
 fn table(strokes: usize) -> String {
+    table_with(&STROKES[..strokes], |_| 0.3)
+}
+
+/// A table at 1 kHz: a second in the air, then strokes, with vibration that grows with the speed and a
+/// friction of `mu_at` a speed, mm/s.
+fn table_with(strokes: &[(f64, f64)], mu_at: impl Fn(f64) -> f64) -> String {
     let mut state = 3_u64;
     let mut noise = move || {
         state = state
@@ -50,7 +55,7 @@ fn table(strokes: usize) -> String {
     for n in 0..1000 {
         row(n, 0.02 * rng(), 0.002 * rng(), 0.002 * rng(), x);
     }
-    for (stroke, (speed, load)) in STROKES.into_iter().take(strokes).enumerate() {
+    for (stroke, &(speed, load)) in strokes.iter().enumerate() {
         let side = if stroke % 2 == 0 { 1.0 } else { -1.0 };
         for n in 0..STROKE {
             // Half a period of a wave that is flat for most of it.
@@ -61,7 +66,7 @@ fn table(strokes: usize) -> String {
             row(
                 1000 + stroke * STROKE + n,
                 vibration + 0.02 * rng(),
-                -0.3 * load * (v / 5.0).tanh() + 0.002 * rng(),
+                -mu_at(v.abs()) * load * (v / 5.0).tanh() + 0.002 * rng(),
                 load + 0.002 * rng(),
                 x,
             );
@@ -141,6 +146,68 @@ fn a_recording_becomes_an_asset_with_its_friction() {
     assert_eq!(report["sources"]["taps"], "completed", "nothing was tapped");
     let inspect = asperity(folder.path(), &["inspect", "oak.asp"]);
     assert!(inspect.status.success());
+}
+
+/// The slowest, a middle and the fastest speed of a surface whose friction falls as Stribeck says, and of
+/// one where it rises as a power, whatever the load: as recorded, within 5 %.
+#[test]
+fn friction_that_depends_on_speed_comes_back_and_is_said_to_be_rendered() {
+    let strokes: Vec<(f64, f64)> = [0.5, 1.0, 1.6]
+        .into_iter()
+        .flat_map(|load| [25.0, 45.0, 70.0, 110.0, 160.0].map(|speed| (speed, load)))
+        .collect();
+    let falling = |v: f64| 0.3 + 0.5 * (-v / 40.0).exp();
+    let rising = |v: f64| 0.4 * (v.max(1.0) / 100.0).powf(0.3);
+    let laws: [&dyn Fn(f64) -> f64; 2] = [&falling, &rising];
+    for mu_at in laws {
+        let folder = recorded(&table_with(&strokes, mu_at), Some(&description()));
+        let arguments = [
+            "import",
+            "recording",
+            "oak",
+            "-o",
+            "oak.asp",
+            "--no-preview",
+        ];
+        let import = asperity(folder.path(), &arguments);
+        assert!(import.status.success(), "{}", text(&import.stderr));
+        let said = [text(&import.stdout), text(&import.stderr)].concat();
+        assert!(said.contains("rendered over speed from"), "{said}");
+
+        let inspect = asperity(folder.path(), &["inspect", "oak.asp", "--json"]);
+        let asset: serde_json::Value = serde_json::from_slice(&inspect.stdout).expect("JSON");
+        assert_eq!(asset["format_version"], 2);
+        let mu = asset["friction"]["mu"].as_f64().expect("μ");
+        let points: Vec<(f64, f64)> = asset["friction"]["law"]
+            .as_array()
+            .expect("a law")
+            .iter()
+            .map(|p| {
+                (
+                    p["speed_mm_s"].as_f64().unwrap(),
+                    p["factor"].as_f64().unwrap(),
+                )
+            })
+            .collect();
+        let rendered = |v: f64| {
+            let above = points.partition_point(|p| p.0 <= v);
+            let (from, to) = (above.saturating_sub(1), above.min(points.len() - 1));
+            let ((slow, at_slow), (fast, at_fast)) = (points[from], points[to]);
+            let part = if from == to {
+                0.0
+            } else {
+                (v - slow) / (fast - slow)
+            };
+            mu * (at_slow + (at_fast - at_slow) * part)
+        };
+        for speed_mm_s in [30.0, 70.0, 150.0] {
+            let (found, exact) = (rendered(speed_mm_s), mu_at(speed_mm_s));
+            assert!(
+                (found / exact - 1.0).abs() < 0.05,
+                "{speed_mm_s} mm/s: {found}, not {exact}"
+            );
+        }
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What can go wrong on the bench.
 
-use asperity::{diagnostic::Diagnostic, recording::RecordingFailure};
+use asperity::{diagnostic::Diagnostic, learned::ModelError, recording::RecordingFailure};
 use thiserror::Error;
 
 /// A bench that could not run.
@@ -18,6 +18,9 @@ pub enum BenchError {
     /// A file of the recording.
     #[error("the recording cannot be written ({0})")]
     Write(#[from] std::io::Error),
+    /// The learned model, which textures are taken from.
+    #[error(transparent)]
+    Model(#[from] ModelError),
     /// The import.
     #[error(transparent)]
     Import(#[from] RecordingFailure),
@@ -28,6 +31,7 @@ impl Diagnostic for BenchError {
         match self {
             Self::Texture { .. } => "give another texture".into(),
             Self::Write(_) => "free space in the folder for temporary files".into(),
+            Self::Model(error) => error.remedy(),
             Self::Import(error) => error.remedy(),
         }
     }

@@ -8,17 +8,17 @@ use serde::Serialize;
 use super::{
     error::BenchError,
     fault::{Fault, faulty},
-    perform::{perform, perform_sine},
+    perform::{Until, perform, perform_sine},
     sensors::{Sensors, record},
     truth::{Cell, Comparison, compare},
 };
 
-/// One texture after some seconds of recording.
+/// One texture after some seconds of strokes.
 #[derive(Debug, Clone, Serialize)]
 pub struct Row {
     /// The texture.
     pub name: String,
-    /// Seconds of recording.
+    /// Seconds of strokes.
     pub seconds: f64,
     /// How far it is from the truth; `None` where the import refused it.
     pub comparison: Option<Comparison>,
@@ -30,8 +30,8 @@ pub struct Row {
     pub order: usize,
 }
 
-/// Records every texture for some seconds and imports what the sensors wrote. The noise of the
-/// accelerometer is `noise` times the usual one.
+/// Records every texture for some seconds of strokes, beside air and taps, and imports what the sensors wrote. `alter`
+/// changes the usual sensors.
 ///
 /// # Errors
 /// [`BenchError`] of the first texture that cannot be rendered or recorded.
@@ -39,7 +39,7 @@ pub fn learn(
     textures: &[TextureModel],
     seconds: f64,
     seed: u64,
-    noise: f64,
+    alter: impl Fn(&mut Sensors) + Sync,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Row>, BenchError> {
     textures
@@ -47,10 +47,10 @@ pub fn learn(
         .enumerate()
         .map(|(index, texture)| {
             let seed = seed.wrapping_mul(1000).wrapping_add(index as u64);
-            let performance = perform(texture, seconds, seed)?;
+            let performance = perform(texture, Until::Strokes(seconds), seed)?;
             let folder = Scratch::new(seed)?;
             let mut sensors = Sensors::seeded(seed);
-            sensors.accel_noise *= noise;
+            alter(&mut sensors);
             record(&performance, texture, &sensors, seed, &folder.0)?;
             let analysis = recording::analyse(&folder.0, false);
             done();
@@ -103,12 +103,14 @@ pub const LOUD_DB: f64 = 10.0;
 /// Figures over all textures of one length.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Figures {
-    /// Seconds of recording.
+    /// Seconds of strokes.
     pub seconds: f64,
     /// Textures that came back.
     pub imported: usize,
     /// Textures that were refused.
     pub refused: usize,
+    /// Median and 95 % quantile over textures of the mean over their cells, dB RMS.
+    pub texture_db: (f64, f64),
     /// Median over textures of their median cell, dB RMS.
     pub median_db: f64,
     /// Visited cells of all textures.
@@ -165,6 +167,11 @@ pub fn summary(rows: &[Row]) -> Figures {
         seconds: rows.first().map_or(0.0, |row| row.seconds),
         imported: came.len(),
         refused: rows.len() - came.len(),
+        texture_db: both(
+            came.iter()
+                .map(|c| mean(&c.cells.iter().map(|c| c.error_db).collect::<Vec<f64>>()))
+                .collect(),
+        ),
         median_db: median(
             came.iter()
                 .map(|c| median(c.cells.iter().map(|c| c.error_db))),
@@ -227,7 +234,7 @@ pub fn checks(
     let one = |index: usize| -> Result<(Option<String>, Vec<String>), BenchError> {
         let seed = seed.wrapping_mul(10_000).wrapping_add(index as u64);
         let texture = &textures[index % textures.len()];
-        let performance = perform(texture, seconds, seed)?;
+        let performance = perform(texture, Until::Seconds(seconds), seed)?;
         let clean = if index % SINES == SINES - 1 {
             &perform_sine(texture, seconds, seed)?
         } else {

@@ -10,13 +10,17 @@ mod lab;
 mod perform;
 mod script;
 mod sensors;
+mod textures;
+mod tool;
 mod truth;
 
 pub use error::BenchError;
 pub use fault::{Fault, faulty};
 pub use lab::{Checks, Figures, GOAL_DB, LOUD_DB, Row, checks, learn, summary};
-pub use perform::{Performance, perform, perform_sine};
+pub use perform::{Performance, Until, perform, perform_sine};
 pub use script::{script, sine};
 pub(crate) use sensors::{BENT_S, GRAVITY_M_S2, HAND_HALF, across, of_tool};
 pub use sensors::{Sensors, record};
+pub use textures::materials;
+pub use tool::{MOST_FREE_TAPS, Resonance};
 pub use truth::{Cell, Comparison, compare, compare_at};

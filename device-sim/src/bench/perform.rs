@@ -15,6 +15,20 @@ use crate::{
     session::{Record, Session},
 };
 
+/// Slowest motion in touch that is a stroke, mm/s.
+const SLOWEST_STROKE_MM_S: f64 = 10.0;
+/// Seconds of motions for a second of strokes, and for the first air and taps: more than it takes.
+const PLANNED_S: (f64, f64) = (3.0, 30.0);
+
+/// When a performance ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Until {
+    /// After so many seconds of everything.
+    Seconds(f64),
+    /// After so many seconds of strokes; air, taps and turns come in addition.
+    Strokes(f64),
+}
+
 /// What happened, tick by tick.
 #[derive(Debug)]
 pub struct Performance {
@@ -24,12 +38,12 @@ pub struct Performance {
     pub impacts: Vec<(usize, f64)>,
 }
 
-/// Lets a hand explore a texture for some time.
+/// Lets a hand explore a texture.
 ///
 /// # Errors
 /// [`BenchError::Texture`] for a texture that the runtime cannot render.
-pub fn perform(texture: &TextureModel, seconds: f64, seed: u64) -> Result<Performance, BenchError> {
-    follow(texture, seconds, seed, script)
+pub fn perform(texture: &TextureModel, until: Until, seed: u64) -> Result<Performance, BenchError> {
+    follow(texture, until, seed, script)
 }
 
 /// Lets a hand stroke to and fro as evenly as a machine, after a few taps.
@@ -41,12 +55,12 @@ pub fn perform_sine(
     seconds: f64,
     seed: u64,
 ) -> Result<Performance, BenchError> {
-    follow(texture, seconds, seed, sine)
+    follow(texture, Until::Seconds(seconds), seed, sine)
 }
 
 fn follow(
     texture: &TextureModel,
-    seconds: f64,
+    until: Until,
     seed: u64,
     script: fn(u64, f64, (f64, f64)) -> Script,
 ) -> Result<Performance, BenchError> {
@@ -77,8 +91,15 @@ fn follow(
         f64::from(asset.grid().max_speed_mm_s()),
         f64::from(asset.grid().max_force_n()),
     );
-    let mut session = Session::new(&device, grip, script(seed, seconds, corner), servo);
-    let records = session.run((seconds * rate_hz) as u64);
+    let planned_s = match until {
+        Until::Seconds(seconds) => seconds,
+        Until::Strokes(seconds) => PLANNED_S.0 * seconds + PLANNED_S.1,
+    };
+    let mut session = Session::new(&device, grip, script(seed, planned_s, corner), servo);
+    let records = match until {
+        Until::Seconds(seconds) => session.run((seconds * rate_hz) as u64),
+        Until::Strokes(seconds) => strokes(&mut session, (seconds * rate_hz) as usize),
+    };
     let mut impacts = Vec::new();
     for (tick, pair) in records.windows(2).enumerate() {
         let (before, now) = (&pair[0], &pair[1]);
@@ -87,4 +108,20 @@ fn follow(
         }
     }
     Ok(Performance { records, impacts })
+}
+
+/// All ticks until so many of them were strokes.
+fn strokes(session: &mut Session<RenderedTexture<'_>>, ticks: usize) -> Vec<Record> {
+    let mut records = Vec::new();
+    let mut stroked = 0;
+    while stroked < ticks
+        && let Some(record) = session.tick()
+    {
+        let output = &record.output;
+        let is_stroke =
+            output.normal_force_n > 0.0 && f64::from(output.speed_mm_s) >= SLOWEST_STROKE_MM_S;
+        stroked += usize::from(is_stroke);
+        records.push(record);
+    }
+    records
 }

@@ -15,7 +15,10 @@ use asperity_recording::signal::{
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::perform::Performance;
+use super::{
+    perform::Performance,
+    tool::{self, Resonance},
+};
 use crate::random::unit;
 
 /// Rate of the ticks, Hz.
@@ -54,6 +57,12 @@ pub struct Sensors {
     pub drift: [f64; 3],
     /// Delays of the same, s.
     pub late_s: [f64; 3],
+    /// The resonance of the tool with the accelerometer, if it has one.
+    pub resonance: Option<Resonance>,
+    /// Taps on the tool in free air at the start.
+    pub free_taps: usize,
+    /// Whether the device tells its position along z.
+    pub has_height: bool,
 }
 
 impl Sensors {
@@ -72,6 +81,9 @@ impl Sensors {
             force_bias_n: 0.05 * signed(),
             drift: [40e-6 * signed(), 40e-6 * signed(), 40e-6 * signed()],
             late_s: [0.0, 0.003 * signed(), 0.003 * signed()],
+            resonance: None,
+            free_taps: 0,
+            has_height: true,
         }
     }
 }
@@ -144,6 +156,12 @@ pub(super) fn measure(
             tick as f64 / TICK_HZ,
             speed_m_s,
         );
+    }
+    tool::add_free_taps(&mut accel, accel_clock, sensors.free_taps);
+    if let Some(resonance) = sensors.resonance {
+        for axis in &mut accel {
+            *axis = resonance.felt(axis, sensors.accel_hz);
+        }
     }
     let (sin, cos) = libm::sincos(sensors.tilt_rad);
     let turned: Vec<(f64, f64)> = accel[0]
@@ -319,16 +337,21 @@ pub(super) fn write(
     }
     npy.flush()?;
 
-    let mut csv = String::from("time_s,x,y,z\n");
+    let mut csv = String::from(if sensors.has_height {
+        "time_s,x,y,z\n"
+    } else {
+        "time_s,x,y\n"
+    });
     let period_s = (1.0 + sensors.drift[2]) / TICK_HZ;
     for n in 0..measured.position[0].len() {
         let [x, y, z] = [0, 1, 2].map(|axis| measured.position[axis][n]);
         // Writing to a string cannot fail.
-        let _ = writeln!(
-            csv,
-            "{:.6},{x:.4},{y:.4},{z:.4}",
-            n as f64 * period_s + sensors.late_s[2]
-        );
+        let time_s = n as f64 * period_s + sensors.late_s[2];
+        let _ = write!(csv, "{time_s:.6},{x:.4},{y:.4}");
+        if sensors.has_height {
+            let _ = write!(csv, ",{z:.4}");
+        }
+        csv.push('\n');
     }
     fs::write(folder.join("position.csv"), csv)?;
     fs::write(
@@ -345,10 +368,10 @@ fn description(sensors: &Sensors, name: &str, position_unit: &str) -> String {
                     head: &str,
                     quantity: &str,
                     unit: &str,
-                    columns: [&str; 3],
+                    columns: &[&str],
                     more: &str| {
         let _ = writeln!(text, "\n[[file]]\npath = \"{path}\"\n{head}");
-        for (column, axis) in columns.into_iter().zip(["x", "y", "z"]) {
+        for (column, axis) in columns.iter().zip(["x", "y", "z"]) {
             let _ = writeln!(
                 text,
                 "[[file.channel]]\ncolumn = {column}\nquantity = \"{quantity}\"\naxis = \"{axis}\"\nunit = \"{unit}\"\n{more}"
@@ -361,20 +384,21 @@ fn description(sensors: &Sensors, name: &str, position_unit: &str) -> String {
         "",
         "acceleration",
         "m/s^2",
-        ["0", "1", "2"],
+        &["0", "1", "2"],
         &scale,
     );
     let head = format!(
         "rate_hz = {}\nstart_s = {:.6}",
         sensors.force_hz, sensors.late_s[1]
     );
-    file("force.npy", &head, "force", "N", ["0", "1", "2"], "");
+    file("force.npy", &head, "force", "N", &["0", "1", "2"], "");
+    let columns = ["\"x\"", "\"y\"", "\"z\""];
     file(
         "position.csv",
         "clock = \"time_s\"",
         "position",
         position_unit,
-        ["\"x\"", "\"y\"", "\"z\""],
+        &columns[..if sensors.has_height { 3 } else { 2 }],
         "",
     );
     text

@@ -2,11 +2,8 @@
 
 use super::columns::Channel;
 use super::take::{Load, Take, Touch};
-use crate::random::unit;
 use asperity_recording::description::{Axis, Quantity};
 use asperity_recording::signal::quantile::median;
-use rand_core::SeedableRng as _;
-use rand_xoshiro::Xoshiro256PlusPlus;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::ops::Range;
@@ -21,9 +18,6 @@ const GAP: (f64, f64) = (0.005, 3.0);
 const LOST: f64 = 1.75;
 /// Times that differ by less are the same, s.
 const SAME_S: f64 = 1e-8;
-/// Dither on the force of a loop, N. It is exact, and holds one value while a sliding tool does not
-/// sink; a check would take that for a drop-out.
-const DITHER_N: f64 = 0.001;
 /// Shortest recording that is kept, s.
 const LEAST_S: f64 = 1.0;
 
@@ -160,7 +154,6 @@ fn touch(take: &Take, part: &Part, file: &mut impl Write) -> io::Result<()> {
     let tick_s = 1.0 / take.rate_hz();
     let gap_s = GAP.0.max(GAP.1 * tick_s);
     let at_s = |touch: &Touch| 1e-9 * touch.at_ns as f64 - part.begin_s;
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
     let mut row = 0_u64;
     for pair in touches.windows(2) {
         let (from_s, to_s) = (at_s(&pair[0]), at_s(&pair[1]));
@@ -181,8 +174,7 @@ fn touch(take: &Take, part: &Part, file: &mut impl Write) -> io::Result<()> {
             }
             if has_force {
                 for (from, to) in pair[0].force_n.iter().zip(pair[1].force_n) {
-                    let dither_n = DITHER_N * (2.0 * unit(&mut rng) - 1.0);
-                    write!(file, ",{:.5}", between(*from, to) + dither_n)?;
+                    write!(file, ",{:.5}", between(*from, to))?;
                 }
             }
             file.write_all(b"\n")?;

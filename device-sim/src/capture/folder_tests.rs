@@ -112,7 +112,7 @@ fn an_import_reads_names_units_limits_and_the_common_time() {
     assert_eq!((x.samples.len(), x.label.as_str()), (3500, "position x"));
     assert!((f64::from(x.samples[100]) - 5e-5 * 2600.0).abs() < 2e-6);
     let fz = &recording.channels[5];
-    assert!((fz.samples[7] - 0.5).abs() < 0.0011, "{}", fz.samples[7]);
+    assert!((fz.samples[7] - 0.5).abs() < 1e-5, "{}", fz.samples[7]);
     let a = recording.channels.last().expect("acceleration");
     assert!((a.clock.rate_hz - ACCEL_HZ).abs() < 1e-3 && a.clock.start_s.abs() < 1e-3);
     assert!((a.range.expect("limits")[1] - 16.0 * 9.80665).abs() < 1e-9);

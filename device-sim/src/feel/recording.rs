@@ -1,5 +1,6 @@
 //! A session that has run.
 
+use asperity::model::FrictionLaw;
 use asperity_runtime::Counters;
 
 use crate::device::{DeviceConfig, DeviceCounts};
@@ -38,6 +39,8 @@ pub struct TextureFacts {
     pub origin: String,
     /// Coefficient of friction.
     pub mu: f64,
+    /// Its law over speed, if it has one.
+    pub law: Option<FrictionLaw>,
     /// Wall stiffness, N/m.
     pub stiffness_n_m: f64,
     /// Force per vibration, N per m/s².
@@ -46,6 +49,15 @@ pub struct TextureFacts {
     pub grid: (f64, f64),
     /// Remarks that a reader must know: synthetic parts, unconfirmed defaults.
     pub caveats: Vec<String>,
+}
+
+impl TextureFacts {
+    /// Coefficient of friction at a speed, mm/s.
+    #[must_use]
+    pub fn mu_at(&self, speed_mm_s: f64) -> f64 {
+        let factor = self.law.as_ref().map_or(1.0, |l| l.factor_at(speed_mm_s));
+        self.mu * factor
+    }
 }
 
 /// The ticks of one motion of the script.

@@ -95,9 +95,10 @@ impl<'a> Summary<'a> {
             ],
             bands: bands(&contact, recording.tick_s()),
             friction_n: mean(sliding.clone().map(|r| f64::from(r.output.friction_n))),
-            coulomb_n: mean(
-                sliding.map(|r| recording.texture.mu * f64::from(r.output.normal_force_n)),
-            ),
+            coulomb_n: mean(sliding.map(|r| {
+                let (speed, force) = (r.output.speed_mm_s, r.output.normal_force_n);
+                recording.texture.mu_at(speed.into()) * f64::from(force)
+            })),
             taps: taps(recording),
             strokes: strokes(recording),
             peak_n: peak(records.iter().map(|r| norm(force(r)))),

@@ -93,6 +93,7 @@ fn prototype(material: &Material, grid: &UnifiedGrid, speeds_m_s: &[f64]) -> Tex
         friction: Friction {
             mu: material.mu,
             anchors: Vec::new(),
+            law: None,
         },
         wall: Wall {
             stiffness_n_m: material.stiffness_n_m,

@@ -1,17 +1,11 @@
 //! Hands that draw: their trajectories through `render` and over the simulated Touch.
 
-use asperity::{
-    builtin, embedded,
-    inference::Backend,
-    learned::{LearnedModel, texture::build},
-    lower,
-    model::{Provenance, TextureModel},
-    render::render,
-};
+use asperity::{lower, render::render};
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Flags, HostTexture, Limits, Renderer};
 use asperity_sim::{
     axis::Pull,
+    bench,
     device::{Device, DeviceConfig, norm},
     hand::{Grip, GripPreset},
     servo::{RenderedTexture, Servo},
@@ -143,26 +137,6 @@ fn debounce(force_n: &mut [f64]) {
     // No contact before the air was seen.
     let first = force_n.iter().take_while(|f| **f > 0.0).count();
     force_n[..first].fill(0.0);
-}
-
-fn textures() -> Vec<TextureModel> {
-    let model = LearnedModel::load(embedded::model(), &Backend::Portable).expect("the own model");
-    let anchors = &model.description().anchors;
-    let every = anchors.len() / (TEXTURES - 1);
-    let mut textures = vec![builtin::texture()];
-    for anchor in anchors.iter().step_by(every).take(TEXTURES - 1) {
-        let z = anchor.z.clone().try_into().expect("a latent");
-        let decoded = model.decode(&z).expect("the own model");
-        let (texture, _) = build(
-            model.description(),
-            &decoded,
-            &z,
-            anchor.name.clone(),
-            Provenance::default(),
-        );
-        textures.push(texture);
-    }
-    textures
 }
 
 /// What became of a trajectory.
@@ -377,7 +351,8 @@ fn hands_that_draw_feel_no_chatter_and_taps_where_they_land() {
     } else {
         f64::INFINITY
     };
-    let assets: Vec<(Vec<u8>, f64)> = textures()
+    let assets: Vec<(Vec<u8>, f64)> = bench::materials(TEXTURES - 1)
+        .expect("the own model")
         .iter()
         .map(|texture| {
             let lowered = lower::lower(texture, None).expect("an own texture");

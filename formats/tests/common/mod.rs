@@ -9,8 +9,8 @@
 pub mod spec_reader;
 
 use asperity_formats::{
-    Anchor, AssetParts, Coupling, EncodeError, FrictionParts, GridParts, LsfCode, ModelParts,
-    Numerator, Provenance, TapParts, Vertex, VertexKind, encode,
+    Anchor, AssetParts, Coupling, EncodeError, FrictionParts, GridParts, LawPoint, LsfCode,
+    ModelParts, Numerator, Provenance, TapParts, Vertex, VertexKind, encode,
 };
 
 /// LSF codes, MA LSF codes and gain.
@@ -29,6 +29,7 @@ pub struct Parts {
     pub traces: Vec<(f32, Vec<f32>)>,
     pub mu: f32,
     pub anchors: Vec<(String, f32, f32)>,
+    pub law: Vec<LawPoint>,
     pub coupling: Coupling,
     pub provenance: Option<Provenance<'static>>,
     pub preview_png: Option<Vec<u8>>,
@@ -78,6 +79,7 @@ pub fn small() -> Parts {
         traces: vec![(0.1, vec![10.0, -5.0, 0.0]), (0.3, vec![40.0, -20.0, 0.25])],
         mu: 0.5,
         anchors: vec![("Cork 1".into(), 0.5, 1.0)],
+        law: vec![],
         coupling: Coupling {
             stiffness_n_m: 500.0,
             damping_n_s_m: 0.5,
@@ -97,6 +99,16 @@ pub fn small() -> Parts {
             notes: "µ",
         }),
         preview_png: Some(PNG_MAGIC.to_vec()),
+    }
+}
+
+/// [`small`] with friction that falls with speed, hence of version 2.
+pub fn falling() -> Parts {
+    let point = |speed_mm_s, factor| LawPoint::nearest(speed_mm_s, factor).unwrap();
+    Parts {
+        name: "Cork, waxed".into(),
+        law: vec![point(20.0, 1.5), point(60.0, 1.0), point(200.5, 0.625)],
+        ..small()
     }
 }
 
@@ -201,6 +213,7 @@ impl Parts {
             friction: FrictionParts {
                 mu: self.mu,
                 anchors: &anchors,
+                law: &self.law,
             },
             coupling: self.coupling,
             provenance: self.provenance,

@@ -19,6 +19,8 @@ pub struct Plain {
     pub traces: Vec<(f32, Vec<f64>)>,
     pub mu: f32,
     pub anchors: Vec<(String, f32, f32)>,
+    /// Speed (mm/s) and factor.
+    pub law: Vec<(f64, f64)>,
     pub coupling: [f32; 5],
     pub provenance: Option<PlainProvenance>,
     pub preview_png: Option<Vec<u8>>,
@@ -155,6 +157,16 @@ pub fn read(asset: &[u8]) -> Plain {
             (friction.text(usize::from(len)), mu, weight)
         })
         .collect();
+    // In version 2 the law follows.
+    let points = if asset[4] == 2 { friction.u8() } else { 0 };
+    let law = (0..points)
+        .map(|_| {
+            (
+                f64::from(friction.u16()) / 16.0,
+                f64::from(friction.u16()) / 8192.0,
+            )
+        })
+        .collect();
     let mut surface = body(4);
     Plain {
         name: name.text(name.0.len()),
@@ -167,6 +179,7 @@ pub fn read(asset: &[u8]) -> Plain {
         traces,
         mu,
         anchors,
+        law,
         coupling: std::array::from_fn(|_| surface.f32()),
         provenance: ancillary(b"prov").map(|mut prov| PlainProvenance {
             generator: prov.postcard_text(),

@@ -8,7 +8,7 @@ mod others;
 
 use asperity_formats::{Asset, FormatError};
 use common::{
-    put, replace_section, seal, seal_header,
+    falling, put, replace_section, seal, seal_header,
     section::{FRICTION, GRID, NAME, PREVIEW, PROVENANCE, SURFACE, TAPS},
     small, span,
 };
@@ -19,6 +19,8 @@ const VERTEX: usize = MODEL + 2 * 8;
 const TRIANGLE: usize = VERTEX + 5 * 12;
 const TRACE: usize = 8;
 const ANCHOR: usize = 5;
+/// Behind the only anchor.
+const LAW: usize = ANCHOR + 15;
 
 /// What the error must say of a patched field.
 enum Expect {

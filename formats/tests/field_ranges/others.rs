@@ -87,6 +87,69 @@ fn numbers_of_friction_and_surface() {
     rejected_f32(SURFACE, 16, "surface.f_max_n", 0, tiny, 10_000.0);
 }
 
+/// Patches the law of [`falling`], recomputes the CRCs and checks both readers.
+fn rejected_law(at: usize, piece: &[u8], expect: &Expect) {
+    let mut bytes = falling().encode();
+    let (start, len) = span(&bytes, FRICTION);
+    assert!(
+        LAW + at + piece.len() <= len,
+        "the patch leaves its section"
+    );
+    put(&mut bytes, start + LAW + at, piece);
+    seal(&mut bytes);
+    let case = format!("byte {at} of the law = {piece:02x?}");
+    check(Asset::parse(&bytes).expect_err(&case), expect, &case);
+    check(Asset::parse_haptic(&bytes).expect_err(&case), expect, &case);
+}
+
+#[test]
+fn the_law_of_friction() {
+    for count in [0, 1, 9, 255] {
+        rejected_law(0, &[count], &Invalid("friction.law.count", 0, count.into()));
+    }
+    rejected_law(0, &[4], &Short("friction.law.points", 16, 12));
+    rejected_law(0, &[2], &Long("friction", LAW as u64 + 9, LAW as u64 + 13));
+    // Speeds ascend strictly: point 1 at 20 mm/s, then below it.
+    for (code, speed_mm_s) in [(320_u16, 20.0), (319, 19.9375), (0, 0.0)] {
+        let wrong = Invalid("friction.law.speed_mm_s", 1, speed_mm_s);
+        rejected_law(5, &code.to_le_bytes(), &wrong);
+    }
+    // At point 2, what point 1 has.
+    let wrong = Invalid("friction.law.speed_mm_s", 2, 60.0);
+    rejected_law(9, &960_u16.to_le_bytes(), &wrong);
+    // μ is 0.5: any factor is within 10. With μ = 2 those above 5 are not.
+    let mut bytes = falling().encode();
+    let (start, _) = span(&bytes, FRICTION);
+    put(&mut bytes, start, &2.0_f32.to_le_bytes());
+    put(&mut bytes, start + LAW + 3, &40_960_u16.to_le_bytes());
+    seal(&mut bytes);
+    assert!(Asset::parse(&bytes).is_ok(), "2·5 is 10");
+    put(&mut bytes, start + LAW + 3, &40_961_u16.to_le_bytes());
+    seal(&mut bytes);
+    let wrong = Invalid("friction.law.factor", 0, 40_961.0 / 8192.0);
+    check(
+        Asset::parse(&bytes).unwrap_err(),
+        &wrong,
+        "2 times more than 5",
+    );
+}
+
+#[test]
+fn a_law_of_another_length() {
+    let original = falling().encode();
+    let (start, len) = span(&original, FRICTION);
+    let body = original[start..start + len].to_vec();
+    for shorter in 0..len {
+        let mut bytes = original.clone();
+        replace_section(&mut bytes, FRICTION, &body[..shorter]);
+        let error = Asset::parse(&bytes).unwrap_err();
+        assert!(
+            matches!(error, FormatError::TooShort { .. }),
+            "{shorter} bytes: {error:?}"
+        );
+    }
+}
+
 #[test]
 fn texts() {
     for (section, at, field) in [
@@ -243,12 +306,12 @@ fn fields_of_the_header() {
             expected: *b"ASPT"
         }
     );
-    for version in [0_u16, 2, 65535] {
+    for version in [0_u16, 3, 65535] {
         assert_eq!(
             patched(4, &version.to_le_bytes()),
             FormatError::Version {
                 found: version,
-                supported: 1
+                supported: 2
             }
         );
     }

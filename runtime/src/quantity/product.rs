@@ -49,6 +49,7 @@ products! {
     NewtonPerMetre * Metre = Newton, at most STRONGEST_N;
     NewtonPerMetre * Second = NewtonSecondPerMetre, at most 16_384.0;
     NewtonSecondPerMetre * MetrePerSecond = Newton, at most STRONGEST_N;
+    FrictionCoefficient * FrictionFactor = FrictionCoefficient, at most 10.0;
     FrictionCoefficient * Newton = Newton;
     Newton * MetrePerNewton = Metre, at most 1.0;
     BristleNewtonPerMetre * Metre = Newton, at most 32_000.0;

@@ -46,6 +46,7 @@ units! {
     Kilogram                 U24 "Effective masses, kg: ±128 kg, 0.06 mg.";
     SecondSquaredPerMetre    U20 "Gain of the vibration before F_max, s²/m: ±2,048, 10⁻⁶.";
     FrictionCoefficient      U20 "Coefficient of kinetic friction μ: ±2,048, 10⁻⁶.";
+    FrictionFactor           U28 "Factor of μ at a speed: ±8, 4·10⁻⁹.";
     VibrationAcceleration    U16 "Samples of the vibration, m/s²: ±32,768 m/s², 15 µm/s².";
     TapAcceleration          U10 "Samples of a tap, m/s²: ±2·10⁶ m/s², 1 mm/s².";
     ExcitationLevel          U20 "gain·σ, m/s²: ±2,048 m/s², 1 µm/s².";

@@ -7,6 +7,7 @@
 pub mod contact;
 pub mod excitation;
 pub mod friction;
+pub(crate) mod friction_law;
 pub mod gate;
 pub mod limiter;
 pub mod passivity;

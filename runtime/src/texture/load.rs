@@ -88,6 +88,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
             id.rotate_left(5) ^ section.crc32
         });
         self.coupling = Coupling::new(asset.coupling(), asset.friction().mu());
+        self.law.load(asset.friction().law());
         self.recursion = Recursion::new(grid.ar_order(), grid.ma_order());
         self.load_models(grid);
         self.plan = Plan::new(&self.models, ticks);

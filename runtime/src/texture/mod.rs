@@ -18,9 +18,10 @@ use crate::{
     },
     quantity::{
         Quantity,
-        unit::{MillimetrePerSecond, Newton},
+        unit::{FrictionCoefficient, MillimetrePerSecond, Newton},
     },
     stage::{
+        friction_law::{FactorLookup, FrictionLaw},
         recursion::{InnerProduct, Recursion},
         tap::interpolation::TapBank,
         upsample::Upsampler,
@@ -40,6 +41,7 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
     pub(crate) plan: Plan,
     pub(crate) taps: TapBank<S, A>,
     pub(crate) coupling: Coupling<A>,
+    pub(crate) law: FrictionLaw,
     id: u32,
     recursion: Recursion,
     upsampler: Upsampler<A>,
@@ -65,6 +67,7 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         plan: Plan::NONE,
         taps: TapBank::EMPTY,
         coupling: Coupling::NONE,
+        law: FrictionLaw::NONE,
         id: 0,
         recursion: Recursion::new(0, 0),
         upsampler: Upsampler::NONE,
@@ -93,6 +96,7 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         self.plan = Plan::NONE;
         self.taps = TapBank::EMPTY;
         self.coupling = Coupling::NONE;
+        self.law = FrictionLaw::NONE;
         self.id = 0;
         self.recursion = Recursion::new(0, 0);
         self.upsampler = Upsampler::NONE;
@@ -124,7 +128,7 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         self.coupling.values()
     }
 
-    /// Coefficient of kinetic friction.
+    /// Coefficient of kinetic friction; where it depends on speed, what the factors multiply.
     #[must_use]
     pub fn mu(&self) -> f32 {
         self.coupling.mu.value()
@@ -182,5 +186,22 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
     #[inline]
     pub(crate) const fn upsampler(&self) -> &Upsampler<A> {
         &self.upsampler
+    }
+}
+
+impl<S: Capacity, A: WeightSearch + FactorLookup> Texture<S, A> {
+    /// Coefficient of kinetic friction at a tangential speed, mm/s.
+    #[must_use]
+    pub fn mu_at(&self, speed_mm_s: f32) -> f32 {
+        self.friction_at(Quantity::of(speed_mm_s)).value()
+    }
+
+    /// μ(v).
+    #[inline(always)]
+    pub(crate) fn friction_at(
+        &self,
+        speed: Quantity<A, MillimetrePerSecond>,
+    ) -> Quantity<A, FrictionCoefficient> {
+        self.law.of(self.coupling.mu, speed)
     }
 }

@@ -34,6 +34,8 @@ pub struct Oracle {
     texture: Texture,
     bank: Bank,
     mu: f64,
+    /// Speeds, mm/s, and factors of μ.
+    law: Vec<(f64, f64)>,
     coupling: asperity_formats::Coupling,
     // Gate.
     bad_in_a_row: u32,
@@ -81,6 +83,12 @@ impl Oracle {
             texture: Texture::new(asset),
             bank: Bank::new(asset.taps(), rate),
             mu: asset.friction().mu().into(),
+            law: asset.friction().law().map_or(Vec::new(), |law| {
+                let points = law.points();
+                points
+                    .map(|p| (p.speed_mm_s().into(), p.factor().into()))
+                    .collect()
+            }),
             coupling: *asset.coupling(),
             bad_in_a_row: 0,
             seen: false,
@@ -148,7 +156,14 @@ impl Oracle {
         let normal_force = stiffness * depth;
         let vib = self.vibration(speed * 1000.0, normal_force, touching && !safe);
         let tap = f64::from(self.coupling.effective_mass_kg) * self.tap(distance);
-        let friction = self.friction(tangential, motion, normal_force, touching);
+        let mu = self.mu * self.factor(speed * 1000.0);
+        let friction = self.friction(
+            tangential,
+            motion,
+            mu * normal_force,
+            normal_force,
+            touching,
+        );
 
         let damped = normal_force - damping * outward;
         let wall = if touching { damped.max(0.0) } else { 0.0 };
@@ -336,6 +351,24 @@ impl Oracle {
         self.transient.pop_front().unwrap_or(0.0)
     }
 
+    /// The factor of μ at a speed: straight lines between the points of the law, constant outside.
+    fn factor(&self, speed_mm_s: f64) -> f64 {
+        let Some((first, last)) = self.law.first().zip(self.law.last()) else {
+            return 1.0;
+        };
+        for pair in self.law.windows(2) {
+            let ((slow, above), (fast, below)) = (pair[0], pair[1]);
+            if (slow..fast).contains(&speed_mm_s) {
+                return above + (below - above) * (speed_mm_s - slow) / (fast - slow);
+            }
+        }
+        if speed_mm_s < first.0 {
+            first.1
+        } else {
+            last.1
+        }
+    }
+
     /// The bristle with deflection d. Each tick keeps the fraction 1/(1 + T/τ) of it, with
     /// τ = F_n/(k·v_c), and |d| is at most μF/k + h. Beyond the dead zone h the force is
     /// k(|d| − h + lead), at most μF, against the deflection. The lead is the motion along d
@@ -344,6 +377,7 @@ impl Oracle {
         &mut self,
         tangential: impl Fn(Vector) -> Vector,
         motion: Vector,
+        limit: f64,
         normal_force: f64,
         touching: bool,
     ) -> Vector {
@@ -355,7 +389,6 @@ impl Oracle {
             self.bristle = [0.0; 3];
             return self.bristle;
         }
-        let limit = self.mu * normal_force;
         let time_constant = normal_force / (k * f64::from(self.config.friction.leak_speed_m_s));
         let leak = 1.0 / (time_constant * f64::from(self.config.servo_rate_hz));
         let motion = tangential(motion);

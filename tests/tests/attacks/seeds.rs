@@ -4,7 +4,8 @@ use crate::{recording, support::builtin};
 use asperity::interchange::{ClipFormat, Options, export, session};
 use asperity_diffusion::tiny;
 use asperity_formats::{SceneSurface, Solid, library};
-use asperity_tests::texture::{Kind, random};
+use asperity_tests::draw::Draw;
+use asperity_tests::texture::{Kind, random, random_law};
 use std::{fmt::Write as _, fs, os::unix::fs::symlink, path::Path};
 use tempfile::TempDir;
 
@@ -139,7 +140,9 @@ const PROFILE: &str = concat!(
 impl Seeds {
     pub(crate) fn new() -> Self {
         let asset = builtin();
-        let other = random(1, Kind::nyquist(4)).encode();
+        let mut other = random(1, Kind::nyquist(4));
+        other.law = random_law(&mut Draw::new(1), 200.0, 2.0);
+        let other = other.encode();
         let named = [("a", &asset[..]), ("b", &other[..])];
         let shipped = tempfile::tempdir().expect("a folder");
         for (name, bytes) in asperity_model::FOLDER {

@@ -124,19 +124,38 @@ class FrictionAnchor:
 
 
 @dataclass(frozen=True)
+class LawPoint:
+    """A point of a law of friction over speed.
+
+    Attributes
+    ----------
+    speed_mm_s : float
+        Tangential speed, mm/s.
+    factor : float
+        Factor of ``Friction.mu`` at that speed.
+    """
+
+    speed_mm_s: float
+    factor: float
+
+
+@dataclass(frozen=True)
 class Friction:
-    """Coulomb friction.
+    """Coulomb friction, or friction that depends on speed.
 
     Attributes
     ----------
     mu : float
-        Coefficient of kinetic friction.
+        Coefficient of kinetic friction; with a law, what its factors multiply.
     anchors : list of FrictionAnchor
         What it was interpolated from; may be empty.
+    law : list of LawPoint or None
+        How friction depends on speed: straight lines between the points, constant outside.
     """
 
     mu: float
     anchors: List[FrictionAnchor]
+    law: Optional[List[LawPoint]] = None
 
 
 @dataclass(frozen=True)
@@ -374,6 +393,7 @@ __all__: List[str] = [
     "FrictionAnchor",
     "Gains",
     "Grid",
+    "LawPoint",
     "Provenance",
     "Rendered",
     "Sizes",

@@ -1,7 +1,10 @@
 //! Clipping, drop-outs and impossible values of one channel.
 
 use super::verdict::{Finding, Kind, Severity};
-use crate::{channel::Channel, description::Quantity};
+use crate::{
+    channel::{Channel, Run},
+    description::Quantity,
+};
 use std::ops::Range;
 
 /// Visits to an extreme that are clipping, and samples of them.
@@ -17,8 +20,12 @@ const AT_REST: f64 = 0.3;
 const INSIDE: f32 = 3.0;
 /// Shortest run of one value that is a drop-out, s and samples.
 const LEAST_HELD: (f64, f64) = (0.004, 8.0);
-/// A step as many times the 99 % quantile of steps ends a drop-out of a slow signal.
+/// A step as many times the 99 % quantile of steps ends a drop-out of a signal that repeats itself.
 const LARGE_STEP: f64 = 4.0;
+/// A signal that comes to rest by itself does so in a step of less than this part of its median one.
+const SMALL_STEP: f64 = 0.1;
+/// A value that is held for this part of all samples is where a channel rests.
+const USUAL: f64 = 0.05;
 /// A step as many times the 99 % quantile of steps, there and back, is a spike of a motion.
 const SPIKE: f64 = 6.0;
 /// Part of the samples in runs above which a channel is coarse.
@@ -220,21 +227,43 @@ fn visits(samples: &[f32], value: f32) -> Vec<Range<u64>> {
 }
 
 /// Stretches at which a value is held that should move.
+///
+/// A signal with noise never repeats itself for long, so whatever it holds is a drop-out. A channel that
+/// is coarse, or a force that a device renders, repeats itself while nothing moves: it comes to rest or
+/// leaves it in steps as small as it makes. There a drop-out is what jumps further than the signal ever
+/// does: the value that was held is no longer that of the world.
 fn held(channel: &Channel) -> Vec<Range<u64>> {
     let numbers = &channel.numbers;
     let (least_s, least_samples) = LEAST_HELD;
     let least = least_samples.max(least_s * channel.clock.rate_hz);
+    let is_long = |run: &&Run| run.length as f64 >= least;
+    let long = || numbers.runs.iter().filter(is_long);
     let coarse = numbers.in_runs as f64 > COARSE * numbers.count as f64;
-    let slow = matches!(channel.quantity, Quantity::Position | Quantity::Speed) || coarse;
+    let small = (SMALL_STEP * numbers.steps.quantile(0.5)).max(1.2 * numbers.steps.quantile(0.001));
+    let rests = long()
+        .filter(|run| run.jump_before.min(run.jump_after) <= small)
+        .count();
+    let repeats = matches!(channel.quantity, Quantity::Position | Quantity::Speed)
+        || coarse
+        || 2 * rests >= long().count();
     let large = LARGE_STEP * numbers.steps.quantile(0.99);
-    numbers
-        .runs
-        .iter()
-        .filter(|run| run.length as f64 >= least)
-        .filter(|run| {
-            slow || (run.value != numbers.min && run.value != numbers.max) || run.value == 0.0
-        })
-        .filter(|run| !slow || run.jump_after > large)
+    // Where a channel often is, it may be at rest until something strikes it: a force in the air.
+    let is_usual = |run: &Run| {
+        let there: u64 = long()
+            .filter(|other| other.value == run.value)
+            .map(|other| other.length)
+            .sum();
+        run.start == 0 || there as f64 > USUAL * numbers.count as f64
+    };
+    let is_held = |run: &&Run| {
+        if repeats {
+            run.jump_after > large && (run.jump_before > large || !is_usual(run))
+        } else {
+            run.value == 0.0 || (run.value != numbers.min && run.value != numbers.max)
+        }
+    };
+    long()
+        .filter(is_held)
         .map(|run| run.start..run.start + run.length)
         .collect()
 }
@@ -242,6 +271,11 @@ fn held(channel: &Channel) -> Vec<Range<u64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        channel::Numbers,
+        description::Axis,
+        signal::{noise::white, resample::Clock},
+    };
 
     #[test]
     fn sines_do_not_stand_out() {
@@ -280,5 +314,105 @@ mod tests {
             .collect();
         let top = cut.iter().copied().fold(0.0, f32::max);
         assert!(stands_out(&cut, top));
+    }
+
+    const RATE_HZ: f64 = 1000.0;
+
+    /// A force along z of 8 s.
+    fn force(value: impl Fn(usize) -> f64) -> Channel {
+        let mut numbers = Numbers::default();
+        let samples: Vec<f32> = (0..8000)
+            .map(|n| numbers.take(value(n), n as u64) as f32)
+            .collect();
+        numbers.finish();
+        Channel {
+            label: "force z".into(),
+            file: "force.csv".into(),
+            quantity: Quantity::Force,
+            axis: Axis::Z,
+            range: None,
+            clock: Clock {
+                start_s: 0.0,
+                rate_hz: RATE_HZ,
+            },
+            samples,
+            numbers,
+        }
+    }
+
+    /// In the air for a second, then two seconds on the surface, in turn. A landing is a step, and a
+    /// hand lifts the tool in 20 ms.
+    fn load(n: usize) -> f64 {
+        let t_s = n as f64 / RATE_HZ;
+        let since_s = t_s % 3.0 - 1.0;
+        if since_s < 0.0 {
+            return 0.0;
+        }
+        let pressed = 1.2 + 0.5 * libm::sin(5.0 * t_s) + 0.1 * libm::sin(700.0 * t_s);
+        pressed * ((2.0 - since_s) / 0.02).min(1.0)
+    }
+
+    /// Held at a value from one sample of some tens of milliseconds on.
+    fn stuck(signal: &[f64], at: impl Fn(f64) -> f64) -> Vec<f64> {
+        let mut signal = signal.to_vec();
+        for start in [1700, 4300, 4900] {
+            let value = at(signal[start]);
+            signal[start..start + 60].fill(value);
+        }
+        signal
+    }
+
+    #[test]
+    fn a_noisy_sensor_that_repeats_itself_is_stuck() {
+        let noise = white(3, 8000, 12);
+        for level in [0.0, 1.0] {
+            let sensor: Vec<f64> = (0..8000)
+                .map(|n| level * load(n) + 0.005 * noise[n])
+                .collect();
+            assert!(held(&force(|n| sensor[n])).is_empty());
+            for values in [stuck(&sensor, |x| x), stuck(&sensor, |_| 0.0)] {
+                assert_eq!(held(&force(|n| values[n])).len(), 3, "{level}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_coarse_sensor_may_repeat_itself_and_may_not_stand_still_while_the_load_goes_on() {
+        let noise = white(4, 8000, 12);
+        // From a step as small as the noise to one in which a stroke is hardly seen.
+        for step in [0.005, 0.02, 0.1] {
+            let round = |x: f64| (x / step).round() * step;
+            let sensor: Vec<f64> = (0..8000)
+                .map(|n| round(load(n) + 0.003 * noise[n]))
+                .collect();
+            assert!(held(&force(|n| sensor[n])).is_empty(), "{step}");
+            // A cable that is loose while the tool presses.
+            let values = stuck(&sensor, |_| -0.5);
+            assert_eq!(held(&force(|n| values[n])).len(), 3, "{step}");
+        }
+    }
+
+    #[test]
+    fn a_rendered_force_rests_in_the_air_and_where_the_tool_does_not_sink() {
+        // A depth in steps of a count, vibration while the tool moves, and neither in the air.
+        let rendered = |n: usize| {
+            let t_s = n as f64 / RATE_HZ;
+            let moves = libm::sin(0.9 * t_s) > 0.2;
+            let depth = ((2.0 * libm::sin(1.3 * t_s) - 0.4) / 0.03).round() * 0.03;
+            let vibration = if moves {
+                0.05 * libm::sin(411.0 * t_s)
+            } else {
+                0.0
+            };
+            if depth > 0.0 { depth + vibration } else { 0.0 }
+        };
+        assert!(held(&force(rendered)).is_empty());
+        // Frozen while it presses, 0.4 N from where it goes on.
+        let frozen = |n: usize| match n {
+            700..900 => 2.9,
+            _ => rendered(n),
+        };
+        let found = held(&force(frozen));
+        assert_eq!((found.len(), found.first()), (1, Some(&(700..900))));
     }
 }

@@ -9,8 +9,8 @@ const LEAST: (f64, f64) = (0.06, 8.0);
 /// RMS of Gaussian noise over the median of its size.
 const RMS_OF_MEDIAN: f64 = 1.4826;
 
-/// Samples of the timeline at which the load begins after a time in the air.
-pub(super) fn landings(timeline: &Timeline) -> Vec<usize> {
+/// Whether the load before it is smoothed shows a contact.
+pub(crate) fn touches(timeline: &Timeline) -> Vec<bool> {
     let load = &timeline.unsmoothed_load_n;
     let in_air = || {
         load.iter()
@@ -21,10 +21,15 @@ pub(super) fn landings(timeline: &Timeline) -> Vec<usize> {
     let rest = median(in_air());
     let noise = RMS_OF_MEDIAN * median(in_air().map(|load| (load - rest).abs()));
     let threshold = rest + LEAST.0.max(LEAST.1 * noise);
+    load.iter().map(|load| *load > threshold).collect()
+}
+
+/// Samples of the timeline at which a contact begins after a time in the air.
+pub(super) fn landings(timeline: &Timeline, touches: &[bool]) -> Vec<usize> {
     let mut air = 0;
     let mut found = Vec::new();
-    for (n, &load) in load.iter().enumerate() {
-        if load > threshold {
+    for (n, touches) in touches.iter().enumerate() {
+        if *touches {
             if air >= IN_AIR && timeline.good[n] {
                 found.push(n);
             }

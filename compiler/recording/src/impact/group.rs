@@ -158,6 +158,7 @@ mod tests {
         Impact {
             at_s: 0.0,
             speed_m_s,
+            integrated_m_s: None,
             accel_m_s2,
         }
     }

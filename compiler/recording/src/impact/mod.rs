@@ -2,21 +2,25 @@
 //!
 //! The load before it is smoothed tells when the tool lands. Near that, the acceleration is the
 //! transient on top of what the hand does (see the module `baseline`), and the transient begins where
-//! it leaves the noise. The speed is the steepest slope of the height just before.
+//! it leaves the noise. The speed is that of the height just before, or that of the integrated
+//! acceleration (see the module `speed`).
 
 mod baseline;
 mod contact;
 mod group;
+mod speed;
 mod trace;
 
+pub(crate) use contact::touches;
 pub use group::transients;
 
 use crate::{
     description::{Axis, Quantity},
     reader::Recording,
-    signal::resample::Clock,
-    timeline::{RATE_HZ, Timeline},
+    signal::{quantile::median, resample::Clock},
+    timeline::Timeline,
 };
+use serde::Serialize;
 
 /// Rate of the transients, Hz.
 pub const TAP_RATE_HZ: f64 = 10_000.0;
@@ -24,20 +28,55 @@ pub const TAP_RATE_HZ: f64 = 10_000.0;
 pub const TAP_SAMPLES: usize = 100;
 /// Slowest and fastest impact, m/s.
 const SPEEDS_M_S: (f64, f64) = (0.02, 2.0);
-/// Samples of height that give the speed: the last ones before contact.
-const SLOPE: usize = 12;
-/// The height's clock may be off by so many samples before and after the onset.
-const CLOCK: (usize, usize) = (4, 2);
 
 /// One impact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Impact {
     /// When, s.
     pub at_s: f64,
-    /// Speed towards the surface, m/s.
+    /// Speed towards the surface, m/s: by the height, or integrated where no height was recorded.
     pub speed_m_s: f64,
+    /// The same by the integrated acceleration along z, m/s, where that can be told.
+    pub integrated_m_s: Option<f64>,
     /// Acceleration from the onset, m/s², at [`TAP_RATE_HZ`].
     pub accel_m_s2: Vec<f64>,
+}
+
+/// Where impact speeds come from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SpeedSource {
+    /// `position` or `acceleration`.
+    pub source: &'static str,
+    /// Impacts whose speed both tell.
+    pub by_both: usize,
+    /// Median over these of the integrated speed over that of the position, less one.
+    pub integrated_over_position: Option<f64>,
+    /// Median size of the same.
+    pub apart: Option<f64>,
+}
+
+impl SpeedSource {
+    /// That of the impacts of a timeline.
+    #[must_use]
+    pub fn new(timeline: &Timeline, impacts: &[Impact]) -> Self {
+        let has_height = timeline.height_m.is_some();
+        let ratios: Vec<f64> = impacts
+            .iter()
+            .filter(|_| has_height)
+            .filter_map(|impact| Some(impact.integrated_m_s? / impact.speed_m_s - 1.0))
+            .collect();
+        let of_some = |value: f64| (!ratios.is_empty()).then_some(value);
+        Self {
+            source: if has_height {
+                "position"
+            } else {
+                "acceleration"
+            },
+            by_both: ratios.len(),
+            integrated_over_position: of_some(median(ratios.iter().copied())),
+            apart: of_some(median(ratios.iter().map(|x| x.abs()))),
+        }
+    }
 }
 
 /// A transient for an impact speed.
@@ -63,6 +102,13 @@ pub fn impacts(recording: &Recording, timeline: &Timeline, late_s: f64) -> Vec<I
             .iter()
             .find(|c| c.quantity == Quantity::Acceleration && c.axis == axis)
     };
+    let normal = recording
+        .channels
+        .iter()
+        .filter(|c| c.quantity == Quantity::Acceleration)
+        .position(|c| c.axis == Axis::Z)
+        .and_then(|axis| timeline.accel_m_s2.get(axis));
+    let touches = contact::touches(timeline);
     let Some(channel) = accel(Axis::Z).or_else(|| accel(Axis::Along)) else {
         return Vec::new();
     };
@@ -70,41 +116,26 @@ pub fn impacts(recording: &Recording, timeline: &Timeline, late_s: f64) -> Vec<I
         start_s: channel.clock.start_s - late_s,
         ..channel.clock
     };
-    contact::landings(timeline)
+    contact::landings(timeline, &touches)
         .into_iter()
         .filter_map(|sample| {
             let landing_s = timeline.clock.time_s(sample as f64);
             let trace = trace::trace(&channel.samples, own, landing_s)?;
-            let speed_m_s = speed_by_height(timeline, trace.at_s)?;
+            let integrated_m_s = normal.and_then(|accel_m_s2| {
+                speed::by_acceleration(accel_m_s2, &touches, sample, trace.at_s, timeline)
+            });
+            let speed_m_s = match timeline.height_m {
+                Some(_) => speed::by_height(timeline, trace.at_s),
+                None => integrated_m_s,
+            }?;
             (SPEEDS_M_S.0..SPEEDS_M_S.1)
                 .contains(&speed_m_s)
                 .then_some(Impact {
                     at_s: trace.at_s,
                     speed_m_s,
+                    integrated_m_s,
                     accel_m_s2: trace.accel_m_s2,
                 })
         })
         .collect()
-}
-
-/// Speed towards the surface by the least-squares slope of the height before an instant: the steepest
-/// of those that the uncertainty of the clock allows.
-fn speed_by_height(timeline: &Timeline, at_s: f64) -> Option<f64> {
-    let height = timeline.height_m.as_ref()?;
-    let onset = timeline.clock.sample(at_s).max(0.0) as usize;
-    let centre = (SLOPE as f64 - 1.0) / 2.0;
-    let norm: f64 = (0..SLOPE).map(|k| (k as f64 - centre).powi(2)).sum();
-    let slope = |end: usize| -> Option<f64> {
-        let start = end.checked_sub(SLOPE)?;
-        let stretch = height.get(start..end)?;
-        let product: f64 = stretch
-            .iter()
-            .enumerate()
-            .map(|(k, h)| (k as f64 - centre) * h)
-            .sum();
-        Some(-product / norm * RATE_HZ)
-    };
-    (onset.saturating_sub(CLOCK.0)..=onset + CLOCK.1)
-        .filter_map(slope)
-        .reduce(f64::max)
 }

@@ -13,8 +13,8 @@ pub use summary::ErrorSummary;
 use crate::model::{Numerator, TextureModel, VertexKind, mesh};
 use asperity_formats as formats;
 use asperity_formats::{
-    Anchor, AssetParts, Coupling, EncodeError, FrictionParts, GridParts, ModelParts, TapParts,
-    limits,
+    Anchor, AssetParts, Coupling, EncodeError, FormatError, FrictionParts, GridParts, ModelParts,
+    TapParts, limits,
 };
 use table::ModelTable;
 use trace::quantise_trace;
@@ -94,6 +94,7 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
             weight: anchor.weight as f32,
         })
         .collect();
+    let law = law(texture)?;
     let lsf_error = ErrorSummary::of(&table.errors_db);
     let provenance = &texture.provenance;
     let parts = AssetParts {
@@ -118,6 +119,7 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
         friction: FrictionParts {
             mu: texture.friction.mu as f32,
             anchors: &anchors,
+            law: &law,
         },
         coupling: Coupling {
             stiffness_n_m: texture.wall.stiffness_n_m as f32,
@@ -153,6 +155,35 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
     })
 }
 
+/// The points of the law of friction, in codes.
+fn law(texture: &TextureModel) -> Result<Vec<formats::LawPoint>, EncodeError> {
+    let points = texture.friction.law.iter().flat_map(|law| &law.points);
+    points
+        .enumerate()
+        .map(|(index, point)| {
+            let code = formats::LawPoint::nearest(point.speed_mm_s, point.factor);
+            code.ok_or_else(|| {
+                let faster = formats::LawPoint::nearest(point.speed_mm_s, 1.0).is_none();
+                let (field, value, rule) = if faster {
+                    (
+                        "friction.law.speed_mm_s",
+                        point.speed_mm_s,
+                        "0 to 4095.9 mm/s",
+                    )
+                } else {
+                    ("friction.law.factor", point.factor, "0 to 7.9999")
+                };
+                EncodeError::Rejected(FormatError::Invalid {
+                    field,
+                    index: index as u32,
+                    value,
+                    rule,
+                })
+            })
+        })
+        .collect()
+}
+
 /// Checks the counts that a byte of the format would silently wrap.
 fn check_counts(texture: &TextureModel) -> Result<(), LowerError> {
     let samples = texture
@@ -174,6 +205,11 @@ fn check_counts(texture: &TextureModel) -> Result<(), LowerError> {
         ("AR order", texture.grid.order, limits::MAX_ORDER),
         ("tap traces", texture.taps.traces.len(), limits::MAX_TAPS),
         ("samples of a tap trace", samples, limits::MAX_TAP_SAMPLES),
+        (
+            "points of the law of friction",
+            texture.friction.law.as_ref().map_or(0, |l| l.points.len()),
+            limits::MAX_LAW_POINTS,
+        ),
         (
             "friction anchors",
             texture.friction.anchors.len(),

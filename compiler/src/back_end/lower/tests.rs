@@ -2,7 +2,11 @@
 
 use super::*;
 use crate::{
-    front_ends::builtin, model::GridVertex, passes::triangulate, signal::spectrum::ArmaModel,
+    back_end::raise::raise,
+    front_ends::builtin,
+    model::{FrictionLaw, GridVertex, LawPoint},
+    passes::triangulate,
+    signal::spectrum::ArmaModel,
     signal::spectrum::log_spectral_distance_db,
 };
 use proptest::prelude::*;
@@ -102,6 +106,51 @@ fn the_builtin_texture_is_within_the_same_bounds_and_comes_back() {
         lower(&raised, None).unwrap().haptic_bytes,
         lowered.haptic_bytes
     );
+}
+
+#[test]
+fn a_law_of_friction_comes_back_within_a_code_and_is_of_version_2() {
+    let mut texture = builtin::texture();
+    let plain = lower(&texture, None).unwrap().bytes;
+    assert_eq!(plain[4..6], [1, 0]);
+    let point = |speed_mm_s, factor| LawPoint { speed_mm_s, factor };
+    let law = FrictionLaw {
+        points: vec![point(20.02, 1.50004), point(61.3, 1.0), point(199.99, 0.6)],
+    };
+    texture.friction.law = Some(law.clone());
+    let bytes = lower(&texture, None).unwrap().bytes;
+    assert_eq!(bytes[4..6], [2, 0]);
+    // A byte of count and four a point.
+    assert_eq!(bytes.len(), plain.len() + 13);
+    let back = raise(&formats::Asset::parse(&bytes).unwrap()).friction;
+    let found = back.law.expect("a law").points;
+    for (found, stated) in found.iter().zip(&law.points) {
+        assert!((found.speed_mm_s - stated.speed_mm_s).abs() <= 0.5 / 16.0);
+        assert!((found.factor - stated.factor).abs() <= 0.5 / 8192.0);
+    }
+    for (points, names) in [
+        (
+            vec![point(20.0, 1.0), point(5000.0, 1.0)],
+            "friction.law.speed_mm_s[1] = 5000",
+        ),
+        (
+            vec![point(20.0, f64::NAN), point(50.0, 1.0)],
+            "friction.law.factor[0] = NaN",
+        ),
+        (
+            vec![point(20.0, 1.0), point(20.001, 2.0)],
+            "friction.law.speed_mm_s[1] = 20",
+        ),
+        (vec![point(20.0, 1.0)], "friction.law.count[0] = 1"),
+        (
+            vec![point(20.0, 1.0); 9],
+            "points of the law of friction: 9",
+        ),
+    ] {
+        texture.friction.law = Some(FrictionLaw { points });
+        let error = lower(&texture, None).unwrap_err().to_string();
+        assert!(error.contains(names), "{error}");
+    }
 }
 
 #[test]

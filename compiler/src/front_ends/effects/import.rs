@@ -207,6 +207,7 @@ fn texture(
         friction: Friction {
             mu: options.mu,
             anchors: Vec::new(),
+            law: None,
         },
         wall: defaults::wall(),
         gains,

@@ -67,6 +67,7 @@ pub fn to_model(material: &Material, source: &str, source_crc32: u32) -> Texture
                 mu: material.mu,
                 weight: 1.0,
             }],
+            law: None,
         },
         wall: defaults::wall(),
         gains,

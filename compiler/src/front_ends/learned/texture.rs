@@ -65,6 +65,7 @@ pub fn build(
                     }
                 })
                 .collect(),
+            law: None,
         },
         wall: Wall {
             stiffness_n_m: friction::stiffness_n_m(&neighbours, &description.anchors),

@@ -6,8 +6,8 @@ use super::{
 };
 use crate::{
     model::{
-        self, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace, TextureModel, Wall,
-        defaults, mesh,
+        self, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace,
+        TextureModel, Wall, defaults, mesh,
     },
     passes::triangulate,
     signal::tap_synthesis,
@@ -17,6 +17,9 @@ use std::f64::consts::PI;
 
 /// Bytes of a text of the provenance at most, so that an asset holds all of them.
 const MAX_TEXT_BYTES: usize = 3072;
+/// Fastest point of a law of friction, mm/s, and its largest factor: the last codes of an asset.
+const FASTEST_OF_LAW_MM_S: f32 = 4095.9375;
+const HIGHEST_FACTOR: f32 = 7.999_878;
 
 /// The model of a document.
 ///
@@ -249,10 +252,30 @@ fn friction(stated: Friction) -> Result<model::Friction, Fault> {
         in_range(&field("mu"), anchor.mu, (0.0, limits::MAX_MU))?;
         in_range(&field("weight"), anchor.weight, (0.0, 1.0))?;
     }
+    if let Some(law) = &stated.law {
+        self::law(law, stated.mu)?;
+    }
     Ok(model::Friction {
         mu: stated.mu,
         anchors: stated.anchors,
+        law: stated.law,
     })
+}
+
+fn law(law: &FrictionLaw, mu: f64) -> Result<(), Fault> {
+    let points = (limits::MIN_LAW_POINTS, limits::MAX_LAW_POINTS);
+    length("friction.law", law.points.len(), points.0, points.1)?;
+    let mut slowest = 0.0;
+    for (index, point) in law.points.iter().enumerate() {
+        let field = |key: &str| format!("friction.law[{index}].{key}");
+        // The codes of an asset are 1/16 mm/s apart.
+        let speed = (slowest as f32, FASTEST_OF_LAW_MM_S);
+        in_range(&field("speed_mm_s"), point.speed_mm_s, speed)?;
+        slowest = point.speed_mm_s + 1.0 / 16.0;
+        let highest = (f64::from(limits::MAX_MU) / mu).min(f64::from(HIGHEST_FACTOR));
+        in_range(&field("factor"), point.factor, (0.0, highest as f32))?;
+    }
+    Ok(())
 }
 
 fn wall(stated: Wall) -> Result<Wall, Fault> {

@@ -60,6 +60,7 @@ fn document(texture: &TextureModel) -> Document {
         friction: Friction {
             mu: texture.friction.mu,
             anchors: texture.friction.anchors.clone(),
+            law: texture.friction.law.clone(),
         },
         wall: Some(texture.wall),
         gains: Some(texture.gains),

@@ -4,7 +4,7 @@
 //! this version stay readable. Units are in the keys: m, s, N, rad, Hz, m/s², and mm/s for the
 //! speeds of the grid.
 
-use crate::model::{FrictionAnchor, Gains, Numerator, VertexKind, Wall};
+use crate::model::{FrictionAnchor, FrictionLaw, Gains, Numerator, VertexKind, Wall};
 use serde::{Deserialize, Serialize};
 
 /// What `format` says.
@@ -76,13 +76,16 @@ pub(super) struct Trace {
     pub(super) accel_m_s2: Vec<f64>,
 }
 
-/// Coulomb friction.
+/// Friction.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Friction {
     pub(super) mu: f64,
     #[serde(default)]
     pub(super) anchors: Vec<FrictionAnchor>,
+    /// Friction that depends on speed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) law: Option<FrictionLaw>,
 }
 
 /// Where the texture comes from. Fidelity and quantisation error are not the model's: they

@@ -4,7 +4,7 @@ use super::*;
 use crate::{
     front_ends::builtin,
     input::{InputProblem, Kind},
-    model::{Numerator, TextureModel, defaults, mesh},
+    model::{FrictionLaw, LawPoint, Numerator, TextureModel, defaults, mesh},
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Settings},
 };
@@ -48,9 +48,58 @@ fn refused(document: &Value, field: &str, says: &str) {
     );
 }
 
+/// The built-in texture with friction that depends on speed.
+fn with_law() -> TextureModel {
+    let mut texture = builtin::texture();
+    let point = |speed_mm_s, factor| LawPoint { speed_mm_s, factor };
+    texture.friction.law = Some(FrictionLaw {
+        points: vec![point(20.0, 1.5), point(60.0, 1.0), point(200.0, 0.6)],
+    });
+    texture
+}
+
+#[test]
+fn a_law_of_friction_is_checked_and_absent_where_there_is_none() {
+    assert_eq!(document()["friction"].get("law"), None);
+    let with = |change: &dyn Fn(&mut Value)| {
+        let mut document: Value = serde_json::from_slice(&to_json(&with_law())).unwrap();
+        change(&mut document["friction"]["law"]);
+        document
+    };
+    let point = json!({"speed_mm_s": 300.0, "factor": 1.0});
+    refused(&with(&|law| *law = json!([])), "friction.law", "0");
+    refused(&with(&|law| *law = json!([point])), "friction.law", "1");
+    refused(
+        &with(&|law| *law = Value::Array(vec![point.clone(); 9])),
+        "friction.law",
+        "9",
+    );
+    for (key, value) in [
+        ("speed_mm_s", json!(20.0)),
+        ("speed_mm_s", json!(20.03)),
+        ("speed_mm_s", json!(-1.0)),
+        ("speed_mm_s", json!(4096.0)),
+        ("factor", json!(-0.1)),
+        ("factor", json!(8.0)),
+    ] {
+        let field = format!("friction.law[1].{key}");
+        refused(&with(&|law| law[1][key] = value.clone()), &field, "from");
+    }
+    refused(
+        &with(&|law| law[0]["factor"] = Value::Null),
+        "friction.law[0].factor",
+        "f64",
+    );
+    refused(
+        &with(&|law| law[0]["mu"] = json!(1.0)),
+        "friction.law[0].mu",
+        "unknown field",
+    );
+}
+
 #[test]
 fn a_model_reads_back_to_the_bit() {
-    for texture in [builtin::texture(), with_numerator()] {
+    for texture in [builtin::texture(), with_numerator(), with_law()] {
         let back = from_json(&to_json(&texture)).unwrap();
         assert_eq!(back, kept(texture));
     }

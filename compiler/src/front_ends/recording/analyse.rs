@@ -11,8 +11,9 @@ use asperity_recording::{
     check::{self, Checked},
     description::Quantity,
     friction::{self, Friction},
-    impact::{self, Impact, Transient},
+    impact::{self, Impact, SpeedSource, Transient},
     reader::{self, Recording},
+    resonance::{self, FreeAir},
     steady::{self, Steady},
     timeline::Timeline,
 };
@@ -44,6 +45,8 @@ pub struct Analysis {
     pub checked: Checked,
     /// Motion and load.
     pub timeline: Timeline,
+    /// Taps in free air and the resonances that they show, which were compensated.
+    pub free_air: FreeAir,
     /// Part of the vibration that lies along one direction, 0..=1: what a principal component keeps.
     pub principal_share: f64,
     /// Steady strokes.
@@ -56,6 +59,8 @@ pub struct Analysis {
     pub friction: Option<Friction>,
     /// All impacts.
     pub impacts: Vec<Impact>,
+    /// Where their speeds come from.
+    pub speed_source: SpeedSource,
     /// Transients by speed.
     pub transients: Vec<Transient>,
     /// The steps, in order.
@@ -93,8 +98,8 @@ pub fn check(folder: &Path) -> Result<(Recording, Checked, Timeline), RecordingE
 /// [`RecordingFailure`] for a recording that cannot be read, is faulty, or too short.
 pub fn analyse(folder: &Path, force: bool) -> Result<Analysis, RecordingFailure> {
     let mut steps = Steps::default();
-    let recording = steps.run("read", || reader::load(folder))?;
-    let (checked, timeline) = steps.run("check and align", || check::check(&recording))?;
+    let mut recording = steps.run("read", || reader::load(folder))?;
+    let (checked, mut timeline) = steps.run("check and align", || check::check(&recording))?;
     let faults: Vec<_> = checked.stopping().collect();
     if let (Some(first), false) = (faults.first(), force) {
         return Err(RecordingFailure::Faulty {
@@ -104,6 +109,16 @@ pub fn analyse(folder: &Path, force: bool) -> Result<Analysis, RecordingFailure>
             remedy: first.remedy.clone(),
         });
     }
+    let late_s = recording
+        .channels
+        .iter()
+        .find(|c| c.quantity == Quantity::Acceleration)
+        .map_or(0.0, |c| checked.late_of(&c.file));
+    let free_air = steps.run("resonance", || {
+        let free_air = resonance::find(&recording, &timeline, late_s);
+        resonance::compensate(&mut recording, &mut timeline, late_s, &free_air);
+        free_air
+    });
     let (vibration, one_axis, principal_share) = steps.run("one axis", || {
         let vibration = steady::vibration(&timeline);
         let one_axis = axes::dft321(&vibration);
@@ -135,19 +150,16 @@ pub fn analyse(folder: &Path, force: bool) -> Result<Analysis, RecordingFailure>
         .ok_or_else(too_few)?;
     let friction = steps.run("friction", || friction::friction(&timeline));
     let (impacts, transients) = steps.run("taps", || {
-        let late_s = recording
-            .channels
-            .iter()
-            .find(|c| c.quantity == Quantity::Acceleration)
-            .map_or(0.0, |c| checked.late_of(&c.file));
         let impacts = impact::impacts(&recording, &timeline, late_s);
         let transients = impact::transients(&impacts);
         (impacts, transients)
     });
     Ok(Analysis {
+        speed_source: SpeedSource::new(&timeline, &impacts),
         recording,
         checked,
         timeline,
+        free_air,
         principal_share,
         steady,
         methods,

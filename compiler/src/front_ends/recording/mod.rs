@@ -16,7 +16,7 @@ mod texture;
 pub use analyse::{Analysis, Step, analyse, check};
 pub use complete::{Completed, Nearest, complete};
 pub use error::RecordingFailure;
-pub use grid::{GridFit, Tried, VertexFacts, fit};
+pub use grid::{GridFit, Slopes, Tried, VertexFacts, fit};
 pub use import::{Options, RecordingImport, import};
 pub use report::json;
 pub use sheet::{HEIGHT_PX, WIDTH_PX, sheet};

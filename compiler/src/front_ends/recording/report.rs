@@ -1,7 +1,11 @@
 //! The report of an import, for machines and for people.
 
 use super::{analyse::Analysis, import::RecordingImport};
-use asperity_recording::friction::Law;
+use asperity_recording::{
+    friction::{Friction, Law},
+    impact::SpeedSource,
+    resonance::{FreeAir, Resonance},
+};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -20,6 +24,11 @@ pub fn json(import: &RecordingImport) -> Value {
         .iter()
         .map(|t| json!({ "speed_m_s": t.speed_m_s, "impacts": t.impacts, "spread": t.spread }))
         .collect();
+    let extrapolated: Vec<Value> = analysis
+        .fit
+        .extrapolated()
+        .map(|v| json!({ "speed_mm_s": v.speed_mm_s, "force_n": v.force_n }))
+        .collect();
     let steps: Vec<Value> = analysis
         .steps
         .iter()
@@ -28,12 +37,13 @@ pub fn json(import: &RecordingImport) -> Value {
     json!({
         "name": import.report.name,
         "check": analysis.checked,
+        "resonance": { "free_air_taps": analysis.free_air.taps, "compensated": analysis.free_air.resonances },
         "axes": { "method": "dft321", "principal_share": analysis.principal_share },
         "segments": { "used": segments, "rejected": analysis.steady.rejected, "covered_s": analysis.steady.covered_s() },
         "methods": analysis.methods,
-        "grid": { "chosen": analysis.fit.chosen, "tried": analysis.fit.tried, "vertices": analysis.fit.facts },
+        "grid": { "chosen": analysis.fit.chosen, "tried": analysis.fit.tried, "vertices": analysis.fit.facts, "extrapolated": extrapolated, "slopes_kept": analysis.fit.beyond },
         "friction": analysis.friction,
-        "taps": { "impacts": analysis.impacts.len(), "speeds": taps },
+        "taps": { "impacts": analysis.impacts.len(), "speed_source": analysis.speed_source, "speeds": taps },
         "sources": import.sources,
         "nearest": import.completed.nearest,
         "asset": { "vertices": import.report.vertices, "triangles": import.report.triangles, "error": import.report.error, "reduction": import.report.reduction, "bytes": { "haptic": import.report.haptic_bytes, "total": import.report.total_bytes } },
@@ -47,14 +57,17 @@ impl fmt::Display for RecordingImport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Analysis {
             checked,
+            free_air,
             steady,
             fit,
             friction,
             impacts,
             transients,
+            speed_source,
             ..
         } = &self.analysis;
         writeln!(f, "{}", self.report)?;
+        writeln!(f, "resonance {}", resonance_text(free_air))?;
         writeln!(
             f,
             "strokes   {:.1} s steady in {} segments of {:.1} s in contact, {} rejected",
@@ -71,8 +84,9 @@ impl fmt::Display for RecordingImport {
         };
         writeln!(
             f,
-            "grid      {} measured vertices, AR order {}{zero}, chosen by held-out segments",
+            "grid      {} measured vertices, {} extrapolated beyond what was visited, AR order {}{zero}, chosen by held-out segments",
             fit.facts.len(),
+            fit.extrapolated().count(),
             chosen.order
         )?;
         match friction {
@@ -81,19 +95,20 @@ impl fmt::Display for RecordingImport {
                     Law::Coulomb => "as Coulomb says".to_owned(),
                     Law::Power {
                         of_speed, of_load, ..
-                    } => format!("goes as v^{of_speed:.2}·F^{of_load:.2}, rendered as Coulomb's"),
+                    } => format!("goes as v^{of_speed:.2}·F^{of_load:.2}"),
                     Law::Stribeck {
                         sliding,
                         rest,
                         v_s_mm_s,
-                    } => format!(
-                        "falls from {rest:.2} to {sliding:.2} over {v_s_mm_s:.0} mm/s, rendered as Coulomb's"
-                    ),
+                    } => format!("goes from {rest:.2} to {sliding:.2} over {v_s_mm_s:.0} mm/s"),
                 };
                 writeln!(
                     f,
-                    "friction  μ = {:.3} ± {:.3} over {} blocks, {law}",
-                    friction.mu, friction.spread, friction.blocks
+                    "friction  μ = {:.3} ± {:.3} over {} blocks, {law}{}",
+                    friction.mu,
+                    friction.spread,
+                    friction.blocks,
+                    rendered(friction)
                 )?;
                 if friction.stick_slip > 0.02 {
                     writeln!(
@@ -121,7 +136,7 @@ impl fmt::Display for RecordingImport {
                     self.sources.tap_scale
                 )?;
             }
-            writeln!(f)?;
+            writeln!(f, "\n          {}", speeds_text(speed_source))?;
         } else {
             writeln!(
                 f,
@@ -136,5 +151,67 @@ impl fmt::Display for RecordingImport {
             .map(|n| format!("{} ({}, {:.2})", n.name, n.family, n.cosine))
             .collect();
         write!(f, "nearest   {}", nearest.join(", "))
+    }
+}
+
+/// What of a law is rendered.
+fn rendered(friction: &Friction) -> String {
+    let of_load = matches!(friction.law, Law::Power { of_load, .. } if of_load != 0.0);
+    if friction.depends_on_speed() {
+        let [slow, fast] = friction.speeds_mm_s;
+        let load = if of_load {
+            ", at the median load whatever the load"
+        } else {
+            ""
+        };
+        format!(", rendered over speed from {slow:.0} to {fast:.0} mm/s{load}")
+    } else if friction.law == Law::Coulomb {
+        String::new()
+    } else {
+        ", rendered as Coulomb's: it depends on the load alone".to_owned()
+    }
+}
+
+/// What free-air taps showed, and what was done.
+fn resonance_text(free_air: &FreeAir) -> String {
+    if free_air.taps == 0 {
+        return "of tool and sensor left: there is no tap in free air".into();
+    }
+    let taps = |count: usize| format!("{count} {}", if count == 1 { "tap" } else { "taps" });
+    if free_air.resonances.is_empty() {
+        return format!(
+            "of tool and sensor: none in {} in free air; nothing was changed",
+            taps(free_air.taps)
+        );
+    }
+    let of_axis = |r: &Resonance| {
+        format!(
+            "{} {:.0} ± {:.0} Hz, Q {:.1} ± {:.1} ({})",
+            r.axis,
+            r.freq_hz,
+            r.freq_spread_hz,
+            r.q,
+            r.q_spread,
+            taps(r.taps)
+        )
+    };
+    let axes: Vec<String> = free_air.resonances.iter().map(of_axis).collect();
+    format!("of tool and sensor compensated: {}", axes.join("; "))
+}
+
+/// Where impact speeds come from, and how far two sources agree.
+fn speeds_text(source: &SpeedSource) -> String {
+    let by = match source.source {
+        "position" => "speeds by the height",
+        _ => "speeds by the integrated acceleration: no position along z was recorded",
+    };
+    match (source.integrated_over_position, source.apart) {
+        (Some(off), Some(apart)) => format!(
+            "{by}; those of the integrated acceleration differ by {:+.0} % in the median ({:.0} % in size) of {}",
+            100.0 * off,
+            100.0 * apart,
+            source.by_both
+        ),
+        _ => by.into(),
     }
 }

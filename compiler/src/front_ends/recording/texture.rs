@@ -2,13 +2,18 @@
 
 use super::{analyse::Analysis, complete::Completed};
 use crate::model::{
-    Friction, FrictionAnchor, Provenance, TapBank, TapTrace, TextureModel, Wall, defaults,
+    Friction, FrictionAnchor, FrictionLaw, LawPoint, Provenance, TapBank, TapTrace, TextureModel,
+    Wall, defaults,
 };
 use asperity_recording::impact::TAP_RATE_HZ;
 use serde::Serialize;
 
+/// Speeds at which a fitted law is looked at, before the points are chosen.
+const LAW_SPEEDS: i32 = 128;
 /// Fewest impact speeds that make a bank.
 const FEWEST_SPEEDS: usize = 2;
+/// No friction is so many times its median; an asset could hold eight times.
+const HIGHEST_FACTOR: f64 = 5.0;
 /// Largest part of the device's force that a tap may take.
 const TAP_SHARE: f64 = 0.95;
 
@@ -50,6 +55,7 @@ pub fn texture(
         .as_ref()
         .map_or(completed.mu, |friction| friction.mu)
         .max(0.0);
+    let law = analysis.friction.as_ref().and_then(law);
     let say = |recorded: bool| if recorded { "recorded" } else { "completed" };
     let sources = Sources {
         grid: "recorded",
@@ -59,7 +65,7 @@ pub fn texture(
         tap_scale,
     };
     let notes = format!(
-        "Grid recorded with {} over {:.0} s of steady strokes. Taps {}{}. Friction {}. Wall by the nearest materials of the learned model. Gains and masses are unconfirmed defaults.",
+        "Grid recorded with {} over {:.0} s of steady strokes. Taps {}{}. Friction {}{}. Wall by the nearest materials of the learned model. Gains and masses are unconfirmed defaults.",
         description.device.as_deref().unwrap_or("an unnamed device"),
         analysis.steady.covered_s(),
         sources.taps,
@@ -69,6 +75,7 @@ pub fn texture(
             String::new()
         },
         sources.friction,
+        if law.is_some() { ", over speed" } else { "" },
     );
     let texture = TextureModel {
         name: description.name.clone(),
@@ -81,6 +88,7 @@ pub fn texture(
                 mu,
                 weight: 1.0,
             }],
+            law,
         },
         wall: Wall {
             stiffness_n_m: completed.stiffness_n_m,
@@ -106,6 +114,24 @@ pub fn texture(
         },
     };
     (texture, sources)
+}
+
+/// The part of a fitted law that speed has, over the recorded speeds; `None` where the data do not
+/// ask for one.
+fn law(friction: &asperity_recording::friction::Friction) -> Option<FrictionLaw> {
+    let [slowest, fastest] = friction.speeds_mm_s;
+    if !friction.depends_on_speed() || friction.mu <= 0.0 {
+        return None;
+    }
+    let ratio = fastest / slowest;
+    let points = (0..=LAW_SPEEDS).map(|step| {
+        let speed_mm_s = slowest * libm::pow(ratio, f64::from(step) / f64::from(LAW_SPEEDS));
+        LawPoint {
+            speed_mm_s,
+            factor: (friction.mu_at(speed_mm_s) / friction.mu).clamp(0.0, HIGHEST_FACTOR),
+        }
+    });
+    FrictionLaw::through(points.collect())
 }
 
 /// The recorded transients as a bank within ±`limit_m_s2`. One factor lowers all of them, so that

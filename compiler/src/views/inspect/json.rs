@@ -4,7 +4,7 @@ use super::scene::SurfaceDocument;
 use crate::{
     back_end::raise::raise,
     model::{
-        FrictionAnchor, Gains, Numerator, Provenance, VertexKind, Wall,
+        FrictionAnchor, FrictionLaw, Gains, Numerator, Provenance, VertexKind, Wall,
         attributes::{self, Attributes},
     },
 };
@@ -102,6 +102,9 @@ pub struct Friction {
     pub mu: f64,
     /// What it was interpolated from.
     pub anchors: Vec<FrictionAnchor>,
+    /// How it depends on speed: factors of `mu`. Absent where it does not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<FrictionLaw>,
 }
 
 /// Sizes, bytes.
@@ -170,6 +173,7 @@ impl Document {
             friction: Friction {
                 mu: texture.friction.mu,
                 anchors: texture.friction.anchors,
+                law: texture.friction.law,
             },
             wall: texture.wall,
             gains: texture.gains,

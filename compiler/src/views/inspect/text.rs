@@ -92,6 +92,13 @@ fn write_text(
         if anchors.is_empty() { "" } else { " from " },
         anchors.join(", ")
     )?;
+    if let Some(law) = &d.friction.law {
+        let points = law.points.iter();
+        let points: Vec<String> = points
+            .map(|p| format!("{:.3} at {:.0}", d.friction.mu * p.factor, p.speed_mm_s))
+            .collect();
+        writeln!(out, "               over speed: {} mm/s", points.join(", "))?;
+    }
     writeln!(
         out,
         "  wall         {} N/m, {:.3} N·s/m",

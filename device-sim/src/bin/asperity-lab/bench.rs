@@ -3,19 +3,16 @@
 use std::{fmt::Write as _, path::PathBuf};
 
 use asperity::{
-    builtin,
     console::Console,
     diagnostic::{Failures, one},
-    embedded, hatt,
-    inference::Backend,
-    learned::{LearnedModel, texture::build},
-    model::{Provenance, TextureModel},
+    hatt,
+    model::TextureModel,
 };
-use asperity_sim::bench::{self, Checks, Figures, Row, Sensors};
+use asperity_sim::bench::{self, Checks, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors, Until};
 
 use crate::error::Plain;
 
-/// Reference textures that are decoded where no HaTT is given.
+/// Materials of the learned model that are decoded where no HaTT is given.
 const REFERENCE: usize = 24;
 
 /// Record known textures with simulated sensors, import them, and compare with the truth
@@ -36,7 +33,8 @@ pub(crate) struct Arguments {
     /// Folder of HaTT XML files
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
-    /// Seconds of recording, one or several
+    /// Seconds of strokes, one or several; air and taps come in addition. With --write, seconds of
+    /// the whole recording
     #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = seconds)]
     seconds: Vec<f64>,
     /// At most so many textures
@@ -48,6 +46,15 @@ pub(crate) struct Arguments {
     /// Noise of the accelerometer, times the usual 80 µg/√Hz
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
     noise: f64,
+    /// Frequency in Hz and Q of the resonance of the tool with its accelerometer
+    #[arg(long, value_name = "HZ,Q", conflicts_with = "checks")]
+    resonance: Option<Resonance>,
+    /// Tap the tool so often in free air at the start
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(..=MOST_FREE_TAPS as i64), conflicts_with = "checks")]
+    free_taps: u8,
+    /// Record no position along z
+    #[arg(long, conflicts_with = "checks")]
+    no_height: bool,
     /// Write every visited cell of every texture into this CSV file
     #[arg(long, value_name = "FILE", conflicts_with_all = ["write", "checks"])]
     cells: Option<PathBuf>,
@@ -63,6 +70,16 @@ pub(crate) struct Arguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
+}
+
+impl Arguments {
+    /// Changes the usual sensors as asked.
+    fn alter(&self, sensors: &mut Sensors) {
+        sensors.accel_noise *= self.noise;
+        sensors.resonance = self.resonance;
+        sensors.free_taps = usize::from(self.free_taps);
+        sensors.has_height = !self.no_height;
+    }
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -92,10 +109,9 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let mut all: Vec<(Figures, Vec<Row>)> = Vec::new();
     for &seconds in &arguments.seconds {
         let bar = console.bar(textures.len(), "recording and importing");
-        let rows = bench::learn(&textures, seconds, arguments.seed, arguments.noise, || {
-            bar.inc(1);
-        })
-        .map_err(one)?;
+        let alter = |sensors: &mut Sensors| arguments.alter(sensors);
+        let rows =
+            bench::learn(&textures, seconds, arguments.seed, alter, || bar.inc(1)).map_err(one)?;
         bar.finish_and_clear();
         all.push((bench::summary(&rows), rows));
     }
@@ -130,18 +146,20 @@ fn print(
 
 fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
     let mut text = String::from(
-        "| seconds | textures | cells | spectrum, median dB | 95 % dB | within 3 dB, % | 10 dB over noise, % | their 95 % dB | level, mean dB | 95 % dB | μ, median % | 95 % | taps, median dB | 95 % dB | vertices |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| seconds of strokes | textures | mean of a texture's cells, median dB | 95 % of the textures, dB | median cell, median dB | cells | 95 % of the cells, dB | within 3 dB, % | 10 dB over noise, % | their 95 % dB | level, mean dB | 95 % of the cells, dB | μ, median % | 95 % | taps, median dB | 95 % dB | vertices |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for (f, rows) in all {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "| {:.0} | {} of {} | {} | {:.2} | {:.2} | {:.1} | {:.0} | {:.2} | {:.2} | {:.2} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} |",
+            "| {:.0} | {} of {} | {:.2} | {:.2} | {:.2} | {} | {:.2} | {:.1} | {:.0} | {:.2} | {:.2} | {:.2} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} |",
             f.seconds,
             f.imported,
             rows.len(),
-            f.cells,
+            f.texture_db.0,
+            f.texture_db.1,
             f.median_db,
+            f.cells,
             f.p95_db,
             f.within_percent,
             f.loud_percent,
@@ -229,15 +247,11 @@ fn write(
         ));
     }
     std::fs::create_dir(folder).map_err(fail)?;
-    let performance = bench::perform(texture, arguments.seconds[0], arguments.seed).map_err(one)?;
-    bench::record(
-        &performance,
-        texture,
-        &Sensors::seeded(arguments.seed),
-        arguments.seed,
-        folder,
-    )
-    .map_err(fail)?;
+    let until = Until::Seconds(arguments.seconds[0]);
+    let performance = bench::perform(texture, until, arguments.seed).map_err(one)?;
+    let mut sensors = Sensors::seeded(arguments.seed);
+    arguments.alter(&mut sensors);
+    bench::record(&performance, texture, &sensors, arguments.seed, folder).map_err(fail)?;
     let text = format!(
         "{}: {:.0} s of {}, {} impacts\n",
         folder.display(),
@@ -263,23 +277,5 @@ fn textures(arguments: &Arguments) -> Result<Vec<TextureModel>, Failures> {
             })
             .collect();
     }
-    let model = LearnedModel::load(embedded::model(), &Backend::Portable).map_err(one)?;
-    let anchors = &model.description().anchors;
-    let every = anchors.len().div_ceil(REFERENCE).max(1);
-    let mut textures = vec![builtin::texture()];
-    for anchor in anchors.iter().step_by(every) {
-        let Ok(z) = anchor.z.clone().try_into() else {
-            continue;
-        };
-        let decoded = model.decode(&z).map_err(one)?;
-        let (texture, _) = build(
-            model.description(),
-            &decoded,
-            &z,
-            anchor.name.clone(),
-            Provenance::default(),
-        );
-        textures.push(texture);
-    }
-    Ok(textures)
+    bench::materials(REFERENCE).map_err(one)
 }

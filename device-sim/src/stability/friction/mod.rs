@@ -1,6 +1,8 @@
 //! Friction: rest, ramps, reversal and closed paths, by the law alone and in a hand.
 
 mod energy;
+#[cfg(test)]
+mod falling;
 mod law;
 mod ramp;
 mod rest;

@@ -24,6 +24,9 @@ const RIDGE: f64 = 0.3;
 /// Spread of the power of a frequency about that of its band, as a part of it.
 const CONTRAST: f64 = 0.5;
 
+/// Exponents of speed and force in the power of a band beyond what was visited.
+const EXPONENTS: [f64; 2] = [-1.0, 4.0];
+
 /// A segment, ready to be regressed.
 #[derive(Debug, Clone)]
 struct Row {
@@ -123,8 +126,55 @@ impl Local {
     /// The estimate at a place from a neighbourhood of a width in standard deviations; `None` of no
     /// segments.
     pub(super) fn at(&self, speed_mm_s: f64, force_n: f64, width: f64) -> Option<Estimate> {
+        let (power, samples) = self.power(self.place((speed_mm_s, force_n)), width)?;
+        Some(Estimate {
+            lags: self.lags(&power),
+            samples,
+        })
+    }
+
+    /// Power at the frequencies of a segment, (m/s²)², as [`Local::at`] has it at a speed and a force.
+    pub(super) fn spectrum(&self, place: (f64, f64), width: f64) -> Option<Vec<f64>> {
+        Some(self.power(self.place(place), width)?.0)
+    }
+
+    /// A spectrum from one speed and force at another one, where every band goes on with a part of its
+    /// slopes over the whole plane.
+    pub(super) fn moved(
+        &self,
+        power: &[f64],
+        from: (f64, f64),
+        to: (f64, f64),
+        parts: [f64; 2],
+    ) -> Vec<f64> {
+        let (from, to) = (self.place(from), self.place(to));
+        power
+            .chunks_exact(POINTS / BANDS)
+            .zip(&self.everywhere)
+            .flat_map(|(power, law)| {
+                let ln = [0, 1].map(|axis| {
+                    let [low, high] = EXPONENTS.map(|x| x * self.scale[axis]);
+                    parts[axis] * law[1 + axis].clamp(low, high) * (to[axis] - from[axis])
+                });
+                let factor = libm::exp(ln[0] + ln[1]);
+                power.iter().map(move |p| factor * p)
+            })
+            .collect()
+    }
+
+    /// Autocorrelation of a spectrum.
+    pub(super) fn lags(&self, power: &[f64]) -> Vec<f64> {
+        self.transform.lags(power)
+    }
+
+    /// A speed and a force in coordinates of unit variance.
+    fn place(&self, (speed_mm_s, force_n): (f64, f64)) -> [f64; 2] {
         let place = coordinates(speed_mm_s, force_n);
-        let place = [0, 1].map(|axis| (place[axis] - self.centre[axis]) / self.scale[axis]);
+        [0, 1].map(|axis| (place[axis] - self.centre[axis]) / self.scale[axis])
+    }
+
+    /// Power at the frequencies of a segment, and the samples that it rests on.
+    fn power(&self, place: [f64; 2], width: f64) -> Option<(Vec<f64>, f64)> {
         let mean_weight =
             self.rows.iter().map(|row| row.weight).sum::<f64>() / self.rows.len() as f64;
         let mut near: Vec<Near<'_>> = self
@@ -164,10 +214,7 @@ impl Local {
             let law = [value + offset, x, y];
             variance += self.band(&near, band, slopes, law, power)? / BANDS as f64;
         }
-        Some(Estimate {
-            lags: self.transform.lags(&power),
-            samples: 1.0 / variance,
-        })
+        Some((power, 1.0 / variance))
     }
 
     /// The powers of a band at the place; returns the relative variance of its level, 1/samples.

@@ -7,11 +7,13 @@
 //! |---|---|
 //! | `clusters` | where vertices stand |
 //! | `band`, `lags`, `local` | what the segments near a place say, under the sensors' noise: an autocorrelation |
+//! | `beyond` | vertices beyond what was visited |
 //! | `vertex` | from an autocorrelation to a model |
 //! | `whittle` | how well a model predicts segments |
 //! | `shape`, `blocks`, `refine` | all vertices moved at once, so that their mixtures explain all segments |
 
 mod band;
+mod beyond;
 mod blocks;
 mod clusters;
 mod lags;
@@ -22,7 +24,6 @@ mod vertex;
 mod whittle;
 
 use crate::{
-    front_ends::learned::edges,
     model::{GridVertex, ModelGrid, Numerator},
     passes::triangulate,
 };
@@ -30,6 +31,8 @@ use asperity_recording::{
     steady::{Segment, Steady},
     timeline::RATE_HZ,
 };
+pub use beyond::Slopes;
+use beyond::{Visited, ring};
 use clusters::centres;
 use local::Local;
 use rayon::prelude::*;
@@ -54,8 +57,6 @@ const BLOCK_S: f64 = 3.0;
 const PRIORS_S: [f64; 3] = [0.1, 0.5, 2.0];
 /// What another vertex or coefficient must gain, in Whittle's measure.
 const LEAST_GAIN: f64 = 4e-4;
-/// The rectangle of the grid reaches beyond what was visited by this factor.
-const BEYOND: f64 = 1.05;
 
 /// A choice and its held-out error.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -94,14 +95,25 @@ pub struct VertexFacts {
 /// The grid and how it was chosen.
 #[derive(Debug, Clone)]
 pub struct GridFit {
-    /// The grid, edge models included.
+    /// The grid. Its measured vertices come first, then edge models: those beyond what was visited,
+    /// and silence.
     pub grid: ModelGrid,
     /// Its measured vertices.
     pub facts: Vec<VertexFacts>,
+    /// Part of the power laws with which it goes on beyond what was visited.
+    pub beyond: Slopes,
     /// What was chosen.
     pub chosen: Tried,
     /// All that was tried.
     pub tried: Vec<Tried>,
+}
+
+impl GridFit {
+    /// The vertices beyond what was visited, silent ones left out.
+    pub fn extrapolated(&self) -> impl Iterator<Item = &GridVertex> {
+        let edges = self.grid.vertices.iter().skip(self.facts.len());
+        edges.filter(|vertex| vertex.sigma_m_s2 > 0.0)
+    }
 }
 
 /// A choice before it is tried.
@@ -112,6 +124,7 @@ struct Choice {
     vertices: usize,
     steepness: f64,
     prior_s: Option<f64>,
+    beyond: Slopes,
 }
 
 /// The grid of the segments; `None` of fewer than two.
@@ -120,6 +133,7 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
     if steady.segments.len() < 2 {
         return None;
     }
+    let beyond = Slopes::of(steady);
     let mut tried = Vec::new();
     let mut best = Choice {
         form: Form {
@@ -130,6 +144,7 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
         vertices: 12,
         steepness: 0.05,
         prior_s: None,
+        beyond,
     };
     let at_most = (steady.segments.len() / 3).max(1);
     for round in 0..2 {
@@ -177,6 +192,7 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
     Some(GridFit {
         grid,
         facts,
+        beyond,
         chosen,
         tried,
     })
@@ -259,8 +275,8 @@ fn build(
     if segments.is_empty() {
         return None;
     }
-    let largest =
-        |pick: fn(&Segment) -> f64| steady.segments.iter().map(pick).fold(0.0, f64::max) * BEYOND;
+    let visited = Visited::new(&steady.segments.iter().collect::<Vec<_>>());
+    let largest = |pick: fn(&Segment) -> f64| steady.segments.iter().map(pick).fold(0.0, f64::max);
     let corner = (largest(|s| s.speed_mm_s), largest(|s| s.force_n));
     let local = Local::new(steady, segments.iter().copied());
     let mut seconds = Vec::new();
@@ -280,7 +296,8 @@ fn build(
     if interior.is_empty() {
         return None;
     }
-    let vertices = edges::close(interior, corner.0, corner.1);
+    let ring = ring(&visited, &local, &choice.beyond, choice.width, choice.form)?;
+    let vertices = [interior, ring.clone()].concat();
     let mut grid = ModelGrid {
         sample_rate_hz: RATE_HZ,
         order: choice.form.order,
@@ -291,7 +308,7 @@ fn build(
     if let Some(prior_s) = choice.prior_s {
         // The places stay, and with them the triangles.
         let interior = refine(&grid, steady, segments, prior_s);
-        grid.vertices = edges::close(interior, corner.0, corner.1);
+        grid.vertices = [interior, ring].concat();
     }
     let facts = grid
         .vertices

@@ -4,7 +4,7 @@
 //! place is not the one whose mixtures say best what is so between the places. So all vertices are
 //! moved at once to the least sum over segments of Whittle's measure, ln S + P/S, where S is the
 //! spectrum of the mixture with the sensors' noise. What the neighbourhood of a vertex says counts
-//! as some further seconds of vibration.
+//! as some further seconds of vibration. Vertices beyond what was visited stay where they are.
 //!
 //! One step is Fisher's scoring: a Gauss–Newton step with the expected curvature. Only vertices of one
 //! triangle share a block of it, so it is solved by conjugate gradients over blocks.
@@ -73,8 +73,10 @@ pub(super) fn refine(
 
 /// A segment as the mixture sees it.
 struct Seen<'a> {
-    /// Measured vertices with their parts in cos ω and in the level.
-    parts: Vec<(usize, f64, f64)>,
+    /// Measured vertices with their parts.
+    parts: Vec<(usize, f64)>,
+    /// What the vertices that stay add to cos ω and to the level.
+    fixed: (Vec<f64>, f64),
     seconds: f64,
     power: &'a [f64],
 }
@@ -108,41 +110,28 @@ impl<'a> Problem<'a> {
                 cosines.chain([libm::log(v.sigma_m_s2)]).collect()
             })
             .collect();
-        // An edge model has the shape of a measured vertex, and its level by a factor.
-        let source: Vec<(usize, f64)> = grid
-            .vertices
-            .iter()
-            .enumerate()
-            .map(|(index, v)| {
-                let like = grid.vertices[..interior]
-                    .iter()
-                    .position(|w| w.lsf_rad == v.lsf_rad)
-                    .unwrap_or(0);
-                if index < interior {
-                    (index, 1.0)
-                } else {
-                    (like, v.sigma_m_s2 / grid.vertices[like].sigma_m_s2)
-                }
-            })
-            .collect();
         let field = Field::new(grid);
         let segments: Vec<Seen<'a>> = segments
             .iter()
             .filter_map(|segment| {
                 let place = field.locate(segment.speed_mm_s, segment.force_n)?;
-                let mut parts: Vec<(usize, f64, f64)> = Vec::new();
-                for (vertex, weight) in place.vertices.into_iter().zip(place.weights) {
-                    let (index, ratio) = source[vertex];
-                    match parts.iter_mut().find(|part| part.0 == index) {
-                        Some(part) => {
-                            *part = (index, part.1 + weight, part.2 + weight * ratio);
-                        }
-                        None => parts.push((index, weight, weight * ratio)),
+                let mut parts = Vec::new();
+                let mut fixed = (vec![0.0; grid.order], 0.0);
+                for (index, weight) in place.vertices.into_iter().zip(place.weights) {
+                    if index < interior {
+                        parts.push((index, weight));
+                        continue;
                     }
+                    let vertex = &grid.vertices[index];
+                    for (sum, w) in fixed.0.iter_mut().zip(&vertex.lsf_rad) {
+                        *sum += weight * libm::cos(*w);
+                    }
+                    fixed.1 += weight * vertex.sigma_m_s2;
                 }
-                let audible = parts.iter().any(|part| part.2 > 1e-6);
+                let audible = parts.iter().any(|part| part.1 > 1e-6);
                 audible.then(|| Seen {
                     parts,
+                    fixed,
                     seconds: OVERLAP * segment.length as f64 / RATE_HZ,
                     power: &segment.power,
                 })
@@ -183,13 +172,12 @@ impl<'a> Problem<'a> {
 
     /// cos ω and level of the mixture that a segment hears.
     fn mixed(&self, at: &Point, seen: &Seen<'_>) -> (Vec<f64>, f64) {
-        let mut c = vec![0.0; self.order];
-        let mut level = 0.0;
-        for &(vertex, weight, of_level) in &seen.parts {
+        let (mut c, mut level) = seen.fixed.clone();
+        for &(vertex, weight) in &seen.parts {
             for (sum, x) in c.iter_mut().zip(&at[vertex]) {
                 *sum += weight * x;
             }
-            level += of_level * libm::exp(at[vertex][self.order]);
+            level += weight * libm::exp(at[vertex][self.order]);
         }
         (c, level)
     }
@@ -242,9 +230,9 @@ impl<'a> Problem<'a> {
                 }
                 add_outer(&mut own, row, scale * signal * signal);
             }
-            let chain = |&(vertex, weight, of_level): &(usize, f64, f64)| -> (usize, Vec<f64>) {
+            let chain = |&(vertex, weight): &(usize, f64)| -> (usize, Vec<f64>) {
                 let mut chain = vec![weight; size];
-                chain[self.order] = of_level * libm::exp(at[vertex][self.order]) / level;
+                chain[self.order] = weight * libm::exp(at[vertex][self.order]) / level;
                 (vertex, chain)
             };
             let chains: Vec<(usize, Vec<f64>)> = seen.parts.iter().map(chain).collect();

@@ -34,6 +34,20 @@ pub(super) fn measure(
     Some((sum, count))
 }
 
+/// The mean over frequencies of one segment, of a power that is known at each of them.
+pub(super) fn of_power(steady: &Steady, model: &[f64], segment: &Segment) -> f64 {
+    let sum: f64 = model
+        .iter()
+        .zip(&segment.power)
+        .enumerate()
+        .map(|(n, (model, power))| {
+            let s = model + noise(steady, n, *power);
+            libm::log(s) + power / s
+        })
+        .sum();
+    sum / model.len() as f64
+}
+
 fn angles() -> Angles {
     Angles::new(
         frequencies_hz()

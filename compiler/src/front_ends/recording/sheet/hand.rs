@@ -136,7 +136,16 @@ pub(super) fn friction(canvas: &mut Canvas, rect: Rect, import: &RecordingImport
     });
     let most = points.iter().map(|p| p.0).fold(0.1, f64::max);
     let title = match &analysis.friction {
-        Some(friction) => format!("Friction: μ = {:.3} ± {:.3}", friction.mu, friction.spread),
+        Some(friction) => format!(
+            "Friction: μ = {:.3} ± {:.3}{}",
+            friction.mu,
+            friction.spread,
+            if import.whole.friction.law.is_some() {
+                ", by speed"
+            } else {
+                ""
+            }
+        ),
         None => format!(
             "Friction: not recorded, μ = {:.3} completed",
             import.whole.friction.mu
@@ -158,11 +167,17 @@ pub(super) fn friction(canvas: &mut Canvas, rect: Rect, import: &RecordingImport
         Some(ink::BLUE.alpha(120)),
         None,
     );
-    panel.line(
-        canvas,
-        [(0.0, 0.0), (most, import.whole.friction.mu * most)],
-        Stroke::new(ink::VERMILION, 3.0),
-    );
+    let friction = &import.whole.friction;
+    let ray = |mu: f64| [(0.0, 0.0), (most, mu * most)];
+    panel.line(canvas, ray(friction.mu), Stroke::new(ink::VERMILION, 3.0));
+    // What is rendered at the slowest and at the fastest recorded speed.
+    let points = friction.law.as_ref().map(|law| &law.points);
+    for point in points.into_iter().flat_map(|p| [p.first(), p.last()]) {
+        if let Some(point) = point {
+            let stroke = Stroke::new(ink::VERMILION, 2.0).dashed();
+            panel.line(canvas, ray(friction.mu * point.factor), stroke);
+        }
+    }
 }
 
 /// The transients of the texture.

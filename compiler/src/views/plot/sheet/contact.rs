@@ -1,7 +1,7 @@
-//! Friction against normal force with its anchors, and the wall's force against displacement.
+//! Friction with its anchors, against normal force or, where it depends on it, speed; and the wall's force against displacement.
 
 use super::layout::reach;
-use crate::model::{Friction, FrictionAnchor, TextureModel};
+use crate::model::{Friction, FrictionAnchor, FrictionLaw, TextureModel};
 use asperity_plot::{
     Align, Axis, Canvas, Color, Key, Margins, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
     size,
@@ -35,31 +35,20 @@ fn margins(top: f32) -> Margins {
 fn draw_friction(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     let friction = &model.friction;
     let shown = shown_anchors(friction);
-    let force_n = reach(&model.grid.vertices).1;
-    let force_n = if force_n > 0.0 { force_n } else { 1.0 };
-    let steepest = shown
-        .iter()
-        .map(|anchor| anchor.mu)
-        .fold(friction.mu, f64::max);
-    let panel = Panel::new(
-        rect,
-        Axis::new("Normal force (N)", 0.0, force_n).ticks_about(4),
-        Axis::new("Friction force (N)", 0.0, 1.05 * steepest * force_n).ticks_about(5),
-    )
-    .letter('e')
-    .title("Friction and wall")
-    .margins(margins(96.0));
-    panel.draw_frame(canvas);
-    let ray = |mu: f64| [(0.0, 0.0), (force_n, mu * force_n)];
-    panel.line(canvas, ray(friction.mu), Stroke::new(ink::BLACK, 5.0));
-    for (index, anchor) in shown.iter().enumerate() {
-        let stroke = Stroke::new(ink::category(index), 2.5).dashed();
-        panel.line(canvas, ray(anchor.mu), stroke);
-    }
-
+    let panel = match &friction.law {
+        Some(law) => draw_law(canvas, rect, model, law, &shown),
+        None => draw_coulomb(canvas, rect, model, &shown),
+    };
     let area = panel.area();
     let mut words = Words::beside(area, rect);
     words.strong(canvas, &format!("μ = {:.3}", friction.mu));
+    if let Some(law) = &friction.law {
+        let ends = [law.points.first(), law.points.last()];
+        for point in ends.into_iter().flatten() {
+            let (mu, speed) = (friction.mu * point.factor, point.speed_mm_s);
+            words.quiet(canvas, &format!("μ = {mu:.3} at {speed:.0} mm/s"));
+        }
+    }
     if friction.anchors.is_empty() {
         words.quiet(canvas, "no anchors");
     } else {
@@ -78,6 +67,73 @@ fn draw_friction(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     if hidden > 0 {
         words.quiet(canvas, &format!("and {hidden} more"));
     }
+}
+
+/// The largest μ of a texture and of the anchors that are shown.
+fn steepest(friction: &Friction, shown: &[&FrictionAnchor]) -> f64 {
+    let anchors = shown.iter().map(|anchor| anchor.mu);
+    anchors.fold(friction.highest_mu(), f64::max)
+}
+
+/// μ over speed.
+fn draw_law(
+    canvas: &mut Canvas,
+    rect: Rect,
+    model: &TextureModel,
+    law: &FrictionLaw,
+    shown: &[&FrictionAnchor],
+) -> Panel {
+    let mu = model.friction.mu;
+    let last = law.points.last().map_or(0.0, |p| p.speed_mm_s);
+    let fastest = reach(&model.grid.vertices).0.max(1.1 * last).max(1.0);
+    let highest = 1.05 * steepest(&model.friction, shown);
+    let panel = Panel::new(
+        rect,
+        Axis::new("Speed (mm/s)", 0.0, fastest).ticks_about(4),
+        Axis::new("Friction μ", 0.0, if highest > 0.0 { highest } else { 1.0 }).ticks_about(5),
+    )
+    .letter('e')
+    .title("Friction and wall")
+    .margins(margins(96.0));
+    panel.draw_frame(canvas);
+    let points = law.points.iter().map(|p| (p.speed_mm_s, mu * p.factor));
+    let ends = [0.0, fastest].map(|v| (v, model.friction.mu_at(v)));
+    let curve = [ends[0]].into_iter().chain(points).chain([ends[1]]);
+    panel.line(canvas, curve, Stroke::new(ink::BLACK, 5.0));
+    for (index, anchor) in shown.iter().enumerate() {
+        let stroke = Stroke::new(ink::category(index), 2.5).dashed();
+        panel.horizontal_line(canvas, anchor.mu, stroke);
+    }
+    panel
+}
+
+/// Friction over normal force.
+fn draw_coulomb(
+    canvas: &mut Canvas,
+    rect: Rect,
+    model: &TextureModel,
+    shown: &[&FrictionAnchor],
+) -> Panel {
+    let friction = &model.friction;
+    let force_n = reach(&model.grid.vertices).1;
+    let force_n = if force_n > 0.0 { force_n } else { 1.0 };
+    let steepest = steepest(friction, shown);
+    let panel = Panel::new(
+        rect,
+        Axis::new("Normal force (N)", 0.0, force_n).ticks_about(4),
+        Axis::new("Friction force (N)", 0.0, 1.05 * steepest * force_n).ticks_about(5),
+    )
+    .letter('e')
+    .title("Friction and wall")
+    .margins(margins(96.0));
+    panel.draw_frame(canvas);
+    let ray = |mu: f64| [(0.0, 0.0), (force_n, mu * force_n)];
+    panel.line(canvas, ray(friction.mu), Stroke::new(ink::BLACK, 5.0));
+    for (index, anchor) in shown.iter().enumerate() {
+        let stroke = Stroke::new(ink::category(index), 2.5).dashed();
+        panel.line(canvas, ray(anchor.mu), stroke);
+    }
+    panel
 }
 
 /// The anchors of the largest weights, as many as there are lines beside the picture.

@@ -61,6 +61,7 @@ fn texture(order: usize, side: usize, numerator: Numerator, sigma_m_s2: f64) -> 
         friction: Friction {
             mu: 0.5,
             anchors: Vec::new(),
+            law: None,
         },
         wall: Wall {
             stiffness_n_m: 500.0,

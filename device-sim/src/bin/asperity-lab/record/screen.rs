@@ -52,7 +52,7 @@ pub(super) fn ask(exploration: &Exploration) -> String {
     let coverage = exploration.coverage();
     let now = exploration.now();
     match exploration.ask() {
-        Ask::Air => "hold the tool still in the air".into(),
+        Ask::Air => "hold the tool still in the air, and tap it once with a finger".into(),
         Ask::Tap(band) => format!(
             "tap the surface at {:.0} to {:.0} mm/s, and lift the tool in between",
             1e3 * TAPS_M_S[band],

@@ -9,6 +9,7 @@ use asperity::{
     console::Console,
     diagnostic::Failures,
     edit::{History, How, Latents, Origin, Studio},
+    model::FrictionLaw,
     preview::SIZE,
 };
 use serde_json::json;
@@ -23,8 +24,10 @@ pub(crate) fn run(args: &Blend, console: Console) -> Result<(), Failures> {
     let (from, at_a) = studio.source(&a).map_err(failed)?;
     let (to, at_b) = studio.source(&b).map_err(failed)?;
     let own = studio.how(&a);
+    let other = studio.how(&b);
     let how = How {
         preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        law: FrictionLaw::between(own.law.as_ref(), other.law.as_ref(), args.t),
         ..own
     };
     let name = mixing.name(&format!("{} – {}", a.name(), b.name()));

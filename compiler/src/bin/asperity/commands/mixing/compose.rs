@@ -10,6 +10,7 @@ use asperity::{
     diagnostic::Failures,
     edit::{History, How, Latents, Origin, Studio},
     preview::SIZE,
+    raise::law,
 };
 use serde_json::json;
 
@@ -28,6 +29,7 @@ pub(crate) fn run(args: &Compose, console: Console) -> Result<(), Failures> {
     let own = studio.how(&slide);
     let how = How {
         preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        law: law(&friction),
         ..own
     };
     let name = mixing.name(&format!("{} tapped, {} slid", tap.name(), slide.name()));
