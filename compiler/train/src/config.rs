@@ -265,8 +265,11 @@ pub struct Recall {
     /// Cosine on these directions that a material's text must exceed, for its latent to count more
     /// than the regression's.
     pub familiar: f64,
-    /// The same of the three attributes.
-    pub felt_familiar: f64,
+    /// τ of the softmax over names, synonyms and phrases of the lexicon that draws the three
+    /// attributes.
+    pub felt_temperature: f64,
+    /// How much a phrase counts there beside a name: a phrase keeps what the regression says.
+    pub felt_phrase_weight: f64,
 }
 
 /// How μ is read from the anchors.

@@ -153,17 +153,22 @@ impl TextMemory {
         matrix(units, self.width, device).matmul(matrix(self.basis.clone(), self.kept, device))
     }
 
-    /// How familiar text vectors are: `1 + ln(Σ_i exp(κ(e·e_i − 1)))/κ`, a soft maximum of their
-    /// inner products with the examples. `without` leaves out one example of each.
-    pub(crate) fn familiarity(&self, vectors: &[&[f32]], without: Option<&[usize]>) -> Vec<f64> {
+    /// Inner products of text vectors with the examples.
+    pub(crate) fn likeness(&self, vectors: &[&[f32]]) -> Vec<Vec<f32>> {
         if vectors.is_empty() {
             return Vec::new();
         }
         let device = Device::flex();
-        let likeness = self.on_directions(vectors, &device);
-        let likeness = numbers(likeness.matmul(self.vectors(&device).transpose()));
-        let count = self.scales.len().max(1);
-        let rows = likeness.chunks(count).enumerate();
+        let asked = self.on_directions(vectors, &device);
+        let likeness = numbers(asked.matmul(self.vectors(&device).transpose()));
+        let rows = likeness.chunks(self.scales.len().max(1));
+        rows.map(<[f32]>::to_vec).collect()
+    }
+
+    /// How familiar text vectors are: `1 + ln(Σ_i exp(κ(e·e_i − 1)))/κ`, a soft maximum of their
+    /// inner products with the examples. `without` leaves out one example of each.
+    pub(crate) fn familiarity(&self, vectors: &[&[f32]], without: Option<&[usize]>) -> Vec<f64> {
+        let rows = self.likeness(vectors).into_iter().enumerate();
         rows.map(|(row, likeness)| {
             let left_out = without.map(|without| without[row]);
             let terms = likeness

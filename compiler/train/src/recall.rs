@@ -13,6 +13,7 @@ use crate::{
     material::MaterialLatent,
     memory::{TextMemory, in_8_bits},
 };
+use asperity::learned::description::LATENT;
 
 /// Prototypes in 8 bits.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,31 +73,24 @@ impl Recall {
         }
     }
 
-    /// Draws what is said of text vectors, given on the memory's directions, to what is so of the
-    /// materials; what is less like a prototype than the cosine `familiar` stays.
-    pub(crate) fn draw<const N: usize>(
+    /// Draws the latents of text vectors, given on the memory's directions, to those of the
+    /// materials.
+    pub(crate) fn draw(
         &self,
-        materials: &[[f32; N]],
-        familiar: f64,
+        materials: &[[f32; LATENT]],
         directions: &[Vec<f32>],
-        said: &mut [[f32; N]],
+        said: &mut [[f32; LATENT]],
     ) {
-        let kept = self.likeness(familiar as f32);
+        let kept = self.kept();
         for (direction, said) in directions.iter().zip(said) {
             let weights = self.weights(&self.discriminant.place(direction));
-            let mut drawn = said.map(|x| x * kept);
-            for (weight, &owner) in weights.iter().zip(&self.owners) {
-                let pairs = drawn.iter_mut().zip(&materials[owner]);
-                pairs.for_each(|(sum, x)| *sum += weight * x);
-            }
-            let total = weights.iter().sum::<f32>() + kept;
-            *said = drawn.map(|x| x / total);
+            drawn(said, kept, &weights, &self.owners, materials);
         }
     }
 
-    /// `exp((cosine − 1)/τ)`.
-    pub(crate) fn likeness(&self, cosine: f32) -> f32 {
-        libm::expf((cosine - 1.0) / self.how.temperature as f32)
+    /// g: what the regression counts.
+    pub(crate) fn kept(&self) -> f32 {
+        libm::expf(((self.how.familiar - 1.0) / self.how.temperature) as f32)
     }
 
     /// `b·exp((e·c − 1)/τ)` of all prototypes.
@@ -113,6 +107,23 @@ impl Recall {
     }
 }
 
+/// `x ← (Σ w·x_m + g·x)/(Σ w + g)`, x_m of the owner of each w.
+pub(crate) fn drawn<const N: usize>(
+    said: &mut [f32; N],
+    kept: f32,
+    weights: &[f32],
+    owners: &[usize],
+    materials: &[[f32; N]],
+) {
+    let mut sum = said.map(|x| x * kept);
+    for (weight, &owner) in weights.iter().zip(owners) {
+        let pairs = sum.iter_mut().zip(&materials[owner]);
+        pairs.for_each(|(sum, x)| *sum += weight * x);
+    }
+    let total = weights.iter().sum::<f32>() + kept;
+    *said = sum.map(|x| x / total);
+}
+
 /// The mean of vectors of length one, of length one.
 fn mean(vectors: &[Vec<f32>], width: usize) -> Vec<f32> {
     let mut mean = vec![0.0; width];
@@ -126,7 +137,6 @@ fn mean(vectors: &[Vec<f32>], width: usize) -> Vec<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity::learned::description::LATENT;
 
     #[test]
     fn a_name_takes_the_latent_of_its_material_and_a_stranger_keeps_its_own() {
@@ -140,7 +150,8 @@ mod tests {
                 shrinkage: 1.0,
                 mean_weight: 1.0,
                 familiar: 0.7,
-                felt_familiar: 0.9,
+                felt_temperature: 0.02,
+                felt_phrase_weight: 3.0,
             },
             discriminant: Discriminant {
                 basis,
@@ -157,7 +168,7 @@ mod tests {
             vec![0.0, 0.7, 0.714_142_8],
         ];
         let mut latents = [[-5.0; LATENT]; 3];
-        recall.draw(&materials, 0.7, &directions, &mut latents);
+        recall.draw(&materials, &directions, &mut latents);
         // The last is as like a prototype as what is called familiar: half of each.
         for (z, expected) in latents.iter().zip([1.0, -5.0, -1.0]) {
             assert!((z[5] - expected).abs() < 1e-2, "{} {expected}", z[5]);

@@ -129,7 +129,14 @@ fn recall(how: &Recall) -> Result<(), ConfigError> {
     positive("text_stage.memory.recall.shrinkage", how.shrinkage)?;
     positive("text_stage.memory.recall.mean_weight", how.mean_weight)?;
     probability("text_stage.memory.recall.familiar", how.familiar)?;
-    probability("text_stage.memory.recall.felt_familiar", how.felt_familiar)
+    positive(
+        "text_stage.memory.recall.felt_temperature",
+        how.felt_temperature,
+    )?;
+    positive(
+        "text_stage.memory.recall.felt_phrase_weight",
+        how.felt_phrase_weight,
+    )
 }
 
 fn within(

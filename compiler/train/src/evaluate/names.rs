@@ -241,7 +241,7 @@ impl Setting<'_> {
         if let Some(how) = &how.recall {
             let recall = Recall::new(&memory, &materials, captions, how);
             let directions = memory.directions(vectors);
-            recall.draw(self.anchors, how.familiar, &directions, &mut latents);
+            recall.draw(self.anchors, &directions, &mut latents);
         }
         latents
     }

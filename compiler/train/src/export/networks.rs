@@ -3,7 +3,8 @@
 
 use super::{ExportError, gain, graph::Writer};
 use crate::{
-    config::Excitation,
+    config::{self, Excitation},
+    feel::{Feel, LEAST},
     memory::{SHARPNESS, TextMemory},
     network::{GAPS, LOG_VARIANCE_BOUND, Trunk, gap_matrix, gap_offsets},
     normaliser::{LSFS, TAP_VALUES},
@@ -97,14 +98,14 @@ struct Remembered {
     likeness: Value,
 }
 
-/// The latent and the attributes of a text drawn to its material, as [`Recall::draw`].
+/// The latent of a text drawn to its material, as [`Recall::draw`].
 fn recalled(
     writer: &mut Writer<'_>,
     trained: &Trained,
     recall: &Recall,
-    (z, felt): (&Value, Option<&Value>),
+    z: &Value,
     direction: &Value,
-) -> (Value, Option<Value>) {
+) -> Value {
     let (count, width) = (recall.owners.len(), recall.discriminant.offset.len());
     let basis = &recall.discriminant.basis;
     let placed = exact_product(writer, "recall.basis", direction, basis, width);
@@ -119,26 +120,55 @@ fn recalled(
     let log_weights = writer.row("prototypes.log_weights", &recall.log_weights);
     let exponent = writer.graph.add(&exponent, &log_weights);
     let weights = writer.graph.unary("Exp", &exponent);
-    let total = row_sum(writer, &weights);
-    let mut draw = |name: &str, rows: Vec<f32>, said: &Value, familiar: f64| {
-        let rows = writer.table(name, &[count, rows.len() / count.max(1)], rows);
-        let inputs = [Some(&weights), Some(&rows)];
-        let drawn = writer.graph.node("MatMul", &inputs, &[]);
-        let kept = recall.likeness(familiar as f32);
-        let own = writer.times(said, kept);
-        let numerator = writer.graph.add(&drawn, &own);
-        let total = writer.plus(&total, kept);
-        writer.graph.div(&numerator, &total)
-    };
     let owners = recall.owners.iter();
-    let means = owners.flat_map(|&owner| trained.materials[owner].mean);
-    let z = draw("prototypes.z", means.collect(), z, recall.how.familiar);
-    let felt = trained.feel.as_ref().zip(felt).map(|(feel, felt)| {
-        let owners = recall.owners.iter();
-        let rows = owners.flat_map(|&owner| feel.materials[owner]).collect();
-        draw("prototypes.felt", rows, felt, recall.how.felt_familiar)
-    });
-    (z, felt)
+    let means: Vec<f32> = owners
+        .flat_map(|&owner| trained.materials[owner].mean)
+        .collect();
+    let kept = writer.row("recall.kept", &[recall.kept()]);
+    let means = writer.table("prototypes.z", &[count, LATENT], means);
+    drawn(writer, &means, z, &kept, &weights)
+}
+
+/// Attributes of a text drawn to those of the material that it names, as [`Feel::ask`]; `likeness`
+/// is that of the memory's examples.
+fn felt_recalled(
+    writer: &mut Writer<'_>,
+    feel: &Feel,
+    how: &config::Recall,
+    felt: &Value,
+    likeness: &Value,
+    examples: usize,
+) -> Value {
+    let exponent = writer.times(likeness, 1.0 / how.felt_temperature as f32);
+    let near = writer.graph.unary("Exp", &exponent);
+    let names = feel.names.examples.iter().map(|&example| example as i64);
+    let weights = writer.gather(&near, 1, &names.collect::<Vec<i64>>());
+    let phrases = (feel.names.phrases_from as i64, examples as i64);
+    let phrases = writer.graph.slice(&near, 1, phrases.0, phrases.1);
+    let kept = row_sum(writer, &phrases);
+    let kept = writer.times(&kept, how.felt_phrase_weight as f32);
+    let kept = writer.plus(&kept, LEAST);
+    let owners = feel.names.owners.iter();
+    let rows: Vec<f32> = owners.flat_map(|&owner| feel.materials[owner]).collect();
+    let rows = writer.table("names.felt", &[feel.names.owners.len(), FELT], rows);
+    drawn(writer, &rows, felt, &kept, &weights)
+}
+
+/// `(w·X + g·x)/(Σ w + g)`, as [`recall::drawn`]; g is `kept`.
+fn drawn(
+    writer: &mut Writer<'_>,
+    rows: &Value,
+    said: &Value,
+    kept: &Value,
+    weights: &Value,
+) -> Value {
+    let inputs = [Some(weights), Some(rows)];
+    let drawn = writer.graph.node("MatMul", &inputs, &[]);
+    let own = writer.graph.mul(said, kept);
+    let numerator = writer.graph.add(&drawn, &own);
+    let total = row_sum(writer, weights);
+    let total = writer.graph.add(&total, kept);
+    writer.graph.div(&numerator, &total)
 }
 
 /// `x·W` for a matrix of so many columns, W as it is: where a τ divides what follows, or where the
@@ -251,12 +281,16 @@ fn from_memory(
         let coefficients = feel.coefficients.as_flattened();
         let felt = exact_product(writer, "feel.coefficients", &kernel, coefficients, FELT);
         let mean = writer.row("feel.mean", &feel.mean);
-        writer.graph.add(&felt, &mean)
+        let felt = writer.graph.add(&felt, &mean);
+        match &feel.recall {
+            Some(how) => felt_recalled(writer, feel, how, &felt, &likeness, count),
+            None => felt,
+        }
     });
-    let Some(recall) = &trained.recall else {
-        return Remembered { z, felt, likeness };
+    let z = match &trained.recall {
+        Some(recall) => recalled(writer, trained, recall, &z, direction),
+        None => z,
     };
-    let (z, felt) = recalled(writer, trained, recall, (&z, felt.as_ref()), direction);
     Remembered { z, felt, likeness }
 }
 
