@@ -237,9 +237,6 @@ pub struct Memory {
     pub iterations: usize,
     /// Principal directions of the text vectors that are kept.
     pub directions: usize,
-    /// τ of the softmax over materials, by the cosine with their mean captions, whose mean latent
-    /// a text that is clearly about one material is drawn to; 0 for none.
-    pub recall_temperature: f64,
     /// How much a caption counts beside a name or a surely rated phrase: captions speak of several
     /// things at once, and few of them are about what slides.
     pub caption_weight: f64,
@@ -247,6 +244,32 @@ pub struct Memory {
     pub felt_concentration: f64,
     /// How much a caption counts there.
     pub felt_caption_weight: f64,
+    /// Draws a text that is clearly about one material to it; none if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recall: Option<Recall>,
+}
+
+/// How a text is drawn to the material that it is about.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Recall {
+    /// τ of the softmax over names, synonyms and mean texts of materials.
+    pub temperature: f64,
+    /// Directions of a linear discriminant analysis on which texts are compared.
+    pub directions: usize,
+    /// How far its scatter within materials is shrunk towards a multiple of the unit matrix: that
+    /// multiple, over the mean variance.
+    pub shrinkage: f64,
+    /// How much a mean text counts beside a name.
+    pub mean_weight: f64,
+    /// Cosine on these directions that a material's text must exceed, for its latent to count more
+    /// than the regression's.
+    pub familiar: f64,
+    /// τ of the softmax over names, synonyms and phrases of the lexicon that draws the three
+    /// attributes.
+    pub felt_temperature: f64,
+    /// How much a phrase counts there beside a name: a phrase keeps what the regression says.
+    pub felt_phrase_weight: f64,
 }
 
 /// How μ is read from the anchors.

@@ -244,7 +244,8 @@ impl<'a> Session<'a> {
                         progress.text_epoch(step, steps, left)
                     });
                 let (materials, captions) = (&trained.materials, self.captions);
-                trained.recall = Recall::new(&memory, materials, captions, how.recall_temperature);
+                let recall = how.recall.as_ref();
+                trained.recall = recall.map(|how| Recall::new(&memory, materials, captions, how));
                 let felt = (self.felt.as_slice(), self.ratings.as_slice());
                 trained.feel =
                     Feel::fit(&memory, materials, felt, captions, how, |step, of, left| {

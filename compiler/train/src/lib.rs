@@ -13,6 +13,7 @@ mod certainty;
 mod checkpoint;
 mod coding;
 pub mod config;
+mod discriminant;
 mod eigen;
 mod error;
 pub mod evaluate;

@@ -142,11 +142,6 @@ impl TextMemory {
             .collect()
     }
 
-    /// Vectors on the principal directions in 8 bits: codes, and what a code of each is worth.
-    pub(crate) fn codes_of(&self, vectors: &[&[f32]]) -> (Vec<i8>, Vec<f32>) {
-        in_8_bits(&self.directions(vectors).concat(), self.kept)
-    }
-
     fn on_directions(&self, vectors: &[&[f32]], device: &Device) -> Tensor<2> {
         let units: Vec<f32> = vectors
             .iter()
@@ -158,17 +153,22 @@ impl TextMemory {
         matrix(units, self.width, device).matmul(matrix(self.basis.clone(), self.kept, device))
     }
 
-    /// How familiar text vectors are: `1 + ln(Σ_i exp(κ(e·e_i − 1)))/κ`, a soft maximum of their
-    /// inner products with the examples. `without` leaves out one example of each.
-    pub(crate) fn familiarity(&self, vectors: &[&[f32]], without: Option<&[usize]>) -> Vec<f64> {
+    /// Inner products of text vectors with the examples.
+    pub(crate) fn likeness(&self, vectors: &[&[f32]]) -> Vec<Vec<f32>> {
         if vectors.is_empty() {
             return Vec::new();
         }
         let device = Device::flex();
-        let likeness = self.on_directions(vectors, &device);
-        let likeness = numbers(likeness.matmul(self.vectors(&device).transpose()));
-        let count = self.scales.len().max(1);
-        let rows = likeness.chunks(count).enumerate();
+        let asked = self.on_directions(vectors, &device);
+        let likeness = numbers(asked.matmul(self.vectors(&device).transpose()));
+        let rows = likeness.chunks(self.scales.len().max(1));
+        rows.map(<[f32]>::to_vec).collect()
+    }
+
+    /// How familiar text vectors are: `1 + ln(Σ_i exp(κ(e·e_i − 1)))/κ`, a soft maximum of their
+    /// inner products with the examples. `without` leaves out one example of each.
+    pub(crate) fn familiarity(&self, vectors: &[&[f32]], without: Option<&[usize]>) -> Vec<f64> {
+        let rows = self.likeness(vectors).into_iter().enumerate();
         rows.map(|(row, likeness)| {
             let left_out = without.map(|without| without[row]);
             let terms = likeness
@@ -274,7 +274,7 @@ fn principal_directions(vectors: &[&[f32]], width: usize, kept: usize) -> Vec<f3
 }
 
 /// Codes of rows, and what a code of each row is worth.
-fn in_8_bits(rows: &[f32], width: usize) -> (Vec<i8>, Vec<f32>) {
+pub(crate) fn in_8_bits(rows: &[f32], width: usize) -> (Vec<i8>, Vec<f32>) {
     let (mut codes, mut scales) = (Vec::with_capacity(rows.len()), Vec::new());
     for row in rows.chunks(width.max(1)) {
         let peak = row
@@ -351,7 +351,7 @@ mod tests {
             ridge,
             iterations: 200,
             directions: 3,
-            recall_temperature: 0.0,
+            recall: None,
             caption_weight: 1.0,
             felt_concentration: 4.0,
             felt_caption_weight: 0.02,

@@ -178,9 +178,7 @@ impl Trained {
         match (&self.feel, &self.memory) {
             (Some(feel), Some(memory)) => {
                 let chunks = vectors.chunks(CHUNK);
-                chunks
-                    .flat_map(|chunk| feel.ask(memory, self.recall.as_ref(), chunk))
-                    .collect()
+                chunks.flat_map(|chunk| feel.ask(memory, chunk)).collect()
             }
             _ => Vec::new(),
         }
@@ -195,7 +193,7 @@ impl Trained {
                 let mut latents = memory.project(chunk);
                 if let Some(recall) = &self.recall {
                     let directions = memory.directions(chunk);
-                    recall.draw(memory, &means, &directions, &mut latents);
+                    recall.draw(&means, &directions, &mut latents);
                 }
                 latents
             });

@@ -1,6 +1,6 @@
 //! What the numbers of a configuration may be.
 
-use super::{Config, ConfigError, TextStage};
+use super::{Config, ConfigError, Recall, TextStage};
 use asperity::learned::description::LATENT;
 use std::fmt::Debug;
 
@@ -103,10 +103,6 @@ fn text_stage(s: &TextStage) -> Result<(), ConfigError> {
         positive("text_stage.memory.ridge", memory.ridge)?;
         count("text_stage.memory.iterations", memory.iterations, 10_000)?;
         count("text_stage.memory.directions", memory.directions, MAX_WIDTH)?;
-        weight(
-            "text_stage.memory.recall_temperature",
-            memory.recall_temperature,
-        )?;
         positive("text_stage.memory.caption_weight", memory.caption_weight)?;
         positive(
             "text_stage.memory.felt_concentration",
@@ -116,8 +112,31 @@ fn text_stage(s: &TextStage) -> Result<(), ConfigError> {
             "text_stage.memory.felt_caption_weight",
             memory.felt_caption_weight,
         )?;
+        if let Some(how) = &memory.recall {
+            recall(how)?;
+        }
     }
     Ok(())
+}
+
+fn recall(how: &Recall) -> Result<(), ConfigError> {
+    positive("text_stage.memory.recall.temperature", how.temperature)?;
+    count(
+        "text_stage.memory.recall.directions",
+        how.directions,
+        MAX_WIDTH,
+    )?;
+    positive("text_stage.memory.recall.shrinkage", how.shrinkage)?;
+    positive("text_stage.memory.recall.mean_weight", how.mean_weight)?;
+    probability("text_stage.memory.recall.familiar", how.familiar)?;
+    positive(
+        "text_stage.memory.recall.felt_temperature",
+        how.felt_temperature,
+    )?;
+    positive(
+        "text_stage.memory.recall.felt_phrase_weight",
+        how.felt_phrase_weight,
+    )
 }
 
 fn within(
@@ -184,7 +203,9 @@ mod tests {
 
     #[test]
     fn the_embedded_recipes_are_valid_and_read_back() {
-        for config in [Config::paper().unwrap(), Config::reference().unwrap()] {
+        for name in ["paper", "reference", "hatt"] {
+            let config = Config::find(name).unwrap();
+            config.validate().unwrap();
             let text = config.to_toml().unwrap();
             assert_eq!(Config::parse("again", &text).unwrap(), config);
         }

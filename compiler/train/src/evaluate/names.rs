@@ -238,9 +238,10 @@ impl Setting<'_> {
         let (texts, targets, weights) = examples.all();
         let memory = TextMemory::fit(&texts, &targets, &weights, how, |_, _, _| ());
         let mut latents = memory.project(vectors);
-        if let Some(recall) = Recall::new(&memory, &materials, captions, how.recall_temperature) {
+        if let Some(how) = &how.recall {
+            let recall = Recall::new(&memory, &materials, captions, how);
             let directions = memory.directions(vectors);
-            recall.draw(&memory, self.anchors, &directions, &mut latents);
+            recall.draw(self.anchors, &directions, &mut latents);
         }
         latents
     }

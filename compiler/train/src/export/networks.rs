@@ -3,12 +3,13 @@
 
 use super::{ExportError, gain, graph::Writer};
 use crate::{
-    config::Excitation,
+    config::{self, Excitation},
+    feel::{Feel, LEAST},
     memory::{SHARPNESS, TextMemory},
     network::{GAPS, LOG_VARIANCE_BOUND, Trunk, gap_matrix, gap_offsets},
     normaliser::{LSFS, TAP_VALUES},
     parameters::Slot,
-    recall::{LEAST, Recall},
+    recall::Recall,
     trained::Trained,
 };
 use asperity::learned::description::LATENT;
@@ -58,15 +59,7 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
             columns[row * count + column] = *x;
         }
     }
-    let attributes = [
-        ("axes", Attribute::Ints(vec![1])),
-        ("keepdims", Attribute::Int(1)),
-    ];
-    let norm = writer
-        .graph
-        .node("ReduceL2", &[Some(&embedding)], &attributes);
-    let norm = writer.plus(&norm, f32::MIN_POSITIVE);
-    let direction = writer.graph.div(&embedding, &norm);
+    let direction = unit_rows(&mut writer, &embedding);
     let similarity = writer.product("mean_captions", &direction, &columns, count);
     let Remembered { z, felt, likeness } = match &trained.memory {
         Some(memory) => from_memory(&mut writer, trained, memory, &direction),
@@ -105,45 +98,103 @@ struct Remembered {
     likeness: Value,
 }
 
-/// `(Σ w·x_m + W·x)/(Σ w + W)`, as [`Recall::draw`], of a latent x and perhaps of attributes behind
-/// it; `likeness` is that of the memory's examples.
+/// The latent of a text drawn to its material, as [`Recall::draw`].
 fn recalled(
     writer: &mut Writer<'_>,
     trained: &Trained,
     recall: &Recall,
-    said: &Value,
+    z: &Value,
     direction: &Value,
-    likeness: (&Value, usize),
 ) -> Value {
-    let count = recall.owners.len();
-    let width = recall.codes.len() / count.max(1);
+    let (count, width) = (recall.owners.len(), recall.discriminant.offset.len());
+    let basis = &recall.discriminant.basis;
+    let placed = exact_product(writer, "recall.basis", direction, basis, width);
+    let offset = writer.row("recall.offset", &recall.discriminant.offset);
+    let placed = writer.graph.add(&placed, &offset);
+    let placed = unit_rows(writer, &placed);
     let prototypes = dequantised(writer, "prototypes", &recall.codes, width, &recall.scales);
-    let mut means = Vec::new();
-    for &owner in &recall.owners {
-        means.extend(trained.materials[owner].mean);
-        means.extend(trained.feel.iter().flat_map(|feel| feel.materials[owner]));
-    }
-    let columns = means.len() / count.max(1);
-    let means = writer.table("prototypes.materials", &[count, columns], means);
-    let inputs = [Some(direction), Some(&prototypes)];
+    let inputs = [Some(&placed), Some(&prototypes)];
     let nearness = writer.graph.node("MatMul", &inputs, &[]);
     let nearness = writer.plus(&nearness, -1.0);
-    let exponent = writer.times(&nearness, 1.0 / recall.temperature);
+    let exponent = writer.times(&nearness, 1.0 / recall.how.temperature as f32);
+    let log_weights = writer.row("prototypes.log_weights", &recall.log_weights);
+    let exponent = writer.graph.add(&exponent, &log_weights);
     let weights = writer.graph.unary("Exp", &exponent);
-    let inputs = [Some(&weights), Some(&means)];
-    let drawn = writer.graph.node("MatMul", &inputs, &[]);
-    let (likeness, examples) = likeness;
-    let phrases = (recall.phrases_from as i64, examples as i64);
-    let phrases = writer.graph.slice(likeness, 1, phrases.0, phrases.1);
-    let exponent = writer.times(&phrases, 1.0 / recall.temperature);
-    let phrases = writer.graph.unary("Exp", &exponent);
+    let owners = recall.owners.iter();
+    let means: Vec<f32> = owners
+        .flat_map(|&owner| trained.materials[owner].mean)
+        .collect();
+    let kept = writer.row("recall.kept", &[recall.kept()]);
+    let means = writer.table("prototypes.z", &[count, LATENT], means);
+    drawn(writer, &means, z, &kept, &weights)
+}
+
+/// Attributes of a text drawn to those of the material that it names, as [`Feel::ask`]; `likeness`
+/// is that of the memory's examples.
+fn felt_recalled(
+    writer: &mut Writer<'_>,
+    feel: &Feel,
+    how: &config::Recall,
+    felt: &Value,
+    likeness: &Value,
+    examples: usize,
+) -> Value {
+    let exponent = writer.times(likeness, 1.0 / how.felt_temperature as f32);
+    let near = writer.graph.unary("Exp", &exponent);
+    let names = feel.names.examples.iter().map(|&example| example as i64);
+    let weights = writer.gather(&near, 1, &names.collect::<Vec<i64>>());
+    let phrases = (feel.names.phrases_from as i64, examples as i64);
+    let phrases = writer.graph.slice(&near, 1, phrases.0, phrases.1);
     let kept = row_sum(writer, &phrases);
+    let kept = writer.times(&kept, how.felt_phrase_weight as f32);
     let kept = writer.plus(&kept, LEAST);
-    let own = writer.graph.mul(said, &kept);
+    let owners = feel.names.owners.iter();
+    let rows: Vec<f32> = owners.flat_map(|&owner| feel.materials[owner]).collect();
+    let rows = writer.table("names.felt", &[feel.names.owners.len(), FELT], rows);
+    drawn(writer, &rows, felt, &kept, &weights)
+}
+
+/// `(w·X + g·x)/(Σ w + g)`, as [`recall::drawn`]; g is `kept`.
+fn drawn(
+    writer: &mut Writer<'_>,
+    rows: &Value,
+    said: &Value,
+    kept: &Value,
+    weights: &Value,
+) -> Value {
+    let inputs = [Some(weights), Some(rows)];
+    let drawn = writer.graph.node("MatMul", &inputs, &[]);
+    let own = writer.graph.mul(said, kept);
     let numerator = writer.graph.add(&drawn, &own);
-    let total = row_sum(writer, &weights);
-    let total = writer.graph.add(&total, &kept);
+    let total = row_sum(writer, weights);
+    let total = writer.graph.add(&total, kept);
     writer.graph.div(&numerator, &total)
+}
+
+/// `x·W` for a matrix of so many columns, W as it is: where a τ divides what follows, or where the
+/// rounding of many thousand rows would add up.
+fn exact_product(
+    writer: &mut Writer<'_>,
+    name: &str,
+    x: &Value,
+    values: &[f32],
+    columns: usize,
+) -> Value {
+    let rows = values.len() / columns.max(1);
+    let matrix = writer.table(name, &[rows, columns], values.to_vec());
+    let inputs = [Some(x), Some(&matrix)];
+    writer.graph.node("MatMul", &inputs, &[])
+}
+
+/// Rows of length one, [B, W].
+fn unit_rows(writer: &mut Writer<'_>, x: &Value) -> Value {
+    let attributes = [
+        ("axes", Attribute::Ints(vec![1])),
+        ("keepdims", Attribute::Int(1)),
+    ];
+    let norm = writer.graph.node("ReduceL2", &[Some(x)], &attributes);
+    let norm = writer.plus(&norm, f32::MIN_POSITIVE);
+    writer.graph.div(x, &norm)
 }
 
 /// The sum of each row, [B, 1].
@@ -192,7 +243,7 @@ fn from_memory(
     direction: &Value,
 ) -> Remembered {
     let (width, count) = (memory.kept, memory.scales.len());
-    let direction = &writer.product("memory.basis", direction, &memory.basis, width);
+    let direction = &exact_product(writer, "memory.basis", direction, &memory.basis, width);
     let kept = dequantised(
         writer,
         "memory.vectors",
@@ -228,31 +279,19 @@ fn from_memory(
     let felt = trained.feel.as_ref().map(|feel| {
         let kernel = self::kernel(writer, &likeness, feel.concentration);
         let coefficients = feel.coefficients.as_flattened();
-        let felt = writer.product("feel.coefficients", &kernel, coefficients, FELT);
+        let felt = exact_product(writer, "feel.coefficients", &kernel, coefficients, FELT);
         let mean = writer.row("feel.mean", &feel.mean);
-        writer.graph.add(&felt, &mean)
+        let felt = writer.graph.add(&felt, &mean);
+        match &feel.recall {
+            Some(how) => felt_recalled(writer, feel, how, &felt, &likeness, count),
+            None => felt,
+        }
     });
-    let Some(recall) = &trained.recall else {
-        return Remembered { z, felt, likeness };
-    };
-    let said = match &felt {
-        Some(felt) => writer.graph.concat(&[&z, felt], 1),
+    let z = match &trained.recall {
+        Some(recall) => recalled(writer, trained, recall, &z, direction),
         None => z,
     };
-    let said = recalled(
-        writer,
-        trained,
-        recall,
-        &said,
-        direction,
-        (&likeness, count),
-    );
-    let (latent, all) = (LATENT as i64, (LATENT + FELT) as i64);
-    Remembered {
-        z: writer.graph.slice(&said, 1, 0, latent),
-        felt: felt.map(|_| writer.graph.slice(&said, 1, latent, all)),
-        likeness,
-    }
+    Remembered { z, felt, likeness }
 }
 
 /// `exp(γ·likeness)`.
