@@ -35,6 +35,11 @@ fn worst(missing: &Missing) -> f64 {
     missing.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
+/// What is missing of all: one that cannot be closed does not hide the others.
+fn sum_of_squares(missing: &Missing) -> f64 {
+    missing.iter().map(|x| x * x).sum()
+}
+
 impl Studio<'_> {
     /// The latents after an edit. Each slider moves its attribute by as many steps of the scale and
     /// leaves the others where they are: level and centroid of the vibration lie in what sliding was
@@ -112,7 +117,7 @@ impl Studio<'_> {
         for _ in 0..=CLOSINGS {
             let after = self.kept_attributes(&now, how)?;
             let missing = self.missing_from(&after, sliders, before);
-            if best.is_none_or(|(least, _)| worst(&missing) < worst(&least)) {
+            if best.is_none_or(|(least, _)| sum_of_squares(&missing) < sum_of_squares(&least)) {
                 best = Some((missing, now));
             }
             let closable = AXES.map(|axis| match axis {

@@ -3,8 +3,8 @@
 //! A recording ends at its slowest, fastest, lightest and hardest strokes. Beyond them stand vertices of
 //! their own: the power of every band at the nearest visited place goes on with its power law of speed and
 //! force. A law of a whole plane need not hold at its ends. So the outermost quarter of the time at each
-//! end is held out, and as much of the slopes is kept as predicts it best from the rest. Silence is left to
-//! rest itself, and to no touch.
+//! end is held out, and as much of the slopes is kept as it takes to predict it from the rest. Silence is left
+//! to rest itself, and to no touch.
 
 use super::{
     local::Local,
@@ -31,10 +31,11 @@ const NARROW: f64 = 1.5;
 const LEAST_PART: f64 = 0.01;
 /// Parts of the slopes that are tried.
 const PARTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
-/// Least width of the neighbourhood at the visited border, standard deviations, and how often it is
-/// doubled where that holds no segments.
-const WIDTH: f64 = 0.5;
-const DOUBLINGS: i32 = 4;
+/// Least width of the neighbourhood at the visited border, standard deviations. It is doubled, so often at
+/// most, until it holds so many samples: a corner of the rectangle may be far from any stroke.
+const WIDTH: f64 = 0.25;
+const DOUBLINGS: i32 = 5;
+const ENOUGH: f64 = 1000.0;
 /// Part of the segments that are held out at an end, and how many are looked at.
 const OUTERMOST: f64 = 0.25;
 const LOOKED_AT: usize = 32;
@@ -67,7 +68,7 @@ impl Slopes {
     }
 }
 
-/// The part of the slopes that predicts the outermost segments of an end best.
+/// The least part of the slopes that predicts the outermost segments of an end as well as any.
 fn kept(steady: &Steady, of: fn(&Segment) -> f64, above: bool) -> Option<f64> {
     let all: Vec<&Segment> = steady.segments.iter().collect();
     let (least, largest) = range(&all, of);
@@ -85,17 +86,32 @@ fn kept(steady: &Steady, of: fn(&Segment) -> f64, above: bool) -> Option<f64> {
     }
     let visited = Visited::new(&rest);
     let local = Local::new(steady, rest.into_iter());
-    let mut errors = [0.0; PARTS.len()];
+    let mut errors = Vec::new();
     for segment in out.iter().step_by(out.len().div_ceil(LOOKED_AT)) {
         let to = (segment.speed_mm_s, segment.force_n);
         let from = at_border(&local, visited.nearest(to), WIDTH)?;
-        for (error, part) in errors.iter_mut().zip(PARTS) {
+        errors.push(PARTS.map(|part| {
             let power = local.moved(&from, visited.nearest(to), to, [part; 2]);
-            *error += segment.length as f64 * whittle::of_power(steady, &power, segment);
-        }
+            segment.length as f64 * whittle::of_power(steady, &power, segment)
+        }));
     }
-    let least = (0..PARTS.len()).min_by(|&a, &b| errors[a].total_cmp(&errors[b]))?;
-    Some(PARTS[least])
+    Some(PARTS[simplest(&errors)])
+}
+
+/// The first column whose errors are no larger than those of the best one by more than a standard error of
+/// their mean difference (Breiman, Friedman, Olshen and Stone, 1984).
+fn simplest<const N: usize>(errors: &[[f64; N]]) -> usize {
+    let total = |column: usize| errors.iter().map(|row| row[column]).sum::<f64>();
+    let best = (0..N).min_by(|&a, &b| total(a).total_cmp(&total(b)));
+    let best = best.unwrap_or(0);
+    let is_as_good = |&column: &usize| {
+        let count = errors.len() as f64;
+        let mean = (total(column) - total(best)) / count;
+        let square = |row: &[f64; N]| (row[column] - row[best] - mean).powi(2);
+        let variance = errors.iter().map(square).sum::<f64>() / (count - 1.0).max(1.0);
+        mean <= (variance / count).sqrt()
+    };
+    (0..best).find(is_as_good).unwrap_or(best)
 }
 
 /// The least and the largest speed and force of segments.
@@ -128,12 +144,12 @@ fn range(segments: &[&Segment], of: fn(&Segment) -> f64) -> (f64, f64) {
     (least.max(LEAST_PART * largest), largest)
 }
 
-/// The spectrum at a place of the visited border, of which corners may be far from any segment.
+/// The spectrum at a place of the visited border.
 fn at_border(local: &Local, place: (f64, f64), width: f64) -> Option<Vec<f64>> {
-    (0..=DOUBLINGS).find_map(|n| {
-        let width = width.max(WIDTH) * f64::from(1 << n);
-        local.spectrum(place, width)
-    })
+    let mut widths = (0..=DOUBLINGS).map(|n| width.max(WIDTH) * f64::from(1 << n));
+    let widest = width.max(WIDTH) * f64::from(1 << DOUBLINGS);
+    let enough = widths.find(|&width| local.weight(place, width) >= ENOUGH);
+    local.spectrum(place, enough.unwrap_or(widest))
 }
 
 /// The vertices that close the rectangle around what all segments visited, as some of them have it. They

@@ -37,6 +37,15 @@ struct Row {
     bands: Vec<f64>,
 }
 
+impl Row {
+    /// Its weight at a place, Gaussian of a width.
+    fn near(&self, place: [f64; 2], width: f64) -> f64 {
+        let away = [0, 1].map(|axis| self.place[axis] - place[axis]);
+        let distance = (away[0] * away[0] + away[1] * away[1]) / (width * width);
+        self.weight * libm::exp(-0.5 * distance)
+    }
+}
+
 /// The segments of a recording, in coordinates of unit variance.
 #[derive(Debug, Clone)]
 pub(super) struct Local {
@@ -138,6 +147,13 @@ impl Local {
         Some(self.power(self.place(place), width)?.0)
     }
 
+    /// Samples in the neighbourhood of a place, each by how near it is.
+    pub(super) fn weight(&self, place: (f64, f64), width: f64) -> f64 {
+        let place = self.place(place);
+        let near = self.rows.iter().map(|row| row.near(place, width));
+        near.sum()
+    }
+
     /// A spectrum from one speed and force at another one, where every band goes on with a part of its
     /// slopes over the whole plane.
     pub(super) fn moved(
@@ -182,8 +198,7 @@ impl Local {
             .iter()
             .map(|row| {
                 let away = [0, 1].map(|axis| row.place[axis] - place[axis]);
-                let distance = (away[0] * away[0] + away[1] * away[1]) / (width * width);
-                (row, away, row.weight * libm::exp(-0.5 * distance))
+                (row, away, row.near(place, width))
             })
             .collect();
         let samples: f64 = near.iter().map(|(.., w)| w).sum();

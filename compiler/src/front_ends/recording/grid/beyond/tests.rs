@@ -128,3 +128,15 @@ fn any_visited_range_makes_a_grid_within_the_limits_that_is_not_much_louder() {
         }
     }
 }
+
+#[test]
+fn the_simplest_of_equally_good_columns_counts() {
+    let noisy = |n: usize| if n.is_multiple_of(2) { 1.0 } else { -1.0 };
+    // The second is better in the mean, by less than its differences scatter.
+    let errors: Vec<[f64; 2]> = (0..16).map(|n| [5.0, 4.9 + noisy(n)]).collect();
+    assert_eq!(simplest(&errors), 0);
+    // Better every time.
+    let errors: Vec<[f64; 2]> = (0..16).map(|n| [5.0, 4.9 + 0.01 * noisy(n)]).collect();
+    assert_eq!(simplest(&errors), 1);
+    assert_eq!(simplest::<3>(&[]), 0);
+}
