@@ -172,11 +172,10 @@ pub(super) fn friction(canvas: &mut Canvas, rect: Rect, import: &RecordingImport
     panel.line(canvas, ray(friction.mu), Stroke::new(ink::VERMILION, 3.0));
     // What is rendered at the slowest and at the fastest recorded speed.
     let points = friction.law.as_ref().map(|law| &law.points);
-    for point in points.into_iter().flat_map(|p| [p.first(), p.last()]) {
-        if let Some(point) = point {
-            let stroke = Stroke::new(ink::VERMILION, 2.0).dashed();
-            panel.line(canvas, ray(friction.mu * point.factor), stroke);
-        }
+    let ends = points.into_iter().flat_map(|p| [p.first(), p.last()]);
+    for point in ends.flatten() {
+        let stroke = Stroke::new(ink::VERMILION, 2.0).dashed();
+        panel.line(canvas, ray(friction.mu * point.factor), stroke);
     }
 }
 
