@@ -82,7 +82,7 @@ fn a_falling_law_does_not_chatter_at_rest() {
     }
 }
 
-/// Strokes of a light grip at 1 N. Where the law falls gently, speed stays the hand's own. Where it falls
+/// Strokes of a light grip at 1 N, slow enough for the hand to settle within the workspace. Where the law falls gently, speed stays the hand's own. Where it falls
 /// by more than the hand's damping, the hand sticks and slips, and slides on.
 #[test]
 fn a_hand_slides_over_a_falling_law() {
@@ -113,7 +113,7 @@ fn a_hand_slides_over_a_falling_law() {
     // Falls as v^−0.1: by 2.5 N·s/m at 1 N and 30 mm/s, where the other falls by 7.8.
     let gentle =
         material(&[20.0, 40.0, 80.0, 160.0, 320.0].map(|v: f64| (v, (v / 60.0).powf(-0.1))));
-    for speed_m_s in [0.03, 0.05, 0.08, 0.12] {
+    for speed_m_s in [0.03, 0.05, 0.08] {
         let [gentle, steep] = [&gentle, &stribeck()].map(|material| wobble(material, speed_m_s));
         println!("{speed_m_s} m/s: {gentle:?} gentle, {steep:?} steep");
         assert!(gentle.0 < 0.05, "{speed_m_s} m/s: {gentle:?}");

@@ -31,9 +31,10 @@ const NARROW: f64 = 1.5;
 const LEAST_PART: f64 = 0.01;
 /// Parts of the slopes that are tried.
 const PARTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
-/// Least width of the neighbourhood at the visited border, standard deviations. It is doubled, so often at
-/// most, until it holds so many samples: a corner of the rectangle may be far from any stroke.
-const WIDTH: f64 = 0.25;
+/// Widths of the neighbourhood at the visited border, standard deviations: between them lies that of the
+/// grid. It is doubled, so often at most, until it holds so many samples: a corner of the rectangle may be
+/// far from any stroke.
+const WIDTHS: (f64, f64) = (0.25, 0.5);
 const DOUBLINGS: i32 = 5;
 const ENOUGH: f64 = 1000.0;
 /// Part of the segments that are held out at an end, and how many are looked at.
@@ -89,7 +90,7 @@ fn kept(steady: &Steady, of: fn(&Segment) -> f64, above: bool) -> Option<f64> {
     let mut errors = Vec::new();
     for segment in out.iter().step_by(out.len().div_ceil(LOOKED_AT)) {
         let to = (segment.speed_mm_s, segment.force_n);
-        let from = at_border(&local, visited.nearest(to), WIDTH)?;
+        let from = at_border(&local, visited.nearest(to), WIDTHS.0)?;
         errors.push(PARTS.map(|part| {
             let power = local.moved(&from, visited.nearest(to), to, [part; 2]);
             segment.length as f64 * whittle::of_power(steady, &power, segment)
@@ -146,8 +147,9 @@ fn range(segments: &[&Segment], of: fn(&Segment) -> f64) -> (f64, f64) {
 
 /// The spectrum at a place of the visited border.
 fn at_border(local: &Local, place: (f64, f64), width: f64) -> Option<Vec<f64>> {
-    let mut widths = (0..=DOUBLINGS).map(|n| width.max(WIDTH) * f64::from(1 << n));
-    let widest = width.max(WIDTH) * f64::from(1 << DOUBLINGS);
+    let width = width.clamp(WIDTHS.0, WIDTHS.1);
+    let mut widths = (0..=DOUBLINGS).map(|n| width * f64::from(1 << n));
+    let widest = width * f64::from(1 << DOUBLINGS);
     let enough = widths.find(|&width| local.weight(place, width) >= ENOUGH);
     local.spectrum(place, enough.unwrap_or(widest))
 }
