@@ -2,7 +2,7 @@
 
 use crate::{
     autoregression::solve,
-    signal::quantile::{mean, median, quantile},
+    signal::quantile::{RMS_OF_MEDIAN, mean, median, quantile},
     timeline::Timeline,
 };
 use serde::Serialize;
@@ -19,6 +19,9 @@ const FEWEST: usize = 10;
 const LEAST_GAIN: f64 = 12.0;
 /// And it must change μ by this fraction over what was visited.
 const LEAST_EFFECT: f64 = 0.05;
+/// Neighbours in speed that a block is held against, and how many of their standard deviations it may be off.
+const NEIGHBOURS: usize = 15;
+const FAR: f64 = 5.0;
 
 /// Friction of a recording.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -146,11 +149,28 @@ pub fn friction(timeline: &Timeline) -> Option<Friction> {
         mu,
         spread: 0.5 * (quantile(all(), 0.84) - quantile(all(), 0.16)),
         blocks: blocks.len(),
-        law: law(&blocks, mu),
+        law: law(&typical(&blocks), mu),
         speeds_mm_s: [0.02, 0.98].map(|q| quantile(blocks.iter().map(|b| b.speed_mm_s), q)),
         load_n: median(blocks.iter().map(|b| b.load_n)),
         stick_slip: f64::from(sticking) / f64::from(sliding.max(1)),
     })
+}
+
+/// The blocks without those in which the tool caught or turned: far from the median of their neighbours in
+/// speed. A regression would follow them.
+fn typical(blocks: &[Block]) -> Vec<Block> {
+    let mut blocks = blocks.to_vec();
+    blocks.sort_by(|a, b| a.speed_mm_s.total_cmp(&b.speed_mm_s));
+    let is_typical = |index: usize| {
+        let first = index.saturating_sub(NEIGHBOURS / 2);
+        let first = first.min(blocks.len().saturating_sub(NEIGHBOURS));
+        let near = || blocks.iter().skip(first).take(NEIGHBOURS).map(|b| b.mu);
+        let middle = median(near());
+        let spread = RMS_OF_MEDIAN * median(near().map(|mu| (mu - middle).abs()));
+        (blocks[index].mu - middle).abs() <= (FAR * spread).max(LEAST_EFFECT * middle)
+    };
+    let kept = (0..blocks.len()).filter(|&index| is_typical(index));
+    kept.map(|index| blocks[index]).collect()
 }
 
 /// The law with the fewest parameters that no other beats clearly.
@@ -256,7 +276,8 @@ fn stribeck(blocks: &[Block]) -> Option<Law> {
             .iter()
             .map(|block| (block.mu - sliding - above * decay(block)).powi(2))
             .sum();
-        (sliding > 0.0).then_some((
+        // Friction does not push.
+        (sliding > 0.0 && sliding + above >= 0.0).then_some((
             error,
             Law::Stribeck {
                 sliding,
@@ -321,5 +342,19 @@ mod tests {
             } => assert!((sliding - 0.3).abs() < 0.02 && (20.0..80.0).contains(&v_s_mm_s)),
             other => panic!("{other:?}"),
         }
+    }
+
+    #[test]
+    fn blocks_in_which_the_tool_turned_tell_no_law() {
+        let mut caught = blocks(|_, _| 0.7);
+        for block in caught.iter_mut().take(30).step_by(4) {
+            block.mu = 0.3;
+        }
+        assert_eq!(law(&typical(&caught), 0.7), Law::Coulomb);
+        assert_ne!(
+            law(&caught, 0.7),
+            Law::Coulomb,
+            "without the test of neighbours"
+        );
     }
 }

@@ -4,7 +4,10 @@
 //! light tap. A polynomial of the fourth degree follows that over less than a tenth of a second, and
 //! cannot follow a transient of some milliseconds.
 
-use crate::{autoregression::solve, signal::quantile::median};
+use crate::{
+    autoregression::solve,
+    signal::quantile::{RMS_OF_MEDIAN, median},
+};
 use std::ops::Range;
 
 /// Coefficients.
@@ -13,8 +16,6 @@ const TERMS: usize = 5;
 const ROUNDS: usize = 8;
 /// Residuals beyond so many times the noise count less (Huber).
 const BOUND: f64 = 1.5;
-/// RMS of Gaussian noise over the median of its size.
-const RMS_OF_MEDIAN: f64 = 1.4826;
 
 /// A polynomial over a stretch of samples.
 #[derive(Debug, Clone, Copy, PartialEq)]

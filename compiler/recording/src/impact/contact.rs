@@ -1,13 +1,14 @@
 //! When the tool lands: the load before it is smoothed.
 
-use crate::{signal::quantile::median, timeline::Timeline};
+use crate::{
+    signal::quantile::{RMS_OF_MEDIAN, median},
+    timeline::Timeline,
+};
 
 /// Time in the air before an impact, samples of the timeline.
 const IN_AIR: usize = 40;
 /// Least load of a landing, N, and the same as a multiple of the load's noise in the air.
 const LEAST: (f64, f64) = (0.06, 8.0);
-/// RMS of Gaussian noise over the median of its size.
-const RMS_OF_MEDIAN: f64 = 1.4826;
 
 /// Whether the load before it is smoothed shows a contact.
 pub(crate) fn touches(timeline: &Timeline) -> Vec<bool> {
