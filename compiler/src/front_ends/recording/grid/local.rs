@@ -303,14 +303,14 @@ fn bands(power: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::{
-        front_ends::recording::grid::vertex::{Form, vertex},
+        front_ends::recording::grid::{
+            simulated::segments,
+            vertex::{Form, vertex},
+        },
         model::Numerator,
         signal::{lsf, spectrum::squared_magnitude},
     };
-    use asperity_recording::{
-        steady::{LAGS, frequencies_hz},
-        timeline::RATE_HZ,
-    };
+    use asperity_recording::{steady::frequencies_hz, timeline::RATE_HZ};
     use std::f64::consts::TAU;
 
     const NOISE: f64 = 1.0;
@@ -324,32 +324,8 @@ mod tests {
 
     /// Segments of half a second at irregular places, under white noise.
     fn steady(noise_is_known: bool) -> Steady {
-        let mut state = 9_u64;
-        let mut unit = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 33) as f64 + 0.5) / f64::from(1_u32 << 31)
-        };
-        let segments = (0..150)
-            .map(|n| {
-                let speed_mm_s = 12.0 * libm::pow(16.0, unit());
-                let force_n = 0.25 * libm::pow(8.0, unit());
-                let power: Vec<f64> = frequencies_hz()
-                    .into_iter()
-                    .map(|f| -libm::log(unit()) * (truth(speed_mm_s, force_n, f) + NOISE))
-                    .collect();
-                Segment {
-                    start: 500 * n,
-                    length: 500,
-                    speed_mm_s,
-                    force_n,
-                    lags: vec![power.iter().sum::<f64>() / POINTS as f64; LAGS + 1],
-                    power,
-                    statistic: 0.0,
-                }
-            })
-            .collect();
+        let ranges = ((12.0, 192.0), (0.25, 2.0));
+        let segments = segments(9, 150, ranges, |v, f, hz| truth(v, f, hz) + NOISE);
         Steady {
             segments,
             noise_lags: None,

@@ -20,6 +20,8 @@ mod lags;
 mod local;
 mod refine;
 mod shape;
+#[cfg(test)]
+mod simulated;
 mod vertex;
 mod whittle;
 

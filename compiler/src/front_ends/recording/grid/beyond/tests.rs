@@ -1,38 +1,14 @@
 use super::*;
 use crate::{
-    front_ends::recording::grid::{Choice, build},
+    front_ends::recording::grid::{Choice, build, simulated::segments},
     model::{ModelGrid, Numerator, mesh, mixture::Field},
 };
 use asperity_formats::limits::{MAX_TRIANGLES, MAX_VERTICES};
-use asperity_recording::steady::{LAGS, POINTS};
+use asperity_recording::steady::POINTS;
 
 /// Segments of half a second of white vibration whose mean power is a function of speed and force.
 fn steady(speeds: (f64, f64), forces: (f64, f64), power: impl Fn(f64, f64) -> f64) -> Steady {
-    let mut state = 5_u64;
-    let mut unit = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        ((state >> 33) as f64 + 0.5) / f64::from(1_u32 << 31)
-    };
-    let segments = (0..120)
-        .map(|n| {
-            let speed_mm_s = speeds.0 * libm::pow(speeds.1 / speeds.0, unit());
-            let force_n = forces.0 * libm::pow(forces.1 / forces.0, unit());
-            let power: Vec<f64> = (0..POINTS)
-                .map(|_| -libm::log(unit()) * power(speed_mm_s, force_n))
-                .collect();
-            Segment {
-                start: 500 * n,
-                length: 500,
-                speed_mm_s,
-                force_n,
-                lags: vec![power.iter().sum::<f64>() / POINTS as f64; LAGS + 1],
-                power,
-                statistic: 0.0,
-            }
-        })
-        .collect();
+    let segments = segments(5, 120, (speeds, forces), |v, f, _| power(v, f));
     Steady {
         segments,
         ..Steady::default()
