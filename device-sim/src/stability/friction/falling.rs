@@ -82,7 +82,7 @@ fn a_falling_law_does_not_chatter_at_rest() {
     }
 }
 
-/// Strokes of a light grip at 1 N, slow enough for the hand to settle within the workspace. Where the law falls gently, speed stays the hand's own. Where it falls
+/// Strokes of a light grip at 1 N. Where the law falls gently, speed stays the hand's own. Where it falls
 /// by more than the hand's damping, the hand sticks and slips, and slides on.
 #[test]
 fn a_hand_slides_over_a_falling_law() {
@@ -113,10 +113,15 @@ fn a_hand_slides_over_a_falling_law() {
     // Falls as v^−0.1: by 2.5 N·s/m at 1 N and 30 mm/s, where the other falls by 7.8.
     let gentle =
         material(&[20.0, 40.0, 80.0, 160.0, 320.0].map(|v: f64| (v, (v / 60.0).powf(-0.1))));
-    for speed_m_s in [0.03, 0.05, 0.08] {
-        let [gentle, steep] = [&gentle, &stribeck()].map(|material| wobble(material, speed_m_s));
-        println!("{speed_m_s} m/s: {gentle:?} gentle, {steep:?} steep");
-        assert!(gentle.0 < 0.05, "{speed_m_s} m/s: {gentle:?}");
-        assert!(steep.1 > 0.3, "{speed_m_s} m/s: {steep:?} of sliding");
+    let plain = material(&[]);
+    for speed_m_s in [0.03, 0.05, 0.08, 0.12] {
+        let [plain, gentle, steep] =
+            [&plain, &gentle, &stribeck()].map(|material| wobble(material, speed_m_s));
+        println!("{speed_m_s} m/s: {plain:?} without a law, {gentle:?} gentle, {steep:?} steep");
+        // A fast stroke ends before the hand has settled, with a law or without.
+        assert!(gentle.0 < plain.0 + 0.025, "{speed_m_s} m/s: {gentle:?}");
+        assert!(steep.1 > 0.9 * plain.1, "{speed_m_s} m/s: {steep:?}");
+        let sticks = steep.0 > 0.3;
+        assert!(sticks || speed_m_s > 0.05, "{speed_m_s} m/s: {steep:?}");
     }
 }
