@@ -58,6 +58,12 @@ impl FrictionLaw {
         }
     }
 
+    /// The factor of a law at a speed, mm/s; 1 without a law.
+    #[must_use]
+    pub fn factor_of(law: Option<&Self>, speed_mm_s: f64) -> f64 {
+        law.map_or(1.0, |law| law.factor_at(speed_mm_s))
+    }
+
     /// The law with factors that an asset holds beside this μ: what is beyond its largest μ is cut.
     #[must_use]
     pub fn beside(mut self, mu: f64) -> Self {
@@ -79,10 +85,9 @@ impl FrictionLaw {
             .collect();
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
-        let factor = |law: Option<&Self>, speed| law.map_or(1.0, |law| law.factor_at(speed));
         let mixed = |speed_mm_s: f64| LawPoint {
             speed_mm_s,
-            factor: (1.0 - t) * factor(a, speed_mm_s) + t * factor(b, speed_mm_s),
+            factor: (1.0 - t) * Self::factor_of(a, speed_mm_s) + t * Self::factor_of(b, speed_mm_s),
         };
         let law = Self::through(speeds.into_iter().map(mixed).collect())?;
         // At an end that has no law there is none.

@@ -114,8 +114,7 @@ impl Friction {
     /// μ at a speed, mm/s.
     #[must_use]
     pub fn mu_at(&self, speed_mm_s: f64) -> f64 {
-        let factor = self.law.as_ref().map_or(1.0, |l| l.factor_at(speed_mm_s));
-        self.mu * factor
+        self.mu * FrictionLaw::factor_of(self.law.as_ref(), speed_mm_s)
     }
 
     /// The largest μ at any speed.

@@ -55,8 +55,7 @@ impl TextureFacts {
     /// Coefficient of friction at a speed, mm/s.
     #[must_use]
     pub fn mu_at(&self, speed_mm_s: f64) -> f64 {
-        let factor = self.law.as_ref().map_or(1.0, |l| l.factor_at(speed_mm_s));
-        self.mu * factor
+        self.mu * FrictionLaw::factor_of(self.law.as_ref(), speed_mm_s)
     }
 }
 
