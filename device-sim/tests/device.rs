@@ -1,9 +1,7 @@
 //! `asperity-lab device` as a user sees it where no device is needed. `.ci/check-usb` shows the
 //! states of a device.
 
-#[path = "../../runtime/host/tests/fakes/mod.rs"]
-mod fakes;
-
+use crate::fakes;
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};

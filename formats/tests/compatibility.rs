@@ -1,11 +1,10 @@
 //! A reader accepts what later files may add, and each version has its own friction.
 
-mod common;
-
-use asperity_formats::{Asset, FormatError, VERSION, assemble, assembled_len};
-use common::{
+use crate::common;
+use crate::common::{
     append_section, falling, put, replace_section, seal_header, section::PROVENANCE, small, span,
 };
+use asperity_formats::{Asset, FormatError, VERSION, assemble, assembled_len};
 
 #[test]
 fn unknown_ancillary_sections_are_carried_and_skipped() {
@@ -157,6 +156,6 @@ fn the_committed_asset_with_a_law_is_what_is_written_today() {
     assert!(
         committed == bytes,
         "the writer changed its bytes; if version 2 was never released, run\n\
-         ASPERITY_BLESS=1 cargo test -p asperity-formats --test compatibility"
+         ASPERITY_BLESS=1 cargo test -p asperity-formats --test it compatibility::"
     );
 }

@@ -1,9 +1,7 @@
 //! A file that is truncated at any byte, or that has any bit flipped, gives a typed error.
 
-mod common;
-
+use crate::common::{falling, full, small};
 use asperity_formats::{Asset, FormatError, Library, library};
-use common::{falling, full, small};
 
 /// Parses the whole asset, and the part that a runtime reads.
 fn read(bytes: &[u8]) -> (Result<(), FormatError>, Result<(), FormatError>) {

@@ -1,9 +1,9 @@
 //! Lengths and counts that exceed the file are refused, and the checks run in their order.
 
-mod common;
-
+use crate::common::{
+    append_section, falling, full, put, seal, seal_header, section::GRID, small, span,
+};
 use asperity_formats::{Asset, FormatError, Library, library};
-use common::{append_section, falling, full, put, seal, seal_header, section::GRID, small, span};
 use proptest::{collection::vec, prelude::*};
 
 #[test]

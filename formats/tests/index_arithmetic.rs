@@ -2,13 +2,11 @@
 //! of a small library, takes every value. The checksums are recomputed, so that only the
 //! arithmetic prevents a read out of bounds. Under Miri each byte takes a few values.
 
-mod common;
-
+use crate::common::{crc32, falling, put, seal, seal_header, section, small, span};
 use asperity_formats::{
     Asset, Library, library,
     taps::{BLOCK, side_by_side},
 };
-use common::{crc32, falling, put, seal, seal_header, section, small, span};
 
 /// Bytes to try: all of them, or those next to a carry or a change of sign.
 fn values() -> impl Iterator<Item = u8> {

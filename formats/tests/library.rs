@@ -1,12 +1,11 @@
 //! One texture of a library is read without reading the others.
 
-mod common;
-
+use crate::common;
+use crate::common::{crc32, full, put, small};
 use asperity_formats::{
     Asset, EncodeError, FormatError, Library,
     library::{HEADER_LEN, LibraryIndex, encode_library, encoded_len, index_len},
 };
-use common::{crc32, full, put, small};
 use std::{
     fs::File,
     io::{Read, Seek, SeekFrom, Write},
@@ -167,7 +166,7 @@ fn the_committed_library_is_what_is_written_today() {
     assert!(
         committed == bytes,
         "the writer changed its bytes; if version 1 was never released, run\n\
-         ASPERITY_BLESS=1 cargo test -p asperity-formats --test library"
+         ASPERITY_BLESS=1 cargo test -p asperity-formats --test it library::"
     );
 }
 

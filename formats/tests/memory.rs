@@ -1,9 +1,7 @@
 //! Latents and history: optional, outside the haptic bytes, checked like every other section.
 
-mod common;
-
+use crate::common::*;
 use asperity_formats::{Asset, FormatError, SectionInfo, assemble, assembled_len};
-use common::*;
 
 fn sections<'a>(asset: &Asset<'a>) -> Vec<([u8; 4], &'a [u8])> {
     let body = |s: SectionInfo| (s.tag, asset.section(&s).unwrap());

@@ -1,12 +1,11 @@
 //! Any valid parts are read back as they were written, by the crate and by a reader that was
 //! written from `SPEC.md`.
 
-mod common;
-
+use crate::common;
+use crate::common::{Parts, full, lattice, small, spec_reader};
 use asperity_formats::{
     Asset, Coupling, EncodeError, FormatError, LawPoint, Numerator, Vertex, VertexKind,
 };
-use common::{Parts, full, lattice, small, spec_reader};
 use proptest::{collection::vec, prelude::*};
 
 /// Strictly ascending codes, at least `gap` apart and `gap` away from both ends.

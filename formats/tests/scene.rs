@@ -1,13 +1,12 @@
 //! A library of version 2 says which surfaces wear which textures.
 
-mod common;
-
+use crate::common;
+use crate::common::{put, small};
 use asperity_formats::{
     EncodeError, FormatError, Library, SceneSurface, Solid,
     library::{encode_library, encode_scene, encoded_len},
     scene,
 };
-use common::{put, small};
 
 const EVERYWHERE: ([f32; 3], [f32; 3]) = ([-1.0; 3], [1.0; 3]);
 
@@ -194,6 +193,6 @@ fn the_committed_scene_is_what_is_written_today() {
     assert!(
         committed == bytes,
         "the writer changed its bytes; if version 2 was never released, run\n\
-         ASPERITY_BLESS=1 cargo test -p asperity-formats --test scene"
+         ASPERITY_BLESS=1 cargo test -p asperity-formats --test it scene::"
     );
 }

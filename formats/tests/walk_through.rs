@@ -1,9 +1,8 @@
 //! The walk-through in `SPEC.md` shows the bytes that the writer writes.
 
-mod common;
-
+use crate::common;
+use crate::common::small;
 use asperity_formats::library;
-use common::small;
 use std::{fmt::Write, fs};
 
 const SPEC: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md");
@@ -134,7 +133,7 @@ fn compare(mark: &str, expected: &str) {
     assert!(
         spec[start..end] == *expected,
         "SPEC.md and the writer disagree about {mark}; the writer says\n{expected}\n\
-         ASPERITY_BLESS=1 cargo test -p asperity-formats --test walk_through rewrites it"
+         ASPERITY_BLESS=1 cargo test -p asperity-formats --test it walk_through:: rewrites it"
     );
 }
 

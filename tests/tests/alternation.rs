@@ -3,8 +3,7 @@
 //! the runtime, which then sees each point in turn. Textures are the built-in one and HaTT
 //! materials, servo loops run at the rate of the models and faster.
 
-mod support;
-
+use crate::support;
 use asperity_formats::Asset;
 use asperity_runtime::quantity::Quantity;
 use asperity_runtime::{HostTexture, stage::vibration::Vibration};

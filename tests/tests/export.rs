@@ -3,6 +3,7 @@
 // A `cc` that takes these flags is Unix's.
 #![cfg(unix)]
 
+use crate::support;
 use asperity::interchange::{Language, export_bytes};
 use asperity_formats::library;
 use std::{
@@ -10,8 +11,6 @@ use std::{
     path::{Path, PathBuf},
     process::{Command, Output},
 };
-
-mod support;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()

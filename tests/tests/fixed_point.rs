@@ -1,6 +1,7 @@
 //! Fixed point on real materials. No range cuts a model, spectra are within a tenth of a decibel
 //! of those of the f64 oracle, and the bands of the vibration are those of floats.
 
+use crate::support;
 use asperity_formats::Asset;
 use asperity_runtime::quantity::Quantity;
 use asperity_runtime::{Fixed, Float, RenderArithmetic, stage::vibration::Vibration};
@@ -12,8 +13,6 @@ use asperity_tests::{
     texture::HostSlot,
 };
 use rayon::prelude::*;
-
-mod support;
 
 /// Queries per material.
 const QUERIES: usize = if cfg!(debug_assertions) { 10 } else { 200 };

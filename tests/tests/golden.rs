@@ -3,14 +3,13 @@
 //! `assets/builtin-v1.asp` was written by `asperity builtin` in format version 1. It is kept
 //! whatever later versions write, and must stay readable.
 
-mod support;
-
+use crate::support;
 use asperity_formats::{Asset, Numerator, VertexKind};
 use asperity_tests::oracle::{Oracle, Texture};
 use std::{fmt::Write as _, fs, path::PathBuf};
 
 const REGENERATE: &str = "if the change is meant, regenerate it with\n\
-     ASPERITY_BLESS=1 cargo test -p asperity-tests --test golden\n\
+     ASPERITY_BLESS=1 cargo test -p asperity-tests --test it golden::\n\
      and look at the difference before committing it";
 
 fn path(name: &str) -> PathBuf {

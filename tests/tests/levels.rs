@@ -1,8 +1,7 @@
 //! In a steady stroke of 60 s the third octaves of the vibration are within 1 dB of the model's,
 //! at vertices and between them, for the built-in texture and HaTT materials.
 
-mod support;
-
+use crate::support;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{

@@ -4,8 +4,7 @@
 //!
 //! A release build takes 10⁷ random queries over all materials, other builds fewer.
 
-mod support;
-
+use crate::support;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{draw::Draw, hatt, oracle::Texture, stability::largest_reflection};

@@ -2,8 +2,7 @@
 //! those of a loop at their own rate, spectrum and level are kept, taps play at their source
 //! rate, and forces stay within their limits.
 
-mod support;
-
+use crate::support;
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::quantity::Quantity;
 use asperity_runtime::{

@@ -1,14 +1,13 @@
 //! From a prompt to a picture, on a folder whose picture is known.
 
-mod common;
-
+use crate::common;
+use crate::common::{cork, opened};
 use asperity_diffusion::{
     Method, Picture, Request, Tokens, folder,
     scheduler::Prediction,
     tiny::{self, LATENT, Options, PICTURE},
 };
 use asperity_nn::ElementType;
-use common::{cork, opened};
 
 /// The picture that a right sampler ends at: x₀(negative) + scale·(x₀(prompt) − x₀(negative)),
 /// decoded.

@@ -1,10 +1,8 @@
 //! Folders with parts that do not fit: which part, which port, and what to do.
 
-mod common;
-
+use crate::common::{cork, opened, parts};
 use asperity_diffusion::{DiffusionError, Parts, Problem, Request, tiny::Options};
 use asperity_nn::{Dim, ElementType, Port, RunError, Session, Tensor};
-use common::{cork, opened, parts};
 
 /// A network with the ports of another, changed; it answers as the other does.
 struct Changed {

@@ -1,6 +1,6 @@
 //! `asperity record-check` and `asperity import recording`: what is accepted, what is refused and why.
 
-use crate::{asperity, entries, text};
+use super::{asperity, entries, text};
 use std::{f64::consts::TAU, fmt::Write as _, fs, path::Path};
 use tempfile::TempDir;
 

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How many where `ASPERITY_LATENTS` does not say; 100,000 take ten minutes of processor time:
-/// `ASPERITY_LATENTS=100000 cargo test --release -p asperity --test prompts any_latent`.
+/// `ASPERITY_LATENTS=100000 cargo test --release -p asperity --test it any_latent`.
 const LATENTS: usize = if cfg!(debug_assertions) { 400 } else { 10_000 };
 /// Every so many goes through the runtime as well.
 const VERIFIED_EVERY: usize = 7;

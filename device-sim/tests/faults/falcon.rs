@@ -10,7 +10,7 @@ use asperity_runtime::Config;
 use asperity_virtual_usb::falcon::Falcon as Virtual;
 use asperity_virtual_usb::{InProcessOpener, Port, Socket};
 
-use crate::servo::{SEED, asset, load};
+use super::servo::{SEED, asset, load};
 
 /// The driver's own threads make no two runs alike, but the promises hold in each. The surface lies
 /// so high that the force is at its peak, whatever the virtual hand does.

@@ -8,8 +8,8 @@ use asperity_host::device::supervised::Report;
 use asperity_host::recording::{Encoder, Ending, Recording, render_again};
 use asperity_runtime::Config;
 
-use crate::servo::{Servo, asset, conditions, load};
-use crate::simulated::Simulated;
+use super::servo::{Servo, asset, conditions, load};
+use super::simulated::Simulated;
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3)

@@ -1,6 +1,6 @@
 //! Every fault on every back end: what becomes of the force, and when.
 //!
-//! `ASPERITY_BLESS=1 cargo test -p asperity-sim --test faults` writes the table of `docs/faults.md`
+//! `ASPERITY_BLESS=1 cargo test -p asperity-sim --test it faults::` writes the table of `docs/faults.md`
 //! anew.
 
 use std::path::Path;
@@ -14,9 +14,9 @@ use asperity_host::device::{Description, Device, Fault, Reading};
 use asperity_host::recording::{Encoder, Recording};
 use asperity_runtime::{Config, HostTexture};
 
+use super::servo::{SEED, Servo, asset, conditions, load};
+use super::simulated::Simulated;
 use crate::fakes::{Fake, alone};
-use crate::servo::{SEED, Servo, asset, conditions, load};
-use crate::simulated::Simulated;
 
 /// A device in free air that takes any force.
 struct Null(Description);

@@ -1,10 +1,6 @@
 //! Assets for the tests, tools to damage them, and an independent reader.
 
-#![allow(
-    dead_code,
-    unreachable_pub,
-    reason = "every test binary compiles this module and uses a part of it"
-)]
+#![allow(unreachable_pub, reason = "a helper of a binary")]
 
 pub mod spec_reader;
 

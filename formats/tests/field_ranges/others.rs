@@ -292,7 +292,7 @@ fn a_preview_that_is_no_png() {
 #[test]
 fn fields_of_the_header() {
     let original = small().encode();
-    let (total, haptic) = (original.len() as f64, common::u32_at(&original, 12));
+    let (total, haptic) = (original.len() as f64, crate::common::u32_at(&original, 12));
     let patched = |at: usize, piece: &[u8]| {
         let mut bytes = original.clone();
         put(&mut bytes, at, piece);

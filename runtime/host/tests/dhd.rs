@@ -1,11 +1,9 @@
 //! The DHD back end against a library of our own that exports the same functions.
 
-mod fakes;
-
+use crate::fakes::Fake;
 use asperity_host::device::dhd::Dhd;
 use asperity_host::device::vendor_library::{LibraryError, VendorError};
 use asperity_host::device::{Device, Fault, Uri};
-use fakes::Fake;
 
 #[test]
 fn a_session_begins_and_ends_in_order_and_speaks_the_world_frame() {

@@ -1,7 +1,6 @@
 //! What is measured is what was: injected delays, omitted ticks, files, comparisons.
 
-mod support;
-
+use crate::support::{Act, Scripted, texture};
 use asperity_host::latency::{
     Collector, Conditions, Delayed, Injection, LogError, Machine, Run, Wakeups, compare,
     percentile_distribution, read_log, write_log,
@@ -12,7 +11,6 @@ use asperity_host::servo::{
 use asperity_runtime::{Config, Counters, Output, Sample, State};
 use hdrhistogram::Histogram;
 use std::sync::atomic::AtomicBool;
-use support::{Act, Scripted, texture};
 
 /// What each stage takes, ns.
 const WAKE_NS: u64 = 5_000;

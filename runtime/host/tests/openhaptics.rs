@@ -1,14 +1,12 @@
 //! The OpenHaptics back end against a library of our own that exports the same functions: loading,
 //! order of the calls, threads and errors are real.
 
-mod fakes;
-
 use std::time::{Duration, Instant};
 
+use crate::fakes::{Fake, alone, build};
 use asperity_host::device::openhaptics::OpenHaptics;
 use asperity_host::device::vendor_library::{LibraryError, VendorError};
 use asperity_host::device::{Device, Fault, Reading, Uri};
-use fakes::{Fake, alone, build};
 
 /// Reads until a reading fulfils a condition.
 fn read_until(

@@ -1,8 +1,7 @@
 //! A session of a servo loop, recorded and played in another loop: the same forces, bit for bit,
 //! however late either of them was.
 
-mod support;
-
+use crate::support::{Act, Kept, Scripted, texture};
 use asperity_host::device::Fault;
 use asperity_host::device::replay::{AtEnd, Replay};
 use asperity_host::recording::{
@@ -13,7 +12,6 @@ use asperity_host::servo::{
 };
 use asperity_runtime::{Config, State};
 use std::sync::atomic::AtomicBool;
-use support::{Act, Kept, Scripted, texture};
 
 const PERIOD_NS: u64 = 1_000_000;
 const SEED: u64 = 9;

@@ -1,7 +1,6 @@
 //! The servo loop in virtual time: overruns, faults, shutdown, telemetry.
 
-mod support;
-
+use crate::support::{Act, Kept, Scripted, length, texture};
 use asperity_host::device::Fault;
 use asperity_host::servo::{
     End, Event, Fixed, Overrun, Report, ServoLoop, Settings, SettingsError, Stage, Virtual, queues,
@@ -9,7 +8,6 @@ use asperity_host::servo::{
 use asperity_runtime::{Flags, State};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-use support::{Act, Kept, Scripted, length, texture};
 
 const PERIOD_NS: u64 = 1_000_000;
 static NEVER: AtomicBool = AtomicBool::new(false);

@@ -1,14 +1,12 @@
 //! A device that fails in mid-stroke, in a servo loop: the force is gone, the device is found again
 //! and homed, and the force comes back by a ramp.
 
-mod support;
-
+use crate::support::{Act, Kept, Scripted, length, texture};
 use asperity_host::device::faulty::{Faulty, Injected, Plan};
 use asperity_host::device::{Description, Device, Fault, Reading};
 use asperity_host::servo::{Event, Fixed, Report, ServoLoop, Settings, Virtual};
 use asperity_runtime::{Config, Flags, Renderer, State};
 use std::sync::atomic::AtomicBool;
-use support::{Act, Kept, Scripted, length, texture};
 
 static NEVER: AtomicBool = AtomicBool::new(false);
 

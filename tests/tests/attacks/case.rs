@@ -1,6 +1,6 @@
 //! A command with a hostile input: a case.
 
-use crate::{
+use super::{
     forms::{FORMS, Form},
     mutate::mutated,
     pieces::{PROMPT, Piece},

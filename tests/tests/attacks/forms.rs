@@ -1,6 +1,6 @@
 //! The commands that are attacked.
 
-use crate::{
+use super::{
     programs::Program::{self, Compiler, Lab},
     seeds::Seed,
 };

@@ -1,6 +1,6 @@
 //! Damage to valid inputs.
 
-use crate::{
+use super::{
     forge::sealed,
     seeds::{Seed, Seeds},
 };

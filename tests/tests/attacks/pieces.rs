@@ -1,6 +1,6 @@
 //! Attacks that are not left to chance: each was, or would be, a way to stop a command.
 
-use crate::{
+use super::{
     forge,
     programs::Program::{self, Compiler, Lab},
     seeds::{Seed, Seeds},

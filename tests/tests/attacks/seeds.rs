@@ -1,6 +1,7 @@
 //! Valid inputs of every kind, which attacks start from.
 
-use crate::{recording, support::builtin};
+use super::recording;
+use crate::support::builtin;
 use asperity::interchange::{ClipFormat, Options, export, session};
 use asperity_diffusion::tiny;
 use asperity_formats::{SceneSurface, Solid, library};

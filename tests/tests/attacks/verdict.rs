@@ -1,6 +1,6 @@
 //! What must hold after a command, and the count of what came of all.
 
-use crate::{case::Attack, run::Run};
+use super::{case::Attack, run::Run};
 use std::{
     collections::BTreeMap,
     fmt, fs,

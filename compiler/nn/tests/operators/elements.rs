@@ -2,7 +2,7 @@
 
 use asperity_nn::{Bytes, Tensor, build::Attribute};
 
-use crate::{apply, apply_to, f32s, i64s, refusal};
+use super::{apply, apply_to, f32s, i64s, refusal};
 
 #[test]
 fn arithmetic_broadcasts_as_numpy() {

@@ -2,7 +2,7 @@
 
 use asperity_nn::{Tensor, build::Attribute};
 
-use crate::{apply, apply_to, counted, f32s, i64s, refusal};
+use super::{apply, apply_to, counted, f32s, i64s, refusal};
 
 fn axis(value: i64) -> [(&'static str, Attribute); 1] {
     [("axis", Attribute::Int(value))]

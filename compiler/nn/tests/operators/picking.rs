@@ -2,7 +2,7 @@
 
 use asperity_nn::{Bytes, Tensor, build::Attribute};
 
-use crate::{apply, apply_to, counted, f32s, i64s, refusal};
+use super::{apply, apply_to, counted, f32s, i64s, refusal};
 
 #[test]
 fn gather_picks_along_an_axis() {

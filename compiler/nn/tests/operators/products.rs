@@ -5,7 +5,7 @@ use asperity_nn::{
     build::{Attribute, GraphBuilder},
 };
 
-use crate::{apply, apply_to, counted, f32s, refusal};
+use super::{apply, apply_to, counted, f32s, refusal};
 
 #[test]
 fn matmul_of_matrices_and_vectors() {

@@ -2,7 +2,7 @@
 
 use asperity_host::recording::{Ending, TextureInfo, render_again, start};
 
-use crate::session::{Shared, asset, conditions, entries, other, read};
+use super::session::{Shared, asset, conditions, entries, other, read};
 
 #[test]
 fn a_session_with_two_textures_is_rendered_again_to_the_bit() {

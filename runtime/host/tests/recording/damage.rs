@@ -2,7 +2,7 @@
 
 use asperity_host::recording::{Ending, RecordingError};
 
-use crate::session::{BUILTIN, conditions, entries, file, read};
+use super::session::{BUILTIN, conditions, entries, file, read};
 
 #[test]
 fn a_file_that_is_cut_anywhere_is_read_up_to_its_last_whole_block() {

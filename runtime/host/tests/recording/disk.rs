@@ -6,7 +6,7 @@ use asperity_host::recording::{
     Entry, Recording, RecordingError, TextureInfo, render_again, start,
 };
 
-use crate::session::{Shared, asset, conditions, entries, other, read};
+use super::session::{Shared, asset, conditions, entries, other, read};
 
 #[test]
 fn a_slow_disk_loses_ticks_that_are_counted_and_never_stops_the_servo_thread() {

@@ -7,7 +7,7 @@ use asperity_host::device::{Device, Fault};
 use asperity_host::recording::Entry;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 
-use crate::session::{BUILTIN, SEED, entries, file, read, sample};
+use super::session::{BUILTIN, SEED, entries, file, read, sample};
 
 #[test]
 fn a_replay_drives_the_tick_to_the_same_bits() {

@@ -2,7 +2,7 @@
 
 use asperity_host::recording::csv;
 
-use crate::session::{entries, file, read};
+use super::session::{entries, file, read};
 
 #[test]
 fn the_table_has_a_row_for_every_tick_and_its_floats_read_back() {

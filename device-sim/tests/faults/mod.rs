@@ -1,8 +1,6 @@
 //! Faults around every kind of device: the force stays within its limits, goes to zero, comes back,
 //! and each fault is told once.
 
-#[path = "../../../runtime/host/tests/fakes/mod.rs"]
-mod fakes;
 mod falcon;
 mod servo;
 mod session;

@@ -1,17 +1,15 @@
 //! A field out of its range is rejected with its name, its index and its value, even if every
 //! CRC is right.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod grid;
 mod others;
 
-use asperity_formats::{Asset, FormatError};
-use common::{
+use crate::common::{
     falling, put, replace_section, seal, seal_header,
     section::{FRICTION, GRID, NAME, PREVIEW, PROVENANCE, SURFACE, TAPS},
     small, span,
 };
+use asperity_formats::{Asset, FormatError};
 
 /// Offsets in the sections of [`small`].
 const MODEL: usize = 12;

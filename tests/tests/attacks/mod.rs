@@ -18,8 +18,6 @@ mod recording;
 mod run;
 mod seeds;
 mod strange;
-#[path = "../support/mod.rs"]
-mod support;
 mod verdict;
 
 use asperity_tests::draw::Draw;

@@ -1,0 +1,8 @@
+//! The integration tests of this crate, one binary, so that they are linked once. A new file needs
+//! its line here; `.ci/check-tests` fails without it.
+
+mod clip;
+mod common;
+mod end_to_end;
+mod refusals;
+mod schedulers;

@@ -1,0 +1,12 @@
+//! The integration tests of this crate, one binary, so that they are linked once. A new file needs
+//! its line here; `.ci/check-tests` fails without it.
+
+mod auto_gain;
+mod commands;
+mod edits;
+mod model_schema;
+mod models;
+mod prompts;
+mod relative;
+mod scene;
+mod tokens;

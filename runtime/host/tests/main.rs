@@ -1,0 +1,13 @@
+//! The integration tests of this crate, one binary, so that they are linked once. A new file needs
+//! its line here; `.ci/check-tests` fails without it.
+
+mod dhd;
+mod fakes;
+mod interval_log;
+mod latency;
+mod openhaptics;
+mod recording;
+mod replayed;
+mod servo;
+mod support;
+mod unplugged;

@@ -1,0 +1,26 @@
+//! The integration tests of this crate, one binary, so that they are linked once. A new file needs
+//! its line here; `.ci/check-tests` fails without it.
+
+mod alternation;
+mod attacks;
+mod c_face;
+mod exchange;
+mod export;
+mod fidelity;
+mod fixed_point;
+mod friction_law;
+mod fuzz_cases;
+mod fuzz_ticks;
+mod golden;
+mod import_hatt;
+mod laws_force;
+mod laws_friction;
+mod laws_lsf;
+mod laws_queries;
+mod levels;
+mod oracle_filter;
+mod oracle_tick;
+mod queries;
+mod rates;
+mod scene;
+mod support;
