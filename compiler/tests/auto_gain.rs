@@ -12,6 +12,7 @@ use asperity::{
     reduce::Fidelity,
 };
 use asperity_formats::Asset;
+use asperity_tests::size::sized_or;
 use rayon::prelude::*;
 
 const QUALITIES: [&str; 20] = [
@@ -91,8 +92,7 @@ const THINGS: [&str; 50] = [
 
 /// Prompts, different ones first. `ASPERITY_PROMPTS` asks for up to 1,000.
 fn prompts() -> Vec<String> {
-    let count = std::env::var("ASPERITY_PROMPTS").ok();
-    let count: usize = count.and_then(|count| count.parse().ok()).unwrap_or(24);
+    let count = sized_or("ASPERITY_PROMPTS", "prompts", 24, 100);
     // 37 shares no factor with the number of prompts, so that each comes once.
     let all = QUALITIES.len() * THINGS.len();
     let place = |n: usize| {

@@ -9,6 +9,7 @@ use asperity::{
     raise::raise,
     reduce::Fidelity,
 };
+use asperity_tests::size::sized_or;
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rayon::prelude::*;
@@ -24,8 +25,7 @@ const LEAST_HIT: f64 = 0.95;
 
 /// Textures between two random materials of the model. `ASPERITY_EDITS` asks for more.
 fn textures() -> Vec<Latents> {
-    let count = std::env::var("ASPERITY_EDITS").ok();
-    let count = count.and_then(|count| count.parse().ok()).unwrap_or(12);
+    let count = sized_or("ASPERITY_EDITS", "textures", 5, 12);
     let anchors = &AUTHOR.model().description().anchors;
     let mut random = Xoshiro256PlusPlus::seed_from_u64(1);
     let mut latent = || -> Latent {

@@ -5,7 +5,6 @@ mod auto_gain;
 mod commands;
 mod edits;
 mod model_schema;
-mod models;
 mod prompts;
 mod relative;
 mod scene;

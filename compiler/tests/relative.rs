@@ -7,6 +7,7 @@ use asperity::{
     prompt::Author,
     reduce::Fidelity,
 };
+use asperity_tests::size::sized;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
@@ -60,6 +61,8 @@ fn edits_in_words_go_the_right_way_and_are_noticed() {
     let studio = Studio::new(&AUTHOR, 0);
     let lines: Vec<&str> = EDITS.lines().collect();
     assert_eq!(lines.len(), 60);
+    let stride = sized("every so many edits", 4, 1);
+    let lines: Vec<&str> = lines.into_iter().step_by(stride).collect();
     let steps: Vec<f64> = lines.par_iter().map(|line| step(&studio, line)).collect();
     for (line, step) in lines.iter().zip(&steps).filter(|(_, step)| **step <= 1.0) {
         println!("{step:+.2}: {line}");

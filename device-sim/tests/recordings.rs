@@ -2,19 +2,12 @@
 
 use asperity::builtin;
 use asperity_sim::bench;
-
-/// Faulty and clean recordings, and the seconds of each: short ones in a plain run.
-fn size() -> (usize, f64) {
-    if cfg!(debug_assertions) {
-        (100, 8.0)
-    } else {
-        (100, 20.0)
-    }
-}
+use asperity_tests::size::sized;
 
 #[test]
 fn every_seeded_fault_is_named_and_no_clean_recording_raises_an_alarm() {
-    let (count, seconds) = size();
+    let count = sized("faulty and clean recordings", 25, 100);
+    let seconds = sized("seconds of each", 8.0, 20.0);
     let checks = bench::checks(&[builtin::texture()], count, seconds, 11, || {})
         .expect("the built-in texture can be rendered");
     assert_eq!(

@@ -21,18 +21,26 @@ fn servo(folder: &Path, arguments: &[&str]) -> Output {
     output.expect("the command starts")
 }
 
+/// Several sessions at once: each lasts as long as its recording.
+fn servos<const N: usize>(folder: &Path, sessions: [&[&str]; N]) -> [Output; N] {
+    std::thread::scope(|scope| {
+        sessions
+            .map(|arguments| scope.spawn(move || servo(folder, arguments)))
+            .map(|session| session.join().expect("a session"))
+    })
+}
+
 fn errors(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// What a session says as JSON.
 fn ok(folder: &Path, arguments: &[&str]) -> Value {
-    let output = servo(folder, &[arguments, &["--json"]].concat());
-    assert!(
-        output.status.success(),
-        "{arguments:?}: {}",
-        errors(&output)
-    );
+    json(&servo(folder, &[arguments, &["--json"]].concat()))
+}
+
+fn json(output: &Output) -> Value {
+    assert!(output.status.success(), "{}", errors(output));
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
@@ -61,8 +69,21 @@ fn a_recorded_session_is_played_to_the_same_bits() {
     let bytes = fs::read(folder.path().join("s.aspr")).expect("a recording");
     assert!(bytes.starts_with(b"ASPR"));
 
+    let mut texture = asperity::builtin::texture();
+    texture.friction.mu *= 2.0;
+    let other = asperity::lower::lower(&texture, None).expect("a texture");
+    fs::write(folder.path().join("other.asp"), other.bytes).expect("a file");
+    let replay = ["--device", "replay:s.aspr", "--json"];
+    let [same, another_seed, another_texture] = servos(
+        folder.path(),
+        [
+            &replay,
+            &[&replay[..], &["--seed", "78"]].concat(),
+            &[&["other.asp"], &replay[..]].concat(),
+        ],
+    );
     // Rate, limits, mechanics and seed are those of the recording.
-    let told = ok(folder.path(), &["--device", "replay:s.aspr"]);
+    let told = json(&same);
     assert_eq!(told["end"], "time is over", "it ends with the recording");
     let forces = number(&told["replay"]["forces"]);
     assert!(forces + lost + 8 >= ticks, "{forces} of {ticks}");
@@ -72,27 +93,11 @@ fn a_recorded_session_is_played_to_the_same_bits() {
     assert_eq!(told["faults"], 0);
 
     // The comparison can fail, and the user knows beforehand.
-    let output = servo(
-        folder.path(),
-        &["--device", "replay:s.aspr", "--seed", "78", "--json"],
-    );
-    assert!(output.status.success() && errors(&output).contains("seed 77"));
-    let told: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let told = json(&another_seed);
+    assert!(errors(&another_seed).contains("seed 77"));
     assert!(number(&told["replay"]["different"]) > 0, "another seed");
-
-    let mut texture = asperity::builtin::texture();
-    texture.friction.mu *= 2.0;
-    let other = asperity::lower::lower(&texture, None).expect("a texture");
-    fs::write(folder.path().join("other.asp"), other.bytes).expect("a file");
-    let output = servo(
-        folder.path(),
-        &["other.asp", "--device", "replay:s.aspr", "--json"],
-    );
-    assert!(
-        errors(&output).contains("is another one"),
-        "{}",
-        errors(&output)
-    );
+    let said = errors(&another_texture);
+    assert!(said.contains("is another one"), "{said}");
 }
 
 /// A library with a scene: the built-in texture on a board, whose top is at this height.
@@ -126,26 +131,30 @@ fn a_recorded_scene_is_played_to_the_same_bits_and_another_one_is_told() {
         &[&["desk.aspl"], &record[..], &["--record", "s.aspr"]].concat(),
     );
     let lost = number(&told["lost_records"]);
-    let replay = |file: &[&str]| {
-        let output = servo(
-            folder.path(),
-            &[file, &["--device", "replay:s.aspr", "--json"]].concat(),
-        );
-        assert!(output.status.success(), "{}", errors(&output));
-        let told: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        (number(&told["replay"]["different"]), errors(&output))
+    let replay = ["--device", "replay:s.aspr", "--json"];
+    let [same, other, none] = servos(
+        folder.path(),
+        [
+            &[&["desk.aspl"], &replay[..]].concat(),
+            &[&["other.aspl"], &replay[..]].concat(),
+            &replay,
+        ],
+    );
+    let told = |output: &Output| {
+        let different = &json(output)["replay"]["different"];
+        (number(different), errors(output))
     };
-    let (different, said) = replay(&["desk.aspl"]);
+    let (different, said) = told(&same);
     assert!(!said.contains("the recording is of"), "{said}");
     assert!(lost > 0 || different == 0, "{different} forces differ");
-    for other in [&["other.aspl"][..], &[]] {
-        let (different, said) = replay(other);
+    for other in [other, none] {
+        let (different, said) = told(&other);
         assert!(
             said.contains("the recording is of a scene of 1 surfaces (CRC-32 ")
                 && said.contains("is another one"),
             "{said}"
         );
-        assert!(different > 0, "the warning is for a reason: {other:?}");
+        assert!(different > 0, "the warning is for a reason: {said}");
     }
 }
 

@@ -13,6 +13,7 @@ use asperity_recording::{
     },
 };
 use asperity_sim::bench::{self, Comparison, Performance, Resonance, Sensors, Until};
+use asperity_tests::size::sized;
 
 /// Two rounds of taps.
 const SECONDS: f64 = 42.0;
@@ -97,7 +98,7 @@ fn a_tap_in_free_air_takes_the_resonance_away() {
 #[test]
 fn sensors_without_a_resonance_show_none_with_and_without_a_tap() {
     let texture = builtin::texture();
-    for seed in 1..=20 {
+    for seed in 1..=sized("recordings", 6, 20) {
         let performance = bench::perform(&texture, Until::Seconds(8.0), seed).expect("it renders");
         let free_taps = (seed % 3) as usize;
         let (folder, _) = written(&performance, seed, |s| s.free_taps = free_taps);

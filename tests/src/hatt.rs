@@ -1,16 +1,17 @@
 //! Finds and reads the HaTT materials where a copy is present. They are used by tests only,
 //! and no part of them is kept in this repository.
 
-use std::{
-    io::Write as _,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 /// The sorted XML files of the materials, from the folder in `ASPERITY_HATT` or from
-/// `../shared/hatt/models` beside the workspace. Without such a folder the list is empty, and
-/// the test `test` is reported as skipped.
+/// `../shared/hatt/models` beside the workspace. A test that asks for them carries
+/// `#[cfg_attr(not(hatt), ignore = "…")]`; `build.rs` sets `hatt` where they are.
+///
+/// # Panics
+///
+/// If there are none: a test over no material would pass.
 #[must_use]
-pub fn materials(test: &str) -> Vec<PathBuf> {
+pub fn materials() -> Vec<PathBuf> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/hatt/models");
     let folder = std::env::var_os("ASPERITY_HATT").map_or(beside, PathBuf::from);
     let mut files: Vec<_> = std::fs::read_dir(&folder)
@@ -23,22 +24,18 @@ pub fn materials(test: &str) -> Vec<PathBuf> {
         })
         .collect();
     files.sort();
-    if files.is_empty() {
-        skipped(
-            test,
-            &format!(
-                "no HaTT materials in {}; set ASPERITY_HATT to their folder",
-                folder.display()
-            ),
-        );
-    }
+    assert!(
+        !files.is_empty(),
+        "no HaTT materials in {}; set ASPERITY_HATT to their folder",
+        folder.display()
+    );
     files
 }
 
-/// Reports that a test was skipped. The report bypasses the harness, which hides what a passing
-/// test prints.
-pub fn skipped(test: &str, why: &str) {
-    let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {why}");
+/// Every `stride`th of [`materials`].
+#[must_use]
+pub fn some_materials(stride: usize) -> Vec<PathBuf> {
+    materials().into_iter().step_by(stride).collect()
 }
 
 /// The contents of a material's file, found by searching its text.

@@ -12,6 +12,7 @@ pub mod fuzz_ticks;
 pub mod hatt;
 pub mod load_then_tick;
 pub mod oracle;
+pub mod size;
 pub mod spectrum;
 pub mod stability;
 pub mod texture;

@@ -7,11 +7,14 @@ use crate::support;
 use asperity_formats::Asset;
 use asperity_runtime::quantity::Quantity;
 use asperity_runtime::{HostTexture, stage::vibration::Vibration};
-use asperity_tests::{draw::Draw, hatt, oracle::Texture};
+use asperity_tests::{
+    draw::Draw,
+    hatt,
+    oracle::Texture,
+    size::{Size, sized},
+};
 use rayon::prelude::*;
 
-const RELEASE: bool = !cfg!(debug_assertions);
-const PAIRS: usize = if RELEASE { 60 } else { 4 };
 const SECOND: usize = 1000;
 const BLOCK: usize = 20;
 /// Samples at the start that are not counted, because the contact fades in.
@@ -67,7 +70,7 @@ impl Excess {
         let oracle = Texture::new(&asset);
         let mut draw = Draw::new(seed);
         let mut excess = Self::default();
-        for pair in 0..PAIRS as u64 {
+        for pair in 0..Size::asked().of(4, 60) {
             let mut point = || {
                 if draw.below(2) == 0 {
                     let v = &oracle.vertices[draw.below(oracle.vertices.len())];
@@ -152,11 +155,12 @@ fn faster_loops() {
 }
 
 #[test]
+#[cfg_attr(
+    not(hatt),
+    ignore = "no HaTT materials; set ASPERITY_HATT to their folder"
+)]
 fn every_hatt_material() {
-    let files = hatt::materials("every_hatt_material");
-    if files.is_empty() {
-        return;
-    }
+    let files = hatt::some_materials(sized("every so many materials", 5, 1));
     for step in Step::AT_ONE_KHZ {
         files
             .par_iter()

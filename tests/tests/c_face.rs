@@ -43,6 +43,12 @@ fn folder() -> PathBuf {
     folder
 }
 
+/// Where Cargo builds: what the release of the commands needed is not built again.
+fn target() -> &'static Path {
+    let tmp = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    tmp.parent().expect("the target folder")
+}
+
 fn succeeded(command: &mut Command) -> Output {
     let output = command
         .output()
@@ -66,9 +72,9 @@ fn library() -> &'static Path {
                 .current_dir(root())
                 .args(["build", "--quiet", "--release", "--package", "asperity-c"])
                 .arg("--target-dir")
-                .arg(folder()),
+                .arg(target()),
         );
-        folder().join("release/libasperity_c.a")
+        target().join("release/libasperity_c.a")
     })
 }
 

@@ -47,15 +47,17 @@ fn packed() -> Vec<u8> {
     bytes
 }
 
-/// The C library in the folder that the test of the C face builds it in.
+/// The C library, built where Cargo builds.
 fn c_library() -> PathBuf {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c-face");
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .parent()
+        .expect("the target folder");
     succeeded(
         Command::new(env!("CARGO"))
             .current_dir(root())
             .args(["build", "--quiet", "--release", "--package", "asperity-c"])
             .arg("--target-dir")
-            .arg(&target),
+            .arg(target),
     );
     target.join("release/libasperity_c.a")
 }

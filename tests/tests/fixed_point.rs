@@ -9,19 +9,12 @@ use asperity_tests::{
     draw::Draw,
     hatt,
     oracle::{Texture, polynomial},
+    size::{Size, sized},
     spectrum::{band_levels_db, model_power, periodogram, third_octaves},
     texture::HostSlot,
 };
 use rayon::prelude::*;
 
-/// Queries per material.
-const QUERIES: usize = if cfg!(debug_assertions) { 10 } else { 200 };
-/// Ticks of a vibration.
-const TICKS: usize = if cfg!(debug_assertions) {
-    6_000
-} else {
-    60_000
-};
 const RATE_HZ: f64 = 1000.0;
 
 fn load<A: RenderArithmetic>(bytes: &[u8]) -> Box<HostSlot<A>> {
@@ -44,7 +37,7 @@ fn spectral_error_db(bytes: &[u8]) -> f64 {
     let oracle = Texture::new(&Asset::parse(bytes).unwrap());
     let mut draw = Draw::new(1);
     let wide = |c: &[f32]| -> Vec<f64> { c.iter().map(|&c| c.into()).collect() };
-    let errors = (0..QUERIES).map(|_| {
+    let errors = (0..Size::asked().of(10, 200)).map(|_| {
         let (speed, force) = point(&mut draw, &oracle);
         let filter = slot.filter_at(speed, force);
         let model = oracle.model(speed.into(), force.into());
@@ -69,7 +62,7 @@ fn bands_db<A: RenderArithmetic>(bytes: &[u8], (speed, force): (f32, f32)) -> Ve
     let slot = load::<A>(bytes);
     let fraction = 1.0 - (-f64::from(slot.cycle_samples()) / 5.0).exp();
     let mut vibration = Vibration::<A>::new(3);
-    let signal: Vec<f64> = (0..TICKS)
+    let signal: Vec<f64> = (0..sized("ticks of a vibration", 6_000, 60_000))
         .map(|_| {
             let (speed, force) = (Quantity::of(speed), Quantity::of(force));
             let fraction = Quantity::of(fraction as f32);
@@ -101,8 +94,12 @@ fn the_builtin_texture() {
 }
 
 #[test]
+#[cfg_attr(
+    not(hatt),
+    ignore = "no HaTT materials; set ASPERITY_HATT to their folder"
+)]
 fn every_hatt_material() {
-    let files = hatt::materials("fixed_point::every_hatt_material");
+    let files = hatt::some_materials(sized("every so many materials", 5, 1));
     let errors: Vec<(String, f64, f64)> = files
         .par_iter()
         .map(|file| {

@@ -6,14 +6,9 @@ use asperity_formats::Numerator;
 use asperity_tests::{
     draw::Draw,
     load_then_tick::{Outcome, load_then_tick},
+    size::sized_or,
     texture::{Kind, random},
 };
-
-/// Number of cases.
-fn cases() -> u64 {
-    let asked = std::env::var("ASPERITY_FUZZ_CASES").ok();
-    asked.and_then(|count| count.parse().ok()).unwrap_or(4000)
-}
 
 /// A small asset of a random kind, patched in a few places.
 fn case(seed: u64) -> Vec<u8> {
@@ -67,7 +62,7 @@ fn case(seed: u64) -> Vec<u8> {
 #[test]
 fn load_then_tick_survives_seeded_damage() {
     let (mut refused, mut rendered) = (0_u64, 0_u64);
-    let cases = cases();
+    let cases = sized_or("ASPERITY_FUZZ_CASES", "cases", 4000, 40_000) as u64;
     for seed in 0..cases {
         match load_then_tick(&case(seed)) {
             Outcome::Refused => refused += 1,

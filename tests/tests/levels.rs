@@ -7,6 +7,7 @@ use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{
     hatt,
     oracle::{Texture, polynomial},
+    size::sized,
     spectrum::{band_levels_db, model_power, periodogram, third_octaves},
     trajectory::steady,
 };
@@ -105,18 +106,18 @@ fn check(name: &str, bytes: &[u8], places_a_kind: usize) -> f64 {
 
 #[test]
 fn the_builtin_texture() {
-    let all = if cfg!(debug_assertions) {
-        20
-    } else {
-        usize::MAX
-    };
+    let all = sized("places of a kind", 20, usize::MAX);
     check("builtin", &support::builtin(), all);
 }
 
 #[test]
+#[cfg_attr(
+    not(hatt),
+    ignore = "no HaTT materials; set ASPERITY_HATT to their folder"
+)]
 fn every_hatt_material() {
-    let files = hatt::materials("every_hatt_material");
-    let each = if cfg!(debug_assertions) { 1 } else { 6 };
+    let files = hatt::materials();
+    let each = sized("places of a kind for each material", 1, 6);
     let worst = files
         .par_iter()
         .map(|file| {

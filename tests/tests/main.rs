@@ -18,6 +18,7 @@ mod laws_friction;
 mod laws_lsf;
 mod laws_queries;
 mod levels;
+mod model_files;
 mod oracle_filter;
 mod oracle_tick;
 mod queries;

@@ -2,18 +2,24 @@
 //! texture and HaTT materials: at every vertex, every midpoint of an edge, a thousand
 //! single-precision points on every edge, along the border, and at random queries.
 //!
-//! A release build takes 10⁷ random queries over all materials, other builds fewer.
+//! At full size 10⁷ random queries are spread over all materials.
 
 use crate::support;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
-use asperity_tests::{draw::Draw, hatt, oracle::Texture, stability::largest_reflection};
+use asperity_tests::{
+    draw::Draw,
+    hatt,
+    oracle::Texture,
+    size::{Size, sized},
+    stability::largest_reflection,
+};
 use rayon::prelude::*;
 
-const RELEASE: bool = !cfg!(debug_assertions);
-const RANDOM_QUERIES: usize = if RELEASE { 10_000_000 } else { 500_000 };
-const POINTS_AN_EDGE: usize = if RELEASE { 1000 } else { 40 };
-const POINTS_A_SIDE: usize = if RELEASE { 20_000 } else { 2000 };
+/// Random queries over all materials.
+fn random_queries() -> usize {
+    sized("random queries", 200_000, 10_000_000)
+}
 
 struct Checked {
     slot: Box<HostTexture>,
@@ -74,6 +80,7 @@ impl Checked {
     }
 
     fn places(&mut self) {
+        let (points_an_edge, points_a_side) = Size::asked().of((40, 2000), (1000, 20_000));
         let at = |v: usize, oracle: &Texture| {
             let vertex = &oracle.vertices[v];
             (vertex.speed_mm_s, vertex.force_n)
@@ -93,15 +100,15 @@ impl Checked {
                 };
                 let (speed, force) = mix(0.5);
                 self.query_exactly(speed, force);
-                for step in 0..=POINTS_AN_EDGE {
-                    let (speed, force) = mix(step as f64 / POINTS_AN_EDGE as f64);
+                for step in 0..=points_an_edge {
+                    let (speed, force) = mix(f64::from(step) / f64::from(points_an_edge));
                     self.query(speed, force);
                 }
             }
         }
         let (width, height) = (self.oracle.max_speed_mm_s, self.oracle.max_force_n);
-        for step in 0..=POINTS_A_SIDE {
-            let share = step as f64 / POINTS_A_SIDE as f64;
+        for step in 0..=points_a_side {
+            let share = f64::from(step) / f64::from(points_a_side);
             let (speed, force) = ((share * width) as f32, (share * height) as f32);
             let (right, top) = (width as f32, height as f32);
             for (speed, force) in [(speed, 0.0), (speed, top), (0.0, force), (right, force)] {
@@ -196,21 +203,25 @@ fn the_builtin_texture() {
     let bytes = support::builtin();
     let mut checked = Checked::new(&bytes);
     checked.places();
-    checked.random(RANDOM_QUERIES / 20, 1);
+    checked.random(random_queries() / 20, 1);
     checked.verdict("builtin");
     rest_and_recover(&bytes);
 }
 
 #[test]
+#[cfg_attr(
+    not(hatt),
+    ignore = "no HaTT materials; set ASPERITY_HATT to their folder"
+)]
 fn every_hatt_material() {
-    let files = hatt::materials("every_hatt_material");
+    let (files, random) = (hatt::materials(), random_queries());
     let queries: usize = files
         .par_iter()
         .map(|file| {
             let bytes = asperity::hatt::import(file, None).unwrap().bytes;
             let mut checked = Checked::new(&bytes);
             checked.places();
-            checked.random(RANDOM_QUERIES / files.len() + 1, 2);
+            checked.random(random / files.len() + 1, 2);
             checked.verdict(&file.file_stem().unwrap_or_default().to_string_lossy());
             rest_and_recover(&bytes);
             checked.queries
@@ -221,15 +232,16 @@ fn every_hatt_material() {
 
 /// A point on an edge for which the reference renderer never returns.
 #[test]
+#[cfg_attr(
+    not(hatt),
+    ignore = "no HaTT materials; set ASPERITY_HATT to their folder"
+)]
 fn the_point_of_bubble_envelope_that_hangs_the_reference() {
-    const TEST: &str = "the_point_of_bubble_envelope_that_hangs_the_reference";
-    let files = hatt::materials(TEST);
-    let Some(file) = files
+    let files = hatt::materials();
+    let file = files
         .iter()
         .find(|f| f.ends_with("Models_Bubble Envelope.xml"))
-    else {
-        return hatt::skipped(TEST, "no Bubble Envelope among the materials");
-    };
+        .expect("Bubble Envelope among the materials");
     let mut checked = Checked::new(&asperity::hatt::import(file, None).unwrap().bytes);
     for step in -1000_i32..=1000 {
         let nudge = |x: f32| f32::from_bits(x.to_bits().wrapping_add_signed(step));

@@ -299,16 +299,10 @@ fn without_onnx_runtime_the_error_says_how_to_get_it() {
     assert_eq!(entries(folder.path()), ["grit.asp", "sd"]);
 }
 
-/// Claim: both engines give the same picture, but for roundings of one level. Without ONNX Runtime
-/// the test says SKIPPED and passes; with `ASPERITY_REQUIRE_ONNXRUNTIME=1` it fails.
+/// Claim: both engines give the same picture, but for roundings of one level.
 #[test]
+#[ignore = "needs ONNX Runtime"]
 fn onnx_runtime_gives_the_picture_of_the_portable_engine() {
-    if let Err(error) = asperity_onnxruntime::discover() {
-        let required = std::env::var_os("ASPERITY_REQUIRE_ONNXRUNTIME");
-        assert!(required.is_none_or(|value| value != "1"), "{error}");
-        eprintln!("SKIPPED: {error}");
-        return;
-    }
     let folder = folder();
     let folder = folder.path();
     for more in [

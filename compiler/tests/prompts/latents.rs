@@ -8,14 +8,12 @@ use asperity::{
     pipeline::{Pipeline, Settings},
     reduce::Fidelity,
 };
+use asperity_tests::size::sized_or;
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// How many where `ASPERITY_LATENTS` does not say; 100,000 take ten minutes of processor time:
-/// `ASPERITY_LATENTS=100000 cargo test --release -p asperity --test it any_latent`.
-const LATENTS: usize = if cfg!(debug_assertions) { 400 } else { 10_000 };
 /// Every so many goes through the runtime as well.
 const VERIFIED_EVERY: usize = 7;
 
@@ -33,11 +31,12 @@ fn latent(number: usize) -> Latent {
     z
 }
 
+/// 100,000 take ten minutes of processor time:
+/// `ASPERITY_LATENTS=100000 cargo test --release -p asperity --test it any_latent`.
 #[test]
 fn any_latent_is_a_stable_texture_within_bounds() {
     let model = AUTHOR.model();
-    let asked = std::env::var("ASPERITY_LATENTS").ok();
-    let latents = asked.map_or(LATENTS, |count| count.parse().expect("a number"));
+    let latents = sized_or("ASPERITY_LATENTS", "latents", 100, 10_000);
     let stabilised = AtomicUsize::new(0);
     (0..latents).into_par_iter().for_each(|number| {
         let z = latent(number);

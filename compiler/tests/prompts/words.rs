@@ -7,11 +7,13 @@ use asperity::{
     prompt::{Options, PromptError},
     reduce::Fidelity,
 };
+use asperity_tests::size::sized;
 use rayon::prelude::*;
-use serde_json::Value;
+use serde_json::Value as Json;
+use toml::Value;
 
 /// Rightly ordered share of the committed pairs: rough, slippery, hard.
-const LEAST_SHARES: [(&str, f64); 3] = [("rough", 0.97), ("slippery", 0.91), ("hard", 0.93)];
+const LEAST_SHARES: [(&str, f64); 3] = [("rough", 0.97), ("slippery", 0.93), ("hard", 0.93)];
 
 fn plain() -> Options {
     Options {
@@ -47,9 +49,11 @@ fn everyday_words_are_ordered_as_any_person_would() {
         "slippery" => -a.mu,
         _ => a.hard_hz.unwrap(),
     };
+    let stride = sized("every so many pairs", 6, 1);
     for (attribute, least_share) in LEAST_SHARES {
         let rows = pairs[attribute].as_array().unwrap();
         assert!(rows.len() >= 100, "{attribute}");
+        let rows: Vec<&Value> = rows.iter().step_by(stride).collect();
         let right = rows
             .par_iter()
             .filter(|row| {
@@ -57,12 +61,9 @@ fn everyday_words_are_ordered_as_any_person_would() {
                 of(attribute, attributes(first)) > of(attribute, attributes(second))
             })
             .count();
-        let share = right as f64 / rows.len() as f64;
-        assert!(
-            share >= least_share,
-            "{attribute}: {right} of {}",
-            rows.len()
-        );
+        // Of a sample, rounded down.
+        let least = (least_share * rows.len() as f64) as usize;
+        assert!(right >= least, "{attribute}: {right} of {}", rows.len());
         println!("{attribute}: {right} of {}", rows.len());
     }
 }
@@ -159,7 +160,7 @@ fn what_no_surface_is_like_is_told_apart_and_still_safe() {
     let near = AUTHOR.author("coarse sandpaper", &plain()).unwrap();
     assert!(far.certainty < near.certainty);
     assert!(far.is_uncertain() && !near.is_uncertain());
-    assert!(far.json()["low_certainty"] == Value::Bool(true));
+    assert!(far.json()["low_certainty"] == Json::Bool(true));
 }
 
 #[test]

@@ -3,8 +3,8 @@
 //! Whatever the input, a command ends by itself with exit status 0, 1 or 2, within two seconds of
 //! processor time and 512 MiB of memory. It leaves no partial output and no input changed.
 //!
-//! `ASPERITY_ATTACKS` sets how many cases are run; the first are the same whatever their number.
-//! `ASPERITY_ATTACKS=1234..1235` runs one again. `ASPERITY_PROGRAMS` names a folder with other builds
+//! At full size 2,000 cases are run, at the small one every 50th of them. `ASPERITY_ATTACKS=COUNT` runs the
+//! first of them, `ASPERITY_ATTACKS=1234..1235` one again. `ASPERITY_PROGRAMS` names a folder with other builds
 //! of the programs, by an absolute path. A case that fails keeps its folder.
 #![cfg(unix)]
 
@@ -20,25 +20,29 @@ mod seeds;
 mod strange;
 mod verdict;
 
-use asperity_tests::draw::Draw;
+use asperity_tests::{draw::Draw, size::sized};
 use std::{
+    iter::StepBy,
     ops::Range,
     path::Path,
     sync::atomic::{AtomicUsize, Ordering},
 };
 
-/// Cases of a plain `cargo test`.
-const DEFAULT: usize = 200;
+/// Cases at full size.
+const CASES: usize = 2000;
+/// From so many on, shares of all cases are held to bounds.
+const MANY: usize = 200;
 
-fn wanted() -> Range<usize> {
+fn wanted() -> StepBy<Range<usize>> {
     let Ok(text) = std::env::var("ASPERITY_ATTACKS") else {
-        return 0..DEFAULT;
+        return (0..CASES).step_by(sized("every so many of 2,000 attacks", 50, 1));
     };
     let number = |text: &str| text.parse().expect("ASPERITY_ATTACKS=COUNT or FROM..TO");
-    match text.split_once("..") {
+    let range = match text.split_once("..") {
         Some((from, to)) => number(from)..number(to),
         None => 0..number(&text),
-    }
+    };
+    range.step_by(1)
 }
 
 #[test]
@@ -47,15 +51,14 @@ fn no_input_brings_a_command_down() {
     let seeds = seeds::Seeds::new();
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("attacks");
     let _ = std::fs::remove_dir_all(&root);
-    let cases = wanted();
-    let next = AtomicUsize::new(cases.start);
+    let cases: Vec<usize> = wanted().collect();
+    let next = AtomicUsize::new(0);
     let work = || {
         let mut done = verdict::Tally::default();
         loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            if number >= cases.end {
+            let Some(&number) = cases.get(next.fetch_add(1, Ordering::Relaxed)) else {
                 return done;
-            }
+            };
             done.add(attacked(number, &programs, &seeds, &root));
         }
     };
@@ -71,7 +74,8 @@ fn no_input_brings_a_command_down() {
     println!("{tally}");
     assert!(tally.failures.is_empty(), "{}", tally.failures.join("\n\n"));
     // A suite that refuses everything, or accepts everything, attacks nothing.
-    if cases.len() >= DEFAULT {
+    assert!(tally.refused > 0 && tally.accepted > 0, "{tally}");
+    if cases.len() >= MANY {
         assert!(tally.refused > cases.len() / 4, "{tally}");
         assert!(tally.accepted > cases.len() / 40, "{tally}");
     }
@@ -84,7 +88,8 @@ fn what_is_not_attacked_is_accepted() {
     let seeds = seeds::Seeds::new();
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("not-attacked");
     let _ = std::fs::remove_dir_all(&root);
-    for (number, form) in forms::FORMS.iter().enumerate() {
+    let stride = sized("every so many commands", 6, 1);
+    for (number, form) in forms::FORMS.iter().enumerate().step_by(stride) {
         if form.is_long || form.line.contains("clip:") {
             continue;
         }

@@ -1,6 +1,7 @@
 //! Figures of a user's own copy, from the folder in `ASPERITY_HATT` or from `../shared/hatt/models`
-//! beside the workspace. Only aggregates are printed.
+//! beside the workspace; without one, of materials made up. Only aggregates are printed.
 
+use super::made_up::{Folder, MADE_UP};
 use crate::{
     BINS,
     hatt::{HattOptions, ar, bins::Bins, load, pool::Pool, source},
@@ -13,25 +14,33 @@ use asperity::{
     spectrum::{ArmaModel, log_spectral_distance_db},
 };
 use std::{
-    io::Write as _,
     path::{Path, PathBuf},
     time::Instant,
 };
 
-/// The folder; `None`, and said so past the harness, where there is none.
-fn folder(test: &str) -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/hatt/models");
-    let folder = std::env::var_os("ASPERITY_HATT").map_or(beside, PathBuf::from);
-    if hatt::files(&folder).is_ok() {
-        return Some(folder);
+/// A copy of the HaTT, or a folder of materials made up.
+enum Materials {
+    Real(PathBuf),
+    MadeUp(Folder),
+}
+
+impl Materials {
+    fn found() -> Self {
+        let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/hatt/models");
+        let folder = std::env::var_os("ASPERITY_HATT").map_or(beside, PathBuf::from);
+        if hatt::files(&folder).is_ok() {
+            return Self::Real(folder);
+        }
+        println!("no HaTT materials in {}: made up", folder.display());
+        Self::MadeUp(Folder::of(&MADE_UP))
     }
-    // One write, so that tests in parallel do not interleave.
-    let line = format!(
-        "SKIPPED {test}: no HaTT materials in {}; set ASPERITY_HATT to their folder\n",
-        folder.display()
-    );
-    let _ = std::io::stderr().write_all(line.as_bytes());
-    None
+
+    fn folder(&self) -> &Path {
+        match self {
+            Self::Real(path) => path,
+            Self::MadeUp(folder) => &folder.0,
+        }
+    }
 }
 
 fn deviation(values: impl Iterator<Item = f32> + Clone) -> f64 {
@@ -48,12 +57,11 @@ fn three(values: &mut [f64]) -> [f64; 3] {
 
 #[test]
 fn conversion_keeps_spectra_and_levels() {
-    let Some(folder) = folder("conversion_keeps_spectra_and_levels") else {
-        return;
-    };
+    let materials = Materials::found();
+    let folder = materials.folder();
     let (mut with_level, mut level_free) = (Vec::new(), Vec::new());
     let mut gap = f64::INFINITY;
-    for file in hatt::files(&folder).unwrap() {
+    for file in hatt::files(folder).unwrap() {
         let material = hatt::parse(&file, &std::fs::read(&file).unwrap()).unwrap();
         for model in material.models.iter().filter(|model| ar::sounds(model)) {
             let truth = ArmaModel {
@@ -91,11 +99,10 @@ fn conversion_keeps_spectra_and_levels() {
 
 #[test]
 fn a_real_folder_becomes_a_corpus() {
-    let Some(folder) = folder("a_real_folder_becomes_a_corpus") else {
-        return;
-    };
+    let materials = Materials::found();
+    let folder = materials.folder();
     let start = Instant::now();
-    let corpus = load(&HattOptions::new(&folder)).unwrap();
+    let corpus = load(&HattOptions::new(folder)).unwrap();
     println!(
         "{} materials × 20 in {:?}",
         corpus.materials.len(),
@@ -112,7 +119,7 @@ fn a_real_folder_becomes_a_corpus() {
     }
     // Prototypes against their sources, by means that share nothing with the conversion.
     let (mut levels, mut centroids) = (Vec::new(), Vec::new());
-    for file in hatt::files(&folder).unwrap() {
+    for file in hatt::files(folder).unwrap() {
         let source = hatt::parse(&file, &std::fs::read(&file).unwrap()).unwrap();
         let texture = hatt::to_model(&source, "", 0);
         let material = corpus
@@ -143,10 +150,9 @@ fn a_real_folder_becomes_a_corpus() {
 
 #[test]
 fn every_material_has_more_instances_than_are_drawn() {
-    let Some(folder) = folder("every_material_has_more_instances_than_are_drawn") else {
-        return;
-    };
-    let sources = source::read(&folder).unwrap();
+    let materials = Materials::found();
+    let folder = materials.folder();
+    let sources = source::read(folder).unwrap();
     let samples: Vec<_> = sources
         .iter()
         .flat_map(|source| source.own.samples())

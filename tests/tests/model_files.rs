@@ -12,11 +12,7 @@ use asperity::{
     reduce::Fidelity,
 };
 use asperity_formats::Asset;
-use std::{
-    fs,
-    io::Write as _,
-    path::{Path, PathBuf},
-};
+use std::{fs, path::Path};
 
 /// The model in a file, as bytes that say what `direct` says of where they come from.
 fn through_a_file(whole: &TextureModel, settings: &Settings) -> Vec<u8> {
@@ -116,27 +112,14 @@ fn a_stabilised_texture_is_emitted_as_it_was_verified() {
     assert_eq!(again, compiled.lowered.bytes);
 }
 
-/// The first files of the HaTT; none, and said so past the harness, where there is no copy.
-fn materials(test: &str) -> Vec<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/hatt/models");
-    let folder = std::env::var_os("ASPERITY_HATT").map_or(beside, PathBuf::from);
-    let mut files = hatt::files(&folder).unwrap_or_else(|_| {
-        // One write, so that tests in parallel do not interleave.
-        let line = format!(
-            "SKIPPED {test}: no HaTT materials in {}; set ASPERITY_HATT to their folder\n",
-            folder.display()
-        );
-        let _ = std::io::stderr().write_all(line.as_bytes());
-        Vec::new()
-    });
-    files.truncate(5);
-    files
-}
-
 #[test]
+#[cfg_attr(
+    not(hatt),
+    ignore = "no HaTT materials; set ASPERITY_HATT to their folder"
+)]
 fn a_material_gives_the_same_bytes_through_a_file() {
     let folder = tempfile::tempdir().expect("a folder");
-    for file in materials("a_material_gives_the_same_bytes_through_a_file") {
+    for file in asperity_tests::hatt::materials().into_iter().take(5) {
         for fidelity in [Fidelity::Full, Fidelity::Order(7)] {
             let direct = hatt::import_at(&file, None, fidelity).expect("a material");
             let settings = Settings {

@@ -1,0 +1,23 @@
+//! Says whether HaTT materials are here, so that a test that needs them is reported as ignored
+//! where they are not: `#[cfg_attr(not(hatt), ignore = "…")]`. `src/hatt.rs` reads the same folder.
+
+use std::path::{Path, PathBuf};
+
+fn main() {
+    println!("cargo::rustc-check-cfg=cfg(hatt)");
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-env-changed=ASPERITY_HATT");
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/hatt/models");
+    let folder = std::env::var_os("ASPERITY_HATT").map_or(beside, PathBuf::from);
+    let is_material = |path: &Path| {
+        path.extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("xml"))
+    };
+    if let Ok(entries) = std::fs::read_dir(&folder)
+        && entries.flatten().any(|entry| is_material(&entry.path()))
+    {
+        // Cargo takes a path that does not exist for one that has changed, and would build again each time.
+        println!("cargo::rerun-if-changed={}", folder.display());
+        println!("cargo::rustc-cfg=hatt");
+    }
+}
