@@ -3,6 +3,7 @@
 use std::{
     path::{Path, PathBuf},
     process::Command,
+    time::SystemTime,
 };
 
 /// Which program a command belongs to.
@@ -42,15 +43,16 @@ pub(crate) fn built() -> Programs {
     let programs = Programs {
         folder: folder.to_owned(),
     };
-    if [Program::Compiler, Program::Lab]
-        .iter()
-        .all(|program| is_fresh(&programs.path(*program)))
-    {
-        return programs;
-    }
     let root = Path::new(env!("CARGO_MANIFEST_DIR"))
         .parent()
         .expect("the workspace");
+    let both = [Program::Compiler, Program::Lab];
+    if both
+        .iter()
+        .all(|program| is_fresh(&programs.path(*program), root))
+    {
+        return programs;
+    }
     let mut cargo = Command::new(env!("CARGO"));
     cargo
         .current_dir(root)
@@ -65,19 +67,38 @@ pub(crate) fn built() -> Programs {
     programs
 }
 
-/// Whether a program is at least as new as each of its sources, which Cargo lists beside it: `PROGRAM: FILE FILE …`.
-fn is_fresh(program: &Path) -> bool {
-    let changed = |path: &Path| path.metadata().and_then(|file| file.modified()).ok();
-    let Ok(listed) = std::fs::read_to_string(program.with_extension("d")) else {
+/// Whether a program is newer than everything that it may be built from.
+fn is_fresh(program: &Path, root: &Path) -> bool {
+    let Ok(built) = program.metadata().and_then(|file| file.modified()) else {
         return false;
     };
-    let Some((_, sources)) = listed.split_once(": ") else {
-        return false;
-    };
-    // A blank within a path is written `\ `: such a path is not found, and the program is built again.
-    let built = changed(program);
-    built.is_some()
-        && sources
-            .split_whitespace()
-            .all(|source| changed(Path::new(source)).is_some_and(|at| Some(at) <= built))
+    let sources = [
+        "Cargo.toml",
+        "Cargo.lock",
+        "formats",
+        "runtime",
+        "compiler",
+        "device-sim",
+    ];
+    sources
+        .iter()
+        .all(|source| newest(&root.join(source)).is_some_and(|changed| changed < built))
+}
+
+/// When a file, or the newest one in a folder, was changed. What other workspaces build, and tests, are left out.
+fn newest(path: &Path) -> Option<SystemTime> {
+    let metadata = path.symlink_metadata().ok()?;
+    if !metadata.is_dir() {
+        return metadata.modified().ok();
+    }
+    std::fs::read_dir(path)
+        .ok()?
+        .flatten()
+        .filter(|entry| {
+            !["target", "tests", "python", "train"]
+                .iter()
+                .any(|name| entry.file_name() == *name)
+        })
+        .filter_map(|entry| newest(&entry.path()))
+        .max()
 }
