@@ -1,5 +1,5 @@
-//! Says whether HaTT materials are here, so that a test that needs them is reported as ignored
-//! where they are not: `#[cfg_attr(not(hatt), ignore = "…")]`. `src/hatt.rs` reads the same folder.
+//! Looks for HaTT materials, in the folder of `ASPERITY_HATT` or in `../shared/hatt/models` beside the workspace. Where
+//! they are, `cfg(hatt)` and `HATT_FOLDER` are set; where they are not, tests that need them are reported as ignored.
 
 use std::path::{Path, PathBuf};
 
@@ -18,6 +18,7 @@ fn main() {
     {
         // Cargo takes a path that does not exist for one that has changed, and would build again each time.
         println!("cargo::rerun-if-changed={}", folder.display());
+        println!("cargo::rustc-env=HATT_FOLDER={}", folder.display());
         println!("cargo::rustc-cfg=hatt");
     }
 }

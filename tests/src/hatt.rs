@@ -3,18 +3,16 @@
 
 use std::path::{Path, PathBuf};
 
-/// The sorted XML files of the materials, from the folder in `ASPERITY_HATT` or from
-/// `../shared/hatt/models` beside the workspace. A test that asks for them carries
-/// `#[cfg_attr(not(hatt), ignore = "…")]`; `build.rs` sets `hatt` where they are.
+/// The sorted XML files of the materials, from the folder that `build.rs` found. A test that asks for them
+/// carries `#[cfg_attr(not(hatt), ignore = "…")]`.
 ///
 /// # Panics
 ///
 /// If there are none: a test over no material would pass.
 #[must_use]
 pub fn materials() -> Vec<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/hatt/models");
-    let folder = std::env::var_os("ASPERITY_HATT").map_or(beside, PathBuf::from);
-    let mut files: Vec<_> = std::fs::read_dir(&folder)
+    let folder = option_env!("HATT_FOLDER").unwrap_or_default();
+    let mut files: Vec<_> = std::fs::read_dir(folder)
         .into_iter()
         .flatten()
         .filter_map(|entry| Some(entry.ok()?.path()))
@@ -26,8 +24,7 @@ pub fn materials() -> Vec<PathBuf> {
     files.sort();
     assert!(
         !files.is_empty(),
-        "no HaTT materials in {}; set ASPERITY_HATT to their folder",
-        folder.display()
+        "no HaTT materials, folder `{folder}`; set ASPERITY_HATT to their folder"
     );
     files
 }

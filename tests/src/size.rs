@@ -26,12 +26,8 @@ impl Size {
     /// If the variable is neither `small` nor `full`.
     #[must_use]
     pub fn asked() -> Self {
-        Self::parse(
-            std::env::var_os(VARIABLE)
-                .as_deref()
-                .map_or("", |text| text.to_str().unwrap_or("text that is not UTF-8")),
-        )
-        .unwrap_or_else(|text| panic!("{VARIABLE}={text}: must be small or full"))
+        Self::parse(&variable(VARIABLE).unwrap_or_default())
+            .unwrap_or_else(|text| panic!("{VARIABLE}={text}: must be small or full"))
     }
 
     fn parse(text: &str) -> Result<Self, &str> {
@@ -51,6 +47,19 @@ impl Size {
     }
 }
 
+/// A variable of the environment; bytes that are no text become ones that no reader takes.
+fn variable(name: &str) -> Option<String> {
+    std::env::var_os(name).map(|text| text.to_string_lossy().into_owned())
+}
+
+/// The fewest of `count` that hold a share. In a sample it is rounded down: rounded up, a few would have to hold
+/// without exception.
+#[must_use]
+pub fn least(share: f64, count: usize) -> usize {
+    let exact = share * count as f64;
+    Size::asked().of(exact.floor(), exact.ceil()) as usize
+}
+
 /// The value for the size that the environment asks for, printed with what it counts.
 pub fn sized<T: Display>(what: &str, small: T, full: T) -> T {
     let size = Size::asked();
@@ -66,7 +75,7 @@ pub fn sized<T: Display>(what: &str, small: T, full: T) -> T {
 /// If the variable holds no number.
 #[must_use]
 pub fn sized_or(variable: &str, what: &str, small: usize, full: usize) -> usize {
-    let Ok(text) = std::env::var(variable) else {
+    let Some(text) = self::variable(variable) else {
         return sized(what, small, full);
     };
     let count = text

@@ -3,6 +3,7 @@
 // A `cc` that takes these flags, and the sanitizers, are Unix's.
 #![cfg(unix)]
 
+use crate::support::c::{library, root, succeeded};
 use asperity_formats::{
     Asset, Library, SceneSurface, Solid,
     library::{encode_scene, encoded_len},
@@ -21,7 +22,7 @@ use std::{
     env, fs,
     io::Write as _,
     path::{Path, PathBuf},
-    process::{Command, Output, Stdio},
+    process::{Command, Stdio},
     sync::{Mutex, OnceLock, PoisonError},
 };
 
@@ -33,49 +34,10 @@ const SANITIZED: [&str; 3] = [
     "-g",
 ];
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
-}
-
 fn folder() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c-face");
     fs::create_dir_all(&folder).unwrap();
     folder
-}
-
-/// Where Cargo builds: what the release of the commands needed is not built again.
-fn target() -> &'static Path {
-    let tmp = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    tmp.parent().expect("the target folder")
-}
-
-fn succeeded(command: &mut Command) -> Output {
-    let output = command
-        .output()
-        .unwrap_or_else(|error| panic!("{command:?}: {error}; a C compiler is a prerequisite"));
-    assert!(
-        output.status.success(),
-        "{command:?}: {}\n{}{}",
-        output.status,
-        String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr)
-    );
-    output
-}
-
-/// The static library, built once.
-fn library() -> &'static Path {
-    static PATH: OnceLock<PathBuf> = OnceLock::new();
-    PATH.get_or_init(|| {
-        succeeded(
-            Command::new(env!("CARGO"))
-                .current_dir(root())
-                .args(["build", "--quiet", "--release", "--package", "asperity-c"])
-                .arg("--target-dir")
-                .arg(target()),
-        );
-        target().join("release/libasperity_c.a")
-    })
 }
 
 /// The shared library as `docs/c.md` links it, built once. Its folder.

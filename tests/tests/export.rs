@@ -3,18 +3,17 @@
 // A `cc` that takes these flags is Unix's.
 #![cfg(unix)]
 
-use crate::support;
+use crate::support::{
+    self, c,
+    c::{root, succeeded},
+};
 use asperity::interchange::{Language, export_bytes};
 use asperity_formats::library;
 use std::{
     env, fs,
     path::{Path, PathBuf},
-    process::{Command, Output},
+    process::Command,
 };
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
-}
 
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
@@ -22,19 +21,6 @@ fn folder(name: &str) -> PathBuf {
         .join(name);
     fs::create_dir_all(&folder).unwrap();
     folder
-}
-
-fn succeeded(command: &mut Command) -> Output {
-    let output = command
-        .output()
-        .unwrap_or_else(|e| panic!("{command:?}: {e}"));
-    let printed = String::from_utf8_lossy(&output.stderr);
-    assert!(
-        output.status.success(),
-        "{command:?}: {}\n{printed}",
-        output.status
-    );
-    output
 }
 
 /// A library of the built-in texture.
@@ -45,21 +31,6 @@ fn packed() -> Vec<u8> {
     let len = library::encode_library(&named, &mut bytes).unwrap();
     bytes.truncate(len);
     bytes
-}
-
-/// The C library, built where Cargo builds.
-fn c_library() -> PathBuf {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .parent()
-        .expect("the target folder");
-    succeeded(
-        Command::new(env!("CARGO"))
-            .current_dir(root())
-            .args(["build", "--quiet", "--release", "--package", "asperity-c"])
-            .arg("--target-dir")
-            .arg(target),
-    );
-    target.join("release/libasperity_c.a")
 }
 
 const C_PROGRAM: &str = r#"
@@ -115,7 +86,7 @@ fn a_c_array_is_compiled_without_a_warning_and_loaded_in_place() {
                 .arg(&folder)
                 .arg(folder.join("main.c"))
                 .args(&sources)
-                .arg(c_library())
+                .arg(c::library())
                 .args(["-lpthread", "-ldl", "-lm", "-o"])
                 .arg(&program),
         );

@@ -3,7 +3,7 @@
 use super::AUTHOR;
 use asperity::attributes::{self, Attributes};
 use asperity::prompt::phrase::{Phrase, parse};
-use asperity_tests::size::sized;
+use asperity_tests::size::{least, sized};
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -80,9 +80,8 @@ fn modifiers_move_the_right_way_and_are_noticed() {
         let (right, noticed, all) = (count(0.0), count(1.0), steps.len());
         println!("{who}: {right} of {all} the right way, {noticed} noticed");
     }
-    // Of a sample, rounded down.
-    assert!(right >= all * LEAST_RIGHT / 100, "{right} of {all}");
-    assert!(noticed >= all * LEAST_NOTICED / 100, "{noticed} of {all}");
+    assert!(right >= least(LEAST_RIGHT, all), "{right} of {all}");
+    assert!(noticed >= least(LEAST_NOTICED, all), "{noticed} of {all}");
     for b in file.between.iter().step_by(stride) {
         let [more, less, middle] =
             [&b.more, &b.less, &b.phrase].map(|p| scale(&b.attribute, &read(p)));
@@ -94,10 +93,10 @@ fn modifiers_move_the_right_way_and_are_noticed() {
     }
 }
 
-/// Percent of the modifiers that move the right way.
-const LEAST_RIGHT: usize = 95;
-/// Percent that a person notices.
-const LEAST_NOTICED: usize = 94;
+/// Least share of the modifiers that move the right way.
+const LEAST_RIGHT: f64 = 0.95;
+/// Least share that a person notices.
+const LEAST_NOTICED: f64 = 0.94;
 /// Largest share of touchable things that are a guess.
 const MOST_THINGS: f64 = 0.05;
 /// Least share of nonsense that is a guess.
@@ -115,14 +114,10 @@ fn what_people_touch_is_familiar_and_nonsense_is_not() {
         println!("{file}: {count} of {} unfamiliar", lines.len());
         count as f64 / lines.len() as f64
     };
-    let stride = sized("every so many things", 5, 1);
-    assert!(unfamiliar("touchable.txt", stride) <= MOST_THINGS);
-    assert!(
-        unfamiliar(
-            "nonsense.txt",
-            sized("every so many lines of nonsense", 2, 1)
-        ) >= LEAST_NONSENSE
-    );
+    let things = sized("every so many things", 5, 1);
+    let lines = sized("every so many lines of nonsense", 2, 1);
+    assert!(unfamiliar("touchable.txt", things) <= MOST_THINGS);
+    assert!(unfamiliar("nonsense.txt", lines) >= LEAST_NONSENSE);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use asperity::{
     prompt::{Options, PromptError},
     reduce::Fidelity,
 };
-use asperity_tests::size::sized;
+use asperity_tests::size::{least, sized};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 use toml::Value;
@@ -61,9 +61,11 @@ fn everyday_words_are_ordered_as_any_person_would() {
                 of(attribute, attributes(first)) > of(attribute, attributes(second))
             })
             .count();
-        // Of a sample, rounded down.
-        let least = (least_share * rows.len() as f64) as usize;
-        assert!(right >= least, "{attribute}: {right} of {}", rows.len());
+        assert!(
+            right >= least(least_share, rows.len()),
+            "{attribute}: {right} of {}",
+            rows.len()
+        );
         println!("{attribute}: {right} of {}", rows.len());
     }
 }

@@ -51,9 +51,8 @@ pub(crate) fn product(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, o
     }
 }
 
-// Not for AVX-512: there the compiler expands a column at a time, with scatters, and a prompt takes half as
-// long again.
-#[multiversion(targets("x86_64+avx2"))]
+// `multiversion` leaves out processors whose clock AVX-512 slows down.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn dispatched(m: usize, k: usize, n: usize, a: &[f32], b: &Matrix<'_>, out: &mut [f32]) {
     tiled(m, k, n, a, b, out);
 }
