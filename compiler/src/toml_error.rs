@@ -41,16 +41,19 @@ impl TomlError {
     }
 }
 
+impl TomlError {
+    /// Place and reason without the line itself, for a file whose text is not to be shown.
+    #[must_use]
+    pub fn without_text(&self) -> String {
+        let (line, column, message) = (self.line, self.column, &self.message);
+        format!("line {line}, column {column}: {message}")
+    }
+}
+
 impl fmt::Display for TomlError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            line,
-            column,
-            message,
-            near,
-        } = self;
-        write!(f, "line {line}, column {column}: {message}")?;
-        match near.trim() {
+        f.write_str(&self.without_text())?;
+        match self.near.trim() {
             "" => Ok(()),
             near => write!(f, ", near `{near}`"),
         }

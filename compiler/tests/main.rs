@@ -4,6 +4,7 @@
 mod auto_gain;
 mod commands;
 mod edits;
+mod manifests;
 mod model_schema;
 mod prompts;
 mod relative;

@@ -12,6 +12,7 @@ use asperity_formats::{
 };
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
+use toml::de::{DeTable, DeValue};
 
 /// Textures that a scene may list, worn or not. Each name is compared with all before it.
 const MAX_LISTED_TEXTURES: usize = 1024;
@@ -151,6 +152,9 @@ impl Description {
             problem,
         };
         let raw: RawScene = toml::from_str(text).map_err(|e| {
+            if let Some(key) = single(text) {
+                return fail(key.to_owned(), SceneProblem::Single(key));
+            }
             fail(
                 String::new(),
                 SceneProblem::Syntax(TomlError::new(text, &e)),
@@ -160,6 +164,18 @@ impl Description {
         raw.check(file, folder)
             .map_err(|(field, problem)| fail(field, problem))
     }
+}
+
+/// The list that a text has one table of, in single brackets.
+fn single(text: &str) -> Option<&'static str> {
+    let top = DeTable::parse(text).ok()?;
+    let is_table = |key: &&str| {
+        matches!(
+            top.get_ref().get(*key).map(|v| v.get_ref()),
+            Some(DeValue::Table(_))
+        )
+    };
+    ["texture", "surface"].into_iter().find(is_table)
 }
 
 /// A field and what is wrong with it.

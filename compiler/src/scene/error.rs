@@ -28,6 +28,9 @@ pub enum SceneProblem {
     /// It is not TOML, or a field is missing, unknown or of another type.
     #[error("{0}")]
     Syntax(TomlError),
+    /// One table in single brackets in a list.
+    #[error("one table in single brackets, where a list of tables is wanted")]
+    Single(&'static str),
     /// The scene has no surface.
     #[error("the scene has no surface")]
     NoSurface,
@@ -136,6 +139,7 @@ impl Diagnostic for SceneError {
                 "give a scene in TOML: see the example in docs/scenes.md".into()
             }
             SceneProblem::Input(problem) => problem.remedy(),
+            SceneProblem::Single(key) => format!("write [[{key}]], in two brackets, above each"),
             SceneProblem::Syntax(_) => "see the example in docs/scenes.md".into(),
             SceneProblem::NoSurface => {
                 "add a [[surface]] with a texture and a plane, sphere or box".into()

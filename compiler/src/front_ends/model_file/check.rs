@@ -122,6 +122,7 @@ fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
     if triangles.is_empty() {
         return Err(("grid.vertices".into(), Problem::Flat));
     }
+    places(&vertices)?;
     let grid = ModelGrid {
         sample_rate_hz: stated.sample_rate_hz,
         order,
@@ -179,6 +180,25 @@ fn vertex(
         gain: stated.gain.unwrap_or(1.0),
         sigma_m_s2: stated.sigma_m_s2,
     })
+}
+
+/// Every vertex has a place of its own: of two at one place, one model would be lost.
+fn places(vertices: &[GridVertex]) -> Result<(), Fault> {
+    let place = |vertex: &GridVertex| (vertex.speed_mm_s, vertex.force_n);
+    for (index, vertex) in vertices.iter().enumerate() {
+        let before = vertices[..index].iter();
+        let first = before.map(place).position(|other| other == place(vertex));
+        if let Some(first) = first {
+            let (speed_mm_s, force_n) = place(vertex);
+            let problem = Problem::SamePlace {
+                first,
+                speed_mm_s,
+                force_n,
+            };
+            return Err((format!("grid.vertices[{index}]"), problem));
+        }
+    }
+    Ok(())
 }
 
 /// Line spectral frequencies: as many as those of the first vertex, ascending in (0, π).

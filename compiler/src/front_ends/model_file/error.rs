@@ -86,6 +86,16 @@ pub enum ModelFileProblem {
     /// All vertices lie on one line.
     #[error("all of them lie on one line, and a grid needs an area")]
     Flat,
+    /// Two vertices lie at one place of the grid.
+    #[error("it lies at {speed_mm_s} mm/s and {force_n} N, as grid.vertices[{first}] does")]
+    SamePlace {
+        /// Index of the other vertex.
+        first: usize,
+        /// Speed of both.
+        speed_mm_s: f64,
+        /// Force of both.
+        force_n: f64,
+    },
     /// The triangles do not tile the rectangle.
     #[error("{cause}")]
     Mesh {
@@ -122,6 +132,7 @@ impl Diagnostic for ModelFileError {
             P::Numerator(_) => {
                 "set \"numerator\" to \"none\", \"nyquist\" or \"lsf\" as the models have it".into()
             }
+            P::SamePlace { .. } => "leave one of them, or move it".into(),
             P::Mesh { stated: true, .. } => {
                 "triangulate the vertices so that they tile the rectangle from (0, 0), or leave \
                  triangles out"

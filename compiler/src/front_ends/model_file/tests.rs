@@ -379,6 +379,20 @@ fn values_lists_and_orders_are_checked() {
 }
 
 #[test]
+fn two_vertices_at_one_place_are_refused_by_name() {
+    let mut twins = document();
+    let vertices = twins["grid"]["vertices"].as_array_mut().unwrap();
+    let mut twin = vertices[2].clone();
+    twin["sigma_m_s2"] = json!(0.5);
+    vertices.push(twin);
+    let field = format!("grid.vertices[{}]", vertices.len() - 1);
+    refused(&twins, &field, "as grid.vertices[2] does");
+    // Also where the file leaves the triangles to the program.
+    twins["grid"].as_object_mut().unwrap().remove("triangles");
+    refused(&twins, &field, "as grid.vertices[2] does");
+}
+
+#[test]
 fn a_file_too_large_for_any_model_is_not_read_to_its_end() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("giant.json");

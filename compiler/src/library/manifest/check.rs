@@ -12,8 +12,16 @@ use std::{fs, io, path::PathBuf};
 
 /// Keys of a texture's source.
 const ORIGINS: [&str; 6] = ["prompt", "import", "asset", "of", "blend", "compose"];
+/// Keys of a texture besides its source and its options.
+const OWN: [&str; 2] = ["name", "texture"];
 /// Keys of the defaults besides the options.
 const SETUP: [&str; 3] = ["model", "text_encoder", "backend"];
+
+/// Whether a texture has such a key, also in one of its tables.
+pub(super) fn is_key(key: &str) -> bool {
+    let own = key.split('.').next().unwrap_or(key);
+    OWN.contains(&own) || ORIGINS.contains(&own) || OPTIONS.contains(&own)
+}
 
 /// A row whose references to other textures are names yet.
 pub(super) struct Draft {
@@ -90,8 +98,7 @@ impl Checker<'_> {
                 "texture" => {}
                 key if ORIGINS.contains(&key) => sources.push(field),
                 _ => {
-                    let own = ["name", "texture"];
-                    self.unknown(field, "", &[&own[..], &ORIGINS, &OPTIONS].concat());
+                    self.unknown(field, "", &[&OWN[..], &ORIGINS, &OPTIONS].concat());
                 }
             }
         }

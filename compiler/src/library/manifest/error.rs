@@ -65,6 +65,9 @@ pub enum ManifestProblem {
         /// What there is.
         known: String,
     },
+    /// One table `[texture]` in a list of textures.
+    #[error("one table in single brackets, where a list of tables is wanted")]
+    Single,
     /// A value of another type.
     #[error("{found}, where {wanted} is wanted")]
     Type {
@@ -145,6 +148,9 @@ impl Diagnostic for ManifestError {
             ManifestProblem::Empty => "add a [[texture]] with a name and a prompt".into(),
             ManifestProblem::TooMany(_) => "split the manifest, and merge the libraries".into(),
             ManifestProblem::More => "correct these first".into(),
+            ManifestProblem::Single => {
+                "write [[texture]], in two brackets, above each texture".into()
+            }
             ManifestProblem::UnknownKey { .. } => "correct the key, or remove it".into(),
             ManifestProblem::Type { .. } | ManifestProblem::Value { .. } => {
                 "correct the value".into()

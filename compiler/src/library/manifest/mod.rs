@@ -3,6 +3,7 @@
 //! All three give the same rows. Every row is checked by itself, then all of them together, and
 //! every fault is reported with file, line and key.
 
+mod cells;
 mod check;
 mod csv_file;
 mod entry;

@@ -85,6 +85,22 @@ fn kind(file: &Path) -> Kind {
     }
 }
 
+/// What is wrong with a key at the top.
+fn top_problem(field: &Field) -> ManifestProblem {
+    let wanted = match (field.key.as_str(), &field.value) {
+        ("texture", Value::Table(_)) => return ManifestProblem::Single,
+        ("texture", _) => "a list of tables, each written [[texture]],",
+        ("include", _) => "a list of manifests",
+        ("defaults", _) => "one table, written [defaults],",
+        _ => {
+            let known = "include, defaults, texture".into();
+            return ManifestProblem::UnknownKey { known };
+        }
+    };
+    let found = field.value.kind();
+    ManifestProblem::Type { wanted, found }
+}
+
 fn text(file: &Path) -> Result<String, ManifestError> {
     input::read_text(file, kind(file)).map_err(|problem| whole(file, problem.into()))
 }
@@ -154,13 +170,8 @@ impl Reader {
             folder,
             errors: &mut self.errors,
         };
-        for field in &sheet.unknown {
-            let known = "include, defaults, texture".into();
-            checker.fault(
-                field.line,
-                &field.key,
-                ManifestProblem::UnknownKey { known },
-            );
+        for field in &sheet.wrong {
+            checker.fault(field.line, &field.key, top_problem(field));
         }
         let mut stated = outer.clone();
         if let Some(row) = &sheet.defaults {
@@ -181,6 +192,7 @@ impl Reader {
         }
         for row in &sheet.rows {
             if checker.errors.len() > MAX_FAULTS {
+                checker.fault(row.line, "", ManifestProblem::More);
                 break;
             }
             let (name, draft) = checker.row(row, &stated);
@@ -209,7 +221,15 @@ impl Reader {
         };
         match syntax(file) {
             Some(Syntax::Toml) => toml_file::parse(text)
-                .map_err(|error| fault(error.line, error.to_string()))
+                .map_err(|error| {
+                    // Of a file that another one includes nothing is shown: it may be any file.
+                    let shown = if self.open.is_empty() {
+                        error.to_string()
+                    } else {
+                        error.without_text()
+                    };
+                    fault(error.line, shown);
+                })
                 .ok(),
             Some(Syntax::Csv) => csv_file::parse(text)
                 .map_err(|(line, message)| fault(line, message))

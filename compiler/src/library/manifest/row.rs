@@ -52,8 +52,8 @@ pub(super) struct Sheet {
     /// Paths of other manifests.
     pub(super) include: Vec<Field>,
     pub(super) rows: Vec<Row>,
-    /// Keys at the top that no manifest has.
-    pub(super) unknown: Vec<Field>,
+    /// Keys at the top that no manifest has, or whose value is of another type.
+    pub(super) wrong: Vec<Field>,
 }
 
 /// Textures that one manifest may list, includes and all; what is read beyond them is dropped.
@@ -62,33 +62,50 @@ pub(super) const MAX_ROWS: usize = 1 << 17;
 pub(super) const MAX_FAULTS: usize = 100;
 
 /// Adds a field under a dotted key: `blend.a` is `a` in the table `blend`.
-pub(super) fn put(fields: &mut Vec<Field>, key: &str, line: usize, value: Value) {
+///
+/// # Errors
+/// A key that is there already.
+pub(super) fn put(
+    fields: &mut Vec<Field>,
+    key: &str,
+    line: usize,
+    value: Value,
+) -> Result<(), String> {
     // One level of tables is all that a key has.
     let nested = key.split_once('.').filter(|(_, rest)| !rest.contains('.'));
-    let Some((table, rest)) = nested else {
-        fields.push(Field {
-            key: key.to_owned(),
-            line,
-            value,
-        });
-        return;
+    let (own, value) = match nested {
+        Some((table, rest)) => {
+            let inner = Field {
+                key: rest.to_owned(),
+                line,
+                value,
+            };
+            if let Some(Value::Table(found)) = fields
+                .iter_mut()
+                .find(|field| field.key == table)
+                .map(|field| &mut field.value)
+            {
+                if found.iter().any(|field| field.key == rest) {
+                    return Err(twice(key));
+                }
+                found.push(inner);
+                return Ok(());
+            }
+            (table, Value::Table(vec![inner]))
+        }
+        None => (key, value),
     };
-    let at = fields.iter().position(|field| field.key == table);
-    let at = at.unwrap_or_else(|| {
-        fields.push(Field {
-            key: table.to_owned(),
-            line,
-            value: Value::Table(Vec::new()),
-        });
-        fields.len() - 1
-    });
-    match &mut fields[at].value {
-        Value::Table(inner) => put(inner, rest, line, value),
-        // The check refuses the key.
-        _ => fields.push(Field {
-            key: key.to_owned(),
-            line,
-            value,
-        }),
+    if fields.iter().any(|field| field.key == own) {
+        return Err(twice(own));
     }
+    fields.push(Field {
+        key: own.to_owned(),
+        line,
+        value,
+    });
+    Ok(())
+}
+
+fn twice(key: &str) -> String {
+    format!("{key:?} is stated twice")
 }

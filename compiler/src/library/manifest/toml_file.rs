@@ -43,11 +43,15 @@ pub(super) fn parse(text: &str) -> Result<Sheet, TomlError> {
                             fields,
                             untyped: false,
                         }),
-                        _ => sheet.unknown.push(item),
+                        value => sheet.wrong.push(Field {
+                            key: "texture".into(),
+                            value,
+                            ..item
+                        }),
                     }
                 }
             }
-            (_, value) => sheet.unknown.push(Field { value, ..field }),
+            (_, value) => sheet.wrong.push(Field { value, ..field }),
         }
     }
     Ok(sheet)

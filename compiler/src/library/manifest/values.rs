@@ -135,8 +135,11 @@ impl Checker<'_> {
     fn preview(&mut self, field: &Field, untyped: bool) -> Option<u32> {
         let size = match &field.value {
             Value::Bool(drawn) => return Some(if *drawn { preview::SIZE } else { 0 }),
-            Value::Text(text) if untyped && text == "true" => return Some(preview::SIZE),
-            Value::Text(text) if untyped && text == "false" => return Some(0),
+            // Spreadsheets write them in capitals.
+            Value::Text(text) if untyped && text.eq_ignore_ascii_case("true") => {
+                return Some(preview::SIZE);
+            }
+            Value::Text(text) if untyped && text.eq_ignore_ascii_case("false") => return Some(0),
             Value::Whole(size) => Some(*size),
             Value::Text(text) if untyped => text.trim().parse().ok(),
             other => return self.wrong_type(field.line, "preview", PREVIEW, other),

@@ -1,0 +1,330 @@
+//! Lists of textures as people and spreadsheets write them: what is read is all of it, and what
+//! would lose a row, a cell or a key is refused at its line.
+
+use asperity::{
+    diagnostic::report,
+    library::{
+        Manifest,
+        manifest::{ManifestError, Origin},
+    },
+    scene::Description,
+};
+use asperity_tests::draw::Draw;
+use std::{
+    collections::BTreeMap,
+    fmt::Write as _,
+    fs,
+    path::{Path, PathBuf},
+};
+
+const LISTS: usize = 150;
+
+/// The case folder that users' reports became.
+fn case(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../tests/cases/manifest-messages")
+        .join(file)
+}
+
+fn told(errors: &[ManifestError]) -> String {
+    errors.iter().map(|error| report(error) + "\n").collect()
+}
+
+/// Names and prompts of a manifest.
+fn prompts(manifest: &Manifest) -> BTreeMap<String, String> {
+    let entries = manifest.entries.iter();
+    entries
+        .map(|entry| match &entry.origin {
+            Origin::Prompt(prompt) => (entry.name.clone(), prompt.clone()),
+            other => panic!("{other:?}"),
+        })
+        .collect()
+}
+
+#[test]
+fn the_lists_of_the_case_are_read_or_refused_by_what_is_wrong() {
+    for (file, says) in [
+        ("table.toml", ":1: texture: one table in single brackets"),
+        ("table.toml", "write [[texture]]"),
+        ("dupkey.jsonl", ":1: \"prompt\" is stated twice"),
+    ] {
+        let errors = Manifest::read(&case(file)).expect_err(file);
+        let told = told(&errors);
+        assert!(told.contains(says), "{file}: {told}");
+        assert!(!told.contains("no such key"), "{file}: {told}");
+    }
+    for file in ["blank_rows.csv", "semicolon.csv"] {
+        let manifest = Manifest::read(&case(file)).unwrap_or_else(|e| panic!("{}", told(&e)));
+        let wanted = [("oak".to_owned(), "rough oak".to_owned())];
+        assert_eq!(prompts(&manifest), BTreeMap::from(wanted), "{file}");
+    }
+}
+
+/// How a list is written, and how it was damaged.
+struct List {
+    file: &'static str,
+    text: String,
+    wanted: BTreeMap<String, String>,
+    damage: Option<&'static str>,
+}
+
+/// A prompt that spreadsheets have to quote now and then.
+fn prompt(draw: &mut Draw) -> String {
+    const WORDS: [&str; 8] = [
+        "rough", "oak", "wet", "ice", "Käse", "2\" pipe", "木", "felt",
+    ];
+    let words: Vec<&str> = (0..1 + draw.below(4))
+        .map(|_| WORDS[draw.below(8)])
+        .collect();
+    words.join([" ", ", ", "; "][draw.below(3)])
+}
+
+fn textures(draw: &mut Draw) -> Vec<(String, String)> {
+    let count = 2 + draw.below(20);
+    (0..count)
+        .map(|n| (format!("t{n}"), prompt(draw)))
+        .collect()
+}
+
+fn is(draw: &mut Draw) -> bool {
+    draw.below(2) == 1
+}
+
+/// A cell, in quotes where it has to be, or now and then otherwise.
+fn cell(text: &str, separator: char, draw: &mut Draw) -> String {
+    let must = text.contains([separator, '"', '\n']);
+    if must || draw.below(4) == 0 {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+/// A CSV file with what spreadsheets put around a table.
+fn csv(draw: &mut Draw) -> List {
+    let textures = textures(draw);
+    let separator = [',', ';', '\t'][draw.below(3)];
+    let end = ["\n", "\r\n", "\r"][draw.below(3)];
+    let empty = draw.below(3);
+    let s = separator.to_string();
+    let tail = s.repeat(empty);
+    let mut rows = vec![format!("name{s}prompt{s}seed{tail}")];
+    for (name, prompt) in &textures {
+        let name = cell(name, separator, draw);
+        let prompt = cell(prompt, separator, draw);
+        let seed = ["", "3"][draw.below(2)];
+        rows.push(format!("{name}{s}{prompt}{s}{seed}{tail}"));
+        if draw.below(4) == 0 {
+            rows.push(format!("{s}{s}{tail}"));
+        }
+    }
+    let at = 1 + draw.below(rows.len() - 1);
+    let filled = |row: &String| !row.starts_with(separator);
+    let at = (1..=at)
+        .rev()
+        .find(|&at| filled(&rows[at]))
+        .expect("the first row is filled");
+    let damage = match draw.below(14) {
+        0 => {
+            rows[at].insert(0, '"');
+            // Of a cell that is in quotes, two quotes are an empty cell with text behind it.
+            Some("an open quote")
+        }
+        1 => {
+            rows[at] = format!("x{s}\"rough oak{s}");
+            Some("an open quote in a later cell")
+        }
+        2 => {
+            rows[at] = format!("x{s}\"rough oak");
+            rows.insert(at + 1, format!("y{s}wet ice{s}5\""));
+            Some("a quote that closes at the end of the next row")
+        }
+        3 => {
+            rows[0] = format!("name{s}prompt{s}prompt{tail}");
+            Some("a column twice")
+        }
+        4 => {
+            rows[at] += &format!("{s}more");
+            Some("a cell without a column")
+        }
+        5 => {
+            rows[at] = "lonely".into();
+            Some("a row of one cell")
+        }
+        6 => {
+            rows[0] = format!("nome{s}prompt{s}seed{tail}");
+            Some("a column that is not known")
+        }
+        7 => {
+            rows.push(rows[at].clone());
+            Some("a row twice")
+        }
+        8 => {
+            rows.remove(0);
+            Some("no header")
+        }
+        _ => None,
+    };
+    let blank = if is(draw) { end } else { "" };
+    let mark = if is(draw) { "\u{feff}" } else { "" };
+    let last = if is(draw) { end } else { "" };
+    List {
+        file: "list.csv",
+        text: format!("{mark}{blank}{}{last}", rows.join(end)),
+        wanted: textures.into_iter().collect(),
+        damage,
+    }
+}
+
+fn json_lines(draw: &mut Draw) -> List {
+    let textures = textures(draw);
+    let end = ["\n", "\r\n", "\n\n"][draw.below(3)];
+    let line = |(name, prompt): &(String, String)| {
+        serde_json::json!({ "name": name, "prompt": prompt, "seed": 1 }).to_string()
+    };
+    let mut lines: Vec<String> = textures.iter().map(line).collect();
+    let at = draw.below(lines.len());
+    let damage = match draw.below(8) {
+        0 => {
+            lines[at].insert_str(1, "\"prompt\":\"ice\",");
+            Some("a key twice")
+        }
+        1 => {
+            lines[at].pop();
+            Some("an object without an end")
+        }
+        2 => {
+            let more = lines[at].clone();
+            lines[at] += &more.replace("\"t", "\"u");
+            Some("two objects in a line")
+        }
+        3 => {
+            lines[at] = format!("[{}]", lines[at]);
+            Some("a list")
+        }
+        _ => None,
+    };
+    let mark = if is(draw) { "\u{feff}" } else { "" };
+    List {
+        file: "list.jsonl",
+        text: format!("{mark}{}{end}", lines.join(end)),
+        wanted: textures.into_iter().collect(),
+        damage,
+    }
+}
+
+fn toml(draw: &mut Draw) -> List {
+    let textures = textures(draw);
+    let mut tables: Vec<String> = textures
+        .iter()
+        .map(|(name, prompt)| format!("[[texture]]\nname = {name:?}\nprompt = {prompt:?}\n"))
+        .collect();
+    let at = draw.below(tables.len());
+    let damage = match draw.below(8) {
+        0 => {
+            tables[at] += "prompt = \"ice\"\n";
+            Some("a key twice")
+        }
+        1 => {
+            tables[at] = tables[at].replace("[[texture]]\n", "");
+            // Above the first table the keys are unknown, below another one they are there twice.
+            Some("a table without its head")
+        }
+        2 => {
+            tables[at] = tables[at].replace("[[texture]]", "[texture]");
+            Some("single brackets")
+        }
+        3 => {
+            tables[at] = tables[at].replacen("\"\n", "\n", 1);
+            Some("a string without an end")
+        }
+        _ => None,
+    };
+    let mark = if is(draw) { "\u{feff}" } else { "" };
+    let text = tables.concat();
+    let text = if is(draw) {
+        text.replace('\n', "\r\n")
+    } else {
+        text
+    };
+    List {
+        file: "list.toml",
+        text: format!("{mark}{text}"),
+        wanted: textures.into_iter().collect(),
+        damage,
+    }
+}
+
+/// A list gives all of its textures, or an error with its file and line; never some of them.
+#[test]
+fn no_row_of_a_list_is_lost_without_a_word() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut damaged = BTreeMap::new();
+    for seed in 0..LISTS {
+        let mut draw = Draw::new(seed as u64);
+        let list = match draw.below(5) {
+            0 => json_lines(&mut draw),
+            1 => toml(&mut draw),
+            _ => csv(&mut draw),
+        };
+        let file = folder.path().join(list.file);
+        fs::write(&file, &list.text).expect("a list");
+        let shown = format!("list {seed}, {}: {:?}", list.file, list.text);
+        match (Manifest::read(&file), list.damage) {
+            (Ok(manifest), None) => assert_eq!(prompts(&manifest), list.wanted, "{shown}"),
+            (Err(errors), None) => panic!("{shown}: {}", told(&errors)),
+            (Ok(_), Some(damage)) => panic!("{damage} is taken: {shown}"),
+            (Err(errors), Some(damage)) => {
+                *damaged.entry(damage).or_insert(0) += 1;
+                assert!(errors.iter().all(|error| error.line.is_some()), "{shown}");
+            }
+        }
+    }
+    let mut counts = String::new();
+    for (damage, count) in &damaged {
+        let _ = write!(counts, "{damage} {count}, ");
+    }
+    println!("{LISTS} lists, damaged: {counts}");
+    assert!(damaged.len() >= 12, "{counts}");
+}
+
+/// Whoever includes a file reads nothing of it in the error, be it a list or not.
+#[test]
+fn an_include_that_is_no_manifest_is_not_repeated() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lines = [
+        "root:x:0:0:root,secret:/root:/bin/bash\n",
+        "password = secret\n",
+        "[secret\n",
+        "{\"secret\n",
+        "user,secret\n",
+        "secret\n",
+    ];
+    for (extension, line) in [".toml", ".csv", ".jsonl", ".conf", ""]
+        .into_iter()
+        .flat_map(|extension| lines.map(|line| (extension, line)))
+    {
+        let name = format!("other{extension}");
+        fs::write(folder.path().join(&name), line).expect("a file");
+        let manifest = folder.path().join("list.toml");
+        fs::write(&manifest, format!("include = [{name:?}]\n")).expect("a manifest");
+        let errors = Manifest::read(&manifest).expect_err("no manifest");
+        let told = told(&errors);
+        assert!(told.contains(&name), "{told}");
+        assert!(!told.contains("secret"), "{name}, {line:?}: {told}");
+    }
+}
+
+#[test]
+fn a_scene_in_single_brackets_says_which() {
+    for key in ["texture", "surface"] {
+        let text = format!("servo_rate_hz = 1000\n[{key}]\ntexture = \"oak\"\n");
+        let error = Description::of_text(Path::new("desk.toml"), &text).expect_err("one table");
+        let told = report(&error);
+        assert!(
+            told.contains(&format!("{key}: one table in single brackets")),
+            "{told}"
+        );
+        assert!(told.contains(&format!("write [[{key}]]")), "{told}");
+    }
+}
