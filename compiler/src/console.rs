@@ -16,6 +16,9 @@ use std::{
     process::ExitCode,
 };
 
+/// Warnings of one kind that are told one by one.
+const SHOWN_WARNINGS: usize = 20;
+
 /// The console of one command.
 #[derive(Debug, Clone, Copy)]
 pub struct Console {
@@ -111,6 +114,15 @@ impl Console {
         }
         for warning in warnings {
             self.warn(warning);
+        }
+    }
+
+    /// Tells the first of many warnings, and how many there are.
+    pub fn warn_of_many(&self, warnings: &[String]) {
+        let shown = warnings.len().min(SHOWN_WARNINGS);
+        self.warnings(&warnings[..shown], false);
+        if shown < warnings.len() {
+            self.warn(&format!("{} more of these", warnings.len() - shown));
         }
     }
 

@@ -3,16 +3,19 @@
 //! An entry is a file named by its key. It begins with a digest of key and content, so an entry that
 //! was damaged, moved or written by another version counts as missing. It is written beside its
 //! place and renamed: two builds at once cannot disturb each other, because whatever either writes
-//! under a key is the same.
+//! under a key is the same. What lies at its place is replaced, never followed, and a folder in
+//! which others can write is not used.
 
 use super::{
     facts::Facts,
     key::{Key, Parts},
+    own::{check_folder, make_folder, open_plain},
 };
-use crate::back_end::output::write_atomic;
+use crate::{back_end::output::AtomicFile, input::Kind};
 use asperity_formats::Asset;
 use std::{
-    env, fs, io,
+    env,
+    io::{self, Read as _},
     path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
 };
@@ -21,6 +24,8 @@ use std::{
 const MAGIC: &[u8; 8] = b"ASPC\x01\0\0\0";
 /// Bytes before the figures: magic, digest, length of the figures.
 const HEAD: usize = 8 + 32 + 4;
+/// The most bytes of an entry: figures, which are a few lines, and an asset.
+const MOST: u64 = HEAD as u64 + 1024 * 1024 + Kind::Asset.max_bytes();
 /// Variable that names a folder for the cache.
 const VARIABLE: &str = "ASPERITY_CACHE";
 
@@ -79,9 +84,18 @@ impl Cache {
     /// The texture of a key; `None` if it is not there, damaged, or of another version.
     #[must_use]
     pub fn get(&self, key: &Key) -> Option<(Vec<u8>, Facts)> {
-        let mut entry = fs::read(self.place(key)).ok()?;
+        let place = self.place(key);
+        self.check(&place).ok()?;
+        let mut file = open_plain(&place, MOST).ok()?;
+        let mut entry = vec![0; HEAD];
+        file.read_exact(&mut entry).ok()?;
+        // Before the rest is read: a file of holes takes as much memory as it has bytes.
+        if !entry.starts_with(MAGIC) {
+            return None;
+        }
+        file.take(MOST).read_to_end(&mut entry).ok()?;
         let (head, content) = entry.split_at_checked(HEAD)?;
-        if !head.starts_with(MAGIC) || head[8..40] != digest(key, &head[40..], content)[..] {
+        if head[8..40] != digest(key, &head[40..], content)[..] {
             return None;
         }
         let length = u32::from_le_bytes(head[40..44].try_into().ok()?) as usize;
@@ -109,15 +123,28 @@ impl Cache {
 
     fn write(&self, key: &Key, asset: &[u8], facts: &Facts) -> io::Result<()> {
         let place = self.place(key);
-        if let Some(folder) = place.parent() {
-            fs::create_dir_all(folder)?;
-        }
+        make_folder(place.parent().unwrap_or(&self.folder))?;
+        self.check(&place)?;
         let facts = serde_json::to_vec(facts).map_err(io::Error::other)?;
         let length = (facts.len() as u32).to_le_bytes();
         let content = [&facts[..], asset].concat();
         let digest = digest(key, &length, &content);
         let entry = [&MAGIC[..], &digest, &length, &content].concat();
-        write_atomic(&place, &entry).map_err(|error| error.source)
+        let write = || {
+            let mut file = AtomicFile::replacing(&place)?;
+            file.fill(&entry)?;
+            file.commit()
+        };
+        write().map_err(|error| error.source)
+    }
+
+    /// Whether the folders of an entry are the user's own.
+    fn check(&self, place: &Path) -> io::Result<()> {
+        // A user may keep the cache elsewhere by a link.
+        check_folder(&self.folder, true)?;
+        place
+            .parent()
+            .map_or(Ok(()), |within| check_folder(within, false))
     }
 }
 
@@ -130,6 +157,7 @@ fn digest(key: &Key, length: &[u8], content: &[u8]) -> [u8; 32] {
 mod tests {
     use super::*;
     use crate::{back_end::lower::lower, front_ends::builtin};
+    use std::fs;
 
     #[test]
     fn an_entry_counts_only_as_it_was_written_and_under_its_own_key() {
@@ -163,6 +191,64 @@ mod tests {
         assert_eq!(cache.get(&other), None);
         cache.put(&other, &asset, &facts).unwrap();
         assert!(cache.get(&other).is_some());
+    }
+
+    /// Whatever another program put where an entry belongs is neither read, waited for nor
+    /// written through.
+    #[cfg(unix)]
+    #[test]
+    fn an_entry_is_a_plain_file_or_missing() {
+        use std::os::unix::fs::{PermissionsExt as _, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::new(folder.path().join("cache"));
+        let asset = lower(&builtin::texture(), None).unwrap().bytes;
+        let facts = Facts::default();
+        let key = Key::of(b"a");
+        let place = cache.place(&key);
+        cache.put(&key, &asset, &facts).unwrap();
+        let entry = fs::read(&place).unwrap();
+        let treasure = folder.path().join("treasure");
+        let plants: [(&str, &dyn Fn()); 5] = [
+            ("a link", &|| symlink(&treasure, &place).unwrap()),
+            ("a link to a device", &|| {
+                symlink("/dev/zero", &place).unwrap()
+            }),
+            ("a pipe", &|| {
+                let made = std::process::Command::new("mkfifo").arg(&place).status();
+                assert!(made.unwrap().success());
+            }),
+            ("a file of holes", &|| {
+                let file = fs::File::create(&place).unwrap();
+                file.set_len(1 << 34).unwrap();
+            }),
+            ("a long file that begins as an entry", &|| {
+                fs::write(&place, &entry).unwrap();
+                let file = fs::File::options().write(true).open(&place).unwrap();
+                file.set_len(MOST + 1).unwrap();
+            }),
+        ];
+        for (what, plant) in plants {
+            // What the link points to would be an entry, if it were followed.
+            fs::write(&treasure, &entry).unwrap();
+            fs::remove_file(&place).unwrap();
+            plant();
+            assert_eq!(cache.get(&key), None, "{what}");
+            cache.put(&key, &asset, &facts).unwrap();
+            assert!(fs::symlink_metadata(&place).unwrap().is_file(), "{what}");
+            assert!(cache.get(&key).is_some(), "{what}");
+            fs::write(&place, b"").unwrap();
+            assert_eq!(fs::read(&treasure).unwrap(), entry, "{what}");
+        }
+        cache.put(&key, &asset, &facts).unwrap();
+        for open in [cache.folder(), place.parent().unwrap()] {
+            fs::set_permissions(open, fs::Permissions::from_mode(0o777)).unwrap();
+            assert_eq!(cache.get(&key), None);
+            let error = Cache::new(cache.folder().into()).put(&key, &asset, &facts);
+            let error = error.unwrap_err().to_string();
+            assert!(error.contains("every user may write"), "{error}");
+            fs::set_permissions(open, fs::Permissions::from_mode(0o700)).unwrap();
+        }
+        assert!(cache.get(&key).is_some());
     }
 
     #[test]

@@ -19,6 +19,7 @@ mod lock;
 mod make;
 pub mod manifest;
 mod merge;
+mod own;
 mod pack;
 mod rename;
 mod report;

@@ -425,3 +425,66 @@ fn textures_are_renamed_and_a_name_is_given_once() {
         &["none.aspl"],
     );
 }
+
+/// Names that a system obeys, refuses or hides become files that every system takes.
+#[test]
+fn split_writes_safe_files_and_says_which_names_they_lack() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    good(folder, &["builtin", "-o", "a.asp"]);
+    let names = ["NUL", "txt\u{202e}psa", ".ssh", "oak", "OAK"];
+    let mut parts = Vec::new();
+    for (index, name) in names.iter().enumerate() {
+        let part = format!("{index}.asp");
+        good(folder, &["rename", "a.asp", "0", name, "-o", &part]);
+        parts.push(part);
+    }
+    let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+    good(
+        folder,
+        &[&["merge"], &parts[..], &["-o", "all.aspl"]].concat(),
+    );
+    let split = asperity(folder, &["split", "all.aspl", "-o", "files"]);
+    assert!(split.status.success(), "{}", text(&split.stderr));
+    let wanted = [
+        "OAK.asp",
+        "_.ssh.asp",
+        "_NUL.asp",
+        "oak (2).asp",
+        "txt_psa.asp",
+    ];
+    assert_eq!(entries(&folder.join("files")), wanted);
+    let told = text(&split.stderr);
+    assert_eq!(told.matches("is written as").count(), 4, "{told}");
+    assert!(
+        told.contains("\"NUL\" is written as \"_NUL.asp\""),
+        "{told}"
+    );
+    assert!(!told.contains('\u{202e}'), "{told}");
+}
+
+/// A cache that others can write to is neither read nor written, and the build says so.
+#[cfg(unix)]
+#[test]
+fn a_cache_that_is_open_to_all_is_not_used() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = inputs();
+    let folder = folder.path();
+    fs::write(folder.join("l.csv"), "name,asset\ngrit,good.asp\n").expect("a manifest");
+    let build = ["build", "l.csv", "--cache", "cache", "-o", "l.aspl"];
+    good(folder, &build);
+    let said = good(folder, &build);
+    assert!(said.contains("1 from the cache"), "{said}");
+    let open = fs::Permissions::from_mode(0o777);
+    fs::set_permissions(folder.join("cache"), open).expect("permissions");
+    let output = asperity(folder, &build);
+    let (said, told) = (text(&output.stdout), text(&output.stderr));
+    assert!(
+        output.status.success() && said.contains("0 from the cache"),
+        "{said}{told}"
+    );
+    assert!(
+        told.contains("every user may write to the folder"),
+        "{told}"
+    );
+}

@@ -73,7 +73,36 @@ impl AtomicFile {
             writable(target, metadata).map_err(|e| fail("it is read-only", e))?;
         }
         // Of a symbolic link, the file that it points to is replaced.
-        let path = followed(target);
+        let file = Self::beside(target, followed(target))?;
+        let kept = match (existing, &file.place) {
+            (
+                Some(metadata),
+                Place::Beside {
+                    file: Some(file), ..
+                },
+            ) => file.as_file().set_permissions(metadata.permissions()),
+            _ => Ok(()),
+        };
+        kept.map_err(|e| file.error("cannot keep its permissions", e))?;
+        Ok(file)
+    }
+
+    /// Starts a file that takes the place of whatever is at `target`, a symbolic link, a pipe and a
+    /// protected file included, and that has the permissions of a new one.
+    ///
+    /// # Errors
+    /// [`OutputError`] for a missing folder or no permission.
+    pub fn replacing(target: &Path) -> Result<Self, OutputError> {
+        Self::beside(target, target.to_owned())
+    }
+
+    /// Starts a file beside `path`, which is what `target` means.
+    fn beside(target: &Path, path: PathBuf) -> Result<Self, OutputError> {
+        let fail = |doing, source| OutputError {
+            path: target.to_owned(),
+            doing,
+            source,
+        };
         let folder = folder(&path);
         fs::metadata(folder).map_err(|e| fail("cannot reach its folder", e))?;
         let mut builder = tempfile::Builder::new();
@@ -90,19 +119,13 @@ impl AtomicFile {
             .tempfile_in(folder)
             .map_err(|e| fail("cannot write into its folder", strip_path(&e)))?;
         list.push(file.path().to_path_buf());
-        drop(list);
-        let kept = existing.map_or(Ok(()), |metadata| {
-            file.as_file().set_permissions(metadata.permissions())
-        });
-        let file = Self {
+        Ok(Self {
             target: target.to_owned(),
             place: Place::Beside {
                 file: Some(file),
                 path,
             },
-        };
-        kept.map_err(|e| file.error("cannot keep its permissions", e))?;
-        Ok(file)
+        })
     }
 
     /// The file that is written.

@@ -6,6 +6,7 @@
 
 mod atomic;
 mod error;
+mod file_names;
 mod folder;
 mod identity;
 mod links;
@@ -17,6 +18,7 @@ mod unfinished;
 
 pub use atomic::AtomicFile;
 pub use error::{OpenError, OutputError};
+pub use file_names::FileNames;
 pub use folder::{NewFolder, write_folder, write_folder_beside};
 pub use outputs::{OutputId, Outputs};
 pub use stream::{display, is_standard_output};

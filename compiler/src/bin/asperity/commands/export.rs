@@ -1,6 +1,5 @@
 //! `asperity export`.
 
-use super::file_names::file_names_ending;
 use crate::cli::Export;
 use asperity::{
     console::Console,
@@ -8,7 +7,7 @@ use asperity::{
     interchange::{
         self, Carried, ClipFormat, Exported, Format, Language, Options, export_bytes, session,
     },
-    output::{Outputs, display, write_folder_beside},
+    output::{FileNames, Outputs, display, write_folder_beside},
     source::Source,
 };
 use asperity_formats::Asset;
@@ -126,7 +125,7 @@ fn folder(
     console: Console,
 ) -> Result<(), Failures> {
     let listed: Vec<&str> = names.iter().map(String::as_str).collect();
-    let files = file_names_ending(&listed, format.name());
+    let FileNames { files, changed } = FileNames::of(&listed, format.name());
     let bar = console.bar(names.len(), "textures");
     let mut written = Vec::with_capacity(names.len());
     for (index, name) in names.iter().enumerate() {
@@ -143,6 +142,9 @@ fn folder(
         .collect();
     write_folder_beside(std::slice::from_ref(&args.file), &args.output, &files).map_err(one)?;
     let all = || names.iter().zip(&written).zip(&files);
+    if !args.json {
+        console.warn_of_many(&changed);
+    }
     for ((name, exported), _) in all() {
         for warning in &exported.warnings {
             if !args.json {

@@ -1,13 +1,13 @@
 //! `asperity import hatt`.
 
-use super::{file_names::file_names, inference, outputs::TextureOutputs, timings};
+use super::{inference, outputs::TextureOutputs, timings};
 use crate::cli::ImportHatt;
 use asperity::{
     console::Console,
     diagnostic::{Diagnostic, Failures, one},
     hatt::{self, Imported},
     library::{self, NamedAsset},
-    output::{self, Outputs},
+    output::{self, FileNames, Outputs},
     pipeline::{Pass, Pipeline},
 };
 use std::{fmt::Write as _, path::PathBuf};
@@ -106,11 +106,14 @@ impl Target {
         imported: &[Imported],
         inputs: &[PathBuf],
         pipeline: &mut Pipeline,
+        console: Console,
     ) -> Result<(), Failures> {
         match self {
             Self::Folder(folder) => {
                 let names: Vec<&str> = imported.iter().map(|m| m.report.name.as_str()).collect();
-                let files: Vec<(String, &[u8])> = file_names(&names)
+                let FileNames { files, changed } = FileNames::of(&names, "asp");
+                console.warn_of_many(&changed);
+                let files: Vec<(String, &[u8])> = files
                     .into_iter()
                     .zip(imported)
                     .map(|(name, material)| (name, &material.bytes[..]))
@@ -166,7 +169,7 @@ pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
     for material in &imported {
         pipeline.merge(&material.timings);
     }
-    target.write(&imported, &inputs, &mut pipeline)?;
+    target.write(&imported, &inputs, &mut pipeline, console)?;
     console.report(&figures(&imported)).map_err(one)?;
     timings::print(args.timings, &pipeline, console);
     Ok(())

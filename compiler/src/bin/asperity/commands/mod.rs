@@ -7,7 +7,6 @@ mod compile;
 mod diffusion;
 mod doctor;
 mod export;
-mod file_names;
 mod import_effects;
 mod import_hatt;
 mod import_model;

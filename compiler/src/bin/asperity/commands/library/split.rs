@@ -1,19 +1,19 @@
 //! `asperity split`.
 
-use crate::{cli::Split, commands::file_names::file_names};
+use crate::cli::Split;
 use asperity::{
     console::Console,
     diagnostic::{Failures, one},
     edit::EditError,
     library::{NamedAsset, Shelf, encode, renamed},
-    output::{display, write_folder_beside},
+    output::{FileNames, display, write_folder_beside},
 };
 use asperity_formats::Asset;
 
 pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
     let shelf = Shelf::library(&args.file)?;
-    let files = match args.into {
-        Some(count) => parts(&shelf, count as usize)?,
+    let (files, changed) = match args.into {
+        Some(count) => (parts(&shelf, count as usize)?, Vec::new()),
         None => assets(&shelf)?,
     };
     let listed: Vec<(String, &[u8])> = files
@@ -21,19 +21,24 @@ pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
         .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
         .collect();
     write_folder_beside(std::slice::from_ref(&args.file), &args.output, &listed).map_err(one)?;
+    console.warn_of_many(&changed);
     let report = format!("{}: {} files\n", display(&args.output), files.len());
     console.report(&report).map_err(one)
 }
 
-/// One asset a texture, under the name that the index gives it.
-fn assets(shelf: &Shelf) -> Result<Vec<(String, Vec<u8>)>, Failures> {
+/// One asset a texture, under the name that the index gives it, and the names that no file can have.
+fn assets(shelf: &Shelf) -> Result<(Vec<(String, Vec<u8>)>, Vec<String>), Failures> {
     let names: Vec<&str> = shelf
         .textures
         .iter()
         .map(|(name, _)| name.as_str())
         .collect();
     let mut files = Vec::with_capacity(names.len());
-    for (file, (name, bytes)) in file_names(&names).into_iter().zip(&shelf.textures) {
+    let FileNames {
+        files: own,
+        changed,
+    } = FileNames::of(&names, "asp");
+    for (file, (name, bytes)) in own.into_iter().zip(&shelf.textures) {
         let own = Asset::parse(bytes).is_ok_and(|asset| asset.name() == name);
         let bytes = if own {
             bytes.clone()
@@ -42,7 +47,7 @@ fn assets(shelf: &Shelf) -> Result<Vec<(String, Vec<u8>)>, Failures> {
         };
         files.push((file, bytes));
     }
-    Ok(files)
+    Ok((files, changed))
 }
 
 /// Libraries of neighbouring textures, each as large as the others within one texture.
