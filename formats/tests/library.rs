@@ -4,7 +4,10 @@ use crate::common;
 use crate::common::{crc32, full, put, small};
 use asperity_formats::{
     Asset, EncodeError, FormatError, Library,
-    library::{HEADER_LEN, LibraryIndex, encode_library, encoded_len, index_len},
+    library::{
+        HEADER_LEN, IndexedTexture, LibraryIndex, encode_index, encode_library, encoded_index_len,
+        encoded_len, index_len,
+    },
 };
 use std::{
     fs::File,
@@ -185,6 +188,30 @@ fn names_must_ascend_and_differ() {
             }))
         );
     }
+}
+
+/// The front alone, and the assets behind it, are the library.
+#[test]
+fn an_index_and_its_assets_are_a_library() {
+    let library = three();
+    let parsed = Library::parse(&library).unwrap();
+    let listed: Vec<IndexedTexture<'_>> = parsed
+        .index()
+        .entries()
+        .map(|entry| IndexedTexture {
+            name: entry.name,
+            len: entry.len,
+            haptic_len: entry.haptic_len,
+        })
+        .collect();
+    let mut front = vec![0; encoded_index_len(&listed)];
+    let (index_len, total_len) = encode_index(&listed, &mut front).unwrap();
+    assert_eq!((index_len, total_len), (front.len(), library.len() as u64));
+    assert_eq!(front, library[..front.len()]);
+    let twice = [listed[0], listed[0]];
+    let mut front = vec![0; encoded_index_len(&twice)];
+    assert!(encode_index(&twice, &mut front).is_err());
+    assert!(encode_index(&twice, &mut front[1..]).is_err());
 }
 
 #[test]

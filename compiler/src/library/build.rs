@@ -6,11 +6,12 @@ use super::{
     facts::Facts,
     key::{Key, Parts},
     lock::Pinned,
-    make::{Maker, asset, is_learned},
+    make::{Maker, is_learned},
     manifest::{Edit, Manifest, Options, Origin, order},
-    pack::{NamedAsset, encode},
+    opened::OpenLibraries,
     report::{Report, Row},
     shard::Shard,
+    spill::{Packed, Slot, Spill},
 };
 use crate::{
     diagnostic::{Failures, one},
@@ -19,6 +20,7 @@ use crate::{
     input::{self, InputError, Kind},
     pipeline::{Pass, Pipeline, Timings},
 };
+use asperity_formats::Asset;
 use rayon::prelude::*;
 use std::{
     path::Path,
@@ -39,13 +41,16 @@ pub struct Request<'a> {
     pub program: String,
     /// Versions and model.
     pub pinned: Pinned,
+    /// The folder where a temporary file keeps textures until the library is written; that of the
+    /// system if `None`.
+    pub scratch: Option<&'a Path>,
 }
 
 /// A library that was built.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Built {
-    /// The library.
-    pub bytes: Vec<u8>,
+    /// The library, ready to be written.
+    pub library: Packed,
     /// What was made, and what the cache had.
     pub report: Report,
     /// The time of every pass, on all threads together.
@@ -58,27 +63,16 @@ pub struct Built {
 pub struct Build<'a> {
     manifest: &'a Manifest,
     request: &'a Request<'a>,
+    libraries: OpenLibraries,
     /// Indices in the manifest with their keys, in order of name.
     chosen: Vec<(usize, Key)>,
 }
 
-/// A texture in memory.
+/// A texture that waits for the others.
 struct Texture {
-    asset: Vec<u8>,
+    slot: Slot,
     facts: Facts,
     cached: bool,
-}
-
-/// Builds a library at once; `open` is called if a texture has to be made that needs the model.
-///
-/// # Errors
-/// As [`Build::new`] and [`Build::run`].
-pub fn build(
-    manifest: &Manifest,
-    request: &Request<'_>,
-    open: &dyn Fn() -> Result<(Author, u32), Failures>,
-) -> Result<Built, Failures> {
-    Build::new(manifest, request)?.run(open, &|| {})
 }
 
 impl<'a> Build<'a> {
@@ -87,12 +81,14 @@ impl<'a> Build<'a> {
     /// # Errors
     /// An [`EntryError`] for every file that cannot be read.
     pub fn new(manifest: &'a Manifest, request: &'a Request<'a>) -> Result<Self, Failures> {
-        let keys = keys(manifest, request)?;
+        let libraries = OpenLibraries::default();
+        let keys = keys(manifest, request, &libraries)?;
         let chosen = keys.into_iter().enumerate();
         let chosen = chosen.filter(|(place, _)| request.shard.is_none_or(|s| s.holds(*place)));
         Ok(Self {
             manifest,
             request,
+            libraries,
             chosen: chosen.collect(),
         })
     }
@@ -121,7 +117,8 @@ impl<'a> Build<'a> {
         done: &(dyn Fn() + Sync),
     ) -> Result<Built, Failures> {
         let mut pipeline = Pipeline::default();
-        let cached = pipeline.run(Pass::Read, || self.cached(done));
+        let spill = Spill::new(self.request.scratch);
+        let cached = pipeline.run(Pass::Read, || self.cached(&spill, done));
         let entries = &self.manifest.entries;
         let missing: Vec<usize> = (0..cached.len()).filter(|&n| cached[n].is_none()).collect();
         let learned = |n: &usize| is_learned(&entries[self.chosen[*n].0].origin);
@@ -129,7 +126,7 @@ impl<'a> Build<'a> {
         let studio = opened
             .as_ref()
             .map(|(author, crc32)| Studio::new(author, *crc32));
-        let maker = Maker::new(self.manifest, studio.as_ref());
+        let maker = Maker::new(self.manifest, studio.as_ref(), &self.libraries);
         let shared = Mutex::new((Timings::default(), None));
         let together = TOGETHER.min(missing.len().div_ceil(rayon::current_num_threads()));
         let made: Vec<Result<Texture, EntryError>> = missing
@@ -143,7 +140,7 @@ impl<'a> Build<'a> {
                 all.0.merge(reading.timings());
                 drop(all);
                 some.par_iter().map(|&n| {
-                    let made = self.made(n, &maker, &shared);
+                    let made = self.made(n, &maker, &spill, &shared);
                     done();
                     made
                 })
@@ -173,8 +170,15 @@ impl<'a> Build<'a> {
             return Err(failures);
         }
         let textures: Vec<Texture> = textures.into_iter().flatten().collect();
-        let bytes = pipeline
-            .run(Pass::Pack, || self.packed(&textures))
+        let named = self
+            .chosen
+            .iter()
+            .zip(&textures)
+            .map(|((index, _), texture)| {
+                (self.manifest.entries[*index].name.as_str(), texture.slot)
+            });
+        let library = pipeline
+            .run(Pass::Pack, || Packed::new(named, spill))
             .map_err(one)?;
         let rows = self.rows(&textures);
         let mut warnings: Vec<String> = unwritable.into_iter().collect();
@@ -183,19 +187,21 @@ impl<'a> Build<'a> {
             warnings.extend(own.map(|warning| format!("{:?}: {warning}", row.name)));
         }
         Ok(Built {
-            report: Report::new(rows, bytes.len(), self.request.shard),
-            bytes,
+            report: Report::new(rows, library.len(), self.request.shard),
+            library,
             timings: pipeline.timings().clone(),
             warnings,
         })
     }
 
-    fn cached(&self, done: &(dyn Fn() + Sync)) -> Vec<Option<Texture>> {
+    fn cached(&self, spill: &Spill, done: &(dyn Fn() + Sync)) -> Vec<Option<Texture>> {
         let get = |(_, key): &(usize, Key)| {
             let (asset, facts) = self.request.cache?.get(key)?;
+            // Where it cannot wait, it is made again, which says why.
+            let slot = take(spill, &asset).ok()?;
             done();
             Some(Texture {
-                asset,
+                slot,
                 facts,
                 cached: true,
             })
@@ -207,6 +213,7 @@ impl<'a> Build<'a> {
         &self,
         n: usize,
         maker: &Maker<'_>,
+        spill: &Spill,
         shared: &Mutex<(Timings, Option<String>)>,
     ) -> Result<Texture, EntryError> {
         let (index, key) = &self.chosen[n];
@@ -221,27 +228,20 @@ impl<'a> Build<'a> {
             }),
             None => Ok(()),
         };
+        let slot = take(spill, &made.asset).map_err(|error| {
+            let fault = LibraryFault::NoRoom(error.to_string());
+            EntryError::new(entry, cause(fault))
+        })?;
         let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
         shared.0.merge(&made.timings);
         if let Err(why) = kept {
             shared.1.get_or_insert(why);
         }
         Ok(Texture {
-            asset: made.asset,
+            slot,
             facts: made.facts,
             cached: false,
         })
-    }
-
-    fn packed(&self, textures: &[Texture]) -> Result<Vec<u8>, super::pack::LibraryError> {
-        let named = self.chosen.iter().zip(textures);
-        let named: Vec<NamedAsset<'_>> = named
-            .map(|((index, _), texture)| NamedAsset {
-                name: &self.manifest.entries[*index].name,
-                bytes: &texture.asset,
-            })
-            .collect();
-        encode(&named)
     }
 
     fn rows(&self, textures: &[Texture]) -> Vec<Row> {
@@ -252,15 +252,25 @@ impl<'a> Build<'a> {
                 source: self.manifest.entries[*index].origin.key(),
                 key: key.to_string(),
                 cached: texture.cached,
-                bytes: texture.asset.len(),
+                bytes: texture.slot.len as usize,
                 facts: texture.facts.clone(),
             })
             .collect()
     }
 }
 
+/// Lets an asset wait. It parses: it was made, or is what the cache holds.
+fn take(spill: &Spill, asset: &[u8]) -> std::io::Result<Slot> {
+    let parsed = Asset::parse(asset).map_err(std::io::Error::other)?;
+    spill.take(asset, parsed.haptic_len())
+}
+
 /// The key of every texture, in the order of the manifest.
-fn keys(manifest: &Manifest, request: &Request<'_>) -> Result<Vec<Key>, Failures> {
+fn keys(
+    manifest: &Manifest,
+    request: &Request<'_>,
+    libraries: &OpenLibraries,
+) -> Result<Vec<Key>, Failures> {
     let entries = &manifest.entries;
     // Files are read in parallel; a texture of others has no file.
     let contents: Vec<Result<Option<Key>, Cause>> = entries
@@ -268,7 +278,8 @@ fn keys(manifest: &Manifest, request: &Request<'_>) -> Result<Vec<Key>, Failures
         .map(|entry| match &entry.origin {
             Origin::Import(file) => content(file).map(Some),
             Origin::Asset { file, texture } => {
-                asset(file, texture.as_deref()).map(|bytes| Some(Key::of(&bytes)))
+                let bytes = libraries.asset(file, texture.as_deref());
+                bytes.map(|bytes| Some(Key::of(&bytes)))
             }
             _ => Ok(None),
         })

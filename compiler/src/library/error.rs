@@ -57,6 +57,9 @@ pub enum LibraryFault {
         /// Where the others are.
         kept: &'static str,
     },
+    /// A temporary file does not take more.
+    #[error("the texture cannot be kept until its library is written: {0}")]
+    NoRoom(String),
     /// Two libraries have textures of one name that differ.
     #[error("{name:?} is in {first} and in {second}, and they differ")]
     Differ {
@@ -91,6 +94,10 @@ impl Diagnostic for LibraryFault {
         match self {
             Self::Unfinished { .. } => {
                 "correct what failed and build again: only that is made then".into()
+            }
+            Self::NoRoom(_) => {
+                "free space beside the output, or in the folder for temporary files if it is `-`"
+                    .into()
             }
             Self::Differ { .. } => {
                 "build the shards of one manifest with one version and one model".into()

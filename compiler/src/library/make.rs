@@ -4,13 +4,11 @@ use super::{
     error::{Cause, cause},
     facts::Facts,
     manifest::{Edit, Entry, Manifest, Options, Origin},
+    opened::OpenLibraries,
     rename::renamed,
 };
 use crate::{
-    back_end::{
-        raise::{self, raise},
-        source::Source,
-    },
+    back_end::raise::{self, raise},
     edit::{
         EditError, History, How, Latents, Made, Memory, Origin as Making, Part,
         Source as Ingredient, Step, Studio, Worded, encode, equal_loudness, remember, remembered,
@@ -40,6 +38,7 @@ pub(super) struct Maker<'a> {
     manifest: &'a Manifest,
     /// `None` where no texture needs the learned model.
     studio: Option<&'a Studio<'a>>,
+    libraries: &'a OpenLibraries,
     /// What was found out of textures that others are made of.
     known: Mutex<HashMap<usize, Known>>,
 }
@@ -80,21 +79,16 @@ pub(super) fn is_learned(origin: &Origin) -> bool {
     }
 }
 
-/// The bytes of an asset that a manifest names.
-pub(super) fn asset(file: &Path, texture: Option<&str>) -> Result<Vec<u8>, Cause> {
-    let mut source = Source::open(file).map_err(cause)?;
-    let bytes = source.choose(texture).map_err(cause)?;
-    match Asset::parse(&bytes) {
-        Ok(_) => Ok(bytes),
-        Err(error) => Err(cause(source.error(texture, error.into()))),
-    }
-}
-
 impl<'a> Maker<'a> {
-    pub(super) fn new(manifest: &'a Manifest, studio: Option<&'a Studio<'a>>) -> Self {
+    pub(super) fn new(
+        manifest: &'a Manifest,
+        studio: Option<&'a Studio<'a>>,
+        libraries: &'a OpenLibraries,
+    ) -> Self {
         Self {
             manifest,
             studio,
+            libraries,
             known: Mutex::default(),
         }
     }
@@ -121,7 +115,9 @@ impl<'a> Maker<'a> {
                 self.prompted(entry, text)
             }
             Origin::Import(file) => imported(entry, file),
-            Origin::Asset { file, texture } => taken(entry, file, texture.as_deref()),
+            Origin::Asset { file, texture } => {
+                taken(entry, &self.libraries.asset(file, texture.as_deref())?)
+            }
             _ => self.mixed(index),
         }
     }
@@ -309,7 +305,7 @@ impl<'a> Maker<'a> {
             }
             Origin::Import(file) => encoded(&whole(file)?, &entry.name)?,
             Origin::Asset { file, texture } => {
-                let bytes = asset(file, texture.as_deref())?;
+                let bytes = self.libraries.asset(file, texture.as_deref())?;
                 let asset = Asset::parse(&bytes).map_err(|e| cause(EditError::from(e)))?;
                 match remembered(&asset).map_err(cause)? {
                     Some(memory) if memory.model_crc32 == studio.model_crc32() => Known {
@@ -420,9 +416,8 @@ fn imported(entry: &Entry, file: &Path) -> Result<Finished, Cause> {
     })
 }
 
-fn taken(entry: &Entry, file: &Path, texture: Option<&str>) -> Result<Finished, Cause> {
-    let bytes = renamed(&asset(file, texture)?, &entry.name)
-        .map_err(|error| cause(EditError::from(error)))?;
+fn taken(entry: &Entry, asset: &[u8]) -> Result<Finished, Cause> {
+    let bytes = renamed(asset, &entry.name).map_err(|error| cause(EditError::from(error)))?;
     let asset = Asset::parse(&bytes).map_err(|error| cause(EditError::from(error)))?;
     let model = raise(&asset);
     let facts = Facts::of(

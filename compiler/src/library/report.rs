@@ -8,7 +8,7 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
     /// Bytes of the library.
-    pub bytes: usize,
+    pub bytes: u64,
     /// Textures that were made.
     pub made: usize,
     /// Textures that the cache had.
@@ -41,7 +41,7 @@ pub struct Row {
 }
 
 impl Report {
-    pub(super) fn new(textures: Vec<Row>, bytes: usize, shard: Option<Shard>) -> Self {
+    pub(super) fn new(textures: Vec<Row>, bytes: u64, shard: Option<Shard>) -> Self {
         let cached = textures.iter().filter(|row| row.cached).count();
         let lowered = textures
             .iter()

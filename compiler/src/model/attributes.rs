@@ -2,7 +2,7 @@
 
 use crate::{
     model::{TextureModel, VertexKind},
-    signal::spectrum::{ArmaModel, Vibration, VibrationBand, trace_centroid_hz},
+    signal::spectrum::{ArmaModel, TraceBand, Vibration, VibrationBand},
 };
 use serde::Serialize;
 
@@ -27,31 +27,61 @@ pub struct Attributes {
 /// The attributes of a texture.
 #[must_use]
 pub fn of(texture: &TextureModel) -> Attributes {
-    let band = VibrationBand::new(texture.grid.sample_rate_hz);
-    let vibrations: Vec<Vibration> = texture
-        .grid
-        .vertices
-        .iter()
-        .filter(|vertex| vertex.kind == VertexKind::Interior)
-        .filter_map(|vertex| {
-            let model = ArmaModel::at_vertex(&texture.grid, vertex);
-            band.as_ref()?.vibration(&model)
-        })
-        .collect();
-    let mean = |value: fn(&Vibration) -> f64| {
-        let sum: f64 = vibrations.iter().map(value).sum();
-        (!vibrations.is_empty()).then(|| sum / vibrations.len() as f64)
-    };
-    let taps = &texture.taps;
-    Attributes {
-        rough_db: mean(|v| 10.0 * libm::log10(v.power)),
-        sharp_hz: mean(|v| v.centroid_hz),
-        hard_hz: taps
-            .traces
-            .last()
-            .filter(|_| taps.sample_rate_hz >= MIN_TAP_RATE_HZ)
-            .and_then(|trace| trace_centroid_hz(&trace.accel_m_s2, taps.sample_rate_hz)),
-        mu: texture.friction.mu,
+    Meter::default().of(texture)
+}
+
+/// Takes the attributes of one texture after the other. What depends on a sample rate alone is
+/// computed when the rate changes.
+#[derive(Debug, Clone, Default)]
+pub struct Meter {
+    /// The band of the last texture's models, by their rate.
+    vibration: Option<(f64, Option<VibrationBand>)>,
+    /// The band of the last texture's taps, by their rate.
+    taps: Option<(f64, TraceBand)>,
+}
+
+impl Meter {
+    /// The attributes of a texture.
+    #[must_use]
+    pub fn of(&mut self, texture: &TextureModel) -> Attributes {
+        let rate_hz = texture.grid.sample_rate_hz;
+        if self.vibration.as_ref().is_none_or(|(of, _)| *of != rate_hz) {
+            self.vibration = Some((rate_hz, VibrationBand::new(rate_hz)));
+        }
+        let band = self.vibration.as_ref().and_then(|(_, band)| band.as_ref());
+        let vibrations: Vec<Vibration> = texture
+            .grid
+            .vertices
+            .iter()
+            .filter(|vertex| vertex.kind == VertexKind::Interior)
+            .filter_map(|vertex| {
+                let model = ArmaModel::at_vertex(&texture.grid, vertex);
+                band?.vibration(&model)
+            })
+            .collect();
+        let mean = |value: fn(&Vibration) -> f64| {
+            let sum: f64 = vibrations.iter().map(value).sum();
+            (!vibrations.is_empty()).then(|| sum / vibrations.len() as f64)
+        };
+        Attributes {
+            rough_db: mean(|v| 10.0 * libm::log10(v.power)),
+            sharp_hz: mean(|v| v.centroid_hz),
+            hard_hz: self.hard_hz(texture),
+            mu: texture.friction.mu,
+        }
+    }
+
+    fn hard_hz(&mut self, texture: &TextureModel) -> Option<f64> {
+        let rate_hz = texture.taps.sample_rate_hz;
+        let fastest = texture.taps.traces.last()?;
+        if rate_hz.is_nan() || rate_hz < MIN_TAP_RATE_HZ {
+            return None;
+        }
+        if self.taps.as_ref().is_none_or(|(of, _)| *of != rate_hz) {
+            self.taps = Some((rate_hz, TraceBand::new(rate_hz)));
+        }
+        let (_, band) = self.taps.as_ref()?;
+        band.centroid_hz(&fastest.accel_m_s2)
     }
 }
 
@@ -71,6 +101,19 @@ mod tests {
         let rise_db = loud.rough_db.unwrap() - quiet.rough_db.unwrap();
         assert!((rise_db - 20.0 * 2.0_f64.log10()).abs() < 1e-9);
         assert!((loud.sharp_hz.unwrap() - quiet.sharp_hz.unwrap()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_meter_measures_each_texture_as_if_it_were_alone() {
+        let first = builtin::texture();
+        let mut other = first.clone();
+        other.grid.sample_rate_hz = 2000.0;
+        other.taps.sample_rate_hz = 20_000.0;
+        let mut meter = Meter::default();
+        for texture in [&first, &other, &other, &first] {
+            assert_eq!(meter.of(texture), of(texture));
+        }
+        assert_ne!(of(&first), of(&other));
     }
 
     #[test]

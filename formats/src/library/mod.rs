@@ -11,7 +11,9 @@ mod layout;
 mod memory;
 
 pub use self::{
-    encode::{encode_library, encode_scene, encoded_len},
+    encode::{
+        IndexedTexture, encode_index, encode_library, encode_scene, encoded_index_len, encoded_len,
+    },
     index::{Entry, LibraryIndex, index_len},
     layout::{HEADER_LEN, VERSION},
     memory::Library,

@@ -1,24 +1,29 @@
 //! Opens what other commands wrote: an asset, or one texture of a library.
 
 mod error;
+mod index;
 #[cfg(test)]
 mod tests;
 
 pub use error::{SourceError, SourceProblem};
 
 use crate::input::{self, InputProblem, Kind, Opened};
-use asperity_formats::{
-    FormatError, SceneSurface,
-    library::{self, LibraryIndex},
-};
+use asperity_formats::{Asset, FormatError, SceneSurface, library};
+use index::{Index, Place};
+use rayon::prelude::*;
 use std::{
     fmt,
     io::{self, Cursor, Read, Seek, SeekFrom},
+    ops::Range,
     path::{Path, PathBuf},
 };
 
 /// The path that means standard input.
 const STANDARD_INPUT: &str = "-";
+
+/// Textures that are in memory together where all are looked at, and their bytes.
+const TOGETHER: usize = 4096;
+const TOGETHER_BYTES: u64 = 16 << 20;
 
 /// An open asset or library.
 #[derive(Debug)]
@@ -37,8 +42,7 @@ impl<T: Read + Seek + Send + fmt::Debug> Bytes for T {}
 #[derive(Debug)]
 enum Content {
     Asset,
-    /// The bytes of the index, which parse.
-    Library(Vec<u8>),
+    Library(Index),
 }
 
 impl Source {
@@ -90,7 +94,8 @@ impl Source {
                 .into());
             }
             let index = part(&mut *bytes, 0, index_len as u64)?;
-            let total = LibraryIndex::parse(&index)?.total_len();
+            let index = Index::parse(&index)?;
+            let total = index.total_len;
             if len < total {
                 return Err(FormatError::TooShort {
                     field: "library",
@@ -140,23 +145,33 @@ impl Source {
     /// Names of a library's textures in order; `None` for an asset.
     #[must_use]
     pub fn names(&self) -> Option<Vec<String>> {
+        let index = self.index()?;
+        Some(index.names().map(str::to_owned).collect())
+    }
+
+    fn index(&self) -> Option<&Index> {
         match &self.content {
             Content::Asset => None,
-            // Parsed when it was opened.
-            Content::Library(index) => Some(LibraryIndex::parse(index).map_or_else(
-                |_| Vec::new(),
-                |index| index.entries().map(|e| e.name.to_owned()).collect(),
-            )),
+            Content::Library(index) => Some(index),
         }
     }
 
     /// Version of the format of a library; `None` for an asset.
     #[must_use]
     pub fn library_version(&self) -> Option<u16> {
-        match &self.content {
-            Content::Asset => None,
-            Content::Library(index) => LibraryIndex::parse(index).ok().map(|i| i.version()),
-        }
+        self.index().map(|index| index.version)
+    }
+
+    /// Whether it is a library rather than an asset.
+    #[must_use]
+    pub fn is_library(&self) -> bool {
+        self.index().is_some()
+    }
+
+    /// Whether it is a library with a scene.
+    #[must_use]
+    pub fn has_scene(&self) -> bool {
+        self.index().is_some_and(|index| index.scene.is_some())
     }
 
     /// Surfaces of a library's scene; none without a scene.
@@ -164,15 +179,7 @@ impl Source {
     /// # Errors
     /// [`SourceError`] for a damaged scene.
     pub fn surfaces(&mut self) -> Result<Vec<SceneSurface>, SourceError> {
-        let Content::Library(index) = &self.content else {
-            return Ok(Vec::new());
-        };
-        // Parsed when it was opened.
-        let Ok(index) = LibraryIndex::parse(index) else {
-            return Ok(Vec::new());
-        };
-        let (range, textures) = (index.scene_range(), index.len());
-        let Some(range) = range else {
+        let Some((Some(range), textures)) = self.index().map(|i| (i.scene.clone(), i.len())) else {
             return Ok(Vec::new());
         };
         let bytes = self.read(range.start, range.end - range.start, None)?;
@@ -186,12 +193,7 @@ impl Source {
     /// # Errors
     /// [`SourceError`] for a failed read.
     pub fn scene_library(&mut self) -> Result<Option<Vec<u8>>, SourceError> {
-        let has_scene = match &self.content {
-            Content::Asset => false,
-            Content::Library(index) => {
-                LibraryIndex::parse(index).is_ok_and(|index| index.scene_range().is_some())
-            }
-        };
+        let has_scene = self.has_scene();
         has_scene.then(|| self.read(0, self.len, None)).transpose()
     }
 
@@ -201,9 +203,9 @@ impl Source {
     /// # Errors
     /// [`SourceError`] for a texture that is not there, or none chosen of several.
     pub fn choose(&mut self, wanted: Option<&str>) -> Result<Vec<u8>, SourceError> {
-        let Some(names) = self.names() else {
+        let Some(index) = self.index() else {
             let bytes = self.read(0, self.len, None)?;
-            let name = asperity_formats::Asset::parse(&bytes)
+            let name = Asset::parse(&bytes)
                 .map_err(|e| self.error(None, e.into()))?
                 .name();
             return match wanted {
@@ -213,7 +215,8 @@ impl Source {
                 _ => Ok(bytes),
             };
         };
-        self.texture(self.index(&names, wanted)?)
+        let chosen = self.position(index, wanted)?;
+        self.texture(chosen)
     }
 
     /// The name in a library's index of the texture that `wanted` means, as
@@ -222,11 +225,11 @@ impl Source {
     /// # Errors
     /// As [`choose`](Self::choose).
     pub fn chosen_name(&self, wanted: Option<&str>) -> Result<Option<String>, SourceError> {
-        let Some(names) = self.names() else {
+        let Some(index) = self.index() else {
             return Ok(None);
         };
-        let index = self.index(&names, wanted)?;
-        Ok(names.into_iter().nth(index))
+        let chosen = index.get(self.position(index, wanted)?);
+        Ok(chosen.map(|place| place.name.clone()))
     }
 
     /// Bytes of the whole library; `None` for an asset. Every texture is checked.
@@ -240,7 +243,7 @@ impl Source {
         };
         for (index, name) in names.iter().enumerate() {
             let bytes = self.texture(index)?;
-            if let Err(error) = asperity_formats::Asset::parse(&bytes) {
+            if let Err(error) = Asset::parse(&bytes) {
                 return Err(self.error(Some(name), error.into()));
             }
         }
@@ -248,14 +251,13 @@ impl Source {
         self.read(0, self.len, None).map(Some)
     }
 
-    fn index(&self, names: &[String], wanted: Option<&str>) -> Result<usize, SourceError> {
-        let count = names.len();
+    fn position(&self, index: &Index, wanted: Option<&str>) -> Result<usize, SourceError> {
+        let count = index.len();
         match wanted {
             None if count == 1 => Ok(0),
             None => Err(self.error(None, SourceProblem::NoneChosen { count })),
-            Some(wanted) => names
-                .iter()
-                .position(|name| name == wanted)
+            Some(wanted) => index
+                .find(wanted)
                 .or_else(|| wanted.parse().ok().filter(|&index: &usize| index < count))
                 .ok_or_else(|| self.no_such_texture(wanted, count)),
         }
@@ -268,15 +270,69 @@ impl Source {
     pub fn texture(&mut self, index: usize) -> Result<Vec<u8>, SourceError> {
         let place = match &self.content {
             Content::Asset => (index == 0).then_some((0, self.len, None)),
-            Content::Library(bytes) => LibraryIndex::parse(bytes)
-                .ok()
-                .and_then(|parsed| parsed.get(index))
-                .map(|e| (e.offset, u64::from(e.len), Some(e.name.to_owned()))),
+            Content::Library(library) => {
+                let found = |place: &Place| (place.offset, place.len, Some(place.name.clone()));
+                library.get(index).map(found)
+            }
         };
         let Some((offset, len, name)) = place else {
             return Err(self.no_such_texture(&index.to_string(), index));
         };
         self.read(offset, len, name.as_deref())
+    }
+
+    /// What `each` finds in every texture, in order, under the name of a library's index or of the
+    /// asset itself. Some at a time are in memory, and are looked at in parallel; `start` makes
+    /// what one thread keeps between them. All of them are checked, and a scene, too.
+    ///
+    /// # Errors
+    /// [`SourceError`] for a failed read and for the first texture that is damaged.
+    pub fn each<S: Send, R: Send>(
+        &mut self,
+        start: impl Fn() -> S + Sync,
+        each: impl Fn(&mut S, &str, &Asset<'_>) -> R + Sync,
+    ) -> Result<Vec<R>, SourceError> {
+        let Some(count) = self.index().map(Index::len) else {
+            let bytes = self.read(0, self.len, None)?;
+            let asset = Asset::parse(&bytes).map_err(|e| self.error(None, e.into()))?;
+            return Ok(vec![each(&mut start(), asset.name(), &asset)]);
+        };
+        let mut all = Vec::with_capacity(count);
+        while all.len() < count {
+            let (some, bytes) = self.together(all.len())?;
+            let places = self.index().map_or(&[][..], |index| index.places(some));
+            let first = places.first().map_or(0, |place| place.offset);
+            let found: Vec<Result<R, FormatError>> = places
+                .par_iter()
+                .with_min_len(16)
+                .map_init(&start, |kept, place| {
+                    let from = (place.offset - first) as usize;
+                    let bytes = bytes.get(from..from + place.len as usize);
+                    let asset = Asset::parse(bytes.unwrap_or_default())?;
+                    Ok(each(kept, &place.name, &asset))
+                })
+                .collect();
+            for (found, place) in found.into_iter().zip(places) {
+                all.push(found.map_err(|e| self.error(Some(&place.name), e.into()))?);
+            }
+        }
+        self.surfaces()?;
+        Ok(all)
+    }
+
+    /// Neighbouring textures from one on, at least one, and their bytes: they follow each other.
+    fn together(&mut self, from: usize) -> Result<(Range<usize>, Vec<u8>), SourceError> {
+        let (mut end, mut len, mut offset, mut name) = (from, 0, 0, None);
+        while let Some(place) = self.index().and_then(|index| index.get(end)) {
+            if end == from {
+                (offset, name) = (place.offset, Some(place.name.clone()));
+            } else if end - from == TOGETHER || len + place.len > TOGETHER_BYTES {
+                break;
+            }
+            len += place.len;
+            end += 1;
+        }
+        Ok((from..end, self.read(offset, len, name.as_deref())?))
     }
 
     fn read(&mut self, offset: u64, len: u64, name: Option<&str>) -> Result<Vec<u8>, SourceError> {
@@ -312,7 +368,8 @@ fn refused(path: &Path, problem: SourceProblem) -> SourceError {
 
 /// `len` bytes from `offset` on, or fewer where they end before.
 fn part(bytes: &mut dyn Bytes, offset: u64, len: u64) -> Result<Vec<u8>, InputProblem> {
-    let mut found = Vec::new();
+    // As much as there is to read: lengths were compared with that of the file.
+    let mut found = Vec::with_capacity(usize::try_from(len).unwrap_or_default());
     bytes
         .seek(SeekFrom::Start(offset))
         .and_then(|_| bytes.take(len).read_to_end(&mut found))

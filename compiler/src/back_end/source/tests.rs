@@ -128,3 +128,105 @@ fn other_and_damaged_files_are_refused() {
         SourceProblem::Input(InputProblem::Folder)
     ));
 }
+
+/// Counts the bytes that are read of it.
+#[derive(Debug)]
+struct Counting(
+    Cursor<Vec<u8>>,
+    std::sync::Arc<std::sync::atomic::AtomicUsize>,
+);
+
+impl Read for Counting {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.0.read(buffer)?;
+        self.1.fetch_add(read, std::sync::atomic::Ordering::Relaxed);
+        Ok(read)
+    }
+}
+
+impl Seek for Counting {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.0.seek(to)
+    }
+}
+
+/// Bytes that are read, and entries of the index, where all textures of a library are read, found
+/// by name, and looked at.
+fn work(count: usize) -> usize {
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let names: Vec<String> = (0..count).map(|n| format!("t{n:05}")).collect();
+    let assets: Vec<NamedAsset<'_>> = names
+        .iter()
+        .map(|name| NamedAsset {
+            name,
+            bytes: &asset,
+        })
+        .collect();
+    let bytes = encode(&assets).unwrap();
+    let read = std::sync::Arc::default();
+    let entries = index::ENTRIES_READ.get();
+    let counting = Counting(Cursor::new(bytes), std::sync::Arc::clone(&read));
+    let mut source = Source::with(Path::new("-"), Box::new(counting)).unwrap();
+    for (index, name) in names.iter().enumerate() {
+        assert_eq!(source.texture(index).unwrap(), asset);
+        assert_eq!(source.choose(Some(name)).unwrap(), asset);
+        assert_eq!(source.chosen_name(Some(name)).unwrap().as_ref(), Some(name));
+    }
+    let found = source.each(|| (), |(), name, _| name.to_owned()).unwrap();
+    assert_eq!(found, names);
+    assert!(source.library().unwrap().is_some());
+    read.load(std::sync::atomic::Ordering::Relaxed) + index::ENTRIES_READ.get() - entries
+}
+
+#[test]
+fn twice_the_textures_take_twice_the_work() {
+    let (once, twice) = (work(200), work(400));
+    let ratio = twice as f64 / once as f64;
+    assert!((1.9..2.1).contains(&ratio), "{once} and {twice}: {ratio}");
+    // The index is read when the library is opened, and never again.
+    let before = index::ENTRIES_READ.get();
+    work(100);
+    assert_eq!(index::ENTRIES_READ.get() - before, 100);
+}
+
+/// Small or large, neighbours or alone: every texture is looked at once, and the first that is
+/// damaged is named.
+#[test]
+fn each_texture_is_looked_at_once_in_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.aspl");
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let names: Vec<String> = (0..TOGETHER + 3).map(|n| format!("t{n:05}")).collect();
+    let assets: Vec<NamedAsset<'_>> = names
+        .iter()
+        .map(|name| NamedAsset {
+            name,
+            bytes: &asset,
+        })
+        .collect();
+    let mut bytes = encode(&assets).unwrap();
+    fs::write(&path, &bytes).unwrap();
+    let look = || {
+        let mut source = Source::open(&path).unwrap();
+        source.each(
+            || (),
+            |(), name, asset| (name.to_owned(), asset.total_len()),
+        )
+    };
+    let found = look().unwrap();
+    assert!(
+        found
+            .iter()
+            .zip(&names)
+            .all(|((found, _), name)| found == name)
+    );
+    assert!(found.iter().all(|(_, len)| *len == asset.len()));
+    assert_eq!(found.len(), names.len());
+    let at = bytes.len() - asset.len() - 1;
+    bytes[at] ^= 1;
+    fs::write(&path, &bytes).unwrap();
+    let damaged = look().unwrap_err();
+    assert_eq!(damaged.texture.as_ref(), names.get(TOGETHER + 1));
+    fs::write(&path, &asset).unwrap();
+    assert_eq!(look().unwrap(), [("Built-in Grit".to_owned(), asset.len())]);
+}

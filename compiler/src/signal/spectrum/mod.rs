@@ -199,24 +199,49 @@ fn distance_over(
     rms_db(&ratios)
 }
 
+/// 512 frequencies from 0 to half a sample rate, for many transients at that rate.
+#[derive(Debug, Clone)]
+pub struct TraceBand {
+    angles: Angles,
+    sample_rate_hz: f64,
+}
+
+impl TraceBand {
+    const BINS: usize = 512;
+
+    /// The band of transients at a sample rate, Hz.
+    #[must_use]
+    pub fn new(sample_rate_hz: f64) -> Self {
+        let omega = |bin| TAU * Self::freq_hz(bin, sample_rate_hz) / sample_rate_hz;
+        Self {
+            angles: Angles::new((0..Self::BINS).map(omega)),
+            sample_rate_hz,
+        }
+    }
+
+    fn freq_hz(bin: usize, sample_rate_hz: f64) -> f64 {
+        0.5 * sample_rate_hz * (bin as f64 + 0.5) / Self::BINS as f64
+    }
+
+    /// Power-weighted mean frequency of a transient, Hz; `None` for a silent one.
+    #[must_use]
+    pub fn centroid_hz(&self, accel_m_s2: &[f64]) -> Option<f64> {
+        let (mut sum, mut moment) = (0.0, 0.0);
+        let powers = self.angles.squared_magnitudes(accel_m_s2);
+        for (bin, power) in powers.into_iter().enumerate() {
+            sum += power;
+            moment += Self::freq_hz(bin, self.sample_rate_hz) * power;
+        }
+        (sum > 0.0).then(|| moment / sum)
+    }
+}
+
 /// Power-weighted mean frequency of a transient, Hz; `None` for a silent one.
 ///
 /// The spectrum is taken at 512 frequencies from 0 to half the rate.
 #[must_use]
 pub fn trace_centroid_hz(accel_m_s2: &[f64], sample_rate_hz: f64) -> Option<f64> {
-    const BINS: usize = 512;
-    let freq_hz = |bin: usize| 0.5 * sample_rate_hz * (bin as f64 + 0.5) / BINS as f64;
-    let angles = Angles::new((0..BINS).map(|bin| TAU * freq_hz(bin) / sample_rate_hz));
-    let (mut sum, mut moment) = (0.0, 0.0);
-    for (bin, power) in angles
-        .squared_magnitudes(accel_m_s2)
-        .into_iter()
-        .enumerate()
-    {
-        sum += power;
-        moment += freq_hz(bin) * power;
-    }
-    (sum > 0.0).then(|| moment / sum)
+    TraceBand::new(sample_rate_hz).centroid_hz(accel_m_s2)
 }
 
 #[cfg(test)]

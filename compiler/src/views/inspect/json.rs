@@ -5,7 +5,7 @@ use crate::{
     back_end::raise::raise,
     model::{
         FrictionAnchor, FrictionLaw, Gains, Numerator, Provenance, VertexKind, Wall,
-        attributes::{self, Attributes},
+        attributes::{Attributes, Meter},
     },
 };
 use asperity_formats::Asset;
@@ -122,17 +122,27 @@ impl Document {
     /// The document of an asset in a library, under the name that the library's index gives it.
     #[must_use]
     pub fn named(asset: &Asset<'_>, name: String) -> Self {
+        Self::measured(asset, name, &mut Meter::default())
+    }
+
+    /// [`named`](Self::named), by a meter that measures other assets, too.
+    #[must_use]
+    pub fn measured(asset: &Asset<'_>, name: String, meter: &mut Meter) -> Self {
         Self {
             name,
-            ..Self::of(asset)
+            ..Self::with(asset, meter)
         }
     }
 
     /// The document of an asset.
     #[must_use]
     pub fn of(asset: &Asset<'_>) -> Self {
+        Self::with(asset, &mut Meter::default())
+    }
+
+    fn with(asset: &Asset<'_>, meter: &mut Meter) -> Self {
         let texture = raise(asset);
-        let attributes = attributes::of(&texture);
+        let attributes = meter.of(&texture);
         let (speeds_m_s, traces_m_s2) = texture
             .taps
             .traces

@@ -2,6 +2,7 @@
 
 use crate::cli::Inspect;
 use asperity::{
+    attributes::Meter,
     console::Console,
     diagnostic::{Failures, one},
     inspect::{self, Document, LibraryDocument, SurfaceDocument},
@@ -41,12 +42,17 @@ fn whole_library(
     names: &[String],
     console: Console,
 ) -> Result<(), Failures> {
-    let mut documents = Vec::with_capacity(names.len());
-    for (index, name) in names.iter().enumerate() {
-        let bytes = source.texture(index).map_err(one)?;
-        let asset = Asset::parse(&bytes).map_err(|e| one(source.error(Some(name), e.into())))?;
-        documents.push(Document::named(&asset, name.clone()));
-    }
+    let (documents, rows) = if args.json {
+        let found = source.each(Meter::default, |meter, name, asset| {
+            Document::measured(asset, name.to_owned(), meter)
+        });
+        (found.map_err(one)?, Vec::new())
+    } else {
+        let found = source.each(Meter::default, |meter, name, asset| {
+            row(name, &Document::measured(asset, name.to_owned(), meter))
+        });
+        (Vec::new(), found.map_err(one)?)
+    };
     let surfaces: Vec<SurfaceDocument> = source
         .surfaces()
         .map_err(one)?
@@ -71,20 +77,8 @@ fn whole_library(
         text,
         "  index  haptic   total  order  vertices  rough dB  sharp Hz      μ  name"
     );
-    for (index, (name, d)) in names.iter().zip(&documents).enumerate() {
-        let figure =
-            |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
-        let _ = writeln!(
-            text,
-            "  {index:>5}  {:>6}  {:>6}  {:>5}  {:>8}  {:>8}  {:>8}  {:>5.3}  {name}",
-            d.bytes.haptic,
-            d.bytes.total,
-            d.ar.order,
-            d.ar.vertices.len(),
-            figure(d.attributes.rough_db),
-            figure(d.attributes.sharp_hz),
-            d.attributes.mu,
-        );
+    for (index, row) in rows.iter().enumerate() {
+        let _ = writeln!(text, "  {index:>5}  {row}");
     }
     if !surfaces.is_empty() {
         let _ = writeln!(text, "  a scene of {} surfaces", surfaces.len());
@@ -93,6 +87,21 @@ fn whole_library(
         let _ = writeln!(text, "  {index:>5}  {surface}");
     }
     console.text(&text).map_err(one)
+}
+
+/// The figures of one texture of a library.
+fn row(name: &str, d: &Document) -> String {
+    let figure = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
+    format!(
+        "{:>6}  {:>6}  {:>5}  {:>8}  {:>8}  {:>8}  {:>5.3}  {name}",
+        d.bytes.haptic,
+        d.bytes.total,
+        d.ar.order,
+        d.ar.vertices.len(),
+        figure(d.attributes.rough_db),
+        figure(d.attributes.sharp_hz),
+        d.attributes.mu,
+    )
 }
 
 fn print_json(document: &impl Serialize, console: Console) -> Result<(), Failures> {

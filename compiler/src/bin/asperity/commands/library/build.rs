@@ -15,7 +15,10 @@ use asperity::{
     text::TextEncoderChoice,
 };
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::{
+    io::BufWriter,
+    path::{Path, PathBuf},
+};
 use thiserror::Error;
 
 /// Warnings that are printed one by one.
@@ -86,6 +89,7 @@ pub(crate) fn run(args: &Arguments, text: &str, console: Console) -> Result<(), 
         shard: args.shard,
         program: inference::program(),
         pinned,
+        scratch: (!outputs.to_standard_output()).then(|| folder_of(output)),
     };
     let build = Build::new(&manifest, &request)?;
     let bar = console.rated_bar(build.len(), "textures");
@@ -98,7 +102,9 @@ pub(crate) fn run(args: &Arguments, text: &str, console: Console) -> Result<(), 
     pipeline.merge(&built.timings);
     pipeline
         .run(Pass::Write, || {
-            outputs.fill(library, &built.bytes)?;
+            let file = outputs.file(library);
+            let written = built.library.write(&mut BufWriter::new(&mut *file));
+            written.map_err(|error| file.error("cannot write it", error))?;
             outputs.commit()
         })
         .map_err(one)?;
@@ -173,12 +179,19 @@ fn cache_folder(args: &Arguments, output: &Path) -> PathBuf {
         let folder = if is_standard_output(output) {
             Path::new("")
         } else {
-            output.parent().unwrap_or(Path::new(""))
+            folder_of(output)
         };
         folder.join(".asperity-cache")
     };
     let chosen = args.cache.clone().or_else(default_folder);
     chosen.unwrap_or_else(beside)
+}
+
+fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
 }
 
 /// Writes the lock file where it says something else; a warning where it changes or cannot be

@@ -1,0 +1,79 @@
+//! A library's index in memory: parsed once, when the library is opened.
+
+use asperity_formats::{FormatError, library::LibraryIndex};
+use std::ops::Range;
+
+/// Where the textures of a library lie.
+#[derive(Debug)]
+pub(super) struct Index {
+    pub(super) version: u16,
+    /// Bytes of the whole library, as stated.
+    pub(super) total_len: u64,
+    /// Where the scene lies, if there is one.
+    pub(super) scene: Option<Range<u64>>,
+    /// In ascending order of name.
+    places: Vec<Place>,
+}
+
+/// Where one texture lies.
+#[derive(Debug)]
+pub(super) struct Place {
+    pub(super) name: String,
+    pub(super) offset: u64,
+    pub(super) len: u64,
+}
+
+impl Index {
+    /// The index at the front of a library.
+    ///
+    /// # Errors
+    /// The first check that fails.
+    pub(super) fn parse(bytes: &[u8]) -> Result<Self, FormatError> {
+        let parsed = LibraryIndex::parse(bytes)?;
+        #[cfg(test)]
+        ENTRIES_READ.with(|read| read.set(read.get() + parsed.len()));
+        let place = |entry: asperity_formats::library::Entry<'_>| Place {
+            name: entry.name.to_owned(),
+            offset: entry.offset,
+            len: u64::from(entry.len),
+        };
+        Ok(Self {
+            version: parsed.version(),
+            total_len: parsed.total_len(),
+            scene: parsed.scene_range(),
+            places: parsed.entries().map(place).collect(),
+        })
+    }
+
+    /// Number of textures.
+    pub(super) fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// The texture at an index.
+    pub(super) fn get(&self, index: usize) -> Option<&Place> {
+        self.places.get(index)
+    }
+
+    /// Neighbouring textures, of which there are so many.
+    pub(super) fn places(&self, range: Range<usize>) -> &[Place] {
+        self.places.get(range).unwrap_or_default()
+    }
+
+    /// The index of a name; a binary search.
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        let by_name = |place: &Place| place.name.as_str().cmp(name);
+        self.places.binary_search_by(by_name).ok()
+    }
+
+    /// The names in order.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.places.iter().map(|place| place.name.as_str())
+    }
+}
+
+#[cfg(test)]
+thread_local! {
+    /// Entries that this thread has read out of indices: what the work of a command is counted in.
+    pub(super) static ENTRIES_READ: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
