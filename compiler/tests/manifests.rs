@@ -3,8 +3,9 @@
 
 use asperity::{
     diagnostic::report,
+    input::Reach,
     library::{
-        Manifest,
+        Lock, Manifest,
         manifest::{ManifestError, Origin},
     },
     scene::Description,
@@ -327,4 +328,96 @@ fn a_scene_in_single_brackets_says_which() {
         );
         assert!(told.contains(&format!("write [[{key}]]")), "{told}");
     }
+}
+
+/// Every kind of path that a list or a scene may state, out of its folder and within it.
+#[cfg(unix)]
+#[test]
+fn a_confined_list_names_only_files_in_its_own_folder() {
+    let outer = tempfile::tempdir().expect("a folder");
+    let folder = outer.path().join("lists");
+    fs::create_dir_all(folder.join("own/model")).expect("folders");
+    fs::create_dir(outer.path().join("model")).expect("a folder");
+    for place in ["", "lists/own/"] {
+        for file in ["a.xml", "a.json", "a.asp", "model/model.json"] {
+            fs::write(outer.path().join(format!("{place}{file}")), "{}").expect("a file");
+        }
+        let more = outer.path().join(format!("{place}more.jsonl"));
+        fs::write(more, "{\"prompt\": \"cork\"}\n").expect("a manifest");
+    }
+    std::os::unix::fs::symlink(outer.path(), folder.join("link")).expect("a link");
+    let list = folder.join("list.toml");
+    let kinds = |path: &str| {
+        [
+            ("include", format!("include = [\"{path}/more.jsonl\"]\n")),
+            (
+                "defaults.model",
+                format!("[defaults]\nmodel = \"{path}/model\"\n"),
+            ),
+            (
+                "defaults.text_encoder",
+                format!("[defaults]\ntext_encoder = \"clip:{path}/model\"\n"),
+            ),
+            (
+                "import",
+                format!("[[texture]]\nname = \"a\"\nimport = \"{path}/a.xml\"\n"),
+            ),
+            (
+                "import",
+                format!("[[texture]]\nname = \"a\"\nimport = \"{path}/a.json\"\n"),
+            ),
+            (
+                "asset",
+                format!("[[texture]]\nname = \"a\"\nasset = \"{path}/a.asp\"\n"),
+            ),
+        ]
+    };
+    let some = "[[texture]]\nname = \"ice\"\nprompt = \"wet ice\"\n";
+    let reach = Reach::beside(&list).expect("the folder is there");
+    let absolute = outer.path().to_str().expect("a path in UTF-8").to_owned();
+    for (path, how) in [
+        ("..", Some("a path with `..`")),
+        ("link", Some("a link that leaves the folder")),
+        (&absolute, Some("an absolute path")),
+        ("own", None),
+    ] {
+        for (key, text) in kinds(path) {
+            let text = format!("{text}{some}");
+            let read = Manifest::within(&list, &text, reach.clone());
+            let free = Manifest::of_text(&list, &text);
+            assert!(free.is_ok(), "{text}: {}", told(&free.unwrap_err()));
+            match (read, how) {
+                (Ok(_), None) => {}
+                (Err(errors), Some(how)) => {
+                    let told = told(&errors);
+                    assert!(told.contains(&format!("{key}: ")), "{text}: {told}");
+                    assert!(told.contains(how) && told.contains("--confined"), "{told}");
+                }
+                (Ok(_), Some(_)) => panic!("{text} is within reach"),
+                (Err(errors), None) => panic!("{text}: {}", told(&errors)),
+            }
+        }
+        for (key, file) in [("import", "a.xml"), ("asset", "a.asp")] {
+            let text = format!(
+                "[[texture]]\nname = \"a\"\n{key} = \"{path}/{file}\"\n\
+                 [[surface]]\ntexture = \"a\"\nsphere = {{ center_m = [0, 0, 0], radius_m = 1 }}\n"
+            );
+            assert!(Description::of_text(&list, &text).is_ok(), "{text}");
+            match (Description::within(&list, &text, &reach), how) {
+                (Ok(_), None) => {}
+                (Err(error), Some(how)) => {
+                    let told = report(&error);
+                    assert!(told.contains(&format!("texture[0].{key}: ")), "{told}");
+                    assert!(told.contains(how) && told.contains("--confined"), "{told}");
+                }
+                (read, _) => panic!("{text}: {read:?}"),
+            }
+        }
+    }
+    // Its lock is written, so a link in its place is none of its own.
+    let lock = folder.join("list.toml.lock");
+    assert!(Lock::within(&list, &reach).is_ok());
+    std::os::unix::fs::symlink(outer.path().join("other"), lock).expect("a link");
+    let error = Lock::within(&list, &reach).expect_err("a link");
+    assert!(report(&error).contains("list.toml.lock: a link that leaves the folder"));
 }

@@ -9,6 +9,7 @@ mod open;
 mod patience;
 mod pipe;
 mod problem;
+mod reach;
 mod read;
 #[cfg(test)]
 mod tests;
@@ -18,5 +19,6 @@ pub use kind::Kind;
 pub use open::{Opened, open};
 pub use patience::{MAX_SILENCE, MAX_WAIT};
 pub use problem::{InputError, InputProblem};
+pub use reach::{Outside, Reach};
 pub use read::{read, read_text, text, to_end};
 pub use xml::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES, Nesting, NestingProblem, check_nesting};

@@ -1,8 +1,9 @@
 //! The lock file: which model and versions a library was built with.
 
+use super::manifest::CONFINED_REMEDY;
 use crate::{
     diagnostic::Diagnostic,
-    input::{self, InputError, InputProblem, Kind},
+    input::{self, InputError, InputProblem, Kind, Outside, Reach},
     toml_error::TomlError,
 };
 use serde::Deserialize;
@@ -62,6 +63,14 @@ pub enum LockError {
         /// Its format.
         found: u32,
     },
+    /// It is a link that leaves the folder of a manifest that may not.
+    #[error("{file}: {outside}, and the manifest is confined to its folder", file = file.display())]
+    Outside {
+        /// The lock file.
+        file: PathBuf,
+        /// How it leaves.
+        outside: Outside,
+    },
     /// There is none, and one is asked for.
     #[error("{file}: there is no lock file", file = file.display())]
     Missing {
@@ -85,6 +94,7 @@ impl Diagnostic for LockError {
             Self::Syntax { .. } | Self::Format { .. } => {
                 "remove it, and build once without --locked to write it anew".into()
             }
+            Self::Outside { .. } => CONFINED_REMEDY.into(),
             Self::Missing { .. } => "build once without --locked, and commit the lock file".into(),
             Self::Drift { .. } => {
                 "use the pinned model and version, or build without --locked to pin these".into()
@@ -128,9 +138,21 @@ impl Lock {
     /// # Errors
     /// [`LockError`] for a lock file that cannot be read.
     pub fn beside(manifest: &Path) -> Result<Self, LockError> {
+        Self::within(manifest, &Reach::Anywhere)
+    }
+
+    /// The lock of a manifest that may name only files within reach.
+    ///
+    /// # Errors
+    /// As [`beside`](Self::beside), and for a link that leads elsewhere.
+    pub fn within(manifest: &Path, reach: &Reach) -> Result<Self, LockError> {
         let mut name = manifest.as_os_str().to_owned();
         name.push(".lock");
         let file = PathBuf::from(name);
+        let stated = Path::new(file.file_name().unwrap_or_default());
+        if let Err(outside) = reach.check(stated, &file) {
+            return Err(LockError::Outside { file, outside });
+        }
         let text = match input::read_text(&file, Kind::Settings) {
             Ok(text) => text,
             Err(InputProblem::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {

@@ -46,3 +46,47 @@ impl OpenLibraries {
         Ok(source)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        back_end::{lower::lower, source::ENTRIES_READ},
+        front_ends::builtin,
+        library::{NamedAsset, encode},
+    };
+    use std::fs;
+
+    /// A manifest may take every texture of a library, each by an entry of its own.
+    #[test]
+    fn the_index_of_a_library_is_read_once_for_all_of_its_textures() {
+        let folder = tempfile::tempdir().unwrap();
+        let (library, alone) = (folder.path().join("a.aspl"), folder.path().join("a.asp"));
+        let asset = lower(&builtin::texture(), None).unwrap().bytes;
+        let names: Vec<String> = (0..50).map(|n| format!("t{n:02}")).collect();
+        let assets: Vec<NamedAsset<'_>> = names
+            .iter()
+            .map(|name| NamedAsset {
+                name,
+                bytes: &asset,
+            })
+            .collect();
+        fs::write(&library, encode(&assets).unwrap()).unwrap();
+        fs::write(&alone, &asset).unwrap();
+        let libraries = OpenLibraries::default();
+        let before = ENTRIES_READ.get();
+        for name in &names {
+            assert_eq!(libraries.asset(&library, Some(name)).unwrap(), asset);
+            assert_eq!(libraries.asset(&alone, None).unwrap(), asset);
+        }
+        assert_eq!(ENTRIES_READ.get() - before, names.len());
+        // Assets are not kept open, and neither are more libraries than a few.
+        let copies = (0..2 * MOST_OPEN).map(|n| folder.path().join(format!("{n}.aspl")));
+        for copy in copies {
+            fs::copy(&library, &copy).unwrap();
+            libraries.asset(&copy, Some("t07")).unwrap();
+            assert!(libraries.0.lock().unwrap().len() <= MOST_OPEN);
+        }
+        assert!(libraries.asset(&library, Some("gone")).is_err());
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::error::{SceneError, SceneProblem};
 use crate::{
-    input::{self, Kind},
+    input::{self, Kind, Reach},
     passes::rerate,
     toml_error::TomlError,
 };
@@ -141,11 +141,19 @@ impl Description {
         Self::of_text(file, &text)
     }
 
-    /// Checks the text of a file.
+    /// Checks the text of a file, which may name any other.
     ///
     /// # Errors
     /// As [`read`](Self::read).
     pub fn of_text(file: &Path, text: &str) -> Result<Self, SceneError> {
+        Self::within(file, text, &Reach::Anywhere)
+    }
+
+    /// Checks the text of a scene that may name only files within reach.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), and for a path that leads elsewhere.
+    pub fn within(file: &Path, text: &str, reach: &Reach) -> Result<Self, SceneError> {
         let fail = |field: String, problem| SceneError {
             file: file.to_owned(),
             field,
@@ -161,7 +169,7 @@ impl Description {
             )
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));
-        raw.check(file, folder)
+        raw.check(file, folder, reach)
             .map_err(|(field, problem)| fail(field, problem))
     }
 }
@@ -182,7 +190,7 @@ fn single(text: &str) -> Option<&'static str> {
 type Wrong = (String, SceneProblem);
 
 impl RawScene {
-    fn check(self, file: &Path, folder: &Path) -> Result<Description, Wrong> {
+    fn check(self, file: &Path, folder: &Path, reach: &Reach) -> Result<Description, Wrong> {
         let (low, _) = rerate::RATE_RANGE_HZ;
         // Loops faster than a texture can be converted to are multiples of its rate.
         in_range("servo_rate_hz", self.servo_rate_hz, (low, 20_000.0))?;
@@ -202,7 +210,7 @@ impl RawScene {
         }
         let mut textures: Vec<TextureEntry> = Vec::new();
         for (index, raw) in self.texture.into_iter().enumerate() {
-            let entry = raw.check(index, folder)?;
+            let entry = raw.check(index, folder, reach)?;
             if textures.iter().any(|other| other.name == entry.name) {
                 let field = format!("texture[{index}].name");
                 return Err((field, SceneProblem::SameName(entry.name)));
@@ -241,11 +249,20 @@ impl RawScene {
 }
 
 impl RawTexture {
-    fn check(self, index: usize, folder: &Path) -> Result<TextureEntry, Wrong> {
+    fn check(self, index: usize, folder: &Path, reach: &Reach) -> Result<TextureEntry, Wrong> {
         let field = |name: &str| format!("texture[{index}].{name}");
         let name = self.name;
         if name.is_empty() || name.len() > MAX_NAME_BYTES || name.chars().any(char::is_control) {
             return Err((field("name"), SceneProblem::Name(name)));
+        }
+        for (key, stated) in [("import", &self.import), ("asset", &self.asset)] {
+            let Some(stated) = stated else {
+                continue;
+            };
+            if let Err(outside) = reach.check(stated, &folder.join(stated)) {
+                let stated = stated.clone();
+                return Err((field(key), SceneProblem::Outside { stated, outside }));
+            }
         }
         let origin = match (self.prompt, self.import, self.asset) {
             (Some(prompt), None, None) => Origin::Prompt(prompt, self.seed.unwrap_or(0)),

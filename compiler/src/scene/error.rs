@@ -1,8 +1,12 @@
 //! Why a scene cannot be built.
 
 use super::target::Target;
-use crate::library::LibraryError;
-use crate::{diagnostic::Diagnostic, input::InputProblem, toml_error::TomlError};
+use crate::{
+    diagnostic::Diagnostic,
+    input::{InputProblem, Outside},
+    library::{LibraryError, manifest::CONFINED_REMEDY},
+    toml_error::TomlError,
+};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -31,6 +35,14 @@ pub enum SceneProblem {
     /// One table in single brackets in a list.
     #[error("one table in single brackets, where a list of tables is wanted")]
     Single(&'static str),
+    /// A path that leaves the folder of a scene that may not.
+    #[error("{stated:?} is {outside}, and the scene is confined to its folder")]
+    Outside {
+        /// The path as it is stated.
+        stated: PathBuf,
+        /// How it leaves.
+        outside: Outside,
+    },
     /// The scene has no surface.
     #[error("the scene has no surface")]
     NoSurface,
@@ -139,6 +151,7 @@ impl Diagnostic for SceneError {
                 "give a scene in TOML: see the example in docs/scenes.md".into()
             }
             SceneProblem::Input(problem) => problem.remedy(),
+            SceneProblem::Outside { .. } => CONFINED_REMEDY.into(),
             SceneProblem::Single(key) => format!("write [[{key}]], in two brackets, above each"),
             SceneProblem::Syntax(_) => "see the example in docs/scenes.md".into(),
             SceneProblem::NoSurface => {

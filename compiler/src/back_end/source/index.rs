@@ -75,5 +75,5 @@ impl Index {
 #[cfg(test)]
 thread_local! {
     /// Entries that this thread has read out of indices: what the work of a command is counted in.
-    pub(super) static ENTRIES_READ: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+    pub(crate) static ENTRIES_READ: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }

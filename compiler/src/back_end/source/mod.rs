@@ -6,6 +6,8 @@ mod index;
 mod tests;
 
 pub use error::{SourceError, SourceProblem};
+#[cfg(test)]
+pub(crate) use index::ENTRIES_READ;
 
 use crate::input::{self, InputProblem, Kind, Opened};
 use asperity_formats::{Asset, FormatError, SceneSurface, library};

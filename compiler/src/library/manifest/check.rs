@@ -72,7 +72,14 @@ impl Checker<'_> {
             }
             if first && SETUP.contains(&field.key.as_str()) {
                 if let Some(text) = self.text(field, &field.key) {
-                    setup.push((field.key.clone(), text.to_owned()));
+                    let key = format!("defaults.{}", field.key);
+                    let folder = match field.key.as_str() {
+                        "model" => Some(text),
+                        _ => text.strip_prefix("clip:"),
+                    };
+                    if folder.is_none_or(|folder| self.reaches(field, &key, folder, true)) {
+                        setup.push((field.key.clone(), text.to_owned()));
+                    }
                 }
             } else {
                 let setup: &[&str] = if first { &SETUP } else { &[] };
@@ -268,7 +275,11 @@ impl Checker<'_> {
 
     /// A file that is there; paths are relative to the manifest.
     pub(super) fn file(&mut self, field: &Field, key: &str) -> Option<PathBuf> {
-        let file = self.folder.join(self.text(field, key)?);
+        let stated = self.text(field, key)?;
+        if !self.reaches(field, key, stated, false) {
+            return None;
+        }
+        let file = self.folder.join(stated);
         let problem = match fs::metadata(&file) {
             Ok(found) if found.is_file() => return Some(file),
             Ok(found) if found.is_dir() => InputProblem::Folder,

@@ -1,6 +1,9 @@
 //! What is wrong with a manifest, and where.
 
-use crate::{diagnostic::Diagnostic, input::InputProblem};
+use crate::{
+    diagnostic::Diagnostic,
+    input::{InputProblem, Outside},
+};
 use std::{fmt, path::PathBuf};
 use thiserror::Error;
 
@@ -39,6 +42,10 @@ impl fmt::Display for Key<'_> {
         }
     }
 }
+
+/// What to do about a path that leaves the folder of its list.
+pub(crate) const CONFINED_REMEDY: &str =
+    "copy the file beside the manifest, or leave --confined out if you trust who wrote it";
 
 /// What is wrong.
 #[derive(Debug, Error)]
@@ -128,6 +135,14 @@ pub enum ManifestProblem {
     /// More faults than are told.
     #[error("there are more faults")]
     More,
+    /// A path that leaves the folder of a manifest that may not.
+    #[error("{stated:?} is {outside}, and the manifest is confined to its folder")]
+    Outside {
+        /// The path as it is stated.
+        stated: String,
+        /// How it leaves.
+        outside: Outside,
+    },
     /// A file that is not there.
     #[error("{file}: {problem}", file = file.display())]
     File {
@@ -171,6 +186,7 @@ impl Diagnostic for ManifestError {
             ManifestProblem::IncludeCycle(_) | ManifestProblem::IncludedTwice(_) => {
                 "remove one of the includes".into()
             }
+            ManifestProblem::Outside { .. } => CONFINED_REMEDY.into(),
             ManifestProblem::File { problem, .. } => problem.remedy(),
         }
     }

@@ -19,4 +19,5 @@ pub use entry::{Edit, Entry, Options, Origin, Place};
 pub use error::{ManifestError, ManifestProblem};
 pub use read::{Manifest, Setup, is_scene};
 
+pub(crate) use error::CONFINED_REMEDY;
 pub(in crate::library) use graph::order;

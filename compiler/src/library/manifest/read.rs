@@ -10,7 +10,7 @@ use super::{
     toml_file,
     values::{Checker, Stated},
 };
-use crate::input::{self, Kind};
+use crate::input::{self, Kind, Reach};
 use std::{
     collections::HashMap,
     fs,
@@ -65,12 +65,23 @@ impl Manifest {
         Self::of_text(file, &text)
     }
 
-    /// Checks the text of a manifest.
+    /// Checks the text of a manifest, which may name any file.
     ///
     /// # Errors
     /// As [`read`](Self::read).
     pub fn of_text(file: &Path, text: &str) -> Result<Self, Vec<ManifestError>> {
-        let mut reader = Reader::default();
+        Self::within(file, text, Reach::Anywhere)
+    }
+
+    /// Checks the text of a manifest that may name only files within reach.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), and every path that leads elsewhere.
+    pub fn within(file: &Path, text: &str, reach: Reach) -> Result<Self, Vec<ManifestError>> {
+        let mut reader = Reader {
+            reach,
+            ..Reader::default()
+        };
         reader.take(file, text, &Stated::default());
         reader.manifest(file)
     }
@@ -137,6 +148,7 @@ fn syntax(file: &Path) -> Option<Syntax> {
 
 #[derive(Default)]
 struct Reader {
+    reach: Reach,
     drafts: Vec<Draft>,
     /// Names of all rows, of those with a fault, too.
     names: Vec<(String, Place)>,
@@ -168,6 +180,7 @@ impl Reader {
         let mut checker = Checker {
             file: &place,
             folder,
+            reach: &self.reach,
             errors: &mut self.errors,
         };
         for field in &sheet.wrong {
@@ -180,7 +193,15 @@ impl Reader {
             for (key, value) in setup {
                 match key.as_str() {
                     "model" => self.setup.model = Some(folder.join(value)),
-                    "text_encoder" => self.setup.text_encoder = Some(value),
+                    "text_encoder" => {
+                        let encoder = match value.strip_prefix("clip:") {
+                            Some(own) if !own.is_empty() => {
+                                format!("clip:{}", folder.join(own).display())
+                            }
+                            _ => value,
+                        };
+                        self.setup.text_encoder = Some(encoder);
+                    }
                     _ => self.setup.backend = Some(value),
                 }
             }
@@ -252,6 +273,7 @@ impl Reader {
         let mut checker = Checker {
             file: place,
             folder,
+            reach: &self.reach,
             errors: &mut self.errors,
         };
         let Value::Text(_) = field.value else {

@@ -9,6 +9,7 @@ use super::{
 use crate::{
     edit::Sliders,
     front_ends::prompt::phrase::relative,
+    input::Reach,
     passes::{reduce::Fidelity, rerate},
     views::preview,
 };
@@ -51,6 +52,7 @@ impl Stated {
 pub(super) struct Checker<'a> {
     pub(super) file: &'a Place,
     pub(super) folder: &'a Path,
+    pub(super) reach: &'a Reach,
     pub(super) errors: &'a mut Vec<ManifestError>,
 }
 
@@ -62,6 +64,26 @@ impl Checker<'_> {
             key: key.to_owned(),
             problem,
         });
+    }
+
+    /// Whether the manifest may name a path; a fault where it may not. A folder is checked with
+    /// all that lies in it.
+    pub(super) fn reaches(&mut self, field: &Field, key: &str, stated: &str, folder: bool) -> bool {
+        let (path, seen) = (Path::new(stated), self.folder.join(stated));
+        let checked = if folder {
+            self.reach.check_folder(path, &seen)
+        } else {
+            self.reach.check(path, &seen)
+        };
+        if let Err(outside) = checked {
+            let stated = stated.to_owned();
+            self.fault(
+                field.line,
+                key,
+                ManifestProblem::Outside { stated, outside },
+            );
+        }
+        checked.is_ok()
     }
 
     pub(super) fn text<'v>(&mut self, field: &'v Field, key: &str) -> Option<&'v str> {

@@ -23,6 +23,7 @@ Examples:
   asperity build prompts.csv -o prompts.aspl --json
   asperity build library.toml -o small.aspl --preview-size 128
   asperity build library.toml --check
+  asperity build received/list.toml --confined -o received.aspl
   asperity build library.toml -o part1.aspl --shard 1/4 --locked
   asperity build desk.toml -o desk.aspl --target cortex-m4f@48MHz --share 5
   asperity build desk.toml -o desk.aspl --target 2500 --budget-bytes 8192 --json"
@@ -49,6 +50,9 @@ pub(crate) struct Build {
     /// Refuse a model or a version that the lock file does not pin
     #[arg(long)]
     pub(crate) locked: bool,
+    /// For a list that others sent: refuse every path that leaves the manifest's folder
+    #[arg(long)]
+    pub(crate) confined: bool,
     /// Draw no preview, whatever the manifest says
     #[arg(long)]
     pub(crate) no_preview: bool,

@@ -5,7 +5,7 @@ use crate::cli::Build;
 use asperity::{
     console::Console,
     diagnostic::{Failures, one},
-    input::{self, InputError, Kind},
+    input::{self, InputError, Kind, Reach},
     library::manifest,
 };
 
@@ -25,9 +25,19 @@ pub(crate) fn run(args: &Build, console: Console) -> Result<(), Failures> {
             problem,
         })
     })?;
-    if !has_rows && manifest::is_scene(&text) {
-        build_scene::run(args, &text, console)
+    let reach = if args.confined {
+        Reach::beside(&args.scene).map_err(|error| {
+            one(InputError {
+                file: args.scene.clone(),
+                problem: error.into(),
+            })
+        })?
     } else {
-        library::build::run(args, &text, console)
+        Reach::Anywhere
+    };
+    if !has_rows && manifest::is_scene(&text) {
+        build_scene::run(args, &text, &reach, console)
+    } else {
+        library::build::run(args, &text, reach, console)
     }
 }

@@ -5,6 +5,7 @@ use crate::cli::Build;
 use asperity::{
     console::Console,
     diagnostic::{Diagnostic, Failures, one},
+    input::Reach,
     output::{Outputs, display},
     pipeline::{Pass, Pipeline},
     prompt::{Author, Authored, Options, PromptError},
@@ -28,7 +29,12 @@ impl Diagnostic for ForLibraries {
     }
 }
 
-pub(crate) fn run(args: &Build, text: &str, console: Console) -> Result<(), Failures> {
+pub(crate) fn run(
+    args: &Build,
+    text: &str,
+    reach: &Reach,
+    console: Console,
+) -> Result<(), Failures> {
     for (given, option) in [
         (args.shard.is_some(), "--shard"),
         (args.cache.is_some(), "--cache"),
@@ -38,7 +44,7 @@ pub(crate) fn run(args: &Build, text: &str, console: Console) -> Result<(), Fail
             return Err(one(ForLibraries(option)));
         }
     }
-    let description = Description::of_text(&args.scene, text).map_err(one)?;
+    let description = Description::within(&args.scene, text, reach).map_err(one)?;
     let Some(output) = &args.output else {
         // Without an output, --check was given.
         let (file, count) = (args.scene.display(), description.textures.len());

@@ -7,6 +7,7 @@ use crate::{
 use asperity::{
     console::Console,
     diagnostic::{Diagnostic, Failures, one},
+    input::Reach,
     library::{
         Build, Cache, Lock, Manifest, Pinned, Request, default_folder, manifest::ManifestError,
     },
@@ -50,7 +51,12 @@ impl Diagnostic for Usage {
     }
 }
 
-pub(crate) fn run(args: &Arguments, text: &str, console: Console) -> Result<(), Failures> {
+pub(crate) fn run(
+    args: &Arguments,
+    text: &str,
+    reach: Reach,
+    console: Console,
+) -> Result<(), Failures> {
     for (given, option) in [
         (args.target.is_some(), "--target"),
         (args.budget_bytes.is_some(), "--budget-bytes"),
@@ -59,7 +65,7 @@ pub(crate) fn run(args: &Arguments, text: &str, console: Console) -> Result<(), 
             return Err(one(Usage::ForScenes(option)));
         }
     }
-    let mut manifest = Manifest::of_text(&args.scene, text).map_err(boxed)?;
+    let mut manifest = Manifest::within(&args.scene, text, reach.clone()).map_err(boxed)?;
     for entry in &mut manifest.entries {
         let size = &mut entry.options.preview_px;
         *size = size
@@ -74,7 +80,7 @@ pub(crate) fn run(args: &Arguments, text: &str, console: Console) -> Result<(), 
     let mut inputs = vec![args.scene.clone()];
     inputs.extend(manifest.sources.iter().cloned());
     inputs.extend(inference::files(&inference));
-    let lock = Lock::beside(&args.scene).map_err(one)?;
+    let lock = Lock::within(&args.scene, &reach).map_err(one)?;
     inputs.push(lock.file().to_owned());
     let mut outputs = Outputs::beside(&inputs);
     let library = outputs.open(output).map_err(one)?;
