@@ -7,11 +7,12 @@ use super::{
     unfinished::unfinished,
 };
 use std::{
+    collections::BTreeSet,
     fs::{self, OpenOptions},
     io::{self, Write},
     path::{Path, PathBuf},
 };
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
 
 /// A file that is being written: write to it, then [`commit`](AtomicFile::commit).
 ///
@@ -28,11 +29,35 @@ pub struct AtomicFile {
 enum Place {
     Beside {
         /// `None` once it has its name.
-        file: Option<NamedTempFile>,
+        file: Option<Temporary>,
         /// The target without links.
         path: PathBuf,
     },
     Stream(Stream),
+}
+
+/// A file that has no name of its own yet, and is removed when it is dropped.
+#[derive(Debug)]
+enum Temporary {
+    Open(NamedTempFile),
+    Complete(TempPath),
+}
+
+impl Temporary {
+    fn path(&self) -> &Path {
+        match self {
+            Self::Open(file) => file.path(),
+            Self::Complete(path) => path,
+        }
+    }
+
+    /// Persisting replaces the target on every system. On failure the file is removed.
+    fn persist(self, path: &Path) -> io::Result<()> {
+        match self {
+            Self::Open(file) => file.persist(path).map(drop).map_err(|error| error.error),
+            Self::Complete(file) => file.persist(path).map_err(|error| error.error),
+        }
+    }
 }
 
 impl AtomicFile {
@@ -78,7 +103,8 @@ impl AtomicFile {
             (
                 Some(metadata),
                 Place::Beside {
-                    file: Some(file), ..
+                    file: Some(Temporary::Open(file)),
+                    ..
                 },
             ) => file.as_file().set_permissions(metadata.permissions()),
             _ => Ok(()),
@@ -118,11 +144,11 @@ impl AtomicFile {
         let file = builder
             .tempfile_in(folder)
             .map_err(|e| fail("cannot write into its folder", strip_path(&e)))?;
-        list.push(file.path().to_path_buf());
+        list.insert(file.path().to_path_buf());
         Ok(Self {
             target: target.to_owned(),
             place: Place::Beside {
-                file: Some(file),
+                file: Some(Temporary::Open(file)),
                 path,
             },
         })
@@ -165,7 +191,7 @@ impl AtomicFile {
     }
 
     /// Gives a file its name, under the lock of the list. Does nothing to a stream.
-    pub(super) fn rename(&mut self, list: &mut Vec<PathBuf>) -> Result<(), OutputError> {
+    pub(super) fn rename(&mut self, list: &mut BTreeSet<PathBuf>) -> Result<(), OutputError> {
         let Place::Beside { file, path } = &mut self.place else {
             return Ok(());
         };
@@ -173,9 +199,8 @@ impl AtomicFile {
             return Ok(());
         };
         let beside = file.path().to_path_buf();
-        // Persisting replaces the target on every system. On failure the file is removed.
-        let persisted = file.persist(path).map(drop).map_err(|error| error.error);
-        list.retain(|other| *other != beside);
+        let persisted = file.persist(path);
+        list.remove(&beside);
         persisted.map_err(|source| self.error("cannot finish it", source))
     }
 
@@ -186,6 +211,22 @@ impl AtomicFile {
     pub fn fill(&mut self, bytes: &[u8]) -> Result<(), OutputError> {
         self.write_all(bytes)
             .map_err(|source| self.error("cannot write it", source))
+    }
+
+    /// Ends the writing, and frees what an open file takes. Does nothing to a stream.
+    ///
+    /// # Errors
+    /// [`OutputError`] for what could not be written.
+    pub(super) fn close(&mut self) -> Result<(), OutputError> {
+        self.flush()
+            .map_err(|source| self.error("cannot write it", source))?;
+        if let Place::Beside { file, .. } = &mut self.place {
+            *file = file.take().map(|file| match file {
+                Temporary::Open(file) => Temporary::Complete(file.into_temp_path()),
+                complete @ Temporary::Complete(_) => complete,
+            });
+        }
+        Ok(())
     }
 
     /// An error about this file.
@@ -228,7 +269,7 @@ impl Drop for AtomicFile {
             let mut list = unfinished();
             let path = file.path().to_path_buf();
             drop(file);
-            list.retain(|other| *other != path);
+            list.remove(&path);
         }
     }
 }
@@ -237,9 +278,10 @@ impl Write for AtomicFile {
     fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
         match &mut self.place {
             Place::Beside {
-                file: Some(file), ..
+                file: Some(Temporary::Open(file)),
+                ..
             } => file.write(buffer),
-            Place::Beside { file: None, .. } => Err(io::ErrorKind::NotFound.into()),
+            Place::Beside { .. } => Err(io::ErrorKind::NotFound.into()),
             Place::Stream(stream) => stream.held().write(buffer),
         }
     }
@@ -247,9 +289,10 @@ impl Write for AtomicFile {
     fn flush(&mut self) -> io::Result<()> {
         match &mut self.place {
             Place::Beside {
-                file: Some(file), ..
+                file: Some(Temporary::Open(file)),
+                ..
             } => file.flush(),
-            Place::Beside { file: None, .. } => Ok(()),
+            Place::Beside { .. } => Ok(()),
             Place::Stream(stream) => stream.held().flush(),
         }
     }

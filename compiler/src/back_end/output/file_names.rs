@@ -94,7 +94,7 @@ fn is_device(name: &str) -> bool {
         });
         number.is_some_and(|n| n.is_ascii_digit() || matches!(n, '¹' | '²' | '³'))
     };
-    DEVICES.contains(&own.as_str()) || PORTS.iter().any(|port| is_port(&port))
+    DEVICES.contains(&own.as_str()) || PORTS.iter().any(is_port)
 }
 
 /// What two names have in common that some file system takes for one.

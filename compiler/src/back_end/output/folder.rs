@@ -56,6 +56,8 @@ pub fn write_folder_beside(
     for (name, bytes) in files {
         let file = outputs.open(&folder.join(name))?;
         outputs.fill(file, bytes)?;
+        // There may be more files than a process may have open.
+        outputs.file(file).close()?;
     }
     outputs.commit()?;
     if let Some(made) = made {
@@ -85,7 +87,7 @@ impl NewFolder {
             io::ErrorKind::AlreadyExists => fail("is a file", io::ErrorKind::NotADirectory.into()),
             _ => fail("cannot make the folder", e),
         })?;
-        list.push(folder.to_owned());
+        list.insert(folder.to_owned());
         Ok(Self(folder.to_owned()))
     }
 
@@ -97,14 +99,14 @@ impl NewFolder {
 
     /// Lets it stay.
     pub fn keep(self) {
-        unfinished().retain(|other| *other != self.0);
+        unfinished().remove(&self.0);
         std::mem::forget(self);
     }
 }
 
 impl Drop for NewFolder {
     fn drop(&mut self) {
-        unfinished().retain(|other| *other != self.0);
+        unfinished().remove(&self.0);
         // A folder that is not empty holds finished files and stays.
         let _ = fs::remove_dir(&self.0);
     }

@@ -7,6 +7,7 @@ use super::{
 use same_file::Handle;
 use std::{
     fs,
+    hash::{DefaultHasher, Hash as _, Hasher as _},
     path::{Path, PathBuf},
 };
 
@@ -14,7 +15,7 @@ use std::{
 #[derive(Debug)]
 pub(super) enum Identity {
     /// A file that is there: the same through links, hard links and any spelling of its name.
-    There(Handle),
+    There(FileId),
     /// A place without a file, or with one that cannot be opened.
     New(PathBuf),
     /// A pipe, a terminal, a device: never replaced.
@@ -47,9 +48,8 @@ impl Identity {
         match fs::metadata(path) {
             // Opening a pipe would wait for its other end.
             Ok(metadata) if !metadata.is_file() => Self::Stream,
-            Ok(_) => {
-                Handle::from_path(path).map_or_else(|_| Self::New(followed(path)), Self::There)
-            }
+            Ok(_) => Handle::from_path(path)
+                .map_or_else(|_| Self::New(followed(path)), |file| Self::There(id(file))),
             Err(_) => Self::New(followed(path)),
         }
     }
@@ -63,24 +63,50 @@ impl Identity {
         }
     }
 
-    /// Whether both are places in one folder whose names differ in case alone. A file system that
+    /// A hash of a file that is there.
+    pub(super) fn hashed(&self) -> Option<u64> {
+        let Self::There(file) = self else {
+            return None;
+        };
+        let mut hasher = DefaultHasher::new();
+        file.hash(&mut hasher);
+        Some(hasher.finish())
+    }
+
+    /// The place of a new file, the same for names that differ in case alone: a file system that
     /// does not tell case apart has one file for both.
-    pub(super) fn differs_in_case_from(&self, other: &Self) -> bool {
-        let lower = |path: &Path| path.file_name().map(|n| n.to_string_lossy().to_lowercase());
-        match (self, other) {
-            (Self::New(one), Self::New(two)) => {
-                folder(one) == folder(two) && lower(one) == lower(two)
+    pub(super) fn caseless(&self) -> Option<(PathBuf, String)> {
+        match self {
+            Self::New(path) => {
+                let name = path.file_name()?.to_string_lossy().to_lowercase();
+                Some((folder(path).to_owned(), name))
             }
-            _ => false,
+            _ => None,
         }
     }
+}
+
+/// What tells files apart. On Unix it needs no open file, of which a process may have few.
+#[cfg(unix)]
+type FileId = (u64, u64);
+#[cfg(not(unix))]
+type FileId = Handle;
+
+#[cfg(unix)]
+fn id(file: Handle) -> FileId {
+    (file.dev(), file.ino())
+}
+
+#[cfg(not(unix))]
+fn id(file: Handle) -> FileId {
+    file
 }
 
 /// Of an open file that may be a pipe or a terminal.
 fn regular(handle: std::io::Result<Handle>) -> Identity {
     match handle {
         Ok(handle) if handle.as_file().metadata().is_ok_and(|m| m.is_file()) => {
-            Identity::There(handle)
+            Identity::There(id(handle))
         }
         _ => Identity::Stream,
     }

@@ -7,7 +7,10 @@ use super::{
     stream::is_standard_output,
     unfinished::unfinished,
 };
-use std::path::{Path, PathBuf};
+use std::{
+    collections::HashMap,
+    path::{Path, PathBuf},
+};
 
 /// The files that a command writes: all of them, or none.
 ///
@@ -28,6 +31,9 @@ use std::path::{Path, PathBuf};
 pub struct Outputs {
     inputs: Vec<Identity>,
     opened: Vec<Opened>,
+    /// Which of them a place or a file is, so that many outputs take no longer each than few.
+    places: HashMap<(PathBuf, String), usize>,
+    files: HashMap<u64, Vec<usize>>,
 }
 
 #[derive(Debug)]
@@ -50,6 +56,8 @@ impl Outputs {
                 .map(|path| Identity::of_input(path.as_ref()))
                 .collect(),
             opened: Vec::new(),
+            places: HashMap::new(),
+            files: HashMap::new(),
         }
     }
 
@@ -74,21 +82,35 @@ impl Outputs {
         } else if identity.is(&Identity::standard_output()) {
             return Err(fail("standard output"));
         }
-        for other in &self.opened {
+        let place = identity.caseless();
+        if let Some(&other) = place.as_ref().and_then(|place| self.places.get(place)) {
+            let other = &self.opened[other];
             if other.identity.is(&identity) {
                 return Err(fail("another output"));
             }
-            if other.identity.differs_in_case_from(&identity) {
-                return Err(OpenError::Case {
-                    output: path.to_owned(),
-                    other: other.path.clone(),
-                });
-            }
+            return Err(OpenError::Case {
+                output: path.to_owned(),
+                other: other.path.clone(),
+            });
+        }
+        let there = identity.hashed();
+        let alike = there.and_then(|hash| self.files.get(&hash));
+        let is_same = |&other: &usize| self.opened[other].identity.is(&identity);
+        if alike.is_some_and(|alike| alike.iter().any(is_same)) {
+            return Err(fail("another output"));
+        }
+        let file = AtomicFile::create(path)?;
+        let own = self.opened.len();
+        if let Some(place) = place {
+            self.places.insert(place, own);
+        }
+        if let Some(hash) = there {
+            self.files.entry(hash).or_default().push(own);
         }
         self.opened.push(Opened {
             path: path.to_owned(),
             identity,
-            file: AtomicFile::create(path)?,
+            file,
         });
         Ok(OutputId(self.opened.len() - 1))
     }

@@ -161,3 +161,29 @@ fn a_device_is_written_to_not_replaced() {
     write_atomic(Path::new("/dev/null"), b"x").unwrap();
     assert!(!fs::metadata("/dev/null").unwrap().is_file());
 }
+
+/// More files than a process may have open become one folder, and become it again.
+#[cfg(unix)]
+#[test]
+fn a_folder_of_files_takes_no_open_files() {
+    let open = || fs::read_dir("/proc/self/fd").map_or(0, Iterator::count);
+    let outer = tempfile::tempdir().unwrap();
+    let folder = outer.path().join("files");
+    for content in ["a", "b"] {
+        if content == "a" {
+            write_folder(&folder, &[("first".into(), b"")]).unwrap();
+        }
+        let mut outputs = Outputs::beside([outer.path()]);
+        let before = open();
+        for n in 0..300 {
+            let id = outputs.open(&folder.join(format!("{n}.asp"))).unwrap();
+            outputs.fill(id, content.as_bytes()).unwrap();
+            outputs.file(id).close().unwrap();
+        }
+        // Other tests open files meanwhile.
+        assert!(open() < before + 200, "{} and {before}", open());
+        outputs.commit().unwrap();
+        assert_eq!(fs::read_to_string(folder.join("299.asp")).unwrap(), content);
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 301);
+    }
+}

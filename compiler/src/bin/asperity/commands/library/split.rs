@@ -26,8 +26,11 @@ pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
     console.report(&report).map_err(one)
 }
 
+/// Names of files and their bytes.
+type Files = Vec<(String, Vec<u8>)>;
+
 /// One asset a texture, under the name that the index gives it, and the names that no file can have.
-fn assets(shelf: &Shelf) -> Result<(Vec<(String, Vec<u8>)>, Vec<String>), Failures> {
+fn assets(shelf: &Shelf) -> Result<(Files, Vec<String>), Failures> {
     let names: Vec<&str> = shelf
         .textures
         .iter()
@@ -51,7 +54,7 @@ fn assets(shelf: &Shelf) -> Result<(Vec<(String, Vec<u8>)>, Vec<String>), Failur
 }
 
 /// Libraries of neighbouring textures, each as large as the others within one texture.
-fn parts(shelf: &Shelf, count: usize) -> Result<Vec<(String, Vec<u8>)>, Failures> {
+fn parts(shelf: &Shelf, count: usize) -> Result<Files, Failures> {
     let total = shelf.textures.len();
     let digits = count.to_string().len();
     (0..count)
