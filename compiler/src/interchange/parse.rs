@@ -5,6 +5,7 @@ use super::{
     playback::Track,
 };
 use serde::de::DeserializeOwned;
+use std::borrow::Cow;
 
 /// The latest time of an effect, s.
 pub(super) const MAX_S: f64 = 600.0;
@@ -13,17 +14,66 @@ const MAX_PLAYED_S: f64 = 1200.0;
 /// Most transients.
 const MAX_TRANSIENTS: usize = 4096;
 
-/// JSON as a type, or the path of what is not of it.
+/// JSON as a type, or the path of what is not of it. A comma behind the last entry of a list or an object is
+/// let pass, because Apple's own samples have some.
 pub(super) fn json<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
-    let mut json = serde_json::Deserializer::from_str(text);
+    let text = without_trailing_commas(text);
+    let mut json = serde_json::Deserializer::from_str(&text);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        // What cannot be parsed has no name within its object.
         let path = error.path().to_string();
-        let field = if path == "." { String::new() } else { path };
-        (field, EffectProblem::Json(error.inner().to_string()))
+        let field = path.trim_end_matches('?').trim_end_matches('.');
+        (
+            field.to_owned(),
+            EffectProblem::Json(error.inner().to_string()),
+        )
     })?;
     let trailing = |e: serde_json::Error| (String::new(), EffectProblem::Json(e.to_string()));
     json.end().map_err(trailing)?;
     Ok(value)
+}
+
+/// The text with a space for each comma that only a closing bracket follows: all places stay where they are.
+fn without_trailing_commas(text: &str) -> Cow<'_, str> {
+    let mut commas = Vec::new();
+    let (mut in_text, mut escaped) = (false, false);
+    // A comma behind an entry, and whether an entry comes right before this place.
+    let (mut comma, mut entry) = (None, false);
+    for (at, byte) in text.bytes().enumerate() {
+        if in_text {
+            in_text = escaped || byte != b'"';
+            escaped = !escaped && byte == b'\\';
+            continue;
+        }
+        match byte {
+            b' ' | b'\t' | b'\r' | b'\n' => continue,
+            b',' => {
+                comma = entry.then_some(at);
+                entry = false;
+                continue;
+            }
+            b']' | b'}' => {
+                commas.extend(comma);
+                entry = true;
+            }
+            b'[' | b'{' | b':' => entry = false,
+            b'"' => (in_text, entry) = (true, true),
+            _ => entry = true,
+        }
+        comma = None;
+    }
+    if commas.is_empty() {
+        return text.into();
+    }
+    let mut plain = String::with_capacity(text.len());
+    let mut from = 0;
+    for comma in commas {
+        plain.push_str(&text[from..comma]);
+        plain.push(' ');
+        from = comma + 1;
+    }
+    plain.push_str(&text[from..]);
+    plain.into()
 }
 
 /// A number within a range.
@@ -74,4 +124,39 @@ pub(super) fn bounded(mut track: Track) -> Result<Track, Fault> {
     }
     track.transients.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
     Ok(track)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::Value;
+
+    #[test]
+    fn a_comma_behind_the_last_entry_passes_and_every_other_does_not() {
+        for (text, plain) in [
+            ("[1,]", "[1 ]"),
+            ("{\"a\": [1, 2 , \n ] , }", "{\"a\": [1, 2   \n ]   }"),
+            ("[\"a,]\", \"\\\"\",]", "[\"a,]\", \"\\\"\" ]"),
+            ("[\"\\\\\",]", "[\"\\\\\" ]"),
+            ("[\"é\",]", "[\"é\" ]"),
+        ] {
+            assert_eq!(without_trailing_commas(text), plain);
+            let read: Value = json(text).unwrap();
+            assert_eq!(read, serde_json::from_str::<Value>(plain).unwrap());
+        }
+        for text in ["[,]", "{,}", "[1,,]", "[1,,2]", "{\"a\":,}", "[1],", "[,1]"] {
+            assert!(json::<Value>(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_fault_behind_a_comma_is_at_its_own_place_and_in_its_object() {
+        let text = "{\"a\": [1,],\n\"b\": {\"c\": {\"d\": 1 \"e\": 2}}}";
+        let (field, problem) = json::<Value>(text).unwrap_err();
+        assert_eq!(field, "b.c");
+        assert!(
+            problem.to_string().ends_with("line 2 column 20"),
+            "{problem}"
+        );
+    }
 }

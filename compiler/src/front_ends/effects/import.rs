@@ -105,7 +105,15 @@ pub fn import(
         .run(Pass::Decode, || {
             texture(&track, name, kind, options, &mut warnings)
         })
-        .ok_or_else(|| fail(String::new(), EffectProblem::Silent))?;
+        .ok_or_else(|| {
+            let mut reasons = track.warnings.clone();
+            if reasons.is_empty() {
+                reasons.push(
+                    "no transient, and no continuous effect with an amplitude above zero".into(),
+                );
+            }
+            fail(String::new(), EffectProblem::Silent { reasons })
+        })?;
     whole.provenance.source = file
         .file_name()
         .unwrap_or_default()

@@ -10,6 +10,6 @@ mod import;
 mod stroke;
 mod tap;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use import::{Kind, Options, import};
