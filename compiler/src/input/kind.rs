@@ -1,5 +1,6 @@
 //! What a file is meant to be, and how many bytes that may take.
 
+use super::format::Format;
 use std::fmt;
 
 const KIB: u64 = 1024;
@@ -84,6 +85,34 @@ impl Kind {
             Self::Trajectory | Self::Log => 1024 * MIB,
             // The text tower of CLIP ViT-L/14 takes 472 MiB.
             Self::TextEncoder => 480 * MIB,
+        }
+    }
+
+    /// Whether a file of this kind may have a format.
+    pub(super) fn takes(self, format: Format) -> bool {
+        match self {
+            Self::Asset => matches!(format, Format::Asset | Format::Library),
+            Self::Hatt => format == Format::Hatt,
+            Self::Model => format == Format::Model,
+            // Each import says itself which of them it reads.
+            Self::Effects => matches!(
+                format,
+                Format::Ahap | Format::Haptic | Format::Vij | Format::Hjif
+            ),
+            _ => false,
+        }
+    }
+
+    /// The format of the bytes of a file that is meant to be of this kind. The keys of its own JSON may be
+    /// anything where they are words or settings.
+    pub(super) fn format(self, bytes: &[u8]) -> Option<Format> {
+        match self {
+            Self::Description | Self::Vocabulary | Self::DiffusionConfig => Format::of_magic(bytes),
+            // HMPG has no magic number.
+            Self::Network | Self::TextEncoder | Self::DiffusionNetwork => {
+                Format::of_magic(bytes).filter(|format| *format != Format::Hmpg)
+            }
+            _ => Format::of(bytes),
         }
     }
 

@@ -1,9 +1,13 @@
 //! Opening a file: what kind of thing it is decides whether and how it is read.
 
-use super::{pipe::Pipe, problem::InputProblem};
+use super::{
+    format::{Format, POINTER_BYTES},
+    pipe::Pipe,
+    problem::InputProblem,
+};
 use std::{
     fs::{self, File, FileType},
-    io::{self, Read},
+    io::{self, Read, Seek as _},
     path::Path,
 };
 
@@ -28,7 +32,7 @@ impl Read for Opened {
 /// Opens a regular file or a pipe; symbolic links are followed.
 ///
 /// # Errors
-/// [`InputProblem`] for a path that cannot be opened, a folder, a device or a socket.
+/// [`InputProblem`] for a path that cannot be opened, a folder, a device, a socket or a pointer of Git LFS.
 pub fn open(path: &Path) -> Result<Opened, InputProblem> {
     // Before it is opened: opening can wait for a pipe's writer, and change a device.
     let found = fs::metadata(path)
@@ -43,8 +47,22 @@ pub fn open(path: &Path) -> Result<Opened, InputProblem> {
     if !found.is_file() {
         return Err(InputProblem::Device);
     }
-    let file = File::open(path).map_err(InputProblem::Unreadable)?;
+    let mut file = File::open(path).map_err(InputProblem::Unreadable)?;
+    if is_pointer(&mut file).map_err(InputProblem::Unreadable)? {
+        return Err(InputProblem::LfsPointer);
+    }
     Ok(Opened::File(file))
+}
+
+/// Whether a file is a pointer of Git LFS; it is at its beginning again afterwards.
+fn is_pointer(file: &mut File) -> io::Result<bool> {
+    if file.metadata()?.len() > POINTER_BYTES {
+        return Ok(false);
+    }
+    let mut bytes = Vec::new();
+    file.take(POINTER_BYTES).read_to_end(&mut bytes)?;
+    file.rewind()?;
+    Ok(Format::of_magic(&bytes) == Some(Format::LfsPointer))
 }
 
 #[cfg(unix)]

@@ -1,6 +1,7 @@
 //! Reading a file whole, up to the limit of its kind.
 
 use super::{
+    format::Format,
     kind::Kind,
     open::{Opened, open},
     problem::InputProblem,
@@ -13,7 +14,8 @@ use std::{
 /// The bytes of a file.
 ///
 /// # Errors
-/// [`InputProblem`] for a file that cannot be read or has more bytes than its kind may.
+/// [`InputProblem`] for a file that cannot be read, has more bytes than its kind may, or is of another
+/// [`Format`].
 pub fn read(path: &Path, kind: Kind) -> Result<Vec<u8>, InputProblem> {
     let opened = open(path)?;
     if let Opened::File(file) = &opened
@@ -39,7 +41,14 @@ pub fn to_end(reader: impl Read, kind: Kind) -> Result<Vec<u8>, InputProblem> {
     if bytes.len() as u64 > limit {
         return Err(InputProblem::TooLarge { kind });
     }
-    Ok(bytes)
+    match kind.format(&bytes) {
+        Some(Format::LfsPointer) => Err(InputProblem::LfsPointer),
+        Some(format) if !kind.takes(format) => Err(InputProblem::OtherFormat {
+            format,
+            wanted: kind.to_string(),
+        }),
+        _ => Ok(bytes),
+    }
 }
 
 /// The text of a file in UTF-8, without a byte order mark.

@@ -4,8 +4,8 @@ use super::{
     error::{EffectProblem, Fault},
     playback::Track,
 };
+use crate::input;
 use serde::de::DeserializeOwned;
-use std::borrow::Cow;
 
 /// The latest time of an effect, s.
 pub(super) const MAX_S: f64 = 600.0;
@@ -17,7 +17,7 @@ const MAX_TRANSIENTS: usize = 4096;
 /// JSON as a type, or the path of what is not of it. A comma behind the last entry of a list or an object is
 /// let pass, because Apple's own samples have some.
 pub(super) fn json<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
-    let text = without_trailing_commas(text);
+    let text = input::without_trailing_commas(text);
     let mut json = serde_json::Deserializer::from_str(&text);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
         // What cannot be parsed has no name within its object.
@@ -31,49 +31,6 @@ pub(super) fn json<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
     let trailing = |e: serde_json::Error| (String::new(), EffectProblem::Json(e.to_string()));
     json.end().map_err(trailing)?;
     Ok(value)
-}
-
-/// The text with a space for each comma that only a closing bracket follows: all places stay where they are.
-fn without_trailing_commas(text: &str) -> Cow<'_, str> {
-    let mut commas = Vec::new();
-    let (mut in_text, mut escaped) = (false, false);
-    // A comma behind an entry, and whether an entry comes right before this place.
-    let (mut comma, mut entry) = (None, false);
-    for (at, byte) in text.bytes().enumerate() {
-        if in_text {
-            in_text = escaped || byte != b'"';
-            escaped = !escaped && byte == b'\\';
-            continue;
-        }
-        match byte {
-            b' ' | b'\t' | b'\r' | b'\n' => continue,
-            b',' => {
-                comma = entry.then_some(at);
-                entry = false;
-                continue;
-            }
-            b']' | b'}' => {
-                commas.extend(comma);
-                entry = true;
-            }
-            b'[' | b'{' | b':' => entry = false,
-            b'"' => (in_text, entry) = (true, true),
-            _ => entry = true,
-        }
-        comma = None;
-    }
-    if commas.is_empty() {
-        return text.into();
-    }
-    let mut plain = String::with_capacity(text.len());
-    let mut from = 0;
-    for comma in commas {
-        plain.push_str(&text[from..comma]);
-        plain.push(' ');
-        from = comma + 1;
-    }
-    plain.push_str(&text[from..]);
-    plain.into()
 }
 
 /// A number within a range.
@@ -140,7 +97,7 @@ mod tests {
             ("[\"\\\\\",]", "[\"\\\\\" ]"),
             ("[\"é\",]", "[\"é\" ]"),
         ] {
-            assert_eq!(without_trailing_commas(text), plain);
+            assert_eq!(input::without_trailing_commas(text), plain);
             let read: Value = json(text).unwrap();
             assert_eq!(read, serde_json::from_str::<Value>(plain).unwrap());
         }

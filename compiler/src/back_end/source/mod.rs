@@ -6,7 +6,7 @@ mod tests;
 
 pub use error::{SourceError, SourceProblem};
 
-use crate::input::{self, InputProblem, Kind, Opened};
+use crate::input::{self, Format, InputProblem, Kind, Opened};
 use asperity_formats::{
     FormatError, SceneSurface,
     library::{self, LibraryIndex},
@@ -19,6 +19,9 @@ use std::{
 
 /// The path that means standard input.
 const STANDARD_INPUT: &str = "-";
+
+/// Bytes by which the format of another file is told.
+const FORMAT_BYTES: u64 = 1 << 20;
 
 /// An open asset or library.
 #[derive(Debug)]
@@ -111,7 +114,14 @@ impl Source {
         } else if head.starts_with(b"ASPT") {
             Content::Asset
         } else {
-            return Err(SourceProblem::WrongKind);
+            let head = part(&mut *bytes, 0, len.min(FORMAT_BYTES))?;
+            return Err(match Format::of(&head) {
+                Some(format) => SourceProblem::Input(InputProblem::OtherFormat {
+                    format,
+                    wanted: "an asset (.asp) or a library (.aspl)".into(),
+                }),
+                None => SourceProblem::WrongKind,
+            });
         };
         Ok(Self {
             path: path.to_owned(),
