@@ -14,7 +14,7 @@ const POINTERS: [&[u8]; 2] = [
 /// Most bytes of a pointer.
 pub(super) const POINTER_BYTES: u64 = 1024;
 /// Bytes in which the parts of an archive or the root of a document are looked for.
-const HEAD: usize = 8192;
+pub(super) const HEAD: usize = 8192;
 /// Keys of an object that are looked at.
 const KEYS: usize = 64;
 /// Header of a unit of an HMPG, bytes.
@@ -125,11 +125,15 @@ impl Format {
     }
 
     fn of_json(bytes: &[u8]) -> Option<Self> {
-        let text = std::str::from_utf8(bytes).ok()?;
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if !text.trim_ascii_start().starts_with('{') {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if bytes.trim_ascii_start().first() != Some(&b'{') {
             return None;
         }
+        // A part of a file may end within a character.
+        let text = match std::str::from_utf8(bytes) {
+            Ok(text) => text,
+            Err(error) => std::str::from_utf8(&bytes[..error.valid_up_to()]).ok()?,
+        };
         let mut keys = Vec::new();
         let text = without_trailing_commas(text);
         // A fault behind the keys that tell is for the reader of the format to name.
@@ -177,7 +181,7 @@ impl Format {
             Self::Model => "an asperity model (JSON)",
             Self::Hatt => "a HaTT material (XML)",
             Self::Ahap => "an AHAP (Apple Haptic and Audio Pattern)",
-            Self::Haptic => "a .haptic file",
+            Self::Haptic => "a .haptic file of version 1",
             Self::Vij => "a .haptic file of version 0 (.vij)",
             Self::Hjif => "an HJIF file (MPEG haptics)",
             Self::Hmpg => "an HMPG stream (MPEG haptics)",

@@ -1,6 +1,6 @@
 //! What a file is meant to be, and how many bytes that may take.
 
-use super::format::Format;
+use super::{format::Format, problem::InputProblem};
 use std::fmt;
 
 const KIB: u64 = 1024;
@@ -88,17 +88,26 @@ impl Kind {
         }
     }
 
+    /// Refuses a format that a file of this kind cannot have.
+    pub(super) fn check(self, found: Option<Format>) -> Result<(), InputProblem> {
+        match found {
+            Some(Format::LfsPointer) => Err(InputProblem::LfsPointer),
+            Some(format) if !self.takes(format) => Err(InputProblem::OtherFormat {
+                format,
+                wanted: self.to_string(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
     /// Whether a file of this kind may have a format.
-    pub(super) fn takes(self, format: Format) -> bool {
+    fn takes(self, format: Format) -> bool {
         match self {
             Self::Asset => matches!(format, Format::Asset | Format::Library),
             Self::Hatt => format == Format::Hatt,
             Self::Model => format == Format::Model,
-            // Each import says itself which of them it reads.
-            Self::Effects => matches!(
-                format,
-                Format::Ahap | Format::Haptic | Format::Vij | Format::Hjif
-            ),
+            // Each import names the one format that it reads.
+            Self::Effects => true,
             _ => false,
         }
     }

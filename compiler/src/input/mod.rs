@@ -19,7 +19,7 @@ mod xml;
 
 pub use format::Format;
 pub use kind::Kind;
-pub use open::{Opened, open};
+pub use open::{Opened, open, open_as};
 pub use patience::{MAX_SILENCE, MAX_WAIT};
 pub use problem::{InputError, InputProblem};
 pub use read::{read, read_text, text, to_end};

@@ -1,7 +1,8 @@
 //! Opening a file: what kind of thing it is decides whether and how it is read.
 
 use super::{
-    format::{Format, POINTER_BYTES},
+    format::{Format, HEAD, POINTER_BYTES},
+    kind::Kind,
     pipe::Pipe,
     problem::InputProblem,
 };
@@ -54,15 +55,33 @@ pub fn open(path: &Path) -> Result<Opened, InputProblem> {
     Ok(Opened::File(file))
 }
 
-/// Whether a file is a pointer of Git LFS; it is at its beginning again afterwards.
+/// Opens a file of a kind that is not read as a whole.
+///
+/// # Errors
+/// As [`open`], and [`InputProblem::OtherFormat`] for a regular file whose first bytes are of another format.
+pub fn open_as(path: &Path, kind: Kind) -> Result<Opened, InputProblem> {
+    let mut opened = open(path)?;
+    if let Opened::File(file) = &mut opened {
+        let bytes = head(file, HEAD as u64).map_err(InputProblem::Unreadable)?;
+        kind.check(Format::of_magic(&bytes))?;
+    }
+    Ok(opened)
+}
+
+/// Whether a file is a pointer of Git LFS.
 fn is_pointer(file: &mut File) -> io::Result<bool> {
     if file.metadata()?.len() > POINTER_BYTES {
         return Ok(false);
     }
+    Ok(Format::of_magic(&head(file, POINTER_BYTES)?) == Some(Format::LfsPointer))
+}
+
+/// The first bytes of a file, which is at its beginning again afterwards.
+fn head(file: &mut File, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    file.take(POINTER_BYTES).read_to_end(&mut bytes)?;
+    file.take(most).read_to_end(&mut bytes)?;
     file.rewind()?;
-    Ok(Format::of_magic(&bytes) == Some(Format::LfsPointer))
+    Ok(bytes)
 }
 
 #[cfg(unix)]

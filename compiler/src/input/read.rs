@@ -1,7 +1,6 @@
 //! Reading a file whole, up to the limit of its kind.
 
 use super::{
-    format::Format,
     kind::Kind,
     open::{Opened, open},
     problem::InputProblem,
@@ -15,7 +14,7 @@ use std::{
 ///
 /// # Errors
 /// [`InputProblem`] for a file that cannot be read, has more bytes than its kind may, or is of another
-/// [`Format`].
+/// [`Format`](super::Format).
 pub fn read(path: &Path, kind: Kind) -> Result<Vec<u8>, InputProblem> {
     let opened = open(path)?;
     if let Opened::File(file) = &opened
@@ -41,14 +40,8 @@ pub fn to_end(reader: impl Read, kind: Kind) -> Result<Vec<u8>, InputProblem> {
     if bytes.len() as u64 > limit {
         return Err(InputProblem::TooLarge { kind });
     }
-    match kind.format(&bytes) {
-        Some(Format::LfsPointer) => Err(InputProblem::LfsPointer),
-        Some(format) if !kind.takes(format) => Err(InputProblem::OtherFormat {
-            format,
-            wanted: kind.to_string(),
-        }),
-        _ => Ok(bytes),
-    }
+    kind.check(kind.format(&bytes))?;
+    Ok(bytes)
 }
 
 /// The text of a file in UTF-8, without a byte order mark.

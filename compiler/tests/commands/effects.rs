@@ -192,12 +192,38 @@ fn a_file_of_another_format_is_named_with_the_command_that_reads_it() {
             format!("[[texture]]\nname = \"a\"\nimport = \"{file}\"\n"),
         )
         .unwrap();
-        refused(
-            folder.path(),
-            &["build", file, "-o", "out.aspl"],
-            &[file, name, help],
-        );
+        for list in [file, "list.toml"] {
+            refused(
+                folder.path(),
+                &["build", list, "-o", "out.aspl"],
+                &[file, name, help],
+            );
+        }
     }
+}
+
+#[test]
+fn a_trajectory_that_is_a_workbook_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    asperity(folder.path(), &["builtin", "-o", "grit.asp"]);
+    fs::write(
+        folder.path().join("x.csv"),
+        b"PK\x03\x04\x14\0xl/workbook.xml",
+    )
+    .unwrap();
+    let arguments = [
+        "render",
+        "grit.asp",
+        "--trajectory",
+        "x.csv",
+        "-o",
+        "out.csv",
+    ];
+    refused(
+        folder.path(),
+        &arguments,
+        &["Excel workbook, not a trajectory", "CSV"],
+    );
 }
 
 /// What the built-in texture exports to.
