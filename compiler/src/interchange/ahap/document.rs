@@ -7,21 +7,24 @@ use serde::{
 };
 use std::{fmt, marker::PhantomData};
 
+/// Most entries of a list: an empty one takes three bytes of a file, and many more of memory.
+const MAX_ENTRIES: usize = 500_000;
+
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "PascalCase")]
 pub(super) struct Document {
     #[serde(default)]
     pub(super) version: Scalar,
-    pub(super) pattern: Vec<Item>,
+    pub(super) pattern: List<Item>,
 }
 
 /// One entry of a pattern.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "PascalCase")]
 pub(super) struct Item {
-    pub(super) event: Option<Event>,
-    pub(super) parameter: Option<Parameter>,
-    pub(super) parameter_curve: Option<Curve>,
+    pub(super) event: Option<Box<Event>>,
+    pub(super) parameter: Option<Box<Parameter>>,
+    pub(super) parameter_curve: Option<Box<Curve>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -196,6 +199,10 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for AnyList<T> {
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<List<T>, A::Error> {
         let mut values = Vec::new();
         while let Some(value) = list.next_element()? {
+            if values.len() == MAX_ENTRIES {
+                let problem = format!("more than {MAX_ENTRIES} entries");
+                return Err(de::Error::custom(problem));
+            }
             values.push(value);
         }
         Ok(List(values))

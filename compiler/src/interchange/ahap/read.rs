@@ -44,13 +44,13 @@ pub(crate) fn read(text: &str) -> Result<Track, Fault> {
     if version.is_some_and(|version| !(1.0..2.0).contains(&version)) {
         notes.add(Note::Version, || "Version".into());
     }
-    let controls = Controls::new(&document.pattern, &mut notes)?;
+    let controls = Controls::new(&document.pattern.0, &mut notes)?;
     let mut track = Track {
         phase_from_beginning: true,
         ..Track::default()
     };
     let mut room = Room::default();
-    for (n, item) in document.pattern.iter().enumerate() {
+    for (n, item) in document.pattern.0.iter().enumerate() {
         let at = |key: &str| format!("Pattern[{n}].Event{key}");
         if let Some(event) = &item.event {
             add(event, at, &controls, &mut room, &mut track, &mut notes)?;
