@@ -1,5 +1,6 @@
 //! What a file is meant to be, and how many bytes that may take.
 
+use super::{format::Format, problem::InputProblem};
 use std::fmt;
 
 const KIB: u64 = 1024;
@@ -84,6 +85,43 @@ impl Kind {
             Self::Trajectory | Self::Log => 1024 * MIB,
             // The text tower of CLIP ViT-L/14 takes 472 MiB.
             Self::TextEncoder => 480 * MIB,
+        }
+    }
+
+    /// Refuses a format that a file of this kind cannot have.
+    pub(super) fn check(self, found: Option<Format>) -> Result<(), InputProblem> {
+        match found {
+            Some(Format::LfsPointer) => Err(InputProblem::LfsPointer),
+            Some(format) if !self.takes(format) => Err(InputProblem::OtherFormat {
+                format,
+                wanted: self.to_string(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether a file of this kind may have a format.
+    fn takes(self, format: Format) -> bool {
+        match self {
+            Self::Asset => matches!(format, Format::Asset | Format::Library),
+            Self::Hatt => format == Format::Hatt,
+            Self::Model => format == Format::Model,
+            // Each import names the one format that it reads.
+            Self::Effects => true,
+            _ => false,
+        }
+    }
+
+    /// The format of the bytes of a file that is meant to be of this kind. The keys of its own JSON may be
+    /// anything where they are words or settings.
+    pub(super) fn format(self, bytes: &[u8]) -> Option<Format> {
+        match self {
+            Self::Description | Self::Vocabulary | Self::DiffusionConfig => Format::of_magic(bytes),
+            // HMPG has no magic number.
+            Self::Network | Self::TextEncoder | Self::DiffusionNetwork => {
+                Format::of_magic(bytes).filter(|format| *format != Format::Hmpg)
+            }
+            _ => Format::of(bytes),
         }
     }
 

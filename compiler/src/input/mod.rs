@@ -2,8 +2,10 @@
 //!
 //! A file is opened once and read up to the limit of its [`Kind`]. Devices, sockets and folders are
 //! refused before they are opened. A pipe is read by a thread of its own, and a wait for its bytes
-//! ends in an error. `docs/limits.md` lists every limit.
+//! ends in an error. What is of another known format than its kind is refused by that
+//! format's name. `docs/limits.md` lists every limit.
 
+mod format;
 mod kind;
 mod open;
 mod patience;
@@ -13,12 +15,15 @@ mod reach;
 mod read;
 #[cfg(test)]
 mod tests;
+mod trailing_commas;
 mod xml;
 
+pub use format::Format;
 pub use kind::Kind;
-pub use open::{Opened, open};
+pub use open::{Opened, open, open_as};
 pub use patience::{MAX_SILENCE, MAX_WAIT};
 pub use problem::{InputError, InputProblem};
 pub use reach::{Outside, Reach};
 pub use read::{read, read_text, text, to_end};
+pub use trailing_commas::without_trailing_commas;
 pub use xml::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES, Nesting, NestingProblem, check_nesting};

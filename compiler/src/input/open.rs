@@ -1,9 +1,14 @@
 //! Opening a file: what kind of thing it is decides whether and how it is read.
 
-use super::{pipe::Pipe, problem::InputProblem};
+use super::{
+    format::{Format, HEAD, POINTER_BYTES},
+    kind::Kind,
+    pipe::Pipe,
+    problem::InputProblem,
+};
 use std::{
     fs::{self, File, FileType},
-    io::{self, Read},
+    io::{self, Read, Seek as _},
     path::Path,
 };
 
@@ -28,7 +33,7 @@ impl Read for Opened {
 /// Opens a regular file or a pipe; symbolic links are followed.
 ///
 /// # Errors
-/// [`InputProblem`] for a path that cannot be opened, a folder, a device or a socket.
+/// [`InputProblem`] for a path that cannot be opened, a folder, a device, a socket or a pointer of Git LFS.
 pub fn open(path: &Path) -> Result<Opened, InputProblem> {
     // Before it is opened: opening can wait for a pipe's writer, and change a device.
     let found = fs::metadata(path)
@@ -43,8 +48,40 @@ pub fn open(path: &Path) -> Result<Opened, InputProblem> {
     if !found.is_file() {
         return Err(InputProblem::Device);
     }
-    let file = File::open(path).map_err(InputProblem::Unreadable)?;
+    let mut file = File::open(path).map_err(InputProblem::Unreadable)?;
+    if is_pointer(&mut file).map_err(InputProblem::Unreadable)? {
+        return Err(InputProblem::LfsPointer);
+    }
     Ok(Opened::File(file))
+}
+
+/// Opens a file of a kind that is not read as a whole.
+///
+/// # Errors
+/// As [`open`], and [`InputProblem::OtherFormat`] for a regular file whose first bytes are of another format.
+pub fn open_as(path: &Path, kind: Kind) -> Result<Opened, InputProblem> {
+    let mut opened = open(path)?;
+    if let Opened::File(file) = &mut opened {
+        let bytes = head(file, HEAD as u64).map_err(InputProblem::Unreadable)?;
+        kind.check(Format::of_magic(&bytes))?;
+    }
+    Ok(opened)
+}
+
+/// Whether a file is a pointer of Git LFS.
+fn is_pointer(file: &mut File) -> io::Result<bool> {
+    if file.metadata()?.len() > POINTER_BYTES {
+        return Ok(false);
+    }
+    Ok(Format::of_magic(&head(file, POINTER_BYTES)?) == Some(Format::LfsPointer))
+}
+
+/// The first bytes of a file, which is at its beginning again afterwards.
+fn head(file: &mut File, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.take(most).read_to_end(&mut bytes)?;
+    file.rewind()?;
+    Ok(bytes)
 }
 
 #[cfg(unix)]

@@ -1,6 +1,7 @@
 //! Why a file could not be read.
 
 use super::{
+    format::Format,
     kind::Kind,
     patience::{MAX_SILENCE, MAX_WAIT},
 };
@@ -43,6 +44,17 @@ pub enum InputProblem {
     /// Waits for the bytes of a pipe took [`MAX_WAIT`] in all.
     #[error("cannot read it: waiting for the pipe took {} s in all", MAX_WAIT.as_secs())]
     Slow,
+    /// It is what Git LFS leaves in the place of a file.
+    #[error("a Git LFS pointer, not the file itself")]
+    LfsPointer,
+    /// It is of another format.
+    #[error("{}, not {wanted}", format.name())]
+    OtherFormat {
+        /// What it is.
+        format: Format,
+        /// What it is meant to be, with an article.
+        wanted: String,
+    },
     /// It is not UTF-8.
     #[error("byte {offset} is not UTF-8")]
     NotUtf8 {
@@ -64,6 +76,8 @@ impl InputProblem {
             Self::Silent | Self::Slow => {
                 "check what writes into the pipe, or write to a file first and give that".into()
             }
+            Self::LfsPointer => Format::LfsPointer.remedy().into(),
+            Self::OtherFormat { format, .. } => format.remedy().into(),
             Self::NotUtf8 { .. } => "save the file as text in UTF-8".into(),
         }
     }

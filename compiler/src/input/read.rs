@@ -13,7 +13,8 @@ use std::{
 /// The bytes of a file.
 ///
 /// # Errors
-/// [`InputProblem`] for a file that cannot be read or has more bytes than its kind may.
+/// [`InputProblem`] for a file that cannot be read, has more bytes than its kind may, or is of another
+/// [`Format`](super::Format).
 pub fn read(path: &Path, kind: Kind) -> Result<Vec<u8>, InputProblem> {
     let opened = open(path)?;
     if let Opened::File(file) = &opened
@@ -39,6 +40,7 @@ pub fn to_end(reader: impl Read, kind: Kind) -> Result<Vec<u8>, InputProblem> {
     if bytes.len() as u64 > limit {
         return Err(InputProblem::TooLarge { kind });
     }
+    kind.check(kind.format(&bytes))?;
     Ok(bytes)
 }
 

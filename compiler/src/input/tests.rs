@@ -37,6 +37,56 @@ fn a_file_is_read_up_to_its_limit_and_no_further() {
 }
 
 #[test]
+fn a_pointer_is_refused_for_every_kind_and_words_are_no_format() {
+    let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n";
+    let words = br#"{"Pattern": 1, "perceptions": 2, "signals": 3}"#;
+    for kind in Kind::ALL {
+        let problem = to_end(&pointer[..], kind).unwrap_err();
+        assert!(
+            matches!(problem, InputProblem::LfsPointer),
+            "{kind}: {problem}"
+        );
+        assert!(problem.remedy().contains("git lfs pull"), "{kind}");
+    }
+    for kind in [Kind::Vocabulary, Kind::DiffusionConfig, Kind::Description] {
+        assert!(to_end(&words[..], kind).is_ok(), "{kind}");
+    }
+    let scene = to_end(&words[..], Kind::Scene).unwrap_err();
+    assert_eq!(
+        scene.to_string(),
+        "an AHAP (Apple Haptic and Audio Pattern), not a scene"
+    );
+}
+
+#[test]
+fn a_format_is_told_by_what_is_in_a_file_also_where_it_is_cut_or_damaged() {
+    for (bytes, format) in [
+        (
+            &b"\xef\xbb\xbf {\"Pattern\": [{\"Event\""[..],
+            Some(Format::Ahap),
+        ),
+        (b"{\"Version\": 1,\n\"Pattern\": [1 2]}", Some(Format::Ahap)),
+        (b"{\"signals\": {\"a\": \"\xc3", Some(Format::Haptic)),
+        (b"{\"version\": 0, \"tracks\": []}", Some(Format::Vij)),
+        (b"{\"format\": \"asperity-model\"}", Some(Format::Model)),
+        (b"{\"project\": \"signals\"}", None),
+        (b"{\"asset\": {\"version\": \"2.0\",},}", Some(Format::Gltf)),
+        (b"<?xml version='1.0'?><modelSet>", Some(Format::Hatt)),
+        (b"<modelset>", None),
+        (b"[\"Pattern\"]", None),
+        (b"", None),
+        (&[0; 4096], None),
+    ] {
+        assert_eq!(
+            Format::of(bytes),
+            format,
+            "{}",
+            String::from_utf8_lossy(bytes)
+        );
+    }
+}
+
+#[test]
 fn text_is_utf_8_with_or_without_a_mark() {
     for (bytes, expected) in [
         (b"a = 1".as_slice(), "a = 1"),

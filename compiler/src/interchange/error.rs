@@ -128,8 +128,12 @@ pub enum EffectProblem {
     #[error("{0}")]
     Unsupported(&'static str),
     /// Neither strokes nor taps.
-    #[error("it holds no effect that sounds")]
-    Silent,
+    #[error("it holds no effect that sounds{colon}{reasons}",
+        colon = if reasons.is_empty() { "" } else { ": " }, reasons = reasons.join("; "))]
+    Silent {
+        /// What was left out, or why what was read is silent.
+        reasons: Vec<String>,
+    },
     /// A name that an asset cannot hold.
     #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
     Name(String),
@@ -148,7 +152,7 @@ impl Diagnostic for EffectError {
             P::Value { .. } | P::Order { .. } => "correct the value".into(),
             P::TooMany { .. } => "cut the file into shorter effects".into(),
             P::Unsupported(_) => "export the effect again without it".into(),
-            P::Silent => "give a file with a continuous effect, a transient or both".into(),
+            P::Silent { .. } => "give a file with a continuous effect, a transient or both".into(),
             P::Name(_) => "give another --name".into(),
             P::Pipeline(error) => error.remedy(),
         }

@@ -242,13 +242,14 @@ pub(super) fn play(document: &Document) -> Result<Track, Fault> {
         1e6,
     )?;
     let mut track = Track::default();
-    let mut others = 0;
+    let mut others = std::collections::BTreeMap::<String, usize>::new();
     for (p, perception) in document.perceptions.iter().enumerate() {
         if !matches!(
             perception.perception_modality.as_str(),
             "Vibrotactile" | "Vibration" | "Acceleration" | "Force" | "Kinesthetic" | "Pressure"
         ) {
-            others += 1;
+            let modality: String = perception.perception_modality.chars().take(40).collect();
+            *others.entry(format!("{modality:?}")).or_default() += 1;
             continue;
         }
         let library: HashMap<i32, &Effect> = perception
@@ -271,10 +272,15 @@ pub(super) fn play(document: &Document) -> Result<Track, Fault> {
             }
         }
     }
-    if others > 0 {
-        track
-            .warnings
-            .push(format!("{others} perceptions are no vibration: left out"));
+    if !others.is_empty() {
+        let named = others.iter().take(6);
+        let named: Vec<String> = named
+            .map(|(modality, count)| format!("{count} {modality}"))
+            .collect();
+        track.warnings.push(format!(
+            "perceptions left out, whose modality is no vibration: {}",
+            named.join(", ")
+        ));
     }
     bounded(track)
 }

@@ -4,6 +4,7 @@ use super::{
     error::{EffectProblem, Fault},
     playback::Track,
 };
+use crate::input;
 use serde::de::DeserializeOwned;
 
 /// The latest time of an effect, s.
@@ -13,13 +14,19 @@ const MAX_PLAYED_S: f64 = 1200.0;
 /// Most transients.
 const MAX_TRANSIENTS: usize = 4096;
 
-/// JSON as a type, or the path of what is not of it.
+/// JSON as a type, or the path of what is not of it. A comma behind the last entry of a list or an object is
+/// let pass, because Apple's own samples have some.
 pub(super) fn json<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
-    let mut json = serde_json::Deserializer::from_str(text);
+    let text = input::without_trailing_commas(text);
+    let mut json = serde_json::Deserializer::from_str(&text);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        // What cannot be parsed has no name within its object.
         let path = error.path().to_string();
-        let field = if path == "." { String::new() } else { path };
-        (field, EffectProblem::Json(error.inner().to_string()))
+        let field = path.trim_end_matches('?').trim_end_matches('.');
+        (
+            field.to_owned(),
+            EffectProblem::Json(error.inner().to_string()),
+        )
     })?;
     let trailing = |e: serde_json::Error| (String::new(), EffectProblem::Json(e.to_string()));
     json.end().map_err(trailing)?;
@@ -74,4 +81,39 @@ pub(super) fn bounded(mut track: Track) -> Result<Track, Fault> {
     }
     track.transients.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
     Ok(track)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::Value;
+
+    #[test]
+    fn a_comma_behind_the_last_entry_passes_and_every_other_does_not() {
+        for (text, plain) in [
+            ("[1,]", "[1 ]"),
+            ("{\"a\": [1, 2 , \n ] , }", "{\"a\": [1, 2   \n ]   }"),
+            ("[\"a,]\", \"\\\"\",]", "[\"a,]\", \"\\\"\" ]"),
+            ("[\"\\\\\",]", "[\"\\\\\" ]"),
+            ("[\"é\",]", "[\"é\" ]"),
+        ] {
+            assert_eq!(input::without_trailing_commas(text), plain);
+            let read: Value = json(text).unwrap();
+            assert_eq!(read, serde_json::from_str::<Value>(plain).unwrap());
+        }
+        for text in ["[,]", "{,}", "[1,,]", "[1,,2]", "{\"a\":,}", "[1],", "[,1]"] {
+            assert!(json::<Value>(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_fault_behind_a_comma_is_at_its_own_place_and_in_its_object() {
+        let text = "{\"a\": [1,],\n\"b\": {\"c\": {\"d\": 1 \"e\": 2}}}";
+        let (field, problem) = json::<Value>(text).unwrap_err();
+        assert_eq!(field, "b.c");
+        assert!(
+            problem.to_string().ends_with("line 2 column 20"),
+            "{problem}"
+        );
+    }
 }

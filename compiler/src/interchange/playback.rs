@@ -18,6 +18,9 @@ pub struct Track {
     pub curves: Vec<Vec<CurvePoint>>,
     /// Transients, in order of time.
     pub transients: Vec<Transient>,
+    /// Whether the phase of a tone is zero where the tone begins, rather than at its first sample. Tones of
+    /// one frequency that sound together are as loud as their phases say.
+    pub phase_from_beginning: bool,
     /// What was read otherwise than it was meant.
     pub warnings: Vec<String>,
 }
@@ -80,7 +83,14 @@ impl Track {
     pub fn continuous(&self, rate_hz: u32) -> Vec<f64> {
         let mut samples = Vec::new();
         for tone in &self.tones {
-            let mut phase = 0.0;
+            let mut phase = match tone.first() {
+                Some(first) if self.phase_from_beginning => {
+                    let rate = f64::from(rate_hz);
+                    let sample_s = (first.t_s * rate).ceil() / rate;
+                    TAU * first.freq_hz * (sample_s - first.t_s)
+                }
+                _ => 0.0,
+            };
             each_sample(
                 tone,
                 |p| p.t_s,

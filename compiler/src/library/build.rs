@@ -367,7 +367,11 @@ fn edited(parts: Parts, options: &Options) -> Parts {
 }
 
 fn content(file: &Path) -> Result<Key, Cause> {
-    let bytes = input::read(file, Kind::Hatt).map_err(|problem| {
+    let is_model = file
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+    let kind = if is_model { Kind::Model } else { Kind::Hatt };
+    let bytes = input::read(file, kind).map_err(|problem| {
         cause(InputError {
             file: file.to_owned(),
             problem,

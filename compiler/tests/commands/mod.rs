@@ -1,6 +1,7 @@
 //! `asperity` as a user meets it: exit status, what errors name, nothing left over.
 
 mod diffusion;
+mod effects;
 mod grammar;
 mod interrupted;
 mod library;

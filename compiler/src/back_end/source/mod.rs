@@ -9,7 +9,7 @@ pub use error::{SourceError, SourceProblem};
 #[cfg(test)]
 pub(crate) use index::ENTRIES_READ;
 
-use crate::input::{self, InputProblem, Kind, Opened};
+use crate::input::{self, Format, InputProblem, Kind, Opened};
 use asperity_formats::{Asset, FormatError, SceneSurface, library};
 use index::{Index, Place};
 use rayon::prelude::*;
@@ -26,6 +26,8 @@ const STANDARD_INPUT: &str = "-";
 /// Textures that are in memory together where all are looked at, and their bytes.
 const TOGETHER: usize = 4096;
 const TOGETHER_BYTES: u64 = 16 << 20;
+/// Bytes by which the format of another file is told.
+const FORMAT_BYTES: u64 = 1 << 20;
 
 /// An open asset or library.
 #[derive(Debug)]
@@ -118,7 +120,14 @@ impl Source {
         } else if head.starts_with(b"ASPT") {
             Content::Asset
         } else {
-            return Err(SourceProblem::WrongKind);
+            let head = part(&mut *bytes, 0, len.min(FORMAT_BYTES))?;
+            return Err(match Format::of(&head) {
+                Some(format) => SourceProblem::Input(InputProblem::OtherFormat {
+                    format,
+                    wanted: "an asset (.asp) or a library (.aspl)".into(),
+                }),
+                None => SourceProblem::WrongKind,
+            });
         };
         Ok(Self {
             path: path.to_owned(),

@@ -6,7 +6,7 @@ use crate::{
         imported::{Imported, Report, compare},
         learned::edges,
     },
-    input,
+    input::{self, Format, InputProblem},
     interchange::{EffectError, EffectProblem, ahap, haptic, hjif, playback::Track},
     model::{Friction, ModelGrid, Numerator, Provenance, TapBank, TextureModel, defaults},
     passes::{reduce::Fidelity, triangulate},
@@ -31,6 +31,14 @@ pub enum Kind {
 }
 
 impl Kind {
+    const fn format(self) -> Format {
+        match self {
+            Self::Haptic => Format::Haptic,
+            Self::Ahap => Format::Ahap,
+            Self::Hjif => Format::Hjif,
+        }
+    }
+
     /// Its name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -85,6 +93,11 @@ pub fn import(
     let read = pipeline.run(Pass::Read, || {
         let bytes =
             input::read(file, input::Kind::Effects).map_err(|e| fail(String::new(), e.into()))?;
+        if let Some(format) = Format::of(&bytes).filter(|format| *format != kind.format()) {
+            let wanted = kind.format().name().into();
+            let problem = InputProblem::OtherFormat { format, wanted };
+            return Err(fail(String::new(), problem.into()));
+        }
         let text = input::text(&bytes).map_err(|e| fail(String::new(), e.into()))?;
         let track = match kind {
             Kind::Haptic => haptic::read(text),
@@ -105,7 +118,15 @@ pub fn import(
         .run(Pass::Decode, || {
             texture(&track, name, kind, options, &mut warnings)
         })
-        .ok_or_else(|| fail(String::new(), EffectProblem::Silent))?;
+        .ok_or_else(|| {
+            let mut reasons = track.warnings.clone();
+            if reasons.is_empty() {
+                reasons.push(
+                    "no transient, and no continuous effect with an amplitude above zero".into(),
+                );
+            }
+            fail(String::new(), EffectProblem::Silent { reasons })
+        })?;
     whole.provenance.source = file
         .file_name()
         .unwrap_or_default()

@@ -4,10 +4,12 @@
 //! of one stroke, at a speed and a force that the user states, and its transients become taps. The
 //! level follows from what the user takes a full scale for.
 
+#[cfg(test)]
+mod frozen;
 mod import;
 mod stroke;
 mod tap;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use import::{Kind, Options, import};

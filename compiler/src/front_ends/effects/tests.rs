@@ -12,7 +12,7 @@ use crate::{
 use asperity_formats::Asset;
 use std::{fs, path::Path};
 
-fn options() -> Options {
+pub(crate) fn options() -> Options {
     Options {
         name: Some("back".into()),
         speed_mm_s: 100.0,

@@ -50,7 +50,7 @@ impl Clip {
         let network =
             |message: String| TextError::Network(format!("{}: {message}", file.display()));
         let bytes = input::read(&file, Kind::TextEncoder)
-            .map_err(|problem| network(problem.to_string()))?;
+            .map_err(|problem| network(format!("{problem}; {}", problem.remedy())))?;
         Self::new(backend.session(bytes.into()).map_err(network)?)
     }
 

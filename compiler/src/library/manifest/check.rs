@@ -6,7 +6,12 @@ use super::{
     row::{Field, Row, Value},
     values::{Checker, OPTIONS, Stated},
 };
-use crate::{front_ends::prompt, input::InputProblem, passes::reduce::Fidelity, views::preview};
+use crate::{
+    front_ends::prompt,
+    input::{self, InputProblem, Kind},
+    passes::reduce::Fidelity,
+    views::preview,
+};
 use asperity_formats::limits::MAX_NAME_BYTES;
 use std::{fs, io, path::PathBuf};
 
@@ -183,6 +188,12 @@ impl Checker<'_> {
                     extension.eq_ignore_ascii_case("xml") || extension.eq_ignore_ascii_case("json")
                 });
                 if !known {
+                    // What it really is helps more than how its name ends.
+                    if let Err(problem) = input::read(&file, Kind::Model) {
+                        let problem = ManifestProblem::File { file, problem };
+                        self.fault(field.line, "import", problem);
+                        return None;
+                    }
                     let wanted = "a HaTT material (.xml) or a model (.json)".into();
                     return self.wrong_value(
                         field.line,

@@ -4,7 +4,7 @@ use crate::cli::Render;
 use asperity::{
     console::Console,
     diagnostic::{Failures, one},
-    input::{self, InputError},
+    input::{self, InputError, Kind},
     output::{Outputs, display},
     render::{self, RenderError},
     source::Source,
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &Render, console: Console) -> Result<(), Failures> {
         Asset::parse(&bytes).map(|asset| Felt::Texture(Box::new(asset)))
     };
     let felt = felt.map_err(|e| one(source.error(wanted, e.into())))?;
-    let trajectory = input::open(&args.trajectory).map_err(|problem| {
+    let trajectory = input::open_as(&args.trajectory, Kind::Trajectory).map_err(|problem| {
         one(InputError {
             file: args.trajectory.clone(),
             problem,
