@@ -26,6 +26,10 @@ const LEAST_LEAD: f64 = 0.02;
 const VIBRATION_HZ: (f64, f64) = (30.0, 250.0);
 /// Motion that accelerometer and position share, Hz.
 const MOTION_HZ: (f64, f64) = (2.0, 7.0);
+/// Turns of strokes, which friction and velocity share, Hz.
+const FRICTION_HZ: (f64, f64) = (0.5, 20.0);
+/// Standard deviations from which on a delay is told.
+const SURE: f64 = 3.0;
 /// Half lengths of the filters, samples.
 const HALF: (usize, usize) = (60, 300);
 /// Least rate of a force sensor that shows vibration, Hz.
@@ -75,10 +79,11 @@ pub(super) fn check(
             known.map(|known| known.late_s).or(same)
         });
         let found = match quantity {
-            Quantity::Position => lag(&motion(recording, aligned, dead)),
+            Quantity::Position => lag(&motion(recording, aligned, dead), MOTION_HZ),
             // Friction turns with the stroke, which the position shows.
-            _ => lag(&vibration(recording, aligned, dead))
-                .or_else(|| Some(of_position? + lag(&friction(recording, aligned, dead))?)),
+            _ => lag(&vibration(recording, aligned, dead), VIBRATION_HZ).or_else(|| {
+                Some(of_position? + lag(&friction(recording, aligned, dead), FRICTION_HZ)?)
+            }),
         };
         let told = findings.iter().position(|finding| finding.file == file);
         let Some(late_s) = found else {
@@ -119,12 +124,22 @@ pub(super) fn check(
     (delays, findings)
 }
 
-fn lag(pairs: &Pairs) -> Option<f64> {
+/// The delay by which pairs of signals are alike, in a band of so many Hz around a middle. What is not known
+/// well enough to tell it from a fault is not told.
+fn lag(pairs: &Pairs, (low_hz, high_hz): (f64, f64)) -> Option<f64> {
     let pairs: Vec<(&[f64], &[f64])> = pairs.iter().map(|(x, y)| (&x[..], &y[..])).collect();
     let found = correlate::delay(&pairs, (REACH_S * RATE_HZ) as usize)?;
-    let clear =
-        found.correlation > LEAST_CORRELATION && found.correlation > found.rival + LEAST_LEAD;
-    clear.then_some(found.samples / RATE_HZ)
+    // The standard deviation of a delay between signals that share a part of their power.
+    let seconds = pairs.first().map_or(0.0, |(x, _)| x.len() as f64 / RATE_HZ);
+    let noise = 1.0 / (found.correlation * found.correlation).min(1.0) - 1.0;
+    let turns = std::f64::consts::PI * (low_hz + high_hz);
+    let sigma_s = (noise / (2.0 * (high_hz - low_hz) * seconds)).sqrt() / turns;
+    let late_s = found.samples / RATE_HZ;
+    let is_sure = late_s.abs() <= FAULT_S || late_s.abs() > SURE * sigma_s;
+    let clear = is_sure
+        && found.correlation > LEAST_CORRELATION
+        && found.correlation > found.rival + LEAST_LEAD;
+    clear.then_some(late_s)
 }
 
 /// The channels of two quantities along the same axis, without dead ones.
