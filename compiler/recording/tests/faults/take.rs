@@ -127,12 +127,15 @@ pub(super) struct File {
     pub(super) stamp: fn(f64) -> String,
 }
 
+/// What is done to a folder.
+type Change = Box<dyn FnOnce(&Path)>;
+
 /// A recording.
 pub(super) struct Take {
     pub(super) layout: Layout,
     pub(super) files: Vec<File>,
     /// What is done to the folder once it is written.
-    pub(super) after: Vec<Box<dyn FnOnce(&Path)>>,
+    pub(super) after: Vec<Change>,
 }
 
 impl Take {
