@@ -51,6 +51,10 @@ pub struct Numbers {
     pub runs: Vec<Run>,
     /// Samples that stand in runs.
     pub in_runs: u64,
+    /// The run at the end of the channel, if there is one.
+    pub last_run: Option<Run>,
+    /// The longest run before it.
+    pub longest_before: u64,
     /// Missing stretches, in samples.
     pub missing_spans: Vec<Range<u64>>,
     /// Distances between neighbours.
@@ -109,7 +113,8 @@ impl Numbers {
         if step == 0.0 {
             self.run_length += 1;
         } else {
-            self.end_run(step);
+            let ended = self.end_run(step).map_or(0, |run| run.length);
+            self.longest_before = self.longest_before.max(ended);
             self.steps.add(step);
             self.jump_before = step;
             (self.run_start, self.run_length) = (index, 1);
@@ -120,23 +125,25 @@ impl Numbers {
 
     /// Ends the last run.
     pub(crate) fn finish(&mut self) {
-        self.end_run(0.0);
+        self.last_run = self.end_run(0.0);
     }
 
-    fn end_run(&mut self, jump_after: f64) {
+    fn end_run(&mut self, jump_after: f64) -> Option<Run> {
         if self.run_length < LEAST_RUN {
-            return;
+            return None;
         }
-        self.in_runs += self.run_length;
+        let run = Run {
+            start: self.run_start,
+            length: self.run_length,
+            value: self.last.unwrap_or(0.0),
+            jump_before: self.jump_before,
+            jump_after,
+        };
+        self.in_runs += run.length;
         if self.runs.len() < MAX_RUNS {
-            self.runs.push(Run {
-                start: self.run_start,
-                length: self.run_length,
-                value: self.last.unwrap_or(0.0),
-                jump_before: self.jump_before,
-                jump_after,
-            });
+            self.runs.push(run);
         }
+        Some(run)
     }
 
     /// Marks a stretch that no row stands for.

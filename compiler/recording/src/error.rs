@@ -83,9 +83,57 @@ pub enum Problem {
         /// What it holds.
         value: String,
     },
-    /// A data file is damaged or of an unknown kind.
+    /// A data file is of an unknown kind.
     #[error("{0}")]
     Format(String),
+    /// A data file is damaged, or of a known kind in a way that is not read.
+    #[error("{what}")]
+    File {
+        /// What it is.
+        what: String,
+        /// What to give instead.
+        remedy: &'static str,
+    },
+    /// A Git LFS pointer stands in place of the file.
+    #[error("is a Git LFS pointer, not the data: the file was never downloaded")]
+    Pointer,
+    /// A column that is asked for by its name is there more than once.
+    #[error("has the column {column:?} {count} times")]
+    DuplicateColumn {
+        /// Its name.
+        column: String,
+        /// How often it is there.
+        count: usize,
+    },
+    /// A clock whose unit cannot be right.
+    #[error(
+        "the clock {column:?} gives {rate_hz:.4} rows a second if its unit is {unit}: it is {} by a factor of {}",
+        if *factor > 1.0 { "too slow" } else { "too fast" },
+        if *factor > 1.0 { *factor } else { 1.0 / factor }
+    )]
+    ClockUnit {
+        /// Its column.
+        column: String,
+        /// The unit that the description gives.
+        unit: &'static str,
+        /// Rows a second in that unit.
+        rate_hz: f64,
+        /// By which the rate must be multiplied.
+        factor: f64,
+    },
+    /// A clock that was given no attention runs at another rate than the description states.
+    #[error(
+        "rate_hz says {stated_hz} Hz, but its column {column:?} is a clock of {clock_hz:.3} Hz: a factor of {:.4}",
+        factor(*stated_hz, *clock_hz)
+    )]
+    UnusedClock {
+        /// The column.
+        column: String,
+        /// As the description says.
+        stated_hz: f64,
+        /// As the column says.
+        clock_hz: f64,
+    },
     /// The clock runs backwards or stands still.
     #[error("the clock goes from {before_s} s to {now_s} s")]
     ClockBackwards {
@@ -101,7 +149,10 @@ pub enum Problem {
         gap_s: f64,
     },
     /// The stated rate is not the clock's.
-    #[error("rate_hz says {stated_hz} Hz, the clock says {clock_hz:.3} Hz")]
+    #[error(
+        "rate_hz says {stated_hz} Hz, the clock says {clock_hz:.3} Hz: a factor of {:.4}",
+        factor(*stated_hz, *clock_hz)
+    )]
     RateContradiction {
         /// As the description says.
         stated_hz: f64,
@@ -114,6 +165,11 @@ pub enum Problem {
     /// There is too little to make a texture of.
     #[error("{0}")]
     TooLittle(String),
+}
+
+/// How far two rates are apart, as a factor above 1.
+fn factor(one: f64, other: f64) -> f64 {
+    (one / other).max(other / one)
 }
 
 impl Problem {
@@ -136,6 +192,15 @@ impl Problem {
                 "write numbers with a point; leave a missing value empty or write NaN".into()
             }
             Self::Format(_) => "give CSV with a header line, WAV, or NumPy .npy files".into(),
+            Self::File { remedy, .. } => (*remedy).into(),
+            Self::Pointer => "run `git lfs pull` where the file comes from".into(),
+            Self::DuplicateColumn { .. } => {
+                "give its number from 0 under `column`, or rename one of them in the file".into()
+            }
+            Self::ClockUnit { .. } => "correct `clock_unit` in recording.toml".into(),
+            Self::UnusedClock { column, .. } => {
+                format!("write clock = {column:?} in place of `rate_hz`, or correct `rate_hz`")
+            }
             Self::ClockBackwards { .. } => {
                 "sort the rows by time, or leave `clock` out and give `rate_hz`".into()
             }

@@ -3,14 +3,17 @@
 use crate::error::{Problem, RecordingError};
 use std::{
     fs::File,
-    io::{self, Read},
+    io::{self, Read, Seek as _},
     path::Path,
 };
 
 /// Longest line of a table, bytes.
 const MAX_LINE: usize = 64 * 1024;
+/// With what a Git LFS pointer begins.
+const POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
 
-/// Opens a regular file. Pipes, sockets and devices have no end and are refused.
+/// Opens a regular file with something in it. Pipes, sockets and devices have no end and are refused,
+/// and so are pointers of Git LFS.
 pub(crate) fn open(path: &Path) -> Result<File, RecordingError> {
     let unreadable = |error| RecordingError::of(path, Problem::Unreadable(error));
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
@@ -18,7 +21,24 @@ pub(crate) fn open(path: &Path) -> Result<File, RecordingError> {
         let problem = Problem::Format("is no file with an end".into());
         return Err(RecordingError::of(path, problem));
     }
-    File::open(path).map_err(unreadable)
+    if metadata.len() == 0 {
+        let problem = Problem::File {
+            what: "is empty".into(),
+            remedy: "copy or record it again",
+        };
+        return Err(RecordingError::of(path, problem));
+    }
+    let mut file = File::open(path).map_err(unreadable)?;
+    let mut start = Vec::with_capacity(POINTER.len());
+    (&mut file)
+        .take(POINTER.len() as u64)
+        .read_to_end(&mut start)
+        .and_then(|_| file.rewind())
+        .map_err(unreadable)?;
+    if start == POINTER {
+        return Err(RecordingError::of(path, Problem::Pointer));
+    }
+    Ok(file)
 }
 
 /// A reader that fails where a line is longer than any table has.
@@ -67,6 +87,23 @@ mod tests {
             .read_to_end(&mut Vec::new())
             .expect_err("endless");
         assert!(error.to_string().contains("longer than 64 KiB"));
+    }
+
+    #[test]
+    fn a_pointer_and_an_empty_file_say_so() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (content, word) in [
+            (
+                "version https://git-lfs.github.com/spec/v1\noid sha256:11\nsize 9\n",
+                "pointer",
+            ),
+            ("", "is empty"),
+        ] {
+            let path = folder.path().join("accel.wav");
+            std::fs::write(&path, content).expect("written");
+            let error = open(&path).expect_err(word);
+            assert!(error.to_string().contains(word), "{error}");
+        }
     }
 
     #[test]

@@ -28,6 +28,15 @@ const SMALL_STEP: f64 = 0.1;
 const USUAL: f64 = 0.05;
 /// A step as many times the 99 % quantile of steps, there and back, is a spike of a motion.
 const SPIKE: f64 = 6.0;
+/// The same of a force, at least so many N, with so many samples on each side that stay together: what strikes
+/// a tool makes it ring.
+const FORCE_SPIKE: f64 = 30.0;
+const LEAST_SPIKE_N: f64 = 5.0;
+const QUIET: usize = 4;
+/// Samples on each side of a run that tell how often the sensor repeats itself there.
+const AROUND: usize = 250;
+/// Runs of a length that chance makes in a whole channel, below which it made none.
+const CHANCE: f64 = 0.01;
 /// Part of the samples in runs above which a channel is coarse.
 const COARSE: f64 = 0.1;
 
@@ -91,7 +100,10 @@ pub(super) fn check(channel: &Channel) -> (Vec<Finding>, Vec<Range<u64>>) {
         ));
         bad.extend(held);
     }
-    let spikes = spikes(channel);
+    let spikes = match channel.quantity {
+        Quantity::Force => force_spikes(channel),
+        _ => spikes(channel),
+    };
     if let Some(&first) = spikes.first() {
         let what = format!(
             "impossible: {} values far from both neighbours, the first {:.4} SI at {:.3} s",
@@ -147,6 +159,42 @@ fn spikes(channel: &Channel) -> Vec<usize> {
         .filter(|(_, triple)| jumps(triple))
         .map(|(before, _)| before + 1)
         .collect()
+}
+
+/// Forces that jump away from what is quiet before and behind.
+fn force_spikes(channel: &Channel) -> Vec<usize> {
+    let usual = channel.numbers.steps.quantile(0.99);
+    let large = (FORCE_SPIKE * usual).max(LEAST_SPIKE_N) as f32;
+    let quiet = (LARGE_STEP * usual) as f32;
+    let jumps = |around: &[f32]| {
+        let value = around[QUIET];
+        let rest = around[..QUIET].iter().chain(&around[QUIET + 1..]);
+        let (low, high) = rest.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), x| {
+            (low.min(*x), high.max(*x))
+        });
+        high - low < quiet && (value - high > large || low - value > large)
+    };
+    let windows = channel.samples.windows(2 * QUIET + 1).enumerate();
+    windows
+        .filter(|(_, around)| jumps(around))
+        .map(|(before, _)| before + QUIET)
+        .collect()
+}
+
+/// Whether a sensor that repeats itself as often as around this run makes one as long by chance.
+fn is_chance(channel: &Channel, run: &Run) -> bool {
+    let samples = &channel.samples;
+    let (start, end) = (run.start as usize, (run.start + run.length) as usize);
+    let before = samples
+        .get(start.saturating_sub(AROUND)..start)
+        .unwrap_or_default();
+    let behind = samples
+        .get(end.min(samples.len())..(end + AROUND).min(samples.len()))
+        .unwrap_or_default();
+    let pairs = || before.windows(2).chain(behind.windows(2));
+    let repeated = pairs().filter(|pair| pair[0] == pair[1]).count();
+    let share = (repeated as f64 + 1.0) / (pairs().count() as f64 + 2.0);
+    channel.numbers.count as f64 * libm::pow(share, run.length as f64 - 1.0) > CHANCE
 }
 
 /// Stretches at which the channel stands at its extremes.
@@ -259,7 +307,8 @@ fn held(channel: &Channel) -> Vec<Range<u64>> {
         if repeats {
             run.jump_after > large && (run.jump_before > large || !is_usual(run))
         } else {
-            run.value == 0.0 || (run.value != numbers.min && run.value != numbers.max)
+            (run.value == 0.0 || (run.value != numbers.min && run.value != numbers.max))
+                && !is_chance(channel, run)
         }
     };
     long()

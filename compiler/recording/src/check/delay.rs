@@ -1,8 +1,11 @@
 //! Delays between files: what one of them shows early, another shows late.
 
-use super::verdict::{Finding, Kind, Severity};
+use super::{
+    hum::without_hum,
+    verdict::{Finding, Kind, Severity},
+};
 use crate::{
-    description::Quantity,
+    description::{Axis, Quantity},
     reader::Recording,
     signal::{
         correlate,
@@ -23,6 +26,10 @@ const LEAST_LEAD: f64 = 0.02;
 const VIBRATION_HZ: (f64, f64) = (30.0, 250.0);
 /// Motion that accelerometer and position share, Hz.
 const MOTION_HZ: (f64, f64) = (2.0, 7.0);
+/// Turns of strokes, which friction and velocity share, Hz.
+const FRICTION_HZ: (f64, f64) = (0.5, 20.0);
+/// Standard deviations from which on a delay is told.
+const SURE: f64 = 3.0;
 /// Half lengths of the filters, samples.
 const HALF: (usize, usize) = (60, 300);
 /// Least rate of a force sensor that shows vibration, Hz.
@@ -38,14 +45,20 @@ pub(super) struct FileDelay {
 type Pairs = Vec<(Vec<f64>, Vec<f64>)>;
 
 /// The delay of every file, and what is to be said about it.
-pub(super) fn check(recording: &Recording, aligned: &Aligned) -> (Vec<FileDelay>, Vec<Finding>) {
+pub(super) fn check(
+    recording: &Recording,
+    aligned: &Aligned,
+    dead: &[bool],
+) -> (Vec<FileDelay>, Vec<Finding>) {
     let (mut delays, mut findings) = (Vec::new(), Vec::new());
+    // A quantity whose channels all are dead has no delay.
     let file_of = |quantity| {
         recording
             .channels
             .iter()
-            .find(|c| c.quantity == quantity)
-            .map(|c| c.file.clone())
+            .zip(dead)
+            .find(|(c, dead)| c.quantity == quantity && !**dead)
+            .map(|(c, _)| c.file.clone())
     };
     let Some(reference) = file_of(Quantity::Acceleration) else {
         return (delays, findings);
@@ -60,17 +73,23 @@ pub(super) fn check(recording: &Recording, aligned: &Aligned) -> (Vec<FileDelay>
         if delays.iter().any(|known: &FileDelay| known.file == file) {
             continue;
         }
-        let of_position = delays
-            .iter()
-            .find(|known| Some(&known.file) == file_of(Quantity::Position).as_ref())
-            .map_or(0.0, |known| known.late_s);
+        let of_position = file_of(Quantity::Position).and_then(|position| {
+            let known = delays.iter().find(|known| known.file == position);
+            let same = (position == reference).then_some(0.0);
+            known.map(|known| known.late_s).or(same)
+        });
         let found = match quantity {
-            Quantity::Position => lag(&motion(recording, aligned)),
+            Quantity::Position => lag(&motion(recording, aligned, dead), MOTION_HZ),
             // Friction turns with the stroke, which the position shows.
-            _ => lag(&vibration(recording, aligned))
-                .or_else(|| Some(lag(&friction(recording, aligned))? + of_position)),
+            _ => lag(&vibration(recording, aligned, dead), VIBRATION_HZ).or_else(|| {
+                Some(of_position? + lag(&friction(recording, aligned, dead), FRICTION_HZ)?)
+            }),
         };
+        let told = findings.iter().position(|finding| finding.file == file);
         let Some(late_s) = found else {
+            if told.is_some() {
+                continue;
+            }
             let what =
                 format!("its delay cannot be told: it shares no {how} with the accelerometer");
             findings.push(Finding::of_file(
@@ -82,6 +101,8 @@ pub(super) fn check(recording: &Recording, aligned: &Aligned) -> (Vec<FileDelay>
             ));
             continue;
         };
+        // What the motion cannot tell, the vibration may.
+        told.map(|note| findings.remove(note));
         let what = format!(
             "misaligned: it comes {:.1} ms after the accelerometer; corrected",
             1e3 * late_s
@@ -103,33 +124,52 @@ pub(super) fn check(recording: &Recording, aligned: &Aligned) -> (Vec<FileDelay>
     (delays, findings)
 }
 
-fn lag(pairs: &Pairs) -> Option<f64> {
+/// The delay by which pairs of signals are alike, in a band of so many Hz around a middle. What is not known
+/// well enough to tell it from a fault is not told.
+fn lag(pairs: &Pairs, (low_hz, high_hz): (f64, f64)) -> Option<f64> {
     let pairs: Vec<(&[f64], &[f64])> = pairs.iter().map(|(x, y)| (&x[..], &y[..])).collect();
     let found = correlate::delay(&pairs, (REACH_S * RATE_HZ) as usize)?;
-    let clear =
-        found.correlation > LEAST_CORRELATION && found.correlation > found.rival + LEAST_LEAD;
-    clear.then_some(found.samples / RATE_HZ)
+    // The standard deviation of a delay between signals that share a part of their power.
+    let seconds = pairs.first().map_or(0.0, |(x, _)| x.len() as f64 / RATE_HZ);
+    let noise = 1.0 / (found.correlation * found.correlation).min(1.0) - 1.0;
+    let turns = std::f64::consts::PI * (low_hz + high_hz);
+    let sigma_s = (noise / (2.0 * (high_hz - low_hz) * seconds)).sqrt() / turns;
+    let late_s = found.samples / RATE_HZ;
+    let is_sure = late_s.abs() <= FAULT_S || late_s.abs() > SURE * sigma_s;
+    let clear = is_sure
+        && found.correlation > LEAST_CORRELATION
+        && found.correlation > found.rival + LEAST_LEAD;
+    clear.then_some(late_s)
 }
 
+/// The channels of two quantities along the same axis, without dead ones.
 fn both(
     recording: &Recording,
     aligned: &Aligned,
+    dead: &[bool],
     of: [Quantity; 2],
     prepare: impl Fn(Quantity, &[f64]) -> Vec<f64>,
 ) -> Pairs {
-    let [first, second] = of.map(|quantity| aligned.axes(recording, quantity));
-    let pairs = first.into_iter().zip(second);
+    let alive = |quantity, axis| {
+        let index = aligned
+            .find(recording, quantity, axis)
+            .filter(|index| !dead[*index]);
+        index.map(|index| &aligned.channels[index][..])
+    };
+    let pairs = [Axis::X, Axis::Y, Axis::Z].map(|axis| of.map(|quantity| alive(quantity, axis)));
     pairs
-        .filter_map(|(x, y)| Some((prepare(of[0], x?), prepare(of[1], y?))))
+        .into_iter()
+        .filter_map(|[x, y]| Some((prepare(of[0], x?), prepare(of[1], y?))))
         .collect()
 }
 
 /// Acceleration, and what the position says of it.
-pub(super) fn motion(recording: &Recording, aligned: &Aligned) -> Pairs {
+pub(super) fn motion(recording: &Recording, aligned: &Aligned, dead: &[bool]) -> Pairs {
     let band = (MOTION_HZ.0 / RATE_HZ, MOTION_HZ.1 / RATE_HZ);
     both(
         recording,
         aligned,
+        dead,
         [Quantity::Acceleration, Quantity::Position],
         |quantity, axis| {
             let slow = band_pass(axis, band, HALF.1);
@@ -146,7 +186,7 @@ pub(super) fn motion(recording: &Recording, aligned: &Aligned) -> Pairs {
 }
 
 /// Acceleration and force of a tool that vibrates.
-pub(super) fn vibration(recording: &Recording, aligned: &Aligned) -> Pairs {
+pub(super) fn vibration(recording: &Recording, aligned: &Aligned, dead: &[bool]) -> Pairs {
     let is_fast =
         |c: &crate::channel::Channel| c.quantity != Quantity::Force || c.clock.rate_hz >= FAST_HZ;
     if !recording.channels.iter().all(is_fast) {
@@ -156,24 +196,31 @@ pub(super) fn vibration(recording: &Recording, aligned: &Aligned) -> Pairs {
     both(
         recording,
         aligned,
+        dead,
         [Quantity::Acceleration, Quantity::Force],
-        |_, axis| band_pass(axis, band, HALF.0),
+        |_, axis| band_pass(&without_hum(axis), band, HALF.0),
     )
 }
 
 /// The direction of motion, and the force against it.
-fn friction(recording: &Recording, aligned: &Aligned) -> Pairs {
+fn friction(recording: &Recording, aligned: &Aligned, dead: &[bool]) -> Pairs {
     let Some([vx, vy]) = velocity(recording, aligned) else {
         return Vec::new();
     };
-    let [fx, fy, _] = aligned.axes(recording, Quantity::Force);
+    let alive = |axis| {
+        let index = aligned.find(recording, Quantity::Force, axis);
+        index
+            .filter(|index| !dead[*index])
+            .map(|index| &aligned.channels[index])
+    };
+    let (fx, fy) = (alive(Axis::X), alive(Axis::Y));
     let speed: Vec<f64> = vx
         .iter()
         .zip(&vy)
         .map(|(x, y)| libm::hypot(*x, *y).max(0.01))
         .collect();
     let unit = |v: &[f64]| v.iter().zip(&speed).map(|(v, speed)| v / speed).collect();
-    let against = |f: &[f64]| f.iter().map(|x| -x).collect();
+    let against = |f: &Vec<f64>| f.iter().map(|x| -x).collect();
     [(vx, fx), (vy, fy)]
         .into_iter()
         .filter_map(|(v, f)| Some((unit(&v), against(f?))))

@@ -20,6 +20,33 @@ const MOST: usize = 20;
 /// Fewest stretches.
 const FEWEST: usize = 2;
 
+/// Lines of the mains that are taken away, Hz.
+const LINES_HZ: [f64; 6] = [50.0, 60.0, 100.0, 120.0, 150.0, 180.0];
+
+/// A signal without the lines of the mains, one stretch after the other. Two sensors share their hum and not
+/// their delay, so it must not tell one.
+pub(super) fn without_hum(signal: &[f64]) -> Vec<f64> {
+    let mut rest = signal.to_vec();
+    for stretch in rest
+        .chunks_mut(STRETCH)
+        .filter(|stretch| stretch.len() == STRETCH)
+    {
+        for line_hz in LINES_HZ {
+            let turn = std::f64::consts::TAU * line_hz / RATE_HZ;
+            let phases = || (0..STRETCH).map(|n| libm::sincos(turn * n as f64));
+            let (mut sine, mut cosine) = (0.0, 0.0);
+            for (x, (s, c)) in stretch.iter().zip(phases()) {
+                sine += 2.0 * x * s / STRETCH as f64;
+                cosine += 2.0 * x * c / STRETCH as f64;
+            }
+            for (x, (s, c)) in stretch.iter_mut().zip(phases()) {
+                *x -= sine * s + cosine * c;
+            }
+        }
+    }
+    rest
+}
+
 pub(super) fn check(recording: &Recording, aligned: &Aligned, timeline: &Timeline) -> Vec<Finding> {
     let mut starts = Vec::new();
     let mut n = 0;

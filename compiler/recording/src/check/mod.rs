@@ -3,13 +3,14 @@
 mod amplitude;
 mod delay;
 mod hum;
+mod label;
 mod scale;
 mod verdict;
 
 pub use verdict::{Checked, Finding, Kind, Severity};
 
 use crate::{
-    description::Quantity,
+    description::{Axis, Meaning, Quantity, meaning},
     error::RecordingError,
     reader::Recording,
     signal::quantile::mean,
@@ -33,12 +34,17 @@ pub fn check(recording: &Recording) -> Result<(Checked, Timeline), RecordingErro
     let mut late_s = vec![0.0; recording.channels.len()];
     let mut aligned = Aligned::new(recording, &late_s)?;
     let mut bad: Vec<(usize, Range<u64>)> = Vec::new();
+    let (dead, found) = label::check(recording);
+    findings.extend(found);
     for (index, channel) in recording.channels.iter().enumerate() {
+        if dead[index] {
+            continue;
+        }
         let (found, spans) = amplitude::check(channel);
         findings.extend(found);
         bad.extend(spans.into_iter().map(|span| (index, span)));
     }
-    let (delays, found) = delay::check(recording, &aligned);
+    let (delays, found) = delay::check(recording, &aligned, &dead);
     findings.extend(found);
     if delays
         .iter()
@@ -57,10 +63,21 @@ pub fn check(recording: &Recording) -> Result<(Checked, Timeline), RecordingErro
         .map(|(channel, span)| aligned.span(recording, *channel, span))
         .collect();
     let timeline = Timeline::new(recording, &aligned, &spans)?;
-    findings.extend(scale::check(recording, &aligned, &timeline));
+    findings.extend(scale::check(recording, &aligned, &timeline, &dead));
     findings.extend(hum::check(recording, &aligned, &timeline));
-    findings.extend(gravity(recording, &aligned));
-    findings.extend(contact(&timeline));
+    let is_dead = |quantity, axis| {
+        let found = aligned.find(recording, quantity, axis);
+        found.is_some_and(|index| dead[index])
+    };
+    if !Axis::ALL
+        .iter()
+        .any(|axis| is_dead(Quantity::Acceleration, *axis))
+    {
+        findings.extend(gravity(recording, &aligned));
+    }
+    if !is_dead(Quantity::Force, Axis::Z) {
+        findings.extend(contact(&timeline));
+    }
     findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     let checked = Checked {
         findings,
@@ -83,10 +100,33 @@ pub fn check(recording: &Recording) -> Result<(Checked, Timeline), RecordingErro
 
 fn clocks(recording: &Recording) -> Vec<Finding> {
     let mut findings = Vec::new();
-    for clock in &recording.clocks {
+    for (clock, file) in recording.clocks.iter().zip(&recording.description.files) {
         let of = |kind, severity, what: String, remedy: &str| {
             Finding::of_file(&clock.file, kind, severity, what, remedy)
         };
+        let name = file
+            .clock
+            .as_ref()
+            .map(ToString::to_string)
+            .unwrap_or_default();
+        if let Meaning::Clock(Some(unit)) = meaning(&name)
+            && unit != file.clock_unit
+        {
+            let what = format!(
+                "its clock {name:?} says {unit}, recording.toml says {}",
+                file.clock_unit
+            );
+            let remedy = "correct `clock_unit` in recording.toml, or rename the column";
+            findings.push(of(Kind::Unit, Severity::Warning, what, remedy));
+        }
+        for remark in &clock.remarks {
+            findings.push(of(
+                Kind::File,
+                Severity::Warning,
+                remark.what.clone(),
+                remark.remedy,
+            ));
+        }
         if clock.gaps > 0 {
             let line = clock.first_gap.unwrap_or(0);
             let what = format!(

@@ -5,7 +5,7 @@ use super::{
     verdict::{Finding, Kind, Severity},
 };
 use crate::{
-    description::{GRAVITY_M_S2, Quantity},
+    description::{Axis, GRAVITY_M_S2, Quantity},
     reader::Recording,
     signal::quantile::{mean, quantile},
     timeline::{Aligned, Timeline},
@@ -31,18 +31,30 @@ const LEAST_CORRELATION: f64 = 0.3;
 const SPEEDS_MM_S: (f64, f64) = (2.0, 3000.0);
 const LOADS_N: (f64, f64) = (0.02, 100.0);
 
-pub(super) fn check(recording: &Recording, aligned: &Aligned, timeline: &Timeline) -> Vec<Finding> {
+pub(super) fn check(
+    recording: &Recording,
+    aligned: &Aligned,
+    timeline: &Timeline,
+    dead: &[bool],
+) -> Vec<Finding> {
     let mut wrong: Vec<(Quantity, f64, &'static str)> = Vec::new();
-    let gravity = gravity_factor(recording, aligned);
+    let any_dead = |quantity| {
+        let mut all = recording.channels.iter().zip(dead);
+        all.any(|(channel, dead)| channel.quantity == quantity && *dead)
+    };
+    // A dead axis may be the one that shows gravity.
+    let gravity = (!any_dead(Quantity::Acceleration))
+        .then(|| gravity_factor(recording, aligned))
+        .flatten();
     let of_accel = gravity.unwrap_or(1.0);
     if of_accel != 1.0 {
         wrong.push((Quantity::Acceleration, of_accel, "gravity"));
     }
     // Both hold the acceleration against another channel.
-    let of_motion =
-        ratio(&motion(recording, aligned)).and_then(|r| factor(r / of_accel, MOTION_TOLERANCE));
+    let of_motion = ratio(&motion(recording, aligned, dead))
+        .and_then(|r| factor(r / of_accel, MOTION_TOLERANCE));
     let of_mass = recording.description.tool.mass_kg.and_then(|mass_kg| {
-        let inverse = ratio(&vibration(recording, aligned))?;
+        let inverse = ratio(&vibration(recording, aligned, dead))?;
         factor(1.0 / (inverse * mass_kg) * of_accel, MASS_TOLERANCE)
     });
     match (of_motion, of_mass) {
@@ -76,7 +88,16 @@ pub(super) fn check(recording: &Recording, aligned: &Aligned, timeline: &Timelin
     } else {
         Quantity::Position
     };
-    if !motion_known && let Some(f) = beyond(moving, SPEEDS_MM_S) {
+    let is_dead = |quantity, axis| {
+        let found = aligned.find(recording, quantity, axis);
+        found.is_some_and(|index| dead[index])
+    };
+    let mut all = recording.channels.iter().zip(dead);
+    let moves = all.any(|(channel, dead)| channel.quantity == quantity && !dead);
+    if !motion_known
+        && moves
+        && let Some(f) = beyond(moving, SPEEDS_MM_S)
+    {
         wrong.push((quantity, f, "the speed of a hand"));
     }
     let loads = timeline
@@ -87,7 +108,10 @@ pub(super) fn check(recording: &Recording, aligned: &Aligned, timeline: &Timelin
         .map(|(load, _)| *load);
     let pressed = quantile(loads, 0.9).max(quantile(timeline.load_n.iter().copied(), 0.98));
     let force_known = wrong.iter().any(|(q, ..)| *q == Quantity::Force);
-    if !force_known && let Some(f) = beyond(pressed, LOADS_N) {
+    if !force_known
+        && !is_dead(Quantity::Force, Axis::Z)
+        && let Some(f) = beyond(pressed, LOADS_N)
+    {
         wrong.push((Quantity::Force, f, "the load of a hand"));
     }
     wrong

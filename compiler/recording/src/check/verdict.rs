@@ -41,6 +41,12 @@ pub enum Kind {
     Unit,
     /// Less data than wanted.
     Short,
+    /// A file that is cut, or that does not say how long it is.
+    File,
+    /// One value throughout.
+    Dead,
+    /// A channel that holds what another one does, or a clock.
+    Mislabelled,
 }
 
 /// One thing that a check found.
@@ -161,7 +167,12 @@ impl fmt::Display for Checked {
                     && x.file == *file
                     && (x.channel == *channel || x.channel.is_empty())
             });
+            let is_dead = self
+                .findings
+                .iter()
+                .any(|x| x.kind == Kind::Dead && x.file == *file && x.channel == *channel);
             let verdict = match of.map(|x| x.severity).max() {
+                None if is_dead => "does not move",
                 None => "good",
                 Some(Severity::Warning) => "usable with care",
                 Some(_) => "faulty",
@@ -179,8 +190,12 @@ impl Checked {
     /// Faults that no step can mend: an import with them would give a wrong texture. Bad stretches are
     /// left out, and delays are corrected.
     pub fn stopping(&self) -> impl Iterator<Item = &Finding> {
-        self.at_least(Severity::Fault)
-            .filter(|finding| matches!(finding.kind, Kind::Unit | Kind::Contact | Kind::Impossible))
+        self.at_least(Severity::Fault).filter(|finding| {
+            matches!(
+                finding.kind,
+                Kind::Unit | Kind::Contact | Kind::Impossible | Kind::Dead | Kind::Mislabelled
+            )
+        })
     }
 
     /// By how much a file came late, s.

@@ -1,11 +1,14 @@
 //! `recording.toml`: what the files of a recording hold.
 
+mod column_name;
 mod propose;
 mod quantity;
 mod read;
 mod schema;
 
+pub(crate) use column_name::{Meaning, meaning};
 pub use propose::propose;
 pub use quantity::{GRAVITY_M_S2, Quantity, Unit};
 pub use read::{FILE_NAME, MAX_BYTES, read};
+pub(crate) use read::{RATES_HZ, TIME_UNITS};
 pub use schema::{Axis, Channel, Column, Description, SensorFile, Tool};

@@ -84,6 +84,12 @@ impl Unit {
             .find(|unit| unit.name == name && unit.quantity == quantity)
     }
 
+    /// The unit with this name, of whichever quantity; no two have one name.
+    #[must_use]
+    pub(crate) fn any(name: &str) -> Option<Self> {
+        UNITS.into_iter().find(|unit| unit.name == name)
+    }
+
     /// All units of a quantity, for an error.
     #[must_use]
     pub fn all(quantity: Quantity) -> String {

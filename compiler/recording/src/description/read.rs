@@ -20,7 +20,10 @@ pub const MAX_BYTES: u64 = 1024 * 1024;
 /// Most files and most channels of a file.
 const MAX_ENTRIES: usize = 64;
 /// Range of rates, Hz.
-const RATES_HZ: (f64, f64) = (10.0, 200_000.0);
+pub(crate) const RATES_HZ: (f64, f64) = (10.0, 200_000.0);
+/// Units of a clock, and the seconds in one.
+pub(crate) const TIME_UNITS: [(&str, f64); 4] =
+    [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -68,7 +71,7 @@ pub fn read(folder: &Path) -> Result<Description, RecordingError> {
         return Err(RecordingError::of(folder, Problem::Unreadable(kind)));
     }
     if !path.exists() {
-        let proposal = propose(folder);
+        let proposal = propose(folder)?;
         return Err(RecordingError::of(
             folder,
             Problem::NoDescription { proposal },
@@ -157,27 +160,20 @@ fn parse(text: &str, path: &Path) -> Result<Description, RecordingError> {
                 "must be finite",
             ));
         }
-        let clock_s = match entry
-            .clock_unit
-            .as_ref()
-            .map(|unit| unit.get_ref().as_str())
-        {
-            None | Some("s") => 1.0,
-            Some("ms") => 1e-3,
-            Some("us") => 1e-6,
-            Some("ns") => 1e-9,
-            Some(other) => {
-                let at = entry
-                    .clock_unit
-                    .as_ref()
-                    .map_or(at, |unit| unit.span().start);
-                return Err(field(
-                    at,
-                    "clock_unit",
-                    other.to_owned(),
-                    "is none of s, ms, us, ns",
-                ));
-            }
+        let clock_unit = entry.clock_unit.as_ref().map_or("s", |unit| unit.get_ref());
+        let Some((clock_unit, clock_s)) =
+            TIME_UNITS.into_iter().find(|(unit, _)| *unit == clock_unit)
+        else {
+            let at = entry
+                .clock_unit
+                .as_ref()
+                .map_or(at, |unit| unit.span().start);
+            return Err(field(
+                at,
+                "clock_unit",
+                clock_unit.to_owned(),
+                "is none of s, ms, us, ns",
+            ));
         };
         if entry.channel.is_empty() || entry.channel.len() > MAX_ENTRIES {
             let value = format!("{} entries", entry.channel.len());
@@ -234,6 +230,7 @@ fn parse(text: &str, path: &Path) -> Result<Description, RecordingError> {
             line: line_of(at),
             rate_hz: entry.rate_hz.map(Spanned::into_inner),
             clock: entry.clock,
+            clock_unit,
             clock_s,
             start_s: entry.start_s,
             channels,

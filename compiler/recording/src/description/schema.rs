@@ -38,6 +38,8 @@ pub struct SensorFile {
     pub rate_hz: Option<f64>,
     /// The column of the clock.
     pub clock: Option<Column>,
+    /// The unit of the clock: s, ms, us or ns.
+    pub clock_unit: &'static str,
     /// Seconds in one unit of the clock.
     pub clock_s: f64,
     /// Time of the first row, s, for a file without a clock.
@@ -114,6 +116,9 @@ pub enum Axis {
 }
 
 impl Axis {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::X, Self::Y, Self::Z, Self::Along];
+
     /// 0, 1, 2 of x, y, z.
     #[must_use]
     pub fn index(self) -> Option<usize> {

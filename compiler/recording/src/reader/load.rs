@@ -1,25 +1,25 @@
 //! All channels of a recording, in SI units, on the clocks of their files.
 
-use super::{header, rows};
+use super::{Header, Remark, clock, header, rows};
 use crate::{
     channel::{Channel, Numbers},
-    description::{self, Column, Description, SensorFile},
+    description::{self, Column, Description, Meaning, RATES_HZ, SensorFile, TIME_UNITS, meaning},
     error::{Problem, RecordingError},
-    signal::{quantile::median, resample::Clock},
+    signal::resample::Clock,
 };
 use std::path::{Path, PathBuf};
 
 /// Most values that are kept of all channels together: 256 MiB. What comes later is checked, not
 /// used.
 pub const MAX_KEPT: usize = 64 << 20;
-/// Rows whose clock tells the rate before a file is read.
-const CLOCK_ROWS: usize = 4000;
-/// Longest gap of a clock that is bridged, s.
-const MAX_GAP_S: f64 = 1.0;
-/// Shortest gap, s, and in samples. Anything less is jitter.
-const LEAST_GAP: (f64, f64) = (0.005, 3.0);
 /// Difference between the stated rate and the clock's that is drift, as a fraction.
 const MAX_RATE_DIFFERENCE: f64 = 0.02;
+/// Factors by which the unit of a clock may be wrong.
+const UNIT_FACTORS: [f64; 7] = [1.0, 1e3, 1e-3, 1e6, 1e-6, 1e9, 1e-9];
+/// Files of one recording cover times that differ by no more than this factor.
+const SAME_TIME: f64 = 3.0;
+/// The middle of the rates of sensors, Hz.
+const USUAL_HZ: f64 = 1000.0;
 
 /// A recording in memory.
 #[derive(Debug, Clone)]
@@ -55,6 +55,8 @@ pub struct FileClock {
     pub rows: u64,
     /// Whether not all of them are kept.
     pub shortened: bool,
+    /// What is wrong with the file, though it can be read.
+    pub remarks: Vec<Remark>,
 }
 
 impl FileClock {
@@ -97,7 +99,47 @@ pub fn load_at_most(folder: &Path, max_kept: usize) -> Result<Recording, Recordi
         recording.clocks.push(clock);
         recording.channels.extend(channels);
     }
+    check_units(&recording, &recording.description.files)?;
     Ok(recording)
+}
+
+/// Where the columns of a file's entry are.
+struct Columns {
+    clock: Option<usize>,
+    channels: Vec<usize>,
+}
+
+fn columns(path: &Path, file: &SensorFile, header: &Header) -> Result<Columns, RecordingError> {
+    let find = |column: &Column| {
+        let problem = match column {
+            Column::Index(index) if *index < header.columns.len() => return Ok(*index),
+            Column::Name(name) => {
+                let mut found = (0..header.columns.len()).filter(|&n| header.columns[n] == *name);
+                match (found.next(), found.count()) {
+                    (Some(index), 0) => return Ok(index),
+                    (Some(_), more) => Some(Problem::DuplicateColumn {
+                        column: name.clone(),
+                        count: 1 + more,
+                    }),
+                    (None, _) => None,
+                }
+            }
+            Column::Index(_) => None,
+        };
+        let problem = problem.unwrap_or_else(|| Problem::NoColumn {
+            column: column.to_string(),
+            found: header.columns.join(", "),
+        });
+        Err(RecordingError::at(path, 1, problem))
+    };
+    Ok(Columns {
+        clock: file.clock.as_ref().map(find).transpose()?,
+        channels: file
+            .channels
+            .iter()
+            .map(|c| find(&c.column))
+            .collect::<Result<_, _>>()?,
+    })
 }
 
 fn read_file(
@@ -107,39 +149,48 @@ fn read_file(
 ) -> Result<(FileClock, Vec<Channel>), RecordingError> {
     let path = folder.join(&file.file);
     let header = header(&path)?;
-    let find = |column: &Column| {
-        let found = match column {
-            Column::Index(index) => (*index < header.columns.len()).then_some(*index),
-            Column::Name(name) => header.columns.iter().position(|known| known == name),
-        };
-        found.ok_or_else(|| {
-            let found = header.columns.join(", ");
-            let problem = Problem::NoColumn {
-                column: column.to_string(),
-                found,
-            };
-            RecordingError::at(&path, 1, problem)
-        })
-    };
-    let clock_column = file.clock.as_ref().map(find).transpose()?;
-    let columns = file
-        .channels
-        .iter()
-        .map(|c| find(&c.column))
-        .collect::<Result<Vec<_>, _>>()?;
+    let Columns {
+        clock: clock_column,
+        channels: columns,
+    } = columns(&path, file, &header)?;
     let stated_hz = file.rate_hz.or(header.rate_hz);
-    let mut watch = match clock_column {
-        Some(column) => ClockWatch::new(first_period_s(&path, column, file.clock_s)?),
-        None => {
-            let Some(rate_hz) = stated_hz else {
-                let entry = folder.join(description::FILE_NAME);
-                let problem =
-                    Problem::Missing(format!("{:?} has neither `clock` nor `rate_hz`", file.file));
-                return Err(RecordingError::at(entry, file.line, problem));
-            };
-            ClockWatch::new(1.0 / rate_hz)
+    let entry = || folder.join(description::FILE_NAME);
+    let (clock, seen) = match (clock_column, stated_hz) {
+        (Some(column), _) => {
+            let seen = clock::follow(&path, column, file.clock_s)?;
+            (seen.clock, Some(seen))
+        }
+        (None, Some(rate_hz)) => {
+            let start_s = file.start_s;
+            (Clock { start_s, rate_hz }, None)
+        }
+        (None, None) => {
+            let problem =
+                Problem::Missing(format!("{:?} has neither `clock` nor `rate_hz`", file.file));
+            return Err(RecordingError::at(entry(), file.line, problem));
         }
     };
+    if let (Some(stated_hz), Some(seen)) = (stated_hz, &seen)
+        && (seen.clock.rate_hz / stated_hz - 1.0).abs() > MAX_RATE_DIFFERENCE
+    {
+        let problem = Problem::RateContradiction {
+            stated_hz,
+            clock_hz: seen.clock.rate_hz,
+        };
+        return Err(RecordingError::at(entry(), file.line, problem));
+    }
+    if let (Some(stated_hz), None) = (stated_hz, &seen)
+        && let Some((column, clock_hz)) = unused_clock(&path, &header, stated_hz)
+    {
+        let problem = Problem::UnusedClock {
+            column,
+            stated_hz,
+            clock_hz,
+        };
+        return Err(RecordingError::of(path, problem));
+    }
+    let gaps = seen.as_ref().map_or(&[][..], |seen| &seen.gaps[..]);
+    let mut later_gaps = gaps.iter().peekable();
     let mut samples: Vec<Vec<f32>> = vec![Vec::new(); columns.len()];
     let mut numbers = vec![Numbers::default(); columns.len()];
     let factors: Vec<f64> = file
@@ -147,19 +198,10 @@ fn read_file(
         .iter()
         .map(description::Channel::factor)
         .collect();
-    rows(&path, &mut |line, row| {
-        let bridged = match clock_column {
-            Some(column) => {
-                let at_s = row[column] * file.clock_s;
-                watch
-                    .take(at_s)
-                    .map_err(|problem| RecordingError::at(&path, line, problem))?
-            }
-            None => 0,
-        };
-        if bridged > 0 {
-            watch.first_gap.get_or_insert(line);
-        }
+    let mut count = 0;
+    let remark = rows(&path, &columns, &mut |line, row| {
+        let gap = later_gaps.next_if(|gap| gap.row == count);
+        let bridged = gap.map_or(0, |gap| gap.missing);
         for (((samples, numbers), &column), factor) in samples
             .iter_mut()
             .zip(&mut numbers)
@@ -179,43 +221,26 @@ fn read_file(
                 samples.push(value as f32);
             }
         }
-        watch.index += 1;
+        count += 1;
         Ok(true)
     })?;
-    if watch.index < 2 {
+    if count < 2 {
         return Err(RecordingError::of(
             &path,
             Problem::TooLittle("has fewer than two rows".into()),
         ));
     }
-    let entry = || folder.join(description::FILE_NAME);
-    let fitted = clock_column.map(|_| watch.fitted());
-    let clock = match fitted {
-        Some((clock, _)) => clock,
-        None => Clock {
-            start_s: file.start_s,
-            rate_hz: 1.0 / watch.period_s,
-        },
-    };
-    if let (Some(stated_hz), Some((clock, _))) = (stated_hz, fitted)
-        && (clock.rate_hz / stated_hz - 1.0).abs() > MAX_RATE_DIFFERENCE
-    {
-        let problem = Problem::RateContradiction {
-            stated_hz,
-            clock_hz: clock.rate_hz,
-        };
-        return Err(RecordingError::at(entry(), file.line, problem));
-    }
     let report = FileClock {
         file: file.file.clone(),
         stated_hz,
-        clock_hz: fitted.map(|(clock, _)| clock.rate_hz),
-        jitter_s: fitted.map_or(0.0, |(_, jitter_s)| jitter_s),
-        gaps: watch.gaps,
-        first_gap: watch.first_gap,
-        gap_s: watch.gap_s,
-        rows: watch.rows,
+        clock_hz: seen.as_ref().map(|seen| seen.clock.rate_hz),
+        jitter_s: seen.as_ref().map_or(0.0, |seen| seen.jitter_s),
+        gaps: gaps.len() as u64,
+        first_gap: gaps.first().map(|gap| gap.line),
+        gap_s: gaps.iter().map(|gap| gap.step_s).sum(),
+        rows: count,
         shortened: numbers.iter().any(|numbers| numbers.count > keep as u64),
+        remarks: header.remarks.iter().cloned().chain(remark).collect(),
     };
     let channels = file.channels.iter().zip(samples).zip(numbers).map(
         |((described, samples), mut numbers)| {
@@ -248,118 +273,98 @@ fn read_file(
     Ok((report, channels))
 }
 
-/// The period of a clock by its first rows, s.
-fn first_period_s(path: &Path, column: usize, unit_s: f64) -> Result<f64, RecordingError> {
-    let mut times = Vec::with_capacity(CLOCK_ROWS);
-    rows(path, &mut |_, row| {
-        times.push(row[column] * unit_s);
-        Ok(times.len() < CLOCK_ROWS)
-    })?;
-    let steps: Vec<f64> = times
-        .windows(2)
-        .map(|pair| pair[1] - pair[0])
-        .filter(|dt| dt.is_finite())
-        .collect();
-    let middle = median(steps.iter().copied());
-    // A coarse clock gives several rows the same time.
-    let short: Vec<f64> = steps
+/// A column that is a clock by its name and runs at another rate than the stated one, and its rate.
+fn unused_clock(path: &Path, header: &Header, stated_hz: f64) -> Option<(String, f64)> {
+    let off = |clock_hz: f64| libm::log(clock_hz / stated_hz).abs();
+    let rates = header
+        .columns
         .iter()
-        .copied()
-        .filter(|dt| *dt < LEAST_GAP.0.max(10.0 * middle))
+        .enumerate()
+        .filter_map(|(index, name)| {
+            let Meaning::Clock(_) = meaning(name) else {
+                return None;
+            };
+            let period = clock::period(path, index)?;
+            // The unit in which it comes nearest: a header may not name it, or the wrong one.
+            let nearest = TIME_UNITS
+                .into_iter()
+                .map(|(_, unit_s)| 1.0 / (period * unit_s))
+                .min_by(|one, other| off(*one).total_cmp(&off(*other)))?;
+            Some((name.clone(), nearest))
+        });
+    let mut rates: Vec<(String, f64)> = rates.collect();
+    rates.sort_by(|(_, one), (_, other)| off(*one).total_cmp(&off(*other)));
+    rates
+        .into_iter()
+        .next()
+        .filter(|(_, rate_hz)| (rate_hz / stated_hz - 1.0).abs() > MAX_RATE_DIFFERENCE)
+}
+
+/// Finds a clock whose unit cannot be right: by the rates that sensors have, and by the time that the other
+/// files cover.
+fn check_units(recording: &Recording, files: &[SensorFile]) -> Result<(), RecordingError> {
+    let durations: Vec<f64> = files
+        .iter()
+        .zip(&recording.clocks)
+        .map(|(file, clock)| {
+            let channel = recording.channels.iter().find(|c| c.file == file.file);
+            channel.map_or(0.0, |c| clock.rows as f64 / c.clock.rate_hz)
+        })
         .collect();
-    let mean = short.iter().sum::<f64>() / short.len().max(1) as f64;
-    let period_s = if mean > 0.0 { mean } else { middle };
-    if period_s > 0.0 {
-        Ok(period_s)
-    } else {
-        Err(RecordingError::of(
-            path,
-            Problem::TooLittle("has a clock that does not move".into()),
-        ))
-    }
-}
-
-/// Follows a clock: finds gaps, and fits a steady rate.
-struct ClockWatch {
-    period_s: f64,
-    /// Samples so far, bridged ones included.
-    index: u64,
-    rows: u64,
-    last_s: Option<f64>,
-    first_s: f64,
-    gaps: u64,
-    gap_s: f64,
-    first_gap: Option<u64>,
-    // Sums of a regression of time on index, about running means.
-    means: (f64, f64),
-    sums: (f64, f64, f64),
-}
-
-impl ClockWatch {
-    fn new(period_s: f64) -> Self {
-        Self {
-            period_s,
-            index: 0,
-            rows: 0,
-            last_s: None,
-            first_s: 0.0,
-            gaps: 0,
-            gap_s: 0.0,
-            first_gap: None,
-            means: (0.0, 0.0),
-            sums: (0.0, 0.0, 0.0),
-        }
-    }
-
-    /// Takes the time of a row, and gives the samples that are missing before it.
-    fn take(&mut self, at_s: f64) -> Result<u64, Problem> {
-        if !at_s.is_finite() {
-            return Err(Problem::Format("has a row without a time".into()));
-        }
-        let mut bridged = 0;
-        if let Some(before_s) = self.last_s {
-            let step_s = at_s - before_s;
-            if step_s < 0.0 {
-                return Err(Problem::ClockBackwards {
-                    before_s,
-                    now_s: at_s,
-                });
-            }
-            if step_s > MAX_GAP_S + self.period_s {
-                return Err(Problem::Gap { gap_s: step_s });
-            }
-            let (least_s, least_samples) = LEAST_GAP;
-            if step_s > least_s && step_s > least_samples * self.period_s {
-                bridged = (step_s / self.period_s).round() as u64 - 1;
-                self.gaps += 1;
-                self.gap_s += step_s;
-            }
-        } else {
-            self.first_s = at_s;
-        }
-        self.last_s = Some(at_s);
-        self.index += bridged;
-        self.rows += 1;
-        let (x, y) = (self.index as f64, at_s - self.first_s);
-        let share = 1.0 / self.rows as f64;
-        let (dx, dy) = (x - self.means.0, y - self.means.1);
-        self.means.0 += share * dx;
-        self.means.1 += share * dy;
-        self.sums.0 += dx * (x - self.means.0);
-        self.sums.1 += dx * (y - self.means.1);
-        self.sums.2 += dy * (y - self.means.1);
-        Ok(bridged)
-    }
-
-    /// The steady clock that fits best, and the RMS distance from it, s.
-    fn fitted(&self) -> (Clock, f64) {
-        let (xx, xy, yy) = self.sums;
-        let period_s = if xx > 0.0 { xy / xx } else { self.period_s };
-        let clock = Clock {
-            start_s: self.first_s + self.means.1 - period_s * self.means.0,
-            rate_hz: 1.0 / period_s,
+    let (least_hz, most_hz) = RATES_HZ;
+    // How far a rate is from those that sensors have.
+    let strange = |rate_hz: f64| {
+        let outside = (least_hz / rate_hz).max(rate_hz / most_hz).max(1.0);
+        libm::log(outside) * 10.0 + libm::log(rate_hz / USUAL_HZ).abs()
+    };
+    let mut worst: Option<(usize, f64, f64)> = None;
+    for (index, clock) in recording.clocks.iter().enumerate() {
+        let Some(rate_hz) = clock.clock_hz else {
+            continue;
         };
-        let rest = (yy - xy * period_s).max(0.0) / self.rows.max(1) as f64;
-        (clock, rest.sqrt())
+        let others = (0..files.len()).filter(|other| *other != index);
+        let agrees = |factor: f64| {
+            others
+                .clone()
+                .filter(|&other| {
+                    let ratio = durations[index] / durations[other] / factor;
+                    ratio > 1.0 / SAME_TIME && ratio < SAME_TIME
+                })
+                .count()
+        };
+        let factor = UNIT_FACTORS.into_iter().max_by(|one, other| {
+            let plausible =
+                |factor: f64| rate_hz * factor >= least_hz && rate_hz * factor <= most_hz;
+            agrees(*one)
+                .cmp(&agrees(*other))
+                .then(plausible(*one).cmp(&plausible(*other)))
+                .then(strange(rate_hz * other).total_cmp(&strange(rate_hz * one)))
+        });
+        let is_right =
+            agrees(1.0) > 0 || files.len() == 1 && rate_hz >= least_hz && rate_hz <= most_hz;
+        if let Some(factor) = factor.filter(|factor| *factor != 1.0 && !is_right)
+            && (agrees(factor) > 0 || rate_hz < least_hz || rate_hz > most_hz)
+            && worst.is_none_or(|(.., known)| strange(rate_hz) > known)
+        {
+            worst = Some((index, factor, strange(rate_hz)));
+        }
     }
+    let Some((index, factor, _)) = worst else {
+        return Ok(());
+    };
+    let (file, clock) = (&files[index], &recording.clocks[index]);
+    let problem = Problem::ClockUnit {
+        column: file
+            .clock
+            .as_ref()
+            .map(ToString::to_string)
+            .unwrap_or_default(),
+        unit: file.clock_unit,
+        rate_hz: clock.clock_hz.unwrap_or_default(),
+        factor,
+    };
+    Err(RecordingError::of(
+        recording.folder.join(&file.file),
+        problem,
+    ))
 }

@@ -1,9 +1,12 @@
 //! Sensor files row by row: CSV, WAV, NumPy. A file is never held in memory as a whole.
 
+mod clock;
 mod csv;
 mod load;
 mod npy;
-mod wav;
+pub mod wav;
+
+pub(crate) use clock::period as clock_period;
 
 pub use load::{MAX_KEPT, Recording, load, load_at_most};
 
@@ -21,6 +24,17 @@ pub struct Header {
     pub rate_hz: Option<f64>,
     /// Whether no value can lie outside ±1, as in a WAV of integers.
     pub full_scale: bool,
+    /// What is wrong with the file, though it can be read.
+    pub remarks: Vec<Remark>,
+}
+
+/// What is wrong with a file that can be read all the same.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remark {
+    /// What is so.
+    pub what: String,
+    /// What to do about it.
+    pub remedy: &'static str,
 }
 
 /// A row: its line from 1 and its values, NaN where one is missing. What comes back says whether to
@@ -48,6 +62,11 @@ fn format(path: &Path) -> Result<Format, RecordingError> {
     }
 }
 
+/// Whether a file's name says that it is of a known kind.
+pub(crate) fn is_known(path: &Path) -> bool {
+    format(path).is_ok()
+}
+
 /// The header of a file.
 ///
 /// # Errors
@@ -60,12 +79,17 @@ pub fn header(path: &Path) -> Result<Header, RecordingError> {
     }
 }
 
-/// Calls `each` for every row of a file until it says to stop.
-pub(crate) fn rows(path: &Path, each: &mut EachRow<'_>) -> Result<(), RecordingError> {
+/// Calls `each` for every row of a file until it says to stop, and gives what is wrong with the end of the
+/// file. Columns that are not `wanted` hold NaN where they hold no number.
+pub(crate) fn rows(
+    path: &Path,
+    wanted: &[usize],
+    each: &mut EachRow<'_>,
+) -> Result<Option<Remark>, RecordingError> {
     match format(path)? {
-        Format::Csv => csv::rows(path, each),
-        Format::Wav => wav::rows(path, each),
-        Format::Npy => npy::rows(path, each),
+        Format::Csv => csv::rows(path, wanted, each),
+        Format::Wav => wav::rows(path, each).map(|()| None),
+        Format::Npy => npy::rows(path, each).map(|()| None),
     }
 }
 

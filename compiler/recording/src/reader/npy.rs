@@ -37,7 +37,11 @@ struct Array {
 }
 
 fn open(path: &Path) -> Result<Array, RecordingError> {
-    let damaged = |what: &str| RecordingError::of(path, Problem::Format(what.to_owned()));
+    let refused = |what: &str, remedy: &'static str| {
+        let what = what.to_owned();
+        RecordingError::of(path, Problem::File { what, remedy })
+    };
+    let damaged = |what: &str| refused(what, "save it again with numpy.save");
     let mut reader = BufReader::new(file::open(path)?);
     let mut start = [0; 8];
     reader.read_exact(&mut start).map_err(unreadable(path))?;
@@ -72,14 +76,16 @@ fn open(path: &Path) -> Result<Array, RecordingError> {
         Some(">f4") => (true, Number::F32),
         Some(">f8") => (true, Number::F64),
         _ => {
-            return Err(damaged(
-                "holds other numbers than f4, f8, i2 or i4; save it with .astype('f8')",
+            return Err(refused(
+                "holds other numbers than f4, f8, i2 or i4",
+                "save it with .astype('f8')",
             ));
         }
     };
     if value("fortran_order").is_some_and(|order| order.starts_with("True")) {
-        return Err(damaged(
-            "is in Fortran order; save numpy.ascontiguousarray of it",
+        return Err(refused(
+            "is in Fortran order",
+            "save numpy.ascontiguousarray of it",
         ));
     }
     let shape = value("shape").ok_or_else(|| damaged("has a header without 'shape'"))?;
@@ -112,6 +118,7 @@ pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
         named: false,
         rate_hz: None,
         full_scale: false,
+        remarks: Vec::new(),
     })
 }
 
@@ -121,7 +128,10 @@ pub(super) fn rows(path: &Path, each: &mut EachRow<'_>) -> Result<(), RecordingE
     for index in 1..=array.rows {
         for value in &mut row {
             *value = array.next().map_err(|_| {
-                let problem = Problem::Format(format!("ends before row {index} of {}", array.rows));
+                let problem = Problem::File {
+                    what: format!("is cut: it ends before row {index} of {}", array.rows),
+                    remedy: "copy it again; numpy.load fails on it as well",
+                };
                 RecordingError::at(path, index, problem)
             })?;
         }
