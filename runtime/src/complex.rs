@@ -1,6 +1,6 @@
 //! Four complex numbers side by side: the poles of a filter in parallel sections, or their state.
 
-use crate::lanes::F4;
+use crate::lanes::{F4, GRID};
 
 /// Four complex numbers, one a pole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +15,15 @@ impl Complex4 {
         Self {
             re: self.re * other.re - self.im * other.im,
             im: self.re * other.im + self.im * other.re,
+        }
+    }
+
+    /// See [`Arithmetic::settled`](crate::arithmetic::Arithmetic::settled).
+    #[inline(always)]
+    pub(crate) fn settled(self) -> Self {
+        Self {
+            re: self.re.settled(GRID),
+            im: self.im.settled(GRID),
         }
     }
 

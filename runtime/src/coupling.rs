@@ -39,16 +39,19 @@ impl<A: Arithmetic> Coupling<A> {
     /// Converts the coupling and μ of an asset.
     pub(crate) fn new(coupling: &formats::Coupling, mu: f32) -> Self {
         let (vib, f_max) = (
-            Quantity::of(coupling.vib_s2_m),
-            Quantity::of(coupling.f_max_n),
+            Quantity::of(coupling.vib_s2_m).settled(),
+            Quantity::of(coupling.f_max_n).settled(),
         );
         Self {
-            wall: Wall::of(coupling.stiffness_n_m, coupling.damping_n_s_m),
+            wall: Wall {
+                stiffness: Quantity::of(coupling.stiffness_n_m).settled(),
+                damping: Quantity::of(coupling.damping_n_s_m).settled(),
+            },
             vib,
-            effective_mass: Quantity::of(coupling.effective_mass_kg),
+            effective_mass: Quantity::of(coupling.effective_mass_kg).settled(),
             f_max,
             vib_mass: vib * f_max,
-            mu: Quantity::of(mu),
+            mu: Quantity::of(mu).settled(),
         }
     }
 
@@ -62,7 +65,7 @@ impl<A: Arithmetic> Coupling<A> {
         self.vib = to.vib - left * (to.vib - self.vib);
         self.f_max = to.f_max - left * (to.f_max - self.f_max);
         self.vib_mass = self.vib * self.f_max;
-        self.mu = to.mu - left * (to.mu - self.mu);
+        self.mu = to.mu - left * (to.mu - self.mu).settled();
     }
 
     /// The coupling as an asset states it.

@@ -4,7 +4,21 @@
 //! alike, and no two are fused.
 
 use core::ops::{Add, Mul, Sub};
-use wide::{CmpLe, f32x4};
+use wide::{CmpGt, CmpLe, f32x4, i32x4};
+
+/// The smallest numbers in use are whole multiples of this, 2⁻⁶²: their squares and products are
+/// normal floats. So no result depends on denormals, which a caller may have switched off.
+pub(crate) const GRID: f32 = f32::from_bits((127 - 62) << 23);
+/// Adding this multiple of a grid and taking it away again rounds to the grid.
+const SETTLING: f32 = 1.5 * (1_u32 << 23) as f32;
+
+/// `x` rounded to whole multiples of `grid`, if it is below 2²³ of them. Up to 2⁴⁸ of them its last
+/// bit may change; a larger number stays as it is.
+#[inline(always)]
+pub(crate) fn settled(x: f32, grid: f32) -> f32 {
+    let shift = grid * SETTLING;
+    x + shift - shift
+}
 
 /// Four `f32`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -89,11 +103,28 @@ impl F4 {
         Self(self.0.fast_max(other.0))
     }
 
-    /// Replaces the bits of `clear` in each number by the bits of `set`.
+    /// The bits of each number, without those of `clear`, plus `set`.
     #[inline(always)]
     pub(crate) fn mark(self, clear: u32, set: u32) -> Self {
-        let keep = f32x4::splat(f32::from_bits(!clear));
-        Self(self.0 & keep | f32x4::splat(f32::from_bits(set)))
+        let keep = i32x4::splat(!clear as i32);
+        Self::of_bits((self.bits() & keep) + i32x4::splat(set as i32))
+    }
+
+    /// Each number as [`settled`] gives it.
+    #[inline(always)]
+    pub(crate) fn settled(self, grid: f32) -> Self {
+        let shift = Self::splat(grid * SETTLING);
+        self + shift - shift
+    }
+
+    #[inline(always)]
+    fn bits(self) -> i32x4 {
+        i32x4::new(self.to_array().map(|x| x.to_bits() as i32))
+    }
+
+    #[inline(always)]
+    fn of_bits(bits: i32x4) -> Self {
+        Self::load(&bits.to_array().map(|bits| f32::from_bits(bits as u32)))
     }
 
     /// All four: (1st + 2nd) + (3rd + 4th).
@@ -107,11 +138,12 @@ impl F4 {
     /// Whether none of the four is beyond ±`limit` or NaN.
     #[inline(always)]
     pub(crate) fn is_within(self, limit: f32) -> bool {
-        if Self::IN_REGISTERS {
-            return self.0.abs().cmp_le(f32x4::splat(limit)).all();
-        }
         // The bits of positive floats are in the order of the floats, and the bits of a NaN are
-        // above.
+        // above. A comparison of floats would raise an exception for a NaN.
+        if Self::IN_REGISTERS {
+            let size = self.bits() & i32x4::splat(i32::MAX);
+            return size.cmp_gt(i32x4::splat(limit.to_bits() as i32)).none();
+        }
         let within = |x: f32| x.abs().to_bits() <= limit.to_bits();
         self.to_array().into_iter().all(within)
     }

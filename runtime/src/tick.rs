@@ -146,7 +146,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         } else {
             total
         };
-        let (force, limited) = self.limiter.step(state.force.get(), wanted);
+        let (force, limited) = self.limiter.step(state.force.get(), wanted.settled());
         state.force = force.into();
 
         flags = flags.and(Flags::VIB_CLAMPED.when(clamped)).and(limited);

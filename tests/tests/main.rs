@@ -8,6 +8,7 @@ mod exchange;
 mod export;
 mod fidelity;
 mod fixed_point;
+mod floating_point;
 mod friction_law;
 mod fuzz_cases;
 mod fuzz_ticks;

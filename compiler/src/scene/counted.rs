@@ -2,25 +2,26 @@
 
 use super::cost::Cost;
 
-/// Slopes between the ends of what was counted; the base such that no count is above the model.
+/// Slopes between the ends of what was counted; the base such that no count is above the model. Since the counts a tick
+/// takes some 36 instructions more on a Cortex-M4F, and 16 on x86-64 (`docs/floating-point.md`), which the bases include.
 pub(super) static COSTS: [Cost; 2] = [
     Cost {
         processor: "cortex-m4f",
-        base: 1784.0,
+        base: 1820.0,
         pole: 11.4,
         zero: 6.2,
         triangle: 0.0,
         surfaces: [76.0, 88.0, 150.0],
-        above_percent: 19.0,
+        above_percent: 22.0,
     },
     Cost {
         processor: "x86-64",
-        base: 1300.0,
+        base: 1316.0,
         pole: 3.0,
         zero: 4.1,
         triangle: 0.0,
         surfaces: [45.0, 49.0, 82.0],
-        above_percent: 26.0,
+        above_percent: 28.0,
     },
 ];
 

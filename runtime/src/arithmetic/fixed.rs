@@ -241,6 +241,16 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn settled<F: Point>(a: FixedI32<F>, _: f32) -> FixedI32<F> {
+        a
+    }
+
+    #[inline(always)]
+    fn four_settled<F: Point>(a: Quad<F>, _: f32) -> Quad<F> {
+        a
+    }
+
+    #[inline(always)]
     fn is_within<F: Point>(a: Quad<F>, limit: f32) -> bool {
         let limit = bits_of::<F>(limit).unsigned_abs();
         a.0.iter().all(|a| a.to_bits().unsigned_abs() <= limit)

@@ -4,7 +4,7 @@ use super::{
     operations::{Arithmetic, Cut},
     scalar::{Point, Scalar, Zero},
 };
-use crate::lanes::{F3, F4};
+use crate::lanes::{F3, F4, settled};
 
 /// IEEE 754 `f32`. Every operation rounds alike on every processor, and no two are fused.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -139,6 +139,16 @@ impl Arithmetic for Float {
     #[inline(always)]
     fn dot3<F: Point, G: Point, H: Point>(a: F4, b: F4) -> f32 {
         a.dot3(b)
+    }
+
+    #[inline(always)]
+    fn settled<F: Point>(a: f32, grid: f32) -> f32 {
+        settled(a, grid)
+    }
+
+    #[inline(always)]
+    fn four_settled<F: Point>(a: F4, grid: f32) -> F4 {
+        a.settled(grid)
     }
 
     #[inline(always)]

@@ -90,6 +90,14 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// Inner product of the first three.
     fn dot3<F: Point, G: Point, H: Point>(a: Self::Four<F>, b: Self::Four<G>) -> Self::Scalar<H>;
 
+    /// Rounds what is next to nothing, so that no result is too small for the arithmetic: floats below
+    /// 2²³ `grid` to whole multiples of `grid`, a power of two; floats up to 2⁴⁸ `grid` may change in
+    /// their last bit. Fixed point has its own grid.
+    fn settled<F: Point>(a: Self::Scalar<F>, grid: f32) -> Self::Scalar<F>;
+
+    /// [`Arithmetic::settled`] of each.
+    fn four_settled<F: Point>(a: Self::Four<F>, grid: f32) -> Self::Four<F>;
+
     /// Whether none of the four is beyond ±`limit`, or NaN.
     fn is_within<F: Point>(a: Self::Four<F>, limit: f32) -> bool;
 }

@@ -19,6 +19,8 @@ use crate::{
 };
 use core::hint::black_box;
 
+/// A level up to this, m/s², is silence; fixed point has no such level.
+const SILENT_M_S2: f32 = 1.0e-9;
 /// No −2 cos ω is larger.
 const WIDEST: Cut = Cut::At(2.0);
 
@@ -123,7 +125,7 @@ impl<S: Capacity, A: RowMixture> Vertices<S, A> {
             let level = self.levels.as_ref().get(vertex).copied();
             mixture.weights[corner] * Quantity(level.unwrap_or_default())
         };
-        level(0) + level(1) + level(2)
+        (level(0) + level(1) + level(2)).above(Quantity::of(SILENT_M_S2))
     }
 }
 

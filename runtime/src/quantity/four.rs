@@ -111,6 +111,13 @@ impl<A: Arithmetic, U: Unit> Four<A, U> {
         Quantity((a + b) + (c + d))
     }
 
+    /// See [`Arithmetic::four_settled`].
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn settled_within(self, grid: f32) -> Self {
+        Self(A::four_settled(self.0, grid))
+    }
+
     /// The smaller of each two; none is NaN.
     #[inline(always)]
     #[must_use]

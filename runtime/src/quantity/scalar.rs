@@ -4,7 +4,10 @@ use super::{
     product::{Over, Times},
     unit::{ConvertTo, Unit},
 };
-use crate::arithmetic::{Arithmetic, Cut, Scalar as _, Zero as _};
+use crate::{
+    arithmetic::{Arithmetic, Cut, Scalar as _, Zero as _},
+    lanes::GRID,
+};
 use core::{
     cmp::Ordering,
     ops::{Add, Mul, Neg, Sub},
@@ -163,6 +166,27 @@ impl<A: Arithmetic, U: Unit> Quantity<A, U> {
     #[must_use]
     pub(crate) fn saturating_add(self, other: Self) -> Self {
         Self(self.0.saturating_add(other.0))
+    }
+
+    /// [`Quantity::settled_within`] the grid of the smallest numbers in use.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn settled(self) -> Self {
+        self.settled_within(GRID)
+    }
+
+    /// See [`Arithmetic::settled`].
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn settled_within(self, grid: f32) -> Self {
+        Self(A::settled(self.0, grid))
+    }
+
+    /// The number where it is more than `least`, else zero.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn above(self, least: Self) -> Self {
+        if self.0 > least.0 { self } else { Self::ZERO }
     }
 
     /// The smaller one.

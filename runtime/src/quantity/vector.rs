@@ -6,7 +6,10 @@ use super::{
     scalar::{Quantity, Raw},
     unit::{Fraction, Unit},
 };
-use crate::arithmetic::{Arithmetic, Scalar as _, Zero as _};
+use crate::{
+    arithmetic::{Arithmetic, Scalar as _, Zero as _},
+    lanes::GRID,
+};
 use core::ops::{Add, Mul, Sub};
 
 /// Three components of unit `U` along the world's axes; a fourth number beside them, where
@@ -164,6 +167,20 @@ impl<A: Arithmetic, U: Unit> Vector<A, U> {
         Quantity(A::dot3::<U::Point, V::Point, <U::Product as Unit>::Point>(
             self.0, other.0,
         ))
+    }
+
+    /// [`Vector::settled_within`] the grid of the smallest numbers in use.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn settled(self) -> Self {
+        self.settled_within(GRID)
+    }
+
+    /// See [`Arithmetic::four_settled`].
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn settled_within(self, grid: f32) -> Self {
+        Self(A::four_settled(self.0, grid))
     }
 
     /// Whether no component is beyond ±`limit`, or NaN.

@@ -14,6 +14,10 @@ use crate::{
 };
 use asperity_formats::Solid;
 
+/// Components of a normal are whole multiples of this, 2⁻²², so that their products with small motions
+/// are normal floats.
+const FLATTEST: f32 = f32::from_bits((127 - 22) << 23);
+
 /// The signed distance from a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DistanceField<A: Magnitudes = Float> {
@@ -66,7 +70,7 @@ impl<A: Magnitudes> DistanceField<A> {
         match *solid {
             Solid::Plane { point_m, normal } => Self::Plane {
                 point: Vector::of(point_m),
-                normal: Vector::of(unit(normal)),
+                normal: Vector::of(unit(normal)).settled_within(FLATTEST),
             },
             Solid::Sphere { center_m, radius_m } => Self::Sphere {
                 center: Vector::of(center_m),
@@ -105,7 +109,7 @@ fn sphere<A: Magnitudes>(r: Vector<A, Metre>, radius: Quantity<A, Metre>) -> Con
     let square = r.square();
     let magnitude = Magnitude::<A, Metre>::of_square(square);
     let normal = if A::is_some(square) {
-        r.direction(magnitude)
+        r.direction(magnitude).settled_within(FLATTEST)
     } else {
         Vector::whole([0, 0, 1])
     };
@@ -131,7 +135,7 @@ fn cuboid<A: Magnitudes>(r: Vector<A, Metre>, half_extents: Vector<A, Metre>) ->
     let second = !first && q[1] >= deepest;
     let face = [first, second, !first && !second];
     let normal = if A::is_some(square) {
-        away.direction(magnitude)
+        away.direction(magnitude).settled_within(FLATTEST)
     } else {
         let outward = |axis: usize| {
             let sign = if below[axis] { -1 } else { 1 };

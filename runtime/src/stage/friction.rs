@@ -118,7 +118,9 @@ impl<A: Magnitudes> Bristle<A> {
         load: Quantity<A, Newton>,
         mu: Quantity<A, FrictionCoefficient>,
     ) -> Friction<A> {
-        let deflection = (state.deflection.get() + motion).tangential(normal);
+        let deflection = (state.deflection.get() + motion)
+            .tangential(normal)
+            .settled();
         let magnitude = Magnitude::above_zero(deflection);
         let limit = mu * load;
 

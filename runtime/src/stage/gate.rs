@@ -125,6 +125,7 @@ impl<A: Positions> Gate<A> {
         if missed | state.bad_in_a_row > self.hold_ticks || !within {
             return self.irregular(state, sample, within);
         }
+        let position = position.settled();
         let motion = position - state.position();
         state.position = position.into();
         state.bad_in_a_row = 0;
@@ -160,7 +161,7 @@ impl<A: Positions> Gate<A> {
         let (before, mut elapsed_ticks) = (state.position(), 1);
         let mut motion = Vector::ZERO;
         let flags = if within && sample.elapsed_ticks > 0 {
-            let position = Vector::load(sample.position_m);
+            let position = Vector::load(sample.position_m).settled();
             state.position = position.into();
             state.bad_in_a_row = 0;
             if fresh {

@@ -109,7 +109,7 @@ impl<A: Shortening> Bound<A> {
             (v, Flags::NONE)
         } else if A::is_sane(square) {
             let shrink = Quantity::<A, Fraction>(A::over_root(self.longest.0, square));
-            (v * shrink, longer)
+            ((v * shrink).settled(), longer)
         } else {
             (Vector::ZERO, Flags::NONE)
         }

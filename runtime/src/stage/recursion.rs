@@ -58,7 +58,7 @@ impl InnerProduct for Float {
     type Sum = F4;
 
     const VIB_LIMIT_M_S2: f32 = 1.0e4;
-    const SILENCE_M_S2: f32 = 1.0e-20;
+    const SILENCE_M_S2: f32 = 1.0e-12;
 
     #[inline(always)]
     fn sum_of(first: f32) -> F4 {

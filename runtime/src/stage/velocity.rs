@@ -23,6 +23,8 @@ use crate::{
     },
 };
 
+/// Velocities are whole multiples of this or larger than 2²³ of it, 2⁻³⁶ m/s.
+const SLOWEST_M_S: f32 = f32::from_bits((127 - 36) << 23);
 /// Below this speed the direction of motion is the last one, m/s.
 const DIRECTION_FLOOR_M_S: f32 = 1.0e-4;
 /// No component of a velocity enters its low-pass beyond this, m/s, where numbers have a range.
@@ -103,7 +105,9 @@ impl<A: Magnitudes> Velocity<A> {
         normal: Vector<A, Fraction>,
         direction: &mut StoredVector<A, Fraction>,
     ) -> Quantity<A, MetrePerSecond> {
-        let slide = self.world.tangential(normal);
+        // A part along the normal so small that its own parts have no square is none.
+        let along = self.world.dot(normal).settled_within(SLOWEST_M_S);
+        let slide = self.world - normal * along;
         let magnitude = Magnitude::unguarded(slide);
         let speed = magnitude.length();
         if speed > Quantity::of(DIRECTION_FLOOR_M_S) {
@@ -150,7 +154,9 @@ impl<A: Differences> VelocityEstimator<A> {
             <Hertz as Unit>::Point,
             <MetrePerSecond as Unit>::Point,
         >(motion.0, gain.0, self.largest.0));
-        let v = u + state.s1;
+        // At rest the low-pass would decay through denormals. What is left of it, up to 1 nm/s, stays
+        // large enough that its part in any plane has a square.
+        let v = (u + state.s1).settled_within(SLOWEST_M_S);
         state.s1 = u + u - self.a1 * v + state.s2;
         state.s2 = u - self.a2 * v;
         Velocity {

@@ -43,10 +43,16 @@ pub(super) fn to_cosines<A: Arithmetic>(row: &mut [Raw<A, LineCosine>], codes: &
     for (places, &angles) in row.chunks_mut(4 * SIDE_BY_SIDE).zip(angles) {
         let cosines = minus_two_cos_pi(angles);
         for (place, four) in places.as_chunks_mut().0.iter_mut().zip(cosines) {
-            *place = four.to_array().map(A::Scalar::of);
+            *place = (four + F4::splat(AWAY_FROM_ZERO))
+                .to_array()
+                .map(A::Scalar::of);
         }
     }
 }
+
+/// Added to a cosine, 2⁻⁵⁰, which leaves all but 0 as they are: a line spectrum would approach a 0
+/// through denormals.
+const AWAY_FROM_ZERO: f32 = f32::from_bits((127 - 50) << 23);
 
 /// A code whose cosine is 0.
 const RIGHT_ANGLE: [u8; 2] = 0x8000_u16.to_le_bytes();

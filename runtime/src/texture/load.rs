@@ -4,6 +4,7 @@ use super::{Texture, codes::to_cosines, needs::Needs};
 use crate::{
     capacity::Capacity,
     coupling::Coupling,
+    lanes::{GRID, settled},
     load_error::LoadError,
     model::orders::Orders,
     quantity::{Quantity, unit::ExcitationLevel},
@@ -113,7 +114,10 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
             if let Some(model) = grid.model(usize::from(vertex.model)) {
                 to_cosines::<A>(ar.as_mut(), model.stored_lsf());
                 to_cosines::<A>(ma.as_mut(), model.stored_ma_lsf());
-                *level = Quantity::<A, ExcitationLevel>::of(model.gain * vertex.sigma_m_s2).0;
+                *level = Quantity::<A, ExcitationLevel>::of(
+                    settled(model.gain, GRID) * settled(vertex.sigma_m_s2, GRID),
+                )
+                .0;
             }
         }
         let corner = |v: u8| grid.place(usize::from(v)).unwrap_or_default();

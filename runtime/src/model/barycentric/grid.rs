@@ -204,7 +204,7 @@ impl<S: Capacity, A: WeightSearch> Grid<S, A> {
         let w1 = Quantity::<A, Weight>::sum_of_products([(ds, slope(2)), (df, slope(3))], FAR);
         let w2 = Quantity::<A, Weight>::sum_of_products([(ds, slope(4)), (df, slope(5))], FAR);
         let one = Quantity::whole(1);
-        let cut = [one - w1 - w2, w1, w2].map(|w| w.max(Quantity::ZERO));
+        let cut = [one - w1 - w2, w1, w2].map(|w| w.settled().max(Quantity::ZERO));
         let sum = cut[0] + cut[1] + cut[2];
         // Without a triangle there are no weights.
         let scale = if sum > Quantity::ZERO {

@@ -16,6 +16,11 @@ use fixed::FixedI32;
 /// make of a zero. A wider margin would be felt beside slivers, whose mixtures change within a
 /// hair. The last bits, where a weight has an index, are set, so that no index decides.
 const NEARLY_INSIDE: f32 = f32::from_bits(0xb400_007f);
+/// Added to the bits of a weight that has an index: the number is doubled, and a zero becomes a
+/// normal number. A denormal would lose its index where the caller has switched denormals off.
+const NORMAL: u32 = 1 << 23;
+/// Added to every weight, 2⁻¹⁰⁰: smaller weights, denormals among them, all count as this.
+const NOTHING: f32 = f32::from_bits((127 - 100) << 23);
 
 /// Comparing weights of many triangles.
 pub trait WeightSearch: Arithmetic {
@@ -83,11 +88,11 @@ impl WeightSearch for Float {
     #[inline(always)]
     fn better(best: Best, four: Four<Self, Weight>, bits: u32, index: u32) -> Best {
         // Zeros lose their sign, which platforms compare differently.
-        let four = four.0 + F4::ZERO;
+        let four = four.0 + F4::splat(NOTHING);
         if F4::IN_REGISTERS {
-            return Best::of(four.mark(bits, index).max(best.lanes()));
+            return Best::of(four.mark(bits, NORMAL | index).max(best.lanes()));
         }
-        let marked = |x: f32, index: u32| f32::from_bits(x.to_bits() & !bits | index);
+        let marked = |x: f32, index: u32| f32::from_bits((x.to_bits() & !bits) + (NORMAL | index));
         let lanes = four.to_array().into_iter().zip(index..);
         let least = best.lanes().to_array()[0];
         Best([lanes.fold(least, |best, (x, index)| max(marked(x, index), best)); BEST])
@@ -96,9 +101,9 @@ impl WeightSearch for Float {
     #[inline(always)]
     fn is_inside(best: Best) -> bool {
         if F4::IN_REGISTERS {
-            return best.lanes().reaches(NEARLY_INSIDE);
+            return best.lanes().reaches(2.0 * NEARLY_INSIDE);
         }
-        best.0[0] >= NEARLY_INSIDE
+        best.0[0] >= 2.0 * NEARLY_INSIDE
     }
 
     #[inline(always)]

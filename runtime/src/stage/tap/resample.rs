@@ -15,7 +15,7 @@ use self::poles::Poles;
 use crate::{
     arithmetic::Scalar,
     complex::Complex4,
-    lanes::F4,
+    lanes::{F4, GRID, settled},
     math::{cos_pi_four, exp, max},
 };
 use asperity_formats::{limits::MAX_TAPS, taps::BLOCK};
@@ -46,9 +46,15 @@ const RESPONSES: usize = 32;
 /// A sample this close to a tick belongs to it, s.
 const ROUNDING_S: f64 = 1e-9;
 
+/// e to this is below the grid of the smallest numbers in use.
+const NEXT_TO_NOTHING: f32 = -44.0;
+
 /// e^(pole·x) for x ≥ 0. Im·x exceeds 2π only where the result is next to nothing.
 fn decay(x: f32) -> Complex4 {
-    let size = POLES.re.to_array().map(|re| exp(max(re * x, -80.0)));
+    let size = POLES
+        .re
+        .to_array()
+        .map(|re| exp(max(re * x, NEXT_TO_NOTHING)));
     let half_turns = POLES.im * F4::splat(x) * F4::splat(core::f32::consts::FRAC_1_PI);
     let half_turns = half_turns.min(F4::splat(2.0));
     // The second half of a turn mirrors the first, and sines are cosines a quarter later.
@@ -61,6 +67,7 @@ fn decay(x: f32) -> Complex4 {
         re: cos_pi_four(mirrored) * F4::load(&size),
         im: cos_pi_four(quarter) * F4::load(&size) * F4::load(&sign),
     }
+    .settled()
 }
 
 /// The rates of a conversion, Hz.
@@ -158,7 +165,7 @@ impl Resampler {
         for first in (0..self.samples).step_by(BLOCK) {
             read(first, &mut block);
             for (n, &row) in (first..self.samples).zip(&block) {
-                put(out, self.samples, n, row.map(S::of));
+                put(out, self.samples, n, row.map(|a| S::of(settled(a, GRID))));
             }
         }
     }
@@ -201,11 +208,11 @@ impl Resampler {
                 taken += count;
             }
             let age_s = now_s - (taken - 1) as f64 * source_s;
-            let now = if age_s > ROUNDING_S {
-                states.times(&decay(age_s as f32 * self.stop_rad_s))
-            } else {
-                states
-            };
+            let mut now = states;
+            if age_s > ROUNDING_S {
+                now = states.times(&decay(age_s as f32 * self.stop_rad_s));
+                now.settle();
+            }
             given.put(out, n, &now);
             n += 1;
             if taken >= self.samples {
@@ -236,6 +243,7 @@ impl Resampler {
                 add(sums, sample);
             }
             *states = states.times(before).plus(&entering);
+            states.settle();
         }
     }
 
@@ -250,6 +258,7 @@ impl Resampler {
     ) {
         for n in n..given.ticks {
             *now = now.times(&self.tick);
+            now.settle();
             given.put(out, n, now);
         }
     }
@@ -331,7 +340,7 @@ fn responses(tick: Complex4) -> impl Iterator<Item = f32> {
     };
     core::iter::repeat_with(move || {
         let h = state.response(&RESIDUES);
-        state = state.times(tick);
+        state = state.times(tick).settled();
         h
     })
 }

@@ -1,6 +1,9 @@
 //! The filter's poles, and its states for as many traces as a register has lanes.
 
-use crate::{complex::Complex4, lanes::F4};
+use crate::{
+    complex::Complex4,
+    lanes::{F4, GRID, settled},
+};
 use core::ops::{Add, Mul, Sub};
 
 /// `N` numbers side by side, one a trace.
@@ -12,6 +15,9 @@ pub(crate) trait Lanes<const N: usize>:
     fn load(numbers: &[f32; N]) -> Self;
 
     fn to_array(self) -> [f32; N];
+
+    /// See [`Arithmetic::settled`](crate::arithmetic::Arithmetic::settled).
+    fn settled(self) -> Self;
 }
 
 impl Lanes<4> for F4 {
@@ -28,6 +34,11 @@ impl Lanes<4> for F4 {
     #[inline(always)]
     fn to_array(self) -> [f32; 4] {
         self.to_array()
+    }
+
+    #[inline(always)]
+    fn settled(self) -> Self {
+        self.settled(GRID)
     }
 }
 
@@ -46,6 +57,11 @@ impl Lanes<1> for f32 {
     #[inline(always)]
     fn to_array(self) -> [f32; 1] {
         [self]
+    }
+
+    #[inline(always)]
+    fn settled(self) -> Self {
+        settled(self, GRID)
     }
 }
 
@@ -90,6 +106,14 @@ impl<L: Lanes<N>, const N: usize> Poles<L, N> {
             b * u + f * q,
             c * v + g * r,
         ])
+    }
+
+    /// Rounds what is next to nothing, in place, which takes no stack.
+    #[inline(always)]
+    pub(super) fn settle(&mut self) {
+        for number in &mut self.0 {
+            *number = number.settled();
+        }
     }
 
     /// Adds a sample of each trace, decayed by `left`.
