@@ -65,6 +65,7 @@ impl<A: Arithmetic> Coupling<A> {
         self.vib = to.vib - left * (to.vib - self.vib);
         self.f_max = to.f_max - left * (to.f_max - self.f_max);
         self.vib_mass = self.vib * self.f_max;
+        // The size of friction, which is an output, is a multiple of it.
         self.mu = to.mu - left * (to.mu - self.mu).settled();
     }
 

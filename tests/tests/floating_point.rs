@@ -1,6 +1,6 @@
 //! The caller's floating point: audio hosts, game engines and C programs linked with `-ffast-math`
 //! have denormals flushed (FTZ) or read as zeros (DAZ). No bit may depend on it, and no tick may
-//! raise an exception that a caller could have unmasked.
+//! raise an exception that `docs/floating-point.md` lets a caller unmask.
 #![cfg(target_arch = "x86_64")]
 
 use asperity_formats::Solid;

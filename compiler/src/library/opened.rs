@@ -51,9 +51,11 @@ impl OpenLibraries {
 mod tests {
     use super::*;
     use crate::{
-        back_end::{lower::lower, source::ENTRIES_READ},
+        back_end::{
+            lower::lower,
+            source::{ENTRIES_READ, tests::library_of},
+        },
         front_ends::builtin,
-        library::{NamedAsset, encode},
     };
     use std::fs;
 
@@ -64,14 +66,7 @@ mod tests {
         let (library, alone) = (folder.path().join("a.aspl"), folder.path().join("a.asp"));
         let asset = lower(&builtin::texture(), None).unwrap().bytes;
         let names: Vec<String> = (0..50).map(|n| format!("t{n:02}")).collect();
-        let assets: Vec<NamedAsset<'_>> = names
-            .iter()
-            .map(|name| NamedAsset {
-                name,
-                bytes: &asset,
-            })
-            .collect();
-        fs::write(&library, encode(&assets).unwrap()).unwrap();
+        fs::write(&library, library_of(&names, &asset)).unwrap();
         fs::write(&alone, &asset).unwrap();
         let libraries = OpenLibraries::default();
         let before = ENTRIES_READ.get();

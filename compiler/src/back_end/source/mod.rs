@@ -3,7 +3,7 @@
 mod error;
 mod index;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use error::{SourceError, SourceProblem};
 #[cfg(test)]

@@ -11,6 +11,14 @@ use crate::{
 use asperity_formats::Asset;
 use std::fs;
 
+/// A library that holds the same asset under every name.
+pub(crate) fn library_of(names: &[String], asset: &[u8]) -> Vec<u8> {
+    let assets: Vec<_> = (names.iter())
+        .map(|name| NamedAsset { name, bytes: asset })
+        .collect();
+    encode(&assets).unwrap()
+}
+
 fn problem(error: SourceError) -> SourceProblem {
     error.problem
 }
@@ -155,14 +163,7 @@ impl Seek for Counting {
 fn work(count: usize) -> usize {
     let asset = lower(&builtin::texture(), None).unwrap().bytes;
     let names: Vec<String> = (0..count).map(|n| format!("t{n:05}")).collect();
-    let assets: Vec<NamedAsset<'_>> = names
-        .iter()
-        .map(|name| NamedAsset {
-            name,
-            bytes: &asset,
-        })
-        .collect();
-    let bytes = encode(&assets).unwrap();
+    let bytes = library_of(&names, &asset);
     let read = std::sync::Arc::default();
     let entries = index::ENTRIES_READ.get();
     let counting = Counting(Cursor::new(bytes), std::sync::Arc::clone(&read));
@@ -197,14 +198,7 @@ fn each_texture_is_looked_at_once_in_order() {
     let path = folder.path().join("a.aspl");
     let asset = lower(&builtin::texture(), None).unwrap().bytes;
     let names: Vec<String> = (0..TOGETHER + 3).map(|n| format!("t{n:05}")).collect();
-    let assets: Vec<NamedAsset<'_>> = names
-        .iter()
-        .map(|name| NamedAsset {
-            name,
-            bytes: &asset,
-        })
-        .collect();
-    let mut bytes = encode(&assets).unwrap();
+    let mut bytes = library_of(&names, &asset);
     fs::write(&path, &bytes).unwrap();
     let look = || {
         let mut source = Source::open(&path).unwrap();
