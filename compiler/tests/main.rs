@@ -2,6 +2,7 @@
 //! its line here; `.ci/check-tests` fails without it.
 
 mod auto_gain;
+mod cases;
 mod commands;
 mod edits;
 mod manifests;

@@ -15,17 +15,10 @@ use std::{
     collections::BTreeMap,
     fmt::Write as _,
     fs,
-    path::{Path, PathBuf},
+    path::Path,
 };
 
 const LISTS: usize = 150;
-
-/// The case folder that users' reports became.
-fn case(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../tests/cases/manifest-messages")
-        .join(file)
-}
 
 fn told(errors: &[ManifestError]) -> String {
     errors.iter().map(|error| report(error) + "\n").collect()
@@ -40,25 +33,6 @@ fn prompts(manifest: &Manifest) -> BTreeMap<String, String> {
             other => panic!("{other:?}"),
         })
         .collect()
-}
-
-#[test]
-fn the_lists_of_the_case_are_read_or_refused_by_what_is_wrong() {
-    for (file, says) in [
-        ("table.toml", ":1: texture: one table in single brackets"),
-        ("table.toml", "write [[texture]]"),
-        ("dupkey.jsonl", ":1: \"prompt\" is stated twice"),
-    ] {
-        let errors = Manifest::read(&case(file)).expect_err(file);
-        let told = told(&errors);
-        assert!(told.contains(says), "{file}: {told}");
-        assert!(!told.contains("no such key"), "{file}: {told}");
-    }
-    for file in ["blank_rows.csv", "semicolon.csv"] {
-        let manifest = Manifest::read(&case(file)).unwrap_or_else(|e| panic!("{}", told(&e)));
-        let wanted = [("oak".to_owned(), "rough oak".to_owned())];
-        assert_eq!(prompts(&manifest), BTreeMap::from(wanted), "{file}");
-    }
 }
 
 /// How a list is written, and how it was damaged.
