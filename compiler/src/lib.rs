@@ -8,7 +8,7 @@
 //! | `front_ends/` | what makes a texture: [`prompt`] with its [`text`] encoders and the [`learned`] model, [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`] |
 //! | `model/` | the [`model`] between the ends: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
-//! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`output`], [`source`], [`raise`] |
+//! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`source`], [`raise`] |
 //! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
 //! | `edit/` | mixing and editing in the latent: [`edit`] |
 //! | `interchange/` | other tools' formats: the [`interchange`] |
@@ -16,10 +16,9 @@
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`diffusion`], [`listen`], [`render`] |
 //!
 //! [`pipeline`] runs the passes and the back end, and times them: every command that makes an
-//! asset takes this one way. [`scene`] packs several textures within a budget. A command reads its
-//! files through [`input`], within limits, opens those that it writes with [`output::Outputs`], and
-//! talks through [`console`]: failures as [`diagnostic`] states them, text from outside as [`shown`]
-//! and [`toml_error`] make it fit for a terminal.
+//! asset takes this one way. [`scene`] packs several textures within a budget. Below this crate,
+//! `asperity-io` reads files within limits, writes them whole or not at all, and states failures;
+//! above it, `asperity-console` and the command `asperity` talk to people.
 #![forbid(unsafe_code)]
 
 mod back_end;
@@ -28,21 +27,18 @@ mod passes;
 mod signal;
 mod views;
 
-pub mod console;
-pub mod diagnostic;
 pub mod edit;
-pub mod input;
 pub mod interchange;
 pub mod library;
 pub mod model;
 pub mod pipeline;
-pub mod progress;
 pub mod scene;
-pub mod shown;
-pub mod toml_error;
+
+/// What every error of this crate says besides its cause: the remedy.
+pub use asperity_io::diagnostic;
 
 // Users name a module without its folder, so that files can move between the stages.
-pub use back_end::{lower, output, raise, source, verify};
+pub use back_end::{lower, raise, source, verify};
 pub use front_ends::{
     builtin, effects, embedded, hatt, imported, inference, learned, model_file, prompt, recording,
     text,

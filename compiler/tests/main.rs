@@ -2,8 +2,6 @@
 //! its line here; `.ci/check-tests` fails without it.
 
 mod auto_gain;
-mod cases;
-mod commands;
 mod edits;
 mod manifests;
 mod model_schema;

@@ -2,21 +2,15 @@
 //! would lose a row, a cell or a key is refused at its line.
 
 use asperity::{
-    diagnostic::report,
-    input::Reach,
     library::{
         Lock, Manifest,
         manifest::{ManifestError, Origin},
     },
     scene::Description,
 };
+use asperity_io::{diagnostic::report, input::Reach};
 use asperity_tests::draw::Draw;
-use std::{
-    collections::BTreeMap,
-    fmt::Write as _,
-    fs,
-    path::Path,
-};
+use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path};
 
 const LISTS: usize = 150;
 

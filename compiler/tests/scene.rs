@@ -3,7 +3,6 @@
 
 use asperity::{
     builtin,
-    diagnostic::report,
     inference::Backend,
     lower::lower,
     prompt::{Author, Options},
@@ -12,6 +11,7 @@ use asperity::{
     scene::{Budget, Built, Description, SceneError, build},
 };
 use asperity_formats::Library;
+use asperity_io::diagnostic::report;
 use asperity_runtime::{Config, HostScene, HostTexture, Renderer, Sample, SceneState};
 use std::{fs, path::Path};
 use tempfile::TempDir;

@@ -3,9 +3,9 @@
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use asperity::diagnostic::Diagnostic;
-use asperity::input::{self, InputError, Kind};
-use asperity::toml_error::TomlError;
+use asperity_io::diagnostic::Diagnostic;
+use asperity_io::input::{self, InputError, Kind};
+use asperity_io::toml_error::TomlError;
 use serde::de::DeserializeOwned;
 
 /// Why a device or grip file was refused.

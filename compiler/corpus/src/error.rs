@@ -1,6 +1,6 @@
 //! Why a corpus cannot be used.
 
-use asperity::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Diagnostic;
 use std::path::PathBuf;
 use thiserror::Error;
 

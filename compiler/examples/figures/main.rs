@@ -11,9 +11,9 @@ use asperity::{
     edit::{Latents, Studio, explain},
     inference::Backend,
     model::{Provenance, TextureModel},
-    output::write_atomic,
     prompt::Author,
 };
+use asperity_io::output::write_atomic;
 use page::Page;
 use std::{env, error::Error, fs, path::PathBuf};
 

@@ -1,6 +1,7 @@
 //! Failures as Python exceptions.
 
-use asperity::{diagnostic::Diagnostic, pipeline::PipelineError, rerate::RATE_RANGE_HZ};
+use asperity::{pipeline::PipelineError, rerate::RATE_RANGE_HZ};
+use asperity_io::diagnostic::Diagnostic;
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::fmt::Display;
 

@@ -4,10 +4,10 @@ use crate::{arguments::Choice, contents::Contents, error::Failure, records, text
 use asperity::{
     inspect::SurfaceDocument,
     library::{self, NamedAsset},
-    output,
     source::{Source, SourceError, SourceProblem},
 };
 use asperity_formats::{self as formats, FormatError};
+use asperity_io::output;
 use pyo3::{
     prelude::*,
     types::{PyIterator, PyList},

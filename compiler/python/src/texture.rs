@@ -6,7 +6,8 @@ use crate::{
     error::Failure,
     records::{of_fields, parsed, record, value},
 };
-use asperity::{inspect::Document, output};
+use asperity::inspect::Document;
+use asperity_io::output;
 use pyo3::{
     IntoPyObjectExt as _,
     prelude::*,

@@ -1,5 +1,6 @@
 //! What can be wrong with a recording, where, and what to do about it.
 
+use asperity_io::diagnostic::Diagnostic;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -33,10 +34,10 @@ impl RecordingError {
             problem,
         }
     }
+}
 
-    /// What the user can do, in one sentence.
-    #[must_use]
-    pub fn remedy(&self) -> String {
+impl Diagnostic for RecordingError {
+    fn remedy(&self) -> String {
         self.problem.remedy()
     }
 }

@@ -1,5 +1,6 @@
 //! Bad files are refused with the file and the line; what can be mended is mended and told.
 
+use asperity_io::diagnostic::Diagnostic;
 use asperity_recording::{
     Problem,
     check::{self, Kind, Severity},

@@ -1,5 +1,6 @@
 //! Every kind of file gives the same values, and a file that is too long is read to its end.
 
+use asperity_io::diagnostic::Diagnostic;
 use asperity_recording::{
     check::{self, Kind, Severity},
     reader::{self, Recording},

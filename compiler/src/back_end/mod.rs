@@ -2,7 +2,6 @@
 //! files, and the way back.
 
 pub mod lower;
-pub mod output;
 pub mod raise;
 pub mod source;
 pub mod verify;

@@ -2,11 +2,11 @@
 
 use crate::{
     back_end::{lower::LowerError, source::SourceError},
-    diagnostic::Diagnostic,
     front_ends::{learned::ModelError, prompt::PromptError},
     pipeline::PipelineError,
 };
 use asperity_formats::{EncodeError, FormatError};
+use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// Why a texture cannot be mixed or edited.

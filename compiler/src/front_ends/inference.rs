@@ -1,6 +1,6 @@
 //! Where networks run: the portable engine, or ONNX Runtime where it is installed.
 
-use crate::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Diagnostic;
 use asperity_nn::{Bytes, Portable, Session};
 use asperity_onnxruntime::OnnxRuntime;
 use std::{borrow::Cow, fmt, num::NonZero, path::Path, str::FromStr, thread};

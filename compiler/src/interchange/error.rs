@@ -1,11 +1,10 @@
 //! Why a texture could not be exported, or effects not be read.
 
 use crate::{
-    diagnostic::Diagnostic,
-    input::InputProblem,
     pipeline::PipelineError,
     views::{listen::ListenError, preview::PreviewError},
 };
+use asperity_io::{diagnostic::Diagnostic, input::InputProblem};
 use std::path::PathBuf;
 use thiserror::Error;
 

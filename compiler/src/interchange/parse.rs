@@ -4,7 +4,7 @@ use super::{
     error::{EffectProblem, Fault},
     playback::Track,
 };
-use crate::input;
+use asperity_io::input;
 use serde::de::DeserializeOwned;
 
 /// The latest time of an effect, s.

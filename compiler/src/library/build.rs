@@ -14,13 +14,15 @@ use super::{
     spill::{Packed, Slot, Spill},
 };
 use crate::{
-    diagnostic::{Failures, one},
     edit::{AXES, Studio},
     front_ends::prompt::Author,
-    input::{self, InputError, Kind},
     pipeline::{Pass, Pipeline, Timings},
 };
 use asperity_formats::Asset;
+use asperity_io::{
+    diagnostic::{Failures, one},
+    input::{self, InputError, Kind},
+};
 use rayon::prelude::*;
 use std::{
     path::Path,

@@ -11,8 +11,9 @@ use super::{
     key::{Key, Parts},
     own::{check_folder, make_folder, open_plain},
 };
-use crate::{back_end::output::AtomicFile, input::Kind};
 use asperity_formats::Asset;
+use asperity_io::input::Kind;
+use asperity_io::output::AtomicFile;
 use std::{
     env,
     io::{self, Read as _},

@@ -1,7 +1,7 @@
 //! Why a library was not built.
 
 use super::manifest::{Entry, Place};
-use crate::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// What went wrong with one texture, on any thread.

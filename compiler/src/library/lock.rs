@@ -1,7 +1,7 @@
 //! The lock file: which model and versions a library was built with.
 
 use super::manifest::CONFINED_REMEDY;
-use crate::{
+use asperity_io::{
     diagnostic::Diagnostic,
     input::{self, InputError, InputProblem, Kind, Outside, Reach},
     toml_error::TomlError,

@@ -5,7 +5,7 @@ use super::{
     pack::{NamedAsset, encode},
     shelf::Shelf,
 };
-use crate::diagnostic::{Failures, one};
+use asperity_io::diagnostic::{Failures, one};
 use std::collections::BTreeMap;
 
 /// The library of all textures of these libraries: the bytes that one build gives. A texture may be

@@ -1,7 +1,7 @@
 //! Packs many assets into one library.
 
-use crate::diagnostic::Diagnostic;
 use asperity_formats::{EncodeError, SceneSurface, library, scene};
+use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// An asset and its name.

@@ -1,11 +1,9 @@
 //! All textures of a library in memory.
 
 use super::error::LibraryFault;
-use crate::{
-    back_end::source::{Source, SourceError},
-    diagnostic::{Failures, one},
-};
+use crate::back_end::source::{Source, SourceError};
 use asperity_formats::Asset;
+use asperity_io::diagnostic::{Failures, one};
 use std::path::Path;
 
 /// All textures of a library, or the one of an asset, in order of name. Each is checked.

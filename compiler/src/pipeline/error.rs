@@ -2,10 +2,10 @@
 
 use crate::{
     back_end::{lower::LowerError, verify::VerifyError},
-    diagnostic::Diagnostic,
     passes::rerate,
     views::preview::PreviewError,
 };
+use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// The pass that failed, and why.

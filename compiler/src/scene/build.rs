@@ -16,13 +16,13 @@ use crate::{
         source::{Source, SourceError, SourceProblem},
         verify,
     },
-    diagnostic::Diagnostic,
     front_ends::hatt,
     library,
     model::TextureModel,
     pipeline::{Pass, Pipeline, PipelineError, Timings},
 };
 use asperity_formats::{Asset, SceneSurface};
+use asperity_io::diagnostic::Diagnostic;
 use rayon::prelude::*;
 use std::path::Path;
 

@@ -1,14 +1,14 @@
 //! `scene.toml`: surfaces, and the textures they wear.
 
 use super::error::{SceneError, SceneProblem};
-use crate::{
-    input::{self, Kind, Reach},
-    passes::rerate,
-    toml_error::TomlError,
-};
+use crate::passes::rerate;
 use asperity_formats::{
     Solid,
     limits::{MAX_NAME_BYTES, MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
+};
+use asperity_io::{
+    input::{self, Kind, Reach},
+    toml_error::TomlError,
 };
 use serde::Deserialize;
 use std::path::{Path, PathBuf};

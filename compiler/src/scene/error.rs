@@ -1,10 +1,10 @@
 //! Why a scene cannot be built.
 
 use super::target::Target;
-use crate::{
+use crate::library::{LibraryError, manifest::CONFINED_REMEDY};
+use asperity_io::{
     diagnostic::Diagnostic,
     input::{InputProblem, Outside},
-    library::{LibraryError, manifest::CONFINED_REMEDY},
     toml_error::TomlError,
 };
 use std::path::PathBuf;

@@ -4,11 +4,8 @@
 //! of how the texture feels.
 
 use crate::{
-    diagnostic::Diagnostic,
     front_ends::inference::{Backend, BackendName},
-    input::{self, InputError, InputProblem, Kind, Opened},
     model::TextureModel,
-    shown::plain,
 };
 use asperity_diffusion::{
     DiffusionError, Parts, Picture, Request, StableDiffusion,
@@ -16,6 +13,11 @@ use asperity_diffusion::{
         MERGES, MODEL_INDEX, SCHEDULER_CONFIG, TEXT_ENCODER, TOKENIZER_CONFIG, UNET, UNET_CONFIG,
         VAE_CONFIG, VAE_DECODER, VOCABULARY,
     },
+};
+use asperity_io::{
+    diagnostic::Diagnostic,
+    input::{self, InputError, InputProblem, Kind, Opened},
+    shown::plain,
 };
 use asperity_nn::Session;
 use asperity_onnxruntime::NotFound;

@@ -4,10 +4,8 @@
 //! say what is drawn. The level, the spectrum, the friction and the taps move its grain, depth
 //! and gloss.
 
-use crate::{
-    diagnostic::Diagnostic,
-    model::{TextureModel, VertexKind, attributes},
-};
+use crate::model::{TextureModel, VertexKind, attributes};
+use asperity_io::diagnostic::Diagnostic;
 use asperity_preview::{Description, EncodeError, Feel, SizeError};
 use thiserror::Error;
 

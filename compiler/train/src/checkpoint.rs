@@ -93,7 +93,7 @@ pub(crate) fn save(path: &Path, identity: &Identity, state: &State) -> Result<()
     });
     let note = note.map_err(|e| fail(e.to_string()))?;
     let bytes = weights::write(&tables, &note).map_err(fail)?;
-    Ok(asperity::output::write_atomic(path, &bytes)?)
+    Ok(asperity_io::output::write_atomic(path, &bytes)?)
 }
 
 /// Brings a fresh state of the same run to where the file left off.

@@ -2,7 +2,7 @@
 
 mod validate;
 
-use asperity::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Diagnostic;
 use serde::{Deserialize, Serialize};
 use std::{
     fs, io,

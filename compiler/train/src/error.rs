@@ -1,6 +1,7 @@
 //! Why a model cannot be trained.
 
-use asperity::{diagnostic::Diagnostic, output::OutputError, text::TextError};
+use asperity::text::TextError;
+use asperity_io::{diagnostic::Diagnostic, output::OutputError};
 use std::path::PathBuf;
 use thiserror::Error;
 

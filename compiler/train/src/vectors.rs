@@ -100,7 +100,7 @@ impl<'a> Remembered<'a> {
         let note = note.map_err(|e| fail(e.to_string()))?;
         let table = Table::new(&vectors, self.encoder.width());
         let bytes = weights::write(&[("vectors".to_owned(), table)], &note).map_err(fail)?;
-        Ok(asperity::output::write_atomic(path, &bytes)?)
+        Ok(asperity_io::output::write_atomic(path, &bytes)?)
     }
 
     /// Whether a text's vector is at hand.

@@ -1,6 +1,7 @@
 //! What can go wrong on the bench.
 
-use asperity::{diagnostic::Diagnostic, learned::ModelError, recording::RecordingFailure};
+use asperity::{learned::ModelError, recording::RecordingFailure};
+use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// A bench that could not run.

@@ -1,9 +1,9 @@
 //! Why a device cannot be calibrated.
 
-use asperity::diagnostic::Diagnostic;
-use asperity::input::InputError;
 use asperity_host::profile::ProfileError;
 use asperity_host::profile::response::ResponseError;
+use asperity_io::diagnostic::Diagnostic;
+use asperity_io::input::InputError;
 
 use super::table::COLUMNS;
 

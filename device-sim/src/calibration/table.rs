@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use asperity::input::{self, InputError, Kind};
+use asperity_io::input::{self, InputError, Kind};
 
 use super::{CalibrationError, Measured};
 

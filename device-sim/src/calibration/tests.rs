@@ -1,7 +1,7 @@
 //! Three simulated devices, their tables, and what is wrong with some.
 
 use super::*;
-use asperity::diagnostic::Diagnostic as _;
+use asperity_io::diagnostic::Diagnostic as _;
 
 /// Simulated devices whose masses differ by four either way: ±12 dB of acceleration.
 fn devices() -> [DeviceConfig; 3] {

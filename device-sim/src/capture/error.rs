@@ -1,6 +1,6 @@
 //! Why nothing can be recorded.
 
-use asperity::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Diagnostic;
 use std::io;
 
 /// Why a sensor gives nothing, or gives no more.

@@ -2,12 +2,12 @@
 
 use crate::config::ConfigError;
 use crate::voice::VoiceError;
-use asperity::diagnostic::Diagnostic;
 use asperity::source::SourceError;
 use asperity_formats::FormatError;
 use asperity_host::device::OpenError;
 use asperity_host::profile::ProfileError;
 use asperity_host::servo::SettingsError;
+use asperity_io::diagnostic::Diagnostic;
 use asperity_runtime::{LoadError, SceneError};
 use std::io;
 use std::path::PathBuf;

@@ -3,9 +3,9 @@
 
 use super::error::DeskError;
 use super::trace::Trace;
-use asperity::output::{OutputId, Outputs, is_standard_output};
 use asperity_host::recording::{Conditions, Encoder, FromServo, RecordingError, TextureInfo};
 use asperity_host::servo::Record;
+use asperity_io::output::{OutputId, Outputs, is_standard_output};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};

@@ -218,7 +218,7 @@ impl DeviceConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity::diagnostic::Diagnostic as _;
+    use asperity_io::diagnostic::Diagnostic as _;
 
     #[test]
     fn the_built_in_device_is_valid_and_marks_what_nobody_confirmed() {

@@ -1,6 +1,6 @@
 //! What can go wrong while a session is run and reported.
 
-use asperity::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Diagnostic;
 use asperity_runtime::LoadError;
 
 /// Why a session could not be run or reported.

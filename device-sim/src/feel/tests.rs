@@ -201,7 +201,7 @@ fn whatever_faults_come_the_force_is_finite_within_its_limits_and_felt_again() {
 
 #[test]
 fn a_device_with_another_rate_is_refused_with_the_remedy() {
-    use asperity::diagnostic::Diagnostic as _;
+    use asperity_io::diagnostic::Diagnostic as _;
     let mut wrong = options(1);
     wrong.device.timing.servo_rate_hz = 1500.0;
     let bytes = built_in();

@@ -1,6 +1,6 @@
 //! What can go wrong while the table or its pictures are made.
 
-use asperity::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Diagnostic;
 use asperity_plot::PlotError;
 
 /// Why the table or a picture could not be made.

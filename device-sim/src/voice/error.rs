@@ -1,8 +1,8 @@
 //! What cannot be rendered in a device's voice.
 
-use asperity::diagnostic::Diagnostic;
 use asperity::lower::LowerError;
 use asperity_formats::{EncodeError, FormatError};
+use asperity_io::diagnostic::Diagnostic;
 
 /// Why a texture cannot take a device's filter.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,10 +1,8 @@
 //! Why a folder of HaTT models cannot be used as a corpus.
 
 use crate::{BINS, SAMPLE_RATE_HZ};
-use asperity::{
-    diagnostic::Diagnostic,
-    hatt::{HattError, Problem},
-};
+use asperity::hatt::{HattError, Problem};
+use asperity_io::diagnostic::Diagnostic;
 use std::path::PathBuf;
 use thiserror::Error;
 

@@ -11,7 +11,7 @@ use crate::{
     error::CorpusError,
     generator,
 };
-use asperity::input::{self, Kind};
+use asperity_io::input::{self, Kind};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 

@@ -142,7 +142,7 @@ fn what_is_not_read_says_what_it_is() {
     ] {
         let error = read(&file).expect_err(part);
         assert!(error.to_string().contains(part), "{error}");
-        assert!(!error.remedy().is_empty());
+        assert!(!asperity_io::diagnostic::Diagnostic::remedy(&error).is_empty());
     }
 }
 

@@ -4,6 +4,7 @@
 mod kinds;
 mod take;
 
+use asperity_io::diagnostic::Diagnostic;
 use asperity_recording::{
     check::{self, Severity},
     reader,

@@ -1,7 +1,8 @@
 //! Why a texture cannot become an asset.
 
-use crate::{diagnostic::Diagnostic, model::mesh::MeshError};
+use crate::model::mesh::MeshError;
 use asperity_formats::EncodeError;
+use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// Why a texture cannot become an asset.

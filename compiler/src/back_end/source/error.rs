@@ -1,10 +1,10 @@
 //! Why a file cannot be used as a texture.
 
-use crate::{
+use asperity_formats::FormatError;
+use asperity_io::{
     diagnostic::Diagnostic,
     input::{InputProblem, Kind},
 };
-use asperity_formats::FormatError;
 use std::path::PathBuf;
 use thiserror::Error;
 

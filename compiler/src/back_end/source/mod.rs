@@ -9,8 +9,8 @@ pub use error::{SourceError, SourceProblem};
 #[cfg(test)]
 pub(crate) use index::ENTRIES_READ;
 
-use crate::input::{self, Format, InputProblem, Kind, Opened};
 use asperity_formats::{Asset, FormatError, SceneSurface, library};
+use asperity_io::input::{self, Format, InputProblem, Kind, Opened};
 use index::{Index, Place};
 use rayon::prelude::*;
 use std::{

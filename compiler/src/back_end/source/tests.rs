@@ -1,14 +1,14 @@
 //! What opens, and what is refused.
 
 use super::*;
-use crate::diagnostic::Diagnostic as _;
-use crate::input::InputProblem;
 use crate::{
     back_end::lower::lower,
     front_ends::builtin,
     library::{NamedAsset, encode},
 };
 use asperity_formats::Asset;
+use asperity_io::diagnostic::Diagnostic as _;
+use asperity_io::input::InputProblem;
 use std::fs;
 
 /// A library that holds the same asset under every name.

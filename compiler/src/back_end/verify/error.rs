@@ -1,7 +1,7 @@
 //! Why an asset is not fit to be written.
 
-use crate::diagnostic::Diagnostic;
 use asperity_formats::FormatError;
+use asperity_io::diagnostic::Diagnostic;
 use asperity_runtime::{ConfigError, LoadError};
 use thiserror::Error;
 

@@ -6,7 +6,6 @@ use crate::{
         imported::{Imported, Report, compare},
         learned::edges,
     },
-    input::{self, Format, InputProblem},
     interchange::{EffectError, EffectProblem, ahap, haptic, hjif, playback::Track},
     model::{Friction, ModelGrid, Numerator, Provenance, TapBank, TextureModel, defaults},
     passes::{reduce::Fidelity, triangulate},
@@ -14,6 +13,7 @@ use crate::{
     signal::tap_synthesis,
 };
 use asperity_formats::limits::MAX_NAME_BYTES;
+use asperity_io::input::{self, Format, InputProblem};
 use std::path::Path;
 
 /// The grid reaches this many times the speed and the force of the stroke.

@@ -1,6 +1,6 @@
 //! Why a HaTT file was refused: file, line, field, value, remedy.
 
-use crate::{
+use asperity_io::{
     diagnostic::Diagnostic,
     input::{InputProblem, NestingProblem},
 };

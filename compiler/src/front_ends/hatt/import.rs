@@ -12,13 +12,13 @@ use crate::{
         imported::{Imported, Report, errors_over_grid},
         learned::{LearnedModel, ModelError, complete},
     },
-    input::{self, InputProblem, Kind},
     model::{ModelGrid, TextureModel},
     passes::reduce::Fidelity,
     pipeline::{Compiled, Pass, Pipeline, Settings},
     signal::spectrum::{ArmaModel, log_spectral_distance_db},
 };
 use asperity_formats::Asset;
+use asperity_io::input::{self, InputProblem, Kind};
 use rayon::prelude::*;
 use std::{
     collections::HashMap,

@@ -1,7 +1,8 @@
 //! Why a material did not become an asset.
 
 use super::error::HattError;
-use crate::{diagnostic::Diagnostic, front_ends::learned::ModelError, pipeline::PipelineError};
+use crate::{front_ends::learned::ModelError, pipeline::PipelineError};
+use asperity_io::diagnostic::Diagnostic;
 use std::{fmt, path::PathBuf};
 use thiserror::Error;
 

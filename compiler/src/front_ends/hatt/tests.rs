@@ -90,7 +90,7 @@ fn refusal(text: &str) -> String {
     error.to_string()
 }
 
-use crate::diagnostic::Diagnostic as _;
+use asperity_io::diagnostic::Diagnostic as _;
 
 #[test]
 fn any_orders_import_within_a_hundredth_of_a_decibel() {

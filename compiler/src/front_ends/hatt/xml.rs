@@ -1,7 +1,7 @@
 //! Reads numbers and lists from an untrusted XML document, and names the line of what is wrong.
 
 use super::error::{HattError, Problem};
-use crate::input;
+use asperity_io::input;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::{fmt::Display, path::Path};
 

@@ -1,6 +1,6 @@
 //! Why a learned model cannot be used.
 
-use crate::{diagnostic::Diagnostic, input::InputError};
+use asperity_io::{diagnostic::Diagnostic, input::InputError};
 use std::path::PathBuf;
 use thiserror::Error;
 

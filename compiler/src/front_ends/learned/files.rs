@@ -1,7 +1,7 @@
 //! The files of a learned model, embedded or read from a folder.
 
 use super::error::ModelError;
-use crate::input::{self, InputError, Kind};
+use asperity_io::input::{self, InputError, Kind};
 use std::{borrow::Cow, path::Path};
 
 /// The files of a model folder, embedded or read.

@@ -1,7 +1,8 @@
 //! Why a model file was refused: file, field, value, remedy.
 
 use super::schema::{FORMAT, VERSION};
-use crate::{diagnostic::Diagnostic, input::InputProblem, pipeline::PipelineError};
+use crate::pipeline::PipelineError;
+use asperity_io::{diagnostic::Diagnostic, input::InputProblem};
 use std::path::PathBuf;
 use thiserror::Error;
 

@@ -5,10 +5,8 @@ use super::{
     error::{Fault, ModelFileError, ModelFileProblem},
     schema::{Document, FORMAT, VERSION},
 };
-use crate::{
-    input::{self, Kind},
-    model::TextureModel,
-};
+use crate::model::TextureModel;
+use asperity_io::input::{self, Kind};
 use serde::{Deserialize, de::DeserializeOwned};
 use serde_json::Value;
 use std::path::Path;

@@ -3,11 +3,11 @@
 use super::*;
 use crate::{
     front_ends::builtin,
-    input::{InputProblem, Kind},
     model::{FrictionLaw, LawPoint, Numerator, TextureModel, defaults, mesh},
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Settings},
 };
+use asperity_io::input::{InputProblem, Kind};
 use serde_json::{Value, json};
 
 /// The model as a file keeps it: what belongs to an asset is left out.

@@ -1,10 +1,10 @@
 //! Why a prompt gave no texture.
 
 use crate::{
-    diagnostic::Diagnostic,
     front_ends::{learned::ModelError, text::TextError},
     pipeline::PipelineError,
 };
+use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// Why a prompt gave no texture.

@@ -1,15 +1,10 @@
 //! What can go wrong between a folder and an asset.
 
-use crate::{diagnostic::Diagnostic, learned::ModelError, pipeline::PipelineError};
+use crate::{learned::ModelError, pipeline::PipelineError};
+use asperity_io::diagnostic::Diagnostic;
 use asperity_recording::RecordingError;
 use std::path::PathBuf;
 use thiserror::Error;
-
-impl Diagnostic for RecordingError {
-    fn remedy(&self) -> String {
-        RecordingError::remedy(self)
-    }
-}
 
 /// A recording that did not become a texture.
 #[derive(Debug, Error)]

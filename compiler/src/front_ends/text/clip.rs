@@ -5,10 +5,8 @@
 //! output `[1, width]`. Where there are several outputs, it is `text_embeds`.
 
 use super::encoder::{Encoded, TextEncoder, TextError, unit};
-use crate::{
-    front_ends::inference::Backend,
-    input::{self, Kind},
-};
+use crate::front_ends::inference::Backend;
+use asperity_io::input::{self, Kind};
 use asperity_model::CLIP_MERGES;
 use asperity_nn::{Dim, ElementType, Port, Session, Tensor};
 use instant_clip_tokenizer::Tokenizer;

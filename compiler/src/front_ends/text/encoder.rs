@@ -1,6 +1,6 @@
 //! What every text encoder has in common.
 
-use crate::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// A frozen text encoder.

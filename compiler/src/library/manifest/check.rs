@@ -6,13 +6,9 @@ use super::{
     row::{Field, Row, Value},
     values::{Checker, OPTIONS, Stated},
 };
-use crate::{
-    front_ends::prompt,
-    input::{self, InputProblem, Kind},
-    passes::reduce::Fidelity,
-    views::preview,
-};
+use crate::{front_ends::prompt, passes::reduce::Fidelity, views::preview};
 use asperity_formats::limits::MAX_NAME_BYTES;
+use asperity_io::input::{self, InputProblem, Kind};
 use std::{fs, io, path::PathBuf};
 
 /// Keys of a texture's source.

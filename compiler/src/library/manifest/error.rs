@@ -1,6 +1,6 @@
 //! What is wrong with a manifest, and where.
 
-use crate::{
+use asperity_io::{
     diagnostic::Diagnostic,
     input::{InputProblem, Outside},
 };

@@ -10,7 +10,7 @@ use super::{
     toml_file,
     values::{Checker, Stated},
 };
-use crate::input::{self, Kind, Reach};
+use asperity_io::input::{self, Kind, Reach};
 use std::{
     collections::HashMap,
     fs,

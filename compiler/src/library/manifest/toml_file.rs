@@ -1,7 +1,7 @@
 //! Rows of a TOML file, with their lines.
 
 use super::row::{Field, Row, Sheet, Value};
-use crate::toml_error::TomlError;
+use asperity_io::toml_error::TomlError;
 use toml::de::{DeTable, DeValue};
 
 /// Where lines begin in a text.

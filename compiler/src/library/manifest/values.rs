@@ -9,10 +9,10 @@ use super::{
 use crate::{
     edit::Sliders,
     front_ends::prompt::phrase::relative,
-    input::Reach,
     passes::{reduce::Fidelity, rerate},
     views::preview,
 };
+use asperity_io::input::Reach;
 use std::path::Path;
 
 /// Keys of a texture's options.

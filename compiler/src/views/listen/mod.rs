@@ -3,8 +3,9 @@
 mod hand;
 mod sound;
 
-use crate::{back_end::raise::raise, diagnostic::Diagnostic, signal::resample::resample};
+use crate::{back_end::raise::raise, signal::resample::resample};
 use asperity_formats::Asset;
+use asperity_io::diagnostic::Diagnostic;
 use asperity_runtime::{Config, ConfigError, HostTexture, LoadError, Renderer};
 use hand::Hand;
 pub(crate) use sound::wav;

@@ -4,7 +4,7 @@ use super::{
     columns::INPUT_COLUMNS,
     limits::{MAX_ROW_BYTES, MAX_SCENE_TEXTURES},
 };
-use crate::{diagnostic::Diagnostic, input::InputError};
+use asperity_io::{diagnostic::Diagnostic, input::InputError};
 use asperity_runtime::{ConfigError, LoadError, SceneError};
 use std::{io, path::PathBuf};
 use thiserror::Error;

@@ -166,7 +166,8 @@ fn run<R: Read>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{back_end::lower::lower, diagnostic::Diagnostic as _, front_ends::builtin};
+    use crate::{back_end::lower::lower, front_ends::builtin};
+    use asperity_io::diagnostic::Diagnostic as _;
     use std::io;
 
     fn run(trajectory: &str, seed: u64) -> Result<(RenderReport, String), RenderError> {

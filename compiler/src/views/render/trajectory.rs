@@ -1,7 +1,7 @@
 //! The table of a trajectory: columns, numbers and times, checked row by row.
 
 use super::{columns::INPUT_COLUMNS, error::RenderError, limits::MAX_ROW_BYTES};
-use crate::input::{InputError, InputProblem, Kind};
+use asperity_io::input::{InputError, InputProblem, Kind};
 use std::{
     cell::Cell,
     io::{self, Read},

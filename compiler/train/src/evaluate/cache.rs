@@ -1,7 +1,7 @@
 //! Finished parts, kept beside the report so that a rerun goes on where one stopped.
 
 use super::EvaluateError;
-use asperity::output::write_atomic;
+use asperity_io::output::write_atomic;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::{
     fs,
@@ -75,7 +75,7 @@ impl Cache {
 /// The folder of the cache, made if need be.
 pub(super) fn folder(report: &Path) -> Result<PathBuf, EvaluateError> {
     let folder = report.join(FOLDER);
-    fs::create_dir_all(&folder).map_err(|source| asperity::output::OutputError {
+    fs::create_dir_all(&folder).map_err(|source| asperity_io::output::OutputError {
         path: folder.clone(),
         doing: "cannot make the folder",
         source,

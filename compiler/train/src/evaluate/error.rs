@@ -1,8 +1,9 @@
 //! Why a model cannot be evaluated.
 
 use crate::{config::ConfigError, error::FitError};
-use asperity::{diagnostic::Diagnostic, learned::ModelError, output::OutputError};
+use asperity::learned::ModelError;
 use asperity_corpus::CorpusError;
+use asperity_io::{diagnostic::Diagnostic, output::OutputError};
 use asperity_plot::PlotError;
 use std::path::PathBuf;
 use thiserror::Error;

@@ -1,7 +1,7 @@
 //! A folder that is there in full or not at all.
 
 use super::ExportError;
-use asperity::output::OutputError;
+use asperity_io::output::OutputError;
 use std::{
     fs, io,
     path::{Path, PathBuf},

@@ -11,8 +11,8 @@ mod ridge;
 mod verify;
 
 use crate::{captions::Captions, metrics::Metrics, trained::Trained, weights};
-use asperity::{diagnostic::Diagnostic, output::OutputError};
 use asperity_corpus::Corpus;
+use asperity_io::{diagnostic::Diagnostic, output::OutputError};
 use asperity_nn::{OnnxError, RunError};
 use std::path::{Path, PathBuf};
 use thiserror::Error;

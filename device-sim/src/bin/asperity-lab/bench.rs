@@ -2,12 +2,9 @@
 
 use std::{fmt::Write as _, path::PathBuf};
 
-use asperity::{
-    console::Console,
-    diagnostic::{Failures, one},
-    hatt,
-    model::TextureModel,
-};
+use asperity::{hatt, model::TextureModel};
+use asperity_console::Console;
+use asperity_io::diagnostic::{Failures, one};
 use asperity_sim::bench::{self, Checks, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors, Until};
 
 use crate::error::Plain;

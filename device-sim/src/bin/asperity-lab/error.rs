@@ -1,6 +1,6 @@
 //! Failures that belong to no library.
 
-use asperity::diagnostic::{Diagnostic, Failures, one};
+use asperity_io::diagnostic::{Diagnostic, Failures, one};
 
 /// An error whose text and remedy are known where it occurs.
 #[derive(Debug, thiserror::Error)]

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
-use asperity::output::{Outputs, display};
 use asperity::source::Source;
+use asperity_console::Console;
 use asperity_formats::Asset;
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output::{Outputs, display};
 use asperity_sim::device::DeviceConfig;
 use asperity_sim::feel::{FeelOptions, Summary, csv, record, sheet, wav};
 use asperity_sim::hand::{Grip, GripPreset};

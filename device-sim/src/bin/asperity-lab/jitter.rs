@@ -5,16 +5,16 @@ use std::sync::atomic::Ordering::Relaxed;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
-use asperity::input::{self, InputError, Kind};
-use asperity::output::{self, Outputs, display};
+use asperity_console::Console;
 use asperity_host::device::Uri;
 use asperity_host::latency::{
     Collector, Conditions, Cyclictest, CyclictestError, Injection, Load, Loading, Machine, Run,
     Wakeups, compare, percentile_distribution, read_log, write_log,
 };
 use asperity_host::servo::{Clock as _, Event, Inlet, SECOND_NS, Settings, Stage, queues};
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::input::{self, InputError, Kind};
+use asperity_io::output::{self, Outputs, display};
 use asperity_sim::desk::{Setup, run as run_loop};
 use asperity_sim::jitter::{draw, encode, encode_shifts, percentiles, report, shifts};
 

@@ -5,14 +5,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Duration;
 
-use asperity::diagnostic::{Failures, one};
+use asperity_console::NoHandler;
 use asperity_host::device::Uri;
 use asperity_host::profile::Profile;
 use asperity_host::servo::privileges::{Grant, Policy, Wanted};
 use asperity_host::servo::{Monotonic, Overrun, Settings};
+use asperity_io::diagnostic::{Failures, one};
 use asperity_sim::desk::{Desk, DeskError, Surface, open};
-
-use crate::error::Plain;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct LoopOptions {
@@ -177,15 +176,10 @@ pub(crate) fn stop_on_interrupt() -> Result<Interrupt, Failures> {
     ctrlc::set_handler(move || {
         let again = set.stop.swap(true, Relaxed);
         if again && set.released.load(Relaxed) {
-            asperity::output::clean_up_and_exit();
+            asperity_io::output::clean_up_and_exit();
         }
     })
-    .map_err(|error| {
-        Plain::failure(
-            format!("cannot watch for interrupts: {error}"),
-            "report this as a bug",
-        )
-    })?;
+    .map_err(|error| one(NoHandler::from(error)))?;
     Ok(interrupt)
 }
 

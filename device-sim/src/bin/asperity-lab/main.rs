@@ -14,8 +14,8 @@ mod stability;
 
 use std::process::ExitCode;
 
-use asperity::console::{self, Console};
-use asperity::diagnostic::Failures;
+use asperity_console::Console;
+use asperity_io::diagnostic::{Failures, one};
 use asperity_sim::labs::cost;
 use clap::{Parser, Subcommand};
 use error::Plain;
@@ -61,14 +61,17 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let arguments: Arguments = console::arguments();
+    let arguments: Arguments = asperity_console::arguments();
     // A servo loop takes the force to zero first.
     let has_loop = matches!(
         arguments.command,
         Command::Servo(_) | Command::Jitter(_) | Command::Record(_)
     );
     if !has_loop {
-        asperity::output::clean_up_on_interrupt();
+        if let Err(error) = asperity_console::clean_up_on_interrupt() {
+            return asperity_console::finish(Err(one(error)));
+        }
+        asperity_console::share_work();
     }
     let console = Console::new(arguments.quiet);
     let result = match &arguments.command {
@@ -84,7 +87,7 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(false) => ExitCode::FAILURE,
-        other => console::finish(other.map(drop)),
+        other => asperity_console::finish(other.map(drop)),
     }
 }
 

@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
-use asperity::input::{self, InputError, Kind};
-use asperity::{hatt, output};
+use asperity::hatt;
+use asperity_console::Console;
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::input::{self, InputError, Kind};
+use asperity_io::output;
 use asperity_sim::labs::cortex_m::{self, CortexM};
 use asperity_sim::labs::held_out::summaries;
 use asperity_sim::labs::pareto::{Options, Results, measure, steps};

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
-use asperity::{hatt, output};
+use asperity::hatt;
+use asperity_console::Console;
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output;
 use asperity_sim::stability::{StabilityOptions, markdown, run as make_table, sheet};
 
 use crate::error::Plain;

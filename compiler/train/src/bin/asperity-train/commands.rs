@@ -6,11 +6,12 @@ use crate::{
     console::{self, Bar},
     setup,
 };
-use asperity::{diagnostic::Diagnostic, inference::Backend, text::TextEncoder};
+use asperity::{inference::Backend, text::TextEncoder};
 use asperity_corpus::{
     Corpus, hatt,
     reference::{self, LexiconEntry, ReferenceOptions},
 };
+use asperity_io::diagnostic::Diagnostic;
 use asperity_train::{
     Captions, Checkpoints, Config, FitError, Metrics, Remembered, config::CorpusKind, export,
     fit_with_checkpoints, measure, on_threads,
@@ -218,7 +219,7 @@ fn make_folder(folder: &Path) -> Result<bool, Failure> {
         return Ok(false);
     }
     fs::create_dir(folder).map_err(|source| {
-        boxed(FitError::from(asperity::output::OutputError {
+        boxed(FitError::from(asperity_io::output::OutputError {
             path: folder.to_owned(),
             doing: "cannot make the folder for the state of the run",
             source,

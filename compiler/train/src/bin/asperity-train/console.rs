@@ -1,6 +1,6 @@
 //! Results on stdout, progress on a terminal, and the interrupt.
 
-use asperity::output::OutputError;
+use asperity_io::output::OutputError;
 use asperity_train::{EpochLoss, Progress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{

@@ -6,7 +6,7 @@ mod console;
 mod evaluate;
 mod setup;
 
-use asperity::diagnostic::{Diagnostic, report};
+use asperity_io::diagnostic::{Diagnostic, report};
 use clap::Parser as _;
 use std::process::ExitCode;
 

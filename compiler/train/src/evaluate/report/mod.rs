@@ -22,7 +22,7 @@ use super::{
     retrieval::Retrieval,
 };
 use asperity::learned::description::CertaintyCurve;
-use asperity::output::{OutputError, write_folder};
+use asperity_io::output::{OutputError, write_folder};
 use serde::Serialize;
 use std::{fmt::Write as _, fs, path::Path};
 

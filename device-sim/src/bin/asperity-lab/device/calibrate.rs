@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
-use asperity::output::{Outputs, display};
+use asperity_console::Console;
 use asperity_host::profile::sweep::Sweep;
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output::{Outputs, display};
 use asperity_sim::calibration::{Measured, base, draw, simulate};
 use asperity_sim::device::DeviceConfig;
 

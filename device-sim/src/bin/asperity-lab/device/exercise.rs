@@ -1,11 +1,11 @@
 //! `asperity-lab device exercise`: a texture on a device, every tick counted.
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
+use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_host::device::Scheme;
 use asperity_host::device::exercise::{Plan, exercise};
 use asperity_host::device::falcon::on_usb;
+use asperity_io::diagnostic::{Failures, one};
 use asperity_runtime::{Config, HostTexture};
 use serde_json::json;
 

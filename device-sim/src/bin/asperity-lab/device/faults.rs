@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
+use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_host::device::Scheme;
 use asperity_host::device::faulty::Injected;
 use asperity_host::device::faulty::trial::{Paced, Row, Trial};
+use asperity_io::diagnostic::{Failures, one};
 use asperity_runtime::{Config, HostTexture};
 use asperity_sim::desk;
 use serde_json::json;

@@ -1,10 +1,10 @@
 //! What can be opened here, in words and as JSON.
 
-use asperity::shown::plain;
 use asperity_host::device::usb::scan::{Access, Found, refuse};
 use asperity_host::device::usb::{Kind, UsbError};
 use asperity_host::device::vendor_library::LibraryError;
 use asperity_host::device::{dhd, openhaptics};
+use asperity_io::shown::plain;
 use serde_json::{Value, json};
 
 /// Devices that need neither USB nor a vendor's library.

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
+use asperity_console::Console;
 use asperity_host::device::usb::scan::scan;
 use asperity_host::device::usb::watch::{Event, watch};
 use asperity_host::device::usb::{Ids, permission};
+use asperity_io::diagnostic::{Failures, one};
 
 use super::failure;
 use super::inventory::{Inventory, line};

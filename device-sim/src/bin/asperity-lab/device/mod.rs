@@ -8,8 +8,8 @@ mod list;
 mod probe;
 mod serve;
 
-use asperity::console::Console;
-use asperity::diagnostic::Failures;
+use asperity_console::Console;
+use asperity_io::diagnostic::Failures;
 use clap::Subcommand;
 
 /// Devices: what is plugged in, whether it works, and virtual ones
@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
 
 /// Prints a value as JSON.
 fn json(console: Console, value: &serde_json::Value) -> Result<(), Failures> {
-    console.json(value).map_err(asperity::diagnostic::one)
+    console.json(value).map_err(asperity_io::diagnostic::one)
 }
 
 /// A failure of a device, with its remedy.

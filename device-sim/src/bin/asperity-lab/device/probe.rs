@@ -2,13 +2,13 @@
 
 use std::time::{Duration, Instant};
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
+use asperity_console::Console;
 use asperity_host::device::falcon::on_usb;
 use asperity_host::device::touch::{Face, identify};
 use asperity_host::device::usb::scan::scan;
 use asperity_host::device::usb::{Ids, Kind, UsbError};
 use asperity_host::device::{Device as _, Fault, Scheme, Uri};
+use asperity_io::diagnostic::{Failures, one};
 use serde_json::{Value, json};
 
 use super::failure;
@@ -132,7 +132,7 @@ fn probe(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
 
 /// A device that is not on USB: it is read a thousand times a second and told to give no force.
 fn any(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
-    use asperity::diagnostic::Diagnostic as _;
+    use asperity_io::diagnostic::Diagnostic as _;
     const RATE_HZ: u32 = 1000;
     let desk = asperity_sim::desk::open(uri, RATE_HZ);
     let mut device = desk

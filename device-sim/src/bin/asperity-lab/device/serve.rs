@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use std::thread;
 use std::time::Duration;
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
-use asperity::output::{Outputs, display};
+use asperity_console::Console;
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output::{Outputs, display};
 use asperity_virtual_usb::falcon::{Falcon, Quirks, image};
 use asperity_virtual_usb::fault::Rates;
 use asperity_virtual_usb::touch::{Firmware, Touch};

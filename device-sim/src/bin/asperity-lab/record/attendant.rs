@@ -5,9 +5,9 @@ use std::sync::mpsc::SyncSender;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
+use asperity_console::Console;
 use asperity_host::servo::{Clock as _, Inlet, Monotonic, Report};
+use asperity_io::diagnostic::{Failures, one};
 use asperity_sim::capture::{Ask, Counts, Reader, Simulated, Take};
 use asperity_sim::desk::Attended;
 use indicatif::ProgressBar;

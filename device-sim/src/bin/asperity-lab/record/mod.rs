@@ -10,12 +10,12 @@ use std::sync::mpsc::sync_channel;
 use std::thread::sleep;
 use std::time::Duration;
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
-use asperity::output::{NewFolder, OutputError, OutputId, Outputs};
+use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_host::device::{Scheme, Uri};
 use asperity_host::servo::{Pace, queues};
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output::{NewFolder, OutputError, OutputId, Outputs};
 use asperity_recording::description::Quantity;
 use asperity_sim::capture::{
     self, About, Coverage, FILES, Kind, Plan, Reader, Sensor, Simulated, Take,

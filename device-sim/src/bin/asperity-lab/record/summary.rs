@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use asperity::console::Console;
-use asperity::output::display;
 use asperity::recording;
+use asperity_console::Console;
+use asperity_io::output::display;
 use asperity_recording::check::Severity;
 use asperity_sim::capture::Part;
 use serde_json::{Value, json};

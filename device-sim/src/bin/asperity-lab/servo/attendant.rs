@@ -6,11 +6,11 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime};
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one, report as told};
+use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_host::recording::TextureInfo;
 use asperity_host::servo::{Event, Inlet, Record};
+use asperity_io::diagnostic::{Failures, one, report as told};
 use asperity_runtime::{Flags, PrepareError, Preparer};
 use asperity_sim::desk::{Attended, Recorder, Surface};
 use indicatif::ProgressBar;

@@ -7,12 +7,12 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Instant;
 
-use asperity::console::Console;
-use asperity::diagnostic::{Failures, one};
-use asperity::output::Outputs;
+use asperity_console::Console;
 use asperity_host::device::{Scheme, Uri};
 use asperity_host::recording::{Conditions, TextureInfo};
 use asperity_host::servo::{End, Report, queues};
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output::Outputs;
 use asperity_runtime::Counters;
 use asperity_sim::desk::{Desk, Form, Recorder, Setup, Surface, run as run_loop};
 

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use asperity::output::display;
 use asperity_host::servo::{End, Report};
+use asperity_io::output::display;
 use asperity_sim::desk::Surface;
 use serde_json::{Value, json};
 

@@ -1,0 +1,228 @@
+//! `asperity doctor`.
+
+use super::inference;
+use crate::cli::Doctor;
+use asperity::{
+    embedded,
+    inference::{Backend, BackendName},
+    learned::{LearnedModel, ModelError, Present},
+    text::{TextEncoder, TextEncoderChoice},
+};
+use asperity_console::Console;
+use asperity_io::diagnostic::{Diagnostic, Failures, one};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+/// What was looked for, whether it was found, and what to do where it was not.
+struct Finding {
+    what: &'static str,
+    found: bool,
+    detail: String,
+    remedy: Option<String>,
+}
+
+pub(crate) fn run(args: &Doctor, console: Console) -> Result<(), Failures> {
+    let findings = findings(args);
+    // Only what was asked for by an option is a failure when it is missing.
+    let asked = |finding: &Finding| match finding.what {
+        "onnxruntime" => args.inference.backend == BackendName::OnnxRuntime,
+        "clip" => matches!(args.inference.text_encoder, TextEncoderChoice::Clip(_)),
+        _ => true,
+    };
+    let printed = if args.json {
+        console.json(&as_json(&findings))
+    } else {
+        console.text(&as_text(&findings))
+    };
+    printed.map_err(one)?;
+    match findings.iter().find(|f| !f.found && asked(f)) {
+        Some(missing) => Err(one(Missing {
+            what: missing.what,
+            detail: missing.detail.clone(),
+            remedy: missing.remedy.clone().unwrap_or_default(),
+        })),
+        None => Ok(()),
+    }
+}
+
+/// Something asked for that is not there.
+#[derive(Debug, thiserror::Error)]
+#[error("{what}: {detail}")]
+struct Missing {
+    what: &'static str,
+    detail: String,
+    remedy: String,
+}
+
+impl Diagnostic for Missing {
+    fn remedy(&self) -> String {
+        self.remedy.clone()
+    }
+}
+
+/// A text for encoders to try.
+const PROBE: &str = "surface";
+
+/// Runs every network once: a file that is there may be cut off, or of another model.
+fn runs(model: &LearnedModel) -> Result<(), ModelError> {
+    let description = model.description();
+    let width = description.text_encoder.width;
+    let vector = vec![1.0 / (width as f32).sqrt(); width];
+    let z = model.project(&vector)?.z;
+    let taps = model.decode(&z)?.taps_m_s2;
+    model.encode(Present::Taps(&taps)).map(drop)
+}
+
+fn findings(args: &Doctor) -> Vec<Finding> {
+    let (encoder_bytes, model_bytes) = embedded::sizes();
+    let mut findings = vec![Finding {
+        what: "asperity",
+        found: true,
+        detail: format!(
+            "{} ({}, {})",
+            env!("CARGO_PKG_VERSION"),
+            std::env::consts::ARCH,
+            std::env::consts::OS
+        ),
+        remedy: None,
+    }];
+    findings.push(check(
+        "minilm",
+        embedded::text_encoder(&Backend::Portable)
+            .map_err(|error| error.to_string())
+            .and_then(|encoder| encoder.encode(PROBE).map_err(|error| error.to_string()))
+            .map(|_| {
+                format!(
+                    "all-MiniLM-L6-v2, int8 weights, embedded, {} MB",
+                    megabytes(encoder_bytes)
+                )
+            })
+            .map_err(|error| (error, "build the command anew".to_owned())),
+    ));
+    let model = inference::model(&args.inference, &Backend::Portable).and_then(|model| {
+        runs(&model).map_err(one)?;
+        Ok(model)
+    });
+    findings.push(check(
+        "model",
+        model
+            .map(|model| {
+                let description = model.description();
+                format!(
+                    "{}, {} materials of the {} corpus, text encoder {} ({}), {}",
+                    description.name,
+                    description.anchors.len(),
+                    description.corpus.name,
+                    description.text_encoder.name,
+                    description.text_encoder.width,
+                    args.inference.model.as_ref().map_or_else(
+                        || format!("embedded, {} MB", megabytes(model_bytes)),
+                        |folder| folder.display().to_string()
+                    )
+                )
+            })
+            .map_err(told),
+    ));
+    findings.push(Finding {
+        what: "portable",
+        found: true,
+        detail: "built in, the same bits on every machine".into(),
+        remedy: None,
+    });
+    findings.push(match asperity_onnxruntime::discover() {
+        Ok(discovery) => Finding {
+            what: "onnxruntime",
+            found: true,
+            detail: discovery.to_string(),
+            remedy: None,
+        },
+        Err(error) => Finding {
+            what: "onnxruntime",
+            found: false,
+            detail: error.to_string(),
+            remedy: Some(asperity::inference::BackendError::from(error).remedy()),
+        },
+    });
+    findings.push(clip(args));
+    findings
+}
+
+fn clip(args: &Doctor) -> Finding {
+    let TextEncoderChoice::Clip(folder) = &args.inference.text_encoder else {
+        return Finding {
+            what: "clip",
+            found: false,
+            detail: "no folder given".into(),
+            remedy: Some(
+                "optional: export the text tower of CLIP ViT-B/32 to DIR/text_model.onnx, train \
+                 a projection with asperity-train fit --text-encoder clip:DIR, then give both \
+                 with --text-encoder clip:DIR --model MODEL"
+                    .into(),
+            ),
+        };
+    };
+    let opened = Backend::open(args.inference.backend)
+        .map_err(one)
+        .and_then(|backend| inference::text_encoder(&args.inference, &backend));
+    check(
+        "clip",
+        opened
+            .map(|encoder| format!("{}, width {}", folder.display(), encoder.width()))
+            .map_err(told),
+    )
+}
+
+fn told(failures: Failures) -> (String, String) {
+    failures.first().map_or_else(Default::default, |failure| {
+        (failure.to_string(), failure.remedy())
+    })
+}
+
+fn check(what: &'static str, result: Result<String, (String, String)>) -> Finding {
+    match result {
+        Ok(detail) => Finding {
+            what,
+            found: true,
+            detail,
+            remedy: None,
+        },
+        Err((detail, remedy)) => Finding {
+            what,
+            found: false,
+            detail,
+            remedy: Some(remedy),
+        },
+    }
+}
+
+fn megabytes(bytes: usize) -> String {
+    format!("{:.1}", bytes as f64 / 1e6)
+}
+
+fn as_text(findings: &[Finding]) -> String {
+    let mut text = String::new();
+    for finding in findings {
+        let mark = if finding.found { "found" } else { "—" };
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{:<12} {mark:<6} {}", finding.what, finding.detail);
+        if let Some(remedy) = &finding.remedy {
+            let _ = writeln!(text, "{:<19} {remedy}", "");
+        }
+    }
+    text
+}
+
+fn as_json(findings: &[Finding]) -> Value {
+    let entries: serde_json::Map<String, Value> = findings
+        .iter()
+        .map(|finding| {
+            let value = json!({
+                "found": finding.found,
+                "detail": finding.detail,
+                "remedy": finding.remedy,
+            });
+            (finding.what.to_owned(), value)
+        })
+        .collect();
+    Value::Object(entries)
+}

@@ -1,0 +1,227 @@
+//! `asperity export`.
+
+use crate::cli::Export;
+use asperity::{
+    interchange::{
+        self, Carried, ClipFormat, Exported, Format, Language, Options, export_bytes, session,
+    },
+    source::Source,
+};
+use asperity_console::Console;
+use asperity_formats::Asset;
+use asperity_io::{
+    diagnostic::{Failures, one},
+    output::{FileNames, Outputs, display, write_folder_beside},
+};
+use serde_json::{Value, json};
+use std::{fmt::Write as _, path::Path};
+
+pub(crate) fn run(args: &Export, console: Console) -> Result<(), Failures> {
+    match args.to {
+        Format::Source(language) => source(args, language, console),
+        Format::Clip(format) => clips(args, format, console),
+    }
+}
+
+/// The bytes of an asset, a texture of a library, or a whole library, as source text.
+fn source(args: &Export, language: Language, console: Console) -> Result<(), Failures> {
+    let mut outputs = Outputs::beside([&args.file]);
+    let file = outputs.open(&args.output).map_err(one)?;
+    let is_c = args.output.extension().is_some_and(|end| end == "c");
+    let header = (language == Language::C && is_c).then(|| args.output.with_extension("h"));
+    let beside = outputs.open_if(header.as_deref()).map_err(one)?;
+    let console = console.beside(&outputs);
+    let mut source = Source::open(&args.file).map_err(one)?;
+    let whole = match &args.texture {
+        None => source.library().map_err(one)?,
+        Some(_) => None,
+    };
+    let (name, bytes) = match whole {
+        Some(bytes) => (stem(&args.file), bytes),
+        None => {
+            let wanted = args.texture.as_deref();
+            let bytes = source.choose(wanted).map_err(one)?;
+            let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+            (asset.name().to_owned(), bytes)
+        }
+    };
+    let about = [
+        format!(
+            "{name}: {} bytes, written by asperity {}",
+            bytes.len(),
+            env!("CARGO_PKG_VERSION")
+        ),
+        "An asset of Asperity, or a library; formats/SPEC.md says what each byte means.".to_owned(),
+    ];
+    let header_name = header.as_deref().and_then(Path::file_name);
+    let header_name = header_name.map(|name| name.to_string_lossy().into_owned());
+    let (text, declarations) =
+        export_bytes(language, &name, &about, &bytes, header_name.as_deref());
+    outputs.fill(file, &text).map_err(one)?;
+    if let (Some(file), Some(text)) = (beside, &declarations) {
+        outputs.fill(file, text).map_err(one)?;
+    }
+    outputs.commit().map_err(one)?;
+    let printed = if args.json {
+        console.json(&json!({
+            "format": args.to.name(),
+            "output": display(&args.output).to_string(),
+            "name": name,
+            "bytes": { "image": bytes.len(), "written": text.len() },
+            "lossless": true,
+        }))
+    } else {
+        let to = display(&args.output);
+        console.report(&format!(
+            "{to}: {} bytes of {name} as {}\n",
+            bytes.len(),
+            args.to
+        ))
+    };
+    printed.map_err(one)
+}
+
+/// Strokes and taps: of one texture to a file, of a library to a folder.
+fn clips(args: &Export, format: ClipFormat, console: Console) -> Result<(), Failures> {
+    let options = Options {
+        session: session(args.speed, args.force, args.time, args.taps),
+        rate_hz: args.rate,
+        seed: args.seed,
+        full_scale_m_s2: args.full_scale.map(f64::from),
+        tap_full_scale_m_s2: args.tap_full_scale.map(f64::from),
+        size_px: args.size,
+    };
+    let mut source = Source::open(&args.file).map_err(one)?;
+    let names = source.names().filter(|_| args.texture.is_none());
+    if let Some(names) = names {
+        return folder(args, format, &options, &mut source, &names, console);
+    }
+    let mut outputs = Outputs::beside([&args.file]);
+    let file = outputs.open(&args.output).map_err(one)?;
+    let console = console.beside(&outputs);
+    let wanted = args.texture.as_deref();
+    let bytes = source.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let exported = interchange::export(&asset, format, &options).map_err(one)?;
+    outputs.fill(file, &exported.bytes).map_err(one)?;
+    outputs.commit().map_err(one)?;
+    console.warnings(&exported.warnings, args.json);
+    let printed = if args.json {
+        let mut json = in_json(asset.name(), &exported);
+        json["format"] = args.to.name().into();
+        json["output"] = display(&args.output).to_string().into();
+        console.json(&json)
+    } else {
+        console.report(&report(&display(&args.output).to_string(), &exported))
+    };
+    printed.map_err(one)
+}
+
+/// Every texture of a library to a file of its own.
+fn folder(
+    args: &Export,
+    format: ClipFormat,
+    options: &Options,
+    source: &mut Source,
+    names: &[String],
+    console: Console,
+) -> Result<(), Failures> {
+    let listed: Vec<&str> = names.iter().map(String::as_str).collect();
+    let FileNames { files, changed } = FileNames::of(&listed, format.name());
+    let bar = console.bar(names.len(), "textures");
+    let mut written = Vec::with_capacity(names.len());
+    for (index, name) in names.iter().enumerate() {
+        let bytes = source.texture(index).map_err(one)?;
+        let asset = Asset::parse(&bytes).map_err(|e| one(source.error(Some(name), e.into())))?;
+        written.push(interchange::export(&asset, format, options).map_err(one)?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let files: Vec<(String, &[u8])> = files
+        .into_iter()
+        .zip(&written)
+        .map(|(file, exported)| (file, exported.bytes.as_slice()))
+        .collect();
+    write_folder_beside(std::slice::from_ref(&args.file), &args.output, &files).map_err(one)?;
+    let all = || names.iter().zip(&written).zip(&files);
+    if !args.json {
+        console.warn_of_many(&changed);
+    }
+    for ((name, exported), _) in all() {
+        for warning in &exported.warnings {
+            if !args.json {
+                console.warn(&format!("{name}: {warning}"));
+            }
+        }
+    }
+    let printed = if args.json {
+        let textures: Vec<Value> = all()
+            .map(|((name, exported), (file, _))| {
+                let mut json = in_json(name, exported);
+                json["file"] = file.as_str().into();
+                json
+            })
+            .collect();
+        console.json(&json!({
+            "format": args.to.name(),
+            "output": display(&args.output).to_string(),
+            "textures": textures,
+        }))
+    } else {
+        let mut text = format!("{}: {} files\n", display(&args.output), files.len());
+        for ((_, exported), (file, _)) in all() {
+            text += &report(file, exported);
+        }
+        console.report(&text)
+    };
+    printed.map_err(one)
+}
+
+fn in_json(name: &str, exported: &Exported) -> Value {
+    json!({
+        "name": name,
+        "bytes": exported.bytes.len(),
+        "full_scale": exported.scale,
+        "parts": exported.carried,
+        "warnings": exported.warnings,
+    })
+}
+
+fn report(file: &str, exported: &Exported) -> String {
+    let mut text = format!("{file}: {} bytes", exported.bytes.len());
+    if let Some(scale) = exported.scale {
+        let has = |word: &str| exported.carried.iter().any(|c| c.part.starts_with(word));
+        let mut said = Vec::new();
+        for (word, part, m_s2) in [
+            ("stroke", "strokes", scale.stroke_m_s2),
+            ("tap", "taps", scale.tap_m_s2),
+        ] {
+            if has(word) {
+                said.push(format!("{m_s2:.3} m/s² in {part}"));
+            }
+        }
+        // Writing to a string cannot fail.
+        let _ = write!(text, "; a full scale is {}", said.join(", "));
+    }
+    text.push('\n');
+    for Carried { part, loss } in &exported.carried {
+        let _ = match loss {
+            None => writeln!(text, "  {part}: silent"),
+            Some(loss) if loss.worst_db < 0.005 => writeln!(text, "  {part}: no loss"),
+            Some(loss) => writeln!(
+                text,
+                "  {part}: loses {:.2} dB RMS in third octaves, {:.2} dB at most, at {:.0} Hz",
+                loss.rms_db, loss.worst_db, loss.worst_hz
+            ),
+        };
+    }
+    text
+}
+
+/// The name of a file without its ending.
+fn stem(file: &Path) -> String {
+    file.file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
+}

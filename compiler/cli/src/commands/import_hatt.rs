@@ -1,0 +1,220 @@
+//! `asperity import hatt`.
+
+use super::{inference, outputs::TextureOutputs, timings};
+use crate::cli::ImportHatt;
+use asperity::{
+    hatt::{self, Imported},
+    library::{self, NamedAsset},
+    pipeline::{Pass, Pipeline},
+};
+use asperity_console::Console;
+use asperity_io::{
+    diagnostic::{Diagnostic, Failures, one},
+    output::{self, FileNames, Outputs},
+};
+use std::{fmt::Write as _, path::PathBuf};
+use thiserror::Error;
+
+/// A folder was to go into one asset.
+#[derive(Debug, Error)]
+#[error("{folder}: {count} materials do not fit the one asset {output}", folder = folder.display(), output = output.display())]
+struct ManyIntoOne {
+    folder: PathBuf,
+    count: usize,
+    output: PathBuf,
+}
+
+impl Diagnostic for ManyIntoOne {
+    fn is_usage(&self) -> bool {
+        true
+    }
+
+    fn remedy(&self) -> String {
+        "give a folder, or a library whose name ends in .aspl".into()
+    }
+}
+
+/// One model was to be written of several materials, or of a library.
+#[derive(Debug, Error)]
+#[error("{path}: --emit-model writes the model of one material that becomes one asset", path = path.display())]
+struct NoSingleModel {
+    path: PathBuf,
+}
+
+impl Diagnostic for NoSingleModel {
+    fn is_usage(&self) -> bool {
+        true
+    }
+
+    fn remedy(&self) -> String {
+        "give one Models_<name>.xml and an output that ends in .asp, or leave --emit-model out"
+            .into()
+    }
+}
+
+/// Where the assets go: what is one file is open, so that a bad path costs no work.
+enum Target {
+    File(TextureOutputs),
+    Folder(PathBuf),
+    Library(Outputs, output::OutputId),
+}
+
+impl Target {
+    /// What the arguments mean, for a command that reads `inputs`.
+    fn open(args: &ImportHatt, materials: usize, inputs: &[PathBuf]) -> Result<Self, Failures> {
+        let output = &args.output;
+        let extension = output
+            .extension()
+            .map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        let extension = extension.as_deref();
+        let piped = output::is_standard_output(output);
+        let many = args.input.is_dir();
+        let names_folder = output.to_string_lossy().ends_with(['/', '\\']) || output.is_dir();
+        let is_folder = names_folder || (many && !piped && extension != Some("aspl"));
+        if !names_folder && many && extension == Some("asp") {
+            return Err(one(ManyIntoOne {
+                folder: args.input.clone(),
+                count: materials,
+                output: output.clone(),
+            }));
+        }
+        let is_library = !is_folder && (many || extension == Some("aspl"));
+        if (is_folder || is_library) && args.emit_model.is_some() {
+            let path = output.clone();
+            return Err(one(NoSingleModel { path }));
+        }
+        if is_folder {
+            Ok(Self::Folder(output.clone()))
+        } else if is_library {
+            let mut outputs = Outputs::beside(inputs);
+            let library = outputs.open(output).map_err(one)?;
+            Ok(Self::Library(outputs, library))
+        } else {
+            let model = args.emit_model.as_deref();
+            Ok(Self::File(TextureOutputs::open(inputs, output, model)?))
+        }
+    }
+
+    fn console(&self, console: Console) -> Console {
+        match self {
+            Self::File(outputs) => outputs.console(console),
+            Self::Library(outputs, _) => console.beside(outputs),
+            Self::Folder(_) => console,
+        }
+    }
+
+    fn write(
+        self,
+        imported: &[Imported],
+        inputs: &[PathBuf],
+        pipeline: &mut Pipeline,
+        console: Console,
+    ) -> Result<(), Failures> {
+        match self {
+            Self::Folder(folder) => {
+                let names: Vec<&str> = imported.iter().map(|m| m.report.name.as_str()).collect();
+                let FileNames { files, changed } = FileNames::of(&names, "asp");
+                console.warn_of_many(&changed);
+                let files: Vec<(String, &[u8])> = files
+                    .into_iter()
+                    .zip(imported)
+                    .map(|(name, material)| (name, &material.bytes[..]))
+                    .collect();
+                let write = || output::write_folder_beside(inputs, &folder, &files);
+                pipeline.run(Pass::Write, write).map_err(one)
+            }
+            Self::Library(mut outputs, id) => {
+                let bytes = pipeline.run(Pass::Pack, || packed(imported))?;
+                let write = || {
+                    outputs.fill(id, &bytes)?;
+                    outputs.commit()
+                };
+                pipeline.run(Pass::Write, write).map_err(one)
+            }
+            // A single source file gives a single asset.
+            Self::File(mut outputs) => match imported.first() {
+                Some(material) => {
+                    outputs.model(&material.whole);
+                    outputs.write(&material.bytes, pipeline)
+                }
+                None => Ok(()),
+            },
+        }
+    }
+}
+
+pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
+    let files = hatt::files(&args.input).map_err(one)?;
+    let mut inputs = files.clone();
+    inputs.extend(inference::model_files(args.model.as_deref()));
+    let target = Target::open(args, files.len(), &inputs)?;
+    let console = target.console(console);
+    let completer = args
+        .complete_taps
+        .then(|| inference::completer(args.model.as_deref()))
+        .transpose()?;
+    let bar = console.bar(files.len(), "importing");
+    let results = hatt::import_all(&files, completer.as_ref(), args.fidelity, || bar.inc(1));
+    bar.finish_and_clear();
+    let mut imported: Vec<Imported> = Vec::with_capacity(results.len());
+    let mut failures: Failures = Vec::new();
+    for result in results {
+        match result {
+            Ok(material) => imported.push(material),
+            Err(error) => failures.push(Box::new(error)),
+        }
+    }
+    if !failures.is_empty() {
+        return Err(failures);
+    }
+    let mut pipeline = Pipeline::default();
+    for material in &imported {
+        pipeline.merge(&material.timings);
+    }
+    target.write(&imported, &inputs, &mut pipeline, console)?;
+    console.report(&figures(&imported)).map_err(one)?;
+    timings::print(args.timings, &pipeline, console);
+    Ok(())
+}
+
+/// The library of all materials.
+fn packed(imported: &[Imported]) -> Result<Vec<u8>, Failures> {
+    let named: Vec<NamedAsset<'_>> = imported
+        .iter()
+        .map(|material| NamedAsset {
+            name: &material.report.name,
+            bytes: &material.bytes,
+        })
+        .collect();
+    library::encode(&named).map_err(one)
+}
+
+/// One line a material, and of several a summary.
+fn figures(imported: &[Imported]) -> String {
+    let mut text = String::new();
+    for material in imported {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", material.report);
+    }
+    if imported.len() > 1 {
+        let compared: usize = imported.iter().map(|m| m.report.compared).sum();
+        let sum_db: f64 = imported
+            .iter()
+            .map(|m| m.report.error.mean_db * m.report.compared as f64)
+            .sum();
+        let max_db = imported
+            .iter()
+            .fold(0.0_f64, |max, m| max.max(m.report.error.max_db));
+        let places = match imported[0].report.reduction {
+            None => "vertices",
+            Some(_) => "places",
+        };
+        let _ = writeln!(
+            text,
+            "{} materials: max {max_db:.4} dB, mean {:.4} dB over {compared} {places}",
+            imported.len(),
+            sum_db / compared.max(1) as f64
+        );
+    }
+    text
+}

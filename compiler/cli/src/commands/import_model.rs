@@ -1,0 +1,33 @@
+//! `asperity import model`.
+
+use super::{outputs::TextureOutputs, timings};
+use crate::cli::ImportModel;
+use asperity::{
+    model_file::{self, Options},
+    pipeline::Pipeline,
+};
+use asperity_console::Console;
+use asperity_io::diagnostic::{Failures, one};
+
+pub(crate) fn run(args: &ImportModel, console: Console) -> Result<(), Failures> {
+    let outputs = TextureOutputs::open(std::slice::from_ref(&args.input), &args.output, None)?;
+    let console = outputs.console(console);
+    let options = Options {
+        fidelity: args.fidelity,
+        rate_hz: args.rate,
+        preview: !args.no_preview,
+        preview_px: args.preview_size,
+    };
+    let imported = model_file::import(&args.input, &options).map_err(one)?;
+    let mut pipeline = Pipeline::default();
+    pipeline.merge(&imported.timings);
+    outputs.write(&imported.bytes, &mut pipeline)?;
+    let printed = if args.json {
+        console.json(&imported.json())
+    } else {
+        console.report(&format!("{}\n", imported.report))
+    };
+    printed.map_err(one)?;
+    timings::print(args.timings, &pipeline, console);
+    Ok(())
+}

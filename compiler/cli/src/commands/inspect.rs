@@ -1,0 +1,111 @@
+//! `asperity inspect`.
+
+use crate::cli::Inspect;
+use asperity::{
+    attributes::Meter,
+    inspect::{self, Document, LibraryDocument, SurfaceDocument},
+    source::Source,
+};
+use asperity_console::Console;
+use asperity_formats::{Asset, library};
+use asperity_io::diagnostic::{Failures, one};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+pub(crate) fn run(args: &Inspect, console: Console) -> Result<(), Failures> {
+    let mut source = Source::open(&args.file).map_err(one)?;
+    match source.names() {
+        Some(names) if args.texture.is_none() => whole_library(args, &mut source, &names, console),
+        _ => one_texture(args, &mut source, console),
+    }
+}
+
+fn one_texture(args: &Inspect, source: &mut Source, console: Console) -> Result<(), Failures> {
+    let wanted = args.texture.as_deref();
+    let name = source.chosen_name(wanted).map_err(one)?;
+    let bytes = source.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let document = match name {
+        Some(name) => Document::named(&asset, name),
+        None => Document::of(&asset),
+    };
+    if args.json {
+        print_json(&document, console)
+    } else {
+        console.text(&inspect::text(&document, &asset)).map_err(one)
+    }
+}
+
+fn whole_library(
+    args: &Inspect,
+    source: &mut Source,
+    names: &[String],
+    console: Console,
+) -> Result<(), Failures> {
+    let (documents, rows) = if args.json {
+        let found = source.each(Meter::default, |meter, name, asset| {
+            Document::measured(asset, name.to_owned(), meter)
+        });
+        (found.map_err(one)?, Vec::new())
+    } else {
+        let found = source.each(Meter::default, |meter, name, asset| {
+            row(name, &Document::measured(asset, name.to_owned(), meter))
+        });
+        (Vec::new(), found.map_err(one)?)
+    };
+    let surfaces: Vec<SurfaceDocument> = source
+        .surfaces()
+        .map_err(one)?
+        .iter()
+        .map(|surface| SurfaceDocument::of(surface, names))
+        .collect();
+    if args.json {
+        let document = LibraryDocument {
+            format_version: source.library_version().unwrap_or(library::VERSION),
+            textures: documents,
+            surfaces,
+        };
+        return print_json(&document, console);
+    }
+    let mut text = format!(
+        "{}: a library of {} textures, every checksum holds\n",
+        source.shown(),
+        names.len()
+    );
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  index  haptic   total  order  vertices  rough dB  sharp Hz      μ  name"
+    );
+    for (index, row) in rows.iter().enumerate() {
+        let _ = writeln!(text, "  {index:>5}  {row}");
+    }
+    if !surfaces.is_empty() {
+        let _ = writeln!(text, "  a scene of {} surfaces", surfaces.len());
+    }
+    for (index, surface) in surfaces.iter().enumerate() {
+        let _ = writeln!(text, "  {index:>5}  {surface}");
+    }
+    console.text(&text).map_err(one)
+}
+
+/// The figures of one texture of a library.
+fn row(name: &str, d: &Document) -> String {
+    let figure = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
+    format!(
+        "{:>6}  {:>6}  {:>5}  {:>8}  {:>8}  {:>8}  {:>5.3}  {name}",
+        d.bytes.haptic,
+        d.bytes.total,
+        d.ar.order,
+        d.ar.vertices.len(),
+        figure(d.attributes.rough_db),
+        figure(d.attributes.sharp_hz),
+        d.attributes.mu,
+    )
+}
+
+fn print_json(document: &impl Serialize, console: Console) -> Result<(), Failures> {
+    // Plain structures of numbers and strings always serialise.
+    let json = serde_json::to_string(document).unwrap_or_default();
+    console.json(&json).map_err(one)
+}

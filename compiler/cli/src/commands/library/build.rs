@@ -1,0 +1,223 @@
+//! `asperity build` of a manifest.
+
+use crate::{
+    cli::{Build as Arguments, Inference},
+    commands::{inference, timings},
+};
+use asperity::{
+    library::{
+        Build, Cache, Lock, Manifest, Pinned, Request, default_folder, manifest::ManifestError,
+    },
+    pipeline::{Pass, Pipeline},
+    text::TextEncoderChoice,
+};
+use asperity_console::Console;
+use asperity_io::{
+    diagnostic::{Diagnostic, Failures, one},
+    input::Reach,
+    output::{Outputs, display, is_standard_output, write_atomic},
+};
+use serde_json::json;
+use std::{
+    io::BufWriter,
+    path::{Path, PathBuf},
+};
+use thiserror::Error;
+
+/// Warnings that are printed one by one.
+const WARNINGS: usize = 20;
+
+/// Why the options do not go together.
+#[derive(Debug, Error)]
+enum Usage {
+    #[error("{0} is for scenes, and this manifest has no [[surface]]")]
+    ForScenes(&'static str),
+    #[error("{file}: defaults.{key}: {message}", file = file.display())]
+    Setup {
+        file: PathBuf,
+        key: &'static str,
+        message: String,
+    },
+}
+
+impl Diagnostic for Usage {
+    fn remedy(&self) -> String {
+        match self {
+            Self::ForScenes(_) => "leave it out, or add the surfaces that wear the textures".into(),
+            Self::Setup { .. } => "correct the value".into(),
+        }
+    }
+
+    fn is_usage(&self) -> bool {
+        matches!(self, Self::ForScenes(_))
+    }
+}
+
+pub(crate) fn run(
+    args: &Arguments,
+    text: &str,
+    reach: Reach,
+    console: Console,
+) -> Result<(), Failures> {
+    for (given, option) in [
+        (args.target.is_some(), "--target"),
+        (args.budget_bytes.is_some(), "--budget-bytes"),
+    ] {
+        if given {
+            return Err(one(Usage::ForScenes(option)));
+        }
+    }
+    let mut manifest = Manifest::within(&args.scene, text, reach.clone()).map_err(boxed)?;
+    for entry in &mut manifest.entries {
+        let size = &mut entry.options.preview_px;
+        *size = size
+            .filter(|_| !args.no_preview)
+            .map(|px| args.preview_size.unwrap_or(px));
+    }
+    let inference = setup(&args.inference, &manifest)?;
+    if args.check {
+        return checked(args, &manifest, console);
+    }
+    let output = args.output.as_deref().unwrap_or(Path::new("-"));
+    let mut inputs = vec![args.scene.clone()];
+    inputs.extend(manifest.sources.iter().cloned());
+    inputs.extend(inference::files(&inference));
+    let lock = Lock::within(&args.scene, &reach).map_err(one)?;
+    inputs.push(lock.file().to_owned());
+    let mut outputs = Outputs::beside(&inputs);
+    let library = outputs.open(output).map_err(one)?;
+    let console = console.beside(&outputs);
+    let pinned = inference::pinned(&inference)?;
+    if args.locked {
+        lock.hold(&pinned).map_err(one)?;
+    }
+    let cache = (!args.no_cache).then(|| Cache::new(cache_folder(args, output)));
+    let request = Request {
+        cache: cache.as_ref(),
+        shard: args.shard,
+        program: inference::program(),
+        pinned,
+        scratch: (!outputs.to_standard_output()).then(|| folder_of(output)),
+    };
+    let build = Build::new(&manifest, &request)?;
+    let bar = console.rated_bar(build.len(), "textures");
+    let model_crc32 = request.pinned.model_crc32;
+    let open = || Ok((inference::author(&inference)?, model_crc32));
+    let built = build.run(&open, &|| bar.inc(1));
+    bar.finish_and_clear();
+    let built = built?;
+    let mut pipeline = Pipeline::default();
+    pipeline.merge(&built.timings);
+    pipeline
+        .run(Pass::Write, || {
+            let file = outputs.file(library);
+            let written = built.library.write(&mut BufWriter::new(&mut *file));
+            written.map_err(|error| file.error("cannot write it", error))?;
+            outputs.commit()
+        })
+        .map_err(one)?;
+    let mut warnings = built.warnings;
+    warnings.extend(pin(args, &lock, &request.pinned));
+    let shown = warnings.len().min(WARNINGS);
+    console.warnings(&warnings[..shown], args.json);
+    if warnings.len() > shown && !args.json {
+        let more = warnings.len() - shown;
+        console.warn(&format!("{more} more warnings; --json has all of them"));
+    }
+    let printed = if args.json {
+        // Plain structures of numbers and strings always serialise.
+        let mut json = serde_json::to_value(&built.report).unwrap_or_default();
+        json["library"] = display(output).to_string().into();
+        json["stages_ms"] = pipeline.timings().json();
+        json["warnings"] = warnings.into();
+        console.json(&json)
+    } else {
+        console.report(&format!("{}: {}", display(output), built.report))
+    };
+    printed.map_err(one)?;
+    timings::print(args.timings, &pipeline, console);
+    Ok(())
+}
+
+fn boxed(errors: Vec<ManifestError>) -> Failures {
+    let boxed = errors
+        .into_iter()
+        .map(|error| Box::new(error) as Box<dyn Diagnostic>);
+    boxed.collect()
+}
+
+/// What `--check` says of a manifest without a fault.
+fn checked(args: &Arguments, manifest: &Manifest, console: Console) -> Result<(), Failures> {
+    let count = manifest.entries.len();
+    let printed = if args.json {
+        console.json(&json!({ "textures": count, "files": manifest.sources.len() }))
+    } else {
+        let file = args.scene.display();
+        console.report(&format!("{file}: {count} textures, no fault\n"))
+    };
+    printed.map_err(one)
+}
+
+/// The options of the command, and those of the manifest where the command has the usual ones.
+fn setup(options: &Inference, manifest: &Manifest) -> Result<Inference, Failures> {
+    let wrong = |key: &'static str, message: String| {
+        one(Usage::Setup {
+            file: manifest.file.clone(),
+            key,
+            message,
+        })
+    };
+    let stated = &manifest.setup;
+    let mut setup = options.clone();
+    if setup.model.is_none() {
+        setup.model.clone_from(&stated.model);
+    }
+    if let (TextEncoderChoice::MiniLm, Some(text)) = (&options.text_encoder, &stated.text_encoder) {
+        setup.text_encoder = text.parse().map_err(|e: String| wrong("text_encoder", e))?;
+    }
+    if let (true, Some(text)) = (options.backend == Default::default(), &stated.backend) {
+        setup.backend = text.parse().map_err(|e: String| wrong("backend", e))?;
+    }
+    Ok(setup)
+}
+
+/// Where textures are kept: as the user says, the user's cache, or a folder beside the output.
+fn cache_folder(args: &Arguments, output: &Path) -> PathBuf {
+    let beside = || {
+        let folder = if is_standard_output(output) {
+            Path::new("")
+        } else {
+            folder_of(output)
+        };
+        folder.join(".asperity-cache")
+    };
+    let chosen = args.cache.clone().or_else(default_folder);
+    chosen.unwrap_or_else(beside)
+}
+
+fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Writes the lock file where it says something else; a warning where it changes or cannot be
+/// written.
+fn pin(args: &Arguments, lock: &Lock, pinned: &Pinned) -> Vec<String> {
+    if args.locked {
+        return Vec::new();
+    }
+    let file = lock.file().display();
+    let mut warnings: Vec<String> = lock
+        .drift(pinned)
+        .iter()
+        .map(|drift| format!("{file}: {drift}; it pins that now"))
+        .collect();
+    if let Some(text) = lock.text(pinned)
+        && let Err(error) = write_atomic(lock.file(), text.as_bytes())
+    {
+        warnings.push(format!("{error}: {}; nothing is pinned", error.source));
+    }
+    warnings
+}

@@ -1,0 +1,30 @@
+//! `asperity extract`.
+
+use crate::cli::Extract;
+use asperity::{edit::EditError, library::renamed, source::Source};
+use asperity_console::Console;
+use asperity_formats::Asset;
+use asperity_io::{
+    diagnostic::{Failures, one},
+    output::{Outputs, display},
+};
+
+pub(crate) fn run(args: &Extract, console: Console) -> Result<(), Failures> {
+    let mut outputs = Outputs::beside([&args.file]);
+    let output = outputs.open(&args.output).map_err(one)?;
+    let console = console.beside(&outputs);
+    let mut source = Source::open(&args.file).map_err(one)?;
+    let wanted = Some(args.texture.as_str());
+    let name = source.chosen_name(wanted).map_err(one)?;
+    let bytes = source.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    // The name in the index counts.
+    let bytes = match name.filter(|name| name != asset.name()) {
+        Some(name) => renamed(&bytes, &name).map_err(|e| one(EditError::from(e)))?,
+        None => bytes.clone(),
+    };
+    outputs.fill(output, &bytes).map_err(one)?;
+    outputs.commit().map_err(one)?;
+    let report = format!("{}: {} bytes\n", display(&args.output), bytes.len());
+    console.report(&report).map_err(one)
+}

@@ -1,0 +1,75 @@
+//! `asperity list`.
+
+use crate::cli::List;
+use asperity::{
+    attributes::{Attributes, Meter},
+    edit::remembered,
+    raise::raise,
+    source::Source,
+};
+use asperity_console::Console;
+use asperity_formats::Asset;
+use asperity_io::diagnostic::{Failures, one};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+pub(crate) fn run(args: &List, console: Console) -> Result<(), Failures> {
+    let mut source = Source::open(&args.file).map_err(one)?;
+    let printed = if args.json {
+        let rows = source.each(Meter::default, |meter, name, asset| {
+            in_json(name, asset, &meter.of(&raise(asset)))
+        });
+        console.json(&json!({ "textures": Value::from(rows.map_err(one)?) }))
+    } else {
+        let rows = source.each(Meter::default, |meter, name, asset| {
+            line(name, asset, &meter.of(&raise(asset)))
+        });
+        let rows = rows.map_err(one)?;
+        let count = rows.len();
+        let head = "  haptic   total  rough dB  sharp Hz  hard Hz      μ  name";
+        console.text(&format!("{head} ({count} textures)\n{}", rows.concat()))
+    };
+    printed.map_err(one)
+}
+
+/// Edits that an asset remembers; `None` for one without latents.
+fn edits(asset: &Asset<'_>) -> Option<usize> {
+    let memory = remembered(asset).ok().flatten();
+    memory.map(|memory| memory.history.steps.len())
+}
+
+fn in_json(name: &str, asset: &Asset<'_>, found: &Attributes) -> Value {
+    let edits = edits(asset);
+    json!({
+        "name": name,
+        "prompt": asset.provenance().and_then(|p| p.prompt),
+        "bytes": { "haptic": asset.haptic_len(), "total": asset.total_len() },
+        "attributes": found,
+        "has_preview": asset.preview_png().is_some(),
+        "has_latent": edits.is_some(),
+        "edits": edits.unwrap_or(0),
+    })
+}
+
+fn line(name: &str, asset: &Asset<'_>, found: &Attributes) -> String {
+    let figure = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
+    let mut text = format!(
+        "  {:>6}  {:>6}  {:>8}  {:>8}  {:>7}  {:>5.3}  {name}",
+        asset.haptic_len(),
+        asset.total_len(),
+        figure(found.rough_db),
+        figure(found.sharp_hz),
+        figure(found.hard_hz),
+        found.mu,
+    );
+    let prompt = asset.provenance().and_then(|p| p.prompt);
+    if let Some(prompt) = prompt.filter(|prompt| *prompt != name) {
+        // Writing to a string cannot fail.
+        let _ = write!(text, ": {prompt:?}");
+    }
+    if let Some(edits) = edits(asset).filter(|edits| *edits > 0) {
+        let _ = write!(text, ", edited {edits} ×");
+    }
+    text.push('\n');
+    text
+}

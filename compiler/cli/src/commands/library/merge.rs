@@ -1,0 +1,29 @@
+//! `asperity merge`.
+
+use crate::cli::Merge;
+use asperity::library::{LibraryFault, Shelf, merge};
+use asperity_console::Console;
+use asperity_io::{
+    diagnostic::{Failures, one},
+    output::{Outputs, display},
+};
+
+pub(crate) fn run(args: &Merge, console: Console) -> Result<(), Failures> {
+    let mut outputs = Outputs::beside(&args.files);
+    let library = outputs.open(&args.output).map_err(one)?;
+    let console = console.beside(&outputs);
+    let mut parts = Vec::with_capacity(args.files.len());
+    for file in &args.files {
+        let part = Shelf::open(file).map_err(one)?;
+        if part.has_scene {
+            return Err(one(LibraryFault::Scene(part.shown)));
+        }
+        parts.push(part);
+    }
+    let bytes = merge(&parts)?;
+    outputs.fill(library, &bytes).map_err(one)?;
+    outputs.commit().map_err(one)?;
+    let (to, count) = (display(&args.output), parts.len());
+    let report = format!("{to}: {count} libraries joined, {} bytes\n", bytes.len());
+    console.report(&report).map_err(one)
+}

@@ -1,0 +1,73 @@
+//! `asperity split`.
+
+use crate::cli::Split;
+use asperity::{
+    edit::EditError,
+    library::{NamedAsset, Shelf, encode, renamed},
+};
+use asperity_console::Console;
+use asperity_formats::Asset;
+use asperity_io::{
+    diagnostic::{Failures, one},
+    output::{FileNames, display, write_folder_beside},
+};
+
+pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
+    let shelf = Shelf::library(&args.file)?;
+    let (files, changed) = match args.into {
+        Some(count) => (parts(&shelf, count as usize)?, Vec::new()),
+        None => assets(&shelf)?,
+    };
+    let listed: Vec<(String, &[u8])> = files
+        .iter()
+        .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
+        .collect();
+    write_folder_beside(std::slice::from_ref(&args.file), &args.output, &listed).map_err(one)?;
+    console.warn_of_many(&changed);
+    let report = format!("{}: {} files\n", display(&args.output), files.len());
+    console.report(&report).map_err(one)
+}
+
+/// Names of files and their bytes.
+type Files = Vec<(String, Vec<u8>)>;
+
+/// One asset a texture, under the name that the index gives it, and the names that no file can have.
+fn assets(shelf: &Shelf) -> Result<(Files, Vec<String>), Failures> {
+    let names: Vec<&str> = shelf
+        .textures
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .collect();
+    let mut files = Vec::with_capacity(names.len());
+    let FileNames {
+        files: own,
+        changed,
+    } = FileNames::of(&names, "asp");
+    for (file, (name, bytes)) in own.into_iter().zip(&shelf.textures) {
+        let own = Asset::parse(bytes).is_ok_and(|asset| asset.name() == name);
+        let bytes = if own {
+            bytes.clone()
+        } else {
+            renamed(bytes, name).map_err(|e| one(EditError::from(e)))?
+        };
+        files.push((file, bytes));
+    }
+    Ok((files, changed))
+}
+
+/// Libraries of neighbouring textures, each as large as the others within one texture.
+fn parts(shelf: &Shelf, count: usize) -> Result<Files, Failures> {
+    let total = shelf.textures.len();
+    let digits = count.to_string().len();
+    (0..count)
+        .map(|part| {
+            let range = part * total / count..(part + 1) * total / count;
+            let named: Vec<NamedAsset<'_>> = shelf.textures[range]
+                .iter()
+                .map(|(name, bytes)| NamedAsset { name, bytes })
+                .collect();
+            let name = format!("part-{:0digits$}.aspl", part + 1);
+            Ok((name, encode(&named).map_err(one)?))
+        })
+        .collect()
+}

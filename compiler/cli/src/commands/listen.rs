@@ -1,0 +1,59 @@
+//! `asperity listen`.
+
+use crate::cli::Listen;
+use asperity::{
+    listen::{self, Heard, Part, Session},
+    source::Source,
+};
+use asperity_console::Console;
+use asperity_formats::Asset;
+use asperity_io::{
+    diagnostic::{Failures, one},
+    output::{Outputs, display},
+};
+use std::path::Path;
+
+pub(crate) fn run(args: &Listen, console: Console) -> Result<(), Failures> {
+    let mut outputs = Outputs::beside([&args.file]);
+    let sound = outputs.open(&args.output).map_err(one)?;
+    let console = console.beside(&outputs);
+    let mut source = Source::open(&args.file).map_err(one)?;
+    let wanted = args.texture.as_deref();
+    let bytes = source.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let session = Session::asked(args.speed, args.force, args.taps);
+    let heard = listen::listen(&asset, &session, args.rate, args.seed).map_err(one)?;
+    outputs.fill(sound, &heard.wav).map_err(one)?;
+    outputs.commit().map_err(one)?;
+    console.warnings(&heard.warnings, false);
+    console.report(&report(&args.output, &heard)).map_err(one)
+}
+
+fn report(path: &Path, heard: &Heard) -> String {
+    let part = |part: &Part, one: &str, many: &str| match part.count {
+        0 => None,
+        count => Some(format!(
+            "{count} {}, {:.3} m/s² at most, gain {}\n",
+            if count == 1 { one } else { many },
+            part.peak_m_s2,
+            gain(part.gain_per_m_s2)
+        )),
+    };
+    let mut text = format!("{}: {:.2} s at 44.1 kHz\n", display(path), heard.seconds);
+    for line in [
+        part(&heard.strokes, "stroke", "strokes"),
+        part(&heard.taps, "tap", "taps"),
+    ] {
+        text += &line.map(|line| format!("  {line}")).unwrap_or_default();
+    }
+    text
+}
+
+/// A gain in full scales for 1 m/s².
+fn gain(per_m_s2: f64) -> String {
+    if per_m_s2 > 0.0 {
+        format!("{:+.1} dB re full scale per m/s²", 20.0 * per_m_s2.log10())
+    } else {
+        "none: silent".to_owned()
+    }
+}

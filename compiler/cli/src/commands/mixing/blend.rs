@@ -1,0 +1,46 @@
+//! `asperity blend`.
+
+use super::{
+    input::{Input, parsed},
+    output::{Mixing, failed},
+};
+use crate::cli::Blend;
+use asperity::{
+    edit::{History, How, Latents, Origin, Studio},
+    model::FrictionLaw,
+    preview::SIZE,
+};
+use asperity_console::Console;
+use asperity_io::diagnostic::Failures;
+use serde_json::json;
+
+pub(crate) fn run(args: &Blend, console: Console) -> Result<(), Failures> {
+    let (first, second) = (Input::of(&args.a), Input::of(&args.b));
+    let mixing = Mixing::open(&args.mixed, &[&first, &second], console)?;
+    let (a, b) = (first.read()?, second.read()?);
+    let (a, b) = (parsed(&a)?, parsed(&b)?);
+    let (author, crc32) = mixing.author()?;
+    let studio = Studio::new(&author, crc32);
+    let (from, at_a) = studio.source(&a).map_err(failed)?;
+    let (to, at_b) = studio.source(&b).map_err(failed)?;
+    let own = studio.how(&a);
+    let other = studio.how(&b);
+    let how = How {
+        preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        law: FrictionLaw::between(own.law.as_ref(), other.law.as_ref(), args.t),
+        ..own
+    };
+    let name = mixing.name(&format!("{} – {}", a.name(), b.name()));
+    let history = History::of(Origin::Blend {
+        a: from,
+        b: to,
+        t: args.t,
+    });
+    let latents = Latents::between(&at_a, &at_b, args.t);
+    let made = studio
+        .compile(&latents, &name, studio.provenance("blend"), history, &how)
+        .map_err(failed)?;
+    let line = format!("{:?} and {:?} at t = {}", a.name(), b.name(), args.t);
+    let more = json!({ "blend": { "a": a.name(), "b": b.name(), "t": args.t } });
+    mixing.finish(&studio, &made, more, &[("between", line)], &[])
+}

@@ -1,0 +1,59 @@
+//! `asperity encode`.
+
+use super::{
+    input::{Input, parsed},
+    output::{Mixing, failed},
+};
+use crate::cli::Encode;
+use asperity::{
+    edit::{History, How, Origin, Part, Studio, encode},
+    model::Provenance,
+    preview::SIZE,
+    raise::raise,
+    reduce::Fidelity,
+};
+use asperity_console::Console;
+use asperity_io::diagnostic::Failures;
+use serde_json::json;
+
+pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
+    let input = Input::of(&args.file);
+    let mixing = Mixing::open(&args.mixed, &[&input], console)?;
+    let bytes = input.read()?;
+    let asset = parsed(&bytes)?;
+    let texture = raise(&asset);
+    let (author, crc32) = mixing.author()?;
+    let studio = Studio::new(&author, crc32);
+    let part = args.part.unwrap_or_else(|| Part::recorded(&texture));
+    let encoded = encode(&studio, &texture, part).map_err(failed)?;
+    let name = mixing.name(asset.name());
+    let history = History::of(Origin::Encode {
+        name: asset.name().to_owned(),
+        part: part.name().to_owned(),
+    });
+    let own = studio.how(&asset);
+    let how = How {
+        // A recording is kept in full; what is decoded is as compact as a prompt's texture.
+        fidelity: Fidelity::Auto,
+        preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        ..own
+    };
+    let provenance = Provenance {
+        prompt: texture.provenance.prompt.clone(),
+        ..studio.provenance("encode")
+    };
+    let made = studio
+        .compile(&encoded.latents, &name, provenance, history, &how)
+        .map_err(failed)?;
+    let distance = match encoded.distance_db {
+        Some((p95, worst)) => format!("{p95:.1} dB at 95 % of the places, {worst:.1} dB at worst"),
+        None => "not measured".into(),
+    };
+    let more = json!({
+        "part": part.name(),
+        "z": encoded.latents.slide.to_vec(),
+        "distance_db": encoded.distance_db.map(|(p95, worst)| [p95, worst]),
+    });
+    let lines = [("encoded", part.name().to_owned()), ("distance", distance)];
+    mixing.finish(&studio, &made, more, &lines, &[])
+}

@@ -1,0 +1,62 @@
+//! The commands, each in a file of its own.
+
+mod build;
+mod build_scene;
+mod builtin;
+mod compile;
+mod diffusion;
+mod doctor;
+mod export;
+mod import_effects;
+mod import_hatt;
+mod import_model;
+mod import_recording;
+mod inference;
+mod inspect;
+mod library;
+mod listen;
+mod mixing;
+mod outputs;
+mod plot;
+mod preview;
+mod record_check;
+mod render;
+mod timings;
+
+use crate::cli::{Cli, Command, Import};
+use asperity::effects::Kind;
+use asperity_console::Console;
+use asperity_io::diagnostic::Failures;
+
+pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
+    let console = Console::new(cli.quiet);
+    match cli.command {
+        Command::Import(Import::Hatt(args)) => import_hatt::run(&args, console),
+        Command::Import(Import::Model(args)) => import_model::run(&args, console),
+        Command::Import(Import::Recording(args)) => import_recording::run(&args, console),
+        Command::Import(Import::Haptic(args)) => import_effects::run(&args, Kind::Haptic, console),
+        Command::Import(Import::Ahap(args)) => import_effects::run(&args, Kind::Ahap, console),
+        Command::Import(Import::Hjif(args)) => import_effects::run(&args, Kind::Hjif, console),
+        Command::Export(args) => export::run(&args, console),
+        Command::RecordCheck(args) => record_check::run(&args, console),
+        Command::Build(args) => build::run(&args, console),
+        Command::Merge(args) => library::merge::run(&args, console),
+        Command::List(args) => library::list::run(&args, console),
+        Command::Extract(args) => library::extract::run(&args, console),
+        Command::Rename(args) => library::rename::run(&args, console),
+        Command::Split(args) => library::split::run(&args, console),
+        Command::Diff(args) => library::diff::run(&args, console),
+        Command::Blend(args) => mixing::blend::run(&args, console),
+        Command::Compose(args) => mixing::compose::run(&args, console),
+        Command::Edit(args) => mixing::edit::run(&args, console),
+        Command::Encode(args) => mixing::encode::run(&args, console),
+        Command::Compile(args) => compile::run(&args, console),
+        Command::Doctor(args) => doctor::run(&args, console),
+        Command::Builtin(args) => builtin::run(&args, console),
+        Command::Inspect(args) => inspect::run(&args, console),
+        Command::Plot(args) => plot::run(&args),
+        Command::Preview(args) => preview::run(&args, console),
+        Command::Listen(args) => listen::run(&args, console),
+        Command::Render(args) => render::run(&args, console),
+    }
+}

@@ -1,0 +1,52 @@
+//! `asperity plot`.
+
+use crate::cli::Plot;
+use asperity::{
+    plot::{self, AssetBytes},
+    preview,
+    raise::raise,
+    source::Source,
+};
+use asperity_formats::Asset;
+use asperity_io::{
+    diagnostic::{Diagnostic, Failures, one},
+    output::Outputs,
+};
+use asperity_plot::PlotError;
+use thiserror::Error;
+
+/// The sheet could not be drawn.
+#[derive(Debug, Error)]
+#[error("the sheet cannot be drawn: {0}")]
+struct DrawError(#[from] PlotError);
+
+impl Diagnostic for DrawError {
+    fn remedy(&self) -> String {
+        "free memory and try again".into()
+    }
+}
+
+pub(crate) fn run(args: &Plot) -> Result<(), Failures> {
+    let mut outputs = Outputs::beside([&args.file]);
+    let picture = outputs.open(&args.output).map_err(one)?;
+    let mut source = Source::open(&args.file).map_err(one)?;
+    let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
+    let asset =
+        Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
+    outputs.fill(picture, &drawn(&asset)?).map_err(one)?;
+    outputs.commit().map_err(one)
+}
+
+/// The sheet of an asset as PNG.
+pub(super) fn drawn(asset: &Asset<'_>) -> Result<Vec<u8>, Failures> {
+    let sizes = AssetBytes {
+        haptic: asset.haptic_len(),
+        total: asset.total_len(),
+    };
+    // A picture that cannot be read leaves its place empty; `asperity preview` says why.
+    let picture = asset
+        .preview_png()
+        .and_then(|png| preview::stored(png).ok());
+    plot::sheet_with_picture(&raise(asset), Some(sizes), picture.as_ref())
+        .map_err(|e| one(DrawError(e)))
+}

@@ -1,0 +1,93 @@
+//! `asperity preview`.
+
+use super::diffusion;
+use crate::cli::Preview;
+use asperity::{
+    diffusion::prompt_of,
+    preview::{self, PreviewError, SIZE},
+    raise::raise,
+    source::Source,
+};
+use asperity_console::Console;
+use asperity_formats::Asset;
+use asperity_io::{
+    diagnostic::{Failures, one},
+    output::{Outputs, display},
+};
+
+pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
+    let mut inputs = diffusion::files(&args.diffusion);
+    inputs.push(args.file.clone());
+    let mut outputs = Outputs::beside(inputs);
+    let color = outputs.open(&args.output).map_err(one)?;
+    let height = outputs.open_if(args.height.as_deref()).map_err(one)?;
+    let normal = outputs.open_if(args.normal.as_deref()).map_err(one)?;
+    let console = console.beside(&outputs);
+    let mut source = Source::open(&args.file).map_err(one)?;
+    let wanted = args.texture.as_deref();
+    let bytes = source.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let anew = args.redraw || args.size.is_some() || height.is_some() || normal.is_some();
+    let stored = asset.preview_png();
+    let report = match (&args.diffusion.diffusion, stored.filter(|_| !anew)) {
+        (Some(folder), _) => {
+            let texture = raise(&asset);
+            let prompt = args.prompt.clone();
+            let drawn = diffusion::drawn(
+                folder,
+                &args.diffusion,
+                prompt.unwrap_or_else(|| prompt_of(&texture)),
+                args.seed.unwrap_or(texture.provenance.seed),
+                args.size,
+                console,
+            )?;
+            let png = drawn.png().map_err(one)?;
+            outputs.fill(color, &png).map_err(one)?;
+            let size_px = drawn.size_px();
+            format!(
+                "{size_px} × {size_px} pixels, {} bytes, {}",
+                png.len(),
+                drawn.note
+            )
+        }
+        (None, Some(png)) => {
+            // Read before it is passed on, so that what is no picture is not written as one.
+            let size = preview::stored(png).map_err(one)?;
+            outputs.fill(color, png).map_err(one)?;
+            format!(
+                "{} × {} pixels, {} bytes, as the asset holds it",
+                size.width,
+                size.height,
+                png.len()
+            )
+        }
+        (None, None) => {
+            let size_px = args.size.unwrap_or(SIZE);
+            let encoded = |e| one(PreviewError::Encode(e));
+            let picture = preview::draw(&raise(&asset), size_px).map_err(one)?;
+            let png = picture.png().map_err(encoded)?;
+            outputs.fill(color, &png).map_err(one)?;
+            if let Some(file) = height {
+                let map = picture.height_png().map_err(encoded)?;
+                outputs.fill(file, &map).map_err(one)?;
+            }
+            if let Some(file) = normal {
+                let map = picture.normal_png().map_err(encoded)?;
+                outputs.fill(file, &map).map_err(one)?;
+            }
+            let why = if stored.is_some() {
+                ""
+            } else {
+                "; the asset holds none"
+            };
+            format!(
+                "{size_px} × {size_px} pixels, {} bytes, drawn anew{why}",
+                png.len()
+            )
+        }
+    };
+    outputs.commit().map_err(one)?;
+    console
+        .report(&format!("{}: {report}\n", display(&args.output)))
+        .map_err(one)
+}

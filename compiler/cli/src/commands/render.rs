@@ -1,0 +1,73 @@
+//! `asperity render`.
+
+use crate::cli::Render;
+use asperity::{
+    render::{self, RenderError},
+    source::Source,
+};
+use asperity_console::Console;
+use asperity_formats::{Asset, Library};
+use asperity_io::{
+    diagnostic::{Failures, one},
+    input::{self, InputError, Kind},
+    output::{Outputs, display},
+};
+use std::io::BufWriter;
+
+/// What the trajectory goes over: the surfaces of a scene, or a plane with one texture.
+enum Felt<'a> {
+    Scene(Library<'a>),
+    Texture(Box<Asset<'a>>),
+}
+
+pub(crate) fn run(args: &Render, console: Console) -> Result<(), Failures> {
+    let mut outputs = Outputs::beside([&args.file, &args.trajectory]);
+    let table = outputs.open(&args.output).map_err(one)?;
+    let console = console.beside(&outputs);
+    let mut source = Source::open(&args.file).map_err(one)?;
+    let wanted = args.texture.as_deref();
+    let scene = match wanted {
+        None => source.scene_library().map_err(one)?,
+        Some(_) => None,
+    };
+    let is_scene = scene.is_some();
+    let bytes = match scene {
+        Some(bytes) => bytes,
+        None => source.choose(wanted).map_err(one)?,
+    };
+    let felt = if is_scene {
+        Library::parse(&bytes).map(Felt::Scene)
+    } else {
+        Asset::parse(&bytes).map(|asset| Felt::Texture(Box::new(asset)))
+    };
+    let felt = felt.map_err(|e| one(source.error(wanted, e.into())))?;
+    let trajectory = input::open_as(&args.trajectory, Kind::Trajectory).map_err(|problem| {
+        one(InputError {
+            file: args.trajectory.clone(),
+            problem,
+        })
+    })?;
+    let output = outputs.file(table);
+    let (file, input) = (&args.trajectory, trajectory);
+    let rows = BufWriter::new(&mut *output);
+    let rendered = match &felt {
+        Felt::Scene(library) => {
+            render::render_scene(library, args.rate, file, input, rows, args.seed)
+        }
+        Felt::Texture(asset) => render::render(asset, args.rate, file, input, rows, args.seed),
+    };
+    let report = rendered.map_err(|error| match error {
+        RenderError::Write(source) => one(output.error("cannot write it", source)),
+        other => one(other),
+    })?;
+    outputs.commit().map_err(one)?;
+    let report = format!(
+        "{}: {} ticks, {} in contact, {} taps, {:.3} N at most\n",
+        display(&args.output),
+        report.ticks,
+        report.contact_ticks,
+        report.taps,
+        report.peak_force_n
+    );
+    console.report(&report).map_err(one)
+}

@@ -1,0 +1,11 @@
+//! How long each pass took, for those who ask.
+
+use asperity::pipeline::Pipeline;
+use asperity_console::Console;
+
+/// Prints the times on standard error, where that was asked for.
+pub(super) fn print(wanted: bool, pipeline: &Pipeline, console: Console) {
+    if wanted {
+        console.aside(pipeline.timings());
+    }
+}

@@ -1,0 +1,12 @@
+//! Files of a command, and what it says of them.
+//!
+//! [`input`] reads files of strangers within bounds, [`output`] writes whole files or none, and a
+//! [`diagnostic`] says what is wrong and what to do about it. Text from outside is made fit for a
+//! terminal by [`shown`] and [`toml_error`].
+#![forbid(unsafe_code)]
+
+pub mod diagnostic;
+pub mod input;
+pub mod output;
+pub mod shown;
+pub mod toml_error;
