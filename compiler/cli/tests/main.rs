@@ -6,6 +6,7 @@ mod effects;
 mod grammar;
 mod interrupted;
 mod library;
+mod limits;
 mod messages;
 mod mixing;
 mod models;

@@ -19,7 +19,7 @@ mod interrupt;
 pub mod progress;
 mod threads;
 
-pub use interrupt::{NoHandler, clean_up_on_interrupt};
+pub use interrupt::{NoHandler, clean_up_on_interrupt, on_interrupt};
 pub use threads::share_work;
 
 /// Warnings of one kind that are told one by one.

@@ -1,7 +1,8 @@
 //! Files of a command, and what it says of them.
 //!
 //! [`input`] reads files of strangers within bounds, [`output`] writes whole files or none, and a
-//! [`diagnostic`] says what is wrong and what to do about it. Text from outside is made fit for a
+//! [`diagnostic`] says what is wrong and what to do about it, where a limit of the [`system`] is the
+//! cause, too. Text from outside is made fit for a
 //! terminal by [`shown`] and [`toml_error`].
 #![forbid(unsafe_code)]
 
@@ -9,4 +10,5 @@ pub mod diagnostic;
 pub mod input;
 pub mod output;
 pub mod shown;
+pub mod system;
 pub mod toml_error;

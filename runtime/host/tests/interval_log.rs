@@ -1,11 +1,11 @@
 //! Interval logs against the reference's description of their format, read here byte by byte:
 //! HdrHistogram's `HistogramLogWriter` (version 1.3 of the log) and its encoding V2.
 
-use asperity_host::latency::{Counts, Facts, Interval, Run, write_log};
+use asperity_host::latency::{Counts, Facts, Interval, LogError, Run, read_log, write_log};
 use asperity_host::servo::Stage;
 use base64::Engine as _;
-use flate2::read::ZlibDecoder;
-use std::io::Read as _;
+use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
+use std::io::{Read as _, Write as _};
 
 /// Cookies of the encoding V2; the low byte says that counts are numbers of variable length.
 const COMPRESSED: u32 = 0x1c84_9304 | 0x10;
@@ -165,4 +165,46 @@ fn a_log_is_what_the_reference_describes() {
         }
     }
     assert_eq!(lines.next(), None);
+}
+
+/// A histogram whose heads, the outer and the inner one, state these lengths instead of their own.
+fn lying(text: &str, outer: Option<u32>, inner: Option<u32>) -> String {
+    let engine = base64::engine::general_purpose::STANDARD;
+    let compressed = engine.decode(text).expect("base64");
+    let mut plain = Vec::new();
+    ZlibDecoder::new(&compressed[8..])
+        .read_to_end(&mut plain)
+        .expect("zlib");
+    if let Some(inner) = inner {
+        plain[4..8].copy_from_slice(&inner.to_be_bytes());
+    }
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(&plain).expect("memory");
+    let body = encoder.finish().expect("memory");
+    let length = outer.unwrap_or(body.len() as u32);
+    engine.encode([&compressed[..4], &length.to_be_bytes(), &body].concat())
+}
+
+/// Nothing is reserved for bytes that the file does not hold.
+#[test]
+fn a_histogram_that_states_other_lengths_than_its_own_is_damaged() {
+    let log = String::from_utf8(write_log(&run()).expect("a log")).expect("text");
+    let at = log.find("HISTFAAA").expect("a histogram");
+    let end = at + log[at..].find('\n').expect("a line");
+    let with = |histogram: &str| format!("{}{histogram}{}", &log[..at], &log[end..]);
+    let histogram = &log[at..end];
+    assert_eq!(
+        read_log(with(&lying(histogram, None, None)).as_bytes()).expect("the same run"),
+        read_log(log.as_bytes()).expect("a run")
+    );
+    for length in [0, 1, 0x7fff_ffff, u32::MAX] {
+        for (outer, inner) in [(Some(length), None), (None, Some(length))] {
+            let lies = with(&lying(histogram, outer, inner));
+            let read = read_log(lies.as_bytes());
+            assert!(
+                matches!(read, Err(LogError::Histogram(_))),
+                "{outer:?} {inner:?}: {read:?}"
+            );
+        }
+    }
 }

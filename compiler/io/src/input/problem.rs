@@ -5,7 +5,7 @@ use super::{
     kind::Kind,
     patience::{MAX_SILENCE, MAX_WAIT},
 };
-use crate::diagnostic::Diagnostic;
+use crate::{diagnostic::Diagnostic, system};
 use std::{io, path::PathBuf};
 use thiserror::Error;
 
@@ -68,7 +68,9 @@ impl InputProblem {
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {
-            Self::Unreadable(_) => "check the path and its permissions".into(),
+            Self::Unreadable(error) => system::remedy(error)
+                .unwrap_or("check the path and its permissions")
+                .into(),
             Self::Folder | Self::Device => "give the path of a file, or of a pipe".into(),
             Self::TooLarge { kind } => {
                 format!("{}; docs/limits.md lists the limits", kind.remedy())

@@ -95,7 +95,12 @@ impl AtomicFile {
         }
         if let Some(metadata) = &existing {
             // A rename asks the folder alone, so a protected file would be lost.
-            writable(target, metadata).map_err(|e| fail("it is read-only", e))?;
+            writable(target, metadata).map_err(|e| match e.kind() {
+                io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+                    fail("it is read-only", e)
+                }
+                _ => fail("cannot open it for writing", e),
+            })?;
         }
         // Of a symbolic link, the file that it points to is replaced.
         let file = Self::beside(target, followed(target))?;

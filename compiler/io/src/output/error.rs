@@ -1,6 +1,6 @@
 //! Why an output cannot be written.
 
-use crate::diagnostic::Diagnostic;
+use crate::{diagnostic::Diagnostic, system};
 use std::{io, path::PathBuf};
 use thiserror::Error;
 
@@ -18,13 +18,13 @@ pub struct OutputError {
 
 impl Diagnostic for OutputError {
     fn remedy(&self) -> String {
+        if let Some(remedy) = system::remedy(&self.source) {
+            return remedy.into();
+        }
         match self.source.kind() {
             io::ErrorKind::NotFound => "create the folder first, or give another path".into(),
-            io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            io::ErrorKind::PermissionDenied => {
                 "give a path that you may write to, or change its permissions".into()
-            }
-            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-                "free space on the disk, or give a path on another one".into()
             }
             io::ErrorKind::IsADirectory => "give a path for a file, not a folder".into(),
             io::ErrorKind::NotADirectory => "give a folder, not a file".into(),

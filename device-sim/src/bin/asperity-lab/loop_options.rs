@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Duration;
 
-use asperity_console::NoHandler;
+use asperity_console::on_interrupt;
 use asperity_host::device::Uri;
 use asperity_host::profile::Profile;
 use asperity_host::servo::privileges::{Grant, Policy, Wanted};
@@ -173,13 +173,13 @@ pub(crate) struct Interrupt {
 pub(crate) fn stop_on_interrupt() -> Result<Interrupt, Failures> {
     let interrupt = Interrupt::default();
     let set = interrupt.clone();
-    ctrlc::set_handler(move || {
+    on_interrupt(move || {
         let again = set.stop.swap(true, Relaxed);
         if again && set.released.load(Relaxed) {
             asperity_io::output::clean_up_and_exit();
         }
     })
-    .map_err(|error| one(NoHandler::from(error)))?;
+    .map_err(one)?;
     Ok(interrupt)
 }
 

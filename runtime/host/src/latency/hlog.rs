@@ -7,17 +7,23 @@ use super::{
 };
 use crate::servo::Stage;
 use base64::Engine as _;
+use flate2::read::ZlibDecoder;
 use hdrhistogram::serialization::{
     Deserializer, V2DeflateSerializer,
     interval_log::{IntervalLogIterator, IntervalLogWriterBuilder, LogEntry, Tag},
 };
-use std::time::{Duration, UNIX_EPOCH};
+use std::{
+    io::Read as _,
+    time::{Duration, UNIX_EPOCH},
+};
 use thiserror::Error;
 
 /// What begins the comment with the facts.
 const FACTS: &str = "asperity-lab jitter ";
 /// Largest values are told in ms.
 const MAX_DIVISOR: f64 = 1e6;
+/// More bytes than any histogram of ours takes before it is compressed.
+const MOST_BYTES: u64 = 1 << 24;
 /// More intervals than any run of a day has.
 const MOST_INTERVALS: usize = 1_000_000;
 
@@ -84,6 +90,25 @@ pub fn write_log(run: &Run) -> Result<Vec<u8>, LogError> {
     Ok(bytes)
 }
 
+/// The histogram of a compressed one, whose lengths are true: the deserialiser reserves what they
+/// state before it reads. `None` for one that is damaged or takes more than [`MOST_BYTES`].
+fn inflated(compressed: &[u8]) -> Option<Vec<u8>> {
+    // Two heads, each a cookie and a length; the inner one goes on for 32 bytes.
+    let states = |head: &[u8], length: usize| {
+        let stated = head.get(4..8)?.try_into().ok()?;
+        (u32::from_be_bytes(stated) as usize == length).then_some(())
+    };
+    let body = compressed.get(8..)?;
+    states(compressed, body.len())?;
+    let mut histogram = Vec::new();
+    ZlibDecoder::new(body)
+        .take(MOST_BYTES)
+        .read_to_end(&mut histogram)
+        .ok()?;
+    states(&histogram, histogram.len().checked_sub(40)?)?;
+    Some(histogram)
+}
+
 /// A duration of so many seconds; 0 for what is none.
 fn seconds(s: f64) -> Duration {
     Duration::try_from_secs_f64(s).unwrap_or_default()
@@ -114,12 +139,12 @@ pub fn read_log(bytes: &[u8]) -> Result<Run, LogError> {
             index,
             tag: tag.into(),
         })?;
-        let decoded = base64::engine::general_purpose::STANDARD
+        let histogram: hdrhistogram::Histogram<u64> = base64::engine::general_purpose::STANDARD
             .decode(entry.encoded_histogram())
-            .map_err(|_| LogError::Histogram(index))?;
-        let histogram: hdrhistogram::Histogram<u64> = deserializer
-            .deserialize(&mut decoded.as_slice())
-            .map_err(|_| LogError::Histogram(index))?;
+            .ok()
+            .and_then(|bytes| inflated(&bytes))
+            .and_then(|bytes| deserializer.deserialize(&mut bytes.as_slice()).ok())
+            .ok_or(LogError::Histogram(index))?;
         let start_s = entry.start_timestamp().as_secs_f64();
         let length_s = entry.duration().as_secs_f64();
         let same = |last: &&mut Interval| last.start_s == start_s;

@@ -225,7 +225,12 @@ fn head(from: &mut impl Read) -> Result<Conditions, RecordingError> {
     }
     match block::read(from)? {
         Next::Block(Kind::Conditions, body) => {
-            serde_json::from_slice(&body).map_err(|error| damaged(&error.to_string()))
+            let conditions: Conditions =
+                serde_json::from_slice(&body).map_err(|error| damaged(&error.to_string()))?;
+            // Queues and clocks are sized by the rate, before a renderer checks it.
+            let checked = conditions.config.check();
+            checked.map_err(|error| damaged(&error.to_string()))?;
+            Ok(conditions)
         }
         Next::Block(..) => Err(damaged("another block stands in their place")),
         Next::End => Err(damaged("the file ends before them")),

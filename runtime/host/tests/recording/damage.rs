@@ -102,6 +102,14 @@ fn foreign_newer_and_hostile_files_give_clear_errors() {
         read(&head(b"\xff")),
         Err(RecordingError::Conditions { .. })
     ));
+    // Conditions that no session can have had: queues are sized by the servo rate.
+    for servo_rate_hz in [1e9, 20_001.0, 99.0, 0.0, -1.0] {
+        let mut impossible = conditions();
+        impossible.config.servo_rate_hz = servo_rate_hz;
+        let error = read(&head(&serde_json::to_vec(&impossible).expect("JSON")));
+        let told = error.expect_err("impossible").to_string();
+        assert!(told.contains("config servo_rate_hz"), "{told}");
+    }
     let good = serde_json::to_vec(&conditions()).expect("JSON");
     let with = |kind, body: &[u8]| read(&[head(&good), block(kind, body)].concat());
     for (kind, body) in [
