@@ -22,31 +22,40 @@ fn limited(folder: &Path, limit: &str, arguments: &str) -> Output {
 #[test]
 fn too_few_open_files_are_called_that_and_leave_the_output_as_it_was() {
     let folder = tempfile::tempdir().expect("a folder");
-    let write = |bytes: &[u8]| fs::write(folder.path().join("x.asp"), bytes).expect("a file");
-    let (mut refused, mut written) = (0, 0);
-    for files in 4..24 {
-        write(b"before");
-        let output = limited(folder.path(), &format!("-n {files}"), "builtin -o x.asp");
-        assert_eq!(entries(folder.path()), ["x.asp"], "{files} files");
-        let error = text(&output.stderr);
-        match output.status.code() {
-            Some(0) => written += 1,
-            // The system could not load its own libraries.
-            Some(127) if error.contains("shared libraries") => {}
-            Some(1) => {
-                refused += 1;
-                assert!(error.contains("ulimit -n"), "{files} files: {error}");
-                assert!(!error.contains("read-only"), "{files} files: {error}");
-                let left = fs::read(folder.path().join("x.asp")).expect("a file");
-                assert_eq!(left, b"before", "{files} files");
+    let target = folder.path().join("x.asp");
+    for before in [None, Some(b"before".as_slice())] {
+        let (mut refused, mut written) = (0, 0);
+        for files in 4..24 {
+            match before {
+                Some(bytes) => fs::write(&target, bytes).expect("a file"),
+                None => drop(fs::remove_file(&target)),
             }
-            other => panic!("{files} files: {other:?}: {error}"),
+            let output = limited(folder.path(), &format!("-n {files}"), "builtin -o x.asp");
+            let error = text(&output.stderr);
+            match output.status.code() {
+                Some(0) => written += 1,
+                // The system could not load its own libraries.
+                Some(127) if error.contains("shared libraries") => {}
+                Some(1) => {
+                    refused += 1;
+                    assert!(error.contains("ulimit -n"), "{files} files: {error}");
+                    assert!(!error.contains("read-only"), "{files} files: {error}");
+                    let left = fs::read(&target).ok();
+                    assert_eq!(left.as_deref(), before, "{files} files");
+                }
+                other => panic!("{files} files: {other:?}: {error}"),
+            }
+            let others: Vec<_> = entries(folder.path())
+                .into_iter()
+                .filter(|name| name != "x.asp")
+                .collect();
+            assert_eq!(others, [""; 0], "{files} files");
         }
+        assert!(
+            refused > 0 && written > 0,
+            "{refused} refused, {written} written"
+        );
     }
-    assert!(
-        refused > 0 && written > 0,
-        "{refused} refused, {written} written"
-    );
 }
 
 #[test]

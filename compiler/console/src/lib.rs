@@ -2,6 +2,13 @@
 //!
 //! Nothing here fails or panics because a reader has gone away.
 
+mod interrupt;
+pub mod progress;
+mod threads;
+
+pub use interrupt::{NoHandler, clean_up_on_interrupt, on_interrupt};
+pub use threads::share_work;
+
 use asperity_io::{
     diagnostic::{Failures, report},
     output::{OutputError, Outputs},
@@ -14,13 +21,6 @@ use std::{
     io::{self, Write},
     process::ExitCode,
 };
-
-mod interrupt;
-pub mod progress;
-mod threads;
-
-pub use interrupt::{NoHandler, clean_up_on_interrupt, on_interrupt};
-pub use threads::share_work;
 
 /// Warnings of one kind that are told one by one.
 const SHOWN_WARNINGS: usize = 20;

@@ -1,9 +1,9 @@
 //! Files of a command, and what it says of them.
 //!
 //! [`input`] reads files of strangers within bounds, [`output`] writes whole files or none, and a
-//! [`diagnostic`] says what is wrong and what to do about it, where a limit of the [`system`] is the
-//! cause, too. Text from outside is made fit for a
-//! terminal by [`shown`] and [`toml_error`].
+//! [`diagnostic`] says what is wrong and what to do about it; [`system`] knows the remedy where a
+//! limit of the system is the cause. Text from outside is made fit for a terminal by [`shown`] and
+//! [`toml_error`].
 #![forbid(unsafe_code)]
 
 pub mod diagnostic;

@@ -1,6 +1,7 @@
 //! Files that end, and lines that end: what else a path may lead to would be read for ever.
 
 use crate::error::{Problem, RecordingError};
+use asperity_io::input::Format;
 use std::{
     fs::File,
     io::{self, Read, Seek as _},
@@ -9,11 +10,11 @@ use std::{
 
 /// Longest line of a table, bytes.
 const MAX_LINE: usize = 64 * 1024;
-/// With what a Git LFS pointer begins.
-const POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
+/// Bytes by which a format is told.
+const HEAD: u64 = 8192;
 
 /// Opens a regular file with something in it. Pipes, sockets and devices have no end and are refused,
-/// and so are pointers of Git LFS.
+/// and so are files of other known formats than a recording has, by their names.
 pub(crate) fn open(path: &Path) -> Result<File, RecordingError> {
     let unreadable = |error| RecordingError::of(path, Problem::Unreadable(error));
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
@@ -29,16 +30,21 @@ pub(crate) fn open(path: &Path) -> Result<File, RecordingError> {
         return Err(RecordingError::of(path, problem));
     }
     let mut file = File::open(path).map_err(unreadable)?;
-    let mut start = Vec::with_capacity(POINTER.len());
+    let mut start = Vec::new();
     (&mut file)
-        .take(POINTER.len() as u64)
+        .take(HEAD)
         .read_to_end(&mut start)
         .and_then(|_| file.rewind())
         .map_err(unreadable)?;
-    if start == POINTER {
-        return Err(RecordingError::of(path, Problem::Pointer));
-    }
-    Ok(file)
+    let problem = match Format::of(&start) {
+        None | Some(Format::Wav | Format::Numpy) => return Ok(file),
+        Some(Format::LfsPointer) => Problem::Pointer,
+        Some(other) => Problem::File {
+            what: format!("is {}, not part of a recording", other.name()),
+            remedy: other.remedy(),
+        },
+    };
+    Err(RecordingError::of(path, problem))
 }
 
 /// A reader that fails where a line is longer than any table has.
@@ -90,13 +96,15 @@ mod tests {
     }
 
     #[test]
-    fn a_pointer_and_an_empty_file_say_so() {
+    fn what_is_no_recording_is_called_what_it_is() {
         let folder = tempfile::tempdir().expect("a folder");
         for (content, word) in [
             (
                 "version https://git-lfs.github.com/spec/v1\noid sha256:11\nsize 9\n",
                 "pointer",
             ),
+            ("PK\x03\x04\x14\0xl/workbook.xml", "Excel workbook"),
+            ("<!DOCTYPE html><title>Sign in</title>", "web page"),
             ("", "is empty"),
         ] {
             let path = folder.path().join("accel.wav");

@@ -8,6 +8,7 @@ use asperity_host::device::OpenError;
 use asperity_host::profile::ProfileError;
 use asperity_host::servo::SettingsError;
 use asperity_io::diagnostic::Diagnostic;
+use asperity_io::system;
 use asperity_runtime::{LoadError, SceneError};
 use std::io;
 use std::path::PathBuf;
@@ -74,7 +75,7 @@ pub enum DeskError {
     #[error(transparent)]
     Settings(#[from] SettingsError),
     /// The system has no room for a thread.
-    #[error("cannot start the servo thread: {0}")]
+    #[error("cannot start a thread: {0}")]
     Thread(io::Error),
     /// A name that says nothing of how to record.
     #[error("{}: the name does not say how to record", .0.display())]
@@ -135,7 +136,9 @@ impl Diagnostic for DeskError {
             Self::RecordName(_) => {
                 "give OUT.aspr for a recording that replay: plays, or OUT.csv for a table".into()
             }
-            Self::Record { .. } => "free some space, or record fewer seconds".into(),
+            Self::Record { cause, .. } => system::remedy(cause)
+                .unwrap_or("record fewer seconds, or onto another disk")
+                .into(),
             Self::RecordedRate { .. } => "leave out --rate".into(),
             Self::Simulated(error) => error.remedy(),
             Self::Config(_) => "change the value in the device file".into(),

@@ -68,13 +68,34 @@ pub struct Written {
     pub ticks: u64,
 }
 
+/// The thread that writes. Dropped before its end, it is waited for: it holds a temporary file.
+#[derive(Debug)]
+struct Writer {
+    to: Option<SyncSender<Batch>>,
+    thread: Option<JoinHandle<Result<Written, io::Error>>>,
+}
+
+impl Writer {
+    /// Waits for the end of the thread.
+    fn end(&mut self) -> Option<thread::Result<Result<Written, io::Error>>> {
+        drop(self.to.take());
+        self.thread.take().map(JoinHandle::join)
+    }
+}
+
+impl Drop for Writer {
+    fn drop(&mut self) {
+        // Nobody asks any more what became of it.
+        let _ = self.end();
+    }
+}
+
 /// Writes records on a thread of its own.
 #[derive(Debug)]
 pub struct Recorder {
     path: PathBuf,
     form: Form,
-    to: SyncSender<Batch>,
-    thread: JoinHandle<Result<Written, io::Error>>,
+    writer: Writer,
     next: Batch,
     lost: u64,
     failure: Arc<OnceLock<String>>,
@@ -117,8 +138,10 @@ impl Recorder {
         Ok(Self {
             path: path.to_owned(),
             form,
-            to,
-            thread: thread.spawn(body).map_err(DeskError::Thread)?,
+            writer: Writer {
+                to: Some(to),
+                thread: Some(thread.spawn(body).map_err(DeskError::Thread)?),
+            },
             next: Batch::default(),
             lost: 0,
             failure,
@@ -148,7 +171,10 @@ impl Recorder {
         if self.next.records.is_empty() {
             return;
         }
-        match self.to.try_send(std::mem::take(&mut self.next)) {
+        let Some(to) = &self.writer.to else {
+            return;
+        };
+        match to.try_send(std::mem::take(&mut self.next)) {
             Ok(()) => {}
             Err(TrySendError::Full(batch)) => self.next = batch,
             // It has said why; what comes later has no place.
@@ -187,10 +213,12 @@ impl Recorder {
     /// [`DeskError::Record`].
     pub fn finish(mut self, lost: u64) -> Result<Written, DeskError> {
         self.next.lost = lost + self.lost;
-        // The thread that is gone says why.
-        let _ = self.to.send(self.next);
-        drop(self.to);
-        let written = self.thread.join().map_err(|_| DeskError::Bug)?;
+        if let Some(to) = &self.writer.to {
+            // The thread that is gone says why.
+            let _ = to.send(self.next);
+        }
+        let ended = self.writer.end().ok_or(DeskError::Bug)?;
+        let written = ended.map_err(|_| DeskError::Bug)?;
         written.map_err(|cause| DeskError::Record {
             path: self.path,
             cause,

@@ -136,19 +136,14 @@ impl AtomicFile {
         };
         let folder = folder(&path);
         fs::metadata(folder).map_err(|e| fail("cannot reach its folder", e))?;
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".asperity-");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt as _;
-            // The permissions of any new file: what the umask leaves.
-            builder.permissions(fs::Permissions::from_mode(0o666));
-        }
         // Under the lock, so that an interrupt sees every file that is there.
         let mut list = unfinished();
-        let file = builder
-            .tempfile_in(folder)
-            .map_err(|e| fail("cannot write into its folder", strip_path(&e)))?;
+        // Made as any new file, with the permissions that the umask leaves, and with errors that do not
+        // name it: its name means nothing to a user.
+        let file = tempfile::Builder::new()
+            .prefix(".asperity-")
+            .make_in(folder, |path| fs::File::create_new(path))
+            .map_err(|e| fail("cannot write into its folder", e))?;
         list.insert(file.path().to_path_buf());
         Ok(Self {
             target: target.to_owned(),
@@ -257,14 +252,6 @@ fn writable(target: &Path, metadata: &fs::Metadata) -> io::Result<()> {
     }
 }
 
-/// The error without the temporary file's name, which means nothing to a user.
-fn strip_path(error: &io::Error) -> io::Error {
-    error.raw_os_error().map_or_else(
-        || io::Error::from(error.kind()),
-        io::Error::from_raw_os_error,
-    )
-}
-
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         if let Place::Beside { file, .. } = &mut self.place
@@ -279,13 +266,14 @@ impl Drop for AtomicFile {
     }
 }
 
+// Written to the file itself: errors of the temporary file name it.
 impl Write for AtomicFile {
     fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
         match &mut self.place {
             Place::Beside {
                 file: Some(Temporary::Open(file)),
                 ..
-            } => file.write(buffer),
+            } => file.as_file_mut().write(buffer),
             Place::Beside { .. } => Err(io::ErrorKind::NotFound.into()),
             Place::Stream(stream) => stream.held().write(buffer),
         }
@@ -296,7 +284,7 @@ impl Write for AtomicFile {
             Place::Beside {
                 file: Some(Temporary::Open(file)),
                 ..
-            } => file.flush(),
+            } => file.as_file_mut().flush(),
             Place::Beside { .. } => Ok(()),
             Place::Stream(stream) => stream.held().flush(),
         }

@@ -15,6 +15,7 @@ use asperity_host::servo::{Clock as _, Event, Inlet, SECOND_NS, Settings, Stage,
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::input::{self, InputError, Kind};
 use asperity_io::output::{self, Outputs, display};
+use asperity_io::system;
 use asperity_sim::desk::{Setup, run as run_loop};
 use asperity_sim::jitter::{draw, encode, encode_shifts, percentiles, report, shifts};
 
@@ -152,14 +153,14 @@ fn measure(arguments: &Arguments, console: Console) -> Result<(), Failures> {
     let folder = tempfile::tempdir().map_err(|error| {
         Plain::failure(
             format!("cannot make a temporary folder: {error}"),
-            "set TMPDIR to a folder that can be written",
+            system::remedy(&error).unwrap_or("set TMPDIR to a folder that can be written"),
         )
     })?;
     let load = Load::from(arguments.load);
     let loading = Loading::start(load, folder.path()).map_err(|error| {
         Plain::failure(
             format!("cannot start the load: {error}"),
-            "set TMPDIR to a folder that can be written",
+            system::remedy(&error).unwrap_or("set TMPDIR to a folder that can be written"),
         )
     })?;
     let conditions = Conditions {

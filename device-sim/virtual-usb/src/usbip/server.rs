@@ -79,17 +79,18 @@ impl Server {
     /// Accepts connections until [`Self::stop`].
     ///
     /// # Errors
-    /// What the system says of the listener.
+    /// What the system says of the listener, or of a thread that it does not allow.
     pub fn run(self: &Arc<Self>, listener: &TcpListener) -> io::Result<()> {
         listener.set_nonblocking(true)?;
         let server = self.clone();
-        let clock = thread::spawn(move || server.clock());
+        let clock = thread::Builder::new().spawn(move || server.clock())?;
         while !self.stop.load(Ordering::Acquire) {
             match listener.accept() {
                 Ok((stream, _)) => {
                     let server = self.clone();
-                    // A connection that breaks is its client's affair.
-                    thread::spawn(move || server.serve(stream));
+                    // A connection that breaks is its client's affair. Where no thread can serve it,
+                    // it is closed.
+                    let _ = thread::Builder::new().spawn(move || server.serve(stream));
                 }
                 Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
                     thread::sleep(Duration::from_millis(5));

@@ -70,7 +70,7 @@ impl Loading {
     /// Starts a load. [`Load::Disk`] writes a file of its own into `folder`, and removes it.
     ///
     /// # Errors
-    /// [`io::Error`] where the file cannot be made.
+    /// [`io::Error`] where the file cannot be made, or the system allows no further thread.
     pub fn start(load: Load, folder: &Path) -> io::Result<Self> {
         let mut loading = Self {
             stop: Arc::default(),
@@ -80,11 +80,13 @@ impl Loading {
         let cpus = thread::available_parallelism().map_or(1, Into::into);
         match load {
             Load::None => {}
-            Load::Cpu => (0..cpus).for_each(|_| loading.repeat(|| (0..10_000).for_each(spin))),
+            Load::Cpu => {
+                (0..cpus).try_for_each(|_| loading.repeat(|| (0..10_000).for_each(spin)))?;
+            }
             Load::Memory => {
                 for _ in 0..cpus {
                     let mut bytes = vec![0_u8; MEMORY_BYTES];
-                    loading.repeat(move || stream(&mut bytes));
+                    loading.repeat(move || stream(&mut bytes))?;
                 }
             }
             Load::Disk => {
@@ -95,22 +97,24 @@ impl Loading {
                 loading.repeat(move || {
                     // A full disk is load as well.
                     let _ = write(&mut file, &bytes);
-                });
+                })?;
             }
             Load::Timers => {
-                (0..TIMER_THREADS).for_each(|_| loading.repeat(|| thread::sleep(TIMER)));
+                (0..TIMER_THREADS).try_for_each(|_| loading.repeat(|| thread::sleep(TIMER)))?;
             }
         }
         Ok(loading)
     }
 
-    fn repeat(&mut self, mut work: impl FnMut() + Send + 'static) {
+    fn repeat(&mut self, mut work: impl FnMut() + Send + 'static) -> io::Result<()> {
         let stop = Arc::clone(&self.stop);
-        self.threads.push(thread::spawn(move || {
+        let body = move || {
             while !stop.load(Relaxed) {
                 work();
             }
-        }));
+        };
+        self.threads.push(thread::Builder::new().spawn(body)?);
+        Ok(())
     }
 }
 

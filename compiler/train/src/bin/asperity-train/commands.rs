@@ -81,7 +81,7 @@ fn fit(args: &cli::Fit) -> Result<(), Failure> {
         (false, true) => return Err(boxed(UsageError::WouldDiscard(state))),
         _ => {}
     }
-    console::listen();
+    console::listen().map_err(boxed)?;
     let backend = Backend::open(args.backend).map_err(boxed)?;
     let encoder = setup::text_encoder(&args.text_encoder, &backend)?;
     let threads = setup::threads(args.threads);

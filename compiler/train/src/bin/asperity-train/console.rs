@@ -1,24 +1,24 @@
 //! Results on stdout, progress on a terminal, and the interrupt.
 
+use asperity_console::{Console, NoHandler, on_interrupt};
 use asperity_io::output::OutputError;
 use asperity_train::{EpochLoss, Progress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::{
-    io::{self, Write as _},
-    sync::atomic::{AtomicBool, Ordering},
-};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// The first interrupt lets an epoch end and its state be saved; the second ends the
 /// process.
-pub(crate) fn listen() {
-    // Fails only where a handler is set already.
-    let _ = ctrlc::set_handler(|| {
+///
+/// # Errors
+/// [`NoHandler`] where the system allows no further thread or file.
+pub(crate) fn listen() -> Result<(), NoHandler> {
+    on_interrupt(|| {
         if INTERRUPTED.swap(true, Ordering::SeqCst) {
             std::process::exit(130);
         }
-    });
+    })
 }
 
 /// Whether an interrupt has come.
@@ -28,18 +28,7 @@ pub(crate) fn is_interrupted() -> bool {
 
 /// Writes a result. A reader that has gone away, as `head` does, is no failure.
 pub(crate) fn print(text: &str) -> Result<(), OutputError> {
-    let mut stdout = io::stdout().lock();
-    let written = stdout
-        .write_all(text.as_bytes())
-        .and_then(|()| stdout.flush());
-    match written {
-        Err(source) if source.kind() != io::ErrorKind::BrokenPipe => Err(OutputError {
-            path: "stdout".into(),
-            doing: "cannot print the result",
-            source,
-        }),
-        _ => Ok(()),
-    }
+    Console::new(false).text(text)
 }
 
 /// A bar for each stage.

@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Evaluate) -> Result<(), Failure> {
         fold_epochs: args.fold_epochs,
         report: &args.output,
     };
-    console::listen();
+    console::listen().map_err(boxed)?;
     let backend = Backend::open(args.backend).map_err(boxed)?;
     let encoder = setup::text_encoder(&args.text_encoder, &backend)?;
     let threads = setup::threads(args.threads);

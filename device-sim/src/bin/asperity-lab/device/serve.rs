@@ -9,6 +9,8 @@ use std::time::Duration;
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::output::{Outputs, display};
+use asperity_io::system;
+use asperity_sim::desk::DeskError;
 use asperity_virtual_usb::falcon::{Falcon, Quirks, image};
 use asperity_virtual_usb::fault::Rates;
 use asperity_virtual_usb::touch::{Firmware, Touch};
@@ -115,7 +117,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let listen = |error: std::io::Error| {
         Plain::failure(
             format!("{}: {error}", arguments.listen),
-            "choose another port with --listen, such as 127.0.0.1:0",
+            system::remedy(&error)
+                .unwrap_or("choose another port with --listen, such as 127.0.0.1:0"),
         )
     };
     let listener = TcpListener::bind(arguments.listen).map_err(listen)?;
@@ -145,18 +148,18 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let server = Server::new(sockets.iter().cloned());
     if let Some(seconds) = arguments.seconds {
         let server = server.clone();
-        thread::spawn(move || {
+        alone(move || {
             thread::sleep(Duration::from_secs_f64(seconds));
             server.stop();
-        });
+        })?;
     } else if arguments.until_eof {
         let server = server.clone();
-        thread::spawn(move || {
+        alone(move || {
             let mut stdin = std::io::stdin().lock();
             let mut ignored = [0; 1024];
             while matches!(stdin.read(&mut ignored), Ok(1..)) {}
             server.stop();
-        });
+        })?;
     }
     server.run(&listener).map_err(listen)?;
     let mut text = String::new();
@@ -164,6 +167,12 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         text += &format!("1-{}: {}\n", n + 1, summary(&socket.port()));
     }
     console.report(&text).map_err(one)
+}
+
+/// Does this on a thread of its own.
+fn alone(work: impl FnOnce() + Send + 'static) -> Result<(), Failures> {
+    let started = thread::Builder::new().spawn(work).map(drop);
+    started.map_err(|error| one(DeskError::Thread(error)))
 }
 
 /// What became of a device.
