@@ -4,7 +4,7 @@ use crate::{
     arithmetic::Arithmetic,
     quantity::{
         Quantity,
-        unit::{Fraction, FrictionCoefficient, Kilogram, Newton, SecondSquaredPerMetre},
+        unit::{Fraction, FrictionCoefficient, Kilogram, Newton, SecondSquaredPerMetre, Unit},
     },
     stage::wall::Wall,
 };
@@ -55,18 +55,18 @@ impl<A: Arithmetic> Coupling<A> {
         }
     }
 
-    /// Goes a `fraction` of the way to another coupling; with 1 it arrives exactly.
+    /// Goes a `fraction` of the way to another coupling; with 1 it arrives exactly. What is left of the
+    /// way is rounded to the grid, so that it never becomes a denormal.
     #[inline]
     pub(crate) fn follow(&mut self, to: &Self, fraction: Quantity<A, Fraction>) {
         let left = Quantity::whole(1) - fraction;
-        self.wall.stiffness = to.wall.stiffness - left * (to.wall.stiffness - self.wall.stiffness);
-        self.wall.damping = to.wall.damping - left * (to.wall.damping - self.wall.damping);
-        self.effective_mass = to.effective_mass - left * (to.effective_mass - self.effective_mass);
-        self.vib = to.vib - left * (to.vib - self.vib);
-        self.f_max = to.f_max - left * (to.f_max - self.f_max);
+        self.wall.stiffness = follow(self.wall.stiffness, to.wall.stiffness, left);
+        self.wall.damping = follow(self.wall.damping, to.wall.damping, left);
+        self.effective_mass = follow(self.effective_mass, to.effective_mass, left);
+        self.vib = follow(self.vib, to.vib, left);
+        self.f_max = follow(self.f_max, to.f_max, left);
         self.vib_mass = self.vib * self.f_max;
-        // The size of friction, which is an output, is a multiple of it.
-        self.mu = to.mu - left * (to.mu - self.mu).settled();
+        self.mu = follow(self.mu, to.mu, left);
     }
 
     /// The coupling as an asset states it.
@@ -77,6 +77,55 @@ impl<A: Arithmetic> Coupling<A> {
             vib_s2_m: self.vib.value(),
             effective_mass_kg: self.effective_mass.value(),
             f_max_n: self.f_max.value(),
+        }
+    }
+}
+
+/// Leaves the share `left` of the way from one value to another.
+#[inline(always)]
+fn follow<A: Arithmetic, U: Unit>(
+    from: Quantity<A, U>,
+    to: Quantity<A, U>,
+    left: Quantity<A, Fraction>,
+) -> Quantity<A, U> {
+    to - left * (to - from).settled()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Float, lanes::GRID};
+
+    /// The border between a surface and one that has nothing of it, for as long as anybody stays.
+    #[test]
+    fn what_goes_to_zero_is_never_a_denormal() {
+        let stated = formats::Coupling {
+            stiffness_n_m: 500.0,
+            damping_n_s_m: 0.5,
+            vib_s2_m: 0.05,
+            effective_mass_kg: 0.08,
+            f_max_n: 3.3,
+        };
+        for fraction in [0.001, 0.05, 0.3, 1.0] {
+            let mut coupling = Coupling::<Float>::new(&stated, 0.6);
+            for tick in 0..200_000 {
+                coupling.follow(&Coupling::NONE, Quantity::of(fraction));
+                let values = coupling.values();
+                for value in [
+                    values.stiffness_n_m,
+                    values.damping_n_s_m,
+                    values.vib_s2_m,
+                    values.effective_mass_kg,
+                    values.f_max_n,
+                    coupling.vib_mass.value(),
+                    coupling.mu.value(),
+                ] {
+                    assert!(!value.is_subnormal(), "{fraction} after {tick}: {value:e}");
+                }
+            }
+            // It stays where a step is below half of the grid.
+            let left = coupling.values().stiffness_n_m;
+            assert!(left <= GRID / fraction, "{fraction}: {left:e}");
         }
     }
 }

@@ -30,6 +30,9 @@ pub enum LoadError {
         /// Rate of the servo loop, Hz.
         servo_hz: f32,
     },
+    /// The processor is set to round otherwise than to nearest: the texture would have other bits.
+    #[error("the processor rounds otherwise than to nearest: reset its rounding mode")]
+    Rounding,
     /// A number beyond what fixed point can hold.
     #[error("{field} = {value}: a tick in fixed point takes {least} to {most}")]
     Range {

@@ -5,6 +5,15 @@
 
 use crate::lanes::F4;
 
+/// Whether the processor rounds to nearest, as all bits of this crate assume. A program can change
+/// that for a thread; loading, configuring and a servo loop refuse it.
+#[must_use]
+pub fn rounds_to_nearest() -> bool {
+    // Hidden, so that the compiler does not add up what it takes to be rounded to nearest.
+    let [one, little] = core::hint::black_box([1.0_f32, f32::EPSILON / 8.0]);
+    one + little == one && one - little == one
+}
+
 /// Three components along the world's axes.
 pub type Vec3 = [f32; 3];
 

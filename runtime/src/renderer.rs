@@ -4,6 +4,7 @@ use crate::{
     arithmetic::Float,
     config::{Config, ConfigError},
     coupling::Coupling,
+    math::rounds_to_nearest,
     quantity::{Quantity, unit::Fraction},
     render_arithmetic::RenderArithmetic,
     stage::{
@@ -42,7 +43,7 @@ impl Renderer {
     /// Checks a configuration and prepares it.
     ///
     /// # Errors
-    /// The first field out of its range.
+    /// The first field out of its range, or [`ConfigError::ROUNDING`].
     pub fn new(config: &Config) -> Result<Self, ConfigError> {
         Self::prepare(config)
     }
@@ -52,7 +53,8 @@ impl<A: RenderArithmetic> Renderer<A> {
     /// [`Renderer::new`] for any arithmetic.
     ///
     /// # Errors
-    /// The first field outside its range or the range of the arithmetic.
+    /// The first field outside its range or the range of the arithmetic, or
+    /// [`ConfigError::ROUNDING`].
     pub fn prepare(config: &Config) -> Result<Self, ConfigError> {
         check::<A>(config)?;
         Ok(Self::of(config))
@@ -122,6 +124,9 @@ impl<A: RenderArithmetic> Renderer<A> {
 /// A function of its own, so that its stack is free again when the renderer is made.
 #[inline(never)]
 fn check<A: RenderArithmetic>(config: &Config) -> Result<(), ConfigError> {
+    if !rounds_to_nearest() {
+        return Err(ConfigError::ROUNDING);
+    }
     config.check()?;
     A::check_config(config)
 }

@@ -3,6 +3,7 @@
  *   misuse LIBRARY.aspl, whose textures are for 1 kHz */
 #include "asperity.h"
 
+#include <fenv.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -348,6 +349,36 @@ static void of_words(void) {
   CHECK(asperity_version_number() >= ASPERITY_VERSION);
 }
 
+/* Forces would have other bits. */
+static void of_rounding(const unsigned char *library, size_t len) {
+  static const int others[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+  static ASPERITY_ALIGNED unsigned char memory[ASPERITY_RENDERER_SIZE];
+  AsperityConfig config = defaults();
+  AsperityError error = ASPERITY_ERROR_INIT;
+  const AsperityRenderer *renderer = renderer_of(&config);
+  AsperityRenderer *refused;
+  AsperityTexture *texture;
+  AsperityState *state;
+  EXPECT(OK, asperity_texture_init(texture_memory, sizeof texture_memory, renderer, ASPERITY_CAPACITY_LARGE, &texture));
+  EXPECT(OK, asperity_texture_load_index(texture, library, len, 0, NULL));
+  EXPECT(OK, asperity_state_init(state_memory, sizeof state_memory, renderer, 7, &state));
+  AsperitySample pressed = ASPERITY_SAMPLE_INIT;
+  pressed.position_m[2] = -0.001f;
+  AsperityOutput output = ASPERITY_OUTPUT_INIT;
+  EXPECT(OK, asperity_tick(renderer, texture, state, &pressed, &output));
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+    CHECK(fesetround(others[i]) == 0);
+    EXPECT(ROUNDING, asperity_renderer_init(memory, sizeof memory, &config, &refused, &error));
+    EXPECT(ROUNDING, asperity_texture_load_index(texture, library, len, 0, &error));
+    CHECK(strstr(error.message, "round") != NULL);
+    output.force_n[2] = 5.0f;
+    EXPECT(ROUNDING, asperity_tick(renderer, texture, state, &pressed, &output));
+    CHECK(output.force_n[2] == 0.0f && output.flags == ASPERITY_FLAG_SAFE_STATE);
+    CHECK(fesetround(FE_TONEAREST) == 0);
+    EXPECT(OK, asperity_tick(renderer, texture, state, &pressed, &output));
+  }
+}
+
 int main(int argc, char **argv) {
   FILE *file = argc == 2 ? fopen(argv[1], "rb") : NULL;
   static unsigned char library[1 << 20];
@@ -365,6 +396,7 @@ int main(int argc, char **argv) {
   of_exchanges(library, len);
   of_recorders();
   of_words();
+  of_rounding(library, len);
   printf("%u failures\n", failures);
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

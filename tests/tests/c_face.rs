@@ -87,10 +87,10 @@ fn program_of_older_header(name: &str) -> PathBuf {
 /// A program of `tests/c/`, built once.
 fn program(name: &str, flags: &[&str]) -> PathBuf {
     static BUILT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-    let kind = if flags.is_empty() {
-        "plain"
-    } else {
-        "sanitized"
+    let kind = match flags {
+        [] => "plain",
+        ["-ffast-math"] => "fast",
+        _ => "sanitized",
     };
     let path = folder().join(format!("{name}-{kind}"));
     // Nobody may run a program that is being written.
@@ -203,6 +203,18 @@ fn the_documented_program_gives_rusts_bits() {
             let found = forces(&lines(&program, &[path, name]));
             assert_same(&found, &expected::<Float>(&bytes, name), name);
         }
+    }
+}
+
+/// GCC and Clang link code into such a program that has denormals flushed and read as zeros.
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn a_program_of_fast_math_gets_the_same_bits() {
+    let (bytes, path) = shelf();
+    let program = program("render", &["-ffast-math"]);
+    for name in ["cork", "silk"] {
+        let found = forces(&lines(&program, &[path.to_str().unwrap(), name]));
+        assert_same(&found, &expected::<Float>(&bytes, name), name);
     }
 }
 

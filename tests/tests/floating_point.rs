@@ -5,11 +5,12 @@
 
 use asperity_formats::Solid;
 use asperity_runtime::{
-    Capacity, Config, Float, Output, RenderArithmetic, Renderer, Sample, State, Texture,
+    Capacity, Config, ConfigError, Fixed, Float, HostCapacities, LoadError, Output,
+    RenderArithmetic, Renderer, Sample, State, Texture, math::rounds_to_nearest,
 };
 use asperity_session::{
     ARMA_20, Arma20, CASES, Case, Hash, NYQUIST_4, NYQUIST_20, Nyquist4, Nyquist20, Phase, SEED,
-    Slot,
+    Slot, load,
 };
 
 /// The control register of SSE.
@@ -24,6 +25,8 @@ mod control {
     const DEFAULT: u32 = 0x1f80;
     pub(super) const FTZ: u32 = 1 << 15;
     pub(super) const DAZ: u32 = 1 << 6;
+    /// Down, up and toward zero.
+    pub(super) const ROUNDINGS: [u32; 3] = [1 << 13, 2 << 13, 3 << 13];
     pub(super) const INVALID: u32 = 1;
     pub(super) const DENORMAL: u32 = 1 << 1;
     pub(super) const DIVISION: u32 = 1 << 2;
@@ -52,7 +55,7 @@ mod control {
         (result, raised)
     }
 }
-use control::{DAZ, DENORMAL, DIVISION, FTZ, INVALID, OVERFLOW, UNDERFLOW, with};
+use control::{DAZ, DENORMAL, DIVISION, FTZ, INVALID, OVERFLOW, ROUNDINGS, UNDERFLOW, with};
 
 const MODES: [u32; 4] = [0, FTZ, DAZ, FTZ | DAZ];
 /// Optimised code may compute what it then throws away, such as a lane that is not used, and raise an
@@ -185,6 +188,35 @@ fn rest_and_the_smallest_motions_raise_no_exception_on_any_solid() {
                 hashes.iter().all(|&hash| hash == hashes[0]),
                 "{solid:?} at {rest_m} m: {hashes:x?}"
             );
+        }
+    }
+}
+
+/// What refuses to be loaded and prepared while the processor rounds like this; a slot that refuses
+/// keeps what it had.
+fn refusals<A: RenderArithmetic>(bits: u32) -> (Result<(), LoadError>, Option<ConfigError>) {
+    let mut slot = Box::new(Texture::<HostCapacities, A>::new());
+    load(&NYQUIST_4, &mut slot).expect("a texture");
+    let before = format!("{slot:?}");
+    let (loaded, _) = with(bits, || load(&ARMA_20, &mut slot));
+    let is_kept = format!("{slot:?}") == before;
+    assert_eq!(is_kept, loaded.is_err(), "{bits:#x}");
+    let config = Config::default();
+    let (prepared, _) = with(bits, || Renderer::<A>::prepare(&config).err());
+    (loaded, prepared)
+}
+
+#[test]
+fn another_rounding_is_refused_whatever_becomes_of_denormals() {
+    for flushing in MODES {
+        assert_eq!(refusals::<Float>(flushing), (Ok(()), None), "{flushing:#x}");
+        assert_eq!(refusals::<Fixed>(flushing), (Ok(()), None), "{flushing:#x}");
+        for rounding in ROUNDINGS {
+            let bits = flushing | rounding;
+            assert!(!with(bits, rounds_to_nearest).0, "{bits:#x}");
+            let refused = (Err(LoadError::Rounding), Some(ConfigError::ROUNDING));
+            assert_eq!(refusals::<Float>(bits), refused, "{bits:#x}");
+            assert_eq!(refusals::<Fixed>(bits), refused, "{bits:#x}");
         }
     }
 }

@@ -20,6 +20,8 @@ const LOAD: &str = "asperity_firmware::load";
 pub(crate) struct Measured {
     pub(crate) case: &'static Case,
     pub(crate) run: Run,
+    /// With denormals flushed to zero, where floats have registers.
+    flushed: Option<Run>,
     pub(crate) elf: Elf,
     pub(crate) reach: calls::Reach,
     /// Bytes of code that loading reaches.
@@ -83,7 +85,14 @@ pub(crate) fn all(target: &Target, toolchain: &Toolchain) -> Result<Vec<Measured
 fn measure(target: &Target, toolchain: &Toolchain, case: &'static Case) -> Result<Measured> {
     let path = toolchain.firmware(case.name, &[])?;
     let elf = elf::read(&path)?;
-    let run = emulate::run(target, &path, Phase::ALL.len() * PHASE_TICKS as usize)?;
+    let ticks = Phase::ALL.len() * PHASE_TICKS as usize;
+    let run = emulate::run(target, &path, ticks)?;
+    let flushed = if target.arithmetic == "float" {
+        let path = toolchain.firmware(case.name, &["flush"])?;
+        Some(emulate::run(target, &path, ticks)?)
+    } else {
+        None
+    };
     let host = |profile| -> Result<_> {
         let printed = host_session(case.name, target.arithmetic, profile)?;
         Ok((profile, printed))
@@ -98,6 +107,7 @@ fn measure(target: &Target, toolchain: &Toolchain, case: &'static Case) -> Resul
         stack_tick_bytes: run.value("stack-tick")?,
         host: [host("test")?, host("release")?],
         run,
+        flushed,
         elf,
     })
 }
@@ -114,22 +124,29 @@ pub(crate) fn differences(measured: &[Measured]) -> Vec<String> {
                 .map(|fault| format!("{name}: {fault}")),
         );
         for (profile, printed) in &m.host {
-            let mut lines = printed.lines();
-            for phase in Phase::ALL {
-                let hash = m.run.value(phase.name()).unwrap_or(0);
-                let found = format!("{} {hash:016x}", phase.name());
-                let expected = lines.next().unwrap_or("nothing");
-                if found != expected {
-                    faults.push(format!(
-                        "{name}: the target says `{found}`, the host ({profile}) `{expected}`"
-                    ));
-                    // What follows a difference differs too.
-                    break;
-                }
+            let runs = [("", Some(&m.run)), (", flushing", m.flushed.as_ref())];
+            for (how, run) in runs {
+                let difference = run.and_then(|run| difference(run, printed));
+                faults.extend(difference.map(|(found, expected)| {
+                    format!(
+                        "{name}: the target{how} says `{found}`, the host ({profile}) `{expected}`"
+                    )
+                }));
             }
         }
     }
     faults
+}
+
+/// The first phase after which a run has another hash than the host: what follows differs too.
+fn difference(run: &Run, host: &str) -> Option<(String, String)> {
+    let mut lines = host.lines();
+    Phase::ALL.iter().find_map(|phase| {
+        let hash = run.value(phase.name()).unwrap_or(0);
+        let found = format!("{} {hash:016x}", phase.name());
+        let expected = lines.next().unwrap_or("nothing");
+        (found != expected).then(|| (found, expected.to_owned()))
+    })
 }
 
 /// A fault when the search for panics misses the one of a tick that can panic.

@@ -11,14 +11,16 @@ pub(crate) struct Machine {
     /// Options of the compiler.
     rustflags: &'static str,
     product: Product,
-    /// Runs what was built; its path is the last argument.
+    /// Runs what was built; its path follows.
     runner: &'static [&'static str],
+    /// What the program is given.
+    arguments: &'static [&'static str],
 }
 
 /// Next to this file's package.
 const SESSION_MJS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/session.mjs");
 
-const MACHINES: [Machine; 3] = [
+const MACHINES: [Machine; 4] = [
     Machine {
         name: "aarch64 with NEON, in qemu-aarch64",
         triple: "aarch64-unknown-linux-gnu",
@@ -28,6 +30,17 @@ const MACHINES: [Machine; 3] = [
             linker: "aarch64-linux-gnu-gcc",
         },
         runner: &["qemu-aarch64"],
+        arguments: &[],
+    },
+    Machine {
+        name: "the same, with denormals flushed to zero",
+        triple: "aarch64-unknown-linux-gnu",
+        rustflags: "-Ctarget-feature=+crt-static",
+        product: Product::Program {
+            linker: "aarch64-linux-gnu-gcc",
+        },
+        runner: &["qemu-aarch64"],
+        arguments: &["flush"],
     },
     Machine {
         name: "wasm32, in Node",
@@ -35,6 +48,7 @@ const MACHINES: [Machine; 3] = [
         rustflags: "",
         product: Product::Module,
         runner: &["node", SESSION_MJS],
+        arguments: &[],
     },
     Machine {
         name: "wasm32 with simd128, in Node",
@@ -42,6 +56,7 @@ const MACHINES: [Machine; 3] = [
         rustflags: "-Ctarget-feature=+simd128",
         product: Product::Module,
         runner: &["node", SESSION_MJS],
+        arguments: &[],
     },
 ];
 
@@ -67,6 +82,11 @@ impl Machine {
 
     fn run(&self, built: &Path) -> Result<String> {
         let (program, arguments) = self.runner.split_first().ok_or("no runner")?;
-        stdout(Command::new(program).args(arguments).arg(built))
+        stdout(
+            Command::new(program)
+                .args(arguments)
+                .arg(built)
+                .args(self.arguments),
+        )
     }
 }

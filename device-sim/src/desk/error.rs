@@ -106,10 +106,8 @@ impl Diagnostic for DeskError {
         match self {
             Self::Source(error) => error.is_usage(),
             Self::Open(error) => !matches!(error, OpenError::Failed { .. }),
-            Self::Settings(_)
-            | Self::IdentifiedOnly(_)
-            | Self::RecordName(_)
-            | Self::RecordedRate { .. } => true,
+            Self::Settings(error) => *error != SettingsError::Rounding,
+            Self::IdentifiedOnly(_) | Self::RecordName(_) | Self::RecordedRate { .. } => true,
             Self::Load { cause, .. } => matches!(cause, LoadError::Rate { .. }),
             _ => false,
         }
@@ -142,6 +140,9 @@ impl Diagnostic for DeskError {
             Self::RecordedRate { .. } => "leave out --rate".into(),
             Self::Simulated(error) => error.remedy(),
             Self::Config(_) => "change the value in the device file".into(),
+            Self::Settings(SettingsError::Rounding) => {
+                "a library in this process has changed it: reset its rounding mode".into()
+            }
             Self::Settings(_) => "give --rate 250 to 10000".into(),
             Self::Thread(_) => "close other programs, or raise `ulimit -u`".into(),
         }

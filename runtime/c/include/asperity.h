@@ -191,6 +191,8 @@ enum AsperityStatus
   ASPERITY_STATUS_BUSY = 13,
   // The library has textures but no surfaces.
   ASPERITY_STATUS_NO_SCENE = 14,
+  // The processor is set to round otherwise than to nearest: forces would have other bits.
+  ASPERITY_STATUS_ROUNDING = 15,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -746,8 +748,9 @@ AsperityStatus asperity_texture_load_name(struct AsperityTexture *texture,
 AsperityStatus asperity_texture_coupling(const struct AsperityTexture *texture,
                                          struct AsperityCoupling *coupling);
 
-// One servo period: a device sample in, a limited force out. If the pointers are right and
-// the texture was loaded for the renderer's rate, it succeeds for every sample. Otherwise
+// One servo period: a device sample in, a limited force out. If the pointers are right, the
+// texture was loaded for the renderer's rate and the processor rounds to nearest, it succeeds for
+// every sample. Otherwise
 // the output, where there is one, is zero force and the safe state.
 //
 // # Safety

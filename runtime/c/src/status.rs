@@ -48,9 +48,11 @@ pub enum AsperityStatus {
     Busy = 13,
     /// The library has textures but no surfaces.
     NoScene = 14,
+    /// The processor is set to round otherwise than to nearest: forces would have other bits.
+    Rounding = 15,
 }
 
-const ALL: [(AsperityStatus, &CStr); 15] = [
+const ALL: [(AsperityStatus, &CStr); 16] = [
     (AsperityStatus::Ok, c"done"),
     (
         AsperityStatus::NullPointer,
@@ -101,6 +103,10 @@ const ALL: [(AsperityStatus, &CStr); 15] = [
     (
         AsperityStatus::NoScene,
         c"the library holds no scene: build one with `asperity build`",
+    ),
+    (
+        AsperityStatus::Rounding,
+        c"the processor rounds otherwise than to nearest: call fesetround(FE_TONEAREST)",
     ),
 ];
 
@@ -180,6 +186,7 @@ const fn refusal(error: &LoadError) -> AsperityStatus {
         LoadError::Format(FormatError::NoSuchTexture { .. }) => AsperityStatus::NoSuchTexture,
         LoadError::Capacity { .. } => AsperityStatus::Capacity,
         LoadError::Rate { .. } => AsperityStatus::Rate,
+        LoadError::Rounding => AsperityStatus::Rounding,
         _ => AsperityStatus::Format,
     }
 }
@@ -194,6 +201,7 @@ impl Fault {
             Self::Scene(SceneError::NoScene) => AsperityStatus::NoScene,
             Self::Scene(SceneError::Capacity { .. }) => AsperityStatus::Capacity,
             Self::Scene(_) => AsperityStatus::Format,
+            Self::Config(error) if *error == ConfigError::ROUNDING => AsperityStatus::Rounding,
             Self::Config(_) => AsperityStatus::Config,
         }
     }

@@ -13,6 +13,7 @@ use crate::{
 };
 use asperity_runtime::{
     Output, Renderer, Sample,
+    math::rounds_to_nearest,
     quantity::{
         Quantity,
         unit::{Metre, MillimetrePerSecond, Newton, VibrationAcceleration},
@@ -157,6 +158,9 @@ pub(crate) unsafe fn rendered(
         call(ptr::null_mut(), || {
             // Stays in place if a check below fails.
             sized::write(output, &NOTHING)?;
+            if !rounds_to_nearest() {
+                return Err(AsperityStatus::Rounding.into());
+            }
             let sample = sized::read(sample)?;
             let result = tick(&Sample {
                 position_m: sample.position_m,
@@ -180,8 +184,9 @@ pub(crate) fn same_rate<A: Numbered>(
     }
 }
 
-/// One servo period: a device sample in, a limited force out. If the pointers are right and
-/// the texture was loaded for the renderer's rate, it succeeds for every sample. Otherwise
+/// One servo period: a device sample in, a limited force out. If the pointers are right, the
+/// texture was loaded for the renderer's rate and the processor rounds to nearest, it succeeds for
+/// every sample. Otherwise
 /// the output, where there is one, is zero force and the safe state.
 ///
 /// # Safety

@@ -85,6 +85,34 @@ fn assert_within_limits(run: &Run) {
     assert!(run.report.ended_without_force);
 }
 
+/// A device whose code sets the thread to round up.
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn a_loop_whose_processor_rounds_otherwise_ends_and_lets_go() {
+    /// The control register of SSE: all exceptions masked, rounding as these bits say.
+    #[allow(
+        unsafe_code,
+        reason = "the register belongs to the thread, and is put back"
+    )]
+    fn round(bits: u32) {
+        let value = 0x1f80 | bits;
+        // SAFETY: the test puts the default back.
+        unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const value, options(nostack)) }
+    }
+    let read = |call| {
+        round(if call == 500 { 2 << 13 } else { 0 });
+        Act::default()
+    };
+    let run = run(periods(1000), read, calm, 0);
+    round(2 << 13);
+    let refused = Settings::at(1000).check(1000.0);
+    round(0);
+    assert_eq!(refused, Err(SettingsError::Rounding));
+    assert_eq!(run.report.end, End::Rounding);
+    assert!((500..700).contains(&run.report.ticks), "{:?}", run.report);
+    assert_within_limits(&run);
+}
+
 #[test]
 fn a_punctual_loop_runs_every_period_once() {
     let run = run(periods(1000), calm, calm, 0);

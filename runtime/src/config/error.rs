@@ -13,3 +13,12 @@ pub struct ConfigError {
     /// The rule it breaks.
     pub rule: &'static str,
 }
+
+impl ConfigError {
+    /// The processor is set to round otherwise than to nearest, which no field can say.
+    pub const ROUNDING: Self = Self {
+        field: "rounds_to_nearest",
+        value: 0.0,
+        rule: "the processor rounds otherwise than to nearest: reset its rounding mode",
+    };
+}

@@ -6,6 +6,7 @@ use crate::{
     coupling::Coupling,
     lanes::{GRID, settled},
     load_error::LoadError,
+    math::rounds_to_nearest,
     model::orders::Orders,
     quantity::{Quantity, unit::ExcitationLevel},
     render_arithmetic::RenderArithmetic,
@@ -19,7 +20,8 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// allocates nothing. A slot that refuses keeps what it had.
     ///
     /// # Errors
-    /// [`LoadError::Capacity`], [`LoadError::Rate`] and, in fixed point, [`LoadError::Range`].
+    /// [`LoadError::Rounding`], [`LoadError::Capacity`], [`LoadError::Rate`] and, in fixed point,
+    /// [`LoadError::Range`].
     pub fn load(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
         self.load_untapped(asset, servo_rate_hz)?;
         self.taps.load(asset.taps(), servo_rate_hz);
@@ -74,6 +76,9 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// Whether the slot takes a texture; the ticks that a sample of its models lasts.
     #[inline(never)]
     fn check(asset: &Asset<'_>, servo_rate_hz: f32) -> Result<u8, LoadError> {
+        if !rounds_to_nearest() {
+            return Err(LoadError::Rounding);
+        }
         let needs = Needs::of(asset, servo_rate_hz)?;
         needs.fit::<S>()?;
         A::check_asset(asset)?;

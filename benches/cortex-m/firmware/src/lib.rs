@@ -39,6 +39,8 @@ pub type Tick<S, A> = fn(&Renderer<A>, &S, &mut State<A>, &Sample<A>) -> Output<
 
 /// Loads, runs the session, reports, and leaves the emulator.
 pub fn run<S: Slot, A: RenderArithmetic>(case: &Case, slot: &mut S, tick: Tick<S, A>) -> ! {
+    #[cfg(feature = "flush")]
+    flush();
     stack::paint();
     let loaded = load(case, slot);
     let stack_load = stack::depth();
@@ -69,6 +71,23 @@ pub fn run<S: Slot, A: RenderArithmetic>(case: &Case, slot: &mut S, tick: Tick<S
     debug::exit(debug::EXIT_SUCCESS);
     loop {
         cortex_m::asm::wfi();
+    }
+}
+
+/// Denormals are zero from here on.
+#[cfg(feature = "flush")]
+fn flush() {
+    use cortex_m::register::fpscr;
+
+    let mut control = fpscr::read();
+    control.set_fz(true);
+    #[allow(unsafe_code, reason = "the register is the program's own")]
+    // SAFETY: nothing that the compiler assumes of floats is a denormal.
+    unsafe {
+        fpscr::write(control);
+    }
+    if core::hint::black_box(f32::MIN_POSITIVE) * 0.5 != 0.0 {
+        fail("denormals-not-flushed");
     }
 }
 

@@ -25,7 +25,7 @@ use super::{
 };
 use crate::device::supervised::{Plausible, Supervised};
 use crate::device::{Device, Fault, Reading};
-use asperity_runtime::Sample;
+use asperity_runtime::{Sample, math::rounds_to_nearest};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Longest time that the force may take to reach zero at the end, s.
@@ -78,7 +78,7 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
         }
     }
 
-    /// Runs until `stop` is set, the time is over, or a missed period ends it. At the end the
+    /// Runs until `stop` is set, the time is over, or a missed period or another rounding ends it. At the end the
     /// runtime takes the force to zero at the slew limit, and a force of zero is written.
     pub fn run(mut self, stop: &AtomicBool) -> Report {
         let first_ns = self.clock.now_ns() + self.settings.period_ns();
@@ -86,6 +86,9 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
         self.schedule = Schedule::new(self.settings.rate_hz, start_ns);
         let end = loop {
             let ticked = self.tick(None);
+            if !rounds_to_nearest() {
+                break End::Rounding;
+            }
             if ticked.overrun && self.settings.overrun == Overrun::Stop {
                 break End::Overrun;
             }

@@ -11,6 +11,8 @@ pub enum End {
     Over,
     /// Periods were missed, and its policy is to stop.
     Overrun,
+    /// The processor no longer rounded to nearest: code of a device changed it.
+    Rounding,
 }
 
 /// What a servo loop did.

@@ -1,6 +1,7 @@
 //! How a servo loop runs.
 
 use super::pace::Pace;
+use asperity_runtime::math::rounds_to_nearest;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
@@ -65,6 +66,9 @@ pub enum SettingsError {
         /// The loop's.
         servo_hz: u32,
     },
+    /// The processor is set to round otherwise than to nearest: forces would have other bits.
+    #[error("the processor rounds otherwise than to nearest")]
+    Rounding,
 }
 
 impl Settings {
@@ -86,11 +90,15 @@ impl Settings {
         super::clock::SECOND_NS / u64::from(self.rate_hz.max(1))
     }
 
-    /// Checks the rate, alone and against that of a renderer.
+    /// Checks the rate, alone and against that of a renderer, and how this thread rounds, which a
+    /// thread that it starts takes over.
     ///
     /// # Errors
     /// [`SettingsError`].
     pub fn check(&self, renderer_hz: f32) -> Result<(), SettingsError> {
+        if !rounds_to_nearest() {
+            return Err(SettingsError::Rounding);
+        }
         if !RATES_HZ.contains(&self.rate_hz) {
             return Err(SettingsError::Rate(self.rate_hz));
         }

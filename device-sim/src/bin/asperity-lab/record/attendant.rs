@@ -6,7 +6,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use asperity_console::Console;
-use asperity_host::servo::{Clock as _, Inlet, Monotonic, Report};
+use asperity_host::servo::{self, Clock as _, Inlet, Monotonic, Report};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_sim::capture::{Ask, Counts, Reader, Simulated, Take};
 use asperity_sim::desk::Attended;
@@ -35,6 +35,8 @@ pub(super) enum End {
     Full,
     /// Device or sensor has gone.
     Lost,
+    /// Code of the device changed how the processor rounds.
+    Rounding,
 }
 
 /// A recording that is over.
@@ -178,13 +180,17 @@ impl Attendant {
             }
         }
         let lost_samples = self.reader.lost() - self.unused;
+        let by_itself = match self.report {
+            Some(report) if report.end == servo::End::Rounding => End::Rounding,
+            _ => End::Over,
+        };
         let (counts, ended) = self.reader.end();
         if let Err(error) = ended {
             self.failures.extend(one(error));
         }
         Recorded {
             take: self.take,
-            end: self.end.unwrap_or(End::Over),
+            end: self.end.unwrap_or(by_itself),
             counts,
             lost: (self.lost_records, lost_samples),
             missed: self.report.map_or(0, |report| report.missed),

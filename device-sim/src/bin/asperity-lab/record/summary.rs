@@ -28,6 +28,7 @@ fn end(end: End) -> &'static str {
         End::Over => "time is over",
         End::Full => "an import keeps no more",
         End::Lost => "device or sensor has gone",
+        End::Rounding => "the processor no longer rounded to nearest",
     }
 }
 

@@ -32,6 +32,7 @@ fn end(report: &Report) -> &'static str {
         End::Asked => "asked to",
         End::Over => "time is over",
         End::Overrun => "a period was missed",
+        End::Rounding => "the processor no longer rounded to nearest",
     }
 }
 
