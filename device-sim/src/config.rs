@@ -38,6 +38,16 @@ pub enum ConfigError {
         /// Unit of value and range; empty for counts.
         unit: &'static str,
     },
+    /// A value that is as good as zero, and by which nothing can be divided.
+    #[error("{file}: `{field}` = {value:e} is too small to compute with")]
+    Tiny {
+        /// The file.
+        file: String,
+        /// Dotted name of the field, with its index in an array.
+        field: String,
+        /// The value found.
+        value: f64,
+    },
     /// `unconfirmed` names something that is not a field.
     #[error("{file}: `unconfirmed` names `{name}`, which is not a field of the file")]
     UnknownField {
@@ -78,6 +88,7 @@ impl Diagnostic for ConfigError {
             } => format!("set `{field}` to a value in {min}..={max} {unit}")
                 .trim_end()
                 .into(),
+            Self::Tiny { field, .. } => format!("set `{field}` to 0, or to {TINY:e} or more"),
             Self::UnknownField { .. } => {
                 "write the dotted name of a field, e.g. \"mechanics.mass_kg\"".into()
             }
@@ -103,6 +114,9 @@ pub(crate) fn parse<T: DeserializeOwned>(text: &str, file: &str) -> Result<T, Co
     })
 }
 
+/// Nothing that a device or a hand has is smaller than this and not zero, in any unit.
+const TINY: f64 = 1e-12;
+
 /// Checks one value; NaN is outside every range.
 pub(crate) fn check(
     file: &str,
@@ -111,6 +125,13 @@ pub(crate) fn check(
     range: RangeInclusive<f64>,
     unit: &'static str,
 ) -> Result<(), ConfigError> {
+    if range.contains(&value) && value != 0.0 && value.abs() < TINY {
+        return Err(ConfigError::Tiny {
+            file: file.into(),
+            field: field.into(),
+            value,
+        });
+    }
     if range.contains(&value) {
         return Ok(());
     }

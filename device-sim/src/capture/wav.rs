@@ -1,46 +1,28 @@
 //! A WAV file that another program is writing, such as `arecord` or `sox`.
 //!
 //! Such a program states a length that is 0, or far too large, until it ends; the length of the file
-//! is what counts here. hound, which imports read with, refuses such lengths. Everything else of the
-//! header must stay.
+//! is what counts here. Everything else of the header must stay.
 
 use super::columns::{Column, Layout};
 use super::error::SensorError;
 use super::samples::{Counts, Samples};
 use super::source::Source;
+use asperity_recording::reader::wav::{self, Found, Wav as Format};
 use std::fs::{self, File};
-use std::io::{self, Read, Seek as _, SeekFrom};
+use std::io::{self, Read as _, Seek as _, SeekFrom};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::Duration;
 
-/// Longest header, bytes.
-const LONGEST_HEADER: usize = 64 * 1024;
+/// Rates of a sensor, Hz.
+const RATES_HZ: RangeInclusive<u32> = 10..=200_000;
 /// Time between two looks at the file.
 const LOOK: Duration = Duration::from_millis(2);
 /// Looks between two looks at the header.
 const SELDOM: u32 = 250;
 /// Bytes that are read at once.
 const PIECE: u64 = 256 * 1024;
-
-/// What a header says.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Format {
-    channels: usize,
-    rate_hz: u32,
-    /// Bytes of a value.
-    bytes: usize,
-    is_float: bool,
-    /// Where the values begin in the file.
-    begin: u64,
-}
-
-/// What was found of a header.
-enum Found {
-    Whole(Format),
-    /// More must be written first.
-    Cut,
-}
 
 /// A growing WAV file.
 #[derive(Debug)]
@@ -114,7 +96,7 @@ impl Wav {
             name: self.name.clone(),
             why,
         };
-        let Found::Whole(format) = read_header(&mut file, &self.name)? else {
+        let Some(format) = read_header(&mut file, &self.name)? else {
             return Ok(());
         };
         let layout = match &self.asked {
@@ -154,7 +136,7 @@ impl Wav {
             return Err(changed("it was replaced"));
         }
         match read_header(file, &self.name) {
-            Ok(Found::Whole(now)) if now == *format => Ok(()),
+            Ok(Some(now)) if now == *format => Ok(()),
             _ => Err(changed("its header changed")),
         }
     }
@@ -164,7 +146,7 @@ impl Wav {
         let Some((file, format)) = &mut self.open else {
             return Ok(());
         };
-        let width = (format.channels * format.bytes) as u64;
+        let width = format.width() as u64;
         let length = file.metadata().map(|data| data.len());
         let seek = format.begin + self.frames * width;
         let piece = length.and_then(|length| {
@@ -203,7 +185,7 @@ impl Wav {
                     asperity_recording::description::Quantity::Force => self.full.force,
                     _ => self.full.acceleration,
                 };
-                let value = (number(value, format.is_float) * full) as f32;
+                let value = (format.number(value) * full) as f32;
                 let value = if value.is_finite() { value } else { f32::NAN };
                 self.counts.missing += u64::from(value.is_nan());
                 into.values.push(value);
@@ -263,105 +245,28 @@ fn is_another(_: &File, path: &Path) -> bool {
     fs::metadata(path).is_err()
 }
 
-fn read_header(file: &mut File, name: &str) -> Result<Found, SensorError> {
-    let mut head = Vec::new();
-    let read = file
-        .seek(SeekFrom::Start(0))
-        .and_then(|_| file.take(LONGEST_HEADER as u64).read_to_end(&mut head));
-    read.map_err(|cause| SensorError::Read {
+/// The header as far as it is written; `None` where more must be written first. The stated length is
+/// left out: it changes while the file grows.
+fn read_header(file: &mut File, name: &str) -> Result<Option<Format>, SensorError> {
+    let found = wav::read_header(file).map_err(|cause| SensorError::Read {
         name: name.to_owned(),
         cause,
     })?;
-    parse(&head).map_err(|why| SensorError::Header {
+    let refused = |why| SensorError::Header {
         name: name.to_owned(),
         why,
-    })
-}
-
-/// Reads a header as far as it is written.
-fn parse(head: &[u8]) -> Result<Found, String> {
-    let magic = |at: usize, expected: &[u8]| {
-        let there = head.get(at..).unwrap_or_default();
-        let common = there.len().min(expected.len());
-        there[..common] == expected[..common]
     };
-    if !magic(0, b"RIFF") || !magic(8, b"WAVE") {
-        return Err("is none of a WAV".into());
-    }
-    let word = |at: usize| Some(u16::from_le_bytes(head.get(at..at + 2)?.try_into().ok()?));
-    let long = |at: usize| Some(u32::from_le_bytes(head.get(at..at + 4)?.try_into().ok()?));
-    let mut at = 12;
-    let mut format = None;
-    loop {
-        let (Some(id), Some(size)) = (head.get(at..at + 4), long(at + 4)) else {
-            return if head.len() >= LONGEST_HEADER {
-                Err(format!("has more than {LONGEST_HEADER} bytes"))
-            } else {
-                Ok(Found::Cut)
-            };
-        };
-        let body = at + 8;
-        if id == b"data" {
-            let format: Format = format.ok_or("has values before their format")?;
-            return Ok(Found::Whole(Format {
-                begin: body as u64,
-                ..format
-            }));
-        }
-        if id == b"fmt " {
-            if !(16..=64).contains(&size) {
-                return Err(format!("states a format of {size} bytes"));
-            }
-            if head.len() < body + size as usize {
-                return Ok(Found::Cut);
-            }
-            let field = |offset: usize| word(body + offset).unwrap_or(0);
-            // An extensible format names the real one at the start of its identifier.
-            let tag = match field(0) {
-                0xfffe if size >= 26 => field(24),
-                tag => tag,
-            };
-            let (channels, bits) = (usize::from(field(2)), field(14));
-            let rate_hz = long(body + 4).unwrap_or(0);
-            let is_float = tag == 3;
-            let is_known = match tag {
-                1 => matches!(bits, 16 | 24 | 32),
-                3 => bits == 32,
-                _ => false,
-            };
-            let bytes = usize::from(bits / 8);
-            if !is_known {
-                return Err(format!(
-                    "states format {tag} with {bits} bits; record 16, 24 or 32 bits, or float of 32"
-                ));
-            }
-            if channels == 0 || usize::from(field(12)) != channels * bytes {
-                return Err(format!("states {channels} channels in {} bytes", field(12)));
-            }
-            if !(10..=200_000).contains(&rate_hz) {
-                return Err(format!("states {rate_hz} Hz, outside 10 to 200000"));
-            }
-            format = Some(Format {
-                channels,
-                rate_hz,
-                bytes,
-                is_float,
-                begin: 0,
-            });
-        }
-        // Chunks begin at even places.
-        at = body + size as usize + (size % 2) as usize;
-    }
-}
-
-/// A value, as a part of full scale.
-fn number(bytes: &[u8], is_float: bool) -> f64 {
-    match *bytes {
-        [a, b] => f64::from(i16::from_le_bytes([a, b])) / 32_768.0,
-        [a, b, c] => f64::from(i32::from_le_bytes([0, a, b, c])) / 2_147_483_648.0,
-        [a, b, c, d] if is_float => f64::from(f32::from_le_bytes([a, b, c, d])),
-        [a, b, c, d] => f64::from(i32::from_le_bytes([a, b, c, d])) / 2_147_483_648.0,
-        _ => 0.0,
+    match found {
+        Found::Cut => Ok(None),
+        Found::Refused(what, remedy) => Err(refused(format!("{what}; {remedy}"))),
+        Found::Whole(format) if !RATES_HZ.contains(&format.rate_hz) => Err(refused(format!(
+            "states {} Hz, outside 10 to 200000",
+            format.rate_hz
+        ))),
+        Found::Whole(format) => Ok(Some(Format {
+            stated: 0,
+            ..format
+        })),
     }
 }
 

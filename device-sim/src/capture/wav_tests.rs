@@ -93,12 +93,16 @@ fn every_width_and_an_extensible_header_give_the_same_value() {
     extensible.extend([0; 14]);
     extensible.extend(b"data\0\0\0\0");
     extensible.extend(0.5_f32.to_le_bytes());
+    let mut double = header(1, 64, 8000);
+    double[20] = 3;
+    double.extend(0.5_f64.to_le_bytes());
     let with = |bits, value: &[u8]| [&header(1, bits, 8000), value].concat();
     for bytes in [
         with(16, &half[2..]),
         with(24, &half[1..]),
         with(32, &half),
         extensible,
+        double,
     ] {
         let mut growing = Growing::new("a");
         growing.write(&bytes);
@@ -111,7 +115,7 @@ fn every_width_and_an_extensible_header_give_the_same_value() {
 fn a_header_that_lies_is_refused_with_what_it_states() {
     for (bytes, layout, part) in [
         (b"#t_us,ax\n12,0.1\n".to_vec(), "a", "none of a WAV"),
-        (header(1, 8, 8000), "a", "8 bits"),
+        (header(1, 48, 8000), "a", "48 bit"),
         (header(1, 16, 7), "a", "7 Hz"),
         (header(2, 16, 8000), "a", "2 channels"),
         (header(1, 16, 8000), "t_us,a", "1 channels"),

@@ -245,6 +245,16 @@ mod tests {
                 "position_step_mm = nan",
                 "sensor.position_step_mm",
             ),
+            (
+                "position_step_mm = 0.055",
+                "position_step_mm = 5e-324",
+                "sensor.position_step_mm",
+            ),
+            (
+                "coulomb_n = [0.26, 0.26, 0.26]",
+                "coulomb_n = [0.26, 0.26, 1e-310]",
+                "mechanics.coulomb_n[2]",
+            ),
             ("dac_bits = 12", "dac_bits = 99", "actuator.dac_bits"),
             (
                 "peak_force_n = 3.3",
