@@ -132,6 +132,35 @@ fn a_blend_lies_between_and_is_its_ends_at_the_ends() {
     assert_eq!(wrong.status.code(), Some(2));
 }
 
+/// A place inside the grid that was recorded as silent; the model has none.
+#[test]
+fn a_silent_place_has_no_distance_and_is_counted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let model = include_str!("../../../docs/data/corduroy.json");
+    let silent = model.replace("\"sigma_m_s2\": 0.15", "\"sigma_m_s2\": 0");
+    assert!(silent != model);
+    fs::write(folder.join("c.json"), silent).expect("a model");
+    let import = ["import", "model", "c.json", "--no-preview", "-o", "c.asp"];
+    let imported = asperity(folder, &import);
+    assert!(imported.status.success(), "{}", text(&imported.stderr));
+    let encode = ["encode", "c.asp", "--no-preview", "-o", "e.asp"];
+    let json = made(folder, &encode);
+    assert!(
+        json["silent_places"]
+            .as_u64()
+            .is_some_and(|places| places > 0),
+        "{json:#}"
+    );
+    let db = |n: usize| json["distance_db"][n].as_f64().expect("a distance");
+    assert!(0.0 < db(0) && db(0) <= db(1) && db(1) < 200.0, "{json:#}");
+    let told = text(&asperity(folder, &encode).stdout);
+    assert!(
+        told.contains("only one of the two sounds") && !told.contains("inf"),
+        "{told}"
+    );
+}
+
 #[test]
 fn a_recording_has_no_latent_until_it_is_encoded() {
     let inputs = inputs();

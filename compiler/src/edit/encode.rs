@@ -2,11 +2,9 @@
 
 use super::{error::EditError, latents::Latents, studio::Studio};
 use crate::{
-    front_ends::{
-        imported::errors_over_grid,
-        learned::{Present, complete},
-    },
+    front_ends::learned::{Present, complete},
     model::{Provenance, TextureModel},
+    passes::reduce::Reference,
 };
 use std::str::FromStr;
 
@@ -60,8 +58,11 @@ pub struct Encoded {
     /// Its latent, the same for all parts.
     pub latents: Latents,
     /// RMS distance of the decoded spectra from the recorded ones, at 95 % of the places of the
-    /// recorded grid and at the worst, dB; `None` at different rates or where no model was given.
+    /// recorded grid and at the worst, dB, of the places where both sound; `None` at different rates,
+    /// without such a place, or where no model was given.
     pub distance_db: Option<(f64, f64)>,
+    /// Places where one of the two is silent and the other is not.
+    pub silent_places: usize,
 }
 
 /// The latent of a texture.
@@ -99,15 +100,18 @@ pub fn encode(
     }?;
     let latents = Latents::whole(z);
     let same_rate = texture.grid.sample_rate_hz == description.grid.sample_rate_hz;
-    let distance_db = if part != Part::Taps && same_rate {
+    let (mut distance_db, mut silent_places) = (None, 0);
+    if part != Part::Taps && same_rate {
         let decoded = studio.texture(&latents, "", Provenance::default())?;
-        let (_, summary) = errors_over_grid(&texture.grid, &decoded.grid);
-        Some(summary)
-    } else {
-        None
-    };
+        let whole = Reference::new(&texture.grid);
+        let distances = whole.and_then(|whole| whole.distances(&decoded.grid));
+        let (sounding, silent) = distances.unwrap_or_default().sounding();
+        distance_db = sounding.map(|distances| distances.summary());
+        silent_places = silent;
+    }
     Ok(Encoded {
         latents,
         distance_db,
+        silent_places,
     })
 }

@@ -64,6 +64,15 @@ impl Distances {
         (at(0.95), at(1.0))
     }
 
+    /// Those of the places where both grids sound, if there are such, and the number of the others.
+    #[must_use]
+    pub fn sounding(self) -> (Option<Self>, usize) {
+        let all = self.0.len();
+        let finite: Vec<f64> = self.0.into_iter().filter(|db| db.is_finite()).collect();
+        let silent = all - finite.len();
+        ((!finite.is_empty()).then_some(Self(finite)), silent)
+    }
+
     /// Whether the distances are within [`BUDGET_DB`], with room for rounding.
     #[must_use]
     pub fn are_within_budget(&self) -> bool {

@@ -45,14 +45,19 @@ pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
     let made = studio
         .compile(&encoded.latents, &name, provenance, history, &how)
         .map_err(failed)?;
-    let distance = match encoded.distance_db {
+    let mut distance = match encoded.distance_db {
         Some((p95, worst)) => format!("{p95:.1} dB at 95 % of the places, {worst:.1} dB at worst"),
         None => "not measured".into(),
     };
+    let silent = encoded.silent_places;
+    if silent > 0 {
+        distance += &format!("; at {silent} more only one of the two sounds");
+    }
     let more = json!({
         "part": part.name(),
         "z": encoded.latents.slide.to_vec(),
         "distance_db": encoded.distance_db.map(|(p95, worst)| [p95, worst]),
+        "silent_places": silent,
     });
     let lines = [("encoded", part.name().to_owned()), ("distance", distance)];
     mixing.finish(&studio, &made, more, &lines, &[])
