@@ -104,8 +104,8 @@ impl Replay {
         let peak_n = recording.conditions.config.limits.peak_n;
         let ticks = recording.entries.len();
         let cut = match recording.ending {
-            Ending::Whole(_) => "",
-            Ending::Cut { .. } => ", cut",
+            Ending::Whole(_) => String::new(),
+            Ending::Cut { why, .. } => format!(", cut: {why}"),
         };
         Ok(Self {
             description: Description {

@@ -15,6 +15,9 @@ const MAGIC: [u8; 4] = *b"ASPR";
 const VERSION: u16 = 1;
 /// Records of a full block: a quarter of a second at 1 kHz.
 const PER_BLOCK: usize = 250;
+/// Ticks that are read of a file at most, 100 minutes at 1 kHz: 64 bytes each are kept in memory, and
+/// a damaged or foreign file may hold one in every two bytes.
+pub const MAX_TICKS: usize = 6_000_000;
 
 /// What was written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -146,11 +149,16 @@ impl Recording {
         Self::read(&mut BufReader::new(regular::open(path)?))
     }
 
-    /// Reads a recording. One that was cut is read up to its last whole block.
+    /// Reads a recording. One that was cut is read up to its last whole block, one of more than
+    /// [`MAX_TICKS`] up to the last block within.
     ///
     /// # Errors
     /// [`RecordingError`]: no recording, a newer one, or one whose conditions are damaged.
     pub fn read(from: &mut impl Read) -> Result<Self, RecordingError> {
+        Self::read_at_most(from, MAX_TICKS)
+    }
+
+    fn read_at_most(from: &mut impl Read, most: usize) -> Result<Self, RecordingError> {
         let mut from = Counted { from, count: 0 };
         let conditions = head(&mut from)?;
         let (mut textures, mut entries) = (Vec::new(), Vec::new());
@@ -158,7 +166,14 @@ impl Recording {
             let at = from.count;
             let malformed = |why| RecordingError::Malformed { at, why };
             match block::read(&mut from)? {
-                Next::Block(Kind::Ticks, body) => ticks(&body, &mut entries).map_err(malformed)?,
+                Next::Block(Kind::Ticks, body) => {
+                    if !ticks(&body, &mut entries, most).map_err(malformed)? {
+                        break Ending::Cut {
+                            at,
+                            why: "it has more than the 6,000,000 ticks that are read",
+                        };
+                    }
+                }
                 Next::Block(Kind::Texture, body) => {
                     let texture = serde_json::from_slice(&body);
                     textures.push(
@@ -238,19 +253,27 @@ fn head(from: &mut impl Read) -> Result<Conditions, RecordingError> {
     }
 }
 
-fn ticks(mut body: &[u8], entries: &mut Vec<Entry>) -> Result<(), &'static str> {
+/// Reads a block, unless it has more ticks than there is room for.
+fn ticks(mut body: &[u8], entries: &mut Vec<Entry>, most: usize) -> Result<bool, &'static str> {
     let count = record::take(&mut body)?;
     // A record has two bytes at least, so a wrong count reserves no memory.
     if count > body.len() as u64 / 2 {
         return Err("a block states more ticks than it has bytes for");
     }
-    entries.reserve(count as usize);
+    let needed = entries.len() + count as usize;
+    if needed > most {
+        return Ok(false);
+    }
+    if needed > entries.capacity() {
+        // Memory that doubles would take twice the limit.
+        entries.reserve_exact((needed + needed / 4).min(most) - entries.len());
+    }
     let mut before = Before::default();
     for _ in 0..count {
         entries.push(record::decode(&mut body, &mut before)?);
     }
     if body.is_empty() {
-        Ok(())
+        Ok(true)
     } else {
         Err("bytes follow the last tick of a block")
     }
@@ -273,5 +296,50 @@ impl<R: Read> Read for Counted<'_, R> {
         let got = self.from.read(bytes)?;
         self.count += got as u64;
         Ok(got)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_runtime::{Config, Sample};
+
+    #[test]
+    fn a_long_recording_is_read_up_to_the_limit_and_says_so() {
+        let conditions = Conditions {
+            program: "test 1.0".into(),
+            device: "null:".into(),
+            texture: None,
+            scene: None,
+            seed: 1,
+            config: Config::default(),
+        };
+        let nothing = Entry {
+            sample: Sample::STALE,
+            force_n: [0.0; 3],
+            flags: 0,
+            buttons: 0,
+            read_fault: None,
+            write_fault: None,
+            next_texture: false,
+            lost_before: 0,
+        };
+        let mut encoder = Encoder::new(Vec::new(), &conditions).expect("memory takes it");
+        for _ in 0..4 * PER_BLOCK {
+            encoder.push(&nothing).expect("memory takes it");
+        }
+        let (bytes, _) = encoder.finish(0).expect("memory takes it");
+        let read = |most| Recording::read_at_most(&mut &bytes[..], most).expect("a recording");
+        assert!(matches!(read(4 * PER_BLOCK).ending, Ending::Whole(_)));
+        let part = read(3 * PER_BLOCK + 1);
+        assert_eq!(part.entries.len(), 3 * PER_BLOCK);
+        assert!(part.entries.capacity() <= 3 * PER_BLOCK + 1);
+        let Ending::Cut { at, why } = part.ending else {
+            panic!("{:?}", part.ending);
+        };
+        assert!(
+            (at as usize) < bytes.len() && why.contains("6,000,000"),
+            "{at}: {why}"
+        );
     }
 }

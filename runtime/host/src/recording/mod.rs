@@ -21,7 +21,7 @@ mod render_again;
 pub use conditions::{Conditions, TextureInfo};
 pub use entry::Entry;
 pub use error::RecordingError;
-pub use file::{Encoder, Ending, Recording, Summary};
+pub use file::{Encoder, Ending, MAX_TICKS, Recording, Summary};
 pub use from_servo::FromServo;
 pub use pace::pace;
 pub use recorder::{Recorder, Writing, start};
