@@ -6,8 +6,11 @@ use crate::{
     json,
 };
 use instant_clip_tokenizer::{Token, Tokenizer};
-use serde::Deserialize;
-use std::collections::HashMap;
+use serde::{
+    Deserialize, Deserializer,
+    de::{Error as _, MapAccess, Visitor},
+};
+use std::{collections::HashMap, fmt};
 
 /// Tokens that CLIP reads, start and end marks included; shorter texts are padded.
 pub const CONTEXT: usize = 77;
@@ -32,6 +35,36 @@ pub struct Encoded {
     pub ids: Vec<i64>,
     /// Tokens that did not fit, of the first 8 KiB.
     pub cut: usize,
+}
+
+/// Tokens and their ids. More than a tokenizer can have are refused before they are read.
+struct Vocabulary(HashMap<String, u32>);
+
+impl<'de> Deserialize<'de> for Vocabulary {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Tokens;
+
+        impl<'de> Visitor<'de> for Tokens {
+            type Value = Vocabulary;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("tokens with their ids")
+            }
+
+            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Vocabulary, M::Error> {
+                let mut tokens = HashMap::new();
+                while let Some((token, id)) = map.next_entry()? {
+                    if tokens.len() == usize::from(u16::MAX) {
+                        return Err(M::Error::custom("there are more than 65535 tokens"));
+                    }
+                    tokens.insert(token, id);
+                }
+                Ok(Vocabulary(tokens))
+            }
+        }
+
+        deserializer.deserialize_map(Tokens)
+    }
 }
 
 #[derive(Deserialize)]
@@ -59,7 +92,7 @@ impl Tokens {
         merges: &str,
         settings: Option<&str>,
     ) -> Result<Self, DiffusionError> {
-        let vocabulary: HashMap<String, u32> =
+        let Vocabulary(vocabulary) =
             json::parse(vocabulary).map_err(|problem| problem.of(VOCABULARY))?;
         // The header is optional; the tokenizer skips one line whatever it holds.
         let rules: Vec<&str> = merges
@@ -239,6 +272,9 @@ mod tests {
         assert!(wrong(&vocabulary, &shorter).contains("merges"));
         assert!(wrong("{}", &merges).contains("0 tokens"));
         assert!(wrong(&vocabulary, "").contains("0 merges"));
+        let many: Vec<String> = (0..70_000).map(|n| format!("\"{n}\":{n}")).collect();
+        let many = format!("{{{}}}", many.join(","));
+        assert!(wrong(&many, &merges).contains("more than 65535 tokens"));
         let long = "a b\n".repeat(70_000);
         assert!(wrong(&vocabulary, &long).contains("70000 merges"));
         let three = merges.replace("c o\n", "c o o\n");

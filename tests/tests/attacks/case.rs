@@ -5,7 +5,7 @@ use super::{
     mutate::mutated,
     pieces::{PROMPT, Piece},
     programs::Program,
-    seeds::Seeds,
+    seeds::{ENTRY, Seeds},
     strange::Strange,
 };
 use asperity_tests::draw::Draw;
@@ -65,6 +65,18 @@ impl Attack {
         )
     }
 
+    /// A command of the table with something strange in place of its input.
+    pub(crate) fn strange(form: &Form, strange: Strange) -> Self {
+        let told = format!("{strange:?}");
+        Self::of(
+            form.program,
+            form.line,
+            form.target,
+            Input::Strange(strange),
+            told,
+        )
+    }
+
     /// A case that is not left to chance.
     pub(crate) fn of_piece(piece: &Piece, seeds: &Seeds) -> Self {
         let input = Input::Piece(piece.bytes);
@@ -106,15 +118,16 @@ impl Attack {
             "recording.toml",
         ];
         let inside = inside.map(|name| format!("out/{name}"));
-        // The header of a C array lies beside it.
-        let header = line.contains("c-array").then(|| "out.h".to_owned());
+        // The header of a C array lies beside it, and the lock of a build beside its manifest.
+        let beside = [("c-array", "out.h"), ("cached.toml", "cached.toml.lock")];
+        let beside = beside.into_iter().filter(|(word, _)| line.contains(word));
         Self {
             program,
             command: line,
             outputs: outputs
                 .map(|&word| word.to_owned())
                 .chain(inside)
-                .chain(header)
+                .chain(beside.map(|(_, name)| name.to_owned()))
                 .collect(),
             arguments: words.iter().map(OsString::from).collect(),
             target: target.to_owned(),
@@ -169,7 +182,10 @@ impl Attack {
 
     /// Puts the attacked file into a folder of valid ones.
     pub(crate) fn prepare(&self, folder: &Path, seeds: &Seeds) {
-        let path = folder.join(&self.target);
+        let path = match &*self.target {
+            ENTRY => folder.join("cache").join(seeds.entry()),
+            target => folder.join(target),
+        };
         let _ = std::fs::remove_file(&path);
         // A name that the system does not take stays missing.
         match &self.input {

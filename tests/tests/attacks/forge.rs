@@ -23,15 +23,31 @@ pub(crate) fn crc32(parts: &[&[u8]]) -> u32 {
     })
 }
 
-/// Recomputes the checksums of an asset or a library, those of a library's assets and its scene
-/// included.
+/// Recomputes the checksums of an asset, a library, those of its assets and its scene included, or
+/// a recorded session.
 pub(crate) fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
     if bytes.starts_with(b"ASPT") {
         seal(&mut bytes);
     } else if bytes.starts_with(b"ASPL") && bytes.len() >= HEADER_LEN {
         seal_library(&mut bytes);
+    } else if bytes.starts_with(b"ASPR") {
+        seal_session(&mut bytes);
     }
     bytes
+}
+
+/// Every block of a recorded session that is whole: kind, length, body, checksum.
+fn seal_session(bytes: &mut [u8]) {
+    let mut at = 8;
+    while at + 5 < bytes.len() {
+        let end = at + 5 + u32_at(bytes, at + 1);
+        if end + 4 > bytes.len() {
+            break;
+        }
+        let crc = crc32(&[&bytes[at..end]]);
+        bytes[end..end + 4].copy_from_slice(&crc.to_le_bytes());
+        at = end + 4;
+    }
 }
 
 fn seal_library(bytes: &mut [u8]) {
@@ -57,6 +73,25 @@ fn seal_library(bytes: &mut [u8]) {
         let crc = crc32(&[&bytes[..24], rest]);
         bytes[24..28].copy_from_slice(&crc.to_le_bytes());
     }
+}
+
+/// The head of a recorded session, then blocks of ticks that hold nothing, two bytes each.
+pub(crate) fn session_of(session: &[u8], blocks: usize, ticks: usize) -> Vec<u8> {
+    let mut bytes = session[..8 + 5 + u32_at(session, 9) + 4].to_vec();
+    let mut body = Vec::new();
+    let mut rest = ticks;
+    while rest >= 128 {
+        body.push((rest % 128) as u8 | 128);
+        rest /= 128;
+    }
+    body.push(rest as u8);
+    body.resize(body.len() + 2 * ticks, 0);
+    let mut block = vec![1];
+    block.extend((body.len() as u32).to_le_bytes());
+    block.extend(body);
+    block.extend(crc32(&[&block]).to_le_bytes());
+    bytes.extend(block.repeat(blocks));
+    bytes
 }
 
 /// A library that states `count` textures, of which the first is `asset` and the others are empty,

@@ -2,7 +2,7 @@
 
 use super::{
     programs::Program::{self, Compiler, Lab},
-    seeds::Seed,
+    seeds::{ENTRY, Seed},
 };
 
 /// A command with the file that is attacked. Every other file of it is valid. Names that begin with
@@ -38,7 +38,9 @@ const fn long(program: Program, line: &'static str, target: &'static str, seed: 
 const PAINT: &str =
     "preview good.asp -o out.png --diffusion sd --diffusion-backend portable --steps 2 --tile";
 
-pub(crate) const FORMS: [Form; 68] = [
+const CACHED: &str = "build cached.toml -o out.aspl --cache cache --json";
+
+pub(crate) const FORMS: [Form; 72] = [
     form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
@@ -369,6 +371,25 @@ pub(crate) const FORMS: [Form; 68] = [
         "record out in.asp --device sim:?time=stepped --accel sim: --seconds 1.5 --policy other --no-lock",
         "in.asp",
         Seed::Asset,
+    ),
+    form(Compiler, CACHED, ENTRY, Seed::CacheEntry),
+    form(
+        Lab,
+        "servo good.asp --device replay:in.aspr --seconds 0.1 --policy other --no-lock",
+        "in.aspr",
+        Seed::Session,
+    ),
+    form(
+        Lab,
+        "jitter compare in.hlog good.hlog",
+        "in.hlog",
+        Seed::Intervals,
+    ),
+    form(
+        Lab,
+        "jitter merge good.hlog in.hlog -o out.hlog",
+        "in.hlog",
+        Seed::Intervals,
     ),
     long(
         Lab,

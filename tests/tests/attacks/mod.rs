@@ -48,7 +48,7 @@ fn wanted() -> StepBy<Range<usize>> {
 #[test]
 fn no_input_brings_a_command_down() {
     let programs = programs::built();
-    let seeds = seeds::Seeds::new();
+    let seeds = seeds::Seeds::new(&programs);
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("attacks");
     let _ = std::fs::remove_dir_all(&root);
     let cases: Vec<usize> = wanted().collect();
@@ -85,7 +85,7 @@ fn no_input_brings_a_command_down() {
 #[test]
 fn what_is_not_attacked_is_accepted() {
     let programs = programs::built();
-    let seeds = seeds::Seeds::new();
+    let seeds = seeds::Seeds::new(&programs);
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("not-attacked");
     let _ = std::fs::remove_dir_all(&root);
     let stride = sized("every so many commands", 6, 1);
@@ -103,7 +103,26 @@ fn what_is_not_attacked_is_accepted() {
     let _ = std::fs::remove_dir_all(&root);
 }
 
-/// One case: its folder, its command, what came of it.
+/// Whatever lies in the place of a cached texture, the build makes it anew and writes to nothing else.
+#[test]
+fn nothing_in_a_cache_leads_a_build_astray() {
+    let programs = programs::built();
+    let seeds = seeds::Seeds::new(&programs);
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("astray");
+    let _ = std::fs::remove_dir_all(&root);
+    let form = forms::FORMS.iter().find(|form| form.target == seeds::ENTRY);
+    let form = form.expect("a build with a cache");
+    let mut tally = verdict::Tally::default();
+    for (number, strange) in strange::Strange::ALL.into_iter().enumerate() {
+        let attack = case::Attack::strange(form, strange);
+        tally.add(ran(number, &attack, &programs, &seeds, &root));
+    }
+    assert!(tally.failures.is_empty(), "{}", tally.failures.join("\n\n"));
+    // What cannot be used is passed over: a build does not need its cache.
+    assert_eq!(tally.accepted, strange::Strange::ALL.len(), "{tally}");
+}
+
+/// One case of the suite.
 fn attacked(
     number: usize,
     programs: &programs::Programs,
@@ -111,16 +130,27 @@ fn attacked(
     root: &Path,
 ) -> verdict::Verdict {
     let mut draw = Draw::new(0xa77a_c4ed ^ (number as u64) << 20);
-    let folder = root.join(number.to_string());
     let attack = match pieces::PIECES.get(number) {
         Some(piece) => case::Attack::of_piece(piece, seeds),
         None => case::Attack::drawn(number, seeds, &mut draw),
     };
+    ran(number, &attack, programs, seeds, root)
+}
+
+/// Runs a case in a folder of its own, and judges what came of it.
+fn ran(
+    number: usize,
+    attack: &case::Attack,
+    programs: &programs::Programs,
+    seeds: &seeds::Seeds,
+    root: &Path,
+) -> verdict::Verdict {
+    let folder = root.join(number.to_string());
     seeds.write(&folder);
     attack.prepare(&folder, seeds);
     let before = verdict::Snapshot::of(&folder);
     let run = run::run(programs.path(attack.program), &attack.arguments, &folder);
-    let verdict = verdict::judge(number, &attack, &run, &before, &folder);
+    let verdict = verdict::judge(number, attack, &run, &before, &folder);
     if verdict.failure.is_none() {
         let _ = std::fs::remove_dir_all(&folder);
     }

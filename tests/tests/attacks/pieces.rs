@@ -82,7 +82,14 @@ const UNET: Line = (Compiler, PAINT, "sd/unet/model.onnx");
 
 const PROMPT_LINE: Line = (Compiler, "compile PROMPT -o out.asp --no-preview", PROMPT);
 
-pub(crate) const PIECES: [Piece; 53] = [
+const SESSION: Line = (
+    Lab,
+    "servo good.asp --device replay:in.aspr --seconds 0.1 --policy other --no-lock",
+    "in.aspr",
+);
+const INTERVALS: Line = (Lab, "jitter compare in.hlog good.hlog", "in.hlog");
+
+pub(crate) const PIECES: [Piece; 57] = [
     piece(PROMPT_LINE, "one word of 120,000 letters", |_| {
         b"a".repeat(120_000)
     }),
@@ -375,6 +382,26 @@ pub(crate) const PIECES: [Piece; 53] = [
     }),
     piece(UNET, "the decoder instead of the UNet", |_| {
         part(&tiny::Options::default(), "vae_decoder/model.onnx")
+    }),
+    piece(SESSION, "32,000,000 ticks of two bytes", |seeds| {
+        forge::session_of(seeds.bytes(Seed::Session), 64, 500_000)
+    }),
+    piece(SESSION, "a session at 1 GHz", |seeds| {
+        let part: &[u8] = b"\"servo_rate_hz\":1000.0";
+        let mut bytes = seeds.bytes(Seed::Session).to_vec();
+        let at = bytes.windows(part.len()).position(|bytes| bytes == part);
+        let end = at.expect("a rate") + part.len();
+        bytes[end - 6..end].copy_from_slice(b"1e9   ");
+        forge::sealed(bytes)
+    }),
+    piece(SESSION, "a block of 4 GB", |seeds| {
+        let mut bytes = seeds.bytes(Seed::Session).to_vec();
+        bytes[9..13].fill(0xff);
+        bytes
+    }),
+    piece(INTERVALS, "a histogram that states 2 GB", |seeds| {
+        // Base64: the length stands in five and a third letters after the cookie.
+        replaced(seeds, Seed::Intervals, "HISTFAAAA", "HISTFH///")
     }),
 ];
 

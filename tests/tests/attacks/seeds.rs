@@ -1,13 +1,17 @@
 //! Valid inputs of every kind, which attacks start from.
 
-use super::recording;
+use super::{
+    programs::{Program, Programs},
+    recording,
+    run::run,
+};
 use crate::support::builtin;
 use asperity::interchange::{ClipFormat, Options, export, session};
 use asperity_diffusion::tiny;
 use asperity_formats::{SceneSurface, Solid, library};
 use asperity_tests::draw::Draw;
 use asperity_tests::texture::{Kind, random, random_law};
-use std::{fmt::Write as _, fs, os::unix::fs::symlink, path::Path};
+use std::{ffi::OsString, fmt::Write as _, fs, os::unix::fs::symlink, path::Path};
 use tempfile::TempDir;
 
 /// A kind of input.
@@ -38,6 +42,11 @@ pub(crate) enum Seed {
     Measurement,
     Profile,
     Ids,
+    /// A recording of a servo loop.
+    Session,
+    /// The intervals of a measured loop.
+    Intervals,
+    CacheEntry,
     /// A part of a diffusion folder, by its path in it.
     Diffusion(&'static str),
 }
@@ -57,6 +66,8 @@ impl Seed {
                 | Self::TapDecoder
                 | Self::RecordedWave
                 | Self::RecordedArray
+                | Self::Session
+                | Self::CacheEntry
         )
     }
 }
@@ -79,7 +90,17 @@ pub(crate) struct Seeds {
     measurement: String,
     /// A tiny diffusion folder.
     diffusion: Vec<(&'static str, Vec<u8>)>,
+    session: Vec<u8>,
+    intervals: Vec<u8>,
+    /// The only entry of a build's cache, and its path in it.
+    cached: (String, Vec<u8>),
 }
+
+/// As a target: the entry of the build's cache, whatever its name.
+pub(crate) const ENTRY: &str = "cache/ENTRY";
+/// A build of one entry.
+const CACHED: &str =
+    "[defaults]\npreview = false\n[[texture]]\nname = \"cork\"\nprompt = \"cork\"\n";
 
 const DESCRIPTION: &str = "servo_rate_hz = 1000
 [[texture]]
@@ -139,7 +160,35 @@ const PROFILE: &str = concat!(
 );
 
 impl Seeds {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(programs: &Programs) -> Self {
+        let made = tempfile::tempdir().expect("a folder");
+        fs::write(made.path().join("cached.toml"), CACHED).expect("a manifest");
+        const SERVO: &str =
+            "servo --device sim:?time=stepped --record s.aspr --seconds 3 --policy other --no-lock";
+        for (program, line) in [
+            (Program::Lab, SERVO),
+            (
+                Program::Lab,
+                "jitter --out j --seconds 0.3 --policy other --no-lock",
+            ),
+            (
+                Program::Compiler,
+                "build cached.toml -o c.aspl --cache cache",
+            ),
+        ] {
+            let arguments: Vec<OsString> = line.split(' ').map(OsString::from).collect();
+            let run = run(programs.path(program), &arguments, made.path());
+            assert!(run.status.success(), "{line}: {}", run.stderr);
+        }
+        let read = |name: &str| fs::read(made.path().join(name)).expect("what was made");
+        let only = |folder: &Path| {
+            let mut entries = fs::read_dir(folder).expect("a cache").flatten();
+            entries.next().expect("an entry").path()
+        };
+        let cache = made.path().join("cache");
+        let entry = only(&only(&cache));
+        let entry = entry.strip_prefix(&cache).expect("in the cache");
+        let entry = entry.to_str().expect("a name of letters").to_owned();
         let asset = builtin();
         let mut other = random(1, Kind::nyquist(4));
         other.law = random_law(&mut Draw::new(1), 200.0, 2.0);
@@ -163,6 +212,9 @@ impl Seeds {
             table: recording::table(),
             measurement: measurement(),
             diffusion: tiny::folder(&tiny::Options::default()),
+            session: read("s.aspr"),
+            intervals: read("j/run.hlog"),
+            cached: (entry.clone(), read(&format!("cache/{entry}"))),
         }
     }
 
@@ -194,6 +246,9 @@ impl Seeds {
             Seed::Measurement => self.measurement.as_bytes(),
             Seed::Profile => PROFILE.as_bytes(),
             Seed::Ids => IDS.as_bytes(),
+            Seed::Session => &self.session,
+            Seed::Intervals => &self.intervals,
+            Seed::CacheEntry => &self.cached.1,
             Seed::Diffusion(part) => {
                 let found = self.diffusion.iter().find(|(name, _)| *name == part);
                 &found.expect("a part of the tiny folder").1
@@ -201,11 +256,21 @@ impl Seeds {
         }
     }
 
+    /// The path of the entry in the build's cache.
+    pub(crate) fn entry(&self) -> &str {
+        &self.cached.0
+    }
+
     /// Writes the valid files that the commands read besides the attacked one.
     pub(crate) fn write(&self, folder: &Path) {
-        for name in ["", "materials", "model", "clip", "oak"] {
+        for name in ["", "materials", "model", "clip", "oak", "cache"] {
             fs::create_dir_all(folder.join(name)).expect("a folder");
         }
+        let entry = Path::new(self.entry())
+            .parent()
+            .expect("a folder of the cache");
+        fs::create_dir_all(folder.join("cache").join(entry)).expect("a folder");
+        fs::write(folder.join("cached.toml"), CACHED).expect("a valid input");
         for (name, seed) in [
             ("good.asp", Seed::Asset),
             ("scene.aspl", Seed::Scene),
@@ -217,6 +282,7 @@ impl Seeds {
             ("oak/force.npy", Seed::RecordedArray),
             ("oak/position.csv", Seed::RecordedTable),
             ("sweep.csv", Seed::Measurement),
+            ("good.hlog", Seed::Intervals),
         ] {
             fs::write(folder.join(name), self.bytes(seed)).expect("a valid input");
         }

@@ -18,6 +18,7 @@ pub(crate) enum Strange {
     LinkToItself,
     LinkToNothing,
     LinkToParent,
+    LinkToFile,
     Zero,
     Null,
     Random,
@@ -30,23 +31,27 @@ pub(crate) enum Strange {
 use Strange::*;
 
 impl Strange {
+    /// All of them.
+    pub(crate) const ALL: [Self; 15] = [
+        Pipe,
+        Missing,
+        Empty,
+        Folder,
+        Unreadable,
+        LinkToItself,
+        LinkToNothing,
+        LinkToParent,
+        LinkToFile,
+        Zero,
+        Null,
+        Random,
+        Full,
+        Sparse,
+        Socket,
+    ];
+
     /// One of them; pipes seldom, because a command waits for each.
     pub(crate) fn drawn(must_be_refused: bool, draw: &mut Draw) -> Self {
-        const ALL: [Strange; 13] = [
-            Missing,
-            Empty,
-            Folder,
-            Unreadable,
-            LinkToItself,
-            LinkToNothing,
-            LinkToParent,
-            Zero,
-            Null,
-            Random,
-            Full,
-            Sparse,
-            Socket,
-        ];
         // In a folder of materials, only what the system takes for a file is read.
         const REFUSED: [Strange; 2] = [Empty, Sparse];
         if must_be_refused {
@@ -55,7 +60,7 @@ impl Strange {
         if draw.below(15) == 0 {
             return Pipe;
         }
-        ALL[draw.below(ALL.len())]
+        Self::ALL[1 + draw.below(Self::ALL.len() - 1)]
     }
 
     /// Makes it.
@@ -72,6 +77,12 @@ impl Strange {
             LinkToItself => drop(symlink(path, path)),
             LinkToNothing => drop(symlink("nothing", path)),
             LinkToParent => drop(symlink("..", path)),
+            // A valid file of another kind, which nobody may write to.
+            LinkToFile => {
+                let mut folders = path.ancestors().skip(1);
+                let good = folders.find_map(|folder| folder.join("good.asp").canonicalize().ok());
+                drop(good.map(|good| symlink(good, path)));
+            }
             Zero => drop(symlink("/dev/zero", path)),
             Null => drop(symlink("/dev/null", path)),
             Random => drop(symlink("/dev/urandom", path)),
