@@ -4,7 +4,7 @@ use crate::{
     back_end::{lower::ErrorSummary, raise::raise, verify::VerifyError},
     model::{ModelGrid, TextureModel},
     passes::reduce::{self, Fidelity, Reference},
-    pipeline::{Compiled, PipelineError, Timings},
+    pipeline::{Compiled, Pass, Pipeline, PipelineError, Settings, Timings},
     signal::spectrum::{ArmaModel, log_spectral_distance_db},
 };
 use asperity_formats::Asset;
@@ -74,7 +74,7 @@ impl Imported {
 impl Report {
     /// The figures of a compiled texture. `errors_db` are its distances from the source, one a
     /// vertex or place that was compared.
-    pub(crate) fn new(compiled: &Compiled, fidelity: Fidelity, errors_db: &[f64]) -> Self {
+    fn new(compiled: &Compiled, fidelity: Fidelity, errors_db: &[f64]) -> Self {
         let (texture, lowered) = (&compiled.texture, &compiled.lowered);
         Self {
             name: texture.name.clone(),
@@ -119,18 +119,72 @@ impl fmt::Display for Report {
     }
 }
 
-/// Distances of what the stored grid renders from what the whole one does, dB, at the places of
-/// [`mixture::places`](crate::model::mixture::places), and their 95 % quantile and maximum.
-pub(crate) fn errors_over_grid(whole: &ModelGrid, stored: &ModelGrid) -> (Vec<f64>, (f64, f64)) {
-    let distances = Reference::new(whole).and_then(|whole| whole.distances(stored));
-    let distances = distances.unwrap_or_default();
-    let summary = distances.summary();
-    (distances.into_inner(), summary)
+/// What an asset that keeps all of a texture is measured against. One that leaves something out is
+/// measured against what the whole grid renders, at the places of
+/// [`mixture::places`](crate::model::mixture::places), whatever it came from.
+pub(crate) enum Truth {
+    /// The texture before its reduction.
+    Texture,
+    /// The models of the source, one for each vertex; none where it is silent.
+    Models {
+        at_vertices: Vec<Option<ArmaModel>>,
+        /// The largest distance that is accepted, dB.
+        budget_db: f64,
+    },
+}
+
+impl Pipeline {
+    /// Compiles a texture, and measures the asset against what it came from.
+    ///
+    /// # Errors
+    /// [`PipelineError`] with the pass that failed, or for a distance beyond the budget.
+    pub(crate) fn import(
+        &mut self,
+        whole: TextureModel,
+        settings: &Settings,
+        truth: &Truth,
+    ) -> Result<Imported, PipelineError> {
+        let mut compiled = self.compile(whole, settings)?;
+        let fidelity = settings.fidelity;
+        let errors_db = self.run(Pass::Compare, || truth.distances(&mut compiled, fidelity))?;
+        Ok(Imported {
+            report: Report::new(&compiled, fidelity, &errors_db),
+            bytes: compiled.lowered.bytes,
+            whole: compiled.whole,
+            timings: self.timings().clone(),
+        })
+    }
+}
+
+impl Truth {
+    /// Distances of an asset, dB: at every vertex that sounds where nothing was left out, else over
+    /// the grid, and then they are also what the reduction cost.
+    fn distances(
+        &self,
+        compiled: &mut Compiled,
+        fidelity: Fidelity,
+    ) -> Result<Vec<f64>, PipelineError> {
+        let asset = Asset::parse(&compiled.lowered.bytes).map_err(VerifyError::from)?;
+        let stored = raise(&asset).grid;
+        let whole = &compiled.whole.grid;
+        if fidelity == Fidelity::Full {
+            return match self {
+                Self::Texture => Ok(at_vertices(whole, &stored)),
+                Self::Models {
+                    at_vertices,
+                    budget_db,
+                } => from_models(at_vertices, &stored, *budget_db),
+            };
+        }
+        let distances = Reference::new(whole).and_then(|whole| whole.distances(&stored));
+        let distances = distances.unwrap_or_default();
+        (compiled.reduction.p95_db, compiled.reduction.worst_db) = distances.summary();
+        Ok(distances.into_inner())
+    }
 }
 
 /// Distances of the stored spectra from those of the whole grid, dB, at every vertex that sounds.
-/// Nothing may have been left out.
-pub(crate) fn errors_at_vertices(whole: &ModelGrid, stored: &ModelGrid) -> Vec<f64> {
+fn at_vertices(whole: &ModelGrid, stored: &ModelGrid) -> Vec<f64> {
     let vertices = whole.vertices.iter().zip(&stored.vertices);
     vertices
         .filter(|(vertex, _)| vertex.gain * vertex.sigma_m_s2 > 0.0)
@@ -141,19 +195,25 @@ pub(crate) fn errors_at_vertices(whole: &ModelGrid, stored: &ModelGrid) -> Vec<f
         .collect()
 }
 
-/// Distances of an asset from the texture before its reduction, dB: at the vertices in full, else
-/// over the grid, of which the report of the reduction then holds the figures.
-pub(crate) fn compare(
-    compiled: &mut Compiled,
-    fidelity: Fidelity,
+/// Distances of the stored spectra from the models of the source, dB, at every one that sounds.
+fn from_models(
+    models: &[Option<ArmaModel>],
+    stored: &ModelGrid,
+    budget_db: f64,
 ) -> Result<Vec<f64>, PipelineError> {
-    let asset = Asset::parse(&compiled.lowered.bytes).map_err(VerifyError::from)?;
-    let stored = raise(&asset).grid;
-    if fidelity == Fidelity::Full {
-        return Ok(errors_at_vertices(&compiled.whole.grid, &stored));
+    let mut errors_db = Vec::new();
+    for (index, (truth, vertex)) in models.iter().zip(&stored.vertices).enumerate() {
+        let Some(truth) = truth else { continue };
+        let distance_db = log_spectral_distance_db(truth, &ArmaModel::at_vertex(stored, vertex));
+        // A NaN fails too.
+        if distance_db.is_nan() || distance_db > budget_db {
+            return Err(PipelineError::Budget {
+                model: index + 1,
+                distance_db,
+                budget_db,
+            });
+        }
+        errors_db.push(distance_db);
     }
-    let (errors_db, (p95_db, worst_db)) = errors_over_grid(&compiled.whole.grid, &stored);
-    compiled.reduction.p95_db = p95_db;
-    compiled.reduction.worst_db = worst_db;
     Ok(errors_db)
 }

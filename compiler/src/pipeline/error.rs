@@ -15,6 +15,16 @@ pub enum PipelineError {
     /// The models cannot be converted to the rate.
     #[error("--rate {0} Hz: not in {min}..={max} Hz", min = rerate::RATE_RANGE_HZ.0, max = rerate::RATE_RANGE_HZ.1)]
     Rate(f64),
+    /// A vertex of the asset is too far from the model that it came from.
+    #[error("model {model} is {distance_db:.3} dB from its source, {budget_db} at most")]
+    Budget {
+        /// Number of the model in its file, from 1.
+        model: usize,
+        /// RMS log-spectral distance, dB.
+        distance_db: f64,
+        /// The largest that is accepted, dB.
+        budget_db: f64,
+    },
     /// The preview cannot be drawn.
     #[error(transparent)]
     Preview(#[from] PreviewError),
@@ -39,6 +49,10 @@ impl Diagnostic for PipelineError {
     fn remedy(&self) -> String {
         match self {
             Self::Rate(_) => "give the rate of the servo loop, e.g. --rate 1000".into(),
+            Self::Budget { .. } => {
+                "compare coefficients, variance and gain of this model with the original file"
+                    .into()
+            }
             Self::Preview(error) => error.remedy(),
             Self::Lower(error) => error.remedy(),
             Self::Verify(error) => error.remedy(),

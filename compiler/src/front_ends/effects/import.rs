@@ -3,7 +3,7 @@
 use super::{stroke, tap};
 use crate::{
     front_ends::{
-        imported::{Imported, Report, compare},
+        imported::{Imported, Truth},
         learned::edges,
     },
     interchange::{EffectError, EffectProblem, ahap, haptic, hjif, playback::Track},
@@ -140,17 +140,9 @@ pub fn import(
         stabilise: true,
     };
     let failed = |cause: PipelineError| fail(String::new(), cause.into());
-    let mut compiled = pipeline.compile(whole, &settings).map_err(failed)?;
-    let errors_db = pipeline
-        .run(Pass::Compare, || compare(&mut compiled, options.fidelity))
+    let imported = pipeline
+        .import(whole, &settings, &Truth::Texture)
         .map_err(failed)?;
-    let report = Report::new(&compiled, options.fidelity, &errors_db);
-    let imported = Imported {
-        bytes: compiled.lowered.bytes,
-        report,
-        whole: compiled.whole,
-        timings: pipeline.timings().clone(),
-    };
     Ok((imported, warnings))
 }
 

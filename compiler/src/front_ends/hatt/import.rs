@@ -7,17 +7,15 @@ use super::{
     texture::to_model,
 };
 use crate::{
-    back_end::{raise::raise, verify::VerifyError},
     front_ends::{
-        imported::{Imported, Report, errors_over_grid},
+        imported::{Imported, Truth},
         learned::{LearnedModel, ModelError, complete},
     },
-    model::{ModelGrid, TextureModel},
+    model::TextureModel,
     passes::reduce::Fidelity,
-    pipeline::{Compiled, Pass, Pipeline, Settings},
-    signal::spectrum::{ArmaModel, log_spectral_distance_db},
+    pipeline::{Pass, Pipeline, Settings},
+    signal::spectrum::ArmaModel,
 };
-use asperity_formats::Asset;
 use asperity_io::input::{self, InputProblem, Kind};
 use rayon::prelude::*;
 use std::{
@@ -127,27 +125,15 @@ pub fn import_at(
         fidelity,
         ..Settings::default()
     };
-    let mut compiled =
-        pipeline
-            .compile(whole, &settings)
-            .map_err(|cause| ImportError::Pipeline {
-                file: file.to_owned(),
-                cause,
-            })?;
-    let errors_db = pipeline.run(Pass::Compare, || {
-        compare(file, &material, &mut compiled, fidelity)
-    })?;
+    let mut imported = pipeline
+        .import(whole, &settings, &truth(&material))
+        .map_err(|cause| ImportError::Pipeline {
+            file: file.to_owned(),
+            cause,
+        })?;
     let recomputed = |m: &SourceModel| usize::from(m.ar.recomputed) + usize::from(m.ma.recomputed);
-    let report = Report {
-        recomputed: material.models.iter().map(recomputed).sum(),
-        ..Report::new(&compiled, fidelity, &errors_db)
-    };
-    Ok(Imported {
-        bytes: compiled.lowered.bytes,
-        report,
-        whole: compiled.whole,
-        timings: pipeline.timings().clone(),
-    })
+    imported.report.recomputed = material.models.iter().map(recomputed).sum();
+    Ok(imported)
 }
 
 /// The bytes of a file, at most as many as a material may have.
@@ -181,55 +167,18 @@ fn complete(texture: &mut TextureModel, model: &LearnedModel) -> Result<(), Mode
     Ok(())
 }
 
-/// Distances of the asset from its source, dB: in full from the coefficients of the material,
-/// else from what the whole grid renders. The latter are also what the reduction cost.
-fn compare(
-    file: &Path,
-    material: &Material,
-    compiled: &mut Compiled,
-    fidelity: Fidelity,
-) -> Result<Vec<f64>, ImportError> {
-    let asset = Asset::parse(&compiled.lowered.bytes).map_err(|e| ImportError::Pipeline {
-        file: file.to_owned(),
-        cause: VerifyError::from(e).into(),
-    })?;
-    let stored = raise(&asset).grid;
-    if fidelity == Fidelity::Full {
-        return errors_at_vertices(file, material, &stored);
-    }
-    let (errors_db, (p95_db, worst_db)) = errors_over_grid(&compiled.whole.grid, &stored);
-    compiled.reduction.p95_db = p95_db;
-    compiled.reduction.worst_db = worst_db;
-    Ok(errors_db)
-}
-
-/// Distance of every sounding vertex from the coefficients of its source, dB.
-fn errors_at_vertices(
-    file: &Path,
-    material: &Material,
-    stored: &ModelGrid,
-) -> Result<Vec<f64>, ImportError> {
-    let mut errors_db = Vec::new();
-    for (index, (model, vertex)) in material.models.iter().zip(&stored.vertices).enumerate() {
-        if model.variance == 0.0 {
-            continue;
-        }
-        let truth = ArmaModel {
+/// The coefficients of the material.
+fn truth(material: &Material) -> Truth {
+    let model = |model: &SourceModel| {
+        (model.variance != 0.0).then(|| ArmaModel {
             sample_rate_hz: material.sample_rate_hz,
             a: model.ar.monic.clone(),
             b: model.ma.monic.clone(),
             level_m_s2: model.gain * model.variance.sqrt(),
-        };
-        let distance_db = log_spectral_distance_db(&truth, &ArmaModel::at_vertex(stored, vertex));
-        // A NaN fails too.
-        if distance_db.is_nan() || distance_db > BUDGET_DB {
-            return Err(ImportError::Budget {
-                file: file.to_owned(),
-                model: index + 1,
-                distance_db,
-            });
-        }
-        errors_db.push(distance_db);
+        })
+    };
+    Truth::Models {
+        at_vertices: material.models.iter().map(model).collect(),
+        budget_db: BUDGET_DB,
     }
-    Ok(errors_db)
 }

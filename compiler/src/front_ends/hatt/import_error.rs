@@ -32,19 +32,6 @@ pub enum ImportError {
         /// The pass that failed.
         cause: PipelineError,
     },
-    /// A vertex of the asset is too far from its source.
-    #[error(
-        "{file}: model {model} is {distance_db:.3} dB from its source, {BUDGET_DB} at most",
-        file = file.display()
-    )]
-    Budget {
-        /// The file.
-        file: PathBuf,
-        /// Number of the model, 1-based as in the file.
-        model: usize,
-        /// RMS log-spectral distance, dB.
-        distance_db: f64,
-    },
 }
 
 impl Diagnostic for ImportError {
@@ -53,10 +40,6 @@ impl Diagnostic for ImportError {
             Self::Hatt(error) => error.remedy(),
             Self::Complete { cause, .. } => cause.remedy(),
             Self::Pipeline { cause, .. } => cause.remedy(),
-            Self::Budget { .. } => {
-                "compare coefficients, variance and gain of this model with the original file"
-                    .into()
-            }
         }
     }
 }

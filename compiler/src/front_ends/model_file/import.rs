@@ -2,7 +2,7 @@
 
 use super::{error::ModelFileError, read::read};
 use crate::{
-    front_ends::imported::{Imported, Report, compare},
+    front_ends::imported::{Imported, Truth},
     model::TextureModel,
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, PipelineError, Preview, Settings},
@@ -43,17 +43,9 @@ pub fn import(file: &Path, options: &Options) -> Result<Imported, ModelFileError
         field: String::new(),
         problem: cause.into(),
     };
-    let mut compiled = pipeline.compile(whole, &settings).map_err(fail)?;
-    let errors_db = pipeline
-        .run(Pass::Compare, || compare(&mut compiled, options.fidelity))
-        .map_err(fail)?;
-    let report = Report::new(&compiled, options.fidelity, &errors_db);
-    Ok(Imported {
-        bytes: compiled.lowered.bytes,
-        report,
-        whole: compiled.whole,
-        timings: pipeline.timings().clone(),
-    })
+    pipeline
+        .import(whole, &settings, &Truth::Texture)
+        .map_err(fail)
 }
 
 /// The asset says which file it was made of; prompt, seed and notes are those of the file.

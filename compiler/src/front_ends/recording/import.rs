@@ -7,15 +7,13 @@ use super::{
     texture::{Sources, texture},
 };
 use crate::{
-    back_end::{raise::raise, verify::VerifyError},
-    front_ends::imported::{Report, errors_at_vertices, errors_over_grid},
+    front_ends::imported::{Imported, Report, Truth},
     learned::LearnedModel,
     model::{TextureModel, defaults},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, PipelineError, Preview, Settings},
     views::preview,
 };
-use asperity_formats::Asset;
 use std::path::Path;
 
 /// What a user can ask of an import.
@@ -77,22 +75,18 @@ pub fn import(
         folder: folder.to_owned(),
         cause,
     };
-    let mut compiled = pipeline.compile(whole, &settings).map_err(fail)?;
-    let errors_db = pipeline.run(Pass::Compare, || {
-        let asset = Asset::parse(&compiled.lowered.bytes).map_err(VerifyError::from)?;
-        let stored = raise(&asset).grid;
-        if options.fidelity == Fidelity::Full {
-            return Ok(errors_at_vertices(&compiled.whole.grid, &stored));
-        }
-        let (errors_db, (p95_db, worst_db)) = errors_over_grid(&compiled.whole.grid, &stored);
-        (compiled.reduction.p95_db, compiled.reduction.worst_db) = (p95_db, worst_db);
-        Ok(errors_db)
-    });
-    let errors_db = errors_db.map_err(fail)?;
+    let Imported {
+        bytes,
+        report,
+        whole,
+        ..
+    } = pipeline
+        .import(whole, &settings, &Truth::Texture)
+        .map_err(fail)?;
     Ok(RecordingImport {
-        report: Report::new(&compiled, options.fidelity, &errors_db),
-        bytes: compiled.lowered.bytes,
-        whole: compiled.whole,
+        bytes,
+        report,
+        whole,
         analysis,
         completed,
         sources,
