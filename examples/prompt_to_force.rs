@@ -19,10 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Author time: some tens of milliseconds a prompt, once the model is loaded. The portable
     // back end gives the same bytes on every machine.
     let author = Author::embedded(&Backend::Portable)?;
-    let options = Options {
-        preview: false,
-        ..Options::default()
-    };
+    let options = Options::default().without_preview();
     let authored = author.author(PROMPT, &options)?;
     let bytes = authored.lowered.bytes;
     println!("{PROMPT:?}: {} bytes", bytes.len());

@@ -6,8 +6,8 @@
 use asperity::{
     diagnostic::Diagnostic,
     inference::Backend,
+    pipeline::Request,
     prompt::{Author, Options},
-    reduce::Fidelity,
     scene::{Budget, Description, build},
 };
 use asperity_formats::Library;
@@ -60,9 +60,7 @@ fn library() -> Result<Vec<u8>, Box<dyn Error>> {
     let built = build(&Description::read(&file)?, &budget, &mut |prompt, seed| {
         let options = Options {
             seed,
-            fidelity: Fidelity::Full,
-            preview: false,
-            ..Options::default()
+            request: Request::default(),
         };
         match author.author(prompt, &options) {
             Ok(authored) => Ok(authored.texture),

@@ -16,10 +16,7 @@ const PROMPT: &str = "rough abrasive sheet with gritty particles";
 fn warm(c: &mut Criterion) {
     let backend = Backend::open(BackendName::Portable).expect("the embedded engine");
     let author = Author::embedded(&backend).expect("the embedded model");
-    let options = Options {
-        preview: false,
-        ..Options::default()
-    };
+    let options = Options::default().without_preview();
     let authored = author.author(PROMPT, &options).expect("a texture");
     assert!(authored.attributes.rough_db.is_some_and(|db| db > 0.0));
     assert!(authored.lowered.bytes.len() < 4096 + 1024);

@@ -10,10 +10,10 @@
 //! runs the same passes in another order. Every pass is named and timed.
 //!
 //! ```
-//! use asperity::{builtin, pipeline::{Pipeline, Settings}};
+//! use asperity::{builtin, pipeline::{Pipeline, Request, Ringing}};
 //!
 //! let mut pipeline = Pipeline::default();
-//! let compiled = pipeline.compile(builtin::texture(), &Settings::default())?;
+//! let compiled = pipeline.compile(builtin::texture(), &Request::default(), Ringing::Refused)?;
 //! assert_eq!(&compiled.lowered.bytes[..4], b"ASPT");
 //! let passes: Vec<&str> = pipeline.timings().iter().map(|(pass, _)| pass.name()).collect();
 //! assert_eq!(passes, ["reduce", "ceiling", "lower", "verify"]);
@@ -46,44 +46,34 @@ use asperity_formats::Asset;
 /// Fractions of the way to white noise that are tried in turn on a texture that rings.
 const STABILISED: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
-/// What a user can ask of a compilation, whatever the front end.
+/// What a user can ask of any texture, whatever it is made of.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
+pub struct Request {
+    /// How much of the models the asset keeps.
+    pub fidelity: Fidelity,
     /// Rate of the models, Hz; that of the source if `None`.
     pub rate_hz: Option<f64>,
-    /// How much of the model the asset keeps.
-    pub fidelity: Fidelity,
-    /// The preview; none is drawn if `None`.
-    pub preview: Option<Preview>,
-    /// Whether a texture that rings without bound in motion is stabilised rather than refused.
-    /// The numerator has to be 1 + z⁻¹.
-    pub stabilise: bool,
+    /// Width and height of the preview, pixels; none is drawn if `None`.
+    pub preview_px: Option<u32>,
 }
 
-impl Default for Settings {
+impl Default for Request {
     fn default() -> Self {
         Self {
-            rate_hz: None,
             fidelity: Fidelity::Full,
-            preview: None,
-            stabilise: false,
+            rate_hz: None,
+            preview_px: None,
         }
     }
 }
 
-/// How a preview is drawn.
+/// What becomes of a texture that rings without bound in motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Preview {
-    /// Width and height, pixels.
-    pub size_px: u32,
-}
-
-impl Default for Preview {
-    fn default() -> Self {
-        Self {
-            size_px: preview::SIZE,
-        }
-    }
+pub enum Ringing {
+    /// It is an error.
+    Refused,
+    /// Its models are moved towards white noise. The numerator has to be 1 + z⁻¹.
+    Stabilised,
 }
 
 /// A texture that passed verification.
@@ -112,28 +102,29 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// Takes a model through all passes; the same model and settings give the same bytes.
+    /// Takes a model through all passes; the same model and request give the same bytes.
     ///
     /// # Errors
     /// [`PipelineError`] with the pass that failed.
     pub fn compile(
         &mut self,
         mut whole: TextureModel,
-        settings: &Settings,
+        request: &Request,
+        ringing: Ringing,
     ) -> Result<Compiled, PipelineError> {
-        whole.provenance.fidelity = settings.fidelity.to_string();
-        if let Some(rate_hz) = settings.rate_hz {
+        whole.provenance.fidelity = request.fidelity.to_string();
+        if let Some(rate_hz) = request.rate_hz {
             whole = self.rerate(whole, rate_hz)?;
         }
-        if !settings.stabilise {
-            return self.attempt(whole, 0.0, settings);
+        if ringing == Ringing::Refused {
+            return self.attempt(whole, 0.0, request);
         }
-        let mut result = self.attempt(whole.clone(), 0.0, settings);
+        let mut result = self.attempt(whole.clone(), 0.0, request);
         for fraction in STABILISED {
             match &result {
                 Err(error) if error.rings() => {
                     let stabilised = self.stabilise(&whole, fraction);
-                    result = self.attempt(stabilised, fraction, settings);
+                    result = self.attempt(stabilised, fraction, request);
                 }
                 _ => break,
             }
@@ -145,15 +136,15 @@ impl Pipeline {
         &mut self,
         whole: TextureModel,
         stabilised: f64,
-        settings: &Settings,
+        request: &Request,
     ) -> Result<Compiled, PipelineError> {
         let Reduction {
             mut texture,
             report,
-        } = self.reduce(&whole, settings.fidelity);
+        } = self.reduce(&whole, request.fidelity);
         self.run(Pass::Ceiling, || ceiling::limit(&mut texture));
-        let preview = match &settings.preview {
-            Some(preview) => Some(self.preview(&texture, preview)?),
+        let preview = match request.preview_px {
+            Some(size_px) => Some(self.preview(&texture, size_px)?),
             None => None,
         };
         let lowered = self.lower(&texture, preview.as_deref())?;
@@ -202,12 +193,12 @@ impl Pipeline {
     pub fn preview(
         &mut self,
         texture: &TextureModel,
-        preview: &Preview,
+        size_px: u32,
     ) -> Result<Vec<u8>, PipelineError> {
         self.run(Pass::Preview, || {
             let lowered = lower::lower(texture, None)?;
             let asset = Asset::parse(&lowered.bytes).map_err(VerifyError::from)?;
-            Ok(preview::png(&raise(&asset), preview.size_px)?)
+            Ok(preview::png(&raise(&asset), size_px)?)
         })
     }
 

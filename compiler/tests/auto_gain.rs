@@ -153,10 +153,7 @@ const SCALES: [Scale; 4] = [
 #[test]
 fn every_texture_stays_within_the_continuous_force_and_attributes_keep_their_order() {
     let author = Author::embedded(&Backend::Portable).expect("the shipped model loads");
-    let options = Options {
-        preview: false,
-        ..Options::default()
-    };
+    let options = Options::default().without_preview();
     let made: Vec<(Attributes, Attributes, f64, bool)> = prompts()
         .par_iter()
         .map(|prompt| {

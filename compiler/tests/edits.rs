@@ -5,6 +5,7 @@ use asperity::{
     edit::{AXES, Axis, History, How, Latents, Sliders, Studio},
     inference::Backend,
     learned::Latent,
+    pipeline::Request,
     prompt::Author,
     raise::raise,
     reduce::Fidelity,
@@ -46,9 +47,10 @@ fn textures() -> Vec<Latents> {
 fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
     let studio = Studio::new(&AUTHOR, 0);
     let how = How {
-        fidelity: Fidelity::Auto,
-        rate_hz: None,
-        preview_px: None,
+        request: Request {
+            fidelity: Fidelity::Auto,
+            ..Request::default()
+        },
         law: None,
     };
     let textures = textures();
@@ -128,9 +130,10 @@ fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
 fn no_texture_vibrates_beyond_the_continuous_force() {
     let studio = Studio::new(&AUTHOR, 0);
     let how = How {
-        fidelity: Fidelity::Auto,
-        rate_hz: None,
-        preview_px: None,
+        request: Request {
+            fidelity: Fidelity::Auto,
+            ..Request::default()
+        },
         law: None,
     };
     let far = |latents: &Latents, factor: f32| Latents::whole(latents.slide.map(|x| factor * x));

@@ -4,6 +4,7 @@ use asperity::{
     attributes::Attributes,
     edit::{How, Latents, Studio},
     inference::Backend,
+    pipeline::Request,
     prompt::Author,
     reduce::Fidelity,
 };
@@ -36,9 +37,10 @@ fn latents(prompt: &str) -> Latents {
 /// The smallest step of an edit in the ways that it should go, in what a person notices.
 fn step(studio: &Studio<'_>, line: &str) -> f64 {
     let how = How {
-        fidelity: Fidelity::Auto,
-        rate_hz: None,
-        preview_px: None,
+        request: Request {
+            fidelity: Fidelity::Auto,
+            ..Request::default()
+        },
         law: None,
     };
     let fields: Vec<&str> = line.split('\t').collect();

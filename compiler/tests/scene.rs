@@ -5,8 +5,8 @@ use asperity::{
     builtin,
     inference::Backend,
     lower::lower,
+    pipeline::Request,
     prompt::{Author, Options},
-    reduce::Fidelity,
     render::render_scene,
     scene::{Budget, Built, Description, SceneError, build},
 };
@@ -368,9 +368,7 @@ fn the_documented_scene_builds() {
     let author = Author::embedded(&Backend::Portable).unwrap();
     let options = |seed| Options {
         seed,
-        fidelity: Fidelity::Full,
-        preview: false,
-        ..Options::default()
+        request: Request::default(),
     };
     let budget = Budget {
         share: 0.05,

@@ -5,8 +5,8 @@ use asperity::{
     embedded, hatt,
     inference::Backend,
     model::{Provenance, TextureModel},
-    model_file::{self, Options},
-    pipeline::{Pipeline, Settings},
+    model_file,
+    pipeline::{Pipeline, Request, Ringing},
     prompt::{self, Author},
     raise::raise,
     reduce::Fidelity,
@@ -15,9 +15,9 @@ use asperity_formats::Asset;
 use std::{fs, path::Path};
 
 /// The model in a file, as bytes that say what `direct` says of where they come from.
-fn through_a_file(whole: &TextureModel, settings: &Settings) -> Vec<u8> {
+fn through_a_file(whole: &TextureModel, request: &Request) -> Vec<u8> {
     let read = model_file::from_json(&model_file::to_json(whole)).expect("an emitted model");
-    let compiled = Pipeline::default().compile(read, settings);
+    let compiled = Pipeline::default().compile(read, request, Ringing::Refused);
     compiled
         .expect("a model that compiled before")
         .lowered
@@ -33,10 +33,10 @@ fn content(bytes: &[u8]) -> TextureModel {
 }
 
 /// Imports a model as a user does.
-fn imported(folder: &Path, whole: &TextureModel, options: &Options) -> hatt::Imported {
+fn imported(folder: &Path, whole: &TextureModel, request: &Request) -> hatt::Imported {
     let file = folder.join("model.json");
     fs::write(&file, model_file::to_json(whole)).expect("a file");
-    model_file::import(&file, options).expect("an emitted model")
+    model_file::import(&file, request).expect("an emitted model")
 }
 
 #[test]
@@ -48,28 +48,19 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
         ("coarse sandpaper", 3, Fidelity::Full, None),
         ("cork", 0, Fidelity::Order(8), Some(1500.0)),
     ] {
+        let request = Request {
+            fidelity,
+            rate_hz,
+            preview_px: None,
+        };
         let options = prompt::Options {
             seed,
-            fidelity,
-            rate_hz,
-            preview: false,
-            ..prompt::Options::default()
+            request: request.clone(),
         };
         let authored = author.author(prompt, &options).expect("a texture");
-        let settings = Settings {
-            rate_hz,
-            fidelity,
-            ..Settings::default()
-        };
-        let again = through_a_file(&authored.whole, &settings);
+        let again = through_a_file(&authored.whole, &request);
         assert_eq!(again, authored.lowered.bytes, "{prompt}");
-        let options = Options {
-            fidelity,
-            rate_hz,
-            preview: false,
-            preview_px: asperity::preview::SIZE,
-        };
-        let imported = imported(folder.path(), &authored.whole, &options);
+        let imported = imported(folder.path(), &authored.whole, &request);
         assert_eq!(content(&imported.bytes), content(&authored.lowered.bytes));
         let asset = Asset::parse(&imported.bytes).expect("an asset");
         let provenance = asset.provenance().expect("provenance");
@@ -87,10 +78,7 @@ fn a_stabilised_texture_is_emitted_as_it_was_verified() {
     let model = asperity::learned::LearnedModel::load(embedded::model(), &Backend::Portable);
     let author = Author::new(text, model.expect("the shipped model")).expect("they fit");
     let model = author.model();
-    let settings = Settings {
-        stabilise: true,
-        ..Settings::default()
-    };
+    let request = Request::default();
     let found = (0..4000_u32).find_map(|number| {
         let z = std::array::from_fn(|k| {
             let mixed = (number * 31 + k as u32).wrapping_mul(2_654_435_761);
@@ -104,11 +92,11 @@ fn a_stabilised_texture_is_emitted_as_it_was_verified() {
             "far".into(),
             Provenance::default(),
         );
-        let compiled = Pipeline::default().compile(texture, &settings);
+        let compiled = Pipeline::default().compile(texture, &request, Ringing::Stabilised);
         compiled.ok().filter(|compiled| compiled.stabilised > 0.0)
     });
     let compiled = found.expect("a latent that rings");
-    let again = through_a_file(&compiled.whole, &Settings::default());
+    let again = through_a_file(&compiled.whole, &request);
     assert_eq!(again, compiled.lowered.bytes);
 }
 
@@ -122,19 +110,13 @@ fn a_material_gives_the_same_bytes_through_a_file() {
     for file in asperity_tests::hatt::materials().into_iter().take(5) {
         for fidelity in [Fidelity::Full, Fidelity::Order(7)] {
             let direct = hatt::import_at(&file, None, fidelity).expect("a material");
-            let settings = Settings {
+            let request = Request {
                 fidelity,
-                ..Settings::default()
+                ..Request::default()
             };
-            let again = through_a_file(&direct.whole, &settings);
+            let again = through_a_file(&direct.whole, &request);
             assert_eq!(again, direct.bytes, "{}", file.display());
-            let options = Options {
-                fidelity,
-                rate_hz: None,
-                preview: false,
-                preview_px: asperity::preview::SIZE,
-            };
-            let imported = imported(folder.path(), &direct.whole, &options);
+            let imported = imported(folder.path(), &direct.whole, &request);
             assert_eq!(content(&imported.bytes), content(&direct.bytes));
         }
     }
@@ -144,13 +126,12 @@ fn a_material_gives_the_same_bytes_through_a_file() {
 fn the_example_of_the_documentation_compiles() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/data/corduroy.json");
     for (fidelity, preview) in [(Fidelity::Full, true), (Fidelity::Auto, false)] {
-        let options = Options {
+        let request = Request {
             fidelity,
             rate_hz: None,
-            preview,
-            preview_px: asperity::preview::SIZE,
+            preview_px: preview.then_some(asperity::preview::SIZE),
         };
-        let imported = model_file::import(Path::new(file), &options).expect("the example");
+        let imported = model_file::import(Path::new(file), &request).expect("the example");
         let limit_db = if fidelity == Fidelity::Full { 0.1 } else { 1.0 };
         assert!(
             imported.report.error.max_db < limit_db,

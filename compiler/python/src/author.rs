@@ -8,6 +8,7 @@ use crate::{
 use asperity::{
     edit, embedded,
     inference::{Backend, BackendName},
+    pipeline::Request,
     prompt::{self, Authored, Options, PromptError},
     text::{TextEncoder, TextEncoderChoice, clip::Clip},
 };
@@ -209,10 +210,11 @@ fn author(
 fn options(seed: Seed, fidelity: Fidelity, rate_hz: Option<f64>, preview: bool) -> Options {
     Options {
         seed: seed.0,
-        fidelity: fidelity.0,
-        rate_hz,
-        preview,
-        ..Options::default()
+        request: Request {
+            fidelity: fidelity.0,
+            rate_hz,
+            preview_px: preview.then_some(asperity::preview::SIZE),
+        },
     }
 }
 

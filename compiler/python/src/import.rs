@@ -8,8 +8,8 @@ use crate::{
 };
 use asperity::{
     hatt,
-    model_file::{self, ModelFileError, ModelFileProblem, Options},
-    pipeline::{Pipeline, Settings},
+    model_file::{self, ModelFileError, ModelFileProblem},
+    pipeline::{Pipeline, Request, Ringing},
 };
 use pyo3::{IntoPyObjectExt as _, prelude::*};
 use std::path::PathBuf;
@@ -122,13 +122,12 @@ pub(crate) fn import_model(
     rate: Option<f64>,
     preview: bool,
 ) -> Result<Texture, Failure> {
-    let options = Options {
+    let request = Request {
         fidelity: fidelity.0,
         rate_hz: rate,
-        preview,
-        preview_px: asperity::preview::SIZE,
+        preview_px: preview.then_some(asperity::preview::SIZE),
     };
-    let imported = py.detach(|| model_file::import(&path, &options).map_err(refused))?;
+    let imported = py.detach(|| model_file::import(&path, &request).map_err(refused))?;
     let report = imported.json().to_string();
     Texture::made(imported.bytes, Some(report))
 }
@@ -152,7 +151,7 @@ pub(crate) fn builtin(py: Python<'_>) -> Result<Texture, Failure> {
         let whole = asperity::builtin::texture();
         let mut pipeline = Pipeline::default();
         let compiled = pipeline
-            .compile(whole, &Settings::default())
+            .compile(whole, &Request::default(), Ringing::Refused)
             .map_err(error::pipeline)?;
         Ok::<_, Failure>(compiled.lowered.bytes)
     })?;

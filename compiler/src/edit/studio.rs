@@ -20,7 +20,7 @@ use crate::{
         attributes::{self, Attributes},
     },
     passes::reduce::Fidelity,
-    pipeline::{Compiled, Pass, Pipeline, Preview, Settings, Timings},
+    pipeline::{Compiled, Pass, Pipeline, Request, Ringing, Timings},
     views::preview,
 };
 use asperity_formats::Asset;
@@ -36,12 +36,8 @@ pub struct Studio<'a> {
 /// How an asset is compiled once its latents are known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct How {
-    /// How much of the model the asset keeps.
-    pub fidelity: Fidelity,
-    /// Rate of the AR models, Hz; the decoder's own if `None`.
-    pub rate_hz: Option<f64>,
-    /// Width and height of the preview, pixels; none is drawn if `None`.
-    pub preview_px: Option<u32>,
+    /// What is asked of any texture; the rate is the decoder's own if `None`.
+    pub request: Request,
     /// How friction depends on speed, of which latents say nothing: its factors multiply what they
     /// say of μ.
     pub law: Option<FrictionLaw>,
@@ -132,12 +128,14 @@ impl<'a> Studio<'a> {
         let rate_hz = f64::from(asset.grid().sample_rate_hz());
         let own_hz = self.author.model().description().grid.sample_rate_hz;
         How {
-            fidelity: fidelity.and_then(Result::ok).unwrap_or(Fidelity::Auto),
-            rate_hz: (rate_hz != own_hz).then_some(rate_hz),
-            // What is no picture of a known size is drawn at the usual one.
-            preview_px: asset
-                .preview_png()
-                .map(|png| preview::width(png).unwrap_or(preview::SIZE)),
+            request: Request {
+                fidelity: fidelity.and_then(Result::ok).unwrap_or(Fidelity::Auto),
+                rate_hz: (rate_hz != own_hz).then_some(rate_hz),
+                // What is no picture of a known size is drawn at the usual one.
+                preview_px: asset
+                    .preview_png()
+                    .map(|png| preview::width(png).unwrap_or(preview::SIZE)),
+            },
             law: raise::law(asset),
         }
     }
@@ -222,10 +220,10 @@ impl<'a> Studio<'a> {
     pub fn kept_attributes(&self, latents: &Latents, how: &How) -> Result<Attributes, EditError> {
         let mut pipeline = Pipeline::default();
         let mut texture = self.texture(latents, "", Provenance::default())?;
-        if let Some(rate_hz) = how.rate_hz {
+        if let Some(rate_hz) = how.request.rate_hz {
             texture = pipeline.rerate(texture, rate_hz)?;
         }
-        let kept = pipeline.reduce(&texture, how.fidelity).texture;
+        let kept = pipeline.reduce(&texture, how.request.fidelity).texture;
         Ok(attributes::of(&kept))
     }
 
@@ -249,19 +247,14 @@ impl<'a> Studio<'a> {
         if let Some(level_db) = history.loudness_db {
             equal_loudness(&mut texture, level_db);
         }
-        let settings = Settings {
-            rate_hz: how.rate_hz,
-            fidelity: how.fidelity,
-            preview: how.preview_px.map(|size_px| Preview { size_px }),
-            stabilise: true,
-        };
+        let compiled = pipeline.compile(texture, &how.request, Ringing::Stabilised);
         let Compiled {
             whole,
             texture,
             lowered,
             stabilised,
             ..
-        } = pipeline.compile(texture, &settings)?;
+        } = compiled?;
         let memory = Memory {
             model_crc32: self.model_crc32,
             latents: *latents,

@@ -4,7 +4,7 @@ use crate::{
     back_end::{lower::ErrorSummary, raise::raise, verify::VerifyError},
     model::{ModelGrid, TextureModel},
     passes::reduce::{self, Fidelity, Reference},
-    pipeline::{Compiled, Pass, Pipeline, PipelineError, Settings, Timings},
+    pipeline::{Compiled, Pass, Pipeline, PipelineError, Request, Ringing, Timings},
     signal::spectrum::{ArmaModel, log_spectral_distance_db},
 };
 use asperity_formats::Asset;
@@ -141,11 +141,12 @@ impl Pipeline {
     pub(crate) fn import(
         &mut self,
         whole: TextureModel,
-        settings: &Settings,
+        request: &Request,
+        ringing: Ringing,
         truth: &Truth,
     ) -> Result<Imported, PipelineError> {
-        let mut compiled = self.compile(whole, settings)?;
-        let fidelity = settings.fidelity;
+        let mut compiled = self.compile(whole, request, ringing)?;
+        let fidelity = request.fidelity;
         let errors_db = self.run(Pass::Compare, || truth.distances(&mut compiled, fidelity))?;
         Ok(Imported {
             report: Report::new(&compiled, fidelity, &errors_db),

@@ -343,10 +343,10 @@ fn keys(
                 .text(&pinned.asperity)
                 .text(&entry.name)
                 .part(place.as_ref().map_or(&[][..], |key| key.bytes()))
-                .text(&options.fidelity.to_string())
-                .number(options.rate_hz.unwrap_or(0.0))
+                .text(&options.request.fidelity.to_string())
+                .number(options.request.rate_hz.unwrap_or(0.0))
                 .number(options.loudness_db.unwrap_or(f64::INFINITY))
-                .part(&options.preview_px.unwrap_or(0).to_le_bytes())
+                .part(&options.request.preview_px.unwrap_or(0).to_le_bytes())
                 .key()
         })
         .collect())
@@ -358,8 +358,8 @@ fn edited(parts: Parts, options: &Options) -> Parts {
         return parts;
     }
     let parts = parts
-        .text(&options.fidelity.to_string())
-        .number(options.rate_hz.unwrap_or(0.0));
+        .text(&options.request.fidelity.to_string())
+        .number(options.request.rate_hz.unwrap_or(0.0));
     match &options.edit {
         Edit::Steps(sliders) => AXES
             .into_iter()

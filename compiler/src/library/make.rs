@@ -15,9 +15,7 @@ use crate::{
     },
     front_ends::{hatt, model_file, prompt},
     model::{FrictionLaw, Provenance, TextureModel, attributes},
-    passes::reduce::Fidelity,
-    pipeline::{Pipeline, Preview, Settings, Timings},
-    views::preview,
+    pipeline::{Pipeline, Request, Ringing, Timings},
 };
 use asperity_formats::Asset;
 use std::{
@@ -288,9 +286,11 @@ impl<'a> Maker<'a> {
         Ok(match &entry.origin {
             Origin::Prompt(text) => {
                 let options = prompt::Options {
-                    preview: false,
-                    fidelity: Fidelity::Full,
-                    ..prompt_options(&entry.options)
+                    seed: entry.options.seed,
+                    request: Request {
+                        rate_hz: entry.options.request.rate_hz,
+                        ..Request::default()
+                    },
                 };
                 let authored = studio.author().author(text, &options).map_err(cause)?;
                 Known {
@@ -352,9 +352,7 @@ impl<'a> Maker<'a> {
 
 fn how(options: &Options, law: Option<FrictionLaw>) -> How {
     How {
-        fidelity: options.fidelity,
-        rate_hz: options.rate_hz,
-        preview_px: options.preview_px,
+        request: options.request.clone(),
         law,
     }
 }
@@ -362,10 +360,7 @@ fn how(options: &Options, law: Option<FrictionLaw>) -> How {
 fn prompt_options(options: &Options) -> prompt::Options {
     prompt::Options {
         seed: options.seed,
-        fidelity: options.fidelity,
-        rate_hz: options.rate_hz,
-        preview: options.preview_px.is_some(),
-        preview_px: options.preview_px.unwrap_or(preview::SIZE),
+        request: options.request.clone(),
     }
 }
 
@@ -375,13 +370,9 @@ fn whole(file: &Path) -> Result<TextureModel, Cause> {
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("json"));
     if is_model {
-        let options = model_file::Options {
-            fidelity: Fidelity::Full,
-            rate_hz: None,
-            preview: false,
-            preview_px: preview::SIZE,
-        };
-        Ok(model_file::import(file, &options).map_err(cause)?.whole)
+        Ok(model_file::import(file, &Request::default())
+            .map_err(cause)?
+            .whole)
     } else {
         Ok(hatt::import(file, None).map_err(cause)?.whole)
     }
@@ -395,13 +386,9 @@ fn imported(entry: &Entry, file: &Path) -> Result<Finished, Cause> {
         equal_loudness(&mut texture, level_db);
     }
     let mut pipeline = Pipeline::default();
-    let settings = Settings {
-        rate_hz: options.rate_hz,
-        fidelity: options.fidelity,
-        preview: options.preview_px.map(|size_px| Preview { size_px }),
-        stabilise: false,
-    };
-    let compiled = pipeline.compile(texture, &settings).map_err(cause)?;
+    let compiled = pipeline
+        .compile(texture, &options.request, Ringing::Refused)
+        .map_err(cause)?;
     let asked_s2_m = compiled.whole.gains.vib_s2_m;
     let haptic_bytes = compiled.lowered.haptic_bytes;
     Ok(Finished {

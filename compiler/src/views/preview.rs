@@ -146,7 +146,7 @@ mod tests {
     use crate::{
         back_end::{lower::lower, raise::raise},
         front_ends::builtin,
-        pipeline::{Pipeline, Preview, Settings},
+        pipeline::{Pipeline, Request, Ringing},
     };
     use asperity_formats::Asset;
 
@@ -158,12 +158,12 @@ mod tests {
 
     #[test]
     fn a_picture_is_drawn_again_from_the_asset_that_holds_it() {
-        let settings = Settings {
-            preview: Some(Preview::default()),
-            ..Settings::default()
+        let request = Request {
+            preview_px: Some(SIZE),
+            ..Request::default()
         };
         let compiled = Pipeline::default()
-            .compile(named("cork"), &settings)
+            .compile(named("cork"), &request, Ringing::Refused)
             .unwrap();
         let asset = Asset::parse(&compiled.lowered.bytes).unwrap();
         let kept = asset.preview_png().unwrap();

@@ -5,7 +5,7 @@ use asperity::{
     learned::{Latent, texture},
     level, lsf,
     model::Provenance,
-    pipeline::{Pipeline, Settings},
+    pipeline::{Pipeline, Request, Ringing},
     reduce::Fidelity,
 };
 use asperity_tests::size::sized_or;
@@ -68,12 +68,11 @@ fn any_latent_is_a_stable_texture_within_bounds() {
             "{number}"
         );
         if number.is_multiple_of(VERIFIED_EVERY) {
-            let settings = Settings {
+            let request = Request {
                 fidelity: Fidelity::Auto,
-                stabilise: true,
-                ..Settings::default()
+                ..Request::default()
             };
-            let compiled = Pipeline::default().compile(texture, &settings);
+            let compiled = Pipeline::default().compile(texture, &request, Ringing::Stabilised);
             let compiled = compiled.unwrap_or_else(|error| panic!("{number}: {error}"));
             if compiled.stabilised > 0.0 {
                 stabilised.fetch_add(1, Ordering::Relaxed);

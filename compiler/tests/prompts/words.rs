@@ -3,7 +3,7 @@
 use super::AUTHOR;
 use asperity::{
     attributes::{self, Attributes},
-    pipeline::PipelineError,
+    pipeline::{PipelineError, Request},
     prompt::{Options, PromptError},
     reduce::Fidelity,
 };
@@ -16,10 +16,7 @@ use toml::Value;
 const LEAST_SHARES: [(&str, f64); 3] = [("rough", 0.97), ("slippery", 0.93), ("hard", 0.93)];
 
 fn plain() -> Options {
-    Options {
-        preview: false,
-        ..Options::default()
-    }
+    Options::default().without_preview()
 }
 
 /// Attributes of the decoder's own texture: neither reduced nor lowered.
@@ -116,9 +113,12 @@ fn a_seed_varies_a_texture_without_leaving_the_material() {
 fn fidelity_sets_the_order_and_rate_the_clock() {
     let with = |fidelity, rate_hz| {
         let options = Options {
-            fidelity,
-            rate_hz,
-            ..plain()
+            seed: 0,
+            request: Request {
+                fidelity,
+                rate_hz,
+                preview_px: None,
+            },
         };
         AUTHOR.author("denim", &options).unwrap().texture.grid
     };
@@ -126,10 +126,8 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
     assert_eq!(with(Fidelity::Order(5), None).order, 5);
     assert!(with(Fidelity::Auto, None).order < 21);
     assert_eq!(with(Fidelity::Auto, Some(1500.0)).sample_rate_hz, 1500.0);
-    let absurd = Options {
-        rate_hz: Some(f64::NAN),
-        ..plain()
-    };
+    let mut absurd = plain();
+    absurd.request.rate_hz = Some(f64::NAN);
     assert!(matches!(
         AUTHOR.author("denim", &absurd),
         Err(PromptError::Pipeline(PipelineError::Rate(_)))

@@ -3,9 +3,8 @@
 use super::{inference, timings};
 use crate::cli::Build;
 use asperity::{
-    pipeline::{Pass, Pipeline},
+    pipeline::{Pass, Pipeline, Request},
     prompt::{Author, Authored, Options, PromptError},
-    reduce::Fidelity,
     scene::{self, Budget, Description, Origin, Prompter},
 };
 use asperity_console::Console;
@@ -113,9 +112,7 @@ pub(crate) fn run(
 fn whole(author: &Author, prompt: &str, seed: u64) -> Result<Authored, PromptError> {
     let options = Options {
         seed,
-        fidelity: Fidelity::Full,
-        preview: false,
-        ..Options::default()
+        request: Request::default(),
     };
     author.author(prompt, &options)
 }

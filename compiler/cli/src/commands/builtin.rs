@@ -4,7 +4,7 @@ use super::{outputs::TextureOutputs, timings};
 use crate::cli::Builtin;
 use asperity::{
     builtin,
-    pipeline::{Pass, Pipeline, Settings},
+    pipeline::{Pass, Pipeline, Request, Ringing},
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
@@ -15,7 +15,7 @@ pub(crate) fn run(args: &Builtin, console: Console) -> Result<(), Failures> {
     let mut pipeline = Pipeline::default();
     let texture = pipeline.run(Pass::Generate, builtin::texture);
     let compiled = pipeline
-        .compile(texture, &Settings::default())
+        .compile(texture, &Request::default(), Ringing::Refused)
         .map_err(one)?;
     outputs.model(&compiled.whole);
     outputs.write(&compiled.lowered.bytes, &mut pipeline)?;

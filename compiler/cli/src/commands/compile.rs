@@ -5,7 +5,7 @@ use crate::cli::Compile;
 use asperity::{
     diffusion::framed,
     edit::{EditError, Studio, explain, remember_prompt},
-    pipeline::{Pipeline, PipelineError},
+    pipeline::{Pipeline, PipelineError, Request},
     prompt::{self, Options},
 };
 use asperity_console::Console;
@@ -24,12 +24,15 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     let sheet = outputs.open_if(args.plot.as_deref())?;
     let console = outputs.console(console);
     let author = inference::author(&args.inference)?;
+    // One that is painted takes its place.
+    let is_drawn = !args.no_preview && args.diffusion.diffusion.is_none();
     let options = Options {
         seed: args.seed,
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview: !args.no_preview && args.diffusion.diffusion.is_none(),
-        preview_px: args.preview_size,
+        request: Request {
+            fidelity: args.fidelity,
+            rate_hz: args.rate,
+            preview_px: is_drawn.then_some(args.preview_size),
+        },
     };
     let mut authored = author.author(&args.prompt, &options).map_err(one)?;
     let mut painted = None;

@@ -4,7 +4,7 @@ use super::{outputs::TextureOutputs, timings};
 use crate::cli::ImportEffects;
 use asperity::{
     effects::{self, Kind, Options},
-    pipeline::Pipeline,
+    pipeline::{Pipeline, Request},
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
@@ -20,9 +20,11 @@ pub(crate) fn run(args: &ImportEffects, kind: Kind, console: Console) -> Result<
         tap_full_scale_m_s2: f64::from(args.tap_full_scale),
         tap_speed_m_s: f64::from(args.tap_speed),
         mu: f64::from(args.mu),
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview_px: (!args.no_preview).then_some(args.preview_size),
+        request: Request {
+            fidelity: args.fidelity,
+            rate_hz: args.rate,
+            preview_px: (!args.no_preview).then_some(args.preview_size),
+        },
     };
     let (imported, warnings) = effects::import(&args.input, kind, &options).map_err(one)?;
     let mut pipeline = Pipeline::default();

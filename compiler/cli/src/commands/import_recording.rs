@@ -2,7 +2,11 @@
 
 use super::{inference, outputs::TextureOutputs, timings};
 use crate::cli::ImportRecording;
-use asperity::recording::{self, Options, RecordingFailure};
+use asperity::{
+    pipeline::Request,
+    preview,
+    recording::{self, Options, RecordingFailure},
+};
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 use asperity_recording::check::Severity;
@@ -17,9 +21,11 @@ pub(crate) fn run(args: &ImportRecording, console: Console) -> Result<(), Failur
     let console = outputs.console(console);
     let model = inference::completer(args.model.as_deref())?;
     let options = Options {
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview: !args.no_preview,
+        request: Request {
+            fidelity: args.fidelity,
+            rate_hz: args.rate,
+            preview_px: (!args.no_preview).then_some(preview::SIZE),
+        },
         force: args.force,
     };
     let activity = console.activity();

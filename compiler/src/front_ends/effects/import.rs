@@ -8,8 +8,8 @@ use crate::{
     },
     interchange::{EffectError, EffectProblem, ahap, haptic, hjif, playback::Track},
     model::{Friction, ModelGrid, Numerator, Provenance, TapBank, TextureModel, defaults},
-    passes::{reduce::Fidelity, triangulate},
-    pipeline::{Pass, Pipeline, PipelineError, Preview, Settings},
+    passes::triangulate,
+    pipeline::{Pass, Pipeline, PipelineError, Request, Ringing},
     signal::tap_synthesis,
 };
 use asperity_formats::limits::MAX_NAME_BYTES;
@@ -67,12 +67,8 @@ pub struct Options {
     pub tap_speed_m_s: f64,
     /// Coefficient of friction, of which the file says nothing.
     pub mu: f64,
-    /// How much of the model the asset keeps.
-    pub fidelity: Fidelity,
-    /// Rate of the AR models, Hz; 1000 if `None`.
-    pub rate_hz: Option<f64>,
-    /// Width and height of the preview, pixels; none is drawn if `None`.
-    pub preview_px: Option<u32>,
+    /// What is asked of any texture.
+    pub request: Request,
 }
 
 /// Imports a file: read, play, model, compile, compare. The strings are what a user should know.
@@ -133,15 +129,14 @@ pub fn import(
         .to_string_lossy()
         .into_owned();
     whole.provenance.source_crc32 = crc32;
-    let settings = Settings {
-        rate_hz: options.rate_hz,
-        fidelity: options.fidelity,
-        preview: options.preview_px.map(|size_px| Preview { size_px }),
-        stabilise: true,
-    };
     let failed = |cause: PipelineError| fail(String::new(), cause.into());
     let imported = pipeline
-        .import(whole, &settings, &Truth::Texture)
+        .import(
+            whole,
+            &options.request,
+            Ringing::Stabilised,
+            &Truth::Texture,
+        )
         .map_err(failed)?;
     Ok((imported, warnings))
 }

@@ -6,7 +6,7 @@ use crate::{
     front_ends::{builtin, imported::Imported},
     interchange::{self, ClipFormat, session},
     model::mixture::Field,
-    passes::reduce::Fidelity,
+    pipeline::Request,
     signal::spectrum::ArmaModel,
 };
 use asperity_formats::Asset;
@@ -21,9 +21,7 @@ pub(crate) fn options() -> Options {
         tap_full_scale_m_s2: 50.0,
         tap_speed_m_s: 0.3,
         mu: 0.5,
-        fidelity: Fidelity::Full,
-        rate_hz: None,
-        preview_px: None,
+        request: Request::default(),
     }
 }
 

@@ -13,7 +13,7 @@ use crate::{
     },
     model::TextureModel,
     passes::reduce::Fidelity,
-    pipeline::{Pass, Pipeline, Settings},
+    pipeline::{Pass, Pipeline, Request, Ringing},
     signal::spectrum::ArmaModel,
 };
 use asperity_io::input::{self, InputProblem, Kind};
@@ -121,12 +121,12 @@ pub fn import_at(
                 cause,
             })?;
     }
-    let settings = Settings {
+    let request = Request {
         fidelity,
-        ..Settings::default()
+        ..Request::default()
     };
     let mut imported = pipeline
-        .import(whole, &settings, &truth(&material))
+        .import(whole, &request, Ringing::Refused, &truth(&material))
         .map_err(|cause| ImportError::Pipeline {
             file: file.to_owned(),
             cause,

@@ -15,6 +15,6 @@ mod tests;
 
 pub use emit::to_json;
 pub use error::{ModelFileError, ModelFileProblem};
-pub use import::{Options, import};
+pub use import::import;
 pub use read::{from_json, read};
 pub use schema::{FORMAT, VERSION};

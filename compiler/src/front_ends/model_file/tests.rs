@@ -5,7 +5,7 @@ use crate::{
     front_ends::builtin,
     model::{FrictionLaw, LawPoint, Numerator, TextureModel, defaults, mesh},
     passes::reduce::Fidelity,
-    pipeline::{Pipeline, Settings},
+    pipeline::{Pipeline, Request, Ringing},
 };
 use asperity_io::input::{InputProblem, Kind};
 use serde_json::{Value, json};
@@ -109,16 +109,20 @@ fn a_model_reads_back_to_the_bit() {
 fn a_model_read_back_gives_the_same_bytes_at_every_setting() {
     for fidelity in [Fidelity::Full, Fidelity::Auto, Fidelity::Order(6)] {
         for rate_hz in [None, Some(1500.0)] {
-            let settings = Settings {
+            let request = Request {
                 rate_hz,
                 fidelity,
-                ..Settings::default()
+                ..Request::default()
             };
-            let compile = |texture| Pipeline::default().compile(texture, &settings).unwrap();
+            let compile = |texture| {
+                Pipeline::default()
+                    .compile(texture, &request, Ringing::Refused)
+                    .unwrap()
+            };
             let direct = compile(builtin::texture());
             // What is emitted is the whole texture, already at the wanted rate.
             let again = compile(from_json(&to_json(&direct.whole)).unwrap());
-            assert_eq!(again.lowered.bytes, direct.lowered.bytes, "{settings:?}");
+            assert_eq!(again.lowered.bytes, direct.lowered.bytes, "{request:?}");
         }
     }
 }
@@ -149,7 +153,7 @@ fn what_a_file_leaves_out_is_triangulated_or_set_to_a_default() {
     assert!(texture.taps.traces.is_empty() && texture.friction.anchors.is_empty());
     assert!(texture.provenance.notes.contains("unconfirmed"));
     Pipeline::default()
-        .compile(texture, &Settings::default())
+        .compile(texture, &Request::default(), Ringing::Refused)
         .unwrap();
 }
 
@@ -428,7 +432,7 @@ fn the_longest_provenance_fits_an_asset() {
         top["provenance"][key] = json!("ä".repeat(1536));
     }
     let texture = from(&long).unwrap();
-    let compiled = Pipeline::default().compile(texture, &Settings::default());
+    let compiled = Pipeline::default().compile(texture, &Request::default(), Ringing::Refused);
     assert!(compiled.is_ok(), "{compiled:?}");
 }
 

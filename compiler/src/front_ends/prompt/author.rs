@@ -19,7 +19,7 @@ use crate::{
         text::TextEncoder,
     },
     model::{Provenance, TextureModel, attributes},
-    pipeline::{Compiled, Pass, Pipeline, Preview, Settings},
+    pipeline::{Compiled, Pass, Pipeline, Ringing},
 };
 use std::{path::Path, sync::Arc};
 
@@ -155,15 +155,8 @@ impl Author {
         let (mut texture, neighbours) = self.named(&decoded, &z, prompt, options.seed);
         adjust::adjust(&mut texture, &shift);
         let nearest = self.nearest(&neighbours);
-        let settings = Settings {
-            rate_hz: options.rate_hz,
-            fidelity: options.fidelity,
-            preview: options.preview.then_some(Preview {
-                size_px: options.preview_px,
-            }),
-            // Latents far from anything trained can decode to models that ring.
-            stabilise: true,
-        };
+        // Latents far from anything trained can decode to models that ring.
+        let compiled = pipeline.compile(texture, &options.request, Ringing::Stabilised);
         let Compiled {
             whole,
             texture,
@@ -172,7 +165,7 @@ impl Author {
             lowered,
             verified,
             stabilised,
-        } = pipeline.compile(texture, &settings)?;
+        } = compiled?;
         Ok(Authored {
             attributes: attributes::of(&texture),
             whole,

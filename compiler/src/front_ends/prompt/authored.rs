@@ -6,7 +6,8 @@ use crate::{
     front_ends::learned::Latent,
     model::{TextureModel, attributes::Attributes},
     passes::reduce::{self, Fidelity},
-    pipeline::Timings,
+    pipeline::{Request, Timings},
+    views::preview,
 };
 
 /// What a user can ask of a texture besides its prompt.
@@ -15,25 +16,30 @@ pub struct Options {
     /// 0 for the texture that the prompt means. Other seeds give variations of it, as another
     /// piece of the same material varies.
     pub seed: u64,
-    /// How much of the model the asset keeps.
-    pub fidelity: Fidelity,
-    /// Rate of the AR models, Hz; the decoder's own if `None`.
-    pub rate_hz: Option<f64>,
-    /// Whether a preview is drawn.
-    pub preview: bool,
-    /// Width and height of the preview, pixels.
-    pub preview_px: u32,
+    /// What is asked of any texture; the rate is the decoder's own if `None`.
+    pub request: Request,
 }
 
+/// At fidelity `auto`, with a preview of the usual size.
 impl Default for Options {
     fn default() -> Self {
         Self {
             seed: 0,
-            fidelity: Fidelity::Auto,
-            rate_hz: None,
-            preview: true,
-            preview_px: crate::views::preview::SIZE,
+            request: Request {
+                fidelity: Fidelity::Auto,
+                preview_px: Some(preview::SIZE),
+                ..Request::default()
+            },
         }
+    }
+}
+
+impl Options {
+    /// The same without a preview.
+    #[must_use]
+    pub fn without_preview(mut self) -> Self {
+        self.request.preview_px = None;
+        self
     }
 }
 

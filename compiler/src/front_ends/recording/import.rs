@@ -9,22 +9,16 @@ use super::{
 use crate::{
     front_ends::imported::{Imported, Report, Truth},
     learned::LearnedModel,
-    model::{TextureModel, defaults},
-    passes::reduce::Fidelity,
-    pipeline::{Pass, Pipeline, PipelineError, Preview, Settings},
-    views::preview,
+    model::{Numerator, TextureModel, defaults},
+    pipeline::{Pass, Pipeline, PipelineError, Request, Ringing},
 };
 use std::path::Path;
 
 /// What a user can ask of an import.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// How much of the model the asset keeps.
-    pub fidelity: Fidelity,
-    /// Rate of the AR models, Hz; that of the analysis, 1 kHz, if `None`.
-    pub rate_hz: Option<f64>,
-    /// Whether a preview is drawn.
-    pub preview: bool,
+    /// What is asked of any texture; the rate of the analysis is 1 kHz.
+    pub request: Request,
     /// Whether faults of the recording are let pass.
     pub force: bool,
 }
@@ -63,13 +57,9 @@ pub fn import(
         complete(model, &analysis.fit.grid, &defaults::gains())
     })?;
     let (whole, sources) = texture(&analysis, &completed, crc32(&analysis));
-    let settings = Settings {
-        rate_hz: options.rate_hz,
-        fidelity: options.fidelity,
-        preview: options.preview.then_some(Preview {
-            size_px: preview::SIZE,
-        }),
-        stabilise: whole.grid.numerator == crate::model::Numerator::Nyquist,
+    let ringing = match whole.grid.numerator {
+        Numerator::Nyquist => Ringing::Stabilised,
+        _ => Ringing::Refused,
     };
     let fail = |cause: PipelineError| RecordingFailure::Pipeline {
         folder: folder.to_owned(),
@@ -81,7 +71,7 @@ pub fn import(
         whole,
         ..
     } = pipeline
-        .import(whole, &settings, &Truth::Texture)
+        .import(whole, &options.request, ringing, &Truth::Texture)
         .map_err(fail)?;
     Ok(RecordingImport {
         bytes,

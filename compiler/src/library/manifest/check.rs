@@ -6,7 +6,7 @@ use super::{
     row::{Field, Row, Value},
     values::{Checker, OPTIONS, Stated},
 };
-use crate::{front_ends::prompt, passes::reduce::Fidelity, views::preview};
+use crate::{front_ends::prompt, passes::reduce::Fidelity, pipeline::Request, views::preview};
 use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::input::{self, InputProblem, Kind};
 use std::{fs, io, path::PathBuf};
@@ -330,16 +330,18 @@ fn options(stated: &Stated, own: &Stated, origin: &DraftOrigin) -> Options {
     let stated = if asset { own } else { stated };
     Options {
         seed: stated.seed.filter(|_| prompt).unwrap_or(0),
-        fidelity: stated.fidelity.unwrap_or(if import {
-            Fidelity::Full
-        } else {
-            Fidelity::Auto
-        }),
-        rate_hz: stated.rate_hz,
-        preview_px: match stated.preview_px {
-            None => (!import).then_some(preview::SIZE),
-            Some(0) => None,
-            size => size,
+        request: Request {
+            fidelity: stated.fidelity.unwrap_or(if import {
+                Fidelity::Full
+            } else {
+                Fidelity::Auto
+            }),
+            rate_hz: stated.rate_hz,
+            preview_px: match stated.preview_px {
+                None => (!import).then_some(preview::SIZE),
+                Some(0) => None,
+                size => size,
+            },
         },
         loudness_db: stated.loudness_db,
         edit: stated.edit.clone().filter(|_| !import).unwrap_or_default(),

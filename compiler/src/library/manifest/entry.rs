@@ -1,6 +1,6 @@
 //! A checked entry of a manifest.
 
-use crate::{edit::Sliders, passes::reduce::Fidelity};
+use crate::{edit::Sliders, pipeline::Request};
 use std::{
     fmt,
     path::{Path, PathBuf},
@@ -107,12 +107,8 @@ impl Origin {
 pub struct Options {
     /// 0 for what a prompt means, others for variations of it.
     pub seed: u64,
-    /// How much of the texture is kept.
-    pub fidelity: Fidelity,
-    /// Rate of the AR models, Hz; that of the source if `None`.
-    pub rate_hz: Option<f64>,
-    /// Width and height of the preview, pixels; none is drawn if `None`.
-    pub preview_px: Option<u32>,
+    /// What is asked of any texture.
+    pub request: Request,
     /// Level that the vibration is brought to, dB re 1 N RMS; none is.
     pub loudness_db: Option<f64>,
     /// What is moved after it was decoded.

@@ -69,7 +69,7 @@ pub(crate) fn run(
     }
     let mut manifest = Manifest::within(&args.scene, text, reach.clone()).map_err(boxed)?;
     for entry in &mut manifest.entries {
-        let size = &mut entry.options.preview_px;
+        let size = &mut entry.options.request.preview_px;
         *size = size
             .filter(|_| !args.no_preview)
             .map(|px| args.preview_size.unwrap_or(px));

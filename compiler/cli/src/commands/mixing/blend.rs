@@ -8,6 +8,7 @@ use crate::cli::Blend;
 use asperity::{
     edit::{History, How, Latents, Origin, Studio},
     model::FrictionLaw,
+    pipeline::Request,
     preview::SIZE,
 };
 use asperity_console::Console;
@@ -26,9 +27,11 @@ pub(crate) fn run(args: &Blend, console: Console) -> Result<(), Failures> {
     let own = studio.how(&a);
     let other = studio.how(&b);
     let how = How {
-        preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        request: Request {
+            preview_px: mixing.preview_px(own.request.preview_px.or(Some(SIZE))),
+            ..own.request
+        },
         law: FrictionLaw::between(own.law.as_ref(), other.law.as_ref(), args.t),
-        ..own
     };
     let name = mixing.name(&format!("{} – {}", a.name(), b.name()));
     let history = History::of(Origin::Blend {

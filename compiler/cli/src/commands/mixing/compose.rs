@@ -7,6 +7,7 @@ use super::{
 use crate::cli::Compose;
 use asperity::{
     edit::{History, How, Latents, Origin, Studio},
+    pipeline::Request,
     preview::SIZE,
     raise::law,
 };
@@ -28,9 +29,11 @@ pub(crate) fn run(args: &Compose, console: Console) -> Result<(), Failures> {
     let (of_friction, at_friction) = studio.source(&friction).map_err(failed)?;
     let own = studio.how(&slide);
     let how = How {
-        preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        request: Request {
+            preview_px: mixing.preview_px(own.request.preview_px.or(Some(SIZE))),
+            ..own.request
+        },
         law: law(&friction),
-        ..own
     };
     let name = mixing.name(&format!("{} tapped, {} slid", tap.name(), slide.name()));
     let latents = Latents::composed(&at_tap, &at_slide, &at_friction);

@@ -12,6 +12,7 @@ use asperity::{
         attributes_line,
     },
     model::Provenance,
+    pipeline::Request,
     raise::raise,
 };
 use asperity_console::Console;
@@ -41,7 +42,10 @@ pub(crate) fn run(args: &Edit, console: Console) -> Result<(), Failures> {
     let memory = studio.memory(&asset).map_err(failed)?;
     let own = studio.how(&asset);
     let how = How {
-        preview_px: mixing.preview_px(own.preview_px),
+        request: Request {
+            preview_px: mixing.preview_px(own.request.preview_px),
+            ..own.request
+        },
         ..own
     };
     let done = done(args, &sliders, &studio, memory, asset.name(), &how).map_err(failed)?;

@@ -8,6 +8,7 @@ use crate::cli::Encode;
 use asperity::{
     edit::{History, How, Origin, Part, Studio, encode},
     model::Provenance,
+    pipeline::Request,
     preview::SIZE,
     raise::raise,
     reduce::Fidelity,
@@ -34,8 +35,11 @@ pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
     let own = studio.how(&asset);
     let how = How {
         // A recording is kept in full; what is decoded is as compact as a prompt's texture.
-        fidelity: Fidelity::Auto,
-        preview_px: mixing.preview_px(own.preview_px.or(Some(SIZE))),
+        request: Request {
+            fidelity: Fidelity::Auto,
+            preview_px: mixing.preview_px(own.request.preview_px.or(Some(SIZE))),
+            ..own.request
+        },
         ..own
     };
     let provenance = Provenance {
