@@ -106,9 +106,10 @@ mod tests {
             effective_mass_kg: 0.08,
             f_max_n: 3.3,
         };
-        for fraction in [0.001, 0.05, 0.3, 1.0] {
+        for fraction in [0.02, 0.05, 0.3, 1.0] {
             let mut coupling = Coupling::<Float>::new(&stated, 0.6);
-            for tick in 0..200_000 {
+            // A decay without the grid reaches denormals after 90 time constants.
+            for tick in 0..6000 {
                 coupling.follow(&Coupling::NONE, Quantity::of(fraction));
                 let values = coupling.values();
                 for value in [
