@@ -1,4 +1,5 @@
-//! Approximations from + − × ÷ and √ alone, so that every platform gives the same bits.
+//! Approximations from + − × ÷ and √ alone, so that every platform that rounds to nearest gives the
+//! same bits.
 //!
 //! Coefficients are Chebyshev interpolants; the errors stated were measured over
 //! the whole range by the tests below.

@@ -283,6 +283,10 @@ static void of_exchanges(const unsigned char *library, size_t len) {
   EXPECT(FORMAT, asperity_preparer_load_asset(preparer, library, len, &error));
   EXPECT(NO_SUCH_TEXTURE, asperity_preparer_load_name(preparer, library, len, "no such thing", &error));
   EXPECT(NO_SUCH_TEXTURE, asperity_preparer_load_index(preparer, library, len, 99, &error));
+  CHECK(fesetround(FE_UPWARD) == 0);
+  EXPECT(ROUNDING, asperity_preparer_load_index(preparer, library, len, 0, &error));
+  EXPECT(ROUNDING, asperity_player_tick(renderer, player, &pressed, &output));
+  CHECK(fesetround(FE_TONEAREST) == 0);
   EXPECT(OK, asperity_preparer_load_index(preparer, library, len, 0, &error));
   EXPECT(BUSY, asperity_preparer_load_index(preparer, library, len, 0, &error));
   CHECK(strstr(error.message, "try again") != NULL);

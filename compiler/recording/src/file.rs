@@ -1,7 +1,7 @@
 //! Files that end, and lines that end: what else a path may lead to would be read for ever.
 
 use crate::error::{Problem, RecordingError};
-use asperity_io::input::Format;
+use asperity_io::input::{Format, HEAD};
 use std::{
     fs::File,
     io::{self, Read, Seek as _},
@@ -10,8 +10,6 @@ use std::{
 
 /// Longest line of a table, bytes.
 const MAX_LINE: usize = 64 * 1024;
-/// Bytes by which a format is told.
-const HEAD: u64 = 8192;
 
 /// Opens a regular file with something in it. Pipes, sockets and devices have no end and are refused,
 /// and so are files of other known formats than a recording has, by their names.
@@ -32,7 +30,7 @@ pub(crate) fn open(path: &Path) -> Result<File, RecordingError> {
     let mut file = File::open(path).map_err(unreadable)?;
     let mut start = Vec::new();
     (&mut file)
-        .take(HEAD)
+        .take(HEAD as u64)
         .read_to_end(&mut start)
         .and_then(|_| file.rewind())
         .map_err(unreadable)?;

@@ -68,18 +68,19 @@ pub struct Written {
     pub ticks: u64,
 }
 
-/// The thread that writes. Dropped before its end, it is waited for: it holds a temporary file.
+/// The way to the thread that writes, and the thread, until it has ended. Dropped before, it is
+/// waited for: it holds a temporary file.
 #[derive(Debug)]
-struct Writer {
-    to: Option<SyncSender<Batch>>,
-    thread: Option<JoinHandle<Result<Written, io::Error>>>,
-}
+struct Writer(Option<(SyncSender<Batch>, Writing)>);
+
+type Writing = JoinHandle<Result<Written, io::Error>>;
 
 impl Writer {
     /// Waits for the end of the thread.
     fn end(&mut self) -> Option<thread::Result<Result<Written, io::Error>>> {
-        drop(self.to.take());
-        self.thread.take().map(JoinHandle::join)
+        let (to, thread) = self.0.take()?;
+        drop(to);
+        Some(thread.join())
     }
 }
 
@@ -138,10 +139,7 @@ impl Recorder {
         Ok(Self {
             path: path.to_owned(),
             form,
-            writer: Writer {
-                to: Some(to),
-                thread: Some(thread.spawn(body).map_err(DeskError::Thread)?),
-            },
+            writer: Writer(Some((to, thread.spawn(body).map_err(DeskError::Thread)?))),
             next: Batch::default(),
             lost: 0,
             failure,
@@ -171,7 +169,7 @@ impl Recorder {
         if self.next.records.is_empty() {
             return;
         }
-        let Some(to) = &self.writer.to else {
+        let Some((to, _)) = &self.writer.0 else {
             return;
         };
         match to.try_send(std::mem::take(&mut self.next)) {
@@ -213,7 +211,7 @@ impl Recorder {
     /// [`DeskError::Record`].
     pub fn finish(mut self, lost: u64) -> Result<Written, DeskError> {
         self.next.lost = lost + self.lost;
-        if let Some(to) = &self.writer.to {
+        if let Some((to, _)) = &self.writer.0 {
             // The thread that is gone says why.
             let _ = to.send(self.next);
         }

@@ -14,7 +14,7 @@ const POINTERS: [&[u8]; 2] = [
 /// Most bytes of a pointer.
 pub(super) const POINTER_BYTES: u64 = 1024;
 /// Bytes in which the parts of an archive or the root of a document are looked for.
-pub(super) const HEAD: usize = 8192;
+pub const HEAD: usize = 8192;
 /// Keys of an object that are looked at.
 const KEYS: usize = 64;
 /// Header of a unit of an HMPG, bytes.

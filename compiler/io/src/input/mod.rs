@@ -18,7 +18,7 @@ mod tests;
 mod trailing_commas;
 mod xml;
 
-pub use format::Format;
+pub use format::{Format, HEAD};
 pub use kind::Kind;
 pub use open::{Opened, open, open_as};
 pub use patience::{MAX_SILENCE, MAX_WAIT};

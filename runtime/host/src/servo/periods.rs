@@ -78,8 +78,8 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
         }
     }
 
-    /// Runs until `stop` is set, the time is over, or a missed period or another rounding ends it. At the end the
-    /// runtime takes the force to zero at the slew limit, and a force of zero is written.
+    /// Runs until `stop` is set, the time is over, or a missed period or another rounding ends it. At
+    /// the end the runtime takes the force to zero at the slew limit, and a force of zero is written.
     pub fn run(mut self, stop: &AtomicBool) -> Report {
         let first_ns = self.clock.now_ns() + self.settings.period_ns();
         let start_ns = self.settings.start_ns.unwrap_or(first_ns);
