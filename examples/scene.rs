@@ -4,7 +4,6 @@
 //! once, as faithfully as a budget allows; the runtime renders the surface that is touched.
 
 use asperity::{
-    diagnostic::Diagnostic,
     inference::Backend,
     pipeline::Request,
     prompt::{Author, Options},
@@ -64,7 +63,7 @@ fn library() -> Result<Vec<u8>, Box<dyn Error>> {
         };
         match author.author(prompt, &options) {
             Ok(authored) => Ok(authored.texture),
-            Err(error) => Err(Box::new(error) as Box<dyn Diagnostic>),
+            Err(error) => Err(error.into()),
         }
     })?;
     print!("{}", built.report);

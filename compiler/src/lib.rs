@@ -5,10 +5,11 @@
 //!
 //! | folder | holds |
 //! |---|---|
-//! | `front_ends/` | what makes a texture: [`prompt`] with its [`text`] encoders and the [`learned`] model, [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`] |
+//! | `sources/` | what a texture is made of, a folder each: [`prompt`], [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`] |
+//! | `learned/` | the [`learned`] model, [`embedded`] or in a folder, its [`text`] encoders, and what runs them: [`inference`] |
 //! | `model/` | the [`model`] between the ends: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
-//! | `back_end/` | from model to bytes and back: [`lower`], [`verify`], [`source`], [`raise`] |
+//! | `emit/` | from model to bytes and back: [`lower`], [`verify`], [`source`], [`raise`] |
 //! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
 //! | `edit/` | mixing and editing in the latent: [`edit`] |
 //! | `interchange/` | other tools' formats: the [`interchange`] |
@@ -21,29 +22,29 @@
 //! above it, `asperity-console` and the command `asperity` talk to people.
 #![forbid(unsafe_code)]
 
-mod back_end;
-mod front_ends;
+mod emit;
 mod passes;
 mod signal;
 mod views;
 
+pub mod driver;
 pub mod edit;
 pub mod interchange;
+pub mod learned;
 pub mod library;
 pub mod model;
 pub mod pipeline;
 pub mod scene;
+pub mod sources;
 
 /// What every error of this crate says besides its cause: the remedy.
 pub use asperity_io::diagnostic;
 
 // Users name a module without its folder, so that files can move between the stages.
-pub use back_end::{lower, raise, source, verify};
-pub use front_ends::{
-    builtin, effects, embedded, hatt, imported, inference, learned, model_file, prompt, recording,
-    text,
-};
+pub use emit::{lower, raise, source, verify};
+pub use learned::{embedded, inference, text};
 pub use model::{attributes, defaults, mesh, mixture};
 pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};
 pub use signal::{impact, level, levinson, lsf, reflection, resample, spectrum, tap_synthesis};
+pub use sources::{builtin, effects, hatt, model_file, prompt, recording};
 pub use views::{diffusion, inspect, listen, plot, preview, render};

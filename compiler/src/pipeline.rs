@@ -1,24 +1,8 @@
-//! The one way from a texture model to verified bytes.
+//! From a texture model to verified bytes, pass by pass.
 //!
-//! A front end makes a [`TextureModel`]; [`Pipeline::compile`] takes it through the passes
-//!
-//! ```text
-//! rerate → reduce → ceiling → preview → lower → verify
-//! ```
-//!
-//! each of which is a method, so that a search over fidelities, as for a [scene](crate::scene),
-//! runs the same passes in another order. Every pass is named and timed.
-//!
-//! ```
-//! use asperity::{builtin, pipeline::{Pipeline, Request, Ringing}};
-//!
-//! let mut pipeline = Pipeline::default();
-//! let compiled = pipeline.compile(builtin::texture(), &Request::default(), Ringing::Refused)?;
-//! assert_eq!(&compiled.lowered.bytes[..4], b"ASPT");
-//! let passes: Vec<&str> = pipeline.timings().iter().map(|(pass, _)| pass.name()).collect();
-//! assert_eq!(passes, ["reduce", "ceiling", "lower", "verify"]);
-//! # Ok::<(), asperity::pipeline::PipelineError>(())
-//! ```
+//! The [driver](crate::driver) takes a texture through all of them. Each is a method, so that a
+//! search over fidelities, as for a [scene](crate::scene), runs the same passes in another order.
+//! Every pass is named and timed.
 
 mod error;
 mod timings;
@@ -27,7 +11,7 @@ pub use error::PipelineError;
 pub use timings::{Pass, Timings};
 
 use crate::{
-    back_end::{
+    emit::{
         lower::{self, Lowered},
         raise::raise,
         verify::{self, VerifyError, VerifyReport},
@@ -49,6 +33,8 @@ const STABILISED: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// What a user can ask of any texture, whatever it is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
+    /// Name of the texture; that of the source if `None`.
+    pub name: Option<String>,
     /// How much of the models the asset keeps.
     pub fidelity: Fidelity,
     /// Rate of the models, Hz; that of the source if `None`.
@@ -60,6 +46,7 @@ pub struct Request {
 impl Default for Request {
     fn default() -> Self {
         Self {
+            name: None,
             fidelity: Fidelity::Full,
             rate_hz: None,
             preview_px: None,
@@ -77,22 +64,14 @@ pub enum Ringing {
 }
 
 /// A texture that passed verification.
-#[derive(Debug, Clone)]
-pub struct Compiled {
-    /// The whole texture before reduction, at its rate, and stabilised where it had to be.
-    pub whole: TextureModel,
-    /// The texture that the asset holds, with gains that the [ceiling] allows.
-    pub texture: TextureModel,
-    /// What the fidelity left out, and what that cost.
-    pub reduction: reduce::Report,
-    /// The preview, if one was asked for.
-    pub preview: Option<Vec<u8>>,
-    /// The asset.
-    pub lowered: Lowered,
-    /// What verification saw.
-    pub verified: VerifyReport,
-    /// The fraction of the way to white noise that the models were moved, 0..=1.
-    pub stabilised: f64,
+pub(crate) struct Passed {
+    pub(crate) whole: TextureModel,
+    pub(crate) texture: TextureModel,
+    pub(crate) reduction: reduce::Report,
+    pub(crate) preview: Option<Vec<u8>>,
+    pub(crate) lowered: Lowered,
+    pub(crate) verified: VerifyReport,
+    pub(crate) stabilised: f64,
 }
 
 /// Runs passes and times them.
@@ -102,16 +81,13 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// Takes a model through all passes; the same model and request give the same bytes.
-    ///
-    /// # Errors
-    /// [`PipelineError`] with the pass that failed.
-    pub fn compile(
+    /// Takes a model through all passes.
+    pub(crate) fn compile(
         &mut self,
         mut whole: TextureModel,
         request: &Request,
         ringing: Ringing,
-    ) -> Result<Compiled, PipelineError> {
+    ) -> Result<Passed, PipelineError> {
         whole.provenance.fidelity = request.fidelity.to_string();
         if let Some(rate_hz) = request.rate_hz {
             whole = self.rerate(whole, rate_hz)?;
@@ -137,7 +113,7 @@ impl Pipeline {
         whole: TextureModel,
         stabilised: f64,
         request: &Request,
-    ) -> Result<Compiled, PipelineError> {
+    ) -> Result<Passed, PipelineError> {
         let Reduction {
             mut texture,
             report,
@@ -149,7 +125,7 @@ impl Pipeline {
         };
         let lowered = self.lower(&texture, preview.as_deref())?;
         let verified = self.verify(&texture, &lowered.bytes)?;
-        Ok(Compiled {
+        Ok(Passed {
             whole,
             texture,
             reduction: report,
@@ -226,7 +202,7 @@ impl Pipeline {
         Ok(self.run(Pass::Verify, || verify::verify(texture, bytes))?)
     }
 
-    /// Does what a front end calls a pass.
+    /// Does what a source calls a pass.
     pub fn run<T>(&mut self, pass: Pass, work: impl FnOnce() -> T) -> T {
         self.timings.time(pass, work)
     }

@@ -164,28 +164,14 @@ fn every_hatt_material() {
     for step in Step::AT_ONE_KHZ {
         files
             .par_iter()
-            .map(|file| {
-                Excess::of(
-                    &asperity::hatt::import(file, None).unwrap().bytes,
-                    1,
-                    step,
-                    2,
-                )
-            })
+            .map(|file| Excess::of(&support::hatt(file), 1, step, 2))
             .reduce(Excess::default, Excess::and)
             .verdict(&format!("HaTT, {step:?}"));
     }
     let (ratio, step) = (5, Step::Cycle(1));
     files
         .par_iter()
-        .map(|file| {
-            Excess::of(
-                &asperity::hatt::import(file, None).unwrap().bytes,
-                ratio,
-                step,
-                2,
-            )
-        })
+        .map(|file| Excess::of(&support::hatt(file), ratio, step, 2))
         .reduce(Excess::default, Excess::and)
         .verdict(&format!("HaTT, {ratio} ticks a sample, {step:?}"));
 }

@@ -1,6 +1,7 @@
 //! What `--fidelity auto` keeps of a HaTT material renders like the whole material. The oracle
 //! compares mixtures over the grid, independently of the reducer's own measure.
 
+use crate::support;
 use asperity::reduce::Fidelity;
 use asperity_formats::Asset;
 use asperity_tests::{
@@ -66,11 +67,11 @@ fn what_auto_keeps_is_within_its_budget_for_every_material() {
         .par_iter()
         .map(|file| {
             let read = |fidelity| {
-                let imported = asperity::hatt::import_at(file, None, fidelity).unwrap();
-                let asset = Asset::parse(&imported.bytes).unwrap();
-                (Texture::new(&asset), imported.report)
+                let material = support::material(file, fidelity);
+                let asset = Asset::parse(&material.lowered.bytes).unwrap();
+                (Texture::new(&asset), material)
             };
-            let ((full, whole), (kept, report)) = (read(Fidelity::Full), read(Fidelity::Auto));
+            let ((full, whole), (kept, material)) = (read(Fidelity::Full), read(Fidelity::Auto));
             let loudest = full
                 .vertices
                 .iter()
@@ -79,7 +80,11 @@ fn what_auto_keeps_is_within_its_budget_for_every_material() {
             let mut distances = Vec::new();
             for (speed, force) in places(&full) {
                 let (exact, found) = (full.model(speed, force), kept.model(speed, force));
-                assert!(is_stable(&found), "{}: {speed}, {force}", report.name);
+                assert!(
+                    is_stable(&found),
+                    "{}: {speed}, {force}",
+                    material.texture.name
+                );
                 // A place 40 dB below the loudest vertex counts as silence, and as free of error.
                 if exact.level_m_s2 > 0.01 * loudest {
                     let (x, y) = (log_spectrum(&full, &exact), log_spectrum(&kept, &found));
@@ -93,9 +98,13 @@ fn what_auto_keeps_is_within_its_budget_for_every_material() {
             let rank = (0.95 * distances.len() as f64).ceil() as usize;
             let (p95, worst) = (distances[rank - 1], distances[distances.len() - 1]);
             // The frequencies differ from those of the reducer.
-            assert!(p95 <= 0.51, "{}: {p95} dB at 95 %", report.name);
-            assert!(worst <= 1.01, "{}: {worst} dB at worst", report.name);
-            assert!(report.haptic_bytes < whole.haptic_bytes);
+            assert!(p95 <= 0.51, "{}: {p95} dB at 95 %", material.texture.name);
+            assert!(
+                worst <= 1.01,
+                "{}: {worst} dB at worst",
+                material.texture.name
+            );
+            assert!(material.lowered.haptic_bytes < whole.lowered.haptic_bytes);
             kept.vertices[0].cosines.len() + kept.vertices[0].ma_cosines.len() <= 10
         })
         .collect();

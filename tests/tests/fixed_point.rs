@@ -103,7 +103,7 @@ fn every_hatt_material() {
     let errors: Vec<(String, f64, f64)> = files
         .par_iter()
         .map(|file| {
-            let bytes = asperity::hatt::import(file, None).unwrap().bytes;
+            let bytes = support::hatt(file);
             let name = file.file_stem().unwrap().to_string_lossy().into_owned();
             (name, spectral_error_db(&bytes), band_error_db(&bytes))
         })

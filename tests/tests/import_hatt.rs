@@ -2,7 +2,13 @@
 //! within 0.5 dB RMS (10–450 Hz, level included) of the coefficients in its file, which this
 //! test reads without the importer.
 
-use asperity::reduce::Fidelity;
+use crate::support;
+use asperity::{
+    hatt::{Hatt, compile_all},
+    pipeline::Request,
+    reduce::Fidelity,
+    sources::Tools,
+};
 use asperity_formats::Asset;
 use asperity_tests::{
     hatt::{self, Source},
@@ -76,19 +82,20 @@ fn every_material_is_within_half_a_decibel_of_its_file() {
         .par_iter()
         .flat_map(|file| {
             let source = hatt::read(file).expect("a file as HaTT writes it");
-            let imported = asperity::hatt::import(file, None).unwrap();
-            let asset = Asset::parse(&imported.bytes).unwrap();
+            let imported = support::material(file, Fidelity::Full);
+            let asset = Asset::parse(&imported.lowered.bytes).unwrap();
             let errors = errors(&source, &asset);
             let worst = errors.iter().copied().fold(0.0, f64::max);
             assert!(worst < 0.5, "{}: {worst} dB", source.name);
             // The importer prints the error that is measured here, except for the different
             // frequencies near zeros of the numerator.
+            let compared = imported.compared.expect("a source");
             assert!(
-                (imported.report.error.max_db - worst).abs() < 0.05,
+                (compared.error.max_db - worst).abs() < 0.05,
                 "{}; measured here: {worst}",
-                imported.report
+                imported.text()
             );
-            assert_eq!(imported.report.compared, errors.len());
+            assert_eq!(compared.count, errors.len());
             errors
         })
         .collect();
@@ -112,15 +119,15 @@ fn every_material_is_within_half_a_decibel_of_its_file() {
 )]
 fn the_same_file_gives_the_same_bytes_whatever_the_thread_count() {
     let files = hatt::materials();
-    let few: Vec<_> = files.into_iter().take(6).collect();
+    let few: Vec<Hatt> = files.into_iter().take(6).map(Hatt::new).collect();
     let with = |threads: usize| -> Vec<Vec<u8>> {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| asperity::hatt::import_all(&few, None, Fidelity::Full, || {}))
+        pool.install(|| compile_all(&few, &Request::default(), &Tools::default(), || {}))
             .into_iter()
-            .map(|imported| imported.unwrap().bytes)
+            .map(|imported| imported.unwrap().lowered.bytes)
             .collect()
     };
     assert_eq!(with(1), with(4));

@@ -2,6 +2,7 @@
 //! at vertices and between them, for the built-in texture and HaTT materials.
 
 use crate::support;
+use asperity::reduce::Fidelity;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{
@@ -121,8 +122,8 @@ fn every_hatt_material() {
     let worst = files
         .par_iter()
         .map(|file| {
-            let imported = asperity::hatt::import(file, None).unwrap();
-            check(&imported.report.name, &imported.bytes, each)
+            let material = support::material(file, Fidelity::Full);
+            check(&material.texture.name, &material.lowered.bytes, each)
         })
         .reduce(|| 0.0, f64::max);
     println!("{} materials: within {worst:.2} dB", files.len());

@@ -1,15 +1,17 @@
-//! A model that is emitted and imported gives the bytes that its own front end gives, except for
+//! A model that is emitted and imported gives the bytes that its own source gives, except for
 //! the provenance; the example of `docs/model.md` is one.
 
+use crate::support;
 use asperity::{
-    embedded, hatt,
+    driver, embedded,
     inference::Backend,
     model::{Provenance, TextureModel},
-    model_file,
-    pipeline::{Pipeline, Request, Ringing},
+    model_file::{self, ModelFile},
+    pipeline::{Request, Ringing},
     prompt::{self, Author},
     raise::raise,
     reduce::Fidelity,
+    sources::{Sourced, Tools},
 };
 use asperity_formats::Asset;
 use std::{fs, path::Path};
@@ -17,9 +19,7 @@ use std::{fs, path::Path};
 /// The model in a file, as bytes that say what `direct` says of where they come from.
 fn through_a_file(whole: &TextureModel, request: &Request) -> Vec<u8> {
     let read = model_file::from_json(&model_file::to_json(whole)).expect("an emitted model");
-    let compiled = Pipeline::default().compile(read, request, Ringing::Refused);
-    compiled
-        .expect("a model that compiled before")
+    support::compiled(&Sourced::new(read), request)
         .lowered
         .bytes
 }
@@ -33,10 +33,12 @@ fn content(bytes: &[u8]) -> TextureModel {
 }
 
 /// Imports a model as a user does.
-fn imported(folder: &Path, whole: &TextureModel, request: &Request) -> hatt::Imported {
+fn imported(folder: &Path, whole: &TextureModel, request: &Request) -> Vec<u8> {
     let file = folder.join("model.json");
     fs::write(&file, model_file::to_json(whole)).expect("a file");
-    model_file::import(&file, request).expect("an emitted model")
+    support::compiled(&ModelFile { file }, request)
+        .lowered
+        .bytes
 }
 
 #[test]
@@ -52,6 +54,7 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
             fidelity,
             rate_hz,
             preview_px: None,
+            ..Request::default()
         };
         let options = prompt::Options {
             seed,
@@ -61,8 +64,8 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
         let again = through_a_file(&authored.whole, &request);
         assert_eq!(again, authored.lowered.bytes, "{prompt}");
         let imported = imported(folder.path(), &authored.whole, &request);
-        assert_eq!(content(&imported.bytes), content(&authored.lowered.bytes));
-        let asset = Asset::parse(&imported.bytes).expect("an asset");
+        assert_eq!(content(&imported), content(&authored.lowered.bytes));
+        let asset = Asset::parse(&imported).expect("an asset");
         let provenance = asset.provenance().expect("provenance");
         assert_eq!(provenance.prompt, Some(prompt));
         assert_eq!((provenance.seed, provenance.source), (seed, "model.json"));
@@ -92,7 +95,11 @@ fn a_stabilised_texture_is_emitted_as_it_was_verified() {
             "far".into(),
             Provenance::default(),
         );
-        let compiled = Pipeline::default().compile(texture, &request, Ringing::Stabilised);
+        let source = Sourced {
+            ringing: Ringing::Stabilised,
+            ..Sourced::new(texture)
+        };
+        let compiled = driver::compile(&source, &request, &Tools::default());
         compiled.ok().filter(|compiled| compiled.stabilised > 0.0)
     });
     let compiled = found.expect("a latent that rings");
@@ -109,15 +116,15 @@ fn a_material_gives_the_same_bytes_through_a_file() {
     let folder = tempfile::tempdir().expect("a folder");
     for file in asperity_tests::hatt::materials().into_iter().take(5) {
         for fidelity in [Fidelity::Full, Fidelity::Order(7)] {
-            let direct = hatt::import_at(&file, None, fidelity).expect("a material");
+            let direct = support::material(&file, fidelity);
             let request = Request {
                 fidelity,
                 ..Request::default()
             };
             let again = through_a_file(&direct.whole, &request);
-            assert_eq!(again, direct.bytes, "{}", file.display());
+            assert_eq!(again, direct.lowered.bytes, "{}", file.display());
             let imported = imported(folder.path(), &direct.whole, &request);
-            assert_eq!(content(&imported.bytes), content(&direct.bytes));
+            assert_eq!(content(&imported), content(&direct.lowered.bytes));
         }
     }
 }
@@ -130,15 +137,14 @@ fn the_example_of_the_documentation_compiles() {
             fidelity,
             rate_hz: None,
             preview_px: preview.then_some(asperity::preview::SIZE),
+            ..Request::default()
         };
-        let imported = model_file::import(Path::new(file), &request).expect("the example");
+        let example = ModelFile { file: file.into() };
+        let imported = support::compiled(&example, &request);
         let limit_db = if fidelity == Fidelity::Full { 0.1 } else { 1.0 };
-        assert!(
-            imported.report.error.max_db < limit_db,
-            "{}",
-            imported.report
-        );
-        let asset = Asset::parse(&imported.bytes).expect("an asset");
+        let error = imported.compared.expect("a source").error;
+        assert!(error.max_db < limit_db, "{}", imported.text());
+        let asset = Asset::parse(&imported.lowered.bytes).expect("an asset");
         assert_eq!(asset.name(), "Corduroy by hand");
         assert_eq!(asset.preview_png().is_some(), preview);
     }

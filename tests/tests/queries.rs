@@ -218,7 +218,7 @@ fn every_hatt_material() {
     let queries: usize = files
         .par_iter()
         .map(|file| {
-            let bytes = asperity::hatt::import(file, None).unwrap().bytes;
+            let bytes = support::hatt(file);
             let mut checked = Checked::new(&bytes);
             checked.places();
             checked.random(random / files.len() + 1, 2);
@@ -242,7 +242,7 @@ fn the_point_of_bubble_envelope_that_hangs_the_reference() {
         .iter()
         .find(|f| f.ends_with("Models_Bubble Envelope.xml"))
         .expect("Bubble Envelope among the materials");
-    let mut checked = Checked::new(&asperity::hatt::import(file, None).unwrap().bytes);
+    let mut checked = Checked::new(&support::hatt(file));
     for step in -1000_i32..=1000 {
         let nudge = |x: f32| f32::from_bits(x.to_bits().wrapping_add_signed(step));
         checked.query_exactly(231.348_95, nudge(2.541_543));

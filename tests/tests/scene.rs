@@ -1,8 +1,9 @@
 //! A scene renders only the surface that is touched. The crossing from one texture to the next
 //! makes no larger step than a texture alone.
 
+use crate::support;
 use asperity::{
-    builtin, hatt,
+    builtin,
     library::{NamedAsset, encode_scene},
     lower::lower,
     model::TextureModel,
@@ -177,7 +178,7 @@ fn a_crossing_between_recorded_materials_is_smooth() {
             .iter()
             .find(|file| file.to_string_lossy().contains(name))
             .expect("a HaTT material");
-        hatt::import(file, None).expect("an import").bytes
+        support::hatt(file)
     };
     crossing_is_smooth("HaTT", &[import("Cork"), import("Stone Tile 1")]);
 }

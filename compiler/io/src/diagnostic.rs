@@ -14,8 +14,22 @@ pub trait Diagnostic: Error {
     }
 }
 
+/// One failure, whatever it is of.
+pub type Failure = Box<dyn Diagnostic + Send + Sync>;
+
+impl<E: Diagnostic + Send + Sync + 'static> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Box::new(error)
+    }
+}
+
 /// Failures of one command; several where many files were at fault.
 pub type Failures = Vec<Box<dyn Diagnostic>>;
+
+/// For `map_err`: a failure as those of a command.
+pub fn alone(failure: Failure) -> Failures {
+    vec![failure]
+}
 
 /// For `map_err`: one failure.
 pub fn one(error: impl Diagnostic + 'static) -> Failures {

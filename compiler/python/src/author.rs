@@ -214,6 +214,7 @@ fn options(seed: Seed, fidelity: Fidelity, rate_hz: Option<f64>, preview: bool) 
             fidelity: fidelity.0,
             rate_hz,
             preview_px: preview.then_some(asperity::preview::SIZE),
+            ..Request::default()
         },
     }
 }

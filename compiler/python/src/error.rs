@@ -1,9 +1,9 @@
 //! Failures as Python exceptions.
 
-use asperity::{pipeline::PipelineError, rerate::RATE_RANGE_HZ};
+use asperity::{driver::Stopped, pipeline::PipelineError, rerate::RATE_RANGE_HZ};
 use asperity_io::diagnostic::Diagnostic;
 use pyo3::{exceptions::PyValueError, prelude::*};
-use std::fmt::Display;
+use std::{error::Error, fmt::Display};
 
 /// What went wrong and what to do about it: an exception, once Python is told.
 #[derive(Debug)]
@@ -61,6 +61,12 @@ impl Failure {
 
 impl<E: Diagnostic> From<E> for Failure {
     fn from(error: E) -> Self {
+        Self::of(&error)
+    }
+}
+
+impl Failure {
+    fn of(error: &dyn Diagnostic) -> Self {
         let mut message = error.to_string();
         let mut source = error.source();
         while let Some(cause) = source {
@@ -101,5 +107,24 @@ pub(crate) fn pipeline(error: PipelineError) -> Failure {
             Failure::usage(message, "give the rate of the servo loop, e.g. rate=1000")
         }
         other => other.into(),
+    }
+}
+
+/// What kept a source from becoming a texture, likewise.
+pub(crate) fn stopped(failure: asperity::driver::Failure) -> Failure {
+    let error: &dyn Error = &*failure;
+    match error.downcast_ref::<Stopped>() {
+        Some(Stopped {
+            origin,
+            cause: PipelineError::Rate(rate_hz),
+        }) => {
+            let refused = pipeline(PipelineError::Rate(*rate_hz));
+            if origin.is_empty() {
+                refused
+            } else {
+                refused.about(origin)
+            }
+        }
+        _ => Failure::of(&*failure),
     }
 }

@@ -7,9 +7,12 @@ use crate::{
     texture::Texture,
 };
 use asperity::{
-    hatt,
-    model_file::{self, ModelFileError, ModelFileProblem},
-    pipeline::{Pipeline, Request, Ringing},
+    builtin::Builtin,
+    driver::{self, Compiled},
+    hatt::{self, Hatt},
+    model_file::ModelFile,
+    pipeline::Request,
+    sources::{Source, Tools},
 };
 use pyo3::{IntoPyObjectExt as _, prelude::*};
 use std::path::PathBuf;
@@ -50,11 +53,22 @@ pub(crate) fn import_hatt(
     complete_taps: bool,
 ) -> PyResult<Py<PyAny>> {
     let mut textures = py.detach(|| {
-        let files = hatt::files(&path)?;
+        let materials: Vec<Hatt> = hatt::files(&path)?
+            .into_iter()
+            .map(|file| Hatt {
+                file,
+                complete_taps,
+            })
+            .collect();
         let author = complete_taps.then(author::shared).transpose()?;
-        let completer = author.as_ref().map(|author| author.model());
-        let results = hatt::import_all(&files, completer, fidelity.0, || {});
-        textures(results)
+        let tools = Tools {
+            model: author.as_ref().map(|author| author.model()),
+        };
+        let request = Request {
+            fidelity: fidelity.0,
+            ..Request::default()
+        };
+        textures(hatt::compile_all(&materials, &request, &tools, || {}))
     })?;
     if path.is_dir() {
         return textures.into_py_any(py);
@@ -67,21 +81,17 @@ pub(crate) fn import_hatt(
 }
 
 /// The textures, or all that went wrong.
-fn textures(
-    results: Vec<Result<hatt::Imported, hatt::ImportError>>,
-) -> Result<Vec<Texture>, Failure> {
+fn textures(results: Vec<Result<Compiled, driver::Failure>>) -> Result<Vec<Texture>, Failure> {
     let mut textures = Vec::with_capacity(results.len());
     let mut failures: Option<Failure> = None;
     for result in results {
         match result {
-            Ok(imported) => {
-                let report = imported.json().to_string();
-                textures.push(Texture::made(imported.bytes, Some(report))?);
-            }
+            Ok(compiled) => textures.push(texture(compiled)?),
             Err(error) => {
+                let failure = error::stopped(error);
                 failures = Some(match failures {
-                    None => error.into(),
-                    Some(others) => others.and(error.into()),
+                    None => failure,
+                    Some(others) => others.and(failure),
                 });
             }
         }
@@ -126,18 +136,19 @@ pub(crate) fn import_model(
         fidelity: fidelity.0,
         rate_hz: rate,
         preview_px: preview.then_some(asperity::preview::SIZE),
+        ..Request::default()
     };
-    let imported = py.detach(|| model_file::import(&path, &request).map_err(refused))?;
-    let report = imported.json().to_string();
-    Texture::made(imported.bytes, Some(report))
+    texture(py.detach(|| compiled(&ModelFile { file: path }, &request))?)
 }
 
-/// The error in the words of Python, where those of the command would not do.
-fn refused(error: ModelFileError) -> Failure {
-    match error.problem {
-        ModelFileProblem::Pipeline(cause) => error::pipeline(cause).about(error.file.display()),
-        _ => error.into(),
-    }
+fn compiled(source: &dyn Source, request: &Request) -> Result<Compiled, Failure> {
+    driver::compile(source, request, &Tools::default()).map_err(error::stopped)
+}
+
+/// The texture with its report.
+fn texture(compiled: Compiled) -> Result<Texture, Failure> {
+    let report = compiled.json().to_string();
+    Texture::made(compiled.lowered.bytes, Some(report))
 }
 
 /// The built-in synthetic texture.
@@ -147,13 +158,6 @@ fn refused(error: ModelFileError) -> Failure {
 /// Texture
 #[pyfunction]
 pub(crate) fn builtin(py: Python<'_>) -> Result<Texture, Failure> {
-    let bytes = py.detach(|| {
-        let whole = asperity::builtin::texture();
-        let mut pipeline = Pipeline::default();
-        let compiled = pipeline
-            .compile(whole, &Request::default(), Ringing::Refused)
-            .map_err(error::pipeline)?;
-        Ok::<_, Failure>(compiled.lowered.bytes)
-    })?;
-    Texture::made(bytes, None)
+    let compiled = py.detach(|| compiled(&Builtin, &Request::default()))?;
+    Texture::made(compiled.lowered.bytes, None)
 }

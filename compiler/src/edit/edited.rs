@@ -9,11 +9,9 @@ use super::{
     studio::{How, Studio},
 };
 use crate::{
-    front_ends::{
-        learned::{Latent, friction},
-        prompt::Shift,
-    },
+    learned::{Latent, friction},
     model::attributes::Attributes,
+    sources::prompt::Shift,
 };
 
 /// Times that a way through the latent space is corrected by what is kept at its end.

@@ -2,7 +2,7 @@
 
 use super::{error::EditError, latents::Latents, studio::Studio};
 use crate::{
-    front_ends::learned::{Present, complete},
+    learned::{Present, complete},
     model::{Provenance, TextureModel},
     passes::reduce::Reference,
 };

@@ -1,9 +1,10 @@
 //! Why a texture cannot be mixed or edited.
 
 use crate::{
-    back_end::{lower::LowerError, source::SourceError},
-    front_ends::{learned::ModelError, prompt::PromptError},
+    emit::{lower::LowerError, source::SourceError},
+    learned::ModelError,
     pipeline::PipelineError,
+    sources::prompt::PromptError,
 };
 use asperity_formats::{EncodeError, FormatError};
 use asperity_io::diagnostic::Diagnostic;

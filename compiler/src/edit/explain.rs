@@ -2,11 +2,9 @@
 
 use super::{error::EditError, latents::Latents, scale::AXES, studio::Studio};
 use crate::{
-    front_ends::{
-        learned::{Latent, description::LATENT},
-        prompt,
-    },
+    learned::{Latent, description::LATENT},
     model::attributes::{self, Attributes},
+    sources::prompt,
 };
 use rayon::prelude::*;
 use serde::Serialize;

@@ -1,9 +1,9 @@
 //! Where a texture lies in the latent space: as a whole, or each of its parts for itself; and what
 //! moves after it was decoded.
 
-use crate::front_ends::{
+use crate::{
     learned::{Latent, description::LATENT},
-    prompt::Shift,
+    sources::prompt::Shift,
 };
 
 /// The latents of what is felt in sliding, in tapping and as friction. A prompt gives one for all

@@ -17,7 +17,7 @@ pub fn equal_loudness(texture: &mut TextureModel, level_db: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front_ends::builtin;
+    use crate::sources::builtin;
 
     #[test]
     fn two_textures_of_different_levels_become_equally_loud() {

@@ -1,9 +1,9 @@
 //! What an asset remembers of its making: latents and history, outside the haptic sections.
 
 use super::{error::EditError, history::History, latents::Latents};
-use crate::front_ends::{
+use crate::{
     learned::{Latent, description::LATENT},
-    prompt::{Author, Authored},
+    sources::prompt::{Author, Authored},
 };
 use asperity_formats::{Asset, EncodeError, assemble, assembled_len};
 
@@ -106,7 +106,7 @@ pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, EditError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{back_end::lower::lower, edit::history::Origin, front_ends::builtin};
+    use crate::{edit::history::Origin, emit::lower::lower, sources::builtin};
 
     #[test]
     fn a_memory_is_read_back_replaced_and_never_haptic() {

@@ -2,8 +2,7 @@
 //! the most of an attribute.
 
 use crate::{
-    front_ends::{learned::description::ModelDescription, prompt::Shift},
-    model::attributes::Attributes,
+    learned::description::ModelDescription, model::attributes::Attributes, sources::prompt::Shift,
 };
 use serde::Serialize;
 

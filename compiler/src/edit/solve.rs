@@ -8,7 +8,7 @@
 //! s = C Jᵀ (J C Jᵀ)⁻¹ (y* − y),   J ← J + (Δy − J s)(C⁻¹ s)ᵀ / (sᵀ C⁻¹ s)
 //! ```
 
-use crate::front_ends::learned::{
+use crate::learned::{
     Latent,
     description::{Anchor, LATENT},
 };

@@ -10,17 +10,15 @@ use super::{
     solve::Metric,
 };
 use crate::{
-    back_end::raise,
-    front_ends::{
-        learned::{Decoded, friction, texture},
-        prompt::{Author, phrase::adjust::adjust},
-    },
+    emit::raise,
+    learned::{Decoded, friction, texture},
     model::{
         FrictionLaw, Provenance, TextureModel,
         attributes::{self, Attributes},
     },
     passes::reduce::Fidelity,
-    pipeline::{Compiled, Pass, Pipeline, Request, Ringing, Timings},
+    pipeline::{Pass, Passed, Pipeline, Request, Ringing, Timings},
+    sources::prompt::{Author, phrase::adjust::adjust},
     views::preview,
 };
 use asperity_formats::Asset;
@@ -135,6 +133,7 @@ impl<'a> Studio<'a> {
                 preview_px: asset
                     .preview_png()
                     .map(|png| preview::width(png).unwrap_or(preview::SIZE)),
+                ..Request::default()
             },
             law: raise::law(asset),
         }
@@ -248,7 +247,7 @@ impl<'a> Studio<'a> {
             equal_loudness(&mut texture, level_db);
         }
         let compiled = pipeline.compile(texture, &how.request, Ringing::Stabilised);
-        let Compiled {
+        let Passed {
             whole,
             texture,
             lowered,

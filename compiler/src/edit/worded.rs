@@ -8,11 +8,11 @@ use super::{
     studio::{How, Studio},
 };
 use crate::{
-    front_ends::prompt::{
+    model::attributes::Attributes,
+    sources::prompt::{
         Shift,
         phrase::{Towards, adjust::from_base, relative},
     },
-    model::attributes::Attributes,
 };
 
 /// An edit that was asked for in words.

@@ -1,9 +1,6 @@
 //! Why a texture could not be exported, or effects not be read.
 
-use crate::{
-    pipeline::PipelineError,
-    views::{listen::ListenError, preview::PreviewError},
-};
+use crate::views::{listen::ListenError, preview::PreviewError};
 use asperity_io::{diagnostic::Diagnostic, input::InputProblem};
 use std::path::PathBuf;
 use thiserror::Error;
@@ -136,9 +133,6 @@ pub enum EffectProblem {
     /// A name that an asset cannot hold.
     #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
     Name(String),
-    /// The texture did not pass the pipeline.
-    #[error(transparent)]
-    Pipeline(#[from] PipelineError),
 }
 
 impl Diagnostic for EffectError {
@@ -153,15 +147,10 @@ impl Diagnostic for EffectError {
             P::Unsupported(_) => "export the effect again without it".into(),
             P::Silent { .. } => "give a file with a continuous effect, a transient or both".into(),
             P::Name(_) => "give another --name".into(),
-            P::Pipeline(error) => error.remedy(),
         }
     }
 
     fn is_usage(&self) -> bool {
-        match &self.problem {
-            EffectProblem::Pipeline(error) => error.is_usage(),
-            EffectProblem::Name(_) => true,
-            _ => false,
-        }
+        matches!(self.problem, EffectProblem::Name(_))
     }
 }

@@ -12,7 +12,7 @@ use super::{
     wav,
 };
 use crate::{
-    back_end::raise::raise,
+    emit::raise::raise,
     signal::resample::resample,
     views::listen::{Session, Stroke, perform},
 };

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::{
-    back_end::lower::lower,
-    front_ends::builtin,
+    emit::lower::lower,
     interchange::playback::{PLAY_HZ, Track},
+    sources::builtin,
 };
 use asperity_formats::Asset;
 use serde_json::Value;

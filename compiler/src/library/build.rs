@@ -15,8 +15,8 @@ use super::{
 };
 use crate::{
     edit::{AXES, Studio},
-    front_ends::prompt::Author,
     pipeline::{Pass, Pipeline, Timings},
+    sources::prompt::Author,
 };
 use asperity_formats::Asset;
 use asperity_io::{

@@ -157,7 +157,7 @@ fn digest(key: &Key, length: &[u8], content: &[u8]) -> [u8; 32] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{back_end::lower::lower, front_ends::builtin};
+    use crate::{emit::lower::lower, sources::builtin};
     use std::fs;
 
     #[test]

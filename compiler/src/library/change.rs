@@ -1,7 +1,7 @@
 //! What changed between two versions of a texture.
 
 use crate::{
-    back_end::raise::raise,
+    emit::raise::raise,
     model::{
         FrictionLaw, TextureModel,
         mixture::{self, Field},

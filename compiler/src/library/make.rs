@@ -8,14 +8,15 @@ use super::{
     rename::renamed,
 };
 use crate::{
-    back_end::raise::{self, raise},
+    driver,
     edit::{
         EditError, History, How, Latents, Made, Memory, Origin as Making, Part,
         Source as Ingredient, Step, Studio, Worded, encode, equal_loudness, remember, remembered,
     },
-    front_ends::{hatt, model_file, prompt},
+    emit::raise::{self, raise},
     model::{FrictionLaw, Provenance, TextureModel, attributes},
     pipeline::{Pipeline, Request, Ringing, Timings},
+    sources::{Source, Tools, hatt::Hatt, model_file::ModelFile, prompt},
 };
 use asperity_formats::Asset;
 use std::{
@@ -369,13 +370,12 @@ fn whole(file: &Path) -> Result<TextureModel, Cause> {
     let is_model = file
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("json"));
-    if is_model {
-        Ok(model_file::import(file, &Request::default())
-            .map_err(cause)?
-            .whole)
+    let source: &dyn Source = if is_model {
+        &ModelFile { file: file.into() }
     } else {
-        Ok(hatt::import(file, None).map_err(cause)?.whole)
-    }
+        &Hatt::new(file)
+    };
+    Ok(driver::compile(source, &Request::default(), &Tools::default())?.whole)
 }
 
 fn imported(entry: &Entry, file: &Path) -> Result<Finished, Cause> {

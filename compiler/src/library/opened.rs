@@ -1,7 +1,7 @@
 //! The assets and libraries that a manifest takes textures of.
 
 use super::error::{Cause, cause};
-use crate::back_end::source::Source;
+use crate::emit::source::Source;
 use asperity_formats::Asset;
 use std::{
     collections::HashMap,
@@ -51,11 +51,11 @@ impl OpenLibraries {
 mod tests {
     use super::*;
     use crate::{
-        back_end::{
+        emit::{
             lower::lower,
             source::{ENTRIES_READ, tests::library_of},
         },
-        front_ends::builtin,
+        sources::builtin,
     };
     use std::fs;
 

@@ -67,7 +67,7 @@ fn sorted<'a>(assets: &[NamedAsset<'a>]) -> Vec<(&'a str, &'a [u8])> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{back_end::lower::lower, front_ends::builtin};
+    use crate::{emit::lower::lower, sources::builtin};
 
     #[test]
     fn the_order_given_does_not_matter_and_a_name_counts_once() {

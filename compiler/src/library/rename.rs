@@ -24,7 +24,7 @@ pub fn renamed(asset: &[u8], name: &str) -> Result<Vec<u8>, EncodeError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{back_end::lower::lower, front_ends::builtin};
+    use crate::{emit::lower::lower, sources::builtin};
 
     #[test]
     fn only_the_name_changes() {

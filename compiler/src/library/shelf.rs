@@ -1,7 +1,7 @@
 //! All textures of a library in memory.
 
 use super::error::LibraryFault;
-use crate::back_end::source::{Source, SourceError};
+use crate::emit::source::{Source, SourceError};
 use asperity_formats::Asset;
 use asperity_io::diagnostic::{Failures, one};
 use std::path::Path;

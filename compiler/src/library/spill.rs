@@ -138,9 +138,9 @@ impl Packed {
 mod tests {
     use super::*;
     use crate::{
-        back_end::lower::lower,
-        front_ends::builtin,
+        emit::lower::lower,
         library::{NamedAsset, encode},
+        sources::builtin,
     };
     use asperity_formats::Asset;
 

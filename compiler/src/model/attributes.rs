@@ -88,7 +88,7 @@ impl Meter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front_ends::builtin;
+    use crate::sources::builtin;
 
     #[test]
     fn twice_the_excitation_is_six_db_rougher_and_no_sharper() {

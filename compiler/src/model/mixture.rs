@@ -245,7 +245,7 @@ pub fn places(grid: &ModelGrid) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{back_end::lower, front_ends::builtin, signal::spectrum::log_spectral_distance_db};
+    use crate::{emit::lower, signal::spectrum::log_spectral_distance_db, sources::builtin};
     use asperity_formats::Asset;
     use asperity_runtime::HostTexture;
 

@@ -157,7 +157,7 @@ fn rms_m_s2(model: &ArmaModel, numerator: Numerator) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{front_ends::builtin, model::attributes};
+    use crate::{model::attributes, sources::builtin};
 
     fn louder(factor: f64) -> TextureModel {
         let mut texture = builtin::texture();

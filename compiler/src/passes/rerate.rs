@@ -115,7 +115,7 @@ fn convert(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{front_ends::builtin, model::VertexKind};
+    use crate::{model::VertexKind, sources::builtin};
 
     #[test]
     fn the_spectrum_stays_where_it_is_in_hertz_within_a_seventh_and_a_db_and_a_half() {

@@ -25,7 +25,7 @@ pub fn stabilise(texture: &TextureModel, fraction: f64) -> TextureModel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front_ends::builtin;
+    use crate::sources::builtin;
 
     #[test]
     fn all_the_way_is_white_noise_at_the_same_level() {

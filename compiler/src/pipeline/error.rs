@@ -1,7 +1,7 @@
 //! Why a model did not become an asset.
 
 use crate::{
-    back_end::{lower::LowerError, verify::VerifyError},
+    emit::{lower::LowerError, verify::VerifyError},
     passes::rerate,
     views::preview::PreviewError,
 };

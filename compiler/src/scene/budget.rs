@@ -99,7 +99,7 @@ fn fewest(candidates: &[Candidate], of: impl Fn(&Candidate) -> u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front_ends::builtin;
+    use crate::sources::builtin;
 
     fn texture(figures: &[(u64, usize, f64)]) -> Vec<Candidate> {
         figures

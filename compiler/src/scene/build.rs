@@ -11,18 +11,19 @@ use super::{
     target::Target,
 };
 use crate::{
-    back_end::{
+    driver,
+    emit::{
         raise::raise,
         source::{Source, SourceError, SourceProblem},
         verify,
     },
-    front_ends::hatt,
     library,
     model::TextureModel,
-    pipeline::{Pass, Pipeline, PipelineError, Timings},
+    pipeline::{Pass, Pipeline, PipelineError, Request, Timings},
+    sources::{Tools, hatt::Hatt},
 };
 use asperity_formats::{Asset, SceneSurface};
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::diagnostic::{Diagnostic, Failure};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -38,7 +39,7 @@ pub struct Built {
 }
 
 /// Makes a texture of a prompt and a seed.
-pub type Prompter<'a> = dyn FnMut(&str, u64) -> Result<TextureModel, Box<dyn Diagnostic>> + 'a;
+pub type Prompter<'a> = dyn FnMut(&str, u64) -> Result<TextureModel, Failure> + 'a;
 
 /// Builds a scene. The same files give the same bytes, whatever the thread count. `prompter` is
 /// asked once for every prompt.
@@ -97,7 +98,7 @@ pub fn build(
 fn failed(
     scene: &Description,
     entry: &TextureEntry,
-    cause: impl Diagnostic + 'static,
+    cause: impl Diagnostic + Send + Sync + 'static,
 ) -> SceneError {
     at(scene, entry, SceneProblem::Texture(Box::new(cause)))
 }
@@ -145,11 +146,11 @@ fn whole(
     Ok(texture)
 }
 
-fn imported(file: &Path, pipeline: &mut Pipeline) -> Result<TextureModel, Box<dyn Diagnostic>> {
-    let imported = hatt::import(file, None).map_err(boxed)?;
+fn imported(file: &Path, pipeline: &mut Pipeline) -> Result<TextureModel, Failure> {
+    let imported = driver::compile(&Hatt::new(file), &Request::default(), &Tools::default())?;
     pipeline.merge(&imported.timings);
     // The import verified the bytes, so they parse.
-    let asset = Asset::parse(&imported.bytes).map_err(|e| boxed(verify::VerifyError::from(e)))?;
+    let asset = Asset::parse(&imported.lowered.bytes).map_err(verify::VerifyError::from)?;
     Ok(raise(&asset))
 }
 
@@ -165,10 +166,6 @@ fn asset(file: &Path) -> Result<TextureModel, SceneProblem> {
     let bytes = source.choose(None).map_err(fail)?;
     let asset = Asset::parse(&bytes).map_err(|e| fail(source.error(None, e.into())))?;
     Ok(raise(&asset))
-}
-
-fn boxed(error: impl Diagnostic + 'static) -> Box<dyn Diagnostic> {
-    Box::new(error)
 }
 
 /// The candidate that the budget allows for every texture.

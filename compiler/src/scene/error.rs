@@ -3,7 +3,7 @@
 use super::target::Target;
 use crate::library::{LibraryError, manifest::CONFINED_REMEDY};
 use asperity_io::{
-    diagnostic::Diagnostic,
+    diagnostic::{Diagnostic, Failure},
     input::{InputProblem, Outside},
     toml_error::TomlError,
 };
@@ -100,7 +100,7 @@ pub enum SceneProblem {
     },
     /// A texture could not be made.
     #[error("{0}")]
-    Texture(Box<dyn Diagnostic>),
+    Texture(Failure),
     /// A library is given where one texture is wanted.
     #[error("{file}: a library of {count} textures, an asset of one is wanted", file = file.display())]
     ManyTextures {

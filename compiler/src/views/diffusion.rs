@@ -4,7 +4,7 @@
 //! of how the texture feels.
 
 use crate::{
-    front_ends::inference::{Backend, BackendName},
+    inference::{Backend, BackendName},
     model::TextureModel,
 };
 use asperity_diffusion::{

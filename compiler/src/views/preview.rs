@@ -144,9 +144,10 @@ fn feel(texture: &TextureModel) -> Option<Feel> {
 mod tests {
     use super::*;
     use crate::{
-        back_end::{lower::lower, raise::raise},
-        front_ends::builtin,
-        pipeline::{Pipeline, Request, Ringing},
+        driver,
+        emit::{lower::lower, raise::raise},
+        pipeline::Request,
+        sources::{Sourced, Tools, builtin},
     };
     use asperity_formats::Asset;
 
@@ -162,9 +163,8 @@ mod tests {
             preview_px: Some(SIZE),
             ..Request::default()
         };
-        let compiled = Pipeline::default()
-            .compile(named("cork"), &request, Ringing::Refused)
-            .unwrap();
+        let source = Sourced::new(named("cork"));
+        let compiled = driver::compile(&source, &request, &Tools::default()).unwrap();
         let asset = Asset::parse(&compiled.lowered.bytes).unwrap();
         let kept = asset.preview_png().unwrap();
         assert_eq!(kept, png(&raise(&asset), SIZE).unwrap());

@@ -2,11 +2,13 @@
 
 use super::AUTHOR;
 use asperity::{
+    driver,
     learned::{Latent, texture},
     level, lsf,
     model::Provenance,
-    pipeline::{Pipeline, Request, Ringing},
+    pipeline::{Request, Ringing},
     reduce::Fidelity,
+    sources::{Sourced, Tools},
 };
 use asperity_tests::size::sized_or;
 use rand_core::{Rng as _, SeedableRng as _};
@@ -72,7 +74,11 @@ fn any_latent_is_a_stable_texture_within_bounds() {
                 fidelity: Fidelity::Auto,
                 ..Request::default()
             };
-            let compiled = Pipeline::default().compile(texture, &request, Ringing::Stabilised);
+            let source = Sourced {
+                ringing: Ringing::Stabilised,
+                ..Sourced::new(texture)
+            };
+            let compiled = driver::compile(&source, &request, &Tools::default());
             let compiled = compiled.unwrap_or_else(|error| panic!("{number}: {error}"));
             if compiled.stabilised > 0.0 {
                 stabilised.fetch_add(1, Ordering::Relaxed);

@@ -117,7 +117,7 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
             request: Request {
                 fidelity,
                 rate_hz,
-                preview_px: None,
+                ..Request::default()
             },
         };
         AUTHOR.author("denim", &options).unwrap().texture.grid

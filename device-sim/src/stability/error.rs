@@ -10,8 +10,8 @@ pub enum StabilityError {
     #[error(transparent)]
     Hatt(#[from] asperity::hatt::HattError),
     /// A HaTT material could not be imported.
-    #[error(transparent)]
-    Import(#[from] asperity::hatt::ImportError),
+    #[error("{0}")]
+    Import(asperity::driver::Failure),
     /// A built-in file was refused.
     #[error(transparent)]
     Config(#[from] crate::config::ConfigError),

@@ -2,7 +2,13 @@
 
 use std::path::Path;
 
-use asperity::model::{GridVertex, TextureModel, VertexKind};
+use asperity::{
+    driver,
+    hatt::Hatt,
+    model::{GridVertex, TextureModel, VertexKind},
+    pipeline::Request,
+    sources::Tools,
+};
 use asperity_formats::Asset;
 use asperity_runtime::HostTexture;
 
@@ -133,8 +139,10 @@ pub fn all(hatt: Option<&Path>) -> Result<Vec<Material>, StabilityError> {
         if !HARD.contains(&name) {
             continue;
         }
-        let imported = asperity::hatt::import(&file, None)?;
-        materials.push(Material::from_bytes(&imported.bytes));
+        let material = Hatt::new(file);
+        let compiled = driver::compile(&material, &Request::default(), &Tools::default());
+        let compiled = compiled.map_err(StabilityError::Import)?;
+        materials.push(Material::from_bytes(&compiled.lowered.bytes));
     }
     Ok(materials)
 }

@@ -137,7 +137,7 @@ fn columns(texture: &'static HostTexture, bytes: &[u8]) -> Vec<Column> {
 }
 
 #[test]
-fn every_fault_on_every_back_end() {
+fn every_fault_on_every_emit() {
     let bytes = asset();
     let texture: &'static HostTexture = Box::leak(load(&bytes));
     let limits = Config::default().limits;

@@ -32,6 +32,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
             fidelity: args.fidelity,
             rate_hz: args.rate,
             preview_px: is_drawn.then_some(args.preview_size),
+            ..Request::default()
         },
     };
     let mut authored = author.author(&args.prompt, &options).map_err(one)?;

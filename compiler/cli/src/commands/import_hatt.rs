@@ -3,9 +3,11 @@
 use super::{inference, outputs::TextureOutputs, timings};
 use crate::cli::ImportHatt;
 use asperity::{
-    hatt::{self, Imported},
+    driver::Compiled,
+    hatt::{self, Hatt},
     library::{self, NamedAsset},
-    pipeline::{Pass, Pipeline},
+    pipeline::{Pass, Pipeline, Request},
+    sources::Tools,
 };
 use asperity_console::Console;
 use asperity_io::{
@@ -105,20 +107,20 @@ impl Target {
 
     fn write(
         self,
-        imported: &[Imported],
+        imported: &[Compiled],
         inputs: &[PathBuf],
         pipeline: &mut Pipeline,
         console: Console,
     ) -> Result<(), Failures> {
         match self {
             Self::Folder(folder) => {
-                let names: Vec<&str> = imported.iter().map(|m| m.report.name.as_str()).collect();
+                let names: Vec<&str> = imported.iter().map(|m| m.texture.name.as_str()).collect();
                 let FileNames { files, changed } = FileNames::of(&names, "asp");
                 console.warn_of_many(&changed);
                 let files: Vec<(String, &[u8])> = files
                     .into_iter()
                     .zip(imported)
-                    .map(|(name, material)| (name, &material.bytes[..]))
+                    .map(|(name, material)| (name, &material.lowered.bytes[..]))
                     .collect();
                 let write = || output::write_folder_beside(inputs, &folder, &files);
                 pipeline.run(Pass::Write, write).map_err(one)
@@ -135,7 +137,7 @@ impl Target {
             Self::File(mut outputs) => match imported.first() {
                 Some(material) => {
                     outputs.model(&material.whole);
-                    outputs.write(&material.bytes, pipeline)
+                    outputs.write(&material.lowered.bytes, pipeline)
                 }
                 None => Ok(()),
             },
@@ -154,14 +156,28 @@ pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
         .then(|| inference::completer(args.model.as_deref()))
         .transpose()?;
     let bar = console.bar(files.len(), "importing");
-    let results = hatt::import_all(&files, completer.as_ref(), args.fidelity, || bar.inc(1));
+    let materials: Vec<Hatt> = files
+        .into_iter()
+        .map(|file| Hatt {
+            file,
+            complete_taps: args.complete_taps,
+        })
+        .collect();
+    let request = Request {
+        fidelity: args.fidelity,
+        ..Request::default()
+    };
+    let tools = Tools {
+        model: completer.as_ref(),
+    };
+    let results = hatt::compile_all(&materials, &request, &tools, || bar.inc(1));
     bar.finish_and_clear();
-    let mut imported: Vec<Imported> = Vec::with_capacity(results.len());
+    let mut imported: Vec<Compiled> = Vec::with_capacity(results.len());
     let mut failures: Failures = Vec::new();
     for result in results {
         match result {
             Ok(material) => imported.push(material),
-            Err(error) => failures.push(Box::new(error)),
+            Err(error) => failures.push(error),
         }
     }
     if !failures.is_empty() {
@@ -178,34 +194,30 @@ pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
 }
 
 /// The library of all materials.
-fn packed(imported: &[Imported]) -> Result<Vec<u8>, Failures> {
+fn packed(imported: &[Compiled]) -> Result<Vec<u8>, Failures> {
     let named: Vec<NamedAsset<'_>> = imported
         .iter()
         .map(|material| NamedAsset {
-            name: &material.report.name,
-            bytes: &material.bytes,
+            name: &material.texture.name,
+            bytes: &material.lowered.bytes,
         })
         .collect();
     library::encode(&named).map_err(one)
 }
 
 /// One line a material, and of several a summary.
-fn figures(imported: &[Imported]) -> String {
+fn figures(imported: &[Compiled]) -> String {
     let mut text = String::new();
     for material in imported {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{}", material.report);
+        let _ = writeln!(text, "{}", material.text());
     }
     if imported.len() > 1 {
-        let compared: usize = imported.iter().map(|m| m.report.compared).sum();
-        let sum_db: f64 = imported
-            .iter()
-            .map(|m| m.report.error.mean_db * m.report.compared as f64)
-            .sum();
-        let max_db = imported
-            .iter()
-            .fold(0.0_f64, |max, m| max.max(m.report.error.max_db));
-        let places = match imported[0].report.reduction {
+        let all = || imported.iter().filter_map(|m| m.compared);
+        let compared: usize = all().map(|m| m.count).sum();
+        let sum_db: f64 = all().map(|m| m.error.mean_db * m.count as f64).sum();
+        let max_db = all().fold(0.0_f64, |max, m| max.max(m.error.max_db));
+        let places = match imported[0].reduced() {
             None => "vertices",
             Some(_) => "places",
         };

@@ -7,15 +7,14 @@ mod compile;
 mod diffusion;
 mod doctor;
 mod export;
-mod import_effects;
+mod import;
 mod import_hatt;
-mod import_model;
-mod import_recording;
 mod inference;
 mod inspect;
 mod library;
 mod listen;
 mod mixing;
+mod one_texture;
 mod outputs;
 mod plot;
 mod preview;
@@ -32,11 +31,11 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     let console = Console::new(cli.quiet);
     match cli.command {
         Command::Import(Import::Hatt(args)) => import_hatt::run(&args, console),
-        Command::Import(Import::Model(args)) => import_model::run(&args, console),
-        Command::Import(Import::Recording(args)) => import_recording::run(&args, console),
-        Command::Import(Import::Haptic(args)) => import_effects::run(&args, Kind::Haptic, console),
-        Command::Import(Import::Ahap(args)) => import_effects::run(&args, Kind::Ahap, console),
-        Command::Import(Import::Hjif(args)) => import_effects::run(&args, Kind::Hjif, console),
+        Command::Import(Import::Model(args)) => import::model(&args, console),
+        Command::Import(Import::Recording(args)) => import::recording(&args, console),
+        Command::Import(Import::Haptic(args)) => import::effects(&args, Kind::Haptic, console),
+        Command::Import(Import::Ahap(args)) => import::effects(&args, Kind::Ahap, console),
+        Command::Import(Import::Hjif(args)) => import::effects(&args, Kind::Hjif, console),
         Command::Export(args) => export::run(&args, console),
         Command::RecordCheck(args) => record_check::run(&args, console),
         Command::Build(args) => build::run(&args, console),

@@ -1,7 +1,7 @@
 //! AHAPs sound as Core Haptics plays them, and what is not honoured is named.
 
 use super::{player::play, read};
-use crate::{front_ends::effects, interchange::playback::Track, signal::level};
+use crate::{interchange::playback::Track, signal::level, sources::effects};
 use asperity_tests::{draw::Draw, size::sized, spectrum};
 use serde_json::{Value, json};
 use std::fs;
@@ -166,7 +166,7 @@ fn generated_files_sound_as_a_player_plays_them() {
         let file = folder.path().join("generated.ahap");
         fs::write(&file, pattern.to_string()).unwrap();
         let options = effects::tests::options();
-        let (imported, _) = effects::import(&file, effects::Kind::Ahap, &options).unwrap();
+        let imported = effects::tests::import(&file, effects::Kind::Ahap, &options).unwrap();
         let stroke = imported
             .whole
             .grid

@@ -6,7 +6,7 @@ use super::{
     row::{Field, Row, Value},
     values::{Checker, OPTIONS, Stated},
 };
-use crate::{front_ends::prompt, passes::reduce::Fidelity, pipeline::Request, views::preview};
+use crate::{passes::reduce::Fidelity, pipeline::Request, sources::prompt, views::preview};
 use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::input::{self, InputProblem, Kind};
 use std::{fs, io, path::PathBuf};
@@ -342,6 +342,7 @@ fn options(stated: &Stated, own: &Stated, origin: &DraftOrigin) -> Options {
                 Some(0) => None,
                 size => size,
             },
+            ..Request::default()
         },
         loudness_db: stated.loudness_db,
         edit: stated.edit.clone().filter(|_| !import).unwrap_or_default(),

@@ -8,8 +8,8 @@ use super::{
 };
 use crate::{
     edit::Sliders,
-    front_ends::prompt::phrase::relative,
     passes::{reduce::Fidelity, rerate},
+    sources::prompt::phrase::relative,
     views::preview,
 };
 use asperity_io::input::Reach;

@@ -229,9 +229,9 @@ fn report(full: &TextureModel, kept: &TextureModel, (p95_db, worst_db): (f64, f6
 mod tests {
     use super::*;
     use crate::{
-        back_end::{lower, verify},
-        front_ends::builtin,
+        emit::{lower, verify},
         model::mesh,
+        sources::builtin,
     };
 
     #[test]

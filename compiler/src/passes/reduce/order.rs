@@ -153,7 +153,7 @@ fn unit_rms(reflection: &[f64], numerator: Numerator) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front_ends::builtin;
+    use crate::sources::builtin;
 
     fn level(grid: &ModelGrid, vertex: &GridVertex) -> f64 {
         let model = ArmaModel::at_vertex(grid, vertex);

@@ -73,7 +73,7 @@ fn scale(accel_m_s2: &[f64], length: usize) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::front_ends::builtin;
+    use crate::sources::builtin;
 
     #[test]
     fn the_tail_goes_and_the_impulse_stays() {

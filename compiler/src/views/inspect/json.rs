@@ -2,7 +2,7 @@
 
 use super::scene::SurfaceDocument;
 use crate::{
-    back_end::raise::raise,
+    emit::raise::raise,
     model::{
         FrictionAnchor, FrictionLaw, Gains, Numerator, Provenance, VertexKind, Wall,
         attributes::{Attributes, Meter},
@@ -213,7 +213,7 @@ pub struct LibraryDocument {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{back_end::lower::lower, front_ends::builtin};
+    use crate::{emit::lower::lower, sources::builtin};
 
     #[test]
     fn the_contract_names_are_there_and_a_gain_of_one_is_not() {

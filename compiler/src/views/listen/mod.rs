@@ -3,7 +3,7 @@
 mod hand;
 mod sound;
 
-use crate::{back_end::raise::raise, signal::resample::resample};
+use crate::{emit::raise::raise, signal::resample::resample};
 use asperity_formats::Asset;
 use asperity_io::diagnostic::Diagnostic;
 use asperity_runtime::{Config, ConfigError, HostTexture, LoadError, Renderer};

@@ -1,7 +1,7 @@
 //! What is heard of the built-in texture.
 
 use super::*;
-use crate::{back_end::lower::lower, front_ends::builtin, model::TextureModel};
+use crate::{emit::lower::lower, model::TextureModel, sources::builtin};
 
 fn heard(
     texture: &TextureModel,

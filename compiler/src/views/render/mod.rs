@@ -166,7 +166,7 @@ fn run<R: Read>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{back_end::lower::lower, front_ends::builtin};
+    use crate::{emit::lower::lower, sources::builtin};
     use asperity_io::diagnostic::Diagnostic as _;
     use std::io;
 

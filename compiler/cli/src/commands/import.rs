@@ -1,0 +1,102 @@
+//! `asperity import model`, `haptic`, `ahap`, `hjif` and `recording`.
+
+use super::{
+    inference,
+    one_texture::{Job, Wanted},
+};
+use crate::cli::{ImportEffects, ImportModel, ImportRecording};
+use asperity::{
+    effects::{Effects, Kind, Options},
+    model_file::ModelFile,
+    pipeline::Request,
+    preview,
+    recording::{Recorded, RecordingFolder},
+    sources::{Source, Tools},
+};
+use asperity_console::Console;
+use asperity_io::diagnostic::Failures;
+
+pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures> {
+    let source = ModelFile {
+        file: args.input.clone(),
+    };
+    let wanted = Wanted {
+        json: args.json,
+        timings: args.timings,
+        ..Wanted::of(&args.output)
+    };
+    let request = Request {
+        fidelity: args.fidelity,
+        rate_hz: args.rate,
+        preview_px: (!args.no_preview).then_some(args.preview_size),
+        ..Request::default()
+    };
+    let job = Job::open(wanted, &source.inputs(), console)?;
+    job.run(&source, &request, &Tools::default())?;
+    Ok(())
+}
+
+pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Result<(), Failures> {
+    let source = Effects {
+        file: args.input.clone(),
+        kind,
+        options: Options {
+            speed_mm_s: args.speed.into(),
+            force_n: args.force.into(),
+            full_scale_m_s2: args.full_scale.into(),
+            tap_full_scale_m_s2: args.tap_full_scale.into(),
+            tap_speed_m_s: args.tap_speed.into(),
+            mu: args.mu.into(),
+        },
+    };
+    let wanted = Wanted {
+        json: args.json,
+        timings: args.timings,
+        ..Wanted::of(&args.output)
+    };
+    let request = Request {
+        name: args.name.clone(),
+        fidelity: args.fidelity,
+        rate_hz: args.rate,
+        preview_px: (!args.no_preview).then_some(args.preview_size),
+    };
+    let job = Job::open(wanted, &source.inputs(), console)?;
+    job.run(&source, &request, &Tools::default())?;
+    Ok(())
+}
+
+pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), Failures> {
+    let source = RecordingFolder {
+        folder: args.folder.clone(),
+        force: args.force,
+    };
+    let mut inputs = source.inputs();
+    inputs.extend(inference::model_files(args.model.as_deref()));
+    let wanted = Wanted {
+        emit_model: args.emit_model.as_deref(),
+        plot: args.plot.as_deref(),
+        report: args.report.as_deref(),
+        json: args.json,
+        timings: args.timings,
+        ..Wanted::of(&args.output)
+    };
+    let request = Request {
+        fidelity: args.fidelity,
+        rate_hz: args.rate,
+        preview_px: (!args.no_preview).then_some(preview::SIZE),
+        ..Request::default()
+    };
+    let job = Job::open(wanted, &inputs, console)?;
+    let model = inference::completer(args.model.as_deref())?;
+    let tools = Tools {
+        model: Some(&model),
+    };
+    let compiled = job.run(&source, &request, &tools)?;
+    if let (true, Some(found)) = (args.timings, compiled.found::<Recorded>()) {
+        for step in &found.analysis.steps {
+            let ms = 1e3 * step.took.as_secs_f64();
+            console.aside(&format!("  {:<16} {ms:>10.3} ms", step.name));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,122 @@
+//! What every command does that compiles one texture: open the outputs, compile, write, report.
+
+use super::{outputs::TextureOutputs, timings};
+use asperity::{
+    driver::{self, Compiled},
+    pipeline::{Pipeline, Request},
+    sources::{Source, Tools},
+};
+use asperity_console::Console;
+use asperity_io::{
+    diagnostic::{Diagnostic, Failures, alone, one},
+    output::OutputId,
+};
+use asperity_plot::PlotError;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// What is written and printed of a texture.
+pub(super) struct Wanted<'a> {
+    /// The asset.
+    pub(super) output: &'a Path,
+    /// The texture before its reduction, as JSON.
+    pub(super) emit_model: Option<&'a Path>,
+    /// A picture of what the source found.
+    pub(super) plot: Option<&'a Path>,
+    /// The report, as JSON.
+    pub(super) report: Option<&'a Path>,
+    /// Whether the report is printed as JSON.
+    pub(super) json: bool,
+    /// Whether the time of every pass is printed.
+    pub(super) timings: bool,
+}
+
+impl<'a> Wanted<'a> {
+    /// The asset and a report for people.
+    pub(super) fn of(output: &'a Path) -> Self {
+        Self {
+            output,
+            emit_model: None,
+            plot: None,
+            report: None,
+            json: false,
+            timings: false,
+        }
+    }
+}
+
+/// The sheet could not be drawn.
+#[derive(Debug, Error)]
+#[error("the sheet cannot be drawn: {0}")]
+struct NoSheet(PlotError);
+
+impl Diagnostic for NoSheet {
+    fn remedy(&self) -> String {
+        "leave --plot out".into()
+    }
+}
+
+/// The outputs of a command, open.
+pub(super) struct Job<'a> {
+    wanted: Wanted<'a>,
+    outputs: TextureOutputs,
+    plot: Option<OutputId>,
+    report: Option<OutputId>,
+    /// Where the command talks.
+    pub(super) console: Console,
+}
+
+impl<'a> Job<'a> {
+    /// Opens the outputs of a command that reads these files: a bad path costs no work.
+    pub(super) fn open(
+        wanted: Wanted<'a>,
+        inputs: &[PathBuf],
+        console: Console,
+    ) -> Result<Self, Failures> {
+        let mut outputs = TextureOutputs::open(inputs, wanted.output, wanted.emit_model)?;
+        Ok(Self {
+            plot: outputs.open_if(wanted.plot)?,
+            report: outputs.open_if(wanted.report)?,
+            console: outputs.console(console),
+            outputs,
+            wanted,
+        })
+    }
+
+    /// Compiles, writes and reports.
+    pub(super) fn run(
+        mut self,
+        source: &dyn Source,
+        request: &Request,
+        tools: &Tools<'_>,
+    ) -> Result<Compiled, Failures> {
+        let activity = self.console.activity();
+        activity.set_message("compiling");
+        let compiled = driver::compile(source, request, tools).map_err(alone)?;
+        if let Some(file) = self.plot
+            && let Some(sheet) = compiled.sheet().map_err(|error| one(NoSheet(error)))?
+        {
+            self.outputs.beside(file, sheet);
+        }
+        if let Some(file) = self.report {
+            let mut text = format!("{:#}", compiled.json()).into_bytes();
+            text.push(b'\n');
+            self.outputs.beside(file, text);
+        }
+        self.outputs.model(&compiled.whole);
+        let mut pipeline = Pipeline::default();
+        pipeline.merge(&compiled.timings);
+        self.outputs.write(&compiled.lowered.bytes, &mut pipeline)?;
+        activity.finish_and_clear();
+        let console = self.console;
+        console.warnings(&compiled.warnings, self.wanted.json);
+        let printed = if self.wanted.json {
+            console.json(&compiled.json())
+        } else {
+            console.report(&format!("{}\n", compiled.text()))
+        };
+        printed.map_err(one)?;
+        timings::print(self.wanted.timings, &pipeline, console);
+        Ok(compiled)
+    }
+}

@@ -1,0 +1,158 @@
+//! A compiled texture, and the reports of it.
+
+use crate::{
+    emit::{
+        lower::{ErrorSummary, Lowered},
+        verify::VerifyReport,
+    },
+    model::{
+        TextureModel,
+        attributes::{self, Attributes},
+    },
+    passes::reduce::{self, Fidelity},
+    pipeline::Timings,
+    sources::Findings,
+};
+use asperity_plot::PlotError;
+use serde_json::{Value, json};
+use std::{any::Any, sync::Arc};
+
+/// A texture that passed, with its asset.
+#[derive(Debug, Clone)]
+pub struct Compiled {
+    /// The whole texture before reduction, at its rate, and stabilised where it had to be.
+    pub whole: TextureModel,
+    /// The texture that the asset holds, with gains that the ceiling allows.
+    pub texture: TextureModel,
+    /// How much was asked to be kept.
+    pub fidelity: Fidelity,
+    /// What the fidelity left out, and what that cost.
+    pub reduction: reduce::Report,
+    /// The preview, if one was asked for.
+    pub preview: Option<Vec<u8>>,
+    /// The asset.
+    pub lowered: Lowered,
+    /// What verification saw.
+    pub verified: VerifyReport,
+    /// The fraction of the way to white noise that the models were moved so that they pass, 0..=1.
+    pub stabilised: f64,
+    /// How far the asset is from its source, where that is known.
+    pub compared: Option<Compared>,
+    /// What a user should be told.
+    pub warnings: Vec<String>,
+    /// What the source found besides.
+    pub findings: Option<Arc<dyn Findings>>,
+    /// The time of every pass.
+    pub timings: Timings,
+}
+
+/// Distance of an asset from its source.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Compared {
+    /// In full it is measured at every vertex that sounds, else on what the whole grid renders, at
+    /// the places of [`mixture::places`](crate::model::mixture::places).
+    pub error: ErrorSummary,
+    /// Vertices or places that were compared.
+    pub count: usize,
+}
+
+impl Compiled {
+    /// Objective attributes of what the asset holds.
+    #[must_use]
+    pub fn attributes(&self) -> Attributes {
+        attributes::of(&self.texture)
+    }
+
+    /// What was left out, unless nothing was to be.
+    #[must_use]
+    pub fn reduced(&self) -> Option<&reduce::Report> {
+        (self.fidelity != Fidelity::Full).then_some(&self.reduction)
+    }
+
+    /// What a source of this kind found.
+    #[must_use]
+    pub fn found<F: Findings>(&self) -> Option<&F> {
+        let findings: &dyn Any = &**self.findings.as_ref()?;
+        findings.downcast_ref()
+    }
+
+    /// The report for people.
+    #[must_use]
+    pub fn text(&self) -> String {
+        match &self.findings {
+            Some(findings) => findings.text(self),
+            None => self.line(),
+        }
+    }
+
+    /// The report for machines.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        match &self.findings {
+            Some(findings) => findings.json(self),
+            None => self.figures(),
+        }
+    }
+
+    /// A picture of what the source found as PNG, if it has one.
+    ///
+    /// # Errors
+    /// [`PlotError`] if it cannot be drawn.
+    pub fn sheet(&self) -> Result<Option<Vec<u8>>, PlotError> {
+        match &self.findings {
+            Some(findings) => findings.sheet(self),
+            None => Ok(None),
+        }
+    }
+
+    /// The figures that every texture has, for machines.
+    #[must_use]
+    pub fn figures(&self) -> Value {
+        let grid = &self.texture.grid;
+        json!({
+            "name": self.texture.name,
+            "error": self.compared.map(|compared| compared.error),
+            "compared": self.compared.map(|compared| compared.count),
+            "vertices": grid.vertices.len(),
+            "triangles": grid.triangles.len(),
+            "models": self.lowered.models,
+            "reduction": self.reduced(),
+            "bytes": { "haptic": self.lowered.haptic_bytes, "total": self.lowered.bytes.len() },
+            "stages_ms": self.timings.json(),
+            "warnings": self.warnings,
+        })
+    }
+
+    /// The figures that every texture has, in one line for people.
+    #[must_use]
+    pub fn line(&self) -> String {
+        let grid = &self.texture.grid;
+        let error = match &self.compared {
+            None => format!(
+                "{:.4} dB RMS from LSF quantisation",
+                self.lowered.lsf_error.rms_db
+            ),
+            Some(Compared { error, count }) => {
+                let over = match self.reduced() {
+                    None => format!("{count} of {} vertices", grid.vertices.len()),
+                    Some(_) => format!("{count} places"),
+                };
+                format!(
+                    "max {:.4} dB, mean {:.4} dB over {over}",
+                    error.max_db, error.mean_db
+                )
+            }
+        };
+        let reduced = self
+            .reduced()
+            .map_or_else(String::new, |report| format!(", {report}"));
+        format!(
+            "{}: {error}, {} triangles, {} models, {} haptic bytes, {} in all{reduced}",
+            self.texture.name,
+            grid.triangles.len(),
+            self.lowered.models,
+            self.lowered.haptic_bytes,
+            self.lowered.bytes.len(),
+        )
+    }
+}

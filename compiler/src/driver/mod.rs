@@ -1,0 +1,115 @@
+//! The one way from a source to a verified asset.
+//!
+//! Whatever a texture is made of, [`compile`] reads it, takes it through the passes
+//!
+//! ```text
+//! rerate → reduce → ceiling → preview → lower → verify → compare
+//! ```
+//!
+//! and says how far the asset is from its source.
+//!
+//! ```
+//! use asperity::{builtin::Builtin, driver, pipeline::Request, sources::Tools};
+//!
+//! let compiled = driver::compile(&Builtin, &Request::default(), &Tools::default())?;
+//! assert_eq!(&compiled.lowered.bytes[..4], b"ASPT");
+//! let passes: Vec<&str> = compiled.timings.iter().map(|(pass, _)| pass.name()).collect();
+//! assert_eq!(passes, ["generate", "reduce", "ceiling", "lower", "verify"]);
+//! # Ok::<(), asperity::driver::Failure>(())
+//! ```
+
+mod compiled;
+mod truth;
+
+pub use asperity_io::diagnostic::Failure;
+pub use compiled::{Compared, Compiled};
+pub use truth::Truth;
+
+use crate::{
+    pipeline::{Pass, Pipeline, PipelineError, Request},
+    sources::{Source, Sourced, Tools},
+};
+use asperity_io::diagnostic::Diagnostic;
+use thiserror::Error;
+
+/// A texture did not pass the pipeline.
+#[derive(Debug, Error)]
+#[error("{origin}{colon}{cause}", colon = if origin.is_empty() { "" } else { ": " })]
+pub struct Stopped {
+    /// What its source is called; may be empty.
+    pub origin: String,
+    /// The pass that failed, and why.
+    pub cause: PipelineError,
+}
+
+impl Diagnostic for Stopped {
+    fn remedy(&self) -> String {
+        self.cause.remedy()
+    }
+
+    fn is_usage(&self) -> bool {
+        self.cause.is_usage()
+    }
+}
+
+/// Compiles the texture of a source. The same inputs and request give the same bytes.
+///
+/// # Errors
+/// What the source says, or [`Stopped`] with the pass that failed. Nothing is written either way.
+pub fn compile(
+    source: &dyn Source,
+    request: &Request,
+    tools: &Tools<'_>,
+) -> Result<Compiled, Failure> {
+    let mut pipeline = Pipeline::default();
+    let mut sourced = source.read(request, tools, &mut pipeline)?;
+    if let Some(name) = &request.name {
+        sourced.texture.name.clone_from(name);
+    }
+    Ok(
+        compiled(sourced, request, pipeline).map_err(|cause| Stopped {
+            origin: source.origin(),
+            cause,
+        })?,
+    )
+}
+
+fn compiled(
+    sourced: Sourced,
+    request: &Request,
+    mut pipeline: Pipeline,
+) -> Result<Compiled, PipelineError> {
+    let Sourced {
+        texture,
+        truth,
+        ringing,
+        mut warnings,
+        findings,
+    } = sourced;
+    let mut passed = pipeline.compile(texture, request, ringing)?;
+    let compared = truth.map(|truth| {
+        pipeline.run(Pass::Compare, || {
+            truth.compared(&mut passed, request.fidelity)
+        })
+    });
+    if passed.stabilised > 0.0 {
+        warnings.push(format!(
+            "the models rang in motion and were moved {:.0} % of the way to white noise",
+            100.0 * passed.stabilised
+        ));
+    }
+    Ok(Compiled {
+        whole: passed.whole,
+        texture: passed.texture,
+        fidelity: request.fidelity,
+        reduction: passed.reduction,
+        preview: passed.preview,
+        lowered: passed.lowered,
+        verified: passed.verified,
+        stabilised: passed.stabilised,
+        compared: compared.transpose()?,
+        warnings,
+        findings,
+        timings: pipeline.timings().clone(),
+    })
+}

@@ -1,0 +1,226 @@
+//! What opens, and what is refused.
+
+use super::*;
+use crate::{
+    emit::lower::lower,
+    library::{NamedAsset, encode},
+    sources::builtin,
+};
+use asperity_formats::Asset;
+use asperity_io::diagnostic::Diagnostic as _;
+use asperity_io::input::InputProblem;
+use std::fs;
+
+/// A library that holds the same asset under every name.
+pub(crate) fn library_of(names: &[String], asset: &[u8]) -> Vec<u8> {
+    let assets: Vec<_> = (names.iter())
+        .map(|name| NamedAsset { name, bytes: asset })
+        .collect();
+    encode(&assets).unwrap()
+}
+
+fn problem(error: SourceError) -> SourceProblem {
+    error.problem
+}
+
+#[test]
+fn a_texture_of_a_library_is_found_by_name_and_by_index() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.aspl");
+    let bytes = ["b", "a"].map(|name| {
+        let mut texture = builtin::texture();
+        texture.name = name.into();
+        lower(&texture, None).unwrap().bytes
+    });
+    let assets: Vec<NamedAsset<'_>> = ["b", "a"]
+        .into_iter()
+        .zip(&bytes)
+        .map(|(name, bytes)| NamedAsset { name, bytes })
+        .collect();
+    fs::write(&path, encode(&assets).unwrap()).unwrap();
+    let mut source = Source::open(&path).unwrap();
+    assert_eq!(source.names().unwrap(), ["a", "b"]);
+    for (wanted, name) in [("a", "a"), ("b", "b"), ("0", "a"), ("1", "b")] {
+        let chosen = source.choose(Some(wanted)).unwrap();
+        assert_eq!(Asset::parse(&chosen).unwrap().name(), name);
+    }
+    let missing = problem(source.choose(Some("2")).unwrap_err());
+    assert!(matches!(
+        missing,
+        SourceProblem::NoSuchTexture { count: 2, .. }
+    ));
+    let none = source.choose(None).unwrap_err();
+    assert!(none.is_usage());
+}
+
+/// What comes once, through a pipe or standard input, opens as a file does.
+#[test]
+fn an_asset_or_a_library_comes_through_a_reader() {
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let library = encode(&[NamedAsset {
+        name: "a",
+        bytes: &asset,
+    }])
+    .unwrap();
+    for bytes in [&asset, &library] {
+        let mut source = Source::from_reader(Path::new("-"), &bytes[..]).unwrap();
+        assert_eq!(source.choose(None).unwrap(), asset);
+    }
+    let endless = Source::from_reader(Path::new("-"), std::io::repeat(b'A')).unwrap_err();
+    let text = endless.to_string();
+    assert!(text.contains("-: more than 67108864 bytes"), "{text}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_a_source() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&path).status();
+    assert!(made.unwrap().success());
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let (writer, bytes) = (path.clone(), asset.clone());
+    let write = std::thread::spawn(move || fs::write(writer, bytes));
+    assert_eq!(Source::open(&path).unwrap().choose(None).unwrap(), asset);
+    write.join().unwrap().unwrap();
+}
+
+/// A header that promises a million textures takes no more memory than the file has bytes.
+#[test]
+fn counts_of_an_index_are_not_believed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.aspl");
+    let mut head = b"ASPL".to_vec();
+    head.extend([1, 0, 0, 0]);
+    head.extend((1_u32 << 20).to_le_bytes());
+    head.extend((88_u32 << 20).to_le_bytes());
+    head.resize(28, 0);
+    fs::write(&path, head).unwrap();
+    let refused = problem(Source::open(&path).unwrap_err());
+    assert!(matches!(
+        refused,
+        SourceProblem::Format(asperity_formats::FormatError::TooShort { .. })
+    ));
+}
+
+#[test]
+fn other_and_damaged_files_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a");
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let library = encode(&[NamedAsset {
+        name: "a",
+        bytes: &asset,
+    }])
+    .unwrap();
+    let open = |bytes: &[u8]| {
+        fs::write(&path, bytes).unwrap();
+        let mut source = Source::open(&path).map_err(problem)?;
+        source.choose(None).map_err(problem)
+    };
+    assert!(open(&asset).is_ok() && open(&library).is_ok());
+    for bytes in [b"".as_slice(), b"ASP", b"<?xml version"] {
+        assert!(matches!(open(bytes), Err(SourceProblem::WrongKind)));
+    }
+    for len in [4, 20, 27, 40, 100, library.len() - 1] {
+        assert!(matches!(
+            open(&library[..len]),
+            Err(SourceProblem::Format(_))
+        ));
+    }
+    for len in [4, 20, 100, asset.len() - 1] {
+        assert!(matches!(open(&asset[..len]), Err(SourceProblem::Format(_))));
+    }
+    assert!(matches!(
+        problem(Source::open(folder.path()).unwrap_err()),
+        SourceProblem::Input(InputProblem::Folder)
+    ));
+}
+
+/// Counts the bytes that are read of it.
+#[derive(Debug)]
+struct Counting(
+    Cursor<Vec<u8>>,
+    std::sync::Arc<std::sync::atomic::AtomicUsize>,
+);
+
+impl Read for Counting {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.0.read(buffer)?;
+        self.1.fetch_add(read, std::sync::atomic::Ordering::Relaxed);
+        Ok(read)
+    }
+}
+
+impl Seek for Counting {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.0.seek(to)
+    }
+}
+
+/// Bytes that are read, and entries of the index, where all textures of a library are read, found
+/// by name, and looked at.
+fn work(count: usize) -> usize {
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let names: Vec<String> = (0..count).map(|n| format!("t{n:05}")).collect();
+    let bytes = library_of(&names, &asset);
+    let read = std::sync::Arc::default();
+    let entries = index::ENTRIES_READ.get();
+    let counting = Counting(Cursor::new(bytes), std::sync::Arc::clone(&read));
+    let mut source = Source::with(Path::new("-"), Box::new(counting)).unwrap();
+    for (index, name) in names.iter().enumerate() {
+        assert_eq!(source.texture(index).unwrap(), asset);
+        assert_eq!(source.choose(Some(name)).unwrap(), asset);
+        assert_eq!(source.chosen_name(Some(name)).unwrap().as_ref(), Some(name));
+    }
+    let found = source.each(|| (), |(), name, _| name.to_owned()).unwrap();
+    assert_eq!(found, names);
+    assert!(source.library().unwrap().is_some());
+    read.load(std::sync::atomic::Ordering::Relaxed) + index::ENTRIES_READ.get() - entries
+}
+
+#[test]
+fn twice_the_textures_take_twice_the_work() {
+    let (once, twice) = (work(200), work(400));
+    let ratio = twice as f64 / once as f64;
+    assert!((1.9..2.1).contains(&ratio), "{once} and {twice}: {ratio}");
+    // The index is read when the library is opened, and never again.
+    let before = index::ENTRIES_READ.get();
+    work(100);
+    assert_eq!(index::ENTRIES_READ.get() - before, 100);
+}
+
+/// Small or large, neighbours or alone: every texture is looked at once, and the first that is
+/// damaged is named.
+#[test]
+fn each_texture_is_looked_at_once_in_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.aspl");
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let names: Vec<String> = (0..TOGETHER + 3).map(|n| format!("t{n:05}")).collect();
+    let mut bytes = library_of(&names, &asset);
+    fs::write(&path, &bytes).unwrap();
+    let look = || {
+        let mut source = Source::open(&path).unwrap();
+        source.each(
+            || (),
+            |(), name, asset| (name.to_owned(), asset.total_len()),
+        )
+    };
+    let found = look().unwrap();
+    assert!(
+        found
+            .iter()
+            .zip(&names)
+            .all(|((found, _), name)| found == name)
+    );
+    assert!(found.iter().all(|(_, len)| *len == asset.len()));
+    assert_eq!(found.len(), names.len());
+    let at = bytes.len() - asset.len() - 1;
+    bytes[at] ^= 1;
+    fs::write(&path, &bytes).unwrap();
+    let damaged = look().unwrap_err();
+    assert_eq!(damaged.texture.as_ref(), names.get(TOGETHER + 1));
+    fs::write(&path, &asset).unwrap();
+    assert_eq!(look().unwrap(), [("Built-in Grit".to_owned(), asset.len())]);
+}

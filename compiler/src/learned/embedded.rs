@@ -1,0 +1,70 @@
+//! The networks inside the binary: a prompt needs no file.
+
+use crate::{
+    inference::Backend,
+    learned::{Files, ModelError},
+    text::{Vocabulary, WithWords, WordTable, minilm::MiniLm},
+};
+use asperity_model::{
+    AR_DECODER, DESCRIPTION, ENCODER, MODEL_CRC32, TAP_DECODER, TEXT_ENCODER, TEXT_PROJECTION,
+    VOCABULARY, WORD_ROWS, WORD_VECTORS, WORD_WIDTH,
+};
+
+/// The files of the shipped model.
+#[must_use]
+pub fn model() -> Files {
+    Files {
+        description: DESCRIPTION.into(),
+        text_projection: TEXT_PROJECTION.into(),
+        ar_decoder: AR_DECODER.into(),
+        tap_decoder: TAP_DECODER.into(),
+        encoder: ENCODER.into(),
+        known_crc32: Some(MODEL_CRC32),
+    }
+}
+
+/// all-MiniLM-L6-v2 on a back end, with the table of words beside it.
+///
+/// # Errors
+/// [`ModelError::Network`] when the back end refuses it.
+pub fn text_encoder(backend: &Backend) -> Result<WithWords<MiniLm>, ModelError> {
+    let session = backend
+        .session(TEXT_ENCODER.into())
+        .map_err(|message| ModelError::Network {
+            file: "text_encoder.onnx".into(),
+            message,
+        })?;
+    let table = WordTable::new(Vocabulary::new(WORD_ROWS), WORD_VECTORS, WORD_WIDTH);
+    let table = table.map_err(|error| ModelError::Network {
+        file: "words.bin".into(),
+        message: error.to_string(),
+    })?;
+    let sentence = MiniLm::new(session, Vocabulary::new(VOCABULARY));
+    Ok(WithWords::new(sentence, table))
+}
+
+/// Bytes of the text encoder and of the learned model.
+#[must_use]
+pub fn sizes() -> (usize, usize) {
+    let files = model();
+    let model = files.description.len()
+        + files.text_projection.len()
+        + files.ar_decoder.len()
+        + files.tap_decoder.len()
+        + files.encoder.len();
+    (
+        TEXT_ENCODER.len() + VOCABULARY.len() + WORD_ROWS.len() + WORD_VECTORS.len(),
+        model,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stated_checksum_is_that_of_the_files() {
+        let files = model();
+        assert_eq!(files.crc32(), files.checksum(), "set `MODEL_CRC32` anew");
+    }
+}

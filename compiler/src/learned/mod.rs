@@ -1,0 +1,24 @@
+//! The learned model: its folder, its description, its networks.
+//!
+//! `prompt → text vector → z → AR grid, taps → μ` of the paper, frozen. Training is
+//! another package; here a model is only read and run.
+
+mod certainty;
+mod check;
+pub mod complete;
+pub mod description;
+pub mod edges;
+pub mod embedded;
+mod error;
+mod files;
+pub mod friction;
+pub mod inference;
+mod model;
+mod network;
+pub mod text;
+pub mod texture;
+
+pub use certainty::certainty;
+pub use error::ModelError;
+pub use files::Files;
+pub use model::{Decoded, Latent, LearnedModel, Present, Projected};

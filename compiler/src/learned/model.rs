@@ -1,0 +1,274 @@
+//! A learned model: its networks, loaded once, and what they are asked.
+
+use super::{
+    check::check,
+    description::{LATENT, ModelDescription},
+    error::ModelError,
+    files::Files,
+    network::{has, run, take},
+};
+use crate::inference::Backend;
+use asperity_nn::Session;
+use std::{borrow::Cow, sync::OnceLock};
+
+/// Rows of a batch at most: what they come to in the networks stays in the second-level cache.
+const BATCH: usize = 16;
+
+/// Roughness, slipperiness and hardness of words.
+const FELT: usize = 3;
+
+/// A latent code.
+pub type Latent = [f32; LATENT];
+
+/// The latent of a text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Projected {
+    /// The latent.
+    pub z: Latent,
+    /// How rough, slippery and hard the words are, as dB, −ln μ and ln Hz; `None` from a projection
+    /// without that output.
+    pub felt: Option<[f32; FELT]>,
+    /// Cosine of the text with the mean caption of every anchor, in their order.
+    pub similarity: Vec<f32>,
+    /// A soft maximum of its cosines with the examples of the projection: 1 and more for what the
+    /// model was trained on.
+    pub familiarity: f32,
+}
+
+/// What a latent decodes to, bins and traces in the order of the description.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decoded {
+    /// LSFs, rad, `bins × order`.
+    pub lsf_rad: Vec<f32>,
+    /// RMS of the vibration in every bin, dB re 1 m/s².
+    pub level_db: Vec<f32>,
+    /// Traces, m/s², `speeds × samples`.
+    pub taps_m_s2: Vec<f32>,
+}
+
+/// Which modalities an encoder is given; the other is decoded from the latent.
+#[derive(Debug, Clone, Copy)]
+pub enum Present<'a> {
+    /// LSFs in rad and the level in dB of every bin: `bins × (order + 1)`.
+    Ar(&'a [f32]),
+    /// Traces, m/s², `speeds × samples`.
+    Taps(&'a [f32]),
+    /// Both.
+    Both(&'a [f32], &'a [f32]),
+}
+
+/// A learned model on a back end.
+pub struct LearnedModel {
+    crc32: u32,
+    description: ModelDescription,
+    text_projection: Box<dyn Session>,
+    ar_decoder: Box<dyn Session>,
+    tap_decoder: Box<dyn Session>,
+    /// Loaded on first use, because a prompt needs no encoder.
+    encoder: OnceLock<Box<dyn Session>>,
+    encoder_bytes: Cow<'static, [u8]>,
+    backend: Backend,
+}
+
+impl LearnedModel {
+    /// Loads the networks that a prompt needs.
+    ///
+    /// # Errors
+    /// [`ModelError`] with the file and what is wrong in it.
+    pub fn load(files: Files, backend: &Backend) -> Result<Self, ModelError> {
+        let description: ModelDescription =
+            serde_json::from_str(&files.description).map_err(|error| ModelError::Description {
+                file: "model.json".into(),
+                message: error.to_string(),
+            })?;
+        check(&description)?;
+        let crc32 = files.crc32();
+        let session = |file: &str, bytes: Cow<'static, [u8]>| {
+            backend
+                .session(bytes)
+                .map_err(|message| ModelError::Network {
+                    file: file.into(),
+                    message,
+                })
+        };
+        Ok(Self {
+            crc32,
+            description,
+            text_projection: session("text_projection.onnx", files.text_projection)?,
+            ar_decoder: session("ar_decoder.onnx", files.ar_decoder)?,
+            tap_decoder: session("tap_decoder.onnx", files.tap_decoder)?,
+            encoder: OnceLock::new(),
+            encoder_bytes: files.encoder,
+            backend: *backend,
+        })
+    }
+
+    /// CRC-32 of its files.
+    #[must_use]
+    pub fn crc32(&self) -> u32 {
+        self.crc32
+    }
+
+    /// The description of the model.
+    #[must_use]
+    pub fn description(&self) -> &ModelDescription {
+        &self.description
+    }
+
+    /// The latent of a text vector.
+    ///
+    /// # Errors
+    /// [`ModelError`] for a vector of another width, or when the network fails.
+    pub fn project(&self, vector: &[f32]) -> Result<Projected, ModelError> {
+        self.projected(&[vector]).map(|mut all| all.remove(0))
+    }
+
+    /// The latents of several text vectors, a batch at a time.
+    ///
+    /// # Errors
+    /// As [`project`](Self::project).
+    pub fn project_all(&self, vectors: &[&[f32]]) -> Result<Vec<Projected>, ModelError> {
+        let mut all = Vec::with_capacity(vectors.len());
+        for batch in vectors.chunks(BATCH) {
+            all.extend(self.projected(batch)?);
+        }
+        Ok(all)
+    }
+
+    fn projected(&self, vectors: &[&[f32]]) -> Result<Vec<Projected>, ModelError> {
+        let expected = self.description.text_encoder.width;
+        if let Some(other) = vectors.iter().find(|vector| vector.len() != expected) {
+            return Err(ModelError::Width {
+                expected,
+                found: other.len(),
+            });
+        }
+        const FILE: &str = "text_projection.onnx";
+        let (count, anchors) = (vectors.len(), self.description.anchors.len());
+        let outputs = run(
+            FILE,
+            self.text_projection.as_ref(),
+            &[("embedding", &[count, expected], &vectors.concat())],
+        )?;
+        let z = take(FILE, &outputs, "z", count * LATENT)?;
+        let felt = if has(&outputs, "felt") {
+            Some(take(FILE, &outputs, "felt", count * FELT)?)
+        } else {
+            None
+        };
+        let similarity = take(FILE, &outputs, "similarity", count * anchors)?;
+        let familiarity = take(FILE, &outputs, "familiarity", count)?;
+        let row = |n: usize| Projected {
+            z: latent(&z[n * LATENT..]),
+            felt: felt
+                .as_ref()
+                .map(|felt| std::array::from_fn(|k| felt[n * FELT + k])),
+            similarity: similarity[n * anchors..(n + 1) * anchors].to_vec(),
+            familiarity: familiarity[n],
+        };
+        Ok((0..count).map(row).collect())
+    }
+
+    /// The parameters that a latent decodes to. Components beyond ±10³ are clamped and NaN becomes
+    /// zero, so that the decoders' bounds hold.
+    ///
+    /// # Errors
+    /// [`ModelError::Network`] when a network fails.
+    pub fn decode(&self, z: &Latent) -> Result<Decoded, ModelError> {
+        self.decoded(std::slice::from_ref(z))
+            .map(|mut all| all.remove(0))
+    }
+
+    /// The parameters that several latents decode to, a batch at a time.
+    ///
+    /// # Errors
+    /// As [`decode`](Self::decode).
+    pub fn decode_all(&self, latents: &[Latent]) -> Result<Vec<Decoded>, ModelError> {
+        let mut all = Vec::with_capacity(latents.len());
+        for batch in latents.chunks(BATCH) {
+            all.extend(self.decoded(batch)?);
+        }
+        Ok(all)
+    }
+
+    fn decoded(&self, latents: &[Latent]) -> Result<Vec<Decoded>, ModelError> {
+        let count = latents.len();
+        let z: Vec<f32> = latents
+            .as_flattened()
+            .iter()
+            .map(|x| if x.is_nan() { 0.0 } else { x.clamp(-1e3, 1e3) })
+            .collect();
+        let grid = &self.description.grid;
+        let bins = grid.speeds_mm_s.len();
+        let (file, shape) = ("ar_decoder.onnx", [count, LATENT]);
+        let outputs = run(file, self.ar_decoder.as_ref(), &[("z", &shape, &z)])?;
+        let lsf_rad = take(file, &outputs, "lsf_rad", count * bins * grid.order)?;
+        let level_db = take(file, &outputs, "level_db", count * bins)?;
+        let taps = &self.description.taps;
+        let file = "tap_decoder.onnx";
+        let outputs = run(file, self.tap_decoder.as_ref(), &[("z", &shape, &z)])?;
+        let samples = taps.speeds_m_s.len() * taps.samples;
+        let taps_m_s2 = take(file, &outputs, "taps_m_s2", count * samples)?;
+        let part = |all: &[f32], n: usize| {
+            let size = all.len() / count;
+            all[n * size..(n + 1) * size].to_vec()
+        };
+        Ok((0..count)
+            .map(|n| Decoded {
+                lsf_rad: part(&lsf_rad, n),
+                level_db: part(&level_db, n),
+                taps_m_s2: part(&taps_m_s2, n),
+            })
+            .collect())
+    }
+
+    /// The mean of the posterior, given the modalities that are present.
+    ///
+    /// # Errors
+    /// [`ModelError::Network`] when the network fails.
+    pub fn encode(&self, known: Present<'_>) -> Result<Latent, ModelError> {
+        const FILE: &str = "encoder.onnx";
+        let grid = &self.description.grid;
+        let taps = &self.description.taps;
+        let bins = grid.speeds_mm_s.len();
+        let (traces, samples) = (taps.speeds_m_s.len(), taps.samples);
+        let (no_ar, no_taps) = (
+            vec![0.0; bins * (grid.order + 1)],
+            vec![0.0; traces * samples],
+        );
+        let (ar, bank, present): (&[f32], &[f32], [f32; 2]) = match known {
+            Present::Ar(ar) => (ar, &no_taps, [1.0, 0.0]),
+            Present::Taps(bank) => (&no_ar, bank, [0.0, 1.0]),
+            Present::Both(ar, bank) => (ar, bank, [1.0, 1.0]),
+        };
+        let encoder = self.encoder()?;
+        let outputs = run(
+            FILE,
+            encoder,
+            &[
+                ("ar", &[1, bins, grid.order + 1], ar),
+                ("taps_m_s2", &[1, traces, samples], bank),
+                ("present", &[1, 2], &present),
+            ],
+        )?;
+        Ok(latent(&take(FILE, &outputs, "mean", LATENT)?))
+    }
+
+    fn encoder(&self) -> Result<&dyn Session, ModelError> {
+        if let Some(encoder) = self.encoder.get() {
+            return Ok(encoder.as_ref());
+        }
+        let session = self
+            .backend
+            .session(self.encoder_bytes.clone())
+            .map_err(|message| ModelError::Network {
+                file: "encoder.onnx".into(),
+                message,
+            })?;
+        Ok(self.encoder.get_or_init(|| session).as_ref())
+    }
+}
+
+fn latent(values: &[f32]) -> Latent {
+    std::array::from_fn(|k| values[k])
+}

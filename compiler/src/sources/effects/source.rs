@@ -1,0 +1,254 @@
+//! A file of effects as a source.
+
+use super::{stroke, tap};
+use crate::{
+    driver::{Failure, Truth},
+    interchange::{EffectError, EffectProblem, ahap, haptic, hjif, playback::Track},
+    learned::edges,
+    model::{Friction, ModelGrid, Numerator, Provenance, TapBank, TextureModel, defaults},
+    passes::triangulate,
+    pipeline::{Pass, Pipeline, Request, Ringing},
+    signal::tap_synthesis,
+    sources::{Source, Sourced, Tools},
+};
+use asperity_formats::limits::MAX_NAME_BYTES;
+use asperity_io::input::{self, Format, InputProblem};
+use std::path::{Path, PathBuf};
+
+/// The grid reaches this many times the speed and the force of the stroke.
+const REACH: f64 = 2.0;
+
+/// What a file is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// `.haptic` of NiceVibrations.
+    Haptic,
+    /// The Apple Haptic and Audio Pattern.
+    Ahap,
+    /// The interchange form of MPEG haptics.
+    Hjif,
+}
+
+impl Kind {
+    const fn format(self) -> Format {
+        match self {
+            Self::Haptic => Format::Haptic,
+            Self::Ahap => Format::Ahap,
+            Self::Hjif => Format::Hjif,
+        }
+    }
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Haptic => "haptic",
+            Self::Ahap => "ahap",
+            Self::Hjif => "hjif",
+        }
+    }
+}
+
+/// What a file of effects does not say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Speed of the stroke, mm/s.
+    pub speed_mm_s: f64,
+    /// Normal force of the stroke, N.
+    pub force_n: f64,
+    /// Acceleration of a full scale in strokes, m/s².
+    pub full_scale_m_s2: f64,
+    /// Acceleration of a full scale in taps, m/s².
+    pub tap_full_scale_m_s2: f64,
+    /// Impact speed of the loudest tap, m/s.
+    pub tap_speed_m_s: f64,
+    /// Coefficient of friction, of which the file says nothing.
+    pub mu: f64,
+}
+
+/// A file of effects.
+#[derive(Debug, Clone)]
+pub struct Effects {
+    /// The file.
+    pub file: PathBuf,
+    /// What it is.
+    pub kind: Kind,
+    /// What it does not say.
+    pub options: Options,
+}
+
+impl Source for Effects {
+    fn origin(&self) -> String {
+        self.file.display().to_string()
+    }
+
+    fn inputs(&self) -> Vec<PathBuf> {
+        vec![self.file.clone()]
+    }
+
+    /// Reads, plays and models the file.
+    fn read(
+        &self,
+        request: &Request,
+        _: &Tools<'_>,
+        pipeline: &mut Pipeline,
+    ) -> Result<Sourced, Failure> {
+        let Self {
+            file,
+            kind,
+            options,
+        } = self;
+        let (track, crc32) = pipeline.run(Pass::Read, || self.track())?;
+        let mut warnings = track.warnings.clone();
+        let name = request.name.clone().unwrap_or_else(|| stem(file));
+        if name.is_empty() || name.len() > MAX_NAME_BYTES || name.chars().any(char::is_control) {
+            return Err(self.refused(EffectProblem::Name(name)).into());
+        }
+        let whole = pipeline.run(Pass::Decode, || {
+            texture(&track, name, *kind, options, &mut warnings)
+        });
+        let Some(mut whole) = whole else {
+            let mut reasons = track.warnings;
+            if reasons.is_empty() {
+                let silent = "no transient, and no continuous effect with an amplitude above zero";
+                reasons.push(silent.into());
+            }
+            return Err(self.refused(EffectProblem::Silent { reasons }).into());
+        };
+        let name = file.file_name().unwrap_or_default();
+        whole.provenance.source = name.to_string_lossy().into_owned();
+        whole.provenance.source_crc32 = crc32;
+        Ok(Sourced {
+            truth: Some(Truth::Texture),
+            ringing: Ringing::Stabilised,
+            warnings,
+            ..Sourced::new(whole)
+        })
+    }
+}
+
+impl Effects {
+    /// What the file holds, and its CRC-32.
+    fn track(&self) -> Result<(Track, u32), EffectError> {
+        let bytes = input::read(&self.file, input::Kind::Effects)
+            .map_err(|problem| self.refused(problem.into()))?;
+        let wanted = self.kind.format();
+        if let Some(format) = Format::of(&bytes).filter(|format| *format != wanted) {
+            let wanted = wanted.name().into();
+            return Err(self.refused(InputProblem::OtherFormat { format, wanted }.into()));
+        }
+        let text = input::text(&bytes).map_err(|problem| self.refused(problem.into()))?;
+        let track = match self.kind {
+            Kind::Haptic => haptic::read(text),
+            Kind::Ahap => ahap::read(text),
+            Kind::Hjif => hjif::read(text),
+        };
+        let track = track.map_err(|(field, problem)| EffectError {
+            field,
+            ..self.refused(problem)
+        })?;
+        Ok((track, crc32fast::hash(&bytes)))
+    }
+
+    fn refused(&self, problem: EffectProblem) -> EffectError {
+        EffectError {
+            file: self.file.clone(),
+            field: String::new(),
+            problem,
+        }
+    }
+}
+
+/// The name of a file without its ending, as an asset can hold it.
+fn stem(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let plain: String = stem
+        .chars()
+        .map(|c| if c.is_control() { '_' } else { c })
+        .collect();
+    let mut end = plain.len().min(MAX_NAME_BYTES);
+    while !plain.is_char_boundary(end) {
+        end -= 1;
+    }
+    plain[..end].to_owned()
+}
+
+/// The texture of a track; `None` for one that does not sound.
+fn texture(
+    track: &Track,
+    name: String,
+    kind: Kind,
+    options: &Options,
+    warnings: &mut Vec<String>,
+) -> Option<TextureModel> {
+    let vertex = stroke::vertex(
+        track,
+        options.speed_mm_s,
+        options.force_n,
+        options.full_scale_m_s2,
+    );
+    let sounds = vertex.sigma_m_s2 > 0.0;
+    let taps: Vec<_> = track
+        .transients
+        .iter()
+        .filter(|t| t.amplitude > 0.0)
+        .copied()
+        .collect();
+    if !sounds && taps.is_empty() {
+        return None;
+    }
+    let vertices = edges::close(
+        vec![vertex],
+        REACH * options.speed_mm_s,
+        REACH * options.force_n,
+    );
+    let grid = ModelGrid {
+        sample_rate_hz: f64::from(stroke::MODEL_HZ),
+        order: stroke::ORDER,
+        numerator: Numerator::Nyquist,
+        triangles: triangulate::delaunay(&vertices),
+        vertices,
+    };
+    let gains = defaults::gains();
+    let synthetic = taps.is_empty();
+    let bank: TapBank = if synthetic {
+        warnings
+            .push("the file has no transients: the taps are synthesised from its spectrum".into());
+        tap_synthesis::bank(tap_synthesis::frequency_hz(&grid), &gains)
+    } else {
+        tap::bank(&taps, options.tap_speed_m_s, options.tap_full_scale_m_s2)
+    };
+    if !sounds {
+        warnings.push("the file has transients alone: the texture does not vibrate".into());
+    }
+    let generator = format!(
+        "asperity {} import {}",
+        env!("CARGO_PKG_VERSION"),
+        kind.name()
+    );
+    Some(TextureModel {
+        name,
+        taps: bank,
+        grid,
+        friction: Friction {
+            mu: options.mu,
+            anchors: Vec::new(),
+            law: None,
+        },
+        wall: defaults::wall(),
+        gains,
+        provenance: Provenance {
+            generator,
+            taps_synthetic: synthetic,
+            notes: format!(
+                "One stroke at {} mm/s and {} N; a full scale is {} m/s² in strokes and {} m/s² in \
+                 taps. Friction, wall and gains are not the file's.",
+                options.speed_mm_s,
+                options.force_n,
+                options.full_scale_m_s2,
+                options.tap_full_scale_m_s2
+            ),
+            ..Provenance::default()
+        },
+    })
+}

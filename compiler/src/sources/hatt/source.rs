@@ -1,0 +1,229 @@
+//! HaTT files as sources.
+
+use super::{
+    error::{HattError, Problem},
+    material::{self, Material, SourceModel},
+    texture::to_model,
+};
+use crate::{
+    driver::{self, Compiled, Failure, Truth},
+    learned::{LearnedModel, ModelError, complete},
+    model::TextureModel,
+    pipeline::{Pass, Pipeline, Request},
+    signal::spectrum::ArmaModel,
+    sources::{Findings, Source, Sourced, Tools},
+};
+use asperity_io::{
+    diagnostic::Diagnostic,
+    input::{self, InputProblem, Kind},
+};
+use rayon::prelude::*;
+use std::{
+    collections::HashMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+use thiserror::Error;
+
+/// Largest RMS log-spectral error of a vertex against its source, dB.
+pub const BUDGET_DB: f64 = 0.5;
+
+/// The HaTT files of a path: itself, or every `.xml` file of a folder in order of name.
+///
+/// # Errors
+/// [`HattError`] for a path that cannot be read or a folder without such files.
+pub fn files(path: &Path) -> Result<Vec<PathBuf>, HattError> {
+    let fail = |problem| HattError {
+        file: path.to_owned(),
+        line: None,
+        problem,
+    };
+    let unreadable = |e| fail(Problem::Input(InputProblem::Unreadable(e)));
+    let metadata = std::fs::metadata(path).map_err(unreadable)?;
+    if !metadata.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(path).map_err(unreadable)? {
+        let file = entry.map_err(unreadable)?.path();
+        let is_xml = file
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("xml"));
+        if is_xml && file.is_file() {
+            found.push(file);
+        }
+    }
+    if found.is_empty() {
+        return Err(fail(Problem::EmptyFolder));
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Compiles materials in parallel; results in their order, whatever the thread count. `done` is
+/// called once a material, from any thread. No two may have one name.
+pub fn compile_all(
+    materials: &[Hatt],
+    request: &Request,
+    tools: &Tools<'_>,
+    done: impl Fn() + Sync,
+) -> Vec<Result<Compiled, Failure>> {
+    let mut results: Vec<_> = materials
+        .par_iter()
+        .map(|material| {
+            let result = driver::compile(material, request, tools);
+            done();
+            result
+        })
+        .collect();
+    let mut first_with: HashMap<String, &Path> = HashMap::new();
+    for (Hatt { file, .. }, result) in materials.iter().zip(&mut results) {
+        let Ok(compiled) = result else { continue };
+        let name = &compiled.texture.name;
+        if let Some(other) = first_with.get(name) {
+            let problem = Problem::SameMaterial {
+                name: name.clone(),
+                other: other.display().to_string(),
+            };
+            *result = Err(HattError {
+                file: file.clone(),
+                line: None,
+                problem,
+            }
+            .into());
+        } else {
+            first_with.insert(name.clone(), file);
+        }
+    }
+    results
+}
+
+/// A material of the Penn Haptic Texture Toolkit.
+#[derive(Debug, Clone)]
+pub struct Hatt {
+    /// Its file.
+    pub file: PathBuf,
+    /// Whether the learned model decodes the taps that HaTT lacks from the AR grid. Else they are
+    /// synthesised.
+    pub complete_taps: bool,
+}
+
+impl Hatt {
+    /// The material of a file, with synthesised taps.
+    pub fn new(file: impl Into<PathBuf>) -> Self {
+        Self {
+            file: file.into(),
+            complete_taps: false,
+        }
+    }
+}
+
+impl Source for Hatt {
+    fn origin(&self) -> String {
+        self.file.display().to_string()
+    }
+
+    fn inputs(&self) -> Vec<PathBuf> {
+        vec![self.file.clone()]
+    }
+
+    fn read(
+        &self,
+        _: &Request,
+        tools: &Tools<'_>,
+        pipeline: &mut Pipeline,
+    ) -> Result<Sourced, Failure> {
+        let (material, mut texture) = pipeline.run(Pass::Read, || read(&self.file))?;
+        if self.complete_taps {
+            let model = tools.model()?;
+            pipeline
+                .run(Pass::Complete, || complete(&mut texture, model))
+                .map_err(|cause| NotCompleted {
+                    file: self.file.clone(),
+                    cause,
+                })?;
+        }
+        let recomputed =
+            |m: &SourceModel| usize::from(m.ar.recomputed) + usize::from(m.ma.recomputed);
+        let recomputed = Recomputed(material.models.iter().map(recomputed).sum());
+        Ok(Sourced {
+            truth: Some(truth(&material)),
+            findings: Some(Arc::new(recomputed)),
+            ..Sourced::new(texture)
+        })
+    }
+}
+
+/// Number of polynomials whose printed LSFs described another filter.
+#[derive(Debug)]
+pub struct Recomputed(pub usize);
+
+impl Findings for Recomputed {
+    fn text(&self, compiled: &Compiled) -> String {
+        match self.0 {
+            0 => compiled.line(),
+            lists => format!("{}, {lists} LSF lists recomputed", compiled.line()),
+        }
+    }
+}
+
+/// The learned model could not decode the taps.
+#[derive(Debug, Error)]
+#[error("{file}: taps: {cause}", file = file.display())]
+struct NotCompleted {
+    file: PathBuf,
+    cause: ModelError,
+}
+
+impl Diagnostic for NotCompleted {
+    fn remedy(&self) -> String {
+        self.cause.remedy()
+    }
+}
+
+/// The bytes of a file, at most as many as a material may have.
+///
+/// # Errors
+/// [`HattError`] for a file that cannot be read or is too large.
+pub fn bytes(file: &Path) -> Result<Vec<u8>, HattError> {
+    input::read(file, Kind::Hatt).map_err(|problem| HattError {
+        file: file.to_owned(),
+        line: None,
+        problem: problem.into(),
+    })
+}
+
+fn read(file: &Path) -> Result<(Material, TextureModel), HattError> {
+    let source = bytes(file)?;
+    let material = material::parse(file, &source)?;
+    let source_name = file.file_name().unwrap_or_default().to_string_lossy();
+    let whole = to_model(&material, &source_name, crc32fast::hash(&source));
+    Ok((material, whole))
+}
+
+/// Taps from the AR grid, by the learned model.
+fn complete(texture: &mut TextureModel, model: &LearnedModel) -> Result<(), ModelError> {
+    texture.taps = complete::taps_of_grid(model, &texture.grid, &texture.gains)?;
+    texture.provenance.notes = format!(
+        "Taps decoded from the AR grid by the learned model {} (trained on synthetic taps). {}",
+        model.description().name,
+        texture.provenance.notes
+    );
+    Ok(())
+}
+
+/// The coefficients of the material.
+fn truth(material: &Material) -> Truth {
+    let model = |model: &SourceModel| {
+        (model.variance != 0.0).then(|| ArmaModel {
+            sample_rate_hz: material.sample_rate_hz,
+            a: model.ar.monic.clone(),
+            b: model.ma.monic.clone(),
+            level_m_s2: model.gain * model.variance.sqrt(),
+        })
+    };
+    Truth::Models {
+        at_vertices: material.models.iter().map(model).collect(),
+        budget_db: BUDGET_DB,
+    }
+}

@@ -1,0 +1,131 @@
+//! What textures are made of: words, recordings, effects, a model of one's own, a formula. A source
+//! is one folder (or file), and one type that implements [`Source`].
+
+pub mod builtin;
+pub mod effects;
+pub mod hatt;
+pub mod model_file;
+pub mod prompt;
+pub mod recording;
+
+use crate::{
+    driver::{Compiled, Failure, Truth},
+    learned::LearnedModel,
+    model::TextureModel,
+    pipeline::{Pipeline, Request, Ringing},
+};
+use asperity_io::diagnostic::Diagnostic;
+use asperity_plot::PlotError;
+use serde_json::Value;
+use std::{any::Any, fmt, path::PathBuf, sync::Arc};
+use thiserror::Error;
+
+/// What a texture is made of. It reads and models; [`driver::compile`](crate::driver::compile) does
+/// what is the same for all of them.
+pub trait Source: Sync {
+    /// What a message begins with if its texture does not pass: mostly its file.
+    fn origin(&self) -> String {
+        String::new()
+    }
+
+    /// Files that it reads, none of which an output may replace.
+    fn inputs(&self) -> Vec<PathBuf> {
+        Vec::new()
+    }
+
+    /// The texture, and what there is to know of it. Passes of its own are run, and so timed, by
+    /// `pipeline`.
+    ///
+    /// # Errors
+    /// Why there is no texture, which names its file and field.
+    fn read(
+        &self,
+        request: &Request,
+        tools: &Tools<'_>,
+        pipeline: &mut Pipeline,
+    ) -> Result<Sourced, Failure>;
+}
+
+/// What sources may use besides their files.
+#[derive(Clone, Copy, Default)]
+pub struct Tools<'a> {
+    /// The learned model, which completes what was not recorded.
+    pub model: Option<&'a LearnedModel>,
+}
+
+impl<'a> Tools<'a> {
+    /// The learned model.
+    ///
+    /// # Errors
+    /// Where none was given.
+    pub fn model(&self) -> Result<&'a LearnedModel, Failure> {
+        Ok(self.model.ok_or(NoModel)?)
+    }
+}
+
+/// A source needs the learned model.
+#[derive(Debug, Error)]
+#[error("the source needs the learned model, and none is loaded")]
+struct NoModel;
+
+impl Diagnostic for NoModel {
+    fn remedy(&self) -> String {
+        "load one, such as `embedded::model()`".into()
+    }
+}
+
+/// A texture before its passes, and what its source knows of it.
+#[derive(Debug, Clone)]
+pub struct Sourced {
+    /// The whole texture.
+    pub texture: TextureModel,
+    /// What the asset is measured against; if `None`, the reduction alone says what it cost.
+    pub truth: Option<Truth>,
+    /// What becomes of it if it rings.
+    pub ringing: Ringing,
+    /// What a user should be told.
+    pub warnings: Vec<String>,
+    /// What the source found besides.
+    pub findings: Option<Arc<dyn Findings>>,
+}
+
+impl Sourced {
+    /// A texture of which nothing else is known. It may not ring.
+    #[must_use]
+    pub fn new(texture: TextureModel) -> Self {
+        Self {
+            texture,
+            truth: None,
+            ringing: Ringing::Refused,
+            warnings: Vec::new(),
+            findings: None,
+        }
+    }
+}
+
+/// A texture at hand is a source, too.
+impl Source for Sourced {
+    fn read(&self, _: &Request, _: &Tools<'_>, _: &mut Pipeline) -> Result<Sourced, Failure> {
+        Ok(self.clone())
+    }
+}
+
+/// What a source found, for those who ask.
+pub trait Findings: Any + fmt::Debug + Send + Sync {
+    /// The report for people, of one line or more.
+    fn text(&self, compiled: &Compiled) -> String;
+
+    /// The report for machines.
+    fn json(&self, compiled: &Compiled) -> Value {
+        compiled.figures()
+    }
+
+    /// A picture of what was found as PNG, if there is more to see than in the asset.
+    ///
+    /// # Errors
+    /// [`PlotError`] if it cannot be drawn.
+    fn sheet(&self, compiled: &Compiled) -> Result<Option<Vec<u8>>, PlotError> {
+        let _ = compiled;
+        Ok(None)
+    }
+}

@@ -1,0 +1,45 @@
+//! A model file as a source.
+
+use super::read::read;
+use crate::{
+    driver::{Failure, Truth},
+    pipeline::{Pass, Pipeline, Request},
+    sources::{Source, Sourced, Tools},
+};
+use std::path::PathBuf;
+
+/// A texture of one's own as JSON.
+#[derive(Debug, Clone)]
+pub struct ModelFile {
+    /// The file.
+    pub file: PathBuf,
+}
+
+impl Source for ModelFile {
+    fn origin(&self) -> String {
+        self.file.display().to_string()
+    }
+
+    fn inputs(&self) -> Vec<PathBuf> {
+        vec![self.file.clone()]
+    }
+
+    fn read(
+        &self,
+        _: &Request,
+        _: &Tools<'_>,
+        pipeline: &mut Pipeline,
+    ) -> Result<Sourced, Failure> {
+        let (mut texture, crc32) = pipeline.run(Pass::Read, || read(&self.file))?;
+        // Prompt, seed and notes are those of the file.
+        let provenance = &mut texture.provenance;
+        provenance.generator = format!("asperity {} import model", env!("CARGO_PKG_VERSION"));
+        let name = self.file.file_name().unwrap_or_default();
+        provenance.source = name.to_string_lossy().into_owned();
+        provenance.source_crc32 = crc32;
+        Ok(Sourced {
+            truth: Some(Truth::Texture),
+            ..Sourced::new(texture)
+        })
+    }
+}

@@ -1,0 +1,106 @@
+//! Prompts that are read together before they are authored one by one.
+//!
+//! The networks of the shipped model treat every row of a batch by itself, and our engine adds every
+//! sum in the same order whatever the batch. So what is read together is to the bit what is read
+//! alone, and weights are expanded once for many prompts.
+
+use super::{Author, PromptError, phrase};
+use crate::{
+    learned::{Decoded, Latent, Projected},
+    text::Encoded,
+};
+use std::{
+    collections::{HashMap, HashSet},
+    sync::{Arc, Mutex, PoisonError},
+};
+
+/// Texts, and latents, that are kept; about 4 and 7 KiB each.
+const MOST: usize = 4096;
+
+/// A text with what the networks made of it.
+pub(super) type Read = Arc<(Encoded, Projected)>;
+
+/// What was read ahead. It is what would be computed again, so nothing depends on it but time.
+#[derive(Debug, Default)]
+pub(super) struct Ahead {
+    read: Mutex<HashMap<String, Read>>,
+    decoded: Mutex<HashMap<Bits, Arc<Decoded>>>,
+}
+
+/// A latent to the bit.
+type Bits = [u32; size_of::<Latent>() / 4];
+
+fn bits(z: &Latent) -> Bits {
+    z.map(f32::to_bits)
+}
+
+impl Ahead {
+    pub(super) fn read(&self, text: &str) -> Option<Read> {
+        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.get(text).cloned()
+    }
+
+    pub(super) fn decoded(&self, z: &Latent) -> Option<Arc<Decoded>> {
+        let decoded = self.decoded.lock().unwrap_or_else(PoisonError::into_inner);
+        decoded.get(&bits(z)).cloned()
+    }
+}
+
+impl Author {
+    /// Reads prompts, and the things that they name, ahead of [`author`](Self::author), many at
+    /// once. It changes no result. With networks that may treat a batch otherwise than its rows, it
+    /// does nothing, and neither does it with what fails: `author` will say why.
+    pub fn read_ahead(&self, prompts: &[&str]) {
+        if self.together {
+            // What fails here fails again where it is reported.
+            let _ = self.try_read_ahead(prompts);
+        }
+    }
+
+    fn try_read_ahead(&self, prompts: &[&str]) -> Result<(), PromptError> {
+        let mut texts: Vec<String> = Vec::new();
+        let mut seen = HashSet::new();
+        for prompt in prompts {
+            let prompt = prompt.trim();
+            let things = phrase::parse(prompt).things().into_iter();
+            let things = things.filter(|thing| self.things.get(thing).is_none());
+            for text in std::iter::once(prompt.to_owned()).chain(things) {
+                if self.ahead.read(&text).is_none() && seen.insert(text.clone()) {
+                    texts.push(text);
+                }
+            }
+        }
+        let plain: Vec<&str> = texts.iter().map(String::as_str).collect();
+        let encoded = self.text.encode_all(&plain)?;
+        let vectors: Vec<&[f32]> = encoded.iter().map(|e| e.vector.as_slice()).collect();
+        let projected = self.model().project_all(&vectors)?;
+        let latents: Vec<Latent> = projected.iter().map(|projected| projected.z).collect();
+        let decoded = self.model().decode_all(&latents)?;
+        let mut read = self
+            .ahead
+            .read
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        if read.len() + texts.len() > MOST {
+            read.clear();
+        }
+        let answers = encoded.into_iter().zip(projected).map(Arc::new);
+        read.extend(texts.into_iter().zip(answers));
+        drop(read);
+        let mut kept = self
+            .ahead
+            .decoded
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        if kept.len() + latents.len() > MOST {
+            kept.clear();
+        }
+        kept.extend(
+            latents
+                .iter()
+                .map(bits)
+                .zip(decoded.into_iter().map(Arc::new)),
+        );
+        Ok(())
+    }
+}

@@ -1,0 +1,255 @@
+//! From a prompt to a verified texture.
+
+use super::{
+    Authored, Nearest, Options, PromptError,
+    ahead::{Ahead, Read},
+    name::{shortened, title},
+    phrase::adjust::{self, Scales},
+    things::Things,
+    understood::{Understood, check, understood},
+    variation::varied,
+};
+use crate::{
+    embedded,
+    inference::Backend,
+    learned::{
+        self, Decoded, Files, Latent, LearnedModel, ModelError, friction::Neighbour, texture,
+    },
+    model::{Provenance, TextureModel, attributes},
+    pipeline::{Pass, Passed, Pipeline, Ringing},
+    text::TextEncoder,
+};
+use std::{path::Path, sync::Arc};
+
+/// Bytes of a prompt that the provenance keeps.
+const KEPT_PROMPT_BYTES: usize = 2048;
+
+/// Everything that turns prompts into textures; loaded once, asked often.
+pub struct Author {
+    pub(super) text: Box<dyn TextEncoder>,
+    model: LearnedModel,
+    pub(super) things: Things,
+    pub(super) ahead: Ahead,
+    /// Whether its networks give a row of a batch the bits that it gets alone.
+    pub(super) together: bool,
+}
+
+impl Author {
+    /// An author of a text encoder and a model trained with it.
+    ///
+    /// # Errors
+    /// [`ModelError::Width`] when they do not belong together.
+    pub fn new(text: Box<dyn TextEncoder>, model: LearnedModel) -> Result<Self, ModelError> {
+        let expected = model.description().text_encoder.width;
+        if text.width() == expected {
+            Ok(Self {
+                text,
+                model,
+                things: Things::default(),
+                ahead: Ahead::default(),
+                together: false,
+            })
+        } else {
+            Err(ModelError::Width {
+                expected,
+                found: text.width(),
+            })
+        }
+    }
+
+    /// The embedded model on a back end.
+    ///
+    /// # Errors
+    /// [`ModelError`] when the back end refuses a network.
+    pub fn embedded(backend: &Backend) -> Result<Self, ModelError> {
+        let text = embedded::text_encoder(backend)?;
+        let model = LearnedModel::load(embedded::model(), backend)?;
+        Ok(Self {
+            together: matches!(backend, Backend::Portable),
+            ..Self::new(Box::new(text), model)?
+        })
+    }
+
+    /// An author of a model folder.
+    ///
+    /// # Errors
+    /// As [`Author::new`], and [`ModelError`] for a folder that is none.
+    pub fn with_folder(
+        text: Box<dyn TextEncoder>,
+        folder: &Path,
+        backend: &Backend,
+    ) -> Result<Self, ModelError> {
+        Self::new(text, LearnedModel::load(Files::read(folder)?, backend)?)
+    }
+
+    /// The learned model.
+    #[must_use]
+    pub fn model(&self) -> &LearnedModel {
+        &self.model
+    }
+
+    /// The latent of a prompt before a seed moves it.
+    ///
+    /// # Errors
+    /// [`PromptError`] for an empty prompt or a failing network.
+    pub fn project(&self, prompt: &str) -> Result<Prompted, PromptError> {
+        check(prompt)?;
+        let prompt = prompt.trim();
+        let read = self.read(prompt)?;
+        let (encoded, projected) = (&read.0, &read.1);
+        let similarity = projected
+            .similarity
+            .iter()
+            .fold(f64::NEG_INFINITY, |best, &s| best.max(f64::from(s)));
+        Ok(Prompted {
+            z: projected.z,
+            felt: projected.felt.map(|felt| felt.map(|x| Some(x.into()))),
+            similarity,
+            familiarity: f64::from(projected.familiarity),
+            certainty: learned::certainty(
+                &self.model.description().certainty,
+                projected.familiarity.into(),
+            ),
+            unfamiliar: f64::from(projected.familiarity) < self.model.description().unfamiliar,
+            tokens: (encoded.tokens, encoded.cut),
+            understood: understood(prompt, |word| self.text.reads(word)),
+        })
+    }
+
+    fn read(&self, prompt: &str) -> Result<Read, PromptError> {
+        if let Some(read) = self.ahead.read(prompt) {
+            return Ok(read);
+        }
+        let encoded = self.text.encode(prompt)?;
+        let projected = self.model.project(&encoded.vector)?;
+        Ok(Arc::new((encoded, projected)))
+    }
+
+    /// The parameters that a latent decodes to.
+    pub(super) fn decoded(&self, z: &Latent) -> Result<Arc<Decoded>, ModelError> {
+        match self.ahead.decoded(z) {
+            Some(decoded) => Ok(decoded),
+            None => Ok(Arc::new(self.model.decode(z)?)),
+        }
+    }
+
+    /// The texture of a prompt, verified.
+    ///
+    /// # Errors
+    /// [`PromptError`] with the stage that failed.
+    pub fn author(&self, prompt: &str, options: &Options) -> Result<Authored, PromptError> {
+        let mut pipeline = Pipeline::default();
+        let prompt = prompt.trim();
+        let prompted = pipeline.run(Pass::Text, || self.project(prompt))?;
+        let (z, wanted) = pipeline.run(Pass::Text, || self.said(prompt, &prompted))?;
+        let meant = pipeline.run(Pass::Decode, || self.meant(z, wanted))?;
+        let shift = meant.shift;
+        let spread = &self.model.description().spread;
+        let z = varied(meant.z, spread, options.seed);
+        let decoded = pipeline.run(Pass::Decode, || match options.seed {
+            0 => Ok(meant.decoded),
+            _ => self.decoded(&z),
+        })?;
+        let (mut texture, neighbours) = self.named(&decoded, &z, prompt, options.seed);
+        adjust::adjust(&mut texture, &shift);
+        let nearest = self.nearest(&neighbours);
+        // Latents far from anything trained can decode to models that ring.
+        let compiled = pipeline.compile(texture, &options.request, Ringing::Stabilised);
+        let Passed {
+            whole,
+            texture,
+            reduction,
+            preview,
+            lowered,
+            verified,
+            stabilised,
+        } = compiled?;
+        Ok(Authored {
+            attributes: attributes::of(&texture),
+            whole,
+            texture,
+            lowered,
+            preview,
+            z,
+            shift,
+            nearest,
+            certainty: prompted.certainty,
+            unfamiliar: prompted.unfamiliar,
+            similarity: prompted.similarity,
+            tokens: prompted.tokens,
+            understood: prompted.understood,
+            reduction,
+            verified,
+            stabilised,
+            timings: pipeline.timings().clone(),
+        })
+    }
+
+    /// A decoded latent with the prompt's name and provenance.
+    fn named(
+        &self,
+        decoded: &Decoded,
+        z: &Latent,
+        prompt: &str,
+        seed: u64,
+    ) -> (TextureModel, Vec<Neighbour>) {
+        let description = self.model.description();
+        let synthetic = if description.corpus.taps_synthetic {
+            "Trained on synthetic taps. "
+        } else {
+            ""
+        };
+        let provenance = Provenance {
+            generator: format!("asperity {} compile", env!("CARGO_PKG_VERSION")),
+            source: format!("model {}", description.name),
+            source_crc32: description.corpus.crc32,
+            prompt: Some(shortened(prompt, KEPT_PROMPT_BYTES).to_owned()),
+            seed,
+            taps_synthetic: true,
+            notes: format!(
+                "Decoded from a learned model of the {} corpus, text encoder {}. {synthetic}Gains and wall are unconfirmed defaults.",
+                description.corpus.name, description.text_encoder.name
+            ),
+            // The pipeline states the rest.
+            ..Provenance::default()
+        };
+        let name = title(prompt);
+        texture::build(description, decoded, z, name, provenance)
+    }
+
+    fn nearest(&self, neighbours: &[Neighbour]) -> Vec<Nearest> {
+        neighbours
+            .iter()
+            .map(|neighbour| {
+                let anchor = &self.model.description().anchors[neighbour.index];
+                Nearest {
+                    name: anchor.name.clone(),
+                    family: anchor.family.clone(),
+                    mu: anchor.mu,
+                    weight: neighbour.weight,
+                }
+            })
+            .collect()
+    }
+}
+
+/// A prompt in the latent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prompted {
+    /// The latent.
+    pub z: Latent,
+    /// The attributes that the words ask for, if the model says.
+    pub felt: Option<Scales>,
+    /// Largest cosine with a material's mean caption.
+    pub similarity: f64,
+    /// Soft maximum of the cosines with all that the projection was trained on.
+    pub familiarity: f64,
+    /// Certainty, 0..=1.
+    pub certainty: f64,
+    /// Whether the prompt is far from everything the model knows.
+    pub unfamiliar: bool,
+    /// Tokens read, and cut off.
+    pub tokens: (usize, usize),
+    /// Which words the encoder can read.
+    pub understood: Understood,
+}

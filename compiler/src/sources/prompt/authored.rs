@@ -1,0 +1,97 @@
+//! What can be asked of a prompt's texture, and what there is to know of it.
+
+use super::{phrase::adjust::Shift, understood::Understood};
+use crate::{
+    emit::{lower::Lowered, verify::VerifyReport},
+    learned::Latent,
+    model::{TextureModel, attributes::Attributes},
+    passes::reduce::{self, Fidelity},
+    pipeline::{Request, Timings},
+    views::preview,
+};
+
+/// What a user can ask of a texture besides its prompt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// 0 for the texture that the prompt means. Other seeds give variations of it, as another
+    /// piece of the same material varies.
+    pub seed: u64,
+    /// What is asked of any texture; the rate is the decoder's own if `None`.
+    pub request: Request,
+}
+
+/// At fidelity `auto`, with a preview of the usual size.
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            seed: 0,
+            request: Request {
+                fidelity: Fidelity::Auto,
+                preview_px: Some(preview::SIZE),
+                ..Request::default()
+            },
+        }
+    }
+}
+
+impl Options {
+    /// The same without a preview.
+    #[must_use]
+    pub fn without_preview(mut self) -> Self {
+        self.request.preview_px = None;
+        self
+    }
+}
+
+/// A texture made of a prompt.
+#[derive(Debug, Clone)]
+pub struct Authored {
+    /// The whole texture before reduction, at its rate, and stabilised where it had to be.
+    pub whole: TextureModel,
+    /// The texture as it was verified.
+    pub texture: TextureModel,
+    /// The asset.
+    pub lowered: Lowered,
+    /// The preview, if one was asked for.
+    pub preview: Option<Vec<u8>>,
+    /// The latent it was decoded from.
+    pub z: Latent,
+    /// What the grammar of the prompt moved after that.
+    pub shift: Shift,
+    /// The nearest materials, which friction is interpolated from.
+    pub nearest: Vec<Nearest>,
+    /// Objective attributes.
+    pub attributes: Attributes,
+    /// Certainty, 0..=1.
+    pub certainty: f64,
+    /// Whether the prompt is far from everything the model knows.
+    pub unfamiliar: bool,
+    /// Largest cosine between the prompt and a material's mean caption.
+    pub similarity: f64,
+    /// Tokens read, and cut off.
+    pub tokens: (usize, usize),
+    /// Which words of the prompt the encoder can read.
+    pub understood: Understood,
+    /// What the fidelity left out, and what that cost.
+    pub reduction: reduce::Report,
+    /// What verification saw.
+    pub verified: VerifyReport,
+    /// The fraction of the way to white noise that the models were moved so that they pass,
+    /// 0..=1. It is 0 except for latents far from anything trained.
+    pub stabilised: f64,
+    /// The time of every pass.
+    pub timings: Timings,
+}
+
+/// A material near the prompt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nearest {
+    /// Its name.
+    pub name: String,
+    /// Its family.
+    pub family: String,
+    /// Its coefficient of friction.
+    pub mu: f64,
+    /// Its weight, 0..=1.
+    pub weight: f64,
+}

@@ -1,0 +1,145 @@
+//! Where a prompt lies in the latent, and how far its grammar moves the texture from there.
+
+use super::{
+    Author, PromptError, Prompted,
+    phrase::{
+        self, Phrase,
+        adjust::{self, Scales, Shift},
+    },
+    things::Thing,
+};
+use crate::{
+    learned::{Decoded, Latent, texture},
+    model::{
+        Provenance, TextureModel,
+        attributes::{self, Attributes},
+    },
+};
+use std::sync::Arc;
+
+/// What a prompt means.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Meaning {
+    /// Its latent.
+    pub z: Latent,
+    /// How far attributes move from what the latent decodes to.
+    pub shift: Shift,
+    /// What the latent decodes to.
+    pub decoded: Arc<Decoded>,
+}
+
+impl Author {
+    /// The meaning of a prompt that was [projected](Author::project).
+    ///
+    /// The words say how rough, slippery and hard a thing is, and the latent says all the rest: the
+    /// decoded texture is moved to the attributes of the words. Grammar moves these.
+    ///
+    /// # Errors
+    /// [`PromptError`] for a failing network.
+    pub fn meaning(&self, prompt: &str, prompted: &Prompted) -> Result<Meaning, PromptError> {
+        let (z, wanted) = self.said(prompt, prompted)?;
+        self.meant(z, wanted)
+    }
+
+    /// The latent of a prompt, and the attributes that its words ask for.
+    pub(super) fn said(
+        &self,
+        prompt: &str,
+        prompted: &Prompted,
+    ) -> Result<(Latent, Option<Scales>), PromptError> {
+        let phrase = if self.names_a_material(prompt) {
+            Phrase::Plain
+        } else {
+            phrase::parse(prompt)
+        };
+        Ok(match phrase {
+            Phrase::Plain => (prompted.z, prompted.felt),
+            Phrase::Changed { base, changes } => {
+                let base = self.thing(&base)?;
+                let said = self.wanted(prompted)?;
+                let wanted = adjust::changed(&base.wanted, &said, &changes);
+                (prompted.z, Some(wanted))
+            }
+            Phrase::Between(first, second) => {
+                let (first, second) = (self.thing(&first)?, self.thing(&second)?);
+                let z = std::array::from_fn(|k| 0.5 * (first.z[k] + second.z[k]));
+                (z, Some(adjust::middle(&first.wanted, &second.wanted)))
+            }
+            Phrase::Covered { inside, cover } => {
+                let (inside, cover) = (self.thing(&inside)?, self.thing(&cover)?);
+                let [rough, slippery, _] = cover.wanted;
+                let [_, _, hard] = adjust::middle(&inside.wanted, &cover.wanted);
+                (cover.z, Some([rough, slippery, hard]))
+            }
+        })
+    }
+
+    /// What a latent decodes to, and the way from there to what is wanted.
+    pub(super) fn meant(&self, z: Latent, wanted: Option<Scales>) -> Result<Meaning, PromptError> {
+        let decoded = self.decoded(&z)?;
+        let shift = wanted.map_or_else(Shift::default, |wanted| {
+            adjust::to(&wanted, &self.attributes(&z, &decoded))
+        });
+        Ok(Meaning { z, shift, decoded })
+    }
+
+    /// The decoder's texture of a prompt: neither varied nor reduced.
+    ///
+    /// # Errors
+    /// [`PromptError`] for an empty prompt or a failing network.
+    pub fn texture(&self, prompt: &str) -> Result<TextureModel, PromptError> {
+        let prompt = prompt.trim();
+        let Meaning { z, shift, decoded } = self.meaning(prompt, &self.project(prompt)?)?;
+        let mut texture = self.plain(&z, &decoded);
+        adjust::adjust(&mut texture, &shift);
+        Ok(texture)
+    }
+
+    /// Whether a prompt is the name of a material: it then has no grammar.
+    fn names_a_material(&self, prompt: &str) -> bool {
+        let bare = |text: &str| {
+            let text = text.trim().to_lowercase();
+            let article = ["a ", "an ", "the "].iter();
+            let without = article
+                .filter_map(|article| text.strip_prefix(article))
+                .next();
+            without.unwrap_or(&text).to_owned()
+        };
+        let prompt = bare(prompt);
+        let anchors = &self.model().description().anchors;
+        anchors.iter().any(|anchor| bare(&anchor.name) == prompt)
+    }
+
+    /// A thing that a phrase names. Prompts of a library have few of them.
+    fn thing(&self, text: &str) -> Result<Thing, PromptError> {
+        if let Some(known) = self.things.get(text) {
+            return Ok(known);
+        }
+        let prompted = self.project(text)?;
+        let found = Thing {
+            z: prompted.z,
+            wanted: self.wanted(&prompted)?,
+        };
+        self.things.keep(text, found);
+        Ok(found)
+    }
+
+    /// The attributes that words ask for, or those of the decoded texture where the model does not
+    /// say.
+    fn wanted(&self, prompted: &Prompted) -> Result<Scales, PromptError> {
+        if let Some(felt) = prompted.felt {
+            return Ok(felt);
+        }
+        let decoded = self.decoded(&prompted.z)?;
+        Ok(adjust::scales(&self.attributes(&prompted.z, &decoded)))
+    }
+
+    fn attributes(&self, z: &Latent, decoded: &Decoded) -> Attributes {
+        attributes::of(&self.plain(z, decoded))
+    }
+
+    fn plain(&self, z: &Latent, decoded: &Decoded) -> TextureModel {
+        let (name, provenance) = (String::new(), Provenance::default());
+        texture::build(self.model().description(), decoded, z, name, provenance).0
+    }
+}

@@ -1,0 +1,253 @@
+//! Moves the attributes of a texture, and nothing else of it.
+//!
+//! Roughness moves by the level of every model, slipperiness by μ, hardness by the time in which
+//! a tap passes: a tap that is over in half the time has twice the pitch, and the same impulse.
+
+use super::{Change, Changes};
+use crate::model::{
+    TextureModel,
+    attributes::{self, Attributes},
+};
+use serde::{Deserialize, Serialize};
+
+/// One step of a change: roughness in dB, slipperiness as −ln μ, hardness as ln of the centroid.
+/// Half a step is noticed (amplitude 1.6 dB, frequency 18 %, friction 10 %).
+pub const STEP: [f64; 3] = [5.0, 0.35, 0.42];
+/// Largest σ·gain of a model after a change, relative to before.
+const LARGEST_CHANGE_DB: f64 = 20.0;
+/// μ stays within these.
+const MU: (f64, f64) = (0.03, 2.5);
+/// A tap is at most so many times faster or slower.
+const FASTEST: f64 = 4.0;
+/// Samples over which the end of a slower tap is faded.
+const FADE: usize = 15;
+/// A tap's peak stays below this share of what the device's force allows.
+const TAP_SHARE: f64 = 0.95;
+/// Corrections of a tap's time, since a cut end moves the centroid.
+const CORRECTIONS: usize = 6;
+
+/// How far the attributes of a texture move after it was decoded; 0 leaves one as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Shift {
+    /// Level of the vibration, dB.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub rough_db: f64,
+    /// −ln μ.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub slippery: f64,
+    /// ln of the centroid of a tap.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub hard: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
+}
+
+impl Shift {
+    /// A shift of three numbers on the scales of [`scales`], `None` for 0.
+    fn of([rough, slippery, hard]: [Option<f64>; 3]) -> Self {
+        Self {
+            rough_db: rough.unwrap_or(0.0),
+            slippery: slippery.unwrap_or(0.0),
+            hard: hard.unwrap_or(0.0),
+        }
+    }
+
+    /// Whether nothing moves.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self == &Self::default()
+    }
+
+    /// The shift between two, part by part: `(1 − t)·a + t·b`.
+    #[must_use]
+    pub fn between(a: &Self, b: &Self, t: f64) -> Self {
+        let mix = |a: f64, b: f64| (1.0 - t) * a + t * b;
+        Self {
+            rough_db: mix(a.rough_db, b.rough_db),
+            slippery: mix(a.slippery, b.slippery),
+            hard: mix(a.hard, b.hard),
+        }
+    }
+}
+
+/// Attributes on the scales of [`Shift`]: dB, −ln μ, ln Hz; `None` for one that is not defined.
+pub type Scales = [Option<f64>; 3];
+
+/// Attributes on their scales.
+#[must_use]
+pub fn scales(attributes: &Attributes) -> Scales {
+    [
+        attributes.rough_db,
+        Some(-libm::log(attributes.mu.max(f64::MIN_POSITIVE))),
+        attributes.hard_hz.filter(|hz| *hz > 0.0).map(libm::log),
+    ]
+}
+
+/// What is `said`, moved so that it differs from its base as the changes say.
+#[must_use]
+pub fn changed(base: &Scales, said: &Scales, changes: &Changes) -> Scales {
+    let changes = [changes.rough, changes.slippery, changes.hard];
+    std::array::from_fn(|k| {
+        let moved = || {
+            let (change, base, said): (Change, f64, f64) = (changes[k]?, base[k]?, said[k]?);
+            let steps = (said - base) / STEP[k];
+            Some(base + STEP[k] * steps.clamp(change.least, change.most))
+        };
+        moved().or(said[k])
+    })
+}
+
+/// The middle of two.
+#[must_use]
+pub fn middle(first: &Scales, second: &Scales) -> Scales {
+    std::array::from_fn(|k| Some(0.5 * (first[k]? + second[k]?)))
+}
+
+/// How far a texture is to move to what is wanted; one that it does not define, or of which nothing
+/// is wanted, stays.
+#[must_use]
+pub fn to(wanted: &Scales, now: &Attributes) -> Shift {
+    let now = scales(now);
+    Shift::of(std::array::from_fn(|k| Some(wanted[k]? - now[k]?)))
+}
+
+/// How far a texture is to move so that it differs from its base as the changes say.
+#[must_use]
+pub fn from_base(base: &Attributes, now: &Attributes, changes: &Changes) -> Shift {
+    to(&changed(&scales(base), &scales(now), changes), now)
+}
+
+/// Moves a texture.
+pub fn adjust(texture: &mut TextureModel, shift: &Shift) {
+    let Shift {
+        rough_db,
+        slippery,
+        hard,
+    } = *shift;
+    if rough_db != 0.0 {
+        let change_db = rough_db.clamp(-LARGEST_CHANGE_DB, LARGEST_CHANGE_DB);
+        let factor = libm::exp10(change_db / 20.0);
+        for vertex in &mut texture.grid.vertices {
+            vertex.sigma_m_s2 *= factor;
+        }
+    }
+    if slippery != 0.0 {
+        let mu = texture.friction.mu * libm::exp(-slippery);
+        texture.friction.mu = mu.clamp(MU.0, MU.1);
+    }
+    if hard != 0.0
+        && let Some(now) = scales(&attributes::of(texture))[2]
+    {
+        tap(texture, now + hard);
+    }
+}
+
+/// Plays all traces faster or slower until the fastest has the wanted centroid, ln Hz.
+fn tap(texture: &mut TextureModel, wanted: f64) {
+    let original = texture.taps.traces.clone();
+    let limit = TAP_SHARE * texture.gains.f_max_n / texture.gains.effective_mass_kg;
+    let mut pace = 0.0;
+    for _ in 0..CORRECTIONS {
+        let Some(now) = scales(&attributes::of(texture))[2] else {
+            return;
+        };
+        let bound = libm::log(FASTEST);
+        pace = f64::clamp(pace + wanted - now, -bound, bound);
+        let pace = libm::exp(pace);
+        let mut peak = 0.0_f64;
+        for (trace, original) in texture.taps.traces.iter_mut().zip(&original) {
+            trace.accel_m_s2 = at_pace(&original.accel_m_s2, pace);
+            peak = trace
+                .accel_m_s2
+                .iter()
+                .fold(peak, |peak, a| peak.max(a.abs()));
+        }
+        if peak > limit {
+            let samples = texture
+                .taps
+                .traces
+                .iter_mut()
+                .flat_map(|t| &mut t.accel_m_s2);
+            samples.for_each(|a| *a *= limit / peak);
+        }
+    }
+}
+
+/// `pace·a(pace·t)`: the same impulse in another time, linear between samples.
+fn at_pace(samples: &[f64], pace: f64) -> Vec<f64> {
+    let count = samples.len();
+    let sample = |at: f64| -> f64 {
+        let index = at as usize;
+        let here = samples.get(index).copied().unwrap_or(0.0);
+        let next = samples.get(index + 1).copied().unwrap_or(0.0);
+        here + (at - index as f64) * (next - here)
+    };
+    (0..count)
+        .map(|n| {
+            let left = (count - 1 - n) as f64 / FADE as f64;
+            let fade = if pace < 1.0 { left.min(1.0) } else { 1.0 };
+            fade * pace * sample(n as f64 * pace)
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sources::builtin;
+
+    #[test]
+    fn attributes_arrive_where_they_were_wanted_and_the_others_stay() {
+        let before = builtin::texture();
+        let old = attributes::of(&before);
+        for (k, change) in [
+            (0, 5.0),
+            (0, -8.0),
+            (1, 0.35),
+            (1, -0.3),
+            (2, 0.4),
+            (2, -0.3),
+        ] {
+            let mut moved = [None; 3];
+            moved[k] = Some(change);
+            let shift = Shift::of(moved);
+            let target = scales(&old)[k].expect("defined") + change;
+            let mut after = before.clone();
+            adjust(&mut after, &shift);
+            let new = scales(&attributes::of(&after));
+            for (j, (new, old)) in new.iter().zip(scales(&old)).enumerate() {
+                let expected = if j == k { Some(target) } else { old };
+                let apart = new.zip(expected).map(|(x, y)| (x - y).abs());
+                assert!(
+                    apart.is_some_and(|apart| apart < 0.03),
+                    "{k} {change}: {j} {apart:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_was_learned_is_kept_within_the_range() {
+        let base = attributes::of(&builtin::texture());
+        let change = Change {
+            least: 1.0,
+            most: 1.3,
+        };
+        let changes = Changes {
+            rough: Some(change),
+            ..Changes::default()
+        };
+        for (learned_db, steps) in [(-3.0, 1.0), (5.5, 1.1), (30.0, 1.3)] {
+            let rough_db = base.rough_db.map(|db| db + learned_db);
+            let learned = Attributes { rough_db, ..base };
+            let shift = from_base(&base, &learned, &changes);
+            let moved = learned_db + shift.rough_db;
+            assert!((moved - 5.0 * steps).abs() < 1e-9, "{learned_db}");
+            assert_eq!((shift.slippery, shift.hard), (0.0, 0.0));
+        }
+    }
+}

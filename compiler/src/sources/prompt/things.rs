@@ -1,0 +1,39 @@
+//! Things that prompts named, so that a library reads each of them once.
+
+use super::phrase::adjust::Scales;
+use crate::learned::Latent;
+use std::{
+    collections::HashMap,
+    sync::{Mutex, PoisonError},
+};
+
+/// Things that are kept; about 400 bytes each.
+const MOST: usize = 4096;
+
+/// What a prompt says of a thing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Thing {
+    pub(super) z: Latent,
+    /// The attributes that its words ask for.
+    pub(super) wanted: Scales,
+}
+
+/// Things by their words. What is kept is what would be computed again, so
+/// nothing depends on it but time.
+#[derive(Debug, Default)]
+pub(super) struct Things(Mutex<HashMap<String, Thing>>);
+
+impl Things {
+    pub(super) fn get(&self, text: &str) -> Option<Thing> {
+        let things = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        things.get(text).copied()
+    }
+
+    /// Keeps a thing while there is room.
+    pub(super) fn keep(&self, text: &str, found: Thing) {
+        let mut things = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if things.len() < MOST {
+            things.insert(text.to_owned(), found);
+        }
+    }
+}

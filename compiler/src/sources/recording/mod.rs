@@ -1,0 +1,22 @@
+//! A recording as a source: sensor files of a tool on a surface become a texture.
+//!
+//! `asperity-recording` reads, checks and aligns the files, and finds segments, friction and impacts.
+//! Here they become a [`TextureModel`](crate::model::TextureModel). What was not recorded is
+//! completed by the learned model and marked so.
+
+mod analyse;
+mod complete;
+mod error;
+mod grid;
+mod report;
+mod sheet;
+mod source;
+mod texture;
+
+pub use analyse::{Analysis, Step, analyse, check};
+pub use complete::{Completed, Nearest, complete};
+pub use error::RecordingFailure;
+pub use grid::{GridFit, Slopes, Tried, VertexFacts, fit};
+pub use sheet::{HEIGHT_PX, WIDTH_PX};
+pub use source::{Recorded, RecordingFolder};
+pub use texture::{Parts, texture};

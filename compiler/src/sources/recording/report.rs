@@ -1,0 +1,222 @@
+//! The report of an import, for machines and for people.
+
+use super::{Analysis, Recorded};
+use crate::driver::Compiled;
+use asperity_recording::{
+    friction::{Friction, Law},
+    impact::SpeedSource,
+    resonance::{FreeAir, Resonance},
+};
+use serde_json::{Value, json};
+use std::fmt::{self, Write as _};
+
+/// The report for machines.
+pub(super) fn json(recorded: &Recorded, compiled: &Compiled) -> Value {
+    let analysis = &recorded.analysis;
+    let grid = &compiled.texture.grid;
+    let segments: Vec<Value> = analysis
+        .steady
+        .segments
+        .iter()
+        .map(|s| json!({ "start_s": s.start as f64 / 1000.0, "seconds": s.length as f64 / 1000.0, "speed_mm_s": s.speed_mm_s, "force_n": s.force_n, "stationarity": s.statistic }))
+        .collect();
+    let taps: Vec<Value> = analysis
+        .transients
+        .iter()
+        .map(|t| json!({ "speed_m_s": t.speed_m_s, "impacts": t.impacts, "spread": t.spread }))
+        .collect();
+    let extrapolated: Vec<Value> = analysis
+        .fit
+        .extrapolated()
+        .map(|v| json!({ "speed_mm_s": v.speed_mm_s, "force_n": v.force_n }))
+        .collect();
+    let steps: Vec<Value> = analysis
+        .steps
+        .iter()
+        .map(|step| json!({ "step": step.name, "ms": 1e3 * step.took.as_secs_f64() }))
+        .collect();
+    json!({
+        "name": compiled.texture.name,
+        "check": analysis.checked,
+        "resonance": { "free_air_taps": analysis.free_air.taps, "compensated": analysis.free_air.resonances },
+        "axes": { "method": "dft321", "principal_share": analysis.principal_share },
+        "segments": { "used": segments, "rejected": analysis.steady.rejected, "covered_s": analysis.steady.covered_s() },
+        "methods": analysis.methods,
+        "grid": { "chosen": analysis.fit.chosen, "tried": analysis.fit.tried, "vertices": analysis.fit.facts, "extrapolated": extrapolated, "slopes_kept": analysis.fit.beyond },
+        "friction": analysis.friction,
+        "taps": { "impacts": analysis.impacts.len(), "speed_source": analysis.speed_source, "speeds": taps },
+        "sources": recorded.parts,
+        "nearest": recorded.completed.nearest,
+        "asset": { "vertices": grid.vertices.len(), "triangles": grid.triangles.len(), "error": compiled.compared.map(|compared| compared.error), "reduction": compiled.reduced(), "bytes": { "haptic": compiled.lowered.haptic_bytes, "total": compiled.lowered.bytes.len() } },
+        "steps": steps,
+        "stages_ms": compiled.timings.json(),
+    })
+}
+
+/// A few lines for people.
+pub(super) fn text(recorded: &Recorded, compiled: &Compiled) -> String {
+    let mut text = format!("{}\n", compiled.line());
+    // Writing to a string cannot fail.
+    let _ = lines(recorded, &mut text);
+    text
+}
+
+fn lines(recorded: &Recorded, f: &mut String) -> fmt::Result {
+    let Analysis {
+        checked,
+        free_air,
+        steady,
+        fit,
+        friction,
+        impacts,
+        transients,
+        speed_source,
+        ..
+    } = &recorded.analysis;
+    writeln!(f, "resonance {}", resonance_text(free_air))?;
+    writeln!(
+        f,
+        "strokes   {:.1} s steady in {} segments of {:.1} s in contact, {} rejected",
+        steady.covered_s(),
+        steady.segments.len(),
+        checked.contact_s,
+        steady.rejected
+    )?;
+    let chosen = &fit.chosen;
+    let zero = if chosen.nyquist_zero {
+        " with a zero at half the rate"
+    } else {
+        ""
+    };
+    writeln!(
+        f,
+        "grid      {} measured vertices, {} extrapolated beyond what was visited, AR order {}{zero}, chosen by held-out segments",
+        fit.facts.len(),
+        fit.extrapolated().count(),
+        chosen.order
+    )?;
+    match friction {
+        Some(friction) => {
+            let law = match friction.law {
+                Law::Coulomb => "as Coulomb says".to_owned(),
+                Law::Power {
+                    of_speed, of_load, ..
+                } => format!("goes as v^{of_speed:.2}·F^{of_load:.2}"),
+                Law::Stribeck {
+                    sliding,
+                    rest,
+                    v_s_mm_s,
+                } => format!("goes from {rest:.2} to {sliding:.2} over {v_s_mm_s:.0} mm/s"),
+            };
+            writeln!(
+                f,
+                "friction  μ = {:.3} ± {:.3} over {} blocks, {law}{}",
+                friction.mu,
+                friction.spread,
+                friction.blocks,
+                rendered(friction)
+            )?;
+            if friction.stick_slip > 0.02 {
+                writeln!(
+                    f,
+                    "          sticks and slips in {:.0} % of the sliding time",
+                    100.0 * friction.stick_slip
+                )?;
+            }
+        }
+        None => writeln!(
+            f,
+            "friction  not recorded; completed by the nearest materials"
+        )?,
+    }
+    if recorded.parts.taps == "recorded" {
+        let speeds: Vec<String> = transients
+            .iter()
+            .map(|t| format!("{:.3} ({})", t.speed_m_s, t.impacts))
+            .collect();
+        write!(f, "taps      m/s (impacts): {}", speeds.join(", "))?;
+        if recorded.parts.tap_scale < 1.0 {
+            write!(
+                f,
+                "; scaled by {:.2} to what the device can give",
+                recorded.parts.tap_scale
+            )?;
+        }
+        writeln!(f, "\n          {}", speeds_text(speed_source))?;
+    } else {
+        writeln!(
+            f,
+            "taps      {} impacts found, too few at one speed; completed by the learned model",
+            impacts.len()
+        )?;
+    }
+    let nearest: Vec<String> = recorded
+        .completed
+        .nearest
+        .iter()
+        .map(|n| format!("{} ({}, {:.2})", n.name, n.family, n.cosine))
+        .collect();
+    write!(f, "nearest   {}", nearest.join(", "))
+}
+
+/// What of a law is rendered.
+fn rendered(friction: &Friction) -> String {
+    let of_load = matches!(friction.law, Law::Power { of_load, .. } if of_load != 0.0);
+    if friction.depends_on_speed() {
+        let [slow, fast] = friction.speeds_mm_s;
+        let load = if of_load {
+            ", at the median load whatever the load"
+        } else {
+            ""
+        };
+        format!(", rendered over speed from {slow:.0} to {fast:.0} mm/s{load}")
+    } else if friction.law == Law::Coulomb {
+        String::new()
+    } else {
+        ", rendered as Coulomb's: it depends on the load alone".to_owned()
+    }
+}
+
+/// What free-air taps showed, and what was done.
+fn resonance_text(free_air: &FreeAir) -> String {
+    if free_air.taps == 0 {
+        return "of tool and sensor left: there is no tap in free air".into();
+    }
+    let taps = |count: usize| format!("{count} {}", if count == 1 { "tap" } else { "taps" });
+    if free_air.resonances.is_empty() {
+        return format!(
+            "of tool and sensor: none in {} in free air; nothing was changed",
+            taps(free_air.taps)
+        );
+    }
+    let of_axis = |r: &Resonance| {
+        format!(
+            "{} {:.0} ± {:.0} Hz, Q {:.1} ± {:.1} ({})",
+            r.axis,
+            r.freq_hz,
+            r.freq_spread_hz,
+            r.q,
+            r.q_spread,
+            taps(r.taps)
+        )
+    };
+    let axes: Vec<String> = free_air.resonances.iter().map(of_axis).collect();
+    format!("of tool and sensor compensated: {}", axes.join("; "))
+}
+
+/// Where impact speeds come from, and how far two sources agree.
+fn speeds_text(source: &SpeedSource) -> String {
+    let by = match source.source {
+        "position" => "speeds by the height",
+        _ => "speeds by the integrated acceleration: no position along z was recorded",
+    };
+    match (source.integrated_over_position, source.apart) {
+        (Some(off), Some(apart)) => format!(
+            "{by}; those of the integrated acceleration differ by {:+.0} % in the median ({:.0} % in size) of {}",
+            100.0 * off,
+            100.0 * apart,
+            source.by_both
+        ),
+        _ => by.into(),
+    }
+}

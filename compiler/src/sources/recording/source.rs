@@ -1,0 +1,111 @@
+//! A folder of sensor files as a source.
+
+use super::{
+    analyse::{Analysis, analyse},
+    complete::{Completed, complete},
+    report,
+    sheet::sheet,
+    texture::{Parts, texture},
+};
+use crate::{
+    driver::{Compiled, Failure, Truth},
+    model::{Numerator, defaults},
+    pipeline::{Pass, Pipeline, Request, Ringing},
+    sources::{Findings, Source, Sourced, Tools},
+};
+use asperity_plot::PlotError;
+use asperity_recording::check::Severity;
+use serde_json::Value;
+use std::{path::PathBuf, sync::Arc};
+
+/// A recording: sensor files of a tool on a surface. The rate of the analysis is 1 kHz.
+#[derive(Debug, Clone)]
+pub struct RecordingFolder {
+    /// The folder.
+    pub folder: PathBuf,
+    /// Whether faults of the recording are let pass.
+    pub force: bool,
+}
+
+impl Source for RecordingFolder {
+    fn origin(&self) -> String {
+        self.folder.display().to_string()
+    }
+
+    fn inputs(&self) -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(&self.folder).into_iter().flatten();
+        entries
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| path.is_file())
+            .collect()
+    }
+
+    fn read(
+        &self,
+        _: &Request,
+        tools: &Tools<'_>,
+        pipeline: &mut Pipeline,
+    ) -> Result<Sourced, Failure> {
+        let model = tools.model()?;
+        let analysis = pipeline.run(Pass::Read, || analyse(&self.folder, self.force))?;
+        let completed = pipeline.run(Pass::Complete, || {
+            complete(model, &analysis.fit.grid, &defaults::gains())
+        })?;
+        let (texture, parts) = texture(&analysis, &completed, crc32(&analysis));
+        let ringing = match texture.grid.numerator {
+            Numerator::Nyquist => Ringing::Stabilised,
+            _ => Ringing::Refused,
+        };
+        let warnings = analysis
+            .checked
+            .at_least(Severity::Warning)
+            .map(|finding| format!("{} {}: {}", finding.file, finding.channel, finding.what));
+        Ok(Sourced {
+            truth: Some(Truth::Texture),
+            ringing,
+            warnings: warnings.collect(),
+            findings: Some(Arc::new(Recorded {
+                analysis,
+                completed,
+                parts,
+            })),
+            ..Sourced::new(texture)
+        })
+    }
+}
+
+/// What was found in a recording.
+#[derive(Debug)]
+pub struct Recorded {
+    /// What the sensors said.
+    pub analysis: Analysis,
+    /// What the learned model said.
+    pub completed: Completed,
+    /// Where each part comes from.
+    pub parts: Parts,
+}
+
+impl Findings for Recorded {
+    fn text(&self, compiled: &Compiled) -> String {
+        report::text(self, compiled)
+    }
+
+    fn json(&self, compiled: &Compiled) -> Value {
+        report::json(self, compiled)
+    }
+
+    fn sheet(&self, compiled: &Compiled) -> Result<Option<Vec<u8>>, PlotError> {
+        sheet(self, &compiled.whole).map(Some)
+    }
+}
+
+/// CRC-32 of all samples that were used.
+fn crc32(analysis: &Analysis) -> u32 {
+    let mut hasher = crc32fast::Hasher::new();
+    for channel in &analysis.recording.channels {
+        for sample in &channel.samples {
+            hasher.update(&sample.to_le_bytes());
+        }
+    }
+    hasher.finalize()
+}
