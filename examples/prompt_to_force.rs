@@ -1,11 +1,11 @@
 //! A sentence becomes a force: prompt → asset → slot → stroke.
 //!
 //! The compiler and its model are in the binary. The asset never touches a file here; a program
-//! that ships textures writes `authored.lowered.bytes` to one and embeds or maps it.
+//! that ships textures writes the bytes to one and embeds or maps it.
 
 use asperity::{
     inference::Backend,
-    prompt::{Author, Options},
+    prompt::{Author, Authored, Options},
 };
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
@@ -20,10 +20,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     // back end gives the same bytes on every machine.
     let author = Author::embedded(&Backend::Portable)?;
     let options = Options::default().without_preview();
-    let authored = author.author(PROMPT, &options)?;
-    let bytes = authored.lowered.bytes;
+    let compiled = author.author(PROMPT, &options);
+    let compiled = compiled.map_err(|failure| failure as Box<dyn Error>)?;
+    let bytes = &compiled.lowered.bytes;
     println!("{PROMPT:?}: {} bytes", bytes.len());
-    for near in authored.nearest.iter().take(3) {
+    let found: Option<&Authored> = compiled.found();
+    for near in found.into_iter().flat_map(|found| &found.nearest).take(3) {
         println!("  near {}, {:.0} %", near.name, 100.0 * near.weight);
     }
 
@@ -31,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let config = Config::default();
     let renderer = Renderer::new(&config)?;
     let mut texture = Box::new(HostTexture::new());
-    texture.load(&Asset::parse(&bytes)?, config.servo_rate_hz)?;
+    texture.load(&Asset::parse(bytes)?, config.servo_rate_hz)?;
 
     // The tick, once a servo period. The same asset, seed and samples give the same bits.
     let mut state = State::new(1);

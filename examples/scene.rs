@@ -61,10 +61,7 @@ fn library() -> Result<Vec<u8>, Box<dyn Error>> {
             seed,
             request: Request::default(),
         };
-        match author.author(prompt, &options) {
-            Ok(authored) => Ok(authored.texture),
-            Err(error) => Err(error.into()),
-        }
+        Ok(author.author(prompt, &options)?.texture)
     })?;
     print!("{}", built.report);
     Ok(built.bytes)

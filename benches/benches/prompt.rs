@@ -18,7 +18,7 @@ fn warm(c: &mut Criterion) {
     let author = Author::embedded(&backend).expect("the embedded model");
     let options = Options::default().without_preview();
     let authored = author.author(PROMPT, &options).expect("a texture");
-    assert!(authored.attributes.rough_db.is_some_and(|db| db > 0.0));
+    assert!(authored.attributes().rough_db.is_some_and(|db| db > 0.0));
     assert!(authored.lowered.bytes.len() < 4096 + 1024);
     let mut group = c.benchmark_group("warm prompt");
     group.sample_size(30);

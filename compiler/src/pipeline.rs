@@ -11,8 +11,9 @@ pub use error::PipelineError;
 pub use timings::{Pass, Timings};
 
 use crate::{
+    edit::{Memory, remember},
     emit::{
-        lower::{self, Lowered},
+        lower::{self, LowerError, Lowered},
         raise::raise,
         verify::{self, VerifyError, VerifyReport},
     },
@@ -35,6 +36,8 @@ const STABILISED: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 pub struct Request {
     /// Name of the texture; that of the source if `None`.
     pub name: Option<String>,
+    /// Level that the vibration is brought to, dB re 1 N RMS; none is if `None`.
+    pub loudness_db: Option<f64>,
     /// How much of the models the asset keeps.
     pub fidelity: Fidelity,
     /// Rate of the models, Hz; that of the source if `None`.
@@ -47,6 +50,7 @@ impl Default for Request {
     fn default() -> Self {
         Self {
             name: None,
+            loudness_db: None,
             fidelity: Fidelity::Full,
             rate_hz: None,
             preview_px: None,
@@ -61,6 +65,13 @@ pub enum Ringing {
     Refused,
     /// Its models are moved towards white noise. The numerator has to be 1 + z⁻¹.
     Stabilised,
+}
+
+/// What an asset holds beside its texture.
+pub(crate) struct Beside<'a> {
+    /// A picture in the place of a preview.
+    pub(crate) picture: Option<&'a [u8]>,
+    pub(crate) memory: Option<&'a Memory>,
 }
 
 /// A texture that passed verification.
@@ -87,20 +98,21 @@ impl Pipeline {
         mut whole: TextureModel,
         request: &Request,
         ringing: Ringing,
+        beside: &Beside<'_>,
     ) -> Result<Passed, PipelineError> {
         whole.provenance.fidelity = request.fidelity.to_string();
         if let Some(rate_hz) = request.rate_hz {
             whole = self.rerate(whole, rate_hz)?;
         }
         if ringing == Ringing::Refused {
-            return self.attempt(whole, 0.0, request);
+            return self.attempt(whole, 0.0, request, beside);
         }
-        let mut result = self.attempt(whole.clone(), 0.0, request);
+        let mut result = self.attempt(whole.clone(), 0.0, request, beside);
         for fraction in STABILISED {
             match &result {
                 Err(error) if error.rings() => {
                     let stabilised = self.stabilise(&whole, fraction);
-                    result = self.attempt(stabilised, fraction, request);
+                    result = self.attempt(stabilised, fraction, request, beside);
                 }
                 _ => break,
             }
@@ -113,17 +125,23 @@ impl Pipeline {
         whole: TextureModel,
         stabilised: f64,
         request: &Request,
+        beside: &Beside<'_>,
     ) -> Result<Passed, PipelineError> {
         let Reduction {
             mut texture,
             report,
         } = self.reduce(&whole, request.fidelity);
         self.run(Pass::Ceiling, || ceiling::limit(&mut texture));
-        let preview = match request.preview_px {
-            Some(size_px) => Some(self.preview(&texture, size_px)?),
-            None => None,
+        let preview = match (beside.picture, request.preview_px) {
+            (Some(png), _) => Some(png.to_owned()),
+            (None, Some(size_px)) => Some(self.preview(&texture, size_px)?),
+            (None, None) => None,
         };
-        let lowered = self.lower(&texture, preview.as_deref())?;
+        let mut lowered = self.lower(&texture, preview.as_deref())?;
+        if let Some(memory) = beside.memory {
+            let remembering = self.run(Pass::Lower, || remember(&lowered.bytes, memory));
+            lowered.bytes = remembering.map_err(LowerError::from)?;
+        }
         let verified = self.verify(&texture, &lowered.bytes)?;
         Ok(Passed {
             whole,

@@ -1,7 +1,7 @@
 //! Edits in the latent do what their sliders say, over random textures of the shipped model.
 
 use asperity::{
-    ceiling,
+    ceiling, driver,
     edit::{AXES, Axis, History, How, Latents, Sliders, Studio},
     inference::Backend,
     learned::Latent,
@@ -9,6 +9,7 @@ use asperity::{
     prompt::Author,
     raise::raise,
     reduce::Fidelity,
+    sources::{Tools, latents::FromLatents},
 };
 use asperity_tests::size::sized_or;
 use rand_core::{Rng as _, SeedableRng as _};
@@ -45,7 +46,7 @@ fn textures() -> Vec<Latents> {
 /// most 5, wherever that stays on the slider: beyond 0 and 100 there may be no material to go by.
 #[test]
 fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
-    let studio = Studio::new(&AUTHOR, 0);
+    let studio = Studio::new(&AUTHOR);
     let how = How {
         request: Request {
             fidelity: Fidelity::Auto,
@@ -128,13 +129,11 @@ fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
 /// everywhere on the grid, also of latents far from every material; and attributes do not know it.
 #[test]
 fn no_texture_vibrates_beyond_the_continuous_force() {
-    let studio = Studio::new(&AUTHOR, 0);
-    let how = How {
-        request: Request {
-            fidelity: Fidelity::Auto,
-            ..Request::default()
-        },
-        law: None,
+    // As loud as 1 N, more than the device holds.
+    let request = Request {
+        fidelity: Fidelity::Auto,
+        loudness_db: Some(0.0),
+        ..Request::default()
     };
     let far = |latents: &Latents, factor: f32| Latents::whole(latents.slide.map(|x| factor * x));
     let textures: Vec<Latents> = textures()
@@ -144,21 +143,16 @@ fn no_texture_vibrates_beyond_the_continuous_force() {
     let lowered: Vec<bool> = textures
         .par_iter()
         .map(|latents| {
-            let provenance = studio.provenance("test");
-            // As loud as 1 N, more than the device holds.
-            let history = History {
-                loudness_db: Some(0.0),
-                ..History::default()
-            };
-            let made = studio.compile(latents, "x", provenance, history, &how);
-            let made = made.unwrap();
-            let asset = asperity_formats::Asset::parse(&made.bytes).unwrap();
+            let provenance = AUTHOR.model().provenance("test");
+            let source = FromLatents::new(*latents, "x".into(), provenance, History::default());
+            let made = driver::compile(&source, &request, &Tools::of(&AUTHOR)).unwrap();
+            let asset = asperity_formats::Asset::parse(&made.lowered.bytes).unwrap();
             let texture = raise(&asset);
             let to_force = texture.gains.vib_s2_m * texture.gains.f_max_n;
             let rms_n = to_force * ceiling::loudest_m_s2(&texture.grid);
             let continuous_n = ceiling::CONTINUOUS_SHARE * texture.gains.f_max_n;
             assert!(rms_n <= continuous_n, "{rms_n} N");
-            made.texture.gains.vib_s2_m < made.asked_s2_m
+            made.texture.gains.vib_s2_m < made.whole.gains.vib_s2_m
         })
         .collect();
     let count = lowered.iter().filter(|lowered| **lowered).count();

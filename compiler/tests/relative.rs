@@ -60,7 +60,7 @@ fn step(studio: &Studio<'_>, line: &str) -> f64 {
 
 #[test]
 fn edits_in_words_go_the_right_way_and_are_noticed() {
-    let studio = Studio::new(&AUTHOR, 0);
+    let studio = Studio::new(&AUTHOR);
     let lines: Vec<&str> = EDITS.lines().collect();
     assert_eq!(lines.len(), 60);
     let stride = sized("every so many edits", 4, 1);

@@ -12,6 +12,7 @@ use asperity::{
     inference::Backend,
     model::{Provenance, TextureModel},
     prompt::Author,
+    sources::latents::decode,
 };
 use asperity_io::output::write_atomic;
 use page::Page;
@@ -31,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let images = folder.join("images");
     fs::create_dir_all(&images).map_err(|error| format!("{}: {error}", images.display()))?;
     let author = Author::embedded(&Backend::Portable)?;
-    let studio = Studio::new(&author, author.model().crc32());
+    let studio = Studio::new(&author);
     let latents = |prompt: &str| -> Result<Latents, Box<dyn Error>> {
         let meaning = author.meaning(prompt, &author.project(prompt)?)?;
         Ok(Latents::whole(meaning.z).shifted(meaning.shift))
@@ -42,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             prompt: prompt.map(str::to_owned),
             ..Provenance::default()
         };
-        studio.texture(latents, name, provenance)
+        decode(author.model(), latents, name, provenance)
     };
     let mut three: Vec<TextureModel> = Vec::new();
     for prompt in THREE {

@@ -6,10 +6,11 @@ use crate::{
     texture::Texture,
 };
 use asperity::{
-    edit, embedded,
+    driver::Compiled,
+    embedded,
     inference::{Backend, BackendName},
     pipeline::Request,
-    prompt::{self, Authored, Options, PromptError},
+    prompt::{self, Options, PromptError},
     text::{TextEncoder, TextEncoderChoice, clip::Clip},
 };
 use pyo3::prelude::*;
@@ -92,10 +93,10 @@ pub(crate) fn compile(
     let authored = py.detach(|| {
         // Before half a second of loading.
         if prompt.trim().is_empty() {
-            return Err(refused(PromptError::Empty));
+            return Err(error::stopped(PromptError::Empty.into()));
         }
         let author = shared()?;
-        remembered(&author, author.author(prompt, &options))
+        author.author(prompt, &options).map_err(error::stopped)
     })?;
     told(py, authored)
 }
@@ -176,8 +177,8 @@ impl Author {
         preview: bool,
     ) -> PyResult<Texture> {
         let options = options(seed, fidelity, rate, preview);
-        let authored = self.author.author(prompt, &options);
-        let authored = py.detach(|| remembered(&self.author, authored))?;
+        let authored = py.detach(|| self.author.author(prompt, &options));
+        let authored = authored.map_err(error::stopped)?;
         told(py, authored)
     }
 }
@@ -219,34 +220,11 @@ fn options(seed: Seed, fidelity: Fidelity, rate_hz: Option<f64>, preview: bool) 
     }
 }
 
-/// With the latent that it was decoded from in its asset, as the command writes it.
-fn remembered(
-    author: &prompt::Author,
-    authored: Result<Authored, PromptError>,
-) -> Result<Authored, Failure> {
-    let mut authored = authored.map_err(refused)?;
-    edit::remember_prompt(author, &mut authored).map_err(edit::EditError::from)?;
-    Ok(authored)
-}
-
-/// The error in the words of Python, where those of the command would not do.
-fn refused(error: PromptError) -> Failure {
-    match error {
-        PromptError::Empty => Failure::usage(
-            "prompt: it is empty",
-            "describe a surface, e.g. asperity.compile(\"rough abrasive sheet\")",
-        ),
-        PromptError::Text(error) => error.into(),
-        PromptError::Pipeline(error) => error::pipeline(error),
-        other => other.into(),
-    }
-}
-
 /// The texture; its warnings are told.
-fn told(py: Python<'_>, authored: Authored) -> PyResult<Texture> {
+fn told(py: Python<'_>, authored: Compiled) -> PyResult<Texture> {
     let category = py.import("asperity._errors")?.getattr("AsperityWarning")?;
-    for warning in authored.warnings() {
-        let text = CString::new(warning).unwrap_or_default();
+    for warning in &authored.warnings {
+        let text = CString::new(warning.as_str()).unwrap_or_default();
         PyErr::warn(py, &category, &text, 1)?;
     }
     let report = authored.json().to_string();

@@ -1,6 +1,6 @@
 //! Failures as Python exceptions.
 
-use asperity::{driver::Stopped, pipeline::PipelineError, rerate::RATE_RANGE_HZ};
+use asperity::{driver::Stopped, pipeline::PipelineError, prompt::PromptError, rerate::RATE_RANGE_HZ};
 use asperity_io::diagnostic::Diagnostic;
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::{error::Error, fmt::Display};
@@ -98,32 +98,25 @@ impl From<Failure> for PyErr {
     }
 }
 
-/// A failure of the pipeline, in the words of Python where those of the command would not do.
-pub(crate) fn pipeline(error: PipelineError) -> Failure {
-    match error {
-        PipelineError::Rate(rate_hz) => {
-            let (least, most) = RATE_RANGE_HZ;
-            let message = format!("rate = {rate_hz} Hz: not in {least} to {most} Hz");
-            Failure::usage(message, "give the rate of the servo loop, e.g. rate=1000")
-        }
-        other => other.into(),
-    }
-}
-
-/// What kept a source from becoming a texture, likewise.
+/// What kept a source from becoming a texture, in the words of Python where those of the command
+/// would not do.
 pub(crate) fn stopped(failure: asperity::driver::Failure) -> Failure {
     let error: &dyn Error = &*failure;
-    match error.downcast_ref::<Stopped>() {
+    if let Some(PromptError::Empty) = error.downcast_ref() {
+        return Failure::usage(
+            "prompt: it is empty",
+            "describe a surface, e.g. asperity.compile(\"rough abrasive sheet\")",
+        );
+    }
+    match error.downcast_ref() {
         Some(Stopped {
             origin,
             cause: PipelineError::Rate(rate_hz),
         }) => {
-            let refused = pipeline(PipelineError::Rate(*rate_hz));
-            if origin.is_empty() {
-                refused
-            } else {
-                refused.about(origin)
-            }
+            let (least, most) = RATE_RANGE_HZ;
+            let colon = if origin.is_empty() { "" } else { ": " };
+            let message = format!("{origin}{colon}rate = {rate_hz} Hz: not in {least} to {most} Hz");
+            Failure::usage(message, "give the rate of the servo loop, e.g. rate=1000")
         }
         _ => Failure::of(&*failure),
     }

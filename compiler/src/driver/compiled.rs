@@ -32,12 +32,14 @@ pub struct Compiled {
     pub preview: Option<Vec<u8>>,
     /// The asset.
     pub lowered: Lowered,
-    /// What verification saw.
-    pub verified: VerifyReport,
+    /// What verification saw; `None` for an asset that was taken as it is.
+    pub verified: Option<VerifyReport>,
     /// The fraction of the way to white noise that the models were moved so that they pass, 0..=1.
     pub stabilised: f64,
     /// How far the asset is from its source, where that is known.
     pub compared: Option<Compared>,
+    /// Certainty of what was understood of the source, 0..=1.
+    pub certainty: Option<f64>,
     /// What a user should be told.
     pub warnings: Vec<String>,
     /// What the source found besides.

@@ -26,9 +26,16 @@ pub use compiled::{Compared, Compiled};
 pub use truth::Truth;
 
 use crate::{
-    pipeline::{Pass, Pipeline, PipelineError, Request},
+    edit::equal_loudness,
+    emit::{
+        lower::{ErrorSummary, LowerError, Lowered},
+        rename::renamed,
+    },
+    passes::reduce::{Fidelity, reduce},
+    pipeline::{Beside, Pass, Pipeline, PipelineError, Request},
     sources::{Source, Sourced, Tools},
 };
+use asperity_formats::{Asset, EncodeError};
 use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
@@ -63,8 +70,17 @@ pub fn compile(
 ) -> Result<Compiled, Failure> {
     let mut pipeline = Pipeline::default();
     let mut sourced = source.read(request, tools, &mut pipeline)?;
+    if let Some(asset) = sourced.asset.take() {
+        return Ok(taken(sourced, &asset, request, pipeline)?);
+    }
     if let Some(name) = &request.name {
         sourced.texture.name.clone_from(name);
+    }
+    if let Some(level_db) = request.loudness_db {
+        equal_loudness(&mut sourced.texture, level_db);
+    }
+    if let Some(memory) = &mut sourced.memory {
+        memory.history.loudness_db = request.loudness_db;
     }
     Ok(
         compiled(sourced, request, pipeline).map_err(|cause| Stopped {
@@ -74,6 +90,45 @@ pub fn compile(
     )
 }
 
+/// An asset that is taken as it is, under the name that was asked for.
+fn taken(
+    sourced: Sourced,
+    asset: &[u8],
+    request: &Request,
+    pipeline: Pipeline,
+) -> Result<Compiled, LowerError> {
+    let mut texture = sourced.texture;
+    let bytes = match &request.name {
+        Some(name) => {
+            texture.name.clone_from(name);
+            renamed(asset, name)?
+        }
+        None => asset.to_owned(),
+    };
+    let parsed = Asset::parse(&bytes).map_err(EncodeError::from)?;
+    let lowered = Lowered {
+        haptic_bytes: parsed.haptic_len(),
+        models: parsed.grid().models().len(),
+        lsf_error: ErrorSummary::default(),
+        bytes: bytes.clone(),
+    };
+    Ok(Compiled {
+        reduction: reduce(&texture, Fidelity::Full).report,
+        whole: texture.clone(),
+        texture,
+        fidelity: Fidelity::Full,
+        preview: parsed.preview_png().map(<[u8]>::to_owned),
+        lowered,
+        verified: None,
+        stabilised: 0.0,
+        compared: None,
+        certainty: sourced.certainty,
+        warnings: sourced.warnings,
+        findings: sourced.findings,
+        timings: pipeline.timings().clone(),
+    })
+}
+
 fn compiled(
     sourced: Sourced,
     request: &Request,
@@ -81,12 +136,20 @@ fn compiled(
 ) -> Result<Compiled, PipelineError> {
     let Sourced {
         texture,
+        asset: _,
         truth,
         ringing,
+        memory,
+        picture,
+        certainty,
         mut warnings,
         findings,
     } = sourced;
-    let mut passed = pipeline.compile(texture, request, ringing)?;
+    let beside = Beside {
+        picture: picture.as_deref(),
+        memory: memory.as_ref(),
+    };
+    let mut passed = pipeline.compile(texture, request, ringing, &beside)?;
     let compared = truth.map(|truth| {
         pipeline.run(Pass::Compare, || {
             truth.compared(&mut passed, request.fidelity)
@@ -105,9 +168,10 @@ fn compiled(
         reduction: passed.reduction,
         preview: passed.preview,
         lowered: passed.lowered,
-        verified: passed.verified,
+        verified: Some(passed.verified),
         stabilised: passed.stabilised,
         compared: compared.transpose()?,
+        certainty,
         warnings,
         findings,
         timings: pipeline.timings().clone(),

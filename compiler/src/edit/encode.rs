@@ -3,7 +3,7 @@
 use super::{error::EditError, latents::Latents, studio::Studio};
 use crate::{
     learned::{Present, complete},
-    model::{Provenance, TextureModel},
+    model::TextureModel,
     passes::reduce::Reference,
 };
 use std::str::FromStr;
@@ -102,7 +102,7 @@ pub fn encode(
     let same_rate = texture.grid.sample_rate_hz == description.grid.sample_rate_hz;
     let (mut distance_db, mut silent_places) = (None, 0);
     if part != Part::Taps && same_rate {
-        let decoded = studio.texture(&latents, "", Provenance::default())?;
+        let decoded = studio.texture(&latents)?;
         let whole = Reference::new(&texture.grid);
         let distances = whole.and_then(|whole| whole.distances(&decoded.grid));
         let (sounding, silent) = distances.unwrap_or_default().sounding();

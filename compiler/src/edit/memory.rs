@@ -1,10 +1,7 @@
 //! What an asset remembers of its making: latents and history, outside the haptic sections.
 
 use super::{error::EditError, history::History, latents::Latents};
-use crate::{
-    learned::{Latent, description::LATENT},
-    sources::prompt::{Author, Authored},
-};
+use crate::learned::{Latent, description::LATENT};
 use asperity_formats::{Asset, EncodeError, assemble, assembled_len};
 
 const LATENT_TAG: [u8; 4] = *b"late";
@@ -25,7 +22,7 @@ pub struct Memory {
 ///
 /// # Errors
 /// [`EncodeError`] for bytes that are no asset.
-pub fn remember(asset: &[u8], memory: &Memory) -> Result<Vec<u8>, EncodeError> {
+pub(crate) fn remember(asset: &[u8], memory: &Memory) -> Result<Vec<u8>, EncodeError> {
     let latent = latent_body(memory);
     let history = History {
         shift: memory.latents.shift,
@@ -45,20 +42,6 @@ pub fn remember(asset: &[u8], memory: &Memory) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = vec![0; assembled_len(&sections)];
     assemble(&sections, &mut bytes)?;
     Ok(bytes)
-}
-
-/// Lets the asset of a prompt remember its latent, which an author's model decoded.
-///
-/// # Errors
-/// [`EncodeError`], for bytes that are no asset.
-pub fn remember_prompt(author: &Author, authored: &mut Authored) -> Result<(), EncodeError> {
-    let memory = Memory {
-        model_crc32: author.model().crc32(),
-        latents: Latents::whole(authored.z).shifted(authored.shift),
-        history: History::default(),
-    };
-    authored.lowered.bytes = remember(&authored.lowered.bytes, &memory)?;
-    Ok(())
 }
 
 fn latent_body(memory: &Memory) -> Vec<u8> {

@@ -2,23 +2,22 @@
 
 use super::{
     error::EditError,
-    history::{History, Source},
+    history::Source,
     latents::Latents,
-    loudness::equal_loudness,
-    memory::{Memory, remember, remembered},
+    memory::{Memory, remembered},
     scale::Scale,
     solve::Metric,
 };
 use crate::{
     emit::raise,
-    learned::{Decoded, friction, texture},
     model::{
         FrictionLaw, Provenance, TextureModel,
         attributes::{self, Attributes},
     },
     passes::reduce::Fidelity,
-    pipeline::{Pass, Passed, Pipeline, Request, Ringing, Timings},
-    sources::prompt::{Author, phrase::adjust::adjust},
+    pipeline::{Pipeline, Request},
+    prompt::Author,
+    sources::latents::decode,
     views::preview,
 };
 use asperity_formats::Asset;
@@ -41,33 +40,14 @@ pub struct How {
     pub law: Option<FrictionLaw>,
 }
 
-/// A compiled texture with its memory.
-#[derive(Debug, Clone)]
-pub struct Made {
-    /// The asset, latents and history included.
-    pub bytes: Vec<u8>,
-    /// The texture that it holds.
-    pub texture: TextureModel,
-    /// Bytes that a runtime needs.
-    pub haptic_bytes: usize,
-    /// Gain of the vibration before the ceiling lowered it, s²/m.
-    pub asked_s2_m: f64,
-    /// Attributes of that texture.
-    pub attributes: Attributes,
-    /// Fraction of the way to white noise that the models were moved, 0..=1.
-    pub stabilised: f64,
-    /// The time of every pass.
-    pub timings: Timings,
-}
-
 impl<'a> Studio<'a> {
-    /// A studio of an author whose model has this CRC-32.
+    /// A studio of an author.
     #[must_use]
-    pub fn new(author: &'a Author, model_crc32: u32) -> Self {
+    pub fn new(author: &'a Author) -> Self {
         let description = author.model().description();
         Self {
             author,
-            model_crc32,
+            model_crc32: author.model().crc32(),
             scale: Scale::of(description),
             metric: Metric::of(&description.anchors),
         }
@@ -139,68 +119,13 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// Where a texture of this command comes from.
-    #[must_use]
-    pub fn provenance(&self, command: &str) -> Provenance {
-        let description = self.author.model().description();
-        let synthetic = if description.corpus.taps_synthetic {
-            "Trained on synthetic taps. "
-        } else {
-            ""
-        };
-        Provenance {
-            generator: format!("asperity {} {command}", env!("CARGO_PKG_VERSION")),
-            source: format!("model {}", description.name),
-            source_crc32: description.corpus.crc32,
-            taps_synthetic: true,
-            notes: format!(
-                "Decoded from a learned model of the {} corpus, text encoder {}. {synthetic}Gains and wall are unconfirmed defaults.",
-                description.corpus.name, description.text_encoder.name
-            ),
-            ..Provenance::default()
-        }
-    }
-
     /// The texture of these latents before it is reduced.
     ///
     /// # Errors
     /// [`EditError::Model`] when a network fails.
-    pub fn texture(
-        &self,
-        latents: &Latents,
-        name: &str,
-        provenance: Provenance,
-    ) -> Result<TextureModel, EditError> {
+    pub fn texture(&self, latents: &Latents) -> Result<TextureModel, EditError> {
         let model = self.author.model();
-        let description = model.description();
-        let decoded = self.decoded(latents)?;
-        let (mut texture, _) = texture::build(
-            description,
-            &decoded,
-            &latents.friction,
-            name.to_owned(),
-            provenance,
-        );
-        if latents.tap != latents.friction {
-            let near =
-                friction::neighbours(&latents.tap, &description.anchors, description.friction);
-            texture.wall.stiffness_n_m = friction::stiffness_n_m(&near, &description.anchors);
-        }
-        adjust(&mut texture, &latents.shift);
-        Ok(texture)
-    }
-
-    fn decoded(&self, latents: &Latents) -> Result<Decoded, EditError> {
-        let model = self.author.model();
-        let slide = model.decode(&latents.slide)?;
-        if latents.tap == latents.slide {
-            return Ok(slide);
-        }
-        let tap = model.decode(&latents.tap)?;
-        Ok(Decoded {
-            taps_m_s2: tap.taps_m_s2,
-            ..slide
-        })
+        Ok(decode(model, latents, "", Provenance::default())?)
     }
 
     /// The attributes of these latents, before anything is reduced.
@@ -208,7 +133,7 @@ impl<'a> Studio<'a> {
     /// # Errors
     /// As [`texture`](Self::texture).
     pub fn attributes(&self, latents: &Latents) -> Result<Attributes, EditError> {
-        let texture = self.texture(latents, "", Provenance::default())?;
+        let texture = self.texture(latents)?;
         Ok(attributes::of(&texture))
     }
 
@@ -218,55 +143,11 @@ impl<'a> Studio<'a> {
     /// As [`texture`](Self::texture), and for a rate that the models cannot have.
     pub fn kept_attributes(&self, latents: &Latents, how: &How) -> Result<Attributes, EditError> {
         let mut pipeline = Pipeline::default();
-        let mut texture = self.texture(latents, "", Provenance::default())?;
+        let mut texture = self.texture(latents)?;
         if let Some(rate_hz) = how.request.rate_hz {
             texture = pipeline.rerate(texture, rate_hz)?;
         }
         let kept = pipeline.reduce(&texture, how.request.fidelity).texture;
         Ok(attributes::of(&kept))
-    }
-
-    /// Compiles latents to an asset that remembers them.
-    ///
-    /// # Errors
-    /// [`EditError`] for a texture that does not pass the pipeline.
-    pub fn compile(
-        &self,
-        latents: &Latents,
-        name: &str,
-        provenance: Provenance,
-        history: History,
-        how: &How,
-    ) -> Result<Made, EditError> {
-        let mut pipeline = Pipeline::default();
-        let texture = pipeline.run(Pass::Decode, || self.texture(latents, name, provenance));
-        let mut texture = texture?;
-        let mu = texture.friction.mu;
-        texture.friction.law = how.law.clone().map(|law| law.beside(mu));
-        if let Some(level_db) = history.loudness_db {
-            equal_loudness(&mut texture, level_db);
-        }
-        let compiled = pipeline.compile(texture, &how.request, Ringing::Stabilised);
-        let Passed {
-            whole,
-            texture,
-            lowered,
-            stabilised,
-            ..
-        } = compiled?;
-        let memory = Memory {
-            model_crc32: self.model_crc32,
-            latents: *latents,
-            history,
-        };
-        Ok(Made {
-            bytes: remember(&lowered.bytes, &memory)?,
-            haptic_bytes: lowered.haptic_bytes,
-            asked_s2_m: whole.gains.vib_s2_m,
-            attributes: attributes::of(&texture),
-            texture,
-            stabilised,
-            timings: pipeline.timings().clone(),
-        })
     }
 }

@@ -3,5 +3,6 @@
 
 pub mod lower;
 pub mod raise;
+pub(crate) mod rename;
 pub mod source;
 pub mod verify;

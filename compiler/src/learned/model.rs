@@ -7,7 +7,7 @@ use super::{
     files::Files,
     network::{has, run, take},
 };
-use crate::inference::Backend;
+use crate::{inference::Backend, model::Provenance};
 use asperity_nn::Session;
 use std::{borrow::Cow, sync::OnceLock};
 
@@ -113,6 +113,28 @@ impl LearnedModel {
     #[must_use]
     pub fn description(&self) -> &ModelDescription {
         &self.description
+    }
+
+    /// Where a texture of the model comes from, which a command made.
+    #[must_use]
+    pub fn provenance(&self, command: &str) -> Provenance {
+        let description = &self.description;
+        let synthetic = if description.corpus.taps_synthetic {
+            "Trained on synthetic taps. "
+        } else {
+            ""
+        };
+        Provenance {
+            generator: format!("asperity {} {command}", env!("CARGO_PKG_VERSION")),
+            source: format!("model {}", description.name),
+            source_crc32: description.corpus.crc32,
+            taps_synthetic: true,
+            notes: format!(
+                "Decoded from a learned model of the {} corpus, text encoder {}. {synthetic}Gains and wall are unconfirmed defaults.",
+                description.corpus.name, description.text_encoder.name
+            ),
+            ..Provenance::default()
+        }
     }
 
     /// The latent of a text vector.

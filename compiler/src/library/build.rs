@@ -2,11 +2,11 @@
 
 use super::{
     cache::Cache,
-    error::{Cause, EntryError, LibraryFault, cause},
+    error::{EntryError, LibraryFault},
     facts::Facts,
     key::{Key, Parts},
     lock::Pinned,
-    make::{Maker, is_learned},
+    make::{Maker, is_learned, is_model},
     manifest::{Edit, Manifest, Options, Origin, order},
     opened::OpenLibraries,
     report::{Report, Row},
@@ -20,7 +20,7 @@ use crate::{
 };
 use asperity_formats::Asset;
 use asperity_io::{
-    diagnostic::{Failures, one},
+    diagnostic::{Failure, Failures, one},
     input::{self, InputError, Kind},
 };
 use rayon::prelude::*;
@@ -108,14 +108,14 @@ impl<'a> Build<'a> {
     }
 
     /// Makes what the cache does not hold, and packs all. The bytes do not depend on the cache, the
-    /// order or the number of threads. `open` gives an author and the CRC-32 of its model; `done`
-    /// is called once a texture, from any thread.
+    /// order or the number of threads. `open` gives an author; `done` is called once a texture, from
+    /// any thread.
     ///
     /// # Errors
     /// An [`EntryError`] for every texture that could not be made. The others are in the cache then.
     pub fn run(
         &self,
-        open: &dyn Fn() -> Result<(Author, u32), Failures>,
+        open: &dyn Fn() -> Result<Author, Failures>,
         done: &(dyn Fn() + Sync),
     ) -> Result<Built, Failures> {
         let mut pipeline = Pipeline::default();
@@ -125,9 +125,7 @@ impl<'a> Build<'a> {
         let missing: Vec<usize> = (0..cached.len()).filter(|&n| cached[n].is_none()).collect();
         let learned = |n: &usize| is_learned(&entries[self.chosen[*n].0].origin);
         let opened = missing.iter().any(learned).then(open).transpose()?;
-        let studio = opened
-            .as_ref()
-            .map(|(author, crc32)| Studio::new(author, *crc32));
+        let studio = opened.as_ref().map(Studio::new);
         let maker = Maker::new(self.manifest, studio.as_ref(), &self.libraries);
         let shared = Mutex::new((Timings::default(), None));
         let together = TOGETHER.min(missing.len().div_ceil(rayon::current_num_threads()));
@@ -223,16 +221,17 @@ impl<'a> Build<'a> {
         let made = maker
             .make(*index)
             .map_err(|cause| EntryError::new(entry, cause))?;
+        let (bytes, facts) = (&made.lowered.bytes, Facts::of(&made));
         let kept = match self.request.cache {
-            Some(cache) => cache.put(key, &made.asset, &made.facts).map_err(|error| {
+            Some(cache) => cache.put(key, bytes, &facts).map_err(|error| {
                 let folder = cache.folder().display();
                 format!("{folder}: nothing more is cached: {error}")
             }),
             None => Ok(()),
         };
-        let slot = take(spill, &made.asset).map_err(|error| {
+        let slot = take(spill, bytes).map_err(|error| {
             let fault = LibraryFault::NoRoom(error.to_string());
-            EntryError::new(entry, cause(fault))
+            EntryError::new(entry, fault.into())
         })?;
         let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
         shared.0.merge(&made.timings);
@@ -241,7 +240,7 @@ impl<'a> Build<'a> {
         }
         Ok(Texture {
             slot,
-            facts: made.facts,
+            facts,
             cached: false,
         })
     }
@@ -275,7 +274,7 @@ fn keys(
 ) -> Result<Vec<Key>, Failures> {
     let entries = &manifest.entries;
     // Files are read in parallel; a texture of others has no file.
-    let contents: Vec<Result<Option<Key>, Cause>> = entries
+    let contents: Vec<Result<Option<Key>, Failure>> = entries
         .par_iter()
         .map(|entry| match &entry.origin {
             Origin::Import(file) => content(file).map(Some),
@@ -345,7 +344,7 @@ fn keys(
                 .part(place.as_ref().map_or(&[][..], |key| key.bytes()))
                 .text(&options.request.fidelity.to_string())
                 .number(options.request.rate_hz.unwrap_or(0.0))
-                .number(options.loudness_db.unwrap_or(f64::INFINITY))
+                .number(options.request.loudness_db.unwrap_or(f64::INFINITY))
                 .part(&options.request.preview_px.unwrap_or(0).to_le_bytes())
                 .key()
         })
@@ -368,16 +367,15 @@ fn edited(parts: Parts, options: &Options) -> Parts {
     }
 }
 
-fn content(file: &Path) -> Result<Key, Cause> {
-    let is_model = file
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
-    let kind = if is_model { Kind::Model } else { Kind::Hatt };
-    let bytes = input::read(file, kind).map_err(|problem| {
-        cause(InputError {
-            file: file.to_owned(),
-            problem,
-        })
+fn content(file: &Path) -> Result<Key, Failure> {
+    let kind = if is_model(file) {
+        Kind::Model
+    } else {
+        Kind::Hatt
+    };
+    let bytes = input::read(file, kind).map_err(|problem| InputError {
+        file: file.to_owned(),
+        problem,
     })?;
     Ok(Key::of(&bytes))
 }

@@ -1,16 +1,8 @@
 //! Why a library was not built.
 
 use super::manifest::{Entry, Place};
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::diagnostic::{Diagnostic, Failure};
 use thiserror::Error;
-
-/// What went wrong with one texture, on any thread.
-pub(super) type Cause = Box<dyn Diagnostic + Send + Sync>;
-
-/// For `map_err`: one cause.
-pub(super) fn cause(error: impl Diagnostic + Send + Sync + 'static) -> Cause {
-    Box::new(error)
-}
 
 /// Why a texture of a manifest could not be made.
 #[derive(Debug, Error)]
@@ -23,11 +15,11 @@ pub struct EntryError {
     /// Key of its source.
     pub key: &'static str,
     /// What went wrong.
-    pub cause: Cause,
+    pub cause: Failure,
 }
 
 impl EntryError {
-    pub(super) fn new(entry: &Entry, cause: Cause) -> Self {
+    pub(super) fn new(entry: &Entry, cause: Failure) -> Self {
         Self {
             place: entry.place.clone(),
             name: entry.name.clone(),

@@ -1,6 +1,6 @@
 //! What a report says of a texture besides its bytes; cached with them.
 
-use crate::model::{TextureModel, attributes::Attributes};
+use crate::{driver::Compiled, model::attributes::Attributes};
 use serde::{Deserialize, Serialize};
 
 /// Figures of a texture.
@@ -27,28 +27,29 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// The figures of a texture with these attributes, whose vibration gain was `asked_s2_m` before
-    /// the auto-gain.
+    /// The figures of a compiled texture.
     #[must_use]
-    pub fn of(
-        texture: &TextureModel,
-        attributes: &Attributes,
-        haptic_bytes: usize,
-        asked_s2_m: f64,
-    ) -> Self {
+    pub fn of(compiled: &Compiled) -> Self {
+        let Attributes {
+            rough_db,
+            sharp_hz,
+            hard_hz,
+            mu,
+        } = compiled.attributes();
+        let asked_s2_m = compiled.whole.gains.vib_s2_m;
         Self {
-            haptic_bytes,
-            rough_db: attributes.rough_db,
-            sharp_hz: attributes.sharp_hz,
-            hard_hz: attributes.hard_hz,
-            mu: attributes.mu,
-            certainty: None,
+            haptic_bytes: compiled.lowered.haptic_bytes,
+            rough_db,
+            sharp_hz,
+            hard_hz,
+            mu,
+            certainty: compiled.certainty,
             vibration_factor: if asked_s2_m > 0.0 {
-                texture.gains.vib_s2_m / asked_s2_m
+                compiled.texture.gains.vib_s2_m / asked_s2_m
             } else {
                 1.0
             },
-            warnings: Vec::new(),
+            warnings: compiled.warnings.clone(),
         }
     }
 }

@@ -1,36 +1,27 @@
 //! Making one texture of a manifest.
 
 use super::{
-    error::{Cause, cause},
-    facts::Facts,
     manifest::{Edit, Entry, Manifest, Options, Origin},
     opened::OpenLibraries,
-    rename::renamed,
 };
 use crate::{
-    driver,
+    driver::{self, Compiled, Failure},
     edit::{
-        EditError, History, How, Latents, Made, Memory, Origin as Making, Part,
-        Source as Ingredient, Step, Studio, Worded, encode, equal_loudness, remember, remembered,
+        EditError, History, How, Latents, Origin as Making, Part, Source as Ingredient, Step,
+        Studio, Worded, encode, remembered,
     },
-    emit::raise::{self, raise},
-    model::{FrictionLaw, Provenance, TextureModel, attributes},
-    pipeline::{Pipeline, Request, Ringing, Timings},
-    sources::{Source, Tools, hatt::Hatt, model_file::ModelFile, prompt},
+    emit::raise::raise,
+    model::{FrictionLaw, Provenance},
+    pipeline::{Pipeline, Request},
+    prompt::{Prompt, PromptError},
+    sources::{Source, Sourced, Tools, hatt::Hatt, latents::FromLatents, model_file::ModelFile},
 };
 use asperity_formats::Asset;
 use std::{
     collections::HashMap,
-    path::Path,
+    path::{Path, PathBuf},
     sync::{Mutex, PoisonError},
 };
-
-/// A texture that was made.
-pub(super) struct Finished {
-    pub(super) asset: Vec<u8>,
-    pub(super) facts: Facts,
-    pub(super) timings: Timings,
-}
 
 /// Makes textures of a manifest, on any number of threads.
 pub(super) struct Maker<'a> {
@@ -70,6 +61,12 @@ impl Known {
     }
 }
 
+/// Whether an import is a model of one's own.
+pub(super) fn is_model(file: &Path) -> bool {
+    let extension = file.extension();
+    extension.is_some_and(|e| e.eq_ignore_ascii_case("json"))
+}
+
 /// Whether a source needs the learned model.
 pub(super) fn is_learned(origin: &Origin) -> bool {
     match origin {
@@ -106,97 +103,72 @@ impl<'a> Maker<'a> {
     }
 
     /// Makes the texture at an index of the manifest.
-    pub(super) fn make(&self, index: usize) -> Result<Finished, Cause> {
+    pub(super) fn make(&self, index: usize) -> Result<Compiled, Failure> {
         let entry = &self.manifest.entries[index];
         let options = &entry.options;
-        match &entry.origin {
-            Origin::Prompt(text) if options.edit.is_still() && options.loudness_db.is_none() => {
-                self.prompted(entry, text)
-            }
-            Origin::Import(file) => imported(entry, file),
-            Origin::Asset { file, texture } => {
-                taken(entry, &self.libraries.asset(file, texture.as_deref())?)
-            }
-            _ => self.mixed(index),
-        }
-    }
-
-    fn studio(&self) -> Result<&'a Studio<'a>, Cause> {
-        // The build opens one where any texture needs it.
-        self.studio.ok_or_else(|| cause(prompt::PromptError::Empty))
-    }
-
-    /// A prompt as `asperity compile` makes it.
-    fn prompted(&self, entry: &Entry, text: &str) -> Result<Finished, Cause> {
-        let studio = self.studio()?;
-        let authored = studio
-            .author()
-            .author(text, &prompt_options(&entry.options))
-            .map_err(cause)?;
-        let memory = Memory {
-            model_crc32: studio.model_crc32(),
-            latents: Latents::whole(authored.z).shifted(authored.shift),
-            history: History::default(),
+        let tools = match self.studio {
+            Some(studio) => Tools::of(studio.author()),
+            None => Tools::default(),
         };
-        let haptic_bytes =
-            authored.lowered.haptic_bytes + entry.name.len() - authored.texture.name.len();
-        let asked_s2_m = authored.whole.gains.vib_s2_m;
-        let mut facts = Facts::of(
-            &authored.texture,
-            &authored.attributes,
-            haptic_bytes,
-            asked_s2_m,
-        );
-        facts.certainty = Some(authored.certainty);
-        facts.warnings = authored.warnings();
-        let asset = renamed(&authored.lowered.bytes, &entry.name)
-            .and_then(|bytes| remember(&bytes, &memory))
-            .map_err(|error| cause(EditError::from(error)))?;
-        Ok(Finished {
-            asset,
-            facts,
-            timings: authored.timings,
+        let request = Request {
+            name: Some(entry.name.clone()),
+            ..options.request.clone()
+        };
+        let mixed;
+        let source = match self.own(entry) {
+            Some(source) if options.edit.is_still() => source,
+            _ => {
+                mixed = self.mixed(index)?;
+                Box::new(mixed)
+            }
+        };
+        driver::compile(&*source, &request, &tools)
+    }
+
+    /// The source that an entry names, unless it is made of others.
+    fn own(&self, entry: &'a Entry) -> Option<Box<dyn Source + 'a>> {
+        Some(match &entry.origin {
+            Origin::Prompt(text) => Box::new(Prompt {
+                text: text.clone(),
+                seed: entry.options.seed,
+            }),
+            Origin::Import(file) if is_model(file) => Box::new(ModelFile { file: file.clone() }),
+            Origin::Import(file) => Box::new(Hatt::new(file)),
+            Origin::Asset { file, texture } => Box::new(Taken {
+                libraries: self.libraries,
+                file,
+                texture: texture.as_deref(),
+            }),
+            Origin::Of(_) | Origin::Blend { .. } | Origin::Compose { .. } => return None,
         })
     }
 
+    fn studio(&self) -> Result<&'a Studio<'a>, Failure> {
+        // The build opens one where any texture needs it.
+        Ok(self.studio.ok_or(PromptError::Empty)?)
+    }
+
     /// A texture that is decoded from latents: a blend, a composition, whatever is edited.
-    fn mixed(&self, index: usize) -> Result<Finished, Cause> {
-        let studio = self.studio()?;
-        let entry = &self.manifest.entries[index];
-        let options = &entry.options;
+    fn mixed(&self, index: usize) -> Result<FromLatents, Failure> {
         let known = self.latents(index)?;
-        let history = History {
-            loudness_db: options.loudness_db,
-            ..known.history
-        };
+        let model = self.studio()?.author().model();
         let provenance = known
             .provenance
-            .unwrap_or_else(|| studio.provenance("build"));
-        let how = how(options, known.law);
-        let Made {
-            bytes,
-            texture,
-            haptic_bytes,
-            asked_s2_m,
-            attributes,
-            timings,
-            ..
-        } = studio
-            .compile(&known.latents, &entry.name, provenance, history, &how)
-            .map_err(cause)?;
-        let mut facts = Facts::of(&texture, &attributes, haptic_bytes, asked_s2_m);
-        facts.certainty = known.certainty;
-        facts.warnings = known.warnings;
-        Ok(Finished {
-            asset: bytes,
-            facts,
-            timings,
+            .unwrap_or_else(|| model.provenance("build"));
+        Ok(FromLatents {
+            latents: known.latents,
+            name: self.manifest.entries[index].name.clone(),
+            provenance,
+            history: known.history,
+            law: known.law,
+            certainty: known.certainty,
+            warnings: known.warnings,
         })
     }
 
     /// Where a texture lies, edit included. What it is made of is found out first, without
     /// recursion: a chain may be as long as the manifest.
-    fn latents(&self, index: usize) -> Result<Known, Cause> {
+    fn latents(&self, index: usize) -> Result<Known, Failure> {
         let mut stack = vec![index];
         while let Some(&top) = stack.last() {
             if self.find(top).is_some() {
@@ -215,11 +187,10 @@ impl<'a> Maker<'a> {
                 stack.extend(open);
             }
         }
-        self.find(index).ok_or_else(|| {
-            cause(EditError::NoLatent(
-                self.manifest.entries[index].name.clone(),
-            ))
-        })
+        let name = || self.manifest.entries[index].name.clone();
+        Ok(self
+            .find(index)
+            .ok_or_else(|| EditError::NoLatent(name()))?)
     }
 
     fn find(&self, index: usize) -> Option<Known> {
@@ -227,7 +198,7 @@ impl<'a> Maker<'a> {
         known.get(&index).cloned()
     }
 
-    fn found_out(&self, index: usize) -> Result<Known, Cause> {
+    fn found_out(&self, index: usize) -> Result<Known, Failure> {
         let mut known = self.unedited(index)?;
         let options = &self.manifest.entries[index].options;
         if options.edit.is_still() {
@@ -240,7 +211,7 @@ impl<'a> Maker<'a> {
         );
         let step = match &options.edit {
             Edit::Steps(sliders) => {
-                known.latents = studio.edited(&before, sliders, &how).map_err(cause)?;
+                known.latents = studio.edited(&before, sliders, &how)?;
                 Step::new(*sliders, &before)
             }
             Edit::Words(words) => {
@@ -249,7 +220,7 @@ impl<'a> Maker<'a> {
                     sliders,
                     unread,
                     ..
-                } = studio.worded(&before, words, &how).map_err(cause)?;
+                } = studio.worded(&before, words, &how)?;
                 known.latents = latents;
                 if !unread.is_empty() {
                     let unread = unread.join(", ");
@@ -263,61 +234,16 @@ impl<'a> Maker<'a> {
     }
 
     /// Where a texture lies before its edit; what it is made of is known.
-    fn unedited(&self, index: usize) -> Result<Known, Cause> {
+    fn unedited(&self, index: usize) -> Result<Known, Failure> {
         let studio = self.studio()?;
         let entry = &self.manifest.entries[index];
-        let ingredient = |index: usize| -> Result<(Known, Ingredient), Cause> {
+        let ingredient = |index: usize| -> Result<(Known, Ingredient), Failure> {
             let known = self.latents(index)?;
             let name = &self.manifest.entries[index].name;
             let ingredient = Ingredient::new(name, known.prompt.as_deref(), &known.latents);
             Ok((known, ingredient))
         };
-        let encoded = |texture: &TextureModel, name: &str| -> Result<Known, Cause> {
-            let part = Part::recorded(texture);
-            let latents = encode(studio, texture, part).map_err(cause)?.latents;
-            let made = Making::Encode {
-                name: name.to_owned(),
-                part: part.name().to_owned(),
-            };
-            Ok(Known {
-                law: texture.friction.law.clone(),
-                ..Known::of(latents, History::of(made))
-            })
-        };
         Ok(match &entry.origin {
-            Origin::Prompt(text) => {
-                let options = prompt::Options {
-                    seed: entry.options.seed,
-                    request: Request {
-                        rate_hz: entry.options.request.rate_hz,
-                        ..Request::default()
-                    },
-                };
-                let authored = studio.author().author(text, &options).map_err(cause)?;
-                Known {
-                    latents: Latents::whole(authored.z).shifted(authored.shift),
-                    prompt: Some(text.clone()),
-                    warnings: authored.warnings(),
-                    certainty: Some(authored.certainty),
-                    law: None,
-                    provenance: Some(authored.texture.provenance),
-                    history: History::default(),
-                }
-            }
-            Origin::Import(file) => encoded(&whole(file)?, &entry.name)?,
-            Origin::Asset { file, texture } => {
-                let bytes = self.libraries.asset(file, texture.as_deref())?;
-                let asset = Asset::parse(&bytes).map_err(|e| cause(EditError::from(e)))?;
-                match remembered(&asset).map_err(cause)? {
-                    Some(memory) if memory.model_crc32 == studio.model_crc32() => Known {
-                        prompt: asset.provenance().and_then(|p| p.prompt).map(str::to_owned),
-                        provenance: Some(raise(&asset).provenance),
-                        law: raise::law(&asset),
-                        ..Known::of(memory.latents, memory.history)
-                    },
-                    _ => encoded(&raise(&asset), asset.name())?,
-                }
-            }
             Origin::Of(other) => self.latents(*other)?,
             Origin::Blend { a, b, t } => {
                 let ((at_a, a), (at_b, b)) = (ingredient(*a)?, ingredient(*b)?);
@@ -347,6 +273,48 @@ impl<'a> Maker<'a> {
                     ..Known::of(latents, History::of(made))
                 }
             }
+            Origin::Prompt(_) | Origin::Import(_) | Origin::Asset { .. } => {
+                self.placed(entry, studio)?
+            }
+        })
+    }
+
+    /// Where the texture of a source lies: as it remembers, or as the model encodes it.
+    fn placed(&self, entry: &'a Entry, studio: &Studio<'_>) -> Result<Known, Failure> {
+        let name = || entry.name.clone();
+        let source = self.own(entry).ok_or_else(|| EditError::NoLatent(name()))?;
+        let tools = Tools::of(studio.author());
+        let request = &entry.options.request;
+        let sourced = source.read(request, &tools, &mut Pipeline::default())?;
+        let texture = sourced.texture;
+        let memory = match &sourced.asset {
+            Some(bytes) => remembered(&Asset::parse(bytes).map_err(EditError::from)?)?,
+            None => sourced.memory,
+        };
+        if let Some(memory) = memory.filter(|memory| memory.model_crc32 == studio.model_crc32()) {
+            return Ok(Known {
+                prompt: texture.provenance.prompt.clone(),
+                provenance: Some(texture.provenance),
+                law: texture.friction.law,
+                warnings: sourced.warnings,
+                certainty: sourced.certainty,
+                ..Known::of(memory.latents, memory.history)
+            });
+        }
+        let part = Part::recorded(&texture);
+        let latents = encode(studio, &texture, part)?.latents;
+        let name = match sourced.asset {
+            Some(_) => texture.name,
+            None => name(),
+        };
+        let made = Making::Encode {
+            name,
+            part: part.name().to_owned(),
+        };
+        Ok(Known {
+            law: texture.friction.law,
+            warnings: sourced.warnings,
+            ..Known::of(latents, History::of(made))
         })
     }
 }
@@ -358,64 +326,24 @@ fn how(options: &Options, law: Option<FrictionLaw>) -> How {
     }
 }
 
-fn prompt_options(options: &Options) -> prompt::Options {
-    prompt::Options {
-        seed: options.seed,
-        request: options.request.clone(),
+/// A texture of an asset or a library, taken as it is.
+struct Taken<'a> {
+    libraries: &'a OpenLibraries,
+    file: &'a Path,
+    texture: Option<&'a str>,
+}
+
+impl Source for Taken<'_> {
+    fn inputs(&self) -> Vec<PathBuf> {
+        vec![self.file.to_owned()]
     }
-}
 
-/// The whole texture of an import, before it is reduced.
-fn whole(file: &Path) -> Result<TextureModel, Cause> {
-    let is_model = file
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
-    let source: &dyn Source = if is_model {
-        &ModelFile { file: file.into() }
-    } else {
-        &Hatt::new(file)
-    };
-    Ok(driver::compile(source, &Request::default(), &Tools::default())?.whole)
-}
-
-fn imported(entry: &Entry, file: &Path) -> Result<Finished, Cause> {
-    let options = &entry.options;
-    let mut texture = whole(file)?;
-    texture.name.clone_from(&entry.name);
-    if let Some(level_db) = options.loudness_db {
-        equal_loudness(&mut texture, level_db);
+    fn read(&self, _: &Request, _: &Tools<'_>, _: &mut Pipeline) -> Result<Sourced, Failure> {
+        let bytes = self.libraries.asset(self.file, self.texture)?;
+        let texture = raise(&Asset::parse(&bytes).map_err(EditError::from)?);
+        Ok(Sourced {
+            asset: Some(bytes),
+            ..Sourced::new(texture)
+        })
     }
-    let mut pipeline = Pipeline::default();
-    let compiled = pipeline
-        .compile(texture, &options.request, Ringing::Refused)
-        .map_err(cause)?;
-    let asked_s2_m = compiled.whole.gains.vib_s2_m;
-    let haptic_bytes = compiled.lowered.haptic_bytes;
-    Ok(Finished {
-        facts: Facts::of(
-            &compiled.texture,
-            &attributes::of(&compiled.texture),
-            haptic_bytes,
-            asked_s2_m,
-        ),
-        asset: compiled.lowered.bytes,
-        timings: pipeline.timings().clone(),
-    })
-}
-
-fn taken(entry: &Entry, asset: &[u8]) -> Result<Finished, Cause> {
-    let bytes = renamed(asset, &entry.name).map_err(|error| cause(EditError::from(error)))?;
-    let asset = Asset::parse(&bytes).map_err(|error| cause(EditError::from(error)))?;
-    let model = raise(&asset);
-    let facts = Facts::of(
-        &model,
-        &attributes::of(&model),
-        asset.haptic_len(),
-        model.gains.vib_s2_m,
-    );
-    Ok(Finished {
-        facts,
-        asset: bytes,
-        timings: Timings::default(),
-    })
 }

@@ -1,8 +1,8 @@
 //! The assets and libraries that a manifest takes textures of.
 
-use super::error::{Cause, cause};
 use crate::emit::source::Source;
 use asperity_formats::Asset;
+use asperity_io::diagnostic::Failure;
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
@@ -19,22 +19,22 @@ pub(super) struct OpenLibraries(Mutex<HashMap<PathBuf, Arc<Mutex<Source>>>>);
 
 impl OpenLibraries {
     /// The bytes of an asset, or of one texture of a library, which parse.
-    pub(super) fn asset(&self, file: &Path, texture: Option<&str>) -> Result<Vec<u8>, Cause> {
+    pub(super) fn asset(&self, file: &Path, texture: Option<&str>) -> Result<Vec<u8>, Failure> {
         let source = self.open(file)?;
         let mut source = source.lock().unwrap_or_else(PoisonError::into_inner);
-        let bytes = source.choose(texture).map_err(cause)?;
+        let bytes = source.choose(texture)?;
         match Asset::parse(&bytes) {
             Ok(_) => Ok(bytes),
-            Err(error) => Err(cause(source.error(texture, error.into()))),
+            Err(error) => Err(source.error(texture, error.into()).into()),
         }
     }
 
-    fn open(&self, file: &Path) -> Result<Arc<Mutex<Source>>, Cause> {
+    fn open(&self, file: &Path) -> Result<Arc<Mutex<Source>>, Failure> {
         let mut open = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(source) = open.get(file) {
             return Ok(Arc::clone(source));
         }
-        let source = Source::open(file).map_err(cause)?;
+        let source = Source::open(file)?;
         let is_library = source.is_library();
         let source = Arc::new(Mutex::new(source));
         if is_library {

@@ -4,15 +4,18 @@
 pub mod builtin;
 pub mod effects;
 pub mod hatt;
+pub mod latents;
 pub mod model_file;
 pub mod prompt;
 pub mod recording;
 
 use crate::{
     driver::{Compiled, Failure, Truth},
+    edit::Memory,
     learned::LearnedModel,
     model::TextureModel,
     pipeline::{Pipeline, Request, Ringing},
+    prompt::Author,
 };
 use asperity_io::diagnostic::Diagnostic;
 use asperity_plot::PlotError;
@@ -49,11 +52,30 @@ pub trait Source: Sync {
 /// What sources may use besides their files.
 #[derive(Clone, Copy, Default)]
 pub struct Tools<'a> {
-    /// The learned model, which completes what was not recorded.
+    /// The learned model, which decodes latents and completes what was not recorded.
     pub model: Option<&'a LearnedModel>,
+    /// What reads prompts.
+    pub author: Option<&'a Author>,
 }
 
 impl<'a> Tools<'a> {
+    /// Those of an author: its model, too.
+    #[must_use]
+    pub fn of(author: &'a Author) -> Self {
+        Self {
+            model: Some(author.model()),
+            author: Some(author),
+        }
+    }
+
+    /// What reads prompts.
+    ///
+    /// # Errors
+    /// Where none was given.
+    pub fn author(&self) -> Result<&'a Author, Failure> {
+        Ok(self.author.ok_or(NoModel)?)
+    }
+
     /// The learned model.
     ///
     /// # Errors
@@ -79,10 +101,19 @@ impl Diagnostic for NoModel {
 pub struct Sourced {
     /// The whole texture.
     pub texture: TextureModel,
+    /// The asset, if there is one already. It is taken as it is, but for its name: nothing is
+    /// reduced, lowered or measured again.
+    pub asset: Option<Vec<u8>>,
     /// What the asset is measured against; if `None`, the reduction alone says what it cost.
     pub truth: Option<Truth>,
     /// What becomes of it if it rings.
     pub ringing: Ringing,
+    /// What the asset remembers, so that it can be mixed and edited.
+    pub memory: Option<Memory>,
+    /// A picture that was made elsewhere, as PNG, in the place of a preview.
+    pub picture: Option<Vec<u8>>,
+    /// Certainty of what was understood, 0..=1.
+    pub certainty: Option<f64>,
     /// What a user should be told.
     pub warnings: Vec<String>,
     /// What the source found besides.
@@ -95,8 +126,12 @@ impl Sourced {
     pub fn new(texture: TextureModel) -> Self {
         Self {
             texture,
+            asset: None,
             truth: None,
             ringing: Ringing::Refused,
+            memory: None,
+            picture: None,
+            certainty: None,
             warnings: Vec::new(),
             findings: None,
         }

@@ -3,8 +3,9 @@
 use super::{inference, timings};
 use crate::cli::Build;
 use asperity::{
+    driver::{Compiled, Failure},
     pipeline::{Pass, Pipeline, Request},
-    prompt::{Author, Authored, Options, PromptError},
+    prompt::{Author, Options, PromptError},
     scene::{self, Budget, Description, Origin, Prompter},
 };
 use asperity_console::Console;
@@ -76,13 +77,13 @@ pub(crate) fn run(
         Some(author) => match whole(author, prompt, seed) {
             Ok(authored) => {
                 pipeline.merge(&authored.timings);
-                let told = authored.warnings().into_iter();
+                let told = authored.warnings.into_iter();
                 warnings.extend(told.map(|warning| format!("{prompt:?}: {warning}")));
                 Ok(authored.texture)
             }
-            Err(error) => Err(Box::new(error)),
+            Err(error) => Err(error),
         },
-        None => Err(Box::new(PromptError::Empty)),
+        None => Err(PromptError::Empty.into()),
     };
     let built = scene::build(&description, &budget, prompter).map_err(one)?;
     pipeline.merge(&built.timings);
@@ -109,7 +110,7 @@ pub(crate) fn run(
 }
 
 /// A prompt's texture with everything the decoder gave.
-fn whole(author: &Author, prompt: &str, seed: u64) -> Result<Authored, PromptError> {
+fn whole(author: &Author, prompt: &str, seed: u64) -> Result<Compiled, Failure> {
     let options = Options {
         seed,
         request: Request::default(),

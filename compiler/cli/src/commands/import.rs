@@ -59,6 +59,7 @@ pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Res
         fidelity: args.fidelity,
         rate_hz: args.rate,
         preview_px: (!args.no_preview).then_some(args.preview_size),
+        ..Request::default()
     };
     let job = Job::open(wanted, &source.inputs(), console)?;
     job.run(&source, &request, &Tools::default())?;
@@ -90,6 +91,7 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
     let model = inference::completer(args.model.as_deref())?;
     let tools = Tools {
         model: Some(&model),
+        author: None,
     };
     let compiled = job.run(&source, &request, &tools)?;
     if let (true, Some(found)) = (args.timings, compiled.found::<Recorded>()) {

@@ -1,6 +1,6 @@
 //! What every command does that compiles one texture: open the outputs, compile, write, report.
 
-use super::{outputs::TextureOutputs, timings};
+use super::{mixing::parsed, outputs::TextureOutputs, plot, timings};
 use asperity::{
     driver::{self, Compiled},
     pipeline::{Pipeline, Request},
@@ -12,6 +12,7 @@ use asperity_io::{
     output::OutputId,
 };
 use asperity_plot::PlotError;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -21,7 +22,7 @@ pub(super) struct Wanted<'a> {
     pub(super) output: &'a Path,
     /// The texture before its reduction, as JSON.
     pub(super) emit_model: Option<&'a Path>,
-    /// A picture of what the source found.
+    /// A picture of what the source found, or else of the asset.
     pub(super) plot: Option<&'a Path>,
     /// The report, as JSON.
     pub(super) report: Option<&'a Path>,
@@ -85,21 +86,49 @@ impl<'a> Job<'a> {
 
     /// Compiles, writes and reports.
     pub(super) fn run(
-        mut self,
+        self,
+        source: &dyn Source,
+        request: &Request,
+        tools: &Tools<'_>,
+    ) -> Result<Compiled, Failures> {
+        let compiled = self.compile(source, request, tools)?;
+        let text = format!("{}\n", compiled.text());
+        self.finish(&compiled, &compiled.json(), &text, "")?;
+        Ok(compiled)
+    }
+
+    /// Compiles. On a terminal it is shown that the command works.
+    pub(super) fn compile(
+        &self,
         source: &dyn Source,
         request: &Request,
         tools: &Tools<'_>,
     ) -> Result<Compiled, Failures> {
         let activity = self.console.activity();
         activity.set_message("compiling");
-        let compiled = driver::compile(source, request, tools).map_err(alone)?;
-        if let Some(file) = self.plot
-            && let Some(sheet) = compiled.sheet().map_err(|error| one(NoSheet(error)))?
-        {
+        let compiled = driver::compile(source, request, tools).map_err(alone);
+        activity.finish_and_clear();
+        compiled
+    }
+
+    /// Writes all that was wanted, and prints the report: as JSON, or as texts. A quiet console
+    /// prints only what was asked for besides.
+    pub(super) fn finish(
+        mut self,
+        compiled: &Compiled,
+        json: &Value,
+        report: &str,
+        asked: &str,
+    ) -> Result<(), Failures> {
+        if let Some(file) = self.plot {
+            let sheet = match compiled.sheet().map_err(|error| one(NoSheet(error)))? {
+                Some(sheet) => sheet,
+                None => plot::drawn(&parsed(&compiled.lowered.bytes)?)?,
+            };
             self.outputs.beside(file, sheet);
         }
         if let Some(file) = self.report {
-            let mut text = format!("{:#}", compiled.json()).into_bytes();
+            let mut text = format!("{json:#}").into_bytes();
             text.push(b'\n');
             self.outputs.beside(file, text);
         }
@@ -107,16 +136,15 @@ impl<'a> Job<'a> {
         let mut pipeline = Pipeline::default();
         pipeline.merge(&compiled.timings);
         self.outputs.write(&compiled.lowered.bytes, &mut pipeline)?;
-        activity.finish_and_clear();
         let console = self.console;
         console.warnings(&compiled.warnings, self.wanted.json);
         let printed = if self.wanted.json {
-            console.json(&compiled.json())
+            console.json(json)
         } else {
-            console.report(&format!("{}\n", compiled.text()))
+            console.report(report).and_then(|()| console.text(asked))
         };
         printed.map_err(one)?;
         timings::print(self.wanted.timings, &pipeline, console);
-        Ok(compiled)
+        Ok(())
     }
 }

@@ -11,9 +11,10 @@ pub use spectra::SPECTRUM_BUDGET_DB;
 use crate::model::TextureModel;
 use asperity_formats::Asset;
 use asperity_runtime::HostTexture;
+use serde::Serialize;
 
 /// What verification found.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct VerifyReport {
     /// Queries of speed and force.
     pub queries: usize,

@@ -342,9 +342,9 @@ fn options(stated: &Stated, own: &Stated, origin: &DraftOrigin) -> Options {
                 Some(0) => None,
                 size => size,
             },
+            loudness_db: stated.loudness_db,
             ..Request::default()
         },
-        loudness_db: stated.loudness_db,
         edit: stated.edit.clone().filter(|_| !import).unwrap_or_default(),
     }
 }

@@ -109,8 +109,6 @@ pub struct Options {
     pub seed: u64,
     /// What is asked of any texture.
     pub request: Request,
-    /// Level that the vibration is brought to, dB re 1 N RMS; none is.
-    pub loudness_db: Option<f64>,
     /// What is moved after it was decoded.
     pub edit: Edit,
 }

@@ -1,7 +1,7 @@
 //! From a prompt to a verified texture.
 
 use super::{
-    Authored, Nearest, Options, PromptError,
+    Authored, Nearest, Options, Prompt, PromptError,
     ahead::{Ahead, Read},
     name::{shortened, title},
     phrase::adjust::{self, Scales},
@@ -10,13 +10,16 @@ use super::{
     variation::varied,
 };
 use crate::{
+    driver::{self, Compiled, Failure},
+    edit::{History, Latents, Memory},
     embedded,
     inference::Backend,
     learned::{
         self, Decoded, Files, Latent, LearnedModel, ModelError, friction::Neighbour, texture,
     },
-    model::{Provenance, TextureModel, attributes},
-    pipeline::{Pass, Passed, Pipeline, Ringing},
+    model::{Provenance, TextureModel},
+    pipeline::{Pass, Pipeline, Ringing},
+    sources::{Sourced, Tools},
     text::TextEncoder,
 };
 use std::{path::Path, sync::Arc};
@@ -133,55 +136,60 @@ impl Author {
         }
     }
 
-    /// The texture of a prompt, verified.
+    /// Compiles a prompt.
     ///
     /// # Errors
-    /// [`PromptError`] with the stage that failed.
-    pub fn author(&self, prompt: &str, options: &Options) -> Result<Authored, PromptError> {
-        let mut pipeline = Pipeline::default();
+    /// [`PromptError`] with the stage that failed, or what keeps any texture from passing.
+    pub fn author(&self, prompt: &str, options: &Options) -> Result<Compiled, Failure> {
+        let source = Prompt {
+            text: prompt.to_owned(),
+            seed: options.seed,
+        };
+        driver::compile(&source, &options.request, &Tools::of(self))
+    }
+
+    /// The texture of a prompt before any pass, with its latent and what is to know of it.
+    pub(super) fn sourced(
+        &self,
+        prompt: &str,
+        seed: u64,
+        pipeline: &mut Pipeline,
+    ) -> Result<Sourced, PromptError> {
         let prompt = prompt.trim();
         let prompted = pipeline.run(Pass::Text, || self.project(prompt))?;
         let (z, wanted) = pipeline.run(Pass::Text, || self.said(prompt, &prompted))?;
         let meant = pipeline.run(Pass::Decode, || self.meant(z, wanted))?;
         let shift = meant.shift;
-        let spread = &self.model.description().spread;
-        let z = varied(meant.z, spread, options.seed);
-        let decoded = pipeline.run(Pass::Decode, || match options.seed {
+        let z = varied(meant.z, &self.model.description().spread, seed);
+        let decoded = pipeline.run(Pass::Decode, || match seed {
             0 => Ok(meant.decoded),
             _ => self.decoded(&z),
         })?;
-        let (mut texture, neighbours) = self.named(&decoded, &z, prompt, options.seed);
+        let (mut texture, neighbours) = self.named(&decoded, &z, prompt, seed);
         adjust::adjust(&mut texture, &shift);
-        let nearest = self.nearest(&neighbours);
-        // Latents far from anything trained can decode to models that ring.
-        let compiled = pipeline.compile(texture, &options.request, Ringing::Stabilised);
-        let Passed {
-            whole,
-            texture,
-            reduction,
-            preview,
-            lowered,
-            verified,
-            stabilised,
-        } = compiled?;
-        Ok(Authored {
-            attributes: attributes::of(&texture),
-            whole,
-            texture,
-            lowered,
-            preview,
+        let memory = Memory {
+            model_crc32: self.model.crc32(),
+            latents: Latents::whole(z).shifted(shift),
+            history: History::default(),
+        };
+        let authored = Authored {
             z,
             shift,
-            nearest,
+            nearest: self.nearest(&neighbours),
             certainty: prompted.certainty,
             unfamiliar: prompted.unfamiliar,
             similarity: prompted.similarity,
             tokens: prompted.tokens,
             understood: prompted.understood,
-            reduction,
-            verified,
-            stabilised,
-            timings: pipeline.timings().clone(),
+        };
+        Ok(Sourced {
+            // Latents far from anything trained can decode to models that ring.
+            ringing: Ringing::Stabilised,
+            memory: Some(memory),
+            certainty: Some(authored.certainty),
+            warnings: authored.warnings(),
+            findings: Some(Arc::new(authored)),
+            ..Sourced::new(texture)
         })
     }
 
@@ -193,28 +201,13 @@ impl Author {
         prompt: &str,
         seed: u64,
     ) -> (TextureModel, Vec<Neighbour>) {
-        let description = self.model.description();
-        let synthetic = if description.corpus.taps_synthetic {
-            "Trained on synthetic taps. "
-        } else {
-            ""
-        };
         let provenance = Provenance {
-            generator: format!("asperity {} compile", env!("CARGO_PKG_VERSION")),
-            source: format!("model {}", description.name),
-            source_crc32: description.corpus.crc32,
             prompt: Some(shortened(prompt, KEPT_PROMPT_BYTES).to_owned()),
             seed,
-            taps_synthetic: true,
-            notes: format!(
-                "Decoded from a learned model of the {} corpus, text encoder {}. {synthetic}Gains and wall are unconfirmed defaults.",
-                description.corpus.name, description.text_encoder.name
-            ),
-            // The pipeline states the rest.
-            ..Provenance::default()
+            ..self.model.provenance("compile")
         };
         let name = title(prompt);
-        texture::build(description, decoded, z, name, provenance)
+        texture::build(self.model.description(), decoded, z, name, provenance)
     }
 
     fn nearest(&self, neighbours: &[Neighbour]) -> Vec<Nearest> {

@@ -1,14 +1,7 @@
 //! What can be asked of a prompt's texture, and what there is to know of it.
 
 use super::{phrase::adjust::Shift, understood::Understood};
-use crate::{
-    emit::{lower::Lowered, verify::VerifyReport},
-    learned::Latent,
-    model::{TextureModel, attributes::Attributes},
-    passes::reduce::{self, Fidelity},
-    pipeline::{Request, Timings},
-    views::preview,
-};
+use crate::{learned::Latent, passes::reduce::Fidelity, pipeline::Request, views::preview};
 
 /// What a user can ask of a texture besides its prompt.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,25 +36,15 @@ impl Options {
     }
 }
 
-/// A texture made of a prompt.
+/// What was found of a prompt.
 #[derive(Debug, Clone)]
 pub struct Authored {
-    /// The whole texture before reduction, at its rate, and stabilised where it had to be.
-    pub whole: TextureModel,
-    /// The texture as it was verified.
-    pub texture: TextureModel,
-    /// The asset.
-    pub lowered: Lowered,
-    /// The preview, if one was asked for.
-    pub preview: Option<Vec<u8>>,
-    /// The latent it was decoded from.
+    /// The latent that the texture was decoded from.
     pub z: Latent,
     /// What the grammar of the prompt moved after that.
     pub shift: Shift,
     /// The nearest materials, which friction is interpolated from.
     pub nearest: Vec<Nearest>,
-    /// Objective attributes.
-    pub attributes: Attributes,
     /// Certainty, 0..=1.
     pub certainty: f64,
     /// Whether the prompt is far from everything the model knows.
@@ -72,15 +55,6 @@ pub struct Authored {
     pub tokens: (usize, usize),
     /// Which words of the prompt the encoder can read.
     pub understood: Understood,
-    /// What the fidelity left out, and what that cost.
-    pub reduction: reduce::Report,
-    /// What verification saw.
-    pub verified: VerifyReport,
-    /// The fraction of the way to white noise that the models were moved so that they pass,
-    /// 0..=1. It is 0 except for latents far from anything trained.
-    pub stabilised: f64,
-    /// The time of every pass.
-    pub timings: Timings,
 }
 
 /// A material near the prompt.

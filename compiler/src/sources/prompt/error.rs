@@ -1,6 +1,6 @@
 //! Why a prompt gave no texture.
 
-use crate::{learned::ModelError, pipeline::PipelineError, text::TextError};
+use crate::{learned::ModelError, text::TextError};
 use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
@@ -17,9 +17,6 @@ pub enum PromptError {
     /// The learned model failed.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// The decoded texture did not pass the pipeline.
-    #[error(transparent)]
-    Pipeline(#[from] PipelineError),
 }
 
 impl Diagnostic for PromptError {
@@ -28,15 +25,10 @@ impl Diagnostic for PromptError {
             Self::Empty => "describe a surface, such as \"rough abrasive sheet\"".into(),
             Self::Text(_) => "try `asperity doctor`, or leave --text-encoder out".into(),
             Self::Model(error) => error.remedy(),
-            Self::Pipeline(error) => error.remedy(),
         }
     }
 
     fn is_usage(&self) -> bool {
-        match self {
-            Self::Empty => true,
-            Self::Pipeline(error) => error.is_usage(),
-            Self::Text(_) | Self::Model(_) => false,
-        }
+        matches!(self, Self::Empty)
     }
 }

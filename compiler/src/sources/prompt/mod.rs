@@ -1,18 +1,18 @@
-//! The prompt front end: words become a text vector, a latent, a texture.
+//! A prompt as a source: words become a text vector, a latent, a texture.
 //!
 //! A frozen text encoder reads the prompt, the learned model places it among the materials that
 //! it was trained on and decodes the latent, the [grammar](phrase) of the prompt moves what a vector
-//! misses, and the [pipeline](crate::pipeline) does the rest.
+//! misses, and the [driver](crate::driver) does the rest.
 
 mod ahead;
 mod author;
 mod authored;
 mod error;
-mod illustrated;
 mod meaning;
 mod name;
 pub mod phrase;
 mod report;
+mod source;
 mod things;
 mod understood;
 mod variation;
@@ -22,4 +22,5 @@ pub use authored::{Authored, Nearest, Options};
 pub use error::PromptError;
 pub use meaning::Meaning;
 pub use phrase::adjust::Shift;
+pub use source::{Illustrated, Prompt};
 pub use understood::{Understood, check};

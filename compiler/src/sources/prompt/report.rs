@@ -1,6 +1,7 @@
 //! The report of a compiled prompt, as text and as JSON.
 
 use super::Authored;
+use crate::{driver::Compiled, sources::Findings};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -41,18 +42,12 @@ impl Authored {
                 100.0 * self.certainty
             ));
         }
-        if self.stabilised > 0.0 {
-            warnings.push(format!(
-                "the decoded models rang in motion and were moved {:.0} % of the way to white noise",
-                100.0 * self.stabilised
-            ));
-        }
         warnings
     }
+}
 
-    /// The report as text.
-    #[must_use]
-    pub fn text(&self) -> String {
+impl Findings for Authored {
+    fn text(&self, compiled: &Compiled) -> String {
         let mut text = String::new();
         let mut line = |what: &str, value: String| {
             // Writing to a string cannot fail.
@@ -64,7 +59,7 @@ impl Authored {
             .map(|near| format!("{} {:.0} %", near.name, 100.0 * near.weight))
             .collect();
         line("nearest", nearest.join(", "));
-        let a = &self.attributes;
+        let a = compiled.attributes();
         let number = |value: Option<f64>, unit: &str| {
             value.map_or("none".into(), |value| format!("{value:.1} {unit}"))
         };
@@ -86,7 +81,7 @@ impl Authored {
                 100.0 * self.certainty
             ),
         );
-        let texture = &self.texture;
+        let texture = &compiled.texture;
         line(
             "gains",
             format!(
@@ -106,24 +101,26 @@ impl Authored {
                 texture.grid.sample_rate_hz
             ),
         );
-        line("kept", self.reduction.to_string());
-        let preview = self.preview.as_ref().map_or(0, Vec::len);
+        line("kept", compiled.reduction.to_string());
+        let preview = compiled.preview.as_ref().map_or(0, Vec::len);
         line(
             "bytes",
             format!(
                 "{} haptic, {preview} preview, {} in all",
-                self.lowered.haptic_bytes,
-                self.lowered.bytes.len()
+                compiled.lowered.haptic_bytes,
+                compiled.lowered.bytes.len()
             ),
         );
-        line(
-            "verified",
-            format!(
-                "stable at {} queries, {} ticks, peak force {:.2} N",
-                self.verified.queries, self.verified.ticks, self.verified.peak_force_n
-            ),
-        );
-        let passes: Vec<String> = self
+        if let Some(verified) = &compiled.verified {
+            line(
+                "verified",
+                format!(
+                    "stable at {} queries, {} ticks, peak force {:.2} N",
+                    verified.queries, verified.ticks, verified.peak_force_n
+                ),
+            );
+        }
+        let passes: Vec<String> = compiled
             .timings
             .iter()
             .map(|(pass, took)| format!("{} {:.1}", pass.name(), 1e3 * took.as_secs_f64()))
@@ -132,9 +129,7 @@ impl Authored {
         text
     }
 
-    /// The report for machines.
-    #[must_use]
-    pub fn json(&self) -> Value {
+    fn json(&self, compiled: &Compiled) -> Value {
         let nearest: Vec<Value> = self
             .nearest
             .iter()
@@ -149,36 +144,30 @@ impl Authored {
             .collect();
         let (read, cut) = self.tokens;
         json!({
-            "name": self.texture.name,
-            "prompt": self.texture.provenance.prompt,
-            "seed": self.texture.provenance.seed,
+            "name": compiled.texture.name,
+            "prompt": compiled.texture.provenance.prompt,
+            "seed": compiled.texture.provenance.seed,
             "nearest": nearest,
-            "attributes": self.attributes,
+            "attributes": compiled.attributes(),
             "certainty": self.certainty,
             "similarity": self.similarity,
             "low_certainty": self.is_uncertain(),
             "tokens": { "read": read, "cut": cut },
             "understood": self.understood.read,
             "not_understood": self.understood.unread,
-            "gains": self.texture.gains,
-            "wall": self.texture.wall,
-            "order": self.texture.grid.order,
-            "reduction": self.reduction,
+            "gains": compiled.texture.gains,
+            "wall": compiled.texture.wall,
+            "order": compiled.texture.grid.order,
+            "reduction": compiled.reduction,
             "z": self.z.to_vec(),
             "bytes": {
-                "haptic": self.lowered.haptic_bytes,
-                "preview": self.preview.as_ref().map_or(0, Vec::len),
-                "total": self.lowered.bytes.len(),
+                "haptic": compiled.lowered.haptic_bytes,
+                "preview": compiled.preview.as_ref().map_or(0, Vec::len),
+                "total": compiled.lowered.bytes.len(),
             },
-            "verified": {
-                "queries": self.verified.queries,
-                "ticks": self.verified.ticks,
-                "max_db": self.verified.max_db,
-                "max_reflection": self.verified.max_reflection,
-                "peak_force_n": self.verified.peak_force_n,
-            },
-            "stages_ms": self.timings.json(),
-            "warnings": self.warnings(),
+            "verified": compiled.verified,
+            "stages_ms": compiled.timings.json(),
+            "warnings": compiled.warnings,
         })
     }
 }

@@ -101,8 +101,7 @@ pub(crate) fn run(
     };
     let build = Build::new(&manifest, &request)?;
     let bar = console.rated_bar(build.len(), "textures");
-    let model_crc32 = request.pinned.model_crc32;
-    let open = || Ok((inference::author(&inference)?, model_crc32));
+    let open = || inference::author(&inference);
     let built = build.run(&open, &|| bar.inc(1));
     bar.finish_and_clear();
     let built = built?;

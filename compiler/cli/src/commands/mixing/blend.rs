@@ -6,10 +6,11 @@ use super::{
 };
 use crate::cli::Blend;
 use asperity::{
-    edit::{History, How, Latents, Origin, Studio},
+    edit::{History, Latents, Origin, Studio},
     model::FrictionLaw,
     pipeline::Request,
     preview::SIZE,
+    sources::latents::FromLatents,
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::Failures;
@@ -20,18 +21,15 @@ pub(crate) fn run(args: &Blend, console: Console) -> Result<(), Failures> {
     let mixing = Mixing::open(&args.mixed, &[&first, &second], console)?;
     let (a, b) = (first.read()?, second.read()?);
     let (a, b) = (parsed(&a)?, parsed(&b)?);
-    let (author, crc32) = mixing.author()?;
-    let studio = Studio::new(&author, crc32);
+    let author = mixing.author()?;
+    let studio = Studio::new(&author);
     let (from, at_a) = studio.source(&a).map_err(failed)?;
     let (to, at_b) = studio.source(&b).map_err(failed)?;
     let own = studio.how(&a);
     let other = studio.how(&b);
-    let how = How {
-        request: Request {
-            preview_px: mixing.preview_px(own.request.preview_px.or(Some(SIZE))),
-            ..own.request
-        },
-        law: FrictionLaw::between(own.law.as_ref(), other.law.as_ref(), args.t),
+    let request = Request {
+        preview_px: mixing.preview_px(own.request.preview_px.or(Some(SIZE))),
+        ..own.request
     };
     let name = mixing.name(&format!("{} – {}", a.name(), b.name()));
     let history = History::of(Origin::Blend {
@@ -40,10 +38,13 @@ pub(crate) fn run(args: &Blend, console: Console) -> Result<(), Failures> {
         t: args.t,
     });
     let latents = Latents::between(&at_a, &at_b, args.t);
-    let made = studio
-        .compile(&latents, &name, studio.provenance("blend"), history, &how)
-        .map_err(failed)?;
+    let provenance = author.model().provenance("blend");
+    let source = FromLatents {
+        law: FrictionLaw::between(own.law.as_ref(), other.law.as_ref(), args.t),
+        ..FromLatents::new(latents, name, provenance, history)
+    };
+    let compiled = mixing.compile(&studio, &source, &request)?;
     let line = format!("{:?} and {:?} at t = {}", a.name(), b.name(), args.t);
     let more = json!({ "blend": { "a": a.name(), "b": b.name(), "t": args.t } });
-    mixing.finish(&studio, &made, more, &[("between", line)], &[])
+    mixing.finish(&studio, &compiled, more, &[("between", line)])
 }

@@ -8,15 +8,14 @@ use crate::cli::Edit;
 use asperity::{
     attributes,
     edit::{
-        AXES, EditError, History, How, Latents, Made, Memory, Sliders, Step, Studio, Worded,
+        AXES, EditError, History, How, Latents, Memory, Sliders, Step, Studio, Worded,
         attributes_line,
     },
-    model::Provenance,
     pipeline::Request,
     raise::raise,
+    sources::latents::FromLatents,
 };
 use asperity_console::Console;
-use asperity_formats::Asset;
 use asperity_io::diagnostic::Failures;
 use serde_json::{Value, json};
 
@@ -37,8 +36,8 @@ pub(crate) fn run(args: &Edit, console: Console) -> Result<(), Failures> {
     let mixing = Mixing::open(&args.mixed, &[&input], console)?;
     let bytes = input.read()?;
     let asset = parsed(&bytes)?;
-    let (author, crc32) = mixing.author()?;
-    let studio = Studio::new(&author, crc32);
+    let author = mixing.author()?;
+    let studio = Studio::new(&author);
     let memory = studio.memory(&asset).map_err(failed)?;
     let own = studio.how(&asset);
     let how = How {
@@ -50,12 +49,25 @@ pub(crate) fn run(args: &Edit, console: Console) -> Result<(), Failures> {
     };
     let done = done(args, &sliders, &studio, memory, asset.name(), &how).map_err(failed)?;
     let before = attributes::of(&raise(&asset));
-    let made = compiled(&studio, &asset, &mixing, &done, &how)?;
+    // In the way that the asset was, with its name and provenance.
+    let request = Request {
+        loudness_db: done.history.loudness_db,
+        ..how.request
+    };
+    let name = mixing.name(asset.name());
+    let provenance = raise(&asset).provenance;
+    let source = FromLatents {
+        law: how.law,
+        ..FromLatents::new(done.latents, name, provenance, done.history)
+    };
+    let mut compiled = mixing.compile(&studio, &source, &request)?;
+    let attributes = compiled.attributes();
     let moved = AXES.map(|axis| {
         let place = |attributes| studio.scale().place(axis, attributes).unwrap_or(0.0);
-        (axis, place(&made.attributes) - place(&before))
+        (axis, place(&attributes) - place(&before))
     });
     let mut warnings = done.warnings;
+    warnings.append(&mut compiled.warnings);
     for (axis, by) in moved {
         let Some(asked) = done.asked.map(|asked| asked.along(axis)) else {
             continue;
@@ -80,7 +92,8 @@ pub(crate) fn run(args: &Edit, console: Console) -> Result<(), Failures> {
     if let Some(towards) = done.towards {
         lines.insert(0, ("towards", towards));
     }
-    mixing.finish(&studio, &made, more, &lines, &warnings)
+    compiled.warnings = warnings;
+    mixing.finish(&studio, &compiled, more, &lines)
 }
 
 /// What an edit comes to.
@@ -156,19 +169,4 @@ fn undone(name: &str, mut history: History) -> Result<(Latents, History), EditEr
         message: "the latents before the last edit are damaged".into(),
     })?;
     Ok((before, history))
-}
-
-/// Compiles in the way that the asset was, with its name and provenance.
-fn compiled(
-    studio: &Studio<'_>,
-    asset: &Asset<'_>,
-    mixing: &Mixing<'_>,
-    done: &Done,
-    how: &How,
-) -> Result<Made, Failures> {
-    let name = mixing.name(asset.name());
-    let provenance: Provenance = raise(asset).provenance;
-    studio
-        .compile(&done.latents, &name, provenance, done.history.clone(), how)
-        .map_err(failed)
 }

@@ -6,12 +6,13 @@ use super::{
 };
 use crate::cli::Encode;
 use asperity::{
-    edit::{History, How, Origin, Part, Studio, encode},
+    edit::{History, Origin, Part, Studio, encode},
     model::Provenance,
     pipeline::Request,
     preview::SIZE,
     raise::raise,
     reduce::Fidelity,
+    sources::latents::FromLatents,
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::Failures;
@@ -23,8 +24,8 @@ pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
     let bytes = input.read()?;
     let asset = parsed(&bytes)?;
     let texture = raise(&asset);
-    let (author, crc32) = mixing.author()?;
-    let studio = Studio::new(&author, crc32);
+    let author = mixing.author()?;
+    let studio = Studio::new(&author);
     let part = args.part.unwrap_or_else(|| Part::recorded(&texture));
     let encoded = encode(&studio, &texture, part).map_err(failed)?;
     let name = mixing.name(asset.name());
@@ -33,22 +34,21 @@ pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
         part: part.name().to_owned(),
     });
     let own = studio.how(&asset);
-    let how = How {
-        // A recording is kept in full; what is decoded is as compact as a prompt's texture.
-        request: Request {
-            fidelity: Fidelity::Auto,
-            preview_px: mixing.preview_px(own.request.preview_px.or(Some(SIZE))),
-            ..own.request
-        },
-        ..own
+    // A recording is kept in full; what is decoded is as compact as a prompt's texture.
+    let request = Request {
+        fidelity: Fidelity::Auto,
+        preview_px: mixing.preview_px(own.request.preview_px.or(Some(SIZE))),
+        ..own.request
     };
     let provenance = Provenance {
         prompt: texture.provenance.prompt.clone(),
-        ..studio.provenance("encode")
+        ..author.model().provenance("encode")
     };
-    let made = studio
-        .compile(&encoded.latents, &name, provenance, history, &how)
-        .map_err(failed)?;
+    let source = FromLatents {
+        law: own.law,
+        ..FromLatents::new(encoded.latents, name, provenance, history)
+    };
+    let compiled = mixing.compile(&studio, &source, &request)?;
     let mut distance = match encoded.distance_db {
         Some((p95, worst)) => format!("{p95:.1} dB at 95 % of the places, {worst:.1} dB at worst"),
         None => "not measured".into(),
@@ -64,5 +64,5 @@ pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
         "silent_places": silent,
     });
     let lines = [("encoded", part.name().to_owned()), ("distance", distance)];
-    mixing.finish(&studio, &made, more, &lines, &[])
+    mixing.finish(&studio, &compiled, more, &lines)
 }

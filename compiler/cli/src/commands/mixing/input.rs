@@ -45,6 +45,6 @@ impl Input {
 }
 
 /// The asset of bytes that [`Input::read`] gave.
-pub(super) fn parsed(bytes: &[u8]) -> Result<Asset<'_>, Failures> {
+pub(in crate::commands) fn parsed(bytes: &[u8]) -> Result<Asset<'_>, Failures> {
     Asset::parse(bytes).map_err(|error| one(asperity::edit::EditError::from(error)))
 }

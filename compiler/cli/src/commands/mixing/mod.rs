@@ -6,3 +6,5 @@ pub(super) mod edit;
 pub(super) mod encode;
 mod input;
 mod output;
+
+pub(super) use input::parsed;

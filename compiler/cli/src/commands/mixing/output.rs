@@ -3,13 +3,19 @@
 use super::input::Input;
 use crate::{
     cli::Mixed,
-    commands::{inference, outputs::TextureOutputs, timings},
+    commands::{
+        inference,
+        one_texture::{Job, Wanted},
+    },
 };
 use asperity::{
-    edit::{AXES, Axis, EditError, Made, Scale, Studio, attributes_line},
+    attributes::Attributes,
+    driver::Compiled,
+    edit::{AXES, Axis, EditError, Scale, Studio, attributes_line},
     library,
-    pipeline::Pipeline,
+    pipeline::Request,
     prompt::Author,
+    sources::{Tools, latents::FromLatents},
 };
 use asperity_console::Console;
 use asperity_formats::limits::MAX_NAME_BYTES;
@@ -19,8 +25,7 @@ use serde_json::{Map, Value, json};
 /// The output of a mixing command, opened before its work.
 pub(super) struct Mixing<'a> {
     args: &'a Mixed,
-    outputs: TextureOutputs,
-    console: Console,
+    job: Job<'a>,
 }
 
 impl<'a> Mixing<'a> {
@@ -39,20 +44,18 @@ impl<'a> Mixing<'a> {
         }
         let mut files: Vec<_> = inputs.iter().map(|input| input.path()).collect();
         files.extend(inference::files(&args.inference));
-        let outputs = TextureOutputs::open(&files, &args.output, None)?;
-        let console = outputs.console(console);
-        Ok(Self {
-            args,
-            outputs,
-            console,
-        })
+        let wanted = Wanted {
+            json: args.json,
+            timings: args.timings,
+            ..Wanted::of(&args.output)
+        };
+        let job = Job::open(wanted, &files, console)?;
+        Ok(Self { args, job })
     }
 
-    /// The author, and the CRC-32 of its model.
-    pub(super) fn author(&self) -> Result<(Author, u32), Failures> {
-        let author = inference::author(&self.args.inference)?;
-        let crc32 = author.model().crc32();
-        Ok((author, crc32))
+    /// The author.
+    pub(super) fn author(&self) -> Result<Author, Failures> {
+        inference::author(&self.args.inference)
     }
 
     /// The name that a user gave, or else this one, shortened to what an asset can hold.
@@ -71,53 +74,55 @@ impl<'a> Mixing<'a> {
         size.filter(|_| !self.args.no_preview)
     }
 
+    /// Compiles what was mixed.
+    pub(super) fn compile(
+        &self,
+        studio: &Studio<'_>,
+        source: &FromLatents,
+        request: &Request,
+    ) -> Result<Compiled, Failures> {
+        self.job
+            .compile(source, request, &Tools::of(studio.author()))
+    }
+
     /// Writes the asset, and prints what it is. `more` goes into the JSON, `lines` into the text.
     pub(super) fn finish(
         self,
         studio: &Studio<'_>,
-        made: &Made,
+        compiled: &Compiled,
         more: Value,
         lines: &[(&str, String)],
-        warnings: &[String],
     ) -> Result<(), Failures> {
-        let mut pipeline = Pipeline::default();
-        pipeline.merge(&made.timings);
-        self.outputs.write(&made.bytes, &mut pipeline)?;
-        self.console.warnings(warnings, self.args.json);
-        let printed = if self.args.json {
-            let mut json = json!({
-                "name": made.texture.name,
-                "attributes": made.attributes,
-                "sliders": sliders(studio.scale(), made),
-                "gains": made.texture.gains,
-                "bytes": { "haptic": made.haptic_bytes, "total": made.bytes.len() },
-                "stages_ms": pipeline.timings().json(),
-                "warnings": warnings,
-            });
-            if let (Value::Object(json), Value::Object(more)) = (&mut json, more) {
-                json.extend(more);
-            }
-            self.console.json(&json)
-        } else {
-            let mut text = format!("{}\n", display(&self.args.output));
-            let attributes = attributes_line(&made.attributes, studio.scale());
-            let bytes = format!("{} haptic, {} in all", made.haptic_bytes, made.bytes.len());
-            let own = [("attributes", attributes), ("bytes", bytes)];
-            for (what, value) in lines.iter().chain(&own) {
-                text += &format!("  {what:<12} {value}\n");
-            }
-            self.console.report(&text)
-        };
-        printed.map_err(one)?;
-        timings::print(self.args.timings, &pipeline, self.console);
-        Ok(())
+        let (haptic, total) = (compiled.lowered.haptic_bytes, compiled.lowered.bytes.len());
+        let attributes = compiled.attributes();
+        let mut json = json!({
+            "name": compiled.texture.name,
+            "attributes": attributes,
+            "sliders": sliders(studio.scale(), &attributes),
+            "gains": compiled.texture.gains,
+            "bytes": { "haptic": haptic, "total": total },
+            "stages_ms": compiled.timings.json(),
+            "warnings": compiled.warnings,
+        });
+        if let (Value::Object(json), Value::Object(more)) = (&mut json, more) {
+            json.extend(more);
+        }
+        let mut text = format!("{}\n", display(&self.args.output));
+        let own = [
+            ("attributes", attributes_line(&attributes, studio.scale())),
+            ("bytes", format!("{haptic} haptic, {total} in all")),
+        ];
+        for (what, value) in lines.iter().chain(&own) {
+            text += &format!("  {what:<12} {value}\n");
+        }
+        self.job.finish(compiled, &json, &text, "")
     }
 }
 
 /// Where a texture lies on the sliders.
-fn sliders(scale: &Scale, made: &Made) -> Map<String, Value> {
+fn sliders(scale: &Scale, attributes: &Attributes) -> Map<String, Value> {
     let place = |axis: Axis| {
-        let place = scale.place(axis, &made.attributes);
+        let place = scale.place(axis, attributes);
         (axis.name().to_owned(), json!(place))
     };
     AXES.into_iter().map(place).collect()
