@@ -5,6 +5,7 @@ mod auto_gain;
 mod edits;
 mod manifests;
 mod model_schema;
+mod own_source;
 mod prompts;
 mod relative;
 mod scene;

@@ -7,6 +7,7 @@ use asperity::{
         manifest::{ManifestError, Origin},
     },
     scene::Description,
+    sources::Registry,
 };
 use asperity_io::{diagnostic::report, input::Reach};
 use asperity_tests::draw::Draw;
@@ -23,7 +24,10 @@ fn prompts(manifest: &Manifest) -> BTreeMap<String, String> {
     let entries = manifest.entries.iter();
     entries
         .map(|entry| match &entry.origin {
-            Origin::Prompt(prompt) => (entry.name.clone(), prompt.clone()),
+            Origin::Source { source, .. } => {
+                let prompt = source.prompt().expect("a prompt");
+                (entry.name.clone(), prompt.to_owned())
+            }
             other => panic!("{other:?}"),
         })
         .collect()
@@ -351,7 +355,7 @@ fn a_confined_list_names_only_files_in_its_own_folder() {
     ] {
         for (key, text) in kinds(path) {
             let text = format!("{text}{some}");
-            let read = Manifest::within(&list, &text, reach.clone());
+            let read = Manifest::within(&list, &text, reach.clone(), &Registry::default());
             let free = Manifest::of_text(&list, &text);
             assert!(free.is_ok(), "{text}: {}", told(&free.unwrap_err()));
             match (read, how) {

@@ -63,7 +63,7 @@ pub(crate) fn import_hatt(
         let author = complete_taps.then(author::shared).transpose()?;
         let tools = Tools {
             model: author.as_ref().map(|author| author.model()),
-            author: None,
+            ..Tools::default()
         };
         let request = Request {
             fidelity: fidelity.0,

@@ -4,11 +4,9 @@ use super::{
     cache::Cache,
     error::{EntryError, LibraryFault},
     facts::Facts,
-    key::{Key, Parts},
     lock::Pinned,
-    make::{Maker, is_learned, is_model},
+    make::Maker,
     manifest::{Edit, Manifest, Options, Origin, order},
-    opened::OpenLibraries,
     report::{Report, Row},
     shard::Shard,
     spill::{Packed, Slot, Spill},
@@ -16,13 +14,15 @@ use super::{
 use crate::{
     edit::{AXES, Studio},
     pipeline::{Pass, Pipeline, Timings},
-    sources::prompt::Author,
+    prompt::Author,
+    sources::{
+        Tools,
+        asset::OpenLibraries,
+        key::{Key, Parts},
+    },
 };
 use asperity_formats::Asset;
-use asperity_io::{
-    diagnostic::{Failure, Failures, one},
-    input::{self, InputError, Kind},
-};
+use asperity_io::diagnostic::{Failure, Failures, one};
 use rayon::prelude::*;
 use std::{
     path::Path,
@@ -123,7 +123,7 @@ impl<'a> Build<'a> {
         let cached = pipeline.run(Pass::Read, || self.cached(&spill, done));
         let entries = &self.manifest.entries;
         let missing: Vec<usize> = (0..cached.len()).filter(|&n| cached[n].is_none()).collect();
-        let learned = |n: &usize| is_learned(&entries[self.chosen[*n].0].origin);
+        let learned = |n: &usize| entries[self.chosen[*n].0].origin.is_learned();
         let opened = missing.iter().any(learned).then(open).transpose()?;
         let studio = opened.as_ref().map(Studio::new);
         let maker = Maker::new(self.manifest, studio.as_ref(), &self.libraries);
@@ -273,26 +273,26 @@ fn keys(
     libraries: &OpenLibraries,
 ) -> Result<Vec<Key>, Failures> {
     let entries = &manifest.entries;
+    let tools = Tools {
+        libraries: Some(libraries),
+        ..Tools::default()
+    };
     // Files are read in parallel; a texture of others has no file.
-    let contents: Vec<Result<Option<Key>, Failure>> = entries
+    let contents: Vec<Result<Option<Parts>, Failure>> = entries
         .par_iter()
         .map(|entry| match &entry.origin {
-            Origin::Import(file) => content(file).map(Some),
-            Origin::Asset { file, texture } => {
-                let bytes = libraries.asset(file, texture.as_deref());
-                bytes.map(|bytes| Some(Key::of(&bytes)))
-            }
+            Origin::Source { key, source } => source.key(Parts::new(key), &tools).map(Some),
             _ => Ok(None),
         })
         .collect();
     let mut failures: Failures = Vec::new();
-    let mut files = Vec::with_capacity(entries.len());
+    let mut sources = Vec::with_capacity(entries.len());
     for (entry, content) in entries.iter().zip(contents) {
         match content {
-            Ok(key) => files.push(key),
+            Ok(parts) => sources.push(parts),
             Err(cause) => {
                 failures.push(Box::new(EntryError::new(entry, cause)));
-                files.push(None);
+                sources.push(None);
             }
         }
     }
@@ -309,12 +309,7 @@ fn keys(
             name.part(places[other].as_ref().map_or(&[][..], |key| key.bytes()))
         };
         let parts = match &entry.origin {
-            Origin::Prompt(text) => parts.text(text).part(&entry.options.seed.to_le_bytes()),
-            Origin::Import(file) | Origin::Asset { file, .. } => {
-                let name = file.file_name().unwrap_or_default().to_string_lossy();
-                let content = files[index].as_ref().map_or(&[][..], |key| key.bytes());
-                parts.text(&name).part(content)
-            }
+            Origin::Source { .. } => sources[index].take().unwrap_or(parts),
             Origin::Of(other) => of(parts, *other),
             Origin::Blend { a, b, t } => of(of(parts, *a), *b).number(*t),
             Origin::Compose {
@@ -331,7 +326,7 @@ fn keys(
             let options = &entry.options;
             let parts = Parts::new("texture 1").text(&request.program);
             let pinned = &request.pinned;
-            let parts = if is_learned(&entry.origin) {
+            let parts = if entry.origin.is_learned() {
                 let crcs = [pinned.model_crc32, pinned.text_encoder_crc32];
                 let crcs = crcs.map(u32::to_le_bytes).concat();
                 parts.text(&pinned.backend).part(&crcs)
@@ -365,17 +360,4 @@ fn edited(parts: Parts, options: &Options) -> Parts {
             .fold(parts, |parts, axis| parts.number(sliders.along(axis))),
         Edit::Words(words) => parts.text(words),
     }
-}
-
-fn content(file: &Path) -> Result<Key, Failure> {
-    let kind = if is_model(file) {
-        Kind::Model
-    } else {
-        Kind::Hatt
-    };
-    let bytes = input::read(file, kind).map_err(|problem| InputError {
-        file: file.to_owned(),
-        problem,
-    })?;
-    Ok(Key::of(&bytes))
 }

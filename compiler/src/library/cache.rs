@@ -8,9 +8,9 @@
 
 use super::{
     facts::Facts,
-    key::{Key, Parts},
     own::{check_folder, make_folder, open_plain},
 };
+use crate::sources::key::{Key, Parts};
 use asperity_formats::Asset;
 use asperity_io::input::Kind;
 use asperity_io::output::AtomicFile;

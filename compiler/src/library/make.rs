@@ -1,25 +1,20 @@
-//! Making one texture of a manifest.
+//! Making one texture of a manifest: by its source, or by latents of others.
 
-use super::{
-    manifest::{Edit, Entry, Manifest, Options, Origin},
-    opened::OpenLibraries,
-};
+use super::manifest::{Edit, Entry, Manifest, Options, Origin};
 use crate::{
     driver::{self, Compiled, Failure},
     edit::{
         EditError, History, How, Latents, Origin as Making, Part, Source as Ingredient, Step,
         Studio, Worded, encode, remembered,
     },
-    emit::raise::raise,
     model::{FrictionLaw, Provenance},
     pipeline::{Pipeline, Request},
-    prompt::{Prompt, PromptError},
-    sources::{Source, Sourced, Tools, hatt::Hatt, latents::FromLatents, model_file::ModelFile},
+    prompt::PromptError,
+    sources::{Source, Tools, asset::OpenLibraries, latents::FromLatents},
 };
 use asperity_formats::Asset;
 use std::{
     collections::HashMap,
-    path::{Path, PathBuf},
     sync::{Mutex, PoisonError},
 };
 
@@ -61,20 +56,6 @@ impl Known {
     }
 }
 
-/// Whether an import is a model of one's own.
-pub(super) fn is_model(file: &Path) -> bool {
-    let extension = file.extension();
-    extension.is_some_and(|e| e.eq_ignore_ascii_case("json"))
-}
-
-/// Whether a source needs the learned model.
-pub(super) fn is_learned(origin: &Origin) -> bool {
-    match origin {
-        Origin::Prompt(_) | Origin::Of(_) | Origin::Blend { .. } | Origin::Compose { .. } => true,
-        Origin::Import(_) | Origin::Asset { .. } => false,
-    }
-}
-
 impl<'a> Maker<'a> {
     pub(super) fn new(
         manifest: &'a Manifest,
@@ -93,7 +74,7 @@ impl<'a> Maker<'a> {
     pub(super) fn read_ahead(&self, indices: impl Iterator<Item = usize>) {
         let prompts: Vec<&str> = indices
             .filter_map(|index| match &self.manifest.entries[index].origin {
-                Origin::Prompt(text) => Some(text.as_str()),
+                Origin::Source { source, .. } => source.prompt(),
                 _ => None,
             })
             .collect();
@@ -106,41 +87,24 @@ impl<'a> Maker<'a> {
     pub(super) fn make(&self, index: usize) -> Result<Compiled, Failure> {
         let entry = &self.manifest.entries[index];
         let options = &entry.options;
-        let tools = match self.studio {
-            Some(studio) => Tools::of(studio.author()),
-            None => Tools::default(),
-        };
         let request = Request {
             name: Some(entry.name.clone()),
             ..options.request.clone()
         };
-        let mixed;
-        let source = match self.own(entry) {
-            Some(source) if options.edit.is_still() => source,
-            _ => {
-                mixed = self.mixed(index)?;
-                Box::new(mixed)
+        match &entry.origin {
+            Origin::Source { source, .. } if options.edit.is_still() => {
+                driver::compile(&**source, &request, &self.tools())
             }
-        };
-        driver::compile(&*source, &request, &tools)
+            _ => driver::compile(&self.mixed(index)?, &request, &self.tools()),
+        }
     }
 
-    /// The source that an entry names, unless it is made of others.
-    fn own(&self, entry: &'a Entry) -> Option<Box<dyn Source + 'a>> {
-        Some(match &entry.origin {
-            Origin::Prompt(text) => Box::new(Prompt {
-                text: text.clone(),
-                seed: entry.options.seed,
-            }),
-            Origin::Import(file) if is_model(file) => Box::new(ModelFile { file: file.clone() }),
-            Origin::Import(file) => Box::new(Hatt::new(file)),
-            Origin::Asset { file, texture } => Box::new(Taken {
-                libraries: self.libraries,
-                file,
-                texture: texture.as_deref(),
-            }),
-            Origin::Of(_) | Origin::Blend { .. } | Origin::Compose { .. } => return None,
-        })
+    fn tools(&self) -> Tools<'_> {
+        let author = self.studio.map(Studio::author);
+        Tools {
+            libraries: Some(self.libraries),
+            ..author.map_or_else(Tools::default, Tools::of)
+        }
     }
 
     fn studio(&self) -> Result<&'a Studio<'a>, Failure> {
@@ -273,19 +237,19 @@ impl<'a> Maker<'a> {
                     ..Known::of(latents, History::of(made))
                 }
             }
-            Origin::Prompt(_) | Origin::Import(_) | Origin::Asset { .. } => {
-                self.placed(entry, studio)?
-            }
+            Origin::Source { source, .. } => self.placed(entry, &**source, studio)?,
         })
     }
 
     /// Where the texture of a source lies: as it remembers, or as the model encodes it.
-    fn placed(&self, entry: &'a Entry, studio: &Studio<'_>) -> Result<Known, Failure> {
-        let name = || entry.name.clone();
-        let source = self.own(entry).ok_or_else(|| EditError::NoLatent(name()))?;
-        let tools = Tools::of(studio.author());
+    fn placed(
+        &self,
+        entry: &Entry,
+        source: &dyn Source,
+        studio: &Studio<'_>,
+    ) -> Result<Known, Failure> {
         let request = &entry.options.request;
-        let sourced = source.read(request, &tools, &mut Pipeline::default())?;
+        let sourced = source.read(request, &self.tools(), &mut Pipeline::default())?;
         let texture = sourced.texture;
         let memory = match &sourced.asset {
             Some(bytes) => remembered(&Asset::parse(bytes).map_err(EditError::from)?)?,
@@ -305,7 +269,7 @@ impl<'a> Maker<'a> {
         let latents = encode(studio, &texture, part)?.latents;
         let name = match sourced.asset {
             Some(_) => texture.name,
-            None => name(),
+            None => entry.name.clone(),
         };
         let made = Making::Encode {
             name,
@@ -323,27 +287,5 @@ fn how(options: &Options, law: Option<FrictionLaw>) -> How {
     How {
         request: options.request.clone(),
         law,
-    }
-}
-
-/// A texture of an asset or a library, taken as it is.
-struct Taken<'a> {
-    libraries: &'a OpenLibraries,
-    file: &'a Path,
-    texture: Option<&'a str>,
-}
-
-impl Source for Taken<'_> {
-    fn inputs(&self) -> Vec<PathBuf> {
-        vec![self.file.to_owned()]
-    }
-
-    fn read(&self, _: &Request, _: &Tools<'_>, _: &mut Pipeline) -> Result<Sourced, Failure> {
-        let bytes = self.libraries.asset(self.file, self.texture)?;
-        let texture = raise(&Asset::parse(&bytes).map_err(EditError::from)?);
-        Ok(Sourced {
-            asset: Some(bytes),
-            ..Sourced::new(texture)
-        })
     }
 }

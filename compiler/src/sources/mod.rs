@@ -1,13 +1,20 @@
 //! What textures are made of: words, recordings, effects, a model of one's own, a formula. A source
-//! is one folder (or file), and one type that implements [`Source`].
+//! is one folder or file with one type that implements [`Source`]; a line of the [`Registry`] lets
+//! manifests name it.
 
+pub mod asset;
 pub mod builtin;
 pub mod effects;
 pub mod hatt;
+pub mod import;
+pub mod key;
 pub mod latents;
 pub mod model_file;
 pub mod prompt;
 pub mod recording;
+mod registry;
+
+pub use registry::{Kind, Operand, Registry, Stated};
 
 use crate::{
     driver::{Compiled, Failure, Truth},
@@ -19,13 +26,15 @@ use crate::{
 };
 use asperity_io::diagnostic::Diagnostic;
 use asperity_plot::PlotError;
+use asset::OpenLibraries;
+use key::Parts;
 use serde_json::Value;
 use std::{any::Any, fmt, path::PathBuf, sync::Arc};
 use thiserror::Error;
 
 /// What a texture is made of. It reads and models; [`driver::compile`](crate::driver::compile) does
 /// what is the same for all of them.
-pub trait Source: Sync {
+pub trait Source: fmt::Debug + Send + Sync {
     /// What a message begins with if its texture does not pass: mostly its file.
     fn origin(&self) -> String {
         String::new()
@@ -34,6 +43,29 @@ pub trait Source: Sync {
     /// Files that it reads, none of which an output may replace.
     fn inputs(&self) -> Vec<PathBuf> {
         Vec::new()
+    }
+
+    /// Whether it needs the learned model, which takes a while to load.
+    fn needs_model(&self) -> bool {
+        false
+    }
+
+    /// Its prompt, if it is one: many are read together, and one names its texture.
+    fn prompt(&self) -> Option<&str> {
+        None
+    }
+
+    /// Adds what decides its texture besides the request and the model, so that a cache tells it
+    /// from others: the names and contents of its [`inputs`](Self::inputs), unless there is more.
+    ///
+    /// # Errors
+    /// Why a file cannot be read.
+    fn key(&self, parts: Parts, tools: &Tools<'_>) -> Result<Parts, Failure> {
+        let _ = tools;
+        let inputs = self.inputs();
+        Ok(inputs
+            .iter()
+            .try_fold(parts, |parts, file| parts.stream(file))?)
     }
 
     /// The texture, and what there is to know of it. Passes of its own are run, and so timed, by
@@ -56,6 +88,8 @@ pub struct Tools<'a> {
     pub model: Option<&'a LearnedModel>,
     /// What reads prompts.
     pub author: Option<&'a Author>,
+    /// Libraries that stay open while textures are taken of them.
+    pub libraries: Option<&'a OpenLibraries>,
 }
 
 impl<'a> Tools<'a> {
@@ -65,6 +99,7 @@ impl<'a> Tools<'a> {
         Self {
             model: Some(author.model()),
             author: Some(author),
+            libraries: None,
         }
     }
 

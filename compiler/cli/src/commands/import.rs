@@ -91,7 +91,7 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
     let model = inference::completer(args.model.as_deref())?;
     let tools = Tools {
         model: Some(&model),
-        author: None,
+        ..Tools::default()
     };
     let compiled = job.run(&source, &request, &tools)?;
     if let (true, Some(found)) = (args.timings, compiled.found::<Recorded>()) {

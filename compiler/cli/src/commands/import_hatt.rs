@@ -169,7 +169,7 @@ pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
     };
     let tools = Tools {
         model: completer.as_ref(),
-        author: None,
+        ..Tools::default()
     };
     let results = hatt::compile_all(&materials, &request, &tools, || bar.inc(1));
     bar.finish_and_clear();

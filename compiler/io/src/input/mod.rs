@@ -20,7 +20,7 @@ mod xml;
 
 pub use format::{Format, HEAD};
 pub use kind::Kind;
-pub use open::{Opened, open, open_as};
+pub use open::{Opened, format_of, open, open_as};
 pub use patience::{MAX_SILENCE, MAX_WAIT};
 pub use problem::{InputError, InputProblem};
 pub use reach::{Outside, Reach};

@@ -12,6 +12,9 @@ use std::{
     path::Path,
 };
 
+/// Bytes in which the keys of a document are looked for.
+const TOLD: u64 = 64 * 1024;
+
 /// A file that may be read.
 #[derive(Debug)]
 pub enum Opened {
@@ -66,6 +69,21 @@ pub fn open_as(path: &Path, kind: Kind) -> Result<Opened, InputProblem> {
         kind.check(Format::of_magic(&bytes))?;
     }
     Ok(opened)
+}
+
+/// The format of a file, as far as its first bytes tell.
+///
+/// # Errors
+/// As [`open`].
+pub fn format_of(path: &Path) -> Result<Option<Format>, InputProblem> {
+    match open(path)? {
+        Opened::File(mut file) => {
+            let bytes = head(&mut file, TOLD).map_err(InputProblem::Unreadable)?;
+            Ok(Format::of(&bytes))
+        }
+        // What is looked at is gone from a pipe.
+        Opened::Pipe(_) => Ok(None),
+    }
 }
 
 /// Whether a file is a pointer of Git LFS.

@@ -6,22 +6,31 @@ use super::{
     row::{Field, Row, Value},
     values::{Checker, OPTIONS, Stated},
 };
-use crate::{passes::reduce::Fidelity, pipeline::Request, sources::prompt, views::preview};
+use crate::{
+    passes::reduce::Fidelity,
+    pipeline::Request,
+    sources::{self, Kind, Operand, Registry, Source},
+    views::preview,
+};
 use asperity_formats::limits::MAX_NAME_BYTES;
-use asperity_io::input::{self, InputProblem, Kind};
-use std::{fs, io, path::PathBuf};
+use asperity_io::input::InputProblem;
+use std::{fs, io, path::PathBuf, sync::Arc};
 
-/// Keys of a texture's source.
-const ORIGINS: [&str; 6] = ["prompt", "import", "asset", "of", "blend", "compose"];
+/// Keys of what a texture is made of, where those are other textures.
+const OTHERS: [&str; 3] = ["of", "blend", "compose"];
 /// Keys of a texture besides its source and its options.
 const OWN: [&str; 2] = ["name", "texture"];
 /// Keys of the defaults besides the options.
 const SETUP: [&str; 3] = ["model", "text_encoder", "backend"];
 
 /// Whether a texture has such a key, also in one of its tables.
-pub(super) fn is_key(key: &str) -> bool {
+pub(super) fn is_key(key: &str, registry: &Registry) -> bool {
     let own = key.split('.').next().unwrap_or(key);
-    OWN.contains(&own) || ORIGINS.contains(&own) || OPTIONS.contains(&own)
+    OWN.contains(&own) || is_origin(own, registry) || OPTIONS.contains(&own)
+}
+
+fn is_origin(key: &str, registry: &Registry) -> bool {
+    OTHERS.contains(&key) || registry.get(key).is_some()
 }
 
 /// A row whose references to other textures are names yet.
@@ -34,11 +43,9 @@ pub(super) struct Draft {
 
 /// A source whose references are names, with the lines where they stand.
 pub(super) enum DraftOrigin {
-    Prompt(String),
-    Import(PathBuf),
-    Asset {
-        file: PathBuf,
-        texture: Option<String>,
+    Source {
+        key: &'static str,
+        source: Arc<dyn Source>,
     },
     Of(Reference),
     Blend {
@@ -104,23 +111,25 @@ impl Checker<'_> {
                 "name" => name = Some(field),
                 // It goes with `asset`, and is checked there.
                 "texture" => {}
-                key if ORIGINS.contains(&key) => sources.push(field),
+                key if is_origin(key, self.registry) => sources.push(field),
                 _ => {
-                    self.unknown(field, "", &[&OWN[..], &ORIGINS, &OPTIONS].concat());
+                    let origins = self.origins();
+                    self.unknown(field, "", &[&OWN[..], &origins, &OPTIONS].concat());
                 }
             }
         }
+        let all = stated.within(defaults);
         let origin = match sources[..] {
-            [source] => self.origin(source, row),
+            [source] => self.origin(source, row, all.seed),
             [] => {
-                let found = "nothing that it is made of".into();
-                self.fault(row.line, "", ManifestProblem::Origin { found });
+                let problem = self.no_origin("nothing that it is made of".into());
+                self.fault(row.line, "", problem);
                 None
             }
             _ => {
                 let found: Vec<&str> = sources.iter().map(|f| f.key.as_str()).collect();
-                let found = found.join(" and ");
-                self.fault(sources[1].line, "", ManifestProblem::Origin { found });
+                let problem = self.no_origin(found.join(" and "));
+                self.fault(sources[1].line, "", problem);
                 None
             }
         };
@@ -131,7 +140,7 @@ impl Checker<'_> {
         let (Some(origin), Some(named), true) = (origin, &name, self.errors.len() == before) else {
             return (name, None);
         };
-        let options = options(&stated.within(defaults), &stated, &origin);
+        let options = options(&all, &self.goes_with(&origin));
         let place = Place {
             file: self.file.file.clone(),
             line: row.line,
@@ -154,7 +163,9 @@ impl Checker<'_> {
     ) -> Option<String> {
         let (name, line) = match (field, origin) {
             (Some(field), _) => (self.text(field, "name")?.to_owned(), field.line),
-            (None, Some(DraftOrigin::Prompt(prompt))) => (title(prompt), line),
+            (None, Some(DraftOrigin::Source { source, .. })) => {
+                (source.prompt().map_or_else(String::new, title), line)
+            }
             (None, Some(_)) => (String::new(), line),
             // The missing source is reported.
             (None, None) => return None,
@@ -168,47 +179,72 @@ impl Checker<'_> {
         Some(name)
     }
 
-    fn origin(&mut self, field: &Field, row: &Row) -> Option<DraftOrigin> {
+    /// All keys of what a texture is made of.
+    fn origins(&self) -> Vec<&'static str> {
+        self.registry.keys().chain(OTHERS).collect()
+    }
+
+    fn no_origin(&self, found: String) -> ManifestProblem {
+        let origins = self.origins();
+        let known = match origins.split_last() {
+            Some((last, others)) => format!("{} and {last}", others.join(", ")),
+            None => String::new(),
+        };
+        ManifestProblem::Origin { found, known }
+    }
+
+    /// A source that the registry knows.
+    fn source(
+        &mut self,
+        kind: Kind,
+        field: &Field,
+        row: &Row,
+        seed: Option<u64>,
+    ) -> Option<DraftOrigin> {
+        let key = kind.key;
+        let text = self.text(field, key)?;
+        let mut texture = None;
+        if let Some(field) = row.fields.iter().find(|field| field.key == "texture") {
+            texture = Some(self.text(field, "texture")?);
+        }
+        let path = match kind.operand {
+            Operand::Text => PathBuf::new(),
+            Operand::Folder => self.folder(field, key)?,
+            Operand::File => match text.rsplit_once('#') {
+                // A file whose name holds a `#` is that file.
+                Some((file, of))
+                    if !kind.refuses.contains(&"texture")
+                        && texture.is_none()
+                        && !self.folder.join(text).exists() =>
+                {
+                    texture = Some(of);
+                    self.path(field, key, file)?
+                }
+                _ => self.path(field, key, text)?,
+            },
+        };
+        let stated = sources::Stated {
+            text,
+            path: &path,
+            texture,
+            seed: seed
+                .filter(|_| !kind.refuses.contains(&"seed"))
+                .unwrap_or(0),
+        };
+        match (kind.open)(&stated) {
+            Ok(source) => Some(DraftOrigin::Source { key, source }),
+            Err(failure) => {
+                self.fault(field.line, key, ManifestProblem::Source(failure));
+                None
+            }
+        }
+    }
+
+    fn origin(&mut self, field: &Field, row: &Row, seed: Option<u64>) -> Option<DraftOrigin> {
+        if let Some(kind) = self.registry.get(&field.key) {
+            return self.source(*kind, field, row, seed);
+        }
         match field.key.as_str() {
-            "prompt" => {
-                let text = self.text(field, "prompt")?;
-                if prompt::check(text).is_err() {
-                    self.fault(field.line, "prompt", ManifestProblem::EmptyPrompt);
-                    return None;
-                }
-                Some(DraftOrigin::Prompt(text.trim().to_owned()))
-            }
-            "import" => {
-                let file = self.file(field, "import")?;
-                let known = file.extension().is_some_and(|extension| {
-                    extension.eq_ignore_ascii_case("xml") || extension.eq_ignore_ascii_case("json")
-                });
-                if !known {
-                    // What it really is helps more than how its name ends.
-                    if let Err(problem) = input::read(&file, Kind::Model) {
-                        let problem = ManifestProblem::File { file, problem };
-                        self.fault(field.line, "import", problem);
-                        return None;
-                    }
-                    let wanted = "a HaTT material (.xml) or a model (.json)".into();
-                    return self.wrong_value(
-                        field.line,
-                        "import",
-                        wanted,
-                        file.display().to_string(),
-                    );
-                }
-                Some(DraftOrigin::Import(file))
-            }
-            "asset" => {
-                let file = self.file(field, "asset")?;
-                let texture = row.fields.iter().find(|field| field.key == "texture");
-                let texture = match texture {
-                    Some(field) => Some(self.text(field, "texture")?.to_owned()),
-                    None => None,
-                };
-                Some(DraftOrigin::Asset { file, texture })
-            }
             "of" => Some(DraftOrigin::Of(Reference {
                 name: self.text(field, "of")?.to_owned(),
                 key: "of",
@@ -283,6 +319,10 @@ impl Checker<'_> {
     /// A file that is there; paths are relative to the manifest.
     pub(super) fn file(&mut self, field: &Field, key: &str) -> Option<PathBuf> {
         let stated = self.text(field, key)?;
+        self.path(field, key, stated)
+    }
+
+    fn path(&mut self, field: &Field, key: &str, stated: &str) -> Option<PathBuf> {
         if !self.reaches(field, key, stated, false) {
             return None;
         }
@@ -292,60 +332,103 @@ impl Checker<'_> {
             Ok(found) if found.is_dir() => InputProblem::Folder,
             // A pipe gives its bytes once, and a key needs them before.
             Ok(_) => InputProblem::Device,
-            Err(error) => InputProblem::Unreadable(match error.kind() {
-                io::ErrorKind::NotFound => io::ErrorKind::NotFound.into(),
-                _ => error,
-            }),
+            Err(error) => unreadable(error),
         };
         self.fault(field.line, key, ManifestProblem::File { file, problem });
         None
     }
 
+    /// A folder that is there, likewise.
+    fn folder(&mut self, field: &Field, key: &str) -> Option<PathBuf> {
+        let stated = self.text(field, key)?;
+        if !self.reaches(field, key, stated, true) {
+            return None;
+        }
+        let file = self.folder.join(stated);
+        let problem = match fs::metadata(&file) {
+            Ok(found) if found.is_dir() => return Some(file),
+            Ok(_) => return self.wrong_type(field.line, key, "a folder", &field.value),
+            Err(error) => unreadable(error),
+        };
+        self.fault(field.line, key, ManifestProblem::File { file, problem });
+        None
+    }
+
+    /// The key of a source, and how a texture of it may be made.
+    fn goes_with(&self, origin: &DraftOrigin) -> GoesWith {
+        let mixed = |key| GoesWith {
+            key,
+            refuses: &["texture", "seed"],
+            fidelity: Fidelity::Auto,
+            preview: true,
+        };
+        match origin {
+            DraftOrigin::Source { key, .. } => match self.registry.get(key) {
+                Some(kind) => GoesWith {
+                    key,
+                    refuses: kind.refuses,
+                    fidelity: kind.fidelity,
+                    preview: kind.preview,
+                },
+                None => mixed(key),
+            },
+            DraftOrigin::Of(_) => mixed("of"),
+            DraftOrigin::Blend { .. } => mixed("blend"),
+            DraftOrigin::Compose { .. } => mixed("compose"),
+        }
+    }
+
     /// Refuses keys of a row that its source does not take.
     fn placed(&mut self, row: &Row, origin: &DraftOrigin) {
-        let (name, refused): (_, &[&str]) = match origin {
-            DraftOrigin::Prompt(_) => ("prompt", &["texture"]),
-            DraftOrigin::Import(_) => ("import", &["texture", "seed", "edit"]),
-            // It is taken as it is.
-            DraftOrigin::Asset { .. } => ("asset", &OPTIONS),
-            DraftOrigin::Of(_) => ("of", &["texture", "seed"]),
-            DraftOrigin::Blend { .. } => ("blend", &["texture", "seed"]),
-            DraftOrigin::Compose { .. } => ("compose", &["texture", "seed"]),
-        };
+        let GoesWith { key, refuses, .. } = self.goes_with(origin);
         for field in &row.fields {
-            if refused.contains(&field.key.as_str()) {
-                let problem = ManifestProblem::Misplaced { origin: name };
+            if refuses.contains(&field.key.as_str()) {
+                let problem = ManifestProblem::Misplaced { origin: key };
                 self.fault(field.line, &field.key, problem);
             }
         }
     }
 }
 
-/// What is not stated is as the commands have it. Edits and seeds of the defaults go to the
-/// textures that can have them.
-fn options(stated: &Stated, own: &Stated, origin: &DraftOrigin) -> Options {
-    let asset = matches!(origin, DraftOrigin::Asset { .. });
-    let import = matches!(origin, DraftOrigin::Import(_));
-    let prompt = matches!(origin, DraftOrigin::Prompt(_));
-    let stated = if asset { own } else { stated };
+/// What goes with a source.
+struct GoesWith {
+    key: &'static str,
+    refuses: &'static [&'static str],
+    fidelity: Fidelity,
+    preview: bool,
+}
+
+fn unreadable(error: io::Error) -> InputProblem {
+    InputProblem::Unreadable(match error.kind() {
+        io::ErrorKind::NotFound => io::ErrorKind::NotFound.into(),
+        _ => error,
+    })
+}
+
+/// What is not stated is as the commands have it. Options of the defaults go to the textures that
+/// can have them.
+fn options(stated: &Stated, of: &GoesWith) -> Options {
+    let takes = |key: &str| !of.refuses.contains(&key);
     Options {
-        seed: stated.seed.filter(|_| prompt).unwrap_or(0),
         request: Request {
-            fidelity: stated.fidelity.unwrap_or(if import {
-                Fidelity::Full
-            } else {
-                Fidelity::Auto
-            }),
-            rate_hz: stated.rate_hz,
-            preview_px: match stated.preview_px {
-                None => (!import).then_some(preview::SIZE),
+            name: None,
+            fidelity: stated
+                .fidelity
+                .filter(|_| takes("fidelity"))
+                .unwrap_or(of.fidelity),
+            rate_hz: stated.rate_hz.filter(|_| takes("rate")),
+            preview_px: match stated.preview_px.filter(|_| takes("preview")) {
+                None => of.preview.then_some(preview::SIZE),
                 Some(0) => None,
                 size => size,
             },
-            loudness_db: stated.loudness_db,
-            ..Request::default()
+            loudness_db: stated.loudness_db.filter(|_| takes("loudness")),
         },
-        edit: stated.edit.clone().filter(|_| !import).unwrap_or_default(),
+        edit: stated
+            .edit
+            .clone()
+            .filter(|_| takes("edit"))
+            .unwrap_or_default(),
     }
 }
 

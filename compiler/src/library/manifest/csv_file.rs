@@ -6,19 +6,20 @@ use super::{
     check::is_key,
     row::{MAX_ROWS, Row, Sheet, Value, put},
 };
+use crate::sources::Registry;
 
 /// Columns that a file may have.
 const MAX_COLUMNS: usize = 64;
 
 /// The records of a text, or the line and the reason of what is no list of textures. Rows without
 /// any text, which spreadsheets leave below a table, are none.
-pub(super) fn parse(text: &str) -> Result<Sheet, Broken> {
+pub(super) fn parse(text: &str, registry: &Registry) -> Result<Sheet, Broken> {
     let mut records = Records::new(text);
     let mut sheet = Sheet::default();
     let Some(header) = records.find(|record| !record.as_ref().is_ok_and(Record::is_blank)) else {
         return Ok(sheet);
     };
-    let keys = keys(header?)?;
+    let keys = keys(header?, registry)?;
     records.columns = Some(keys.len());
     for record in records {
         let record = record?;
@@ -35,7 +36,7 @@ pub(super) fn parse(text: &str) -> Result<Sheet, Broken> {
 }
 
 /// The keys of the columns; a column without a name has an empty one.
-fn keys(header: Record) -> Result<Vec<String>, Broken> {
+fn keys(header: Record, registry: &Registry) -> Result<Vec<String>, Broken> {
     let line = header.line;
     let cells = header.cells.iter().map(|cell| cell.trim().to_owned());
     let keys: Vec<String> = cells.collect();
@@ -44,7 +45,7 @@ fn keys(header: Record) -> Result<Vec<String>, Broken> {
         return Err((line, message));
     }
     // What it says instead is not repeated: it may be the first line of any file.
-    if !keys.iter().any(|key| is_key(key)) {
+    if !keys.iter().any(|key| is_key(key, registry)) {
         let message = "no column of a texture, such as name,prompt; commas, semicolons or tabs \
                        separate the cells";
         return Err((line, message.into()));
@@ -93,6 +94,10 @@ fn row(keys: &[String], record: Record) -> Result<Row, Broken> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn parse(text: &str) -> Result<Sheet, Broken> {
+        super::parse(text, &Registry::default())
+    }
 
     #[test]
     fn cells_are_fields_and_records_know_their_lines() {

@@ -1,11 +1,7 @@
 //! A checked entry of a manifest.
 
-use crate::{edit::Sliders, pipeline::Request};
-use std::{
-    fmt,
-    path::{Path, PathBuf},
-    sync::Arc,
-};
+use crate::{edit::Sliders, pipeline::Request, sources::Source};
+use std::{fmt, path::Path, sync::Arc};
 
 /// Where an entry stands.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,7 +19,7 @@ impl fmt::Display for Place {
 }
 
 /// A texture that a library is to have.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Entry {
     /// Its name, unique in the library.
     pub name: String,
@@ -35,20 +31,15 @@ pub struct Entry {
     pub place: Place,
 }
 
-/// What a texture is made of. Paths are such that they can be opened; textures are named by their
-/// index in the manifest.
-#[derive(Debug, Clone, PartialEq)]
+/// What a texture is made of. Textures of the manifest are named by their index.
+#[derive(Debug, Clone)]
 pub enum Origin {
-    /// A prompt.
-    Prompt(String),
-    /// A material of the HaTT (`.xml`), or a model of one's own (`.json`).
-    Import(PathBuf),
-    /// An asset, or one texture of a library.
-    Asset {
-        /// The file.
-        file: PathBuf,
-        /// The texture of a library.
-        texture: Option<String>,
+    /// A source of its own.
+    Source {
+        /// The key that names it.
+        key: &'static str,
+        /// The source.
+        source: Arc<dyn Source>,
     },
     /// Another texture, to be edited.
     Of(usize),
@@ -77,12 +68,19 @@ impl Origin {
     #[must_use]
     pub fn key(&self) -> &'static str {
         match self {
-            Self::Prompt(_) => "prompt",
-            Self::Import(_) => "import",
-            Self::Asset { .. } => "asset",
+            Self::Source { key, .. } => key,
             Self::Of(_) => "of",
             Self::Blend { .. } => "blend",
             Self::Compose { .. } => "compose",
+        }
+    }
+
+    /// Whether it needs the learned model.
+    #[must_use]
+    pub fn is_learned(&self) -> bool {
+        match self {
+            Self::Source { source, .. } => source.needs_model(),
+            Self::Of(_) | Self::Blend { .. } | Self::Compose { .. } => true,
         }
     }
 
@@ -97,7 +95,7 @@ impl Origin {
                 slide,
                 friction,
             } => vec![tap, slide, friction],
-            _ => Vec::new(),
+            Self::Source { .. } => Vec::new(),
         }
     }
 }
@@ -105,8 +103,6 @@ impl Origin {
 /// How a texture is made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// 0 for what a prompt means, others for variations of it.
-    pub seed: u64,
     /// What is asked of any texture.
     pub request: Request,
     /// What is moved after it was decoded.

@@ -1,7 +1,7 @@
 //! What is wrong with a manifest, and where.
 
 use asperity_io::{
-    diagnostic::Diagnostic,
+    diagnostic::{Diagnostic, Failure},
     input::{InputProblem, Outside},
 };
 use std::{fmt, path::PathBuf};
@@ -95,14 +95,16 @@ pub enum ManifestProblem {
     #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
     Name(String),
     /// The row has no source, or several.
-    #[error("{found}; one of prompt, import, asset, of, blend and compose is wanted")]
+    #[error("{found}; one of {known} is wanted")]
     Origin {
         /// What was found.
         found: String,
+        /// What there is.
+        known: String,
     },
-    /// The prompt shows nothing.
-    #[error("the prompt is empty")]
-    EmptyPrompt,
+    /// What the source says of its value.
+    #[error("{0}")]
+    Source(Failure),
     /// A key that does not go with the source.
     #[error("it does not go with {origin}")]
     Misplaced {
@@ -172,9 +174,7 @@ impl Diagnostic for ManifestError {
             }
             ManifestProblem::Name(_) => "choose another name".into(),
             ManifestProblem::Origin { .. } => "leave one of them".into(),
-            ManifestProblem::EmptyPrompt => {
-                "describe a surface, such as \"rough abrasive sheet\"".into()
-            }
+            ManifestProblem::Source(failure) => failure.remedy(),
             ManifestProblem::Misplaced { .. } => "remove the key".into(),
             ManifestProblem::NoChange(_) => {
                 "say it relatively, as in \"less gritty, more waxy\" or \"more like leather\""

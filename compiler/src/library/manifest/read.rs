@@ -10,6 +10,7 @@ use super::{
     toml_file,
     values::{Checker, Stated},
 };
+use crate::sources::Registry;
 use asperity_io::input::{self, Kind, Reach};
 use std::{
     collections::HashMap,
@@ -19,7 +20,7 @@ use std::{
 };
 
 /// A checked manifest.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Manifest {
     /// The file.
     pub file: PathBuf,
@@ -70,16 +71,23 @@ impl Manifest {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn of_text(file: &Path, text: &str) -> Result<Self, Vec<ManifestError>> {
-        Self::within(file, text, Reach::Anywhere)
+        Self::within(file, text, Reach::Anywhere, &Registry::default())
     }
 
-    /// Checks the text of a manifest that may name only files within reach.
+    /// Checks the text of a manifest that may name only files within reach, and sources of a
+    /// registry.
     ///
     /// # Errors
     /// As [`read`](Self::read), and every path that leads elsewhere.
-    pub fn within(file: &Path, text: &str, reach: Reach) -> Result<Self, Vec<ManifestError>> {
+    pub fn within(
+        file: &Path,
+        text: &str,
+        reach: Reach,
+        registry: &Registry,
+    ) -> Result<Self, Vec<ManifestError>> {
         let mut reader = Reader {
             reach,
+            registry: registry.clone(),
             ..Reader::default()
         };
         reader.take(file, text, &Stated::default());
@@ -149,6 +157,7 @@ fn syntax(file: &Path) -> Option<Syntax> {
 #[derive(Default)]
 struct Reader {
     reach: Reach,
+    registry: Registry,
     drafts: Vec<Draft>,
     /// Names of all rows, of those with a fault, too.
     names: Vec<(String, Place)>,
@@ -182,6 +191,7 @@ impl Reader {
             folder,
             reach: &self.reach,
             errors: &mut self.errors,
+            registry: &self.registry,
         };
         for field in &sheet.wrong {
             checker.fault(field.line, &field.key, top_problem(field));
@@ -252,7 +262,7 @@ impl Reader {
                     fault(error.line, shown);
                 })
                 .ok(),
-            Some(Syntax::Csv) => csv_file::parse(text)
+            Some(Syntax::Csv) => csv_file::parse(text, &self.registry)
                 .map_err(|(line, message)| fault(line, message))
                 .ok(),
             Some(Syntax::JsonLines) => {
@@ -275,6 +285,7 @@ impl Reader {
             folder,
             reach: &self.reach,
             errors: &mut self.errors,
+            registry: &self.registry,
         };
         let Value::Text(_) = field.value else {
             let (wanted, found) = ("the path of a manifest", field.value.kind());
@@ -418,14 +429,9 @@ impl Reader {
             found
         };
         Some(match origin {
-            DraftOrigin::Prompt(prompt) => Origin::Prompt(prompt),
-            DraftOrigin::Import(file) => {
-                self.sources.push(file.clone());
-                Origin::Import(file)
-            }
-            DraftOrigin::Asset { file, texture } => {
-                self.sources.push(file.clone());
-                Origin::Asset { file, texture }
+            DraftOrigin::Source { key, source } => {
+                self.sources.extend(source.inputs());
+                Origin::Source { key, source }
             }
             DraftOrigin::Of(of) => Origin::Of(find(of)?),
             DraftOrigin::Blend { a, b, t } => {

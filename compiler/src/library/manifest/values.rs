@@ -6,6 +6,7 @@ use super::{
     error::{ManifestError, ManifestProblem},
     row::{Field, Value},
 };
+use crate::sources::Registry;
 use crate::{
     edit::Sliders,
     passes::{reduce::Fidelity, rerate},
@@ -54,6 +55,7 @@ pub(super) struct Checker<'a> {
     pub(super) folder: &'a Path,
     pub(super) reach: &'a Reach,
     pub(super) errors: &'a mut Vec<ManifestError>,
+    pub(super) registry: &'a Registry,
 }
 
 impl Checker<'_> {

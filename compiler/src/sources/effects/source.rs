@@ -9,7 +9,7 @@ use crate::{
     passes::triangulate,
     pipeline::{Pass, Pipeline, Request, Ringing},
     signal::tap_synthesis,
-    sources::{Source, Sourced, Tools},
+    sources::{Source, Sourced, Tools, key::Parts},
 };
 use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::input::{self, Format, InputProblem};
@@ -66,6 +66,20 @@ pub struct Options {
     pub mu: f64,
 }
 
+/// One stroke at 100 mm/s and 1 N; a full scale is 5 m/s² in strokes and 50 m/s² in taps.
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            speed_mm_s: 100.0,
+            force_n: 1.0,
+            full_scale_m_s2: 5.0,
+            tap_full_scale_m_s2: 50.0,
+            tap_speed_m_s: 0.3,
+            mu: 0.5,
+        }
+    }
+}
+
 /// A file of effects.
 #[derive(Debug, Clone)]
 pub struct Effects {
@@ -84,6 +98,14 @@ impl Source for Effects {
 
     fn inputs(&self) -> Vec<PathBuf> {
         vec![self.file.clone()]
+    }
+
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        let options = format!("{:?}", self.options);
+        Ok(parts
+            .text(self.kind.name())
+            .text(&options)
+            .file(&self.file, input::Kind::Effects)?)
     }
 
     /// Reads, plays and models the file.

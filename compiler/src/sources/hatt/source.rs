@@ -11,7 +11,7 @@ use crate::{
     model::TextureModel,
     pipeline::{Pass, Pipeline, Request},
     signal::spectrum::ArmaModel,
-    sources::{Findings, Source, Sourced, Tools},
+    sources::{Findings, Source, Sourced, Tools, key::Parts},
 };
 use asperity_io::{
     diagnostic::Diagnostic,
@@ -125,6 +125,15 @@ impl Source for Hatt {
 
     fn inputs(&self) -> Vec<PathBuf> {
         vec![self.file.clone()]
+    }
+
+    fn needs_model(&self) -> bool {
+        self.complete_taps
+    }
+
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        let parts = parts.part(&[self.complete_taps.into()]);
+        Ok(parts.file(&self.file, Kind::Hatt)?)
     }
 
     fn read(

@@ -4,8 +4,9 @@ use super::read::read;
 use crate::{
     driver::{Failure, Truth},
     pipeline::{Pass, Pipeline, Request},
-    sources::{Source, Sourced, Tools},
+    sources::{Source, Sourced, Tools, key::Parts},
 };
+use asperity_io::input::Kind;
 use std::path::PathBuf;
 
 /// A texture of one's own as JSON.
@@ -22,6 +23,10 @@ impl Source for ModelFile {
 
     fn inputs(&self) -> Vec<PathBuf> {
         vec![self.file.clone()]
+    }
+
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        Ok(parts.file(&self.file, Kind::Model)?)
     }
 
     fn read(

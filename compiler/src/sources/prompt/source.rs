@@ -3,9 +3,11 @@
 use super::check;
 use crate::{
     driver::Failure,
+    passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
-    sources::{Source, Sourced, Tools},
+    sources::{Kind, Operand, Source, Sourced, Tools, key::Parts},
 };
+use std::sync::Arc;
 
 /// A prompt and a seed.
 #[derive(Debug, Clone)]
@@ -17,7 +19,35 @@ pub struct Prompt {
     pub seed: u64,
 }
 
+/// `prompt` of a manifest.
+pub const KIND: Kind = Kind {
+    key: "prompt",
+    operand: Operand::Text,
+    open: |stated| {
+        check(stated.text)?;
+        Ok(Arc::new(Prompt {
+            text: stated.text.trim().to_owned(),
+            seed: stated.seed,
+        }))
+    },
+    refuses: &["texture"],
+    fidelity: Fidelity::Auto,
+    preview: true,
+};
+
 impl Source for Prompt {
+    fn needs_model(&self) -> bool {
+        true
+    }
+
+    fn prompt(&self) -> Option<&str> {
+        Some(&self.text)
+    }
+
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        Ok(parts.text(&self.text).part(&self.seed.to_le_bytes()))
+    }
+
     fn read(
         &self,
         _: &Request,
@@ -31,6 +61,7 @@ impl Source for Prompt {
 
 /// A source whose asset holds a picture that was made elsewhere. Its notes say what made it:
 /// `by diffusion: …`.
+#[derive(Debug)]
 pub struct Illustrated<'a> {
     /// The source.
     pub source: &'a dyn Source,

@@ -18,5 +18,5 @@ pub use complete::{Completed, Nearest, complete};
 pub use error::RecordingFailure;
 pub use grid::{GridFit, Slopes, Tried, VertexFacts, fit};
 pub use sheet::{HEIGHT_PX, WIDTH_PX};
-pub use source::{Recorded, RecordingFolder};
+pub use source::{KIND, Recorded, RecordingFolder};
 pub use texture::{Parts, texture};

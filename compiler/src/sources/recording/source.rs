@@ -10,8 +10,9 @@ use super::{
 use crate::{
     driver::{Compiled, Failure, Truth},
     model::{Numerator, defaults},
+    passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request, Ringing},
-    sources::{Findings, Source, Sourced, Tools},
+    sources::{Findings, Kind, Operand, Source, Sourced, Tools},
 };
 use asperity_plot::PlotError;
 use asperity_recording::check::Severity;
@@ -27,17 +28,36 @@ pub struct RecordingFolder {
     pub force: bool,
 }
 
+/// `recording` of a manifest.
+pub const KIND: Kind = Kind {
+    key: "recording",
+    operand: Operand::Folder,
+    open: |stated| {
+        Ok(Arc::new(RecordingFolder {
+            folder: stated.path.to_owned(),
+            force: false,
+        }))
+    },
+    refuses: &["texture", "seed", "edit"],
+    fidelity: Fidelity::Full,
+    preview: false,
+};
+
 impl Source for RecordingFolder {
+    fn needs_model(&self) -> bool {
+        true
+    }
+
     fn origin(&self) -> String {
         self.folder.display().to_string()
     }
 
     fn inputs(&self) -> Vec<PathBuf> {
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten();
-        entries
-            .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| path.is_file())
-            .collect()
+        let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        let mut files: Vec<PathBuf> = files.filter(|path| path.is_file()).collect();
+        files.sort();
+        files
     }
 
     fn read(

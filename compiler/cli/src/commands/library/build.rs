@@ -9,6 +9,7 @@ use asperity::{
         Build, Cache, Lock, Manifest, Pinned, Request, default_folder, manifest::ManifestError,
     },
     pipeline::{Pass, Pipeline},
+    sources::Registry,
     text::TextEncoderChoice,
 };
 use asperity_console::Console;
@@ -67,7 +68,7 @@ pub(crate) fn run(
             return Err(one(Usage::ForScenes(option)));
         }
     }
-    let mut manifest = Manifest::within(&args.scene, text, reach.clone()).map_err(boxed)?;
+    let mut manifest = Manifest::within(&args.scene, text, reach.clone(), &Registry::default()).map_err(boxed)?;
     for entry in &mut manifest.entries {
         let size = &mut entry.options.request.preview_px;
         *size = size

@@ -1,7 +1,12 @@
 //! The key of a texture: everything that decides its bytes.
 
+use asperity_io::input::{self, InputError, InputProblem, Kind};
 use sha2::{Digest as _, Sha256};
-use std::fmt;
+use std::{
+    fmt,
+    io::{BufRead as _, BufReader, Read as _},
+    path::Path,
+};
 
 /// A SHA-256, as a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -25,6 +30,11 @@ impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
     }
+}
+
+fn named(file: &Path) -> String {
+    let name = file.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
 }
 
 /// Takes the parts of a key. Each is written with its length, so that no two lists of parts give
@@ -57,6 +67,49 @@ impl Parts {
     #[must_use]
     pub fn number(self, number: f64) -> Self {
         self.part(&number.to_bits().to_le_bytes())
+    }
+
+    /// The next parts, the name and the content of a file of a kind.
+    ///
+    /// # Errors
+    /// [`InputError`] for a file that cannot be read.
+    pub fn file(self, file: &Path, kind: Kind) -> Result<Self, InputError> {
+        let bytes = input::read(file, kind).map_err(|problem| InputError {
+            file: file.to_owned(),
+            problem,
+        })?;
+        Ok(self.text(&named(file)).part(Key::of(&bytes).bytes()))
+    }
+
+    /// The same of a file of any kind, which may be long.
+    ///
+    /// # Errors
+    /// As [`file`](Self::file).
+    pub fn stream(self, file: &Path) -> Result<Self, InputError> {
+        let kind = Kind::Log;
+        let mut content = Sha256::new();
+        let read = input::open(file).and_then(|opened| {
+            let mut limited = BufReader::new(opened.take(kind.max_bytes() + 1));
+            let mut read = 0;
+            loop {
+                let bytes = limited.fill_buf()?;
+                let count = bytes.len();
+                content.update(bytes);
+                limited.consume(count);
+                read += count as u64;
+                if count == 0 {
+                    return Ok(());
+                }
+                if read > kind.max_bytes() {
+                    return Err(InputProblem::TooLarge { kind });
+                }
+            }
+        });
+        read.map_err(|problem| InputError {
+            file: file.to_owned(),
+            problem,
+        })?;
+        Ok(self.text(&named(file)).part(&content.finalize()))
     }
 
     /// The key of all parts.

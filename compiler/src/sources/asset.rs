@@ -1,13 +1,82 @@
-//! The assets and libraries that a manifest takes textures of.
+//! An asset, or a texture of a library, taken as it is.
 
-use crate::emit::source::Source;
+use super::{
+    Kind, Operand, Source, Sourced, Tools,
+    key::{Key, Parts},
+};
+use crate::{
+    driver::Failure,
+    edit::EditError,
+    emit::{raise::raise, source::Source as Textures},
+    passes::reduce::Fidelity,
+    pipeline::{Pass, Pipeline, Request},
+};
 use asperity_formats::Asset;
-use asperity_io::diagnostic::Failure;
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, PoisonError},
 };
+
+/// `asset` of a manifest.
+pub const KIND: Kind = Kind {
+    key: "asset",
+    operand: Operand::File,
+    open: |stated| {
+        Ok(Arc::new(AssetFile {
+            file: stated.path.to_owned(),
+            texture: stated.texture.map(str::to_owned),
+        }))
+    },
+    refuses: &["seed", "fidelity", "rate", "preview", "loudness", "edit"],
+    fidelity: Fidelity::Auto,
+    preview: true,
+};
+
+/// An asset, or one texture of a library.
+#[derive(Debug, Clone)]
+pub struct AssetFile {
+    /// The file.
+    pub file: PathBuf,
+    /// The texture of a library, by name or index.
+    pub texture: Option<String>,
+}
+
+impl AssetFile {
+    fn bytes(&self, tools: &Tools<'_>) -> Result<Vec<u8>, Failure> {
+        let texture = self.texture.as_deref();
+        match tools.libraries {
+            Some(libraries) => libraries.asset(&self.file, texture),
+            None => OpenLibraries::default().asset(&self.file, texture),
+        }
+    }
+}
+
+impl Source for AssetFile {
+    fn inputs(&self) -> Vec<PathBuf> {
+        vec![self.file.clone()]
+    }
+
+    fn key(&self, parts: Parts, tools: &Tools<'_>) -> Result<Parts, Failure> {
+        let name = self.file.file_name().unwrap_or_default();
+        let content = Key::of(&self.bytes(tools)?);
+        Ok(parts.text(&name.to_string_lossy()).part(content.bytes()))
+    }
+
+    fn read(
+        &self,
+        _: &Request,
+        tools: &Tools<'_>,
+        pipeline: &mut Pipeline,
+    ) -> Result<Sourced, Failure> {
+        let bytes = pipeline.run(Pass::Read, || self.bytes(tools))?;
+        let texture = raise(&Asset::parse(&bytes).map_err(EditError::from)?);
+        Ok(Sourced {
+            asset: Some(bytes),
+            ..Sourced::new(texture)
+        })
+    }
+}
 
 /// Libraries that stay open: each holds a file and its index.
 const MOST_OPEN: usize = 16;
@@ -15,11 +84,11 @@ const MOST_OPEN: usize = 16;
 /// Reads textures of files. A library stays open, so that its index is read once and not for each
 /// of its textures.
 #[derive(Debug, Default)]
-pub(super) struct OpenLibraries(Mutex<HashMap<PathBuf, Arc<Mutex<Source>>>>);
+pub struct OpenLibraries(Mutex<HashMap<PathBuf, Arc<Mutex<Textures>>>>);
 
 impl OpenLibraries {
     /// The bytes of an asset, or of one texture of a library, which parse.
-    pub(super) fn asset(&self, file: &Path, texture: Option<&str>) -> Result<Vec<u8>, Failure> {
+    fn asset(&self, file: &Path, texture: Option<&str>) -> Result<Vec<u8>, Failure> {
         let source = self.open(file)?;
         let mut source = source.lock().unwrap_or_else(PoisonError::into_inner);
         let bytes = source.choose(texture)?;
@@ -29,12 +98,12 @@ impl OpenLibraries {
         }
     }
 
-    fn open(&self, file: &Path) -> Result<Arc<Mutex<Source>>, Failure> {
+    fn open(&self, file: &Path) -> Result<Arc<Mutex<Textures>>, Failure> {
         let mut open = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(source) = open.get(file) {
             return Ok(Arc::clone(source));
         }
-        let source = Source::open(file)?;
+        let source = Textures::open(file)?;
         let is_library = source.is_library();
         let source = Arc::new(Mutex::new(source));
         if is_library {
