@@ -1,13 +1,12 @@
 //! The Asperity compiler: textures in, compact and verified haptic assets out.
 //!
-//! A texture passes the source folders from a front end over the model and the passes to the back
-//! end; the others serve all of them:
+//! A texture passes these folders from its source to its bytes; the others serve all of them:
 //!
 //! | folder | holds |
 //! |---|---|
-//! | `sources/` | what a texture is made of, a folder each: [`prompt`], [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`] |
+//! | `sources/` | what a texture is made of, one trait ([`sources`]) and a folder each: [`prompt`], [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`], assets and latents |
 //! | `learned/` | the [`learned`] model, [`embedded`] or in a folder, its [`text`] encoders, and what runs them: [`inference`] |
-//! | `model/` | the [`model`] between the ends: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
+//! | `model/` | the [`model`] between source and bytes: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
 //! | `emit/` | from model to bytes and back: [`lower`], [`verify`], [`source`], [`raise`] |
 //! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
@@ -16,10 +15,10 @@
 //! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`resample`], [`spectrum`], [`impact`], [`tap_synthesis`] |
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`diffusion`], [`listen`], [`render`] |
 //!
-//! [`pipeline`] runs the passes and the back end, and times them: every command that makes an
-//! asset takes this one way. [`scene`] packs several textures within a budget. Below this crate,
-//! `asperity-io` reads files within limits, writes them whole or not at all, and states failures;
-//! above it, `asperity-console` and the command `asperity` talk to people.
+//! The [`driver`] takes any source through the passes of the [`pipeline`] to verified bytes: commands
+//! and libraries take this one way. [`scene`] packs several textures within a budget. Below this
+//! crate, `asperity-io` reads files within limits, writes them whole or not at all, and states
+//! failures; above it, `asperity-console` and the command `asperity` talk to people.
 #![forbid(unsafe_code)]
 
 mod emit;

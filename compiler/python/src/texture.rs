@@ -43,7 +43,7 @@ use std::{
 #[pyclass(frozen, eq, module = "asperity")]
 pub(crate) struct Texture {
     pub(crate) contents: Contents,
-    /// JSON: what the front end had to say.
+    /// JSON: what the source had to say.
     report: Option<String>,
     grid: PyOnceLock<Py<PyAny>>,
     taps: PyOnceLock<Py<PyAny>>,

@@ -1,4 +1,4 @@
-//! Values for what no source states. Nobody confirmed them on a device, and a front end may set
+//! Values for what no source states. Nobody confirmed them on a device, and a source may set
 //! others.
 
 use crate::model::{Gains, Wall};

@@ -1,6 +1,6 @@
 //! The intermediate model: one texture in f64 and SI units, and what follows from it alone.
 //!
-//! Every front end ends here, and every back end and view starts here.
+//! Every source ends here, and all that emits or shows a texture starts here.
 
 pub mod attributes;
 pub mod defaults;

@@ -3,7 +3,7 @@
 use super::FrictionLaw;
 use serde::{Deserialize, Serialize};
 
-/// A texture before quantisation, as every front end makes it.
+/// A texture before quantisation, as every source makes it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureModel {
     /// Name, unique within a library; 1..=64 bytes of UTF-8.

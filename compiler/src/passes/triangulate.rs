@@ -1,4 +1,4 @@
-//! Triangulates vertices that a front end gives without triangles.
+//! Triangulates vertices that a source gives without triangles.
 
 use crate::model::GridVertex;
 use delaunator::Point;

@@ -68,7 +68,8 @@ pub(crate) fn run(
             return Err(one(Usage::ForScenes(option)));
         }
     }
-    let mut manifest = Manifest::within(&args.scene, text, reach.clone(), &Registry::default()).map_err(boxed)?;
+    let mut manifest =
+        Manifest::within(&args.scene, text, reach.clone(), &Registry::default()).map_err(boxed)?;
     for entry in &mut manifest.entries {
         let size = &mut entry.options.request.preview_px;
         *size = size
