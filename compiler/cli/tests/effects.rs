@@ -68,7 +68,9 @@ fn a_file_of_another_format_is_named_with_the_command_that_reads_it() {
             format!("[[texture]]\nname = \"a\"\nimport = \"{file}\"\n"),
         )
         .unwrap();
-        for list in [file, "list.toml"] {
+        // Two of them are imported.
+        let lists = [file, "list.toml"].into_iter();
+        for list in lists.filter(|list| *list == file || !["x.ahap", "x.hjif"].contains(&file)) {
             refused(
                 folder.path(),
                 &["build", list, "-o", "out.aspl"],

@@ -488,3 +488,90 @@ fn a_cache_that_is_open_to_all_is_not_used() {
         "{told}"
     );
 }
+
+/// `import` tells the kind of a file, a recording is a folder, and `#` names a texture of a library.
+#[test]
+fn a_manifest_takes_every_kind_of_source() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    good(
+        folder,
+        &["builtin", "-o", "grit.asp", "--emit-model", "grit.json"],
+    );
+    good(
+        folder,
+        &["export", "grit.asp", "--to", "ahap", "-o", "grit.ahap"],
+    );
+    good(
+        folder,
+        &["export", "grit.asp", "--to", "hjif", "-o", "grit.hjif"],
+    );
+    fs::copy(
+        folder.join("grit.ahap"),
+        folder.join("named-otherwise.json"),
+    )
+    .unwrap();
+    let sources = [
+        ("model", "import = \"grit.json\""),
+        ("ahap", "import = \"grit.ahap\""),
+        ("hjif", "import = \"grit.hjif\""),
+        ("told", "import = \"named-otherwise.json\""),
+        ("asset", "asset = \"grit.asp\""),
+    ];
+    let list: String = sources
+        .iter()
+        .map(|(name, source)| format!("[[texture]]\nname = \"{name}\"\n{source}\n"))
+        .collect();
+    fs::write(folder.join("list.toml"), list).unwrap();
+    good(
+        folder,
+        &["build", "list.toml", "-o", "all.aspl", "--no-cache"],
+    );
+    fs::write(
+        folder.join("one.toml"),
+        "[[texture]]\nname = \"one\"\nasset = \"all.aspl#told\"\n",
+    )
+    .unwrap();
+    good(
+        folder,
+        &["build", "one.toml", "-o", "one.aspl", "--no-cache"],
+    );
+    // As the command imports it, under another name and without a preview.
+    let as_command = [
+        "import",
+        "ahap",
+        "grit.ahap",
+        "-o",
+        "ahap.asp",
+        "--fidelity",
+        "full",
+        "--no-preview",
+    ];
+    good(folder, &as_command);
+    good(folder, &["extract", "all.aspl", "ahap", "-o", "built.asp"]);
+    let haptic = |file: &str| {
+        let bytes = fs::read(folder.join(file)).unwrap();
+        let asset = Asset::parse(&bytes).unwrap();
+        let haptic = asset
+            .sections()
+            .filter(|s| s.is_haptic() && s.tag != *b"NAME");
+        haptic
+            .map(|s| asset.section(&s).unwrap().to_vec())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(haptic("ahap.asp"), haptic("built.asp"));
+    // What is no folder is no recording, and a folder is no import.
+    for (entry, told) in [
+        ("recording = \"grit.asp\"", "a folder"),
+        ("recording = \"nowhere\"", "nowhere"),
+        ("import = \"grit.asp\"", "an asset"),
+        ("asset = \"all.aspl#nothing\"", "nothing"),
+    ] {
+        fs::write(
+            folder.join("bad.toml"),
+            format!("[[texture]]\nname = \"x\"\n{entry}\n"),
+        )
+        .unwrap();
+        refused(folder, &["build", "bad.toml", "-o", "bad.aspl"], &[told]);
+    }
+}

@@ -10,7 +10,7 @@ use super::{
 use crate::{driver::Failure, passes::reduce::Fidelity};
 use asperity_io::{
     diagnostic::Diagnostic,
-    input::{self, Format, InputProblem},
+    input::{self, Format, InputError, InputProblem},
 };
 use std::{path::PathBuf, sync::Arc};
 use thiserror::Error;
@@ -28,31 +28,14 @@ pub const KIND: Kind = Kind {
 /// What can be imported.
 const WANTED: &str = "a HaTT material, a model, AHAP, .haptic or HJIF";
 
-/// A file that cannot be imported.
+/// A file of no format that is known.
 #[derive(Debug, Error)]
-#[error("{file}: {what}, {WANTED} is wanted", file = file.display())]
-struct Unknown {
-    file: PathBuf,
-    what: String,
-}
+#[error("{}: it is of no known format, {WANTED} is wanted", .0.display())]
+struct Unknown(PathBuf);
 
 impl Diagnostic for Unknown {
     fn remedy(&self) -> String {
-        "correct the value".into()
-    }
-}
-
-/// A file that cannot be read.
-#[derive(Debug, Error)]
-#[error("{file}: {problem}", file = file.display())]
-struct Unreadable {
-    file: PathBuf,
-    problem: InputProblem,
-}
-
-impl Diagnostic for Unreadable {
-    fn remedy(&self) -> String {
-        self.problem.remedy()
+        "correct the path, or convert the file to one of these".into()
     }
 }
 
@@ -60,7 +43,7 @@ fn open(stated: &Stated<'_>) -> Result<Arc<dyn Source>, Failure> {
     let file = stated.path.to_owned();
     let extension = file.extension().unwrap_or_default();
     let ends_in = |wanted: &str| extension.eq_ignore_ascii_case(wanted);
-    let found = input::format_of(&file).map_err(|problem| Unreadable {
+    let found = input::format_of(&file).map_err(|problem| InputError {
         file: file.clone(),
         problem,
     })?;
@@ -84,12 +67,10 @@ fn open(stated: &Stated<'_>) -> Result<Arc<dyn Source>, Failure> {
         _ if ends_in("haptic") => effects(file, effects::Kind::Haptic),
         _ if ends_in("hjif") => effects(file, effects::Kind::Hjif),
         Some(format) => {
-            let what = format!("it is {}", format.name());
-            return Err(Unknown { file, what }.into());
+            let wanted = WANTED.into();
+            let problem = InputProblem::OtherFormat { format, wanted };
+            return Err(InputError { file, problem }.into());
         }
-        None => {
-            let what = "it is of no known format".into();
-            return Err(Unknown { file, what }.into());
-        }
+        None => return Err(Unknown(file).into()),
     })
 }
