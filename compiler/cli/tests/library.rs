@@ -2,6 +2,7 @@
 //! that is not lost.
 
 use super::*;
+use asperity_formats::Asset;
 
 /// Runs what must succeed.
 fn good(folder: &Path, arguments: &[&str]) -> String {
