@@ -3,7 +3,9 @@
 
 use crate::support;
 use asperity::{
-    driver, embedded,
+    driver,
+    edit::remembered,
+    embedded,
     inference::Backend,
     model::{Provenance, TextureModel},
     model_file::{self, ModelFile},
@@ -17,11 +19,15 @@ use asperity_formats::Asset;
 use std::{fs, path::Path};
 
 /// The model in a file, as bytes that say what `direct` says of where they come from.
-fn through_a_file(whole: &TextureModel, request: &Request) -> Vec<u8> {
+fn through_a_file(whole: &TextureModel, request: &Request, direct: &[u8]) -> Vec<u8> {
     let read = model_file::from_json(&model_file::to_json(whole)).expect("an emitted model");
-    support::compiled(&Sourced::new(read), request)
-        .lowered
-        .bytes
+    let direct = Asset::parse(direct).expect("an asset");
+    // What it remembers is no part of the model.
+    let source = Sourced {
+        memory: remembered(&direct).expect("a memory"),
+        ..Sourced::new(read)
+    };
+    support::compiled(&source, request).lowered.bytes
 }
 
 /// What an asset holds but where it comes from.
@@ -61,7 +67,7 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
             request: request.clone(),
         };
         let authored = author.author(prompt, &options).expect("a texture");
-        let again = through_a_file(&authored.whole, &request);
+        let again = through_a_file(&authored.whole, &request, &authored.lowered.bytes);
         assert_eq!(again, authored.lowered.bytes, "{prompt}");
         let imported = imported(folder.path(), &authored.whole, &request);
         assert_eq!(content(&imported), content(&authored.lowered.bytes));
@@ -103,7 +109,7 @@ fn a_stabilised_texture_is_emitted_as_it_was_verified() {
         compiled.ok().filter(|compiled| compiled.stabilised > 0.0)
     });
     let compiled = found.expect("a latent that rings");
-    let again = through_a_file(&compiled.whole, &request);
+    let again = through_a_file(&compiled.whole, &request, &compiled.lowered.bytes);
     assert_eq!(again, compiled.lowered.bytes);
 }
 
@@ -121,7 +127,7 @@ fn a_material_gives_the_same_bytes_through_a_file() {
                 fidelity,
                 ..Request::default()
             };
-            let again = through_a_file(&direct.whole, &request);
+            let again = through_a_file(&direct.whole, &request, &direct.lowered.bytes);
             assert_eq!(again, direct.lowered.bytes, "{}", file.display());
             let imported = imported(folder.path(), &direct.whole, &request);
             assert_eq!(content(&imported), content(&direct.lowered.bytes));

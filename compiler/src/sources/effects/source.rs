@@ -74,7 +74,8 @@ impl Default for Options {
             force_n: 1.0,
             full_scale_m_s2: 5.0,
             tap_full_scale_m_s2: 50.0,
-            tap_speed_m_s: 0.3,
+            // To the bit as the command reads it.
+            tap_speed_m_s: f64::from(0.3_f32),
             mu: 0.5,
         }
     }
