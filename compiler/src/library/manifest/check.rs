@@ -210,6 +210,8 @@ impl Checker<'_> {
         let path = match kind.operand {
             Operand::Text => PathBuf::new(),
             Operand::Folder => self.folder(field, key)?,
+            // Nothing is asked about a path that the manifest may not name.
+            Operand::File if !self.reaches(field, key, text, false) => return None,
             Operand::File => match text.rsplit_once('#') {
                 // A file whose name holds a `#` is that file.
                 Some((file, of))
