@@ -1,6 +1,8 @@
 //! Failures as Python exceptions.
 
-use asperity::{driver::Stopped, pipeline::PipelineError, prompt::PromptError, rerate::RATE_RANGE_HZ};
+use asperity::{
+    driver::Stopped, pipeline::PipelineError, prompt::PromptError, rerate::RATE_RANGE_HZ,
+};
 use asperity_io::diagnostic::Diagnostic;
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::{error::Error, fmt::Display};
@@ -115,7 +117,8 @@ pub(crate) fn stopped(failure: asperity::driver::Failure) -> Failure {
         }) => {
             let (least, most) = RATE_RANGE_HZ;
             let colon = if origin.is_empty() { "" } else { ": " };
-            let message = format!("{origin}{colon}rate = {rate_hz} Hz: not in {least} to {most} Hz");
+            let message =
+                format!("{origin}{colon}rate = {rate_hz} Hz: not in {least} to {most} Hz");
             Failure::usage(message, "give the rate of the servo loop, e.g. rate=1000")
         }
         _ => Failure::of(&*failure),

@@ -19,7 +19,7 @@ pub struct History {
     /// Level that all textures were brought to, dB re 1 N RMS of force; none is the default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loudness_db: Option<f64>,
-    /// What moves after decoding. [`remember`](super::remember) takes it from the latents.
+    /// What moves after decoding. `remember` takes it from the latents.
     #[serde(default, skip_serializing_if = "Shift::is_none")]
     pub shift: Shift,
     /// Edits, the oldest first.
