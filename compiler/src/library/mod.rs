@@ -4,9 +4,9 @@
 //! manifest → keys → cache → (missing: make, in parallel) → pack
 //! ```
 //!
-//! A texture's [key](crate::sources::key) is everything that decides its bytes. What the cache holds under it is not
-//! made again, so a build that was interrupted goes on where it stopped. `docs/libraries.md`
-//! describes the manifest and shows the commands.
+//! A texture's [key](crate::sources::key) is everything that decides its bytes. What the cache holds
+//! under it is not made again, so a build that was interrupted goes on where it stopped.
+//! `docs/libraries.md` describes the manifest and shows the commands.
 
 mod build;
 mod cache;

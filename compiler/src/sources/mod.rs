@@ -56,13 +56,17 @@ pub trait Source: fmt::Debug + Send + Sync {
     }
 
     /// Adds what decides its texture besides the request and the model, so that a cache tells it
-    /// from others: the names and contents of its [`inputs`](Self::inputs), unless there is more.
+    /// from others: the names and contents of its [`inputs`](Self::inputs), or of a source without
+    /// files all its fields. One that has both says it itself.
     ///
     /// # Errors
     /// Why a file cannot be read.
     fn key(&self, parts: Parts, tools: &Tools<'_>) -> Result<Parts, Failure> {
         let _ = tools;
         let inputs = self.inputs();
+        if inputs.is_empty() {
+            return Ok(parts.text(&format!("{self:?}")));
+        }
         Ok(inputs
             .iter()
             .try_fold(parts, |parts, file| parts.stream(file))?)

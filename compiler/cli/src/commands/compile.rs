@@ -78,5 +78,5 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         json["words"] = serde_json::to_value(&explanation.words).unwrap_or_default();
         words = explanation.text();
     }
-    job.finish(&compiled, &json, &text, &words)
+    job.finish(&compiled, json, &text, &words)
 }

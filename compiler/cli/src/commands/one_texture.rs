@@ -93,7 +93,7 @@ impl<'a> Job<'a> {
     ) -> Result<Compiled, Failures> {
         let compiled = self.compile(source, request, tools)?;
         let text = format!("{}\n", compiled.text());
-        self.finish(&compiled, &compiled.json(), &text, "")?;
+        self.finish(&compiled, compiled.json(), &text, "")?;
         Ok(compiled)
     }
 
@@ -116,7 +116,7 @@ impl<'a> Job<'a> {
     pub(super) fn finish(
         mut self,
         compiled: &Compiled,
-        json: &Value,
+        mut json: Value,
         report: &str,
         asked: &str,
     ) -> Result<(), Failures> {
@@ -139,7 +139,8 @@ impl<'a> Job<'a> {
         let console = self.console;
         console.warnings(&compiled.warnings, self.wanted.json);
         let printed = if self.wanted.json {
-            console.json(json)
+            json["stages_ms"] = pipeline.timings().json();
+            console.json(&json)
         } else {
             console.report(report).and_then(|()| console.text(asked))
         };

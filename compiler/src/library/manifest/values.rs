@@ -6,11 +6,10 @@ use super::{
     error::{ManifestError, ManifestProblem},
     row::{Field, Value},
 };
-use crate::sources::Registry;
 use crate::{
     edit::Sliders,
     passes::{reduce::Fidelity, rerate},
-    sources::prompt::phrase::relative,
+    sources::{Registry, prompt::phrase::relative},
     views::preview,
 };
 use asperity_io::input::Reach;

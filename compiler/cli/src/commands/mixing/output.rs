@@ -115,7 +115,7 @@ impl<'a> Mixing<'a> {
         for (what, value) in lines.iter().chain(&own) {
             text += &format!("  {what:<12} {value}\n");
         }
-        self.job.finish(compiled, &json, &text, "")
+        self.job.finish(compiled, json, &text, "")
     }
 }
 
