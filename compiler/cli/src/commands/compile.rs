@@ -9,8 +9,8 @@ use asperity::{
     diffusion::framed,
     edit::{Studio, explain},
     pipeline::Request,
-    prompt::{self, Illustrated, Prompt},
-    sources::{Source, Tools},
+    prompt::{self, Picture, Prompt},
+    sources::Tools,
 };
 use asperity_console::Console;
 use asperity_io::{
@@ -38,11 +38,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         preview_px: (!args.no_preview).then_some(args.preview_size),
         ..Request::default()
     };
-    let prompt = Prompt {
-        text: args.prompt.clone(),
-        seed: args.seed,
-    };
-    let illustrated = match &args.diffusion.diffusion {
+    let picture = match &args.diffusion.diffusion {
         Some(folder) => {
             let drawn = diffusion::drawn(
                 folder,
@@ -52,22 +48,22 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
                 Some(args.preview_size),
                 job.console,
             )?;
-            Some(Illustrated {
-                source: &prompt,
+            Some(Picture {
                 png: drawn.compact_png().map_err(one)?,
                 made: drawn.note,
             })
         }
         None => None,
     };
-    let source: &dyn Source = match &illustrated {
-        Some(illustrated) => illustrated,
-        None => &prompt,
+    let source = Prompt {
+        text: args.prompt.clone(),
+        seed: args.seed,
+        picture,
     };
-    let compiled = job.compile(source, &request, &Tools::of(&author))?;
+    let compiled = job.compile(&source, &request, &Tools::of(&author))?;
     let mut json = compiled.json();
     let mut text = format!("{}\n{}", display(&args.output), compiled.text());
-    if let Some(Illustrated { made, .. }) = &illustrated {
+    if let Some(Picture { made, .. }) = &source.picture {
         json["preview"] = made.as_str().into();
         text += &format!("  preview      {made}\n");
     }

@@ -144,6 +144,7 @@ impl Author {
         let source = Prompt {
             text: prompt.to_owned(),
             seed: options.seed,
+            picture: None,
         };
         driver::compile(&source, &options.request, &Tools::of(self))
     }

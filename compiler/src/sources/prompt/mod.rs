@@ -22,5 +22,5 @@ pub use authored::{Authored, Nearest, Options};
 pub use error::PromptError;
 pub use meaning::Meaning;
 pub use phrase::adjust::Shift;
-pub use source::{Illustrated, KIND, Prompt};
+pub use source::{KIND, Picture, Prompt};
 pub use understood::{Understood, check};

@@ -1,4 +1,4 @@
-//! A prompt as a source, and with a picture that was made elsewhere.
+//! A prompt as a source.
 
 use super::check;
 use crate::{
@@ -17,6 +17,17 @@ pub struct Prompt {
     /// 0 for the texture that the prompt means. Other seeds give variations of it, as another
     /// piece of the same material varies.
     pub seed: u64,
+    /// A picture that was made elsewhere, in the place of a preview.
+    pub picture: Option<Picture>,
+}
+
+/// A picture of a prompt. The notes of the texture say what made it: `by diffusion: …`.
+#[derive(Debug, Clone)]
+pub struct Picture {
+    /// The picture.
+    pub png: Vec<u8>,
+    /// What made it.
+    pub made: String,
 }
 
 /// `prompt` of a manifest.
@@ -28,6 +39,7 @@ pub const KIND: Kind = Kind {
         Ok(Arc::new(Prompt {
             text: stated.text.trim().to_owned(),
             seed: stated.seed,
+            picture: None,
         }))
     },
     refuses: &["texture"],
@@ -55,37 +67,13 @@ impl Source for Prompt {
         pipeline: &mut Pipeline,
     ) -> Result<Sourced, Failure> {
         check(&self.text)?;
-        Ok(tools.author()?.sourced(&self.text, self.seed, pipeline)?)
-    }
-}
-
-/// A source whose asset holds a picture that was made elsewhere. Its notes say what made it:
-/// `by diffusion: …`.
-#[derive(Debug)]
-pub struct Illustrated<'a> {
-    /// The source.
-    pub source: &'a dyn Source,
-    /// The picture.
-    pub png: Vec<u8>,
-    /// What made it.
-    pub made: String,
-}
-
-impl Source for Illustrated<'_> {
-    fn origin(&self) -> String {
-        self.source.origin()
-    }
-
-    fn read(
-        &self,
-        request: &Request,
-        tools: &Tools<'_>,
-        pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
-        let mut sourced = self.source.read(request, tools, pipeline)?;
-        let notes = &mut sourced.texture.provenance.notes;
-        *notes = format!("{notes} Preview {}.", self.made).trim().to_owned();
-        sourced.picture = Some(self.png.clone());
+        let author = tools.author()?;
+        let mut sourced = author.sourced(&self.text, self.seed, pipeline)?;
+        if let Some(Picture { png, made }) = &self.picture {
+            let notes = &mut sourced.texture.provenance.notes;
+            *notes = format!("{notes} Preview {made}.").trim().to_owned();
+            sourced.picture = Some(png.clone());
+        }
         Ok(sourced)
     }
 }
