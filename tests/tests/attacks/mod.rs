@@ -1,7 +1,8 @@
 //! Hostile inputs to every command of both programs, seeded: damaged, forged, endless, strange.
 //!
 //! Whatever the input, a command ends by itself with exit status 0, 1 or 2, within two seconds of
-//! processor time and 512 MiB of memory. It leaves no partial output and no input changed.
+//! processor time, or that of 50 plain prompts on a slow machine, and 512 MiB of memory. It leaves no partial
+//! output and no input changed.
 //!
 //! At full size 2,000 cases are run, at the small one every 50th of them. `ASPERITY_ATTACKS=COUNT` runs the
 //! first of them, `ASPERITY_ATTACKS=1234..1235` one again. `ASPERITY_PROGRAMS` names a folder with other builds
@@ -150,7 +151,7 @@ fn ran(
     attack.prepare(&folder, seeds);
     let before = verdict::Snapshot::of(&folder);
     let run = run::run(programs.path(attack.program), &attack.arguments, &folder);
-    let verdict = verdict::judge(number, attack, &run, &before, &folder);
+    let verdict = verdict::judge(number, attack, &run, &before, &folder, programs.max_cpu);
     if verdict.failure.is_none() {
         let _ = std::fs::remove_dir_all(&folder);
     }

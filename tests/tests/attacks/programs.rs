@@ -2,9 +2,15 @@
 
 use std::{
     path::{Path, PathBuf},
-    process::Command,
-    time::SystemTime,
+    process::{Command, Stdio},
+    time::{Duration, SystemTime},
 };
+use wait4::Wait4 as _;
+
+/// Processor time of a command on a machine of today. A build with assertions takes several times as long.
+const MAX_CPU: Duration = Duration::from_secs(if cfg!(debug_assertions) { 12 } else { 2 });
+/// The same on a slower machine, in times that a plain prompt takes there.
+const MAX_PROMPTS: u32 = 50;
 
 /// Which program a command belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,17 +21,55 @@ pub(crate) enum Program {
     Lab,
 }
 
+impl Program {
+    fn within(self, folder: &Path) -> PathBuf {
+        folder.join(match self {
+            Self::Compiler => "asperity",
+            Self::Lab => "asperity-lab",
+        })
+    }
+}
+
 /// Where the programs lie.
 pub(crate) struct Programs {
     folder: PathBuf,
+    /// Processor time that a command may take here.
+    pub(crate) max_cpu: Duration,
 }
 
 impl Programs {
+    fn of(folder: PathBuf) -> Self {
+        let mut programs = Self {
+            folder,
+            max_cpu: MAX_CPU,
+        };
+        let of_a_prompt = (0..3).map(|_| programs.of_a_prompt()).min();
+        programs.max_cpu = MAX_CPU.max(MAX_PROMPTS * of_a_prompt.unwrap_or_default());
+        programs
+    }
+
+    /// Processor time that a prompt takes.
+    fn of_a_prompt(&self) -> Duration {
+        let mut child = Command::new(self.path(Program::Compiler))
+            .args([
+                "compile",
+                "cork",
+                "--json",
+                "--no-preview",
+                "-o",
+                "/dev/null",
+            ])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        let usage = child.wait4().expect("the child ends");
+        assert!(usage.status.success(), "a plain prompt is compiled");
+        usage.rusage.utime + usage.rusage.stime
+    }
+
     pub(crate) fn path(&self, program: Program) -> PathBuf {
-        self.folder.join(match program {
-            Program::Compiler => "asperity",
-            Program::Lab => "asperity-lab",
-        })
+        program.within(&self.folder)
     }
 }
 
@@ -33,25 +77,20 @@ impl Programs {
 /// workspace has built them; Cargo would build them again, because a build without tests asks for other features.
 pub(crate) fn built() -> Programs {
     if let Some(folder) = std::env::var_os("ASPERITY_PROGRAMS") {
-        return Programs {
-            folder: folder.into(),
-        };
+        return Programs::of(folder.into());
     }
     // target/PROFILE/deps/it-…
     let test = std::env::current_exe().expect("the test's own path");
     let folder = test.parent().and_then(Path::parent).expect("a profile");
-    let programs = Programs {
-        folder: folder.to_owned(),
-    };
     let root = Path::new(env!("CARGO_MANIFEST_DIR"))
         .parent()
         .expect("the workspace");
     let both = [Program::Compiler, Program::Lab];
     if both
         .iter()
-        .all(|program| is_fresh(&programs.path(*program), root))
+        .all(|program| is_fresh(&program.within(folder), root))
     {
-        return programs;
+        return Programs::of(folder.to_owned());
     }
     let mut cargo = Command::new(env!("CARGO"));
     cargo
@@ -64,7 +103,7 @@ pub(crate) fn built() -> Programs {
     }
     let status = cargo.status().expect("cargo runs");
     assert!(status.success(), "{cargo:?}: {status}");
-    programs
+    Programs::of(folder.to_owned())
 }
 
 /// Whether a program is newer than everything that it may be built from.

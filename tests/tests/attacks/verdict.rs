@@ -9,8 +9,6 @@ use std::{
     time::Duration,
 };
 
-/// Processor time of a command. A build with assertions takes several times as long.
-const MAX_CPU: Duration = Duration::from_secs(if cfg!(debug_assertions) { 12 } else { 2 });
 /// Resident memory of a command.
 const MAX_RSS_BYTES: u64 = 512 << 20;
 /// Characters of a message that a failure shows.
@@ -64,6 +62,7 @@ pub(crate) fn judge(
     run: &Run,
     before: &Snapshot,
     folder: &Path,
+    max_cpu: Duration,
 ) -> Verdict {
     let mut faults = Vec::new();
     let code = run.status.code();
@@ -84,7 +83,7 @@ pub(crate) fn judge(
             faults.push(format!("says {word:?}"));
         }
     }
-    if run.cpu > MAX_CPU {
+    if run.cpu > max_cpu {
         faults.push(format!("took {:.1?} of processor time", run.cpu));
     }
     if run.max_rss_bytes > MAX_RSS_BYTES {

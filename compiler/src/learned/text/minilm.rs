@@ -60,8 +60,9 @@ impl TextEncoder for MiniLm {
 
     fn reads(&self, word: &str) -> bool {
         let unknown = self.vocabulary.id("", word_piece::UNKNOWN).map(i64::from);
-        self.tokens(word)
-            .is_ok_and(|(ids, _)| !ids.iter().any(|id| Some(*id) == unknown))
+        let mut ids = Vec::new();
+        word_piece::encode(word, &self.vocabulary, &mut ids).is_some()
+            && !ids.iter().any(|id| Some(*id) == unknown)
     }
 
     fn encode(&self, text: &str) -> Result<Encoded, TextError> {

@@ -96,9 +96,9 @@ fn tidy(mut base: Vec<String>) -> Vec<String> {
         "less",
         "is",
     ];
-    while base.len() > 1 && LEADING.contains(&base[0].as_str()) {
-        base.remove(0);
-    }
+    let leads = |word: &&String| LEADING.contains(&word.as_str());
+    let leading = base.iter().take_while(leads).count();
+    base.drain(..leading.min(base.len().saturating_sub(1)));
     const TRAILING: [&str; 22] = [
         "but", "and", "that", "which", "is", "are", "has", "have", "had", "with", "its", "only",
         "feels", "yet", "though", "was", "does", "do", "it", "gone", "turned", "any",

@@ -1,30 +1,46 @@
 //! Words that change a thing.
 
-/// Adjectives: `word TAB rough TAB slippery TAB hard`, each −1, 0 or 1; sorted by bytes.
-const ADJECTIVES: &str = include_str!("adjectives.tsv");
-/// Nouns of qualities, for "without its grit": the same.
-const NOUNS: &str = include_str!("nouns.tsv");
-/// What is a quality in an edit alone: the same.
-const EDIT_ADJECTIVES: &str = include_str!("edit_adjectives.tsv");
-const EDIT_NOUNS: &str = include_str!("edit_nouns.tsv");
+use std::{collections::HashMap, sync::LazyLock};
+
+/// Lines `word TAB rough TAB slippery TAB hard`, each −1, 0 or 1; sorted by bytes.
+type Table = LazyLock<HashMap<&'static str, Signs>>;
+
+/// Adjectives.
+static ADJECTIVES: Table = LazyLock::new(|| read(include_str!("adjectives.tsv")));
+/// Nouns of qualities, for "without its grit".
+static NOUNS: Table = LazyLock::new(|| read(include_str!("nouns.tsv")));
+/// What is a quality in an edit alone.
+static EDIT_ADJECTIVES: Table = LazyLock::new(|| read(include_str!("edit_adjectives.tsv")));
+static EDIT_NOUNS: Table = LazyLock::new(|| read(include_str!("edit_nouns.tsv")));
 
 /// Where rough, slippery and hard go.
 pub(super) type Signs = [i8; 3];
 
+/// Lines that are none are left out; a test finds every line.
+fn read(table: &'static str) -> HashMap<&'static str, Signs> {
+    let line = |line: &'static str| {
+        let mut fields = line.split('\t');
+        let word = fields.next()?;
+        let mut sign = || fields.next()?.parse().ok();
+        Some((word, [sign()?, sign()?, sign()?]))
+    };
+    table.lines().filter_map(line).collect()
+}
+
 /// The signs of a quality's adjective, plain.
 pub(super) fn adjective(word: &str) -> Option<Signs> {
-    find(ADJECTIVES, word)
+    ADJECTIVES.get(word).copied()
 }
 
 /// The signs of an adjective or a verb that is a quality in an edit alone: in a prompt it names a
 /// material, or is better left to the text vector.
 pub(super) fn edit_adjective(word: &str) -> Option<Signs> {
-    find(EDIT_ADJECTIVES, word)
+    EDIT_ADJECTIVES.get(word).copied()
 }
 
 /// The same of a noun.
 pub(super) fn edit_noun(word: &str) -> Option<Signs> {
-    find(EDIT_NOUNS, word)
+    EDIT_NOUNS.get(word).copied()
 }
 
 /// Whether a word before a noun asks for more of it (`true`) or for less; of an edit also verbs.
@@ -74,18 +90,7 @@ pub(super) fn compared(word: &str, adjective: impl Fn(&str) -> Option<Signs>) ->
 
 /// The signs of a quality's noun.
 pub(super) fn noun(word: &str) -> Option<Signs> {
-    find(NOUNS, word)
-}
-
-fn find(table: &str, word: &str) -> Option<Signs> {
-    table.lines().find_map(|line| {
-        let mut fields = line.split('\t');
-        if fields.next() != Some(word) {
-            return None;
-        }
-        let mut sign = || fields.next()?.parse().ok();
-        Some([sign()?, sign()?, sign()?])
-    })
+    NOUNS.get(word).copied()
 }
 
 /// How far a degree goes: least and most steps.
@@ -192,8 +197,14 @@ mod tests {
 
     #[test]
     fn tables_are_sorted_whole_and_say_something() {
-        for table in [ADJECTIVES, NOUNS, EDIT_ADJECTIVES, EDIT_NOUNS] {
-            let words: Vec<&str> = table
+        let tables = [
+            (include_str!("adjectives.tsv"), &ADJECTIVES),
+            (include_str!("nouns.tsv"), &NOUNS),
+            (include_str!("edit_adjectives.tsv"), &EDIT_ADJECTIVES),
+            (include_str!("edit_nouns.tsv"), &EDIT_NOUNS),
+        ];
+        for (text, table) in tables {
+            let words: Vec<&str> = text
                 .lines()
                 .filter_map(|line| line.split('\t').next())
                 .collect();
@@ -202,7 +213,7 @@ mod tests {
                 "sorted, each once"
             );
             for word in words {
-                let signs = find(table, word).expect(word);
+                let signs = table.get(word).expect(word);
                 assert!(signs.iter().any(|sign| *sign != 0), "{word}");
                 assert!(signs.iter().all(|sign| sign.abs() <= 1), "{word}");
             }
