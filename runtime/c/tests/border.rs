@@ -195,7 +195,7 @@ fn a_scene_lies_in_one_block_of_memory() {
 #[test]
 fn an_exchange_lies_in_one_block_of_memory() {
     let mut renderer_memory = Memory::new();
-    let mut memory = Memory::<{ ASPERITY_EXCHANGE_SIZE + 2 * ASPERITY_TEXTURE_SIZE_MEDIUM }>::new();
+    let mut memory = Memory::<{ ASPERITY_EXCHANGE_SIZE + 2 * ASPERITY_TEXTURE_SIZE_LARGE }>::new();
     let renderer = renderer(&mut renderer_memory);
     let (mut preparer, mut player) = (ptr::null_mut(), ptr::null_mut());
     // SAFETY: every pointer leads to memory of its size that lives to the end of the test.
@@ -204,7 +204,7 @@ fn an_exchange_lies_in_one_block_of_memory() {
             memory.as_mut_ptr(),
             size_of_val(&*memory),
             renderer,
-            ASPERITY_CAPACITY_MEDIUM,
+            ASPERITY_CAPACITY_LARGE,
             1,
             7,
             &raw mut preparer,
@@ -217,13 +217,16 @@ fn an_exchange_lies_in_one_block_of_memory() {
     let [playing, spare] = &mut slots;
     let mut queues = Exchange::new();
     let (mut rust_preparer, mut rust_player) = queues.split(playing, [spare], 7);
-    let asset = Asset::parse_haptic(ASSET).unwrap();
+    // Small, because it is loaded four times, which takes an interpreter minutes.
+    let library = Library::parse(SCENE).unwrap();
+    let small = library.bytes(0).unwrap();
+    let asset = Asset::parse_haptic(small).unwrap();
     for n in 0..40 {
         if n == 2 || n == 30 {
             rust_preparer.prepare(&asset, 1000.0).unwrap();
             // SAFETY: as above.
             let status = unsafe {
-                let (bytes, len) = (ASSET.as_ptr(), ASSET.len());
+                let (bytes, len) = (small.as_ptr(), small.len());
                 asperity_preparer_load_asset(preparer, bytes, len, ptr::null_mut())
             };
             assert_eq!(status, AsperityStatus::Ok);
