@@ -42,6 +42,9 @@ pub struct Request {
     pub fidelity: Fidelity,
     /// Rate of the models, Hz; that of the source if `None`.
     pub rate_hz: Option<f64>,
+    /// Rate of the servo loop that it is for, Hz: models whose own rate does not divide it are
+    /// converted to it. `None` for any loop.
+    pub servo_rate_hz: Option<f64>,
     /// Width and height of the preview, pixels; none is drawn if `None`.
     pub preview_px: Option<u32>,
 }
@@ -53,9 +56,23 @@ impl Default for Request {
             loudness_db: None,
             fidelity: Fidelity::Full,
             rate_hz: None,
+            servo_rate_hz: None,
             preview_px: None,
         }
     }
+}
+
+impl Request {
+    /// The rate that models at `own_hz` are converted to; `None` where they keep theirs.
+    pub(crate) fn conversion(&self, own_hz: f64) -> Option<f64> {
+        let unserved = |servo_hz: &f64| !serves(*servo_hz, own_hz);
+        self.rate_hz.or(self.servo_rate_hz.filter(unserved))
+    }
+}
+
+/// Whether models at `model_hz` keep their own rate in a servo loop at `servo_hz`.
+pub(crate) fn serves(servo_hz: f64, model_hz: f64) -> bool {
+    asperity_runtime::ticks_per_sample(model_hz as f32, servo_hz as f32).is_some()
 }
 
 /// What becomes of a texture that rings without bound in motion.
@@ -101,9 +118,7 @@ impl Pipeline {
         beside: &Beside<'_>,
     ) -> Result<Passed, PipelineError> {
         whole.provenance.fidelity = request.fidelity.to_string();
-        if let Some(rate_hz) = request.rate_hz {
-            whole = self.rerate(whole, rate_hz)?;
-        }
+        whole = self.converted(whole, request)?;
         if ringing == Ringing::Refused {
             return self.attempt(whole, 0.0, request, beside);
         }
@@ -152,6 +167,23 @@ impl Pipeline {
             verified,
             stabilised,
         })
+    }
+
+    /// The texture at the rate that is asked for.
+    pub(crate) fn converted(
+        &mut self,
+        texture: TextureModel,
+        request: &Request,
+    ) -> Result<TextureModel, PipelineError> {
+        let from_hz = texture.grid.sample_rate_hz;
+        let Some(to_hz) = request.conversion(from_hz) else {
+            return Ok(texture);
+        };
+        self.rerate(texture, to_hz)
+            .map_err(|error| match request.rate_hz {
+                Some(_) => error,
+                None => PipelineError::ServoRate { from_hz, to_hz },
+            })
     }
 
     /// The texture with its models at another rate.

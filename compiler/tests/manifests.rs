@@ -292,14 +292,18 @@ fn an_include_that_is_no_manifest_is_not_repeated() {
 fn a_scene_in_single_brackets_says_which() {
     for key in ["texture", "surface"] {
         let text = format!("servo_rate_hz = 1000\n[{key}]\ntexture = \"oak\"\n");
-        let error = Description::of_text(Path::new("desk.toml"), &text).expect_err("one table");
-        let told = report(&error);
-        assert!(
-            told.contains(&format!("{key}: one table in single brackets")),
-            "{told}"
-        );
+        let told = scene(Path::new("desk.toml"), &text, Reach::Anywhere).expect_err("one table");
+        assert!(told.contains("one table in single brackets"), "{told}");
         assert!(told.contains(&format!("write [[{key}]]")), "{told}");
     }
+}
+
+/// A scene, or all its faults.
+fn scene(file: &Path, text: &str, reach: Reach) -> Result<Description, String> {
+    Description::within(file, text, reach, &Registry::default()).map_err(|failures| {
+        let told = failures.iter().map(|failure| report(&**failure));
+        told.collect::<Vec<_>>().join("\n")
+    })
 }
 
 /// Every kind of path that a list or a scene may state, out of its folder and within it.
@@ -374,12 +378,11 @@ fn a_confined_list_names_only_files_in_its_own_folder() {
                 "[[texture]]\nname = \"a\"\n{key} = \"{path}/{file}\"\n\
                  [[surface]]\ntexture = \"a\"\nsphere = {{ center_m = [0, 0, 0], radius_m = 1 }}\n"
             );
-            assert!(Description::of_text(&list, &text).is_ok(), "{text}");
-            match (Description::within(&list, &text, &reach), how) {
+            assert!(scene(&list, &text, Reach::Anywhere).is_ok(), "{text}");
+            match (scene(&list, &text, reach.clone()), how) {
                 (Ok(_), None) => {}
-                (Err(error), Some(how)) => {
-                    let told = report(&error);
-                    assert!(told.contains(&format!("texture[0].{key}: ")), "{told}");
+                (Err(told), Some(how)) => {
+                    assert!(told.contains(&format!("{key}: ")), "{told}");
                     assert!(told.contains(how) && told.contains("--confined"), "{told}");
                 }
                 (read, _) => panic!("{text}: {read:?}"),

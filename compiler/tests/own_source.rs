@@ -15,6 +15,7 @@ use asperity::{
     prompt::Author,
     raise::raise,
     reduce::Fidelity,
+    scene::{self, Budget, Description},
     sources::{Kind, Operand, Registry, Source, Sourced, Tools, key::Parts},
     spectrum::ArmaModel,
     triangulate,
@@ -131,14 +132,9 @@ fn it_is_compiled_and_exported() {
     assert!(exported.bytes.starts_with(b"{"));
 }
 
-/// Builds a manifest that may name gratings.
-fn built(text: &str) -> Result<Vec<u8>, String> {
-    let told = |failures: Vec<Box<dyn Diagnostic>>| failures[0].to_string();
-    let registry = Registry::default().with(KIND);
-    let file = Path::new("gratings.toml");
-    let manifest = Manifest::within(file, text, Reach::Anywhere, &registry)
-        .map_err(|errors| errors[0].to_string())?;
-    let request = Wanted {
+/// A build without a cache.
+fn wanted() -> Wanted<'static> {
+    Wanted {
         cache: None,
         shard: None,
         program: String::new(),
@@ -151,9 +147,22 @@ fn built(text: &str) -> Result<Vec<u8>, String> {
             backend: String::new(),
         },
         scratch: None,
-    };
+    }
+}
+
+fn open() -> Result<Author, Vec<Box<dyn Diagnostic>>> {
+    Ok(Author::embedded(&Backend::Portable).unwrap())
+}
+
+/// Builds a manifest that may name gratings.
+fn built(text: &str) -> Result<Vec<u8>, String> {
+    let told = |failures: Vec<Box<dyn Diagnostic>>| failures[0].to_string();
+    let registry = Registry::default().with(KIND);
+    let file = Path::new("gratings.toml");
+    let manifest = Manifest::within(file, text, Reach::Anywhere, &registry)
+        .map_err(|errors| errors[0].to_string())?;
+    let request = wanted();
     let build = Build::new(&manifest, &request).map_err(told)?;
-    let open = || Ok(Author::embedded(&Backend::Portable).unwrap());
     let built = build.run(&open, &|| ()).map_err(told)?;
     let mut bytes = Vec::new();
     built.library.write(&mut bytes).unwrap();
@@ -188,6 +197,19 @@ fn a_manifest_names_it_beside_the_others_and_mixes_it() {
     assert!((line_hz(&asset("fine"), 80.0) - 100.0).abs() < 2.0);
     let between = asset("between");
     assert!(Asset::parse(&between).unwrap().latents().is_some());
+}
+
+#[test]
+fn a_scene_wears_it() {
+    let registry = Registry::default().with(KIND);
+    let text = "servo_rate_hz = 3000\n[[texture]]\nname = \"coarse\"\ngrating = \"3\"\n\
+                [[surface]]\ntexture = \"coarse\"\nsphere = { center_m = [0, 0, 0], radius_m = 0.1 }\n";
+    let file = Path::new("desk.toml");
+    let scene = Description::within(file, text, Reach::Anywhere, &registry).unwrap();
+    let built = scene::build(&scene, &Budget::default(), &wanted(), &open, &|| ()).unwrap();
+    let library = Library::parse(&built.bytes).unwrap();
+    assert_eq!(library.scene().unwrap().len(), 1);
+    assert!((line_hz(library.bytes(0).unwrap(), 120.0) - 40.0).abs() < 2.0);
 }
 
 #[test]

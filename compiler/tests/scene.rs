@@ -4,14 +4,14 @@
 use asperity::{
     builtin,
     inference::Backend,
+    library::{Build, Manifest, Pinned, Request},
     lower::lower,
-    pipeline::Request,
-    prompt::{Author, Options},
+    prompt::Author,
     render::render_scene,
-    scene::{Budget, Built, Description, SceneError, build},
+    scene::{Budget, Built, Description, build},
 };
 use asperity_formats::Library;
-use asperity_io::diagnostic::report;
+use asperity_io::diagnostic::{Failures, report};
 use asperity_runtime::{Config, HostScene, HostTexture, Renderer, Sample, SceneState};
 use std::{fs, path::Path};
 use tempfile::TempDir;
@@ -25,7 +25,7 @@ name = "soft"
 asset = "soft.asp"
 [[texture]]
 name = "unused"
-asset = "not there.asp"
+asset = "soft.asp"
 [[surface]]
 texture = "soft"
 plane = { point_m = [0, 0, 0], normal = [0, 0, 1] }
@@ -52,12 +52,45 @@ fn folder() -> TempDir {
     folder
 }
 
-fn built(folder: &Path, scene: &str, budget: &Budget) -> Result<Built, SceneError> {
+/// Every thread count, and no cache, gives the same bytes.
+fn request() -> Request<'static> {
+    Request {
+        cache: None,
+        shard: None,
+        program: String::new(),
+        pinned: Pinned {
+            asperity: String::new(),
+            model: String::new(),
+            model_crc32: 0,
+            text_encoder: String::new(),
+            text_encoder_crc32: 0,
+            backend: String::new(),
+        },
+        scratch: None,
+    }
+}
+
+fn author() -> Result<Author, Failures> {
+    Ok(Author::embedded(&Backend::Portable).unwrap())
+}
+
+fn built(folder: &Path, scene: &str, budget: &Budget) -> Result<Built, Failures> {
     let file = folder.join("scene.toml");
     fs::write(&file, scene).unwrap();
-    build(&Description::read(&file)?, budget, &mut |_, _| {
-        panic!("no prompt in this scene")
-    })
+    build(
+        &Description::read(&file)?,
+        budget,
+        &request(),
+        &author,
+        &|| (),
+    )
+}
+
+/// All failures as a user reads them.
+fn told<T>(result: Result<T, Failures>) -> String {
+    let failures = result.map(drop).unwrap_err();
+    let told = failures.iter().map(|failure| report(&**failure));
+    told.collect::<Vec<_>>().join("\n")
 }
 
 fn within(target: Option<&str>, bytes: Option<u64>) -> Budget {
@@ -132,7 +165,7 @@ fn budgets_are_kept_and_a_tighter_one_never_costs_less_error() {
                 budget = built.report.instructions - 1;
                 steps += 1;
             }
-            Err(error) => break report(&error),
+            refused => break told(refused),
         }
     };
     assert!(
@@ -172,8 +205,7 @@ fn a_budget_that_cannot_hold_says_by_how_much() {
             ["more than the budget of 900", "--budget-bytes"],
         ),
     ] {
-        let error = built(folder.path(), SCENE, &budget).map(drop).unwrap_err();
-        let text = report(&error);
+        let text = told(built(folder.path(), SCENE, &budget));
         for part in expected.into_iter().chain(["scene.toml"]) {
             assert!(text.contains(part), "{part}: {text}");
         }
@@ -218,37 +250,37 @@ fn errors_name_the_file_the_field_and_the_remedy() {
         (
             "asset = \"hard.asp\"",
             "asset = \"gone.asp\"",
-            "texture[0].asset",
+            "scene.toml:4: asset: ",
             "check the path",
         ),
         (
             "asset = \"hard.asp\"",
             "import = \"gone.xml\"",
-            "texture[0].import",
+            "scene.toml:4: import: ",
             "path",
         ),
         (
             "asset = \"hard.asp\"",
             "",
-            "texture[0]: \"hard\" needs one of",
+            "scene.toml:2: nothing that it is made of",
             "leave one",
         ),
         (
             "asset = \"hard.asp\"",
             "asset = \"hard.asp\"\nprompt = \"cork\"",
-            "texture[0]: \"hard\" needs one of",
+            "scene.toml:5: asset and prompt",
             "leave one",
         ),
         (
             "asset = \"hard.asp\"",
             "asset = \"hard.asp\"\nseed = 1",
-            "texture[0].seed: only a prompt",
+            "scene.toml:5: seed: it does not go with asset",
             "remove",
         ),
         (
             "name = \"soft\"",
             "name = \"hard\"",
-            "texture[1].name: \"hard\" is the name of two",
+            "name: \"hard\" is also the name",
             "rename",
         ),
         (
@@ -271,14 +303,13 @@ fn errors_name_the_file_the_field_and_the_remedy() {
             assert!(SCENE.contains(part), "{part}");
             SCENE.replacen(part, by, 1)
         };
-        let error = built(folder.path(), &scene, &Budget::default());
-        let text = report(&error.map(drop).unwrap_err());
+        let text = told(built(folder.path(), &scene, &Budget::default()));
         for part in ["scene.toml", expected, remedy] {
             assert!(text.contains(part), "{part}: {text}");
         }
     }
-    let gone = Description::read(&folder.path().join("gone.toml")).unwrap_err();
-    assert!(report(&gone).contains("gone.toml: cannot read it"));
+    let gone = told(Description::read(&folder.path().join("gone.toml")));
+    assert!(gone.contains("gone.toml: cannot read it"), "{gone}");
 }
 
 /// What `asperity render` writes of a scene is what the runtime gives, tick by tick.
@@ -365,24 +396,94 @@ fn the_documented_scene_builds() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("desk.toml");
     fs::write(&file, scene).unwrap();
-    let author = Author::embedded(&Backend::Portable).unwrap();
-    let options = |seed| Options {
-        seed,
-        request: Request::default(),
-    };
     let budget = Budget {
         share: 0.05,
         ..within(Some("cortex-m4f@48MHz"), Some(7000))
     };
     let description = Description::read(&file).unwrap();
-    let built = build(&description, &budget, &mut |prompt, seed| {
-        Ok(author.author(prompt, &options(seed)).unwrap().texture)
-    })
-    .unwrap();
+    let built = build(&description, &budget, &request(), &author, &|| ()).unwrap();
     println!("{}", built.report);
     assert!(built.bytes.len() <= 7000 && built.report.instructions <= 2400);
     assert_eq!(
         Library::parse(&built.bytes).unwrap().scene().unwrap().len(),
         3
+    );
+}
+
+/// Where nothing limits a scene, it wears the bytes that a library of the same manifest has.
+#[test]
+fn without_a_budget_a_scene_has_the_textures_of_a_library() {
+    let textures = "[defaults]\npreview = 64\n\
+        [[texture]]\nname = \"cork\"\nprompt = \"cork\"\n\
+        [[texture]]\nname = \"felt\"\nprompt = \"felt\"\nfidelity = 6\n\
+        [[texture]]\nname = \"both\"\nblend = { a = \"cork\", b = \"felt\" }\n";
+    let wearing = |name: &str| {
+        format!(
+            "[[surface]]\ntexture = \"{name}\"\nsphere = {{ center_m = [0, 0, 0], radius_m = 0.1 }}\n"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("list.toml");
+    fs::write(&file, textures).unwrap();
+    let manifest = Manifest::read(&file).unwrap();
+    let request = request();
+    let library = Build::new(&manifest, &request).unwrap();
+    let library = library.run(&author, &|| ()).unwrap().library;
+    let mut whole = Vec::new();
+    library.write(&mut whole).unwrap();
+    let whole = Library::parse(&whole).unwrap();
+
+    let text = format!("{textures}{}{}", wearing("felt"), wearing("both"));
+    let scene = built(folder.path(), &text, &Budget::default()).unwrap();
+    // Cork is not worn, and is a part of what is.
+    assert_eq!(scene.report.unused, [""; 0]);
+    let worn = Library::parse(&scene.bytes).unwrap();
+    assert_eq!(worn.index().len(), 2);
+    for (index, name) in ["both", "felt"].into_iter().enumerate() {
+        let place = whole.index().find(name).unwrap();
+        assert_eq!(
+            worn.bytes(index).unwrap(),
+            whole.bytes(place).unwrap(),
+            "{name}"
+        );
+    }
+
+    // Within a budget, a stated fidelity stays, and the other gives way.
+    let roomy = built(folder.path(), &text, &within(None, Some(1 << 20))).unwrap();
+    assert!(roomy.bytes.len() < scene.bytes.len(), "no previews");
+    let less = within(None, Some(roomy.bytes.len() as u64 - 400));
+    let tight = built(folder.path(), &text, &less).unwrap();
+    let [both, felt] = &tight.report.textures[..] else {
+        panic!("{}", tight.report)
+    };
+    assert_eq!((felt.fidelity.as_str(), felt.order), ("6", 6));
+    assert!(both.error_db > 0.0, "{}", tight.report);
+}
+
+/// What does not run at a divisor of the rate of the loop is converted to it, unless it is asked for so.
+#[test]
+fn textures_are_converted_to_the_loop_that_they_cannot_serve() {
+    let folder = folder();
+    let at = |line: &str| {
+        format!(
+            "servo_rate_hz = 1500\n{}",
+            SCENE.replace("asset = \"hard.asp\"", line)
+        )
+    };
+    let rates = |scene: &str| {
+        let built = built(folder.path(), scene, &Budget::default()).unwrap();
+        let library = Library::parse(&built.bytes).unwrap();
+        [0, 1].map(|index| library.asset(index).unwrap().grid().sample_rate_hz())
+    };
+    assert_eq!(rates(&at("asset = \"hard.asp\"")), [1500.0; 2]);
+    assert_eq!(rates(&at("prompt = \"oak\"\nrate = 500")), [500.0, 1500.0]);
+    let refused = told(built(
+        folder.path(),
+        &at("prompt = \"oak\"\nrate = 1000"),
+        &Budget::default(),
+    ));
+    assert!(
+        refused.contains("\"hard\": rate: 1000 Hz does not divide"),
+        "{refused}"
     );
 }

@@ -115,10 +115,7 @@ fn a_remedy_names_only_options_that_the_command_has() {
     let empty = scene("").replace("asset = \"good.asp\"", "prompt = \" \"");
     fs::write(folder.join("empty.toml"), empty).expect("a scene");
     let help = text(&asperity(folder, &["build", "--help"]).stdout);
-    for (file, field) in [
-        ("library.toml", "texture[0].asset"),
-        ("empty.toml", "texture[0].prompt"),
-    ] {
+    for (file, field) in [("library.toml", "asset: "), ("empty.toml", "prompt: ")] {
         let build = ["build", file, "-o", "out.aspl"];
         refused(folder, &build, &[file, field]);
         let error = text(&asperity(folder, &build).stderr);
@@ -139,7 +136,7 @@ fn a_bad_rate_or_share_is_wrong_usage() {
     let emit = ["builtin", "-o", "b.asp", "--emit-model", "b.json"];
     assert!(asperity(folder, &emit).status.success());
     fs::write(folder.join("desk.toml"), scene("")).expect("a scene");
-    let build = ["build", "desk.toml", "-o", "desk.aspl"];
+    let build = ["build", "desk.toml", "--no-cache", "-o", "desk.aspl"];
     assert!(asperity(folder, &build).status.success());
     let commands: [&[&str]; 4] = [
         &["render", "good.asp", "--trajectory", "stroke.csv"],
@@ -250,7 +247,15 @@ fn what_of_a_prompt_was_not_understood_is_named() {
     fs::write(folder.join("scene.toml"), prompts).expect("a scene");
     let built = asperity(
         folder,
-        &["build", "scene.toml", "-o", "s.aspl", "--json", "--quiet"],
+        &[
+            "build",
+            "scene.toml",
+            "--no-cache",
+            "-o",
+            "s.aspl",
+            "--json",
+            "--quiet",
+        ],
     );
     let json: Value = serde_json::from_slice(&built.stdout).expect("JSON");
     assert!(

@@ -127,7 +127,7 @@ fn timings_go_to_standard_error_and_change_no_byte() {
             &["read", "preview", "lower", "verify", "write"],
         ),
         (
-            &["build", "scene.toml"],
+            &["build", "scene.toml", "--no-cache", "--target", "100000"],
             &["read", "reduce", "lower", "pack", "verify", "write"],
         ),
     ];

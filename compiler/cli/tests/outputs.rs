@@ -47,7 +47,7 @@ fn no_command_replaces_what_it_reads() {
     let folder = inputs.path();
     fs::hard_link(folder.join("good.asp"), folder.join("hard.asp")).expect("a link");
     let render = ["render", "good.asp", "--trajectory", "stroke.csv", "-o"];
-    let build = ["build", "desk.toml", "-o"];
+    let build = ["build", "desk.toml", "--no-cache", "-o"];
     let compile = ["compile", "cork", "--model", "model", "-o"];
     let taps = ["import", "hatt", "wood.xml", "--complete-taps", "--model"];
     let cases: [(&[&str], &[&str]); 13] = [
@@ -132,7 +132,7 @@ fn a_read_only_file_is_refused_and_permissions_are_kept() {
 const WRITES_ONE: [&[&str]; 8] = [
     &["builtin"],
     &["compile", "cork", "--no-preview"],
-    &["build", "desk.toml"],
+    &["build", "desk.toml", "--no-cache"],
     &["import", "hatt", "wood.xml"],
     &["import", "model", "b.json"],
     &["plot", "good.asp"],

@@ -26,7 +26,7 @@ pub use compiled::{Compared, Compiled};
 pub use truth::Truth;
 
 use crate::{
-    edit::equal_loudness,
+    edit::{EditError, equal_loudness, remembered},
     emit::{
         lower::{ErrorSummary, LowerError, Lowered},
         rename::renamed,
@@ -71,16 +71,24 @@ pub fn compile(
     let mut pipeline = Pipeline::default();
     let mut sourced = source.read(request, tools, &mut pipeline)?;
     if let Some(asset) = sourced.asset.take() {
-        return Ok(taken(sourced, &asset, request, pipeline)?);
+        if request
+            .conversion(sourced.texture.grid.sample_rate_hz)
+            .is_none()
+        {
+            return Ok(taken(sourced, &asset, request, pipeline)?);
+        }
+        // Converted to another rate, it keeps all else.
+        let parsed = Asset::parse(&asset).map_err(EditError::from)?;
+        sourced.picture = parsed.preview_png().map(<[u8]>::to_owned);
+        sourced.memory = remembered(&parsed)?;
+    } else if let Some(memory) = &mut sourced.memory {
+        memory.history.loudness_db = request.loudness_db;
     }
     if let Some(name) = &request.name {
         sourced.texture.name.clone_from(name);
     }
     if let Some(level_db) = request.loudness_db {
         equal_loudness(&mut sourced.texture, level_db);
-    }
-    if let Some(memory) = &mut sourced.memory {
-        memory.history.loudness_db = request.loudness_db;
     }
     Ok(
         compiled(sourced, request, pipeline).map_err(|cause| Stopped {

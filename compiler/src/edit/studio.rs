@@ -143,10 +143,7 @@ impl<'a> Studio<'a> {
     /// As [`texture`](Self::texture), and for a rate that the models cannot have.
     pub fn kept_attributes(&self, latents: &Latents, how: &How) -> Result<Attributes, EditError> {
         let mut pipeline = Pipeline::default();
-        let mut texture = self.texture(latents)?;
-        if let Some(rate_hz) = how.request.rate_hz {
-            texture = pipeline.rerate(texture, rate_hz)?;
-        }
+        let texture = pipeline.converted(self.texture(latents)?, &how.request)?;
         let kept = pipeline.reduce(&texture, how.request.fidelity).texture;
         Ok(attributes::of(&kept))
     }

@@ -95,6 +95,13 @@ impl<'a> Build<'a> {
         })
     }
 
+    /// Of these textures of the manifest alone, by their indices.
+    #[must_use]
+    pub fn only(mut self, indices: &[usize]) -> Self {
+        self.chosen.retain(|(index, _)| indices.contains(index));
+        self
+    }
+
     /// Number of textures.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -333,15 +340,16 @@ fn keys(
             } else {
                 parts
             };
-            parts
+            let parts = parts
                 .text(&pinned.asperity)
                 .text(&entry.name)
                 .part(place.as_ref().map_or(&[][..], |key| key.bytes()))
                 .text(&options.request.fidelity.to_string())
                 .number(options.request.rate_hz.unwrap_or(0.0))
                 .number(options.request.loudness_db.unwrap_or(f64::INFINITY))
-                .part(&options.request.preview_px.unwrap_or(0).to_le_bytes())
-                .key()
+                .part(&options.request.preview_px.unwrap_or(0).to_le_bytes());
+            let servo_rate_hz = options.request.servo_rate_hz;
+            servo_rate_hz.into_iter().fold(parts, Parts::number).key()
         })
         .collect())
 }
@@ -354,6 +362,8 @@ fn edited(parts: Parts, options: &Options) -> Parts {
     let parts = parts
         .text(&options.request.fidelity.to_string())
         .number(options.request.rate_hz.unwrap_or(0.0));
+    let servo_rate_hz = options.request.servo_rate_hz;
+    let parts = servo_rate_hz.into_iter().fold(parts, Parts::number);
     match &options.edit {
         Edit::Steps(sliders) => AXES
             .into_iter()

@@ -19,7 +19,7 @@ pub struct EntryError {
 }
 
 impl EntryError {
-    pub(super) fn new(entry: &Entry, cause: Failure) -> Self {
+    pub(crate) fn new(entry: &Entry, cause: Failure) -> Self {
         Self {
             place: entry.place.clone(),
             name: entry.name.clone(),

@@ -1,6 +1,6 @@
 //! What a report says of a texture besides its bytes; cached with them.
 
-use crate::{driver::Compiled, model::attributes::Attributes};
+use crate::{driver::Compiled, model::attributes::Attributes, passes::reduce::Fidelity};
 use serde::{Deserialize, Serialize};
 
 /// Figures of a texture.
@@ -19,6 +19,9 @@ pub struct Facts {
     /// Certainty of a prompt, 0..=1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certainty: Option<f64>,
+    /// Largest spectral distance from the whole texture where the fidelity left something out, dB.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reduced_db: Option<f64>,
     /// Factor that the auto-gain put on the vibration; 1 where it fits the device as it is.
     pub vibration_factor: f64,
     /// What a user should be told.
@@ -44,6 +47,8 @@ impl Facts {
             hard_hz,
             mu,
             certainty: compiled.certainty,
+            reduced_db: (compiled.fidelity != Fidelity::Full)
+                .then_some(compiled.reduction.worst_db),
             vibration_factor: if asked_s2_m > 0.0 {
                 compiled.texture.gains.vib_s2_m / asked_s2_m
             } else {

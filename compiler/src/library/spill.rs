@@ -24,6 +24,15 @@ struct Held {
     end: u64,
 }
 
+impl Held {
+    fn read(&mut self, slot: Slot) -> io::Result<Vec<u8>> {
+        let mut asset = vec![0; slot.len as usize];
+        self.file.seek(SeekFrom::Start(slot.offset))?;
+        self.file.read_exact(&mut asset)?;
+        Ok(asset)
+    }
+}
+
 /// An asset that waits.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slot {
@@ -116,6 +125,12 @@ impl Packed {
         self.slots.is_empty()
     }
 
+    /// The assets, in order of name.
+    pub(crate) fn assets(&self) -> io::Result<Vec<Vec<u8>>> {
+        let mut held = self.spill.0.lock().unwrap_or_else(PoisonError::into_inner);
+        self.slots.iter().map(|slot| held.read(*slot)).collect()
+    }
+
     /// Writes the library: the bytes that [`encode`](super::encode) gives of the same assets.
     ///
     /// # Errors
@@ -123,12 +138,8 @@ impl Packed {
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let mut held = self.spill.0.lock().unwrap_or_else(PoisonError::into_inner);
         out.write_all(&self.index)?;
-        let mut asset = Vec::new();
         for slot in &self.slots {
-            held.file.seek(SeekFrom::Start(slot.offset))?;
-            asset.resize(slot.len as usize, 0);
-            held.file.read_exact(&mut asset)?;
-            out.write_all(&asset)?;
+            out.write_all(&held.read(*slot)?)?;
         }
         out.flush()
     }

@@ -15,6 +15,14 @@ pub enum PipelineError {
     /// The models cannot be converted to the rate.
     #[error("--rate {0} Hz: not in {min}..={max} Hz", min = rerate::RATE_RANGE_HZ.0, max = rerate::RATE_RANGE_HZ.1)]
     Rate(f64),
+    /// The models cannot be converted to the rate of the servo loop.
+    #[error("its models run at {from_hz} Hz and cannot be converted to {to_hz} Hz")]
+    ServoRate {
+        /// Rate of the models, Hz.
+        from_hz: f64,
+        /// Rate of the servo loop, Hz.
+        to_hz: f64,
+    },
     /// A vertex of the asset is too far from the model that it came from.
     #[error("model {model} is {distance_db:.3} dB from its source, {budget_db} at most")]
     Budget {
@@ -49,6 +57,9 @@ impl Diagnostic for PipelineError {
     fn remedy(&self) -> String {
         match self {
             Self::Rate(_) => "give the rate of the servo loop, e.g. --rate 1000".into(),
+            Self::ServoRate { .. } => {
+                "set servo_rate_hz to the rate of the texture, or 2, 3, … 20 times as much".into()
+            }
             Self::Budget { .. } => {
                 "compare coefficients, variance and gain of this model with the original file"
                     .into()

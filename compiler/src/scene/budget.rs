@@ -17,6 +17,14 @@ pub struct Budget {
     pub bytes: Option<u64>,
 }
 
+impl Budget {
+    /// Whether it limits nothing.
+    #[must_use]
+    pub fn is_unlimited(&self) -> bool {
+        self.target.is_none() && self.bytes.is_none()
+    }
+}
+
 impl Default for Budget {
     fn default() -> Self {
         Self {

@@ -1,31 +1,24 @@
-//! From a description to a library: makes every texture in full, tries its fidelities, and packs
-//! the ones that the budget allows.
+//! From a description to a library: its textures as any library has them, or, within a budget,
+//! each at the fidelity that the budget allows.
 
 use super::{
     budget::{self, Budget, Excess, Limits},
     cost::Surfaces,
-    description::{Description, Origin, TextureEntry},
+    description::Description,
     error::{SceneError, SceneProblem},
     fidelity::{self, Candidate},
     report::Report,
     target::Target,
 };
 use crate::{
-    driver,
-    emit::{
-        raise::raise,
-        source::{Source, SourceError, SourceProblem},
-        verify,
-    },
-    library,
-    model::TextureModel,
-    pipeline::{Pass, Pipeline, PipelineError, Request, Timings},
-    sources::{Tools, hatt::Hatt},
+    library::{self, EntryError, LibraryFault, manifest::Entry},
+    passes::reduce::Fidelity,
+    pipeline::{Pass, Pipeline, Timings},
+    prompt::Author,
 };
-use asperity_formats::{Asset, SceneSurface};
-use asperity_io::diagnostic::{Diagnostic, Failure};
+use asperity_formats::SceneSurface;
+use asperity_io::diagnostic::{Diagnostic, Failures, one};
 use rayon::prelude::*;
-use std::path::Path;
 
 /// A library with its scene, and how the budget was spent.
 #[derive(Debug, Clone)]
@@ -34,144 +27,117 @@ pub struct Built {
     pub bytes: Vec<u8>,
     /// How the budget was spent.
     pub report: Report,
-    /// The time of every pass, without those of the prompter.
+    /// The time of every pass, on all threads together.
     pub timings: Timings,
+    /// What a user should be told.
+    pub warnings: Vec<String>,
 }
 
-/// Makes a texture of a prompt and a seed.
-pub type Prompter<'a> = dyn FnMut(&str, u64) -> Result<TextureModel, Failure> + 'a;
-
-/// Builds a scene. The same files give the same bytes, whatever the thread count. `prompter` is
-/// asked once for every prompt.
+/// Builds a scene. The same files give the same bytes, whatever the thread count and the cache.
+/// `open` gives an author; `done` is called once a texture, from any thread.
+///
+/// Without a budget, the textures are those that [`library::Build`] gives. Within one, each is made
+/// whole, tried at its fidelities and chosen; one whose fidelity the manifest states keeps it.
 ///
 /// # Errors
-/// [`SceneError`] for a texture that cannot be made or a budget that cannot hold.
+/// What [`library::Build`] says, and [`SceneError`] for a budget that cannot hold.
 pub fn build(
     scene: &Description,
     budget: &Budget,
-    prompter: &mut Prompter<'_>,
-) -> Result<Built, SceneError> {
+    request: &library::Request<'_>,
+    open: &dyn Fn() -> Result<Author, Failures>,
+    done: &(dyn Fn() + Sync),
+) -> Result<Built, Failures> {
     let target = budget.target.unwrap_or_else(Target::unlimited);
-    let mut order: Vec<&TextureEntry> = scene.textures.iter().collect();
-    order.sort_by(|a, b| a.name.cmp(&b.name));
-    let mut pipeline = Pipeline::default();
-    let wholes = order
-        .iter()
-        .map(|entry| whole(scene, entry, prompter, &mut pipeline))
-        .collect::<Result<Vec<_>, _>>()?;
     let surfaces = Surfaces::of(scene.surfaces.iter().map(|surface| surface.solid));
-    let tried: Vec<_> = wholes
-        .par_iter()
-        .map(|texture| {
-            let mut pipeline = Pipeline::default();
-            let tried = fidelity::candidates(texture, &target, surfaces, &mut pipeline);
-            (tried, pipeline)
-        })
-        .collect();
-    let mut all = Vec::with_capacity(tried.len());
-    for (entry, (tried, own)) in order.iter().zip(tried) {
-        pipeline.merge(own.timings());
-        all.push(tried.map_err(|e| failed(scene, entry, e))?);
+    let worn = scene.worn();
+    let mut manifest = scene.manifest.clone();
+    if !budget.is_unlimited() {
+        manifest.entries.iter_mut().for_each(whole);
     }
-    let chosen = pipeline.run(Pass::Pack, || chosen(scene, &order, &all, budget, &target))?;
-    let verified: Vec<_> = chosen
-        .par_iter()
-        .map(|candidate| {
-            let mut pipeline = Pipeline::default();
-            let verified = pipeline.verify(&candidate.texture, &candidate.bytes);
-            (verified, pipeline)
-        })
-        .collect();
-    for (entry, (verified, own)) in order.iter().zip(verified) {
-        pipeline.merge(own.timings());
-        verified.map_err(|e| failed(scene, entry, e))?;
-    }
-    let bytes = pipeline.run(Pass::Pack, || encode(scene, &order, &chosen))?;
+    let order: Vec<&Entry> = worn.iter().map(|&index| &manifest.entries[index]).collect();
+    let made = library::Build::new(&manifest, request)?.only(&worn);
+    let made = made.run(open, done)?;
+    let mut pipeline = Pipeline::default();
+    pipeline.merge(&made.timings);
+    let unreadable = |error: std::io::Error| one(LibraryFault::NoRoom(error.to_string()));
+    let assets = made.library.assets().map_err(unreadable)?;
+    let rows = &made.report.textures;
+    let kept = assets.into_iter().zip(rows).map(|(bytes, row)| {
+        let error_db = row.facts.reduced_db.unwrap_or(0.0);
+        Candidate::of(bytes, error_db, &target, surfaces)
+    });
+    let kept: Vec<Candidate> = kept.collect::<Result<_, _>>().map_err(one)?;
+    let chosen = if budget.is_unlimited() {
+        kept
+    } else {
+        let tried: Vec<_> = (order.par_iter().zip(kept))
+            .map(|(entry, kept)| {
+                let mut pipeline = Pipeline::default();
+                let tried = if entry.options.keeps_fidelity {
+                    Ok(vec![kept])
+                } else {
+                    fidelity::candidates(&kept.texture, &target, surfaces, &mut pipeline)
+                };
+                (tried, pipeline)
+            })
+            .collect();
+        let all = gathered(&order, tried, &mut pipeline)?;
+        let chosen = pipeline.run(Pass::Pack, || chosen(scene, &order, &all, budget, &target));
+        let chosen = chosen.map_err(one)?;
+        let verified: Vec<_> = chosen
+            .par_iter()
+            .map(|candidate| {
+                let mut pipeline = Pipeline::default();
+                let verified = pipeline.verify(&candidate.texture, &candidate.bytes);
+                (verified, pipeline)
+            })
+            .collect();
+        gathered(&order, verified, &mut pipeline)?;
+        chosen.into_iter().cloned().collect()
+    };
+    let bytes = pipeline
+        .run(Pass::Pack, || encode(scene, &worn, &order, &chosen))
+        .map_err(one)?;
     let report = Report::new(scene, budget, &target, &order, &chosen, bytes.len());
+    let mut warnings = made.warnings;
+    let unused = report.unused.iter();
+    warnings.extend(unused.map(|name| format!("no surface wears {name:?}; it was left out")));
     Ok(Built {
         bytes,
         report,
         timings: pipeline.timings().clone(),
+        warnings,
     })
 }
 
-fn failed(
-    scene: &Description,
-    entry: &TextureEntry,
-    cause: impl Diagnostic + Send + Sync + 'static,
-) -> SceneError {
-    at(scene, entry, SceneProblem::Texture(Box::new(cause)))
-}
-
-fn at(scene: &Description, entry: &TextureEntry, problem: SceneProblem) -> SceneError {
-    let key = match &entry.origin {
-        Origin::Prompt(..) => "prompt",
-        Origin::Import(_) => "import",
-        Origin::Asset(_) => "asset",
-    };
-    SceneError {
-        file: scene.file.clone(),
-        field: format!("texture[{}].{key}", entry.index),
-        problem,
+/// What a search over fidelities begins with.
+fn whole(entry: &mut Entry) {
+    let options = &mut entry.options;
+    options.request.preview_px = None;
+    if !options.keeps_fidelity {
+        options.request.fidelity = Fidelity::Full;
     }
 }
 
-/// Whether models at `model_hz` keep their own rate in a servo loop at `servo_hz`.
-fn is_multiple(servo_hz: f64, model_hz: f64) -> bool {
-    asperity_runtime::ticks_per_sample(model_hz as f32, servo_hz as f32).is_some()
-}
-
-/// A texture in full and under its name in the scene. It keeps its own rate where the scene's servo
-/// loop runs at a multiple of it, and is converted to the loop's rate elsewhere.
-fn whole(
-    scene: &Description,
-    entry: &TextureEntry,
-    prompter: &mut Prompter<'_>,
+/// What was made of every texture, or what went wrong with the first that failed.
+fn gathered<T, E: Diagnostic + Send + Sync + 'static>(
+    order: &[&Entry],
+    made: Vec<(Result<T, E>, Pipeline)>,
     pipeline: &mut Pipeline,
-) -> Result<TextureModel, SceneError> {
-    let made = match &entry.origin {
-        Origin::Prompt(prompt, seed) => prompter(prompt, *seed).map_err(SceneProblem::Texture),
-        Origin::Import(file) => imported(file, pipeline).map_err(SceneProblem::Texture),
-        Origin::Asset(file) => pipeline.run(Pass::Read, || asset(file)),
-    };
-    let mut texture = made.map_err(|problem| at(scene, entry, problem))?;
-    let (from_hz, to_hz) = (texture.grid.sample_rate_hz, scene.servo_rate_hz);
-    if !is_multiple(to_hz, from_hz) {
-        let problem = |_: PipelineError| SceneProblem::Rate { from_hz, to_hz };
-        texture = pipeline
-            .rerate(texture, to_hz)
-            .map_err(|e| at(scene, entry, problem(e)))?;
+) -> Result<Vec<T>, Failures> {
+    let mut all = Vec::with_capacity(made.len());
+    for (entry, (made, own)) in order.iter().zip(made) {
+        pipeline.merge(own.timings());
+        all.push(made.map_err(|cause| one(EntryError::new(entry, cause.into())))?);
     }
-    texture.name.clone_from(&entry.name);
-    Ok(texture)
-}
-
-fn imported(file: &Path, pipeline: &mut Pipeline) -> Result<TextureModel, Failure> {
-    let imported = driver::compile(&Hatt::new(file), &Request::default(), &Tools::default())?;
-    pipeline.merge(&imported.timings);
-    // The import verified the bytes, so they parse.
-    let asset = Asset::parse(&imported.lowered.bytes).map_err(verify::VerifyError::from)?;
-    Ok(raise(&asset))
-}
-
-fn asset(file: &Path) -> Result<TextureModel, SceneProblem> {
-    let fail = |error: SourceError| match error.problem {
-        SourceProblem::NoneChosen { count } => SceneProblem::ManyTextures {
-            file: error.path,
-            count,
-        },
-        _ => SceneProblem::Texture(Box::new(error)),
-    };
-    let mut source = Source::open(file).map_err(fail)?;
-    let bytes = source.choose(None).map_err(fail)?;
-    let asset = Asset::parse(&bytes).map_err(|e| fail(source.error(None, e.into())))?;
-    Ok(raise(&asset))
+    Ok(all)
 }
 
 /// The candidate that the budget allows for every texture.
 fn chosen<'a>(
     scene: &Description,
-    order: &[&TextureEntry],
+    order: &[&Entry],
     all: &'a [Vec<Candidate>],
     budget: &Budget,
     target: &Target,
@@ -194,13 +160,13 @@ fn chosen<'a>(
                 target: *target,
             };
             SceneError {
-                file: scene.file.clone(),
-                field: format!("texture[{}]", entry.index),
+                file: scene.manifest.file.clone(),
+                field: String::new(),
                 problem,
             }
         }
         Excess::Bytes { least } => SceneError {
-            file: scene.file.clone(),
+            file: scene.manifest.file.clone(),
             field: String::new(),
             problem: SceneProblem::Bytes {
                 least: least + fixed,
@@ -214,8 +180,9 @@ fn chosen<'a>(
 
 fn encode(
     scene: &Description,
-    order: &[&TextureEntry],
-    chosen: &[&Candidate],
+    worn: &[usize],
+    order: &[&Entry],
+    chosen: &[Candidate],
 ) -> Result<Vec<u8>, SceneError> {
     let named: Vec<library::NamedAsset<'_>> = order
         .iter()
@@ -225,7 +192,7 @@ fn encode(
             bytes: &candidate.bytes,
         })
         .collect();
-    let index = |name: &str| order.iter().position(|entry| entry.name == name);
+    let place = |texture: usize| worn.iter().position(|&index| index == texture);
     let surfaces: Vec<SceneSurface> = scene
         .surfaces
         .iter()
@@ -233,12 +200,12 @@ fn encode(
             solid: surface.solid,
             from_m: surface.from_m,
             to_m: surface.to_m,
-            // The name was checked on reading, and there are at most as many textures as surfaces.
-            texture: index(&surface.texture).unwrap_or(0) as u16,
+            // Every surface wears one of them, and there are at most as many as surfaces.
+            texture: place(surface.texture).unwrap_or(0) as u16,
         })
         .collect();
     library::encode_scene(&named, &surfaces).map_err(|e| SceneError {
-        file: scene.file.clone(),
+        file: scene.manifest.file.clone(),
         field: String::new(),
         problem: e.into(),
     })

@@ -1,59 +1,29 @@
-//! `scene.toml`: surfaces, and the textures they wear.
+//! A scene: a manifest with a servo rate, and surfaces that wear its textures.
 
 use super::error::{SceneError, SceneProblem};
-use crate::passes::rerate;
+use crate::{library::Manifest, passes::rerate, pipeline::serves, sources::Registry};
 use asperity_formats::{
     Solid,
-    limits::{MAX_NAME_BYTES, MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
+    limits::{MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
 };
 use asperity_io::{
-    input::{self, Kind, Reach},
+    diagnostic::{Failures, one},
+    input::{self, InputError, Kind, Reach},
     toml_error::TomlError,
 };
 use serde::Deserialize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
-/// Textures that a scene may list, worn or not. Each name is compared with all before it.
-const MAX_LISTED_TEXTURES: usize = 1024;
-
 /// A checked scene.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Description {
-    /// The file, for errors.
-    pub file: PathBuf,
+    /// Its textures, worn or not. Each is asked to serve the loop.
+    pub manifest: Manifest,
     /// Rate of the servo loop, Hz.
     pub servo_rate_hz: f64,
-    /// Textures that a surface wears, in the order of the file.
-    pub textures: Vec<TextureEntry>,
-    /// Textures that no surface wears.
-    pub unused: Vec<String>,
     /// The surfaces, at least one.
     pub surfaces: Vec<SurfaceEntry>,
-    /// Every file that it names, also for textures that no surface wears.
-    pub sources: Vec<PathBuf>,
-}
-
-/// A texture and where it comes from.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TextureEntry {
-    /// Its name, unique in the scene.
-    pub name: String,
-    /// Where it comes from.
-    pub origin: Origin,
-    /// Index in the file, for errors.
-    pub index: usize,
-}
-
-/// Where a texture comes from. Paths are such that they can be opened.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Origin {
-    /// A prompt and a seed.
-    Prompt(String, u64),
-    /// A material of the HaTT.
-    Import(PathBuf),
-    /// An asset.
-    Asset(PathBuf),
 }
 
 /// A solid, its region and its texture.
@@ -65,33 +35,21 @@ pub struct SurfaceEntry {
     pub from_m: [f32; 3],
     /// Upper corner of the region, m.
     pub to_m: [f32; 3],
-    /// Name of its texture.
-    pub texture: String,
+    /// Index of its texture in the manifest.
+    pub texture: usize,
 }
 
+/// What a scene has besides its textures. Strange keys are faults of the manifest.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 struct RawScene {
     #[serde(default = "default_rate")]
     servo_rate_hz: f64,
-    #[serde(default)]
-    texture: Vec<RawTexture>,
     #[serde(default)]
     surface: Vec<RawSurface>,
 }
 
 fn default_rate() -> f64 {
     1000.0
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawTexture {
-    name: String,
-    prompt: Option<String>,
-    import: Option<PathBuf>,
-    asset: Option<PathBuf>,
-    seed: Option<u64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -131,158 +89,158 @@ impl Description {
     /// Reads and checks a file; paths in it are relative to its folder.
     ///
     /// # Errors
-    /// [`SceneError`] with the file and the field.
-    pub fn read(file: &Path) -> Result<Self, SceneError> {
-        let text = input::read_text(file, Kind::Scene).map_err(|e| SceneError {
-            file: file.to_owned(),
-            field: String::new(),
-            problem: e.into(),
+    /// Every fault of its textures, and the first of its surfaces.
+    pub fn read(file: &Path) -> Result<Self, Failures> {
+        let text = input::read_text(file, Kind::Scene).map_err(|problem| {
+            one(InputError {
+                file: file.to_owned(),
+                problem,
+            })
         })?;
-        Self::of_text(file, &text)
+        Self::within(file, &text, Reach::Anywhere, &Registry::default())
     }
 
-    /// Checks the text of a file, which may name any other.
+    /// Checks the text of a scene that may name only files within reach, and sources of a registry.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
-    pub fn of_text(file: &Path, text: &str) -> Result<Self, SceneError> {
-        Self::within(file, text, &Reach::Anywhere)
-    }
-
-    /// Checks the text of a scene that may name only files within reach.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read), and for a path that leads elsewhere.
-    pub fn within(file: &Path, text: &str, reach: &Reach) -> Result<Self, SceneError> {
-        let fail = |field: String, problem| SceneError {
-            file: file.to_owned(),
-            field,
-            problem,
+    /// As [`read`](Self::read), and every path that leads elsewhere.
+    pub fn within(
+        file: &Path,
+        text: &str,
+        reach: Reach,
+        registry: &Registry,
+    ) -> Result<Self, Failures> {
+        let told = |(field, problem): Wrong| {
+            one(SceneError {
+                file: file.to_owned(),
+                field,
+                problem,
+            })
         };
-        let raw: RawScene = toml::from_str(text).map_err(|e| {
-            if let Some(key) = single(text) {
-                return fail(key.to_owned(), SceneProblem::Single(key));
+        let scene = RawScene::read(text).map_err(told);
+        match Manifest::of_scene(file, text, reach, registry) {
+            Ok(manifest) => scene?.wearing(manifest).map_err(told),
+            Err(faults) => {
+                let mut all: Failures = Vec::new();
+                all.extend(faults.into_iter().map(|fault| Box::new(fault) as _));
+                // What is no TOML is said once.
+                if DeTable::parse(text).is_ok() {
+                    all.extend(scene.err().into_iter().flatten());
+                }
+                Err(all)
             }
-            fail(
-                String::new(),
-                SceneProblem::Syntax(TomlError::new(text, &e)),
-            )
-        })?;
-        let folder = file.parent().unwrap_or(Path::new(""));
-        raw.check(file, folder, reach)
-            .map_err(|(field, problem)| fail(field, problem))
+        }
     }
-}
 
-/// The list that a text has one table of, in single brackets.
-fn single(text: &str) -> Option<&'static str> {
-    let top = DeTable::parse(text).ok()?;
-    let is_table = |key: &&str| {
-        matches!(
-            top.get_ref().get(*key).map(|v| v.get_ref()),
-            Some(DeValue::Table(_))
-        )
-    };
-    ["texture", "surface"].into_iter().find(is_table)
+    /// The textures that a surface wears, each once, in order of name.
+    #[must_use]
+    pub fn worn(&self) -> Vec<usize> {
+        let worn = |index: &usize| self.surfaces.iter().any(|s| s.texture == *index);
+        (0..self.manifest.entries.len()).filter(worn).collect()
+    }
+
+    /// Names of the textures that no surface wears and none is made of.
+    #[must_use]
+    pub fn unused(&self) -> Vec<String> {
+        let entries = &self.manifest.entries;
+        let mut used = vec![false; entries.len()];
+        let mut open = self.worn();
+        while let Some(index) = open.pop() {
+            if !std::mem::replace(&mut used[index], true) {
+                open.extend(entries[index].origin.parts());
+            }
+        }
+        let all = entries.iter().zip(used);
+        all.filter(|(_, used)| !used)
+            .map(|(entry, _)| entry.name.clone())
+            .collect()
+    }
 }
 
 /// A field and what is wrong with it.
 type Wrong = (String, SceneProblem);
 
+/// A surface that was checked, and the name of its texture.
+type Surface = (SurfaceEntry, String);
+
+/// A scene whose textures are names yet.
+struct Furnished {
+    servo_rate_hz: f64,
+    surfaces: Vec<Surface>,
+}
+
 impl RawScene {
-    fn check(self, file: &Path, folder: &Path, reach: &Reach) -> Result<Description, Wrong> {
+    fn read(text: &str) -> Result<Furnished, Wrong> {
+        let raw: Self = toml::from_str(text).map_err(|e| {
+            let problem = if is_single(text) {
+                SceneProblem::Single("surface")
+            } else {
+                SceneProblem::Syntax(TomlError::new(text, &e))
+            };
+            (String::new(), problem)
+        })?;
         let (low, _) = rerate::RATE_RANGE_HZ;
         // Loops faster than a texture can be converted to are multiples of its rate.
-        in_range("servo_rate_hz", self.servo_rate_hz, (low, 20_000.0))?;
-        if self.surface.is_empty() {
+        in_range("servo_rate_hz", raw.servo_rate_hz, (low, 20_000.0))?;
+        if raw.surface.is_empty() {
             return Err(("surface".into(), SceneProblem::NoSurface));
         }
-        if self.surface.len() > MAX_SURFACES {
-            let count = self.surface.len();
+        if raw.surface.len() > MAX_SURFACES {
+            let count = raw.surface.len();
             return Err(("surface".into(), SceneProblem::TooMany(count)));
         }
-        if self.texture.len() > MAX_LISTED_TEXTURES {
-            let problem = SceneProblem::TooManyTextures {
-                found: self.texture.len(),
-                limit: MAX_LISTED_TEXTURES,
-            };
-            return Err(("texture".into(), problem));
-        }
-        let mut textures: Vec<TextureEntry> = Vec::new();
-        for (index, raw) in self.texture.into_iter().enumerate() {
-            let entry = raw.check(index, folder, reach)?;
-            if textures.iter().any(|other| other.name == entry.name) {
-                let field = format!("texture[{index}].name");
-                return Err((field, SceneProblem::SameName(entry.name)));
-            }
-            textures.push(entry);
-        }
-        let mut surfaces = Vec::new();
-        for (index, raw) in self.surface.into_iter().enumerate() {
-            if !textures.iter().any(|texture| texture.name == raw.texture) {
-                let known = textures.into_iter().map(|texture| texture.name).collect();
-                let field = format!("surface[{index}].texture");
-                let wanted = raw.texture;
-                return Err((field, SceneProblem::UnknownTexture { wanted, known }));
-            }
-            surfaces.push(raw.check(index)?);
-        }
-        let worn = |texture: &TextureEntry| {
-            let wears = |surface: &SurfaceEntry| surface.texture == texture.name;
-            surfaces.iter().any(wears)
-        };
-        let sources = textures.iter().filter_map(|texture| match &texture.origin {
-            Origin::Import(file) | Origin::Asset(file) => Some(file.clone()),
-            Origin::Prompt(..) => None,
-        });
-        let sources = sources.collect();
-        let (textures, unused): (Vec<_>, Vec<_>) = textures.into_iter().partition(worn);
-        Ok(Description {
-            file: file.to_owned(),
-            servo_rate_hz: self.servo_rate_hz,
-            textures,
-            unused: unused.into_iter().map(|texture| texture.name).collect(),
-            surfaces,
-            sources,
+        let surfaces = raw.surface.into_iter().enumerate();
+        let surfaces = surfaces.map(|(index, raw)| raw.check(index));
+        Ok(Furnished {
+            servo_rate_hz: raw.servo_rate_hz,
+            surfaces: surfaces.collect::<Result<_, _>>()?,
         })
     }
 }
 
-impl RawTexture {
-    fn check(self, index: usize, folder: &Path, reach: &Reach) -> Result<TextureEntry, Wrong> {
-        let field = |name: &str| format!("texture[{index}].{name}");
-        let name = self.name;
-        if name.is_empty() || name.len() > MAX_NAME_BYTES || name.chars().any(char::is_control) {
-            return Err((field("name"), SceneProblem::Name(name)));
-        }
-        for (key, stated) in [("import", &self.import), ("asset", &self.asset)] {
-            let Some(stated) = stated else {
-                continue;
-            };
-            if let Err(outside) = reach.check(stated, &folder.join(stated)) {
-                let stated = stated.clone();
-                return Err((field(key), SceneProblem::Outside { stated, outside }));
+impl Furnished {
+    fn wearing(self, mut manifest: Manifest) -> Result<Description, Wrong> {
+        let servo_hz = self.servo_rate_hz;
+        for entry in &mut manifest.entries {
+            let request = &mut entry.options.request;
+            request.servo_rate_hz = Some(servo_hz);
+            if let Some(rate_hz) = request
+                .rate_hz
+                .filter(|rate_hz| !serves(servo_hz, *rate_hz))
+            {
+                let field = format!("texture {:?}: rate", entry.name);
+                return Err((field, SceneProblem::Rate { rate_hz, servo_hz }));
             }
         }
-        let origin = match (self.prompt, self.import, self.asset) {
-            (Some(prompt), None, None) => Origin::Prompt(prompt, self.seed.unwrap_or(0)),
-            (None, Some(path), None) => Origin::Import(folder.join(path)),
-            (None, None, Some(path)) => Origin::Asset(folder.join(path)),
-            _ => return Err((format!("texture[{index}]"), SceneProblem::Origin(name))),
-        };
-        if self.seed.is_some() && !matches!(origin, Origin::Prompt(..)) {
-            return Err((field("seed"), SceneProblem::SeedWithoutPrompt));
+        let mut surfaces = Vec::with_capacity(self.surfaces.len());
+        for (index, (surface, wanted)) in self.surfaces.into_iter().enumerate() {
+            let names = || manifest.entries.iter().map(|entry| &entry.name);
+            let Some(texture) = names().position(|name| *name == wanted) else {
+                let known = names().cloned().collect();
+                let field = format!("surface[{index}].texture");
+                return Err((field, SceneProblem::UnknownTexture { wanted, known }));
+            };
+            surfaces.push(SurfaceEntry { texture, ..surface });
         }
-        Ok(TextureEntry {
-            name,
-            origin,
-            index,
+        Ok(Description {
+            manifest,
+            servo_rate_hz: servo_hz,
+            surfaces,
         })
     }
+}
+
+/// Whether the list of surfaces is one table, in single brackets.
+fn is_single(text: &str) -> bool {
+    let Ok(top) = DeTable::parse(text) else {
+        return false;
+    };
+    let surface = top.get_ref().get("surface").map(|value| value.get_ref());
+    matches!(surface, Some(DeValue::Table(_)))
 }
 
 impl RawSurface {
-    fn check(self, index: usize) -> Result<SurfaceEntry, Wrong> {
+    fn check(self, index: usize) -> Result<Surface, Wrong> {
         let field = |name: &str| format!("surface[{index}].{name}");
         let place = |name: &str, v: [f64; 3]| vector(&field(name), v, -f64::from(MAX_POSITION_M));
         let size = |name: &str, v: [f64; 3]| vector(&field(name), v, f64::from(MIN_SOLID_M));
@@ -314,12 +272,13 @@ impl RawSurface {
                 return Err((field("to_m"), SceneProblem::Region { from, to }));
             }
         }
-        Ok(SurfaceEntry {
+        let surface = SurfaceEntry {
             solid,
             from_m,
             to_m,
-            texture: self.texture,
-        })
+            texture: 0,
+        };
+        Ok((surface, self.texture))
     }
 }
 

@@ -5,10 +5,12 @@ use super::{
     target::Target,
 };
 use crate::{
+    emit::{raise::raise, verify::VerifyError},
     model::TextureModel,
     passes::reduce::{Fidelity, Reference},
     pipeline::{Pass, Pipeline, PipelineError},
 };
+use asperity_formats::Asset;
 use rayon::prelude::*;
 
 /// A texture at a fidelity.
@@ -114,6 +116,26 @@ fn reduced(texture: &TextureModel, pipeline: &mut Pipeline) -> Vec<(String, Text
 }
 
 impl Candidate {
+    /// A texture as a library has it.
+    ///
+    /// # Errors
+    /// Why the asset does not parse.
+    pub(super) fn of(
+        bytes: Vec<u8>,
+        error_db: f64,
+        target: &Target,
+        surfaces: Surfaces,
+    ) -> Result<Self, VerifyError> {
+        let texture = raise(&Asset::parse(&bytes)?);
+        Ok(Self {
+            fidelity: texture.provenance.fidelity.clone(),
+            instructions: target.instructions(&texture.grid, surfaces),
+            texture,
+            bytes,
+            error_db,
+        })
+    }
+
     /// Zeros that are mixed and converted.
     pub(super) fn zeros(&self) -> usize {
         zeros(&self.texture.grid)

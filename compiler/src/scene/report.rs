@@ -1,11 +1,7 @@
 //! How the budget was spent.
 
-use super::{
-    budget::Budget,
-    description::{Description, TextureEntry},
-    fidelity::Candidate,
-    target::Target,
-};
+use super::{budget::Budget, description::Description, fidelity::Candidate, target::Target};
+use crate::library::manifest::Entry;
 use serde::Serialize;
 use std::fmt;
 
@@ -97,8 +93,8 @@ impl Report {
         scene: &Description,
         budget: &Budget,
         target: &Target,
-        order: &[&TextureEntry],
-        chosen: &[&Candidate],
+        order: &[&Entry],
+        chosen: &[Candidate],
         bytes: usize,
     ) -> Self {
         let rows = order.iter().zip(chosen);
@@ -116,7 +112,7 @@ impl Report {
             bytes,
             surfaces: scene.surfaces.len(),
             textures: rows.map(|(entry, c)| Row::new(&entry.name, c)).collect(),
-            unused: scene.unused.clone(),
+            unused: scene.unused(),
         }
     }
 }

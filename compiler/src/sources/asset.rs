@@ -7,16 +7,21 @@ use super::{
 use crate::{
     driver::Failure,
     edit::EditError,
-    emit::{raise::raise, source::Source as Textures},
+    emit::{
+        raise::raise,
+        source::{Source as Textures, SourceProblem},
+    },
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request},
 };
 use asperity_formats::Asset;
+use asperity_io::diagnostic::Diagnostic;
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, PoisonError},
 };
+use thiserror::Error;
 
 /// `asset` of a manifest.
 pub const KIND: Kind = Kind {
@@ -29,8 +34,8 @@ pub const KIND: Kind = Kind {
         }))
     },
     refuses: &["seed", "fidelity", "rate", "preview", "loudness", "edit"],
-    fidelity: Fidelity::Auto,
-    preview: true,
+    fidelity: Fidelity::Full,
+    preview: false,
 };
 
 /// An asset, or one texture of a library.
@@ -78,6 +83,24 @@ impl Source for AssetFile {
     }
 }
 
+/// A library of several textures in the place of one.
+#[derive(Debug, Error)]
+#[error("{file}: a library of {count} textures, and none is named", file = file.display())]
+struct NoneNamed {
+    file: PathBuf,
+    count: usize,
+}
+
+impl Diagnostic for NoneNamed {
+    fn remedy(&self) -> String {
+        let file = self.file.file_name().unwrap_or_default();
+        format!(
+            "name one of them: asset = \"{}#NAME\"",
+            file.to_string_lossy()
+        )
+    }
+}
+
 /// Libraries that stay open: each holds a file and its index.
 const MOST_OPEN: usize = 16;
 
@@ -91,7 +114,15 @@ impl OpenLibraries {
     fn asset(&self, file: &Path, texture: Option<&str>) -> Result<Vec<u8>, Failure> {
         let source = self.open(file)?;
         let mut source = source.lock().unwrap_or_else(PoisonError::into_inner);
-        let bytes = source.choose(texture)?;
+        let bytes = source
+            .choose(texture)
+            .map_err(|error| match error.problem {
+                SourceProblem::NoneChosen { count } => Failure::from(NoneNamed {
+                    file: file.to_owned(),
+                    count,
+                }),
+                _ => error.into(),
+            })?;
         match Asset::parse(&bytes) {
             Ok(_) => Ok(bytes),
             Err(error) => Err(source.error(texture, error.into()).into()),

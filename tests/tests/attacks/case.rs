@@ -119,15 +119,16 @@ impl Attack {
         ];
         let inside = inside.map(|name| format!("out/{name}"));
         // The header of a C array lies beside it, and the lock of a build beside its manifest.
-        let beside = [("c-array", "out.h"), ("cached.toml", "cached.toml.lock")];
-        let beside = beside.into_iter().filter(|(word, _)| line.contains(word));
+        let header = line.contains("c-array").then(|| "out.h".to_owned());
+        let lock = (words[0] == "build").then(|| format!("{}.lock", words[1]));
         Self {
             program,
             command: line,
             outputs: outputs
                 .map(|&word| word.to_owned())
                 .chain(inside)
-                .chain(beside.map(|(_, name)| name.to_owned()))
+                .chain(header)
+                .chain(lock)
                 .collect(),
             arguments: words.iter().map(OsString::from).collect(),
             target: target.to_owned(),
@@ -150,6 +151,7 @@ impl Attack {
         if let Some(place) = self.arguments.iter().position(|a| *a == *self.target) {
             self.arguments[place] = name.clone().into();
             self.told += &format!(", named {:?}", name.chars().take(40).collect::<String>());
+            self.outputs.push(format!("{name}.lock"));
             self.target = name;
         }
     }

@@ -180,13 +180,13 @@ pub(crate) const FORMS: [Form; 72] = [
     ),
     form(
         Compiler,
-        "build in.toml -o out.aspl",
+        "build in.toml -o out.aspl --no-cache",
         "in.toml",
         Seed::Description,
     ),
     form(
         Compiler,
-        "build in.toml -o out.aspl --target cortex-m4f@48MHz --budget-bytes 9000 --json",
+        "build in.toml -o out.aspl --no-cache --target cortex-m4f@48MHz --budget-bytes 9000 --json",
         "in.toml",
         Seed::Description,
     ),
@@ -194,13 +194,13 @@ pub(crate) const FORMS: [Form; 72] = [
     form(Compiler, "build in.csv --check", "in.csv", Seed::Rows),
     form(
         Compiler,
-        "build scene.toml -o out.aspl",
+        "build scene.toml -o out.aspl --no-cache",
         "good.asp",
         Seed::Asset,
     ),
     form(
         Compiler,
-        "build scene.toml -o out.aspl",
+        "build scene.toml -o out.aspl --no-cache",
         "wood.xml",
         Seed::Material,
     ),

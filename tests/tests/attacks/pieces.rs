@@ -51,7 +51,7 @@ const HJIF: Line = (
     "import hjif in.hjif -o out.asp --no-preview",
     "in.hjif",
 );
-const BUILD: Line = (Compiler, "build in.toml -o out.aspl", "in.toml");
+const BUILD: Line = (Compiler, "build in.toml -o out.aspl --no-cache", "in.toml");
 const GRIP: Line = (Lab, "feel --seconds 1 --grip in.toml", "in.toml");
 const DEVICE: Line = (Lab, "feel --seconds 1 --device in.toml", "in.toml");
 const COUNTS: Line = (Lab, "pareto --quick --cortex-m in.csv --out out", "in.csv");

@@ -13,10 +13,11 @@ header names the same keys, or JSON lines. What was made before is taken from a 
 interrupted build goes on where it stopped. Textures are made in parallel; the bytes do not depend \
 on order, threads, cache or parts. FILE.lock pins model and versions.
 
-A scene is a TOML file of [[texture]] and [[surface]] entries (texture and one of plane, sphere, \
-box). Only textures that a surface wears are packed, each once, in full where nothing limits them. \
-A target limits the instructions of a tick, a clock by a share of its period at one instruction a \
-clock. Where a budget is too small, fidelity is lowered where that costs the least error.
+A scene is a TOML manifest with servo_rate_hz and [[surface]] entries (texture and one of plane, \
+sphere, box). Only textures that a surface wears are packed, each once. A target limits the \
+instructions of a tick, a clock by a share of its period at one instruction a clock. Within a \
+budget, textures have no preview, and each has the fidelity that the budget allows, unless the \
+manifest states it: it is lowered where that costs the least error.
 
 Examples:
   asperity build library.toml -o library.aspl

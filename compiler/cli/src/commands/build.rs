@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Build, console: Console) -> Result<(), Failures> {
         Reach::Anywhere
     };
     if !has_rows && manifest::is_scene(&text) {
-        build_scene::run(args, &text, &reach, console)
+        build_scene::run(args, &text, reach, console)
     } else {
         library::build::run(args, &text, reach, console)
     }

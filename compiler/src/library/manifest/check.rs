@@ -411,14 +411,14 @@ fn unreadable(error: io::Error) -> InputProblem {
 /// can have them.
 fn options(stated: &Stated, of: &GoesWith) -> Options {
     let takes = |key: &str| !of.refuses.contains(&key);
+    let fidelity = stated.fidelity.filter(|_| takes("fidelity"));
     Options {
+        keeps_fidelity: fidelity.is_some(),
         request: Request {
             name: None,
-            fidelity: stated
-                .fidelity
-                .filter(|_| takes("fidelity"))
-                .unwrap_or(of.fidelity),
+            fidelity: fidelity.unwrap_or(of.fidelity),
             rate_hz: stated.rate_hz.filter(|_| takes("rate")),
+            servo_rate_hz: None,
             preview_px: match stated.preview_px.filter(|_| takes("preview")) {
                 None => of.preview.then_some(preview::SIZE),
                 Some(0) => None,

@@ -105,6 +105,8 @@ impl Origin {
 pub struct Options {
     /// What is asked of any texture.
     pub request: Request,
+    /// Whether the manifest states the fidelity, which no budget changes then.
+    pub keeps_fidelity: bool,
     /// What is moved after it was decoded.
     pub edit: Edit,
 }

@@ -43,13 +43,16 @@ pub struct Setup {
     pub backend: Option<String>,
 }
 
+/// Keys at the top that make a manifest a scene.
+const OF_SCENES: [&str; 2] = ["servo_rate_hz", "surface"];
+
 /// Whether a TOML text is a scene rather than a library: it has surfaces, or a servo rate.
 #[must_use]
 pub fn is_scene(text: &str) -> bool {
     match toml::de::DeTable::parse(text) {
         Ok(top) => {
-            let has = |key| top.get_ref().contains_key(key);
-            has("surface") || has("servo_rate_hz")
+            let has = |key: &&str| top.get_ref().contains_key(*key);
+            OF_SCENES.iter().any(has)
         }
         // Whoever wants a scene reads of scenes.
         Err(_) => text.contains("[[surface]]") || text.contains("servo_rate_hz"),
@@ -85,9 +88,30 @@ impl Manifest {
         reach: Reach,
         registry: &Registry,
     ) -> Result<Self, Vec<ManifestError>> {
+        Self::checked(file, text, reach, registry, false)
+    }
+
+    /// Checks the textures of a scene; its other keys are left to whoever builds scenes.
+    pub(crate) fn of_scene(
+        file: &Path,
+        text: &str,
+        reach: Reach,
+        registry: &Registry,
+    ) -> Result<Self, Vec<ManifestError>> {
+        Self::checked(file, text, reach, registry, true)
+    }
+
+    fn checked(
+        file: &Path,
+        text: &str,
+        reach: Reach,
+        registry: &Registry,
+        scene: bool,
+    ) -> Result<Self, Vec<ManifestError>> {
         let mut reader = Reader {
             reach,
             registry: registry.clone(),
+            scene,
             ..Reader::default()
         };
         reader.take(file, text, &Stated::default());
@@ -105,14 +129,16 @@ fn kind(file: &Path) -> Kind {
 }
 
 /// What is wrong with a key at the top.
-fn top_problem(field: &Field) -> ManifestProblem {
+fn top_problem(field: &Field, scene: bool) -> ManifestProblem {
     let wanted = match (field.key.as_str(), &field.value) {
         ("texture", Value::Table(_)) => return ManifestProblem::Single,
         ("texture", _) => "a list of tables, each written [[texture]],",
         ("include", _) => "a list of manifests",
         ("defaults", _) => "one table, written [defaults],",
         _ => {
-            let known = "include, defaults, texture".into();
+            let of_scenes: &[&str] = if scene { &OF_SCENES } else { &[] };
+            let known = [&["include", "defaults", "texture"], of_scenes].concat();
+            let known = known.join(", ");
             return ManifestProblem::UnknownKey { known };
         }
     };
@@ -158,6 +184,8 @@ fn syntax(file: &Path) -> Option<Syntax> {
 struct Reader {
     reach: Reach,
     registry: Registry,
+    /// Whether the first file is a scene.
+    scene: bool,
     drafts: Vec<Draft>,
     /// Names of all rows, of those with a fault, too.
     names: Vec<(String, Place)>,
@@ -193,8 +221,11 @@ impl Reader {
             errors: &mut self.errors,
             registry: &self.registry,
         };
+        let scene = first && self.scene;
         for field in &sheet.wrong {
-            checker.fault(field.line, &field.key, top_problem(field));
+            if !(scene && OF_SCENES.contains(&field.key.as_str())) {
+                checker.fault(field.line, &field.key, top_problem(field, scene));
+            }
         }
         let mut stated = outer.clone();
         if let Some(row) = &sheet.defaults {

@@ -16,7 +16,7 @@ use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Diagnostic, Failures, one},
     input::Reach,
-    output::{Outputs, display, is_standard_output, write_atomic},
+    output::{OutputId, Outputs, display, is_standard_output, write_atomic},
 };
 use serde_json::json;
 use std::{
@@ -70,74 +70,136 @@ pub(crate) fn run(
     }
     let mut manifest =
         Manifest::within(&args.scene, text, reach.clone(), &Registry::default()).map_err(boxed)?;
-    for entry in &mut manifest.entries {
-        let size = &mut entry.options.request.preview_px;
-        *size = size
-            .filter(|_| !args.no_preview)
-            .map(|px| args.preview_size.unwrap_or(px));
-    }
-    let inference = setup(&args.inference, &manifest)?;
+    previews(args, &mut manifest);
     if args.check {
         return checked(args, &manifest, console);
     }
-    let output = args.output.as_deref().unwrap_or(Path::new("-"));
-    let mut inputs = vec![args.scene.clone()];
-    inputs.extend(manifest.sources.iter().cloned());
-    inputs.extend(inference::files(&inference));
-    let lock = Lock::within(&args.scene, &reach).map_err(one)?;
-    inputs.push(lock.file().to_owned());
-    let mut outputs = Outputs::beside(&inputs);
-    let library = outputs.open(output).map_err(one)?;
-    let console = console.beside(&outputs);
-    let pinned = inference::pinned(&inference)?;
-    if args.locked {
-        lock.hold(&pinned).map_err(one)?;
-    }
-    let cache = (!args.no_cache).then(|| Cache::new(cache_folder(args, output)));
-    let request = Request {
-        cache: cache.as_ref(),
-        shard: args.shard,
-        program: inference::program(),
-        pinned,
-        scratch: (!outputs.to_standard_output()).then(|| folder_of(output)),
-    };
-    let build = Build::new(&manifest, &request)?;
-    let bar = console.rated_bar(build.len(), "textures");
-    let open = || inference::author(&inference);
-    let built = build.run(&open, &|| bar.inc(1));
+    let mut build = Prepared::new(args, &manifest, &reach, console)?;
+    let request = build.request();
+    let textures = Build::new(&manifest, &request)?;
+    let bar = build.console.rated_bar(textures.len(), "textures");
+    let built = textures.run(&|| inference::author(&build.inference), &|| bar.inc(1));
     bar.finish_and_clear();
     let built = built?;
     let mut pipeline = Pipeline::default();
     pipeline.merge(&built.timings);
     pipeline
         .run(Pass::Write, || {
-            let file = outputs.file(library);
+            let file = build.outputs.file(build.library);
             let written = built.library.write(&mut BufWriter::new(&mut *file));
             written.map_err(|error| file.error("cannot write it", error))?;
-            outputs.commit()
+            build.outputs.commit()
         })
         .map_err(one)?;
-    let mut warnings = built.warnings;
-    warnings.extend(pin(args, &lock, &request.pinned));
-    let shown = warnings.len().min(WARNINGS);
-    console.warnings(&warnings[..shown], args.json);
-    if warnings.len() > shown && !args.json {
-        let more = warnings.len() - shown;
-        console.warn(&format!("{more} more warnings; --json has all of them"));
-    }
+    let console = build.console;
+    let warnings = build.pins.told(args, built.warnings, console);
+    let output = display(build.output);
     let printed = if args.json {
         // Plain structures of numbers and strings always serialise.
         let mut json = serde_json::to_value(&built.report).unwrap_or_default();
-        json["library"] = display(output).to_string().into();
+        json["library"] = output.to_string().into();
         json["stages_ms"] = pipeline.timings().json();
         json["warnings"] = warnings.into();
         console.json(&json)
     } else {
-        console.report(&format!("{}: {}", display(output), built.report))
+        console.report(&format!("{output}: {}", built.report))
     };
     printed.map_err(one)?;
     timings::print(args.timings, &pipeline, console);
     Ok(())
+}
+
+/// Draws previews as the options say.
+pub(crate) fn previews(args: &Arguments, manifest: &mut Manifest) {
+    for entry in &mut manifest.entries {
+        let size = &mut entry.options.request.preview_px;
+        *size = size
+            .filter(|_| !args.no_preview)
+            .map(|px| args.preview_size.unwrap_or(px));
+    }
+}
+
+/// What a build of a manifest needs, scene or not: its outputs, the model, the cache, the lock.
+pub(crate) struct Prepared<'a> {
+    args: &'a Arguments,
+    pub(crate) output: &'a Path,
+    pub(crate) outputs: Outputs,
+    /// The library among the outputs.
+    pub(crate) library: OutputId,
+    pub(crate) console: Console,
+    pub(crate) inference: Inference,
+    pub(crate) pins: Pins,
+    cache: Option<Cache>,
+}
+
+impl<'a> Prepared<'a> {
+    pub(crate) fn new(
+        args: &'a Arguments,
+        manifest: &Manifest,
+        reach: &Reach,
+        console: Console,
+    ) -> Result<Self, Failures> {
+        let inference = setup(&args.inference, manifest)?;
+        let output = args.output.as_deref().unwrap_or(Path::new("-"));
+        let mut inputs = vec![args.scene.clone()];
+        inputs.extend(manifest.sources.iter().cloned());
+        inputs.extend(inference::files(&inference));
+        let lock = Lock::within(&args.scene, reach).map_err(one)?;
+        inputs.push(lock.file().to_owned());
+        let mut outputs = Outputs::beside(&inputs);
+        let library = outputs.open(output).map_err(one)?;
+        let console = console.beside(&outputs);
+        let pinned = inference::pinned(&inference)?;
+        if args.locked {
+            lock.hold(&pinned).map_err(one)?;
+        }
+        let cache = (!args.no_cache).then(|| Cache::new(cache_folder(args, output)));
+        Ok(Self {
+            args,
+            output,
+            outputs,
+            library,
+            console,
+            inference,
+            pins: Pins { lock, pinned },
+            cache,
+        })
+    }
+
+    pub(crate) fn request(&self) -> Request<'_> {
+        Request {
+            cache: self.cache.as_ref(),
+            shard: self.args.shard,
+            program: inference::program(),
+            pinned: self.pins.pinned.clone(),
+            scratch: (!self.outputs.to_standard_output()).then(|| folder_of(self.output)),
+        }
+    }
+}
+
+/// The lock file, and what it is to pin.
+pub(crate) struct Pins {
+    lock: Lock,
+    pinned: Pinned,
+}
+
+impl Pins {
+    /// Writes the lock, tells the first of the warnings, and gives all of them.
+    pub(crate) fn told(
+        &self,
+        args: &Arguments,
+        mut warnings: Vec<String>,
+        console: Console,
+    ) -> Vec<String> {
+        warnings.extend(pin(args, &self.lock, &self.pinned));
+        let shown = warnings.len().min(WARNINGS);
+        console.warnings(&warnings[..shown], args.json);
+        if warnings.len() > shown && !args.json {
+            let more = warnings.len() - shown;
+            console.warn(&format!("{more} more warnings; --json has all of them"));
+        }
+        warnings
+    }
 }
 
 fn boxed(errors: Vec<ManifestError>) -> Failures {
