@@ -4,9 +4,10 @@
 //! once, as faithfully as a budget allows; the runtime renders the surface that is touched.
 
 use asperity::{
+    diagnostic::{Failures, one, report},
     inference::Backend,
-    pipeline::Request,
-    prompt::{Author, Options},
+    library::Request,
+    prompt::Author,
     scene::{Budget, Description, build},
 };
 use asperity_formats::Library;
@@ -54,15 +55,14 @@ fn library() -> Result<Vec<u8>, Box<dyn Error>> {
         share: 0.05,
         bytes: Some(7000),
     };
-    // Full textures: what the budget leaves out of them is the builder's choice.
-    let author = Author::embedded(&Backend::Portable)?;
-    let built = build(&Description::read(&file)?, &budget, &mut |prompt, seed| {
-        let options = Options {
-            seed,
-            request: Request::default(),
-        };
-        Ok(author.author(prompt, &options)?.texture)
-    })?;
+    let told = |failures: Failures| {
+        let told = failures.iter().map(|failure| report(&**failure));
+        told.collect::<Vec<_>>().join("\n")
+    };
+    let scene = Description::read(&file).map_err(told)?;
+    // Without a cache, and loaded only if a texture needs it.
+    let author = || Author::embedded(&Backend::Portable).map_err(one);
+    let built = build(&scene, &budget, &Request::default(), &author, &|| ()).map_err(told)?;
     print!("{}", built.report);
     Ok(built.bytes)
 }

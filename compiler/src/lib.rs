@@ -8,7 +8,7 @@
 //! | `learned/` | the [`learned`] model, [`embedded`] or in a folder, its [`text`] encoders, and what runs them: [`inference`] |
 //! | `model/` | the [`model`] between source and bytes: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
-//! | `emit/` | from model to bytes and back: [`lower`], [`verify`], [`source`], [`raise`] |
+//! | `emit/` | from model to bytes and back: [`lower`], [`verify`], [`textures`], [`raise`] |
 //! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
 //! | `edit/` | mixing and editing in the latent: [`edit`] |
 //! | `interchange/` | other tools' formats: the [`interchange`] |
@@ -40,7 +40,7 @@ pub mod sources;
 pub use asperity_io::diagnostic;
 
 // Users name a module without its folder, so that files can move between the stages.
-pub use emit::{lower, raise, source, verify};
+pub use emit::{lower, raise, textures, verify};
 pub use learned::{embedded, inference, text};
 pub use model::{attributes, defaults, mesh, mixture};
 pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};

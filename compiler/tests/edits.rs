@@ -2,7 +2,7 @@
 
 use asperity::{
     ceiling, driver,
-    edit::{AXES, Axis, History, How, Latents, Sliders, Studio},
+    edit::{AXES, Axis, History, Latents, Sliders, Studio},
     inference::Backend,
     learned::Latent,
     pipeline::Request,
@@ -47,12 +47,9 @@ fn textures() -> Vec<Latents> {
 #[test]
 fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
     let studio = Studio::new(&AUTHOR);
-    let how = How {
-        request: Request {
-            fidelity: Fidelity::Auto,
-            ..Request::default()
-        },
-        law: None,
+    let request = Request {
+        fidelity: Fidelity::Auto,
+        ..Request::default()
     };
     let textures = textures();
     let cases: Vec<(usize, Axis, f64)> = (0..textures.len())
@@ -65,7 +62,7 @@ fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
         .par_iter()
         .map(|&(n, axis, step)| {
             let place = |latents: &Latents| {
-                let attributes = studio.kept_attributes(latents, &how).unwrap();
+                let attributes = studio.kept_attributes(latents, &request).unwrap();
                 AXES.map(|axis| studio.scale().place(axis, &attributes).unwrap())
             };
             let before = place(&textures[n]);
@@ -80,7 +77,7 @@ fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
                 Axis::Hard => sliders.harder = step,
                 Axis::Slippery => sliders.slipperier = step,
             }
-            let after = place(&studio.edited(&textures[n], &sliders, &how).unwrap());
+            let after = place(&studio.edited(&textures[n], &sliders, &request).unwrap());
             Some(std::array::from_fn(|k| after[k] - before[k]))
         })
         .collect();

@@ -4,11 +4,10 @@
 use asperity::{
     builtin,
     driver::{self, Failure},
-    embedded,
     inference::Backend,
     interchange::{self, ClipFormat, session},
     learned::edges,
-    library::{Build, Manifest, Pinned, Request as Wanted},
+    library::{Build, Manifest, Request as Wanted},
     lsf,
     model::{GridVertex, ModelGrid, Numerator, TextureModel, VertexKind},
     pipeline::{Pass, Pipeline, Request},
@@ -132,24 +131,6 @@ fn it_is_compiled_and_exported() {
     assert!(exported.bytes.starts_with(b"{"));
 }
 
-/// A build without a cache.
-fn wanted() -> Wanted<'static> {
-    Wanted {
-        cache: None,
-        shard: None,
-        program: String::new(),
-        pinned: Pinned {
-            asperity: String::new(),
-            model: String::new(),
-            model_crc32: embedded::model().crc32(),
-            text_encoder: String::new(),
-            text_encoder_crc32: 0,
-            backend: String::new(),
-        },
-        scratch: None,
-    }
-}
-
 fn open() -> Result<Author, Vec<Box<dyn Diagnostic>>> {
     Ok(Author::embedded(&Backend::Portable).unwrap())
 }
@@ -161,7 +142,7 @@ fn built(text: &str) -> Result<Vec<u8>, String> {
     let file = Path::new("gratings.toml");
     let manifest = Manifest::within(file, text, Reach::Anywhere, &registry)
         .map_err(|errors| errors[0].to_string())?;
-    let request = wanted();
+    let request = Wanted::default();
     let build = Build::new(&manifest, &request).map_err(told)?;
     let built = build.run(&open, &|| ()).map_err(told)?;
     let mut bytes = Vec::new();
@@ -206,7 +187,14 @@ fn a_scene_wears_it() {
                 [[surface]]\ntexture = \"coarse\"\nsphere = { center_m = [0, 0, 0], radius_m = 0.1 }\n";
     let file = Path::new("desk.toml");
     let scene = Description::within(file, text, Reach::Anywhere, &registry).unwrap();
-    let built = scene::build(&scene, &Budget::default(), &wanted(), &open, &|| ()).unwrap();
+    let built = scene::build(
+        &scene,
+        &Budget::default(),
+        &Wanted::default(),
+        &open,
+        &|| (),
+    )
+    .unwrap();
     let library = Library::parse(&built.bytes).unwrap();
     assert_eq!(library.scene().unwrap().len(), 1);
     assert!((line_hz(library.bytes(0).unwrap(), 120.0) - 40.0).abs() < 2.0);

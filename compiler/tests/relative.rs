@@ -2,7 +2,7 @@
 
 use asperity::{
     attributes::Attributes,
-    edit::{How, Latents, Studio},
+    edit::{Latents, Studio},
     inference::Backend,
     pipeline::Request,
     prompt::Author,
@@ -36,20 +36,18 @@ fn latents(prompt: &str) -> Latents {
 
 /// The smallest step of an edit in the ways that it should go, in what a person notices.
 fn step(studio: &Studio<'_>, line: &str) -> f64 {
-    let how = How {
-        request: Request {
-            fidelity: Fidelity::Auto,
-            ..Request::default()
-        },
-        law: None,
+    let request = Request {
+        fidelity: Fidelity::Auto,
+        ..Request::default()
     };
     let fields: Vec<&str> = line.split('\t').collect();
     let [thing, text, ways] = fields[..] else {
         panic!("{line:?}");
     };
     let before = latents(thing);
-    let after = studio.worded(&before, text, &how).expect(line).latents;
-    let [before, after] = [before, after].map(|z| studio.kept_attributes(&z, &how).expect(line));
+    let after = studio.worded(&before, text, &request).expect(line).latents;
+    let [before, after] =
+        [before, after].map(|z| studio.kept_attributes(&z, &request).expect(line));
     let steps = ways.split(' ').map(|way| {
         let (attribute, sign) = way.split_at(way.len() - 1);
         let step = scale(attribute, &after) - scale(attribute, &before);

@@ -4,7 +4,7 @@
 use asperity::{
     builtin,
     inference::Backend,
-    library::{Build, Manifest, Pinned, Request},
+    library::{Build, Manifest, Request},
     lower::lower,
     prompt::Author,
     render::render_scene,
@@ -52,24 +52,6 @@ fn folder() -> TempDir {
     folder
 }
 
-/// Every thread count, and no cache, gives the same bytes.
-fn request() -> Request<'static> {
-    Request {
-        cache: None,
-        shard: None,
-        program: String::new(),
-        pinned: Pinned {
-            asperity: String::new(),
-            model: String::new(),
-            model_crc32: 0,
-            text_encoder: String::new(),
-            text_encoder_crc32: 0,
-            backend: String::new(),
-        },
-        scratch: None,
-    }
-}
-
 fn author() -> Result<Author, Failures> {
     Ok(Author::embedded(&Backend::Portable).unwrap())
 }
@@ -80,7 +62,7 @@ fn built(folder: &Path, scene: &str, budget: &Budget) -> Result<Built, Failures>
     build(
         &Description::read(&file)?,
         budget,
-        &request(),
+        &Request::default(),
         &author,
         &|| (),
     )
@@ -401,7 +383,7 @@ fn the_documented_scene_builds() {
         ..within(Some("cortex-m4f@48MHz"), Some(7000))
     };
     let description = Description::read(&file).unwrap();
-    let built = build(&description, &budget, &request(), &author, &|| ()).unwrap();
+    let built = build(&description, &budget, &Request::default(), &author, &|| ()).unwrap();
     println!("{}", built.report);
     assert!(built.bytes.len() <= 7000 && built.report.instructions <= 2400);
     assert_eq!(
@@ -426,7 +408,7 @@ fn without_a_budget_a_scene_has_the_textures_of_a_library() {
     let file = folder.path().join("list.toml");
     fs::write(&file, textures).unwrap();
     let manifest = Manifest::read(&file).unwrap();
-    let request = request();
+    let request = Request::default();
     let library = Build::new(&manifest, &request).unwrap();
     let library = library.run(&author, &|| ()).unwrap().library;
     let mut whole = Vec::new();

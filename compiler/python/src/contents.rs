@@ -6,7 +6,7 @@ use asperity::{
     plot::{self, AssetBytes},
     preview,
     raise::raise,
-    source::{SourceError, SourceProblem},
+    textures::{TexturesError, TexturesProblem},
 };
 use asperity_formats::{Asset, FormatError};
 use std::{path::Path, sync::OnceLock};
@@ -23,16 +23,16 @@ impl Contents {
         bytes: Vec<u8>,
         path: &Path,
         texture: Option<&str>,
-    ) -> Result<Self, SourceError> {
+    ) -> Result<Self, TexturesError> {
         match Asset::parse(&bytes) {
             Ok(_) => Ok(Self {
                 bytes,
                 document: OnceLock::new(),
             }),
-            Err(error) => Err(SourceError {
+            Err(error) => Err(TexturesError {
                 path: path.to_owned(),
                 texture: texture.map(str::to_owned),
-                problem: SourceProblem::Format(error),
+                problem: TexturesProblem::Format(error),
             }),
         }
     }

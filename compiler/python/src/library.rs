@@ -4,7 +4,7 @@ use crate::{arguments::Choice, contents::Contents, error::Failure, records, text
 use asperity::{
     inspect::SurfaceDocument,
     library::{self, NamedAsset},
-    source::{Source, SourceError, SourceProblem},
+    textures::{Textures, TexturesError, TexturesProblem},
 };
 use asperity_formats::{self as formats, FormatError};
 use asperity_io::output;
@@ -38,21 +38,21 @@ pub(crate) struct Library {
 
 /// Where the textures are.
 enum Place {
-    File(Mutex<Source>),
+    File(Mutex<Textures>),
     Memory(Vec<u8>),
 }
 
 impl Library {
-    /// The library that a source is, with its names.
-    pub(crate) fn in_file(names: Vec<String>, source: Source) -> Self {
+    /// The library of a file, with its names.
+    pub(crate) fn in_file(names: Vec<String>, textures: Textures) -> Self {
         Self {
             names,
-            place: Place::File(Mutex::new(source)),
+            place: Place::File(Mutex::new(textures)),
         }
     }
 
     /// The library of these bytes.
-    pub(crate) fn in_memory(bytes: Vec<u8>) -> Result<Self, SourceError> {
+    pub(crate) fn in_memory(bytes: Vec<u8>) -> Result<Self, TexturesError> {
         let names = match formats::Library::parse(&bytes) {
             Ok(library) => library
                 .index()
@@ -72,10 +72,10 @@ impl Library {
         let index = self.index(choice)?;
         let name = self.names.get(index).map(String::as_str);
         let (bytes, path) = match &self.place {
-            Place::File(source) => {
-                // A failed read leaves a source that can be read again.
-                let mut source = source.lock().unwrap_or_else(PoisonError::into_inner);
-                (source.texture(index)?, source.path().to_owned())
+            Place::File(textures) => {
+                // A failed read leaves a file that can be read again.
+                let mut textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
+                (textures.texture(index)?, textures.path().to_owned())
             }
             Place::Memory(bytes) => {
                 let library = formats::Library::parse(bytes).map_err(in_data)?;
@@ -120,9 +120,9 @@ impl Library {
     #[getter]
     fn surfaces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let surfaces = match &self.place {
-            Place::File(source) => {
-                let mut source = source.lock().unwrap_or_else(PoisonError::into_inner);
-                source.surfaces().map_err(Failure::from)?
+            Place::File(textures) => {
+                let mut textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
+                textures.surfaces().map_err(Failure::from)?
             }
             Place::Memory(bytes) => {
                 let library = formats::Library::parse(bytes)
@@ -219,10 +219,10 @@ pub(crate) fn pack(textures: &Bound<'_, PyAny>, path: Option<PathBuf>) -> PyResu
     Ok(packed)
 }
 
-fn in_data(error: FormatError) -> SourceError {
-    SourceError {
+fn in_data(error: FormatError) -> TexturesError {
+    TexturesError {
         path: Path::new("data").to_owned(),
         texture: None,
-        problem: SourceProblem::Format(error),
+        problem: TexturesProblem::Format(error),
     }
 }

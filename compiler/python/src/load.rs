@@ -7,7 +7,7 @@ use crate::{
     library::Library,
     texture::Texture,
 };
-use asperity::source::{Source, SourceError, SourceProblem};
+use asperity::textures::{Textures, TexturesError, TexturesProblem};
 use pyo3::{IntoPyObjectExt as _, prelude::*};
 use std::path::Path;
 
@@ -75,11 +75,11 @@ pub(crate) fn load(py: Python<'_>, origin: Origin, texture: Option<Choice>) -> P
 }
 
 fn of_file(path: &Path) -> Result<Loaded, Failure> {
-    let mut source = Source::open(path)?;
-    match source.names() {
-        Some(names) => Ok(Loaded::Library(Library::in_file(names, source))),
+    let mut textures = Textures::open(path)?;
+    match textures.names() {
+        Some(names) => Ok(Loaded::Library(Library::in_file(names, textures))),
         None => {
-            let contents = Contents::new(source.choose(None)?, path, None)?;
+            let contents = Contents::new(textures.choose(None)?, path, None)?;
             Ok(Loaded::Texture(Texture::new(contents, None)))
         }
     }
@@ -93,10 +93,10 @@ fn of_bytes(bytes: Vec<u8>) -> Result<Loaded, Failure> {
         let contents = Contents::new(bytes, path, None)?;
         Ok(Loaded::Texture(Texture::new(contents, None)))
     } else {
-        Err(SourceError {
+        Err(TexturesError {
             path: path.to_owned(),
             texture: None,
-            problem: SourceProblem::WrongKind,
+            problem: TexturesProblem::WrongKind,
         }
         .into())
     }

@@ -6,11 +6,12 @@ use super::{
     scale::{AXES, Axis},
     sliders::Sliders,
     solve::{along, reach},
-    studio::{How, Studio},
+    studio::Studio,
 };
 use crate::{
     learned::{Latent, friction},
     model::attributes::Attributes,
+    pipeline::Request,
     sources::prompt::Shift,
 };
 
@@ -53,17 +54,17 @@ impl Studio<'_> {
         &self,
         latents: &Latents,
         sliders: &Sliders,
-        how: &How,
+        request: &Request,
     ) -> Result<Latents, EditError> {
         if sliders.are_still() {
             return Ok(*latents);
         }
-        let before = self.kept_attributes(latents, how)?;
-        let through = self.through(latents, sliders, how, &before)?;
-        let (missing, edited) = self.closed(through, sliders, how, &before)?;
+        let before = self.kept_attributes(latents, request)?;
+        let through = self.through(latents, sliders, request, &before)?;
+        let (missing, edited) = self.closed(through, sliders, request, &before)?;
         let sharp = missing[Axis::Sharp as usize].abs();
         if sharp > SHARP && sliders.sharper == 0.0 {
-            let (plain, shifted) = self.closed(*latents, sliders, how, &before)?;
+            let (plain, shifted) = self.closed(*latents, sliders, request, &before)?;
             if worst(&plain) < worst(&missing) {
                 return Ok(shifted);
             }
@@ -76,14 +77,14 @@ impl Studio<'_> {
         &self,
         latents: &Latents,
         sliders: &Sliders,
-        how: &How,
+        request: &Request,
         before: &Attributes,
     ) -> Result<Latents, EditError> {
         let mut aim = *sliders;
         let mut best = (f64::INFINITY, *latents);
         for _ in 0..CORRECTIONS {
             let edited = self.moved(latents, sliders, &aim)?;
-            let missing = self.missing(&edited, sliders, how, before)?;
+            let missing = self.missing(&edited, sliders, request, before)?;
             // What is missing of the others can be moved after decoding.
             let sharp = missing[Axis::Sharp as usize].abs();
             let distance = sharp.max(0.5 * worst(&missing));
@@ -107,13 +108,13 @@ impl Studio<'_> {
         &self,
         latents: Latents,
         sliders: &Sliders,
-        how: &How,
+        request: &Request,
         before: &Attributes,
     ) -> Result<(Missing, Latents), EditError> {
         let mut now = latents;
         let mut best: Option<(Missing, Latents)> = None;
         for _ in 0..=CLOSINGS {
-            let after = self.kept_attributes(&now, how)?;
+            let after = self.kept_attributes(&now, request)?;
             let missing = self.missing_from(&after, sliders, before);
             if best.is_none_or(|(least, _)| sum_of_squares(&missing) < sum_of_squares(&least)) {
                 best = Some((missing, now));
@@ -139,10 +140,10 @@ impl Studio<'_> {
         &self,
         edited: &Latents,
         sliders: &Sliders,
-        how: &How,
+        request: &Request,
         before: &Attributes,
     ) -> Result<Missing, EditError> {
-        let after = self.kept_attributes(edited, how)?;
+        let after = self.kept_attributes(edited, request)?;
         Ok(self.missing_from(&after, sliders, before))
     }
 

@@ -1,7 +1,7 @@
 //! Why a texture cannot be mixed or edited.
 
 use crate::{
-    emit::{lower::LowerError, source::SourceError},
+    emit::{lower::LowerError, textures::TexturesError},
     learned::ModelError,
     pipeline::PipelineError,
     sources::prompt::PromptError,
@@ -16,7 +16,7 @@ use thiserror::Error;
 pub enum EditError {
     /// The file cannot be used.
     #[error(transparent)]
-    Source(#[from] SourceError),
+    Source(#[from] TexturesError),
     /// The asset was damaged.
     #[error(transparent)]
     Format(#[from] FormatError),

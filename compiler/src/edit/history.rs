@@ -34,20 +34,20 @@ pub enum Origin {
     /// Between two textures.
     Blend {
         /// At t = 0.
-        a: Source,
+        a: Ingredient,
         /// At t = 1.
-        b: Source,
+        b: Ingredient,
         /// Where between them, 0..=1.
         t: f64,
     },
     /// Parts of several textures.
     Compose {
         /// What tapping feels like.
-        tap: Source,
+        tap: Ingredient,
         /// What sliding feels like.
-        slide: Source,
+        slide: Ingredient,
         /// Where friction comes from.
-        friction: Source,
+        friction: Ingredient,
     },
     /// The latent of a recording.
     Encode {
@@ -61,7 +61,7 @@ pub enum Origin {
 /// A texture that another one was made of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Source {
+pub struct Ingredient {
     /// Its name.
     pub name: String,
     /// Its prompt, if it had one.
@@ -74,7 +74,7 @@ pub struct Source {
     pub shift: Shift,
 }
 
-impl Source {
+impl Ingredient {
     /// A texture by name, prompt and latents.
     #[must_use]
     pub fn new(name: &str, prompt: Option<&str>, latents: &Latents) -> Self {
@@ -194,7 +194,7 @@ mod tests {
             rougher: 20.0,
             ..Sliders::default()
         };
-        let source = Source::new("x", Some("y"), &latents);
+        let source = Ingredient::new("x", Some("y"), &latents);
         assert_eq!(source.latents(), Some(latents));
         let mut history = History::of(Origin::Blend {
             a: source.clone(),

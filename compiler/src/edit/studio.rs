@@ -2,22 +2,21 @@
 
 use super::{
     error::EditError,
-    history::Source,
     latents::Latents,
     memory::{Memory, remembered},
     scale::Scale,
     solve::Metric,
 };
 use crate::{
-    emit::raise,
+    emit::raise::raise,
     model::{
-        FrictionLaw, Provenance, TextureModel,
+        Provenance, TextureModel,
         attributes::{self, Attributes},
     },
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
     prompt::Author,
-    sources::latents::decode,
+    sources::latents::{FromLatents, decode},
     views::preview,
 };
 use asperity_formats::Asset;
@@ -28,16 +27,6 @@ pub struct Studio<'a> {
     model_crc32: u32,
     pub(super) scale: Scale,
     pub(super) metric: Metric,
-}
-
-/// How an asset is compiled once its latents are known.
-#[derive(Debug, Clone, PartialEq)]
-pub struct How {
-    /// What is asked of any texture; the rate is the decoder's own if `None`.
-    pub request: Request,
-    /// How friction depends on speed, of which latents say nothing: its factors multiply what they
-    /// say of μ.
-    pub law: Option<FrictionLaw>,
 }
 
 impl<'a> Studio<'a> {
@@ -89,33 +78,29 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// A texture that another one is made of.
+    /// The texture that an asset remembers.
     ///
     /// # Errors
     /// As [`memory`](Self::memory).
-    pub fn source(&self, asset: &Asset<'_>) -> Result<(Source, Latents), EditError> {
-        let latents = self.memory(asset)?.latents;
-        let prompt = asset.provenance().and_then(|p| p.prompt);
-        Ok((Source::new(asset.name(), prompt, &latents), latents))
+    pub fn remembered(&self, asset: &Asset<'_>) -> Result<FromLatents, EditError> {
+        Ok(FromLatents::remembered(raise(asset), self.memory(asset)?))
     }
 
-    /// How an asset was compiled, so that it can be compiled again in the same way.
+    /// What an asset was compiled with, so that it can be compiled again in the same way. The rate
+    /// is the decoder's own if `None`.
     #[must_use]
-    pub fn how(&self, asset: &Asset<'_>) -> How {
+    pub fn request(&self, asset: &Asset<'_>) -> Request {
         let fidelity = asset.provenance().map(|p| p.fidelity.parse());
         let rate_hz = f64::from(asset.grid().sample_rate_hz());
         let own_hz = self.author.model().description().grid.sample_rate_hz;
-        How {
-            request: Request {
-                fidelity: fidelity.and_then(Result::ok).unwrap_or(Fidelity::Auto),
-                rate_hz: (rate_hz != own_hz).then_some(rate_hz),
-                // What is no picture of a known size is drawn at the usual one.
-                preview_px: asset
-                    .preview_png()
-                    .map(|png| preview::width(png).unwrap_or(preview::SIZE)),
-                ..Request::default()
-            },
-            law: raise::law(asset),
+        Request {
+            fidelity: fidelity.and_then(Result::ok).unwrap_or(Fidelity::Auto),
+            rate_hz: (rate_hz != own_hz).then_some(rate_hz),
+            // What is no picture of a known size is drawn at the usual one.
+            preview_px: asset
+                .preview_png()
+                .map(|png| preview::width(png).unwrap_or(preview::SIZE)),
+            ..Request::default()
         }
     }
 
@@ -141,10 +126,14 @@ impl<'a> Studio<'a> {
     ///
     /// # Errors
     /// As [`texture`](Self::texture), and for a rate that the models cannot have.
-    pub fn kept_attributes(&self, latents: &Latents, how: &How) -> Result<Attributes, EditError> {
+    pub fn kept_attributes(
+        &self,
+        latents: &Latents,
+        request: &Request,
+    ) -> Result<Attributes, EditError> {
         let mut pipeline = Pipeline::default();
-        let texture = pipeline.converted(self.texture(latents)?, &how.request)?;
-        let kept = pipeline.reduce(&texture, how.request.fidelity).texture;
+        let texture = pipeline.converted(self.texture(latents)?, request)?;
+        let kept = pipeline.reduce(&texture, request.fidelity).texture;
         Ok(attributes::of(&kept))
     }
 }

@@ -1,21 +1,45 @@
-//! Edits in words: "less gritty, more waxy".
+//! Edits, along the sliders or in words: "less gritty, more waxy".
 
 use super::{
     error::EditError,
     latents::Latents,
     scale::{Axis, Scale},
     sliders::Sliders,
-    studio::{How, Studio},
+    studio::Studio,
 };
 use crate::{
     model::attributes::Attributes,
+    pipeline::Request,
     sources::prompt::{
         Shift,
         phrase::{Towards, adjust::from_base, relative},
     },
 };
 
-/// An edit that was asked for in words.
+/// An edit.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Edit {
+    /// Along the sliders.
+    Steps(Sliders),
+    /// In words.
+    Words(String),
+}
+
+impl Default for Edit {
+    fn default() -> Self {
+        Self::Steps(Sliders::default())
+    }
+}
+
+impl Edit {
+    /// Whether nothing is moved.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        matches!(self, Self::Steps(sliders) if sliders.are_still())
+    }
+}
+
+/// What an edit comes to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Worded {
     /// The latents after it.
@@ -29,6 +53,27 @@ pub struct Worded {
 }
 
 impl Studio<'_> {
+    /// What an edit of a texture comes to.
+    ///
+    /// # Errors
+    /// As [`edited`](Self::edited) and [`worded`](Self::worded).
+    pub fn edit(
+        &self,
+        latents: &Latents,
+        edit: &Edit,
+        request: &Request,
+    ) -> Result<Worded, EditError> {
+        match edit {
+            Edit::Steps(sliders) => Ok(Worded {
+                latents: self.edited(latents, sliders, request)?,
+                sliders: *sliders,
+                towards: None,
+                unread: Vec::new(),
+            }),
+            Edit::Words(text) => self.worded(latents, text, request),
+        }
+    }
+
     /// The latents after an edit in words. A likeness ("more like leather") is a blend with the
     /// texture of its words; every other change moves an attribute as far from where it is as the
     /// grammar of `compile` would move it from that of a thing.
@@ -36,12 +81,17 @@ impl Studio<'_> {
     /// # Errors
     /// [`EditError::NotUnderstood`] where the words ask for nothing; else as
     /// [`edited`](Self::edited).
-    pub fn worded(&self, latents: &Latents, text: &str, how: &How) -> Result<Worded, EditError> {
+    pub fn worded(
+        &self,
+        latents: &Latents,
+        text: &str,
+        request: &Request,
+    ) -> Result<Worded, EditError> {
         let asked = relative(text);
         if asked.is_nothing() {
             return Err(EditError::NotUnderstood(text.to_owned()));
         }
-        let base = self.kept_attributes(latents, how)?;
+        let base = self.kept_attributes(latents, request)?;
         let mut start = *latents;
         if let Some(towards) = &asked.towards {
             let prompted = self.author.project(&towards.thing)?;
@@ -49,11 +99,11 @@ impl Studio<'_> {
             let thing = Latents::whole(meaning.z).shifted(meaning.shift);
             start = Latents::between(latents, &thing, towards.share);
         }
-        let now = self.kept_attributes(&start, how)?;
+        let now = self.kept_attributes(&start, request)?;
         let shift = from_base(&base, &now, &asked.changes);
         let sliders = steps(&self.scale, &now, &shift);
         Ok(Worded {
-            latents: self.edited(&start, &sliders, how)?,
+            latents: self.edited(&start, &sliders, request)?,
             sliders,
             towards: asked.towards,
             unread: asked.unread,

@@ -4,5 +4,5 @@
 pub mod lower;
 pub mod raise;
 pub(crate) mod rename;
-pub mod source;
+pub mod textures;
 pub mod verify;

@@ -6,13 +6,13 @@ use super::{
     facts::Facts,
     lock::Pinned,
     make::Maker,
-    manifest::{Edit, Manifest, Options, Origin, order},
+    manifest::{Manifest, Options, Origin, order},
     report::{Report, Row},
     shard::Shard,
     spill::{Packed, Slot, Spill},
 };
 use crate::{
-    edit::{AXES, Studio},
+    edit::{AXES, Edit, Studio},
     pipeline::{Pass, Pipeline, Timings},
     prompt::Author,
     sources::{
@@ -32,8 +32,8 @@ use std::{
 /// Prompts that are read together before the first of them is made.
 const TOGETHER: usize = 64;
 
-/// What is asked of a build besides its manifest.
-#[derive(Debug)]
+/// What is asked of a build besides its manifest. By default there is no cache.
+#[derive(Debug, Default)]
 pub struct Request<'a> {
     /// Where textures are kept between builds.
     pub cache: Option<&'a Cache>,
@@ -41,7 +41,7 @@ pub struct Request<'a> {
     pub shard: Option<Shard>,
     /// What identifies this program besides its version: two that may give other bytes differ.
     pub program: String,
-    /// Versions and model.
+    /// Versions and model, which the cache and the lock file tell builds apart by.
     pub pinned: Pinned,
     /// The folder where a temporary file keeps textures until the library is written; that of the
     /// system if `None`.

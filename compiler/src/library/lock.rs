@@ -17,7 +17,7 @@ use thiserror::Error;
 const FORMAT: u32 = 1;
 
 /// What decides the bytes of every texture besides its entry.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Pinned {
     /// Version of this program.
     pub asperity: String,

@@ -1,7 +1,7 @@
 //! All textures of a library in memory.
 
 use super::error::LibraryFault;
-use crate::emit::source::{Source, SourceError};
+use crate::emit::textures::{Textures, TexturesError};
 use asperity_formats::Asset;
 use asperity_io::diagnostic::{Failures, one};
 use std::path::Path;
@@ -23,14 +23,14 @@ impl Shelf {
     /// Reads a library or an asset; `-` is standard input.
     ///
     /// # Errors
-    /// [`SourceError`] for a file that cannot be used.
-    pub fn open(file: &Path) -> Result<Self, SourceError> {
-        let mut source = Source::open(file)?;
-        let shown = source.shown();
-        let Some(names) = source.names() else {
-            let bytes = source.choose(None)?;
+    /// [`TexturesError`] for a file that cannot be used.
+    pub fn open(file: &Path) -> Result<Self, TexturesError> {
+        let mut file = Textures::open(file)?;
+        let shown = file.shown();
+        let Some(names) = file.names() else {
+            let bytes = file.choose(None)?;
             let parsed = Asset::parse(&bytes).map(|asset| asset.name().to_owned());
-            let name = parsed.map_err(|e| source.error(None, e.into()))?;
+            let name = parsed.map_err(|e| file.error(None, e.into()))?;
             return Ok(Self {
                 shown,
                 textures: vec![(name, bytes)],
@@ -40,9 +40,9 @@ impl Shelf {
         };
         let mut textures = Vec::with_capacity(names.len());
         for (index, name) in names.into_iter().enumerate() {
-            let bytes = source.texture(index)?;
+            let bytes = file.texture(index)?;
             if let Err(error) = Asset::parse(&bytes) {
-                return Err(source.error(Some(&name), error.into()));
+                return Err(file.error(Some(&name), error.into()));
             }
             textures.push((name, bytes));
         }
@@ -50,7 +50,7 @@ impl Shelf {
             shown,
             textures,
             is_library: true,
-            has_scene: !source.surfaces()?.is_empty(),
+            has_scene: !file.surfaces()?.is_empty(),
         })
     }
 

@@ -9,7 +9,7 @@ use crate::{
     edit::EditError,
     emit::{
         raise::raise,
-        source::{Source as Textures, SourceProblem},
+        textures::{Textures, TexturesProblem},
     },
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request},
@@ -117,7 +117,7 @@ impl OpenLibraries {
         let bytes = source
             .choose(texture)
             .map_err(|error| match error.problem {
-                SourceProblem::NoneChosen { count } => Failure::from(NoneNamed {
+                TexturesProblem::NoneChosen { count } => Failure::from(NoneNamed {
                     file: file.to_owned(),
                     count,
                 }),
@@ -153,7 +153,7 @@ mod tests {
     use crate::{
         emit::{
             lower::lower,
-            source::{ENTRIES_READ, tests::library_of},
+            textures::{ENTRIES_READ, tests::library_of},
         },
         sources::builtin,
     };

@@ -3,7 +3,9 @@
 use super::{Source, Sourced, Tools};
 use crate::{
     driver::Failure,
-    edit::{History, Latents, Memory},
+    edit::{
+        Edit, EditError, History, Ingredient, Latents, Memory, Origin, Part, Step, Studio, Worded,
+    },
     learned::{Decoded, LearnedModel, ModelError, friction, texture},
     model::{FrictionLaw, Provenance, TextureModel},
     pipeline::{Pass, Pipeline, Request, Ringing},
@@ -43,6 +45,111 @@ impl FromLatents {
             certainty: None,
             warnings: Vec::new(),
         }
+    }
+
+    /// A texture that remembers its latents.
+    #[must_use]
+    pub fn remembered(texture: TextureModel, memory: Memory) -> Self {
+        Self {
+            law: texture.friction.law,
+            ..Self::new(
+                memory.latents,
+                texture.name,
+                texture.provenance,
+                memory.history,
+            )
+        }
+    }
+
+    /// A texture that the model encoded, of this part.
+    #[must_use]
+    pub fn encoded(
+        texture: TextureModel,
+        latents: Latents,
+        part: Part,
+        provenance: Provenance,
+    ) -> Self {
+        let history = History::of(Origin::Encode {
+            name: texture.name.clone(),
+            part: part.name().to_owned(),
+        });
+        Self {
+            law: texture.friction.law,
+            ..Self::new(latents, texture.name, provenance, history)
+        }
+    }
+
+    /// A texture between two others, `a` at t = 0 and `b` at t = 1. It has no name yet.
+    #[must_use]
+    pub fn between(a: &Self, b: &Self, t: f64, provenance: Provenance) -> Self {
+        let latents = Latents::between(&a.latents, &b.latents, t);
+        let history = History::of(Origin::Blend {
+            a: a.ingredient(),
+            b: b.ingredient(),
+            t,
+        });
+        Self {
+            law: FrictionLaw::between(a.law.as_ref(), b.law.as_ref(), t),
+            ..Self::new(latents, String::new(), provenance, history)
+        }
+    }
+
+    /// A texture that taps, slides and rubs like others. It has no name yet.
+    #[must_use]
+    pub fn composed(tap: &Self, slide: &Self, friction: &Self, provenance: Provenance) -> Self {
+        let latents = Latents::composed(&tap.latents, &slide.latents, &friction.latents);
+        let history = History::of(Origin::Compose {
+            tap: tap.ingredient(),
+            slide: slide.ingredient(),
+            friction: friction.ingredient(),
+        });
+        Self {
+            law: friction.law.clone(),
+            ..Self::new(latents, String::new(), provenance, history)
+        }
+    }
+
+    fn ingredient(&self) -> Ingredient {
+        Ingredient::new(&self.name, self.provenance.prompt.as_deref(), &self.latents)
+    }
+
+    /// Edits it. Sliders are solved on what an asset of the request keeps.
+    ///
+    /// # Errors
+    /// As [`Studio::edit`].
+    pub fn edit(
+        &mut self,
+        studio: &Studio<'_>,
+        edit: &Edit,
+        request: &Request,
+    ) -> Result<Worded, EditError> {
+        let done = studio.edit(&self.latents, edit, request)?;
+        let step = Step::new(done.sliders, &self.latents);
+        self.history.steps.push(match edit {
+            Edit::Steps(_) => step,
+            Edit::Words(text) => step.worded(text),
+        });
+        self.latents = done.latents;
+        if !done.unread.is_empty() {
+            let unread = done.unread.join(", ");
+            self.warnings.push(format!("not understood: {unread}"));
+        }
+        Ok(done)
+    }
+
+    /// Takes the last edit back.
+    ///
+    /// # Errors
+    /// [`EditError::NothingToUndo`], or [`EditError::History`] for damaged latents.
+    pub fn undo(&mut self) -> Result<(), EditError> {
+        let Some(last) = self.history.steps.pop() else {
+            return Err(EditError::NothingToUndo(self.name.clone()));
+        };
+        self.latents = last.before().ok_or_else(|| EditError::History {
+            name: self.name.clone(),
+            message: "the latents before the last edit are damaged".into(),
+        })?;
+        Ok(())
     }
 }
 

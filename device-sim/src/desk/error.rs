@@ -2,7 +2,7 @@
 
 use crate::config::ConfigError;
 use crate::voice::VoiceError;
-use asperity::source::SourceError;
+use asperity::textures::TexturesError;
 use asperity_formats::FormatError;
 use asperity_host::device::OpenError;
 use asperity_host::profile::ProfileError;
@@ -18,7 +18,7 @@ use std::path::PathBuf;
 pub enum DeskError {
     /// The file is no texture and no scene.
     #[error(transparent)]
-    Source(#[from] SourceError),
+    Source(#[from] TexturesError),
     /// The bytes of a texture or a library are damaged.
     #[error("{origin}: {cause}")]
     Format {

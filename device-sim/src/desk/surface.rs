@@ -2,7 +2,7 @@
 
 use super::error::DeskError;
 use crate::voice;
-use asperity::source::Source;
+use asperity::textures::Textures;
 use asperity_formats::{Asset, FormatError, Library};
 use asperity_host::profile::Compensation;
 use asperity_host::servo::RATES_HZ;
@@ -40,14 +40,14 @@ impl Surface {
     /// # Errors
     /// [`DeskError::Source`] or [`DeskError::Format`].
     pub fn read(path: &Path, texture: Option<&str>) -> Result<Self, DeskError> {
-        let mut source = Source::open(path)?;
-        let origin = source.shown();
+        let mut textures = Textures::open(path)?;
+        let origin = textures.shown();
         if texture.is_none()
-            && let Some(library) = source.scene_library()?
+            && let Some(library) = textures.scene_library()?
         {
             return Self::of_scene(library, origin);
         }
-        let bytes = source.choose(texture)?;
+        let bytes = textures.choose(texture)?;
         Self::of_texture(bytes, origin)
     }
 

@@ -5,7 +5,7 @@ use asperity::{
     interchange::{
         self, Carried, ClipFormat, Exported, Format, Language, Options, export_bytes, session,
     },
-    source::Source,
+    textures::Textures,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
@@ -31,17 +31,17 @@ fn source(args: &Export, language: Language, console: Console) -> Result<(), Fai
     let header = (language == Language::C && is_c).then(|| args.output.with_extension("h"));
     let beside = outputs.open_if(header.as_deref()).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut source = Source::open(&args.file).map_err(one)?;
+    let mut textures = Textures::open(&args.file).map_err(one)?;
     let whole = match &args.texture {
-        None => source.library().map_err(one)?,
+        None => textures.library().map_err(one)?,
         Some(_) => None,
     };
     let (name, bytes) = match whole {
         Some(bytes) => (stem(&args.file), bytes),
         None => {
             let wanted = args.texture.as_deref();
-            let bytes = source.choose(wanted).map_err(one)?;
-            let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+            let bytes = textures.choose(wanted).map_err(one)?;
+            let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
             (asset.name().to_owned(), bytes)
         }
     };
@@ -91,17 +91,17 @@ fn clips(args: &Export, format: ClipFormat, console: Console) -> Result<(), Fail
         tap_full_scale_m_s2: args.tap_full_scale.map(f64::from),
         size_px: args.size,
     };
-    let mut source = Source::open(&args.file).map_err(one)?;
-    let names = source.names().filter(|_| args.texture.is_none());
+    let mut textures = Textures::open(&args.file).map_err(one)?;
+    let names = textures.names().filter(|_| args.texture.is_none());
     if let Some(names) = names {
-        return folder(args, format, &options, &mut source, &names, console);
+        return folder(args, format, &options, &mut textures, &names, console);
     }
     let mut outputs = Outputs::beside([&args.file]);
     let file = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
     let wanted = args.texture.as_deref();
-    let bytes = source.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let bytes = textures.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
     let exported = interchange::export(&asset, format, &options).map_err(one)?;
     outputs.fill(file, &exported.bytes).map_err(one)?;
     outputs.commit().map_err(one)?;
@@ -122,7 +122,7 @@ fn folder(
     args: &Export,
     format: ClipFormat,
     options: &Options,
-    source: &mut Source,
+    textures: &mut Textures,
     names: &[String],
     console: Console,
 ) -> Result<(), Failures> {
@@ -131,8 +131,8 @@ fn folder(
     let bar = console.bar(names.len(), "textures");
     let mut written = Vec::with_capacity(names.len());
     for (index, name) in names.iter().enumerate() {
-        let bytes = source.texture(index).map_err(one)?;
-        let asset = Asset::parse(&bytes).map_err(|e| one(source.error(Some(name), e.into())))?;
+        let bytes = textures.texture(index).map_err(one)?;
+        let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(Some(name), e.into())))?;
         written.push(interchange::export(&asset, format, options).map_err(one)?);
         bar.inc(1);
     }

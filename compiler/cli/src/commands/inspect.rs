@@ -4,7 +4,7 @@ use crate::cli::Inspect;
 use asperity::{
     attributes::Meter,
     inspect::{self, Document, LibraryDocument, SurfaceDocument},
-    source::Source,
+    textures::Textures,
 };
 use asperity_console::Console;
 use asperity_formats::{Asset, library};
@@ -13,18 +13,20 @@ use serde::Serialize;
 use std::fmt::Write as _;
 
 pub(crate) fn run(args: &Inspect, console: Console) -> Result<(), Failures> {
-    let mut source = Source::open(&args.file).map_err(one)?;
-    match source.names() {
-        Some(names) if args.texture.is_none() => whole_library(args, &mut source, &names, console),
-        _ => one_texture(args, &mut source, console),
+    let mut textures = Textures::open(&args.file).map_err(one)?;
+    match textures.names() {
+        Some(names) if args.texture.is_none() => {
+            whole_library(args, &mut textures, &names, console)
+        }
+        _ => one_texture(args, &mut textures, console),
     }
 }
 
-fn one_texture(args: &Inspect, source: &mut Source, console: Console) -> Result<(), Failures> {
+fn one_texture(args: &Inspect, textures: &mut Textures, console: Console) -> Result<(), Failures> {
     let wanted = args.texture.as_deref();
-    let name = source.chosen_name(wanted).map_err(one)?;
-    let bytes = source.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let name = textures.chosen_name(wanted).map_err(one)?;
+    let bytes = textures.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
     let document = match name {
         Some(name) => Document::named(&asset, name),
         None => Document::of(&asset),
@@ -38,22 +40,22 @@ fn one_texture(args: &Inspect, source: &mut Source, console: Console) -> Result<
 
 fn whole_library(
     args: &Inspect,
-    source: &mut Source,
+    textures: &mut Textures,
     names: &[String],
     console: Console,
 ) -> Result<(), Failures> {
     let (documents, rows) = if args.json {
-        let found = source.each(Meter::default, |meter, name, asset| {
+        let found = textures.each(Meter::default, |meter, name, asset| {
             Document::measured(asset, name.to_owned(), meter)
         });
         (found.map_err(one)?, Vec::new())
     } else {
-        let found = source.each(Meter::default, |meter, name, asset| {
+        let found = textures.each(Meter::default, |meter, name, asset| {
             row(name, &Document::measured(asset, name.to_owned(), meter))
         });
         (Vec::new(), found.map_err(one)?)
     };
-    let surfaces: Vec<SurfaceDocument> = source
+    let surfaces: Vec<SurfaceDocument> = textures
         .surfaces()
         .map_err(one)?
         .iter()
@@ -61,7 +63,7 @@ fn whole_library(
         .collect();
     if args.json {
         let document = LibraryDocument {
-            format_version: source.library_version().unwrap_or(library::VERSION),
+            format_version: textures.library_version().unwrap_or(library::VERSION),
             textures: documents,
             surfaces,
         };
@@ -69,7 +71,7 @@ fn whole_library(
     }
     let mut text = format!(
         "{}: a library of {} textures, every checksum holds\n",
-        source.shown(),
+        textures.shown(),
         names.len()
     );
     // Writing to a string cannot fail.

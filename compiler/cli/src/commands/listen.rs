@@ -3,7 +3,7 @@
 use crate::cli::Listen;
 use asperity::{
     listen::{self, Heard, Part, Session},
-    source::Source,
+    textures::Textures,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
@@ -17,10 +17,10 @@ pub(crate) fn run(args: &Listen, console: Console) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file]);
     let sound = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut source = Source::open(&args.file).map_err(one)?;
+    let mut textures = Textures::open(&args.file).map_err(one)?;
     let wanted = args.texture.as_deref();
-    let bytes = source.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let bytes = textures.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
     let session = Session::asked(args.speed, args.force, args.taps);
     let heard = listen::listen(&asset, &session, args.rate, args.seed).map_err(one)?;
     outputs.fill(sound, &heard.wav).map_err(one)?;

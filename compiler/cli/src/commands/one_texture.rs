@@ -1,12 +1,14 @@
 //! What every command does that compiles one texture: open the outputs, compile, write, report.
 
-use super::{mixing::parsed, outputs::TextureOutputs, plot, timings};
+use super::{outputs::TextureOutputs, plot, timings};
 use asperity::{
     driver::{self, Compiled},
     pipeline::{Pipeline, Request},
     sources::{Source, Tools},
+    verify::VerifyError,
 };
 use asperity_console::Console;
+use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Diagnostic, Failures, alone, one},
     output::OutputId,
@@ -123,7 +125,10 @@ impl<'a> Job<'a> {
         if let Some(file) = self.plot {
             let sheet = match compiled.sheet().map_err(|error| one(NoSheet(error)))? {
                 Some(sheet) => sheet,
-                None => plot::drawn(&parsed(&compiled.lowered.bytes)?)?,
+                None => {
+                    let asset = Asset::parse(&compiled.lowered.bytes);
+                    plot::drawn(&asset.map_err(|e| one(VerifyError::from(e)))?)?
+                }
             };
             self.outputs.beside(file, sheet);
         }

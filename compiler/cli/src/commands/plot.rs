@@ -5,7 +5,7 @@ use asperity::{
     plot::{self, AssetBytes},
     preview,
     raise::raise,
-    source::Source,
+    textures::Textures,
 };
 use asperity_formats::Asset;
 use asperity_io::{
@@ -29,10 +29,10 @@ impl Diagnostic for DrawError {
 pub(crate) fn run(args: &Plot) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file]);
     let picture = outputs.open(&args.output).map_err(one)?;
-    let mut source = Source::open(&args.file).map_err(one)?;
-    let bytes = source.choose(args.texture.as_deref()).map_err(one)?;
+    let mut textures = Textures::open(&args.file).map_err(one)?;
+    let bytes = textures.choose(args.texture.as_deref()).map_err(one)?;
     let asset =
-        Asset::parse(&bytes).map_err(|e| one(source.error(args.texture.as_deref(), e.into())))?;
+        Asset::parse(&bytes).map_err(|e| one(textures.error(args.texture.as_deref(), e.into())))?;
     outputs.fill(picture, &drawn(&asset)?).map_err(one)?;
     outputs.commit().map_err(one)
 }

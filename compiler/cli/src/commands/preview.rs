@@ -6,7 +6,7 @@ use asperity::{
     diffusion::prompt_of,
     preview::{self, PreviewError, SIZE},
     raise::raise,
-    source::Source,
+    textures::Textures,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
@@ -23,10 +23,10 @@ pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
     let height = outputs.open_if(args.height.as_deref()).map_err(one)?;
     let normal = outputs.open_if(args.normal.as_deref()).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut source = Source::open(&args.file).map_err(one)?;
+    let mut textures = Textures::open(&args.file).map_err(one)?;
     let wanted = args.texture.as_deref();
-    let bytes = source.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let bytes = textures.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
     let anew = args.redraw || args.size.is_some() || height.is_some() || normal.is_some();
     let stored = asset.preview_png();
     let report = match (&args.diffusion.diffusion, stored.filter(|_| !anew)) {

@@ -3,7 +3,7 @@
 use crate::cli::Render;
 use asperity::{
     render::{self, RenderError},
-    source::Source,
+    textures::Textures,
 };
 use asperity_console::Console;
 use asperity_formats::{Asset, Library};
@@ -24,23 +24,23 @@ pub(crate) fn run(args: &Render, console: Console) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file, &args.trajectory]);
     let table = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut source = Source::open(&args.file).map_err(one)?;
+    let mut textures = Textures::open(&args.file).map_err(one)?;
     let wanted = args.texture.as_deref();
     let scene = match wanted {
-        None => source.scene_library().map_err(one)?,
+        None => textures.scene_library().map_err(one)?,
         Some(_) => None,
     };
     let is_scene = scene.is_some();
     let bytes = match scene {
         Some(bytes) => bytes,
-        None => source.choose(wanted).map_err(one)?,
+        None => textures.choose(wanted).map_err(one)?,
     };
     let felt = if is_scene {
         Library::parse(&bytes).map(Felt::Scene)
     } else {
         Asset::parse(&bytes).map(|asset| Felt::Texture(Box::new(asset)))
     };
-    let felt = felt.map_err(|e| one(source.error(wanted, e.into())))?;
+    let felt = felt.map_err(|e| one(textures.error(wanted, e.into())))?;
     let trajectory = input::open_as(&args.trajectory, Kind::Trajectory).map_err(|problem| {
         one(InputError {
             file: args.trajectory.clone(),

@@ -1,6 +1,6 @@
 //! A checked entry of a manifest.
 
-use crate::{edit::Sliders, pipeline::Request, sources::Source};
+use crate::{edit::Edit, pipeline::Request, sources::Source};
 use std::{fmt, path::Path, sync::Arc};
 
 /// Where an entry stands.
@@ -109,27 +109,4 @@ pub struct Options {
     pub keeps_fidelity: bool,
     /// What is moved after it was decoded.
     pub edit: Edit,
-}
-
-/// An edit, as [`Studio`](crate::edit::Studio) makes it.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Edit {
-    /// Along the sliders.
-    Steps(Sliders),
-    /// In words.
-    Words(String),
-}
-
-impl Default for Edit {
-    fn default() -> Self {
-        Self::Steps(Sliders::default())
-    }
-}
-
-impl Edit {
-    /// Whether nothing is moved.
-    #[must_use]
-    pub fn is_still(&self) -> bool {
-        matches!(self, Self::Steps(sliders) if sliders.are_still())
-    }
 }

@@ -15,7 +15,7 @@ mod row;
 mod toml_file;
 mod values;
 
-pub use entry::{Edit, Entry, Options, Origin, Place};
+pub use entry::{Entry, Options, Origin, Place};
 pub use error::{ManifestError, ManifestProblem};
 pub use read::{Manifest, Setup, is_scene};
 

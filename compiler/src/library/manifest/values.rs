@@ -2,12 +2,12 @@
 //! goes on.
 
 use super::{
-    entry::{Edit, Place},
+    entry::Place,
     error::{ManifestError, ManifestProblem},
     row::{Field, Value},
 };
 use crate::{
-    edit::Sliders,
+    edit::{Edit, Sliders},
     passes::{reduce::Fidelity, rerate},
     sources::{Registry, prompt::phrase::relative},
     views::preview,

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::source::Source;
+use asperity::textures::Textures;
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::diagnostic::{Failures, one};
@@ -144,7 +144,7 @@ fn texture(arguments: &Arguments) -> Result<(Vec<u8>, String), Failures> {
         let lowered = asperity::lower::lower(&asperity::builtin::texture(), None).map_err(one)?;
         return Ok((lowered.bytes, "built in".to_owned()));
     };
-    let mut source = Source::open(path).map_err(one)?;
-    let bytes = source.choose(arguments.texture.as_deref()).map_err(one)?;
-    Ok((bytes, source.shown()))
+    let mut textures = Textures::open(path).map_err(one)?;
+    let bytes = textures.choose(arguments.texture.as_deref()).map_err(one)?;
+    Ok((bytes, textures.shown()))
 }

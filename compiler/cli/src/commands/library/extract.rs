@@ -1,7 +1,7 @@
 //! `asperity extract`.
 
 use crate::cli::Extract;
-use asperity::{edit::EditError, library::renamed, source::Source};
+use asperity::{edit::EditError, library::renamed, textures::Textures};
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{
@@ -13,11 +13,11 @@ pub(crate) fn run(args: &Extract, console: Console) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file]);
     let output = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut source = Source::open(&args.file).map_err(one)?;
+    let mut textures = Textures::open(&args.file).map_err(one)?;
     let wanted = Some(args.texture.as_str());
-    let name = source.chosen_name(wanted).map_err(one)?;
-    let bytes = source.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(source.error(wanted, e.into())))?;
+    let name = textures.chosen_name(wanted).map_err(one)?;
+    let bytes = textures.choose(wanted).map_err(one)?;
+    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
     // The name in the index counts.
     let bytes = match name.filter(|name| name != asset.name()) {
         Some(name) => renamed(&bytes, &name).map_err(|e| one(EditError::from(e)))?,

@@ -5,7 +5,7 @@ use asperity::{
     attributes::{Attributes, Meter},
     edit::remembered,
     raise::raise,
-    source::Source,
+    textures::Textures,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
@@ -14,14 +14,14 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 pub(crate) fn run(args: &List, console: Console) -> Result<(), Failures> {
-    let mut source = Source::open(&args.file).map_err(one)?;
+    let mut textures = Textures::open(&args.file).map_err(one)?;
     let printed = if args.json {
-        let rows = source.each(Meter::default, |meter, name, asset| {
+        let rows = textures.each(Meter::default, |meter, name, asset| {
             in_json(name, asset, &meter.of(&raise(asset)))
         });
         console.json(&json!({ "textures": Value::from(rows.map_err(one)?) }))
     } else {
-        let rows = source.each(Meter::default, |meter, name, asset| {
+        let rows = textures.each(Meter::default, |meter, name, asset| {
             line(name, asset, &meter.of(&raise(asset)))
         });
         let rows = rows.map_err(one)?;

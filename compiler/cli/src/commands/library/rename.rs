@@ -4,7 +4,7 @@ use crate::cli::Rename;
 use asperity::{
     edit::EditError,
     library::{LibraryFault, NamedAsset, Shelf, encode, renamed},
-    source::{Source, SourceProblem},
+    textures::{Textures, TexturesProblem},
 };
 use asperity_console::Console;
 use asperity_formats::limits::MAX_NAME_BYTES;
@@ -28,9 +28,9 @@ pub(crate) fn run(args: &Rename, console: Console) -> Result<(), Failures> {
     let Some(index) = shelf.position(&args.texture) else {
         let count = shelf.textures.len();
         let wanted = args.texture.clone();
-        let source = Source::open(&args.file).map_err(one)?;
-        let problem = SourceProblem::NoSuchTexture { wanted, count };
-        return Err(one(source.error(None, problem)));
+        let textures = Textures::open(&args.file).map_err(one)?;
+        let problem = TexturesProblem::NoSuchTexture { wanted, count };
+        return Err(one(textures.error(None, problem)));
     };
     let mut others = shelf.textures.iter().enumerate();
     if others.any(|(other, (taken, _))| other != index && taken == name) {

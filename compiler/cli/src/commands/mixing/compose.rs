@@ -1,56 +1,34 @@
 //! `asperity compose`.
 
-use super::{
-    input::{Input, parsed},
-    output::{Mixing, failed},
-};
+use super::{input::Input, output::Mixing};
 use crate::cli::Compose;
-use asperity::{
-    edit::{History, Latents, Origin, Studio},
-    pipeline::Request,
-    preview::SIZE,
-    raise::law,
-    sources::latents::FromLatents,
-};
+use asperity::{edit::Studio, sources::latents::FromLatents};
 use asperity_console::Console;
-use asperity_io::diagnostic::Failures;
+use asperity_io::diagnostic::{Failures, one};
 use serde_json::json;
 
 pub(crate) fn run(args: &Compose, console: Console) -> Result<(), Failures> {
     let friction = args.friction.as_ref().unwrap_or(&args.slide);
-    let files = [&args.tap, &args.slide, friction].map(|file| Input::of(file));
-    let [tap, slide, friction] = &files;
-    let mixing = Mixing::open(&args.mixed, &[tap, slide, friction], console)?;
+    let [tap, slide, friction] = [&args.tap, &args.slide, friction].map(|file| Input::of(file));
+    let mixing = Mixing::open(&args.mixed, &[&tap, &slide, &friction], console)?;
     let (tap, slide, friction) = (tap.read()?, slide.read()?, friction.read()?);
-    let (tap, slide, friction) = (parsed(&tap)?, parsed(&slide)?, parsed(&friction)?);
+    let slide = slide.asset()?;
     let author = mixing.author()?;
     let studio = Studio::new(&author);
-    let (of_tap, at_tap) = studio.source(&tap).map_err(failed)?;
-    let (of_slide, at_slide) = studio.source(&slide).map_err(failed)?;
-    let (of_friction, at_friction) = studio.source(&friction).map_err(failed)?;
-    let own = studio.how(&slide);
-    let request = Request {
-        preview_px: mixing.preview_px(own.request.preview_px.or(Some(SIZE))),
-        ..own.request
-    };
-    let name = mixing.name(&format!("{} tapped, {} slid", tap.name(), slide.name()));
-    let latents = Latents::composed(&at_tap, &at_slide, &at_friction);
-    let history = History::of(Origin::Compose {
-        tap: of_tap,
-        slide: of_slide,
-        friction: of_friction,
-    });
+    let request = mixing.request(&studio, &slide);
+    let tap = studio.remembered(&tap.asset()?).map_err(one)?;
+    let slide = studio.remembered(&slide).map_err(one)?;
+    let friction = studio.remembered(&friction.asset()?).map_err(one)?;
     let provenance = author.model().provenance("compose");
-    let source = FromLatents {
-        law: law(&friction),
-        ..FromLatents::new(latents, name, provenance, history)
-    };
+    let mut source = FromLatents::composed(&tap, &slide, &friction, provenance);
+    source.name = mixing.name(&format!("{} tapped, {} slid", tap.name, slide.name));
     let compiled = mixing.compile(&studio, &source, &request)?;
-    let names = [tap.name(), slide.name(), friction.name()];
     let line = format!(
         "taps of {:?}, slides of {:?}, friction of {:?}",
-        names[0], names[1], names[2]
+        tap.name, slide.name, friction.name
     );
-    let more = json!({ "compose": { "tap": names[0], "slide": names[1], "friction": names[2] } });
+    let more = json!({
+        "compose": { "tap": tap.name, "slide": slide.name, "friction": friction.name },
+    });
     mixing.finish(&studio, &compiled, more, &[("parts", line)])
 }

@@ -1,53 +1,40 @@
 //! `asperity encode`.
 
-use super::{
-    input::{Input, parsed},
-    output::{Mixing, failed},
-};
+use super::{input::Input, output::Mixing};
 use crate::cli::Encode;
 use asperity::{
-    edit::{History, Origin, Part, Studio, encode},
+    edit::{Part, Studio, encode},
     model::Provenance,
     pipeline::Request,
-    preview::SIZE,
     raise::raise,
     reduce::Fidelity,
     sources::latents::FromLatents,
 };
 use asperity_console::Console;
-use asperity_io::diagnostic::Failures;
+use asperity_io::diagnostic::{Failures, one};
 use serde_json::json;
 
 pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
     let input = Input::of(&args.file);
     let mixing = Mixing::open(&args.mixed, &[&input], console)?;
-    let bytes = input.read()?;
-    let asset = parsed(&bytes)?;
+    let input = input.read()?;
+    let asset = input.asset()?;
     let texture = raise(&asset);
     let author = mixing.author()?;
     let studio = Studio::new(&author);
     let part = args.part.unwrap_or_else(|| Part::recorded(&texture));
-    let encoded = encode(&studio, &texture, part).map_err(failed)?;
-    let name = mixing.name(asset.name());
-    let history = History::of(Origin::Encode {
-        name: asset.name().to_owned(),
-        part: part.name().to_owned(),
-    });
-    let own = studio.how(&asset);
+    let encoded = encode(&studio, &texture, part).map_err(one)?;
     // A recording is kept in full; what is decoded is as compact as a prompt's texture.
     let request = Request {
         fidelity: Fidelity::Auto,
-        preview_px: mixing.preview_px(own.request.preview_px.or(Some(SIZE))),
-        ..own.request
+        ..mixing.request(&studio, &asset)
     };
     let provenance = Provenance {
         prompt: texture.provenance.prompt.clone(),
         ..author.model().provenance("encode")
     };
-    let source = FromLatents {
-        law: own.law,
-        ..FromLatents::new(encoded.latents, name, provenance, history)
-    };
+    let mut source = FromLatents::encoded(texture, encoded.latents, part, provenance);
+    source.name = mixing.name(asset.name());
     let compiled = mixing.compile(&studio, &source, &request)?;
     let mut distance = match encoded.distance_db {
         Some((p95, worst)) => format!("{p95:.1} dB at 95 % of the places, {worst:.1} dB at worst"),

@@ -1,6 +1,6 @@
 //! Textures that are mixed: an asset, or one of a library as `FILE.aspl#NAME`.
 
-use asperity::source::Source;
+use asperity::textures::Textures;
 use asperity_formats::Asset;
 use asperity_io::diagnostic::{Failures, one};
 use std::path::{Path, PathBuf};
@@ -32,19 +32,29 @@ impl Input {
         self.path.clone()
     }
 
-    /// Its bytes, which parse.
-    pub(super) fn read(&self) -> Result<Vec<u8>, Failures> {
-        let wanted = self.texture.as_deref();
-        let mut source = Source::open(&self.path).map_err(one)?;
-        let bytes = source.choose(wanted).map_err(one)?;
-        match Asset::parse(&bytes) {
-            Ok(_) => Ok(bytes),
-            Err(error) => Err(one(source.error(wanted, error.into()))),
-        }
+    /// Its bytes.
+    pub(super) fn read(self) -> Result<Chosen, Failures> {
+        let mut textures = Textures::open(&self.path).map_err(one)?;
+        let bytes = textures.choose(self.texture.as_deref()).map_err(one)?;
+        Ok(Chosen {
+            input: self,
+            textures,
+            bytes,
+        })
     }
 }
 
-/// The asset of bytes that [`Input::read`] gave.
-pub(in crate::commands) fn parsed(bytes: &[u8]) -> Result<Asset<'_>, Failures> {
-    Asset::parse(bytes).map_err(|error| one(asperity::edit::EditError::from(error)))
+/// One texture that was read.
+pub(super) struct Chosen {
+    input: Input,
+    textures: Textures,
+    bytes: Vec<u8>,
+}
+
+impl Chosen {
+    /// The asset.
+    pub(super) fn asset(&self) -> Result<Asset<'_>, Failures> {
+        let wanted = self.input.texture.as_deref();
+        Asset::parse(&self.bytes).map_err(|e| one(self.textures.error(wanted, e.into())))
+    }
 }

@@ -6,5 +6,3 @@ pub(super) mod edit;
 pub(super) mod encode;
 mod input;
 mod output;
-
-pub(super) use input::parsed;

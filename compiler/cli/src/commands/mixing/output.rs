@@ -11,14 +11,15 @@ use crate::{
 use asperity::{
     attributes::Attributes,
     driver::Compiled,
-    edit::{AXES, Axis, EditError, Scale, Studio, attributes_line},
+    edit::{AXES, Axis, Scale, Studio, attributes_line},
     library,
     pipeline::Request,
+    preview::SIZE,
     prompt::Author,
     sources::{Tools, latents::FromLatents},
 };
 use asperity_console::Console;
-use asperity_formats::limits::MAX_NAME_BYTES;
+use asperity_formats::{Asset, limits::MAX_NAME_BYTES};
 use asperity_io::{diagnostic::Failures, diagnostic::one, output::display};
 use serde_json::{Map, Value, json};
 
@@ -74,6 +75,15 @@ impl<'a> Mixing<'a> {
         size.filter(|_| !self.args.no_preview)
     }
 
+    /// As the texture was compiled that is kept, with a preview unless it is unwanted.
+    pub(super) fn request(&self, studio: &Studio<'_>, kept: &Asset<'_>) -> Request {
+        let request = studio.request(kept);
+        Request {
+            preview_px: self.preview_px(request.preview_px.or(Some(SIZE))),
+            ..request
+        }
+    }
+
     /// Compiles what was mixed.
     pub(super) fn compile(
         &self,
@@ -126,9 +136,4 @@ fn sliders(scale: &Scale, attributes: &Attributes) -> Map<String, Value> {
         (axis.name().to_owned(), json!(place))
     };
     AXES.into_iter().map(place).collect()
-}
-
-/// For `map_err`: a failed edit.
-pub(super) fn failed(error: EditError) -> Failures {
-    one(error)
 }

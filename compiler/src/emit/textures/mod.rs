@@ -5,7 +5,7 @@ mod index;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use error::{SourceError, SourceProblem};
+pub use error::{TexturesError, TexturesProblem};
 #[cfg(test)]
 pub(crate) use index::ENTRIES_READ;
 
@@ -31,7 +31,7 @@ const FORMAT_BYTES: u64 = 1 << 20;
 
 /// An open asset or library.
 #[derive(Debug)]
-pub struct Source {
+pub struct Textures {
     path: PathBuf,
     bytes: Box<dyn Bytes>,
     len: u64,
@@ -49,15 +49,15 @@ enum Content {
     Library(Index),
 }
 
-impl Source {
+impl Textures {
     /// Opens a file and tells by its first bytes what it is. Of a library, only the index
     /// is read. `-` is standard input; what comes from there or from a pipe is read to its end, and
     /// kept in memory.
     ///
     /// # Errors
-    /// [`SourceError`] for a file that cannot be read or is of another kind, and for a
+    /// [`TexturesError`] for a file that cannot be read or is of another kind, and for a
     /// damaged index.
-    pub fn open(path: &Path) -> Result<Self, SourceError> {
+    pub fn open(path: &Path) -> Result<Self, TexturesError> {
         if path == Path::new(STANDARD_INPUT) {
             return Self::from_reader(path, io::stdin().lock());
         }
@@ -72,17 +72,17 @@ impl Source {
     /// memory. `path` names it in errors.
     ///
     /// # Errors
-    /// As [`Source::open`].
-    pub fn from_reader(path: &Path, reader: impl Read) -> Result<Self, SourceError> {
+    /// As [`Textures::open`].
+    pub fn from_reader(path: &Path, reader: impl Read) -> Result<Self, TexturesError> {
         let bytes = input::to_end(reader, Kind::Asset).map_err(|e| refused(path, e.into()))?;
         Self::with(path, Box::new(Cursor::new(bytes)))
     }
 
-    fn with(path: &Path, bytes: Box<dyn Bytes>) -> Result<Self, SourceError> {
+    fn with(path: &Path, bytes: Box<dyn Bytes>) -> Result<Self, TexturesError> {
         Self::try_with(path, bytes).map_err(|problem| refused(path, problem))
     }
 
-    fn try_with(path: &Path, mut bytes: Box<dyn Bytes>) -> Result<Self, SourceProblem> {
+    fn try_with(path: &Path, mut bytes: Box<dyn Bytes>) -> Result<Self, TexturesProblem> {
         let head = part(&mut *bytes, 0, library::HEADER_LEN as u64)?;
         let len = bytes
             .seek(SeekFrom::End(0))
@@ -122,11 +122,11 @@ impl Source {
         } else {
             let head = part(&mut *bytes, 0, len.min(FORMAT_BYTES))?;
             return Err(match Format::of(&head) {
-                Some(format) => SourceProblem::Input(InputProblem::OtherFormat {
+                Some(format) => TexturesProblem::Input(InputProblem::OtherFormat {
                     format,
                     wanted: "an asset (.asp) or a library (.aspl)".into(),
                 }),
-                None => SourceProblem::WrongKind,
+                None => TexturesProblem::WrongKind,
             });
         };
         Ok(Self {
@@ -188,8 +188,8 @@ impl Source {
     /// Surfaces of a library's scene; none without a scene.
     ///
     /// # Errors
-    /// [`SourceError`] for a damaged scene.
-    pub fn surfaces(&mut self) -> Result<Vec<SceneSurface>, SourceError> {
+    /// [`TexturesError`] for a damaged scene.
+    pub fn surfaces(&mut self) -> Result<Vec<SceneSurface>, TexturesError> {
         let Some((Some(range), textures)) = self.index().map(|i| (i.scene.clone(), i.len())) else {
             return Ok(Vec::new());
         };
@@ -202,8 +202,8 @@ impl Source {
     /// Bytes of the whole library if it has a scene.
     ///
     /// # Errors
-    /// [`SourceError`] for a failed read.
-    pub fn scene_library(&mut self) -> Result<Option<Vec<u8>>, SourceError> {
+    /// [`TexturesError`] for a failed read.
+    pub fn scene_library(&mut self) -> Result<Option<Vec<u8>>, TexturesError> {
         let has_scene = self.has_scene();
         has_scene.then(|| self.read(0, self.len, None)).transpose()
     }
@@ -212,8 +212,8 @@ impl Source {
     /// library of one texture need no `wanted`, but one that is given must fit.
     ///
     /// # Errors
-    /// [`SourceError`] for a texture that is not there, or none chosen of several.
-    pub fn choose(&mut self, wanted: Option<&str>) -> Result<Vec<u8>, SourceError> {
+    /// [`TexturesError`] for a texture that is not there, or none chosen of several.
+    pub fn choose(&mut self, wanted: Option<&str>) -> Result<Vec<u8>, TexturesError> {
         let Some(index) = self.index() else {
             let bytes = self.read(0, self.len, None)?;
             let name = Asset::parse(&bytes)
@@ -235,7 +235,7 @@ impl Source {
     ///
     /// # Errors
     /// As [`choose`](Self::choose).
-    pub fn chosen_name(&self, wanted: Option<&str>) -> Result<Option<String>, SourceError> {
+    pub fn chosen_name(&self, wanted: Option<&str>) -> Result<Option<String>, TexturesError> {
         let Some(index) = self.index() else {
             return Ok(None);
         };
@@ -246,9 +246,9 @@ impl Source {
     /// Bytes of the whole library; `None` for an asset. Every texture is checked.
     ///
     /// # Errors
-    /// [`SourceError`] for a failed read, a library that is too large to be held in memory, and a
+    /// [`TexturesError`] for a failed read, a library that is too large to be held in memory, and a
     /// damaged texture.
-    pub fn library(&mut self) -> Result<Option<Vec<u8>>, SourceError> {
+    pub fn library(&mut self) -> Result<Option<Vec<u8>>, TexturesError> {
         let Some(names) = self.names() else {
             return Ok(None);
         };
@@ -262,11 +262,11 @@ impl Source {
         self.read(0, self.len, None).map(Some)
     }
 
-    fn position(&self, index: &Index, wanted: Option<&str>) -> Result<usize, SourceError> {
+    fn position(&self, index: &Index, wanted: Option<&str>) -> Result<usize, TexturesError> {
         let count = index.len();
         match wanted {
             None if count == 1 => Ok(0),
-            None => Err(self.error(None, SourceProblem::NoneChosen { count })),
+            None => Err(self.error(None, TexturesProblem::NoneChosen { count })),
             Some(wanted) => index
                 .find(wanted)
                 .or_else(|| wanted.parse().ok().filter(|&index: &usize| index < count))
@@ -277,8 +277,8 @@ impl Source {
     /// Bytes of a library's texture at `index`, unchecked. The others are not read.
     ///
     /// # Errors
-    /// [`SourceError`] for an index that is not there, or a failed read.
-    pub fn texture(&mut self, index: usize) -> Result<Vec<u8>, SourceError> {
+    /// [`TexturesError`] for an index that is not there, or a failed read.
+    pub fn texture(&mut self, index: usize) -> Result<Vec<u8>, TexturesError> {
         let place = match &self.content {
             Content::Asset => (index == 0).then_some((0, self.len, None)),
             Content::Library(library) => {
@@ -297,12 +297,12 @@ impl Source {
     /// what one thread keeps between them. All of them are checked, and a scene, too.
     ///
     /// # Errors
-    /// [`SourceError`] for a failed read and for the first texture that is damaged.
+    /// [`TexturesError`] for a failed read and for the first texture that is damaged.
     pub fn each<S: Send, R: Send>(
         &mut self,
         start: impl Fn() -> S + Sync,
         each: impl Fn(&mut S, &str, &Asset<'_>) -> R + Sync,
-    ) -> Result<Vec<R>, SourceError> {
+    ) -> Result<Vec<R>, TexturesError> {
         let Some(count) = self.index().map(Index::len) else {
             let bytes = self.read(0, self.len, None)?;
             let asset = Asset::parse(&bytes).map_err(|e| self.error(None, e.into()))?;
@@ -332,7 +332,7 @@ impl Source {
     }
 
     /// Neighbouring textures from one on, at least one, and their bytes: they follow each other.
-    fn together(&mut self, from: usize) -> Result<(Range<usize>, Vec<u8>), SourceError> {
+    fn together(&mut self, from: usize) -> Result<(Range<usize>, Vec<u8>), TexturesError> {
         let (mut end, mut len, mut offset, mut name) = (from, 0, 0, None);
         while let Some(place) = self.index().and_then(|index| index.get(end)) {
             if end == from {
@@ -346,31 +346,36 @@ impl Source {
         Ok((from..end, self.read(offset, len, name.as_deref())?))
     }
 
-    fn read(&mut self, offset: u64, len: u64, name: Option<&str>) -> Result<Vec<u8>, SourceError> {
+    fn read(
+        &mut self,
+        offset: u64,
+        len: u64,
+        name: Option<&str>,
+    ) -> Result<Vec<u8>, TexturesError> {
         if len > Kind::Asset.max_bytes() {
-            return Err(self.error(name, SourceProblem::TooLarge { bytes: len }));
+            return Err(self.error(name, TexturesProblem::TooLarge { bytes: len }));
         }
         part(&mut *self.bytes, offset, len).map_err(|problem| self.error(name, problem.into()))
     }
 
     /// An error about this file, or one of its textures.
     #[must_use]
-    pub fn error(&self, texture: Option<&str>, problem: SourceProblem) -> SourceError {
-        SourceError {
+    pub fn error(&self, texture: Option<&str>, problem: TexturesProblem) -> TexturesError {
+        TexturesError {
             path: self.path.clone(),
             texture: texture.map(str::to_owned),
             problem,
         }
     }
 
-    fn no_such_texture(&self, wanted: &str, count: usize) -> SourceError {
+    fn no_such_texture(&self, wanted: &str, count: usize) -> TexturesError {
         let wanted = wanted.to_owned();
-        self.error(None, SourceProblem::NoSuchTexture { wanted, count })
+        self.error(None, TexturesProblem::NoSuchTexture { wanted, count })
     }
 }
 
-fn refused(path: &Path, problem: SourceProblem) -> SourceError {
-    SourceError {
+fn refused(path: &Path, problem: TexturesProblem) -> TexturesError {
+    TexturesError {
         path: path.to_owned(),
         texture: None,
         problem,

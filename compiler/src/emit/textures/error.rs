@@ -11,13 +11,13 @@ use thiserror::Error;
 /// Why a file cannot be used as a texture.
 #[derive(Debug, Error)]
 #[error("{path}{texture}: {problem}", path = path.display(), texture = Named(texture.as_deref()))]
-pub struct SourceError {
+pub struct TexturesError {
     /// The file.
     pub path: PathBuf,
     /// The texture of the library at fault, where it is one.
     pub texture: Option<String>,
     /// What is wrong.
-    pub problem: SourceProblem,
+    pub problem: TexturesProblem,
 }
 
 struct Named<'a>(Option<&'a str>);
@@ -32,7 +32,7 @@ impl std::fmt::Display for Named<'_> {
 /// What is wrong with the file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum SourceProblem {
+pub enum TexturesProblem {
     /// It cannot be read, or a pipe gave too many bytes.
     #[error(transparent)]
     Input(#[from] InputProblem),
@@ -64,23 +64,23 @@ pub enum SourceProblem {
     },
 }
 
-impl Diagnostic for SourceError {
+impl Diagnostic for TexturesError {
     fn is_usage(&self) -> bool {
-        matches!(self.problem, SourceProblem::NoneChosen { .. })
+        matches!(self.problem, TexturesProblem::NoneChosen { .. })
     }
 
     fn remedy(&self) -> String {
         match &self.problem {
-            SourceProblem::Input(problem) => problem.remedy(),
-            SourceProblem::Format(FormatError::Version { .. }) => {
+            TexturesProblem::Input(problem) => problem.remedy(),
+            TexturesProblem::Format(FormatError::Version { .. }) => {
                 "update asperity, or make the file again with this version".into()
             }
-            SourceProblem::Format(_) => "make the file again from its source".into(),
-            SourceProblem::WrongKind | SourceProblem::TooLarge { .. } => {
+            TexturesProblem::Format(_) => "make the file again from its source".into(),
+            TexturesProblem::WrongKind | TexturesProblem::TooLarge { .. } => {
                 "give a file that `asperity import` or `asperity builtin` wrote".into()
             }
-            SourceProblem::NoneChosen { .. } => "choose one with --texture NAME or INDEX".into(),
-            SourceProblem::NoSuchTexture { .. } => format!(
+            TexturesProblem::NoneChosen { .. } => "choose one with --texture NAME or INDEX".into(),
+            TexturesProblem::NoSuchTexture { .. } => format!(
                 "list the names with `asperity inspect {:?}`",
                 self.path.display()
             ),

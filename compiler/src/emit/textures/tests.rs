@@ -19,7 +19,7 @@ pub(crate) fn library_of(names: &[String], asset: &[u8]) -> Vec<u8> {
     encode(&assets).unwrap()
 }
 
-fn problem(error: SourceError) -> SourceProblem {
+fn problem(error: TexturesError) -> TexturesProblem {
     error.problem
 }
 
@@ -38,18 +38,18 @@ fn a_texture_of_a_library_is_found_by_name_and_by_index() {
         .map(|(name, bytes)| NamedAsset { name, bytes })
         .collect();
     fs::write(&path, encode(&assets).unwrap()).unwrap();
-    let mut source = Source::open(&path).unwrap();
-    assert_eq!(source.names().unwrap(), ["a", "b"]);
+    let mut textures = Textures::open(&path).unwrap();
+    assert_eq!(textures.names().unwrap(), ["a", "b"]);
     for (wanted, name) in [("a", "a"), ("b", "b"), ("0", "a"), ("1", "b")] {
-        let chosen = source.choose(Some(wanted)).unwrap();
+        let chosen = textures.choose(Some(wanted)).unwrap();
         assert_eq!(Asset::parse(&chosen).unwrap().name(), name);
     }
-    let missing = problem(source.choose(Some("2")).unwrap_err());
+    let missing = problem(textures.choose(Some("2")).unwrap_err());
     assert!(matches!(
         missing,
-        SourceProblem::NoSuchTexture { count: 2, .. }
+        TexturesProblem::NoSuchTexture { count: 2, .. }
     ));
-    let none = source.choose(None).unwrap_err();
+    let none = textures.choose(None).unwrap_err();
     assert!(none.is_usage());
 }
 
@@ -63,10 +63,10 @@ fn an_asset_or_a_library_comes_through_a_reader() {
     }])
     .unwrap();
     for bytes in [&asset, &library] {
-        let mut source = Source::from_reader(Path::new("-"), &bytes[..]).unwrap();
-        assert_eq!(source.choose(None).unwrap(), asset);
+        let mut textures = Textures::from_reader(Path::new("-"), &bytes[..]).unwrap();
+        assert_eq!(textures.choose(None).unwrap(), asset);
     }
-    let endless = Source::from_reader(Path::new("-"), std::io::repeat(b'A')).unwrap_err();
+    let endless = Textures::from_reader(Path::new("-"), std::io::repeat(b'A')).unwrap_err();
     let text = endless.to_string();
     assert!(text.contains("-: more than 67108864 bytes"), "{text}");
 }
@@ -81,7 +81,7 @@ fn a_pipe_is_a_source() {
     let asset = lower(&builtin::texture(), None).unwrap().bytes;
     let (writer, bytes) = (path.clone(), asset.clone());
     let write = std::thread::spawn(move || fs::write(writer, bytes));
-    assert_eq!(Source::open(&path).unwrap().choose(None).unwrap(), asset);
+    assert_eq!(Textures::open(&path).unwrap().choose(None).unwrap(), asset);
     write.join().unwrap().unwrap();
 }
 
@@ -96,10 +96,10 @@ fn counts_of_an_index_are_not_believed() {
     head.extend((88_u32 << 20).to_le_bytes());
     head.resize(28, 0);
     fs::write(&path, head).unwrap();
-    let refused = problem(Source::open(&path).unwrap_err());
+    let refused = problem(Textures::open(&path).unwrap_err());
     assert!(matches!(
         refused,
-        SourceProblem::Format(asperity_formats::FormatError::TooShort { .. })
+        TexturesProblem::Format(asperity_formats::FormatError::TooShort { .. })
     ));
 }
 
@@ -115,25 +115,28 @@ fn other_and_damaged_files_are_refused() {
     .unwrap();
     let open = |bytes: &[u8]| {
         fs::write(&path, bytes).unwrap();
-        let mut source = Source::open(&path).map_err(problem)?;
-        source.choose(None).map_err(problem)
+        let mut textures = Textures::open(&path).map_err(problem)?;
+        textures.choose(None).map_err(problem)
     };
     assert!(open(&asset).is_ok() && open(&library).is_ok());
     for bytes in [b"".as_slice(), b"ASP", b"<?xml version"] {
-        assert!(matches!(open(bytes), Err(SourceProblem::WrongKind)));
+        assert!(matches!(open(bytes), Err(TexturesProblem::WrongKind)));
     }
     for len in [4, 20, 27, 40, 100, library.len() - 1] {
         assert!(matches!(
             open(&library[..len]),
-            Err(SourceProblem::Format(_))
+            Err(TexturesProblem::Format(_))
         ));
     }
     for len in [4, 20, 100, asset.len() - 1] {
-        assert!(matches!(open(&asset[..len]), Err(SourceProblem::Format(_))));
+        assert!(matches!(
+            open(&asset[..len]),
+            Err(TexturesProblem::Format(_))
+        ));
     }
     assert!(matches!(
-        problem(Source::open(folder.path()).unwrap_err()),
-        SourceProblem::Input(InputProblem::Folder)
+        problem(Textures::open(folder.path()).unwrap_err()),
+        TexturesProblem::Input(InputProblem::Folder)
     ));
 }
 
@@ -167,15 +170,18 @@ fn work(count: usize) -> usize {
     let read = std::sync::Arc::default();
     let entries = index::ENTRIES_READ.get();
     let counting = Counting(Cursor::new(bytes), std::sync::Arc::clone(&read));
-    let mut source = Source::with(Path::new("-"), Box::new(counting)).unwrap();
+    let mut textures = Textures::with(Path::new("-"), Box::new(counting)).unwrap();
     for (index, name) in names.iter().enumerate() {
-        assert_eq!(source.texture(index).unwrap(), asset);
-        assert_eq!(source.choose(Some(name)).unwrap(), asset);
-        assert_eq!(source.chosen_name(Some(name)).unwrap().as_ref(), Some(name));
+        assert_eq!(textures.texture(index).unwrap(), asset);
+        assert_eq!(textures.choose(Some(name)).unwrap(), asset);
+        assert_eq!(
+            textures.chosen_name(Some(name)).unwrap().as_ref(),
+            Some(name)
+        );
     }
-    let found = source.each(|| (), |(), name, _| name.to_owned()).unwrap();
+    let found = textures.each(|| (), |(), name, _| name.to_owned()).unwrap();
     assert_eq!(found, names);
-    assert!(source.library().unwrap().is_some());
+    assert!(textures.library().unwrap().is_some());
     read.load(std::sync::atomic::Ordering::Relaxed) + index::ENTRIES_READ.get() - entries
 }
 
@@ -201,8 +207,8 @@ fn each_texture_is_looked_at_once_in_order() {
     let mut bytes = library_of(&names, &asset);
     fs::write(&path, &bytes).unwrap();
     let look = || {
-        let mut source = Source::open(&path).unwrap();
-        source.each(
+        let mut textures = Textures::open(&path).unwrap();
+        textures.each(
             || (),
             |(), name, asset| (name.to_owned(), asset.total_len()),
         )
