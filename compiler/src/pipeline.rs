@@ -8,7 +8,7 @@ mod error;
 mod timings;
 
 pub use error::PipelineError;
-pub use timings::{Pass, Timings};
+pub use timings::{Clock, Pass, Timings};
 
 use crate::{
     edit::{Memory, remember},
@@ -105,10 +105,25 @@ pub(crate) struct Passed {
 /// Runs passes and times them.
 #[derive(Debug, Clone, Default)]
 pub struct Pipeline {
+    clock: Clock,
     timings: Timings,
 }
 
 impl Pipeline {
+    /// One that times its passes by a clock.
+    #[must_use]
+    pub fn timed(clock: Clock) -> Self {
+        Self {
+            clock,
+            timings: Timings::default(),
+        }
+    }
+
+    /// One of the same clock, for another thread.
+    pub(crate) fn another(&self) -> Self {
+        Self::timed(self.clock)
+    }
+
     /// Takes a model through all passes.
     pub(crate) fn compile(
         &mut self,
@@ -254,7 +269,9 @@ impl Pipeline {
 
     /// Does what a source calls a pass.
     pub fn run<T>(&mut self, pass: Pass, work: impl FnOnce() -> T) -> T {
-        self.timings.time(pass, work)
+        let (result, took) = self.clock.time(work);
+        self.timings.add(pass, took);
+        result
     }
 
     /// Adds the times of another pipeline, such as that of another thread.

@@ -1,7 +1,7 @@
 //! A recording of the simulated Touch with the simulated accelerometer, in virtual time: what an
 //! import makes of it is held against the texture that was stroked.
 
-use asperity::{builtin, lower, recording};
+use asperity::{builtin, lower, pipeline::Clock, recording};
 use asperity_formats::Asset;
 use asperity_host::servo::{Event, Fixed, Observer, Record, ServoLoop, Settings, Virtual};
 use asperity_recording::check::Severity;
@@ -155,7 +155,7 @@ fn the_texture_that_was_stroked_comes_back_from_the_folder() {
         .collect();
     assert!(faults.is_empty(), "{faults:?}");
 
-    let analysis = recording::analyse(folder.path(), false).expect("a texture");
+    let analysis = recording::analyse(folder.path(), false, Clock::default()).expect("a texture");
     let found = compare_at(
         &builtin::texture(),
         recorder.visits,

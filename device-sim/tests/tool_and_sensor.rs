@@ -3,6 +3,7 @@
 
 use asperity::{
     builtin,
+    pipeline::Clock,
     recording::{self, Analysis},
 };
 use asperity_recording::{
@@ -42,7 +43,7 @@ fn written(
 /// The same, and what an import makes of it.
 fn imported(performance: &Performance, alter: impl Fn(&mut Sensors)) -> (Analysis, Comparison) {
     let (folder, sensors) = written(performance, SEED, alter);
-    let analysis = recording::analyse(folder.path(), false).expect("a texture");
+    let analysis = recording::analyse(folder.path(), false, Clock::default()).expect("a texture");
     let comparison = bench::compare(&builtin::texture(), performance, &sensors, &analysis);
     (analysis, comparison)
 }

@@ -2,10 +2,11 @@
 //!
 //! [`input`] reads files of strangers within bounds, [`output`] writes whole files or none, and a
 //! [`diagnostic`] says what is wrong and what to do about it; [`system`] knows the remedy where a
-//! limit of the system is the cause. Text from outside is made fit for a terminal by [`shown`] and
+//! limit of the system is the cause. A [`clock`] is passed to whoever has none. Text from outside is made fit for a terminal by [`shown`] and
 //! [`toml_error`].
 #![forbid(unsafe_code)]
 
+pub mod clock;
 pub mod diagnostic;
 pub mod input;
 pub mod output;

@@ -6,13 +6,15 @@ use crate::{
     texture::Texture,
 };
 use asperity::{
-    driver::Compiled,
+    driver::{self, Compiled},
     embedded,
     inference::{Backend, BackendName},
-    pipeline::Request,
-    prompt::{self, Options, PromptError},
+    pipeline::{Clock, Request},
+    prompt::{self, Options, Prompt, PromptError},
+    sources::Tools,
     text::{TextEncoder, TextEncoderChoice, clip::Clip},
 };
+use asperity_io::clock::now;
 use pyo3::prelude::*;
 use std::{
     ffi::CString,
@@ -96,7 +98,7 @@ pub(crate) fn compile(
             return Err(error::stopped(PromptError::Empty.into()));
         }
         let author = shared()?;
-        author.author(prompt, &options).map_err(error::stopped)
+        authored(&author, prompt, &options)
     })?;
     told(py, authored)
 }
@@ -177,10 +179,23 @@ impl Author {
         preview: bool,
     ) -> PyResult<Texture> {
         let options = options(seed, fidelity, rate, preview);
-        let authored = py.detach(|| self.author.author(prompt, &options));
-        let authored = authored.map_err(error::stopped)?;
+        let authored = py.detach(|| authored(&self.author, prompt, &options))?;
         told(py, authored)
     }
+}
+
+/// A prompt's texture, timed.
+fn authored(author: &prompt::Author, text: &str, options: &Options) -> Result<Compiled, Failure> {
+    let source = Prompt {
+        text: text.to_owned(),
+        seed: options.seed,
+        picture: None,
+    };
+    let tools = Tools {
+        clock: Clock(now),
+        ..Tools::of(author)
+    };
+    driver::compile(&source, &options.request, &tools).map_err(error::stopped)
 }
 
 fn author(

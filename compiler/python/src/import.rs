@@ -11,9 +11,10 @@ use asperity::{
     driver::{self, Compiled},
     hatt::{self, Hatt},
     model_file::ModelFile,
-    pipeline::Request,
+    pipeline::{Clock, Request},
     sources::{Source, Tools},
 };
+use asperity_io::clock::now;
 use pyo3::{IntoPyObjectExt as _, prelude::*};
 use std::path::PathBuf;
 
@@ -63,6 +64,7 @@ pub(crate) fn import_hatt(
         let author = complete_taps.then(author::shared).transpose()?;
         let tools = Tools {
             model: author.as_ref().map(|author| author.model()),
+            clock: Clock(now),
             ..Tools::default()
         };
         let request = Request {
@@ -143,7 +145,15 @@ pub(crate) fn import_model(
 }
 
 fn compiled(source: &dyn Source, request: &Request) -> Result<Compiled, Failure> {
-    driver::compile(source, request, &Tools::default()).map_err(error::stopped)
+    driver::compile(
+        source,
+        request,
+        &Tools {
+            clock: Clock(now),
+            ..Tools::default()
+        },
+    )
+    .map_err(error::stopped)
 }
 
 /// The texture with its report.

@@ -68,7 +68,7 @@ pub fn compile(
     request: &Request,
     tools: &Tools<'_>,
 ) -> Result<Compiled, Failure> {
-    let mut pipeline = Pipeline::default();
+    let mut pipeline = Pipeline::timed(tools.clock);
     let mut sourced = source.read(request, tools, &mut pipeline)?;
     if let Some(asset) = sourced.asset.take() {
         if request

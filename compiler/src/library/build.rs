@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     edit::{AXES, Edit, Studio},
-    pipeline::{Pass, Pipeline, Timings},
+    pipeline::{Clock, Pass, Pipeline, Timings},
     prompt::Author,
     sources::{
         Tools,
@@ -43,6 +43,8 @@ pub struct Request<'a> {
     pub program: String,
     /// Versions and model, which the cache and the lock file tell builds apart by.
     pub pinned: Pinned,
+    /// What passes are timed by.
+    pub clock: Clock,
     /// The folder where a temporary file keeps textures until the library is written; that of the
     /// system if `None`.
     pub scratch: Option<&'a Path>,
@@ -125,7 +127,7 @@ impl<'a> Build<'a> {
         open: &dyn Fn() -> Result<Author, Failures>,
         done: &(dyn Fn() + Sync),
     ) -> Result<Built, Failures> {
-        let mut pipeline = Pipeline::default();
+        let mut pipeline = Pipeline::timed(self.request.clock);
         let spill = Spill::new(self.request.scratch);
         let cached = pipeline.run(Pass::Read, || self.cached(&spill, done));
         let entries = &self.manifest.entries;
@@ -133,13 +135,14 @@ impl<'a> Build<'a> {
         let learned = |n: &usize| entries[self.chosen[*n].0].origin.is_learned();
         let opened = missing.iter().any(learned).then(open).transpose()?;
         let studio = opened.as_ref().map(Studio::new);
-        let maker = Maker::new(self.manifest, studio.as_ref(), &self.libraries);
+        let clock = self.request.clock;
+        let maker = Maker::new(self.manifest, studio.as_ref(), &self.libraries, clock);
         let shared = Mutex::new((Timings::default(), None));
         let together = TOGETHER.min(missing.len().div_ceil(rayon::current_num_threads()));
         let made: Vec<Result<Texture, EntryError>> = missing
             .par_chunks(together.max(1))
             .flat_map(|some| {
-                let mut reading = Pipeline::default();
+                let mut reading = Pipeline::timed(self.request.clock);
                 reading.run(Pass::Text, || {
                     maker.read_ahead(some.iter().map(|&n| self.chosen[n].0));
                 });

@@ -4,7 +4,7 @@ use super::manifest::{Entry, Manifest, Origin};
 use crate::{
     driver::{self, Compiled, Failure},
     edit::{EditError, Part, Studio, encode, remembered},
-    pipeline::{Pipeline, Request},
+    pipeline::{Clock, Pipeline, Request},
     prompt::PromptError,
     sources::{Source, Tools, asset::OpenLibraries, latents::FromLatents},
 };
@@ -20,6 +20,7 @@ pub(super) struct Maker<'a> {
     /// `None` where no texture needs the learned model.
     studio: Option<&'a Studio<'a>>,
     libraries: &'a OpenLibraries,
+    clock: Clock,
     /// Textures that others are made of, edits included. The level of loudness is that of the entry.
     known: Mutex<HashMap<usize, FromLatents>>,
 }
@@ -29,11 +30,13 @@ impl<'a> Maker<'a> {
         manifest: &'a Manifest,
         studio: Option<&'a Studio<'a>>,
         libraries: &'a OpenLibraries,
+        clock: Clock,
     ) -> Self {
         Self {
             manifest,
             studio,
             libraries,
+            clock,
             known: Mutex::default(),
         }
     }
@@ -71,6 +74,7 @@ impl<'a> Maker<'a> {
         let author = self.studio.map(Studio::author);
         Tools {
             libraries: Some(self.libraries),
+            clock: self.clock,
             ..author.map_or_else(Tools::default, Tools::of)
         }
     }

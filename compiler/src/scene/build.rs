@@ -58,7 +58,7 @@ pub fn build(
     let order: Vec<&Entry> = worn.iter().map(|&index| &manifest.entries[index]).collect();
     let made = library::Build::new(&manifest, request)?.only(&worn);
     let made = made.run(open, done)?;
-    let mut pipeline = Pipeline::default();
+    let mut pipeline = Pipeline::timed(request.clock);
     pipeline.merge(&made.timings);
     let unreadable = |error: std::io::Error| one(LibraryFault::NoRoom(error.to_string()));
     let assets = made.library.assets().map_err(unreadable)?;
@@ -73,7 +73,7 @@ pub fn build(
     } else {
         let tried: Vec<_> = (order.par_iter().zip(kept))
             .map(|(entry, kept)| {
-                let mut pipeline = Pipeline::default();
+                let mut pipeline = Pipeline::timed(request.clock);
                 let tried = if entry.options.keeps_fidelity {
                     Ok(vec![kept])
                 } else {
@@ -88,7 +88,7 @@ pub fn build(
         let verified: Vec<_> = chosen
             .par_iter()
             .map(|candidate| {
-                let mut pipeline = Pipeline::default();
+                let mut pipeline = Pipeline::timed(request.clock);
                 let verified = pipeline.verify(&candidate.texture, &candidate.bytes);
                 (verified, pipeline)
             })

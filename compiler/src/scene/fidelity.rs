@@ -56,7 +56,7 @@ pub(super) fn candidates(
         let tried: Vec<(Option<Candidate>, Pipeline)> = reduced(texture, pipeline)
             .into_par_iter()
             .map(|(fidelity, kept)| {
-                let mut own = Pipeline::default();
+                let mut own = pipeline.another();
                 let distances = own.run(Pass::Compare, || reference.distances(&kept.grid));
                 let candidate = distances.and_then(|distances| {
                     let (_, worst_db) = distances.summary();
@@ -100,7 +100,7 @@ fn reduced(texture: &TextureModel, pipeline: &mut Pipeline) -> Vec<(String, Text
         .collect::<Vec<_>>()
         .into_par_iter()
         .map(|(of, order, prefix)| {
-            let mut own = Pipeline::default();
+            let mut own = pipeline.another();
             let fidelity = Fidelity::Order(order);
             let reduced = own.reduce(of, fidelity).texture;
             (format!("{prefix}{fidelity}"), reduced, own)

@@ -21,7 +21,7 @@ use crate::{
     edit::Memory,
     learned::LearnedModel,
     model::TextureModel,
-    pipeline::{Pipeline, Request, Ringing},
+    pipeline::{Clock, Pipeline, Request, Ringing},
     prompt::Author,
 };
 use asperity_io::diagnostic::Diagnostic;
@@ -94,6 +94,8 @@ pub struct Tools<'a> {
     pub author: Option<&'a Author>,
     /// Libraries that stay open while textures are taken of them.
     pub libraries: Option<&'a OpenLibraries>,
+    /// What passes are timed by.
+    pub clock: Clock,
 }
 
 impl<'a> Tools<'a> {
@@ -103,7 +105,7 @@ impl<'a> Tools<'a> {
         Self {
             model: Some(author.model()),
             author: Some(author),
-            libraries: None,
+            ..Self::default()
         }
     }
 

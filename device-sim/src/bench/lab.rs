@@ -1,6 +1,6 @@
 //! The bench as an experiment: a learning curve, and what the check finds.
 
-use asperity::{model::TextureModel, recording};
+use asperity::{model::TextureModel, pipeline::Clock, recording};
 use asperity_recording::check::Severity;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -52,7 +52,7 @@ pub fn learn(
             let mut sensors = Sensors::seeded(seed);
             alter(&mut sensors);
             record(&performance, texture, &sensors, seed, &folder.0)?;
-            let analysis = recording::analyse(&folder.0, false);
+            let analysis = recording::analyse(&folder.0, false, Clock::default());
             done();
             Ok(match analysis {
                 Ok(analysis) => Row {

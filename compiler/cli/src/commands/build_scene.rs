@@ -7,12 +7,13 @@ use super::{
 };
 use crate::cli::Build;
 use asperity::{
-    pipeline::{Pass, Pipeline},
+    pipeline::{Clock, Pass, Pipeline},
     scene::{self, Budget, Description},
     sources::Registry,
 };
 use asperity_console::Console;
 use asperity_io::{
+    clock::now,
     diagnostic::{Diagnostic, Failures, one},
     input::Reach,
     output::display,
@@ -66,7 +67,7 @@ pub(crate) fn run(
     });
     bar.finish_and_clear();
     let built = built?;
-    let mut pipeline = Pipeline::default();
+    let mut pipeline = Pipeline::timed(Clock(now));
     pipeline.merge(&built.timings);
     pipeline
         .run(Pass::Write, || {

@@ -6,11 +6,12 @@ use asperity::{
     driver::Compiled,
     hatt::{self, Hatt},
     library::{self, NamedAsset},
-    pipeline::{Pass, Pipeline, Request},
+    pipeline::{Clock, Pass, Pipeline, Request},
     sources::Tools,
 };
 use asperity_console::Console;
 use asperity_io::{
+    clock::now,
     diagnostic::{Diagnostic, Failures, one},
     output::{self, FileNames, Outputs},
 };
@@ -169,6 +170,7 @@ pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
     };
     let tools = Tools {
         model: completer.as_ref(),
+        clock: Clock(now),
         ..Tools::default()
     };
     let results = hatt::compile_all(&materials, &request, &tools, || bar.inc(1));
@@ -184,7 +186,7 @@ pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
     if !failures.is_empty() {
         return Err(failures);
     }
-    let mut pipeline = Pipeline::default();
+    let mut pipeline = Pipeline::timed(Clock(now));
     for material in &imported {
         pipeline.merge(&material.timings);
     }

@@ -3,13 +3,14 @@
 use super::{outputs::TextureOutputs, plot, timings};
 use asperity::{
     driver::{self, Compiled},
-    pipeline::{Pipeline, Request},
+    pipeline::{Clock, Pipeline, Request},
     sources::{Source, Tools},
     verify::VerifyError,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{
+    clock::now,
     diagnostic::{Diagnostic, Failures, alone, one},
     output::OutputId,
 };
@@ -108,7 +109,8 @@ impl<'a> Job<'a> {
     ) -> Result<Compiled, Failures> {
         let activity = self.console.activity();
         activity.set_message("compiling");
-        let compiled = driver::compile(source, request, tools).map_err(alone);
+        let clock = Clock(now);
+        let compiled = driver::compile(source, request, &Tools { clock, ..*tools }).map_err(alone);
         activity.finish_and_clear();
         compiled
     }
@@ -138,7 +140,7 @@ impl<'a> Job<'a> {
             self.outputs.beside(file, text);
         }
         self.outputs.model(&compiled.whole);
-        let mut pipeline = Pipeline::default();
+        let mut pipeline = Pipeline::timed(Clock(now));
         pipeline.merge(&compiled.timings);
         self.outputs.write(&compiled.lowered.bytes, &mut pipeline)?;
         let console = self.console;

@@ -4,6 +4,7 @@ use super::{
     error::RecordingFailure,
     grid::{self, GridFit},
 };
+use crate::pipeline::Clock;
 use asperity_recording::{
     RecordingError,
     autoregression::{self, Score},
@@ -17,10 +18,7 @@ use asperity_recording::{
     steady::{self, Steady},
     timeline::Timeline,
 };
-use std::{
-    path::Path,
-    time::{Duration, Instant},
-};
+use std::{path::Path, time::Duration};
 
 /// Least time of steady strokes, s, and stretches.
 const LEAST_STROKES: (f64, usize) = (3.0, 8);
@@ -67,17 +65,15 @@ pub struct Analysis {
     pub steps: Vec<Step>,
 }
 
-#[derive(Default)]
-struct Steps(Vec<Step>);
+struct Steps {
+    clock: Clock,
+    steps: Vec<Step>,
+}
 
 impl Steps {
     fn run<T>(&mut self, name: &'static str, work: impl FnOnce() -> T) -> T {
-        let start = Instant::now();
-        let result = work();
-        self.0.push(Step {
-            name,
-            took: start.elapsed(),
-        });
+        let (result, took) = self.clock.time(work);
+        self.steps.push(Step { name, took });
         result
     }
 }
@@ -92,12 +88,15 @@ pub fn check(folder: &Path) -> Result<(Recording, Checked, Timeline), RecordingE
     Ok((recording, checked, timeline))
 }
 
-/// Takes a recording through all steps. With `force`, faults do not stop it.
+/// Takes a recording through all steps, timed by a clock. With `force`, faults do not stop it.
 ///
 /// # Errors
 /// [`RecordingFailure`] for a recording that cannot be read, is faulty, or too short.
-pub fn analyse(folder: &Path, force: bool) -> Result<Analysis, RecordingFailure> {
-    let mut steps = Steps::default();
+pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, RecordingFailure> {
+    let mut steps = Steps {
+        clock,
+        steps: Vec::new(),
+    };
     let mut recording = steps.run("read", || reader::load(folder))?;
     let (checked, mut timeline) = steps.run("check and align", || check::check(&recording))?;
     let faults: Vec<_> = checked.stopping().collect();
@@ -167,6 +166,6 @@ pub fn analyse(folder: &Path, force: bool) -> Result<Analysis, RecordingFailure>
         friction,
         impacts,
         transients,
-        steps: steps.0,
+        steps: steps.steps,
     })
 }

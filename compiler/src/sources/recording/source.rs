@@ -67,7 +67,9 @@ impl Source for RecordingFolder {
         pipeline: &mut Pipeline,
     ) -> Result<Sourced, Failure> {
         let model = tools.model()?;
-        let analysis = pipeline.run(Pass::Read, || analyse(&self.folder, self.force))?;
+        let analysis = pipeline.run(Pass::Read, || {
+            analyse(&self.folder, self.force, tools.clock)
+        })?;
         let completed = pipeline.run(Pass::Complete, || {
             complete(model, &analysis.fit.grid, &defaults::gains())
         })?;

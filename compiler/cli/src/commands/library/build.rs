@@ -8,12 +8,13 @@ use asperity::{
     library::{
         Build, Cache, Lock, Manifest, Pinned, Request, default_folder, manifest::ManifestError,
     },
-    pipeline::{Pass, Pipeline},
+    pipeline::{Clock, Pass, Pipeline},
     sources::Registry,
     text::TextEncoderChoice,
 };
 use asperity_console::Console;
 use asperity_io::{
+    clock::now,
     diagnostic::{Diagnostic, Failures, one},
     input::Reach,
     output::{OutputId, Outputs, display, is_standard_output, write_atomic},
@@ -81,7 +82,7 @@ pub(crate) fn run(
     let built = textures.run(&|| inference::author(&build.inference), &|| bar.inc(1));
     bar.finish_and_clear();
     let built = built?;
-    let mut pipeline = Pipeline::default();
+    let mut pipeline = Pipeline::timed(Clock(now));
     pipeline.merge(&built.timings);
     pipeline
         .run(Pass::Write, || {
@@ -172,6 +173,7 @@ impl<'a> Prepared<'a> {
             shard: self.args.shard,
             program: inference::program(),
             pinned: self.pins.pinned.clone(),
+            clock: Clock(now),
             scratch: (!self.outputs.to_standard_output()).then(|| folder_of(self.output)),
         }
     }
