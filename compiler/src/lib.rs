@@ -5,6 +5,7 @@
 //! | folder | holds |
 //! |---|---|
 //! | `sources/` | what a texture is made of, one trait ([`sources`]) and a folder each: [`prompt`], [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`], assets and latents |
+//! | `compiled/` | what comes of a source: [`compiled`], its reports, its distance from what it was made of |
 //! | `learned/` | the [`learned`] model, [`embedded`] or in a folder, its [`text`] encoders, and what runs them: [`inference`] |
 //! | `model/` | the [`model`] between source and bytes: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
@@ -26,6 +27,7 @@ mod passes;
 mod signal;
 mod views;
 
+pub mod compiled;
 pub mod driver;
 pub mod edit;
 pub mod interchange;

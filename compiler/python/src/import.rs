@@ -71,7 +71,9 @@ pub(crate) fn import_hatt(
             fidelity: fidelity.0,
             ..Request::default()
         };
-        textures(hatt::compile_all(&materials, &request, &tools, || {}))
+        let mut results = driver::compile_all(&materials, &request, &tools, || {});
+        hatt::refuse_namesakes(&materials, &mut results);
+        textures(results)
     })?;
     if path.is_dir() {
         return textures.into_py_any(py);

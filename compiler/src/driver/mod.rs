@@ -18,12 +18,10 @@
 //! # Ok::<(), asperity::driver::Failure>(())
 //! ```
 
-mod compiled;
-mod truth;
+mod author;
 
+pub use crate::compiled::{Compared, Compiled, Truth};
 pub use asperity_io::diagnostic::Failure;
-pub use compiled::{Compared, Compiled};
-pub use truth::Truth;
 
 use crate::{
     edit::{EditError, equal_loudness, remembered},
@@ -37,6 +35,7 @@ use crate::{
 };
 use asperity_formats::{Asset, EncodeError};
 use asperity_io::diagnostic::Diagnostic;
+use rayon::prelude::*;
 use thiserror::Error;
 
 /// A texture did not pass the pipeline.
@@ -96,6 +95,22 @@ pub fn compile(
             cause,
         })?,
     )
+}
+
+/// Compiles several sources in parallel; results in their order, whatever the thread count. `done` is
+/// called once a source, from any thread.
+pub fn compile_all<S: Source>(
+    sources: &[S],
+    request: &Request,
+    tools: &Tools<'_>,
+    done: impl Fn() + Sync,
+) -> Vec<Result<Compiled, Failure>> {
+    let compiled = sources.par_iter().map(|source| {
+        let result = compile(source, request, tools);
+        done();
+        result
+    });
+    compiled.collect()
 }
 
 /// An asset that is taken as it is, under the name that was asked for.

@@ -17,8 +17,8 @@ use crate::{
     prompt::Author,
     sources::{
         Tools,
-        asset::OpenLibraries,
         key::{Key, Parts},
+        libraries::OpenLibraries,
     },
 };
 use asperity_formats::Asset;

@@ -6,7 +6,7 @@ use crate::{
     edit::{EditError, Part, Studio, encode, remembered},
     pipeline::{Clock, Pipeline, Request},
     prompt::PromptError,
-    sources::{Source, Tools, asset::OpenLibraries, latents::FromLatents},
+    sources::{Source, Tools, latents::FromLatents, libraries::OpenLibraries},
 };
 use asperity_formats::Asset;
 use std::{

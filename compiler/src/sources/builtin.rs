@@ -6,7 +6,6 @@
 //! below one, as that of real textures does. No recording went into it.
 
 use crate::{
-    driver::Failure,
     model::{
         Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TextureModel,
         VertexKind, defaults,
@@ -16,6 +15,7 @@ use crate::{
     signal::{levinson, lsf, tap_synthesis},
     sources::{Source, Sourced, Tools},
 };
+use asperity_io::diagnostic::Failure;
 use std::f64::consts::PI;
 
 /// Rate of every model, Hz.

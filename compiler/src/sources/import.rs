@@ -4,12 +4,12 @@ use super::{
     Source,
     effects::{self, Effects},
     hatt::Hatt,
+    kind::{Kind, Operand, Stated},
     model_file::ModelFile,
-    registry::{Kind, Operand, Stated},
 };
-use crate::{driver::Failure, passes::reduce::Fidelity};
+use crate::passes::reduce::Fidelity;
 use asperity_io::{
-    diagnostic::Diagnostic,
+    diagnostic::{Diagnostic, Failure},
     input::{self, Format, InputError, InputProblem},
 };
 use std::{path::PathBuf, sync::Arc};

@@ -2,7 +2,6 @@
 
 use super::{Source, Sourced, Tools};
 use crate::{
-    driver::Failure,
     edit::{
         Edit, EditError, History, Ingredient, Latents, Memory, Origin, Part, Step, Studio, Worded,
     },
@@ -11,6 +10,7 @@ use crate::{
     pipeline::{Pass, Pipeline, Request, Ringing},
     prompt::phrase::adjust::adjust,
 };
+use asperity_io::diagnostic::Failure;
 
 /// A texture that is decoded from latents.
 #[derive(Debug, Clone)]

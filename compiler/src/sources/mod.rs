@@ -8,28 +8,30 @@ pub mod effects;
 pub mod hatt;
 pub mod import;
 pub mod key;
+mod kind;
 pub mod latents;
+pub mod libraries;
 pub mod model_file;
 pub mod prompt;
 pub mod recording;
 mod registry;
 
-pub use registry::{Kind, Operand, Registry, Stated};
+pub use crate::compiled::Findings;
+pub use kind::{Kind, Operand, Stated};
+pub use registry::Registry;
 
 use crate::{
-    driver::{Compiled, Failure, Truth},
+    compiled::Truth,
     edit::Memory,
     learned::LearnedModel,
     model::TextureModel,
     pipeline::{Clock, Pipeline, Request, Ringing},
     prompt::Author,
 };
-use asperity_io::diagnostic::Diagnostic;
-use asperity_plot::PlotError;
-use asset::OpenLibraries;
+use asperity_io::diagnostic::{Diagnostic, Failure};
 use key::Parts;
-use serde_json::Value;
-use std::{any::Any, fmt, path::PathBuf, sync::Arc};
+use libraries::OpenLibraries;
+use std::{fmt, path::PathBuf, sync::Arc};
 use thiserror::Error;
 
 /// What a texture is made of. It reads and models; [`driver::compile`](crate::driver::compile) does
@@ -183,25 +185,5 @@ impl Sourced {
 impl Source for Sourced {
     fn read(&self, _: &Request, _: &Tools<'_>, _: &mut Pipeline) -> Result<Sourced, Failure> {
         Ok(self.clone())
-    }
-}
-
-/// What a source found, for those who ask.
-pub trait Findings: Any + fmt::Debug + Send + Sync {
-    /// The report for people, of one line or more.
-    fn text(&self, compiled: &Compiled) -> String;
-
-    /// The report for machines.
-    fn json(&self, compiled: &Compiled) -> Value {
-        compiled.figures()
-    }
-
-    /// A picture of what was found as PNG, if there is more to see than in the asset.
-    ///
-    /// # Errors
-    /// [`PlotError`] if it cannot be drawn.
-    fn sheet(&self, compiled: &Compiled) -> Result<Option<Vec<u8>>, PlotError> {
-        let _ = compiled;
-        Ok(None)
     }
 }

@@ -3,7 +3,7 @@
 use super::{inference, outputs::TextureOutputs, timings};
 use crate::cli::ImportHatt;
 use asperity::{
-    driver::Compiled,
+    driver::{self, Compiled},
     hatt::{self, Hatt},
     library::{self, NamedAsset},
     pipeline::{Clock, Pass, Pipeline, Request},
@@ -173,7 +173,8 @@ pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
         clock: Clock(now),
         ..Tools::default()
     };
-    let results = hatt::compile_all(&materials, &request, &tools, || bar.inc(1));
+    let mut results = driver::compile_all(&materials, &request, &tools, || bar.inc(1));
+    hatt::refuse_namesakes(&materials, &mut results);
     bar.finish_and_clear();
     let mut imported: Vec<Compiled> = Vec::with_capacity(results.len());
     let mut failures: Failures = Vec::new();

@@ -1,6 +1,6 @@
 //! What a file is meant to be, and how many bytes that may take.
 
-use super::{format::Format, problem::InputProblem};
+use super::format::Format;
 use std::fmt;
 
 const KIB: u64 = 1024;
@@ -88,20 +88,8 @@ impl Kind {
         }
     }
 
-    /// Refuses a format that a file of this kind cannot have.
-    pub(super) fn check(self, found: Option<Format>) -> Result<(), InputProblem> {
-        match found {
-            Some(Format::LfsPointer) => Err(InputProblem::LfsPointer),
-            Some(format) if !self.takes(format) => Err(InputProblem::OtherFormat {
-                format,
-                wanted: self.to_string(),
-            }),
-            _ => Ok(()),
-        }
-    }
-
     /// Whether a file of this kind may have a format.
-    fn takes(self, format: Format) -> bool {
+    pub(super) fn takes(self, format: Format) -> bool {
         match self {
             Self::Asset => matches!(format, Format::Asset | Format::Library),
             Self::Hatt => format == Format::Hatt,

@@ -85,6 +85,20 @@ impl InputProblem {
     }
 }
 
+impl Kind {
+    /// Refuses a format that a file of this kind cannot have.
+    pub(super) fn check(self, found: Option<Format>) -> Result<(), InputProblem> {
+        match found {
+            Some(Format::LfsPointer) => Err(InputProblem::LfsPointer),
+            Some(format) if !self.takes(format) => Err(InputProblem::OtherFormat {
+                format,
+                wanted: self.to_string(),
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
 impl Diagnostic for InputError {
     fn remedy(&self) -> String {
         self.problem.remedy()

@@ -15,6 +15,9 @@ use crate::{
 };
 use std::{fmt::Write as _, path::Path};
 
+/// Units of a clock, and the seconds in one.
+pub(crate) const TIME_UNITS: [(&str, f64); 4] =
+    [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 /// Most files that are looked at.
 const MAX_FILES: usize = 32;
 /// Rows that tell the unit of a clock, and of an acceleration.
@@ -243,7 +246,7 @@ fn clock<'a>(path: &Path, header: &'a Header) -> Option<(&'a str, &'static str, 
         .iter()
         .find_map(|(index, _)| Some((*index, period(*index)?)))?;
     let off = |unit_s: f64| libm::log(1.0 / (period * unit_s) / USUAL_HZ).abs();
-    let (unit, _) = super::read::TIME_UNITS
+    let (unit, _) = TIME_UNITS
         .into_iter()
         .min_by(|(_, one), (_, other)| off(*one).total_cmp(&off(*other)))?;
     Some((&header.columns[index], unit, true))

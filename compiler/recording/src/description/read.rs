@@ -1,7 +1,7 @@
 //! Reads and checks a description.
 
 use super::{
-    propose::propose,
+    propose::{TIME_UNITS, propose},
     quantity::{Quantity, Unit},
     schema::{Axis, Channel, Column, Description, SensorFile, Tool},
 };
@@ -21,9 +21,6 @@ pub const MAX_BYTES: u64 = 1024 * 1024;
 const MAX_ENTRIES: usize = 64;
 /// Range of rates, Hz.
 pub(crate) const RATES_HZ: (f64, f64) = (10.0, 200_000.0);
-/// Units of a clock, and the seconds in one.
-pub(crate) const TIME_UNITS: [(&str, f64); 4] =
-    [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -2,7 +2,7 @@
 
 use super::{stroke, tap};
 use crate::{
-    driver::{Failure, Truth},
+    compiled::Truth,
     interchange::{EffectError, EffectProblem, ahap, haptic, hjif, playback::Track},
     learned::edges,
     model::{Friction, ModelGrid, Numerator, Provenance, TapBank, TextureModel, defaults},
@@ -12,6 +12,7 @@ use crate::{
     sources::{Source, Sourced, Tools, key::Parts},
 };
 use asperity_formats::limits::MAX_NAME_BYTES;
+use asperity_io::diagnostic::Failure;
 use asperity_io::input::{self, Format, InputProblem};
 use std::path::{Path, PathBuf};
 

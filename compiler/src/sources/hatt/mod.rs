@@ -15,5 +15,5 @@ mod xml;
 pub use error::{HattError, Problem};
 pub use filter::Filter;
 pub use material::{Material, SourceModel, parse};
-pub use source::{BUDGET_DB, Hatt, Recomputed, bytes, compile_all, files};
+pub use source::{BUDGET_DB, Hatt, Recomputed, bytes, files, refuse_namesakes};
 pub use texture::to_model;

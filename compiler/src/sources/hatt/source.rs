@@ -6,7 +6,7 @@ use super::{
     texture::to_model,
 };
 use crate::{
-    driver::{self, Compiled, Failure, Truth},
+    compiled::{Compiled, Truth},
     learned::{LearnedModel, ModelError, complete},
     model::TextureModel,
     pipeline::{Pass, Pipeline, Request},
@@ -14,10 +14,9 @@ use crate::{
     sources::{Findings, Source, Sourced, Tools, key::Parts},
 };
 use asperity_io::{
-    diagnostic::Diagnostic,
+    diagnostic::{Diagnostic, Failure},
     input::{self, InputProblem, Kind},
 };
-use rayon::prelude::*;
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
@@ -60,24 +59,10 @@ pub fn files(path: &Path) -> Result<Vec<PathBuf>, HattError> {
     Ok(found)
 }
 
-/// Compiles materials in parallel; results in their order, whatever the thread count. `done` is
-/// called once a material, from any thread. No two may have one name.
-pub fn compile_all(
-    materials: &[Hatt],
-    request: &Request,
-    tools: &Tools<'_>,
-    done: impl Fn() + Sync,
-) -> Vec<Result<Compiled, Failure>> {
-    let mut results: Vec<_> = materials
-        .par_iter()
-        .map(|material| {
-            let result = driver::compile(material, request, tools);
-            done();
-            result
-        })
-        .collect();
+/// Refuses a material that has the name of one before it: a library holds one of each name.
+pub fn refuse_namesakes(materials: &[Hatt], results: &mut [Result<Compiled, Failure>]) {
     let mut first_with: HashMap<String, &Path> = HashMap::new();
-    for (Hatt { file, .. }, result) in materials.iter().zip(&mut results) {
+    for (Hatt { file, .. }, result) in materials.iter().zip(results) {
         let Ok(compiled) = result else { continue };
         let name = &compiled.texture.name;
         if let Some(other) = first_with.get(name) {
@@ -95,7 +80,6 @@ pub fn compile_all(
             first_with.insert(name.clone(), file);
         }
     }
-    results
 }
 
 /// A material of the Penn Haptic Texture Toolkit.

@@ -147,9 +147,9 @@ fn the_same_file_gives_the_same_bytes_on_any_number_of_threads() {
         .collect();
     let on_threads = |count: usize| -> Vec<Vec<u8>> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-        let results = pool
-            .unwrap()
-            .install(|| compile_all(&materials, &Request::default(), &Tools::default(), || ()));
+        let results = pool.unwrap().install(|| {
+            driver::compile_all(&materials, &Request::default(), &Tools::default(), || ())
+        });
         let bytes = results.into_iter().map(|r| r.unwrap().lowered.bytes);
         bytes.collect()
     };
@@ -349,7 +349,9 @@ fn two_files_of_one_material_are_refused() {
     }
     let files = files(folder.path()).unwrap().into_iter();
     let materials: Vec<Hatt> = files.map(Hatt::new).collect();
-    let results = compile_all(&materials, &Request::default(), &Tools::default(), || ());
+    let tools = Tools::default();
+    let mut results = driver::compile_all(&materials, &Request::default(), &tools, || ());
+    refuse_namesakes(&materials, &mut results);
     assert!(results[0].is_ok());
     let message = results[1].as_ref().unwrap_err().to_string();
     assert!(message.contains("\"Test Board\" is also in"), "{message}");

@@ -2,10 +2,11 @@
 
 use super::read::read;
 use crate::{
-    driver::{Failure, Truth},
+    compiled::Truth,
     pipeline::{Pass, Pipeline, Request},
     sources::{Source, Sourced, Tools, key::Parts},
 };
+use asperity_io::diagnostic::Failure;
 use asperity_io::input::Kind;
 use std::path::PathBuf;
 

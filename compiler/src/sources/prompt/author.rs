@@ -1,7 +1,7 @@
 //! From a prompt to a verified texture.
 
 use super::{
-    Authored, Nearest, Options, Prompt, PromptError,
+    Authored, Nearest, PromptError,
     ahead::{Ahead, Read},
     name::{shortened, title},
     phrase::adjust::{self, Scales},
@@ -10,7 +10,6 @@ use super::{
     variation::varied,
 };
 use crate::{
-    driver::{self, Compiled, Failure},
     edit::{History, Latents, Memory},
     embedded,
     inference::Backend,
@@ -19,7 +18,7 @@ use crate::{
     },
     model::{Provenance, TextureModel},
     pipeline::{Pass, Pipeline, Ringing},
-    sources::{Sourced, Tools},
+    sources::Sourced,
     text::TextEncoder,
 };
 use std::{path::Path, sync::Arc};
@@ -134,19 +133,6 @@ impl Author {
             Some(decoded) => Ok(decoded),
             None => Ok(Arc::new(self.model.decode(z)?)),
         }
-    }
-
-    /// Compiles a prompt.
-    ///
-    /// # Errors
-    /// [`PromptError`] with the stage that failed, or what keeps any texture from passing.
-    pub fn author(&self, prompt: &str, options: &Options) -> Result<Compiled, Failure> {
-        let source = Prompt {
-            text: prompt.to_owned(),
-            seed: options.seed,
-            picture: None,
-        };
-        driver::compile(&source, &options.request, &Tools::of(self))
     }
 
     /// The texture of a prompt before any pass, with its latent and what is to know of it.

@@ -1,7 +1,7 @@
 //! The report of a compiled prompt, as text and as JSON.
 
 use super::Authored;
-use crate::{driver::Compiled, sources::Findings};
+use crate::compiled::{Compiled, Findings};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 

@@ -2,11 +2,11 @@
 
 use super::check;
 use crate::{
-    driver::Failure,
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
     sources::{Kind, Operand, Source, Sourced, Tools, key::Parts},
 };
+use asperity_io::diagnostic::Failure;
 use std::sync::Arc;
 
 /// A prompt and a seed.

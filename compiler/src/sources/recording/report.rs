@@ -1,7 +1,7 @@
 //! The report of an import, for machines and for people.
 
 use super::{Analysis, Recorded};
-use crate::driver::Compiled;
+use crate::compiled::Compiled;
 use asperity_recording::{
     friction::{Friction, Law},
     impact::SpeedSource,

@@ -8,12 +8,13 @@ use super::{
     texture::{Parts, texture},
 };
 use crate::{
-    driver::{Compiled, Failure, Truth},
+    compiled::{Compiled, Truth},
     model::{Numerator, defaults},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{Findings, Kind, Operand, Source, Sourced, Tools},
 };
+use asperity_io::diagnostic::Failure;
 use asperity_plot::PlotError;
 use asperity_recording::check::Severity;
 use serde_json::Value;

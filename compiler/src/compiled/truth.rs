@@ -29,7 +29,7 @@ pub enum Truth {
 impl Truth {
     /// Distances of an asset, dB: at every vertex that sounds where nothing was left out, else over
     /// the grid, and then they are also what the reduction cost.
-    pub(super) fn compared(
+    pub(crate) fn compared(
         &self,
         passed: &mut Passed,
         fidelity: Fidelity,

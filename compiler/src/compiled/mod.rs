@@ -1,4 +1,10 @@
-//! A compiled texture, and the reports of it.
+//! What came of a source: a compiled texture, how far it is from what it was made of, and the reports of both.
+
+mod findings;
+mod truth;
+
+pub use findings::Findings;
+pub use truth::Truth;
 
 use crate::{
     emit::{
@@ -11,7 +17,6 @@ use crate::{
     },
     passes::reduce::{self, Fidelity},
     pipeline::Timings,
-    sources::Findings,
 };
 use asperity_plot::PlotError;
 use serde_json::{Value, json};

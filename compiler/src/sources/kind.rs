@@ -1,0 +1,47 @@
+//! A kind of source, as manifests name it.
+
+use super::Source;
+use crate::passes::reduce::Fidelity;
+use asperity_io::diagnostic::Failure;
+use std::{path::Path, sync::Arc};
+
+/// A kind of source: the key of a manifest that names it, and what becomes of its value.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// The key.
+    pub key: &'static str,
+    /// What its value is.
+    pub operand: Operand,
+    /// The source of a value.
+    pub open: fn(&Stated<'_>) -> Result<Arc<dyn Source>, Failure>,
+    /// Keys of a texture that do not go with it: `texture`, `seed`, `edit` and other options.
+    pub refuses: &'static [&'static str],
+    /// How much is kept unless the manifest says so.
+    pub fidelity: Fidelity,
+    /// Whether a preview is drawn unless the manifest says so.
+    pub preview: bool,
+}
+
+/// What the value of a key is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Operand {
+    /// A text.
+    Text,
+    /// The path of a file that is there.
+    File,
+    /// The path of a folder that is there.
+    Folder,
+}
+
+/// What a manifest states of a source.
+#[derive(Debug, Clone, Copy)]
+pub struct Stated<'a> {
+    /// The value of its key.
+    pub text: &'a str,
+    /// The value as a path that can be opened.
+    pub path: &'a Path,
+    /// The texture of a library.
+    pub texture: Option<&'a str>,
+    /// 0 for what a prompt means, others for variations of it.
+    pub seed: u64,
+}
