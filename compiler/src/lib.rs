@@ -4,14 +4,14 @@
 //!
 //! | folder | holds |
 //! |---|---|
-//! | `sources/` | what a texture is made of, one trait ([`sources`]) and a folder each: [`prompt`], [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`], assets and latents |
+//! | `sources/` | what a texture is made of, one trait ([`sources`]) and a folder each: [`prompt`], [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`], assets, and latents, mixed and edited: [`edit`] |
 //! | `compiled/` | what comes of a source: [`compiled`], its reports, its distance from what it was made of |
 //! | `learned/` | the [`learned`] model, [`embedded`] or in a folder, its [`text`] encoders, and what runs them: [`inference`] |
 //! | `model/` | the [`model`] between source and bytes: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
 //! | `emit/` | from model to bytes and back: [`lower`], [`verify`], [`textures`], [`raise`] |
 //! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
-//! | `edit/` | mixing and editing in the latent: [`edit`] |
+//! | `memory/` | what an asset remembers of its making: the [`memory`] |
 //! | `interchange/` | other tools' formats: the [`interchange`] |
 //! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`resample`], [`spectrum`], [`impact`], [`tap_synthesis`] |
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`diffusion`], [`listen`], [`render`] |
@@ -29,10 +29,10 @@ mod views;
 
 pub mod compiled;
 pub mod driver;
-pub mod edit;
 pub mod interchange;
 pub mod learned;
 pub mod library;
+pub mod memory;
 pub mod model;
 pub mod pipeline;
 pub mod scene;
@@ -47,5 +47,5 @@ pub use learned::{embedded, inference, text};
 pub use model::{attributes, defaults, mesh, mixture};
 pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};
 pub use signal::{impact, level, levinson, lsf, reflection, resample, spectrum, tap_synthesis};
-pub use sources::{builtin, effects, hatt, model_file, prompt, recording};
+pub use sources::{builtin, effects, hatt, latents as edit, model_file, prompt, recording};
 pub use views::{diffusion, inspect, listen, plot, preview, render};

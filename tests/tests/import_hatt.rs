@@ -4,10 +4,7 @@
 
 use crate::support;
 use asperity::{
-    hatt::{Hatt, compile_all},
-    pipeline::Request,
-    reduce::Fidelity,
-    sources::Tools,
+    driver::compile_all, hatt::Hatt, pipeline::Request, reduce::Fidelity, sources::Tools,
 };
 use asperity_formats::Asset;
 use asperity_tests::{

@@ -1,16 +1,16 @@
 //! Prompts, compiled one by one.
 
 use super::{Compiled, Failure, compile};
-use crate::{
+use crate::sources::{
+    Tools,
     prompt::{Author, Options, Prompt},
-    sources::Tools,
 };
 
 impl Author {
     /// Compiles a prompt.
     ///
     /// # Errors
-    /// [`PromptError`] with the stage that failed, or what keeps any texture from passing.
+    /// [`PromptError`](crate::prompt::PromptError) with the stage that failed, or what keeps any texture from passing.
     pub fn author(&self, prompt: &str, options: &Options) -> Result<Compiled, Failure> {
         let source = Prompt {
             text: prompt.to_owned(),

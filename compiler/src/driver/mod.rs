@@ -24,14 +24,17 @@ pub use crate::compiled::{Compared, Compiled, Truth};
 pub use asperity_io::diagnostic::Failure;
 
 use crate::{
-    edit::{EditError, equal_loudness, remembered},
     emit::{
         lower::{ErrorSummary, LowerError, Lowered},
         rename::renamed,
     },
+    memory::remembered,
     passes::reduce::{Fidelity, reduce},
     pipeline::{Beside, Pass, Pipeline, PipelineError, Request},
-    sources::{Source, Sourced, Tools},
+    sources::{
+        Source, Sourced, Tools,
+        latents::{EditError, equal_loudness},
+    },
 };
 use asperity_formats::{Asset, EncodeError};
 use asperity_io::diagnostic::Diagnostic;

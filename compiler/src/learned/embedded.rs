@@ -1,8 +1,8 @@
 //! The networks inside the binary: a prompt needs no file.
 
-use crate::{
+use super::{
+    Files, ModelError,
     inference::Backend,
-    learned::{Files, ModelError},
     text::{Vocabulary, WithWords, WordTable, minilm::MiniLm},
 };
 use asperity_model::{

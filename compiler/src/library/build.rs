@@ -12,9 +12,9 @@ use super::{
     spill::{Packed, Slot, Spill},
 };
 use crate::{
-    edit::{AXES, Edit, Studio},
     pipeline::{Clock, Pass, Pipeline, Timings},
-    prompt::Author,
+    sources::latents::{AXES, Edit, Studio},
+    sources::prompt::Author,
     sources::{
         Tools,
         key::{Key, Parts},

@@ -3,9 +3,9 @@
 use super::manifest::{Entry, Manifest, Origin};
 use crate::{
     driver::{self, Compiled, Failure},
-    edit::{EditError, Part, Studio, encode, remembered},
     pipeline::{Clock, Pipeline, Request},
-    prompt::PromptError,
+    sources::latents::{EditError, Part, Studio, encode, remembered},
+    sources::prompt::PromptError,
     sources::{Source, Tools, latents::FromLatents, libraries::OpenLibraries},
 };
 use asperity_formats::Asset;

@@ -7,6 +7,7 @@ pub mod defaults;
 mod friction_law;
 pub mod mesh;
 pub mod mixture;
+pub mod shift;
 mod texture;
 
 pub use friction_law::{FrictionLaw, LawPoint};

@@ -14,7 +14,7 @@ use crate::{
     library::{self, EntryError, LibraryFault, manifest::Entry},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Timings},
-    prompt::Author,
+    sources::prompt::Author,
 };
 use asperity_formats::SceneSurface;
 use asperity_io::diagnostic::{Diagnostic, Failures, one};

@@ -3,10 +3,10 @@
 use super::{
     Kind, Operand, Source, Sourced, Tools,
     key::{Key, Parts},
+    latents::EditError,
     libraries::OpenLibraries,
 };
 use crate::{
-    edit::EditError,
     emit::raise::raise,
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request},

@@ -22,15 +22,15 @@ pub use registry::Registry;
 
 use crate::{
     compiled::Truth,
-    edit::Memory,
     learned::LearnedModel,
+    memory::Memory,
     model::TextureModel,
     pipeline::{Clock, Pipeline, Request, Ringing},
-    prompt::Author,
 };
 use asperity_io::diagnostic::{Diagnostic, Failure};
 use key::Parts;
 use libraries::OpenLibraries;
+use prompt::Author;
 use std::{fmt, path::PathBuf, sync::Arc};
 use thiserror::Error;
 

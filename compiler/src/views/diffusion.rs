@@ -4,7 +4,7 @@
 //! of how the texture feels.
 
 use crate::{
-    inference::{Backend, BackendName},
+    learned::inference::{Backend, BackendName},
     model::TextureModel,
 };
 use asperity_diffusion::{

@@ -5,7 +5,7 @@
 //! output `[1, width]`. Where there are several outputs, it is `text_embeds`.
 
 use super::encoder::{Encoded, TextEncoder, TextError, unit};
-use crate::inference::Backend;
+use crate::learned::inference::Backend;
 use asperity_io::input::{self, Kind};
 use asperity_model::CLIP_MERGES;
 use asperity_nn::{Dim, ElementType, Port, Session, Tensor};

@@ -1,6 +1,6 @@
 //! A checked entry of a manifest.
 
-use crate::{edit::Edit, pipeline::Request, sources::Source};
+use crate::{pipeline::Request, sources::Source, sources::latents::Edit};
 use std::{fmt, path::Path, sync::Arc};
 
 /// Where an entry stands.

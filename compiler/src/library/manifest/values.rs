@@ -7,8 +7,8 @@ use super::{
     row::{Field, Value},
 };
 use crate::{
-    edit::{Edit, Sliders},
     passes::{reduce::Fidelity, rerate},
+    sources::latents::{Edit, Sliders},
     sources::{Registry, prompt::phrase::relative},
     views::preview,
 };

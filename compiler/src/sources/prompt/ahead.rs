@@ -5,10 +5,7 @@
 //! alone, and weights are expanded once for many prompts.
 
 use super::{Author, PromptError, phrase};
-use crate::{
-    learned::{Decoded, Latent, Projected},
-    text::Encoded,
-};
+use crate::learned::{Decoded, Latent, Projected, text::Encoded};
 use std::{
     collections::{HashMap, HashSet},
     sync::{Arc, Mutex, PoisonError},

@@ -4,22 +4,22 @@ use super::{
     Authored, Nearest, PromptError,
     ahead::{Ahead, Read},
     name::{shortened, title},
-    phrase::adjust::{self, Scales},
     things::Things,
     understood::{Understood, check, understood},
     variation::varied,
 };
 use crate::{
-    edit::{History, Latents, Memory},
-    embedded,
-    inference::Backend,
     learned::{
-        self, Decoded, Files, Latent, LearnedModel, ModelError, friction::Neighbour, texture,
+        self, Decoded, Files, Latent, LearnedModel, ModelError, embedded, friction::Neighbour,
+        inference::Backend, text::TextEncoder, texture,
     },
-    model::{Provenance, TextureModel},
+    memory::{History, Latents, Memory},
+    model::{
+        Provenance, TextureModel,
+        shift::{Scales, adjust},
+    },
     pipeline::{Pass, Pipeline, Ringing},
     sources::Sourced,
-    text::TextEncoder,
 };
 use std::{path::Path, sync::Arc};
 
@@ -153,7 +153,7 @@ impl Author {
             _ => self.decoded(&z),
         })?;
         let (mut texture, neighbours) = self.named(&decoded, &z, prompt, seed);
-        adjust::adjust(&mut texture, &shift);
+        adjust(&mut texture, &shift);
         let memory = Memory {
             model_crc32: self.model.crc32(),
             latents: Latents::whole(z).shifted(shift),

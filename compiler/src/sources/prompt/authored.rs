@@ -1,6 +1,7 @@
 //! What can be asked of a prompt's texture, and what there is to know of it.
 
-use super::{phrase::adjust::Shift, understood::Understood};
+use super::understood::Understood;
+use crate::model::shift::Shift;
 use crate::{learned::Latent, passes::reduce::Fidelity, pipeline::Request, views::preview};
 
 /// What a user can ask of a texture besides its prompt.

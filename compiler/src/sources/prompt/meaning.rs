@@ -2,10 +2,7 @@
 
 use super::{
     Author, PromptError, Prompted,
-    phrase::{
-        self, Phrase,
-        adjust::{self, Scales, Shift},
-    },
+    phrase::{self, Phrase},
     things::Thing,
 };
 use crate::{
@@ -13,6 +10,7 @@ use crate::{
     model::{
         Provenance, TextureModel,
         attributes::{self, Attributes},
+        shift::{self, Scales, Shift, adjust},
     },
 };
 use std::sync::Arc;
@@ -57,18 +55,18 @@ impl Author {
             Phrase::Changed { base, changes } => {
                 let base = self.thing(&base)?;
                 let said = self.wanted(prompted)?;
-                let wanted = adjust::changed(&base.wanted, &said, &changes);
+                let wanted = phrase::changed(&base.wanted, &said, &changes);
                 (prompted.z, Some(wanted))
             }
             Phrase::Between(first, second) => {
                 let (first, second) = (self.thing(&first)?, self.thing(&second)?);
                 let z = std::array::from_fn(|k| 0.5 * (first.z[k] + second.z[k]));
-                (z, Some(adjust::middle(&first.wanted, &second.wanted)))
+                (z, Some(shift::middle(&first.wanted, &second.wanted)))
             }
             Phrase::Covered { inside, cover } => {
                 let (inside, cover) = (self.thing(&inside)?, self.thing(&cover)?);
                 let [rough, slippery, _] = cover.wanted;
-                let [_, _, hard] = adjust::middle(&inside.wanted, &cover.wanted);
+                let [_, _, hard] = shift::middle(&inside.wanted, &cover.wanted);
                 (cover.z, Some([rough, slippery, hard]))
             }
         })
@@ -78,7 +76,7 @@ impl Author {
     pub(super) fn meant(&self, z: Latent, wanted: Option<Scales>) -> Result<Meaning, PromptError> {
         let decoded = self.decoded(&z)?;
         let shift = wanted.map_or_else(Shift::default, |wanted| {
-            adjust::to(&wanted, &self.attributes(&z, &decoded))
+            shift::to(&wanted, &self.attributes(&z, &decoded))
         });
         Ok(Meaning { z, shift, decoded })
     }
@@ -91,7 +89,7 @@ impl Author {
         let prompt = prompt.trim();
         let Meaning { z, shift, decoded } = self.meaning(prompt, &self.project(prompt)?)?;
         let mut texture = self.plain(&z, &decoded);
-        adjust::adjust(&mut texture, &shift);
+        adjust(&mut texture, &shift);
         Ok(texture)
     }
 
@@ -131,7 +129,7 @@ impl Author {
             return Ok(felt);
         }
         let decoded = self.decoded(&prompted.z)?;
-        Ok(adjust::scales(&self.attributes(&prompted.z, &decoded)))
+        Ok(shift::scales(&self.attributes(&prompted.z, &decoded)))
     }
 
     fn attributes(&self, z: &Latent, decoded: &Decoded) -> Attributes {

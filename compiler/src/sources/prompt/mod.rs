@@ -17,10 +17,10 @@ mod things;
 mod understood;
 mod variation;
 
+pub use crate::model::shift::Shift;
 pub use author::{Author, Prompted};
 pub use authored::{Authored, Nearest, Options};
 pub use error::PromptError;
 pub use meaning::Meaning;
-pub use phrase::adjust::Shift;
 pub use source::{KIND, Picture, Prompt};
 pub use understood::{Understood, check};

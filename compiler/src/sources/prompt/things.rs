@@ -1,7 +1,7 @@
 //! Things that prompts named, so that a library reads each of them once.
 
-use super::phrase::adjust::Scales;
 use crate::learned::Latent;
+use crate::model::shift::Scales;
 use std::{
     collections::HashMap,
     sync::{Mutex, PoisonError},

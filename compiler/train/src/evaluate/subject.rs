@@ -13,7 +13,7 @@ use asperity::{
         description::ModelDescription, friction, texture,
     },
     model::Provenance,
-    prompt::phrase::adjust,
+    model::shift,
 };
 use asperity_corpus::{BINS, CHANNELS, Instance, ORDER, TAP_SAMPLES, TAPS};
 use rayon::prelude::*;
@@ -131,8 +131,8 @@ impl Subject {
             let (mut texture, _) = texture::build(description, &decoded, &said.z, name, provenance);
             if let Some(felt) = said.felt {
                 let wanted = felt.map(|x| Some(f64::from(x)));
-                let shift = adjust::to(&wanted, &attributes::of(&texture));
-                adjust::adjust(&mut texture, &shift);
+                let shift = shift::to(&wanted, &attributes::of(&texture));
+                adjust(&mut texture, &shift);
             }
             let attributes = attributes::of(&texture);
             Ok(Objective {

@@ -3,20 +3,21 @@
 //!
 //! A text vector knows that rough silk is about silk, and hardly that it is rougher than silk.
 //! So a prompt is divided: its base is what remains without the words that change it ("silk"),
-//! and each change says where roughness, slipperiness or hardness goes, and how far. [`adjust`]
-//! moves the texture there. English only; whatever is not recognised stays with the text vector.
+//! and each change says where roughness, slipperiness or hardness goes, and how far. A
+//! [`Shift`](crate::model::shift::Shift) moves the texture there. English only; whatever is not recognised stays with the text vector.
 
-pub mod adjust;
+mod changed;
 mod parse;
 mod quality;
 mod relative;
 mod table;
 mod words;
 
+pub use changed::{STEP, changed, from_base};
 pub use parse::parse;
 pub use relative::{Relative, Towards, relative};
 
-/// How far one attribute is to go from that of the base, in steps of [`adjust::STEP`].
+/// How far one attribute is to go from that of the base, in steps of [`STEP`].
 ///
 /// What the text vector says by itself is kept where it lies within the range.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,17 +2,14 @@
 
 use super::{
     error::EditError,
-    latents::Latents,
-    scale::{AXES, Axis},
-    sliders::Sliders,
     solve::{along, reach},
     studio::Studio,
 };
 use crate::{
     learned::{Latent, friction},
-    model::attributes::Attributes,
+    memory::{AXES, Axis, Latents, Sliders},
+    model::{attributes::Attributes, shift::Shift},
     pipeline::Request,
-    sources::prompt::Shift,
 };
 
 /// Times that a way through the latent space is corrected by what is kept at its end.

@@ -1,7 +1,10 @@
 //! Attributes in a line.
 
-use super::scale::{AXES, Axis, Scale};
-use crate::model::attributes::Attributes;
+use super::scale::Scale;
+use crate::{
+    memory::{AXES, Axis},
+    model::attributes::Attributes,
+};
 
 /// The attributes in their units, and where they lie on their sliders, as
 /// `rough 2.8 dB (71), …`.

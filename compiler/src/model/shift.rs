@@ -1,18 +1,14 @@
-//! Moves the attributes of a texture, and nothing else of it.
+//! Shifts: the attributes of a texture move, and nothing else of it.
 //!
 //! Roughness moves by the level of every model, slipperiness by μ, hardness by the time in which
 //! a tap passes: a tap that is over in half the time has twice the pitch, and the same impulse.
 
-use super::{Change, Changes};
-use crate::model::{
+use super::{
     TextureModel,
     attributes::{self, Attributes},
 };
 use serde::{Deserialize, Serialize};
 
-/// One step of a change: roughness in dB, slipperiness as −ln μ, hardness as ln of the centroid.
-/// Half a step is noticed (amplitude 1.6 dB, frequency 18 %, friction 10 %).
-pub const STEP: [f64; 3] = [5.0, 0.35, 0.42];
 /// Largest σ·gain of a model after a change, relative to before.
 const LARGEST_CHANGE_DB: f64 = 20.0;
 /// μ stays within these.
@@ -87,20 +83,6 @@ pub fn scales(attributes: &Attributes) -> Scales {
     ]
 }
 
-/// What is `said`, moved so that it differs from its base as the changes say.
-#[must_use]
-pub fn changed(base: &Scales, said: &Scales, changes: &Changes) -> Scales {
-    let changes = [changes.rough, changes.slippery, changes.hard];
-    std::array::from_fn(|k| {
-        let moved = || {
-            let (change, base, said): (Change, f64, f64) = (changes[k]?, base[k]?, said[k]?);
-            let steps = (said - base) / STEP[k];
-            Some(base + STEP[k] * steps.clamp(change.least, change.most))
-        };
-        moved().or(said[k])
-    })
-}
-
 /// The middle of two.
 #[must_use]
 pub fn middle(first: &Scales, second: &Scales) -> Scales {
@@ -113,12 +95,6 @@ pub fn middle(first: &Scales, second: &Scales) -> Scales {
 pub fn to(wanted: &Scales, now: &Attributes) -> Shift {
     let now = scales(now);
     Shift::of(std::array::from_fn(|k| Some(wanted[k]? - now[k]?)))
-}
-
-/// How far a texture is to move so that it differs from its base as the changes say.
-#[must_use]
-pub fn from_base(base: &Attributes, now: &Attributes, changes: &Changes) -> Shift {
-    to(&changed(&scales(base), &scales(now), changes), now)
 }
 
 /// Moves a texture.
@@ -227,27 +203,6 @@ mod tests {
                     "{k} {change}: {j} {apart:?}"
                 );
             }
-        }
-    }
-
-    #[test]
-    fn what_was_learned_is_kept_within_the_range() {
-        let base = attributes::of(&builtin::texture());
-        let change = Change {
-            least: 1.0,
-            most: 1.3,
-        };
-        let changes = Changes {
-            rough: Some(change),
-            ..Changes::default()
-        };
-        for (learned_db, steps) in [(-3.0, 1.0), (5.5, 1.1), (30.0, 1.3)] {
-            let rough_db = base.rough_db.map(|db| db + learned_db);
-            let learned = Attributes { rough_db, ..base };
-            let shift = from_base(&base, &learned, &changes);
-            let moved = learned_db + shift.rough_db;
-            assert!((moved - 5.0 * steps).abs() < 1e-9, "{learned_db}");
-            assert_eq!((shift.slippery, shift.hard), (0.0, 0.0));
         }
     }
 }

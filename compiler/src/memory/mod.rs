@@ -1,8 +1,17 @@
 //! What an asset remembers of its making: latents and history, outside the haptic sections.
 
-use super::{error::EditError, history::History, latents::Latents};
+mod history;
+mod latents;
+mod sliders;
+
+pub use history::{History, Ingredient, Origin, Step};
+pub use latents::Latents;
+pub use sliders::{AXES, Axis, Sliders};
+
 use crate::learned::{Latent, description::LATENT};
 use asperity_formats::{Asset, EncodeError, assemble, assembled_len};
+use asperity_io::diagnostic::Diagnostic;
+use thiserror::Error;
 
 const LATENT_TAG: [u8; 4] = *b"late";
 const HISTORY_TAG: [u8; 4] = *b"hist";
@@ -53,11 +62,27 @@ fn latent_body(memory: &Memory) -> Vec<u8> {
     body
 }
 
+/// A history that is not what this version writes, or is damaged.
+#[derive(Debug, Error)]
+#[error("history of {name:?}: {message}")]
+pub struct HistoryError {
+    /// The texture.
+    pub name: String,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl Diagnostic for HistoryError {
+    fn remedy(&self) -> String {
+        "make the file again from its source".into()
+    }
+}
+
 /// What an asset remembers; `None` if it has no latent, or one of another width than this version's.
 ///
 /// # Errors
-/// [`EditError::History`] for a history that this version does not write.
-pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, EditError> {
+/// [`HistoryError`] for a history that this version does not write.
+pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, HistoryError> {
     let Some(stored) = asset.latents().filter(|stored| stored.width() == LATENT) else {
         return Ok(None);
     };
@@ -74,7 +99,7 @@ pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, EditError> {
     };
     let history: History = match asset.history() {
         None => History::default(),
-        Some(json) => serde_json::from_str(json).map_err(|error| EditError::History {
+        Some(json) => serde_json::from_str(json).map_err(|error| HistoryError {
             name: asset.name().to_owned(),
             message: error.to_string(),
         })?,
@@ -89,7 +114,7 @@ pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, EditError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{edit::history::Origin, emit::lower::lower, sources::builtin};
+    use crate::{emit::lower::lower, sources::builtin};
 
     #[test]
     fn a_memory_is_read_back_replaced_and_never_haptic() {

@@ -2,60 +2,10 @@
 //! the most of an attribute.
 
 use crate::{
-    learned::description::ModelDescription, model::attributes::Attributes, sources::prompt::Shift,
+    learned::description::ModelDescription,
+    memory::{AXES, Axis},
+    model::{attributes::Attributes, shift::Shift},
 };
-use serde::Serialize;
-
-/// An attribute that a slider moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// `rough_db`.
-    Rough,
-    /// `sharp_hz`.
-    Sharp,
-    /// `hard_hz`.
-    Hard,
-    /// −μ.
-    Slippery,
-}
-
-/// All axes, in the order of reports.
-pub const AXES: [Axis; 4] = [Axis::Rough, Axis::Sharp, Axis::Hard, Axis::Slippery];
-
-impl Axis {
-    /// The name that reports use.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rough => "rough",
-            Self::Sharp => "sharp",
-            Self::Hard => "hard",
-            Self::Slippery => "slippery",
-        }
-    }
-
-    /// The attribute in its own unit, −μ for the last.
-    #[must_use]
-    pub fn of(self, attributes: &Attributes) -> Option<f64> {
-        match self {
-            Self::Rough => attributes.rough_db,
-            Self::Sharp => attributes.sharp_hz,
-            Self::Hard => attributes.hard_hz,
-            Self::Slippery => Some(-attributes.mu),
-        }
-    }
-
-    /// The attribute's name in a model description.
-    fn described(self) -> &'static str {
-        match self {
-            Self::Rough => "rough_db",
-            Self::Sharp => "sharp_hz",
-            Self::Hard => "hard_hz",
-            Self::Slippery => "mu",
-        }
-    }
-}
 
 /// Share of the materials that lie below 0, and above 100.
 const BEYOND: f64 = 0.05;

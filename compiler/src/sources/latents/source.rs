@@ -1,14 +1,12 @@
 //! Latents as a source: a blend, a composition, an edit, a recording that was encoded.
 
-use super::{Source, Sourced, Tools};
+use super::{Edit, EditError, Part, Studio, Worded};
 use crate::{
-    edit::{
-        Edit, EditError, History, Ingredient, Latents, Memory, Origin, Part, Step, Studio, Worded,
-    },
     learned::{Decoded, LearnedModel, ModelError, friction, texture},
-    model::{FrictionLaw, Provenance, TextureModel},
+    memory::{History, HistoryError, Ingredient, Latents, Memory, Origin, Step},
+    model::{FrictionLaw, Provenance, TextureModel, shift::adjust},
     pipeline::{Pass, Pipeline, Request, Ringing},
-    prompt::phrase::adjust::adjust,
+    sources::{Source, Sourced, Tools},
 };
 use asperity_io::diagnostic::Failure;
 
@@ -145,7 +143,7 @@ impl FromLatents {
         let Some(last) = self.history.steps.pop() else {
             return Err(EditError::NothingToUndo(self.name.clone()));
         };
-        self.latents = last.before().ok_or_else(|| EditError::History {
+        self.latents = last.before().ok_or_else(|| HistoryError {
             name: self.name.clone(),
             message: "the latents before the last edit are damaged".into(),
         })?;

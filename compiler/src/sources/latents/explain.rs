@@ -1,8 +1,9 @@
 //! Which words moved which attribute, by occlusion: the prompt is read again without each word.
 
-use super::{error::EditError, latents::Latents, scale::AXES, studio::Studio};
+use super::{error::EditError, studio::Studio};
 use crate::{
     learned::{Latent, description::LATENT},
+    memory::{AXES, Latents},
     model::attributes::{self, Attributes},
     sources::prompt,
 };

@@ -3,6 +3,7 @@
 use crate::{
     emit::{lower::LowerError, textures::TexturesError},
     learned::ModelError,
+    memory::HistoryError,
     pipeline::PipelineError,
     sources::prompt::PromptError,
 };
@@ -34,13 +35,8 @@ pub enum EditError {
         expected: u32,
     },
     /// Its history is not what this version writes.
-    #[error("history of {name:?}: {message}")]
-    History {
-        /// The texture.
-        name: String,
-        /// What is wrong.
-        message: String,
-    },
+    #[error(transparent)]
+    History(#[from] HistoryError),
     /// There is no edit to take back.
     #[error("{0:?} has no edit to take back")]
     NothingToUndo(String),
@@ -76,7 +72,7 @@ impl Diagnostic for EditError {
     fn remedy(&self) -> String {
         match self {
             Self::Source(error) => error.remedy(),
-            Self::Format(_) | Self::History { .. } => "make the file again from its source".into(),
+            Self::Format(_) | Self::History(_) => "make the file again from its source".into(),
             Self::NoLatent(_) => {
                 "give a texture of a prompt, or make one of it with `asperity encode`".into()
             }

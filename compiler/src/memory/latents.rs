@@ -3,7 +3,7 @@
 
 use crate::{
     learned::{Latent, description::LATENT},
-    sources::prompt::Shift,
+    model::shift::Shift,
 };
 
 /// The latents of what is felt in sliding, in tapping and as friction. A prompt gives one for all

@@ -1,19 +1,11 @@
 //! Edits, along the sliders or in words: "less gritty, more waxy".
 
-use super::{
-    error::EditError,
-    latents::Latents,
-    scale::{Axis, Scale},
-    sliders::Sliders,
-    studio::Studio,
-};
+use super::{error::EditError, scale::Scale, studio::Studio};
 use crate::{
-    model::attributes::Attributes,
+    memory::{Axis, Latents, Sliders},
+    model::{attributes::Attributes, shift::Shift},
     pipeline::Request,
-    sources::prompt::{
-        Shift,
-        phrase::{Towards, adjust::from_base, relative},
-    },
+    sources::prompt::phrase::{Towards, from_base, relative},
 };
 
 /// An edit.

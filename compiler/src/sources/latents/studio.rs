@@ -2,21 +2,20 @@
 
 use super::{
     error::EditError,
-    latents::Latents,
-    memory::{Memory, remembered},
     scale::Scale,
     solve::Metric,
+    source::{FromLatents, decode},
 };
 use crate::{
     emit::raise::raise,
+    memory::{Latents, Memory, remembered},
     model::{
         Provenance, TextureModel,
         attributes::{self, Attributes},
     },
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
-    prompt::Author,
-    sources::latents::{FromLatents, decode},
+    sources::prompt::Author,
     views::preview,
 };
 use asperity_formats::Asset;

@@ -4,7 +4,7 @@ use super::{
     latents::{Latents, of_hex, to_hex},
     sliders::Sliders,
 };
-use crate::sources::prompt::Shift;
+use crate::model::shift::Shift;
 use asperity_formats::limits::MAX_HISTORY_BYTES;
 use serde::{Deserialize, Serialize};
 

@@ -1,8 +1,9 @@
 //! The latent of a recording, or of a part of one.
 
-use super::{error::EditError, latents::Latents, studio::Studio};
+use super::{error::EditError, studio::Studio};
 use crate::{
     learned::{Present, complete},
+    memory::Latents,
     model::TextureModel,
     passes::reduce::Reference,
 };
