@@ -131,8 +131,8 @@ impl Subject {
             let (mut texture, _) = texture::build(description, &decoded, &said.z, name, provenance);
             if let Some(felt) = said.felt {
                 let wanted = felt.map(|x| Some(f64::from(x)));
-                let shift = shift::to(&wanted, &attributes::of(&texture));
-                adjust(&mut texture, &shift);
+                let moved = shift::to(&wanted, &attributes::of(&texture));
+                shift::adjust(&mut texture, &moved);
             }
             let attributes = attributes::of(&texture);
             Ok(Objective {
