@@ -5,9 +5,10 @@ use super::{
     description::{LATENT, ModelDescription},
     error::ModelError,
     files::Files,
+    inference::Backend,
     network::{has, run, take},
 };
-use crate::{inference::Backend, model::Provenance};
+use crate::model::Provenance;
 use asperity_nn::Session;
 use std::{borrow::Cow, sync::OnceLock};
 

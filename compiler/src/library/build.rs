@@ -12,13 +12,14 @@ use super::{
     spill::{Packed, Slot, Spill},
 };
 use crate::{
+    memory::AXES,
     pipeline::{Clock, Pass, Pipeline, Timings},
-    sources::latents::{AXES, Edit, Studio},
-    sources::prompt::Author,
     sources::{
         Tools,
         key::{Key, Parts},
+        latents::{Edit, Studio},
         libraries::OpenLibraries,
+        prompt::Author,
     },
 };
 use asperity_formats::Asset;

@@ -3,10 +3,14 @@
 use super::manifest::{Entry, Manifest, Origin};
 use crate::{
     driver::{self, Compiled, Failure},
+    memory::remembered,
     pipeline::{Clock, Pipeline, Request},
-    sources::latents::{EditError, Part, Studio, encode, remembered},
-    sources::prompt::PromptError,
-    sources::{Source, Tools, latents::FromLatents, libraries::OpenLibraries},
+    sources::{
+        Source, Tools,
+        latents::{EditError, FromLatents, Part, Studio, encode},
+        libraries::OpenLibraries,
+        prompt::PromptError,
+    },
 };
 use asperity_formats::Asset;
 use std::{

@@ -1,6 +1,9 @@
 //! A checked entry of a manifest.
 
-use crate::{pipeline::Request, sources::Source, sources::latents::Edit};
+use crate::{
+    pipeline::Request,
+    sources::{Source, latents::Edit},
+};
 use std::{fmt, path::Path, sync::Arc};
 
 /// Where an entry stands.

@@ -7,9 +7,9 @@ use super::{
     row::{Field, Value},
 };
 use crate::{
+    memory::Sliders,
     passes::{reduce::Fidelity, rerate},
-    sources::latents::{Edit, Sliders},
-    sources::{Registry, prompt::phrase::relative},
+    sources::{Registry, latents::Edit, prompt::phrase::relative},
     views::preview,
 };
 use asperity_io::input::Reach;

@@ -1,6 +1,6 @@
 //! Why a prompt gave no texture.
 
-use crate::{learned::ModelError, text::TextError};
+use crate::learned::{ModelError, text::TextError};
 use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 
