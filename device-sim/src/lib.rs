@@ -5,26 +5,20 @@
 //! [`Servo`](servo::Servo), which is a renderer, possibly behind a
 //! [`FaultInjector`](fault::FaultInjector), answers every measured position with a force.
 //! Nothing there reads a clock: time passes when the caller says so, and the same seed gives the
-//! same bytes. Clocks are read in [`capture`] and [`desk`] alone; the latter runs a texture or a scene in a servo loop
-//! of [`asperity_host`], on a real device or on the simulated one.
+//! same bytes. Only [`SimDevice`](host_device::SimDevice) may follow the monotonic clock, so that the servo loop of
+//! [`asperity_host`] runs on it as on a real device.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`axis`] | one axis: mass, friction, a hand's pull, implicit integration |
-//! | [`mod@bench`] | known textures, recorded by simulated sensors and held against what comes back |
-//! | [`calibration`] | a sweep, the acceleration that follows, a profile of both |
-//! | [`capture`] | a recording of a real surface: sensors on ports and files, coverage, the folder |
 //! | [`device`] | the device: quantisation, delay, limits, workspace, and its TOML file |
 //! | [`hand`] | grip, motions, seeded script |
 //! | [`servo`] | whatever answers a position with a force |
 //! | [`fault`] | NaN, dropped, stale, stuck and late samples |
 //! | [`session`] | the loop, and the record of every tick |
-//! | [`feel`] | a session on a texture, with its summary, CSV, sheet and sound |
-//! | [`desk`] | a servo loop on a texture or a scene; the simulated device behind the host's trait |
-//! | [`jitter`] | how punctual that loop is: tables, JSON, pictures |
-//! | [`voice`] | a device's compensation filter in a texture's models and taps |
-//! | [`labs`] | alternatives to the tick, which only the charts need |
-//! | [`stability`] | where methods fail: a table of our method and others |
+//! | [`host_device`] | the simulated device and hand behind the host's trait |
+//! | [`config`] | how TOML files are read and checked |
+//! | [`random`] | uniform numbers |
 //!
 //! The simulator deliberately leaves out the kinematics of the arm (its axes are independent and
 //! Cartesian), gravity (which counts as compensated), the stylus's orientation, motor heat (the
@@ -32,20 +26,11 @@
 #![forbid(unsafe_code)]
 
 pub mod axis;
-pub mod bench;
-pub mod calibration;
-pub mod capture;
 pub mod config;
-pub mod desk;
 pub mod device;
 pub mod fault;
-pub mod feel;
 pub mod hand;
-pub mod jitter;
-pub mod labs;
-mod random;
+pub mod host_device;
+pub mod random;
 pub mod servo;
 pub mod session;
-mod signal;
-pub mod stability;
-pub mod voice;

@@ -11,6 +11,7 @@ mod grip;
 mod intent;
 mod motion;
 mod path;
+pub mod recording;
 mod script;
 
 pub use controller::Hand;

@@ -118,6 +118,7 @@ fn is_fresh(program: &Path, root: &Path) -> bool {
         "runtime",
         "compiler",
         "device-sim",
+        "lab",
     ];
     sources
         .iter()

@@ -1,0 +1,39 @@
+//! What can go wrong on the bench.
+
+use asperity::{learned::ModelError, recording::RecordingFailure};
+use asperity_io::diagnostic::Diagnostic;
+use thiserror::Error;
+
+/// A bench that could not run.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ImportAccuracyError {
+    /// A texture that the runtime cannot render.
+    #[error("{name}: {what}")]
+    Texture {
+        /// Its name.
+        name: String,
+        /// What is wrong.
+        what: String,
+    },
+    /// A file of the recording.
+    #[error("the recording cannot be written ({0})")]
+    Write(#[from] std::io::Error),
+    /// The learned model, which textures are taken from.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The import.
+    #[error(transparent)]
+    Import(#[from] RecordingFailure),
+}
+
+impl Diagnostic for ImportAccuracyError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Texture { .. } => "give another texture".into(),
+            Self::Write(_) => "free space in the folder for temporary files".into(),
+            Self::Model(error) => error.remedy(),
+            Self::Import(error) => error.remedy(),
+        }
+    }
+}

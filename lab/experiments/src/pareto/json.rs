@@ -1,0 +1,56 @@
+//! The comparison as JSON.
+
+use super::measure::Results;
+use super::statistics::{Spread, percentile};
+use super::summary::VariantSummary;
+
+/// The comparison as JSON: the figures of `summary.csv` and of what `auto` keeps that a
+/// program is likely to read.
+#[must_use]
+pub fn encode(results: &Results) -> serde_json::Value {
+    let spread = |s: Option<Spread>| {
+        s.map(|s| serde_json::json!({"median": s.median, "p95": s.p95, "max": s.max}))
+    };
+    let designs: Vec<_> = results
+        .summaries
+        .iter()
+        .map(|s: &VariantSummary| {
+            serde_json::json!({
+                "factor": s.variant.factor.name(),
+                "name": s.variant.name,
+                "instructions_a_tick": s.instructions,
+                "bytes": s.bytes,
+                "distortion_db": spread(s.distortion_db),
+                "moving_level_db": spread(s.moving_level_db),
+                "unstable_share": s.unstable,
+                "within_budget": s.is_within_budget(),
+            })
+        })
+        .collect();
+    let exponent = |of: fn(&(f64, f64)) -> f64| {
+        let values: Vec<f64> = results.exponents.iter().map(of).collect();
+        [0.25, 0.5, 0.75].map(|fraction| percentile(&values, fraction))
+    };
+    let halved = results
+        .kept
+        .iter()
+        .filter(|k| k.ratio().is_some_and(|r| r <= 0.5));
+    serde_json::json!({
+        "materials": results.materials.len(),
+        "counted_at": {
+            "poles": results.common.poles,
+            "zeros": results.common.zeros,
+            "nyquist_zero": results.common.nyquist,
+        },
+        "designs": designs,
+        "level_exponents_quartiles": {
+            "speed": exponent(|e| e.0),
+            "force": exponent(|e| e.1),
+        },
+        "auto": {
+            "halved": halved.count(),
+            "within_budget": results.kept.iter().filter(|k| k.is_within_budget()).count(),
+        },
+        "not_counted": results.not_counted,
+    })
+}

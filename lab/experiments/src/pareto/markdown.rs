@@ -1,0 +1,185 @@
+//! The comparison as tables of the documentation.
+
+use super::cortex_m::CortexM;
+use super::held_out::{MethodSummary, Region};
+use super::kept::Kept;
+use super::measure::Results;
+use super::statistics::{Spread, percentile};
+use super::summary::VariantSummary;
+use asperity::reduce::Change;
+use asperity_kernels::design::Factor;
+use std::fmt::Write as _;
+
+/// Markdown of every table: designs by factor, predictions by region, what `auto` keeps.
+#[must_use]
+pub fn tables(results: &Results, held_out: &[MethodSummary], cortex_m: &CortexM) -> String {
+    let mut text = String::new();
+    for group in results
+        .summaries
+        .chunk_by(|x, y| x.variant.factor == y.variant.factor)
+    {
+        let factor = group[0].variant.factor;
+        if factor != Factor::Default {
+            let default = results
+                .summaries
+                .iter()
+                .find(|s| s.variant.factor == Factor::Default);
+            designs(
+                &mut text,
+                factor,
+                default.into_iter().chain(group),
+                cortex_m,
+            );
+        }
+    }
+    for region in [Region::Inside, Region::TowardsRest, Region::Beyond] {
+        predictions(&mut text, region, held_out);
+    }
+    kept(&mut text, results);
+    text
+}
+
+/// A number with `decimals` decimals, or a dash.
+fn number(value: Option<f64>, decimals: usize) -> String {
+    match value {
+        None => "–".into(),
+        Some(value) if value.is_infinite() => "unbounded".into(),
+        Some(value) => format!("{value:.decimals$}"),
+    }
+}
+
+fn designs<'a>(
+    text: &mut String,
+    factor: Factor,
+    rows: impl Iterator<Item = &'a VariantSummary>,
+    cortex_m: &CortexM,
+) {
+    // Writing to a string cannot fail.
+    let _ = write!(
+        text,
+        "### {}\n\n| design | instr. | M4F | bytes | at rest, dB: median / p95 / max | in motion, p95 dB | alternating, dB: p95 / max | unstable |\n|---|---:|---:|---:|---:|---:|---:|---:|\n",
+        factor.name()
+    );
+    for row in rows {
+        let variant = &row.variant;
+        let of = |spread: Option<Spread>, value: fn(&Spread) -> f64| spread.as_ref().map(value);
+        let name = if variant.factor == Factor::Default {
+            format!("**{}**", variant.name)
+        } else {
+            variant.name.clone()
+        };
+        let on_cortex = cortex_m.get(&(variant.factor.name().to_owned(), variant.name.clone()));
+        let unstable = if row.unstable == 0.0 {
+            "0".to_owned()
+        } else {
+            format!(
+                "{:.2} %, {} materials",
+                100.0 * row.unstable,
+                row.unstable_materials
+            )
+        };
+        let (rest, alternating) = (row.distortion_db, row.alternation_db);
+        let _ = writeln!(
+            text,
+            "| {name} | {} | {} | {} | {} / {} / {} | {} | {} / {} | {unstable} |",
+            number(row.instructions, 0),
+            number(on_cortex.copied(), 0),
+            number(row.bytes.map(|b| b as f64), 0),
+            number(of(rest, |s| s.median), 3),
+            number(of(rest, |s| s.p95), 3),
+            number(of(rest, |s| s.max), 2),
+            number(of(row.moving_level_db, |s| s.p95), 2),
+            number(of(alternating, |s| s.p95), 1),
+            number(of(alternating, |s| s.max), 1),
+        );
+    }
+    text.push('\n');
+}
+
+fn predictions(text: &mut String, region: Region, held_out: &[MethodSummary]) {
+    let rows: Vec<&MethodSummary> = held_out.iter().filter(|row| row.region == region).collect();
+    let models = rows.iter().map(|row| row.models).max().unwrap_or(0);
+    let _ = write!(
+        text,
+        "### {}, {models} models\n\n| varied | method | shape, dB: median / p95 | level, dB: median / p95 | level, signed median | nearer than the default |\n|---|---|---:|---:|---:|---:|\n",
+        region.name()
+    );
+    for row in rows {
+        let (varied, method) = row.method.names();
+        let pair = |spread: Option<Spread>| {
+            let [median, p95] = [spread.map(|s| s.median), spread.map(|s| s.p95)];
+            format!("{} / {}", number(median, 2), number(p95, 2))
+        };
+        let _ = writeln!(
+            text,
+            "| {varied} | {method} | {} | {} | {} | {} % |",
+            pair(row.shape_db),
+            pair(row.level_db),
+            number(row.bias_db, 2),
+            number(row.nearer.map(|fraction| 100.0 * fraction), 0)
+        );
+    }
+    text.push('\n');
+}
+
+fn kept(text: &mut String, results: &Results) {
+    let kept = &results.kept;
+    let median = |values: Vec<f64>| number(percentile(&values, 0.5).map(|x| 100.0 * x), 0);
+    let percent_kept = |change: fn(&asperity::reduce::Report) -> Change| {
+        let of = |kept: &Kept| {
+            let Change { full, kept } = change(&kept.report);
+            (full > 0).then(|| kept as f64 / full as f64)
+        };
+        median(kept.iter().filter_map(of).collect())
+    };
+    let ratios: Vec<f64> = kept.iter().filter_map(|k| k.ratio()).collect();
+    let bytes = kept
+        .iter()
+        .filter_map(|k| k.bytes)
+        .map(|(full, kept)| kept as f64 / full as f64);
+    let largest = |value: fn(&asperity::reduce::Report) -> f64| {
+        kept.iter().map(|k| value(&k.report)).fold(0.0, f64::max)
+    };
+    let _ = write!(
+        text,
+        "### what `auto` keeps of {} materials\n\n| | |\n|---|---:|\n| within the budget | {} |\n| instructions at least halved | {} |\n| instructions kept, median | {} % |\n| vertices kept, median | {} % |\n| tap samples kept, median | {} % |\n| bytes kept, median | {} % |\n| largest p95 / worst | {:.2} / {:.2} dB |\n",
+        kept.len(),
+        kept.iter().filter(|k| k.is_within_budget()).count(),
+        ratios.iter().filter(|ratio| **ratio <= 0.5).count(),
+        median(ratios.clone()),
+        percent_kept(|r| r.vertices),
+        percent_kept(|r| r.tap_samples),
+        median(bytes.collect()),
+        largest(|r| r.p95_db),
+        largest(|r| r.worst_db),
+    );
+    let names = |wanted: &dyn Fn(&Kept) -> bool| -> String {
+        let some = results
+            .materials
+            .iter()
+            .zip(kept)
+            .filter(|(_, kept)| wanted(kept));
+        some.map(|(name, _)| name.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let _ = write!(
+        text,
+        "\nNot halved: {}. All poles and zeros kept: {}.\n",
+        names(&|k| k.ratio().is_some_and(|ratio| ratio > 0.5)),
+        names(&|k| k.report.order.full == k.report.order.kept
+            && k.report.zeros.full == k.report.zeros.kept)
+    );
+    let quartiles = |of: fn(&(f64, f64)) -> f64| -> String {
+        let values: Vec<f64> = results.exponents.iter().map(of).collect();
+        [0.25, 0.5, 0.75]
+            .map(|fraction| number(percentile(&values, fraction), 2))
+            .join(", ")
+    };
+    let _ = write!(
+        text,
+        "\nFitted exponents, quartiles: {} for speed, {} for force.\n",
+        quartiles(|e| e.0),
+        quartiles(|e| e.1)
+    );
+}

@@ -1,0 +1,36 @@
+//! Alternatives to the tick, and what each costs and loses.
+//!
+//! The runtime renders in one way. These labs measure why: they run kernels of every other
+//! way ([`asperity_kernels`]) on the same textures.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`kernel`] | the kernels on the compiler's models |
+//! | [`material`] | the textures that are measured |
+//! | [`accuracy`], [`difference`] | how far a design is from the f64 oracle, at rest and moving |
+//! | [`held_out`] | how well an interpolation predicts a measured model it has not seen |
+//! | [`cost`], [`cortex_m`] | executed instructions, bytes, time |
+//! | [`kept`] | what `--fidelity auto` keeps of a material |
+//! | [`mod@measure`], [`summary`], [`front`] | every design on every material, and which designs no other beats |
+//! | [`noise`], [`statistics`] | seeded noise; percentiles and levels |
+//! | [`table`], [`json`], [`markdown`] | results as CSV, as JSON, as tables of the documentation |
+//! | [`chart`] | the pictures |
+
+pub mod accuracy;
+pub mod chart;
+pub mod cortex_m;
+pub mod cost;
+pub mod difference;
+pub mod front;
+mod grids;
+pub mod held_out;
+pub mod json;
+pub mod kept;
+pub mod kernel;
+pub mod markdown;
+pub mod material;
+pub mod measure;
+pub mod noise;
+pub mod statistics;
+pub mod summary;
+pub mod table;

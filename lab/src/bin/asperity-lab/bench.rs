@@ -1,0 +1,281 @@
+//! `asperity-lab bench`: known textures, recorded by simulated sensors and imported again.
+
+use std::{fmt::Write as _, path::PathBuf};
+
+use asperity::{hatt, model::TextureModel};
+use asperity_console::Console;
+use asperity_experiments::import_accuracy::{
+    self, Checks, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors, Until,
+};
+use asperity_io::diagnostic::{Failures, one};
+
+use crate::error::Plain;
+
+/// Materials of the learned model that are decoded where no HaTT is given.
+const REFERENCE: usize = 24;
+
+/// Record known textures with simulated sensors, import them, and compare with the truth
+///
+/// A hand strokes and taps every texture on a simulated Touch with irregular motion. An accelerometer,
+/// a force sensor and the device write files with noise, gravity, delay and drift. What an import
+/// makes of the files is held against the texture that was touched, at every part of the plane of
+/// speed and force that was visited.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab bench
+  asperity-lab bench --hatt materials/ --seconds 5,15,60,300
+  asperity-lab bench --checks 100
+  asperity-lab bench --write oak --seconds 30        a recording to try the import with
+
+Without --hatt, the textures are the built-in one and materials of the learned model.")]
+pub(crate) struct Arguments {
+    /// Folder of HaTT XML files
+    #[arg(long, value_name = "DIR")]
+    hatt: Option<PathBuf>,
+    /// Seconds of strokes, one or several; air and taps come in addition. With --write, seconds of
+    /// the whole recording
+    #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = seconds)]
+    seconds: Vec<f64>,
+    /// At most so many textures
+    #[arg(long, value_name = "N")]
+    textures: Option<usize>,
+    /// Only every so many of the textures
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    every: usize,
+    /// Noise of the accelerometer, times the usual 80 µg/√Hz
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    noise: f64,
+    /// Frequency in Hz and Q of the resonance of the tool with its accelerometer
+    #[arg(long, value_name = "HZ,Q", conflicts_with = "checks")]
+    resonance: Option<Resonance>,
+    /// Tap the tool so often in free air at the start
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(..=MOST_FREE_TAPS as i64), conflicts_with = "checks")]
+    free_taps: u8,
+    /// Record no position along z
+    #[arg(long, conflicts_with = "checks")]
+    no_height: bool,
+    /// Write every visited cell of every texture into this CSV file
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["write", "checks"])]
+    cells: Option<PathBuf>,
+    /// Check so many faulty and as many clean recordings of 20 s instead
+    #[arg(long, value_name = "N", conflicts_with = "write")]
+    checks: Option<usize>,
+    /// Write one recording of the first texture into this folder instead; made if its parent exists
+    #[arg(long, value_name = "DIR")]
+    write: Option<PathBuf>,
+    /// Seed of everything random
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Arguments {
+    /// Changes the usual sensors as asked.
+    fn alter(&self, sensors: &mut Sensors) {
+        sensors.accel_noise *= self.noise;
+        sensors.resonance = self.resonance;
+        sensors.free_taps = usize::from(self.free_taps);
+        sensors.has_height = !self.no_height;
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if (3.0..=1200.0).contains(&value) => Ok(value),
+        _ => Err("must be 3 to 1200 s".into()),
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
+    let mut textures = textures(arguments)?;
+    textures = textures
+        .into_iter()
+        .step_by(arguments.every.max(1))
+        .collect();
+    textures.truncate(arguments.textures.unwrap_or(usize::MAX).max(1));
+    if let Some(folder) = &arguments.write {
+        return write(arguments, &textures[0], folder, console);
+    }
+    if let Some(count) = arguments.checks {
+        let bar = console.bar(count, "checking");
+        let checks = import_accuracy::checks(&textures, count, 20.0, arguments.seed, || bar.inc(1))
+            .map_err(one)?;
+        bar.finish_and_clear();
+        return print(&checks, checks_text(&checks), arguments.json, console);
+    }
+    let mut all: Vec<(Figures, Vec<Row>)> = Vec::new();
+    for &seconds in &arguments.seconds {
+        let bar = console.bar(textures.len(), "recording and importing");
+        let alter = |sensors: &mut Sensors| arguments.alter(sensors);
+        let rows = import_accuracy::learn(&textures, seconds, arguments.seed, alter, || bar.inc(1))
+            .map_err(one)?;
+        bar.finish_and_clear();
+        all.push((import_accuracy::summary(&rows), rows));
+    }
+    if let Some(path) = &arguments.cells {
+        std::fs::write(path, cells_csv(&all)).map_err(|error| {
+            Plain::failure(
+                format!("{}: {error}", path.display()),
+                "give a file that can be written",
+            )
+        })?;
+    }
+    let text = figures_text(&all);
+    // Figures of single materials of others stay with their owner.
+    let figures: Vec<&Figures> = all.iter().map(|(figures, _)| figures).collect();
+    print(&figures, text, arguments.json, console)
+}
+
+fn print(
+    value: &impl serde::Serialize,
+    text: String,
+    json: bool,
+    console: Console,
+) -> Result<(), Failures> {
+    if json {
+        let json = serde_json::to_value(value)
+            .map_err(|error| Plain::failure(error, "report this error"))?;
+        console.json(&json).map_err(one)
+    } else {
+        console.text(&text).map_err(one)
+    }
+}
+
+fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
+    let mut text = String::from(
+        "| seconds of strokes | textures | mean of a texture's cells, median dB | 95 % of the textures, dB | median cell, median dB | cells | 95 % of the cells, dB | within 3 dB, % | 10 dB over noise, % | their 95 % dB | level, mean dB | 95 % of the cells, dB | μ, median % | 95 % | taps, median dB | 95 % dB | vertices |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for (f, rows) in all {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "| {:.0} | {} of {} | {:.2} | {:.2} | {:.2} | {} | {:.2} | {:.1} | {:.0} | {:.2} | {:.2} | {:.2} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} |",
+            f.seconds,
+            f.imported,
+            rows.len(),
+            f.texture_db.0,
+            f.texture_db.1,
+            f.median_db,
+            f.cells,
+            f.p95_db,
+            f.within_percent,
+            f.loud_percent,
+            f.loud_p95_db,
+            f.level_db,
+            f.level_p95_db,
+            f.mu_percent.0,
+            f.mu_percent.1,
+            f.taps_db.0,
+            f.taps_db.1,
+            f.vertices
+        );
+        for row in rows {
+            if let Some(why) = &row.refused {
+                let _ = writeln!(text, "  {} refused: {why}", row.name);
+            }
+        }
+    }
+    text
+}
+
+fn cells_csv(all: &[(Figures, Vec<Row>)]) -> String {
+    let mut csv = String::from(
+        "texture,recorded_s,vertices,order,speed_mm_s,force_n,seconds,steady_s,over_noise_db,error_db,level_db\n",
+    );
+    for row in all.iter().flat_map(|(_, rows)| rows) {
+        for cell in row.comparison.iter().flat_map(|c| &c.cells) {
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                csv,
+                "\"{}\",{:.0},{},{},{:.2},{:.3},{:.3},{:.3},{:.2},{:.3},{:.3}",
+                row.name.replace('"', "\"\""),
+                row.seconds,
+                row.vertices,
+                row.order,
+                cell.speed_mm_s,
+                cell.force_n,
+                cell.seconds,
+                cell.steady_s,
+                cell.over_noise_db,
+                cell.error_db,
+                cell.level_db
+            );
+        }
+    }
+    csv
+}
+
+fn checks_text(checks: &Checks) -> String {
+    let mut text = format!(
+        "{} of {} faults found and named\n{} false alarms in {} clean recordings\n",
+        checks.named,
+        checks.faulty,
+        checks.false_alarms.len(),
+        checks.clean
+    );
+    for line in checks.missed.iter().map(|m| format!("missed: {m}")).chain(
+        checks
+            .false_alarms
+            .iter()
+            .map(|a| format!("false alarm: {a}")),
+    ) {
+        text += &line;
+        text.push('\n');
+    }
+    text
+}
+
+fn write(
+    arguments: &Arguments,
+    texture: &TextureModel,
+    folder: &PathBuf,
+    console: Console,
+) -> Result<(), Failures> {
+    let fail = |error: std::io::Error| {
+        Plain::failure(
+            format!("{}: {error}", folder.display()),
+            "give a folder that can be made",
+        )
+    };
+    if folder.exists() {
+        return Err(Plain::failure(
+            format!("{} exists", folder.display()),
+            "give a folder that is not there yet",
+        ));
+    }
+    std::fs::create_dir(folder).map_err(fail)?;
+    let until = Until::Seconds(arguments.seconds[0]);
+    let performance = import_accuracy::perform(texture, until, arguments.seed).map_err(one)?;
+    let mut sensors = Sensors::seeded(arguments.seed);
+    arguments.alter(&mut sensors);
+    import_accuracy::record(&performance, texture, &sensors, arguments.seed, folder)
+        .map_err(fail)?;
+    let text = format!(
+        "{}: {:.0} s of {}, {} impacts\n",
+        folder.display(),
+        arguments.seconds[0],
+        texture.name,
+        performance.impacts.len()
+    );
+    console.report(&text).map_err(one)
+}
+
+/// The textures that are touched.
+fn textures(arguments: &Arguments) -> Result<Vec<TextureModel>, Failures> {
+    if let Some(folder) = &arguments.hatt {
+        let files = hatt::files(folder).map_err(one)?;
+        return files
+            .iter()
+            .map(|file| {
+                let material = hatt::bytes(file)
+                    .and_then(|bytes| hatt::parse(file, &bytes))
+                    .map_err(one)?;
+                let name = file.file_name().unwrap_or_default().to_string_lossy();
+                Ok(hatt::to_model(&material, &name, 0))
+            })
+            .collect();
+    }
+    import_accuracy::materials(REFERENCE).map_err(one)
+}

@@ -1,0 +1,135 @@
+//! `asperity-lab device calibrate`: how a device answers a force, and the filter that evens it out.
+
+use std::path::PathBuf;
+
+use asperity_console::Console;
+use asperity_host::profile::sweep::Sweep;
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output::{Outputs, display};
+use asperity_lab::calibration::{Measured, base, draw, simulate};
+use asperity_sim::device::DeviceConfig;
+
+use crate::error::Plain;
+
+/// Fit a device's response from a commanded force and an acceleration, and write its profile
+///
+/// The table has one row a servo period: t_s, force_n, accel_m_s2, the force that was
+/// commanded and the acceleration of the tip along it. Without a table the sweep is played
+/// on the simulated device. The report says gain, resonance, delay and coherence, and how
+/// far the device is from the reference between 40 and 400 Hz, without and with the filter.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab device calibrate                          the simulated Touch
+  asperity-lab device calibrate --table sweep.csv        its table, as a pattern
+  asperity-lab device calibrate measured.csv --profile touch.toml -o mine.toml --plot mine.png
+  asperity-lab servo brick.asp --device falcon: --profile mine.toml
+
+The sweep: 20 Hz to 0.48 of the rate and back in 20 s, at --amplitude. Hold the stylus by a
+thread or a weak spring. No table of real hardware has been fitted yet.")]
+pub(crate) struct Arguments {
+    /// Table of a measurement, CSV; the simulated device without it
+    table_file: Option<PathBuf>,
+    /// Profile to begin with, TOML: limits and mechanics
+    #[arg(long, value_name = "TOML")]
+    profile: Option<PathBuf>,
+    /// Simulated device, a TOML file; a 3D Systems Touch without it
+    #[arg(long, value_name = "TOML", conflicts_with = "table_file")]
+    device: Option<PathBuf>,
+    /// Amplitude of the simulated sweep, N (0.01 to 10)
+    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = amplitude, conflicts_with = "table_file")]
+    amplitude: f64,
+    /// Write the table of the simulated sweep; `-` is standard output
+    #[arg(long, value_name = "OUT.csv", conflicts_with = "table_file")]
+    table: Option<PathBuf>,
+    /// Draw the response without and with the filter, and the coherence; `-` is standard output
+    #[arg(long, value_name = "OUT.png")]
+    plot: Option<PathBuf>,
+    /// Write the profile with its filter; `-` is standard output
+    #[arg(short, long, value_name = "OUT.toml")]
+    output: Option<PathBuf>,
+}
+
+fn amplitude(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if (0.01..=10.0).contains(&value) => Ok(value),
+        Ok(_) => Err("must be 0.01 to 10 N".into()),
+        Err(_) => Err("not a force".into()),
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
+    let inputs = arguments
+        .table_file
+        .iter()
+        .chain(&arguments.profile)
+        .chain(&arguments.device);
+    let mut outputs = Outputs::beside(inputs);
+    let mut open = |path: &Option<PathBuf>| outputs.open_if(path.as_deref()).map_err(one);
+    let table_file = open(&arguments.table)?;
+    let plot_file = open(&arguments.plot)?;
+    let profile_file = open(&arguments.output)?;
+    let console = console.beside(&outputs);
+
+    let device = match &arguments.device {
+        None => DeviceConfig::touch().map_err(one)?,
+        Some(path) => DeviceConfig::load(path).map_err(one)?,
+    };
+    let mut profile = base(arguments.profile.as_ref(), &device).map_err(one)?;
+    let (measured, origin) = match &arguments.table_file {
+        Some(path) => (
+            Measured::load(path).map_err(one)?,
+            display(path).to_string(),
+        ),
+        None => {
+            let sweep = Sweep::standard(device.timing.servo_rate_hz, arguments.amplitude);
+            (
+                simulate(&device, &sweep),
+                format!("{}, simulated", device.name),
+            )
+        }
+    };
+    let (response, design) = measured.fit(&origin).map_err(one)?;
+    let mut report = format!(
+        "measured   {origin}, {} periods at {:.1} Hz\n\
+         resonance  {:.0} Hz, {:+.1} dB over the median gain\n\
+         delay      {:.2} ms\n\
+         coherence  {:.2} at worst, 40 to 400 Hz\n\
+         deviation  {:.1} dB from the reference without the filter, {:.2} dB with it\n\
+         filter     {} coefficients, minimum phase\n",
+        measured.force_n.len(),
+        measured.rate_hz,
+        response.resonance_hz,
+        response.resonance_db,
+        1e3 * response.delay_s,
+        response.worst_coherence,
+        design.before_db,
+        design.after_db,
+        design.filter.taps.len(),
+    );
+    if let (Some(file), Some(path)) = (table_file, &arguments.table) {
+        report += &format!("table      {}\n", display(path));
+        outputs
+            .fill(file, measured.to_csv().as_bytes())
+            .map_err(one)?;
+    }
+    if let (Some(file), Some(path)) = (plot_file, &arguments.plot) {
+        report += &format!("plot       {}\n", display(path));
+        let drawn = draw(&origin, &response, &design);
+        let png = drawn.map_err(|error| Plain::failure(error, "report this as a bug"))?;
+        outputs.fill(file, &png).map_err(one)?;
+    }
+    if let (Some(file), Some(path)) = (profile_file, &arguments.output) {
+        report += &format!("profile    {}\n", display(path));
+        let field = "compensation.taps".to_owned();
+        if arguments.table_file.is_none() && !profile.unconfirmed.contains(&field) {
+            profile.unconfirmed.push(field);
+        }
+        profile.compensation = Some(design.filter);
+        outputs
+            .fill(file, profile.to_toml().as_bytes())
+            .map_err(one)?;
+    }
+    outputs.commit().map_err(one)?;
+    let wrote = arguments.output.is_some() || arguments.table.is_some() || arguments.plot.is_some();
+    console.result_of(wrote, &report).map_err(one)
+}

@@ -1,0 +1,298 @@
+//! `asperity-lab device probe`: whether a device works.
+
+use std::time::{Duration, Instant};
+
+use asperity_console::Console;
+use asperity_host::device::falcon::on_usb;
+use asperity_host::device::touch::{Face, identify};
+use asperity_host::device::usb::scan::scan;
+use asperity_host::device::usb::{Ids, Kind, UsbError};
+use asperity_host::device::{Device as _, Fault, Scheme, Uri};
+use asperity_io::diagnostic::{Failures, one};
+use serde_json::{Value, json};
+
+use super::failure;
+use crate::error::Plain;
+
+/// See whether a device works
+///
+/// A Falcon is opened, given its firmware if it has none, and sent commands without force for two
+/// seconds. A Touch on USB is identified, and nothing is sent to it: its protocol is not public.
+/// Any other device is opened, read and told to give no force. Without a URI the devices on USB are
+/// probed in turn. The exit status is 1 if one does not work.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab device probe
+  asperity-lab device probe 'falcon:?firmware=falcon.bin&tries=20'
+  asperity-lab device probe touch: --json
+  asperity-lab device probe openhaptics:?lib=/opt/openhaptics/libHD.so
+
+Settings of falcon: are firmware=FILE, tries=N, peak_n=N, motor_step=COUNTS, ids=TOML.")]
+pub(crate) struct Arguments {
+    /// Which device, such as falcon:, touch:, openhaptics: or dhd:; behind the colon a serial number,
+    /// a name or BUS-ADDRESS
+    #[arg(value_name = "URI")]
+    uri: Option<String>,
+    /// Time of the commands, s (0.1 to 60)
+    #[arg(long, default_value_t = 2.0, value_parser = seconds)]
+    seconds: f64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let value = text
+        .parse()
+        .ok()
+        .filter(|value| (0.1..=60.0).contains(value));
+    value.ok_or_else(|| "must be 0.1 to 60 s".into())
+}
+
+/// Gives whether every device works.
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failures> {
+    let uris = match &arguments.uri {
+        Some(text) => vec![parse(text)?],
+        None => plugged_in()?,
+    };
+    let mut well = true;
+    let mut values = Vec::new();
+    for uri in &uris {
+        match probe(uri, arguments.seconds) {
+            Ok(probed) if arguments.json => values.push(probed.value),
+            Ok(probed) => console.text(&probed.text).map_err(one)?,
+            Err((problem, remedy)) => {
+                well = false;
+                if arguments.json {
+                    values.push(json!({
+                        "uri": uri.to_string(), "works": false,
+                        "problem": problem, "remedy": remedy,
+                    }));
+                } else if uris.len() == 1 {
+                    return Err(failure(&problem, remedy));
+                } else {
+                    let text = format!("{uri}\n  {problem}\n  help: {remedy}\n");
+                    console.text(&text).map_err(one)?;
+                }
+            }
+        }
+    }
+    if arguments.json {
+        super::json(console, &json!({ "devices": values }))?;
+    }
+    Ok(well)
+}
+
+pub(super) fn parse(text: &str) -> Result<Uri, Failures> {
+    text.parse::<Uri>()
+        .map_err(|error| Plain::failure(error, "write for instance `falcon:` or `openhaptics:`"))
+}
+
+/// The devices of ours on USB.
+fn plugged_in() -> Result<Vec<Uri>, Failures> {
+    let refuse = |error: UsbError| failure(&error, error.remedy());
+    let ids = Ids::load(None).map_err(|error| refuse(error.into()))?;
+    let found = scan(&ids).map_err(refuse)?;
+    let uris: Vec<Uri> = found
+        .iter()
+        .filter_map(|found| {
+            Some(Uri {
+                scheme: match found.kind? {
+                    Kind::Falcon => Scheme::Falcon,
+                    Kind::Touch => Scheme::Touch,
+                },
+                which: format!("{}-{}", found.bus, found.address),
+                settings: Vec::new(),
+            })
+        })
+        .collect();
+    if uris.is_empty() {
+        return Err(refuse(UsbError::NotFound {
+            what: "haptic device",
+            which: String::new(),
+        }));
+    }
+    Ok(uris)
+}
+
+struct Probed {
+    text: String,
+    value: Value,
+}
+
+type Problem = (String, String);
+
+fn probe(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
+    match uri.scheme {
+        Scheme::Falcon => falcon(uri, seconds),
+        Scheme::Touch => touch(uri),
+        _ => any(uri, seconds),
+    }
+}
+
+/// A device that is not on USB: it is read a thousand times a second and told to give no force.
+fn any(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
+    use asperity_io::diagnostic::Diagnostic as _;
+    const RATE_HZ: u32 = 1000;
+    let opened = asperity_lab::servo_session::open(uri, RATE_HZ);
+    let mut device = opened
+        .map_err(|error| (error.to_string(), error.remedy()))?
+        .device;
+    let begun = Instant::now();
+    let (mut readings, mut fresh, mut faults) = (0_u64, 0_u64, 0_u64);
+    let mut last = Err(Fault::TimedOut);
+    let mut buttons = 0;
+    while begun.elapsed().as_secs_f64() < seconds {
+        readings += 1;
+        match device.read() {
+            Ok(reading) => {
+                fresh += u64::from(reading.fresh);
+                buttons |= reading.buttons;
+                last = Ok(reading.position_m);
+            }
+            Err(fault) => {
+                faults += 1;
+                last = Err(fault);
+            }
+        }
+        // A fault shows in the next reading.
+        let _ = device.write([0.0; 3]);
+        std::thread::sleep(Duration::from_micros(1_000_000 / u64::from(RATE_HZ)));
+    }
+    let rate_hz = fresh as f64 / begun.elapsed().as_secs_f64();
+    let description = device.description();
+    let serial = description.serial.as_deref().unwrap_or("no serial number");
+    let position = match &last {
+        Ok(position_m) => {
+            let [x, y, z] = position_m.map(|metres| metres * 1e3);
+            format!("position {x:.2}, {y:.2}, {z:.2} mm, buttons {buttons:#b}")
+        }
+        Err(fault) => format!("no position: {fault}"),
+    };
+    let mut text = format!(
+        "{}  {serial}\n  {readings} readings: {fresh} new ({rate_hz:.0} Hz), {faults} faults; no force was \
+         commanded\n  {position}\n  forces: {:.2} N at most, {:.2} N for long\n",
+        description.name, description.peak_force_n, description.continuous_force_n,
+    );
+    for sentence in &description.unconfirmed {
+        text += &format!("  unconfirmed: {sentence}\n");
+    }
+    let value = json!({
+        "uri": uri.to_string(),
+        "name": description.name,
+        "serial": description.serial,
+        "works": fresh > 0,
+        "readings": readings,
+        "fresh": fresh,
+        "faults": faults,
+        "rate_hz": rate_hz,
+        "position_m": last.ok(),
+        "buttons": buttons,
+        "peak_force_n": description.peak_force_n,
+        "continuous_force_n": description.continuous_force_n,
+        "unconfirmed": description.unconfirmed,
+    });
+    if fresh > 0 {
+        Ok(Probed { text, value })
+    } else {
+        let why = last.err().unwrap_or(Fault::TimedOut);
+        Err((
+            format!("{} gives no position: {why}", description.name),
+            "see what the table of docs/vendor.md says, and try the vendor's own test program"
+                .into(),
+        ))
+    }
+}
+
+fn touch(uri: &Uri) -> Result<Probed, Problem> {
+    let refuse = |error: UsbError| (error.to_string(), error.remedy());
+    uri.allow(&["ids"])
+        .map_err(|error| (error.to_string(), "write `touch:?ids=FILE`".into()))?;
+    let ids = Ids::load(uri.setting("ids").map(std::path::Path::new));
+    let ids = ids.map_err(|error| refuse(error.into()))?;
+    let found = identify(&ids, &uri.which).map_err(refuse)?;
+    let face = Face::of(&found).sentence();
+    let limits =
+        "Its protocol is not public: nothing was sent to it, and it cannot be felt over USB.";
+    let next = "Install the vendor's OpenHaptics and its driver, and use openhaptics:.";
+    let mut value = super::inventory::value(&found);
+    value["works"] = true.into();
+    value["notes"] = json!([face, limits, next]);
+    Ok(Probed {
+        text: format!("{}\n  {face}\n  {limits}\n  {next}\n", found.place()),
+        value,
+    })
+}
+
+fn falcon(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
+    let mut falcon = on_usb::open(uri).map_err(|error| (error.to_string(), error.remedy()))?;
+    let begun = Instant::now();
+    let (mut commands, mut last) = (0_u32, Err(Fault::TimedOut));
+    while begun.elapsed().as_secs_f64() < seconds {
+        if falcon.write([0.0; 3]).is_ok() {
+            commands += 1;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+        match falcon.read() {
+            Ok(reading) if !reading.fresh => {}
+            other => last = other,
+        }
+    }
+    let taken_s = begun.elapsed().as_secs_f64();
+    let counts = falcon.counts();
+    let rate_hz = counts.received as f64 / taken_s;
+    let description = falcon.description();
+    let position = match &last {
+        Ok(reading) => {
+            let [x, y, z] = reading.position_m.map(|metres| metres * 1e3);
+            format!("position {x:.2}, {y:.2}, {z:.2} mm")
+        }
+        Err(Fault::NotCalibrated) => format!(
+            "not homed ({} of 3 encoders): pull the grip out as far as it goes, then push it in",
+            falcon.homed().count_ones()
+        ),
+        Err(fault) => format!("no position: {fault}"),
+    };
+    let serial = description.serial.as_deref().unwrap_or("no serial number");
+    let mut text = format!(
+        "{}  {serial}\n  the firmware runs; {commands} commands without force, {} answers, \
+         {rate_hz:.0} Hz\n  {position}\n  {} stalls, {} short, {} timed out, {} other errors, {} \
+         bytes of no frame\n",
+        description.name,
+        counts.received,
+        counts.stalled,
+        counts.short,
+        counts.timed_out,
+        counts.failed,
+        counts.skipped_bytes,
+    );
+    for sentence in &description.unconfirmed {
+        text += &format!("  unconfirmed: {sentence}\n");
+    }
+    let answered = counts.received > 0;
+    let value = json!({
+        "uri": uri.to_string(),
+        "name": description.name,
+        "serial": description.serial,
+        "works": answered,
+        "commands": commands,
+        "answers": counts.received,
+        "rate_hz": rate_hz,
+        "homed": falcon.homed().count_ones(),
+        "position_m": last.ok().map(|reading| reading.position_m),
+        "stalls": counts.stalled,
+        "short": counts.short,
+        "timed_out": counts.timed_out,
+        "failed": counts.failed,
+        "skipped_bytes": counts.skipped_bytes,
+        "unconfirmed": description.unconfirmed,
+    });
+    if answered {
+        Ok(Probed { text, value })
+    } else {
+        Err((
+            "the Falcon answers no command".into(),
+            "switch its power off and on, then try again".into(),
+        ))
+    }
+}

@@ -1,0 +1,101 @@
+//! `asperity-lab`: measures Asperity without a device on the desk.
+#![forbid(unsafe_code)]
+
+mod bench;
+mod device;
+mod error;
+mod feel;
+mod jitter;
+mod loop_options;
+mod pareto;
+mod record;
+mod servo;
+mod stability;
+
+use std::process::ExitCode;
+
+use asperity_console::Console;
+use asperity_experiments::pareto::cost;
+use asperity_io::diagnostic::{Failures, one};
+use clap::{Parser, Subcommand};
+use error::Plain;
+
+/// Labs for Asperity textures: what a simulated user feels on a simulated device, and where
+/// methods fail.
+#[derive(Debug, Parser)]
+#[command(name = "asperity-lab", version)]
+#[command(after_help = "Examples:
+  asperity-lab feel
+  asperity-lab feel brick.asp --plot feel.png --wav feel.wav
+  asperity-lab servo brick.asp --device sim: --watch
+  asperity-lab jitter --seconds 10 --cyclictest
+  asperity-lab stability
+  asperity-lab pareto --out charts
+  asperity-lab device list
+  asperity-lab bench --seconds 5,60
+  asperity-lab record oak --device sim:?hand=record --accel sim:")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+    /// Show no progress and no report of what was written; what was asked for, --json and warnings
+    /// are printed all the same
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Feel(feel::Arguments),
+    Servo(servo::Arguments),
+    Jitter(jitter::Arguments),
+    Stability(stability::Arguments),
+    Pareto(pareto::Arguments),
+    Device(device::Arguments),
+    Bench(bench::Arguments),
+    Record(record::Arguments),
+    /// Run one kernel, for counting
+    #[command(name = cost::COMMAND, hide = true)]
+    Kernel {
+        numbers: Vec<usize>,
+    },
+}
+
+fn main() -> ExitCode {
+    let arguments: Arguments = asperity_console::arguments();
+    // A servo loop takes the force to zero first.
+    let has_loop = matches!(
+        arguments.command,
+        Command::Servo(_) | Command::Jitter(_) | Command::Record(_)
+    );
+    if !has_loop {
+        if let Err(error) = asperity_console::clean_up_on_interrupt() {
+            return asperity_console::finish(Err(one(error)));
+        }
+        asperity_console::share_work();
+    }
+    let console = Console::new(arguments.quiet);
+    let result = match &arguments.command {
+        Command::Feel(arguments) => feel::run(arguments, console).map(|()| true),
+        Command::Servo(arguments) => servo::run(arguments, console).map(|()| true),
+        Command::Jitter(arguments) => jitter::run(arguments, console).map(|()| true),
+        Command::Stability(arguments) => stability::run(arguments, console),
+        Command::Device(arguments) => device::run(arguments, console),
+        Command::Pareto(arguments) => pareto::run(arguments, console).map(|()| true),
+        Command::Bench(arguments) => bench::run(arguments, console).map(|()| true),
+        Command::Record(arguments) => record::run(arguments, console).map(|()| true),
+        Command::Kernel { numbers } => kernel(numbers).map(|()| true),
+    };
+    match result {
+        Ok(false) => ExitCode::FAILURE,
+        other => asperity_console::finish(other.map(drop)),
+    }
+}
+
+fn kernel(numbers: &[usize]) -> Result<(), Failures> {
+    cost::run(numbers).map(drop).ok_or_else(|| {
+        Plain::failure(
+            format!("{numbers:?} names no kernel"),
+            "leave this command to `asperity-lab pareto`",
+        )
+    })
+}

@@ -1,0 +1,202 @@
+//! `asperity-lab pareto`: cost and error of every way to render.
+
+use std::path::{Path, PathBuf};
+
+use asperity::hatt;
+use asperity_console::Console;
+use asperity_experiments::pareto::cortex_m::{self, CortexM};
+use asperity_experiments::pareto::held_out::summaries;
+use asperity_experiments::pareto::measure::{Options, Results, measure, steps};
+use asperity_experiments::pareto::{chart, json, markdown, material, table};
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::input::{self, InputError, Kind};
+use asperity_io::output;
+
+use crate::error::Plain;
+
+/// Measure speed against accuracy over many materials
+///
+/// Every factor of the tick is varied alone from the default, and some together. Errors are
+/// against the f64 oracle, at rest and moving; measured models are predicted from their
+/// neighbours. The same seed gives the same tables.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab pareto --out charts                      the reference corpus
+  asperity-lab pareto --hatt hatt/models --out charts   your own copy of the HaTT
+  asperity-lab pareto --quick --json                    a few materials, no counting
+
+Writes summary.csv, designs.csv, held-out.csv, fidelity.csv, their tables.md, and charts as
+.svg and .png. Instructions a tick are counted by valgrind where it is installed, at the
+orders that most of the materials have. A firmware bench's counts (factor,name,instructions)
+are added by --cortex-m.")]
+pub(crate) struct Arguments {
+    /// Folder of HaTT models; the reference corpus without it
+    #[arg(long, value_name = "DIR")]
+    hatt: Option<PathBuf>,
+    /// Folder for tables and charts; made if its parent exists
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Six materials, half a second of motion, nothing counted: below a minute
+    #[arg(long)]
+    quick: bool,
+    /// Time every kernel beside the default: depends on the machine
+    #[arg(long)]
+    time: bool,
+    /// Instructions a tick on a Cortex-M4F, CSV: factor,name,instructions
+    #[arg(long, value_name = "FILE.csv")]
+    cortex_m: Option<PathBuf>,
+    /// Seed of motions and excitations
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Materials of a quick run.
+const QUICK: usize = 6;
+
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
+    let cortex_m = match &arguments.cortex_m {
+        None => CortexM::new(),
+        Some(path) => read_counts(path)?,
+    };
+    let mut textures = match &arguments.hatt {
+        Some(folder) => material::hatt(folder).map_err(one)?,
+        None => material::corpus().map_err(one)?,
+    };
+    if arguments.quick {
+        // Spread over the list, so that families differ.
+        let step = textures.len().div_ceil(QUICK);
+        textures = textures.into_iter().step_by(step).collect();
+    }
+    let options = Options {
+        seed: arguments.seed,
+        seconds: if arguments.quick { 0.5 } else { 4.0 },
+        instructions: !arguments.quick,
+        time: arguments.time,
+    };
+    let bar = console.bar(steps(textures.len()), "measuring");
+    let results = measure(&textures, &options, || bar.inc(1));
+    bar.finish_and_clear();
+    if let Some(folder) = &arguments.out {
+        write(folder, &inputs(arguments)?, &results, &cortex_m)?;
+    }
+    if let Some(reason) = &results.not_counted {
+        console.warn(&format!(
+            "no instructions counted: {reason}; install valgrind"
+        ));
+    }
+    let printed = if arguments.json {
+        console.json(&json::encode(&results))
+    } else {
+        console.result_of(arguments.out.is_some(), &report(&results))
+    };
+    printed.map_err(one)
+}
+
+/// The files that are read, which no table or chart may replace.
+fn inputs(arguments: &Arguments) -> Result<Vec<PathBuf>, Failures> {
+    let mut inputs: Vec<PathBuf> = arguments.cortex_m.iter().cloned().collect();
+    if let Some(folder) = &arguments.hatt {
+        inputs.extend(hatt::files(folder).map_err(one)?);
+    }
+    Ok(inputs)
+}
+
+fn read_counts(path: &Path) -> Result<CortexM, Failures> {
+    let fail = |error: &dyn std::fmt::Display| {
+        Plain::failure(
+            format!("{}: {error}", path.display()),
+            "give a CSV with the columns factor,name,instructions",
+        )
+    };
+    let bytes = input::read(path, Kind::Counts).map_err(|problem| {
+        let file = path.to_owned();
+        one(InputError { file, problem })
+    })?;
+    cortex_m::read(&bytes).map_err(|error| fail(&error))
+}
+
+fn write(
+    folder: &Path,
+    inputs: &[PathBuf],
+    results: &Results,
+    cortex_m: &CortexM,
+) -> Result<(), Failures> {
+    let held_out = summaries(&results.held_out);
+    let encode = |result: Result<Vec<u8>, csv::Error>| {
+        result.map_err(|error| Plain::failure(error, "report this"))
+    };
+    let mut files = vec![
+        (
+            "summary.csv".to_owned(),
+            encode(table::summary(results, cortex_m))?,
+        ),
+        ("designs.csv".to_owned(), encode(table::designs(results))?),
+        (
+            "held-out.csv".to_owned(),
+            encode(table::held_out(&held_out))?,
+        ),
+        ("fidelity.csv".to_owned(), encode(table::fidelity(results))?),
+        (
+            "tables.md".to_owned(),
+            markdown::tables(results, &held_out, cortex_m).into_bytes(),
+        ),
+    ];
+    for (name, picture) in
+        chart::all(results, &held_out).map_err(|e| Plain::failure(e, "report this"))?
+    {
+        files.push((format!("{name}.svg"), picture.svg.into_bytes()));
+        files.push((format!("{name}.png"), picture.png));
+    }
+    let named: Vec<(String, &[u8])> = files
+        .iter()
+        .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
+        .collect();
+    output::write_folder_beside(inputs, folder, &named).map_err(one)
+}
+
+/// A short report for a person.
+fn report(results: &Results) -> String {
+    use std::fmt::Write as _;
+    let mut text = format!(
+        "{} materials; {:<24} {:<30} {:>9} {:>7} {:>23} {:>9}\n",
+        results.materials.len(),
+        "factor",
+        "design",
+        "instr.",
+        "bytes",
+        "dB: median, p95, max",
+        "unstable"
+    );
+    for summary in &results.summaries {
+        let number = |value: Option<f64>| value.map_or("–".into(), |v| format!("{v:.0}"));
+        let errors = summary.distortion_db.map_or("–".into(), |d| {
+            format!("{:.3} {:.3} {:.3}", d.median, d.p95, d.max)
+        });
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{:<24} {:<30} {:>9} {:>7} {errors:>23} {:>8.3}%",
+            summary.variant.factor.name(),
+            summary.variant.name,
+            number(summary.instructions),
+            number(summary.bytes.map(|b| b as f64)),
+            100.0 * summary.unstable
+        );
+    }
+    let within = results.kept.iter().filter(|k| k.is_within_budget()).count();
+    let halved = results
+        .kept
+        .iter()
+        .filter(|k| k.ratio().is_some_and(|r| r <= 0.5))
+        .count();
+    let counted = results.kept.iter().filter(|k| k.ratio().is_some()).count();
+    let _ = writeln!(
+        text,
+        "fidelity auto: {within} of {} within the budget; instructions halved for {halved} of {counted}",
+        results.kept.len()
+    );
+    text
+}

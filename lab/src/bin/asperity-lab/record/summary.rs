@@ -1,0 +1,116 @@
+//! What was recorded, for a person and as JSON.
+
+use std::path::Path;
+
+use asperity::recording;
+use asperity_console::Console;
+use asperity_io::output::display;
+use asperity_lab::capture::Part;
+use asperity_recording::check::Severity;
+use serde_json::{Value, json};
+
+use super::attendant::{End, Recorded};
+use super::screen;
+
+/// A recording in its folder.
+pub(super) struct Summary<'s> {
+    pub(super) folder: &'s Path,
+    pub(super) device: &'s str,
+    pub(super) sensor: &'s str,
+    pub(super) recorded: &'s Recorded,
+    pub(super) part: &'s Part,
+}
+
+fn end(end: End) -> &'static str {
+    match end {
+        End::Covered => "everything was visited",
+        End::Asked => "asked to",
+        End::Over => "time is over",
+        End::Full => "an import keeps no more",
+        End::Lost => "device or sensor has gone",
+        End::Rounding => "the processor no longer rounded to nearest",
+    }
+}
+
+impl Summary<'_> {
+    /// Tells what is wrong with it, as `record-check` would.
+    pub(super) fn warn(&self, console: Console) {
+        let Recorded { counts, lost, .. } = self.recorded;
+        let mut warnings = Vec::new();
+        if counts.bad_lines > 0 {
+            warnings.push(format!(
+                "{} lines of the sensor were no samples",
+                counts.bad_lines
+            ));
+        }
+        if counts.missing > 0 {
+            warnings.push(format!(
+                "{} values of the sensor are missing",
+                counts.missing
+            ));
+        }
+        if *lost != (0, 0) {
+            warnings.push(format!(
+                "{} ticks and {} samples were lost because they were read too slowly",
+                lost.0, lost.1
+            ));
+        }
+        if self.part.is_cut {
+            warnings.push("what came after a gap of 0.9 s was left out".into());
+        }
+        match recording::check(self.folder) {
+            Ok((_, checked, _)) => {
+                let found = checked.at_least(Severity::Warning);
+                warnings.extend(found.map(ToString::to_string));
+            }
+            Err(error) => warnings.push(error.to_string()),
+        }
+        for warning in warnings {
+            console.warn(&warning);
+        }
+    }
+
+    pub(super) fn json(&self) -> Value {
+        let Recorded {
+            take,
+            counts,
+            lost,
+            missed,
+            ..
+        } = self.recorded;
+        let exploration = take.exploration();
+        let coverage = exploration.coverage();
+        let (covered, cells) = coverage.covered();
+        let (touches, samples) = self.part.rows();
+        json!({
+            "folder": self.folder.display().to_string(), "device": self.device,
+            "sensor": self.sensor, "end": end(self.recorded.end),
+            "seconds": self.part.seconds, "touches": touches, "samples": samples,
+            "sensor_rate_hz": self.part.rate_hz, "missed": missed,
+            "covered": covered, "cells": cells, "cell_seconds": coverage.rows(),
+            "taps": exploration.taps(), "air_s": exploration.air_s(),
+            "bad_lines": counts.bad_lines, "missing_values": counts.missing,
+            "lost_ticks": lost.0, "lost_samples": lost.1,
+        })
+    }
+
+    pub(super) fn text(&self) -> String {
+        let exploration = self.recorded.take.exploration();
+        let (covered, cells) = exploration.coverage().covered();
+        let (touches, samples) = self.part.rows();
+        let taps: Vec<String> = exploration.taps().iter().map(u32::to_string).collect();
+        format!(
+            "{}\nrecording  {}, {:.1} s\ndevice     {}, {touches} positions, {} periods missed\nsensor     {}, {samples} samples, {:.1} Hz\ncovered    {covered} of {cells} cells; taps {}; {:.0} s in the air\nend        {}\n",
+            screen::grid(exploration),
+            display(self.folder),
+            self.part.seconds,
+            self.device,
+            self.recorded.missed,
+            self.sensor,
+            self.part.rate_hz,
+            taps.join(" "),
+            exploration.air_s(),
+            end(self.recorded.end)
+        )
+    }
+}

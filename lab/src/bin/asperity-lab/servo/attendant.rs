@@ -1,0 +1,299 @@
+//! Looks after a loop from another thread: records, changed files, events, the status line.
+
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::thread::sleep;
+use std::time::{Duration, Instant, SystemTime};
+
+use asperity_console::Console;
+use asperity_formats::Asset;
+use asperity_host::recording::TextureInfo;
+use asperity_host::servo::{Event, Inlet, Record};
+use asperity_io::diagnostic::{Failures, one, report as told};
+use asperity_lab::servo_session::{Attended, Recorder, Surface};
+use asperity_runtime::{Flags, PrepareError, Preparer};
+use indicatif::ProgressBar;
+
+use super::Arguments;
+use super::summary::{self, Session, Told};
+use crate::loop_options::{LoopOptions, refusals};
+
+/// Time between two looks at the queues.
+const LOOK: Duration = Duration::from_millis(20);
+/// Time between two looks at the file, and between two status lines.
+const SELDOM: Duration = Duration::from_millis(250);
+
+/// Looks after a loop from another thread.
+pub(super) struct Attendant<'c> {
+    console: Console,
+    /// The file that may change, and what it is read with.
+    watched: Option<(&'c Path, &'c LoopOptions)>,
+    seen: Option<(SystemTime, u64)>,
+    recorder: Option<Recorder>,
+    /// Whether the user knows that nothing is recorded any more.
+    told_of_recorder: bool,
+    status: ProgressBar,
+    json: bool,
+    lost: u64,
+    reloads: u64,
+    last: Option<Record>,
+    missed: u64,
+    told_refusals: bool,
+    rate_hz: f32,
+}
+
+impl<'c> Attendant<'c> {
+    pub(super) fn new(
+        arguments: &'c Arguments,
+        console: Console,
+        recorder: Option<Recorder>,
+        rate_hz: u32,
+    ) -> Self {
+        let file = arguments.options.file.as_deref();
+        let watched = file
+            .filter(|_| arguments.watch)
+            .map(|path| (path, &arguments.options));
+        Self {
+            console,
+            watched,
+            seen: watched.and_then(|(path, _)| stamp(path)),
+            recorder,
+            told_of_recorder: false,
+            status: console.activity(),
+            json: arguments.json,
+            lost: 0,
+            reloads: 0,
+            last: None,
+            missed: 0,
+            told_refusals: false,
+            rate_hz: rate_hz as f32,
+        }
+    }
+
+    /// Attends to a loop until it ends. Gives a scene that is to be begun anew.
+    pub(super) fn attend(
+        &mut self,
+        mut attended: Attended<'_, '_, '_, '_>,
+        mut inlet: Inlet,
+        surface: &Surface,
+        stop: &AtomicBool,
+        end_of_run: &AtomicBool,
+    ) -> Option<Surface> {
+        if !self.told_refusals {
+            self.told_refusals = true;
+            for refusal in refusals(attended.grants) {
+                self.console.warn(&refusal);
+            }
+        }
+        let mut next = None;
+        let mut ticks = 0;
+        let mut seldom = Instant::now();
+        // A texture that waits for a spare slot.
+        let mut waiting: Option<Surface> = None;
+        loop {
+            let over = attended.servo.is_finished();
+            ticks += self.drain(&mut inlet);
+            if over {
+                break;
+            }
+            if stop.load(Relaxed) {
+                end_of_run.store(true, Relaxed);
+            }
+            if seldom.elapsed() >= SELDOM {
+                self.show(ticks, seldom.elapsed());
+                (ticks, seldom) = (0, Instant::now());
+                if let Some(changed) = self.changed() {
+                    if changed.is_scene || surface.is_scene {
+                        next = Some(changed);
+                        end_of_run.store(true, Relaxed);
+                    } else {
+                        waiting = Some(changed);
+                    }
+                }
+                if let (Some(texture), Some(preparer)) = (&waiting, &mut attended.preparer)
+                    && self.exchange(texture, preparer)
+                {
+                    waiting = None;
+                }
+            }
+            sleep(LOOK);
+        }
+        self.lost += inlet.lost();
+        let next = next.filter(|_| !stop.load(Relaxed));
+        if next.is_some() && self.recorder.as_mut().is_some_and(Recorder::begin_anew) {
+            self.told_of_recorder = true;
+            self.console
+                .warn("the recording ends here, since the changed scene begins anew");
+        }
+        next
+    }
+
+    /// Hands a texture over to the loop; `false` while no slot is spare.
+    fn exchange(&mut self, texture: &Surface, preparer: &mut Preparer<'_, '_>) -> bool {
+        let rate_hz = self.rate_hz;
+        let prepared = match Asset::parse(&texture.bytes) {
+            Ok(asset) => preparer.prepare(&asset, rate_hz),
+            Err(cause) => Err(PrepareError::Load(cause.into())),
+        };
+        match prepared {
+            Ok(()) => {
+                self.reloads += 1;
+                if let Some(recorder) = &mut self.recorder {
+                    // Records of it are still in the queue at best.
+                    recorder.announce(TextureInfo::of(texture.name.clone(), &texture.bytes));
+                }
+                self.say(&format!(
+                    "{}: loaded anew, {}",
+                    texture.origin, texture.name
+                ));
+                true
+            }
+            Err(PrepareError::NoneSpare) => false,
+            Err(error) => {
+                self.say(&format!("{}: {error}; the old one stays", texture.origin));
+                true
+            }
+        }
+    }
+
+    /// Takes what the loop has sent, and counts the ticks.
+    fn drain(&mut self, inlet: &mut Inlet) -> u64 {
+        let mut ticks = 0;
+        while let Some(record) = inlet.record() {
+            ticks += 1;
+            self.missed += record.missed;
+            if let Some(recorder) = &mut self.recorder {
+                recorder.take(&record);
+            }
+            self.last = Some(record);
+        }
+        if let Some(recorder) = &mut self.recorder {
+            recorder.hand_over();
+        }
+        self.tell_of_recorder();
+        while let Some(event) = inlet.event() {
+            let told = match event {
+                Event::Failed { period, fault } => {
+                    format!("period {period}: {fault}; the force goes to zero")
+                }
+                Event::Back {
+                    period,
+                    faulty_ticks,
+                } => format!("period {period}: the device is back after {faulty_ticks} ticks"),
+                Event::NotRecovered { period, fault } => {
+                    format!("period {period}: not recovered: {fault}")
+                }
+                other => format!("{other:?}"),
+            };
+            self.say(&told);
+        }
+        ticks
+    }
+
+    /// Says at once that nothing is recorded any more.
+    fn tell_of_recorder(&mut self) {
+        let failed = self.recorder.as_ref().and_then(Recorder::failure);
+        if let Some(why) = failed.filter(|_| !self.told_of_recorder) {
+            self.say(&format!(
+                "the record cannot be written: {why}; the loop goes on without"
+            ));
+            self.told_of_recorder = true;
+        }
+    }
+
+    /// A line for the user, beside the status line.
+    fn say(&self, text: &str) {
+        self.status
+            .suspend(|| self.console.aside(&format!("{text}\n")));
+    }
+
+    /// The status line: rate, missed periods, force, contact, safe state.
+    fn show(&self, ticks: u64, time: Duration) {
+        let Some(record) = self.last else { return };
+        let [x, y, z] = record.output.force_n;
+        let force_n = (x * x + y * y + z * z).sqrt();
+        let flags = record.output.flags;
+        let state = if flags.contains(Flags::SAFE_STATE) {
+            "SAFE STATE"
+        } else if flags.contains(Flags::RAMPING) {
+            "ramping"
+        } else if flags.contains(Flags::CONTACT) {
+            "contact"
+        } else {
+            "free"
+        };
+        self.status.set_message(format!(
+            "{:.0} Hz, {} missed, {force_n:.2} N, {:.2} mm deep, {:.0} mm/s, {state}",
+            ticks as f64 / time.as_secs_f64(),
+            self.missed,
+            1e3 * record.output.depth_m,
+            record.output.speed_mm_s,
+        ));
+    }
+
+    /// What the file holds now, if it has changed and can be read. A file that is just being
+    /// written is looked at again.
+    fn changed(&mut self) -> Option<Surface> {
+        let (path, options) = self.watched?;
+        let now = stamp(path)?;
+        if self.seen == Some(now) {
+            return None;
+        }
+        self.seen = Some(now);
+        match options.read() {
+            Ok(surface) => Some(surface),
+            Err(error) => {
+                self.say(&format!("{}\n  the old one stays", told(&error)));
+                None
+            }
+        }
+    }
+
+    /// Writes what is left, and says what the loop did.
+    pub(super) fn finish(self, session: &Session<'_>) -> Result<(), Failures> {
+        self.status.finish_and_clear();
+        let mut told = Told {
+            lost: self.lost,
+            reloads: self.reloads,
+            recorded: None,
+        };
+        let mut failure = Ok(());
+        if let Some(recorder) = self.recorder {
+            told.lost += recorder.lost();
+            let path = recorder.path().to_owned();
+            let written = recorder.finish(self.lost).map_err(one);
+            let committed = written.and_then(|written| {
+                written.outputs.commit().map_err(one)?;
+                Ok(written.ticks)
+            });
+            match committed {
+                Ok(ticks) => told.recorded = Some((path, ticks)),
+                Err(error) => failure = Err(error),
+            }
+        }
+        if told.lost > 0 {
+            self.console.warn(&format!(
+                "{} records were lost because they were read or written too slowly; no tick was",
+                told.lost
+            ));
+        }
+        // The session is told even where its record was lost.
+        if self.json {
+            self.console
+                .json(&summary::json(session, &told))
+                .map_err(one)?;
+        } else {
+            self.console
+                .text(&summary::text(session, &told))
+                .map_err(one)?;
+        }
+        failure
+    }
+}
+
+/// When a file was changed, and its length.
+fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
+    let metadata = fs::metadata(path).ok()?;
+    Some((metadata.modified().ok()?, metadata.len()))
+}

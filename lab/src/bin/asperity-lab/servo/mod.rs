@@ -1,0 +1,244 @@
+//! `asperity-lab servo`: feel a texture or a scene, live.
+
+mod attendant;
+mod summary;
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::time::Instant;
+
+use asperity_console::Console;
+use asperity_host::device::{Scheme, Uri};
+use asperity_host::recording::{Conditions, TextureInfo};
+use asperity_host::servo::{End, Report, queues};
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output::Outputs;
+use asperity_lab::servo_session::{Form, OpenDevice, Recorder, Setup, Surface, run as run_loop};
+use asperity_runtime::Counters;
+
+use crate::error::Plain;
+use crate::loop_options::{self, LoopOptions, stop_on_interrupt};
+use attendant::Attendant;
+use summary::Session;
+
+/// Feel a texture or a scene, live
+///
+/// A servo loop reads the device, renders, and writes the force, until Ctrl-C or for some
+/// seconds. At the end the force goes to zero at the slew limit, and the device is released.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab servo brick.asp --device sim:
+  asperity-lab servo brick.asp --device sim: --watch      compile in one window, feel in the other
+  asperity-lab servo brick.asp --device sim: --seconds 30 --record brick.aspr
+  asperity-lab servo brick.asp --device replay:brick.aspr     are the forces the same, bit for bit?
+  asperity-lab servo desk.aspl --device sim:?grip=firm --seconds 30 --record ticks.csv
+  asperity-lab servo all.aspl --texture Cork --device null: --rate 2000 --policy deadline
+
+Devices:
+  sim:[FILE.toml][?grip=light|firm|FILE.toml&hand=explore|record&seed=N&time=real|stepped]
+                                 a simulated Touch and hand
+  null:[?z_mm=Z]                 rests somewhere and takes any force
+  replay:FILE.aspr[?end=loop]    a recorded session, under its own conditions
+  falcon:, openhaptics:, dhd:    devices; `asperity-lab device list` shows them, and
+                                 `asperity-lab device probe URI` says what one needs
+  touch:                         only identified; openhaptics: moves it
+
+What the system does not permit (policy, locked memory, …) is told with the command that
+grants it, and the loop runs without.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    options: LoopOptions,
+    /// Device, such as sim:
+    #[arg(long, value_name = "URI", value_parser = loop_options::device)]
+    device: Uri,
+    /// Load the file anew when it changes
+    #[arg(long, requires = "file")]
+    watch: bool,
+    /// Record every tick: OUT.aspr can be replayed, OUT.csv is a table, as is `-`, standard output
+    #[arg(long, value_name = "OUT")]
+    record: Option<PathBuf>,
+    /// End after so many seconds (0.1 to 86400)
+    #[arg(long, value_name = "S", value_parser = loop_options::seconds)]
+    seconds: Option<f64>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Records that fit into the queue: four seconds.
+const QUEUE_S: usize = 4;
+
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
+    let interrupt = stop_on_interrupt()?;
+    let options = &arguments.options;
+    let is_replay = arguments.device.scheme == Scheme::Replay;
+    if arguments.watch && is_replay {
+        return Err(Plain::usage(
+            "replay: plays what was recorded, and --watch would change it",
+            "leave out --watch",
+        ));
+    }
+    let mut outputs = Outputs::beside(inputs(arguments));
+    let form = arguments.record.as_deref().map(Form::of);
+    let form = form.transpose().map_err(one)?;
+    let output = outputs.open_if(arguments.record.as_deref()).map_err(one)?;
+    let console = console.beside(&outputs);
+    let mut surface = options.surface()?;
+    let (mut opened, rate_hz) = options.open_device(&arguments.device, &surface)?;
+    for unconfirmed in &opened.device.description().unconfirmed {
+        console.warn(unconfirmed);
+    }
+    for otherwise in differences(&opened, &surface, options) {
+        console.warn(&otherwise);
+    }
+    let config = opened.config(rate_hz);
+    let seed = options.seed(&opened);
+    let recorder = match (arguments.record.as_deref(), form, output) {
+        (Some(path), Some(form), Some(output)) => {
+            let played = TextureInfo::of(surface.name.clone(), &surface.bytes);
+            let (texture, scene) = match surface.is_scene {
+                false => (Some(played), None),
+                true => (None, Some(played)),
+            };
+            let conditions = Conditions {
+                program: concat!("asperity-lab ", env!("CARGO_PKG_VERSION")).into(),
+                device: arguments.device.to_string(),
+                texture,
+                scene,
+                seed,
+                config: config.clone(),
+            };
+            let started = Recorder::start(path, form, outputs, output, conditions);
+            Some(started.map_err(one)?)
+        }
+        _ => None,
+    };
+    let mut attendant = Attendant::new(arguments, console, recorder, rate_hz);
+    let began = Instant::now();
+    let mut sum: Option<Report> = None;
+    loop {
+        let left = arguments.seconds.map(|s| s - began.elapsed().as_secs_f64());
+        let end_of_run = AtomicBool::new(false);
+        let setup = Setup {
+            config: config.clone(),
+            settings: options.settings(&opened, rate_hz, left.map(|left| left.max(0.0))),
+            clock: options.clock(),
+            wanted: options.wanted(),
+            injection: None,
+            seed,
+            stop: &end_of_run,
+        };
+        let (outlet, inlet) = queues(QUEUE_S * rate_hz as usize);
+        let mut next = None;
+        let report = run_loop(setup, &surface, &mut *opened.device, outlet, |attended| {
+            next = attendant.attend(attended, inlet, &surface, &interrupt.stop, &end_of_run);
+        });
+        let report = report.map_err(one)?;
+        sum = Some(match sum {
+            None => report,
+            Some(before) => add(before, report),
+        });
+        // A scene that has changed is begun anew; anything else ends here.
+        match next {
+            Some(changed) if report.end == End::Asked => surface = changed,
+            _ => break,
+        }
+    }
+    // The device is released before anything else can fail or wait.
+    let device = opened.device.description().name.clone();
+    let replayed = opened.replayed.take();
+    drop(opened);
+    interrupt.released.store(true, Relaxed);
+    let Some(report) = sum else { return Ok(()) };
+    attendant.finish(&Session {
+        report,
+        surface: &surface,
+        device: &device,
+        rate_hz,
+        repeated: replayed.map(|replayed| replayed.repeated.counts()),
+    })
+}
+
+/// The files that are read.
+fn inputs(arguments: &Arguments) -> Vec<PathBuf> {
+    let replayed =
+        (arguments.device.scheme == Scheme::Replay).then(|| PathBuf::from(&arguments.device.which));
+    let file = arguments.options.file.clone();
+    file.into_iter().chain(replayed).collect()
+}
+
+/// Why the forces of a replay cannot be those of its recording.
+fn differences(opened: &OpenDevice, surface: &Surface, options: &LoopOptions) -> Vec<String> {
+    let Some(replayed) = &opened.replayed else {
+        return Vec::new();
+    };
+    let conditions = &replayed.conditions;
+    let mut told = Vec::new();
+    match (&conditions.texture, &conditions.scene) {
+        (Some(texture), _) if surface.is_scene || !texture.is(&surface.bytes) => told.push(format!(
+            "the recording is of texture \"{}\" (CRC-32 {:08x}), and {} is another one: other forces",
+            texture.name, texture.crc32, surface.origin
+        )),
+        (None, Some(scene)) if !surface.is_scene || !scene.is(&surface.bytes) => told.push(format!(
+            "the recording is of {} (CRC-32 {:08x}), and {} is another one: name its file, or expect \
+             other forces",
+            scene.name, scene.crc32, surface.origin
+        )),
+        (None, None) if !surface.is_scene => {
+            told.push("the recording is of a scene: name its file, or expect other forces".into());
+        }
+        (None, None) => told.push(format!(
+            "the recording does not say of which scene it is: other forces unless it is {}",
+            surface.origin
+        )),
+        _ => {}
+    }
+    if options.seed.is_some_and(|seed| seed != conditions.seed) {
+        told.push(format!(
+            "the recording has the seed {}: other forces",
+            conditions.seed
+        ));
+    }
+    if replayed.exchanges > 0 {
+        told.push(format!(
+            "{} other textures began to play in the recording: other forces from then on",
+            replayed.exchanges
+        ));
+    }
+    if replayed.lost > 0 {
+        told.push(format!(
+            "{} ticks were not recorded: other forces after the first of them",
+            replayed.lost
+        ));
+    }
+    told
+}
+
+/// Both reports as one.
+fn add(a: Report, b: Report) -> Report {
+    let counters = Counters {
+        ticks: a.counters.ticks.saturating_add(b.counters.ticks),
+        bad_samples: (a.counters.bad_samples).saturating_add(b.counters.bad_samples),
+        missed_ticks: (a.counters.missed_ticks).saturating_add(b.counters.missed_ticks),
+        faults: a.counters.faults.saturating_add(b.counters.faults),
+        taps: a.counters.taps.saturating_add(b.counters.taps),
+        peak_limited: (a.counters.peak_limited).saturating_add(b.counters.peak_limited),
+        slew_limited: (a.counters.slew_limited).saturating_add(b.counters.slew_limited),
+    };
+    Report {
+        ticks: a.ticks + b.ticks,
+        missed: a.missed + b.missed,
+        caught_up: a.caught_up + b.caught_up,
+        paused: a.paused + b.paused,
+        stale: a.stale + b.stale,
+        read_faults: a.read_faults + b.read_faults,
+        write_faults: a.write_faults + b.write_faults,
+        recoveries: a.recoveries + b.recoveries,
+        recovered: a.recovered + b.recovered,
+        episodes: a.episodes + b.episodes,
+        eased: a.eased + b.eased,
+        longest_gap_ns: a.longest_gap_ns.max(b.longest_gap_ns),
+        counters,
+        ..b
+    }
+}

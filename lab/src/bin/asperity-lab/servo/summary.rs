@@ -1,0 +1,117 @@
+//! What a session was, for a person and as JSON.
+
+use std::path::PathBuf;
+
+use asperity_host::servo::{End, Report};
+use asperity_io::output::display;
+use asperity_lab::servo_session::Surface;
+use serde_json::{Value, json};
+
+/// A session that is over.
+pub(super) struct Session<'s> {
+    pub(super) report: Report,
+    pub(super) surface: &'s Surface,
+    pub(super) device: &'s str,
+    pub(super) rate_hz: u32,
+    /// Of a replay: forces that were compared with the recording, and those that differ.
+    pub(super) repeated: Option<(u64, u64)>,
+}
+
+/// What became of records and files.
+pub(super) struct Told {
+    /// Records that were lost.
+    pub(super) lost: u64,
+    /// Textures that were loaded anew.
+    pub(super) reloads: u64,
+    /// The record, and the ticks in it.
+    pub(super) recorded: Option<(PathBuf, u64)>,
+}
+
+fn end(report: &Report) -> &'static str {
+    match report.end {
+        End::Asked => "asked to",
+        End::Over => "time is over",
+        End::Overrun => "a period was missed",
+        End::Rounding => "the processor no longer rounded to nearest",
+    }
+}
+
+pub(super) fn json(session: &Session<'_>, told: &Told) -> Value {
+    let Session {
+        report,
+        surface,
+        device,
+        rate_hz,
+        repeated,
+    } = session;
+    let repeated =
+        repeated.map(|(forces, different)| json!({ "forces": forces, "different": different }));
+    json!({
+        "texture": surface.name, "origin": surface.origin, "device": device,
+        "rate_hz": rate_hz, "end": end(report), "ticks": report.ticks, "missed": report.missed,
+        "caught_up": report.caught_up, "paused": report.paused, "stale": report.stale,
+        "read_faults": report.read_faults, "write_faults": report.write_faults,
+        "faults": report.episodes,
+        "recoveries": report.recoveries, "recovered": report.recovered,
+        "eased_forces": report.eased, "longest_gap_ns": report.longest_gap_ns,
+        "ended_without_force": report.ended_without_force,
+        "safe_states": report.counters.faults, "taps": report.counters.taps,
+        "peak_limited": report.counters.peak_limited,
+        "slew_limited": report.counters.slew_limited,
+        "lost_records": told.lost, "reloads": told.reloads,
+        "recorded_ticks": told.recorded.as_ref().map(|(_, ticks)| ticks),
+        "replay": repeated,
+    })
+}
+
+pub(super) fn text(session: &Session<'_>, told: &Told) -> String {
+    let Session {
+        report,
+        surface,
+        device,
+        rate_hz,
+        repeated,
+    } = session;
+    let mut text = format!(
+        "surface    {}, {}\ndevice     {device}\nloop       {rate_hz} Hz, {} ticks, {} missed, longest gap {:.3} ms\n",
+        surface.name,
+        surface.origin,
+        report.ticks,
+        report.missed,
+        1e-6 * report.longest_gap_ns as f64,
+    );
+    text += &format!(
+        "faults     {}; {} ticks without a new position, {} readings and {} forces failed, back {} of {} times when asked\n",
+        report.episodes,
+        report.stale,
+        report.read_faults,
+        report.write_faults,
+        report.recovered,
+        report.recoveries
+    );
+    text += &format!(
+        "runtime    {} taps, {} safe states, {} ticks at the peak, {} at the slew limit\n",
+        report.counters.taps,
+        report.counters.faults,
+        report.counters.peak_limited,
+        report.counters.slew_limited
+    );
+    match repeated {
+        Some((forces, 0)) => {
+            text += &format!("replay     {forces} forces, all as recorded, bit for bit\n");
+        }
+        Some((forces, different)) => {
+            text += &format!("replay     {forces} forces, {different} other than recorded\n");
+        }
+        None => {}
+    }
+    if let Some((path, ticks)) = &told.recorded {
+        text += &format!("record     {}, {ticks} ticks\n", display(path));
+    }
+    let zero = if report.ended_without_force {
+        "the force is zero"
+    } else {
+        "THE DEVICE DID NOT TAKE THE LAST FORCE OF ZERO"
+    };
+    text + &format!("end        {}; {zero}\n", end(report))
+}

@@ -1,0 +1,77 @@
+//! `asperity-lab stability`: the table of scenarios where methods fail.
+
+use std::path::PathBuf;
+
+use asperity::hatt;
+use asperity_console::Console;
+use asperity_experiments::stability::{StabilityOptions, markdown, run as make_table, sheet};
+use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output;
+
+use crate::error::Plain;
+
+/// Try our methods, the paper's and the textbook's where methods fail
+///
+/// Every row measures one figure in virtual time: of the runtime itself, and of other
+/// methods in the same scenario. A row passes if ours is within its limit. The last line
+/// counts; the exit status is 1 if a row fails.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab stability
+  asperity-lab stability --hatt materials/ --out pictures/
+  asperity-lab stability --json > table.json
+
+With --out: wall-map.png (stiffness, delay and damping against the bound),
+waveforms.png (the worst cases) and tables.md (the rows as the documentation has them).")]
+pub(crate) struct Arguments {
+    /// Folder of HaTT XML files, for the rows that need real materials
+    #[arg(long, value_name = "DIR")]
+    hatt: Option<PathBuf>,
+    /// Write pictures and tables to a folder; made if its parent exists
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Seed of everything random
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print the rows as JSON instead, the count on stderr
+    #[arg(long)]
+    json: bool,
+}
+
+/// Gives whether every row passes.
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failures> {
+    let options = StabilityOptions {
+        hatt: arguments.hatt.clone(),
+        seed: arguments.seed,
+    };
+    let table = make_table(&options).map_err(one)?;
+    if let Some(folder) = &arguments.out {
+        let files = [
+            ("wall-map.png", sheet::wall_map().map_err(one)?),
+            ("waveforms.png", sheet::waveforms(&options).map_err(one)?),
+            ("tables.md", markdown::tables(&table.rows).into_bytes()),
+        ];
+        let files: Vec<(String, &[u8])> = files
+            .iter()
+            .map(|(name, bytes)| ((*name).to_owned(), &bytes[..]))
+            .collect();
+        let inputs = match &arguments.hatt {
+            Some(folder) => hatt::files(folder).map_err(one)?,
+            None => Vec::new(),
+        };
+        output::write_folder_beside(&inputs, folder, &files).map_err(one)?;
+    }
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&table)
+            .map_err(|error| Plain::failure(error, "report this as a bug"))?;
+        console.json(&text).map_err(one)?;
+        console.aside(&format!("{}\n", table.summary()));
+    } else {
+        let wrote = arguments.out.is_some();
+        console
+            .result_of(wrote, &format!("{table}\n"))
+            .map_err(one)?;
+    }
+    let [_, failed, _] = table.counts();
+    Ok(failed == 0)
+}

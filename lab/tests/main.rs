@@ -1,0 +1,12 @@
+//! The integration tests of this crate, one binary, so that they are linked once. A new file needs
+//! its line here; `.ci/check-tests` fails without it.
+
+mod command;
+mod device;
+#[path = "../../runtime/host/tests/fakes/mod.rs"]
+mod fakes;
+mod pareto;
+mod record;
+mod record_command;
+mod servo;
+mod servo_record;
