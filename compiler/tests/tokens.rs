@@ -86,7 +86,7 @@ fn every_character_alone_and_in_words() {
 #[test]
 fn the_corpus_and_the_documents() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let corpora = std::fs::read_dir(root.join("corpora")).expect("the corpora");
+    let corpora = std::fs::read_dir(root.join("../training/corpora")).expect("the corpora");
     let files = corpora.map(|entry| entry.expect("an entry").path());
     let files = files.filter(|path| path.is_file());
     let mut lines = 0;

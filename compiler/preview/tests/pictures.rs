@@ -38,7 +38,7 @@ fn every_material_of_the_corpora_has_a_row() {
         .parse()
         .expect("the table");
     let rows = rows["material"].as_table().expect("rows");
-    let corpora = concat!(env!("CARGO_MANIFEST_DIR"), "/../corpora");
+    let corpora = concat!(env!("CARGO_MANIFEST_DIR"), "/../../training/corpora");
     let mut materials = 0;
     for entry in std::fs::read_dir(corpora).expect("the corpora") {
         let path = entry.expect("an entry").path();

@@ -31,7 +31,10 @@ struct Between {
 }
 
 fn evaluation(file: &str) -> String {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/evaluation/");
+    let folder = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../training/corpora/evaluation/"
+    );
     std::fs::read_to_string(format!("{folder}{file}")).expect(file)
 }
 

@@ -40,7 +40,10 @@ fn an_abrasive_is_sharper_and_stronger_than_cork_and_cork_than_foam() {
 
 #[test]
 fn everyday_words_are_ordered_as_any_person_would() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/pairs.toml");
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../training/corpora/pairs.toml"
+    );
     let text = std::fs::read_to_string(file).unwrap();
     let pairs: toml::Table = text.parse().unwrap();
     let of = |attribute: &str, a: Attributes| match attribute {

@@ -8,7 +8,7 @@
 //!    first modes of the surface, which the pulse excites.
 //!
 //! [`Impact::of_material`] has the constants. What no measurement decides is marked *chosen*. The
-//! modes follow measured ones (`compiler/corpora/measured`); `docs/taps.md` compares them.
+//! modes follow measured ones (`training/corpora/measured`); `docs/taps.md` compares them.
 
 mod pulse;
 mod resonator;

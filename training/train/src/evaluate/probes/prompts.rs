@@ -3,9 +3,9 @@
 use crate::evaluate::EvaluateError;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-const PROBES_FILE: &str = "compiler/corpora/probes.toml";
+const PROBES_FILE: &str = "training/corpora/probes.toml";
 const PROBES: &str = include_str!("../../../../corpora/probes.toml");
-const PAIRS_FILE: &str = "compiler/corpora/pairs.toml";
+const PAIRS_FILE: &str = "training/corpora/pairs.toml";
 const PAIRS: &str = include_str!("../../../../corpora/pairs.toml");
 
 /// An attribute that people name.

@@ -58,7 +58,7 @@ impl Diagnostic for CorpusError {
             Self::Unreadable { .. } => "give a folder that can be read".into(),
             Self::Empty { .. } => "give a folder of TOML files, one a family".into(),
             Self::Syntax { .. } | Self::Faults { .. } => {
-                "correct the entry; compiler/corpora/README.md states the rules".into()
+                "correct the entry; training/corpora/README.md states the rules".into()
             }
             Self::Hatt(error) => error.remedy(),
         }

@@ -6,7 +6,7 @@ use crate::evaluate::probes::{Attribute, Baseline, Direction, Kind, Order, Probi
 pub(super) fn section(part: &Probing) -> String {
     let mut text = String::from(
         "## 4. Do words move the texture the right way?\n\n\
-         Prompts of `compiler/corpora/probes.toml` and `pairs.toml`, never trained on, are decoded, \
+         Prompts of `training/corpora/probes.toml` and `pairs.toml`, never trained on, are decoded, \
          moved to the attributes that the projection gives for their words, and their objective \
          attributes read: rough from rough_db, slippery from −μ, hard from hard_hz. What is measured \
          is the network alone: the grammar of prompts, which `compile` has on top of it, is left out. Two baselines: the training material nearest in text, and the rating of the \

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// Name of the file in error messages.
-const FILE: &str = "compiler/corpora/hatt/captions.toml";
+const FILE: &str = "training/corpora/hatt/captions.toml";
 /// The committed file.
 pub(super) const EMBEDDED: &str = include_str!("../../../corpora/hatt/captions.toml");
 

@@ -1,7 +1,7 @@
 //! The generator measured: its [`banks`] of taps, and what others measured held against it, [`modes`]
 //! of struck objects and height [`profiles`].
 //!
-//! `compiler/corpora/measured/README.md` says where they come from, `docs/taps.md` what the
+//! `training/corpora/measured/README.md` says where they come from, `docs/taps.md` what the
 //! comparison says. `cargo run -p asperity-corpus --example taps` prints it.
 
 pub mod banks;

@@ -1,4 +1,4 @@
-//! The prompts of `compiler/corpora/evaluation` are well formed, and no training text holds those of the pairs.
+//! The prompts of `training/corpora/evaluation` are well formed, and no training text holds those of the pairs.
 
 use asperity_corpus::reference::{
     self, ReferenceOptions,

@@ -4,7 +4,7 @@
 //! has a shorter contact and higher modes, so its centroid is higher and its force rises faster: that
 //! also puts rate-hardness in the right order, the initial rate of force over impact speed (Lawrence
 //! et al., 2000). We know of no openly licensed recordings of taps, so none was used. The modes follow
-//! measured ones of struck objects (`compiler/corpora/measured`).
+//! measured ones of struck objects (`training/corpora/measured`).
 
 use super::Physical;
 use crate::{TAP_SAMPLES, TAPS};

@@ -80,7 +80,7 @@ impl Diagnostic for HattCorpusError {
                 _ => error.remedy(),
             },
             Self::NoCaptions { .. } => {
-                "take the file out, or add captions to compiler/corpora/hatt/captions.toml".into()
+                "take the file out, or add captions to training/corpora/hatt/captions.toml".into()
             }
             Self::SampleRate { .. } | Self::Unconvertible { .. } | Self::Silent { .. } => {
                 "fetch the file again from HaTT, or take it out of the folder".into()
