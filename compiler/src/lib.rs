@@ -7,14 +7,17 @@
 //! | `sources/` | what a texture is made of, one trait ([`sources`]) and a folder each: [`prompt`], [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`], assets, and latents, mixed and edited: [`edit`] |
 //! | `compiled/` | what comes of a source: [`compiled`], its reports, its distance from what it was made of |
 //! | `learned/` | the [`learned`] model, [`embedded`] or in a folder, its [`text`] encoders, and what runs them: [`inference`] |
-//! | `model/` | the [`model`] between source and bytes: f64, SI units; what holds for it ([`mesh`]), what it renders between its vertices ([`mixture`]), how it feels ([`attributes`]) |
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
 //! | `emit/` | from model to bytes and back: [`lower`], [`verify`], [`textures`], [`raise`] |
 //! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
 //! | `memory/` | what an asset remembers of its making: the [`memory`] |
 //! | `interchange/` | other tools' formats: the [`interchange`] |
-//! | `signal/` | the mathematics: [`lsf`], [`levinson`], [`level`], [`reflection`], [`resample`], [`spectrum`], [`impact`], [`tap_synthesis`] |
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`diffusion`], [`listen`], [`render`] |
+//!
+//! The model between source and bytes, f64 and SI units, and its mathematics are a crate below this one,
+//! [`asperity_texture`]; its modules are named here as well: the [`model`], its [`mesh`], [`mixture`], [`attributes`],
+//! [`defaults`] and [`tap_synthesis`]; [`lsf`], [`levinson`], [`level`], [`reflection`], [`resample`], [`spectrum`] and
+//! [`impact`].
 //!
 //! The [`driver`] takes any source through the passes of the [`pipeline`] to verified bytes: commands
 //! and libraries take this one way. [`scene`] packs several textures within a budget. Below this
@@ -24,7 +27,6 @@
 
 mod emit;
 mod passes;
-mod signal;
 mod views;
 
 pub mod compiled;
@@ -33,7 +35,6 @@ pub mod interchange;
 pub mod learned;
 pub mod library;
 pub mod memory;
-pub mod model;
 pub mod pipeline;
 pub mod scene;
 pub mod sources;
@@ -41,11 +42,12 @@ pub mod sources;
 /// What every error of this crate says besides its cause: the remedy.
 pub use asperity_io::diagnostic;
 
+use asperity_texture::signal;
 // Users name a module without its folder, so that files can move between the stages.
+pub use asperity_texture::model::{self, attributes, defaults, mesh, mixture, tap_synthesis};
+pub use asperity_texture::signal::{impact, level, levinson, lsf, reflection, resample, spectrum};
 pub use emit::{lower, raise, textures, verify};
 pub use learned::{embedded, inference, text};
-pub use model::{attributes, defaults, mesh, mixture};
 pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};
-pub use signal::{impact, level, levinson, lsf, reflection, resample, spectrum, tap_synthesis};
 pub use sources::{builtin, effects, hatt, latents as edit, model_file, prompt, recording};
 pub use views::{diffusion, inspect, listen, plot, preview, render};

@@ -9,4 +9,5 @@ mod own_source;
 mod prompts;
 mod relative;
 mod scene;
+mod texture_model;
 mod tokens;

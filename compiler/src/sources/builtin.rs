@@ -8,11 +8,11 @@
 use crate::{
     model::{
         Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TextureModel,
-        VertexKind, defaults,
+        VertexKind, defaults, tap_synthesis,
     },
     passes::triangulate,
     pipeline::{Pass, Pipeline, Request},
-    signal::{levinson, lsf, tap_synthesis},
+    signal::{levinson, lsf},
     sources::{Source, Sourced, Tools},
 };
 use asperity_io::diagnostic::Failure;

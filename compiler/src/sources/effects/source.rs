@@ -5,10 +5,10 @@ use crate::{
     compiled::Truth,
     interchange::{EffectError, EffectProblem, ahap, haptic, hjif, playback::Track},
     learned::edges,
+    model::tap_synthesis,
     model::{Friction, ModelGrid, Numerator, Provenance, TapBank, TextureModel, defaults},
     passes::triangulate,
     pipeline::{Pass, Pipeline, Request, Ringing},
-    signal::tap_synthesis,
     sources::{Source, Sourced, Tools, key::Parts},
 };
 use asperity_formats::limits::MAX_NAME_BYTES;

@@ -2,11 +2,11 @@
 
 use super::material::Material;
 use crate::{
+    model::tap_synthesis,
     model::{
         Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TextureModel,
         VertexKind, defaults,
     },
-    signal::tap_synthesis,
 };
 
 const NOTES: &str = "Taps are synthetic: impacts whose contact time follows the \

@@ -5,12 +5,12 @@ use super::{
     schema::{Document, Friction, Grid, Taps, Vertex},
 };
 use crate::{
+    model::tap_synthesis,
     model::{
         self, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace,
         TextureModel, Wall, defaults, mesh,
     },
     passes::triangulate,
-    signal::tap_synthesis,
 };
 use asperity_formats::limits;
 use std::f64::consts::PI;

@@ -20,7 +20,7 @@ pub struct Place {
 
 /// cos ω of A(z) and of B(z).
 #[derive(Debug, Clone)]
-pub(crate) struct Cosines {
+pub struct Cosines {
     ar: Vec<f64>,
     ma: Vec<f64>,
 }
@@ -68,7 +68,7 @@ impl<'a> Field<'a> {
     }
 
     /// Prepares a grid whose cosines are known, one entry for each vertex.
-    pub(crate) fn with_cosines(grid: &'a ModelGrid, cosines: &[Rc<Cosines>]) -> Self {
+    pub fn with_cosines(grid: &'a ModelGrid, cosines: &[Rc<Cosines>]) -> Self {
         Self {
             grid,
             cosines: cosines.to_vec(),
@@ -77,7 +77,7 @@ impl<'a> Field<'a> {
     }
 
     /// The cosines, one entry for each vertex.
-    pub(crate) fn cosines(&self) -> &[Rc<Cosines>] {
+    pub fn cosines(&self) -> &[Rc<Cosines>] {
         &self.cosines
     }
 
@@ -89,7 +89,7 @@ impl<'a> Field<'a> {
     }
 
     /// [`Field::locate`] among some of the triangles.
-    pub(crate) fn locate_among(
+    pub fn locate_among(
         &self,
         triangles: &[[usize; 3]],
         speed_mm_s: f64,
@@ -240,45 +240,4 @@ pub fn places(grid: &ModelGrid) -> Vec<(f64, f64)> {
         ((p.0 + q.0 + r.0) / 3.0, (p.1 + q.1 + r.1) / 3.0)
     }));
     all
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{emit::lower, signal::spectrum::log_spectral_distance_db, sources::builtin};
-    use asperity_formats::Asset;
-    use asperity_runtime::HostTexture;
-
-    #[test]
-    fn the_runtime_renders_the_same_model_everywhere() {
-        let texture = builtin::texture();
-        let lowered = lower::lower(&texture, None).unwrap();
-        let asset = Asset::parse(&lowered.bytes).unwrap();
-        let mut slot = Box::new(HostTexture::new());
-        slot.load(&asset, asset.grid().sample_rate_hz()).unwrap();
-        let field = Field::new(&texture.grid);
-        for (speed_mm_s, force_n) in places(&texture.grid) {
-            let ours = field.model(&field.locate(speed_mm_s, force_n).unwrap());
-            let filter = slot.filter_at(speed_mm_s as f32, force_n as f32);
-            let monic = |c: &[f32]| {
-                std::iter::once(1.0)
-                    .chain(c.iter().map(|&c| f64::from(c)))
-                    .collect()
-            };
-            let runtime = ArmaModel {
-                a: monic(&filter.a),
-                b: monic(&filter.b),
-                level_m_s2: f64::from(filter.level_m_s2),
-                ..ours.clone()
-            };
-            // Near rest, rounding in f32 leaves a small level where there is none.
-            if ours.level_m_s2 > 1e-4 {
-                let distance_db = log_spectral_distance_db(&ours, &runtime);
-                assert!(
-                    distance_db < 0.02,
-                    "{speed_mm_s} mm/s, {force_n} N: {distance_db} dB"
-                );
-            }
-        }
-    }
 }

@@ -170,39 +170,3 @@ fn at_pace(samples: &[f64], pace: f64) -> Vec<f64> {
         })
         .collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sources::builtin;
-
-    #[test]
-    fn attributes_arrive_where_they_were_wanted_and_the_others_stay() {
-        let before = builtin::texture();
-        let old = attributes::of(&before);
-        for (k, change) in [
-            (0, 5.0),
-            (0, -8.0),
-            (1, 0.35),
-            (1, -0.3),
-            (2, 0.4),
-            (2, -0.3),
-        ] {
-            let mut moved = [None; 3];
-            moved[k] = Some(change);
-            let shift = Shift::of(moved);
-            let target = scales(&old)[k].expect("defined") + change;
-            let mut after = before.clone();
-            adjust(&mut after, &shift);
-            let new = scales(&attributes::of(&after));
-            for (j, (new, old)) in new.iter().zip(scales(&old)).enumerate() {
-                let expected = if j == k { Some(target) } else { old };
-                let apart = new.zip(expected).map(|(x, y)| (x - y).abs());
-                assert!(
-                    apart.is_some_and(|apart| apart < 0.03),
-                    "{k} {change}: {j} {apart:?}"
-                );
-            }
-        }
-    }
-}

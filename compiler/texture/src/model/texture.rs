@@ -1,6 +1,7 @@
 //! The types of a texture model, in f64 and SI units.
 
 use super::FrictionLaw;
+use crate::signal::{lsf, spectrum::ArmaModel};
 use serde::{Deserialize, Serialize};
 
 /// A texture before quantisation, as every source makes it.
@@ -180,4 +181,23 @@ pub struct Provenance {
     pub lsf_error_db: f32,
     /// What a reader should know: synthetic parts, unconfirmed defaults.
     pub notes: String,
+}
+
+impl ArmaModel {
+    /// The model at a vertex of a grid.
+    #[must_use]
+    pub fn at_vertex(grid: &ModelGrid, vertex: &GridVertex) -> Self {
+        Self {
+            sample_rate_hz: grid.sample_rate_hz,
+            a: lsf::to_polynomial(&vertex.lsf_rad),
+            b: match grid.numerator {
+                Numerator::None => vec![1.0],
+                Numerator::Nyquist => vec![1.0, 1.0],
+                Numerator::Lsf => {
+                    lsf::to_polynomial(vertex.ma_lsf_rad.as_deref().unwrap_or_default())
+                }
+            },
+            level_m_s2: vertex.gain * vertex.sigma_m_s2,
+        }
+    }
 }

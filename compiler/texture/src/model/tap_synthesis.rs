@@ -5,10 +5,10 @@
 //! the time falls with the impact speed, and the centroid rises. Nothing says how the surface rings,
 //! so it has no modes. All of it is a guess at the material, so such a bank is marked synthetic.
 
-pub use super::impact::{SAMPLE_RATE_HZ, SAMPLES, SPEED_STEP_M_S, SPEEDS};
+pub use crate::signal::impact::{SAMPLE_RATE_HZ, SAMPLES, SPEED_STEP_M_S, SPEEDS};
 
-use super::impact::{self, Impact, Mode};
 use crate::model::{Gains, ModelGrid, TapBank, TapTrace, VertexKind};
+use crate::signal::impact::{self, Impact, Mode};
 use crate::signal::spectrum::ArmaModel;
 
 /// ∫a dt per impact speed, so that J = m_eff·∫a dt is 5 % of the momentum m_eff·v.

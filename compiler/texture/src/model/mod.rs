@@ -8,6 +8,7 @@ mod friction_law;
 pub mod mesh;
 pub mod mixture;
 pub mod shift;
+pub mod tap_synthesis;
 mod texture;
 
 pub use friction_law::{FrictionLaw, LawPoint};

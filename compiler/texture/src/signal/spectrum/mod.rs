@@ -6,10 +6,6 @@ mod decibels;
 pub use angles::{Angles, squared_magnitude};
 pub use decibels::{decibels, rms_db};
 
-use crate::{
-    model::{GridVertex, ModelGrid, Numerator},
-    signal::lsf,
-};
 use std::f64::consts::TAU;
 
 /// Band of every spectral error, Hz.
@@ -36,23 +32,6 @@ pub struct ArmaModel {
 }
 
 impl ArmaModel {
-    /// The model at a vertex of a grid.
-    #[must_use]
-    pub fn at_vertex(grid: &ModelGrid, vertex: &GridVertex) -> Self {
-        Self {
-            sample_rate_hz: grid.sample_rate_hz,
-            a: lsf::to_polynomial(&vertex.lsf_rad),
-            b: match grid.numerator {
-                Numerator::None => vec![1.0],
-                Numerator::Nyquist => vec![1.0, 1.0],
-                Numerator::Lsf => {
-                    lsf::to_polynomial(vertex.ma_lsf_rad.as_deref().unwrap_or_default())
-                }
-            },
-            level_m_s2: vertex.gain * vertex.sigma_m_s2,
-        }
-    }
-
     /// Power spectrum `(gain·σ)²·|B|²/|A|²` at a frequency, (m/s²)². Its mean over all
     /// frequencies is the variance of the vibration.
     #[must_use]

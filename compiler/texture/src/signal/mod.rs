@@ -7,4 +7,3 @@ pub mod lsf;
 pub mod reflection;
 pub mod resample;
 pub mod spectrum;
-pub mod tap_synthesis;
