@@ -3,7 +3,6 @@
 pub mod csv;
 mod error;
 mod recording;
-pub mod resample;
 mod run;
 pub mod sheet;
 pub mod spectrogram;

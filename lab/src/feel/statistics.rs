@@ -1,4 +1,4 @@
-//! Mean, RMS, peak and percentiles of a list of numbers.
+//! Mean, RMS and peak of a list of numbers.
 
 /// Mean; 0 for an empty list.
 pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
@@ -18,13 +18,6 @@ pub(super) fn peak(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |max: f64, v| max.max(v.abs()))
 }
 
-/// The value below which a fraction `p` of the list lies, by nearest rank; 0 for an empty list.
-pub(super) fn percentile(sorted: &[f64], p: f64) -> f64 {
-    let last = sorted.len().saturating_sub(1);
-    let rank = (p.clamp(0.0, 1.0) * last as f64).round() as usize;
-    sorted.get(rank).copied().unwrap_or(0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -34,12 +27,6 @@ mod tests {
         assert_eq!(mean([1.0, 2.0, 6.0]), 3.0);
         assert_eq!(rms([3.0, -4.0, 0.0, 0.0]), 2.5);
         assert_eq!(peak([1.0, -7.0, 3.0]), 7.0);
-        let sorted: Vec<f64> = (0..=100).map(f64::from).collect();
-        assert_eq!(percentile(&sorted, 0.05), 5.0);
-        assert_eq!(percentile(&sorted, 1.0), 100.0);
-        assert_eq!(
-            (mean([]), rms([]), peak([]), percentile(&[], 0.5)),
-            (0.0, 0.0, 0.0, 0.0)
-        );
+        assert_eq!((mean([]), rms([]), peak([])), (0.0, 0.0, 0.0));
     }
 }

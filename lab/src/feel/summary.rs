@@ -2,10 +2,11 @@
 
 use std::fmt;
 
+use asperity_recording::signal::quantile::quantile;
 use asperity_runtime::Flags;
 
 use super::recording::Recording;
-use super::statistics::{mean, peak, percentile, rms};
+use super::statistics::{mean, peak, rms};
 use super::stroke::{StrokeReport, strokes};
 use super::tap::{Taps, taps};
 use asperity_sim::device::norm;
@@ -88,10 +89,10 @@ impl<'a> Summary<'a> {
             contact_fraction: contact.len() as f64 / records.len().max(1) as f64,
             normal_n: [
                 mean(forces.iter().copied()),
-                percentile(&forces, 0.05),
-                percentile(&forces, 0.5),
-                percentile(&forces, 0.95),
-                percentile(&forces, 1.0),
+                quantile(forces.iter().copied(), 0.05),
+                quantile(forces.iter().copied(), 0.5),
+                quantile(forces.iter().copied(), 0.95),
+                quantile(forces.iter().copied(), 1.0),
             ],
             bands: bands(&contact, recording.tick_s()),
             friction_n: mean(sliding.clone().map(|r| f64::from(r.output.friction_n))),

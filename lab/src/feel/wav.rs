@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use super::error::FeelError;
 use super::recording::Recording;
-use super::resample::upsample;
+use asperity::resample::resample;
 
 /// The sample rate that a sound's rate is chosen nearest to, Hz.
 const RATE_HZ: f64 = 48_000.0;
@@ -33,7 +33,7 @@ pub fn encode(recording: &Recording) -> Result<Sound, FeelError> {
     let servo_rate_hz = recording.device.timing.servo_rate_hz;
     let factor = (RATE_HZ / servo_rate_hz).round().max(1.0);
     let sample_rate_hz = (servo_rate_hz * factor).round() as u32;
-    let raised = upsample(&recording.vibration_m_s2(), factor as usize);
+    let raised = resample(&recording.vibration_m_s2(), 1, factor as u32);
     let peak = super::statistics::peak(raised.iter().copied());
     let gain_per_m_s2 = if peak > 0.0 { CEILING / peak } else { 0.0 };
 

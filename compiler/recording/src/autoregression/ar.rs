@@ -1,6 +1,7 @@
 //! AR models: Levinson's recursion, Yule–Walker, Burg, covariance.
 
 use super::{Model, least_squares::solve};
+use asperity_texture::signal::{levinson::recursion, reflection::is_stable};
 
 fn ar(a: Vec<f64>, variance: f64) -> Model {
     Model {
@@ -21,19 +22,8 @@ fn raised(a: &[f64], k: f64) -> Vec<f64> {
 /// cease to be those of a signal, so it is always stable.
 #[must_use]
 pub fn levinson(lags: &[f64]) -> Model {
-    let mut a = vec![1.0];
-    let mut error = lags[0];
-    for order in 1..lags.len() {
-        let forward: f64 = a.iter().enumerate().map(|(i, a)| a * lags[order - i]).sum();
-        let k = -forward / error;
-        if k.is_nan() || k.abs() >= 1.0 {
-            a.resize(lags.len(), 0.0);
-            break;
-        }
-        a = raised(&a, k);
-        error *= (1.0 - k) * (1.0 + k);
-    }
-    ar(a, error)
+    let (a, variance) = recursion(lags);
+    ar(a, variance)
 }
 
 /// Yule–Walker: Levinson's recursion on the biased autocorrelation, which is stable.
@@ -96,22 +86,4 @@ pub fn covariance(signal: &[f64], order: usize) -> Option<Model> {
     a.extend(solve(matrix, right)?);
     let error: f64 = a.iter().enumerate().map(|(i, a)| a * product(i, 0)).sum();
     is_stable(&a).then(|| ar(a, error / count))
-}
-
-/// Whether every root of the monic polynomial lies inside the unit circle, by the step-down
-/// recursion.
-#[must_use]
-pub fn is_stable(monic: &[f64]) -> bool {
-    let mut a = monic.to_vec();
-    for order in (1..a.len()).rev() {
-        let k = a[order];
-        if k.is_nan() || k.abs() >= 1.0 {
-            return false;
-        }
-        let scale = 1.0 / ((1.0 - k) * (1.0 + k));
-        a = (0..order)
-            .map(|i| (a[i] - k * a[order - i]) * scale)
-            .collect();
-    }
-    true
 }

@@ -1,10 +1,7 @@
 //! ARMA models: two stages, and the least prediction error.
 
-use super::{
-    Model,
-    ar::{burg, is_stable},
-    least_squares::solve,
-};
+use super::{Model, ar::burg, least_squares::solve};
+use asperity_texture::signal::reflection::is_stable;
 
 /// Order of the AR model whose residual stands for the excitation.
 const LONG: usize = 30;

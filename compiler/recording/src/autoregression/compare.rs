@@ -97,8 +97,8 @@ pub fn information_order(variances: &[f64], samples: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::autoregression::is_stable;
     use crate::signal::noise::white;
+    use asperity_texture::signal::reflection::is_stable;
 
     /// Gaussian enough noise through A(z) and B(z).
     fn synthetic(a: &[f64], b: &[f64], count: usize) -> Vec<f64> {

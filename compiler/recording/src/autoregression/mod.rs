@@ -9,7 +9,7 @@ mod least_squares;
 
 pub(crate) use least_squares::solve;
 
-pub use ar::{burg, covariance, is_stable, levinson, yule_walker};
+pub use ar::{burg, covariance, levinson, yule_walker};
 pub use arma::{prediction_error, two_stage};
 pub use compare::{METHODS, Method, Score, compare, information_order};
 

@@ -2,9 +2,9 @@
 
 pub mod correlate;
 pub mod filter;
-pub mod kaiser;
 #[cfg(test)]
 pub(crate) mod noise;
-pub mod quantile;
 pub mod resample;
 pub mod spectrum;
+
+pub use asperity_texture::signal::{kaiser, quantile};

@@ -37,22 +37,34 @@ pub fn all_pole(order: usize, spectrum: impl Fn(f64) -> f64) -> (Vec<f64>, f64) 
 /// When there is no lag at all.
 #[must_use]
 pub fn from_autocorrelation(autocorrelation: &[f64]) -> (Vec<f64>, f64) {
-    let order = autocorrelation.len() - 1;
-    let mut reflection = Vec::with_capacity(order);
-    let mut error = autocorrelation[0];
+    let (monic, variance) = recursion(autocorrelation);
+    (monic, variance.sqrt())
+}
+
+/// Levinson's recursion: `[1, a_1, …, a_p]` and the variance of the excitation for lags 0..=p.
+///
+/// It stops at the order at which the lags cease to be those of a signal, and leaves the higher
+/// coefficients at 0, so the polynomial is always stable.
+///
+/// # Panics
+/// When there is no lag at all.
+#[must_use]
+pub fn recursion(lags: &[f64]) -> (Vec<f64>, f64) {
+    let mut reflection = Vec::with_capacity(lags.len());
+    let mut error = lags[0];
     let mut monic = vec![1.0];
-    for k in 1..=order {
-        let forward: f64 = monic
-            .iter()
-            .enumerate()
-            .map(|(i, a)| a * autocorrelation[k - i])
-            .sum();
+    for k in 1..lags.len() {
+        let forward: f64 = monic.iter().enumerate().map(|(i, a)| a * lags[k - i]).sum();
         let r = -forward / error;
+        if r.is_nan() || r.abs() >= 1.0 {
+            monic.resize(lags.len(), 0.0);
+            break;
+        }
         error *= (1.0 - r) * (1.0 + r);
         reflection.push(r);
         monic = step_up(&reflection);
     }
-    (monic, error.sqrt())
+    (monic, error)
 }
 
 #[cfg(test)]

@@ -9,14 +9,13 @@
 //! the rate, and images and aliases of what lies below that are at −75 dB or less. A phase's
 //! weights sum to 1, so a constant is unchanged; beyond its ends the signal counts as 0.
 
+use super::kaiser::{BETA, bessel_i0};
 use std::f64::consts::TAU;
 
 /// Samples of the lower rate on each side of an output sample.
 const REACH: usize = 48;
 /// Cut-off relative to the lower rate.
 const CUTOFF: f64 = 0.46;
-/// β of the Kaiser window.
-const BETA: f64 = 8.0;
 
 /// The signal at another rate, Hz. Output 0 belongs to the time of input 0.
 #[must_use]
@@ -64,18 +63,6 @@ fn kernel(fraction: f64, reach: usize, stretch: f64) -> Vec<f64> {
     weights
 }
 
-/// The modified Bessel function of the first kind and order 0, by its power series.
-fn bessel_i0(x: f64) -> f64 {
-    let square = 0.25 * x * x;
-    let (mut term, mut sum, mut k) = (1.0, 1.0, 1.0);
-    while term > 1e-12 * sum {
-        term *= square / (k * k);
-        sum += term;
-        k += 1.0;
-    }
-    sum
-}
-
 fn gcd(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
@@ -111,6 +98,19 @@ mod tests {
             let error = error(&raised, &expected, 3000);
             assert!(error < 2e-3, "{from} to {to}: {error}");
         }
+    }
+
+    #[test]
+    fn a_constant_stays_constant_and_time_does_not_shift() {
+        let raised = resample(&[1.5; 400], 1000, 48_000);
+        assert!(raised[4800..14_400].iter().all(|x| (x - 1.5).abs() < 1e-12));
+        let mut impulse = vec![0.0; 401];
+        impulse[200] = 1.0;
+        let raised = resample(&impulse, 1000, 48_000);
+        let top = (0..raised.len()).max_by(|&a, &b| raised[a].total_cmp(&raised[b]));
+        assert_eq!(top, Some(200 * 48));
+        assert!(resample(&[], 1000, 48_000).is_empty());
+        assert_eq!(resample(&[1.0], 1, 4).len(), 4);
     }
 
     #[test]

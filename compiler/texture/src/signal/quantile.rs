@@ -1,7 +1,7 @@
 //! Order statistics.
 
 /// RMS of Gaussian noise over the median of its size.
-pub(crate) const RMS_OF_MEDIAN: f64 = 1.4826;
+pub const RMS_OF_MEDIAN: f64 = 1.4826;
 
 /// The value below which this fraction of the values lies; 0 of none.
 #[must_use]

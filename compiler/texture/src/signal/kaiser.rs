@@ -13,7 +13,8 @@ pub fn window(x: f64) -> f64 {
 }
 
 /// Modified Bessel function of the first kind and order 0, by its series.
-fn bessel_i0(x: f64) -> f64 {
+#[must_use]
+pub fn bessel_i0(x: f64) -> f64 {
     let quarter = 0.25 * x * x;
     let (mut term, mut sum) = (1.0, 1.0);
     for k in 1..60 {
