@@ -37,7 +37,7 @@ pub struct Config {
     pub optimiser: Optimiser,
     /// What is varied while training.
     pub augmentation: Augmentation,
-    /// The second stage, which refits the text projection; none in the paper.
+    /// The second stage, which projects texts from memory; none in the paper.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub text_stage: Option<TextStage>,
     /// How μ is read from the anchors.
@@ -189,40 +189,17 @@ pub struct Augmentation {
     pub caption_mixup: f64,
 }
 
-/// The second stage: the VAE stands, the text projection is refitted to the mean
-/// latents of the materials.
+/// The second stage: the VAE stands, and a memory of captions and lexicon takes the place of the
+/// trained text projection.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TextStage {
-    /// Passes over captions and lexicon.
-    pub epochs: usize,
-    /// Captions a step.
-    pub batch: usize,
-    /// Step size at the start; falls to zero along half a cosine.
-    pub learning_rate: f64,
-    /// Decoupled weight decay.
-    pub weight_decay: f64,
-    /// Hidden widths of the projection.
-    pub hidden: Vec<usize>,
-    /// Dropout after each hidden layer.
-    pub dropout: f64,
-    /// Norm of the Gaussian noise on a unit vector.
-    pub noise: f64,
-    /// Probability that two examples are mixed, vectors and targets alike.
-    pub mixup: f64,
-    /// Weight of picking the own material among all by cosine.
-    pub contrastive_weight: f64,
-    /// Temperature of that.
-    pub contrastive_temperature: f64,
-    /// Share of examples drawn from the lexicon, 0..1.
-    pub lexicon_weight: f64,
     /// τ_t of the weights by meaning.
     pub lexicon_temperature: f64,
     /// h of the weights by rating, on the scale 0–100.
     pub lexicon_bandwidth: f64,
-    /// A projection from memory in place of the trained one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub memory: Option<Memory>,
+    /// The projection from memory.
+    pub memory: Memory,
 }
 
 /// The projection from memory: kernel ridge regression over captions and lexicon.

@@ -1,19 +1,19 @@
 //! A run from corpus to trained model.
 
 use crate::{
+    attribute_regression::{self, AttributeRegression, Felt},
     batch::Instances,
     captions::Captions,
     checkpoint::{self, Identity},
     config::Config,
     error::FitError,
-    feel::{self, Feel, Felt},
+    kernel_ridge::KernelRidge,
+    lda_retrieval::LdaRetrieval,
     material::MaterialLatent,
-    memory::TextMemory,
     network::Network,
     normaliser::{Coded, Normaliser, check},
     parameters::Parameters,
     progress::Progress,
-    recall::Recall,
     rng::{Purpose, Stream},
     text_stage,
     trained::{Seen, Trained, posteriors},
@@ -51,7 +51,7 @@ pub fn fit_on(
     config: &Config,
     progress: &mut dyn Progress,
 ) -> Result<Trained, FitError> {
-    let mut session = Session::new(corpus, materials, captions, config)?;
+    let mut session = TrainingRun::new(corpus, materials, captions, config)?;
     while !session.is_done() {
         session.epoch(progress)?;
         if progress.interrupted() && !session.is_done() {
@@ -88,7 +88,7 @@ pub fn fit_with_checkpoints(
     progress: &mut dyn Progress,
 ) -> Result<Trained, FitError> {
     let identity = Identity::new(corpus, materials, captions, config);
-    let mut session = Session::new(corpus, materials, captions, config)?;
+    let mut session = TrainingRun::new(corpus, materials, captions, config)?;
     if checkpoints.resume {
         checkpoint::load(checkpoints.path, &identity, &mut session.state)?;
     }
@@ -120,7 +120,7 @@ pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> R
 }
 
 /// A run under way.
-pub(crate) struct Session<'a> {
+pub(crate) struct TrainingRun<'a> {
     config: &'a Config,
     captions: &'a Captions,
     materials: Vec<usize>,
@@ -132,7 +132,7 @@ pub(crate) struct Session<'a> {
     pub(crate) state: State,
 }
 
-impl<'a> Session<'a> {
+impl<'a> TrainingRun<'a> {
     /// Prepares data and network.
     pub(crate) fn new(
         corpus: &Corpus,
@@ -175,7 +175,9 @@ impl<'a> Session<'a> {
                 friction,
             },
             ratings: chosen().map(|(_, material)| material.rating).collect(),
-            felt: chosen().map(|(_, material)| feel::of(material)).collect(),
+            felt: chosen()
+                .map(|(_, material)| attribute_regression::of(material))
+                .collect(),
             state: State::new(parameters),
         })
     }
@@ -228,36 +230,31 @@ impl<'a> Session<'a> {
             materials,
             spread,
             history,
-            text_history: Vec::new(),
             memory: None,
             recall: None,
             feel: None,
         };
         if let Some(stage) = &self.config.text_stage {
-            let seed = self.config.seed;
             let examples =
                 text_stage::Examples::new(&trained.materials, &self.ratings, self.captions, stage);
-            if let Some(how) = &stage.memory {
-                let (vectors, targets, weights) = examples.all();
-                let memory =
-                    TextMemory::fit(&vectors, &targets, &weights, how, |step, steps, left| {
-                        progress.text_epoch(step, steps, left)
-                    });
-                let (materials, captions) = (&trained.materials, self.captions);
-                let recall = how.recall.as_ref();
-                trained.recall = recall.map(|how| Recall::new(&memory, materials, captions, how));
-                let felt = (self.felt.as_slice(), self.ratings.as_slice());
-                trained.feel =
-                    Feel::fit(&memory, materials, felt, captions, how, |step, of, left| {
-                        progress.text_epoch(step, of, left)
-                    });
-                trained.memory = Some(memory);
-                return trained;
-            }
-            let refitted = text_stage::refit(&examples, stage, seed, progress);
-            trained.projection = refitted.projection;
-            trained.projection_parameters = refitted.parameters;
-            trained.text_history = refitted.history;
+            let how = &stage.memory;
+            let (vectors, targets, weights) = examples.all();
+            let memory = KernelRidge::fit(&vectors, &targets, &weights, how, |step, of, left| {
+                progress.text_epoch(step, of, left)
+            });
+            let (materials, captions) = (&trained.materials, self.captions);
+            let recall = how.recall.as_ref();
+            trained.recall = recall.map(|how| LdaRetrieval::new(&memory, materials, captions, how));
+            let felt = (self.felt.as_slice(), self.ratings.as_slice());
+            trained.feel = AttributeRegression::fit(
+                &memory,
+                materials,
+                felt,
+                captions,
+                how,
+                |step, of, left| progress.text_epoch(step, of, left),
+            );
+            trained.memory = Some(memory);
         }
         trained
     }

@@ -6,6 +6,7 @@
 //! [`Trained`] that encodes, decodes and projects.
 
 mod adam;
+mod attribute_regression;
 mod attributes;
 mod batch;
 mod captions;
@@ -18,17 +19,16 @@ mod eigen;
 mod error;
 pub mod evaluate;
 mod export;
-mod feel;
 mod fit;
+mod kernel_ridge;
+mod lda_retrieval;
 mod loss;
 mod material;
-mod memory;
 mod metrics;
 mod network;
 mod normaliser;
 mod parameters;
 mod progress;
-mod recall;
 mod rng;
 mod statistics;
 #[cfg(test)]

@@ -20,8 +20,6 @@ const ACTIVE_VARIANCE: f64 = 0.01;
 pub struct Metrics {
     /// Losses of the last epoch.
     pub loss: EpochLoss,
-    /// Loss of the last epoch of the text stage, if there was one.
-    pub text_loss: Option<f32>,
     /// Share of the variance of the normalised LSFs that decoded posterior means explain.
     pub lsf_explained: f64,
     /// The same of the coded excitations.
@@ -81,7 +79,6 @@ pub fn measure(trained: &Trained, corpus: &Corpus, captions: &Captions) -> Metri
     let taps = explained(&truth.taps, &said.taps, TAP_VALUES);
     Metrics {
         loss: trained.history.last().copied().unwrap_or_default(),
-        text_loss: trained.text_history.last().copied(),
         lsf_explained: share(&ar[..LSFS]),
         excitation_explained: share(&ar[LSFS..]),
         taps_explained: share(&taps),
@@ -103,7 +100,7 @@ fn named(captions: &Captions, of: fn(&[Vec<f32>]) -> &[Vec<f32>]) -> Vec<Vec<Vec
 
 fn words(trained: &Trained, corpus: &Corpus, captions: &Captions) -> Option<WordsHeldOut> {
     let memory = trained.memory.as_ref()?;
-    let how = trained.config.text_stage.as_ref()?.memory.as_ref()?;
+    let how = &trained.config.text_stage.as_ref()?.memory;
     let materials: Vec<usize> = trained.materials.iter().map(|m| m.material).collect();
     let seed = trained.config.seed;
     Some(words_held_out::measure(

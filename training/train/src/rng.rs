@@ -10,8 +10,6 @@ use std::f64::consts::TAU;
 pub(crate) enum Purpose {
     Initialisation = 1,
     Epoch = 2,
-    TextInitialisation = 3,
-    TextEpoch = 4,
     Verification = 5,
 }
 
@@ -103,7 +101,7 @@ mod tests {
         let reference = first(1, Purpose::Epoch, 3);
         assert_eq!(reference, first(1, Purpose::Epoch, 3));
         assert_ne!(reference, first(1, Purpose::Epoch, 4));
-        assert_ne!(reference, first(1, Purpose::TextEpoch, 3));
+        assert_ne!(reference, first(1, Purpose::Verification, 3));
         assert_ne!(reference, first(2, Purpose::Epoch, 3));
     }
 

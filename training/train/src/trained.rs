@@ -1,16 +1,16 @@
 //! A trained model, before it is a folder: encode, decode, project.
 
 use crate::{
+    attribute_regression::{AttributeRegression, Felt},
     coding,
     config::{Config, Excitation},
-    feel::{Feel, Felt},
+    kernel_ridge::KernelRidge,
+    lda_retrieval::LdaRetrieval,
     material::MaterialLatent,
-    memory::TextMemory,
     network::{Mode, Network, TextProjection, matrix},
     normaliser::{AR, Coded, LSFS, Normaliser, TAP_VALUES},
     parameters::{Bound, Parameters, numbers},
     progress::EpochLoss,
-    recall::Recall,
     vae::decode,
 };
 use asperity::learned::description::LATENT;
@@ -54,13 +54,12 @@ pub struct Trained {
     pub(crate) materials: Vec<MaterialLatent>,
     pub(crate) spread: [f32; LATENT],
     pub(crate) history: Vec<EpochLoss>,
-    pub(crate) text_history: Vec<f32>,
     /// Projects in place of the network where there is one.
-    pub(crate) memory: Option<TextMemory>,
+    pub(crate) memory: Option<KernelRidge>,
     /// Draws what the memory says to a material.
-    pub(crate) recall: Option<Recall>,
+    pub(crate) recall: Option<LdaRetrieval>,
     /// How rough, slippery and hard texts are, beside the memory.
-    pub(crate) feel: Option<Feel>,
+    pub(crate) feel: Option<AttributeRegression>,
 }
 
 impl Trained {
@@ -92,12 +91,6 @@ impl Trained {
     #[must_use]
     pub fn history(&self) -> &[EpochLoss] {
         &self.history
-    }
-
-    /// Losses of the text stage, an epoch each; empty without one.
-    #[must_use]
-    pub fn text_history(&self) -> &[f32] {
-        &self.text_history
     }
 
     /// Numbers in the network.

@@ -1,8 +1,8 @@
 //! Named matrices as safetensors.
 
 use crate::{
-    feel::Feel,
-    memory::TextMemory,
+    attribute_regression::AttributeRegression,
+    kernel_ridge::KernelRidge,
     parameters::{Parameter, Parameters},
     trained::Trained,
 };
@@ -155,7 +155,7 @@ pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
     write(&tables, "weights; matrices are inputs × outputs")
 }
 
-fn memory(memory: &TextMemory) -> [(String, Table); 7] {
+fn memory(memory: &KernelRidge) -> [(String, Table); 7] {
     let column = |values: &[f32]| Table::new(values, 1);
     [
         ("basis", Table::new(&memory.basis, memory.kept)),
@@ -172,7 +172,7 @@ fn memory(memory: &TextMemory) -> [(String, Table); 7] {
     .map(|(name, table)| (format!("memory.{name}"), table))
 }
 
-fn feel(feel: &Feel) -> [(String, Table); 4] {
+fn feel(feel: &AttributeRegression) -> [(String, Table); 4] {
     [
         ("coefficients", feel.coefficients.as_flattened()),
         ("materials", feel.materials.as_flattened()),

@@ -7,7 +7,7 @@ use crate::{
     captions::{Captions, dot},
     certainty::calibration_error,
     config::Memory,
-    memory::{TextMemory, regress},
+    kernel_ridge::{KernelRidge, regress},
     rng::{Purpose, Stream},
     statistics::{mean, spearman},
 };
@@ -50,7 +50,7 @@ pub struct WordsHeldOut {
 
 /// Predicts the ratings of held-out phrases.
 pub(crate) fn measure(
-    memory: &TextMemory,
+    memory: &KernelRidge,
     corpus: &Corpus,
     materials: &[usize],
     captions: &Captions,
@@ -140,9 +140,9 @@ fn numbers(rating: &Rating) -> [f32; 3] {
     ]
 }
 
-/// The soft maximum of [`TextMemory::familiarity`] over these vectors themselves.
+/// The soft maximum of [`KernelRidge::familiarity`] over these vectors themselves.
 fn familiarity(known: &[&[f32]], asked: &[&[f32]]) -> Vec<f64> {
-    let sharpness = f64::from(crate::memory::SHARPNESS);
+    let sharpness = f64::from(crate::kernel_ridge::SHARPNESS);
     asked
         .par_iter()
         .map(|vector| {

@@ -82,41 +82,23 @@ impl Config {
 }
 
 fn text_stage(s: &TextStage) -> Result<(), ConfigError> {
-    count("text_stage.epochs", s.epochs, 1_000_000)?;
-    count("text_stage.batch", s.batch, 65_536)?;
-    positive("text_stage.learning_rate", s.learning_rate)?;
-    weight("text_stage.weight_decay", s.weight_decay)?;
-    widths("text_stage.hidden", &s.hidden)?;
-    rate("text_stage.dropout", s.dropout)?;
-    weight("text_stage.noise", s.noise)?;
-    probability("text_stage.mixup", s.mixup)?;
-    weight("text_stage.contrastive_weight", s.contrastive_weight)?;
-    positive(
-        "text_stage.contrastive_temperature",
-        s.contrastive_temperature,
-    )?;
-    rate("text_stage.lexicon_weight", s.lexicon_weight)?;
     positive("text_stage.lexicon_temperature", s.lexicon_temperature)?;
     positive("text_stage.lexicon_bandwidth", s.lexicon_bandwidth)?;
-    if let Some(memory) = &s.memory {
-        positive("text_stage.memory.concentration", memory.concentration)?;
-        positive("text_stage.memory.ridge", memory.ridge)?;
-        count("text_stage.memory.iterations", memory.iterations, 10_000)?;
-        count("text_stage.memory.directions", memory.directions, MAX_WIDTH)?;
-        positive("text_stage.memory.caption_weight", memory.caption_weight)?;
-        positive(
-            "text_stage.memory.felt_concentration",
-            memory.felt_concentration,
-        )?;
-        positive(
-            "text_stage.memory.felt_caption_weight",
-            memory.felt_caption_weight,
-        )?;
-        if let Some(how) = &memory.recall {
-            recall(how)?;
-        }
-    }
-    Ok(())
+    let memory = &s.memory;
+    positive("text_stage.memory.concentration", memory.concentration)?;
+    positive("text_stage.memory.ridge", memory.ridge)?;
+    count("text_stage.memory.iterations", memory.iterations, 10_000)?;
+    count("text_stage.memory.directions", memory.directions, MAX_WIDTH)?;
+    positive("text_stage.memory.caption_weight", memory.caption_weight)?;
+    positive(
+        "text_stage.memory.felt_concentration",
+        memory.felt_concentration,
+    )?;
+    positive(
+        "text_stage.memory.felt_caption_weight",
+        memory.felt_caption_weight,
+    )?;
+    memory.recall.as_ref().map_or(Ok(()), recall)
 }
 
 fn recall(how: &Recall) -> Result<(), ConfigError> {

@@ -10,10 +10,10 @@ use super::{
 };
 use crate::{
     captions::{Captions, dot},
-    config::{Config, Memory, TextStage},
+    config::{Config, TextStage},
+    kernel_ridge::KernelRidge,
+    lda_retrieval::LdaRetrieval,
     material::MaterialLatent,
-    memory::TextMemory,
-    recall::Recall,
     text_stage::Examples,
     words_held_out::groups,
 };
@@ -87,8 +87,6 @@ pub(super) fn measure(
     let names = shipped("names, as trained", &names)?;
     let as_trained = shipped("synonyms, as trained", &synonyms)?;
     watch.done(1);
-    let stage = config.text_stage.as_ref();
-    let memory = stage.and_then(|stage| Some((stage, stage.memory.as_ref()?)));
     let setting = Setting {
         corpus,
         captions,
@@ -96,8 +94,8 @@ pub(super) fn measure(
         anchors: &anchors,
         synonyms: &synonyms,
     };
-    let left_out = match memory {
-        Some((stage, how)) => Some(setting.left_out(stage, how, config.seed, watch)?),
+    let left_out = match &config.text_stage {
+        Some(stage) => Some(setting.left_out(stage, config.seed, watch)?),
         None => None,
     };
     Ok(Names {
@@ -149,7 +147,6 @@ impl Setting<'_> {
     fn left_out(
         &self,
         stage: &TextStage,
-        how: &Memory,
         seed: u64,
         watch: &mut dyn Watch,
     ) -> Result<LeftOut, EvaluateError> {
@@ -166,7 +163,7 @@ impl Setting<'_> {
             phrases += self.captions.lexicon.len() - captions.lexicon.len();
             own.extend(out.iter().map(|name| name.owner));
             let vectors: Vec<&[f32]> = out.iter().map(|name| name.vector).collect();
-            let latents = self.placed(&captions, stage, how, &vectors);
+            let latents = self.placed(&captions, stage, &vectors);
             ranked[0].extend(latents.iter().map(|z| scores(z, self.anchors)));
             let means: Vec<Vec<f32>> = self.materials.iter().map(|&m| captions.mean(m)).collect();
             ranked[1].extend(vectors.iter().map(|vector| {
@@ -212,13 +209,7 @@ impl Setting<'_> {
     }
 
     /// Where a text stage that is fitted to these texts places vectors.
-    fn placed(
-        &self,
-        captions: &Captions,
-        stage: &TextStage,
-        how: &Memory,
-        vectors: &[&[f32]],
-    ) -> Vec<Latent> {
+    fn placed(&self, captions: &Captions, stage: &TextStage, vectors: &[&[f32]]) -> Vec<Latent> {
         let materials: Vec<MaterialLatent> = self
             .materials
             .iter()
@@ -236,10 +227,10 @@ impl Setting<'_> {
             .collect();
         let examples = Examples::new(&materials, &ratings, captions, stage);
         let (texts, targets, weights) = examples.all();
-        let memory = TextMemory::fit(&texts, &targets, &weights, how, |_, _, _| ());
+        let memory = KernelRidge::fit(&texts, &targets, &weights, &stage.memory, |_, _, _| ());
         let mut latents = memory.project(vectors);
-        if let Some(how) = &how.recall {
-            let recall = Recall::new(&memory, &materials, captions, how);
+        if let Some(how) = &stage.memory.recall {
+            let recall = LdaRetrieval::new(&memory, &materials, captions, how);
             let directions = memory.directions(vectors);
             recall.draw(self.anchors, &directions, &mut latents);
         }

@@ -15,10 +15,6 @@ fn config() -> Config {
     config.optimiser.batch = 16;
     config.loss.kl_from_epoch = 2;
     config.loss.kl_to_epoch = 6;
-    if let Some(stage) = &mut config.text_stage {
-        stage.epochs = 30;
-        stage.hidden = vec![32];
-    }
     config
 }
 

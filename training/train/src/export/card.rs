@@ -64,7 +64,7 @@ fn card(
     )?;
     writeln!(text, "| parameters | {} |", trained.parameter_count())?;
     writeln!(text, "| seed | {} |", description.seed)?;
-    writeln!(text, "| epochs | {}", epochs(trained))?;
+    writeln!(text, "| epochs | {} |", trained.history.len())?;
     writeln!(text, "\n## On the materials it was trained on\n")?;
     writeln!(
         text,
@@ -89,9 +89,6 @@ fn card(
         "| last epoch: compactness, friction | {:.4}, {:.4} |",
         loss.compactness, loss.friction
     )?;
-    if let Some(loss) = metrics.text_loss {
-        writeln!(text, "| text stage | {loss:.4} |")?;
-    }
     writeln!(
         text,
         "| variance explained: LSFs, excitation, taps | {}, {}, {} |",
@@ -156,14 +153,4 @@ fn card(
         "## Configuration\n\n```toml\n{}\n```",
         config.trim_end()
     )
-}
-
-fn epochs(trained: &Trained) -> String {
-    let text = trained.text_history.len();
-    let first = trained.history.len();
-    if text == 0 {
-        format!("{first} |")
-    } else {
-        format!("{first}, text stage {text} |")
-    }
 }

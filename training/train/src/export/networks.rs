@@ -3,13 +3,13 @@
 
 use super::{ExportError, gain, graph::Writer};
 use crate::{
+    attribute_regression::{AttributeRegression, LEAST},
     config::{self, Excitation},
-    feel::{Feel, LEAST},
-    memory::{SHARPNESS, TextMemory},
+    kernel_ridge::{KernelRidge, SHARPNESS},
+    lda_retrieval::LdaRetrieval,
     network::{GAPS, LOG_VARIANCE_BOUND, Trunk, gap_matrix, gap_offsets},
     normaliser::{LSFS, TAP_VALUES},
     parameters::Slot,
-    recall::Recall,
     trained::Trained,
 };
 use asperity::learned::description::LATENT;
@@ -79,7 +79,7 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
     writer
 }
 
-/// `1 + ln(Σ exp(κ·likeness))/κ`, as [`TextMemory::familiarity`].
+/// `1 + ln(Σ exp(κ·likeness))/κ`, as [`KernelRidge::familiarity`].
 fn soft_maximum(writer: &mut Writer<'_>, likeness: &Value) -> Value {
     let sharp = writer.times(likeness, SHARPNESS);
     let terms = writer.graph.unary("Exp", &sharp);
@@ -98,11 +98,11 @@ struct Remembered {
     likeness: Value,
 }
 
-/// The latent of a text drawn to its material, as [`Recall::draw`].
+/// The latent of a text drawn to its material, as [`LdaRetrieval::draw`].
 fn recalled(
     writer: &mut Writer<'_>,
     trained: &Trained,
-    recall: &Recall,
+    recall: &LdaRetrieval,
     z: &Value,
     direction: &Value,
 ) -> Value {
@@ -129,11 +129,11 @@ fn recalled(
     drawn(writer, &means, z, &kept, &weights)
 }
 
-/// Attributes of a text drawn to those of the material that it names, as [`Feel::ask`]; `likeness`
+/// Attributes of a text drawn to those of the material that it names, as [`AttributeRegression::ask`]; `likeness`
 /// is that of the memory's examples.
 fn felt_recalled(
     writer: &mut Writer<'_>,
-    feel: &Feel,
+    feel: &AttributeRegression,
     how: &config::Recall,
     felt: &Value,
     likeness: &Value,
@@ -154,7 +154,7 @@ fn felt_recalled(
     drawn(writer, &rows, felt, &kept, &weights)
 }
 
-/// `(w·X + g·x)/(Σ w + g)`, as [`recall::drawn`]; g is `kept`.
+/// `(w·X + g·x)/(Σ w + g)`, as [`lda_retrieval::drawn`]; g is `kept`.
 fn drawn(
     writer: &mut Writer<'_>,
     rows: &Value,
@@ -239,7 +239,7 @@ fn dequantised(
 fn from_memory(
     writer: &mut Writer<'_>,
     trained: &Trained,
-    memory: &TextMemory,
+    memory: &KernelRidge,
     direction: &Value,
 ) -> Remembered {
     let (width, count) = (memory.kept, memory.scales.len());

@@ -5,7 +5,7 @@ use crate::{Captions, Silent, fit_on, synthetic};
 use asperity::{
     inference::Backend,
     learned::{Files, LearnedModel},
-    prompt::{Author, Options},
+    prompt::{Options, PromptCompiler},
     text::{TextEncoder as _, clip::Clip},
 };
 use asperity_nn::{
@@ -73,7 +73,9 @@ fn a_tower_trains_a_projection_of_its_width_and_prompts_go_through_both() {
     for (x, y) in found.iter().zip(expected) {
         assert!((x - y).abs() < 1e-3, "{x} {y}");
     }
-    let author = Author::new(Box::new(clip), model).unwrap();
-    let authored = author.author("rough bark", &Options::default()).unwrap();
+    let prompt_compiler = PromptCompiler::new(Box::new(clip), model).unwrap();
+    let authored = prompt_compiler
+        .compile("rough bark", &Options::default())
+        .unwrap();
     assert!(!authored.lowered.bytes.is_empty());
 }

@@ -25,9 +25,6 @@ fn data() -> (Corpus, Captions) {
 fn short() -> Config {
     let mut config = small();
     config.optimiser.epochs = 6;
-    if let Some(stage) = &mut config.text_stage {
-        stage.epochs = 10;
-    }
     config
 }
 

@@ -109,7 +109,10 @@ pub(super) fn train(
     let positions: Vec<usize> = positions.collect();
     let training: Vec<usize> = positions.iter().map(|&p| setting.materials[p]).collect();
     let config = setting.config;
-    let text_epochs = config.text_stage.as_ref().map_or(0, |stage| stage.epochs);
+    let text_epochs = config
+        .text_stage
+        .as_ref()
+        .map_or(0, |stage| stage.memory.iterations);
     let epochs = config.optimiser.epochs;
     let mut progress = Training::begin(watch, what, epochs, text_epochs);
     let (corpus, captions) = (setting.corpus, setting.captions);

@@ -13,14 +13,14 @@ use burn_tensor::{Device, Tensor};
 
 /// Share of the first residual at which the solver stops.
 const TOLERANCE: f32 = 2e-4;
-/// κ of the soft maximum in [`TextMemory::familiarity`].
+/// κ of the soft maximum in [`KernelRidge::familiarity`].
 pub(crate) const SHARPNESS: f32 = 20.0;
 /// Largest code of a kept vector or coefficient.
 const FULL_SCALE: f32 = 127.0;
 
 /// A fitted projection.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct TextMemory {
+pub(crate) struct KernelRidge {
     /// γ.
     pub(crate) concentration: f32,
     /// Width of the text vectors.
@@ -41,7 +41,7 @@ pub(crate) struct TextMemory {
     pub(crate) mean: [f32; LATENT],
 }
 
-impl TextMemory {
+impl KernelRidge {
     /// Fits unit vectors to their latents, each weighed by how sure it is. `done` is told of
     /// every step of the solver, with the largest residual left, relative to the first.
     pub(crate) fn fit(
@@ -344,7 +344,7 @@ mod tests {
         (vectors, targets)
     }
 
-    fn fitted(ridge: f64) -> (TextMemory, Vec<Vec<f32>>, Vec<[f32; LATENT]>) {
+    fn fitted(ridge: f64) -> (KernelRidge, Vec<Vec<f32>>, Vec<[f32; LATENT]>) {
         let (vectors, targets) = examples();
         let how = Memory {
             concentration: 8.0,
@@ -359,7 +359,7 @@ mod tests {
         let views: Vec<&[f32]> = vectors.iter().map(Vec::as_slice).collect();
         let weights = vec![1.0; views.len()];
         (
-            TextMemory::fit(&views, &targets, &weights, &how, |_, _, _| ()),
+            KernelRidge::fit(&views, &targets, &weights, &how, |_, _, _| ()),
             vectors,
             targets,
         )

@@ -10,14 +10,14 @@ use crate::{
     captions::Captions,
     config::Recall as How,
     discriminant::Discriminant,
+    kernel_ridge::{KernelRidge, in_8_bits},
     material::MaterialLatent,
-    memory::{TextMemory, in_8_bits},
 };
 use asperity::learned::description::LATENT;
 
 /// Prototypes in 8 bits.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Recall {
+pub(crate) struct LdaRetrieval {
     /// τ, f and the like.
     pub(crate) how: How,
     /// From the directions of a memory to those that tell materials apart.
@@ -32,10 +32,10 @@ pub(crate) struct Recall {
     pub(crate) owners: Vec<usize>,
 }
 
-impl Recall {
+impl LdaRetrieval {
     /// Of materials.
     pub(crate) fn new(
-        memory: &TextMemory,
+        memory: &KernelRidge,
         materials: &[MaterialLatent],
         captions: &Captions,
         how: &How,
@@ -143,7 +143,7 @@ mod tests {
         let materials = [[1.0; LATENT], [3.0; LATENT]];
         let mut basis = vec![0.0; 9];
         (0..3).for_each(|k| basis[4 * k] = 1.0);
-        let recall = Recall {
+        let recall = LdaRetrieval {
             how: How {
                 temperature: 0.02,
                 directions: 3,

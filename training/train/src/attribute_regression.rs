@@ -10,9 +10,9 @@ use crate::{
     attributes,
     captions::Captions,
     config::{self, Memory},
+    kernel_ridge::KernelRidge,
+    lda_retrieval,
     material::MaterialLatent,
-    memory::TextMemory,
-    recall,
 };
 use asperity_corpus::{Material, Rating};
 
@@ -20,9 +20,9 @@ use asperity_corpus::{Material, Rating};
 /// moves a texture.
 pub(crate) type Felt = [f32; 3];
 
-/// A fitted regression on the examples of a [`TextMemory`].
+/// A fitted regression on the examples of a [`KernelRidge`].
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Feel {
+pub(crate) struct AttributeRegression {
     /// γ.
     pub(crate) concentration: f32,
     /// The mean of the examples.
@@ -48,11 +48,11 @@ pub(crate) struct Names {
     pub(crate) phrases_from: usize,
 }
 
-impl Feel {
+impl AttributeRegression {
     /// Fits, on materials of these attributes and ratings; `None` where no phrase or no material is
     /// rated.
     pub(crate) fn fit(
-        memory: &TextMemory,
+        memory: &KernelRidge,
         materials: &[MaterialLatent],
         (felt, ratings): (&[Felt], &[Option<Rating>]),
         captions: &Captions,
@@ -113,7 +113,7 @@ impl Feel {
     }
 
     /// What texts ask for.
-    pub(crate) fn ask(&self, memory: &TextMemory, vectors: &[&[f32]]) -> Vec<Felt> {
+    pub(crate) fn ask(&self, memory: &KernelRidge, vectors: &[&[f32]]) -> Vec<Felt> {
         let mut felt = memory.apply(vectors, self.concentration, &self.coefficients, &self.mean);
         if let Some(how) = &self.recall {
             for (felt, likeness) in felt.iter_mut().zip(memory.likeness(vectors)) {
@@ -131,7 +131,7 @@ impl Feel {
         let phrases = likeness[self.names.phrases_from..].iter();
         let phrases: f32 = phrases.map(|&x| near(x)).sum();
         let kept = how.felt_phrase_weight as f32 * phrases + LEAST;
-        recall::drawn(felt, kept, &weights, &self.names.owners, &self.materials);
+        lda_retrieval::drawn(felt, kept, &weights, &self.names.owners, &self.materials);
     }
 }
 
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn a_name_feels_as_its_material_and_a_phrase_as_it_was_rated() {
-        let feel = Feel {
+        let feel = AttributeRegression {
             concentration: 1.0,
             mean: [0.0; 3],
             coefficients: Vec::new(),
