@@ -5,7 +5,7 @@
 
 use asperity::{
     inference::Backend,
-    prompt::{Author, Authored, Options},
+    prompt::{CompiledPrompt, Options, PromptCompiler},
 };
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
@@ -18,13 +18,13 @@ const ROW: usize = 100;
 fn main() -> Result<(), Box<dyn Error>> {
     // Author time: some tens of milliseconds a prompt, once the model is loaded. The portable
     // back end gives the same bytes on every machine.
-    let author = Author::embedded(&Backend::Portable)?;
+    let prompt_compiler = PromptCompiler::embedded(&Backend::Portable)?;
     let options = Options::default().without_preview();
-    let compiled = author.author(PROMPT, &options);
+    let compiled = prompt_compiler.compile(PROMPT, &options);
     let compiled = compiled.map_err(|failure| failure as Box<dyn Error>)?;
     let bytes = &compiled.lowered.bytes;
     println!("{PROMPT:?}: {} bytes", bytes.len());
-    let found: Option<&Authored> = compiled.found();
+    let found: Option<&CompiledPrompt> = compiled.found();
     for near in found.into_iter().flat_map(|found| &found.nearest).take(3) {
         println!("  near {}, {:.0} %", near.name, 100.0 * near.weight);
     }

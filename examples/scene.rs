@@ -7,7 +7,7 @@ use asperity::{
     diagnostic::{Failures, one, report},
     inference::Backend,
     library::Request,
-    prompt::Author,
+    prompt::PromptCompiler,
     scene::{Budget, Description, build},
 };
 use asperity_formats::Library;
@@ -61,8 +61,15 @@ fn library() -> Result<Vec<u8>, Box<dyn Error>> {
     };
     let scene = Description::read(&file).map_err(told)?;
     // Without a cache, and loaded only if a texture needs it.
-    let author = || Author::embedded(&Backend::Portable).map_err(one);
-    let built = build(&scene, &budget, &Request::default(), &author, &|| ()).map_err(told)?;
+    let prompt_compiler = || PromptCompiler::embedded(&Backend::Portable).map_err(one);
+    let built = build(
+        &scene,
+        &budget,
+        &Request::default(),
+        &prompt_compiler,
+        &|| (),
+    )
+    .map_err(told)?;
     print!("{}", built.report);
     Ok(built.bytes)
 }

@@ -11,7 +11,7 @@
 use asperity::{builtin, lower::lower};
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Exchange, Flags, HostTexture, Output, Renderer, Sample};
-use asperity_sim::fault::{Fault, FaultInjector, FaultPlan};
+use asperity_sim::fault::{FaultInjector, FaultPlan, SampleFault};
 use asperity_sim::hand::{Grip, GripPreset, Motion, Script};
 use asperity_sim::{device::DeviceConfig, servo::Servo, session::Session};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
@@ -94,11 +94,11 @@ fn servo_loop<S: Servo>(
         // In a missed period the device holds the last force. The next sample says how many
         // periods have passed.
         for _ in 0..late {
-            session.servo_mut().start(Fault::Dropped, 1);
+            session.servo_mut().start(SampleFault::Dropped, 1);
             session.tick();
         }
         if STALE.contains(&ticks.load(Relaxed)) {
-            session.servo_mut().start(Fault::Stale, 1);
+            session.servo_mut().start(SampleFault::Stale, 1);
         }
         if session.tick().is_none() {
             break; // The script has ended.

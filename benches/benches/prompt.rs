@@ -6,7 +6,7 @@
 
 use asperity::{
     inference::{Backend, BackendName},
-    prompt::{Author, Options},
+    prompt::{Options, PromptCompiler},
 };
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -15,18 +15,20 @@ const PROMPT: &str = "rough abrasive sheet with gritty particles";
 
 fn warm(c: &mut Criterion) {
     let backend = Backend::open(BackendName::Portable).expect("the embedded engine");
-    let author = Author::embedded(&backend).expect("the embedded model");
+    let prompt_compiler = PromptCompiler::embedded(&backend).expect("the embedded model");
     let options = Options::default().without_preview();
-    let authored = author.author(PROMPT, &options).expect("a texture");
+    let authored = prompt_compiler
+        .compile(PROMPT, &options)
+        .expect("a texture");
     assert!(authored.attributes().rough_db.is_some_and(|db| db > 0.0));
     assert!(authored.lowered.bytes.len() < 4096 + 1024);
     let mut group = c.benchmark_group("warm prompt");
     group.sample_size(30);
     group.bench_function("text to verified bytes", |b| {
-        b.iter(|| author.author(black_box(PROMPT), &options));
+        b.iter(|| prompt_compiler.compile(black_box(PROMPT), &options));
     });
     group.bench_function("text to latent", |b| {
-        b.iter(|| author.project(black_box(PROMPT)));
+        b.iter(|| prompt_compiler.project(black_box(PROMPT)));
     });
     group.finish();
 }

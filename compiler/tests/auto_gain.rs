@@ -7,7 +7,7 @@ use asperity::{
     mixture::Field,
     model::TextureModel,
     pipeline::Pipeline,
-    prompt::{Author, Options},
+    prompt::{Options, PromptCompiler},
     raise::raise,
     reduce::Fidelity,
 };
@@ -152,12 +152,13 @@ const SCALES: [Scale; 4] = [
 
 #[test]
 fn every_texture_stays_within_the_continuous_force_and_attributes_keep_their_order() {
-    let author = Author::embedded(&Backend::Portable).expect("the shipped model loads");
+    let prompt_compiler =
+        PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads");
     let options = Options::default().without_preview();
     let made: Vec<(Attributes, Attributes, f64, bool)> = prompts()
         .par_iter()
         .map(|prompt| {
-            let authored = author.author(prompt, &options).expect(prompt);
+            let authored = prompt_compiler.compile(prompt, &options).expect(prompt);
             let before = Pipeline::default().reduce(&authored.whole, Fidelity::Auto);
             let asset = Asset::parse(&authored.lowered.bytes).expect(prompt);
             let kept = raise(&asset);

@@ -2,11 +2,11 @@
 
 use asperity::{
     ceiling, driver,
-    edit::{AXES, Axis, History, Latents, Sliders, Studio},
+    edit::{AXES, Axis, History, LatentEditor, Latents, Sliders},
     inference::Backend,
     learned::Latent,
     pipeline::Request,
-    prompt::Author,
+    prompt::PromptCompiler,
     raise::raise,
     reduce::Fidelity,
     sources::{Tools, latents::FromLatents},
@@ -17,8 +17,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-static AUTHOR: LazyLock<Author> =
-    LazyLock::new(|| Author::embedded(&Backend::Portable).expect("the shipped model loads"));
+static AUTHOR: LazyLock<PromptCompiler> = LazyLock::new(|| {
+    PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads")
+});
 
 /// An edit hits within so much of its step of 10.
 const TOLERANCE: f64 = 3.0;
@@ -46,7 +47,7 @@ fn textures() -> Vec<Latents> {
 /// most 5, wherever that stays on the slider: beyond 0 and 100 there may be no material to go by.
 #[test]
 fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
-    let studio = Studio::new(&AUTHOR);
+    let editor = LatentEditor::new(&AUTHOR);
     let request = Request {
         fidelity: Fidelity::Auto,
         ..Request::default()
@@ -62,8 +63,8 @@ fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
         .par_iter()
         .map(|&(n, axis, step)| {
             let place = |latents: &Latents| {
-                let attributes = studio.kept_attributes(latents, &request).unwrap();
-                AXES.map(|axis| studio.scale().place(axis, &attributes).unwrap())
+                let attributes = editor.kept_attributes(latents, &request).unwrap();
+                AXES.map(|axis| editor.scale().place(axis, &attributes).unwrap())
             };
             let before = place(&textures[n]);
             let there = before[axis as usize] + step;
@@ -77,7 +78,7 @@ fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
                 Axis::Hard => sliders.harder = step,
                 Axis::Slippery => sliders.slipperier = step,
             }
-            let after = place(&studio.edited(&textures[n], &sliders, &request).unwrap());
+            let after = place(&editor.edited(&textures[n], &sliders, &request).unwrap());
             Some(std::array::from_fn(|k| after[k] - before[k]))
         })
         .collect();

@@ -11,7 +11,7 @@ use asperity::{
     lsf,
     model::{GridVertex, ModelGrid, Numerator, TextureModel, VertexKind},
     pipeline::{Pass, Pipeline, Request},
-    prompt::Author,
+    prompt::PromptCompiler,
     raise::raise,
     reduce::Fidelity,
     scene::{self, Budget, Description},
@@ -131,8 +131,8 @@ fn it_is_compiled_and_exported() {
     assert!(exported.bytes.starts_with(b"{"));
 }
 
-fn open() -> Result<Author, Vec<Box<dyn Diagnostic>>> {
-    Ok(Author::embedded(&Backend::Portable).unwrap())
+fn open() -> Result<PromptCompiler, Vec<Box<dyn Diagnostic>>> {
+    Ok(PromptCompiler::embedded(&Backend::Portable).unwrap())
 }
 
 /// Builds a manifest that may name gratings.

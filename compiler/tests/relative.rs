@@ -2,18 +2,19 @@
 
 use asperity::{
     attributes::Attributes,
-    edit::{Latents, Studio},
+    edit::{LatentEditor, Latents},
     inference::Backend,
     pipeline::Request,
-    prompt::Author,
+    prompt::PromptCompiler,
     reduce::Fidelity,
 };
 use asperity_tests::size::sized;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-static AUTHOR: LazyLock<Author> =
-    LazyLock::new(|| Author::embedded(&Backend::Portable).expect("the shipped model loads"));
+static AUTHOR: LazyLock<PromptCompiler> = LazyLock::new(|| {
+    PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads")
+});
 
 /// A thing, an edit in words, and where it goes; written for this test, by who wrote the grammar.
 const EDITS: &str = include_str!("relative_edits.tsv");
@@ -29,13 +30,13 @@ fn scale(attribute: &str, a: &Attributes) -> f64 {
 }
 
 fn latents(prompt: &str) -> Latents {
-    let prompted = AUTHOR.project(prompt).expect(prompt);
-    let meaning = AUTHOR.meaning(prompt, &prompted).expect(prompt);
+    let projection = AUTHOR.project(prompt).expect(prompt);
+    let meaning = AUTHOR.meaning(prompt, &projection).expect(prompt);
     Latents::whole(meaning.z).shifted(meaning.shift)
 }
 
 /// The smallest step of an edit in the ways that it should go, in what a person notices.
-fn step(studio: &Studio<'_>, line: &str) -> f64 {
+fn step(editor: &LatentEditor<'_>, line: &str) -> f64 {
     let request = Request {
         fidelity: Fidelity::Auto,
         ..Request::default()
@@ -45,9 +46,9 @@ fn step(studio: &Studio<'_>, line: &str) -> f64 {
         panic!("{line:?}");
     };
     let before = latents(thing);
-    let after = studio.worded(&before, text, &request).expect(line).latents;
+    let after = editor.worded(&before, text, &request).expect(line).latents;
     let [before, after] =
-        [before, after].map(|z| studio.kept_attributes(&z, &request).expect(line));
+        [before, after].map(|z| editor.kept_attributes(&z, &request).expect(line));
     let steps = ways.split(' ').map(|way| {
         let (attribute, sign) = way.split_at(way.len() - 1);
         let step = scale(attribute, &after) - scale(attribute, &before);
@@ -58,12 +59,12 @@ fn step(studio: &Studio<'_>, line: &str) -> f64 {
 
 #[test]
 fn edits_in_words_go_the_right_way_and_are_noticed() {
-    let studio = Studio::new(&AUTHOR);
+    let editor = LatentEditor::new(&AUTHOR);
     let lines: Vec<&str> = EDITS.lines().collect();
     assert_eq!(lines.len(), 60);
     let stride = sized("every so many edits", 4, 1);
     let lines: Vec<&str> = lines.into_iter().step_by(stride).collect();
-    let steps: Vec<f64> = lines.par_iter().map(|line| step(&studio, line)).collect();
+    let steps: Vec<f64> = lines.par_iter().map(|line| step(&editor, line)).collect();
     for (line, step) in lines.iter().zip(&steps).filter(|(_, step)| **step <= 1.0) {
         println!("{step:+.2}: {line}");
     }

@@ -6,7 +6,7 @@ use asperity::{
     inference::Backend,
     library::{Build, Manifest, Request},
     lower::lower,
-    prompt::Author,
+    prompt::PromptCompiler,
     render::render_scene,
     scene::{Budget, Built, Description, build},
 };
@@ -52,8 +52,8 @@ fn folder() -> TempDir {
     folder
 }
 
-fn author() -> Result<Author, Failures> {
-    Ok(Author::embedded(&Backend::Portable).unwrap())
+fn prompt_compiler() -> Result<PromptCompiler, Failures> {
+    Ok(PromptCompiler::embedded(&Backend::Portable).unwrap())
 }
 
 fn built(folder: &Path, scene: &str, budget: &Budget) -> Result<Built, Failures> {
@@ -63,7 +63,7 @@ fn built(folder: &Path, scene: &str, budget: &Budget) -> Result<Built, Failures>
         &Description::read(&file)?,
         budget,
         &Request::default(),
-        &author,
+        &prompt_compiler,
         &|| (),
     )
 }
@@ -383,7 +383,14 @@ fn the_documented_scene_builds() {
         ..within(Some("cortex-m4f@48MHz"), Some(7000))
     };
     let description = Description::read(&file).unwrap();
-    let built = build(&description, &budget, &Request::default(), &author, &|| ()).unwrap();
+    let built = build(
+        &description,
+        &budget,
+        &Request::default(),
+        &prompt_compiler,
+        &|| (),
+    )
+    .unwrap();
     println!("{}", built.report);
     assert!(built.bytes.len() <= 7000 && built.report.instructions <= 2400);
     assert_eq!(
@@ -410,7 +417,7 @@ fn without_a_budget_a_scene_has_the_textures_of_a_library() {
     let manifest = Manifest::read(&file).unwrap();
     let request = Request::default();
     let library = Build::new(&manifest, &request).unwrap();
-    let library = library.run(&author, &|| ()).unwrap().library;
+    let library = library.run(&prompt_compiler, &|| ()).unwrap().library;
     let mut whole = Vec::new();
     library.write(&mut whole).unwrap();
     let whole = Library::parse(&whole).unwrap();

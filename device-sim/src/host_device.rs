@@ -3,7 +3,7 @@
 use crate::axis::{AxisState, Pull};
 use crate::device::{Device as Mechanism, DeviceConfig};
 use crate::hand::{Grip, HOVER_M, Hand, Intent, Script, recording};
-use asperity_host::device::{Description, Device, Fault, Reading};
+use asperity_host::device::{Description, Device, DeviceError, Reading};
 use asperity_host::servo::{Clock, Monotonic};
 
 /// Explorations of about eleven seconds that the hand goes through: more than ten hours.
@@ -138,7 +138,7 @@ impl Device for SimDevice {
         &self.description
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         match self.pace {
             Pace::RealTime => self.catch_up(),
             Pace::Stepped => {
@@ -155,7 +155,7 @@ impl Device for SimDevice {
         })
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         self.mechanism.command(force_n.map(f64::from));
         Ok(())
     }

@@ -36,14 +36,14 @@ impl Flags {
     /// No flag.
     pub(crate) const NONE: Self = Self(0);
     /// The force is let through in part, or not at all.
-    pub(crate) const LOWERED: Self = Self::SAFE_STATE.and(Self::RAMPING);
+    pub(crate) const LOWERED: Self = Self::SAFE_STATE.union(Self::RAMPING);
     /// What [`Counters`] count.
-    const COUNTED: Self = Self::RARE.and(Self::PEAK_LIMITED);
+    const COUNTED: Self = Self::RARE.union(Self::PEAK_LIMITED);
     /// The counted flags that seldom occur.
     const RARE: Self = Self::BAD_SAMPLE
-        .and(Self::FAULT)
-        .and(Self::TAP_STARTED)
-        .and(Self::SLEW_LIMITED);
+        .union(Self::FAULT)
+        .union(Self::TAP_STARTED)
+        .union(Self::SLEW_LIMITED);
 
     /// Every flag with its name.
     pub const ALL: [(Self, &'static str); 10] = [
@@ -71,9 +71,9 @@ impl Flags {
         self.0 & other.0 == other.0
     }
 
-    /// The bits of both.
+    /// The bits of either.
     #[inline(always)]
-    pub(crate) const fn and(self, other: Self) -> Self {
+    pub(crate) const fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
@@ -89,15 +89,15 @@ impl Flags {
         Self(self.0 & 0xffff)
     }
 
-    /// Those bits of `other` that are set.
+    /// The bits of both.
     #[inline(always)]
-    pub(crate) const fn of(self, other: Self) -> Self {
+    pub(crate) const fn intersection(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
 
     /// Whether any bit of `other` is set.
     #[inline(always)]
-    pub(crate) const fn meets(self, other: Self) -> bool {
+    pub(crate) const fn intersects(self, other: Self) -> bool {
         self.0 & other.0 != 0
     }
 }
@@ -133,26 +133,26 @@ impl Counters {
             return;
         }
         self.ticks += 1;
-        if !flags.meets(Flags::COUNTED) {
+        if !flags.intersects(Flags::COUNTED) {
             return;
         }
         // The most frequent flag first.
-        if flags.meets(Flags::PEAK_LIMITED) {
+        if flags.intersects(Flags::PEAK_LIMITED) {
             self.peak_limited = self.peak_limited.wrapping_add(1);
         }
-        if !flags.meets(Flags::RARE) {
+        if !flags.intersects(Flags::RARE) {
             return;
         }
-        if flags.meets(Flags::SLEW_LIMITED) {
+        if flags.intersects(Flags::SLEW_LIMITED) {
             self.slew_limited = self.slew_limited.wrapping_add(1);
         }
-        if flags.meets(Flags::BAD_SAMPLE) {
+        if flags.intersects(Flags::BAD_SAMPLE) {
             self.bad_samples = self.bad_samples.wrapping_add(1);
         }
-        if flags.meets(Flags::FAULT) {
+        if flags.intersects(Flags::FAULT) {
             self.faults = self.faults.wrapping_add(1);
         }
-        if flags.meets(Flags::TAP_STARTED) {
+        if flags.intersects(Flags::TAP_STARTED) {
             self.taps = self.taps.wrapping_add(1);
         }
     }

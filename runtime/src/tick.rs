@@ -97,7 +97,9 @@ impl<A: RenderArithmetic> Renderer<A> {
         let gated = self.gate.step(&mut state.gate, sample);
         let contact = field.step(gated.position);
         let (depth, normal) = (contact.depth(), contact.normal);
-        let mut flags = gated.flags.and(Flags::CONTACT.when(depth > Quantity::ZERO));
+        let mut flags = gated
+            .flags
+            .union(Flags::CONTACT.when(depth > Quantity::ZERO));
         if gated.flags.contains(Flags::RESTART) {
             state.restart(contact.distance);
         }
@@ -114,7 +116,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         // F_n n̂: the wall. Its spring is the load.
         let normal_force = wall.step(depth, velocity.outward);
         let load = normal_force.spring;
-        flags = flags.and(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)));
+        flags = flags.union(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)));
 
         // F_t: friction of the load.
         let friction = self
@@ -127,10 +129,11 @@ impl<A: RenderArithmetic> Renderer<A> {
             .detector
             .step(&mut state.tap, &texture.taps, contact.distance);
         let tap_force = coupling.effective_mass * tap.acceleration;
-        flags = flags.and(tap.flags);
+        flags = flags.union(tap.flags);
 
         // F_vib t̂: the vibration, in contact only.
-        let sounding = flags.of(Flags::CONTACT.and(Flags::SAFE_STATE)) == Flags::CONTACT;
+        let sounding =
+            flags.intersection(Flags::CONTACT.union(Flags::SAFE_STATE)) == Flags::CONTACT;
         let Sounded { y, clamped } = sound(&mut state.vibration, sounding);
         let vibration_force = coupling.vib_mass * y;
         let axis = match self.config().vibration_axis {
@@ -141,7 +144,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         // The sum, lowered by the gate and limited to what the device allows.
         let total =
             normal * (normal_force.total + tap_force) + axis * vibration_force - friction_force;
-        let wanted = if flags.meets(Flags::LOWERED) {
+        let wanted = if flags.intersects(Flags::LOWERED) {
             total * gated.gain
         } else {
             total
@@ -149,7 +152,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let (force, limited) = self.limiter.step(state.force.get(), wanted.settled());
         state.force = force.into();
 
-        flags = flags.and(Flags::VIB_CLAMPED.when(clamped)).and(limited);
+        flags = flags.union(Flags::VIB_CLAMPED.when(clamped)).union(limited);
         state.counters.count(flags, sample.elapsed_ticks);
         Output {
             force_n: force.to_array(),

@@ -10,7 +10,7 @@ use asperity::{
     model::{Provenance, TextureModel},
     model_file::{self, ModelFile},
     pipeline::{Request, Ringing},
-    prompt::{self, Author},
+    prompt::{self, PromptCompiler},
     raise::raise,
     reduce::Fidelity,
     sources::{Sourced, Tools},
@@ -50,7 +50,7 @@ fn imported(folder: &Path, whole: &TextureModel, request: &Request) -> Vec<u8> {
 #[test]
 fn a_prompt_gives_the_same_bytes_through_a_file() {
     let folder = tempfile::tempdir().expect("a folder");
-    let author = Author::embedded(&Backend::Portable).expect("the shipped model");
+    let author = PromptCompiler::embedded(&Backend::Portable).expect("the shipped model");
     for (prompt, seed, fidelity, rate_hz) in [
         ("wet ice", 0, Fidelity::Auto, None),
         ("coarse sandpaper", 3, Fidelity::Full, None),
@@ -66,7 +66,7 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
             seed,
             request: request.clone(),
         };
-        let authored = author.author(prompt, &options).expect("a texture");
+        let authored = author.compile(prompt, &options).expect("a texture");
         let again = through_a_file(&authored.whole, &request, &authored.lowered.bytes);
         assert_eq!(again, authored.lowered.bytes, "{prompt}");
         let imported = imported(folder.path(), &authored.whole, &request);
@@ -85,7 +85,7 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
 fn a_stabilised_texture_is_emitted_as_it_was_verified() {
     let text = Box::new(embedded::text_encoder(&Backend::Portable).expect("the encoder"));
     let model = asperity::learned::LearnedModel::load(embedded::model(), &Backend::Portable);
-    let author = Author::new(text, model.expect("the shipped model")).expect("they fit");
+    let author = PromptCompiler::new(text, model.expect("the shipped model")).expect("they fit");
     let model = author.model();
     let request = Request::default();
     let found = (0..4000_u32).find_map(|number| {

@@ -8,10 +8,10 @@ mod page;
 mod sheet;
 
 use asperity::{
-    edit::{Latents, Studio, explain},
+    edit::{LatentEditor, Latents, explain},
     inference::Backend,
     model::{Provenance, TextureModel},
-    prompt::Author,
+    prompt::PromptCompiler,
     sources::latents::decode,
 };
 use asperity_io::output::write_atomic;
@@ -31,10 +31,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(env::args().nth(1).unwrap_or_else(|| "docs".to_owned()));
     let images = folder.join("images");
     fs::create_dir_all(&images).map_err(|error| format!("{}: {error}", images.display()))?;
-    let author = Author::embedded(&Backend::Portable)?;
-    let studio = Studio::new(&author);
+    let prompt_compiler = PromptCompiler::embedded(&Backend::Portable)?;
+    let editor = LatentEditor::new(&prompt_compiler);
     let latents = |prompt: &str| -> Result<Latents, Box<dyn Error>> {
-        let meaning = author.meaning(prompt, &author.project(prompt)?)?;
+        let meaning = prompt_compiler.meaning(prompt, &prompt_compiler.project(prompt)?)?;
         Ok(Latents::whole(meaning.z).shifted(meaning.shift))
     };
     // A picture follows the words of a prompt; that of a mixture follows its neighbours.
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             prompt: prompt.map(str::to_owned),
             ..Provenance::default()
         };
-        decode(author.model(), latents, name, provenance)
+        decode(prompt_compiler.model(), latents, name, provenance)
     };
     let mut three: Vec<TextureModel> = Vec::new();
     for prompt in THREE {
@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         texture("halfway between them", &middle, None)?,
         texture(ENDS[1], &ends[1], Some(ENDS[1]))?,
     ];
-    let words = THREE.map(|prompt| explain(&studio, prompt));
+    let words = THREE.map(|prompt| explain(&editor, prompt));
     let mut explained = Vec::new();
     for (prompt, words) in THREE.into_iter().zip(words) {
         explained.push((prompt, words?));

@@ -23,16 +23,16 @@ use std::{
 };
 
 /// The embedded author, once somebody asked for it.
-static EMBEDDED: Mutex<Option<Arc<prompt::Author>>> = Mutex::new(None);
+static EMBEDDED: Mutex<Option<Arc<prompt::PromptCompiler>>> = Mutex::new(None);
 
 /// The embedded author, loaded once.
-pub(crate) fn shared() -> Result<Arc<prompt::Author>, Failure> {
+pub(crate) fn shared() -> Result<Arc<prompt::PromptCompiler>, Failure> {
     // A reference that is there or not is whole after any panic.
     let mut author = EMBEDDED.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(author) = &*author {
         return Ok(Arc::clone(author));
     }
-    let loaded = Arc::new(prompt::Author::embedded(&Backend::Portable)?);
+    let loaded = Arc::new(prompt::PromptCompiler::embedded(&Backend::Portable)?);
     *author = Some(Arc::clone(&loaded));
     Ok(loaded)
 }
@@ -122,7 +122,7 @@ pub(crate) fn compile(
 ///     Where the folder is no model, does not fit the encoder, or a library is missing.
 #[pyclass(frozen, module = "asperity")]
 pub(crate) struct Author {
-    author: prompt::Author,
+    author: prompt::PromptCompiler,
 }
 
 #[pymethods]
@@ -185,7 +185,11 @@ impl Author {
 }
 
 /// A prompt's texture, timed.
-fn authored(author: &prompt::Author, text: &str, options: &Options) -> Result<Compiled, Failure> {
+fn authored(
+    author: &prompt::PromptCompiler,
+    text: &str,
+    options: &Options,
+) -> Result<Compiled, Failure> {
     let source = Prompt {
         text: text.to_owned(),
         seed: options.seed,
@@ -202,10 +206,12 @@ fn author(
     model: Option<PathBuf>,
     encoder: &TextEncoderChoice,
     backend: BackendName,
-) -> Result<prompt::Author, Failure> {
+) -> Result<prompt::PromptCompiler, Failure> {
     let backend = Backend::open(backend)?;
     let (text, folder): (Box<dyn TextEncoder>, PathBuf) = match (encoder, model) {
-        (TextEncoderChoice::MiniLm, None) => return Ok(prompt::Author::embedded(&backend)?),
+        (TextEncoderChoice::MiniLm, None) => {
+            return Ok(prompt::PromptCompiler::embedded(&backend)?);
+        }
         (TextEncoderChoice::MiniLm, Some(folder)) => {
             (Box::new(embedded::text_encoder(&backend)?), folder)
         }
@@ -220,7 +226,9 @@ fn author(
             ));
         }
     };
-    Ok(prompt::Author::with_folder(text, &folder, &backend)?)
+    Ok(prompt::PromptCompiler::with_folder(
+        text, &folder, &backend,
+    )?)
 }
 
 fn options(seed: Seed, fidelity: Fidelity, rate_hz: Option<f64>, preview: bool) -> Options {

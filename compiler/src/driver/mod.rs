@@ -18,7 +18,7 @@
 //! # Ok::<(), asperity::driver::Failure>(())
 //! ```
 
-mod author;
+mod prompts;
 
 pub use crate::compiled::{Compared, Compiled, Truth};
 pub use asperity_io::diagnostic::Failure;

@@ -14,7 +14,7 @@ use super::{
 use crate::{
     emit::raise::raise,
     signal::resample::resample,
-    views::listen::{Session, Stroke, perform},
+    views::listen::{Gesture, Stroke, perform},
 };
 use asperity_formats::Asset;
 use serde::Serialize;
@@ -130,7 +130,7 @@ impl fmt::Display for Format {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// What the hand does.
-    pub session: Session,
+    pub session: Gesture,
     /// Rate of the loop, Hz; that of the texture if `None`.
     pub rate_hz: Option<f32>,
     /// Seed of the excitation.
@@ -150,14 +150,14 @@ pub fn session(
     force_n: Option<f32>,
     time_s: Option<f32>,
     taps: bool,
-) -> Session {
+) -> Gesture {
     let stated = speed_mm_s.is_some() || force_n.is_some() || time_s.is_some();
     let stroke = Stroke {
         speed_mm_s: speed_mm_s.unwrap_or(STROKE.speed_mm_s),
         force_n: force_n.unwrap_or(STROKE.force_n),
         time_s: time_s.unwrap_or(STROKE.time_s),
     };
-    Session {
+    Gesture {
         strokes: if taps && !stated {
             Vec::new()
         } else {

@@ -1,4 +1,4 @@
-//! `.haptic` of NiceVibrations and Lofelt Studio, version 1: envelopes of amplitude and frequency, and
+//! `.haptic` of NiceVibrations and Lofelt LatentEditor, version 1: envelopes of amplitude and frequency, and
 //! emphasis on points of the amplitude.
 //!
 //! Amplitudes and frequencies are 0 to 1. The format states no Hz; here a frequency f is 65 Hz + 235

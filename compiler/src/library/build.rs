@@ -17,9 +17,9 @@ use crate::{
     sources::{
         Tools,
         key::{Key, Parts},
-        latents::{Edit, Studio},
+        latents::{Edit, LatentEditor},
         libraries::OpenLibraries,
-        prompt::Author,
+        prompt::PromptCompiler,
     },
 };
 use asperity_formats::Asset;
@@ -118,14 +118,14 @@ impl<'a> Build<'a> {
     }
 
     /// Makes what the cache does not hold, and packs all. The bytes do not depend on the cache, the
-    /// order or the number of threads. `open` gives an author; `done` is called once a texture, from
+    /// order or the number of threads. `open` gives a prompt compiler; `done` is called once a texture, from
     /// any thread.
     ///
     /// # Errors
     /// An [`EntryError`] for every texture that could not be made. The others are in the cache then.
     pub fn run(
         &self,
-        open: &dyn Fn() -> Result<Author, Failures>,
+        open: &dyn Fn() -> Result<PromptCompiler, Failures>,
         done: &(dyn Fn() + Sync),
     ) -> Result<Built, Failures> {
         let mut pipeline = Pipeline::timed(self.request.clock);
@@ -135,9 +135,9 @@ impl<'a> Build<'a> {
         let missing: Vec<usize> = (0..cached.len()).filter(|&n| cached[n].is_none()).collect();
         let learned = |n: &usize| entries[self.chosen[*n].0].origin.is_learned();
         let opened = missing.iter().any(learned).then(open).transpose()?;
-        let studio = opened.as_ref().map(Studio::new);
+        let editor = opened.as_ref().map(LatentEditor::new);
         let clock = self.request.clock;
-        let maker = Maker::new(self.manifest, studio.as_ref(), &self.libraries, clock);
+        let maker = Maker::new(self.manifest, editor.as_ref(), &self.libraries, clock);
         let shared = Mutex::new((Timings::default(), None));
         let together = TOGETHER.min(missing.len().div_ceil(rayon::current_num_threads()));
         let made: Vec<Result<Texture, EntryError>> = missing

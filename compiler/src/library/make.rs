@@ -7,7 +7,7 @@ use crate::{
     pipeline::{Clock, Pipeline, Request},
     sources::{
         Source, Tools,
-        latents::{EditError, FromLatents, Part, Studio, encode},
+        latents::{EditError, FromLatents, LatentEditor, Part, encode},
         libraries::OpenLibraries,
         prompt::PromptError,
     },
@@ -22,7 +22,7 @@ use std::{
 pub(super) struct Maker<'a> {
     manifest: &'a Manifest,
     /// `None` where no texture needs the learned model.
-    studio: Option<&'a Studio<'a>>,
+    editor: Option<&'a LatentEditor<'a>>,
     libraries: &'a OpenLibraries,
     clock: Clock,
     /// Textures that others are made of, edits included. The level of loudness is that of the entry.
@@ -32,13 +32,13 @@ pub(super) struct Maker<'a> {
 impl<'a> Maker<'a> {
     pub(super) fn new(
         manifest: &'a Manifest,
-        studio: Option<&'a Studio<'a>>,
+        editor: Option<&'a LatentEditor<'a>>,
         libraries: &'a OpenLibraries,
         clock: Clock,
     ) -> Self {
         Self {
             manifest,
-            studio,
+            editor,
             libraries,
             clock,
             known: Mutex::default(),
@@ -53,8 +53,8 @@ impl<'a> Maker<'a> {
                 _ => None,
             })
             .collect();
-        if let Some(studio) = self.studio {
-            studio.author().read_ahead(&prompts);
+        if let Some(editor) = self.editor {
+            editor.prompt_compiler().read_ahead(&prompts);
         }
     }
 
@@ -75,17 +75,17 @@ impl<'a> Maker<'a> {
     }
 
     fn tools(&self) -> Tools<'_> {
-        let author = self.studio.map(Studio::author);
+        let prompt_compiler = self.editor.map(LatentEditor::prompt_compiler);
         Tools {
             libraries: Some(self.libraries),
             clock: self.clock,
-            ..author.map_or_else(Tools::default, Tools::of)
+            ..prompt_compiler.map_or_else(Tools::default, Tools::of)
         }
     }
 
-    fn studio(&self) -> Result<&'a Studio<'a>, Failure> {
+    fn editor(&self) -> Result<&'a LatentEditor<'a>, Failure> {
         // The build opens one where any texture needs it.
-        Ok(self.studio.ok_or(PromptError::Empty)?)
+        Ok(self.editor.ok_or(PromptError::Empty)?)
     }
 
     /// A texture that is decoded from latents: a blend, a composition, whatever is edited. What it
@@ -123,8 +123,8 @@ impl<'a> Maker<'a> {
     /// What is made of it is known.
     fn found_out(&self, index: usize) -> Result<FromLatents, Failure> {
         let entry = &self.manifest.entries[index];
-        let studio = self.studio()?;
-        let built = || studio.author().model().provenance("build");
+        let editor = self.editor()?;
+        let built = || editor.prompt_compiler().model().provenance("build");
         let mut mixed = match &entry.origin {
             Origin::Of(other) => self.mixed(*other)?,
             Origin::Blend { a, b, t } => {
@@ -138,11 +138,11 @@ impl<'a> Maker<'a> {
                 let (tap, slide) = (self.mixed(*tap)?, self.mixed(*slide)?);
                 FromLatents::composed(&tap, &slide, &self.mixed(*friction)?, built())
             }
-            Origin::Source { source, .. } => self.placed(entry, &**source, studio)?,
+            Origin::Source { source, .. } => self.placed(entry, &**source, editor)?,
         };
         mixed.name.clone_from(&entry.name);
         if !entry.options.edit.is_still() {
-            mixed.edit(studio, &entry.options.edit, &entry.options.request)?;
+            mixed.edit(editor, &entry.options.edit, &entry.options.request)?;
         }
         Ok(mixed)
     }
@@ -152,7 +152,7 @@ impl<'a> Maker<'a> {
         &self,
         entry: &Entry,
         source: &dyn Source,
-        studio: &Studio<'_>,
+        editor: &LatentEditor<'_>,
     ) -> Result<FromLatents, Failure> {
         let request = &entry.options.request;
         let sourced = source.read(request, &self.tools(), &mut Pipeline::default())?;
@@ -161,7 +161,7 @@ impl<'a> Maker<'a> {
             Some(bytes) => remembered(&Asset::parse(bytes).map_err(EditError::from)?)?,
             None => sourced.memory,
         };
-        if let Some(memory) = memory.filter(|memory| memory.model_crc32 == studio.model_crc32()) {
+        if let Some(memory) = memory.filter(|memory| memory.model_crc32 == editor.model_crc32()) {
             return Ok(FromLatents {
                 warnings: sourced.warnings,
                 certainty: sourced.certainty,
@@ -169,11 +169,11 @@ impl<'a> Maker<'a> {
             });
         }
         let part = Part::recorded(&texture);
-        let latents = encode(studio, &texture, part)?.latents;
+        let latents = encode(editor, &texture, part)?.latents;
         if sourced.asset.is_none() {
             texture.name.clone_from(&entry.name);
         }
-        let provenance = studio.author().model().provenance("build");
+        let provenance = editor.prompt_compiler().model().provenance("build");
         Ok(FromLatents {
             warnings: sourced.warnings,
             ..FromLatents::encoded(texture, latents, part, provenance)

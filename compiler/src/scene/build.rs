@@ -14,7 +14,7 @@ use crate::{
     library::{self, EntryError, LibraryFault, manifest::Entry},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Timings},
-    sources::prompt::Author,
+    sources::prompt::PromptCompiler,
 };
 use asperity_formats::SceneSurface;
 use asperity_io::diagnostic::{Diagnostic, Failures, one};
@@ -34,7 +34,7 @@ pub struct Built {
 }
 
 /// Builds a scene. The same files give the same bytes, whatever the thread count and the cache.
-/// `open` gives an author; `done` is called once a texture, from any thread.
+/// `open` gives a prompt compiler; `done` is called once a texture, from any thread.
 ///
 /// Without a budget, the textures are those that [`library::Build`] gives. Within one, each is made
 /// whole, tried at its fidelities and chosen; one whose fidelity the manifest states keeps it.
@@ -45,7 +45,7 @@ pub fn build(
     scene: &Description,
     budget: &Budget,
     request: &library::Request<'_>,
-    open: &dyn Fn() -> Result<Author, Failures>,
+    open: &dyn Fn() -> Result<PromptCompiler, Failures>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Built, Failures> {
     let target = budget.target.unwrap_or_else(Target::unlimited);

@@ -30,7 +30,7 @@ use crate::{
 use asperity_io::diagnostic::{Diagnostic, Failure};
 use key::Parts;
 use libraries::OpenLibraries;
-use prompt::Author;
+use prompt::PromptCompiler;
 use std::{fmt, path::PathBuf, sync::Arc};
 use thiserror::Error;
 
@@ -93,7 +93,7 @@ pub struct Tools<'a> {
     /// The learned model, which decodes latents and completes what was not recorded.
     pub model: Option<&'a LearnedModel>,
     /// What reads prompts.
-    pub author: Option<&'a Author>,
+    pub prompt_compiler: Option<&'a PromptCompiler>,
     /// Libraries that stay open while textures are taken of them.
     pub libraries: Option<&'a OpenLibraries>,
     /// What passes are timed by.
@@ -101,12 +101,12 @@ pub struct Tools<'a> {
 }
 
 impl<'a> Tools<'a> {
-    /// Those of an author: its model, too.
+    /// Those of a prompt compiler: its model, too.
     #[must_use]
-    pub fn of(author: &'a Author) -> Self {
+    pub fn of(prompt_compiler: &'a PromptCompiler) -> Self {
         Self {
-            model: Some(author.model()),
-            author: Some(author),
+            model: Some(prompt_compiler.model()),
+            prompt_compiler: Some(prompt_compiler),
             ..Self::default()
         }
     }
@@ -115,8 +115,8 @@ impl<'a> Tools<'a> {
     ///
     /// # Errors
     /// Where none was given.
-    pub fn author(&self) -> Result<&'a Author, Failure> {
-        Ok(self.author.ok_or(NoModel)?)
+    pub fn prompt_compiler(&self) -> Result<&'a PromptCompiler, Failure> {
+        Ok(self.prompt_compiler.ok_or(NoModel)?)
     }
 
     /// The learned model.

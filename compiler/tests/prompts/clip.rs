@@ -4,7 +4,7 @@ use asperity::{
     embedded,
     inference::Backend,
     learned::{Files, LearnedModel, description::ModelDescription},
-    prompt::{Author, Options},
+    prompt::{Options, PromptCompiler},
     text::{TextEncoder as _, clip::Clip},
 };
 use asperity_nn::{
@@ -93,11 +93,18 @@ fn a_prompt_goes_through_a_tower_with_a_projection_of_its_width() {
     let backend = Backend::Portable;
     let clip = || Box::new(Clip::open(folder.path(), &backend).unwrap());
     let model = LearnedModel::load(files(), &backend).unwrap();
-    let author = Author::new(clip(), model).unwrap();
-    assert!(author.author("rough bark", &Options::default()).is_ok());
+    let prompt_compiler = PromptCompiler::new(clip(), model).unwrap();
+    assert!(
+        prompt_compiler
+            .compile("rough bark", &Options::default())
+            .is_ok()
+    );
     // The shipped projection takes vectors of another width, and says so.
     let shipped = LearnedModel::load(embedded::model(), &backend).unwrap();
-    let refused = Author::new(clip(), shipped).err().unwrap().to_string();
+    let refused = PromptCompiler::new(clip(), shipped)
+        .err()
+        .unwrap()
+        .to_string();
     assert!(
         refused.contains("480") && refused.contains("32"),
         "{refused}"

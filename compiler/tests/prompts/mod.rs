@@ -7,9 +7,10 @@ mod modifiers;
 mod together;
 mod words;
 
-use asperity::{inference::Backend, prompt::Author};
+use asperity::{inference::Backend, prompt::PromptCompiler};
 use std::sync::LazyLock;
 
 /// Loaded once: the tests of this file only ask it.
-static AUTHOR: LazyLock<Author> =
-    LazyLock::new(|| Author::embedded(&Backend::Portable).expect("the shipped model loads"));
+static AUTHOR: LazyLock<PromptCompiler> = LazyLock::new(|| {
+    PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads")
+});

@@ -1,6 +1,6 @@
 //! Prompts that are read a batch at a time.
 
-use asperity::{inference::Backend, prompt::Author};
+use asperity::{inference::Backend, prompt::PromptCompiler};
 
 #[test]
 fn prompts_read_together_are_to_the_bit_what_they_are_alone() {
@@ -14,7 +14,7 @@ fn prompts_read_together_are_to_the_bit_what_they_are_alone() {
         "the cold and slightly rusty railing of an iron bridge in the rain",
         "kork ☃",
     ];
-    let together = Author::embedded(&Backend::Portable).expect("the shipped model loads");
+    let together = PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads");
     together.read_ahead(&PROMPTS);
     for prompt in PROMPTS {
         let (one, all) = (super::AUTHOR.project(prompt), together.project(prompt));

@@ -5,7 +5,7 @@ use asperity::{
     attributes::{self, Attributes},
     driver::{Compiled, Stopped},
     pipeline::{PipelineError, Request},
-    prompt::{Authored, Options, PromptError},
+    prompt::{CompiledPrompt, Options, PromptError},
     reduce::Fidelity,
 };
 use asperity_tests::size::{least, sized};
@@ -76,7 +76,7 @@ fn everyday_words_are_ordered_as_any_person_would() {
 fn the_same_prompt_gives_the_same_bytes_whatever_the_threads() {
     let prompt = "wet ice";
     let first = AUTHOR
-        .author(prompt, &Options::default())
+        .compile(prompt, &Options::default())
         .unwrap()
         .lowered
         .bytes;
@@ -84,7 +84,7 @@ fn the_same_prompt_gives_the_same_bytes_whatever_the_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let again = pool
             .unwrap()
-            .install(|| AUTHOR.author(prompt, &Options::default()).unwrap());
+            .install(|| AUTHOR.compile(prompt, &Options::default()).unwrap());
         assert_eq!(again.lowered.bytes, first);
     }
 }
@@ -96,7 +96,7 @@ fn a_texture_fits_four_kibibytes() {
         "velvet",
         "window glass",
     ] {
-        let authored = AUTHOR.author(prompt, &plain()).unwrap();
+        let authored = AUTHOR.compile(prompt, &plain()).unwrap();
         assert!(
             authored.lowered.haptic_bytes <= 4096,
             "{prompt}: {}",
@@ -107,7 +107,11 @@ fn a_texture_fits_four_kibibytes() {
 
 #[test]
 fn a_seed_varies_a_texture_without_leaving_the_material() {
-    let with_seed = |seed| AUTHOR.author("cork", &Options { seed, ..plain() }).unwrap();
+    let with_seed = |seed| {
+        AUTHOR
+            .compile("cork", &Options { seed, ..plain() })
+            .unwrap()
+    };
     let (meant, varied) = (with_seed(0), with_seed(5));
     assert_ne!(meant.lowered.bytes, varied.lowered.bytes);
     let difference = meant.attributes().rough_db.unwrap() - varied.attributes().rough_db.unwrap();
@@ -125,7 +129,7 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
                 ..Request::default()
             },
         };
-        AUTHOR.author("denim", &options).unwrap().texture.grid
+        AUTHOR.compile("denim", &options).unwrap().texture.grid
     };
     assert_eq!(with(Fidelity::Full, None).order, 21);
     assert_eq!(with(Fidelity::Order(5), None).order, 5);
@@ -133,7 +137,7 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
     assert_eq!(with(Fidelity::Auto, Some(1500.0)).sample_rate_hz, 1500.0);
     let mut absurd = plain();
     absurd.request.rate_hz = Some(f64::NAN);
-    let refused = AUTHOR.author("denim", &absurd).unwrap_err();
+    let refused = AUTHOR.compile("denim", &absurd).unwrap_err();
     let refused: &dyn Error = &*refused;
     assert!(matches!(
         refused.downcast_ref::<Stopped>().unwrap().cause,
@@ -144,8 +148,8 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
 #[test]
 fn long_prompts_are_cut_with_a_warning_and_empty_ones_refused() {
     let long = "gritty ".repeat(400);
-    let authored = AUTHOR.author(&long, &plain()).unwrap();
-    assert!(authored.found::<Authored>().unwrap().tokens.1 > 200);
+    let authored = AUTHOR.compile(&long, &plain()).unwrap();
+    assert!(authored.found::<CompiledPrompt>().unwrap().tokens.1 > 200);
     assert!(
         authored
             .warnings
@@ -153,7 +157,7 @@ fn long_prompts_are_cut_with_a_warning_and_empty_ones_refused() {
             .any(|warning| warning.contains("too long"))
     );
     assert!(authored.texture.name.len() <= 64);
-    let refused = AUTHOR.author(" \n", &plain()).unwrap_err();
+    let refused = AUTHOR.compile(" \n", &plain()).unwrap_err();
     let refused: &dyn Error = &*refused;
     assert!(matches!(refused.downcast_ref(), Some(PromptError::Empty)));
 }
@@ -161,11 +165,11 @@ fn long_prompts_are_cut_with_a_warning_and_empty_ones_refused() {
 #[test]
 fn what_no_surface_is_like_is_told_apart_and_still_safe() {
     let far = AUTHOR
-        .author("the quarterly inflation report of a central bank", &plain())
+        .compile("the quarterly inflation report of a central bank", &plain())
         .unwrap();
-    let near = AUTHOR.author("coarse sandpaper", &plain()).unwrap();
+    let near = AUTHOR.compile("coarse sandpaper", &plain()).unwrap();
     assert!(far.certainty < near.certainty);
-    let is_uncertain = |of: &Compiled| of.found::<Authored>().unwrap().is_uncertain();
+    let is_uncertain = |of: &Compiled| of.found::<CompiledPrompt>().unwrap().is_uncertain();
     assert!(is_uncertain(&far) && !is_uncertain(&near));
     assert!(far.json()["low_certainty"] == Json::Bool(true));
 }
@@ -173,6 +177,6 @@ fn what_no_surface_is_like_is_told_apart_and_still_safe() {
 #[test]
 fn any_text_at_all_gives_a_texture() {
     for prompt in ["?", "ﷺ 🪨🧽", "a\u{0}b", "'; DROP TABLE--", "é́́́", "0"] {
-        assert!(AUTHOR.author(prompt, &plain()).is_ok(), "{prompt:?}");
+        assert!(AUTHOR.compile(prompt, &plain()).is_ok(), "{prompt:?}");
     }
 }

@@ -4,7 +4,7 @@ use asperity_runtime::{Output, Sample};
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::plan::{Fault, FaultCounts, FaultPlan, FaultPlanError};
+use super::plan::{FaultCounts, FaultPlan, FaultPlanError, SampleFault};
 use crate::random::unit;
 use crate::servo::{Servo, silence};
 
@@ -14,7 +14,7 @@ pub struct FaultInjector<S> {
     inner: S,
     plan: FaultPlan,
     rng: Xoshiro256PlusPlus,
-    running: Option<(Fault, u32)>,
+    running: Option<(SampleFault, u32)>,
     /// Last sample that the servo was given without a fault.
     last: Sample,
     output: Output,
@@ -55,7 +55,7 @@ impl<S: Servo> FaultInjector<S> {
     }
 
     /// Starts a fault for `ticks` ticks; it replaces one that runs.
-    pub fn start(&mut self, fault: Fault, ticks: u32) {
+    pub fn start(&mut self, fault: SampleFault, ticks: u32) {
         self.running = (ticks > 0).then_some((fault, ticks));
     }
 
@@ -66,10 +66,10 @@ impl<S: Servo> FaultInjector<S> {
     }
 
     /// The fault of this tick, if any.
-    fn draw(&mut self) -> Option<Fault> {
+    fn draw(&mut self) -> Option<SampleFault> {
         if self.running.is_none() {
             let mut left = unit(&mut self.rng);
-            for (fault, rate) in Fault::ALL.into_iter().zip(self.plan.kinds) {
+            for (fault, rate) in SampleFault::ALL.into_iter().zip(self.plan.kinds) {
                 if left < rate.probability {
                     let span = u64::from(rate.longest_ticks);
                     let ticks = 1 + (self.rng.next_u64() % span) as u32;
@@ -102,25 +102,25 @@ impl<S: Servo> Servo for FaultInjector<S> {
                 self.last = fresh(std::mem::take(&mut self.missed_ticks));
                 self.last
             }
-            Some(Fault::NotFinite) => {
+            Some(SampleFault::NotFinite) => {
                 let mut broken = fresh(std::mem::take(&mut self.missed_ticks));
                 let axis = (self.rng.next_u64() % 3) as usize;
                 broken.position_m[axis] = self.not_finite();
                 broken
             }
-            Some(Fault::Dropped) => {
+            Some(SampleFault::Dropped) => {
                 self.missed_ticks = self.missed_ticks.saturating_add(sample.elapsed_ticks);
                 return self.output;
             }
-            Some(Fault::Stale) => Sample {
+            Some(SampleFault::Stale) => Sample {
                 elapsed_ticks: 0,
                 ..self.last
             },
-            Some(Fault::Stuck) => Sample {
+            Some(SampleFault::Stuck) => Sample {
                 position_m: self.last.position_m,
                 ..*sample
             },
-            Some(Fault::Late) => {
+            Some(SampleFault::Late) => {
                 self.missed_ticks = self.missed_ticks.saturating_add(sample.elapsed_ticks);
                 Sample {
                     elapsed_ticks: 0,
@@ -184,7 +184,7 @@ mod tests {
             (servo.inner().0[before..].to_vec(), outputs)
         };
 
-        let (seen, _) = run(Fault::NotFinite, 3);
+        let (seen, _) = run(SampleFault::NotFinite, 3);
         assert!(
             seen[..3]
                 .iter()
@@ -192,7 +192,7 @@ mod tests {
         );
         assert_eq!(seen[3], Sample::at([9.0, 0.5, -0.5]));
 
-        let (seen, outputs) = run(Fault::Dropped, 3);
+        let (seen, outputs) = run(SampleFault::Dropped, 3);
         assert!(
             outputs[..3].iter().all(|o| o.force_n[0] == 9.0),
             "the last force is held"
@@ -205,7 +205,7 @@ mod tests {
             }]
         );
 
-        let (seen, _) = run(Fault::Stale, 2);
+        let (seen, _) = run(SampleFault::Stale, 2);
         assert!(
             seen[..2]
                 .iter()
@@ -213,14 +213,14 @@ mod tests {
         );
         assert_eq!(seen[2], Sample::at([16.0, 0.5, -0.5]));
 
-        let (seen, _) = run(Fault::Stuck, 2);
+        let (seen, _) = run(SampleFault::Stuck, 2);
         assert!(
             seen[..2]
                 .iter()
                 .all(|s| s.elapsed_ticks == 1 && s.position_m[0] == 16.0)
         );
 
-        let (seen, _) = run(Fault::Late, 2);
+        let (seen, _) = run(SampleFault::Late, 2);
         assert!(
             seen[..2]
                 .iter()
@@ -233,14 +233,14 @@ mod tests {
     #[test]
     fn faults_come_at_their_rate_and_the_same_seed_gives_the_same_ones() {
         let plan = FaultPlan::default()
-            .with(Fault::NotFinite, 0.01, 1)
-            .with(Fault::Stale, 0.02, 1)
-            .with(Fault::Dropped, 0.05, 1);
+            .with(SampleFault::NotFinite, 0.01, 1)
+            .with(SampleFault::Stale, 0.02, 1)
+            .with(SampleFault::Dropped, 0.05, 1);
         let servo = walk(plan, 7, 100_000);
         for (fault, expected) in [
-            (Fault::NotFinite, 1000.0),
-            (Fault::Stale, 2000.0),
-            (Fault::Dropped, 5000.0),
+            (SampleFault::NotFinite, 1000.0),
+            (SampleFault::Stale, 2000.0),
+            (SampleFault::Dropped, 5000.0),
         ] {
             // The bound is five standard deviations of a binomial count.
             let count = servo.counts().of(fault) as f64;
@@ -263,8 +263,8 @@ mod tests {
     #[test]
     fn elapsed_ticks_add_up_whatever_is_dropped_or_late() {
         let plan = FaultPlan::default()
-            .with(Fault::Dropped, 0.1, 4)
-            .with(Fault::Late, 0.1, 5);
+            .with(SampleFault::Dropped, 0.1, 4)
+            .with(SampleFault::Late, 0.1, 5);
         let servo = walk(plan, 3, 10_000);
         let elapsed: u32 = servo.inner().0.iter().map(|s| s.elapsed_ticks).sum();
         assert!(elapsed <= 10_000 && elapsed + 10 >= 10_000, "{elapsed}");
@@ -272,9 +272,9 @@ mod tests {
 
     #[test]
     fn injectors_stack() {
-        let stale = FaultPlan::default().with(Fault::Stale, 1.0, 1);
+        let stale = FaultPlan::default().with(SampleFault::Stale, 1.0, 1);
         let inner = FaultInjector::new(Recorder::default(), stale, 1).expect("plan");
-        let dropped = FaultPlan::default().with(Fault::Dropped, 0.5, 1);
+        let dropped = FaultPlan::default().with(SampleFault::Dropped, 0.5, 1);
         let mut outer = FaultInjector::new(inner, dropped, 2).expect("plan");
         for _ in 0..100 {
             outer.tick(&Sample::at([1.0; 3]));

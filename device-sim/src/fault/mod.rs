@@ -15,4 +15,4 @@ mod injector;
 mod plan;
 
 pub use injector::FaultInjector;
-pub use plan::{Fault, FaultCounts, FaultPlan, FaultPlanError, FaultRate};
+pub use plan::{FaultCounts, FaultPlan, FaultPlanError, FaultRate, SampleFault};

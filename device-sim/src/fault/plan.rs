@@ -2,7 +2,7 @@
 
 /// A kind of fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fault {
+pub enum SampleFault {
     /// A coordinate is NaN or infinite.
     NotFinite,
     /// The servo misses its tick; the device keeps the last force.
@@ -15,7 +15,7 @@ pub enum Fault {
     Late,
 }
 
-impl Fault {
+impl SampleFault {
     /// Every kind, in the order of [`FaultPlan::kinds`].
     pub const ALL: [Self; 5] = [
         Self::NotFinite,
@@ -38,7 +38,7 @@ pub struct FaultRate {
 /// The rate of every kind of fault; the default has no faults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaultPlan {
-    /// One rate for each kind, in the order of [`Fault::ALL`].
+    /// One rate for each kind, in the order of [`SampleFault::ALL`].
     pub kinds: [FaultRate; 5],
 }
 
@@ -56,7 +56,7 @@ impl Default for FaultPlan {
 impl FaultPlan {
     /// The plan with another rate for one kind.
     #[must_use]
-    pub fn with(mut self, fault: Fault, probability: f64, longest_ticks: u32) -> Self {
+    pub fn with(mut self, fault: SampleFault, probability: f64, longest_ticks: u32) -> Self {
         self.kinds[fault as usize] = FaultRate {
             probability,
             longest_ticks,
@@ -69,7 +69,7 @@ impl FaultPlan {
     /// # Errors
     /// [`FaultPlanError`]: a probability outside 0..=1, a sum above 1, a run of 0.
     pub fn check(&self) -> Result<(), FaultPlanError> {
-        for (fault, rate) in Fault::ALL.into_iter().zip(self.kinds) {
+        for (fault, rate) in SampleFault::ALL.into_iter().zip(self.kinds) {
             if !(0.0..=1.0).contains(&rate.probability) {
                 return Err(FaultPlanError::Probability {
                     fault,
@@ -96,7 +96,7 @@ pub enum FaultPlanError {
     #[error("probability of {fault:?} = {value} is outside 0..=1")]
     Probability {
         /// Which fault.
-        fault: Fault,
+        fault: SampleFault,
         /// Its value.
         value: f64,
     },
@@ -110,18 +110,18 @@ pub enum FaultPlanError {
     #[error("longest run of {fault:?} is 0 ticks; it must be at least 1")]
     EmptyRun {
         /// Which fault.
-        fault: Fault,
+        fault: SampleFault,
     },
 }
 
-/// How many ticks each kind took, in the order of [`Fault::ALL`].
+/// How many ticks each kind took, in the order of [`SampleFault::ALL`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FaultCounts(pub [u64; 5]);
 
 impl FaultCounts {
     /// Ticks of one kind.
     #[must_use]
-    pub fn of(&self, fault: Fault) -> u64 {
+    pub fn of(&self, fault: SampleFault) -> u64 {
         self.0[fault as usize]
     }
 
@@ -138,15 +138,16 @@ mod tests {
 
     #[test]
     fn bad_plans_are_refused_by_name() {
-        let nan = FaultPlan::default().with(Fault::Late, f64::NAN, 1);
+        let nan = FaultPlan::default().with(SampleFault::Late, f64::NAN, 1);
         assert!(nan.check().expect_err("NaN").to_string().contains("Late"));
-        let heavy = FaultPlan::default()
-            .with(Fault::Late, 0.6, 1)
-            .with(Fault::Stale, 0.6, 1);
+        let heavy =
+            FaultPlan::default()
+                .with(SampleFault::Late, 0.6, 1)
+                .with(SampleFault::Stale, 0.6, 1);
         assert!(matches!(heavy.check(), Err(FaultPlanError::Sum { .. })));
         assert!(
             FaultPlan::default()
-                .with(Fault::Stuck, 0.1, 0)
+                .with(SampleFault::Stuck, 0.1, 0)
                 .check()
                 .is_err()
         );

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use asperity_host::device::falcon::Falcon;
 use asperity_host::device::falcon::settings::Settings;
-use asperity_host::device::faulty::Injected;
+use asperity_host::device::faulty::InjectedFault;
 use asperity_host::device::faulty::trial::{Paced, Trial};
 use asperity_runtime::Config;
 use asperity_virtual_usb::falcon::Falcon as Virtual;
@@ -29,7 +29,7 @@ fn every_fault_on_the_falcon_over_virtual_usb() {
         warm_up: 200,
         seed: SEED,
     };
-    for kind in Injected::ALL {
+    for kind in InjectedFault::ALL {
         // On a busy machine transfers time out by themselves.
         let mut rows = (0..5).map(|_| {
             trial

@@ -3,9 +3,9 @@
 
 use std::io::Write;
 
-use asperity_host::device::faulty::{Injected, Plan};
+use asperity_host::device::faulty::{InjectedFault, Plan};
 use asperity_host::device::supervised::Report;
-use asperity_host::recording::{Encoder, Ending, Recording, render_again};
+use asperity_host::session_log::{Encoder, Ending, SessionLog, render_again};
 use asperity_runtime::Config;
 
 use super::servo::{Servo, asset, conditions, load};
@@ -50,7 +50,7 @@ fn strokes_and_taps_with_one_percent_of_faults() {
         // What the hand feels. A device that loses its plug loses its force at once, whoever asks.
         let felt = servo.faulty().inner().force_n();
         largest = largest.max(distance(felt, [0.0; 3]));
-        if servo.faulty().running() != Some(Injected::Unplugged) {
+        if servo.faulty().running() != Some(InjectedFault::Unplugged) {
             steepest = steepest.max(distance(felt, last));
         }
         last = felt;
@@ -64,7 +64,7 @@ fn strokes_and_taps_with_one_percent_of_faults() {
         encoder.push(&period.entry).expect("a vector takes all");
     }
     let counts = servo.faulty().counts();
-    for kind in Injected::ALL {
+    for kind in InjectedFault::ALL {
         assert!(counts.of(kind) > 0, "{} never ran", kind.name());
     }
     assert!(contacts > periods / 4, "the hand touched: {contacts}");
@@ -99,7 +99,11 @@ fn strokes_and_taps_with_one_percent_of_faults() {
     assert_eq!(tally.missed + pending, servo.faulty().skipped());
     assert_eq!(u64::from(counters.missed_ticks), missed);
     // Bad samples are those of faults, and the period after a force that did not arrive.
-    let harmless = [Injected::Duplicate, Injected::Stuck, Injected::ClockStep];
+    let harmless = [
+        InjectedFault::Duplicate,
+        InjectedFault::Stuck,
+        InjectedFault::ClockStep,
+    ];
     let harmful: u64 = counts.total() - harmless.map(|kind| counts.of(kind)).iter().sum::<u64>();
     let bad = u64::from(counters.bad_samples);
     let after = tally.write_faults;
@@ -108,7 +112,7 @@ fn strokes_and_taps_with_one_percent_of_faults() {
         "{bad} bad samples of {harmful} faults and {after} after them"
     );
     assert!(
-        bad >= harmful - counts.of(Injected::WriteFailed) - 2,
+        bad >= harmful - counts.of(InjectedFault::WriteFailed) - 2,
         "{bad} of {harmful}"
     );
     // Each fault is told once, and its end as well.
@@ -117,7 +121,7 @@ fn strokes_and_taps_with_one_percent_of_faults() {
     assert!(began <= harmful && began > 0);
 
     let (file, summary) = encoder.finish(0).expect("a vector takes all");
-    let recording = Recording::read(&mut &file[..]).expect("a recording");
+    let recording = SessionLog::read(&mut &file[..]).expect("a recording");
     assert_eq!(recording.ending, Ending::Whole(summary));
     let comparison = render_again(&recording, |_| Some(bytes.clone())).expect("rendered");
     assert!(

@@ -1,6 +1,6 @@
 //! The simulated Touch in a simulated hand as a device, in virtual time: a reading is a period.
 
-use asperity_host::device::{Description, Device, Fault, Reading};
+use asperity_host::device::{Description, Device, DeviceError, Reading};
 use asperity_sim::axis::AxisState;
 use asperity_sim::device::{Device as Mechanism, DeviceConfig};
 use asperity_sim::hand::{Grip, GripPreset, HOVER_M, Hand, Intent, Script};
@@ -59,7 +59,7 @@ impl Device for Simulated {
         &self.description
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         self.pass();
         let stylus_z = AxisState {
             position_m: self.mechanism.position_m()[2],
@@ -70,7 +70,7 @@ impl Device for Simulated {
             .hand
             .plan(self.tick_s, &stylus_z, self.mechanism.axes(), held_n);
         // The script is over: the hand has gone, and so has the device.
-        self.intent = Some(intent.ok_or(Fault::Disconnected)?);
+        self.intent = Some(intent.ok_or(DeviceError::Disconnected)?);
         self.periods += 1;
         self.buttons = u32::from(self.periods % 1000 < 100);
         Ok(Reading {
@@ -80,7 +80,7 @@ impl Device for Simulated {
         })
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         self.mechanism.command(force_n.map(f64::from));
         Ok(())
     }

@@ -7,11 +7,11 @@ use std::path::Path;
 
 use asperity_host::device::dhd::Dhd;
 use asperity_host::device::faulty::trial::{AFTER, LASTS, Row, Trial};
-use asperity_host::device::faulty::{Injected, Plan};
+use asperity_host::device::faulty::{InjectedFault, Plan};
 use asperity_host::device::openhaptics::OpenHaptics;
 use asperity_host::device::replay::{AtEnd, Replay};
-use asperity_host::device::{Description, Device, Fault, Reading};
-use asperity_host::recording::{Encoder, Recording};
+use asperity_host::device::{Description, Device, DeviceError, Reading};
+use asperity_host::session_log::{Encoder, SessionLog};
 use asperity_runtime::{Config, HostTexture};
 
 use super::servo::{SEED, Servo, asset, conditions, load};
@@ -26,7 +26,7 @@ impl Device for Null {
         &self.0
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         Ok(Reading {
             position_m: [0.0, 0.0, 0.05],
             fresh: true,
@@ -34,7 +34,7 @@ impl Device for Null {
         })
     }
 
-    fn write(&mut self, _force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, _force_n: [f32; 3]) -> Result<(), DeviceError> {
         Ok(())
     }
 }
@@ -53,7 +53,7 @@ fn null() -> Null {
 fn run<D: Device>(
     device: D,
     texture: &HostTexture,
-    kind: Injected,
+    kind: InjectedFault,
     warm_up: u32,
     hand: impl FnMut(u32),
 ) -> Row {
@@ -73,7 +73,7 @@ fn stroke(period: u32) -> [f64; 3] {
 }
 
 /// A back end's name, and what each fault does on it.
-type Column = (&'static str, Box<dyn FnMut(Injected) -> Row>);
+type Column = (&'static str, Box<dyn FnMut(InjectedFault) -> Row>);
 
 fn columns(texture: &'static HostTexture, bytes: &[u8]) -> Vec<Column> {
     let plan = Plan::default();
@@ -87,7 +87,7 @@ fn columns(texture: &'static HostTexture, bytes: &[u8]) -> Vec<Column> {
             .expect("a vector takes all");
     }
     let (file, _) = encoder.finish(0).expect("a vector takes all");
-    let recording = Recording::read(&mut &file[..]).expect("a recording");
+    let recording = SessionLog::read(&mut &file[..]).expect("a recording");
     let mut columns: Vec<Column> = vec![
         (
             "null",
@@ -148,7 +148,7 @@ fn every_fault_on_every_emit() {
         "| fault | back end | force before, N | to the safe state | from there to 2 % of it | back after the fault | \
          steepest, N a period | safe state | reports |\n|---|---|---|---|---|---|---|---|---|\n",
     );
-    for kind in Injected::ALL {
+    for kind in InjectedFault::ALL {
         for (name, column) in &mut columns {
             let row = column(kind);
             let what = format!("{} on {name}: {row:?}", kind.name());

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use asperity_host::device::falcon::firmware::FirmwareError;
 use asperity_host::device::falcon::settings::Settings;
 use asperity_host::device::falcon::{Falcon, OpenError};
-use asperity_host::device::{Device as _, Fault, Reading};
+use asperity_host::device::{Device as _, DeviceError, Reading};
 use asperity_virtual_usb::falcon::{Falcon as Virtual, Quirks, image};
 use asperity_virtual_usb::fault::Rates;
 use asperity_virtual_usb::{InProcessOpener, Port, Socket};
@@ -43,7 +43,7 @@ fn until_read(falcon: &mut Falcon, most: u32) -> Reading {
         std::thread::sleep(Duration::from_micros(300));
         match falcon.read() {
             Ok(reading) if reading.fresh => return reading,
-            Err(Fault::Disconnected) => drop(falcon.recover()),
+            Err(DeviceError::Disconnected) => drop(falcon.recover()),
             _ => {}
         }
     }
@@ -140,10 +140,13 @@ fn positions_come_after_homing_and_are_those_of_the_grip() {
     for _ in 0..20 {
         falcon.write([0.0; 3]).expect("a command");
         std::thread::sleep(Duration::from_millis(1));
-        unhomed += u32::from(falcon.read() == Err(Fault::NotCalibrated));
+        unhomed += u32::from(falcon.read() == Err(DeviceError::NotCalibrated));
     }
     assert!(unhomed > 0, "no position before homing");
-    assert_eq!(falcon.write([0.0, 0.0, 1.0]), Err(Fault::NotCalibrated));
+    assert_eq!(
+        falcon.write([0.0, 0.0, 1.0]),
+        Err(DeviceError::NotCalibrated)
+    );
     until_read(&mut falcon, 10_000);
     assert_eq!(falcon.homed(), 0b111);
     // The hand holds still, so that the position is the same when it is compared.
@@ -243,11 +246,14 @@ fn an_unplugged_device_is_told_at_once_and_taken_up_again() {
     let (socket, mut falcon) = homed();
     socket.port().unplug(f64::INFINITY);
     std::thread::sleep(Duration::from_millis(50));
-    assert_eq!(falcon.read(), Err(Fault::Disconnected));
-    assert_eq!(falcon.write([0.0, 0.0, 1.0]), Err(Fault::Disconnected));
+    assert_eq!(falcon.read(), Err(DeviceError::Disconnected));
+    assert_eq!(
+        falcon.write([0.0, 0.0, 1.0]),
+        Err(DeviceError::Disconnected)
+    );
     assert_eq!(
         falcon.recover(),
-        Err(Fault::Disconnected),
+        Err(DeviceError::Disconnected),
         "it is still away"
     );
     socket.port().unplug(0.0);
@@ -285,12 +291,12 @@ fn a_device_that_lost_its_power_is_loaded_and_homed_again() {
     until_read(&mut falcon, 10_000);
     socket.port().device.lose_power();
     std::thread::sleep(Duration::from_millis(300));
-    assert_eq!(falcon.read(), Err(Fault::TimedOut));
+    assert_eq!(falcon.read(), Err(DeviceError::TimedOut));
     let begun = Instant::now();
     loop {
         match falcon.recover() {
             Ok(()) => break,
-            Err(Fault::NotCalibrated) => assert!(socket.port().device.is_running()),
+            Err(DeviceError::NotCalibrated) => assert!(socket.port().device.is_running()),
             Err(_) => {}
         }
         assert!(
@@ -322,7 +328,7 @@ fn whatever_the_bus_loses_no_force_and_no_step_is_beyond_its_limit() {
             }
             Err(fault) => {
                 faults += 1;
-                if matches!(fault, Fault::Disconnected | Fault::TimedOut) {
+                if matches!(fault, DeviceError::Disconnected | DeviceError::TimedOut) {
                     let _ = falcon.recover();
                 }
                 let _ = falcon.write([0.0; 3]);

@@ -17,8 +17,10 @@ use asperity_host::device::touch::{Face, identify, open as open_touch};
 use asperity_host::device::usb::scan::scan;
 use asperity_host::device::usb::watch::{Event, has_hotplug, watch};
 use asperity_host::device::usb::{Access, Ids, Kind, UsbError};
-use asperity_host::device::{Device as _, Fault};
-use asperity_host::recording::{Conditions, Encoder, Entry, Recording, TextureInfo, render_again};
+use asperity_host::device::{Device as _, DeviceError};
+use asperity_host::session_log::{
+    Conditions, Encoder, Entry, SessionLog, TextureInfo, render_again,
+};
 use asperity_runtime::{Config, HostTexture};
 use asperity_virtual_usb::falcon::{Falcon, Quirks, image};
 use asperity_virtual_usb::fault::Rates;
@@ -144,7 +146,7 @@ fn child_homes_and_pushes() {
                     .or_else(stale)
                     .expect("a force");
             }
-            Err(Fault::NotCalibrated | Fault::TimedOut) => {
+            Err(DeviceError::NotCalibrated | DeviceError::TimedOut) => {
                 falcon.write([0.0; 3]).or_else(stale).expect("a command");
             }
             Err(fault) => panic!("{fault}"),
@@ -159,8 +161,8 @@ fn child_homes_and_pushes() {
 }
 
 /// On a busy machine answers come late, which is no failure here.
-fn stale(fault: Fault) -> Result<(), Fault> {
-    if fault == Fault::TimedOut {
+fn stale(fault: DeviceError) -> Result<(), DeviceError> {
+    if fault == DeviceError::TimedOut {
         Ok(())
     } else {
         Err(fault)
@@ -224,7 +226,7 @@ fn child_feels_a_texture() {
     let report = report.expect("a configuration");
     println!("{report:#?}\n{:?}", falcon.counts());
     let (file, _) = encoder.finish(0).expect("a vector takes all");
-    let recording = Recording::read(&mut &file[..]).expect("a recording");
+    let recording = SessionLog::read(&mut &file[..]).expect("a recording");
     let again = render_again(&recording, |_| Some(bytes.to_vec())).expect("rendered");
     println!("rendered again: {again:?}");
     // While the device is away, further ticks let go of the force.

@@ -5,7 +5,7 @@ use asperity_formats::Asset;
 use asperity_runtime::{Config, Flags, HostTexture, Renderer};
 
 use asperity_sim::device::{DeviceConfig, norm};
-use asperity_sim::fault::{Fault, FaultInjector, FaultPlan};
+use asperity_sim::fault::{FaultInjector, FaultPlan, SampleFault};
 use asperity_sim::hand::{Grip, GripPreset, Motion, Script};
 use asperity_sim::servo::RenderedTexture;
 use asperity_sim::session::Session;
@@ -131,7 +131,7 @@ fn a_burst_of_nan_lets_the_force_fall_to_zero_within_the_slew_and_come_back() {
     for _ in 0..1200 {
         session.tick().expect("the script runs on");
     }
-    session.servo_mut().start(Fault::NotFinite, 100);
+    session.servo_mut().start(SampleFault::NotFinite, 100);
     let slew_n = f64::from(config.limits.slew_n_s) / 1000.0;
     let during: Vec<f64> = (0..100)
         .map(|_| {
@@ -167,7 +167,7 @@ fn whatever_faults_come_the_force_is_finite_within_its_limits_and_felt_again() {
     let mut texture = Box::new(HostTexture::new());
     texture.load(&asset, 1000.0).expect("it fits");
     for seed in 1..=5 {
-        let plan = Fault::ALL
+        let plan = SampleFault::ALL
             .into_iter()
             .fold(FaultPlan::default(), |plan, fault| {
                 plan.with(fault, 0.004, 6)

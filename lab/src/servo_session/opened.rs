@@ -2,8 +2,8 @@
 
 use asperity_host::device::Device;
 use asperity_host::profile::Profile;
-use asperity_host::recording::Conditions;
 use asperity_host::servo::Pace as LoopPace;
+use asperity_host::session_log::Conditions;
 use asperity_runtime::{Config, Limits, MechanicsConfig};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};

@@ -3,8 +3,8 @@
 
 use super::error::ServoSessionError;
 use super::trace::Trace;
-use asperity_host::recording::{Conditions, Encoder, FromServo, RecordingError, TextureInfo};
 use asperity_host::servo::Record;
+use asperity_host::session_log::{Conditions, Encoder, FromServo, SessionLogError, TextureInfo};
 use asperity_io::output::{OutputId, Outputs, is_standard_output};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub enum Form {
     /// A table (CSV).
     Table,
     /// A recording (`docs/recording-format.md`).
-    Recording,
+    SessionLog,
 }
 
 impl Form {
@@ -37,7 +37,7 @@ impl Form {
                 .metadata()
                 .is_ok_and(|data| !data.is_file() && !data.is_dir());
         if is("aspr") {
-            Ok(Self::Recording)
+            Ok(Self::SessionLog)
         } else if is("csv") || is_stream {
             Ok(Self::Table)
         } else {
@@ -124,7 +124,7 @@ impl Recorder {
             let file = outputs.file(output);
             let written = match form {
                 Form::Table => table(file, &batches),
-                Form::Recording => recording(file, &batches, &conditions),
+                Form::SessionLog => recording(file, &batches, &conditions),
             };
             match written {
                 Ok(ticks) => Ok(Written { outputs, ticks }),
@@ -186,7 +186,7 @@ impl Recorder {
     /// Takes no more: the loop begins anew. Gives whether the form has no place for that; a table
     /// goes on.
     pub fn begin_anew(&mut self) -> bool {
-        self.is_closed |= self.form == Form::Recording;
+        self.is_closed |= self.form == Form::SessionLog;
         self.is_closed
     }
 
@@ -265,9 +265,9 @@ fn recording(
     Ok(summary.recorded)
 }
 
-fn plain(error: RecordingError) -> io::Error {
+fn plain(error: SessionLogError) -> io::Error {
     match error {
-        RecordingError::Io(error) => error,
+        SessionLogError::Io(error) => error,
         other => io::Error::other(other),
     }
 }

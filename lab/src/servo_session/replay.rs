@@ -3,8 +3,8 @@
 use super::error::ServoSessionError;
 use super::opened::{OpenDevice, Repeated, Replayed};
 use asperity_host::device::replay::Replay;
-use asperity_host::device::{Description, Device, Fault, OpenError, Reading, Uri};
-use asperity_host::recording::pace;
+use asperity_host::device::{Description, Device, DeviceError, OpenError, Reading, Uri};
+use asperity_host::session_log::pace;
 use std::sync::Arc;
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -53,12 +53,12 @@ impl Device for Compared {
         self.replay.description()
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         self.readings += 1;
         self.replay.read()
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         self.replay.write(force_n)?;
         // After its end a recording has nothing to compare with.
         if self.readings <= self.replay.recording().entries.len() {
@@ -69,7 +69,7 @@ impl Device for Compared {
         Ok(())
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         self.replay.recover()
     }
 }

@@ -3,7 +3,7 @@
 use crate::fakes::Fake;
 use asperity_host::device::dhd::Dhd;
 use asperity_host::device::vendor_library::{LibraryError, VendorError};
-use asperity_host::device::{Device, Fault, Uri};
+use asperity_host::device::{Device, DeviceError, Uri};
 
 #[test]
 fn a_session_begins_and_ends_in_order_and_speaks_the_world_frame() {
@@ -86,10 +86,10 @@ fn errors_in_a_period_are_typed_and_a_lost_device_comes_back() {
     };
     let mut device = Dhd::open(&fake.uri("dhd", "")).expect("a device");
     for (code, fault) in [
-        (7, Fault::TimedOut),
-        (3, Fault::TimedOut),
-        (12, Fault::NotCalibrated),
-        (18, Fault::Vendor(18)),
+        (7, DeviceError::TimedOut),
+        (3, DeviceError::TimedOut),
+        (12, DeviceError::NotCalibrated),
+        (18, DeviceError::Vendor(18)),
     ] {
         fake.set("fake_read_error", code);
         assert_eq!(device.read(), Err(fault));
@@ -103,7 +103,7 @@ fn errors_in_a_period_are_typed_and_a_lost_device_comes_back() {
     write_error(19, 2);
     assert_eq!(
         device.write([0.0; 3]),
-        Err(Fault::ForceExceeded),
+        Err(DeviceError::ForceExceeded),
         "forces off since it was too fast"
     );
     write_error(0, 0);
@@ -112,9 +112,13 @@ fn errors_in_a_period_are_typed_and_a_lost_device_comes_back() {
 
     fake.set("fake_read_error", 2);
     fake.set("fake_open_error", 5);
-    assert_eq!(device.read(), Err(Fault::Disconnected));
-    assert_eq!(device.write([0.0; 3]), Err(Fault::Disconnected));
-    assert_eq!(device.recover(), Err(Fault::Disconnected), "still away");
+    assert_eq!(device.read(), Err(DeviceError::Disconnected));
+    assert_eq!(device.write([0.0; 3]), Err(DeviceError::Disconnected));
+    assert_eq!(
+        device.recover(),
+        Err(DeviceError::Disconnected),
+        "still away"
+    );
     fake.set("fake_read_error", 0);
     fake.set("fake_open_error", 0);
     device.recover().expect("back");

@@ -4,7 +4,7 @@
 
 mod support;
 
-use asperity_host::device::{Description, Device, Fault, Reading};
+use asperity_host::device::{Description, Device, DeviceError, Reading};
 use asperity_host::servo::privileges::Wanted;
 use asperity_host::servo::{Monotonic, Played, Servo, Settings, Start, queues};
 use asperity_runtime::{Exchange, HostTexture};
@@ -61,14 +61,14 @@ impl Device for Trap<'_> {
         &self.description
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         if self.reads == 0 {
             self.calls_at_first_read = CALLS.get();
         }
         self.reads += 1;
         self.stop.store(self.reads >= READS, Relaxed);
         match self.reads % 500 {
-            100..105 => Err(Fault::TimedOut),
+            100..105 => Err(DeviceError::TimedOut),
             phase => Ok(Reading {
                 position_m: [1e-5 * phase as f32, 0.0, -0.001],
                 fresh: phase != 250,
@@ -77,11 +77,11 @@ impl Device for Trap<'_> {
         }
     }
 
-    fn write(&mut self, _: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, _: [f32; 3]) -> Result<(), DeviceError> {
         self.calls_since
             .store(CALLS.get() - self.calls_at_first_read, Relaxed);
         if self.reads % 500 == 400 {
-            return Err(Fault::Stalled);
+            return Err(DeviceError::Stalled);
         }
         Ok(())
     }

@@ -6,13 +6,13 @@ use std::time::{Duration, Instant};
 use crate::fakes::{Fake, alone, build};
 use asperity_host::device::openhaptics::OpenHaptics;
 use asperity_host::device::vendor_library::{LibraryError, VendorError};
-use asperity_host::device::{Device, Fault, Reading, Uri};
+use asperity_host::device::{Device, DeviceError, Reading, Uri};
 
 /// Reads until a reading fulfils a condition.
 fn read_until(
     device: &mut OpenHaptics,
-    wanted: impl Fn(&Result<Reading, Fault>) -> bool,
-) -> Result<Reading, Fault> {
+    wanted: impl Fn(&Result<Reading, DeviceError>) -> bool,
+) -> Result<Reading, DeviceError> {
     let until = Instant::now() + Duration::from_secs(60);
     loop {
         let read = device.read();
@@ -159,12 +159,12 @@ fn errors_in_a_period_are_typed_and_go_away_with_their_cause() {
     };
     let mut device = OpenHaptics::open(&fake.uri("openhaptics", "")).expect("a device");
     for (code, fault) in [
-        (0x0200, Fault::WarmMotors),
-        (0x0201, Fault::ForceExceeded),
-        (0x0202, Fault::ForceExceeded),
-        (0x0203, Fault::ForceExceeded),
-        (0x0304, Fault::TimedOut),
-        (0x0500, Fault::Vendor(0x0500)),
+        (0x0200, DeviceError::WarmMotors),
+        (0x0201, DeviceError::ForceExceeded),
+        (0x0202, DeviceError::ForceExceeded),
+        (0x0203, DeviceError::ForceExceeded),
+        (0x0304, DeviceError::TimedOut),
+        (0x0500, DeviceError::Vendor(0x0500)),
     ] {
         fake.set("fake_persistent", code);
         assert_eq!(
@@ -187,10 +187,14 @@ fn a_lost_device_stays_lost_until_it_recovers() {
     let mut device = OpenHaptics::open(&fake.uri("openhaptics", "")).expect("a device");
     fake.set("fake_persistent", 0x0302);
     fake.set("fake_init_error", 0x0302);
-    read_until(&mut device, |read| *read == Err(Fault::Disconnected)).expect_err("lost");
-    assert_eq!(device.write([0.0; 3]), Err(Fault::Disconnected));
-    assert_eq!(device.recover(), Err(Fault::Disconnected), "still away");
-    assert_eq!(device.read(), Err(Fault::Disconnected));
+    read_until(&mut device, |read| *read == Err(DeviceError::Disconnected)).expect_err("lost");
+    assert_eq!(device.write([0.0; 3]), Err(DeviceError::Disconnected));
+    assert_eq!(
+        device.recover(),
+        Err(DeviceError::Disconnected),
+        "still away"
+    );
+    assert_eq!(device.read(), Err(DeviceError::Disconnected));
     fake.set("fake_persistent", 0);
     fake.set("fake_init_error", 0);
     device.recover().expect("back");
@@ -206,7 +210,7 @@ fn a_scheduler_that_stands_still_times_out() {
     };
     let mut device = OpenHaptics::open(&fake.uri("openhaptics", "")).expect("a device");
     fake.set("fake_freeze", 1);
-    read_until(&mut device, |read| *read == Err(Fault::TimedOut)).expect_err("frozen");
+    read_until(&mut device, |read| *read == Err(DeviceError::TimedOut)).expect_err("frozen");
     fake.set("fake_freeze", 0);
     device.recover().expect("back");
     read_until(&mut device, |read| read.is_ok_and(|reading| reading.fresh)).expect("fresh again");

@@ -2,13 +2,13 @@
 //! however late either of them was.
 
 use crate::support::{Act, Kept, Scripted, texture};
-use asperity_host::device::Fault;
+use asperity_host::device::DeviceError;
 use asperity_host::device::replay::{AtEnd, Replay};
-use asperity_host::recording::{
-    Conditions, Encoder, FromServo, Recording, TextureInfo, pace, render_again,
-};
 use asperity_host::servo::{
     End, Event, Fixed, Overrun, Pace, Record, Render, ServoLoop, Settings, Virtual,
+};
+use asperity_host::session_log::{
+    Conditions, Encoder, FromServo, SessionLog, TextureInfo, pace, render_again,
 };
 use asperity_runtime::{Config, State};
 use std::sync::atomic::AtomicBool;
@@ -38,14 +38,14 @@ fn session(overrun: Overrun) -> Kept {
             _ => 0,
         },
         fault: match call % 997 {
-            200..207 => Some(Fault::TimedOut),
-            400..480 => Some(Fault::Disconnected),
+            200..207 => Some(DeviceError::TimedOut),
+            400..480 => Some(DeviceError::Disconnected),
             _ => None,
         },
         old: matches!(call % 389, 100 | 200..205),
     };
     let write = |call: u64| Act {
-        fault: (call % 443 == 300).then_some(Fault::Stalled),
+        fault: (call % 443 == 300).then_some(DeviceError::Stalled),
         ..Act::default()
     };
     let mut device = Scripted::new(&clock, read, write);
@@ -64,7 +64,7 @@ fn session(overrun: Overrun) -> Kept {
     kept
 }
 
-fn recording(records: &[Record]) -> Recording {
+fn recording(records: &[Record]) -> SessionLog {
     let conditions = Conditions {
         program: "test".into(),
         device: "scripted".into(),
@@ -81,11 +81,11 @@ fn recording(records: &[Record]) -> Recording {
             .expect("a vector takes all");
     }
     let (bytes, _) = encoder.finish(entries.lost()).expect("a vector takes all");
-    Recording::read(&mut &bytes[..]).expect("a recording")
+    SessionLog::read(&mut &bytes[..]).expect("a recording")
 }
 
 /// Plays a recording in a loop that is late in other ticks.
-fn played(recording: &Recording, seed: u64) -> (Kept, End, (u64, u64)) {
+fn played(recording: &SessionLog, seed: u64) -> (Kept, End, (u64, u64)) {
     let clock = Virtual::new();
     let (texture, renderer) = texture(1000.0);
     let mut replay = Replay::new(recording.clone(), AtEnd::Leave, "test").expect("a replay");

@@ -1,7 +1,7 @@
 //! The servo loop in virtual time: overruns, faults, shutdown, telemetry.
 
 use crate::support::{Act, Kept, Scripted, length, texture};
-use asperity_host::device::Fault;
+use asperity_host::device::DeviceError;
 use asperity_host::servo::{
     End, Event, Fixed, Overrun, Report, ServoLoop, Settings, SettingsError, Stage, Virtual, queues,
 };
@@ -17,7 +17,7 @@ fn calm(_: u64) -> Act {
 }
 
 /// Fails with a fault in some calls.
-fn failing(calls: Range<u64>, fault: Fault) -> impl FnMut(u64) -> Act + Send {
+fn failing(calls: Range<u64>, fault: DeviceError) -> impl FnMut(u64) -> Act + Send {
     move |call| Act {
         fault: calls.contains(&call).then_some(fault),
         ..Act::default()
@@ -190,7 +190,7 @@ fn two_lost_readings_are_held_and_the_third_is_safe() {
     for (lost, safe) in [(1, false), (2, false), (3, true), (40, true)] {
         let run = run(
             periods(600),
-            failing(300..300 + lost, Fault::TimedOut),
+            failing(300..300 + lost, DeviceError::TimedOut),
             calm,
             0,
         );
@@ -200,7 +200,7 @@ fn two_lost_readings_are_held_and_the_third_is_safe() {
         assert_eq!(run.report.read_faults, lost);
         let failed = Event::Failed {
             period: 300,
-            fault: Fault::TimedOut,
+            fault: DeviceError::TimedOut,
         };
         let back = Event::Back {
             period: 300 + lost,
@@ -216,7 +216,12 @@ fn two_lost_readings_are_held_and_the_third_is_safe() {
 
 #[test]
 fn forces_that_do_not_arrive_are_a_fault_as_well() {
-    let run = run(periods(600), calm, failing(300..310, Fault::Stalled), 0);
+    let run = run(
+        periods(600),
+        calm,
+        failing(300..310, DeviceError::Stalled),
+        0,
+    );
     assert_eq!((run.report.write_faults, run.report.read_faults), (10, 0));
     let flags = run.kept.records[303].output.flags;
     assert!(flags.contains(Flags::SAFE_STATE));
@@ -234,7 +239,7 @@ fn a_device_that_says_nothing_new_is_silent_after_three_ticks() {
     assert_eq!((run.report.stale, run.report.read_faults), (20, 0));
     let failed = Event::Failed {
         period: 302,
-        fault: Fault::TimedOut,
+        fault: DeviceError::TimedOut,
     };
     assert_eq!(run.kept.events[0], failed);
     assert!(
@@ -250,7 +255,7 @@ fn a_device_that_says_nothing_new_is_silent_after_three_ticks() {
 fn recovery_is_tried_without_force_and_its_time_is_counted_apart() {
     let run = run(
         periods(1000),
-        failing(300..500, Fault::Disconnected),
+        failing(300..500, DeviceError::Disconnected),
         calm,
         7 * PERIOD_NS + PERIOD_NS / 2,
     );

@@ -2,8 +2,8 @@
 //! and homed, and the force comes back by a ramp.
 
 use crate::support::{Act, Kept, Scripted, length, texture};
-use asperity_host::device::faulty::{Faulty, Injected, Plan};
-use asperity_host::device::{Description, Device, Fault, Reading};
+use asperity_host::device::faulty::{Faulty, InjectedFault, Plan};
+use asperity_host::device::{Description, Device, DeviceError, Reading};
 use asperity_host::servo::{Event, Fixed, Report, ServoLoop, Settings, Virtual};
 use asperity_runtime::{Config, Flags, Renderer, State};
 use std::sync::atomic::AtomicBool;
@@ -17,7 +17,7 @@ const HOMING_TRIES: u32 = 2;
 struct OnDesk<D> {
     faulty: Faulty<D>,
     /// A fault that starts with the reading of this number, for so many periods.
-    starts: Option<(u64, Injected, u32)>,
+    starts: Option<(u64, InjectedFault, u32)>,
     readings: u64,
     homing_left: u32,
     recoveries: u32,
@@ -26,7 +26,7 @@ struct OnDesk<D> {
 }
 
 impl<D: Device> OnDesk<D> {
-    fn new(device: D, plan: Plan, starts: Option<(u64, Injected, u32)>) -> Self {
+    fn new(device: D, plan: Plan, starts: Option<(u64, InjectedFault, u32)>) -> Self {
         Self {
             faulty: Faulty::new(device, plan, 5).expect("a plan"),
             starts,
@@ -43,7 +43,7 @@ impl<D: Device> Device for OnDesk<D> {
         self.faulty.description()
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         if let Some((at, kind, periods)) = self.starts
             && at == self.readings
         {
@@ -51,28 +51,28 @@ impl<D: Device> Device for OnDesk<D> {
         }
         self.readings += 1;
         let read = self.faulty.read();
-        if self.faulty.running() == Some(Injected::Unplugged) {
+        if self.faulty.running() == Some(InjectedFault::Unplugged) {
             self.homing_left = HOMING_TRIES;
         } else if self.homing_left > 0 {
-            return Err(Fault::NotCalibrated);
+            return Err(DeviceError::NotCalibrated);
         }
         read
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         self.commanded.push(force_n);
-        if self.homing_left > 0 && self.faulty.running() != Some(Injected::Unplugged) {
-            return Err(Fault::NotCalibrated);
+        if self.homing_left > 0 && self.faulty.running() != Some(InjectedFault::Unplugged) {
+            return Err(DeviceError::NotCalibrated);
         }
         self.faulty.write(force_n)
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         self.faulty.recover()?;
         self.recoveries += 1;
         self.homing_left = self.homing_left.saturating_sub(1);
         if self.homing_left > 0 {
-            return Err(Fault::NotCalibrated);
+            return Err(DeviceError::NotCalibrated);
         }
         Ok(())
     }
@@ -88,7 +88,7 @@ struct Session {
     recoveries: u32,
 }
 
-fn session(periods: u64, plan: Plan, starts: Option<(u64, Injected, u32)>) -> Session {
+fn session(periods: u64, plan: Plan, starts: Option<(u64, InjectedFault, u32)>) -> Session {
     session_with(&Config::default(), periods, plan, starts)
 }
 
@@ -96,7 +96,7 @@ fn session_with(
     config: &Config,
     periods: u64,
     plan: Plan,
-    starts: Option<(u64, Injected, u32)>,
+    starts: Option<(u64, InjectedFault, u32)>,
 ) -> Session {
     let clock = Virtual::new();
     let (texture, _) = texture(config.servo_rate_hz);
@@ -144,7 +144,7 @@ fn a_device_that_is_unplugged_in_mid_stroke_and_back_recovers_by_itself() {
     let run = session(
         4000,
         Plan::default(),
-        Some((OUT, Injected::Unplugged, AWAY)),
+        Some((OUT, InjectedFault::Unplugged, AWAY)),
     );
     assert!(
         length(run.commanded[OUT as usize - 1]) > 0.5,
@@ -154,7 +154,7 @@ fn a_device_that_is_unplugged_in_mid_stroke_and_back_recovers_by_itself() {
     // Told once when it began and once when it was over.
     let began = Event::Failed {
         period: OUT,
-        fault: Fault::Disconnected,
+        fault: DeviceError::Disconnected,
     };
     assert_eq!(run.kept.events.first(), Some(&began));
     let told = |wanted: fn(&Event) -> bool| run.kept.events.iter().filter(|e| wanted(e)).count();
@@ -207,7 +207,7 @@ fn a_device_that_is_unplugged_in_mid_stroke_and_back_recovers_by_itself() {
 #[test]
 fn no_fault_of_any_kind_makes_a_force_beyond_the_limits() {
     let starts = |kind| Some((300, kind, 40));
-    for kind in Injected::ALL {
+    for kind in InjectedFault::ALL {
         let run = session(1500, Plan::default(), starts(kind));
         assert!(largest_step(&run.commanded) <= SLEW_N, "{kind:?}");
         let peak = run.commanded.iter().map(|force| length(*force));
@@ -229,7 +229,7 @@ fn what_a_device_holds_is_left_at_the_slew_limit() {
     // the device holds more than one step.
     let mut config = Config::default();
     config.limits.slew_n_s = 100.0;
-    let starts = Some((300, Injected::WriteFailed, 40));
+    let starts = Some((300, InjectedFault::WriteFailed, 40));
     let run = session_with(&config, 1500, Plan::default(), starts);
     assert_eq!(run.report.write_faults, 40);
     assert!(run.report.eased > 0, "one force at least");
@@ -241,13 +241,13 @@ fn what_a_device_holds_is_left_at_the_slew_limit() {
 
 #[test]
 fn positions_that_no_hand_can_have_are_faults_and_are_recorded_as_such() {
-    for kind in [Injected::OutOfRange, Injected::NotFinite] {
+    for kind in [InjectedFault::OutOfRange, InjectedFault::NotFinite] {
         let run = session(1500, Plan::default(), Some((300, kind, 10)));
         let records = &run.kept.records[300..310];
         assert!(
             records
                 .iter()
-                .all(|record| record.reading == Err(Fault::Garbled))
+                .all(|record| record.reading == Err(DeviceError::Garbled))
         );
         assert!(
             records

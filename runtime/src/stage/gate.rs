@@ -165,9 +165,9 @@ impl<A: Positions> Gate<A> {
             state.position = position.into();
             state.bad_in_a_row = 0;
             if fresh {
-                Flags::RESTART.and(self.ramp(state))
+                Flags::RESTART.union(self.ramp(state))
             } else if sample.elapsed_ticks - 1 > self.hold_ticks {
-                Flags::RESTART.and(self.fault(state))
+                Flags::RESTART.union(self.fault(state))
             } else {
                 (motion, elapsed_ticks) = (position - before, sample.elapsed_ticks);
                 self.ramp(state)
@@ -176,14 +176,14 @@ impl<A: Positions> Gate<A> {
             state.bad_in_a_row = state.bad_in_a_row.saturating_add(1);
             let flags = if state.bad_in_a_row <= self.hold_ticks {
                 let ramping = state.gain < Quantity::whole(1);
-                Flags::HELD_SAMPLE.and(Flags::RAMPING.when(ramping))
+                Flags::HELD_SAMPLE.union(Flags::RAMPING.when(ramping))
             } else if fresh {
                 state.gain = Quantity::ZERO;
                 Flags::SAFE_STATE
             } else {
                 self.fault(state)
             };
-            flags.and(Flags::BAD_SAMPLE)
+            flags.union(Flags::BAD_SAMPLE)
         };
         Gated {
             position: state.position(),
@@ -198,7 +198,7 @@ impl<A: Positions> Gate<A> {
     #[inline(always)]
     fn fault(&self, state: &mut GateState<A>) -> Flags {
         state.gain = Quantity::ZERO;
-        Flags::SAFE_STATE.and(Flags::FAULT)
+        Flags::SAFE_STATE.union(Flags::FAULT)
     }
 }
 

@@ -148,7 +148,7 @@ impl<A: Shortening> Limiter<A> {
         } else {
             next
         };
-        (next, peak.and(slew))
+        (next, peak.union(slew))
     }
 }
 

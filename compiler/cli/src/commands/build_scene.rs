@@ -61,7 +61,7 @@ pub(crate) fn run(
     let bar = build
         .console
         .rated_bar(description.worn().len(), "textures");
-    let open = || inference::author(&build.inference);
+    let open = || inference::prompt_compiler(&build.inference);
     let built = scene::build(&description, &budget, &build.request(), &open, &|| {
         bar.inc(1)
     });

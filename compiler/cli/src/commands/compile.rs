@@ -7,7 +7,7 @@ use super::{
 use crate::cli::Compile;
 use asperity::{
     diffusion::framed,
-    edit::{Studio, explain},
+    edit::{LatentEditor, explain},
     pipeline::Request,
     prompt::{self, Picture, Prompt},
     sources::Tools,
@@ -31,7 +31,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         ..Wanted::of(&args.output)
     };
     let job = Job::open(wanted, &inputs, console)?;
-    let author = inference::author(&args.inference)?;
+    let prompt_compiler = inference::prompt_compiler(&args.inference)?;
     let request = Request {
         fidelity: args.fidelity,
         rate_hz: args.rate,
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         seed: args.seed,
         picture,
     };
-    let compiled = job.compile(&source, &request, &Tools::of(&author))?;
+    let compiled = job.compile(&source, &request, &Tools::of(&prompt_compiler))?;
     let mut json = compiled.json();
     let mut text = format!("{}\n{}", display(&args.output), compiled.text());
     if let Some(Picture { made, .. }) = &source.picture {
@@ -69,7 +69,8 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     }
     let mut words = String::new();
     if args.explain {
-        let explanation = explain(&Studio::new(&author), &args.prompt).map_err(one)?;
+        let explanation =
+            explain(&LatentEditor::new(&prompt_compiler), &args.prompt).map_err(one)?;
         // Plain structures of numbers and strings always serialise.
         json["words"] = serde_json::to_value(&explanation.words).unwrap_or_default();
         words = explanation.text();

@@ -6,7 +6,7 @@ use asperity::{
     inference::Backend,
     learned::{Files, LearnedModel, ModelError},
     library::Pinned,
-    prompt::Author,
+    prompt::PromptCompiler,
     text::{TextEncoder, TextEncoderChoice, clip::Clip},
 };
 use asperity_io::{
@@ -15,14 +15,14 @@ use asperity_io::{
 };
 use std::path::{Path, PathBuf};
 
-/// The author that the options describe.
-pub(crate) fn author(options: &Inference) -> Result<Author, Failures> {
+/// The prompt_compiler that the options describe.
+pub(crate) fn prompt_compiler(options: &Inference) -> Result<PromptCompiler, Failures> {
     let backend = Backend::open(options.backend).map_err(one)?;
     if options.model.is_none() && options.text_encoder == TextEncoderChoice::MiniLm {
-        return Author::embedded(&backend).map_err(one);
+        return PromptCompiler::embedded(&backend).map_err(one);
     }
     let text = text_encoder(options, &backend)?;
-    Author::new(text, model(options, &backend)?).map_err(one)
+    PromptCompiler::new(text, model(options, &backend)?).map_err(one)
 }
 
 /// The text encoder that the options name.

@@ -2,7 +2,7 @@
 
 use crate::cli::Listen;
 use asperity::{
-    listen::{self, Heard, Part, Session},
+    listen::{self, Gesture, Heard, Part},
     textures::Textures,
 };
 use asperity_console::Console;
@@ -21,7 +21,7 @@ pub(crate) fn run(args: &Listen, console: Console) -> Result<(), Failures> {
     let wanted = args.texture.as_deref();
     let bytes = textures.choose(wanted).map_err(one)?;
     let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
-    let session = Session::asked(args.speed, args.force, args.taps);
+    let session = Gesture::asked(args.speed, args.force, args.taps);
     let heard = listen::listen(&asset, &session, args.rate, args.seed).map_err(one)?;
     outputs.fill(sound, &heard.wav).map_err(one)?;
     outputs.commit().map_err(one)?;

@@ -2,8 +2,8 @@
 
 use super::{
     error::EditError,
+    latent_editor::LatentEditor,
     solve::{along, reach},
-    studio::Studio,
 };
 use crate::{
     learned::{Latent, friction},
@@ -36,7 +36,7 @@ fn sum_of_squares(missing: &Missing) -> f64 {
     missing.iter().map(|x| x * x).sum()
 }
 
-impl Studio<'_> {
+impl LatentEditor<'_> {
     /// The latents after an edit. Each slider moves its attribute by as many steps of the scale and
     /// leaves the others where they are: level and centroid of the vibration lie in what sliding was
     /// decoded from, the centroid of the taps in what tapping was, μ in friction.
@@ -190,7 +190,7 @@ impl Studio<'_> {
         if asked(Axis::Slippery)
             && let Some(slippery) = target(Axis::Slippery)
         {
-            let description = self.author.model().description();
+            let description = self.prompt_compiler.model().description();
             let factor = libm::exp(-latents.shift.slippery);
             let look = |z: &Latent| {
                 let near = friction::neighbours(z, &description.anchors, description.friction);

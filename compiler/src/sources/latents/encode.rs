@@ -1,6 +1,6 @@
 //! The latent of a recording, or of a part of one.
 
-use super::{error::EditError, studio::Studio};
+use super::{error::EditError, latent_editor::LatentEditor};
 use crate::{
     learned::{Present, complete},
     memory::Latents,
@@ -71,11 +71,11 @@ pub struct Encoded {
 /// # Errors
 /// [`EditError`] for a part that the texture does not have, or when a network fails.
 pub fn encode(
-    studio: &Studio<'_>,
+    editor: &LatentEditor<'_>,
     texture: &TextureModel,
     part: Part,
 ) -> Result<Encoded, EditError> {
-    let model = studio.author().model();
+    let model = editor.prompt_compiler().model();
     let description = model.description();
     let missing = |part| EditError::NoPart {
         name: texture.name.clone(),
@@ -103,7 +103,7 @@ pub fn encode(
     let same_rate = texture.grid.sample_rate_hz == description.grid.sample_rate_hz;
     let (mut distance_db, mut silent_places) = (None, 0);
     if part != Part::Taps && same_rate {
-        let decoded = studio.texture(&latents)?;
+        let decoded = editor.texture(&latents)?;
         let whole = Reference::new(&texture.grid);
         let distances = whole.and_then(|whole| whole.distances(&decoded.grid));
         let (sounding, silent) = distances.unwrap_or_default().sounding();

@@ -1,6 +1,6 @@
 //! Which words moved which attribute, by occlusion: the prompt is read again without each word.
 
-use super::{error::EditError, studio::Studio};
+use super::{error::EditError, latent_editor::LatentEditor};
 use crate::{
     learned::{Latent, description::LATENT},
     memory::{AXES, Latents},
@@ -46,7 +46,7 @@ const MOST_TOGETHER: usize = 6;
 ///
 /// # Errors
 /// [`EditError`] for an empty prompt or a failing network.
-pub fn explain(studio: &Studio<'_>, text: &str) -> Result<Explanation, EditError> {
+pub fn explain(editor: &LatentEditor<'_>, text: &str) -> Result<Explanation, EditError> {
     let words: Vec<&str> = text.split_whitespace().take(MOST_WORDS).collect();
     let telling: Vec<usize> = (0..words.len()).filter(|&n| tells(words[n])).collect();
     let together: &[usize] = if telling.len() <= MOST_TOGETHER {
@@ -80,9 +80,9 @@ pub fn explain(studio: &Studio<'_>, text: &str) -> Result<Explanation, EditError
         .collect();
     let read = texts.iter().filter(|text| !text.is_empty());
     let read: Vec<&str> = read.map(String::as_str).collect();
-    studio.author().read_ahead(&read);
+    editor.prompt_compiler().read_ahead(&read);
     let places: Result<Vec<[f64; 4]>, EditError> =
-        texts.par_iter().map(|text| places(studio, text)).collect();
+        texts.par_iter().map(|text| places(editor, text)).collect();
     let places = places?;
     let count = together.len();
     let effects = (0..words.len()).map(|word| {
@@ -138,21 +138,21 @@ fn tells(word: &str) -> bool {
 }
 
 /// Where a text lies on the sliders; the mean of all materials where it is empty.
-fn places(studio: &Studio<'_>, text: &str) -> Result<[f64; 4], EditError> {
+fn places(editor: &LatentEditor<'_>, text: &str) -> Result<[f64; 4], EditError> {
     let attributes = if prompt::check(text).is_ok() {
-        seen(studio, text)?
+        seen(editor, text)?
     } else {
-        studio.attributes(&Latents::whole(mean(studio)))?
+        editor.attributes(&Latents::whole(mean(editor)))?
     };
-    Ok(AXES.map(|axis| studio.scale().place(axis, &attributes).unwrap_or(0.0)))
+    Ok(AXES.map(|axis| editor.scale().place(axis, &attributes).unwrap_or(0.0)))
 }
 
-fn seen(studio: &Studio<'_>, text: &str) -> Result<Attributes, EditError> {
-    Ok(attributes::of(&studio.author().texture(text)?))
+fn seen(editor: &LatentEditor<'_>, text: &str) -> Result<Attributes, EditError> {
+    Ok(attributes::of(&editor.prompt_compiler().texture(text)?))
 }
 
-fn mean(studio: &Studio<'_>) -> Latent {
-    let anchors = &studio.author().model().description().anchors;
+fn mean(editor: &LatentEditor<'_>) -> Latent {
+    let anchors = &editor.prompt_compiler().model().description().anchors;
     let mut sum = [0.0; LATENT];
     for anchor in anchors {
         sum.iter_mut()

@@ -15,36 +15,36 @@ use crate::{
     },
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
-    sources::prompt::Author,
+    sources::prompt::PromptCompiler,
     views::preview,
 };
 use asperity_formats::Asset;
 
-/// Everything that mixes and edits: an author's model, and where its sliders lie.
-pub struct Studio<'a> {
-    pub(super) author: &'a Author,
+/// Everything that mixes and edits: a prompt compiler's model, and where its sliders lie.
+pub struct LatentEditor<'a> {
+    pub(super) prompt_compiler: &'a PromptCompiler,
     model_crc32: u32,
     pub(super) scale: Scale,
     pub(super) metric: Metric,
 }
 
-impl<'a> Studio<'a> {
-    /// A studio of an author.
+impl<'a> LatentEditor<'a> {
+    /// An editor on a prompt compiler.
     #[must_use]
-    pub fn new(author: &'a Author) -> Self {
-        let description = author.model().description();
+    pub fn new(prompt_compiler: &'a PromptCompiler) -> Self {
+        let description = prompt_compiler.model().description();
         Self {
-            author,
-            model_crc32: author.model().crc32(),
+            prompt_compiler,
+            model_crc32: prompt_compiler.model().crc32(),
             scale: Scale::of(description),
             metric: Metric::of(&description.anchors),
         }
     }
 
-    /// The author.
+    /// The prompt compiler.
     #[must_use]
-    pub fn author(&self) -> &'a Author {
-        self.author
+    pub fn prompt_compiler(&self) -> &'a PromptCompiler {
+        self.prompt_compiler
     }
 
     /// CRC-32 of the model.
@@ -91,7 +91,12 @@ impl<'a> Studio<'a> {
     pub fn request(&self, asset: &Asset<'_>) -> Request {
         let fidelity = asset.provenance().map(|p| p.fidelity.parse());
         let rate_hz = f64::from(asset.grid().sample_rate_hz());
-        let own_hz = self.author.model().description().grid.sample_rate_hz;
+        let own_hz = self
+            .prompt_compiler
+            .model()
+            .description()
+            .grid
+            .sample_rate_hz;
         Request {
             fidelity: fidelity.and_then(Result::ok).unwrap_or(Fidelity::Auto),
             rate_hz: (rate_hz != own_hz).then_some(rate_hz),
@@ -108,7 +113,7 @@ impl<'a> Studio<'a> {
     /// # Errors
     /// [`EditError::Model`] when a network fails.
     pub fn texture(&self, latents: &Latents) -> Result<TextureModel, EditError> {
-        let model = self.author.model();
+        let model = self.prompt_compiler.model();
         Ok(decode(model, latents, "", Provenance::default())?)
     }
 

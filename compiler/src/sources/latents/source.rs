@@ -1,6 +1,6 @@
 //! Latents as a source: a blend, a composition, an edit, a recording that was encoded.
 
-use super::{Edit, EditError, Part, Studio, Worded};
+use super::{Edit, EditError, LatentEditor, Part, Worded};
 use crate::{
     learned::{Decoded, LearnedModel, ModelError, friction, texture},
     memory::{History, HistoryError, Ingredient, Latents, Memory, Origin, Step},
@@ -114,14 +114,14 @@ impl FromLatents {
     /// Edits it. Sliders are solved on what an asset of the request keeps.
     ///
     /// # Errors
-    /// As [`Studio::edit`].
+    /// As [`LatentEditor::edit`].
     pub fn edit(
         &mut self,
-        studio: &Studio<'_>,
+        editor: &LatentEditor<'_>,
         edit: &Edit,
         request: &Request,
     ) -> Result<Worded, EditError> {
-        let done = studio.edit(&self.latents, edit, request)?;
+        let done = editor.edit(&self.latents, edit, request)?;
         let step = Step::new(done.sliders, &self.latents);
         self.history.steps.push(match edit {
             Edit::Steps(_) => step,

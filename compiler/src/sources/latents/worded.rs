@@ -1,6 +1,6 @@
 //! Edits, along the sliders or in words: "less gritty, more waxy".
 
-use super::{error::EditError, scale::Scale, studio::Studio};
+use super::{error::EditError, latent_editor::LatentEditor, scale::Scale};
 use crate::{
     memory::{Axis, Latents, Sliders},
     model::{attributes::Attributes, shift::Shift},
@@ -44,7 +44,7 @@ pub struct Worded {
     pub unread: Vec<String>,
 }
 
-impl Studio<'_> {
+impl LatentEditor<'_> {
     /// What an edit of a texture comes to.
     ///
     /// # Errors
@@ -86,8 +86,8 @@ impl Studio<'_> {
         let base = self.kept_attributes(latents, request)?;
         let mut start = *latents;
         if let Some(towards) = &asked.towards {
-            let prompted = self.author.project(&towards.thing)?;
-            let meaning = self.author.meaning(&towards.thing, &prompted)?;
+            let projection = self.prompt_compiler.project(&towards.thing)?;
+            let meaning = self.prompt_compiler.meaning(&towards.thing, &projection)?;
             let thing = Latents::whole(meaning.z).shifted(meaning.shift);
             start = Latents::between(latents, &thing, towards.share);
         }

@@ -39,7 +39,7 @@ impl Options {
 
 /// What was found of a prompt.
 #[derive(Debug, Clone)]
-pub struct Authored {
+pub struct CompiledPrompt {
     /// The latent that the texture was decoded from.
     pub z: Latent,
     /// What the grammar of the prompt moved after that.

@@ -1,10 +1,10 @@
-//! Prompts that are read together before they are authored one by one.
+//! Prompts that are read together before they are compiled one by one.
 //!
 //! The networks of the shipped model treat every row of a batch by itself, and our engine adds every
 //! sum in the same order whatever the batch. So what is read together is to the bit what is read
 //! alone, and weights are expanded once for many prompts.
 
-use super::{Author, PromptError, phrase};
+use super::{PromptCompiler, PromptError, phrase};
 use crate::learned::{Decoded, Latent, Projected, text::Encoded};
 use std::{
     collections::{HashMap, HashSet},
@@ -19,7 +19,7 @@ pub(super) type Read = Arc<(Encoded, Projected)>;
 
 /// What was read ahead. It is what would be computed again, so nothing depends on it but time.
 #[derive(Debug, Default)]
-pub(super) struct Ahead {
+pub(super) struct EncodingCache {
     read: Mutex<HashMap<String, Read>>,
     decoded: Mutex<HashMap<Bits, Arc<Decoded>>>,
 }
@@ -31,7 +31,7 @@ fn bits(z: &Latent) -> Bits {
     z.map(f32::to_bits)
 }
 
-impl Ahead {
+impl EncodingCache {
     pub(super) fn read(&self, text: &str) -> Option<Read> {
         let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         read.get(text).cloned()
@@ -43,10 +43,10 @@ impl Ahead {
     }
 }
 
-impl Author {
-    /// Reads prompts, and the things that they name, ahead of [`author`](Self::author), many at
+impl PromptCompiler {
+    /// Reads prompts, and the things that they name, ahead of [`compile`](Self::compile), many at
     /// once. It changes no result. With networks that may treat a batch otherwise than its rows, it
-    /// does nothing, and neither does it with what fails: `author` will say why.
+    /// does nothing, and neither does it with what fails: `compile` will say why.
     pub fn read_ahead(&self, prompts: &[&str]) {
         if self.together {
             // What fails here fails again where it is reported.
@@ -62,7 +62,7 @@ impl Author {
             let things = phrase::parse(prompt).things().into_iter();
             let things = things.filter(|thing| self.things.get(thing).is_none());
             for text in std::iter::once(prompt.to_owned()).chain(things) {
-                if self.ahead.read(&text).is_none() && seen.insert(text.clone()) {
+                if self.cache.read(&text).is_none() && seen.insert(text.clone()) {
                     texts.push(text);
                 }
             }
@@ -74,7 +74,7 @@ impl Author {
         let latents: Vec<Latent> = projected.iter().map(|projected| projected.z).collect();
         let decoded = self.model().decode_all(&latents)?;
         let mut read = self
-            .ahead
+            .cache
             .read
             .lock()
             .unwrap_or_else(PoisonError::into_inner);
@@ -85,7 +85,7 @@ impl Author {
         read.extend(texts.into_iter().zip(answers));
         drop(read);
         let mut kept = self
-            .ahead
+            .cache
             .decoded
             .lock()
             .unwrap_or_else(PoisonError::into_inner);

@@ -1,7 +1,7 @@
 //! Where a prompt lies in the latent, and how far its grammar moves the texture from there.
 
 use super::{
-    Author, PromptError, Prompted,
+    Projection, PromptCompiler, PromptError,
     phrase::{self, Phrase},
     things::Thing,
 };
@@ -26,24 +26,24 @@ pub struct Meaning {
     pub decoded: Arc<Decoded>,
 }
 
-impl Author {
-    /// The meaning of a prompt that was [projected](Author::project).
+impl PromptCompiler {
+    /// The meaning of a prompt that was [projected](PromptCompiler::project).
     ///
     /// The words say how rough, slippery and hard a thing is, and the latent says all the rest: the
     /// decoded texture is moved to the attributes of the words. Grammar moves these.
     ///
     /// # Errors
     /// [`PromptError`] for a failing network.
-    pub fn meaning(&self, prompt: &str, prompted: &Prompted) -> Result<Meaning, PromptError> {
-        let (z, wanted) = self.said(prompt, prompted)?;
-        self.meant(z, wanted)
+    pub fn meaning(&self, prompt: &str, projection: &Projection) -> Result<Meaning, PromptError> {
+        let (z, wanted) = self.resolve_target(prompt, projection)?;
+        self.decode_target(z, wanted)
     }
 
     /// The latent of a prompt, and the attributes that its words ask for.
-    pub(super) fn said(
+    pub(super) fn resolve_target(
         &self,
         prompt: &str,
-        prompted: &Prompted,
+        projection: &Projection,
     ) -> Result<(Latent, Option<Scales>), PromptError> {
         let phrase = if self.names_a_material(prompt) {
             Phrase::Plain
@@ -51,12 +51,12 @@ impl Author {
             phrase::parse(prompt)
         };
         Ok(match phrase {
-            Phrase::Plain => (prompted.z, prompted.felt),
+            Phrase::Plain => (projection.z, projection.felt),
             Phrase::Changed { base, changes } => {
                 let base = self.thing(&base)?;
-                let said = self.wanted(prompted)?;
+                let said = self.wanted(projection)?;
                 let wanted = phrase::changed(&base.wanted, &said, &changes);
-                (prompted.z, Some(wanted))
+                (projection.z, Some(wanted))
             }
             Phrase::Between(first, second) => {
                 let (first, second) = (self.thing(&first)?, self.thing(&second)?);
@@ -73,7 +73,11 @@ impl Author {
     }
 
     /// What a latent decodes to, and the way from there to what is wanted.
-    pub(super) fn meant(&self, z: Latent, wanted: Option<Scales>) -> Result<Meaning, PromptError> {
+    pub(super) fn decode_target(
+        &self,
+        z: Latent,
+        wanted: Option<Scales>,
+    ) -> Result<Meaning, PromptError> {
         let decoded = self.decoded(&z)?;
         let shift = wanted.map_or_else(Shift::default, |wanted| {
             shift::to(&wanted, &self.attributes(&z, &decoded))
@@ -113,10 +117,10 @@ impl Author {
         if let Some(known) = self.things.get(text) {
             return Ok(known);
         }
-        let prompted = self.project(text)?;
+        let projection = self.project(text)?;
         let found = Thing {
-            z: prompted.z,
-            wanted: self.wanted(&prompted)?,
+            z: projection.z,
+            wanted: self.wanted(&projection)?,
         };
         self.things.keep(text, found);
         Ok(found)
@@ -124,12 +128,12 @@ impl Author {
 
     /// The attributes that words ask for, or those of the decoded texture where the model does not
     /// say.
-    fn wanted(&self, prompted: &Prompted) -> Result<Scales, PromptError> {
-        if let Some(felt) = prompted.felt {
+    fn wanted(&self, projection: &Projection) -> Result<Scales, PromptError> {
+        if let Some(felt) = projection.felt {
             return Ok(felt);
         }
-        let decoded = self.decoded(&prompted.z)?;
-        Ok(shift::scales(&self.attributes(&prompted.z, &decoded)))
+        let decoded = self.decoded(&projection.z)?;
+        Ok(shift::scales(&self.attributes(&projection.z, &decoded)))
     }
 
     fn attributes(&self, z: &Latent, decoded: &Decoded) -> Attributes {

@@ -4,13 +4,13 @@
 //! it was trained on and decodes the latent, the [grammar](phrase) of the prompt moves what a vector
 //! misses, and the [driver](crate::driver) does the rest.
 
-mod ahead;
-mod author;
-mod authored;
+mod compiled_prompt;
+mod encoding_cache;
 mod error;
 mod meaning;
 mod name;
 pub mod phrase;
+mod prompt_compiler;
 mod report;
 mod source;
 mod things;
@@ -18,9 +18,9 @@ mod understood;
 mod variation;
 
 pub use crate::model::shift::Shift;
-pub use author::{Author, Prompted};
-pub use authored::{Authored, Nearest, Options};
+pub use compiled_prompt::{CompiledPrompt, Nearest, Options};
 pub use error::PromptError;
 pub use meaning::Meaning;
+pub use prompt_compiler::{Projection, PromptCompiler};
 pub use source::{KIND, Picture, Prompt};
 pub use understood::{Understood, check};

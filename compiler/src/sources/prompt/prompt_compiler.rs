@@ -1,8 +1,8 @@
 //! From a prompt to a verified texture.
 
 use super::{
-    Authored, Nearest, PromptError,
-    ahead::{Ahead, Read},
+    CompiledPrompt, Nearest, PromptError,
+    encoding_cache::{EncodingCache, Read},
     name::{shortened, title},
     things::Things,
     understood::{Understood, check, understood},
@@ -27,17 +27,17 @@ use std::{path::Path, sync::Arc};
 const KEPT_PROMPT_BYTES: usize = 2048;
 
 /// Everything that turns prompts into textures; loaded once, asked often.
-pub struct Author {
+pub struct PromptCompiler {
     pub(super) text: Box<dyn TextEncoder>,
     model: LearnedModel,
     pub(super) things: Things,
-    pub(super) ahead: Ahead,
+    pub(super) cache: EncodingCache,
     /// Whether its networks give a row of a batch the bits that it gets alone.
     pub(super) together: bool,
 }
 
-impl Author {
-    /// An author of a text encoder and a model trained with it.
+impl PromptCompiler {
+    /// A compiler of prompts, from a text encoder and a model trained with it.
     ///
     /// # Errors
     /// [`ModelError::Width`] when they do not belong together.
@@ -48,7 +48,7 @@ impl Author {
                 text,
                 model,
                 things: Things::default(),
-                ahead: Ahead::default(),
+                cache: EncodingCache::default(),
                 together: false,
             })
         } else {
@@ -72,10 +72,10 @@ impl Author {
         })
     }
 
-    /// An author of a model folder.
+    /// A compiler of prompts, from a model folder.
     ///
     /// # Errors
-    /// As [`Author::new`], and [`ModelError`] for a folder that is none.
+    /// As [`PromptCompiler::new`], and [`ModelError`] for a folder that is none.
     pub fn with_folder(
         text: Box<dyn TextEncoder>,
         folder: &Path,
@@ -94,7 +94,7 @@ impl Author {
     ///
     /// # Errors
     /// [`PromptError`] for an empty prompt or a failing network.
-    pub fn project(&self, prompt: &str) -> Result<Prompted, PromptError> {
+    pub fn project(&self, prompt: &str) -> Result<Projection, PromptError> {
         check(prompt)?;
         let prompt = prompt.trim();
         let read = self.read(prompt)?;
@@ -103,7 +103,7 @@ impl Author {
             .similarity
             .iter()
             .fold(f64::NEG_INFINITY, |best, &s| best.max(f64::from(s)));
-        Ok(Prompted {
+        Ok(Projection {
             z: projected.z,
             felt: projected.felt.map(|felt| felt.map(|x| Some(x.into()))),
             similarity,
@@ -119,7 +119,7 @@ impl Author {
     }
 
     fn read(&self, prompt: &str) -> Result<Read, PromptError> {
-        if let Some(read) = self.ahead.read(prompt) {
+        if let Some(read) = self.cache.read(prompt) {
             return Ok(read);
         }
         let encoded = self.text.encode(prompt)?;
@@ -129,7 +129,7 @@ impl Author {
 
     /// The parameters that a latent decodes to.
     pub(super) fn decoded(&self, z: &Latent) -> Result<Arc<Decoded>, ModelError> {
-        match self.ahead.decoded(z) {
+        match self.cache.decoded(z) {
             Some(decoded) => Ok(decoded),
             None => Ok(Arc::new(self.model.decode(z)?)),
         }
@@ -143,9 +143,9 @@ impl Author {
         pipeline: &mut Pipeline,
     ) -> Result<Sourced, PromptError> {
         let prompt = prompt.trim();
-        let prompted = pipeline.run(Pass::Text, || self.project(prompt))?;
-        let (z, wanted) = pipeline.run(Pass::Text, || self.said(prompt, &prompted))?;
-        let meant = pipeline.run(Pass::Decode, || self.meant(z, wanted))?;
+        let projection = pipeline.run(Pass::Text, || self.project(prompt))?;
+        let (z, wanted) = pipeline.run(Pass::Text, || self.resolve_target(prompt, &projection))?;
+        let meant = pipeline.run(Pass::Decode, || self.decode_target(z, wanted))?;
         let shift = meant.shift;
         let z = varied(meant.z, &self.model.description().spread, seed);
         let decoded = pipeline.run(Pass::Decode, || match seed {
@@ -159,23 +159,23 @@ impl Author {
             latents: Latents::whole(z).shifted(shift),
             history: History::default(),
         };
-        let authored = Authored {
+        let compiled = CompiledPrompt {
             z,
             shift,
             nearest: self.nearest(&neighbours),
-            certainty: prompted.certainty,
-            unfamiliar: prompted.unfamiliar,
-            similarity: prompted.similarity,
-            tokens: prompted.tokens,
-            understood: prompted.understood,
+            certainty: projection.certainty,
+            unfamiliar: projection.unfamiliar,
+            similarity: projection.similarity,
+            tokens: projection.tokens,
+            understood: projection.understood,
         };
         Ok(Sourced {
             // Latents far from anything trained can decode to models that ring.
             ringing: Ringing::Stabilised,
             memory: Some(memory),
-            certainty: Some(authored.certainty),
-            warnings: authored.warnings(),
-            findings: Some(Arc::new(authored)),
+            certainty: Some(compiled.certainty),
+            warnings: compiled.warnings(),
+            findings: Some(Arc::new(compiled)),
             ..Sourced::new(texture)
         })
     }
@@ -215,7 +215,7 @@ impl Author {
 
 /// A prompt in the latent.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Prompted {
+pub struct Projection {
     /// The latent.
     pub z: Latent,
     /// The attributes that the words ask for, if the model says.

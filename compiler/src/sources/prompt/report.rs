@@ -1,11 +1,11 @@
 //! The report of a compiled prompt, as text and as JSON.
 
-use super::Authored;
+use super::CompiledPrompt;
 use crate::compiled::{Compiled, Findings};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-impl Authored {
+impl CompiledPrompt {
     /// Whether the prompt is far from anything the model was trained on.
     #[must_use]
     pub fn is_uncertain(&self) -> bool {
@@ -46,7 +46,7 @@ impl Authored {
     }
 }
 
-impl Findings for Authored {
+impl Findings for CompiledPrompt {
     fn text(&self, compiled: &Compiled) -> String {
         let mut text = String::new();
         let mut line = |what: &str, value: String| {

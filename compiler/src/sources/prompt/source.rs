@@ -67,8 +67,8 @@ impl Source for Prompt {
         pipeline: &mut Pipeline,
     ) -> Result<Sourced, Failure> {
         check(&self.text)?;
-        let author = tools.author()?;
-        let mut sourced = author.sourced(&self.text, self.seed, pipeline)?;
+        let prompt_compiler = tools.prompt_compiler()?;
+        let mut sourced = prompt_compiler.sourced(&self.text, self.seed, pipeline)?;
         if let Some(Picture { png, made }) = &self.picture {
             let notes = &mut sourced.texture.provenance.notes;
             *notes = format!("{notes} Preview {made}.").trim().to_owned();

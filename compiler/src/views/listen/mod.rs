@@ -35,14 +35,14 @@ pub struct Stroke {
 
 /// What the hand does.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Session {
+pub struct Gesture {
     /// Strokes, one after the other.
     pub strokes: Vec<Stroke>,
     /// Whether taps follow: slow, middling and fast among those that the texture holds.
     pub taps: bool,
 }
 
-impl Session {
+impl Gesture {
     /// A few strokes and taps.
     #[must_use]
     pub fn usual() -> Self {
@@ -176,7 +176,7 @@ pub struct Performance {
 /// [`ListenError`].
 pub fn perform(
     asset: &Asset<'_>,
-    session: &Session,
+    session: &Gesture,
     rate_hz: Option<f32>,
     seed: u64,
 ) -> Result<Performance, ListenError> {
@@ -248,7 +248,7 @@ pub fn perform(
 /// [`ListenError`].
 pub fn listen(
     asset: &Asset<'_>,
-    session: &Session,
+    session: &Gesture,
     rate_hz: Option<f32>,
     seed: u64,
 ) -> Result<Heard, ListenError> {

@@ -5,7 +5,7 @@ use crate::{emit::lower::lower, model::TextureModel, sources::builtin};
 
 fn heard(
     texture: &TextureModel,
-    session: &Session,
+    session: &Gesture,
     rate_hz: Option<f32>,
 ) -> Result<(Heard, Vec<f64>), ListenError> {
     let bytes = lower(texture, None).unwrap().bytes;
@@ -38,7 +38,7 @@ fn stroke(samples: &[f64], n: usize) -> &[f64] {
 
 #[test]
 fn faster_strokes_are_louder_and_the_loudest_sample_is_one_db_below_full_scale() {
-    let (heard, samples) = heard(&builtin::texture(), &Session::usual(), None).unwrap();
+    let (heard, samples) = heard(&builtin::texture(), &Gesture::usual(), None).unwrap();
     assert_eq!((heard.strokes.count, heard.taps.count), (6, 3));
     assert!(rms(stroke(&samples, 2)) > 1.1 * rms(stroke(&samples, 0)));
     let peak = samples.iter().fold(0.0f64, |peak, x| peak.max(x.abs()));
@@ -53,7 +53,7 @@ fn faster_strokes_are_louder_and_the_loudest_sample_is_one_db_below_full_scale()
 
 #[test]
 fn the_gain_leads_from_the_samples_back_to_the_acceleration() {
-    let session = Session::asked(Some(100.0), Some(1.0), false);
+    let session = Gesture::asked(Some(100.0), Some(1.0), false);
     let quiet = builtin::texture();
     let mut loud = quiet.clone();
     for vertex in &mut loud.grid.vertices {
@@ -70,7 +70,7 @@ fn the_gain_leads_from_the_samples_back_to_the_acceleration() {
 #[test]
 fn taps_alone_are_as_many_as_the_texture_has_speeds_for() {
     let (heard, samples) =
-        heard(&builtin::texture(), &Session::asked(None, None, true), None).unwrap();
+        heard(&builtin::texture(), &Gesture::asked(None, None, true), None).unwrap();
     assert_eq!((heard.strokes.count, heard.taps.count), (0, 3));
     let third = samples.len() / 3;
     let loudest = |part: &[f64]| part.iter().fold(0.0f64, |peak, x| peak.max(x.abs()));
@@ -84,9 +84,9 @@ fn taps_alone_are_as_many_as_the_texture_has_speeds_for() {
 fn a_texture_without_taps_is_said_to_have_none() {
     let mut texture = builtin::texture();
     texture.taps.traces.clear();
-    let refused = heard(&texture, &Session::asked(None, None, true), None).unwrap_err();
+    let refused = heard(&texture, &Gesture::asked(None, None, true), None).unwrap_err();
     assert!(matches!(refused, ListenError::NoTaps { .. }) && refused.is_usage());
-    let (heard, _) = heard(&texture, &Session::usual(), None).unwrap();
+    let (heard, _) = heard(&texture, &Gesture::usual(), None).unwrap();
     assert_eq!(heard.taps.count, 0);
     assert!(
         heard.warnings[0].contains("no taps"),
@@ -97,7 +97,7 @@ fn a_texture_without_taps_is_said_to_have_none() {
 
 #[test]
 fn the_rate_of_the_loop_has_to_suit_the_texture() {
-    let session = Session::asked(Some(500.0), None, false);
+    let session = Gesture::asked(Some(500.0), None, false);
     assert!(matches!(
         heard(&builtin::texture(), &session, Some(1234.5)),
         Err(ListenError::Load { .. })

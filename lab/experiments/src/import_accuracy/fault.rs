@@ -15,7 +15,7 @@ use asperity_sim::random::unit;
 
 /// A fault of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fault {
+pub enum RecordingFault {
     /// The accelerometer or the force sensor saturates.
     Clipping,
     /// A channel holds, zeroes or loses its values for some tens of milliseconds, several times.
@@ -28,7 +28,7 @@ pub enum Fault {
     By1000,
 }
 
-impl Fault {
+impl RecordingFault {
     /// All of them.
     pub const ALL: [Self; 5] = [
         Self::Clipping,
@@ -65,7 +65,7 @@ impl Fault {
 pub fn faulty(
     performance: &Performance,
     texture: &TextureModel,
-    fault: Fault,
+    fault: RecordingFault,
     seed: u64,
     folder: &Path,
 ) -> io::Result<&'static str> {
@@ -74,7 +74,7 @@ pub fn faulty(
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ 0xFA01_7000);
     let mut pick = |count: usize| (unit(&mut rng) * count as f64) as usize;
     let file = match fault {
-        Fault::Clipping => {
+        RecordingFault::Clipping => {
             let (axes, file) = if pick(2) == 0 {
                 (&mut measured.accel, "accel.wav")
             } else {
@@ -85,7 +85,7 @@ pub fn faulty(
             clip(&mut axes[axis], 0.45 + 0.04 * pick(6) as f64);
             file
         }
-        Fault::DropOuts => {
+        RecordingFault::DropOuts => {
             let (axes, file, rate) = match pick(3) {
                 0 => (&mut measured.accel, "accel.wav", sensors.accel_hz),
                 1 => (&mut measured.force, "force.npy", sensors.force_hz),
@@ -104,13 +104,13 @@ pub fn faulty(
             }
             file
         }
-        Fault::Misaligned => {
+        RecordingFault::Misaligned => {
             let which = 1 + pick(2);
             let late_s = if pick(2) == 0 { 0.02 } else { -0.02 };
             sensors.late_s[which] += late_s;
             ["accel.wav", "force.npy", "position.csv"][which]
         }
-        Fault::By9Point81 => {
+        RecordingFault::By9Point81 => {
             let file = if pick(2) == 0 {
                 "accel.wav"
             } else {
@@ -124,7 +124,7 @@ pub fn faulty(
             scale(&mut measured, file, factor);
             file
         }
-        Fault::By1000 => {
+        RecordingFault::By1000 => {
             let file = ["accel.wav", "force.npy", "position.csv"][pick(3)];
             scale(
                 &mut measured,

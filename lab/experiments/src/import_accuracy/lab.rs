@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{
     error::ImportAccuracyError,
-    fault::{Fault, faulty},
+    fault::{RecordingFault, faulty},
     perform::{Until, perform, perform_sine},
     sensors::{Sensors, record},
     truth::{Cell, Comparison, compare},
@@ -249,7 +249,7 @@ pub fn checks(
                 .collect(),
             Err(error) => vec![format!("{}, seed {seed}: {error}", texture.name)],
         };
-        let fault = Fault::ALL[index % Fault::ALL.len()];
+        let fault = RecordingFault::ALL[index % RecordingFault::ALL.len()];
         let file = faulty(&performance, texture, fault, seed, &folder.0)?;
         let missed = match recording::check(&folder.0) {
             Ok((_, checked, _)) if fault.is_named(&checked, file) => None,

@@ -14,7 +14,7 @@ mod tool;
 mod truth;
 
 pub use error::ImportAccuracyError;
-pub use fault::{Fault, faulty};
+pub use fault::{RecordingFault, faulty};
 pub use lab::{Checks, Figures, GOAL_DB, LOUD_DB, Row, checks, learn, summary};
 pub use perform::{Performance, Until, perform, perform_sine};
 pub use sensors::{BENT_S, GRAVITY_M_S2, HAND_HALF, across, of_tool};

@@ -6,7 +6,7 @@ use thiserror::Error;
 /// allocation, since the servo thread makes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Error)]
 #[non_exhaustive]
-pub enum Fault {
+pub enum DeviceError {
     /// Nothing came within the time.
     #[error("the device did not answer in time")]
     TimedOut,

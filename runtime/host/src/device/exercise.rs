@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use asperity_runtime::{Config, HostTexture, Output, Renderer, Sample, State};
 use serde::Serialize;
 
-use super::{Description, Device, Fault};
+use super::{Description, Device, DeviceError};
 
 /// Time that a device has for its answer where the ticks wait for it.
 const ANSWER: Duration = Duration::from_millis(50);
@@ -169,10 +169,10 @@ pub fn exercise(
 }
 
 /// Whether a fault does not go away by waiting for the next tick.
-fn away(fault: Fault) -> bool {
+fn away(fault: DeviceError) -> bool {
     matches!(
         fault,
-        Fault::Disconnected | Fault::TimedOut | Fault::NotCalibrated
+        DeviceError::Disconnected | DeviceError::TimedOut | DeviceError::NotCalibrated
     )
 }
 

@@ -5,9 +5,9 @@
 //! allocate nor print, and they return within the period.
 
 pub mod dhd;
+mod error;
 pub mod exercise;
 pub mod falcon;
-mod fault;
 pub mod faulty;
 mod null;
 mod open;
@@ -21,7 +21,7 @@ mod uri;
 pub mod usb;
 pub mod vendor_library;
 
-pub use fault::Fault;
+pub use error::DeviceError;
 pub use null::NullDevice;
 pub use open::{OpenError, open};
 pub use uri::{Scheme, Uri, UriError};
@@ -63,22 +63,22 @@ pub trait Device: Send {
     /// false.
     ///
     /// # Errors
-    /// [`Fault`] where nothing can be read in this period. The loop goes on, and asks again in the
+    /// [`DeviceError`] where nothing can be read in this period. The loop goes on, and asks again in the
     /// next one.
-    fn read(&mut self) -> Result<Reading, Fault>;
+    fn read(&mut self) -> Result<Reading, DeviceError>;
 
     /// Commands a force in the world frame, N. It holds until the next.
     ///
     /// # Errors
-    /// [`Fault`] where the command did not reach the device.
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault>;
+    /// [`DeviceError`] where the command did not reach the device.
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError>;
 
     /// Tries to recover a device whose last call failed. It is called outside the servo thread's
     /// periods while the force is zero, and may allocate and wait.
     ///
     /// # Errors
-    /// [`Fault`] while the device is still away.
-    fn recover(&mut self) -> Result<(), Fault> {
+    /// [`DeviceError`] while the device is still away.
+    fn recover(&mut self) -> Result<(), DeviceError> {
         Ok(())
     }
 }
@@ -88,15 +88,15 @@ impl<D: Device + ?Sized> Device for &mut D {
         (**self).description()
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         (**self).read()
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         (**self).write(force_n)
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         (**self).recover()
     }
 }

@@ -1,6 +1,6 @@
 //! No device: it rests where it is told to, and takes any force.
 
-use super::{Description, Device, Fault, Reading, Uri, open::OpenError};
+use super::{Description, Device, DeviceError, Reading, Uri, open::OpenError};
 
 /// Where it rests unless it is told otherwise, m: in free air over the plane z = 0.
 const FREE_AIR_M: f32 = 0.05;
@@ -52,7 +52,7 @@ impl Device for NullDevice {
         &self.description
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         Ok(Reading {
             position_m: [0.0, 0.0, self.z_m],
             fresh: true,
@@ -60,7 +60,7 @@ impl Device for NullDevice {
         })
     }
 
-    fn write(&mut self, _: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, _: [f32; 3]) -> Result<(), DeviceError> {
         Ok(())
     }
 }

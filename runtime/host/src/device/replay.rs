@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::{Description, Device, Fault, Reading, Uri, UriError};
-use crate::recording::{Ending, Recording, RecordingError};
+use super::{Description, Device, DeviceError, Reading, Uri, UriError};
+use crate::session_log::{Ending, SessionLog, SessionLogError};
 
 /// What happens after the last tick of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -34,7 +34,7 @@ pub enum ReplayError {
         /// The file.
         path: String,
         /// Why.
-        source: RecordingError,
+        source: SessionLogError,
     },
     /// The file has no tick.
     #[error("{0}: the recording has no tick")]
@@ -57,11 +57,11 @@ impl ReplayError {
 ///
 /// Each reading is the next recorded tick, its faults included. Periods that the recorded loop
 /// missed cannot be missed again, so forces repeat to the bit where none was missed;
-/// [`render_again`](crate::recording::render_again) repeats them in any case.
+/// [`render_again`](crate::session_log::render_again) repeats them in any case.
 #[derive(Debug)]
 pub struct Replay {
     description: Description,
-    recording: Recording,
+    recording: SessionLog,
     at_end: AtEnd,
     /// The tick that was read last, plus one.
     next: usize,
@@ -86,7 +86,7 @@ impl Replay {
             Some(other) => return Err(ReplayError::End(other.into())),
         };
         let recording =
-            Recording::open(Path::new(&uri.which)).map_err(|source| ReplayError::File {
+            SessionLog::open(Path::new(&uri.which)).map_err(|source| ReplayError::File {
                 path: uri.which.clone(),
                 source,
             })?;
@@ -97,7 +97,7 @@ impl Replay {
     ///
     /// # Errors
     /// [`ReplayError::Empty`].
-    pub fn new(recording: Recording, at_end: AtEnd, name: &str) -> Result<Self, ReplayError> {
+    pub fn new(recording: SessionLog, at_end: AtEnd, name: &str) -> Result<Self, ReplayError> {
         if recording.entries.is_empty() {
             return Err(ReplayError::Empty(name.into()));
         }
@@ -133,7 +133,7 @@ impl Replay {
 
     /// The recording.
     #[must_use]
-    pub fn recording(&self) -> &Recording {
+    pub fn recording(&self) -> &SessionLog {
         &self.recording
     }
 
@@ -149,12 +149,12 @@ impl Device for Replay {
         &self.description
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         let entries = &self.recording.entries;
         if self.next == entries.len() && self.at_end == AtEnd::Loop {
             self.next = 0;
         }
-        let entry = entries.get(self.next).ok_or(Fault::Disconnected)?;
+        let entry = entries.get(self.next).ok_or(DeviceError::Disconnected)?;
         self.next += 1;
         if let Some(fault) = entry.read_fault {
             return Err(fault);
@@ -172,7 +172,7 @@ impl Device for Replay {
         Ok(self.last)
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         let recorded = self
             .next
             .checked_sub(1)
@@ -185,11 +185,11 @@ impl Device for Replay {
         Ok(())
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         if self.next < self.recording.entries.len() || self.at_end == AtEnd::Loop {
             Ok(())
         } else {
-            Err(Fault::Disconnected)
+            Err(DeviceError::Disconnected)
         }
     }
 }

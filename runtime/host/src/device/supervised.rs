@@ -10,10 +10,10 @@
 
 use asperity_runtime::{Config, Sample, math::norm};
 
-use super::{Device, Fault, Reading};
+use super::{Device, DeviceError, Reading};
 
 /// Positions that a hand on a desk can have. Others are damage, and count as
-/// [`Fault::Garbled`].
+/// [`DeviceError::Garbled`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plausible {
     /// The farthest coordinate, m.
@@ -33,13 +33,13 @@ impl Default for Plausible {
 
 /// What a period begins with.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seen {
+pub struct ReadOutcome {
     /// What the tick is given.
     pub sample: Sample,
     /// Buttons that are held.
     pub buttons: u32,
     /// What is wrong in this period.
-    pub fault: Option<Fault>,
+    pub fault: Option<DeviceError>,
     /// What to tell the user, once for each fault however long it lasts.
     pub report: Option<Report>,
 }
@@ -48,11 +48,11 @@ pub struct Seen {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Report {
     /// A fault began.
-    Began(Fault),
+    Began(DeviceError),
     /// It is over.
     Ended {
         /// What began it.
-        fault: Fault,
+        fault: DeviceError,
         /// Periods that it lasted.
         periods: u32,
     },
@@ -60,7 +60,7 @@ pub enum Report {
 
 /// What happened so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Tally {
+pub struct DeviceStats {
     /// Periods.
     pub periods: u64,
     /// Periods that the loop missed.
@@ -80,7 +80,7 @@ pub struct Tally {
 }
 
 /// Readings in a row that are not fresh, and no fault yet.
-const FORGIVEN: u32 = 2;
+const MAX_STALE_READS: u32 = 2;
 
 /// A device with its faults under control.
 #[derive(Debug)]
@@ -94,15 +94,15 @@ pub struct Supervised<D> {
     since: u32,
     last: Option<Reading>,
     /// What the last reading and the last force said.
-    read_fault: Option<Fault>,
-    write_fault: Option<Fault>,
+    read_fault: Option<DeviceError>,
+    write_fault: Option<DeviceError>,
     quiet: u32,
     /// What began the fault that lasts, and for how many periods.
-    episode: Option<(Fault, u32)>,
+    episode: Option<(DeviceError, u32)>,
     /// The force that was asked for last, and the one that the device took last, N.
     wanted_n: [f32; 3],
     held_n: [f32; 3],
-    tally: Tally,
+    tally: DeviceStats,
 }
 
 impl<D: Device> Supervised<D> {
@@ -122,7 +122,7 @@ impl<D: Device> Supervised<D> {
             episode: None,
             wanted_n: [0.0; 3],
             held_n: [0.0; 3],
-            tally: Tally::default(),
+            tally: DeviceStats::default(),
         }
     }
 
@@ -137,7 +137,7 @@ impl<D: Device> Supervised<D> {
     }
 
     /// What happened so far.
-    pub fn tally(&self) -> Tally {
+    pub fn tally(&self) -> DeviceStats {
         self.tally
     }
 
@@ -148,7 +148,7 @@ impl<D: Device> Supervised<D> {
 
     /// Begins a period. `periods` passed since the last call by the loop's clock: 1 in a healthy
     /// loop.
-    pub fn read(&mut self, periods: u32) -> Seen {
+    pub fn read(&mut self, periods: u32) -> ReadOutcome {
         self.tally.periods += 1;
         self.tally.missed += u64::from(periods.saturating_sub(1));
         self.since = self.since.saturating_add(periods);
@@ -165,7 +165,7 @@ impl<D: Device> Supervised<D> {
             self.quiet.saturating_add(1)
         };
         self.tally.stale += u64::from(read.is_ok_and(|reading| !reading.fresh));
-        let silence = (self.quiet > FORGIVEN).then_some(Fault::TimedOut);
+        let silence = (self.quiet > MAX_STALE_READS).then_some(DeviceError::TimedOut);
         let fault = self.write_fault.or(self.read_fault).or(silence);
         let sample = match fresh.filter(|_| fault.is_none()) {
             Some(reading) => {
@@ -180,7 +180,7 @@ impl<D: Device> Supervised<D> {
         if let Some(reading) = fresh {
             self.last = Some(reading);
         }
-        Seen {
+        ReadOutcome {
             sample,
             buttons: self.last.map_or(0, |reading| reading.buttons),
             fault,
@@ -189,7 +189,7 @@ impl<D: Device> Supervised<D> {
     }
 
     /// Whether a reading can be one of a hand.
-    fn plausible(&self, reading: Reading) -> Result<Reading, Fault> {
+    fn plausible(&self, reading: Reading) -> Result<Reading, DeviceError> {
         let Plausible {
             reach_m,
             fastest_m_s,
@@ -205,12 +205,12 @@ impl<D: Device> Supervised<D> {
         if good {
             Ok(reading)
         } else {
-            Err(Fault::Garbled)
+            Err(DeviceError::Garbled)
         }
     }
 
     /// The first and the last period of a fault are news.
-    fn report(&mut self, fault: Option<Fault>, fresh: bool) -> Option<Report> {
+    fn report(&mut self, fault: Option<DeviceError>, fresh: bool) -> Option<Report> {
         match (self.episode, fault) {
             (None, Some(fault)) => {
                 self.episode = Some((fault, 1));
@@ -235,8 +235,8 @@ impl<D: Device> Supervised<D> {
     /// Ends a period with a force, N.
     ///
     /// # Errors
-    /// [`Fault`]: the force did not arrive. The next period begins with a stale sample.
-    pub fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    /// [`DeviceError`]: the force did not arrive. The next period begins with a stale sample.
+    pub fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         self.wanted_n = force_n;
         let eased = self.eased(force_n);
         self.tally.eased += u64::from(eased != force_n);
@@ -246,7 +246,7 @@ impl<D: Device> Supervised<D> {
             Ok(()) => self.held_n = eased,
             Err(fault) => {
                 self.tally.write_faults += 1;
-                if fault == Fault::Disconnected {
+                if fault == DeviceError::Disconnected {
                     // It has no power, so it holds no force.
                     self.held_n = [0.0; 3];
                 }
@@ -279,8 +279,8 @@ impl<D: Device> Supervised<D> {
     /// Tries to bring the device back. It may take its time; call it between periods.
     ///
     /// # Errors
-    /// [`Fault`] while the device is still away.
-    pub fn recover(&mut self) -> Result<(), Fault> {
+    /// [`DeviceError`] while the device is still away.
+    pub fn recover(&mut self) -> Result<(), DeviceError> {
         self.device.recover()?;
         self.tally.recoveries += 1;
         Ok(())

@@ -1,6 +1,6 @@
 //! A controlled delay in one stage of some ticks: a measurement that does not find it is none.
 
-use crate::device::{Description, Device, Fault, Reading};
+use crate::device::{Description, Device, DeviceError, Reading};
 use crate::servo::{Clock, Render, Stage};
 use asperity_runtime::{Config, Counters, Output, Sample};
 use std::fmt;
@@ -96,17 +96,17 @@ impl<D: Device, C: Clock + Send> Device for Delayed<D, C> {
         self.inner.description()
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         self.pass(Stage::Read);
         self.inner.read()
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         self.pass(Stage::Write);
         self.inner.write(force_n)
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         self.inner.recover()
     }
 }

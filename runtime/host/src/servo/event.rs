@@ -1,6 +1,6 @@
 //! What a servo loop tells once, apart from its records.
 
-use crate::device::{Fault, supervised};
+use crate::device::{DeviceError, supervised};
 
 /// What a servo loop tells once, apart from its records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,7 +11,7 @@ pub enum Event {
         /// Period since the loop began.
         period: u64,
         /// The first fault.
-        fault: Fault,
+        fault: DeviceError,
     },
     /// The device answers again.
     Back {
@@ -25,7 +25,7 @@ pub enum Event {
         /// Period since the loop began.
         period: u64,
         /// Why.
-        fault: Fault,
+        fault: DeviceError,
     },
 }
 

@@ -24,7 +24,7 @@ use super::{
     times::Times,
 };
 use crate::device::supervised::{Plausible, Supervised};
-use crate::device::{Device, Fault, Reading};
+use crate::device::{Device, DeviceError, Reading};
 use asperity_runtime::{Sample, math::rounds_to_nearest};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -155,7 +155,7 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
 
         let refused = self.device.tally().read_faults > read_faults;
         let reading = match self.device.device().last() {
-            Ok(_) if refused => Err(Fault::Garbled),
+            Ok(_) if refused => Err(DeviceError::Garbled),
             heard => heard,
         };
         let record = Record {

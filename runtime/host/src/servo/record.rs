@@ -1,7 +1,7 @@
 //! What a tick leaves behind, and who takes it.
 
 use super::{event::Event, times::Times};
-use crate::device::{Fault, Reading};
+use crate::device::{DeviceError, Reading};
 use asperity_runtime::{Output, Sample};
 
 /// Everything about one tick.
@@ -15,8 +15,8 @@ pub struct Record {
     pub missed: u64,
     /// When each stage ended.
     pub times: Times,
-    /// What the device said; a position that no hand can have is [`Fault::Garbled`].
-    pub reading: Result<Reading, Fault>,
+    /// What the device said; a position that no hand can have is [`DeviceError::Garbled`].
+    pub reading: Result<Reading, DeviceError>,
     /// What the runtime was given.
     pub sample: Sample,
     /// What the runtime answered.
@@ -24,7 +24,7 @@ pub struct Record {
     /// How often another texture has begun to play, up to this tick.
     pub exchanges: u32,
     /// Whether the force reached the device.
-    pub written: Result<(), Fault>,
+    pub written: Result<(), DeviceError>,
 }
 
 /// Takes records and events on the servo thread. It neither allocates, locks, prints nor waits.

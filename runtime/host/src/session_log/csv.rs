@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::Recording;
+use super::SessionLog;
 
 /// Names of the columns.
 pub const COLUMNS: &str = "tick,t_s,elapsed_ticks,x_m,y_m,z_m,fx_n,fy_n,fz_n,buttons,flags,texture,read_fault,write_fault,lost_before";
@@ -12,7 +12,7 @@ pub const COLUMNS: &str = "tick,t_s,elapsed_ticks,x_m,y_m,z_m,fx_n,fy_n,fz_n,but
 ///
 /// # Errors
 /// What the system says.
-pub fn write(recording: &Recording, to: &mut impl Write) -> io::Result<()> {
+pub fn write(recording: &SessionLog, to: &mut impl Write) -> io::Result<()> {
     writeln!(to, "{COLUMNS}")?;
     let rate_hz = f64::from(recording.conditions.config.servo_rate_hz);
     let (mut tick, mut texture) = (0_u64, 0_u64);
@@ -21,7 +21,7 @@ pub fn write(recording: &Recording, to: &mut impl Write) -> io::Result<()> {
         texture += u64::from(entry.next_texture);
         let [x, y, z] = entry.sample.position_m;
         let [fx, fy, fz] = entry.force_n;
-        let words = |fault: Option<crate::device::Fault>| {
+        let words = |fault: Option<crate::device::DeviceError>| {
             fault.map(|fault| fault.to_string()).unwrap_or_default()
         };
         writeln!(

@@ -2,7 +2,7 @@
 
 use asperity_runtime::{Output, Sample};
 
-use crate::device::Fault;
+use crate::device::DeviceError;
 
 /// One tick: what went into the renderer, and what came out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,9 +16,9 @@ pub struct Entry {
     /// Buttons that were held.
     pub buttons: u32,
     /// Why the device gave nothing in this period.
-    pub read_fault: Option<Fault>,
+    pub read_fault: Option<DeviceError>,
     /// Why the force did not reach the device in this period.
-    pub write_fault: Option<Fault>,
+    pub write_fault: Option<DeviceError>,
     /// Whether the next texture that was announced began to play in this tick.
     pub next_texture: bool,
     /// Ticks before this one that were not recorded, since the queue was full.

@@ -5,7 +5,7 @@ use thiserror::Error;
 /// Why a recording cannot be read or written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum RecordingError {
+pub enum SessionLogError {
     /// The system refused to read or write.
     #[error("{0}")]
     Io(#[from] std::io::Error),
@@ -42,7 +42,7 @@ pub enum RecordingError {
     Writer,
 }
 
-impl RecordingError {
+impl SessionLogError {
     /// What to do about it.
     #[must_use]
     pub fn remedy(&self) -> &'static str {

@@ -7,7 +7,7 @@ use crate::regular;
 
 use super::block::{self, Kind, Next};
 use super::record::{self, Before};
-use super::{Conditions, Entry, RecordingError, TextureInfo};
+use super::{Conditions, Entry, SessionLogError, TextureInfo};
 
 /// The first bytes of a recording.
 const MAGIC: [u8; 4] = *b"ASPR";
@@ -42,8 +42,8 @@ impl<W: Write> Encoder<W> {
     /// Begins a recording.
     ///
     /// # Errors
-    /// [`RecordingError::Io`].
-    pub fn new(mut to: W, conditions: &Conditions) -> Result<Self, RecordingError> {
+    /// [`SessionLogError::Io`].
+    pub fn new(mut to: W, conditions: &Conditions) -> Result<Self, SessionLogError> {
         let head = serde_json::to_vec(conditions).map_err(std::io::Error::from)?;
         to.write_all(&MAGIC)?;
         to.write_all(&VERSION.to_le_bytes())?;
@@ -61,8 +61,8 @@ impl<W: Write> Encoder<W> {
     /// Appends a tick. Every 250 ticks a block goes out.
     ///
     /// # Errors
-    /// [`RecordingError::Io`].
-    pub fn push(&mut self, entry: &Entry) -> Result<(), RecordingError> {
+    /// [`SessionLogError::Io`].
+    pub fn push(&mut self, entry: &Entry) -> Result<(), SessionLogError> {
         record::encode(&mut self.body, &mut self.before, entry);
         self.in_block += 1;
         self.recorded += 1;
@@ -75,8 +75,8 @@ impl<W: Write> Encoder<W> {
     /// Says which texture is the next to play.
     ///
     /// # Errors
-    /// [`RecordingError::Io`].
-    pub fn announce(&mut self, texture: &TextureInfo) -> Result<(), RecordingError> {
+    /// [`SessionLogError::Io`].
+    pub fn announce(&mut self, texture: &TextureInfo) -> Result<(), SessionLogError> {
         self.flush()?;
         let body = serde_json::to_vec(texture).map_err(std::io::Error::from)?;
         Ok(block::write(&mut self.to, Kind::Texture, &body)?)
@@ -85,8 +85,8 @@ impl<W: Write> Encoder<W> {
     /// Writes what is waiting.
     ///
     /// # Errors
-    /// [`RecordingError::Io`].
-    pub fn flush(&mut self) -> Result<(), RecordingError> {
+    /// [`SessionLogError::Io`].
+    pub fn flush(&mut self) -> Result<(), SessionLogError> {
         if self.in_block > 0 {
             let mut body = Vec::with_capacity(self.body.len() + 4);
             record::put(&mut body, self.in_block as u64);
@@ -100,8 +100,8 @@ impl<W: Write> Encoder<W> {
     /// Ends the recording.
     ///
     /// # Errors
-    /// [`RecordingError::Io`].
-    pub fn finish(mut self, lost: u64) -> Result<(W, Summary), RecordingError> {
+    /// [`SessionLogError::Io`].
+    pub fn finish(mut self, lost: u64) -> Result<(W, Summary), SessionLogError> {
         self.flush()?;
         let recorded = self.recorded;
         let mut body = Vec::new();
@@ -129,7 +129,7 @@ pub enum Ending {
 
 /// A recording that was read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Recording {
+pub struct SessionLog {
     /// Under which conditions it was made.
     pub conditions: Conditions,
     /// The textures that played after the first, in order.
@@ -140,12 +140,12 @@ pub struct Recording {
     pub ending: Ending,
 }
 
-impl Recording {
+impl SessionLog {
     /// Opens and reads a file.
     ///
     /// # Errors
-    /// [`RecordingError`].
-    pub fn open(path: &Path) -> Result<Self, RecordingError> {
+    /// [`SessionLogError`].
+    pub fn open(path: &Path) -> Result<Self, SessionLogError> {
         Self::read(&mut BufReader::new(regular::open(path)?))
     }
 
@@ -153,18 +153,18 @@ impl Recording {
     /// [`MAX_TICKS`] up to the last block within.
     ///
     /// # Errors
-    /// [`RecordingError`]: no recording, a newer one, or one whose conditions are damaged.
-    pub fn read(from: &mut impl Read) -> Result<Self, RecordingError> {
+    /// [`SessionLogError`]: no recording, a newer one, or one whose conditions are damaged.
+    pub fn read(from: &mut impl Read) -> Result<Self, SessionLogError> {
         Self::read_at_most(from, MAX_TICKS)
     }
 
-    fn read_at_most(from: &mut impl Read, most: usize) -> Result<Self, RecordingError> {
+    fn read_at_most(from: &mut impl Read, most: usize) -> Result<Self, SessionLogError> {
         let mut from = Counted { from, count: 0 };
         let conditions = head(&mut from)?;
         let (mut textures, mut entries) = (Vec::new(), Vec::new());
         let ending = loop {
             let at = from.count;
-            let malformed = |why| RecordingError::Malformed { at, why };
+            let malformed = |why| SessionLogError::Malformed { at, why };
             match block::read(&mut from)? {
                 Next::Block(Kind::Ticks, body) => {
                     if !ticks(&body, &mut entries, most).map_err(malformed)? {
@@ -219,21 +219,21 @@ impl Recording {
 }
 
 /// Magic, version and conditions.
-fn head(from: &mut impl Read) -> Result<Conditions, RecordingError> {
+fn head(from: &mut impl Read) -> Result<Conditions, SessionLogError> {
     let mut start = [0; 8];
     let got = block::fill(from, &mut start)?;
     if got < 4 || start[..4] != MAGIC {
-        return Err(RecordingError::Foreign {
+        return Err(SessionLogError::Foreign {
             found: start[..got.min(4)].to_vec(),
         });
     }
-    let damaged = |why: &str| RecordingError::Conditions { why: why.into() };
+    let damaged = |why: &str| SessionLogError::Conditions { why: why.into() };
     if got < start.len() {
         return Err(damaged("the file ends before them"));
     }
     let found = u16::from_le_bytes([start[4], start[5]]);
     if found != VERSION {
-        return Err(RecordingError::Version {
+        return Err(SessionLogError::Version {
             found,
             known: VERSION,
         });
@@ -329,7 +329,7 @@ mod tests {
             encoder.push(&nothing).expect("memory takes it");
         }
         let (bytes, _) = encoder.finish(0).expect("memory takes it");
-        let read = |most| Recording::read_at_most(&mut &bytes[..], most).expect("a recording");
+        let read = |most| SessionLog::read_at_most(&mut &bytes[..], most).expect("a recording");
         assert!(matches!(read(4 * PER_BLOCK).ending, Ending::Whole(_)));
         let part = read(3 * PER_BLOCK + 1);
         assert_eq!(part.entries.len(), 3 * PER_BLOCK);

@@ -3,7 +3,7 @@
 //! `docs/recording-format.md` specifies the bytes. A servo thread hands an [`Entry`] a tick to a
 //! [`Recorder`], which never waits; [`FromServo`] makes entries of what a servo loop sends to another
 //! thread. The file is written in blocks with a checksum each, so that one that was cut is readable
-//! up to its last whole block. [`Recording`] reads
+//! up to its last whole block. [`SessionLog`] reads
 //! one, [`csv`] exports it, and [`render_again`] renders it anew and compares every bit of force.
 
 mod block;
@@ -20,8 +20,8 @@ mod render_again;
 
 pub use conditions::{Conditions, TextureInfo};
 pub use entry::Entry;
-pub use error::RecordingError;
-pub use file::{Encoder, Ending, MAX_TICKS, Recording, Summary};
+pub use error::SessionLogError;
+pub use file::{Encoder, Ending, MAX_TICKS, SessionLog, Summary};
 pub use from_servo::FromServo;
 pub use pace::pace;
 pub use recorder::{Recorder, Writing, start};

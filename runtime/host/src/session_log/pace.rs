@@ -1,6 +1,6 @@
 //! How many periods lie between the readings of a recording, for a servo loop that plays it.
 
-use super::{Entry, Recording};
+use super::{Entry, SessionLog};
 use crate::servo::Pace;
 
 /// The pace of a recording as a device. A sample says how many periods passed since the one before,
@@ -9,7 +9,7 @@ use crate::servo::Pace;
 /// The last ticks of a session, in which the loop let the force go, are left out unless the
 /// recording repeats: the loop that plays it lets go by itself.
 #[must_use]
-pub fn pace(recording: &Recording, repeats: bool) -> Pace {
+pub fn pace(recording: &SessionLog, repeats: bool) -> Pace {
     let entries = &recording.entries;
     let without_sample = |entry: &&Entry| entry.sample.elapsed_ticks == 0;
     let let_go = entries

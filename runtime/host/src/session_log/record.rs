@@ -7,7 +7,7 @@
 use asperity_runtime::Sample;
 
 use super::Entry;
-use crate::device::Fault;
+use crate::device::DeviceError;
 
 const LOST: u16 = 1;
 const NEXT_TEXTURE: u16 = 1 << 1;
@@ -63,36 +63,36 @@ fn take_u32(bytes: &mut &[u8]) -> Result<u32, &'static str> {
 }
 
 /// Code and detail of a fault.
-fn of_fault(fault: Fault) -> (u64, u64) {
+fn of_fault(fault: DeviceError) -> (u64, u64) {
     match fault {
-        Fault::TimedOut => (1, 0),
-        Fault::Disconnected => (2, 0),
-        Fault::ShortTransfer { got, wanted } => (3, u64::from(got) << 16 | u64::from(wanted)),
-        Fault::Stalled => (4, 0),
-        Fault::Garbled => (5, 0),
-        Fault::WarmMotors => (6, 0),
-        Fault::ForceExceeded => (7, 0),
-        Fault::NotCalibrated => (8, 0),
-        Fault::Vendor(code) => (9, u64::from(code.cast_unsigned())),
+        DeviceError::TimedOut => (1, 0),
+        DeviceError::Disconnected => (2, 0),
+        DeviceError::ShortTransfer { got, wanted } => (3, u64::from(got) << 16 | u64::from(wanted)),
+        DeviceError::Stalled => (4, 0),
+        DeviceError::Garbled => (5, 0),
+        DeviceError::WarmMotors => (6, 0),
+        DeviceError::ForceExceeded => (7, 0),
+        DeviceError::NotCalibrated => (8, 0),
+        DeviceError::Vendor(code) => (9, u64::from(code.cast_unsigned())),
     }
 }
 
-fn take_fault(bytes: &mut &[u8]) -> Result<Fault, &'static str> {
+fn take_fault(bytes: &mut &[u8]) -> Result<DeviceError, &'static str> {
     let code = take(bytes)?;
     let detail = take_u32(bytes)?;
     let fault = match code {
-        1 => Fault::TimedOut,
-        2 => Fault::Disconnected,
-        3 => Fault::ShortTransfer {
+        1 => DeviceError::TimedOut,
+        2 => DeviceError::Disconnected,
+        3 => DeviceError::ShortTransfer {
             got: (detail >> 16) as u16,
             wanted: detail as u16,
         },
-        4 => Fault::Stalled,
-        5 => Fault::Garbled,
-        6 => Fault::WarmMotors,
-        7 => Fault::ForceExceeded,
-        8 => Fault::NotCalibrated,
-        9 => Fault::Vendor(detail.cast_signed()),
+        4 => DeviceError::Stalled,
+        5 => DeviceError::Garbled,
+        6 => DeviceError::WarmMotors,
+        7 => DeviceError::ForceExceeded,
+        8 => DeviceError::NotCalibrated,
+        9 => DeviceError::Vendor(detail.cast_signed()),
         _ => return Err("a fault of no known kind"),
     };
     Ok(fault)
@@ -222,13 +222,13 @@ mod tests {
         let (position_m, force_n) = ([float(), float(), float()], [float(), float(), float()]);
         let n = rng.next_u64();
         let fault = |n: u64| match n % 12 {
-            0 => Some(Fault::ShortTransfer {
+            0 => Some(DeviceError::ShortTransfer {
                 got: n as u16,
                 wanted: (n >> 16) as u16,
             }),
-            1 => Some(Fault::Vendor((n >> 20) as i32)),
-            2 => Some(Fault::Stalled),
-            3 => Some(Fault::NotCalibrated),
+            1 => Some(DeviceError::Vendor((n >> 20) as i32)),
+            2 => Some(DeviceError::Stalled),
+            3 => Some(DeviceError::NotCalibrated),
             _ => None,
         };
         Entry {

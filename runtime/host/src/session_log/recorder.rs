@@ -7,7 +7,7 @@ use std::sync::mpsc;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::{Conditions, Encoder, Entry, RecordingError, Summary, TextureInfo};
+use super::{Conditions, Encoder, Entry, SessionLogError, Summary, TextureInfo};
 
 /// How often the writing thread looks into the queue.
 const LOOK: Duration = Duration::from_millis(2);
@@ -49,7 +49,7 @@ impl Recorder {
 /// The writing thread.
 #[derive(Debug)]
 pub struct Writing {
-    thread: JoinHandle<Result<Summary, RecordingError>>,
+    thread: JoinHandle<Result<Summary, SessionLogError>>,
     textures: mpsc::Sender<TextureInfo>,
 }
 
@@ -69,22 +69,22 @@ impl Writing {
     /// Waits for the end of the file. The [`Recorder`] must have been dropped.
     ///
     /// # Errors
-    /// [`RecordingError`]: what could not be written.
-    pub fn finish(self) -> Result<Summary, RecordingError> {
+    /// [`SessionLogError`]: what could not be written.
+    pub fn finish(self) -> Result<Summary, SessionLogError> {
         drop(self.textures);
-        self.thread.join().map_err(|_| RecordingError::Writer)?
+        self.thread.join().map_err(|_| SessionLogError::Writer)?
     }
 }
 
 /// Begins a recording. `capacity` ticks fit into the queue; two seconds' worth forgive a slow disk.
 ///
 /// # Errors
-/// [`RecordingError`]: the conditions could not be written, or no thread could be started.
+/// [`SessionLogError`]: the conditions could not be written, or no thread could be started.
 pub fn start<W: Write + Send + 'static>(
     to: W,
     conditions: &Conditions,
     capacity: usize,
-) -> Result<(Recorder, Writing), RecordingError> {
+) -> Result<(Recorder, Writing), SessionLogError> {
     let encoder = Encoder::new(to, conditions)?;
     let (queue, entries) = rtrb::RingBuffer::new(capacity.max(1));
     let (textures, announced) = mpsc::channel();
@@ -108,7 +108,7 @@ fn write<W: Write>(
     mut entries: rtrb::Consumer<Entry>,
     announced: &mpsc::Receiver<TextureInfo>,
     all_lost: &AtomicU64,
-) -> Result<Summary, RecordingError> {
+) -> Result<Summary, SessionLogError> {
     let mut flushed = Instant::now();
     loop {
         // What was pushed before the end is in the queue once the end is seen.

@@ -6,7 +6,7 @@ use asperity_runtime::{
 };
 use thiserror::Error;
 
-use super::{Recording, TextureInfo};
+use super::{SessionLog, TextureInfo};
 
 /// The first tick whose force differs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,7 +81,7 @@ pub enum RenderAgainError {
 /// # Errors
 /// What `tick` says.
 pub fn render_again_with<E>(
-    recording: &Recording,
+    recording: &SessionLog,
     mut tick: impl FnMut(usize, &Sample) -> Result<[f32; 3], E>,
 ) -> Result<Comparison, E> {
     let entries = &recording.entries;
@@ -114,7 +114,7 @@ pub fn render_again_with<E>(
 /// # Errors
 /// [`RenderAgainError`].
 pub fn render_again(
-    recording: &Recording,
+    recording: &SessionLog,
     mut asset: impl FnMut(&TextureInfo) -> Option<Vec<u8>>,
 ) -> Result<Comparison, RenderAgainError> {
     let mut bytes_of = |texture: &TextureInfo| {

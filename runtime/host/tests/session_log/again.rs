@@ -1,6 +1,6 @@
 //! What was felt is felt again to the bit.
 
-use asperity_host::recording::{Ending, TextureInfo, render_again, start};
+use asperity_host::session_log::{Ending, TextureInfo, render_again, start};
 
 use super::session::{Shared, asset, conditions, entries, other, read};
 

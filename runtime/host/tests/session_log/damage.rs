@@ -1,6 +1,6 @@
 //! No damage goes unnoticed.
 
-use asperity_host::recording::{Ending, RecordingError};
+use asperity_host::session_log::{Ending, SessionLogError};
 
 use super::session::{BUILTIN, conditions, entries, file, read};
 
@@ -28,9 +28,9 @@ fn a_file_that_is_cut_anywhere_is_read_up_to_its_last_whole_block() {
                 );
                 seen.push(got);
             }
-            Err(RecordingError::Foreign { .. }) => assert!(length < 4),
+            Err(SessionLogError::Foreign { .. }) => assert!(length < 4),
             Err(error) => assert!(
-                matches!(error, RecordingError::Conditions { .. }) && length < head,
+                matches!(error, SessionLogError::Conditions { .. }) && length < head,
                 "{length}: {error}"
             ),
         }
@@ -74,13 +74,13 @@ fn a_flipped_bit_anywhere_is_noticed() {
 fn foreign_newer_and_hostile_files_give_clear_errors() {
     let whole = file(&entries(10));
     for bytes in [&b""[..], b"AS", b"\x89PNG\r\n\x1a\n", BUILTIN] {
-        assert!(matches!(read(bytes), Err(RecordingError::Foreign { .. })));
+        assert!(matches!(read(bytes), Err(SessionLogError::Foreign { .. })));
     }
     let mut newer = whole.clone();
     newer[4] = 2;
     let error = read(&newer).expect_err("newer");
     assert!(
-        matches!(error, RecordingError::Version { found: 2, known: 1 }),
+        matches!(error, SessionLogError::Version { found: 2, known: 1 }),
         "{error}"
     );
 
@@ -96,11 +96,11 @@ fn foreign_newer_and_hostile_files_give_clear_errors() {
     let head = |conditions: &[u8]| [b"ASPR\x01\0\0\0".as_slice(), &block(0, conditions)].concat();
     assert!(matches!(
         read(&head(b"{}")),
-        Err(RecordingError::Conditions { .. })
+        Err(SessionLogError::Conditions { .. })
     ));
     assert!(matches!(
         read(&head(b"\xff")),
-        Err(RecordingError::Conditions { .. })
+        Err(SessionLogError::Conditions { .. })
     ));
     // Conditions that no session can have had: queues are sized by the servo rate.
     for servo_rate_hz in [1e9, 20_001.0, 99.0, 0.0, -1.0] {
@@ -125,7 +125,7 @@ fn foreign_newer_and_hostile_files_give_clear_errors() {
     ] {
         let error = with(kind, body).expect_err("malformed");
         assert!(
-            matches!(error, RecordingError::Malformed { at: 8.., .. }),
+            matches!(error, SessionLogError::Malformed { at: 8.., .. }),
             "{kind} {body:?}: {error}"
         );
     }

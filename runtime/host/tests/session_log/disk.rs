@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use asperity_host::recording::{
-    Entry, Recording, RecordingError, TextureInfo, render_again, start,
+use asperity_host::session_log::{
+    Entry, SessionLog, SessionLogError, TextureInfo, render_again, start,
 };
 
 use super::session::{Shared, asset, conditions, entries, other, read};
@@ -51,7 +51,7 @@ fn a_slow_disk_loses_ticks_that_are_counted_and_never_stops_the_servo_thread() {
         tick += 1;
     }
     assert!(recording.lost() <= lost);
-    let first = Recording {
+    let first = SessionLog {
         textures: vec![TextureInfo::of("other", other())],
         ..recording
     };
@@ -83,7 +83,7 @@ fn a_full_disk_is_an_error_at_the_end_and_no_stop_of_the_servo_thread() {
         .into_iter()
         .for_each(|entry| recorder.push(entry));
     drop(recorder);
-    assert!(matches!(writing.finish(), Err(RecordingError::Io(_))));
+    assert!(matches!(writing.finish(), Err(SessionLogError::Io(_))));
     assert!(
         start(Full(0), &conditions(), 16).is_err(),
         "the conditions do not fit"

@@ -3,8 +3,8 @@
 use asperity_formats::Asset;
 use asperity_host::device::replay::{AtEnd, Replay};
 use asperity_host::device::supervised::{Plausible, Supervised};
-use asperity_host::device::{Device, Fault};
-use asperity_host::recording::Entry;
+use asperity_host::device::{Device, DeviceError};
+use asperity_host::session_log::Entry;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 
 use super::session::{BUILTIN, SEED, entries, file, read, sample};
@@ -27,7 +27,7 @@ fn a_replay_drives_the_tick_to_the_same_bits() {
             let position = sample.position_m.iter().all(|x| x.is_finite());
             let sample = if position { sample } else { Sample::STALE };
             Entry {
-                read_fault: (sample.elapsed_ticks == 0).then_some(Fault::Garbled),
+                read_fault: (sample.elapsed_ticks == 0).then_some(DeviceError::Garbled),
                 ..Entry::new(sample, &renderer.tick(&texture, &mut state, &sample))
             }
         })
@@ -53,10 +53,10 @@ fn a_replay_drives_the_tick_to_the_same_bits() {
     assert_eq!(replay.compared(), (3000, 0));
     assert_eq!(
         replay.read(),
-        Err(Fault::Disconnected),
+        Err(DeviceError::Disconnected),
         "the recording is over"
     );
-    assert_eq!(replay.recover(), Err(Fault::Disconnected));
+    assert_eq!(replay.recover(), Err(DeviceError::Disconnected));
 
     // Under supervision the end of the recording is a lost device: the force goes to zero.
     let mut supervised = Supervised::new(

@@ -4,9 +4,9 @@ use std::io::Write;
 use std::sync::{Arc, Mutex};
 
 use asperity_formats::{Asset, Library};
-use asperity_host::device::Fault;
-use asperity_host::recording::{
-    Conditions, Encoder, Entry, Recording, RecordingError, TextureInfo,
+use asperity_host::device::DeviceError;
+use asperity_host::session_log::{
+    Conditions, Encoder, Entry, SessionLog, SessionLogError, TextureInfo,
 };
 use asperity_runtime::{Config, Exchange, HostTexture, Renderer, Sample};
 
@@ -87,7 +87,7 @@ pub(crate) fn entries(count: usize) -> Vec<Entry> {
         let now = std::ptr::from_ref(player.texture());
         entries.push(Entry {
             buttons: (n / 300) as u32,
-            read_fault: (sample.elapsed_ticks == 0).then_some(Fault::Stalled),
+            read_fault: (sample.elapsed_ticks == 0).then_some(DeviceError::Stalled),
             next_texture: now != playing,
             ..Entry::new(sample, &output)
         });
@@ -107,8 +107,8 @@ pub(crate) fn file(entries: &[Entry]) -> Vec<u8> {
     encoder.finish(0).expect("a vector takes all").0
 }
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Recording, RecordingError> {
-    Recording::read(&mut &*bytes)
+pub(crate) fn read(bytes: &[u8]) -> Result<SessionLog, SessionLogError> {
+    SessionLog::read(&mut &*bytes)
 }
 
 pub(crate) fn asset(texture: &TextureInfo) -> Option<Vec<u8>> {

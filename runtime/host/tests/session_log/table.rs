@@ -1,6 +1,6 @@
 //! A recording as a table.
 
-use asperity_host::recording::csv;
+use asperity_host::session_log::csv;
 
 use super::session::{entries, file, read};
 

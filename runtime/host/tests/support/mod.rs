@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "every test uses another part")]
 
 use asperity_formats::Asset;
-use asperity_host::device::{Description, Device, Fault, Reading};
+use asperity_host::device::{Description, Device, DeviceError, Reading};
 use asperity_host::servo::{Event, Observer, Record, Virtual};
 use asperity_runtime::{Config, HostTexture, Renderer};
 
@@ -26,7 +26,7 @@ pub(crate) struct Act {
     /// Time that the call takes, ns.
     pub(crate) takes_ns: u64,
     /// What it fails with.
-    pub(crate) fault: Option<Fault>,
+    pub(crate) fault: Option<DeviceError>,
     /// Nothing new.
     pub(crate) old: bool,
 }
@@ -39,7 +39,7 @@ pub(crate) struct Scripted<F, G> {
     pub(crate) reads: u64,
     pub(crate) writes: u64,
     pub(crate) forces: Vec<[f32; 3]>,
-    pub(crate) recoveries: Vec<Result<(), Fault>>,
+    pub(crate) recoveries: Vec<Result<(), DeviceError>>,
     /// Time that a recovery takes, ns.
     pub(crate) recovery_ns: u64,
     /// Whether a recovery brings it back.
@@ -75,7 +75,7 @@ impl<F: FnMut(u64) -> Act + Send, G: FnMut(u64) -> Act + Send> Device for Script
         &self.description
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         let act = (self.read)(self.reads);
         self.reads += 1;
         self.clock.pass(act.takes_ns);
@@ -92,7 +92,7 @@ impl<F: FnMut(u64) -> Act + Send, G: FnMut(u64) -> Act + Send> Device for Script
         }
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         let act = (self.write)(self.writes);
         self.writes += 1;
         self.clock.pass(act.takes_ns);
@@ -100,12 +100,12 @@ impl<F: FnMut(u64) -> Act + Send, G: FnMut(u64) -> Act + Send> Device for Script
         act.fault.map_or(Ok(()), Err)
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         self.clock.pass(self.recovery_ns);
         let result = if self.recovers {
             Ok(())
         } else {
-            Err(Fault::Disconnected)
+            Err(DeviceError::Disconnected)
         };
         self.recoveries.push(result);
         result

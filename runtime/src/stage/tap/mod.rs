@@ -111,7 +111,7 @@ impl<A: Arithmetic> Detector<A> {
         }
         let mut acceleration = Quantity::ZERO;
         if (state.tick as usize) < bank.ticks() {
-            flags = flags.and(Flags::TAP_ACTIVE);
+            flags = flags.union(Flags::TAP_ACTIVE);
             let selection = Selection {
                 traces: state.traces,
                 weights: state.weights,

@@ -79,7 +79,9 @@ pub(crate) fn run(
     let request = build.request();
     let textures = Build::new(&manifest, &request)?;
     let bar = build.console.rated_bar(textures.len(), "textures");
-    let built = textures.run(&|| inference::author(&build.inference), &|| bar.inc(1));
+    let built = textures.run(&|| inference::prompt_compiler(&build.inference), &|| {
+        bar.inc(1)
+    });
     bar.finish_and_clear();
     let built = built?;
     let mut pipeline = Pipeline::timed(Clock(now));

@@ -2,7 +2,7 @@
 
 use super::{input::Input, output::Mixing};
 use crate::cli::Blend;
-use asperity::{edit::Studio, sources::latents::FromLatents};
+use asperity::{edit::LatentEditor, sources::latents::FromLatents};
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 use serde_json::json;
@@ -12,16 +12,21 @@ pub(crate) fn run(args: &Blend, console: Console) -> Result<(), Failures> {
     let mixing = Mixing::open(&args.mixed, &[&first, &second], console)?;
     let (a, b) = (first.read()?, second.read()?);
     let (a, b) = (a.asset()?, b.asset()?);
-    let author = mixing.author()?;
-    let studio = Studio::new(&author);
+    let prompt_compiler = mixing.prompt_compiler()?;
+    let editor = LatentEditor::new(&prompt_compiler);
     let (from, to) = (
-        studio.remembered(&a).map_err(one)?,
-        studio.remembered(&b).map_err(one)?,
+        editor.remembered(&a).map_err(one)?,
+        editor.remembered(&b).map_err(one)?,
     );
-    let mut source = FromLatents::between(&from, &to, args.t, author.model().provenance("blend"));
+    let mut source = FromLatents::between(
+        &from,
+        &to,
+        args.t,
+        prompt_compiler.model().provenance("blend"),
+    );
     source.name = mixing.name(&format!("{} – {}", from.name, to.name));
-    let compiled = mixing.compile(&studio, &source, &mixing.request(&studio, &a))?;
+    let compiled = mixing.compile(&editor, &source, &mixing.request(&editor, &a))?;
     let line = format!("{:?} and {:?} at t = {}", from.name, to.name, args.t);
     let more = json!({ "blend": { "a": from.name, "b": to.name, "t": args.t } });
-    mixing.finish(&studio, &compiled, more, &[("between", line)])
+    mixing.finish(&editor, &compiled, more, &[("between", line)])
 }

@@ -4,7 +4,7 @@ use super::{input::Input, output::Mixing};
 use crate::cli::Edit as Arguments;
 use asperity::{
     attributes,
-    edit::{AXES, Edit, EditError, Sliders, Studio, attributes_line},
+    edit::{AXES, Edit, EditError, LatentEditor, Sliders, attributes_line},
     pipeline::Request,
     raise::raise,
 };
@@ -29,13 +29,13 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
     let mixing = Mixing::open(&args.mixed, &[&input], console)?;
     let input = input.read()?;
     let asset = input.asset()?;
-    let author = mixing.author()?;
-    let studio = Studio::new(&author);
-    let mut source = studio.remembered(&asset).map_err(one)?;
+    let prompt_compiler = mixing.prompt_compiler()?;
+    let editor = LatentEditor::new(&prompt_compiler);
+    let mut source = editor.remembered(&asset).map_err(one)?;
     // In the way that the asset was, with its name and provenance.
     let request = Request {
-        preview_px: mixing.preview_px(studio.request(&asset).preview_px),
-        ..studio.request(&asset)
+        preview_px: mixing.preview_px(editor.request(&asset).preview_px),
+        ..editor.request(&asset)
     };
     let (mut asked, mut towards) = (None, None);
     if args.undo {
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
             Some(words) => Edit::Words(words.clone()),
             None => Edit::Steps(sliders),
         };
-        let done = source.edit(&studio, &edit, &request).map_err(one)?;
+        let done = source.edit(&editor, &edit, &request).map_err(one)?;
         // After a way to a thing every attribute has moved.
         asked = done.towards.is_none().then_some(done.sliders);
         towards = done.towards;
@@ -56,10 +56,10 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
         ..request
     };
     source.name = mixing.name(asset.name());
-    let mut compiled = mixing.compile(&studio, &source, &request)?;
+    let mut compiled = mixing.compile(&editor, &source, &request)?;
     let attributes = compiled.attributes();
     let moved = AXES.map(|axis| {
-        let place = |attributes| studio.scale().place(axis, attributes).unwrap_or(0.0);
+        let place = |attributes| editor.scale().place(axis, attributes).unwrap_or(0.0);
         (axis, place(&attributes) - place(&before))
     });
     for (axis, by) in moved {
@@ -80,7 +80,7 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
     let line = moved
         .map(|(axis, by)| format!("{} {by:+.1}", axis.name()))
         .join(", ");
-    let before = attributes_line(&before, studio.scale());
+    let before = attributes_line(&before, editor.scale());
     let more = json!({ "moved": Value::Object(by), "undone": args.undo, "prompt": args.prompt });
     let mut lines = vec![("before", before), ("moved", line)];
     if let Some(towards) = towards {
@@ -93,5 +93,5 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
             ),
         );
     }
-    mixing.finish(&studio, &compiled, more, &lines)
+    mixing.finish(&editor, &compiled, more, &lines)
 }

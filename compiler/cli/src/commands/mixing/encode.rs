@@ -3,7 +3,7 @@
 use super::{input::Input, output::Mixing};
 use crate::cli::Encode;
 use asperity::{
-    edit::{Part, Studio, encode},
+    edit::{LatentEditor, Part, encode},
     model::Provenance,
     pipeline::Request,
     raise::raise,
@@ -20,22 +20,22 @@ pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
     let input = input.read()?;
     let asset = input.asset()?;
     let texture = raise(&asset);
-    let author = mixing.author()?;
-    let studio = Studio::new(&author);
+    let prompt_compiler = mixing.prompt_compiler()?;
+    let editor = LatentEditor::new(&prompt_compiler);
     let part = args.part.unwrap_or_else(|| Part::recorded(&texture));
-    let encoded = encode(&studio, &texture, part).map_err(one)?;
+    let encoded = encode(&editor, &texture, part).map_err(one)?;
     // A recording is kept in full; what is decoded is as compact as a prompt's texture.
     let request = Request {
         fidelity: Fidelity::Auto,
-        ..mixing.request(&studio, &asset)
+        ..mixing.request(&editor, &asset)
     };
     let provenance = Provenance {
         prompt: texture.provenance.prompt.clone(),
-        ..author.model().provenance("encode")
+        ..prompt_compiler.model().provenance("encode")
     };
     let mut source = FromLatents::encoded(texture, encoded.latents, part, provenance);
     source.name = mixing.name(asset.name());
-    let compiled = mixing.compile(&studio, &source, &request)?;
+    let compiled = mixing.compile(&editor, &source, &request)?;
     let mut distance = match encoded.distance_db {
         Some((p95, worst)) => format!("{p95:.1} dB at 95 % of the places, {worst:.1} dB at worst"),
         None => "not measured".into(),
@@ -51,5 +51,5 @@ pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
         "silent_places": silent,
     });
     let lines = [("encoded", part.name().to_owned()), ("distance", distance)];
-    mixing.finish(&studio, &compiled, more, &lines)
+    mixing.finish(&editor, &compiled, more, &lines)
 }

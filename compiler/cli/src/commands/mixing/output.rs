@@ -11,11 +11,11 @@ use crate::{
 use asperity::{
     attributes::Attributes,
     driver::Compiled,
-    edit::{AXES, Axis, Scale, Studio, attributes_line},
+    edit::{AXES, Axis, LatentEditor, Scale, attributes_line},
     library,
     pipeline::Request,
     preview::SIZE,
-    prompt::Author,
+    prompt::PromptCompiler,
     sources::{Tools, latents::FromLatents},
 };
 use asperity_console::Console;
@@ -54,9 +54,9 @@ impl<'a> Mixing<'a> {
         Ok(Self { args, job })
     }
 
-    /// The author.
-    pub(super) fn author(&self) -> Result<Author, Failures> {
-        inference::author(&self.args.inference)
+    /// The prompt compiler.
+    pub(super) fn prompt_compiler(&self) -> Result<PromptCompiler, Failures> {
+        inference::prompt_compiler(&self.args.inference)
     }
 
     /// The name that a user gave, or else this one, shortened to what an asset can hold.
@@ -76,8 +76,8 @@ impl<'a> Mixing<'a> {
     }
 
     /// As the texture was compiled that is kept, with a preview unless it is unwanted.
-    pub(super) fn request(&self, studio: &Studio<'_>, kept: &Asset<'_>) -> Request {
-        let request = studio.request(kept);
+    pub(super) fn request(&self, editor: &LatentEditor<'_>, kept: &Asset<'_>) -> Request {
+        let request = editor.request(kept);
         Request {
             preview_px: self.preview_px(request.preview_px.or(Some(SIZE))),
             ..request
@@ -87,18 +87,18 @@ impl<'a> Mixing<'a> {
     /// Compiles what was mixed.
     pub(super) fn compile(
         &self,
-        studio: &Studio<'_>,
+        editor: &LatentEditor<'_>,
         source: &FromLatents,
         request: &Request,
     ) -> Result<Compiled, Failures> {
         self.job
-            .compile(source, request, &Tools::of(studio.author()))
+            .compile(source, request, &Tools::of(editor.prompt_compiler()))
     }
 
     /// Writes the asset, and prints what it is. `more` goes into the JSON, `lines` into the text.
     pub(super) fn finish(
         self,
-        studio: &Studio<'_>,
+        editor: &LatentEditor<'_>,
         compiled: &Compiled,
         more: Value,
         lines: &[(&str, String)],
@@ -108,7 +108,7 @@ impl<'a> Mixing<'a> {
         let mut json = json!({
             "name": compiled.texture.name,
             "attributes": attributes,
-            "sliders": sliders(studio.scale(), &attributes),
+            "sliders": sliders(editor.scale(), &attributes),
             "gains": compiled.texture.gains,
             "bytes": { "haptic": haptic, "total": total },
             "stages_ms": compiled.timings.json(),
@@ -119,7 +119,7 @@ impl<'a> Mixing<'a> {
         }
         let mut text = format!("{}\n", display(&self.args.output));
         let own = [
-            ("attributes", attributes_line(&attributes, studio.scale())),
+            ("attributes", attributes_line(&attributes, editor.scale())),
             ("bytes", format!("{haptic} haptic, {total} in all")),
         ];
         for (what, value) in lines.iter().chain(&own) {

@@ -15,7 +15,7 @@ use asperity_runtime::MechanicsConfig;
 use super::error::StabilityError;
 use super::material::Material;
 use super::row::{Row, Words};
-use asperity_sim::fault::{Fault, FaultPlan};
+use asperity_sim::fault::{FaultPlan, SampleFault};
 use asperity_sim::hand::GripPreset;
 use asperity_sim::servo::RenderedTexture;
 use bench::{as_given, told};
@@ -129,7 +129,10 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
             ));
         }
     }
-    for (name, fault) in [("dropped", Fault::Dropped), ("late", Fault::Late)] {
+    for (name, fault) in [
+        ("dropped", SampleFault::Dropped),
+        ("late", SampleFault::Late),
+    ] {
         let device = frictionless()?;
         let plan = FaultPlan::default().with(fault, 0.05, 2);
         let energy = |renderer| {

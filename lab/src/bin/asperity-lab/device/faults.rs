@@ -5,7 +5,7 @@ use std::time::Duration;
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_host::device::Scheme;
-use asperity_host::device::faulty::Injected;
+use asperity_host::device::faulty::InjectedFault;
 use asperity_host::device::faulty::trial::{Paced, Row, Trial};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_lab::servo_session;
@@ -108,7 +108,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
         seed: 1,
     };
     let mut rows = Vec::new();
-    for kind in Injected::ALL {
+    for kind in InjectedFault::ALL {
         activity.set_message(format!("{}: hold still", kind.name()));
         let mut row = Row::default();
         for _ in 0..TRIES {
@@ -155,8 +155,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
 /// The rows in the form of docs/faults.md.
 fn table(
     name: &str,
-    rows: &[(Injected, Row)],
-    broken: impl Fn(Injected, &Row) -> Option<&'static str>,
+    rows: &[(InjectedFault, Row)],
+    broken: impl Fn(InjectedFault, &Row) -> Option<&'static str>,
 ) -> String {
     let mut text = String::from(
         "| fault | back end | force before, N | to the safe state | from there to 2 % of it | back after the fault | \

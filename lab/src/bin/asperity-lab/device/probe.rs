@@ -7,7 +7,7 @@ use asperity_host::device::falcon::on_usb;
 use asperity_host::device::touch::{Face, identify};
 use asperity_host::device::usb::scan::scan;
 use asperity_host::device::usb::{Ids, Kind, UsbError};
-use asperity_host::device::{Device as _, Fault, Scheme, Uri};
+use asperity_host::device::{Device as _, DeviceError, Scheme, Uri};
 use asperity_io::diagnostic::{Failures, one};
 use serde_json::{Value, json};
 
@@ -140,7 +140,7 @@ fn any(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
         .device;
     let begun = Instant::now();
     let (mut readings, mut fresh, mut faults) = (0_u64, 0_u64, 0_u64);
-    let mut last = Err(Fault::TimedOut);
+    let mut last = Err(DeviceError::TimedOut);
     let mut buttons = 0;
     while begun.elapsed().as_secs_f64() < seconds {
         readings += 1;
@@ -195,7 +195,7 @@ fn any(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
     if fresh > 0 {
         Ok(Probed { text, value })
     } else {
-        let why = last.err().unwrap_or(Fault::TimedOut);
+        let why = last.err().unwrap_or(DeviceError::TimedOut);
         Err((
             format!("{} gives no position: {why}", description.name),
             "see what the table of docs/vendor.md says, and try the vendor's own test program"
@@ -227,7 +227,7 @@ fn touch(uri: &Uri) -> Result<Probed, Problem> {
 fn falcon(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
     let mut falcon = on_usb::open(uri).map_err(|error| (error.to_string(), error.remedy()))?;
     let begun = Instant::now();
-    let (mut commands, mut last) = (0_u32, Err(Fault::TimedOut));
+    let (mut commands, mut last) = (0_u32, Err(DeviceError::TimedOut));
     while begun.elapsed().as_secs_f64() < seconds {
         if falcon.write([0.0; 3]).is_ok() {
             commands += 1;
@@ -247,7 +247,7 @@ fn falcon(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
             let [x, y, z] = reading.position_m.map(|metres| metres * 1e3);
             format!("position {x:.2}, {y:.2}, {z:.2} mm")
         }
-        Err(Fault::NotCalibrated) => format!(
+        Err(DeviceError::NotCalibrated) => format!(
             "not homed ({} of 3 encoders): pull the grip out as far as it goes, then push it in",
             falcon.homed().count_ones()
         ),

@@ -8,15 +8,15 @@ use std::time::{Duration, Instant, SystemTime};
 
 use asperity_console::Console;
 use asperity_formats::Asset;
-use asperity_host::recording::TextureInfo;
 use asperity_host::servo::{Event, Inlet, Record};
+use asperity_host::session_log::TextureInfo;
 use asperity_io::diagnostic::{Failures, one, report as told};
 use asperity_lab::servo_session::{Attended, Recorder, Surface};
 use asperity_runtime::{Flags, PrepareError, Preparer};
 use indicatif::ProgressBar;
 
 use super::Arguments;
-use super::summary::{self, Session, Told};
+use super::summary::{self, ServoSummary, Told};
 use crate::loop_options::{LoopOptions, refusals};
 
 /// Time between two looks at the queues.
@@ -251,7 +251,7 @@ impl<'c> Attendant<'c> {
     }
 
     /// Writes what is left, and says what the loop did.
-    pub(super) fn finish(self, session: &Session<'_>) -> Result<(), Failures> {
+    pub(super) fn finish(self, session: &ServoSummary<'_>) -> Result<(), Failures> {
         self.status.finish_and_clear();
         let mut told = Told {
             lost: self.lost,

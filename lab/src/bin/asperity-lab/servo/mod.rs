@@ -9,8 +9,8 @@ use std::time::Instant;
 
 use asperity_console::Console;
 use asperity_host::device::{Scheme, Uri};
-use asperity_host::recording::{Conditions, TextureInfo};
 use asperity_host::servo::{End, Report, queues};
+use asperity_host::session_log::{Conditions, TextureInfo};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::output::Outputs;
 use asperity_lab::servo_session::{Form, OpenDevice, Recorder, Setup, Surface, run as run_loop};
@@ -19,7 +19,7 @@ use asperity_runtime::Counters;
 use crate::error::Plain;
 use crate::loop_options::{self, LoopOptions, stop_on_interrupt};
 use attendant::Attendant;
-use summary::Session;
+use summary::ServoSummary;
 
 /// Feel a texture or a scene, live
 ///
@@ -150,7 +150,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     drop(opened);
     interrupt.released.store(true, Relaxed);
     let Some(report) = sum else { return Ok(()) };
-    attendant.finish(&Session {
+    attendant.finish(&ServoSummary {
         report,
         surface: &surface,
         device: &device,

@@ -8,7 +8,7 @@ use asperity_lab::servo_session::Surface;
 use serde_json::{Value, json};
 
 /// A session that is over.
-pub(super) struct Session<'s> {
+pub(super) struct ServoSummary<'s> {
     pub(super) report: Report,
     pub(super) surface: &'s Surface,
     pub(super) device: &'s str,
@@ -36,8 +36,8 @@ fn end(report: &Report) -> &'static str {
     }
 }
 
-pub(super) fn json(session: &Session<'_>, told: &Told) -> Value {
-    let Session {
+pub(super) fn json(session: &ServoSummary<'_>, told: &Told) -> Value {
+    let ServoSummary {
         report,
         surface,
         device,
@@ -64,8 +64,8 @@ pub(super) fn json(session: &Session<'_>, told: &Told) -> Value {
     })
 }
 
-pub(super) fn text(session: &Session<'_>, told: &Told) -> String {
-    let Session {
+pub(super) fn text(session: &ServoSummary<'_>, told: &Told) -> String {
+    let ServoSummary {
         report,
         surface,
         device,

@@ -17,7 +17,7 @@ mod library;
 use self::constants as dhd;
 use self::library::{Code, Dhd as Functions, Number};
 use super::vendor_library::{Library, LibraryError, Source, VendorError};
-use super::{Description, Device, Fault, Reading, Uri};
+use super::{Description, Device, DeviceError, Reading, Uri};
 
 /// How the library is found. The vendor's robotics library contains it.
 pub const SOURCE: Source = Source {
@@ -124,14 +124,14 @@ impl Dhd {
         self.saturated
     }
 
-    fn device(&self) -> Result<Number, Fault> {
-        self.device.ok_or(Fault::Disconnected)
+    fn device(&self) -> Result<Number, DeviceError> {
+        self.device.ok_or(DeviceError::Disconnected)
     }
 
     /// The fault of an error. A lost connection closes the device.
-    fn failed(&mut self, code: Code) -> Fault {
+    fn failed(&mut self, code: Code) -> DeviceError {
         let fault = fault(code);
-        if fault == Fault::Disconnected {
+        if fault == DeviceError::Disconnected {
             self.release();
         }
         fault
@@ -149,14 +149,14 @@ impl Dhd {
 }
 
 /// What an error means within a period.
-fn fault(Code(code): Code) -> Fault {
+fn fault(Code(code): Code) -> DeviceError {
     match code {
         dhd::ERROR_COM | dhd::ERROR_NO_DEVICE_FOUND | dhd::ERROR_NO_DRIVER_FOUND => {
-            Fault::Disconnected
+            DeviceError::Disconnected
         }
-        dhd::ERROR_TIMEOUT | dhd::ERROR_DHC_BUSY => Fault::TimedOut,
-        dhd::ERROR_DEVICE_NOT_READY => Fault::NotCalibrated,
-        other => Fault::Vendor(other),
+        dhd::ERROR_TIMEOUT | dhd::ERROR_DHC_BUSY => DeviceError::TimedOut,
+        dhd::ERROR_DEVICE_NOT_READY => DeviceError::NotCalibrated,
+        other => DeviceError::Vendor(other),
     }
 }
 
@@ -253,7 +253,7 @@ impl Device for Dhd {
         &self.description
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         let device = self.device()?;
         let (position_m, fresh) = self
             .functions
@@ -273,7 +273,7 @@ impl Device for Dhd {
         Ok(self.last)
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         let device = self.device()?;
         // The runtime gives no such force. Nobody else's may reach an arm.
         let finite = force_n.iter().all(|x| x.is_finite());
@@ -291,24 +291,26 @@ impl Device for Dhd {
                         if status[dhd::STATUS_FORCE] == 0
                             && status[dhd::STATUS_FORCEOFFCAUSE] == dhd::FORCE_OFF_VELOCITY =>
                     {
-                        Fault::ForceExceeded
+                        DeviceError::ForceExceeded
                     }
-                    Some(Ok(status)) if status[dhd::STATUS_ERROR] != 0 => Fault::Vendor(code.0),
+                    Some(Ok(status)) if status[dhd::STATUS_ERROR] != 0 => {
+                        DeviceError::Vendor(code.0)
+                    }
                     _ => failed,
                 })
             }
         }
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         if let Some(device) = self.device {
             let on = self.functions.enable_force(device, true);
             return on.map_err(|code| self.failed(code));
         }
         let started = start(&self.functions, self.serial);
         self.device = Some(started.map_err(|error| match error {
-            VendorError::NotCalibrated { .. } => Fault::NotCalibrated,
-            _ => Fault::Disconnected,
+            VendorError::NotCalibrated { .. } => DeviceError::NotCalibrated,
+            _ => DeviceError::Disconnected,
         })?);
         Ok(())
     }

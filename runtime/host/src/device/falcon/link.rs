@@ -20,7 +20,7 @@ use super::ftdi::{self, PACKET_BYTES, STATUS_BYTES, Setting, payload};
 use super::motors::approach;
 use super::slot::{Held, Slot};
 use super::transport::{Direction, TransferError, Transport};
-use crate::device::Fault;
+use crate::device::DeviceError;
 
 /// Time after which a servo thread counts as silent.
 const SERVO_SILENT: Duration = Duration::from_millis(20);
@@ -129,11 +129,11 @@ impl Link {
 
     /// What is wrong, if anything.
     #[must_use]
-    pub fn fault(&self) -> Option<Fault> {
+    pub fn fault(&self) -> Option<DeviceError> {
         match self.shared.fault.load(Ordering::Acquire) {
             FINE => None,
-            SILENT => Some(Fault::TimedOut),
-            _ => Some(Fault::Disconnected),
+            SILENT => Some(DeviceError::TimedOut),
+            _ => Some(DeviceError::Disconnected),
         }
     }
 

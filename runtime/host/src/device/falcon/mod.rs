@@ -42,13 +42,13 @@ pub use open::{OpenError, Opened, Opener};
 use settings::Settings;
 use transport::{Direction, Transport};
 
-use super::{Description, Device, Fault, Reading};
+use super::{Description, Device, DeviceError, Reading};
 
 /// A Falcon that is open.
 ///
 /// Its world frame has the origin in the middle of the workspace, x to the right, y up and z
 /// towards the user. Until its encoders are homed, [`Device::read`] gives
-/// [`Fault::NotCalibrated`]: a person pulls the grip out as far as it goes and pushes it in once.
+/// [`DeviceError::NotCalibrated`]: a person pulls the grip out as far as it goes and pushes it in once.
 pub struct Falcon {
     opener: Box<dyn Opener>,
     settings: Settings,
@@ -114,12 +114,12 @@ impl Falcon {
         self.homing.homed()
     }
 
-    fn link(&self) -> Result<&Link, Fault> {
-        let link = self.link.as_ref().ok_or(Fault::Disconnected)?;
+    fn link(&self) -> Result<&Link, DeviceError> {
+        let link = self.link.as_ref().ok_or(DeviceError::Disconnected)?;
         link.fault().map_or(Ok(link), Err)
     }
 
-    fn command(&self, motors: [i16; 3]) -> Result<(), Fault> {
+    fn command(&self, motors: [i16; 3]) -> Result<(), DeviceError> {
         self.link()?.command(&Command {
             motors,
             leds: self.homing.light(),
@@ -134,7 +134,7 @@ impl Device for Falcon {
         &self.description
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         let held = self.link()?.newest();
         if held.sequence() == self.seen {
             self.stale = self.stale.saturating_add(1);
@@ -143,9 +143,9 @@ impl Device for Falcon {
                 ..reading
             });
             return stale.ok_or(if held.sequence() == 0 {
-                Fault::TimedOut
+                DeviceError::TimedOut
             } else {
-                Fault::NotCalibrated
+                DeviceError::NotCalibrated
             });
         }
         self.seen = held.sequence();
@@ -154,15 +154,15 @@ impl Device for Falcon {
         if !self.homing.step(&answer) {
             self.last = None;
             self.encoders = None;
-            return Err(Fault::NotCalibrated);
+            return Err(DeviceError::NotCalibrated);
         }
         let now = Instant::now();
         let before = self.encoders.replace((answer.encoders, now));
         if before.is_some_and(|(before, at)| jumps(before, answer.encoders, now - at)) {
-            return Err(Fault::Garbled);
+            return Err(DeviceError::Garbled);
         }
         let angles = answer.encoders.map(geometry::angle);
-        let position = kinematics::forward(angles).ok_or(Fault::Garbled)?;
+        let position = kinematics::forward(angles).ok_or(DeviceError::Garbled)?;
         let reading = Reading {
             position_m: std::array::from_fn(|n| (position[n] - CENTRE_M[n]) as f32),
             fresh: true,
@@ -172,18 +172,18 @@ impl Device for Falcon {
         Ok(reading)
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         let force = motors::limited(force_n, self.settings.peak_n);
         if force == [0.0; 3] {
             return self.command([0; 3]);
         }
         let Some((_, position)) = self.last else {
             self.command([0; 3])?;
-            return Err(Fault::NotCalibrated);
+            return Err(DeviceError::NotCalibrated);
         };
         if self.stale > STALE {
             self.command([0; 3])?;
-            return Err(Fault::TimedOut);
+            return Err(DeviceError::TimedOut);
         }
         let jacobian = kinematics::inverse(position)
             .and_then(|angles| kinematics::jacobian(position, angles))
@@ -192,12 +192,12 @@ impl Device for Falcon {
             Some(counts) => self.command(counts),
             None => {
                 self.command([0; 3])?;
-                Err(Fault::Garbled)
+                Err(DeviceError::Garbled)
             }
         }
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         if self.link().is_err() {
             self.counts_before = self.counts();
             self.last = None;
@@ -216,14 +216,14 @@ impl Device for Falcon {
             std::thread::sleep(Duration::from_millis(2));
             match self.read() {
                 Ok(_) => return Ok(()),
-                Err(Fault::NotCalibrated | Fault::TimedOut) => {}
+                Err(DeviceError::NotCalibrated | DeviceError::TimedOut) => {}
                 Err(fault) => return Err(fault),
             }
         }
         Err(if self.seen == 0 {
-            Fault::TimedOut
+            DeviceError::TimedOut
         } else {
-            Fault::NotCalibrated
+            DeviceError::NotCalibrated
         })
     }
 }

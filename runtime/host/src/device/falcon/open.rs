@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::firmware::FirmwareError;
 use super::settings::SettingsError;
 use super::transport::{TransferError, Transport};
-use crate::device::Fault;
+use crate::device::DeviceError;
 #[cfg(feature = "usb")]
 use crate::device::usb::error::UsbError;
 
@@ -80,13 +80,13 @@ impl OpenError {
 
     /// As the servo loop is told.
     #[must_use]
-    pub fn fault(&self) -> Fault {
+    pub fn fault(&self) -> DeviceError {
         match self {
             Self::Firmware(FirmwareError::Transfer(TransferError::TimedOut))
-            | Self::Transport(TransferError::TimedOut) => Fault::TimedOut,
-            Self::Firmware(FirmwareError::Transfer(TransferError::Stalled)) => Fault::Stalled,
-            Self::NoFirmware | Self::Firmware(_) => Fault::NotCalibrated,
-            _ => Fault::Disconnected,
+            | Self::Transport(TransferError::TimedOut) => DeviceError::TimedOut,
+            Self::Firmware(FirmwareError::Transfer(TransferError::Stalled)) => DeviceError::Stalled,
+            Self::NoFirmware | Self::Firmware(_) => DeviceError::NotCalibrated,
+            _ => DeviceError::Disconnected,
         }
     }
 }

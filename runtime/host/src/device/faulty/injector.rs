@@ -3,8 +3,8 @@
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::plan::{Counts, Injected, Plan, PlanError};
-use crate::device::{Description, Device, Fault, Reading};
+use super::plan::{Counts, InjectedFault, Plan, PlanError};
+use crate::device::{Description, Device, DeviceError, Reading};
 
 /// A device behind faults. Injectors stack.
 #[derive(Debug)]
@@ -13,9 +13,9 @@ pub struct Faulty<D> {
     plan: Plan,
     rng: Xoshiro256PlusPlus,
     /// What runs, and for how many periods more.
-    running: Option<(Injected, u32)>,
+    running: Option<(InjectedFault, u32)>,
     /// What this period has.
-    now: Option<Injected>,
+    now: Option<InjectedFault>,
     last: Reading,
     clock_step: u32,
     counts: Counts,
@@ -72,13 +72,13 @@ impl<D: Device> Faulty<D> {
     }
 
     /// The fault of the last reading.
-    pub fn running(&self) -> Option<Injected> {
+    pub fn running(&self) -> Option<InjectedFault> {
         self.now
     }
 
     /// Starts a fault with the next reading; it replaces one that runs. A clock step skips
     /// `periods` periods at once.
-    pub fn start(&mut self, kind: Injected, periods: u32) {
+    pub fn start(&mut self, kind: InjectedFault, periods: u32) {
         self.running = (periods > 0).then_some((kind, periods));
     }
 
@@ -88,10 +88,10 @@ impl<D: Device> Faulty<D> {
         std::mem::take(&mut self.clock_step)
     }
 
-    fn draw(&mut self) -> Option<Injected> {
+    fn draw(&mut self) -> Option<InjectedFault> {
         if self.running.is_none() {
             let mut left = (self.rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-            for (kind, rate) in Injected::ALL.into_iter().zip(self.plan.rates) {
+            for (kind, rate) in InjectedFault::ALL.into_iter().zip(self.plan.rates) {
                 if left < rate.probability {
                     let periods = 1 + self.rng.next_u64() % u64::from(rate.longest_periods);
                     self.running = Some((kind, periods as u32));
@@ -101,7 +101,7 @@ impl<D: Device> Faulty<D> {
             }
         }
         let (kind, periods) = self.running?;
-        if kind == Injected::ClockStep {
+        if kind == InjectedFault::ClockStep {
             self.clock_step = self.clock_step.saturating_add(periods);
             self.skipped += u64::from(periods);
             self.running = None;
@@ -129,7 +129,7 @@ impl<D: Device> Device for Faulty<D> {
         self.inner.description()
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         self.now = self.draw();
         let read = self.inner.read();
         let Some(kind) = self.now else {
@@ -138,31 +138,31 @@ impl<D: Device> Device for Faulty<D> {
             return Ok(reading);
         };
         match kind {
-            Injected::Lost => Err(Fault::TimedOut),
-            Injected::Late => Ok(Reading {
+            InjectedFault::Lost => Err(DeviceError::TimedOut),
+            InjectedFault::Late => Ok(Reading {
                 fresh: false,
                 ..self.last
             }),
-            Injected::Duplicate => Ok(self.last),
-            Injected::Stuck => Ok(Reading {
+            InjectedFault::Duplicate => Ok(self.last),
+            InjectedFault::Stuck => Ok(Reading {
                 position_m: self.last.position_m,
                 ..read?
             }),
-            Injected::NotFinite => {
+            InjectedFault::NotFinite => {
                 let coordinate = self.one_of([f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
                 Ok(self.spoiled(read?, coordinate))
             }
-            Injected::OutOfRange => {
+            InjectedFault::OutOfRange => {
                 let coordinate = self.one_of([-5.0, 2.5, 1e20]);
                 Ok(self.spoiled(read?, coordinate))
             }
-            Injected::ShortTransfer => Err(Fault::ShortTransfer {
+            InjectedFault::ShortTransfer => Err(DeviceError::ShortTransfer {
                 got: (self.rng.next_u64() % 16) as u16,
                 wanted: 16,
             }),
-            Injected::Stalled => Err(Fault::Stalled),
-            Injected::Unplugged => Err(Fault::Disconnected),
-            Injected::WriteFailed | Injected::ClockStep => {
+            InjectedFault::Stalled => Err(DeviceError::Stalled),
+            InjectedFault::Unplugged => Err(DeviceError::Disconnected),
+            InjectedFault::WriteFailed | InjectedFault::ClockStep => {
                 let reading = read?;
                 self.last = reading;
                 Ok(reading)
@@ -170,21 +170,21 @@ impl<D: Device> Device for Faulty<D> {
         }
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         match self.now {
-            Some(Injected::Unplugged) => {
+            Some(InjectedFault::Unplugged) => {
                 // Without its plug it has no force; what it says to that is lost too.
                 let _ = self.inner.write([0.0; 3]);
-                Err(Fault::Disconnected)
+                Err(DeviceError::Disconnected)
             }
-            Some(Injected::WriteFailed) => Err(Fault::TimedOut),
+            Some(InjectedFault::WriteFailed) => Err(DeviceError::TimedOut),
             _ => self.inner.write(force_n),
         }
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         match self.running {
-            Some((Injected::Unplugged, _)) => Err(Fault::Disconnected),
+            Some((InjectedFault::Unplugged, _)) => Err(DeviceError::Disconnected),
             _ => self.inner.recover(),
         }
     }
@@ -221,7 +221,7 @@ mod tests {
             &self.description
         }
 
-        fn read(&mut self) -> Result<Reading, Fault> {
+        fn read(&mut self) -> Result<Reading, DeviceError> {
             self.steps += 1;
             Ok(Reading {
                 position_m: [1e-3 * self.steps as f32, 0.0, 0.0],
@@ -230,7 +230,7 @@ mod tests {
             })
         }
 
-        fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+        fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
             self.force_n = force_n;
             Ok(())
         }
@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn each_fault_is_what_the_table_says() {
         let mut device = Faulty::new(walk(), Plan::default(), 1).expect("a plan");
-        let mut run = |kind: Injected| {
+        let mut run = |kind: InjectedFault| {
             let good = device.read().expect("no fault");
             device.write([0.5, 0.0, 0.0]).expect("no fault");
             device.start(kind, 2);
@@ -251,7 +251,7 @@ mod tests {
             let _ = device.read();
             (good, read, wrote, skipped, force)
         };
-        for kind in Injected::ALL {
+        for kind in InjectedFault::ALL {
             let (good, read, wrote, skipped, force) = run(kind);
             let next = Reading {
                 position_m: [good.position_m[0] + 1e-3, 0.0, 0.0],
@@ -263,48 +263,51 @@ mod tests {
                     && reading.buttons == next.buttons
             };
             match kind {
-                Injected::Lost => assert_eq!(read, Err(Fault::TimedOut)),
-                Injected::Late => assert_eq!(
+                InjectedFault::Lost => assert_eq!(read, Err(DeviceError::TimedOut)),
+                InjectedFault::Late => assert_eq!(
                     read,
                     Ok(Reading {
                         fresh: false,
                         ..good
                     })
                 ),
-                Injected::Duplicate => assert_eq!(read, Ok(good)),
-                Injected::Stuck => assert_eq!(
+                InjectedFault::Duplicate => assert_eq!(read, Ok(good)),
+                InjectedFault::Stuck => assert_eq!(
                     read,
                     Ok(Reading {
                         position_m: good.position_m,
                         ..next
                     })
                 ),
-                Injected::NotFinite => assert!(
+                InjectedFault::NotFinite => assert!(
                     !read
                         .expect("a reading")
                         .position_m
                         .iter()
                         .all(|x| x.is_finite())
                 ),
-                Injected::OutOfRange => assert!(
+                InjectedFault::OutOfRange => assert!(
                     read.expect("a reading")
                         .position_m
                         .iter()
                         .any(|x| x.abs() > 1.0)
                 ),
-                Injected::ShortTransfer => {
-                    assert!(matches!(read, Err(Fault::ShortTransfer { wanted: 16, .. })))
+                InjectedFault::ShortTransfer => {
+                    assert!(matches!(
+                        read,
+                        Err(DeviceError::ShortTransfer { wanted: 16, .. })
+                    ))
                 }
-                Injected::Stalled => assert_eq!(read, Err(Fault::Stalled)),
-                Injected::Unplugged => assert_eq!(read, Err(Fault::Disconnected)),
-                Injected::WriteFailed | Injected::ClockStep => {
+                InjectedFault::Stalled => assert_eq!(read, Err(DeviceError::Stalled)),
+                InjectedFault::Unplugged => assert_eq!(read, Err(DeviceError::Disconnected)),
+                InjectedFault::WriteFailed | InjectedFault::ClockStep => {
                     assert!(near(read.expect("a reading")))
                 }
             }
             let expected = match kind {
-                Injected::Unplugged => (Err(Fault::Disconnected), 0, 0.0),
-                Injected::WriteFailed => (Err(Fault::TimedOut), 0, 0.5),
-                Injected::ClockStep => (Ok(()), 2, 0.7),
+                InjectedFault::Unplugged => (Err(DeviceError::Disconnected), 0, 0.0),
+                InjectedFault::WriteFailed => (Err(DeviceError::TimedOut), 0, 0.5),
+                InjectedFault::ClockStep => (Ok(()), 2, 0.7),
                 _ => (Ok(()), 0, 0.7),
             };
             assert_eq!((wrote, skipped, force), expected, "{kind:?}");
@@ -321,7 +324,7 @@ mod tests {
             (device.counts(), read)
         };
         let (counts, read) = run(7);
-        for kind in Injected::ALL {
+        for kind in InjectedFault::ALL {
             // The bound is five standard deviations of a binomial count.
             let off = (counts.of(kind) as f64 - 1000.0).abs();
             assert!(
@@ -336,13 +339,13 @@ mod tests {
 
     #[test]
     fn injectors_stack_and_bad_plans_are_refused_by_name() {
-        let inner =
-            Faulty::new(walk(), Plan::default().with(Injected::Lost, 1.0, 1), 1).expect("a plan");
+        let inner = Faulty::new(walk(), Plan::default().with(InjectedFault::Lost, 1.0, 1), 1)
+            .expect("a plan");
         let mut outer = Faulty::new(inner, Plan::default(), 1).expect("a plan");
-        assert_eq!(outer.read(), Err(Fault::TimedOut));
+        assert_eq!(outer.read(), Err(DeviceError::TimedOut));
         let refused = |plan: Plan| plan.check().expect_err("a bad plan").to_string();
-        assert!(refused(Plan::default().with(Injected::Late, f64::NAN, 1)).contains("late"));
-        assert!(refused(Plan::default().with(Injected::Stuck, 0.1, 0)).contains("stuck"));
+        assert!(refused(Plan::default().with(InjectedFault::Late, f64::NAN, 1)).contains("late"));
+        assert!(refused(Plan::default().with(InjectedFault::Stuck, 0.1, 0)).contains("stuck"));
         assert!(refused(Plan::all(1.2, 1)).contains("more than 1"));
         assert!(Plan::all(1.0, 1).check().is_ok());
     }

@@ -6,15 +6,15 @@
 //!
 //! | fault | a reading gives | a force |
 //! |---|---|---|
-//! | lost | [`Fault::TimedOut`](super::Fault) | arrives |
+//! | lost | [`DeviceError::TimedOut`](super::DeviceError) | arrives |
 //! | late | the last reading, not fresh | arrives |
 //! | duplicate | the last reading once more, as if fresh | arrives |
 //! | stuck | fresh buttons at the last position | arrives |
 //! | not finite | a coordinate that is NaN or infinite | arrives |
 //! | out of range | a coordinate some metres away | arrives |
-//! | short transfer | [`Fault::ShortTransfer`](super::Fault) | arrives |
-//! | stalled | [`Fault::Stalled`](super::Fault) | arrives |
-//! | unplugged | [`Fault::Disconnected`](super::Fault) | does not arrive, and the device has none |
+//! | short transfer | [`DeviceError::ShortTransfer`](super::DeviceError) | arrives |
+//! | stalled | [`DeviceError::Stalled`](super::DeviceError) | arrives |
+//! | unplugged | [`DeviceError::Disconnected`](super::DeviceError) | does not arrive, and the device has none |
 //! | write failed | what was measured | does not arrive; the device keeps the last one |
 //! | clock step | what was measured, and [`Faulty::take_clock_step`] says how many periods are gone | arrives |
 //!
@@ -25,4 +25,4 @@ mod plan;
 pub mod trial;
 
 pub use injector::Faulty;
-pub use plan::{Counts, Injected, Plan, PlanError, Rate};
+pub use plan::{Counts, InjectedFault, Plan, PlanError, Rate};

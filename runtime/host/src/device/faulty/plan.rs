@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// A kind of injected fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Injected {
+pub enum InjectedFault {
     /// A reading is lost.
     Lost,
     /// Nothing new comes for some periods.
@@ -32,7 +32,7 @@ pub enum Injected {
 /// How many kinds there are.
 const KINDS: usize = 11;
 
-impl Injected {
+impl InjectedFault {
     /// Every kind, in the order of [`Plan::rates`].
     pub const ALL: [Self; KINDS] = [
         Self::Lost,
@@ -80,7 +80,7 @@ pub struct Rate {
 /// The rate of every kind; the default has no faults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
-    /// One rate for each kind, in the order of [`Injected::ALL`].
+    /// One rate for each kind, in the order of [`InjectedFault::ALL`].
     pub rates: [Rate; KINDS],
 }
 
@@ -109,7 +109,7 @@ impl Plan {
 
     /// The plan with another rate for one kind.
     #[must_use]
-    pub fn with(mut self, kind: Injected, probability: f64, longest_periods: u32) -> Self {
+    pub fn with(mut self, kind: InjectedFault, probability: f64, longest_periods: u32) -> Self {
         self.rates[kind as usize] = Rate {
             probability,
             longest_periods,
@@ -122,7 +122,7 @@ impl Plan {
     /// # Errors
     /// [`PlanError`].
     pub fn check(&self) -> Result<(), PlanError> {
-        for (kind, rate) in Injected::ALL.into_iter().zip(self.rates) {
+        for (kind, rate) in InjectedFault::ALL.into_iter().zip(self.rates) {
             if !(0.0..=1.0).contains(&rate.probability) {
                 return Err(PlanError::Probability {
                     kind: kind.name(),
@@ -168,14 +168,14 @@ pub enum PlanError {
     },
 }
 
-/// In how many periods each kind ran, in the order of [`Injected::ALL`].
+/// In how many periods each kind ran, in the order of [`InjectedFault::ALL`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts(pub [u64; KINDS]);
 
 impl Counts {
     /// Periods of one kind.
     #[must_use]
-    pub fn of(&self, kind: Injected) -> u64 {
+    pub fn of(&self, kind: InjectedFault) -> u64 {
         self.0[kind as usize]
     }
 

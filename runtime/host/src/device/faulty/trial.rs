@@ -10,9 +10,9 @@ use asperity_runtime::{
 };
 use serde::Serialize;
 
-use super::{Faulty, Injected, Plan};
+use super::{Faulty, InjectedFault, Plan};
 use crate::device::supervised::{Plausible, Report, Supervised};
-use crate::device::{Description, Device, Fault, Reading};
+use crate::device::{Description, Device, DeviceError, Reading};
 
 /// Periods of a fault. A clock step skips as many at once.
 pub const LASTS: u32 = 20;
@@ -44,14 +44,14 @@ pub struct Row {
 
 /// The periods from a fault to the safe state, if it comes.
 #[must_use]
-pub const fn promised(kind: Injected) -> Option<u32> {
+pub const fn promised(kind: InjectedFault) -> Option<u32> {
     match kind {
         // They look like a hand at rest.
-        Injected::Duplicate | Injected::Stuck => None,
+        InjectedFault::Duplicate | InjectedFault::Stuck => None,
         // The jump shows in the period after it.
-        Injected::ClockStep => Some(1),
+        InjectedFault::ClockStep => Some(1),
         // The first period still has its sample; the next two are held.
-        Injected::WriteFailed => Some(3),
+        InjectedFault::WriteFailed => Some(3),
         _ => Some(2),
     }
 }
@@ -59,17 +59,21 @@ pub const fn promised(kind: Injected) -> Option<u32> {
 impl Row {
     /// What of the promises it breaks, in words. `peak_n` and `slew_n` (a period) are the limits.
     #[must_use]
-    pub fn broken(&self, kind: Injected, peak_n: f32, slew_n: f32) -> Option<&'static str> {
+    pub fn broken(&self, kind: InjectedFault, peak_n: f32, slew_n: f32) -> Option<&'static str> {
         let safe = u32::from(self.safe_after.is_some());
         // A clock step is no fault of the device.
-        let told = if kind == Injected::ClockStep { 0 } else { safe };
+        let told = if kind == InjectedFault::ClockStep {
+            0
+        } else {
+            safe
+        };
         let steps = (peak_n / slew_n).ceil() as u32;
         if self.safe_after != promised(kind) {
             Some("the safe state comes at another time than promised")
         } else if (self.faults, self.reports) != (safe, told) {
             Some("a fault is entered once and told once")
         // The period after a clock step is sound, so the ramp may begin before the force is gone.
-        } else if (kind != Injected::ClockStep && self.zero_after.is_some() != (safe == 1))
+        } else if (kind != InjectedFault::ClockStep && self.zero_after.is_some() != (safe == 1))
             || self.zero_after.is_some_and(|periods| periods > steps)
         {
             Some("the force is gone within the steps that the slew limit asks for")
@@ -106,14 +110,14 @@ impl Trial<'_> {
     pub fn run<D: Device>(
         &self,
         device: D,
-        kind: Injected,
+        kind: InjectedFault,
         mut each: impl FnMut(u32),
     ) -> Result<Row, ConfigError> {
         let renderer = Renderer::new(self.config)?;
         let mut state = State::new(self.seed);
         let faulty = Faulty::quiet(device);
         let mut device = Supervised::new(faulty, self.config, Plausible::default());
-        let lasts = if kind == Injected::ClockStep {
+        let lasts = if kind == InjectedFault::ClockStep {
             1
         } else {
             LASTS
@@ -148,7 +152,7 @@ impl Trial<'_> {
             // What was written last in the fault fails one reading later.
             row.disturbed += u32::from(seen.fault.is_some() && since > lasts);
             let now = device.held_n();
-            if device.device().running() != Some(Injected::Unplugged) {
+            if device.device().running() != Some(InjectedFault::Unplugged) {
                 let step = norm(std::array::from_fn(|axis| now[axis] - held[axis]));
                 row.steepest_n = larger(row.steepest_n, step);
             }
@@ -224,7 +228,7 @@ impl<D: Device> Paced<D> {
     ///
     /// # Errors
     /// The last fault where no position came within `patience`.
-    pub fn begin(mut device: D, depth_m: f32, patience: Duration) -> Result<Self, Fault> {
+    pub fn begin(mut device: D, depth_m: f32, patience: Duration) -> Result<Self, DeviceError> {
         let begun = Instant::now();
         loop {
             let fault = match device.read() {
@@ -235,7 +239,7 @@ impl<D: Device> Paced<D> {
                         patience: Duration::from_secs(2),
                     });
                 }
-                Ok(_) => Fault::TimedOut,
+                Ok(_) => DeviceError::TimedOut,
                 Err(fault) => fault,
             };
             if begun.elapsed() > patience {
@@ -253,7 +257,7 @@ impl<D: Device> Device for Paced<D> {
         self.device.description()
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         let asked = Instant::now();
         loop {
             let reading = self.device.read()?;
@@ -268,11 +272,11 @@ impl<D: Device> Device for Paced<D> {
         }
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         self.device.write(force_n)
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         self.device.recover()
     }
 }

@@ -16,7 +16,7 @@ mod constants;
 mod interface;
 mod library;
 mod scheduled;
-mod session;
+mod scheduled_device;
 mod snapshot;
 
 use std::ffi::CString;
@@ -25,9 +25,9 @@ use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 
 use self::constants as hd;
 use self::library::Hd;
-use self::session::{Session, fault};
+use self::scheduled_device::{ScheduledDevice, fault};
 use super::vendor_library::{Library, LibraryError, Source, VendorError};
-use super::{Description, Device, Fault, Reading, Uri};
+use super::{Description, Device, DeviceError, Reading, Uri};
 
 /// How the library is found.
 pub const SOURCE: Source = Source {
@@ -82,7 +82,7 @@ pub struct OpenHaptics {
     name: Option<CString>,
     hd: Arc<Hd>,
     /// `None` while the device is away.
-    session: Option<Session>,
+    session: Option<ScheduledDevice>,
     last: Reading,
     velocity_m_s: [f32; 3],
     last_number: u32,
@@ -113,7 +113,7 @@ impl OpenHaptics {
         })?;
         let library = Library::load(&SOURCE, uri.setting("lib"))?;
         let hd = Arc::new(Hd::find(library)?);
-        let session = Session::open(&hd, name.as_ref())?;
+        let session = ScheduledDevice::open(&hd, name.as_ref())?;
         Ok(Self {
             description: describe(&hd),
             name,
@@ -184,13 +184,13 @@ impl Device for OpenHaptics {
         &self.description
     }
 
-    fn read(&mut self) -> Result<Reading, Fault> {
+    fn read(&mut self) -> Result<Reading, DeviceError> {
         let Some(session) = self.session.as_ref().filter(|_| !self.lost) else {
-            return Err(Fault::Disconnected);
+            return Err(DeviceError::Disconnected);
         };
         if let Some(code) = session.scheduled.take_fault() {
             let fault = fault(code);
-            self.lost = fault == Fault::Disconnected;
+            self.lost = fault == DeviceError::Disconnected;
             return Err(fault);
         }
         let newest = session.scheduled.newest();
@@ -209,7 +209,7 @@ impl Device for OpenHaptics {
             None => {
                 self.quiet = self.quiet.saturating_add(1);
                 if self.quiet > QUIET {
-                    return Err(Fault::TimedOut);
+                    return Err(DeviceError::TimedOut);
                 }
                 Ok(Reading {
                     fresh: false,
@@ -219,22 +219,22 @@ impl Device for OpenHaptics {
         }
     }
 
-    fn write(&mut self, force_n: [f32; 3]) -> Result<(), Fault> {
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
         let session = self.session.as_ref().filter(|_| !self.lost);
-        let session = session.ok_or(Fault::Disconnected)?;
+        let session = session.ok_or(DeviceError::Disconnected)?;
         session.scheduled.command(to_device(force_n));
         Ok(())
     }
 
-    fn recover(&mut self) -> Result<(), Fault> {
+    fn recover(&mut self) -> Result<(), DeviceError> {
         if self.lost || self.session.is_none() || self.quiet > QUIET {
             // The old session ends before a new one begins.
             self.session = None;
-            let opened = Session::open(&self.hd, self.name.as_ref());
+            let opened = ScheduledDevice::open(&self.hd, self.name.as_ref());
             self.session = Some(opened.map_err(|error| match error {
-                VendorError::NotCalibrated { .. } => Fault::NotCalibrated,
-                VendorError::WarmMotors { .. } => Fault::WarmMotors,
-                _ => Fault::Disconnected,
+                VendorError::NotCalibrated { .. } => DeviceError::NotCalibrated,
+                VendorError::WarmMotors { .. } => DeviceError::WarmMotors,
+                _ => DeviceError::Disconnected,
             })?);
             self.last_number = 0;
             (self.quiet, self.lost) = (0, false);

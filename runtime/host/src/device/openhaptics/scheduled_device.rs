@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::constants as hd;
 use super::library::{Code, Handle, Hd, Ticket};
 use super::scheduled::Scheduled;
-use crate::device::Fault;
+use crate::device::DeviceError;
 use crate::device::vendor_library::VendorError;
 
 /// How long opening waits for the first measurement.
@@ -23,7 +23,7 @@ const HOW: &str = "put the stylus into the inkwell of the device (older models: 
 
 /// An open device whose callback runs.
 #[derive(Debug)]
-pub(super) struct Session {
+pub(super) struct ScheduledDevice {
     pub(super) hd: Arc<Hd>,
     pub(super) scheduled: Arc<Scheduled>,
     device: Handle,
@@ -31,19 +31,19 @@ pub(super) struct Session {
 }
 
 /// What an error means within a period.
-pub(super) fn fault(code: u32) -> Fault {
+pub(super) fn fault(code: u32) -> DeviceError {
     match code {
-        hd::HD_WARM_MOTORS => Fault::WarmMotors,
+        hd::HD_WARM_MOTORS => DeviceError::WarmMotors,
         hd::HD_EXCEEDED_MAX_FORCE
         | hd::HD_EXCEEDED_MAX_FORCE_IMPULSE
-        | hd::HD_EXCEEDED_MAX_VELOCITY => Fault::ForceExceeded,
-        hd::HD_DEVICE_FAULT | hd::HD_COMM_ERROR => Fault::Disconnected,
-        hd::HD_TIMER_ERROR => Fault::TimedOut,
-        other => Fault::Vendor(other.cast_signed()),
+        | hd::HD_EXCEEDED_MAX_VELOCITY => DeviceError::ForceExceeded,
+        hd::HD_DEVICE_FAULT | hd::HD_COMM_ERROR => DeviceError::Disconnected,
+        hd::HD_TIMER_ERROR => DeviceError::TimedOut,
+        other => DeviceError::Vendor(other.cast_signed()),
     }
 }
 
-impl Session {
+impl ScheduledDevice {
     /// Opens, calibrates and starts the device of a configured name.
     pub(super) fn open(hd: &Arc<Hd>, name: Option<&CString>) -> Result<Self, VendorError> {
         let shown = name.map_or("the default OpenHaptics device".into(), |name| {
@@ -92,7 +92,7 @@ impl Session {
     }
 }
 
-impl Drop for Session {
+impl Drop for ScheduledDevice {
     fn drop(&mut self) {
         self.scheduled.stop();
         let until = Instant::now() + RELEASE;
