@@ -168,7 +168,9 @@ mod tests {
     use crate::servo::RenderedTexture;
     use crate::session::Session;
     use asperity_formats::Asset;
-    use asperity_host::servo::{Event, Fixed, Observer, Record, ServoLoop, Settings, Virtual};
+    use asperity_host::servo::{
+        Event, Observer, Record, ServoLoop, Settings, SingleTexture, Virtual,
+    };
     use asperity_runtime::{Config, HostTexture, Renderer, State};
     use std::sync::atomic::AtomicBool;
 
@@ -210,7 +212,7 @@ mod tests {
             .collect();
 
         let mut device = SimDevice::new(&config, grip, 3, 1000, Pace::Stepped);
-        let render = Fixed {
+        let render = SingleTexture {
             renderer: &renderer,
             texture: &texture,
             state: State::new(5),

@@ -99,7 +99,7 @@ impl<'a> Asset<'a> {
             grid: Grid::parse(haptic(header::GRID))?,
             taps: Taps::parse(haptic(header::TAPS))?,
             friction: Friction::parse(haptic(header::FRICTION), header.version)?,
-            coupling: Coupling::parse(haptic(header::SURFACE))?,
+            coupling: Coupling::parse(haptic(header::COUPLING))?,
             provenance: ancillary(
                 find(header::PROVENANCE),
                 preview(bytes, &header),

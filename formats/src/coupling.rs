@@ -20,7 +20,7 @@ pub struct Coupling {
 impl Coupling {
     pub(crate) fn parse(bytes: &[u8]) -> Result<Self, FormatError> {
         let mut reader = Reader::new(bytes);
-        let surface = Self {
+        let coupling = Self {
             stiffness_n_m: reader.f32("surface.stiffness_n_m")?,
             damping_n_s_m: reader.f32("surface.damping_n_s_m")?,
             vib_s2_m: reader.f32("surface.vib_s2_m")?,
@@ -32,37 +32,37 @@ impl Coupling {
         for (field, value, range, rule) in [
             (
                 "surface.stiffness_n_m",
-                surface.stiffness_n_m,
+                coupling.stiffness_n_m,
                 (tiny, limits::MAX_STIFFNESS_N_M),
                 "above 0, at most 1e5 N/m",
             ),
             (
                 "surface.damping_n_s_m",
-                surface.damping_n_s_m,
+                coupling.damping_n_s_m,
                 (0.0, limits::MAX_DAMPING_N_S_M),
                 "0 to 1000 N·s/m",
             ),
             (
                 "surface.vib_s2_m",
-                surface.vib_s2_m,
+                coupling.vib_s2_m,
                 (0.0, limits::MAX_VIB_GAIN_S2_M),
                 "0 to 1000 s²/m",
             ),
             (
                 "surface.effective_mass_kg",
-                surface.effective_mass_kg,
+                coupling.effective_mass_kg,
                 (0.0, limits::MAX_EFFECTIVE_MASS_KG),
                 "0 to 100 kg",
             ),
             (
                 "surface.f_max_n",
-                surface.f_max_n,
+                coupling.f_max_n,
                 (tiny, limits::MAX_DEVICE_FORCE_N),
                 "above 0, at most 1e4 N",
             ),
         ] {
             in_range(field, 0, value, range, rule)?;
         }
-        Ok(surface)
+        Ok(coupling)
     }
 }

@@ -140,7 +140,7 @@ pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeErr
     let end = write_friction(&parts.friction, Writer::new(out, table.section))?;
     table.close(out, header::FRICTION, end)?;
     let end = write_coupling(&parts.coupling, Writer::new(out, table.section))?;
-    table.close(out, header::SURFACE, end)?;
+    table.close(out, header::COUPLING, end)?;
     let haptic_len = end;
     if let Some(provenance) = &parts.provenance {
         let place = out.get_mut(table.section..).unwrap_or_default();
@@ -343,13 +343,13 @@ fn write_friction(
     Ok(writer.position())
 }
 
-fn write_coupling(surface: &Coupling, mut writer: Writer<'_>) -> Result<usize, EncodeError> {
+fn write_coupling(coupling: &Coupling, mut writer: Writer<'_>) -> Result<usize, EncodeError> {
     for value in [
-        surface.stiffness_n_m,
-        surface.damping_n_s_m,
-        surface.vib_s2_m,
-        surface.effective_mass_kg,
-        surface.f_max_n,
+        coupling.stiffness_n_m,
+        coupling.damping_n_s_m,
+        coupling.vib_s2_m,
+        coupling.effective_mass_kg,
+        coupling.f_max_n,
     ] {
         writer.f32(value)?;
     }

@@ -21,7 +21,7 @@ pub(crate) const NAME: [u8; 4] = *b"NAME";
 pub(crate) const GRID: [u8; 4] = *b"GRID";
 pub(crate) const TAPS: [u8; 4] = *b"TAPS";
 pub(crate) const FRICTION: [u8; 4] = *b"FRIC";
-pub(crate) const SURFACE: [u8; 4] = *b"SURF";
+pub(crate) const COUPLING: [u8; 4] = *b"SURF";
 pub(crate) const PROVENANCE: [u8; 4] = *b"prov";
 pub(crate) const PREVIEW: [u8; 4] = *b"prev";
 pub(crate) const LATENT: [u8; 4] = *b"late";
@@ -33,7 +33,7 @@ pub(crate) const HAPTIC: [([u8; 4], &str); 5] = [
     (GRID, "grid"),
     (TAPS, "taps"),
     (FRICTION, "friction"),
-    (SURFACE, "surface"),
+    (COUPLING, "surface"),
 ];
 
 /// One section of an asset.

@@ -4,7 +4,7 @@
 use asperity::{builtin, lower, pipeline::Clock, recording};
 use asperity_experiments::import_accuracy::{Sensors, compare_at};
 use asperity_formats::Asset;
-use asperity_host::servo::{Event, Fixed, Observer, Record, ServoLoop, Settings, Virtual};
+use asperity_host::servo::{Event, Observer, Record, ServoLoop, Settings, SingleTexture, Virtual};
 use asperity_lab::capture::{
     About, Ask, Batch, Coverage, FILES, LineDecoder, Plan, Samples, Simulated, Take, Told, part,
     write,
@@ -101,7 +101,7 @@ fn record(seconds: u64) -> Recorder {
         visits: Vec::new(),
     };
     let mut device = SimDevice::with(&device, grip, 5, 1000, Pace::Stepped, Hands::Record);
-    let render = Fixed {
+    let render = SingleTexture {
         renderer: &renderer,
         texture: &texture,
         state: State::new(3),

@@ -1,26 +1,21 @@
 //! A servo behind faults.
 
+use asperity_host::faults::{FaultCounts, FaultPlanError, FaultSchedule};
 use asperity_runtime::{Output, Sample};
-use rand_core::{Rng, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::plan::{FaultCounts, FaultPlan, FaultPlanError, SampleFault};
-use crate::random::unit;
+use super::plan::{FaultPlan, KINDS, SampleFault};
 use crate::servo::{Servo, silence};
 
 /// A servo behind faults.
 #[derive(Debug, Clone)]
 pub struct FaultInjector<S> {
     inner: S,
-    plan: FaultPlan,
-    rng: Xoshiro256PlusPlus,
-    running: Option<(SampleFault, u32)>,
+    schedule: FaultSchedule<SampleFault, KINDS>,
     /// Last sample that the servo was given without a fault.
     last: Sample,
     output: Output,
     /// Ticks that passed since the servo last saw a fresh sample.
     missed_ticks: u32,
-    counts: FaultCounts,
 }
 
 impl<S: Servo> FaultInjector<S> {
@@ -29,23 +24,19 @@ impl<S: Servo> FaultInjector<S> {
     /// # Errors
     /// [`FaultPlanError`], as [`FaultPlan::check`].
     pub fn new(inner: S, plan: FaultPlan, seed: u64) -> Result<Self, FaultPlanError> {
-        plan.check()?;
         Ok(Self {
             inner,
-            plan,
-            rng: Xoshiro256PlusPlus::seed_from_u64(seed),
-            running: None,
+            schedule: FaultSchedule::new(plan, seed)?,
             last: Sample::at([0.0; 3]),
             output: silence(),
             missed_ticks: 0,
-            counts: FaultCounts::default(),
         })
     }
 
     /// How many ticks each kind has taken so far.
     #[must_use]
-    pub fn counts(&self) -> FaultCounts {
-        self.counts
+    pub fn counts(&self) -> FaultCounts<KINDS> {
+        self.schedule.counts()
     }
 
     /// The servo behind the faults.
@@ -56,7 +47,7 @@ impl<S: Servo> FaultInjector<S> {
 
     /// Starts a fault for `ticks` ticks; it replaces one that runs.
     pub fn start(&mut self, fault: SampleFault, ticks: u32) {
-        self.running = (ticks > 0).then_some((fault, ticks));
+        self.schedule.start(fault, ticks);
     }
 
     /// The servo, without the faults.
@@ -65,29 +56,9 @@ impl<S: Servo> FaultInjector<S> {
         self.inner
     }
 
-    /// The fault of this tick, if any.
-    fn draw(&mut self) -> Option<SampleFault> {
-        if self.running.is_none() {
-            let mut left = unit(&mut self.rng);
-            for (fault, rate) in SampleFault::ALL.into_iter().zip(self.plan.kinds) {
-                if left < rate.probability {
-                    let span = u64::from(rate.longest_ticks);
-                    let ticks = 1 + (self.rng.next_u64() % span) as u32;
-                    self.running = Some((fault, ticks));
-                    break;
-                }
-                left -= rate.probability;
-            }
-        }
-        let (fault, ticks) = self.running?;
-        self.running = (ticks > 1).then_some((fault, ticks - 1));
-        self.counts.0[fault as usize] += 1;
-        Some(fault)
-    }
-
     /// A coordinate that is NaN or infinite.
     fn not_finite(&mut self) -> f32 {
-        [f32::NAN, f32::INFINITY, f32::NEG_INFINITY][(self.rng.next_u64() % 3) as usize]
+        [f32::NAN, f32::INFINITY, f32::NEG_INFINITY][self.schedule.below(3) as usize]
     }
 }
 
@@ -97,14 +68,14 @@ impl<S: Servo> Servo for FaultInjector<S> {
             elapsed_ticks: sample.elapsed_ticks.saturating_add(missed),
             ..*sample
         };
-        let given = match self.draw() {
+        let given = match self.schedule.draw().map(|(fault, _)| fault) {
             None => {
                 self.last = fresh(std::mem::take(&mut self.missed_ticks));
                 self.last
             }
             Some(SampleFault::NotFinite) => {
                 let mut broken = fresh(std::mem::take(&mut self.missed_ticks));
-                let axis = (self.rng.next_u64() % 3) as usize;
+                let axis = self.schedule.below(3) as usize;
                 broken.position_m[axis] = self.not_finite();
                 broken
             }

@@ -1,7 +1,6 @@
 //! Seeded faults between a device and a servo, stackable on any servo.
 //!
-//! At most one fault runs at a time. While none runs, each tick starts one with the
-//! probabilities of the plan. The servo sees each kind as follows:
+//! A [`FaultPlan`] says when they begin. The servo sees each kind as follows:
 //!
 //! | fault | the servo sees |
 //! |---|---|
@@ -15,4 +14,4 @@ mod injector;
 mod plan;
 
 pub use injector::FaultInjector;
-pub use plan::{FaultCounts, FaultPlan, FaultPlanError, FaultRate, SampleFault};
+pub use plan::{FaultPlan, SampleFault};

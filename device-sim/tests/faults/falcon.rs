@@ -6,6 +6,7 @@ use asperity_host::device::falcon::Falcon;
 use asperity_host::device::falcon::settings::Settings;
 use asperity_host::device::faulty::InjectedFault;
 use asperity_host::device::faulty::trial::{Paced, Trial};
+use asperity_host::faults::FaultKind as _;
 use asperity_runtime::Config;
 use asperity_virtual_usb::falcon::Falcon as Virtual;
 use asperity_virtual_usb::{InProcessOpener, Port, Socket};

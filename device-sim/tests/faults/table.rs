@@ -11,6 +11,7 @@ use asperity_host::device::faulty::{InjectedFault, Plan};
 use asperity_host::device::openhaptics::OpenHaptics;
 use asperity_host::device::replay::{AtEnd, Replay};
 use asperity_host::device::{Description, Device, DeviceError, Reading};
+use asperity_host::faults::FaultKind as _;
 use asperity_host::session_log::{Encoder, SessionLog};
 use asperity_runtime::{Config, HostTexture};
 

@@ -6,7 +6,7 @@ use asperity_host::latency::{
     percentile_distribution, read_log, write_log,
 };
 use asperity_host::servo::{
-    Fixed, Observer, Overrun, Record, Render, ServoLoop, Settings, Stage, Virtual,
+    Observer, Overrun, Record, Render, ServoLoop, Settings, SingleTexture, Stage, Virtual,
 };
 use asperity_runtime::{Config, Counters, Output, Sample, State};
 use hdrhistogram::Histogram;
@@ -82,7 +82,7 @@ fn run(periods: u64, overrun: Overrun, injection: Option<&str>, stall: Option<(u
     let device = Scripted::new(&clock, read, |_| act(WRITE_NS));
     let mut device = Delayed::new(device, Punctual(clock.clone()), injection);
     let (texture, renderer) = texture(1000.0);
-    let render = Fixed {
+    let render = SingleTexture {
         renderer: &renderer,
         texture: &texture,
         state: State::new(1),

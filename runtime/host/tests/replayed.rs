@@ -5,7 +5,7 @@ use crate::support::{Act, Kept, Scripted, texture};
 use asperity_host::device::DeviceError;
 use asperity_host::device::replay::{AtEnd, Replay};
 use asperity_host::servo::{
-    End, Event, Fixed, Overrun, Pace, Record, Render, ServoLoop, Settings, Virtual,
+    End, Event, Overrun, Pace, Record, Render, ServoLoop, Settings, SingleTexture, Virtual,
 };
 use asperity_host::session_log::{
     Conditions, Encoder, FromServo, SessionLog, TextureInfo, pace, render_again,
@@ -51,7 +51,7 @@ fn session(overrun: Overrun) -> Kept {
     let mut device = Scripted::new(&clock, read, write);
     device.recovers = true;
     device.recovery_ns = 9 * PERIOD_NS;
-    let render = Fixed {
+    let render = SingleTexture {
         renderer: &renderer,
         texture: &texture,
         state: State::new(SEED),
@@ -108,7 +108,7 @@ fn played(recording: &SessionLog, seed: u64) -> (Kept, End, (u64, u64)) {
             self.0.counters()
         }
     }
-    let fixed = Fixed {
+    let fixed = SingleTexture {
         renderer: &renderer,
         texture: &texture,
         state: State::new(seed),

@@ -3,7 +3,8 @@
 use crate::support::{Act, Kept, Scripted, length, texture};
 use asperity_host::device::DeviceError;
 use asperity_host::servo::{
-    End, Event, Fixed, Overrun, Report, ServoLoop, Settings, SettingsError, Stage, Virtual, queues,
+    End, Event, Overrun, Report, ServoLoop, Settings, SettingsError, SingleTexture, Stage, Virtual,
+    queues,
 };
 use asperity_runtime::{Flags, State};
 use std::ops::Range;
@@ -51,7 +52,7 @@ fn run(
     let mut device = Scripted::new(&clock, read, write);
     device.recovery_ns = recovery_ns;
     let mut kept = Kept::default();
-    let render = Fixed {
+    let render = SingleTexture {
         renderer: &renderer,
         texture: &texture,
         state: State::new(1),
@@ -283,7 +284,7 @@ fn a_loop_that_is_stopped_in_contact_lets_go_at_the_slew_limit() {
         Act::default()
     };
     let mut device = Scripted::new(&clock, read, calm);
-    let render = Fixed {
+    let render = SingleTexture {
         renderer: &renderer,
         texture: &texture,
         state: State::new(1),
@@ -308,7 +309,7 @@ fn a_slow_reader_loses_records_and_never_a_tick() {
     let clock = Virtual::new();
     let (texture, renderer) = texture(1000.0);
     let mut device = Scripted::new(&clock, calm, calm);
-    let render = Fixed {
+    let render = SingleTexture {
         renderer: &renderer,
         texture: &texture,
         state: State::new(1),

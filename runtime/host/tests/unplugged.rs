@@ -4,7 +4,8 @@
 use crate::support::{Act, Kept, Scripted, length, texture};
 use asperity_host::device::faulty::{Faulty, InjectedFault, Plan};
 use asperity_host::device::{Description, Device, DeviceError, Reading};
-use asperity_host::servo::{Event, Fixed, Report, ServoLoop, Settings, Virtual};
+use asperity_host::faults::FaultKind as _;
+use asperity_host::servo::{Event, Report, ServoLoop, Settings, SingleTexture, Virtual};
 use asperity_runtime::{Config, Flags, Renderer, State};
 use std::sync::atomic::AtomicBool;
 
@@ -106,7 +107,7 @@ fn session_with(
     scripted.recovers = true;
     let mut device = OnDesk::new(&mut scripted, plan, starts);
     let mut kept = Kept::default();
-    let render = Fixed {
+    let render = SingleTexture {
         renderer: &renderer,
         texture: &texture,
         state: State::new(1),

@@ -44,7 +44,7 @@ pub use outlet::{Inlet, Outlet, queues};
 pub use pace::Pace;
 pub use periods::ServoLoop;
 pub use record::{Observer, Record};
-pub use render::{Fixed, InScene, Played, Render};
+pub use render::{InScene, Played, Render, SingleTexture};
 pub use report::{End, Report};
 pub use schedule::Schedule;
 pub use settings::{Overrun, RATES_HZ, Settings, SettingsError};

@@ -91,7 +91,7 @@ impl<const N: usize> Render for InScene<'_, '_, N> {
 }
 
 /// One texture that stays.
-pub struct Fixed<'r> {
+pub struct SingleTexture<'r> {
     /// The renderer.
     pub renderer: &'r Renderer,
     /// The texture.
@@ -100,7 +100,7 @@ pub struct Fixed<'r> {
     pub state: State,
 }
 
-impl Render for Fixed<'_> {
+impl Render for SingleTexture<'_> {
     fn tick(&mut self, sample: &Sample) -> Output {
         self.renderer.tick(self.texture, &mut self.state, sample)
     }

@@ -7,6 +7,7 @@ use asperity_formats::Asset;
 use asperity_host::device::Scheme;
 use asperity_host::device::faulty::InjectedFault;
 use asperity_host::device::faulty::trial::{Paced, Row, Trial};
+use asperity_host::faults::FaultKind as _;
 use asperity_io::diagnostic::{Failures, one};
 use asperity_lab::servo_session;
 use asperity_runtime::{Config, HostTexture};

@@ -1,24 +1,18 @@
 //! A device behind faults.
 
-use rand_core::{Rng, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
-
-use super::plan::{Counts, InjectedFault, Plan, PlanError};
+use super::plan::{InjectedFault, KINDS, Plan};
 use crate::device::{Description, Device, DeviceError, Reading};
+use crate::faults::{FaultCounts, FaultPlanError, FaultSchedule};
 
 /// A device behind faults. Injectors stack.
 #[derive(Debug)]
 pub struct Faulty<D> {
     inner: D,
-    plan: Plan,
-    rng: Xoshiro256PlusPlus,
-    /// What runs, and for how many periods more.
-    running: Option<(InjectedFault, u32)>,
+    schedule: FaultSchedule<InjectedFault, KINDS>,
     /// What this period has.
     now: Option<InjectedFault>,
     last: Reading,
     clock_step: u32,
-    counts: Counts,
     /// Periods that clock steps skipped.
     skipped: u64,
 }
@@ -27,18 +21,20 @@ impl<D: Device> Faulty<D> {
     /// Puts a device behind the faults of a plan.
     ///
     /// # Errors
-    /// [`PlanError`], as [`Plan::check`].
-    pub fn new(inner: D, plan: Plan, seed: u64) -> Result<Self, PlanError> {
-        plan.check()?;
-        Ok(Self::unchecked(inner, plan, seed))
+    /// [`FaultPlanError`], as [`FaultPlan::check`](crate::faults::FaultPlan::check).
+    pub fn new(inner: D, plan: Plan, seed: u64) -> Result<Self, FaultPlanError> {
+        Ok(Self::on(inner, FaultSchedule::new(plan, seed)?))
     }
 
-    pub(super) fn unchecked(inner: D, plan: Plan, seed: u64) -> Self {
+    /// A device behind faults that are started by hand alone.
+    pub fn quiet(inner: D) -> Self {
+        Self::on(inner, FaultSchedule::by_hand(1))
+    }
+
+    fn on(inner: D, schedule: FaultSchedule<InjectedFault, KINDS>) -> Self {
         Self {
             inner,
-            plan,
-            rng: Xoshiro256PlusPlus::seed_from_u64(seed),
-            running: None,
+            schedule,
             now: None,
             last: Reading {
                 position_m: [0.0; 3],
@@ -46,7 +42,6 @@ impl<D: Device> Faulty<D> {
                 buttons: 0,
             },
             clock_step: 0,
-            counts: Counts::default(),
             skipped: 0,
         }
     }
@@ -62,8 +57,8 @@ impl<D: Device> Faulty<D> {
     }
 
     /// In how many periods each kind ran.
-    pub fn counts(&self) -> Counts {
-        self.counts
+    pub fn counts(&self) -> FaultCounts<KINDS> {
+        self.schedule.counts()
     }
 
     /// Periods that clock steps skipped.
@@ -79,7 +74,7 @@ impl<D: Device> Faulty<D> {
     /// Starts a fault with the next reading; it replaces one that runs. A clock step skips
     /// `periods` periods at once.
     pub fn start(&mut self, kind: InjectedFault, periods: u32) {
-        self.running = (periods > 0).then_some((kind, periods));
+        self.schedule.start(kind, periods);
     }
 
     /// Periods by which the clock has jumped since the last call. A loop adds them to those that
@@ -89,37 +84,23 @@ impl<D: Device> Faulty<D> {
     }
 
     fn draw(&mut self) -> Option<InjectedFault> {
-        if self.running.is_none() {
-            let mut left = (self.rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-            for (kind, rate) in InjectedFault::ALL.into_iter().zip(self.plan.rates) {
-                if left < rate.probability {
-                    let periods = 1 + self.rng.next_u64() % u64::from(rate.longest_periods);
-                    self.running = Some((kind, periods as u32));
-                    break;
-                }
-                left -= rate.probability;
-            }
-        }
-        let (kind, periods) = self.running?;
+        let (kind, periods) = self.schedule.draw()?;
         if kind == InjectedFault::ClockStep {
             self.clock_step = self.clock_step.saturating_add(periods);
             self.skipped += u64::from(periods);
-            self.running = None;
-        } else {
-            self.running = (periods > 1).then_some((kind, periods - 1));
+            self.schedule.stop();
         }
-        self.counts.0[kind as usize] += 1;
         Some(kind)
     }
 
     /// One of some values.
     fn one_of<const N: usize>(&mut self, values: [f32; N]) -> f32 {
-        values[(self.rng.next_u64() % N as u64) as usize]
+        values[self.schedule.below(N as u64) as usize]
     }
 
     /// A reading with another coordinate.
     fn spoiled(&mut self, mut reading: Reading, coordinate: f32) -> Reading {
-        reading.position_m[(self.rng.next_u64() % 3) as usize] = coordinate;
+        reading.position_m[self.schedule.below(3) as usize] = coordinate;
         reading
     }
 }
@@ -157,7 +138,7 @@ impl<D: Device> Device for Faulty<D> {
                 Ok(self.spoiled(read?, coordinate))
             }
             InjectedFault::ShortTransfer => Err(DeviceError::ShortTransfer {
-                got: (self.rng.next_u64() % 16) as u16,
+                got: self.schedule.below(16) as u16,
                 wanted: 16,
             }),
             InjectedFault::Stalled => Err(DeviceError::Stalled),
@@ -183,8 +164,8 @@ impl<D: Device> Device for Faulty<D> {
     }
 
     fn recover(&mut self) -> Result<(), DeviceError> {
-        match self.running {
-            Some((InjectedFault::Unplugged, _)) => Err(DeviceError::Disconnected),
+        match self.schedule.running() {
+            Some(InjectedFault::Unplugged) => Err(DeviceError::Disconnected),
             _ => self.inner.recover(),
         }
     }
@@ -193,6 +174,7 @@ impl<D: Device> Device for Faulty<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::faults::FaultKind;
 
     /// Walks a metre to the right in a thousand readings, and remembers the last force.
     #[derive(Debug)]

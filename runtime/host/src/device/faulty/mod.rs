@@ -1,7 +1,6 @@
 //! Seeded faults around any device.
 //!
-//! At most one fault runs at a time. While none runs, each period starts one with the
-//! probabilities of the plan. The device behind goes on in any case: what it measured is thrown
+//! A [`FaultPlan`](crate::faults::FaultPlan) says when they begin. The device behind goes on in any case: what it measured is thrown
 //! away, as a lost packet is.
 //!
 //! | fault | a reading gives | a force |
@@ -25,4 +24,4 @@ mod plan;
 pub mod trial;
 
 pub use injector::Faulty;
-pub use plan::{Counts, InjectedFault, Plan, PlanError, Rate};
+pub use plan::{InjectedFault, Plan};

@@ -10,7 +10,7 @@ use asperity_runtime::{
 };
 use serde::Serialize;
 
-use super::{Faulty, InjectedFault, Plan};
+use super::{Faulty, InjectedFault};
 use crate::device::supervised::{Plausible, Report, Supervised};
 use crate::device::{Description, Device, DeviceError, Reading};
 
@@ -205,13 +205,6 @@ fn release<D: Device>(
 
 fn larger(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
-}
-
-impl<D: Device> Faulty<D> {
-    /// A device behind faults that are started by hand alone.
-    pub fn quiet(inner: D) -> Self {
-        Self::unchecked(inner, Plan::default(), 1)
-    }
 }
 
 /// A device whose periods are its own answers, with the surface of the texture above where it was
