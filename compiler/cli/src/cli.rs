@@ -1,11 +1,13 @@
 //! The command line: commands, arguments, help.
 
 mod diffusion;
+mod groups;
 mod interchange;
 mod library;
 mod mixing;
 
 pub(crate) use diffusion::Diffusion;
+pub(crate) use groups::{PreviewOptions, ReportOptions};
 pub(crate) use interchange::{Export, ImportEffects};
 pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
 pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};
@@ -109,6 +111,7 @@ Examples:
   asperity compile \"felt\" -o felt.asp --text-encoder clip:./clip --model ./clip-model
   asperity compile \"felt\" -o felt.asp --emit-model felt.json --timings"
 )]
+#[command(mut_arg("no_preview", |no_preview| no_preview.conflicts_with("diffusion")))]
 pub(crate) struct Compile {
     /// What the surface feels like, looks like, is made of or is for
     pub(crate) prompt: String,
@@ -126,12 +129,8 @@ pub(crate) struct Compile {
     pub(crate) rate: Option<f64>,
     #[command(flatten)]
     pub(crate) inference: Inference,
-    /// Draw no preview
-    #[arg(long, conflicts_with = "diffusion")]
-    pub(crate) no_preview: bool,
-    /// Width and height of the preview, pixels: 64 to 1024
-    #[arg(long, value_name = "PX", default_value_t = preview::SIZE, value_parser = pixels, conflicts_with = "no_preview")]
-    pub(crate) preview_size: u32,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
     #[command(flatten)]
     pub(crate) diffusion: Diffusion,
     /// Draw the texture on one sheet, as `asperity plot` does
@@ -143,12 +142,8 @@ pub(crate) struct Compile {
     /// Say which words moved which attribute
     #[arg(long)]
     pub(crate) explain: bool,
-    /// Print JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Print on standard error how long each pass took
-    #[arg(long)]
-    pub(crate) timings: bool,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
 }
 
 fn pixels(text: &str) -> Result<u32, String> {
@@ -256,9 +251,8 @@ pub(crate) struct ImportRecording {
     /// A model folder that `asperity-train fit` wrote, instead of the embedded one
     #[arg(long, value_name = "DIR")]
     pub(crate) model: Option<PathBuf>,
-    /// Draw no preview
-    #[arg(long)]
-    pub(crate) no_preview: bool,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
     /// Draw all steps on one sheet
     #[arg(long, value_name = "FILE.png")]
     pub(crate) plot: Option<PathBuf>,
@@ -268,12 +262,8 @@ pub(crate) struct ImportRecording {
     /// Write the texture before its reduction as JSON, for `asperity import model`
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
-    /// Print the report as JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Print on standard error how long each step took
-    #[arg(long)]
-    pub(crate) timings: bool,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
 }
 
 #[derive(Debug, Args)]
@@ -339,18 +329,10 @@ pub(crate) struct ImportModel {
     /// Rate of the AR models, Hz: that of the servo loop [default: the file's]
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
-    /// Draw no preview
-    #[arg(long)]
-    pub(crate) no_preview: bool,
-    /// Width and height of the preview, pixels: 64 to 1024
-    #[arg(long, value_name = "PX", default_value_t = preview::SIZE, value_parser = pixels, conflicts_with = "no_preview")]
-    pub(crate) preview_size: u32,
-    /// Print JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Print on standard error how long each pass took
-    #[arg(long)]
-    pub(crate) timings: bool,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
 }
 
 #[derive(Debug, Args)]

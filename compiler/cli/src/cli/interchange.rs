@@ -1,5 +1,6 @@
 //! Arguments of the commands that speak other tools' formats.
 
+use super::{PreviewOptions, ReportOptions};
 use super::{pixels, within};
 use asperity::{interchange::Format, preview, reduce::Fidelity};
 use clap::Args;
@@ -110,16 +111,8 @@ pub(crate) struct ImportEffects {
     /// Rate of the AR models, Hz: that of the servo loop [default: 1000]
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
-    /// Draw no preview
-    #[arg(long)]
-    pub(crate) no_preview: bool,
-    /// Width and height of the preview, pixels: 64 to 1024
-    #[arg(long, value_name = "PX", default_value_t = preview::SIZE, value_parser = pixels, conflicts_with = "no_preview")]
-    pub(crate) preview_size: u32,
-    /// Print JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Print on standard error how long each pass took
-    #[arg(long)]
-    pub(crate) timings: bool,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
 }

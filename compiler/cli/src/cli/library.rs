@@ -1,6 +1,6 @@
 //! Arguments of the commands that make libraries and take them apart.
 
-use super::Inference;
+use super::{Inference, PreviewOptions, ReportOptions};
 use asperity::{library::Shard, scene::Target};
 use clap::Args;
 use std::path::PathBuf;
@@ -54,12 +54,8 @@ pub(crate) struct Build {
     /// For a list that others sent: refuse every path that leaves the manifest's folder
     #[arg(long)]
     pub(crate) confined: bool,
-    /// Draw no preview, whatever the manifest says
-    #[arg(long)]
-    pub(crate) no_preview: bool,
-    /// Width and height of every preview, pixels: 64 to 1024 [default: as the manifest says, or 256]
-    #[arg(long, value_name = "PX", value_parser = super::pixels, conflicts_with = "no_preview")]
-    pub(crate) preview_size: Option<u32>,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
     /// Scenes: where a tick has to fit, a processor and its clock, or a number of instructions
     #[arg(long, value_name = "cortex-m4f@168MHz|INSTRUCTIONS")]
     pub(crate) target: Option<Target>,
@@ -71,12 +67,8 @@ pub(crate) struct Build {
     pub(crate) budget_bytes: Option<u64>,
     #[command(flatten)]
     pub(crate) inference: Inference,
-    /// Print JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Print on standard error how long each pass took
-    #[arg(long)]
-    pub(crate) timings: bool,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
 }
 
 fn percent(text: &str) -> Result<f64, String> {

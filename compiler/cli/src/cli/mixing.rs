@@ -1,6 +1,6 @@
 //! Arguments of the commands that mix and edit in the latent.
 
-use super::Inference;
+use super::{Inference, PreviewOptions, ReportOptions};
 use asperity::edit::Part;
 use clap::Args;
 use std::path::PathBuf;
@@ -14,20 +14,12 @@ pub(crate) struct Mixed {
     /// Name of the texture
     #[arg(long)]
     pub(crate) name: Option<String>,
-    /// Draw no preview
-    #[arg(long)]
-    pub(crate) no_preview: bool,
-    /// Width and height of the preview, pixels: 64 to 1024 [default: as the texture has it, or 256]
-    #[arg(long, value_name = "PX", value_parser = super::pixels, conflicts_with = "no_preview")]
-    pub(crate) preview_size: Option<u32>,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
     #[command(flatten)]
     pub(crate) inference: Inference,
-    /// Print JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Print on standard error how long each pass took
-    #[arg(long)]
-    pub(crate) timings: bool,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
 }
 
 #[derive(Debug, Args)]

@@ -77,7 +77,7 @@ pub(crate) fn run(
         .map_err(one)?;
     let console = build.console;
     let warnings = build.pins.told(args, built.warnings, console);
-    let printed = if args.json {
+    let printed = if args.reporting.json {
         // Plain structures of numbers and strings always serialise.
         let mut json = serde_json::to_value(&built.report).unwrap_or_default();
         json["warnings"] = warnings.into();
@@ -86,6 +86,6 @@ pub(crate) fn run(
         console.report(&format!("{}\n{}", display(build.output), built.report))
     };
     printed.map_err(one)?;
-    timings::print(args.timings, &pipeline, console);
+    timings::print(args.reporting.timings, &pipeline, console);
     Ok(())
 }

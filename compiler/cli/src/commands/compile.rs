@@ -9,6 +9,7 @@ use asperity::{
     diffusion::framed,
     edit::{LatentEditor, explain},
     pipeline::Request,
+    preview,
     prompt::{self, Picture, Prompt},
     sources::Tools,
 };
@@ -26,8 +27,8 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     let wanted = Wanted {
         emit_model: args.emit_model.as_deref(),
         plot: args.plot.as_deref(),
-        json: args.json,
-        timings: args.timings,
+        json: args.reporting.json,
+        timings: args.reporting.timings,
         ..Wanted::of(&args.output)
     };
     let job = Job::open(wanted, &inputs, console)?;
@@ -35,7 +36,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     let request = Request {
         fidelity: args.fidelity,
         rate_hz: args.rate,
-        preview_px: (!args.no_preview).then_some(args.preview_size),
+        preview_px: args.preview.px(Some(preview::SIZE)),
         ..Request::default()
     };
     let picture = match &args.diffusion.diffusion {
@@ -45,7 +46,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
                 &args.diffusion,
                 framed(args.prompt.trim()),
                 args.seed,
-                Some(args.preview_size),
+                Some(args.preview.preview_size.unwrap_or(preview::SIZE)),
                 job.console,
             )?;
             Some(Picture {

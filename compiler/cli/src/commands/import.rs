@@ -21,14 +21,14 @@ pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures
         file: args.input.clone(),
     };
     let wanted = Wanted {
-        json: args.json,
-        timings: args.timings,
+        json: args.reporting.json,
+        timings: args.reporting.timings,
         ..Wanted::of(&args.output)
     };
     let request = Request {
         fidelity: args.fidelity,
         rate_hz: args.rate,
-        preview_px: (!args.no_preview).then_some(args.preview_size),
+        preview_px: args.preview.px(Some(preview::SIZE)),
         ..Request::default()
     };
     let job = Job::open(wanted, &source.inputs(), console)?;
@@ -50,15 +50,15 @@ pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Res
         },
     };
     let wanted = Wanted {
-        json: args.json,
-        timings: args.timings,
+        json: args.reporting.json,
+        timings: args.reporting.timings,
         ..Wanted::of(&args.output)
     };
     let request = Request {
         name: args.name.clone(),
         fidelity: args.fidelity,
         rate_hz: args.rate,
-        preview_px: (!args.no_preview).then_some(args.preview_size),
+        preview_px: args.preview.px(Some(preview::SIZE)),
         ..Request::default()
     };
     let job = Job::open(wanted, &source.inputs(), console)?;
@@ -77,14 +77,14 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
         emit_model: args.emit_model.as_deref(),
         plot: args.plot.as_deref(),
         report: args.report.as_deref(),
-        json: args.json,
-        timings: args.timings,
+        json: args.reporting.json,
+        timings: args.reporting.timings,
         ..Wanted::of(&args.output)
     };
     let request = Request {
         fidelity: args.fidelity,
         rate_hz: args.rate,
-        preview_px: (!args.no_preview).then_some(preview::SIZE),
+        preview_px: args.preview.px(Some(preview::SIZE)),
         ..Request::default()
     };
     let job = Job::open(wanted, &inputs, console)?;
@@ -94,7 +94,7 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
         ..Tools::default()
     };
     let compiled = job.run(&source, &request, &tools)?;
-    if let (true, Some(found)) = (args.timings, compiled.found::<Recorded>()) {
+    if let (true, Some(found)) = (args.reporting.timings, compiled.found::<Recorded>()) {
         for step in &found.analysis.steps {
             let ms = 1e3 * step.took.as_secs_f64();
             console.aside(&format!("  {:<16} {ms:>10.3} ms", step.name));

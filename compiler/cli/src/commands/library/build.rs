@@ -97,7 +97,7 @@ pub(crate) fn run(
     let console = build.console;
     let warnings = build.pins.told(args, built.warnings, console);
     let output = display(build.output);
-    let printed = if args.json {
+    let printed = if args.reporting.json {
         // Plain structures of numbers and strings always serialise.
         let mut json = serde_json::to_value(&built.report).unwrap_or_default();
         json["library"] = output.to_string().into();
@@ -108,7 +108,7 @@ pub(crate) fn run(
         console.report(&format!("{output}: {}", built.report))
     };
     printed.map_err(one)?;
-    timings::print(args.timings, &pipeline, console);
+    timings::print(args.reporting.timings, &pipeline, console);
     Ok(())
 }
 
@@ -116,9 +116,7 @@ pub(crate) fn run(
 pub(crate) fn previews(args: &Arguments, manifest: &mut Manifest) {
     for entry in &mut manifest.entries {
         let size = &mut entry.options.request.preview_px;
-        *size = size
-            .filter(|_| !args.no_preview)
-            .map(|px| args.preview_size.unwrap_or(px));
+        *size = size.and_then(|px| args.preview.px(Some(px)));
     }
 }
 
@@ -197,8 +195,8 @@ impl Pins {
     ) -> Vec<String> {
         warnings.extend(pin(args, &self.lock, &self.pinned));
         let shown = warnings.len().min(WARNINGS);
-        console.warnings(&warnings[..shown], args.json);
-        if warnings.len() > shown && !args.json {
+        console.warnings(&warnings[..shown], args.reporting.json);
+        if warnings.len() > shown && !args.reporting.json {
             let more = warnings.len() - shown;
             console.warn(&format!("{more} more warnings; --json has all of them"));
         }
@@ -216,7 +214,7 @@ fn boxed(errors: Vec<ManifestError>) -> Failures {
 /// What `--check` says of a manifest without a fault.
 fn checked(args: &Arguments, manifest: &Manifest, console: Console) -> Result<(), Failures> {
     let count = manifest.entries.len();
-    let printed = if args.json {
+    let printed = if args.reporting.json {
         console.json(&json!({ "textures": count, "files": manifest.sources.len() }))
     } else {
         let file = args.scene.display();

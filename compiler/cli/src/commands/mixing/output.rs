@@ -46,8 +46,8 @@ impl<'a> Mixing<'a> {
         let mut files: Vec<_> = inputs.iter().map(|input| input.path()).collect();
         files.extend(inference::files(&args.inference));
         let wanted = Wanted {
-            json: args.json,
-            timings: args.timings,
+            json: args.reporting.json,
+            timings: args.reporting.timings,
             ..Wanted::of(&args.output)
         };
         let job = Job::open(wanted, &files, console)?;
@@ -71,8 +71,7 @@ impl<'a> Mixing<'a> {
 
     /// The size of the preview, where the texture that is kept has this one; none if it is unwanted.
     pub(super) fn preview_px(&self, own: Option<u32>) -> Option<u32> {
-        let size = self.args.preview_size.or(own);
-        size.filter(|_| !self.args.no_preview)
+        self.args.preview.px(own)
     }
 
     /// As the texture was compiled that is kept, with a preview unless it is unwanted.

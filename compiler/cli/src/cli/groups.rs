@@ -1,0 +1,33 @@
+//! Options that several commands share.
+
+use super::pixels;
+use clap::Args;
+
+/// Whether what is written carries a preview, and of which size.
+#[derive(Debug, Args)]
+pub(crate) struct PreviewOptions {
+    /// Draw no preview
+    #[arg(long)]
+    pub(crate) no_preview: bool,
+    /// Width and height of the preview, pixels: 64 to 1024 [default: as the source says, or 256]
+    #[arg(long, value_name = "PX", value_parser = pixels, conflicts_with = "no_preview")]
+    pub(crate) preview_size: Option<u32>,
+}
+
+impl PreviewOptions {
+    /// The size, where without an option it is `otherwise`; `None` for no preview.
+    pub(crate) fn px(&self, otherwise: Option<u32>) -> Option<u32> {
+        self.preview_size.or(otherwise).filter(|_| !self.no_preview)
+    }
+}
+
+/// How a command reports.
+#[derive(Debug, Args)]
+pub(crate) struct ReportOptions {
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print on standard error how long each pass took
+    #[arg(long)]
+    pub(crate) timings: bool,
+}
