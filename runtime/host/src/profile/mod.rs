@@ -196,40 +196,12 @@ impl Profile {
     }
 
     /// The profile as a file.
+    ///
+    /// # Panics
+    /// Never: strings and numbers are TOML.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        let Self {
-            limits, mechanics, ..
-        } = self;
-        let names: Vec<String> = self
-            .unconfirmed
-            .iter()
-            .map(|name| format!("{name:?}"))
-            .collect();
-        let mut text = format!(
-            "name = {:?}\nunconfirmed = [{}]\n\n\
-             [limits]\npeak_n = {:?}\ncontinuous_n = {:?}\nslew_n_s = {:?}\n\n\
-             [mechanics]\nmass_kg = {:?}\ndamping_n_s_m = {:?}\ncoulomb_n = {:?}\nposition_step_mm = {:?}\n\n\
-             [timing]\ndelay_ticks = {}\n",
-            self.name,
-            names.join(", "),
-            limits.peak_n,
-            limits.continuous_n,
-            limits.slew_n_s,
-            mechanics.mass_kg,
-            mechanics.damping_n_s_m,
-            mechanics.coulomb_n,
-            mechanics.position_step_mm,
-            self.timing.delay_ticks
-        );
-        if let Some(filter) = &self.compensation {
-            text += &format!(
-                "\n[compensation]\n# On the force of the vibration: y[n] is the sum of taps[k] x[n - k].\n\
-                 rate_hz = {:?}\ntaps = {:?}\n",
-                filter.rate_hz, filter.taps
-            );
-        }
-        text
+        toml::to_string(self).expect("strings and numbers are TOML")
     }
 
     /// A configuration with the limits and the mechanics of this device.
@@ -265,7 +237,7 @@ mod tests {
             let mut profile = Profile::from_toml(text, "device.toml").expect("a profile");
             assert!(!profile.unconfirmed.is_empty());
             assert!(asperity_runtime::Renderer::new(&profile.apply(&Config::default())).is_ok());
-            profile.name = "a \"b\" \\ c".into();
+            profile.name = "a \"b\" \\ \u{7f} \u{1b} c".into();
             profile.compensation = Some(Compensation {
                 rate_hz: 1000.0,
                 taps: vec![1.25, -0.3, 0.1 / 3.0],
