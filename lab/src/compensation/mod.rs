@@ -14,21 +14,23 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `numerator` | B·C as line spectral frequencies |
 //! | `error` | what cannot be filtered |
 
 mod error;
-mod numerator;
 #[cfg(test)]
 mod tests;
 
 pub use error::CompensationError;
 
-use asperity::model::{ModelGrid, Numerator, TapBank, TextureModel};
-use asperity::{lower, raise};
-use asperity_formats::{Asset, Library, SceneSurface, library, scene as formats_scene};
-use asperity_host::profile::compensation::taps_at;
-use asperity_host::profile::{Compensation, MOST_TAPS};
+use asperity::{
+    lower, lsf,
+    model::{GridVertex, ModelGrid, Numerator, TapBank, TextureModel},
+    raise,
+};
+use asperity_formats::{
+    Asset, Library, SceneSurface, library, limits::MAX_ORDER, scene as formats_scene,
+};
+use asperity_host::profile::{Compensation, MOST_TAPS, compensation::taps_at};
 
 /// The bytes of an asset whose vibration and taps went through a filter. Its preview is left out.
 ///
@@ -84,18 +86,18 @@ pub fn compensated(
 
 fn grid(grid: &ModelGrid, filter: &Compensation) -> Result<ModelGrid, CompensationError> {
     let mut grid = grid.clone();
-    let room = numerator::room(&grid);
+    let room = room(&grid);
     let c = taps_at(filter, grid.sample_rate_hz, MOST_TAPS.min(room + 1));
     let first = c[0];
     let c: Vec<f64> = c.iter().map(|tap| tap / first).collect();
     let own = grid.numerator;
     for (n, vertex) in grid.vertices.iter_mut().enumerate() {
-        let product = numerator::product(&numerator::of(own, vertex), &c);
+        let product = product(&of(own, vertex), &c);
         // The sign of noise is nobody's.
         if product.len() == 1 {
             vertex.sigma_m_s2 *= first.abs();
         } else {
-            let lsf_rad = numerator::frequencies(&product);
+            let lsf_rad = frequencies(&product);
             vertex.ma_lsf_rad = Some(lsf_rad.ok_or(CompensationError::Numerator { vertex: n })?);
             vertex.gain *= first.abs();
         }
@@ -123,4 +125,55 @@ fn taps(bank: &TapBank, filter: &Compensation) -> TapBank {
         trace.accel_m_s2 = y.collect();
     }
     bank
+}
+
+// The numerator of a model, times a filter.
+
+/// A zero on the unit circle is moved to this radius, because its frequencies would coincide.
+const RADIUS: f64 = 0.999;
+
+/// Order that a filter may add to the numerators of a grid.
+fn room(grid: &ModelGrid) -> usize {
+    let orders = grid
+        .vertices
+        .iter()
+        .map(|vertex| order(grid.numerator, vertex));
+    MAX_ORDER.saturating_sub(orders.max().unwrap_or(0))
+}
+
+fn order(numerator: Numerator, vertex: &GridVertex) -> usize {
+    match numerator {
+        Numerator::None => 0,
+        Numerator::Nyquist => 1,
+        Numerator::Lsf => vertex.ma_lsf_rad.as_ref().map_or(0, Vec::len),
+    }
+}
+
+/// B(z) of a vertex, 1 first.
+fn of(numerator: Numerator, vertex: &GridVertex) -> Vec<f64> {
+    match numerator {
+        Numerator::None => vec![1.0],
+        Numerator::Nyquist => vec![1.0, 1.0],
+        Numerator::Lsf => lsf::to_polynomial(vertex.ma_lsf_rad.as_deref().unwrap_or_default()),
+    }
+}
+
+/// The product of two polynomials.
+fn product(b: &[f64], c: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; b.len() + c.len() - 1];
+    for (i, b) in b.iter().enumerate() {
+        for (j, c) in c.iter().enumerate() {
+            product[i + j] += b * c;
+        }
+    }
+    product
+}
+
+/// Line spectral frequencies of a polynomial whose zeros lie within the unit circle or on it.
+fn frequencies(monic: &[f64]) -> Option<Vec<f64>> {
+    lsf::from_polynomial(monic).or_else(|| {
+        let inwards = monic.iter().enumerate();
+        let moved: Vec<f64> = inwards.map(|(k, b)| b * RADIUS.powi(k as i32)).collect();
+        lsf::from_polynomial(&moved)
+    })
 }

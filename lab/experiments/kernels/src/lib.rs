@@ -17,7 +17,6 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
-mod chain;
 mod coefficients;
 mod convert;
 pub mod design;

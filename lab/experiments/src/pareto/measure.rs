@@ -1,14 +1,15 @@
 //! Every variant on every material, measured in parallel, and the summaries.
 
-use super::accuracy::{Errors, Truth};
-use super::cost::{self, CountError, Counter};
-use super::grids::Grids;
-use super::held_out::{self, Prediction};
-use super::kept::Kept;
-use super::summary::{Measurement, VariantSummary, summarised};
+use super::{
+    accuracy::{Errors, Truth},
+    cost::{self, CountError, Counter},
+    held_out::{self, Prediction},
+    kept::Kept,
+    summary::{Measurement, VariantSummary, summarised},
+};
 use asperity::{
-    model::TextureModel,
-    reduce::{self, Fidelity},
+    model::{ModelGrid, Numerator, TextureModel},
+    reduce::{self, Fidelity, Reference, order::Fits},
 };
 use asperity_kernels::{
     design::{Design, Order, Variant, variants},
@@ -214,6 +215,41 @@ fn instructions(
         .map(|row| count(&variant.design, row.orders))
         .collect::<Option<_>>()?;
     Some(counts.iter().sum::<f64>() / counts.len() as f64)
+}
+
+// A grid at every order that is compared.
+
+/// A grid, prepared for every order.
+struct Grids<'a> {
+    full: &'a ModelGrid,
+    with_zero: Option<Fits<'a>>,
+    all_pole: Option<Fits<'a>>,
+    auto: ModelGrid,
+}
+
+impl<'a> Grids<'a> {
+    fn of(full: &'a ModelGrid) -> Self {
+        Self {
+            full,
+            with_zero: Fits::new(full, Numerator::Nyquist),
+            all_pole: Fits::new(full, Numerator::None),
+            auto: Reference::new(full).map_or_else(
+                || full.clone(),
+                |reference| reduce::least_order(full, &reference),
+            ),
+        }
+    }
+
+    /// The grid at an order; `None` where it has no such form. An order above the grid's own
+    /// gives the grid's own.
+    fn at(&self, order: Order) -> Option<ModelGrid> {
+        match order {
+            Order::Full => Some(self.full.clone()),
+            Order::Auto => Some(self.auto.clone()),
+            Order::WithZero(order) => self.with_zero.as_ref()?.at(order),
+            Order::AllPole(order) => self.all_pole.as_ref()?.at(order),
+        }
+    }
 }
 
 #[cfg(test)]

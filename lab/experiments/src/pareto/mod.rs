@@ -22,7 +22,6 @@ pub mod cortex_m;
 pub mod cost;
 pub mod difference;
 pub mod front;
-mod grids;
 pub mod held_out;
 pub mod json;
 pub mod kept;

@@ -7,7 +7,6 @@
 //! like an edge model, from the nearest point of their border, with its level raised by powers
 //! of speed and force.
 
-mod locate;
 mod method;
 mod predict;
 mod summary;

@@ -2,25 +2,28 @@
 //! a hand.
 
 mod bench;
-mod drop;
-mod hold;
 mod sweep;
 
 pub use bench::{Bench, DAMPINGS_N_S_M, REPORTED, ROUNDING_J, TICK_S};
-pub use drop::dropped;
 pub use sweep::{given_j, law_j, lowered_walls, ours_j};
 
+use super::{
+    error::StabilityError,
+    material::Material,
+    row::{Row, Words},
+};
+use crate::stability::observer::{Absorber, Observer};
 use asperity_runtime::MechanicsConfig;
-
-use super::error::StabilityError;
-use super::material::Material;
-use super::row::{Row, Words};
-use asperity_sim::fault::{FaultPlan, SampleFault};
-use asperity_sim::hand::GripPreset;
-use asperity_sim::servo::RenderedTexture;
+use asperity_sim::{
+    axis::Pull,
+    device::{Device, DeviceConfig},
+    fault::{FaultInjector, FaultPlan, SampleFault},
+    hand::{Grip, GripPreset, Motion, Script},
+    servo::{RenderedTexture, Servo},
+    session::{Record, Session},
+};
 use bench::{as_given, told};
-use drop::rebound;
-use hold::{frictionless, in_a_hand};
+use sweep::rendered;
 
 const SWEEP: Words = Words {
     theme: "wall",
@@ -151,4 +154,101 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
         ));
     }
     Ok(rows)
+}
+
+// A stylus that nobody holds, dropped onto the wall.
+
+/// Height from which the stylus is dropped, m.
+const DROP_M: f64 = 2e-3;
+
+/// Heights at each tick, m, of a stylus of the Touch's mass that nobody holds. It is dropped onto
+/// the wall under a constant 0.5 N, for 5 s.
+///
+/// # Errors
+/// None for the built-in device.
+pub fn dropped(
+    bench: &Bench,
+    material: &Material,
+    lowered: bool,
+) -> Result<Vec<f64>, StabilityError> {
+    let mut device = DeviceConfig::touch()?;
+    device.mechanics.damping_n_s_m = [bench.damping_n_s_m; 3];
+    device.mechanics.coulomb_n = [bench.coulomb_n; 3];
+    device.sensor.position_step_mm = 1e3 * bench.position_step_m;
+    device.timing.transport_delay_ticks = bench.delay_ticks as usize;
+    let renderer = if lowered {
+        told(bench.mechanics())
+    } else {
+        as_given()
+    };
+    let mut servo = rendered(&renderer, material);
+    let mut stylus = Device::new(&device, 0.0, [0.0, 0.0, DROP_M]);
+    let mut press = [Pull::default(); 3];
+    press[2].force_n = -0.5;
+    Ok((0..5000)
+        .map(|_| {
+            let height_m = stylus.position_m()[2];
+            let force_n = servo(stylus.measured_m()[2]);
+            stylus.command([0.0, 0.0, force_n]);
+            stylus.advance(TICK_S, |_, _| press);
+            height_m
+        })
+        .collect())
+}
+
+/// Highest rebound divided by the height of the drop.
+fn rebound(height_m: &[f64]) -> f64 {
+    let met = height_m.iter().position(|&z| z < 0.0).unwrap_or(0);
+    height_m[met..].iter().copied().fold(0.0, f64::max) / DROP_M
+}
+
+// A hand on the simulated Touch against the wall, behind faults.
+
+/// Largest net energy that the device's force gave off along z in a session, J.
+fn net_j(device: &DeviceConfig, records: &[Record]) -> f64 {
+    let absorber = Absorber {
+        damping_n_s_m: device.mechanics.damping_n_s_m[2],
+        coulomb_n: device.mechanics.coulomb_n[2],
+    };
+    let mut observer = Observer::default();
+    for pair in records.windows(2) {
+        let motion_m = pair[1].true_m[2] - pair[0].true_m[2];
+        observer.tick(&absorber, pair[0].device_n[2], motion_m, TICK_S);
+    }
+    observer.worst_j
+}
+
+/// A device of the Touch's mass with almost no damping, no friction and a perfect sensor.
+fn frictionless() -> Result<DeviceConfig, StabilityError> {
+    let mut device = DeviceConfig::touch()?;
+    device.mechanics.damping_n_s_m = [0.02; 3];
+    device.mechanics.coulomb_n = [0.0; 3];
+    device.sensor.position_step_mm = 0.0;
+    Ok(device)
+}
+
+/// Largest net energy, J, over taps, a press and a rest of a hand, with faults.
+fn in_a_hand<S: Servo>(
+    device: &DeviceConfig,
+    preset: GripPreset,
+    servo: S,
+    plan: FaultPlan,
+    seed: u64,
+) -> Result<f64, StabilityError> {
+    let script = Script::new(vec![
+        Motion::Tap { speed_m_s: 0.1 },
+        Motion::Tap { speed_m_s: 0.3 },
+        Motion::Press {
+            force_n: 2.0,
+            duration_s: 1.0,
+        },
+        Motion::Rest {
+            force_n: 1.0,
+            duration_s: 1.0,
+        },
+    ]);
+    let servo = FaultInjector::new(servo, plan, seed).expect("a plan that makes sense");
+    let mut session = Session::new(device, Grip::preset(preset)?, script, servo);
+    let records = session.run(8000);
+    Ok(net_j(device, &records))
 }
