@@ -11,7 +11,6 @@
 
 mod candidates;
 mod discover;
-mod library;
 mod session;
 
 pub use discover::{Attempt, Discovery, NotFound, Source, discover};

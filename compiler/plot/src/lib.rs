@@ -59,7 +59,6 @@
 
 mod axis;
 mod canvas;
-mod clip;
 mod color;
 mod color_map;
 mod colorbar;
@@ -81,7 +80,6 @@ mod stroke;
 mod svg;
 mod text;
 mod text_style;
-mod ticks;
 
 pub use axis::{Axis, Scale};
 pub use canvas::Canvas;

@@ -1,9 +1,7 @@
 //! What came of a source: a compiled texture, how far it is from what it was made of, and the reports of both.
 
-mod findings;
 mod truth;
 
-pub use findings::Findings;
 pub use truth::Truth;
 
 use crate::{
@@ -20,7 +18,7 @@ use crate::{
 };
 use asperity_plot::PlotError;
 use serde_json::{Value, json};
-use std::{any::Any, sync::Arc};
+use std::{any::Any, fmt, sync::Arc};
 
 /// A texture that passed, with its asset.
 #[derive(Debug, Clone)]
@@ -161,5 +159,27 @@ impl Compiled {
             self.lowered.haptic_bytes,
             self.lowered.bytes.len(),
         )
+    }
+}
+
+// What a source found besides its texture.
+
+/// What a source found, for those who ask.
+pub trait Findings: Any + fmt::Debug + Send + Sync {
+    /// The report for people, of one line or more.
+    fn text(&self, compiled: &Compiled) -> String;
+
+    /// The report for machines.
+    fn json(&self, compiled: &Compiled) -> Value {
+        compiled.figures()
+    }
+
+    /// A picture of what was found as PNG, if there is more to see than in the asset.
+    ///
+    /// # Errors
+    /// [`PlotError`] if it cannot be drawn.
+    fn sheet(&self, compiled: &Compiled) -> Result<Option<Vec<u8>>, PlotError> {
+        let _ = compiled;
+        Ok(None)
     }
 }

@@ -14,7 +14,6 @@ mod files;
 pub mod friction;
 pub mod inference;
 mod model;
-mod network;
 pub mod text;
 pub mod texture;
 

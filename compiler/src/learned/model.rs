@@ -6,10 +6,9 @@ use super::{
     error::ModelError,
     files::Files,
     inference::Backend,
-    network::{has, run, take},
 };
 use crate::model::Provenance;
-use asperity_nn::Session;
+use asperity_nn::{Session, Tensor};
 use std::{borrow::Cow, sync::OnceLock};
 
 /// Rows of a batch at most: what they come to in the networks stays in the second-level cache.
@@ -294,4 +293,67 @@ impl LearnedModel {
 
 fn latent(values: &[f32]) -> Latent {
     std::array::from_fn(|k| values[k])
+}
+
+// Running a network, and distrusting what comes out.
+
+/// Runs a network on inputs, each with a name, a shape and its numbers.
+///
+/// # Errors
+/// [`ModelError::Network`] with its file.
+fn run(
+    file: &str,
+    session: &dyn Session,
+    inputs: &[(&str, &[usize], &[f32])],
+) -> Result<Vec<(String, Tensor)>, ModelError> {
+    let tensors: Vec<(&str, Tensor)> = inputs
+        .iter()
+        .map(|(name, shape, data)| {
+            let tensor = Tensor::F32 {
+                shape: shape.to_vec(),
+                data: data.to_vec(),
+            };
+            (*name, tensor)
+        })
+        .collect();
+    let inputs: Vec<(&str, &Tensor)> = tensors.iter().map(|(name, t)| (*name, t)).collect();
+    session.run(&inputs).map_err(|error| ModelError::Network {
+        file: file.into(),
+        message: error.to_string(),
+    })
+}
+
+/// Whether there is an output of this name.
+fn has(outputs: &[(String, Tensor)], name: &str) -> bool {
+    outputs.iter().any(|(output, _)| output == name)
+}
+
+/// The output of this name, which must be finite and of this length.
+///
+/// # Errors
+/// [`ModelError::Network`] with its file.
+fn take(
+    file: &str,
+    outputs: &[(String, Tensor)],
+    name: &str,
+    length: usize,
+) -> Result<Vec<f32>, ModelError> {
+    let fault = |message: String| ModelError::Network {
+        file: file.into(),
+        message,
+    };
+    match outputs.iter().find(|(output, _)| output == name) {
+        Some((_, Tensor::F32 { data, .. })) if data.len() == length => {
+            if data.iter().all(|x| x.is_finite()) {
+                Ok(data.clone())
+            } else {
+                Err(fault(format!("output {name} is not finite")))
+            }
+        }
+        Some((_, other)) => Err(fault(format!(
+            "output {name} has shape {:?}, {length} numbers wanted",
+            other.shape()
+        ))),
+        None => Err(fault(format!("no output {name}"))),
+    }
 }

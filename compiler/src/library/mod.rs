@@ -18,7 +18,6 @@ mod lock;
 mod make;
 pub mod manifest;
 mod merge;
-mod own;
 mod pack;
 mod report;
 mod shard;

@@ -9,7 +9,6 @@ mod format;
 mod kind;
 mod open;
 mod patience;
-mod pipe;
 mod problem;
 mod reach;
 mod read;

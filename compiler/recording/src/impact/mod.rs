@@ -5,19 +5,19 @@
 //! it leaves the noise. The speed is that of the height just before, or that of the integrated
 //! acceleration (see the module `speed`).
 
-mod baseline;
-mod contact;
 mod group;
 mod speed;
 mod trace;
 
-pub(crate) use contact::touches;
 pub use group::transients;
 
 use crate::{
     description::{Axis, Quantity},
     reader::Recording,
-    signal::{quantile::median, resample::Clock},
+    signal::{
+        quantile::{RMS_OF_MEDIAN, median},
+        resample::Clock,
+    },
     timeline::Timeline,
 };
 use serde::Serialize;
@@ -108,7 +108,7 @@ pub fn impacts(recording: &Recording, timeline: &Timeline, late_s: f64) -> Vec<I
         .filter(|c| c.quantity == Quantity::Acceleration)
         .position(|c| c.axis == Axis::Z)
         .and_then(|axis| timeline.accel_m_s2.get(axis));
-    let touches = contact::touches(timeline);
+    let touches = touches(timeline);
     let Some(channel) = accel(Axis::Z).or_else(|| accel(Axis::Along)) else {
         return Vec::new();
     };
@@ -116,7 +116,7 @@ pub fn impacts(recording: &Recording, timeline: &Timeline, late_s: f64) -> Vec<I
         start_s: channel.clock.start_s - late_s,
         ..channel.clock
     };
-    contact::landings(timeline, &touches)
+    landings(timeline, &touches)
         .into_iter()
         .filter_map(|sample| {
             let landing_s = timeline.clock.time_s(sample as f64);
@@ -138,4 +138,43 @@ pub fn impacts(recording: &Recording, timeline: &Timeline, late_s: f64) -> Vec<I
                 })
         })
         .collect()
+}
+
+// When the tool lands: the load before it is smoothed.
+
+/// Time in the air before an impact, samples of the timeline.
+const IN_AIR: usize = 40;
+/// Least load of a landing, N, and the same as a multiple of the load's noise in the air.
+const LEAST: (f64, f64) = (0.06, 8.0);
+
+/// Whether the load before it is smoothed shows a contact.
+pub(crate) fn touches(timeline: &Timeline) -> Vec<bool> {
+    let load = &timeline.unsmoothed_load_n;
+    let in_air = || {
+        load.iter()
+            .zip(&timeline.contact)
+            .filter(|(_, touches)| !**touches)
+            .map(|(load, _)| *load)
+    };
+    let rest = median(in_air());
+    let noise = RMS_OF_MEDIAN * median(in_air().map(|load| (load - rest).abs()));
+    let threshold = rest + LEAST.0.max(LEAST.1 * noise);
+    load.iter().map(|load| *load > threshold).collect()
+}
+
+/// Samples of the timeline at which a contact begins after a time in the air.
+fn landings(timeline: &Timeline, touches: &[bool]) -> Vec<usize> {
+    let mut air = 0;
+    let mut found = Vec::new();
+    for (n, touches) in touches.iter().enumerate() {
+        if *touches {
+            if air >= IN_AIR && timeline.good[n] {
+                found.push(n);
+            }
+            air = 0;
+        } else {
+            air += 1;
+        }
+    }
+    found
 }

@@ -1,23 +1,19 @@
 //! Lowers a [`TextureModel`] to the bytes of an asset, and measures what rounding costs.
 
 mod error;
-mod summary;
 mod table;
 #[cfg(test)]
 mod tests;
-mod trace;
 
 pub use error::LowerError;
-pub use summary::ErrorSummary;
 
-use crate::model::{Numerator, TextureModel, VertexKind, mesh};
-use asperity_formats as formats;
+use crate::model::{Numerator, TapTrace, TextureModel, VertexKind, mesh};
 use asperity_formats::{
-    Anchor, AssetParts, Coupling, EncodeError, FormatError, FrictionParts, GridParts, ModelParts,
-    TapParts, limits,
+    self as formats, Anchor, AssetParts, Coupling, EncodeError, FormatError, FrictionParts,
+    GridParts, ModelParts, TapParts, limits,
 };
+use serde::Serialize;
 use table::ModelTable;
-use trace::quantise_trace;
 
 /// Room for every section but the preview at its largest.
 const BUFFER_BYTES: usize = 128 * 1024;
@@ -221,4 +217,102 @@ fn check_counts(texture: &TextureModel) -> Result<(), LowerError> {
         }
     }
     Ok(())
+}
+
+// Largest, mean and RMS of a list of errors.
+
+/// An error over the vertices, dB.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct ErrorSummary {
+    /// Largest.
+    pub max_db: f64,
+    /// Mean.
+    pub mean_db: f64,
+    /// Root of the mean square.
+    pub rms_db: f64,
+}
+
+impl ErrorSummary {
+    /// The summary of a list of errors; zero for an empty list.
+    #[must_use]
+    pub fn of(errors_db: &[f64]) -> Self {
+        let count = errors_db.len().max(1) as f64;
+        Self {
+            max_db: errors_db.iter().copied().fold(0.0, f64::max),
+            mean_db: errors_db.iter().sum::<f64>() / count,
+            rms_db: (errors_db.iter().map(|e| e * e).sum::<f64>() / count).sqrt(),
+        }
+    }
+}
+
+// Tap samples in the codes of the format.
+
+/// Largest code of a tap sample.
+const TAP_FULL_SCALE: f64 = 2047.0;
+
+/// The trace rounded to its codes, with its impulse kept to half a step. Samples are rounded first;
+/// then those that were nearest to being rounded the other way are, until the sum fits.
+fn quantise_trace(trace: &TapTrace) -> Vec<f32> {
+    let accel = &trace.accel_m_s2;
+    let peak = accel.iter().fold(0.0_f64, |peak, a| peak.max(a.abs())) as f32;
+    // The encoder decides on traces that are silent, NaN or infinite.
+    if !(peak > 0.0 && peak.is_finite()) {
+        return accel.iter().map(|&a| a as f32).collect();
+    }
+    let scale = TAP_FULL_SCALE / f64::from(peak);
+    let scaled: Vec<f64> = accel.iter().map(|a| a * scale).collect();
+    let mut codes: Vec<f64> = scaled
+        .iter()
+        .map(|s| s.round().clamp(-TAP_FULL_SCALE, TAP_FULL_SCALE))
+        .collect();
+    let missing = (scaled.iter().sum::<f64>() - codes.iter().sum::<f64>()).round();
+    let direction = missing.signum();
+    let mut order: Vec<usize> = (0..codes.len()).collect();
+    order.sort_by(|&i, &j| {
+        let residue = |k: usize| (scaled[k] - codes[k]) * direction;
+        residue(j).total_cmp(&residue(i)).then(i.cmp(&j))
+    });
+    // The code of the peak sets the scale, so it stays.
+    let movable = order
+        .into_iter()
+        .filter(|&k| codes[k].abs() < TAP_FULL_SCALE)
+        .take(missing.abs() as usize)
+        .collect::<Vec<_>>();
+    for k in movable {
+        codes[k] += direction;
+    }
+    codes
+        .iter()
+        .map(|code| (*code as f32) / (TAP_FULL_SCALE as f32) * peak)
+        .collect()
+}
+
+#[cfg(test)]
+mod trace_tests {
+    use super::*;
+
+    #[test]
+    fn a_quantised_trace_keeps_its_impulse_to_half_a_step() {
+        for seed in 0..50 {
+            let accel: Vec<f64> = (0..100)
+                .map(|n| {
+                    let t = f64::from(n) * 0.1;
+                    (-t * 0.4).exp() * (t * (1.0 + f64::from(seed) * 0.07)).sin() * 21.3
+                })
+                .collect();
+            let trace = TapTrace {
+                speed_m_s: 0.1,
+                accel_m_s2: accel.clone(),
+            };
+            let stored = quantise_trace(&trace);
+            let peak = accel.iter().fold(0.0_f64, |peak, a| peak.max(a.abs()));
+            let step = peak / TAP_FULL_SCALE;
+            let difference =
+                stored.iter().map(|&a| f64::from(a)).sum::<f64>() - accel.iter().sum::<f64>();
+            assert!(difference.abs() <= 0.501 * step, "{difference} of {step}");
+            for (found, expected) in stored.iter().zip(&accel) {
+                assert!((f64::from(*found) - expected).abs() <= 1.001 * step);
+            }
+        }
+    }
 }

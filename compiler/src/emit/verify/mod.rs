@@ -3,14 +3,13 @@
 mod error;
 mod queries;
 mod spectra;
-mod ticks;
 
 pub use error::VerifyError;
 pub use spectra::SPECTRUM_BUDGET_DB;
 
 use crate::model::TextureModel;
 use asperity_formats::Asset;
-use asperity_runtime::HostTexture;
+use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, State};
 use serde::Serialize;
 
 /// What verification found.
@@ -42,7 +41,7 @@ pub fn verify(texture: &TextureModel, bytes: &[u8]) -> Result<VerifyReport, Veri
     slot.load(&asset, rate_hz)?;
     let (queries, max_reflection) = queries::check(&slot, &texture.grid)?;
     let max_db = spectra::check(&slot, &texture.grid)?;
-    let (ticks, peak_force_n) = ticks::check(&slot, rate_hz)?;
+    let (ticks, peak_force_n) = check(&slot, rate_hz)?;
     Ok(VerifyReport {
         queries,
         ticks,
@@ -50,6 +49,97 @@ pub fn verify(texture: &TextureModel, bytes: &[u8]) -> Result<VerifyReport, Veri
         max_reflection,
         peak_force_n,
     })
+}
+
+// A scripted run through the runtime: taps, strokes, lost and absurd samples.
+
+/// Forces may exceed a limit by rounding, relative.
+const FORCE_SLACK: f32 = 1e-5;
+
+/// A tap, a circular stroke through all speeds and forces, lost and absurd samples.
+fn script(rate_hz: f32) -> Vec<Sample> {
+    let seconds = |s: f32| (s * rate_hz) as usize;
+    let mut samples = Vec::new();
+    let approach = seconds(0.1);
+    for n in 0..approach {
+        // From 5 mm above to 2 mm below.
+        let z = 0.005 - 0.007 * n as f32 / approach as f32;
+        samples.push(Sample::at([0.0, 0.0, z]));
+    }
+    let stroke = seconds(1.0);
+    let mut x = 0.0;
+    for n in 0..stroke {
+        let fraction = n as f32 / stroke as f32;
+        x += 0.4 * fraction / rate_hz;
+        // From 0 to 8 mm deep, eight times a second.
+        let press = (8.0 * fraction).fract();
+        samples.push(Sample::at([x, 0.0, -0.008 * press * (2.0 - press)]));
+    }
+    let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30];
+    for value in odd {
+        for k in 0..4 {
+            let mut position_m = [x, 0.0, -0.002];
+            position_m[k % 3] = value;
+            samples.push(Sample::at(position_m));
+        }
+        samples.extend([Sample::STALE; 3]);
+        samples.extend([Sample::at([x, 0.0, -0.002]); 20]);
+    }
+    samples.extend(vec![Sample::at([x, 0.0, -0.002]); seconds(0.2)]);
+    samples
+}
+
+/// Returns how many ticks ran, and the largest force, N.
+///
+/// # Errors
+/// [`VerifyError::Tick`] with the tick that left the limits.
+fn check(slot: &HostTexture, rate_hz: f32) -> Result<(usize, f32), VerifyError> {
+    let config = Config {
+        servo_rate_hz: rate_hz,
+        ..Config::default()
+    };
+    let renderer = Renderer::new(&config)?;
+    let mut state = State::new(1);
+    let mut previous = [0.0_f32; 3];
+    let (mut ticks, mut peak_force_n) = (0, 0.0_f32);
+    let slack = 1.0 + FORCE_SLACK;
+    let peak_n = config.limits.peak_n * slack;
+    let step_n = config.limits.slew_n_s / rate_hz * slack + FORCE_SLACK;
+    for (tick, sample) in script(rate_hz).iter().enumerate() {
+        let output = renderer.tick(slot, &mut state, sample);
+        let force = output.force_n;
+        let norm = |v: [f32; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        let step = norm([
+            force[0] - previous[0],
+            force[1] - previous[1],
+            force[2] - previous[2],
+        ]);
+        previous = force;
+        let numbers = [
+            output.depth_m,
+            output.speed_mm_s,
+            output.normal_force_n,
+            output.vib_m_s2,
+            output.tap_n,
+            output.friction_n,
+            norm(force),
+        ];
+        let what = if numbers.iter().any(|x| !x.is_finite()) {
+            "an output is not finite"
+        } else if norm(force) > peak_n {
+            "the force exceeds the device's peak"
+        } else if step > step_n {
+            "the force exceeds the device's slew"
+        } else if output.flags.contains(Flags::VIB_CLAMPED) {
+            "the vibration had to be clamped"
+        } else {
+            ticks += 1;
+            peak_force_n = peak_force_n.max(norm(force));
+            continue;
+        };
+        return Err(VerifyError::Tick { tick, what });
+    }
+    Ok((ticks, peak_force_n))
 }
 
 #[cfg(test)]

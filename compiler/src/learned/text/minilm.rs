@@ -3,9 +3,10 @@
 use super::{
     encoder::{Encoded, TextEncoder, TextError, unit},
     vocabulary::Vocabulary,
-    word_piece,
 };
 use asperity_nn::{Session, Tensor};
+use unicode_categories::UnicodeCategories as _;
+use unicode_normalization::char::decompose_canonical;
 
 /// Width of its vectors.
 pub const WIDTH: usize = 384;
@@ -41,7 +42,7 @@ impl MiniLm {
             Ok::<i64, TextError>(id.into())
         };
         let mut ids = vec![mark("[CLS]")?];
-        word_piece::encode(text, &self.vocabulary, &mut ids).ok_or_else(|| lacking("[UNK]"))?;
+        encode(text, &self.vocabulary, &mut ids).ok_or_else(|| lacking("[UNK]"))?;
         let cut = (ids.len() + 1).saturating_sub(MAX_TOKENS);
         ids.truncate(MAX_TOKENS - 1);
         ids.push(mark("[SEP]")?);
@@ -59,9 +60,9 @@ impl TextEncoder for MiniLm {
     }
 
     fn reads(&self, word: &str) -> bool {
-        let unknown = self.vocabulary.id("", word_piece::UNKNOWN).map(i64::from);
+        let unknown = self.vocabulary.id("", UNKNOWN).map(i64::from);
         let mut ids = Vec::new();
-        word_piece::encode(word, &self.vocabulary, &mut ids).is_some()
+        encode(word, &self.vocabulary, &mut ids).is_some()
             && !ids.iter().any(|id| Some(*id) == unknown)
     }
 
@@ -118,4 +119,77 @@ impl MiniLm {
             None => Err(TextError::Network("no output".into())),
         }
     }
+}
+
+// BERT's tokens of a text, in lower case and without accents.
+
+/// Characters of the longest word that is cut into pieces; a longer one is unknown.
+const LONGEST_WORD: usize = 100;
+/// What a piece inside a word begins with.
+const INSIDE: &str = "##";
+/// The piece that stands for what no piece fits.
+const UNKNOWN: &str = "[UNK]";
+
+/// Appends the ids of a text, without marks for its start and end; `None` when the vocabulary
+/// lacks the piece for the unknown.
+fn encode(text: &str, vocabulary: &Vocabulary, ids: &mut Vec<i64>) -> Option<()> {
+    let normal = normalised(text);
+    let mut rest = normal.as_str();
+    while let Some(first) = rest.chars().next() {
+        let length = if stands_alone(first) {
+            first.len_utf8()
+        } else {
+            rest.find(stands_alone).unwrap_or(rest.len())
+        };
+        let (word, after) = rest.split_at(length);
+        if !first.is_whitespace() {
+            encode_word(word, vocabulary, ids)?;
+        }
+        rest = after;
+    }
+    Some(())
+}
+
+/// A text character by character: decomposed, without nonspacing marks, in lower case.
+fn normalised(text: &str) -> String {
+    let mut normal = String::with_capacity(text.len());
+    for character in text.chars() {
+        decompose_canonical(character, |part| {
+            if !part.is_mark_nonspacing() {
+                normal.extend(part.to_lowercase());
+            }
+        });
+    }
+    normal
+}
+
+/// Whether a character ends a word and is a word of its own, or white space.
+fn stands_alone(character: char) -> bool {
+    character.is_ascii_punctuation() || character.is_punctuation() || character.is_whitespace()
+}
+
+/// Appends the longest pieces that a word begins with, one after the other, until the word is used
+/// up or none fits.
+fn encode_word(word: &str, vocabulary: &Vocabulary, ids: &mut Vec<i64>) -> Option<()> {
+    let mut rest = word;
+    let mut prefix = "";
+    let short = word.chars().nth(LONGEST_WORD).is_none();
+    while short && let Some((id, length)) = longest(prefix, rest, vocabulary) {
+        ids.push(id);
+        rest = &rest[length..];
+        prefix = INSIDE;
+    }
+    if !rest.is_empty() {
+        ids.push(vocabulary.id("", UNKNOWN)?.into());
+    }
+    Some(())
+}
+
+/// Id and bytes of the longest piece that `rest` begins with, of those with this prefix.
+fn longest(prefix: &str, rest: &str, vocabulary: &Vocabulary) -> Option<(i64, usize)> {
+    let ends = rest.char_indices().map(|(start, c)| start + c.len_utf8());
+    ends.rev().find_map(|end| {
+        let id = vocabulary.id(prefix, &rest[..end])?;
+        Some((id.into(), end))
+    })
 }

@@ -8,7 +8,6 @@
 mod frozen;
 mod source;
 mod stroke;
-mod tap;
 #[cfg(test)]
 pub(crate) mod tests;
 

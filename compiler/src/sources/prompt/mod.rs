@@ -8,14 +8,12 @@ mod compiled_prompt;
 mod encoding_cache;
 mod error;
 mod meaning;
-mod name;
 pub mod phrase;
 mod prompt_compiler;
 mod report;
 mod source;
 mod things;
 mod understood;
-mod variation;
 
 pub use crate::model::shift::Shift;
 pub use compiled_prompt::{CompiledPrompt, Nearest, Options};

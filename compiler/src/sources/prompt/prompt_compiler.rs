@@ -3,10 +3,8 @@
 use super::{
     CompiledPrompt, Nearest, PromptError,
     encoding_cache::{EncodingCache, Read},
-    name::{shortened, title},
     things::Things,
     understood::{Understood, check, understood},
-    variation::varied,
 };
 use crate::{
     learned::{
@@ -21,6 +19,9 @@ use crate::{
     pipeline::{Pass, Pipeline, Ringing},
     sources::Sourced,
 };
+use asperity_formats::limits;
+use rand_core::{Rng as _, SeedableRng as _};
+use rand_xoshiro::Xoshiro256PlusPlus;
 use std::{path::Path, sync::Arc};
 
 /// Bytes of a prompt that the provenance keeps.
@@ -232,4 +233,58 @@ pub struct Projection {
     pub tokens: (usize, usize),
     /// Which words the encoder can read.
     pub understood: Understood,
+}
+
+// Texts of a length that an asset can hold.
+
+/// A name that an asset can hold: the beginning of the prompt, without control characters.
+fn title(prompt: &str) -> String {
+    let plain = prompt.replace(char::is_control, " ");
+    let words: Vec<&str> = plain.split_whitespace().collect();
+    shortened(&words.join(" "), limits::MAX_NAME_BYTES).to_owned()
+}
+
+/// The longest beginning of whole characters within a number of bytes.
+fn shortened(text: &str, bytes: usize) -> &str {
+    let mut end = text.len().min(bytes);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    text[..end].trim_end()
+}
+
+// Another piece of the same material.
+
+/// The latent moved as far as instances of one material lie apart; not at all by seed 0.
+///
+/// `spread` is the standard deviation of each component within a material.
+fn varied(mut z: Latent, spread: &[f32], seed: u64) -> Latent {
+    if seed == 0 {
+        return z;
+    }
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+    for (x, spread) in z.iter_mut().zip(spread) {
+        *x += spread * normal(&mut random) as f32;
+    }
+    z
+}
+
+/// A standard normal number, by Box and Muller.
+fn normal(random: &mut Xoshiro256PlusPlus) -> f64 {
+    let mut uniform = || ((random.next_u64() >> 11) as f64 + 0.5) / (1u64 << 53) as f64;
+    let radius = (-2.0 * libm::log(uniform())).sqrt();
+    radius * libm::cos(std::f64::consts::TAU * uniform())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_title_ends_at_a_whole_character_within_the_limit() {
+        assert_eq!(title(" wet\u{0}ice\n"), "wet ice");
+        let long = title(&"ä".repeat(40));
+        assert_eq!(long, "ä".repeat(32));
+        assert_eq!(shortened("a é", 3), "a");
+    }
 }

@@ -1,14 +1,13 @@
 //! Strokes and taps as sound: what the runtime renders for a hand that does one after the other.
 
 mod hand;
-mod sound;
 
 use crate::{emit::raise::raise, signal::resample::resample};
 use asperity_formats::Asset;
 use asperity_io::diagnostic::Diagnostic;
 use asperity_runtime::{Config, ConfigError, HostTexture, LoadError, Renderer};
 use hand::Hand;
-pub(crate) use sound::wav;
+use std::io::Cursor;
 use thiserror::Error;
 
 /// Rate of the sound, Hz.
@@ -269,16 +268,16 @@ pub fn listen(
         .collect();
     let raised = |signal: &[f64]| resample(signal, rate_hz.round() as u32, SOUND_HZ);
     let (scraping, tapping) = (raised(&scraping), raised(&tapping));
-    let strokes = sound::part(strokes, &scraping);
-    let taps = sound::part(taps, &tapping);
+    let strokes = part(strokes, &scraping);
+    let taps = part(taps, &tapping);
     let mut warnings = performed.warnings;
     if strokes.count > 0 && strokes.gain_per_m_s2 == 0.0 {
         warnings.push("the strokes are silent: the texture does not vibrate".to_owned());
     }
-    let samples = sound::levelled(&[(&scraping, &strokes), (&tapping, &taps)]);
+    let samples = levelled(&[(&scraping, &strokes), (&tapping, &taps)]);
     Ok(Heard {
         seconds: samples.len() as f64 / f64::from(SOUND_HZ),
-        wav: sound::wav(&samples)?,
+        wav: wav(&samples)?,
         strokes,
         taps,
         warnings,
@@ -298,3 +297,45 @@ fn tap_speeds(asset: &Asset<'_>) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests;
+
+// Accelerations as samples of a sound.
+
+/// Level of the loudest sample, of full scale: −1 dB.
+const CEILING: f64 = 0.891;
+
+/// A part with the gain that takes its loudest sample to the ceiling.
+fn part(count: usize, signal: &[f64]) -> Part {
+    let peak_m_s2 = signal.iter().fold(0.0f64, |peak, x| peak.max(x.abs()));
+    let audible = count > 0 && peak_m_s2 > 0.0;
+    Part {
+        count,
+        peak_m_s2,
+        gain_per_m_s2: if audible { CEILING / peak_m_s2 } else { 0.0 },
+    }
+}
+
+/// The parts one after the other, each with its gain, as 16-bit samples.
+fn levelled(parts: &[(&[f64], &Part)]) -> Vec<i16> {
+    let scaled = |(signal, part): &(&[f64], &Part)| -> Vec<i16> {
+        let full = part.gain_per_m_s2 * f64::from(i16::MAX);
+        signal.iter().map(|x| (x * full).round() as i16).collect()
+    };
+    parts.iter().flat_map(scaled).collect()
+}
+
+/// The samples as a WAV file.
+pub(crate) fn wav(samples: &[i16]) -> Result<Vec<u8>, hound::Error> {
+    let spec = hound::WavSpec {
+        channels: 1,
+        sample_rate: SOUND_HZ,
+        bits_per_sample: 16,
+        sample_format: hound::SampleFormat::Int,
+    };
+    let mut bytes = Vec::new();
+    let mut writer = hound::WavWriter::new(Cursor::new(&mut bytes), spec)?;
+    for sample in samples {
+        writer.write_sample(*sample)?;
+    }
+    writer.finalize()?;
+    Ok(bytes)
+}

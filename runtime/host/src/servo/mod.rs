@@ -7,8 +7,6 @@
 //! | `schedule` | due times without drift, and missed periods |
 //! | `clock` | the system's monotonic clock, and a virtual one |
 //! | `pace` | how many periods lie between two readings |
-//! | `heard` | what the supervised device said, for the records |
-//! | `recovery` | when a device that fails is asked to recover |
 //! | `event` | what is told once: faults, their end, recoveries that failed |
 //! | `render` | the runtime behind one trait: a texture, an exchange of textures, a scene |
 //! | `record`, `times` | what a tick leaves behind |
@@ -24,13 +22,11 @@
 
 mod clock;
 mod event;
-mod heard;
 mod outlet;
 mod pace;
 mod periods;
 pub mod privileges;
 mod record;
-mod recovery;
 mod render;
 mod report;
 mod schedule;

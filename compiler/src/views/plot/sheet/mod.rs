@@ -6,16 +6,14 @@ mod grid;
 mod header;
 mod layout;
 mod level;
-mod picture;
 mod poles;
 mod spectra;
 mod taps;
 
-use asperity_plot::{Canvas, PlotError, Rect};
+pub use header::AssetBytes;
 
 use crate::{model::TextureModel, views::preview::Stored};
-
-pub use header::AssetBytes;
+use asperity_plot::{Canvas, Color, PlotError, Rect};
 
 /// Width of the sheet, pixels.
 pub const WIDTH_PX: u32 = 2400;
@@ -60,8 +58,8 @@ fn compose(
     let width = WIDTH_PX as f32;
     let mut header = Rect::new(0.0, 0.0, width, HEADER_HEIGHT);
     if let Some(picture) = picture {
-        let left = width - picture::SIDE - PICTURE_MARGIN;
-        picture::draw(&mut canvas, (left, PICTURE_TOP), picture);
+        let left = width - SIDE - PICTURE_MARGIN;
+        draw(&mut canvas, (left, PICTURE_TOP), picture);
         header.width = left;
     }
     header::draw(&mut canvas, header, model, bytes);
@@ -100,3 +98,38 @@ fn compose(
 
 #[cfg(test)]
 mod tests;
+
+// The preview in the corner of the header.
+
+/// Width and height on the sheet, pixels.
+const SIDE: f32 = 154.0;
+
+/// Draws the picture at (x, y), each pixel the mean of those that it stands for.
+fn draw(canvas: &mut Canvas, (x, y): (f32, f32), picture: &Stored) {
+    let side = SIDE as usize;
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    if width == 0 || height == 0 || picture.rgb.len() < 3 * width * height {
+        return;
+    }
+    let span = |k: usize, length: usize| {
+        let first = k * length / side;
+        first..((k + 1) * length / side).max(first + 1)
+    };
+    for row in 0..side {
+        for column in 0..side {
+            let (mut sum, mut count) = ([0u32; 3], 0);
+            for py in span(row, height) {
+                for px in span(column, width) {
+                    let pixel = &picture.rgb[3 * (py * width + px)..][..3];
+                    for (sum, channel) in sum.iter_mut().zip(pixel) {
+                        *sum += u32::from(*channel);
+                    }
+                    count += 1;
+                }
+            }
+            let [r, g, b] = sum.map(|sum| (sum / count) as u8);
+            let dot = Rect::new(x + column as f32, y + row as f32, 1.0, 1.0);
+            canvas.fill_rect(dot, Color { r, g, b, a: 255 });
+        }
+    }
+}
