@@ -12,7 +12,6 @@
 use crate::{
     arithmetic::Float,
     capacity::{Capacity, HostCapacities},
-    crossing::Crossing,
     events::Flags,
     load_error::LoadError,
     render_arithmetic::RenderArithmetic,
@@ -20,6 +19,7 @@ use crate::{
     sample::{Output, Sample},
     state::State,
     texture::Texture,
+    texture_change::TextureChange,
 };
 use asperity_formats::Asset;
 use core::mem::MaybeUninit;
@@ -172,7 +172,7 @@ pub struct Player<'q, 'a, S: Capacity = HostCapacities, A: RenderArithmetic = Fl
     ready: Consumer<'q, Slot<'a, S, A>>,
     returned: Producer<'q, Slot<'a, S, A>>,
     state: State<A>,
-    crossing: Crossing<A>,
+    crossing: TextureChange<A>,
     /// Whether a tap played in the last tick.
     tapping: bool,
 }
@@ -190,7 +190,7 @@ impl<'q, 'a, S: Capacity, A: RenderArithmetic> Player<'q, 'a, S, A> {
             ready,
             returned,
             state: State::new(seed),
-            crossing: Crossing::START,
+            crossing: TextureChange::START,
             tapping: false,
         }
     }

@@ -64,7 +64,6 @@ mod capacity;
 mod complex;
 pub mod config;
 mod coupling;
-mod crossing;
 mod events;
 pub mod exchange;
 mod lanes;
@@ -80,6 +79,7 @@ pub mod scene;
 pub mod stage;
 mod state;
 mod texture;
+mod texture_change;
 pub mod tick;
 mod update;
 

@@ -5,8 +5,8 @@ use crate::{
     model::{barycentric::WeightSearch, mixture::RowMixture, section_pair::SectionProduct},
     range::Checked,
     stage::{
-        excitation::GaussianCubic, friction_law::FactorLookup, gate::Positions,
-        limiter::Shortening, recursion::InnerProduct, velocity::Differences, wall::Pushing,
+        excitation::GaussianCubic, friction_law::FactorLookup, limiter::Shortening,
+        recursion::InnerProduct, sample_gate::Positions, velocity::Differences, wall::Pushing,
     },
 };
 

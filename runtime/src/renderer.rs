@@ -10,9 +10,9 @@ use crate::{
     stage::{
         contact::{DistanceField, unit},
         friction::Bristle,
-        gate::Gate,
         limiter::Limiter,
         passivity::Passivity,
+        sample_gate::Gate,
         tap::impact::Detector,
         velocity::VelocityEstimator,
         wall::Wall,

@@ -13,15 +13,15 @@ use crate::{
     arithmetic::Float,
     capacity::{Capacity, HostCapacities},
     config::{Config, ConfigError},
-    crossing::Crossing,
     load_error::LoadError,
     quantity::{Quantity, Vector, unit::Metre},
     render_arithmetic::RenderArithmetic,
     renderer::Renderer,
     sample::{Output, Sample},
-    stage::{contact::DistanceField, gate::is_usable},
+    stage::{contact::DistanceField, sample_gate::is_usable},
     state::State,
     texture::Texture,
+    texture_change::TextureChange,
 };
 use asperity_formats::{Library, SceneSurface};
 use core::mem::MaybeUninit;
@@ -265,7 +265,7 @@ pub struct SceneState<A: RenderArithmetic = Float> {
     at: usize,
     texture: usize,
     field: DistanceField<A>,
-    crossing: Crossing<A>,
+    crossing: TextureChange<A>,
 }
 
 impl<A: RenderArithmetic> SceneState<A> {
@@ -277,7 +277,7 @@ impl<A: RenderArithmetic> SceneState<A> {
             at: NONE,
             texture: 0,
             field: nowhere(),
-            crossing: Crossing::START,
+            crossing: TextureChange::START,
         }
     }
 

@@ -9,7 +9,7 @@ use crate::{
     },
     render_arithmetic::RenderArithmetic,
     stage::{
-        contact::DistanceField, friction::FrictionState, gate::GateState, tap::TapState,
+        contact::DistanceField, friction::FrictionState, sample_gate::GateState, tap::TapState,
         velocity::VelocityState, vibration::Vibration, wall::Wall,
     },
 };

@@ -281,7 +281,7 @@ fn other_formats_are_named_with_their_command(case: &Case) {
     for (file, own, names) in [
         ("x.ahap", "ahap", ["AHAP", "import ahap"]),
         ("x.haps", "", ["Interhaptics .haps", "export the effect"]),
-        ("x.hasp", "", ["Haptics LatentEditor", "import haptic"]),
+        ("x.hasp", "", ["Haptics Studio", "import haptic"]),
         ("x.tact", "", ["bHaptics .tact", "export the effect"]),
         ("vij0.haptic", "", ["version 0", "version 1"]),
     ] {

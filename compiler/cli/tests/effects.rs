@@ -46,7 +46,7 @@ fn a_file_of_another_format_is_named_with_the_command_that_reads_it() {
         ("x.hjif", "HJIF", "import hjif"),
         ("x.hmpg", "HMPG", "Decoder"),
         ("x.haps", "Interhaptics .haps", "export the effect"),
-        ("x.hasp", "Haptics LatentEditor", "import haptic"),
+        ("x.hasp", "Haptics Studio", "import haptic"),
         ("x.tact", "bHaptics .tact", "export the effect"),
         ("vij0.haptic", "version 0", "version 1"),
         ("x.gltf", "glTF", "not read"),

@@ -190,12 +190,6 @@ impl GraphBuilder {
         self.node("Concat", &inputs, &[("axis", Attribute::Int(axis))])
     }
 
-    /// Removes the named axes of size 1.
-    pub fn squeeze(&mut self, x: &Value, axes: &[i64]) -> Value {
-        let axes = self.integers(axes);
-        self.node("Squeeze", &[Some(x), Some(&axes)], &[])
-    }
-
     /// Adds axes of size 1.
     pub fn unsqueeze(&mut self, x: &Value, axes: &[i64]) -> Value {
         let axes = self.integers(axes);

@@ -37,13 +37,6 @@ impl Canvas {
         }
     }
 
-    /// Fills a polygon; points that are not finite are left out.
-    pub fn fill_polygon(&mut self, points: &[(f32, f32)], color: Color) {
-        if let Some(path) = polygon(points) {
-            self.fill_path(&path, color);
-        }
-    }
-
     /// Fills `rect` with `columns × rows` cells; row 0 is the lowest.
     pub fn cells(
         &mut self,

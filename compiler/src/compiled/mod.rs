@@ -1,8 +1,8 @@
 //! What came of a source: a compiled texture, how far it is from what it was made of, and the reports of both.
 
-mod truth;
+mod reference;
 
-pub use truth::Truth;
+pub use reference::ErrorReference;
 
 use crate::{
     emit::{

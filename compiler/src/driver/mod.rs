@@ -20,7 +20,7 @@
 
 mod prompts;
 
-pub use crate::compiled::{Compared, Compiled, Truth};
+pub use crate::compiled::{Compared, Compiled, ErrorReference};
 pub use asperity_io::diagnostic::Failure;
 
 use crate::{

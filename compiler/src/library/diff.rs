@@ -1,6 +1,6 @@
 //! What changed between two versions of a library.
 
-use super::{change::Change, shelf::Shelf};
+use super::{change::Change, loaded_library::Shelf};
 use asperity_formats::{Asset, FormatError};
 use serde::Serialize;
 use std::{collections::BTreeMap, fmt};

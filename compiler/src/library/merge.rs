@@ -2,8 +2,8 @@
 
 use super::{
     error::LibraryFault,
+    loaded_library::Shelf,
     pack::{NamedAsset, encode},
-    shelf::Shelf,
 };
 use asperity_io::diagnostic::{Failures, one};
 use std::collections::BTreeMap;

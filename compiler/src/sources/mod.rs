@@ -14,12 +14,14 @@ pub mod libraries;
 pub mod model_file;
 pub mod prompt;
 pub mod recording;
+mod registry;
 
 pub use crate::compiled::Findings;
 pub use kind::{Kind, Operand, Stated};
+pub use registry::Registry;
 
 use crate::{
-    compiled::Truth,
+    compiled::ErrorReference,
     learned::LearnedModel,
     memory::Memory,
     model::TextureModel,
@@ -146,7 +148,7 @@ pub struct Sourced {
     /// reduced, lowered or measured again.
     pub asset: Option<Vec<u8>>,
     /// What the asset is measured against; if `None`, the reduction alone says what it cost.
-    pub truth: Option<Truth>,
+    pub truth: Option<ErrorReference>,
     /// What becomes of it if it rings.
     pub ringing: Ringing,
     /// What the asset remembers, so that it can be mixed and edited.
@@ -183,44 +185,5 @@ impl Sourced {
 impl Source for Sourced {
     fn read(&self, _: &Request, _: &Tools<'_>, _: &mut Pipeline) -> Result<Sourced, Failure> {
         Ok(self.clone())
-    }
-}
-
-// The sources that a manifest can name, as a value: a program may add its own.
-
-/// The kinds of sources that manifests may name.
-#[derive(Debug, Clone)]
-pub struct Registry(Vec<Kind>);
-
-/// The kinds of this crate.
-impl Default for Registry {
-    fn default() -> Self {
-        Self(vec![
-            prompt::KIND,
-            import::KIND,
-            recording::KIND,
-            asset::KIND,
-        ])
-    }
-}
-
-impl Registry {
-    /// With another kind, in the place of one of its key.
-    #[must_use]
-    pub fn with(mut self, kind: Kind) -> Self {
-        self.0.retain(|known| known.key != kind.key);
-        self.0.push(kind);
-        self
-    }
-
-    /// The kind of a key.
-    #[must_use]
-    pub fn get(&self, key: &str) -> Option<&Kind> {
-        self.0.iter().find(|kind| kind.key == key)
-    }
-
-    /// All keys.
-    pub fn keys(&self) -> impl Iterator<Item = &'static str> + '_ {
-        self.0.iter().map(|kind| kind.key)
     }
 }

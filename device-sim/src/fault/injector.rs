@@ -1,6 +1,6 @@
 //! A servo behind faults.
 
-use asperity_host::faults::{FaultCounts, FaultPlanError, FaultSchedule};
+use asperity_host::fault_plan::{FaultCounts, FaultPlanError, FaultSchedule};
 use asperity_runtime::{Output, Sample};
 
 use super::plan::{FaultPlan, KINDS, SampleFault};

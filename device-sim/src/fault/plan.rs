@@ -1,6 +1,6 @@
 //! Kinds of faults of samples.
 
-use asperity_host::faults;
+use asperity_host::fault_plan;
 
 /// A kind of fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub enum SampleFault {
 /// How many kinds there are.
 pub(super) const KINDS: usize = 5;
 
-impl faults::FaultKind<KINDS> for SampleFault {
+impl fault_plan::FaultKind<KINDS> for SampleFault {
     const ALL: [Self; KINDS] = [
         Self::NotFinite,
         Self::Dropped,
@@ -45,4 +45,4 @@ impl faults::FaultKind<KINDS> for SampleFault {
 }
 
 /// How often each fault of samples starts and how many ticks it lasts.
-pub type FaultPlan = faults::FaultPlan<SampleFault, KINDS>;
+pub type FaultPlan = fault_plan::FaultPlan<SampleFault, KINDS>;

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use asperity_host::device::falcon::Falcon;
 use asperity_host::device::falcon::settings::Settings;
-use asperity_host::device::faulty::InjectedFault;
-use asperity_host::device::faulty::trial::{Paced, Trial};
-use asperity_host::faults::FaultKind as _;
+use asperity_host::device::fault_injection::InjectedFault;
+use asperity_host::device::fault_injection::trial::{Paced, Trial};
+use asperity_host::fault_plan::FaultKind as _;
 use asperity_runtime::Config;
 use asperity_virtual_usb::falcon::Falcon as Virtual;
 use asperity_virtual_usb::{InProcessOpener, Port, Socket};

@@ -2,7 +2,7 @@
 
 use asperity_formats::Asset;
 use asperity_host::device::Device;
-use asperity_host::device::faulty::{Faulty, Plan};
+use asperity_host::device::fault_injection::{Faulty, Plan};
 use asperity_host::device::supervised::{Plausible, Report, Supervised};
 use asperity_host::session_log::{Conditions, Entry, TextureInfo};
 use asperity_runtime::{Config, HostTexture, Output, Renderer, State};

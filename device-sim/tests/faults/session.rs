@@ -3,9 +3,9 @@
 
 use std::io::Write;
 
-use asperity_host::device::faulty::{InjectedFault, Plan};
+use asperity_host::device::fault_injection::{InjectedFault, Plan};
 use asperity_host::device::supervised::Report;
-use asperity_host::faults::FaultKind as _;
+use asperity_host::fault_plan::FaultKind as _;
 use asperity_host::session_log::{Encoder, Ending, SessionLog, render_again};
 use asperity_runtime::Config;
 

@@ -6,12 +6,12 @@
 use std::path::Path;
 
 use asperity_host::device::dhd::Dhd;
-use asperity_host::device::faulty::trial::{AFTER, LASTS, Row, Trial};
-use asperity_host::device::faulty::{InjectedFault, Plan};
+use asperity_host::device::fault_injection::trial::{AFTER, LASTS, Row, Trial};
+use asperity_host::device::fault_injection::{InjectedFault, Plan};
 use asperity_host::device::openhaptics::OpenHaptics;
 use asperity_host::device::replay::{AtEnd, Replay};
 use asperity_host::device::{Description, Device, DeviceError, Reading};
-use asperity_host::faults::FaultKind as _;
+use asperity_host::fault_plan::FaultKind as _;
 use asperity_host::session_log::{Encoder, SessionLog};
 use asperity_runtime::{Config, HostTexture};
 

@@ -11,7 +11,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`descriptor`] | device, configuration and string descriptors as bytes |
-//! | [`fault`] | stalls, short transfers, time-outs and unplugging at a rate |
+//! | [`transfer_fault`] | stalls, short transfers, time-outs and unplugging at a rate |
 //! | [`falcon`] | a Novint Falcon with a grip in a hand |
 //! | [`touch`] | a 3D Systems Touch, as far as it identifies itself |
 
@@ -19,10 +19,10 @@
 
 pub mod descriptor;
 pub mod falcon;
-pub mod fault;
 mod in_process;
 mod port;
 pub mod touch;
+pub mod transfer_fault;
 pub mod usbip;
 
 pub use in_process::{InProcess, InProcessOpener};

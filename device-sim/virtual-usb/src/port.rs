@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::fault::{FaultCounts, Faults, Rates, TransferFault};
+use super::transfer_fault::{FaultCounts, Faults, Rates, TransferFault};
 use super::{Answer, Device};
 
 /// The eight bytes that begin a control transfer.

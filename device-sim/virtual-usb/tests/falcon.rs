@@ -7,7 +7,7 @@ use asperity_host::device::falcon::settings::Settings;
 use asperity_host::device::falcon::{Falcon, OpenError};
 use asperity_host::device::{Device as _, DeviceError, Reading};
 use asperity_virtual_usb::falcon::{Falcon as Virtual, Quirks, image};
-use asperity_virtual_usb::fault::Rates;
+use asperity_virtual_usb::transfer_fault::Rates;
 use asperity_virtual_usb::{InProcessOpener, Port, Socket};
 
 fn open(socket: &Socket<Virtual>, settings: Settings) -> Result<Falcon, OpenError> {

@@ -8,7 +8,7 @@ use std::thread::JoinHandle;
 use asperity_host::device::falcon::frame::{Answer, Command};
 use asperity_host::device::falcon::ftdi::{RUNNING, payload};
 use asperity_virtual_usb::falcon::Falcon;
-use asperity_virtual_usb::fault::Rates;
+use asperity_virtual_usb::transfer_fault::Rates;
 use asperity_virtual_usb::touch::{Firmware, Touch};
 use asperity_virtual_usb::usbip::client::{Client, Event};
 use asperity_virtual_usb::usbip::server::Server;

@@ -4,7 +4,7 @@ use super::*;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Flags, HostTexture, Renderer};
 
-use asperity_host::faults::FaultKind as _;
+use asperity_host::fault_plan::FaultKind as _;
 use asperity_sim::device::{DeviceConfig, norm};
 use asperity_sim::fault::{FaultInjector, FaultPlan, SampleFault};
 use asperity_sim::hand::{Grip, GripPreset, Motion, Script};

@@ -14,18 +14,18 @@
 mod error;
 mod open;
 mod opened;
+mod real_surface;
 mod recorder;
 mod replay;
 mod run;
 mod surface;
 mod trace;
-mod unfelt;
 
 pub use error::ServoSessionError;
 pub use open::open;
 pub use opened::{OpenDevice, Repeated, Replayed};
+pub use real_surface::run_unfelt;
 pub use recorder::{Form, Recorder, Written};
 pub use run::{Attended, Setup, run};
 pub use surface::Surface;
 pub use trace::{COLUMNS, Trace};
-pub use unfelt::run_unfelt;

@@ -2,9 +2,9 @@
 //! and homed, and the force comes back by a ramp.
 
 use crate::support::{Act, Kept, Scripted, length, texture};
-use asperity_host::device::faulty::{Faulty, InjectedFault, Plan};
+use asperity_host::device::fault_injection::{Faulty, InjectedFault, Plan};
 use asperity_host::device::{Description, Device, DeviceError, Reading};
-use asperity_host::faults::FaultKind as _;
+use asperity_host::fault_plan::FaultKind as _;
 use asperity_host::servo::{Event, Report, ServoLoop, Settings, SingleTexture, Virtual};
 use asperity_runtime::{Config, Flags, Renderer, State};
 use std::sync::atomic::AtomicBool;

@@ -8,7 +8,7 @@
 mod format;
 mod kind;
 mod open;
-mod patience;
+mod pipe_timeout;
 mod problem;
 mod reach;
 mod read;
@@ -20,7 +20,7 @@ mod xml;
 pub use format::{Format, HEAD};
 pub use kind::Kind;
 pub use open::{Opened, format_of, open, open_as};
-pub use patience::{MAX_SILENCE, MAX_WAIT};
+pub use pipe_timeout::{MAX_SILENCE, MAX_WAIT};
 pub use problem::{InputError, InputProblem};
 pub use reach::{Outside, Reach};
 pub use read::{read, read_text, text, to_end};

@@ -3,7 +3,7 @@
 use super::{
     format::{Format, HEAD, POINTER_BYTES},
     kind::Kind,
-    patience::{MAX_SILENCE, MAX_WAIT},
+    pipe_timeout::{MAX_SILENCE, MAX_WAIT},
     problem::InputProblem,
 };
 use std::{

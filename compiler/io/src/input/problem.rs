@@ -3,7 +3,7 @@
 use super::{
     format::Format,
     kind::Kind,
-    patience::{MAX_SILENCE, MAX_WAIT},
+    pipe_timeout::{MAX_SILENCE, MAX_WAIT},
 };
 use crate::{diagnostic::Diagnostic, system};
 use std::{io, path::PathBuf};

@@ -2,7 +2,7 @@
 
 use super::stroke;
 use crate::{
-    compiled::Truth,
+    compiled::ErrorReference,
     interchange::{
         EffectError, EffectProblem, ahap, haptic, hjif,
         playback::{Track, Transient},
@@ -150,7 +150,7 @@ impl Source for Effects {
         whole.provenance.source = name.to_string_lossy().into_owned();
         whole.provenance.source_crc32 = crc32;
         Ok(Sourced {
-            truth: Some(Truth::Texture),
+            truth: Some(ErrorReference::Texture),
             ringing: Ringing::Stabilised,
             warnings,
             ..Sourced::new(whole)

@@ -6,7 +6,7 @@ use super::{
     texture::to_model,
 };
 use crate::{
-    compiled::{Compiled, Truth},
+    compiled::{Compiled, ErrorReference},
     learned::{LearnedModel, ModelError, complete},
     model::TextureModel,
     pipeline::{Pass, Pipeline, Request},
@@ -206,7 +206,7 @@ fn complete(texture: &mut TextureModel, model: &LearnedModel) -> Result<(), Mode
 }
 
 /// The coefficients of the material.
-fn truth(material: &Material) -> Truth {
+fn truth(material: &Material) -> ErrorReference {
     let model = |model: &SourceModel| {
         (model.variance != 0.0).then(|| ArmaModel {
             sample_rate_hz: material.sample_rate_hz,
@@ -215,7 +215,7 @@ fn truth(material: &Material) -> Truth {
             level_m_s2: model.gain * model.variance.sqrt(),
         })
     };
-    Truth::Models {
+    ErrorReference::Models {
         at_vertices: material.models.iter().map(model).collect(),
         budget_db: BUDGET_DB,
     }

@@ -2,7 +2,7 @@
 
 use super::read::read;
 use crate::{
-    compiled::Truth,
+    compiled::ErrorReference,
     pipeline::{Pass, Pipeline, Request},
     sources::{Source, Sourced, Tools, key::Parts},
 };
@@ -44,7 +44,7 @@ impl Source for ModelFile {
         provenance.source = name.to_string_lossy().into_owned();
         provenance.source_crc32 = crc32;
         Ok(Sourced {
-            truth: Some(Truth::Texture),
+            truth: Some(ErrorReference::Texture),
             ..Sourced::new(texture)
         })
     }

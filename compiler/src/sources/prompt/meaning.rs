@@ -2,8 +2,8 @@
 
 use super::{
     Projection, PromptCompiler, PromptError,
+    named_things::Thing,
     phrase::{self, Phrase},
-    things::Thing,
 };
 use crate::{
     learned::{Decoded, Latent, texture},

@@ -8,11 +8,11 @@ mod compiled_prompt;
 mod encoding_cache;
 mod error;
 mod meaning;
+mod named_things;
 pub mod phrase;
 mod prompt_compiler;
 mod report;
 mod source;
-mod things;
 mod understood;
 
 pub use crate::model::shift::Shift;

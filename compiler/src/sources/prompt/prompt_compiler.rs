@@ -3,7 +3,7 @@
 use super::{
     CompiledPrompt, Nearest, PromptError,
     encoding_cache::{EncodingCache, Read},
-    things::Things,
+    named_things::Things,
     understood::{Understood, check, understood},
 };
 use crate::{

@@ -8,7 +8,7 @@ use super::{
     texture::{Parts, texture},
 };
 use crate::{
-    compiled::{Compiled, Truth},
+    compiled::{Compiled, ErrorReference},
     model::{Numerator, defaults},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request, Ringing},
@@ -84,7 +84,7 @@ impl Source for RecordingFolder {
             .at_least(Severity::Warning)
             .map(|finding| format!("{} {}: {}", finding.file, finding.channel, finding.what));
         Ok(Sourced {
-            truth: Some(Truth::Texture),
+            truth: Some(ErrorReference::Texture),
             ringing,
             warnings: warnings.collect(),
             findings: Some(Arc::new(Recorded {

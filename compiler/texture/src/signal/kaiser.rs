@@ -2,6 +2,8 @@
 
 /// Shape of the window, which leaves side lobes some 80 dB below the main lobe.
 pub const BETA: f64 = 8.0;
+/// Terms below this share of the sum change no bit of it.
+const EXACT: f64 = 1e-16;
 
 /// The window at a place from −1 to 1; zero beyond.
 #[must_use]
@@ -9,20 +11,19 @@ pub fn window(x: f64) -> f64 {
     if x.abs() >= 1.0 {
         return 0.0;
     }
-    bessel_i0(BETA * ((1.0 - x) * (1.0 + x)).sqrt()) / bessel_i0(BETA)
+    bessel_i0(BETA * ((1.0 - x) * (1.0 + x)).sqrt(), EXACT) / bessel_i0(BETA, EXACT)
 }
 
-/// Modified Bessel function of the first kind and order 0, by its series.
+/// Modified Bessel function of the first kind and order 0, by its power series, up to the first term
+/// that is no more than `tolerance` of the sum.
 #[must_use]
-pub fn bessel_i0(x: f64) -> f64 {
+pub fn bessel_i0(x: f64, tolerance: f64) -> f64 {
     let quarter = 0.25 * x * x;
-    let (mut term, mut sum) = (1.0, 1.0);
-    for k in 1..60 {
-        term *= quarter / f64::from(k * k);
+    let (mut term, mut sum, mut k) = (1.0, 1.0, 1.0);
+    while term > tolerance * sum {
+        term *= quarter / (k * k);
         sum += term;
-        if term < 1e-16 * sum {
-            break;
-        }
+        k += 1.0;
     }
     sum
 }

@@ -17,6 +17,9 @@ const REACH: usize = 48;
 /// Cut-off relative to the lower rate.
 const CUTOFF: f64 = 0.46;
 
+/// Of the window's series, relative. Frozen bits depend on it.
+const TOLERANCE: f64 = 1e-12;
+
 /// The signal at another rate, Hz. Output 0 belongs to the time of input 0.
 #[must_use]
 pub fn resample(signal: &[f64], from_hz: u32, to_hz: u32) -> Vec<f64> {
@@ -55,7 +58,7 @@ fn kernel(fraction: f64, reach: usize, stretch: f64) -> Vec<f64> {
                 libm::sin(angle) / angle
             };
             let edge = (x / reach as f64).clamp(-1.0, 1.0);
-            sinc * bessel_i0(BETA * (1.0 - edge * edge).sqrt())
+            sinc * bessel_i0(BETA * (1.0 - edge * edge).sqrt(), TOLERANCE)
         })
         .collect();
     let sum: f64 = weights.iter().sum();

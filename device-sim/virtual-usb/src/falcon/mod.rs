@@ -86,13 +86,6 @@ impl Falcon {
         }
     }
 
-    /// Another serial number.
-    #[must_use]
-    pub fn with_serial(mut self, serial: &str) -> Self {
-        self.descriptors.strings[2] = serial.into();
-        self
-    }
-
     /// A Falcon whose firmware runs already.
     #[must_use]
     pub fn running() -> Self {

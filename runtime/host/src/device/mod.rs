@@ -8,7 +8,7 @@ pub mod dhd;
 mod error;
 pub mod exercise;
 pub mod falcon;
-pub mod faulty;
+pub mod fault_injection;
 mod null;
 mod open;
 pub mod openhaptics;

@@ -14,7 +14,7 @@ pub use error::ProfileError;
 
 use std::path::Path;
 
-use crate::regular;
+use crate::regular_file;
 use asperity_runtime::{Config, Limits, MechanicsConfig};
 use serde::{Deserialize, Serialize};
 
@@ -109,7 +109,7 @@ impl Profile {
         const MOST: u64 = 1 << 20;
         let file = path.display().to_string();
         let mut text = String::new();
-        regular::open(path)
+        regular_file::open(path)
             .and_then(|opened| opened.take(MOST).read_to_string(&mut text))
             .map_err(|cause| ProfileError::Read {
                 file: file.clone(),

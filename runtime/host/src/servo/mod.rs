@@ -21,6 +21,7 @@
 //! but the clock and the device. `tests/no_alloc.rs` runs it under an allocator that counts.
 
 mod clock;
+mod deadlines;
 mod event;
 mod outlet;
 mod pace;
@@ -29,12 +30,12 @@ pub mod privileges;
 mod record;
 mod render;
 mod report;
-mod schedule;
 mod settings;
 mod thread;
 mod times;
 
 pub use clock::{Clock, Monotonic, SECOND_NS, Virtual};
+pub use deadlines::Schedule;
 pub use event::Event;
 pub use outlet::{Inlet, Outlet, queues};
 pub use pace::Pace;
@@ -42,7 +43,6 @@ pub use periods::ServoLoop;
 pub use record::{Observer, Record};
 pub use render::{InScene, Played, Render, SingleTexture};
 pub use report::{End, Report};
-pub use schedule::Schedule;
 pub use settings::{Overrun, RATES_HZ, Settings, SettingsError};
 pub use thread::{Servo, Start};
 pub use times::{Stage, Times};

@@ -13,11 +13,11 @@
 
 use super::{
     clock::{Clock, SECOND_NS},
+    deadlines::Schedule,
     event::Event,
     record::{Observer, Record},
     render::Render,
     report::{End, Report},
-    schedule::Schedule,
     settings::{Overrun, Settings},
     times::Times,
 };

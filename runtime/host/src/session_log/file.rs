@@ -3,7 +3,7 @@
 use std::io::{BufReader, Read, Write};
 use std::path::Path;
 
-use crate::regular;
+use crate::regular_file;
 
 use super::block::{self, Kind, Next};
 use super::record::{self, Before};
@@ -146,7 +146,7 @@ impl SessionLog {
     /// # Errors
     /// [`SessionLogError`].
     pub fn open(path: &Path) -> Result<Self, SessionLogError> {
-        Self::read(&mut BufReader::new(regular::open(path)?))
+        Self::read(&mut BufReader::new(regular_file::open(path)?))
     }
 
     /// Reads a recording. One that was cut is read up to its last whole block, one of more than

@@ -60,12 +60,6 @@ impl Writing {
         let _ = self.textures.send(texture);
     }
 
-    /// Whether the thread has ended, because of an error if the recorder still exists.
-    #[must_use]
-    pub fn has_ended(&self) -> bool {
-        self.thread.is_finished()
-    }
-
     /// Waits for the end of the file. The [`Recorder`] must have been dropped.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use super::{
     ar::Sounding,
     bins::Bins,
-    own::{Growth, OwnGrid, mixed_lsf},
+    interpolation::{Growth, OwnGrid, mixed_lsf},
 };
 use crate::{BINS, ORDER, augment::Draws};
 

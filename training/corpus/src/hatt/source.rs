@@ -3,7 +3,7 @@
 use super::{
     ar::{self, Sounding},
     error::HattCorpusError,
-    own::OwnGrid,
+    interpolation::OwnGrid,
 };
 use crate::SAMPLE_RATE_HZ;
 use asperity::hatt::{self, HattError, Problem};

@@ -13,9 +13,9 @@
 //! | `shape`, `blocks`, `refine` | all vertices moved at once, so that their mixtures explain all segments |
 
 mod band;
-mod beyond;
 mod blocks;
 mod clusters;
+mod extrapolation;
 mod lags;
 mod local;
 mod refine;
@@ -33,9 +33,9 @@ use asperity_recording::{
     steady::{Segment, Steady},
     timeline::RATE_HZ,
 };
-pub use beyond::Slopes;
-use beyond::{Visited, ring};
 use clusters::centres;
+pub use extrapolation::Slopes;
+use extrapolation::{Visited, ring};
 use local::Local;
 use rayon::prelude::*;
 use refine::refine;

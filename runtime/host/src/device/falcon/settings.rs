@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::firmware;
 use super::geometry::PEAK_FORCE_N;
 use crate::device::{Uri, UriError};
-use crate::regular;
+use crate::regular_file;
 
 /// Settings of a Falcon, by name.
 pub const KNOWN: [&str; 5] = ["firmware", "tries", "peak_n", "motor_step", "ids"];
@@ -138,7 +138,7 @@ fn read(file: &Path) -> Result<Vec<u8>, SettingsError> {
         file: file.into(),
         problem,
     };
-    let opened = regular::open(file).map_err(|error| refuse(error.to_string()))?;
+    let opened = regular_file::open(file).map_err(|error| refuse(error.to_string()))?;
     let mut bytes = Vec::new();
     let most = firmware::MAX_BYTES as u64 + 1;
     let read = opened.take(most).read_to_end(&mut bytes);

@@ -3,7 +3,7 @@
 use std::io::Read as _;
 use std::path::Path;
 
-use crate::regular;
+use crate::regular_file;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -76,7 +76,7 @@ impl Ids {
             problem,
         };
         let mut text = String::new();
-        let opened = regular::open(path).map_err(|error| refuse(error.to_string()))?;
+        let opened = regular_file::open(path).map_err(|error| refuse(error.to_string()))?;
         let read = opened.take(MAX_BYTES + 1).read_to_string(&mut text);
         read.map_err(|error| refuse(error.to_string()))?;
         if text.len() as u64 > MAX_BYTES {

@@ -1,6 +1,6 @@
 //! Kinds of faults of a device.
 
-use crate::faults::{FaultKind, FaultPlan};
+use crate::fault_plan::{FaultKind, FaultPlan};
 
 /// A kind of injected fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -14,7 +14,7 @@ use asperity_formats::Asset;
 /// measured against what the whole grid renders, at the places of
 /// [`mixture::places`](crate::model::mixture::places), whatever it came from.
 #[derive(Debug, Clone)]
-pub enum Truth {
+pub enum ErrorReference {
     /// The texture before its reduction.
     Texture,
     /// The models of the source, one for each vertex; none where it is silent.
@@ -26,7 +26,7 @@ pub enum Truth {
     },
 }
 
-impl Truth {
+impl ErrorReference {
     /// Distances of an asset, dB: at every vertex that sounds where nothing was left out, else over
     /// the grid, and then they are also what the reduction cost.
     pub(crate) fn compared(

@@ -1,6 +1,6 @@
 //! Seeded faults around any device.
 //!
-//! A [`FaultPlan`](crate::faults::FaultPlan) says when they begin. The device behind goes on in any case: what it measured is thrown
+//! A [`FaultPlan`](crate::fault_plan::FaultPlan) says when they begin. The device behind goes on in any case: what it measured is thrown
 //! away, as a lost packet is.
 //!
 //! | fault | a reading gives | a force |

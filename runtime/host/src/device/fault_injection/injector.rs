@@ -2,7 +2,7 @@
 
 use super::plan::{InjectedFault, KINDS, Plan};
 use crate::device::{Description, Device, DeviceError, Reading};
-use crate::faults::{FaultCounts, FaultPlanError, FaultSchedule};
+use crate::fault_plan::{FaultCounts, FaultPlanError, FaultSchedule};
 
 /// A device behind faults. Injectors stack.
 #[derive(Debug)]
@@ -21,7 +21,7 @@ impl<D: Device> Faulty<D> {
     /// Puts a device behind the faults of a plan.
     ///
     /// # Errors
-    /// [`FaultPlanError`], as [`FaultPlan::check`](crate::faults::FaultPlan::check).
+    /// [`FaultPlanError`], as [`FaultPlan::check`](crate::fault_plan::FaultPlan::check).
     pub fn new(inner: D, plan: Plan, seed: u64) -> Result<Self, FaultPlanError> {
         Ok(Self::on(inner, FaultSchedule::new(plan, seed)?))
     }
@@ -49,11 +49,6 @@ impl<D: Device> Faulty<D> {
     /// The device behind the faults.
     pub fn inner(&self) -> &D {
         &self.inner
-    }
-
-    /// The device behind the faults.
-    pub fn inner_mut(&mut self) -> &mut D {
-        &mut self.inner
     }
 
     /// In how many periods each kind ran.
@@ -174,7 +169,7 @@ impl<D: Device> Device for Faulty<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::faults::FaultKind;
+    use crate::fault_plan::FaultKind;
 
     /// Walks a metre to the right in a thousand readings, and remembers the last force.
     #[derive(Debug)]

@@ -34,7 +34,7 @@ const FADE: f32 = 0.75;
 
 /// State of the way from one texture to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Crossing<A: RenderArithmetic> {
+pub(crate) struct TextureChange<A: RenderArithmetic> {
     /// Wall, gains and friction.
     coupling: Coupling<A>,
     /// The factor of μ.
@@ -53,7 +53,7 @@ pub(crate) struct Crossing<A: RenderArithmetic> {
     pub(crate) touching: bool,
 }
 
-impl<A: RenderArithmetic> Crossing<A> {
+impl<A: RenderArithmetic> TextureChange<A> {
     /// No wall, no friction, silence.
     pub(crate) const START: Self = Self {
         coupling: Coupling::NONE,
@@ -140,7 +140,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         &self,
         field: &DistanceField<A>,
         texture: &Texture<S, A>,
-        crossing: &mut Crossing<A>,
+        crossing: &mut TextureChange<A>,
         state: &mut State<A>,
         sample: &Sample<A>,
     ) -> Output<A> {

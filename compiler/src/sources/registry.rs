@@ -1,0 +1,40 @@
+//! The sources that a manifest can name, as a value: a program may add its own.
+
+use super::{asset, import, kind::Kind, prompt, recording};
+
+/// The kinds of sources that manifests may name.
+#[derive(Debug, Clone)]
+pub struct Registry(Vec<Kind>);
+
+/// The kinds of this crate.
+impl Default for Registry {
+    fn default() -> Self {
+        Self(vec![
+            prompt::KIND,
+            import::KIND,
+            recording::KIND,
+            asset::KIND,
+        ])
+    }
+}
+
+impl Registry {
+    /// With another kind, in the place of one of its key.
+    #[must_use]
+    pub fn with(mut self, kind: Kind) -> Self {
+        self.0.retain(|known| known.key != kind.key);
+        self.0.push(kind);
+        self
+    }
+
+    /// The kind of a key.
+    #[must_use]
+    pub fn get(&self, key: &str) -> Option<&Kind> {
+        self.0.iter().find(|kind| kind.key == key)
+    }
+
+    /// All keys.
+    pub fn keys(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.0.iter().map(|kind| kind.key)
+    }
+}
