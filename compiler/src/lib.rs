@@ -42,7 +42,6 @@ pub mod sources;
 /// What every error of this crate says besides its cause: the remedy.
 pub use asperity_io::diagnostic;
 
-use asperity_texture::signal;
 // Users name a module without its folder, so that files can move between the stages.
 pub use asperity_texture::model::{self, attributes, defaults, mesh, mixture, tap_synthesis};
 pub use asperity_texture::signal::{impact, level, levinson, lsf, reflection, resample, spectrum};

@@ -17,7 +17,6 @@ use crate::{
         verify::{self, VerifyError, VerifyReport},
     },
     memory::{Memory, remember},
-    model::TextureModel,
     passes::{
         ceiling,
         reduce::{self, Fidelity, Reduction},
@@ -27,6 +26,7 @@ use crate::{
     views::preview,
 };
 use asperity_formats::Asset;
+use asperity_texture::model::TextureModel;
 
 /// Fractions of the way to white noise that are tried in turn on a texture that rings.
 const STABILISED: [f64; 4] = [0.25, 0.5, 0.75, 1.0];

@@ -9,14 +9,14 @@ use crate::{
         lower::{ErrorSummary, Lowered},
         verify::VerifyReport,
     },
-    model::{
-        TextureModel,
-        attributes::{self, Attributes},
-    },
     passes::reduce::{self, Fidelity},
     pipeline::Timings,
 };
 use asperity_plot::PlotError;
+use asperity_texture::model::{
+    TextureModel,
+    attributes::{self, Attributes},
+};
 use serde_json::{Value, json};
 use std::{any::Any, fmt, sync::Arc};
 
@@ -55,7 +55,7 @@ pub struct Compiled {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compared {
     /// In full it is measured at every vertex that sounds, else on what the whole grid renders, at
-    /// the places of [`mixture::places`](crate::model::mixture::places).
+    /// the places of [`mixture::places`](asperity_texture::model::mixture::places).
     pub error: ErrorSummary,
     /// Vertices or places that were compared.
     pub count: usize,

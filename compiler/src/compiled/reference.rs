@@ -3,16 +3,18 @@
 use super::Compared;
 use crate::{
     emit::{lower::ErrorSummary, raise::raise, verify::VerifyError},
-    model::ModelGrid,
     passes::reduce::{Fidelity, Reference},
     pipeline::{Passed, PipelineError},
-    signal::spectrum::{ArmaModel, log_spectral_distance_db},
 };
 use asperity_formats::Asset;
+use asperity_texture::{
+    model::ModelGrid,
+    signal::spectrum::{ArmaModel, log_spectral_distance_db},
+};
 
 /// What an asset that keeps all of a texture is measured against. One that leaves something out is
 /// measured against what the whole grid renders, at the places of
-/// [`mixture::places`](crate::model::mixture::places), whatever it came from.
+/// [`mixture::places`](asperity_texture::model::mixture::places), whatever it came from.
 #[derive(Debug, Clone)]
 pub enum ErrorReference {
     /// The texture before its reduction.

@@ -1,11 +1,11 @@
 //! The way back: the f64 model that the bytes of an asset describe.
 
-use crate::model::{
+use asperity_formats as formats;
+use asperity_formats::{Asset, LsfCode};
+use asperity_texture::model::{
     Friction, FrictionAnchor, FrictionLaw, Gains, GridVertex, LawPoint, ModelGrid, Numerator,
     Provenance, TapBank, TapTrace, TextureModel, VertexKind, Wall,
 };
-use asperity_formats as formats;
-use asperity_formats::{Asset, LsfCode};
 
 /// The texture that an asset holds.
 #[must_use]

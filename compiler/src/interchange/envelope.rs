@@ -1,7 +1,7 @@
 //! Amplitude and frequency over time, for formats whose players drive an actuator by both.
 
 use super::third_octave::{Shape, density};
-use crate::signal::spectrum::Angles;
+use asperity_texture::signal::spectrum::Angles;
 use std::f64::consts::TAU;
 
 /// Time between two points, s.

@@ -13,10 +13,10 @@ use super::{
 };
 use crate::{
     emit::raise::raise,
-    signal::resample::resample,
     views::listen::{Gesture, Stroke, perform},
 };
 use asperity_formats::Asset;
+use asperity_texture::signal::resample::resample;
 use serde::Serialize;
 use std::{fmt, str::FromStr};
 

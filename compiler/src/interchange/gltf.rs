@@ -11,10 +11,8 @@ use super::{
     haptic::{pretty, rounded},
     playback::{TonePoint, Track},
 };
-use crate::{
-    model::{TextureModel, attributes},
-    views::preview::{self, PreviewError},
-};
+use crate::views::preview::{self, PreviewError};
+use asperity_texture::model::{TextureModel, attributes};
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use serde_json::{Value, json};
 

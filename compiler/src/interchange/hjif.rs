@@ -12,7 +12,7 @@ use super::{
     parse::{MAX_S, bounded, json, within},
     playback::{CurvePoint, Track, Transient},
 };
-use crate::signal::resample::resample;
+use asperity_texture::signal::resample::resample;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 

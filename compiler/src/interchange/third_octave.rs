@@ -1,6 +1,6 @@
 //! Levels in third octaves, and how far two signals are apart in them.
 
-use crate::signal::spectrum::Angles;
+use asperity_texture::signal::spectrum::Angles;
 use serde::Serialize;
 use std::f64::consts::TAU;
 

@@ -1,10 +1,8 @@
 //! A clip as a mono WAV of 16 bits at 44.1 kHz.
 
 use super::clip::{Clip, Take};
-use crate::{
-    signal::resample::resample,
-    views::listen::{SOUND_HZ, wav},
-};
+use crate::views::listen::{SOUND_HZ, wav};
+use asperity_texture::signal::resample::resample;
 
 /// A clip as 16-bit samples; strokes and taps each have their scale.
 pub(super) fn samples(clip: &Clip) -> Vec<i16> {

@@ -6,7 +6,7 @@ use super::{
     model::{LearnedModel, Present},
     texture,
 };
-use crate::{
+use asperity_texture::{
     model::{Gains, ModelGrid, TapBank},
     signal::{
         levinson, lsf,
@@ -65,7 +65,7 @@ pub fn ar_channels(bins: &GridDescription, grid: &ModelGrid) -> Vec<f32> {
 
 /// LSFs and level of the AR model at a point of a grid.
 fn at(grid: &ModelGrid, speed_mm_s: f64, force_n: f64, bins: &GridDescription) -> (Vec<f64>, f64) {
-    let (width, height) = crate::model::mesh::corner(grid);
+    let (width, height) = asperity_texture::model::mesh::corner(grid);
     let corners = corners(grid, speed_mm_s.min(width), force_n.min(height));
     let models: Vec<(ArmaModel, f64)> = corners
         .iter()
@@ -186,7 +186,8 @@ fn linear(trace: &[f64], t: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{model::VertexKind, sources::builtin};
+    use crate::sources::builtin;
+    use asperity_texture::model::VertexKind;
 
     #[test]
     fn at_a_vertex_the_channels_are_its_own_model() {
@@ -217,7 +218,8 @@ mod tests {
                     "{expected} {found}"
                 );
             }
-            let level = vertex.sigma_m_s2 * crate::signal::level::nyquist_rms(&vertex.lsf_rad);
+            let level =
+                vertex.sigma_m_s2 * asperity_texture::signal::level::nyquist_rms(&vertex.lsf_rad);
             let level_db = 20.0 * libm::log10(level);
             assert!((level_db - f64::from(found[bins.order])).abs() < 0.05);
         }

@@ -4,7 +4,7 @@
 //! corners. The copy keeps the shape of the spectrum. Its level follows the powers of speed and
 //! force that the grid itself shows, and is zero at rest and without touch.
 
-use crate::model::{GridVertex, VertexKind};
+use asperity_texture::model::{GridVertex, VertexKind};
 
 /// Range of the exponents; what lies beyond comes from noise.
 const EXPONENTS: (f64, f64) = (0.0, 2.0);
@@ -131,10 +131,8 @@ pub fn growth(vertices: &[GridVertex]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        model::{ModelGrid, Numerator, mesh},
-        passes::triangulate,
-    };
+    use crate::passes::triangulate;
+    use asperity_texture::model::{ModelGrid, Numerator, mesh};
 
     fn interior() -> Vec<GridVertex> {
         // A scattered cloud with σ = (v/100)^0.9·F^0.3.

@@ -7,8 +7,8 @@ use super::{
     files::Files,
     inference::Backend,
 };
-use crate::model::Provenance;
 use asperity_nn::{Session, Tensor};
+use asperity_texture::model::Provenance;
 use std::{borrow::Cow, sync::OnceLock};
 
 /// Rows of a batch at most: what they come to in the networks stays in the second-level cache.

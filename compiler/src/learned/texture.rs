@@ -6,12 +6,12 @@ use super::{
     friction::{self, Neighbour},
     model::{Decoded, Latent},
 };
-use crate::{
+use crate::passes::triangulate;
+use asperity_texture::{
     model::{
         Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TapBank, TapTrace,
         TextureModel, VertexKind, Wall, defaults,
     },
-    passes::triangulate,
     signal::{level::nyquist_rms, lsf},
 };
 use std::f64::consts::PI;

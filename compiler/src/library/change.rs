@@ -2,13 +2,13 @@
 
 use crate::{
     emit::raise::raise,
-    model::{
-        FrictionLaw, TextureModel,
-        mixture::{self, Field},
-    },
     passes::{ceiling, reduce::Reference},
 };
 use asperity_formats::Asset;
+use asperity_texture::model::{
+    FrictionLaw, TextureModel,
+    mixture::{self, Field},
+};
 use serde::Serialize;
 use std::fmt;
 

@@ -1,6 +1,7 @@
 //! What a report says of a texture besides its bytes; cached with them.
 
-use crate::{driver::Compiled, model::attributes::Attributes, passes::reduce::Fidelity};
+use crate::{driver::Compiled, passes::reduce::Fidelity};
+use asperity_texture::model::attributes::Attributes;
 use serde::{Deserialize, Serialize};
 
 /// Figures of a texture.

@@ -4,8 +4,8 @@ use super::{
     latents::{Latents, of_hex, to_hex},
     sliders::Sliders,
 };
-use crate::model::shift::Shift;
 use asperity_formats::limits::MAX_HISTORY_BYTES;
+use asperity_texture::model::shift::Shift;
 use serde::{Deserialize, Serialize};
 
 /// How a texture was made, and every edit since. A texture of a prompt has an empty history,

@@ -1,10 +1,8 @@
 //! Where a texture lies in the latent space: as a whole, or each of its parts for itself; and what
 //! moves after it was decoded.
 
-use crate::{
-    learned::{Latent, description::LATENT},
-    model::shift::Shift,
-};
+use crate::learned::{Latent, description::LATENT};
+use asperity_texture::model::shift::Shift;
 
 /// The latents of what is felt in sliding, in tapping and as friction. A prompt gives one for all
 /// three.

@@ -1,6 +1,6 @@
 //! The sliders of an edit.
 
-use crate::model::attributes::Attributes;
+use asperity_texture::model::attributes::Attributes;
 use serde::{Deserialize, Serialize};
 
 /// An attribute that a slider moves.

@@ -12,7 +12,7 @@
 //! whole device by itself, and the limiter shortens the sum. Models and traces stay as they are, so
 //! the objective attributes do.
 
-use crate::{
+use asperity_texture::{
     model::{
         Gains, ModelGrid, Numerator, TextureModel,
         mixture::{self, Field},
@@ -157,7 +157,8 @@ fn rms_m_s2(model: &ArmaModel, numerator: Numerator) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{model::attributes, sources::builtin};
+    use crate::sources::builtin;
+    use asperity_texture::model::attributes;
 
     fn louder(factor: f64) -> TextureModel {
         let mut texture = builtin::texture();

@@ -3,14 +3,14 @@
 //! Every model is fitted again to its own power spectrum at the new rate. Above half the old rate
 //! there was no power, except for a floor that keeps the fit regular.
 
-use crate::{
+use asperity_formats::limits;
+use asperity_texture::{
     model::{GridVertex, ModelGrid, Numerator},
     signal::{
         levinson, lsf,
         spectrum::{ArmaModel, squared_magnitude},
     },
 };
-use asperity_formats::limits;
 use std::f64::consts::TAU;
 
 /// Rates that a grid can be converted to, Hz.
@@ -115,7 +115,8 @@ fn convert(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{model::VertexKind, sources::builtin};
+    use crate::sources::builtin;
+    use asperity_texture::model::VertexKind;
 
     #[test]
     fn the_spectrum_stays_where_it_is_in_hertz_within_a_seventh_and_a_db_and_a_half() {

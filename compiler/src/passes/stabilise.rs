@@ -4,7 +4,7 @@
 //! take turns faster than they ring can still drive each other up. Models that resemble each
 //! other cannot, and white noise has no memory at all.
 
-use crate::{
+use asperity_texture::{
     model::TextureModel,
     signal::{level::nyquist_rms, lsf},
 };
@@ -32,7 +32,8 @@ mod tests {
         let texture = builtin::texture();
         let white = stabilise(&texture, 1.0);
         for (before, after) in texture.grid.vertices.iter().zip(&white.grid.vertices) {
-            let level = |v: &crate::model::GridVertex| v.sigma_m_s2 * nyquist_rms(&v.lsf_rad);
+            let level =
+                |v: &asperity_texture::model::GridVertex| v.sigma_m_s2 * nyquist_rms(&v.lsf_rad);
             assert!((level(before) - level(after)).abs() <= 1e-9 * level(before));
             let polynomial = lsf::to_polynomial(&after.lsf_rad);
             assert!(polynomial[1..].iter().all(|a| a.abs() < 1e-9));

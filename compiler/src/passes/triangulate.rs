@@ -1,6 +1,6 @@
 //! Triangulates vertices that a source gives without triangles.
 
-use crate::model::GridVertex;
+use asperity_texture::model::GridVertex;
 use delaunator::Point;
 
 /// The Delaunay triangles of the vertices, with both axes scaled to 0..1 so that neither unit

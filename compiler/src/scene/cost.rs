@@ -1,7 +1,7 @@
 //! What a tick costs on a processor, as far as it depends on the texture and the scene.
 
-use crate::model::{ModelGrid, Numerator};
 use asperity_formats::Solid;
+use asperity_texture::model::{ModelGrid, Numerator};
 
 /// A model of the executed instructions of the costliest tick on a processor: a sum over poles,
 /// zeros, triangles and surfaces that is never below what was counted.

@@ -6,11 +6,11 @@ use super::{
 };
 use crate::{
     emit::{raise::raise, verify::VerifyError},
-    model::TextureModel,
     passes::reduce::{Fidelity, Reference},
     pipeline::{Pass, Pipeline, PipelineError},
 };
 use asperity_formats::Asset;
+use asperity_texture::model::TextureModel;
 use rayon::prelude::*;
 
 /// A texture at a fidelity.

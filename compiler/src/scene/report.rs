@@ -45,7 +45,7 @@ pub struct Row {
     /// Poles.
     pub order: usize,
     /// `none`, `nyquist` or `lsf`.
-    pub numerator: crate::model::Numerator,
+    pub numerator: asperity_texture::model::Numerator,
     /// Zeros that are mixed and converted.
     pub zeros: usize,
     /// Vertices of the grid.
@@ -125,9 +125,9 @@ impl fmt::Display for Report {
         )?;
         for row in &self.textures {
             let numerator = match row.numerator {
-                crate::model::Numerator::None => "1".to_owned(),
-                crate::model::Numerator::Nyquist => "1 + z⁻¹".to_owned(),
-                crate::model::Numerator::Lsf => format!("{} zeros", row.zeros),
+                asperity_texture::model::Numerator::None => "1".to_owned(),
+                asperity_texture::model::Numerator::Nyquist => "1 + z⁻¹".to_owned(),
+                asperity_texture::model::Numerator::Lsf => format!("{} zeros", row.zeros),
             };
             let taps = format!("{} × {}", row.taps, row.tap_samples);
             writeln!(

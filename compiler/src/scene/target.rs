@@ -4,7 +4,7 @@ use super::{
     cost::{Cost, Surfaces, zeros},
     counted::COSTS,
 };
-use crate::model::ModelGrid;
+use asperity_texture::model::ModelGrid;
 use std::{fmt, str::FromStr};
 
 /// Where a scene is to run: a processor at a clock, or a number of instructions on the first

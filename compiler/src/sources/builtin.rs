@@ -6,16 +6,18 @@
 //! below one, as that of real textures does. No recording went into it.
 
 use crate::{
+    passes::triangulate,
+    pipeline::{Pass, Pipeline, Request},
+    sources::{Source, Sourced, Tools},
+};
+use asperity_io::diagnostic::Failure;
+use asperity_texture::{
     model::{
         Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TextureModel,
         VertexKind, defaults, tap_synthesis,
     },
-    passes::triangulate,
-    pipeline::{Pass, Pipeline, Request},
     signal::{levinson, lsf},
-    sources::{Source, Sourced, Tools},
 };
-use asperity_io::diagnostic::Failure;
 use std::f64::consts::PI;
 
 /// Rate of every model, Hz.
@@ -204,7 +206,7 @@ fn spectrum(freq_hz: f64, speed_mm_s: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{model::mesh, signal::spectrum::ArmaModel};
+    use asperity_texture::{model::mesh, signal::spectrum::ArmaModel};
 
     #[test]
     fn the_grid_has_18_interior_points_and_tiles_its_rectangle() {

@@ -24,10 +24,10 @@ use crate::{
     compiled::ErrorReference,
     learned::LearnedModel,
     memory::Memory,
-    model::TextureModel,
     pipeline::{Clock, Pipeline, Request, Ringing},
 };
 use asperity_io::diagnostic::{Diagnostic, Failure};
+use asperity_texture::model::TextureModel;
 use key::Parts;
 use libraries::OpenLibraries;
 use prompt::PromptCompiler;

@@ -3,10 +3,7 @@
 //! The picture follows from the prompt alone: unlike [`preview`](super::preview), it knows nothing
 //! of how the texture feels.
 
-use crate::{
-    learned::inference::{Backend, BackendName},
-    model::TextureModel,
-};
+use crate::learned::inference::{Backend, BackendName};
 use asperity_diffusion::{
     DiffusionError, Parts, Picture, Request, StableDiffusion,
     folder::{
@@ -22,6 +19,7 @@ use asperity_io::{
 use asperity_nn::Session;
 use asperity_onnxruntime::NotFound;
 use asperity_preview::EncodeError;
+use asperity_texture::model::TextureModel;
 use std::{
     io,
     path::{Path, PathBuf},

@@ -4,9 +4,9 @@
 //! say what is drawn. The level, the spectrum, the friction and the taps move its grain, depth
 //! and gloss.
 
-use crate::model::{TextureModel, VertexKind, attributes};
 use asperity_io::diagnostic::Diagnostic;
 use asperity_preview::{Description, EncodeError, Feel, SizeError};
+use asperity_texture::model::{TextureModel, VertexKind, attributes};
 use thiserror::Error;
 
 pub use asperity_preview::{Picture, SIZE, SIZES};

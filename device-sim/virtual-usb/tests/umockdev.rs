@@ -23,8 +23,8 @@ use asperity_host::session_log::{
 };
 use asperity_runtime::{Config, HostTexture};
 use asperity_virtual_usb::falcon::{Falcon, Quirks, image};
-use asperity_virtual_usb::transfer_fault::Rates;
 use asperity_virtual_usb::touch::{Firmware, Touch};
+use asperity_virtual_usb::transfer_fault::Rates;
 use asperity_virtual_usb::usbip::server::Server;
 use asperity_virtual_usb::{AnyDevice, Port, Socket};
 

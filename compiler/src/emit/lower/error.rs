@@ -1,8 +1,8 @@
 //! Why a texture cannot become an asset.
 
-use crate::model::mesh::MeshError;
 use asperity_formats::EncodeError;
 use asperity_io::diagnostic::Diagnostic;
+use asperity_texture::model::mesh::MeshError;
 use thiserror::Error;
 
 /// Why a texture cannot become an asset.

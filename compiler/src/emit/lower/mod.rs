@@ -7,11 +7,11 @@ mod tests;
 
 pub use error::LowerError;
 
-use crate::model::{Numerator, TapTrace, TextureModel, VertexKind, mesh};
 use asperity_formats::{
     self as formats, Anchor, AssetParts, Coupling, EncodeError, FormatError, FrictionParts,
     GridParts, ModelParts, TapParts, limits,
 };
+use asperity_texture::model::{Numerator, TapTrace, TextureModel, VertexKind, mesh};
 use serde::Serialize;
 use table::ModelTable;
 

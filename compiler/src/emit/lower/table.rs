@@ -1,14 +1,14 @@
 //! The distinct models of a grid in the codes of the format.
 
 use super::error::LowerError;
-use crate::{
+use asperity_formats::{LsfCode, limits};
+use asperity_texture::{
     model::{GridVertex, ModelGrid, Numerator},
     signal::{
         lsf,
         spectrum::{ArmaModel, ERROR_POINTS, ErrorBand},
     },
 };
-use asperity_formats::{LsfCode, limits};
 
 /// The distinct models of a grid, in order of first use.
 pub(super) struct ModelTable {

@@ -1,13 +1,10 @@
 //! Size, rounding and refusals of the back end.
 
 use super::*;
-use crate::{
-    emit::raise::raise,
+use crate::{emit::raise::raise, passes::triangulate, sources::builtin};
+use asperity_texture::{
     model::{FrictionLaw, GridVertex, LawPoint},
-    passes::triangulate,
-    signal::spectrum::ArmaModel,
-    signal::spectrum::log_spectral_distance_db,
-    sources::builtin,
+    signal::spectrum::{ArmaModel, log_spectral_distance_db},
 };
 use proptest::prelude::*;
 

@@ -7,9 +7,9 @@ mod spectra;
 pub use error::VerifyError;
 pub use spectra::SPECTRUM_BUDGET_DB;
 
-use crate::model::TextureModel;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, State};
+use asperity_texture::model::TextureModel;
 use serde::Serialize;
 
 /// What verification found.

@@ -1,11 +1,11 @@
 //! The runtime's answer to queries of speed and force: convex weights, stable filters.
 
 use super::error::VerifyError;
-use crate::{
+use asperity_runtime::{Filter, HostTexture};
+use asperity_texture::{
     model::{ModelGrid, mesh},
     signal::reflection::{LANES, largest_reflections},
 };
-use asperity_runtime::{Filter, HostTexture};
 
 /// Steps of the query grid along each axis, from below zero to beyond the border.
 const GRID_STEPS: usize = 40;

@@ -1,11 +1,11 @@
 //! The spectra that the runtime renders at the vertices, against those of the model.
 
 use super::error::VerifyError;
-use crate::{
+use asperity_runtime::{Filter, HostTexture};
+use asperity_texture::{
     model::ModelGrid,
     signal::spectrum::{ArmaModel, ERROR_POINTS, ErrorBand},
 };
-use asperity_runtime::{Filter, HostTexture};
 
 /// Largest RMS log-spectral error of a vertex as the runtime renders it, dB.
 pub const SPECTRUM_BUDGET_DB: f64 = 0.5;

@@ -1,8 +1,9 @@
 //! AHAPs sound as Core Haptics plays them, and what is not honoured is named.
 
 use super::{player::play, read};
-use crate::{interchange::playback::Track, signal::level, sources::effects};
+use crate::{interchange::playback::Track, sources::effects};
 use asperity_tests::{draw::Draw, size::sized, spectrum};
+use asperity_texture::signal::level;
 use serde_json::{Value, json};
 use std::fs;
 

@@ -1,6 +1,6 @@
 //! How far a reduced grid may be from the whole one, and how far it is.
 
-use crate::{
+use asperity_texture::{
     model::{
         GridVertex, ModelGrid, Numerator,
         mixture::{Field, Mixture, Place, places},

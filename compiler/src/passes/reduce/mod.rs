@@ -12,7 +12,7 @@ pub mod vertices;
 
 pub use budget::{BUDGET_DB, Reference};
 
-use crate::model::{ModelGrid, Numerator, TextureModel};
+use asperity_texture::model::{ModelGrid, Numerator, TextureModel};
 use order::Fits;
 use serde::Serialize;
 use std::{fmt, str::FromStr};
@@ -230,9 +230,9 @@ mod tests {
     use super::*;
     use crate::{
         emit::{lower, verify},
-        model::mesh,
         sources::builtin,
     };
+    use asperity_texture::model::mesh;
 
     #[test]
     fn auto_is_within_its_budget_tiled_and_renders() {

@@ -6,14 +6,14 @@
 //! the power spectrum over the new numerator, at the largest order; lower orders are its first
 //! reflection coefficients. The level is kept.
 
-use crate::{
+use asperity_formats::limits;
+use asperity_texture::{
     model::{GridVertex, ModelGrid, Numerator},
     signal::{
         level, levinson, lsf, reflection,
         spectrum::{ArmaModel, squared_magnitude},
     },
 };
-use asperity_formats::limits;
 use std::{collections::HashMap, f64::consts::PI};
 
 /// Floor of the power under a fit, relative to the peak: 60 dB down.

@@ -4,7 +4,7 @@
 //! apart at 6 to 10 %, and the project allows half of that. The impulse ∫a dt stays exact: what the
 //! tail held is put back in proportion, which must not change the rest by more than the same 3 %.
 
-use crate::model::{TapBank, TapTrace};
+use asperity_texture::model::{TapBank, TapTrace};
 
 /// Fraction of a force that is not felt: half of 6 %, the smallest just noticeable difference of
 /// a texture's force.

@@ -6,7 +6,7 @@
 //! by an edge along it, so the triangles always tile the rectangle.
 
 use super::budget::{Distances, Reference, Tally};
-use crate::model::{
+use asperity_texture::model::{
     GridVertex, ModelGrid, mesh,
     mixture::{Cosines, Field, Place},
 };
@@ -279,10 +279,8 @@ fn cross(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        model::{Numerator, VertexKind},
-        passes::triangulate,
-    };
+    use crate::passes::triangulate;
+    use asperity_texture::model::{Numerator, VertexKind};
 
     /// A grid of 5 × 5 vertices of one shape; levels by position.
     fn grid(level: impl Fn(f64, f64) -> f64) -> ModelGrid {

@@ -4,14 +4,12 @@ use super::{
     Kind,
     tests::{self, options},
 };
-use crate::{
-    interchange::{
-        haptic, hjif,
-        playback::{TonePoint, Track},
-    },
-    model::TextureModel,
+use crate::interchange::{
+    haptic, hjif,
+    playback::{TonePoint, Track},
 };
 use asperity_tests::draw::Draw;
+use asperity_texture::model::TextureModel;
 use serde_json::{Value, json};
 use std::fs;
 

@@ -8,10 +8,6 @@ use crate::{
         playback::{Track, Transient},
     },
     learned::edges,
-    model::{
-        Friction, ModelGrid, Numerator, Provenance, TapBank, TapTrace, TextureModel, defaults,
-        tap_synthesis,
-    },
     passes::triangulate,
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{Source, Sourced, Tools, key::Parts},
@@ -20,6 +16,10 @@ use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::{
     diagnostic::Failure,
     input::{self, Format, InputProblem},
+};
+use asperity_texture::model::{
+    Friction, ModelGrid, Numerator, Provenance, TapBank, TapTrace, TextureModel, defaults,
+    tap_synthesis,
 };
 use std::path::{Path, PathBuf};
 

@@ -1,10 +1,10 @@
 //! The model of a stroke: what the continuous effects of a file sound like together.
 
-use crate::{
-    interchange::{
-        playback::Track,
-        third_octave::{Shape, density},
-    },
+use crate::interchange::{
+    playback::Track,
+    third_octave::{Shape, density},
+};
+use asperity_texture::{
     model::{GridVertex, VertexKind},
     signal::{level, levinson, lsf, resample::resample},
 };

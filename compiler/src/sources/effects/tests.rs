@@ -5,12 +5,11 @@ use crate::{
     driver::{self, Compiled, Failure},
     emit::{lower::lower, raise::raise},
     interchange::{self, ClipFormat, session},
-    model::mixture::Field,
     pipeline::Request,
-    signal::spectrum::ArmaModel,
     sources::{Tools, builtin},
 };
 use asperity_formats::Asset;
+use asperity_texture::{model::mixture::Field, signal::spectrum::ArmaModel};
 use std::{fs, path::Path};
 
 pub(crate) fn options() -> Options {

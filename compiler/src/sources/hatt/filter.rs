@@ -1,7 +1,7 @@
 //! A polynomial that the source states twice, as coefficients and as LSFs, and the choice between
 //! the two.
 
-use crate::signal::{
+use asperity_texture::signal::{
     lsf,
     spectrum::{ArmaModel, log_spectral_distance_db},
 };

@@ -8,15 +8,14 @@ use super::{
 use crate::{
     compiled::{Compiled, ErrorReference},
     learned::{LearnedModel, ModelError, complete},
-    model::TextureModel,
     pipeline::{Pass, Pipeline, Request},
-    signal::spectrum::ArmaModel,
     sources::{Findings, Source, Sourced, Tools, key::Parts},
 };
 use asperity_io::{
     diagnostic::{Diagnostic, Failure},
     input::{self, InputProblem, Kind},
 };
+use asperity_texture::{model::TextureModel, signal::spectrum::ArmaModel};
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},

@@ -5,12 +5,14 @@ use super::*;
 use crate::{
     driver::{self, Compiled, Failure},
     emit::raise::raise,
-    model::{Numerator, VertexKind},
     pipeline::Request,
-    signal::lsf,
     sources::Tools,
 };
 use asperity_formats::Asset;
+use asperity_texture::{
+    model::{Numerator, VertexKind},
+    signal::lsf,
+};
 use std::{fmt::Write as _, fs, path::Path};
 
 /// A material of four corners and a centre, orders as asked for.

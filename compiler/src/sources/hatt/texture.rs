@@ -1,12 +1,9 @@
 //! A material as a texture: what HaTT lacks is synthesised or set to a default.
 
 use super::material::Material;
-use crate::{
-    model::tap_synthesis,
-    model::{
-        Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TextureModel,
-        VertexKind, defaults,
-    },
+use asperity_texture::model::{
+    Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TextureModel,
+    VertexKind, defaults, tap_synthesis,
 };
 
 const NOTES: &str = "Taps are synthetic: impacts whose contact time follows the \

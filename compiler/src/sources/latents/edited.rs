@@ -8,9 +8,9 @@ use super::{
 use crate::{
     learned::{Latent, friction},
     memory::{AXES, Axis, Latents, Sliders},
-    model::{attributes::Attributes, shift::Shift},
     pipeline::Request,
 };
+use asperity_texture::model::{attributes::Attributes, shift::Shift};
 
 /// Times that a way through the latent space is corrected by what is kept at its end.
 const CORRECTIONS: usize = 4;

@@ -4,9 +4,9 @@ use super::{error::EditError, latent_editor::LatentEditor};
 use crate::{
     learned::{Present, complete},
     memory::Latents,
-    model::TextureModel,
     passes::reduce::Reference,
 };
+use asperity_texture::model::TextureModel;
 use std::str::FromStr;
 
 /// What of a texture the encoder is given; the rest is decoded from the latent.

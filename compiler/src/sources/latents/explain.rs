@@ -4,9 +4,9 @@ use super::{error::EditError, latent_editor::LatentEditor};
 use crate::{
     learned::{Latent, description::LATENT},
     memory::{AXES, Latents},
-    model::attributes::{self, Attributes},
     sources::prompt,
 };
+use asperity_texture::model::attributes::{self, Attributes};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt::Write as _;

@@ -9,16 +9,16 @@ use super::{
 use crate::{
     emit::raise::raise,
     memory::{Latents, Memory, remembered},
-    model::{
-        Provenance, TextureModel,
-        attributes::{self, Attributes},
-    },
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
     sources::prompt::PromptCompiler,
     views::preview,
 };
 use asperity_formats::Asset;
+use asperity_texture::model::{
+    Provenance, TextureModel,
+    attributes::{self, Attributes},
+};
 
 /// Everything that mixes and edits: a prompt compiler's model, and where its sliders lie.
 pub struct LatentEditor<'a> {

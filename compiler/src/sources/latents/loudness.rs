@@ -1,6 +1,6 @@
 //! Equal loudness: an option for those who want textures that differ in everything but strength.
 
-use crate::model::{TextureModel, attributes};
+use asperity_texture::model::{TextureModel, attributes};
 
 /// Sets the vibration's gain so that the mean level of the vibration above 40 Hz is `level_db`,
 /// dB re 1 N RMS of force. A silent texture keeps its gain. The ceiling may lower it again.

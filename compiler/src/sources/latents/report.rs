@@ -1,10 +1,8 @@
 //! Attributes in a line.
 
 use super::scale::Scale;
-use crate::{
-    memory::{AXES, Axis},
-    model::attributes::Attributes,
-};
+use crate::memory::{AXES, Axis};
+use asperity_texture::model::attributes::Attributes;
 
 /// The attributes in their units, and where they lie on their sliders, as
 /// `rough 2.8 dB (71), …`.

@@ -4,8 +4,8 @@
 use crate::{
     learned::description::ModelDescription,
     memory::{AXES, Axis},
-    model::{attributes::Attributes, shift::Shift},
 };
+use asperity_texture::model::{attributes::Attributes, shift::Shift};
 
 /// Share of the materials that lie below 0, and above 100.
 const BEYOND: f64 = 0.05;

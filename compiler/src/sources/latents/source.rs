@@ -4,11 +4,11 @@ use super::{Edit, EditError, LatentEditor, Part, Worded};
 use crate::{
     learned::{Decoded, LearnedModel, ModelError, friction, texture},
     memory::{History, HistoryError, Ingredient, Latents, Memory, Origin, Step},
-    model::{FrictionLaw, Provenance, TextureModel, shift::adjust},
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{Source, Sourced, Tools},
 };
 use asperity_io::diagnostic::Failure;
+use asperity_texture::model::{FrictionLaw, Provenance, TextureModel, shift::adjust};
 
 /// A texture that is decoded from latents.
 #[derive(Debug, Clone)]

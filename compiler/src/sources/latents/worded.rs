@@ -3,10 +3,10 @@
 use super::{error::EditError, latent_editor::LatentEditor, scale::Scale};
 use crate::{
     memory::{Axis, Latents, Sliders},
-    model::{attributes::Attributes, shift::Shift},
     pipeline::Request,
     sources::prompt::phrase::{Towards, from_base, relative},
 };
+use asperity_texture::model::{attributes::Attributes, shift::Shift};
 
 /// An edit.
 #[derive(Debug, Clone, PartialEq)]

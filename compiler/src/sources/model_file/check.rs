@@ -4,15 +4,12 @@ use super::{
     error::{Fault, ModelFileProblem as Problem},
     schema::{Document, Friction, Grid, Taps, Vertex},
 };
-use crate::{
-    model::tap_synthesis,
-    model::{
-        self, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace,
-        TextureModel, Wall, defaults, mesh,
-    },
-    passes::triangulate,
-};
+use crate::passes::triangulate;
 use asperity_formats::limits;
+use asperity_texture::model::{
+    self, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace, TextureModel,
+    Wall, defaults, mesh, tap_synthesis,
+};
 use std::f64::consts::PI;
 
 /// Bytes of a text of the provenance at most, so that an asset holds all of them.

@@ -4,7 +4,7 @@ use super::{
     layout::Shallow,
     schema::{Document, FORMAT, Friction, Grid, Provenance, Taps, Trace, VERSION, Vertex},
 };
-use crate::model::{Numerator, TextureModel};
+use asperity_texture::model::{Numerator, TextureModel};
 use serde::Serialize as _;
 
 /// The file of a model: JSON with one vertex, triangle and trace a line. Every number reads back

@@ -100,7 +100,7 @@ pub enum ModelFileProblem {
     #[error("{cause}")]
     Mesh {
         /// What is wrong with them.
-        cause: crate::model::mesh::MeshError,
+        cause: asperity_texture::model::mesh::MeshError,
         /// Whether the file states them.
         stated: bool,
     },

@@ -5,8 +5,8 @@ use super::{
     error::{Fault, ModelFileError, ModelFileProblem},
     schema::{Document, FORMAT, VERSION},
 };
-use crate::model::TextureModel;
 use asperity_io::input::{self, Kind};
+use asperity_texture::model::TextureModel;
 use serde::{Deserialize, de::DeserializeOwned};
 use serde_json::Value;
 use std::path::Path;

@@ -4,7 +4,7 @@
 //! this version stay readable. Units are in the keys: m, s, N, rad, Hz, m/s², and mm/s for the
 //! speeds of the grid.
 
-use crate::model::{FrictionAnchor, FrictionLaw, Gains, Numerator, VertexKind, Wall};
+use asperity_texture::model::{FrictionAnchor, FrictionLaw, Gains, Numerator, VertexKind, Wall};
 use serde::{Deserialize, Serialize};
 
 /// What `format` says.

@@ -3,12 +3,12 @@
 use super::*;
 use crate::{
     driver,
-    model::{FrictionLaw, LawPoint, Numerator, TextureModel, defaults, mesh},
     passes::reduce::Fidelity,
     pipeline::Request,
     sources::{Sourced, Tools, builtin},
 };
 use asperity_io::input::{InputProblem, Kind};
+use asperity_texture::model::{FrictionLaw, LawPoint, Numerator, TextureModel, defaults, mesh};
 use serde_json::{Value, json};
 
 /// The model as a file keeps it: what belongs to an asset is left out.

@@ -1,8 +1,8 @@
 //! What can be asked of a prompt's texture, and what there is to know of it.
 
 use super::understood::Understood;
-use crate::model::shift::Shift;
 use crate::{learned::Latent, passes::reduce::Fidelity, pipeline::Request, views::preview};
+use asperity_texture::model::shift::Shift;
 
 /// What a user can ask of a texture besides its prompt.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,13 +5,11 @@ use super::{
     named_things::Thing,
     phrase::{self, Phrase},
 };
-use crate::{
-    learned::{Decoded, Latent, texture},
-    model::{
-        Provenance, TextureModel,
-        attributes::{self, Attributes},
-        shift::{self, Scales, Shift, adjust},
-    },
+use crate::learned::{Decoded, Latent, texture};
+use asperity_texture::model::{
+    Provenance, TextureModel,
+    attributes::{self, Attributes},
+    shift::{self, Scales, Shift, adjust},
 };
 use std::sync::Arc;
 

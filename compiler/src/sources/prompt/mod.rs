@@ -15,7 +15,7 @@ mod report;
 mod source;
 mod understood;
 
-pub use crate::model::shift::Shift;
+pub use asperity_texture::model::shift::Shift;
 pub use compiled_prompt::{CompiledPrompt, Nearest, Options};
 pub use error::PromptError;
 pub use meaning::Meaning;

@@ -1,7 +1,7 @@
 //! Things that prompts named, so that a library reads each of them once.
 
 use crate::learned::Latent;
-use crate::model::shift::Scales;
+use asperity_texture::model::shift::Scales;
 use std::{
     collections::HashMap,
     sync::{Mutex, PoisonError},

@@ -12,14 +12,14 @@ use crate::{
         inference::Backend, text::TextEncoder, texture,
     },
     memory::{History, Latents, Memory},
-    model::{
-        Provenance, TextureModel,
-        shift::{Scales, adjust},
-    },
     pipeline::{Pass, Pipeline, Ringing},
     sources::Sourced,
 };
 use asperity_formats::limits;
+use asperity_texture::model::{
+    Provenance, TextureModel,
+    shift::{Scales, adjust},
+};
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::{path::Path, sync::Arc};

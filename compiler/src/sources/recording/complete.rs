@@ -1,13 +1,11 @@
 //! What was not recorded, from the latent of what was.
 
-use crate::{
-    learned::{
-        LearnedModel, ModelError, Present,
-        complete::{ar_channels, taps_of_grid},
-        friction,
-    },
-    model::{Gains, ModelGrid, TapBank},
+use crate::learned::{
+    LearnedModel, ModelError, Present,
+    complete::{ar_channels, taps_of_grid},
+    friction,
 };
+use asperity_texture::model::{Gains, ModelGrid, TapBank};
 use serde::Serialize;
 
 /// Materials that are proposed.

@@ -1,7 +1,7 @@
 //! A recording as a source: sensor files of a tool on a surface become a texture.
 //!
 //! `asperity-recording` reads, checks and aligns the files, and finds segments, friction and impacts.
-//! Here they become a [`TextureModel`](crate::model::TextureModel). What was not recorded is
+//! Here they become a [`TextureModel`](asperity_texture::model::TextureModel). What was not recorded is
 //! completed by the learned model and marked so.
 
 mod analyse;

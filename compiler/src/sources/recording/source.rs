@@ -9,7 +9,6 @@ use super::{
 };
 use crate::{
     compiled::{Compiled, ErrorReference},
-    model::{Numerator, defaults},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{Findings, Kind, Operand, Source, Sourced, Tools},
@@ -17,6 +16,7 @@ use crate::{
 use asperity_io::diagnostic::Failure;
 use asperity_plot::PlotError;
 use asperity_recording::check::Severity;
+use asperity_texture::model::{Numerator, defaults};
 use serde_json::Value;
 use std::{path::PathBuf, sync::Arc};
 

@@ -1,11 +1,11 @@
 //! An analysis as a texture.
 
 use super::{analyse::Analysis, complete::Completed};
-use crate::model::{
+use asperity_recording::impact::TAP_RATE_HZ;
+use asperity_texture::model::{
     Friction, FrictionAnchor, FrictionLaw, LawPoint, Provenance, TapBank, TapTrace, TextureModel,
     Wall, defaults,
 };
-use asperity_recording::impact::TAP_RATE_HZ;
 use serde::Serialize;
 
 /// Speeds at which a fitted law is looked at, before the points are chosen.

@@ -1,14 +1,12 @@
 //! The contract of `inspect --json`.
 
 use super::scene::SurfaceDocument;
-use crate::{
-    emit::raise::raise,
-    model::{
-        FrictionAnchor, FrictionLaw, Gains, Numerator, Provenance, VertexKind, Wall,
-        attributes::{Attributes, Meter},
-    },
-};
+use crate::emit::raise::raise;
 use asperity_formats::Asset;
+use asperity_texture::model::{
+    FrictionAnchor, FrictionLaw, Gains, Numerator, Provenance, VertexKind, Wall,
+    attributes::{Attributes, Meter},
+};
 use serde::Serialize;
 
 /// One texture. Field names and their meaning are a contract.

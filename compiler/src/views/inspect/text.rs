@@ -1,8 +1,8 @@
 //! An asset as text for people.
 
 use super::json::{Document, Vertex};
-use crate::model::{Numerator, VertexKind};
 use asperity_formats::{Asset, SectionInfo};
+use asperity_texture::model::{Numerator, VertexKind};
 use std::fmt::Write as _;
 
 /// The text of an asset and its document: what it is, what it holds, how it was made.

@@ -2,10 +2,11 @@
 
 mod hand;
 
-use crate::{emit::raise::raise, signal::resample::resample};
+use crate::emit::raise::raise;
 use asperity_formats::Asset;
 use asperity_io::diagnostic::Diagnostic;
 use asperity_runtime::{Config, ConfigError, HostTexture, LoadError, Renderer};
+use asperity_texture::signal::resample::resample;
 use hand::Hand;
 use std::io::Cursor;
 use thiserror::Error;

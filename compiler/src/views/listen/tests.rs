@@ -1,7 +1,8 @@
 //! What is heard of the built-in texture.
 
 use super::*;
-use crate::{emit::lower::lower, model::TextureModel, sources::builtin};
+use crate::{emit::lower::lower, sources::builtin};
+use asperity_texture::model::TextureModel;
 
 fn heard(
     texture: &TextureModel,

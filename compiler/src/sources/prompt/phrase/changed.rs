@@ -1,7 +1,7 @@
 //! How far attributes go from those of a base, as the changes of a phrase say.
 
 use super::{Change, Changes};
-use crate::model::{
+use asperity_texture::model::{
     attributes::Attributes,
     shift::{Scales, Shift, scales, to},
 };
@@ -33,7 +33,8 @@ pub fn from_base(base: &Attributes, now: &Attributes, changes: &Changes) -> Shif
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{model::attributes, sources::builtin};
+    use crate::sources::builtin;
+    use asperity_texture::model::attributes;
 
     #[test]
     fn what_was_learned_is_kept_within_the_range() {

@@ -4,7 +4,7 @@
 //! A text vector knows that rough silk is about silk, and hardly that it is rougher than silk.
 //! So a prompt is divided: its base is what remains without the words that change it ("silk"),
 //! and each change says where roughness, slipperiness or hardness goes, and how far. A
-//! [`Shift`](crate::model::shift::Shift) moves the texture there. English only; whatever is not recognised stays with the text vector.
+//! [`Shift`](asperity_texture::model::shift::Shift) moves the texture there. English only; whatever is not recognised stays with the text vector.
 
 mod changed;
 mod parse;

@@ -11,12 +11,12 @@ use super::{
     vertex::{Form, vertex},
     whittle,
 };
-use crate::model::{GridVertex, VertexKind};
 use asperity_formats::limits::{MAX_FORCE_N, MAX_SPEED_MM_S};
 use asperity_recording::{
     signal::quantile::quantile,
     steady::{Segment, Steady},
 };
+use asperity_texture::model::{GridVertex, VertexKind};
 use serde::Serialize;
 
 /// Lines of vertices below what was visited, in parts of its least value. The level falls linearly from the

@@ -62,7 +62,7 @@ impl Transform {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::spectrum::squared_magnitude;
+    use asperity_texture::signal::spectrum::squared_magnitude;
 
     #[test]
     fn the_lags_of_a_spectrum_are_those_of_its_model() {

@@ -302,15 +302,15 @@ fn bands(power: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        model::Numerator,
-        signal::{lsf, spectrum::squared_magnitude},
-        sources::recording::grid::{
-            simulated::segments,
-            vertex::{Form, vertex},
-        },
+    use crate::sources::recording::grid::{
+        simulated::segments,
+        vertex::{Form, vertex},
     };
     use asperity_recording::{steady::frequencies_hz, timeline::RATE_HZ};
+    use asperity_texture::{
+        model::Numerator,
+        signal::{lsf, spectrum::squared_magnitude},
+    };
     use std::f64::consts::TAU;
 
     const NOISE: f64 = 1.0;

@@ -25,14 +25,12 @@ mod simulated;
 mod vertex;
 mod whittle;
 
-use crate::{
-    model::{GridVertex, ModelGrid, Numerator},
-    passes::triangulate,
-};
+use crate::passes::triangulate;
 use asperity_recording::{
     steady::{Segment, Steady},
     timeline::RATE_HZ,
 };
+use asperity_texture::model::{GridVertex, ModelGrid, Numerator};
 use clusters::centres;
 pub use extrapolation::Slopes;
 use extrapolation::{Visited, ring};

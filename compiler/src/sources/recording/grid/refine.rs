@@ -14,11 +14,11 @@ use super::{
     shape::Shape,
     whittle::noise,
 };
-use crate::model::{GridVertex, ModelGrid, VertexKind, mixture::Field};
 use asperity_recording::{
     steady::{Segment, Steady, frequencies_hz},
     timeline::RATE_HZ,
 };
+use asperity_texture::model::{GridVertex, ModelGrid, VertexKind, mixture::Field};
 use std::{collections::BTreeMap, f64::consts::TAU};
 
 /// Steps of Fisher's scoring.

@@ -1,6 +1,6 @@
 //! The spectrum of a model as a function of the cosines of its line spectral frequencies.
 
-use crate::{model::Numerator, signal::spectrum::squared_magnitude};
+use asperity_texture::{model::Numerator, signal::spectrum::squared_magnitude};
 
 /// Frequencies at which spectra are looked at, and a numerator's part in them.
 pub(super) struct Shape {
@@ -89,7 +89,7 @@ impl Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::lsf;
+    use asperity_texture::signal::lsf;
 
     #[test]
     fn it_is_the_spectrum_of_the_polynomial_and_its_slopes_are_those_of_small_steps() {

@@ -1,10 +1,10 @@
 //! From an autocorrelation to the model of a vertex.
 
-use crate::{
+use asperity_recording::autoregression;
+use asperity_texture::{
     model::{GridVertex, Numerator, VertexKind},
     signal::{levinson, lsf, reflection, spectrum::squared_magnitude},
 };
-use asperity_recording::autoregression;
 use std::f64::consts::PI;
 
 /// Frequencies at which a spectrum is divided by that of the numerator.

@@ -2,13 +2,13 @@
 //! model with that of the sensors' noise, and P the power of the segment.
 
 use super::vertex::Form;
-use crate::{
-    model::{GridVertex, ModelGrid, Numerator, mixture::Field},
-    signal::spectrum::Angles,
-};
 use asperity_recording::{
     steady::{POINTS, Segment, Steady, frequencies_hz},
     timeline::RATE_HZ,
+};
+use asperity_texture::{
+    model::{GridVertex, ModelGrid, Numerator, mixture::Field},
+    signal::spectrum::Angles,
 };
 use std::f64::consts::TAU;
 

@@ -69,7 +69,7 @@ pub(super) fn motion(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
 
 fn plane(rect: Rect, import: &Shown<'_>, letter: char, title: &str) -> Panel {
     let grid = &import.whole.grid;
-    let largest = |pick: fn(&crate::model::GridVertex) -> f64| {
+    let largest = |pick: fn(&asperity_texture::model::GridVertex) -> f64| {
         grid.vertices.iter().map(pick).fold(0.0, f64::max)
     };
     Panel::new(

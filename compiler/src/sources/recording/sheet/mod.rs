@@ -4,8 +4,8 @@ mod hand;
 mod models;
 
 use super::{Analysis, Completed, Parts, Recorded};
-use crate::model::TextureModel;
 use asperity_plot::{Canvas, PlotError, Rect, TextStyle, ink};
+use asperity_texture::model::TextureModel;
 
 /// Width of the sheet, pixels.
 pub const WIDTH_PX: u32 = 2400;

@@ -1,11 +1,9 @@
 //! What became of it: spectra, how the grid was chosen, how sure it is.
 
-use crate::{
-    model::mixture::Field,
-    sources::recording::{grid::Tried, sheet::Shown},
-};
+use crate::sources::recording::{grid::Tried, sheet::Shown};
 use asperity_plot::{Axis, Canvas, Key, Marker, Panel, Rect, Stroke, ink, legend};
 use asperity_recording::steady::frequencies_hz;
+use asperity_texture::model::mixture::Field;
 
 /// The mean spectrum of slow or fast segments, and what the grid renders there.
 pub(super) fn spectra(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>, part: usize) {

@@ -1,11 +1,11 @@
 //! Friction with its anchors, against normal force or, where it depends on it, speed; and the wall's force against displacement.
 
 use super::layout::reach;
-use crate::model::{Friction, FrictionAnchor, FrictionLaw, TextureModel};
 use asperity_plot::{
     Align, Axis, Canvas, Color, Key, Margins, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
     size,
 };
+use asperity_texture::model::{Friction, FrictionAnchor, FrictionLaw, TextureModel};
 
 /// Width of the words beside each picture.
 const WORDS_WIDTH: f32 = 400.0;

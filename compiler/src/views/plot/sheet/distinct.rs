@@ -1,7 +1,7 @@
 //! The distinct filters of a grid. Most edge models repeat an interior one.
 
 use super::level::level;
-use crate::model::{GridVertex, ModelGrid, VertexKind};
+use asperity_texture::model::{GridVertex, ModelGrid, VertexKind};
 
 /// One vertex for each distinct filter: interior ones first, then edge ones from the loudest on.
 ///

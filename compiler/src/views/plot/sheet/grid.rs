@@ -2,8 +2,8 @@
 
 use super::layout::{margins, reach};
 use super::level::{level, level_scale};
-use crate::model::{GridVertex, ModelGrid, VertexKind};
 use asperity_plot::{Axis, Canvas, Color, Key, Marker, Panel, Rect, Stroke, ink, legend};
+use asperity_texture::model::{GridVertex, ModelGrid, VertexKind};
 
 const INTERIOR_RADIUS: f32 = 11.0;
 const EDGE_RADIUS: f32 = 8.5;

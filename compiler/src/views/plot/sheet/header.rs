@@ -1,7 +1,7 @@
 //! The header: name, structure, sizes and provenance.
 
-use crate::model::{Numerator, TextureModel, VertexKind};
 use asperity_plot::{Align, Canvas, Rect, Stroke, TextStyle, VAlign, ink, size};
+use asperity_texture::model::{Numerator, TextureModel, VertexKind};
 
 /// Sizes of the asset that a sheet is drawn from, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use asperity_plot::Margins;
 
-use crate::model::GridVertex;
+use asperity_texture::model::GridVertex;
 
 /// Margins with room for a legend between title and frame.
 pub(super) fn margins(right: f32) -> Margins {

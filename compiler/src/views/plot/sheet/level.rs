@@ -2,7 +2,7 @@
 
 use asperity_plot::{ColorMap, ColorScale};
 
-use crate::model::GridVertex;
+use asperity_texture::model::GridVertex;
 
 /// Standard deviation of the excitation times the gain, m/s².
 pub(super) fn level(vertex: &GridVertex) -> f64 {

@@ -12,8 +12,9 @@ mod taps;
 
 pub use header::AssetBytes;
 
-use crate::{model::TextureModel, views::preview::Stored};
+use crate::views::preview::Stored;
 use asperity_plot::{Canvas, Color, PlotError, Rect};
+use asperity_texture::model::TextureModel;
 
 /// Width of the sheet, pixels.
 pub const WIDTH_PX: u32 = 2400;

@@ -5,13 +5,13 @@ use std::f64::consts::PI;
 use super::distinct::distinct_models;
 use super::layout::margins;
 use super::level::{level, level_scale};
-use crate::model::{ModelGrid, Numerator};
-use crate::signal::spectrum::ArmaModel;
 use crate::views::plot::roots::roots_of;
 use asperity_plot::{
     Align, Axis, Canvas, Color, Key, Marker, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
     size,
 };
+use asperity_texture::model::{ModelGrid, Numerator};
+use asperity_texture::signal::spectrum::ArmaModel;
 
 /// Half the width of the picture, in radii of the unit circle. It leaves room for frequencies.
 const REACH: f64 = 1.13;

@@ -3,12 +3,12 @@
 use super::distinct::distinct_models;
 use super::layout::{margins, reach};
 use super::level::level;
-use crate::model::{GridVertex, ModelGrid};
-use crate::signal::spectrum::ArmaModel;
 use asperity_plot::{
     Align, Axis, Canvas, ColorMap, ColorScale, Key, Panel, Rect, Stroke, TextStyle, VAlign, ink,
     legend, size,
 };
+use asperity_texture::model::{GridVertex, ModelGrid};
+use asperity_texture::signal::spectrum::ArmaModel;
 
 const POINTS: usize = 600;
 const COLUMN_GAP: f32 = 40.0;
@@ -176,7 +176,7 @@ fn density_axis<'a>(curves: impl Iterator<Item = &'a Curve>) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::VertexKind;
+    use asperity_texture::model::VertexKind;
 
     fn at_force(force_n: f64) -> GridVertex {
         GridVertex {

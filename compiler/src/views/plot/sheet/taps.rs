@@ -1,11 +1,11 @@
 //! The tap bank: traces in time, and their peaks against impact speed.
 
 use super::layout::margins;
-use crate::model::{TapBank, TapTrace};
 use asperity_plot::{
     Align, Axis, Canvas, ColorMap, ColorScale, Key, Marker, Panel, Rect, Stroke, TextStyle, VAlign,
     ink, legend, size,
 };
+use asperity_texture::model::{TapBank, TapTrace};
 
 const PEAKS_WIDTH: f32 = 228.0;
 const GAP: f32 = 40.0;

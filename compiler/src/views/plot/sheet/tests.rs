@@ -1,7 +1,7 @@
 //! Sheets of textures made by hand, at the limits of what a model may hold.
 
 use super::*;
-use crate::model::{
+use asperity_texture::model::{
     Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,
     TapTrace, VertexKind, Wall,
 };

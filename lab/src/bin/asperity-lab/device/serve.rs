@@ -12,8 +12,8 @@ use asperity_io::output::{Outputs, display};
 use asperity_io::system;
 use asperity_lab::servo_session::ServoSessionError;
 use asperity_virtual_usb::falcon::{Falcon, Quirks, image};
-use asperity_virtual_usb::transfer_fault::Rates;
 use asperity_virtual_usb::touch::{Firmware, Touch};
+use asperity_virtual_usb::transfer_fault::Rates;
 use asperity_virtual_usb::usbip::server::Server;
 use asperity_virtual_usb::{AnyDevice, Port, Socket};
 

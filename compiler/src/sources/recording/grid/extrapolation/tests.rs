@@ -1,10 +1,8 @@
 use super::*;
-use crate::{
-    model::{ModelGrid, Numerator, mesh, mixture::Field},
-    sources::recording::grid::{Choice, build, simulated::segments},
-};
+use crate::sources::recording::grid::{Choice, build, simulated::segments};
 use asperity_formats::limits::{MAX_TRIANGLES, MAX_VERTICES};
 use asperity_recording::steady::POINTS;
+use asperity_texture::model::{ModelGrid, Numerator, mesh, mixture::Field};
 
 /// Segments of half a second of white vibration whose mean power is a function of speed and force.
 fn steady(speeds: (f64, f64), forces: (f64, f64), power: impl Fn(f64, f64) -> f64) -> Steady {
