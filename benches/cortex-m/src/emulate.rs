@@ -1,9 +1,8 @@
 //! A firmware in QEMU, every tick's instructions counted.
 
 use crate::{
-    package::{Result, home, target_dir},
+    package::{Result, home, stdout, target_dir},
     target::Target,
-    toolchain::stdout,
 };
 use std::{fs, path::Path, process::Command};
 

@@ -7,7 +7,7 @@
 //! $ cargo run --release -p asperity-cortex-m -- library # *.aspl
 //! $ cargo run --release -p asperity-cortex-m -- stack   # of the C face
 //! $ cargo run --release -p asperity-cortex-m -- costs   # of asperity build
-//! $ cargo run --release -p asperity-cortex-m -- designs # of the labs
+//! $ cargo run --release -p asperity-cortex-m -- designs # of the experiments
 //! ```
 #![forbid(unsafe_code)]
 

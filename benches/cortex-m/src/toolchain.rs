@@ -2,7 +2,7 @@
 //! built from the sources that a distribution ships.
 
 use crate::{
-    package::{Result, home, target_dir},
+    package::{Result, home, stdout, target_dir},
     target::Target,
 };
 use std::{
@@ -127,19 +127,4 @@ fn host_program(name: &str, profile: &str, options: &[&str]) -> Result<PathBuf> 
     // Cargo's name of the folder of its profiles with checks.
     let folder = if profile == "test" { "debug" } else { profile };
     Ok(target_dir().join(folder).join(name))
-}
-
-/// Runs a command to its end and returns what it printed.
-pub(crate) fn stdout(command: &mut Command) -> Result<String> {
-    let name = command.get_program().to_string_lossy().into_owned();
-    let output = command
-        .output()
-        .map_err(|error| format!("{name} cannot be started ({error}); install it"))?;
-    if output.status.success() {
-        Ok(String::from_utf8(output.stdout)?)
-    } else {
-        let [said, errors] =
-            [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
-        Err(format!("{command:?}: {}\n{said}{errors}", output.status).into())
-    }
 }

@@ -3,6 +3,8 @@
 //! outputs and counters after each phase.
 #![cfg_attr(target_arch = "wasm32", no_std)]
 
+#[cfg(not(target_arch = "wasm32"))]
+pub mod command;
 mod hashes;
 mod text;
 #[cfg(target_arch = "wasm32")]

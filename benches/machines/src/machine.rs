@@ -1,6 +1,7 @@
 //! The machines, and what runs a program of theirs on this one.
 
-use crate::toolchain::{Product, Result, Toolchain, stdout};
+use crate::toolchain::{Product, Toolchain};
+use asperity_machines::command::{Result, stdout};
 use std::{path::Path, process::Command};
 
 /// A machine that this one emulates.

@@ -12,8 +12,8 @@ mod compare;
 mod machine;
 mod toolchain;
 
+use asperity_machines::command::Result;
 use std::process::ExitCode;
-use toolchain::Result;
 
 const USAGE: &str = "usage: machines [--target TRIPLE]
   --target TRIPLE  aarch64-unknown-linux-gnu or wasm32-unknown-unknown (default: both)";

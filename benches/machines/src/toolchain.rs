@@ -1,13 +1,11 @@
 //! Cargo for another machine: with the standard library that is installed for it, or with
 //! `core` built from the sources that a distribution ships.
 
+use asperity_machines::command::{Result, stdout, target_dir};
 use std::{
     path::{Path, PathBuf},
     process::Command,
 };
-
-/// What any step can fail with; the text says what to do about it.
-pub(crate) type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Debian's compiler.
 const DISTRIBUTION_RUSTC: &str = "/usr/bin/rustc";
@@ -119,25 +117,4 @@ fn linker_of_core(triple: &str) -> Result<PathBuf> {
         "no library for {triple}: `rustup target add {triple}`, or Debian's packages {packages}"
     )
     .into())
-}
-
-/// Where everything is built.
-fn target_dir() -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from)
-}
-
-/// Runs a command to its end and returns what it printed.
-pub(crate) fn stdout(command: &mut Command) -> Result<String> {
-    let name = command.get_program().to_string_lossy().into_owned();
-    let output = command
-        .output()
-        .map_err(|error| format!("{name} cannot be started ({error}); install it"))?;
-    if output.status.success() {
-        Ok(String::from_utf8(output.stdout)?)
-    } else {
-        let [said, errors] =
-            [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
-        Err(format!("{command:?}: {}\n{said}{errors}", output.status).into())
-    }
 }

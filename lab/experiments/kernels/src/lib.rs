@@ -1,4 +1,4 @@
-//! Mixing, conversion and synthesis in every way that the labs compare with the tick.
+//! Mixing, conversion and synthesis in every way that the experiments compare with the tick.
 //!
 //! The crate is `no_std` with an allocator: the same kernel is measured on the host and counted
 //! on a microcontroller. None of it runs in a servo loop.

@@ -1,6 +1,6 @@
 //! Alternatives to the tick, and what each costs and loses.
 //!
-//! The runtime renders in one way. These labs measure why: they run kernels of every other
+//! The runtime renders in one way. These measurements say why: they run kernels of every other
 //! way ([`asperity_kernels`]) on the same textures.
 //!
 //! | module | holds |

@@ -1,4 +1,4 @@
-//! Every design of the labs, one after the other: n ticks, then 2n. Prints the bits of the
+//! Every design of the experiments, one after the other: n ticks, then 2n. Prints the bits of the
 //! last sample of each.
 #![no_std]
 #![no_main]
