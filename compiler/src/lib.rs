@@ -10,7 +10,7 @@
 //! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`triangulate`] |
 //! | `emit/` | from model to bytes and back: [`lower`], [`verify`], [`textures`], [`raise`] |
 //! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
-//! | `memory/` | what an asset remembers of its making: the [`memory`] |
+//! | `edit_memory/` | what an asset remembers of its making, for edits: [`edit_memory`] |
 //! | `interchange/` | other tools' formats: the [`interchange`] |
 //! | `views/` | what a person looks at: [`inspect`], [`plot`], [`preview`], [`diffusion`], [`listen`], [`render`] |
 //!
@@ -31,10 +31,10 @@ mod views;
 
 pub mod compiled;
 pub mod driver;
+pub mod edit_memory;
 pub mod interchange;
 pub mod learned;
 pub mod library;
-pub mod memory;
 pub mod pipeline;
 pub mod scene;
 pub mod sources;

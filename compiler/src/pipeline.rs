@@ -11,12 +11,12 @@ pub use error::PipelineError;
 pub use timings::{Clock, Pass, Timings};
 
 use crate::{
+    edit_memory::{Memory, remember},
     emit::{
         lower::{self, LowerError, Lowered},
         raise::raise,
         verify::{self, VerifyError, VerifyReport},
     },
-    memory::{Memory, remember},
     passes::{
         ceiling,
         reduce::{self, Fidelity, Reduction},

@@ -24,11 +24,11 @@ pub use crate::compiled::{Compared, Compiled, ErrorReference};
 pub use asperity_io::diagnostic::Failure;
 
 use crate::{
+    edit_memory::remembered,
     emit::{
         lower::{ErrorSummary, LowerError, Lowered},
         rename::renamed,
     },
-    memory::remembered,
     passes::reduce::{Fidelity, reduce},
     pipeline::{Beside, Pass, Pipeline, PipelineError, Request},
     sources::{

@@ -12,7 +12,7 @@ use super::{
     spill::{Packed, Slot, Spill},
 };
 use crate::{
-    memory::AXES,
+    edit_memory::AXES,
     pipeline::{Clock, Pass, Pipeline, Timings},
     sources::{
         Tools,

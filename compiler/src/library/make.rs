@@ -3,7 +3,7 @@
 use super::manifest::{Entry, Manifest, Origin};
 use crate::{
     driver::{self, Compiled, Failure},
-    memory::remembered,
+    edit_memory::remembered,
     pipeline::{Clock, Pipeline, Request},
     sources::{
         Source, Tools,

@@ -22,8 +22,8 @@ pub use registry::Registry;
 
 use crate::{
     compiled::ErrorReference,
+    edit_memory::Memory,
     learned::LearnedModel,
-    memory::Memory,
     pipeline::{Clock, Pipeline, Request, Ringing},
 };
 use asperity_io::diagnostic::{Diagnostic, Failure};

@@ -7,7 +7,7 @@ use super::{
     row::{Field, Value},
 };
 use crate::{
-    memory::Sliders,
+    edit_memory::Sliders,
     passes::{reduce::Fidelity, rerate},
     sources::{Registry, latents::Edit, prompt::phrase::relative},
     views::preview,

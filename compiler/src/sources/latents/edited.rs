@@ -6,8 +6,8 @@ use super::{
     solve::{along, reach},
 };
 use crate::{
+    edit_memory::{AXES, Axis, Latents, Sliders},
     learned::{Latent, friction},
-    memory::{AXES, Axis, Latents, Sliders},
     pipeline::Request,
 };
 use asperity_texture::model::{attributes::Attributes, shift::Shift};

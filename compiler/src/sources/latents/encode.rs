@@ -2,8 +2,8 @@
 
 use super::{error::EditError, latent_editor::LatentEditor};
 use crate::{
+    edit_memory::Latents,
     learned::{Present, complete},
-    memory::Latents,
     passes::reduce::Reference,
 };
 use asperity_texture::model::TextureModel;

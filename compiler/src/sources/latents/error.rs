@@ -1,9 +1,9 @@
 //! Why a texture cannot be mixed or edited.
 
 use crate::{
+    edit_memory::HistoryError,
     emit::{lower::LowerError, textures::TexturesError},
     learned::ModelError,
-    memory::HistoryError,
     pipeline::PipelineError,
     sources::prompt::PromptError,
 };

@@ -2,8 +2,8 @@
 
 use super::{error::EditError, latent_editor::LatentEditor};
 use crate::{
+    edit_memory::{AXES, Latents},
     learned::{Latent, description::LATENT},
-    memory::{AXES, Latents},
     sources::prompt,
 };
 use asperity_texture::model::attributes::{self, Attributes};

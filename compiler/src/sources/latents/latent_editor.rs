@@ -7,8 +7,8 @@ use super::{
     source::{FromLatents, decode},
 };
 use crate::{
+    edit_memory::{Latents, Memory, remembered},
     emit::raise::raise,
-    memory::{Latents, Memory, remembered},
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
     sources::prompt::PromptCompiler,

@@ -1,6 +1,6 @@
 //! Latents as a source: mixing and editing in the latent space of the learned model.
 //!
-//! An asset [remembers](crate::memory) the [`Latents`] it was decoded from and its [`History`]. A
+//! An asset [remembers](crate::edit_memory) the [`Latents`] it was decoded from and its [`History`]. A
 //! [`LatentEditor`] decodes them again after they were blended, composed, or moved along the [`Sliders`];
 //! from there on a texture goes the way of every other. `docs/libraries.md` shows the commands.
 
@@ -16,7 +16,7 @@ mod solve;
 mod source;
 mod worded;
 
-pub use crate::memory::{
+pub use crate::edit_memory::{
     AXES, Axis, History, HistoryError, Ingredient, Latents, Memory, Origin, Sliders, Step,
     remembered,
 };

@@ -1,7 +1,7 @@
 //! Attributes in a line.
 
 use super::scale::Scale;
-use crate::memory::{AXES, Axis};
+use crate::edit_memory::{AXES, Axis};
 use asperity_texture::model::attributes::Attributes;
 
 /// The attributes in their units, and where they lie on their sliders, as

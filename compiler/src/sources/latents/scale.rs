@@ -2,8 +2,8 @@
 //! the most of an attribute.
 
 use crate::{
+    edit_memory::{AXES, Axis},
     learned::description::ModelDescription,
-    memory::{AXES, Axis},
 };
 use asperity_texture::model::{attributes::Attributes, shift::Shift};
 

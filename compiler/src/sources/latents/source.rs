@@ -2,8 +2,8 @@
 
 use super::{Edit, EditError, LatentEditor, Part, Worded};
 use crate::{
+    edit_memory::{History, HistoryError, Ingredient, Latents, Memory, Origin, Step},
     learned::{Decoded, LearnedModel, ModelError, friction, texture},
-    memory::{History, HistoryError, Ingredient, Latents, Memory, Origin, Step},
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{Source, Sourced, Tools},
 };

@@ -2,7 +2,7 @@
 
 use super::{error::EditError, latent_editor::LatentEditor, scale::Scale};
 use crate::{
-    memory::{Axis, Latents, Sliders},
+    edit_memory::{Axis, Latents, Sliders},
     pipeline::Request,
     sources::prompt::phrase::{Towards, from_base, relative},
 };

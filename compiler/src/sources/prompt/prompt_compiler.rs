@@ -7,11 +7,11 @@ use super::{
     understood::{Understood, check, understood},
 };
 use crate::{
+    edit_memory::{History, Latents, Memory},
     learned::{
         self, Decoded, Files, Latent, LearnedModel, ModelError, embedded, friction::Neighbour,
         inference::Backend, text::TextEncoder, texture,
     },
-    memory::{History, Latents, Memory},
     pipeline::{Pass, Pipeline, Ringing},
     sources::Sourced,
 };
