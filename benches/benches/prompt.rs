@@ -17,11 +17,11 @@ fn warm(c: &mut Criterion) {
     let backend = Backend::open(BackendName::Portable).expect("the embedded engine");
     let prompt_compiler = PromptCompiler::embedded(&backend).expect("the embedded model");
     let options = Options::default().without_preview();
-    let authored = prompt_compiler
+    let compiled = prompt_compiler
         .compile(PROMPT, &options)
         .expect("a texture");
-    assert!(authored.attributes().rough_db.is_some_and(|db| db > 0.0));
-    assert!(authored.lowered.bytes.len() < 4096 + 1024);
+    assert!(compiled.attributes().rough_db.is_some_and(|db| db > 0.0));
+    assert!(compiled.lowered.bytes.len() < 4096 + 1024);
     let mut group = c.benchmark_group("warm prompt");
     group.sample_size(30);
     group.bench_function("text to verified bytes", |b| {

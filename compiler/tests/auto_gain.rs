@@ -158,13 +158,13 @@ fn every_texture_stays_within_the_continuous_force_and_attributes_keep_their_ord
     let made: Vec<(Attributes, Attributes, f64, bool)> = prompts()
         .par_iter()
         .map(|prompt| {
-            let authored = prompt_compiler.compile(prompt, &options).expect(prompt);
-            let before = Pipeline::default().reduce(&authored.whole, Fidelity::Auto);
-            let asset = Asset::parse(&authored.lowered.bytes).expect(prompt);
+            let compiled = prompt_compiler.compile(prompt, &options).expect(prompt);
+            let before = Pipeline::default().reduce(&compiled.whole, Fidelity::Auto);
+            let asset = Asset::parse(&compiled.lowered.bytes).expect(prompt);
             let kept = raise(&asset);
             let share = loudest_n(&kept) / (CONTINUOUS_SHARE * kept.gains.f_max_n);
             assert!(share <= 1.0, "{prompt}: {share} of the continuous force");
-            let lowered = kept.gains.vib_s2_m < 0.999 * authored.whole.gains.vib_s2_m;
+            let lowered = kept.gains.vib_s2_m < 0.999 * compiled.whole.gains.vib_s2_m;
             (
                 attributes::of(&before.texture),
                 attributes::of(&kept),

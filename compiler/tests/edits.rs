@@ -17,7 +17,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-static AUTHOR: LazyLock<PromptCompiler> = LazyLock::new(|| {
+static PROMPTS: LazyLock<PromptCompiler> = LazyLock::new(|| {
     PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads")
 });
 
@@ -29,7 +29,7 @@ const LEAST_HIT: f64 = 0.95;
 /// Textures between two random materials of the model. `ASPERITY_EDITS` asks for more.
 fn textures() -> Vec<Latents> {
     let count = sized_or("ASPERITY_EDITS", "textures", 5, 12);
-    let anchors = &AUTHOR.model().description().anchors;
+    let anchors = &PROMPTS.model().description().anchors;
     let mut random = Xoshiro256PlusPlus::seed_from_u64(1);
     let mut latent = || -> Latent {
         let anchor = &anchors[(random.next_u64() % anchors.len() as u64) as usize];
@@ -47,7 +47,7 @@ fn textures() -> Vec<Latents> {
 /// most 5, wherever that stays on the slider: beyond 0 and 100 there may be no material to go by.
 #[test]
 fn a_step_of_ten_moves_its_attribute_by_ten_and_leaves_the_others() {
-    let editor = LatentEditor::new(&AUTHOR);
+    let editor = LatentEditor::new(&PROMPTS);
     let request = Request {
         fidelity: Fidelity::Auto,
         ..Request::default()
@@ -141,9 +141,9 @@ fn no_texture_vibrates_beyond_the_continuous_force() {
     let lowered: Vec<bool> = textures
         .par_iter()
         .map(|latents| {
-            let provenance = AUTHOR.model().provenance("test");
+            let provenance = PROMPTS.model().provenance("test");
             let source = FromLatents::new(*latents, "x".into(), provenance, History::default());
-            let made = driver::compile(&source, &request, &Tools::of(&AUTHOR)).unwrap();
+            let made = driver::compile(&source, &request, &Tools::of(&PROMPTS)).unwrap();
             let asset = asperity_formats::Asset::parse(&made.lowered.bytes).unwrap();
             let texture = raise(&asset);
             let to_force = texture.gains.vib_s2_m * texture.gains.f_max_n;

@@ -12,7 +12,7 @@ use asperity_tests::size::sized;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-static AUTHOR: LazyLock<PromptCompiler> = LazyLock::new(|| {
+static PROMPTS: LazyLock<PromptCompiler> = LazyLock::new(|| {
     PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads")
 });
 
@@ -30,8 +30,8 @@ fn scale(attribute: &str, a: &Attributes) -> f64 {
 }
 
 fn latents(prompt: &str) -> Latents {
-    let projection = AUTHOR.project(prompt).expect(prompt);
-    let meaning = AUTHOR.meaning(prompt, &projection).expect(prompt);
+    let projection = PROMPTS.project(prompt).expect(prompt);
+    let meaning = PROMPTS.meaning(prompt, &projection).expect(prompt);
     Latents::whole(meaning.z).shifted(meaning.shift)
 }
 
@@ -59,7 +59,7 @@ fn step(editor: &LatentEditor<'_>, line: &str) -> f64 {
 
 #[test]
 fn edits_in_words_go_the_right_way_and_are_noticed() {
-    let editor = LatentEditor::new(&AUTHOR);
+    let editor = LatentEditor::new(&PROMPTS);
     let lines: Vec<&str> = EDITS.lines().collect();
     assert_eq!(lines.len(), 60);
     let stride = sized("every so many edits", 4, 1);

@@ -50,7 +50,7 @@ fn imported(folder: &Path, whole: &TextureModel, request: &Request) -> Vec<u8> {
 #[test]
 fn a_prompt_gives_the_same_bytes_through_a_file() {
     let folder = tempfile::tempdir().expect("a folder");
-    let author = PromptCompiler::embedded(&Backend::Portable).expect("the shipped model");
+    let prompt_compiler = PromptCompiler::embedded(&Backend::Portable).expect("the shipped model");
     for (prompt, seed, fidelity, rate_hz) in [
         ("wet ice", 0, Fidelity::Auto, None),
         ("coarse sandpaper", 3, Fidelity::Full, None),
@@ -66,11 +66,13 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
             seed,
             request: request.clone(),
         };
-        let authored = author.compile(prompt, &options).expect("a texture");
-        let again = through_a_file(&authored.whole, &request, &authored.lowered.bytes);
-        assert_eq!(again, authored.lowered.bytes, "{prompt}");
-        let imported = imported(folder.path(), &authored.whole, &request);
-        assert_eq!(content(&imported), content(&authored.lowered.bytes));
+        let compiled = prompt_compiler
+            .compile(prompt, &options)
+            .expect("a texture");
+        let again = through_a_file(&compiled.whole, &request, &compiled.lowered.bytes);
+        assert_eq!(again, compiled.lowered.bytes, "{prompt}");
+        let imported = imported(folder.path(), &compiled.whole, &request);
+        assert_eq!(content(&imported), content(&compiled.lowered.bytes));
         let asset = Asset::parse(&imported).expect("an asset");
         let provenance = asset.provenance().expect("provenance");
         assert_eq!(provenance.prompt, Some(prompt));
@@ -85,8 +87,9 @@ fn a_prompt_gives_the_same_bytes_through_a_file() {
 fn a_stabilised_texture_is_emitted_as_it_was_verified() {
     let text = Box::new(embedded::text_encoder(&Backend::Portable).expect("the encoder"));
     let model = asperity::learned::LearnedModel::load(embedded::model(), &Backend::Portable);
-    let author = PromptCompiler::new(text, model.expect("the shipped model")).expect("they fit");
-    let model = author.model();
+    let prompt_compiler =
+        PromptCompiler::new(text, model.expect("the shipped model")).expect("they fit");
+    let model = prompt_compiler.model();
     let request = Request::default();
     let found = (0..4000_u32).find_map(|number| {
         let z = std::array::from_fn(|k| {

@@ -1,6 +1,6 @@
 //! What changed between two versions of a library.
 
-use super::{change::Change, loaded_library::Shelf};
+use super::{change::Change, loaded_library::LoadedLibrary};
 use asperity_formats::{Asset, FormatError};
 use serde::Serialize;
 use std::{collections::BTreeMap, fmt};
@@ -23,7 +23,7 @@ pub struct Difference {
 ///
 /// # Errors
 /// [`FormatError`] for an asset that is damaged.
-pub fn diff(old: &Shelf, new: &Shelf) -> Result<Difference, FormatError> {
+pub fn diff(old: &LoadedLibrary, new: &LoadedLibrary) -> Result<Difference, FormatError> {
     let mut difference = Difference::default();
     if let (false, false, [(name, old)], [(_, new)]) = (
         old.is_library,
@@ -45,7 +45,7 @@ pub fn diff(old: &Shelf, new: &Shelf) -> Result<Difference, FormatError> {
     Ok(difference)
 }
 
-fn named(shelf: &Shelf) -> BTreeMap<&str, &[u8]> {
+fn named(shelf: &LoadedLibrary) -> BTreeMap<&str, &[u8]> {
     let textures = shelf.textures.iter();
     textures
         .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))

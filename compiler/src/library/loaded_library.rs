@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// All textures of a library, or the one of an asset, in order of name. Each is checked.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shelf {
+pub struct LoadedLibrary {
     /// The file as a report calls it.
     pub shown: String,
     /// Names with the bytes of their assets.
@@ -19,7 +19,7 @@ pub struct Shelf {
     pub has_scene: bool,
 }
 
-impl Shelf {
+impl LoadedLibrary {
     /// Reads a library or an asset; `-` is standard input.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::{
     error::LibraryFault,
-    loaded_library::Shelf,
+    loaded_library::LoadedLibrary,
     pack::{NamedAsset, encode},
 };
 use asperity_io::diagnostic::{Failures, one};
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 ///
 /// # Errors
 /// [`LibraryFault::Differ`] for every name that means different textures.
-pub fn merge(parts: &[Shelf]) -> Result<Vec<u8>, Failures> {
+pub fn merge(parts: &[LoadedLibrary]) -> Result<Vec<u8>, Failures> {
     let mut all: BTreeMap<&str, (&str, &[u8])> = BTreeMap::new();
     let mut failures: Failures = Vec::new();
     for part in parts {

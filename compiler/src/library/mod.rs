@@ -23,6 +23,7 @@ mod pack;
 mod report;
 mod shard;
 mod spill;
+mod user_folder;
 
 pub use crate::emit::rename::renamed;
 pub use build::{Build, Built, Request};
@@ -31,7 +32,7 @@ pub use change::Change;
 pub use diff::{Difference, diff};
 pub use error::{EntryError, LibraryFault};
 pub use facts::Facts;
-pub use loaded_library::Shelf;
+pub use loaded_library::LoadedLibrary;
 pub use lock::{Lock, LockError, Pinned};
 pub use manifest::Manifest;
 pub use merge::merge;

@@ -1,6 +1,6 @@
 //! Whatever the latent, the texture is stable and within bounds.
 
-use super::AUTHOR;
+use super::PROMPTS;
 use asperity::{
     driver,
     learned::{Latent, texture},
@@ -37,7 +37,7 @@ fn latent(number: usize) -> Latent {
 /// `ASPERITY_LATENTS=100000 cargo test --release -p asperity --test it any_latent`.
 #[test]
 fn any_latent_is_a_stable_texture_within_bounds() {
-    let model = AUTHOR.model();
+    let model = PROMPTS.model();
     let latents = sized_or("ASPERITY_LATENTS", "latents", 100, 10_000);
     let stabilised = AtomicUsize::new(0);
     (0..latents).into_par_iter().for_each(|number| {

@@ -11,6 +11,6 @@ use asperity::{inference::Backend, prompt::PromptCompiler};
 use std::sync::LazyLock;
 
 /// Loaded once: the tests of this file only ask it.
-static AUTHOR: LazyLock<PromptCompiler> = LazyLock::new(|| {
+static PROMPTS: LazyLock<PromptCompiler> = LazyLock::new(|| {
     PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads")
 });

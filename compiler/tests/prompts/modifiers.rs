@@ -1,6 +1,6 @@
 //! What modifiers do to a thing, and what is said to be a guess.
 
-use super::AUTHOR;
+use super::PROMPTS;
 use asperity::attributes::{self, Attributes};
 use asperity::prompt::phrase::{Phrase, parse};
 use asperity_tests::size::{least, sized};
@@ -48,7 +48,7 @@ fn scale(attribute: &str, a: &Attributes) -> f64 {
 }
 
 fn read(prompt: &str) -> Attributes {
-    attributes::of(&AUTHOR.texture(prompt).expect(prompt))
+    attributes::of(&PROMPTS.texture(prompt).expect(prompt))
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn what_people_touch_is_familiar_and_nonsense_is_not() {
         let lines: Vec<&str> = text.lines().step_by(stride).collect();
         let far = lines
             .par_iter()
-            .filter(|line| AUTHOR.project(line).expect(line).unfamiliar);
+            .filter(|line| PROMPTS.project(line).expect(line).unfamiliar);
         let count = far.count();
         println!("{file}: {count} of {} unfamiliar", lines.len());
         count as f64 / lines.len() as f64
@@ -125,11 +125,11 @@ fn what_people_touch_is_familiar_and_nonsense_is_not() {
 
 #[test]
 fn a_name_is_its_material() {
-    let anchors = &AUTHOR.model().description().anchors;
+    let anchors = &PROMPTS.model().description().anchors;
     let stride = sized("every so many names", 5, 1);
     let asked: Vec<_> = anchors.iter().step_by(stride).collect();
     let right = asked.par_iter().filter(|anchor| {
-        let z = AUTHOR.project(&anchor.name).expect("a name").z;
+        let z = PROMPTS.project(&anchor.name).expect("a name").z;
         let dot = |other: &[f32]| -> f32 {
             let norm = other.iter().map(|x| x * x).sum::<f32>().sqrt();
             other.iter().zip(&z).map(|(x, y)| x * y).sum::<f32>() / norm

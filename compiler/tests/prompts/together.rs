@@ -17,9 +17,9 @@ fn prompts_read_together_are_to_the_bit_what_they_are_alone() {
     let together = PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads");
     together.read_ahead(&PROMPTS);
     for prompt in PROMPTS {
-        let (one, all) = (super::AUTHOR.project(prompt), together.project(prompt));
+        let (one, all) = (super::PROMPTS.project(prompt), together.project(prompt));
         assert_eq!(one.expect(prompt), all.expect(prompt), "{prompt}");
-        let (one, all) = (super::AUTHOR.texture(prompt), together.texture(prompt));
+        let (one, all) = (super::PROMPTS.texture(prompt), together.texture(prompt));
         assert_eq!(one.expect(prompt), all.expect(prompt), "{prompt}");
     }
 }

@@ -1,6 +1,6 @@
 //! What the words of a prompt do.
 
-use super::AUTHOR;
+use super::PROMPTS;
 use asperity::{
     attributes::{self, Attributes},
     driver::{Compiled, Stopped},
@@ -23,7 +23,7 @@ fn plain() -> Options {
 
 /// Attributes of the decoder's own texture: neither reduced nor lowered.
 fn attributes(prompt: &str) -> Attributes {
-    attributes::of(&AUTHOR.texture(prompt).unwrap())
+    attributes::of(&PROMPTS.texture(prompt).unwrap())
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn everyday_words_are_ordered_as_any_person_would() {
 #[test]
 fn the_same_prompt_gives_the_same_bytes_whatever_the_threads() {
     let prompt = "wet ice";
-    let first = AUTHOR
+    let first = PROMPTS
         .compile(prompt, &Options::default())
         .unwrap()
         .lowered
@@ -84,7 +84,7 @@ fn the_same_prompt_gives_the_same_bytes_whatever_the_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let again = pool
             .unwrap()
-            .install(|| AUTHOR.compile(prompt, &Options::default()).unwrap());
+            .install(|| PROMPTS.compile(prompt, &Options::default()).unwrap());
         assert_eq!(again.lowered.bytes, first);
     }
 }
@@ -96,11 +96,11 @@ fn a_texture_fits_four_kibibytes() {
         "velvet",
         "window glass",
     ] {
-        let authored = AUTHOR.compile(prompt, &plain()).unwrap();
+        let compiled = PROMPTS.compile(prompt, &plain()).unwrap();
         assert!(
-            authored.lowered.haptic_bytes <= 4096,
+            compiled.lowered.haptic_bytes <= 4096,
             "{prompt}: {}",
-            authored.lowered.haptic_bytes
+            compiled.lowered.haptic_bytes
         );
     }
 }
@@ -108,7 +108,7 @@ fn a_texture_fits_four_kibibytes() {
 #[test]
 fn a_seed_varies_a_texture_without_leaving_the_material() {
     let with_seed = |seed| {
-        AUTHOR
+        PROMPTS
             .compile("cork", &Options { seed, ..plain() })
             .unwrap()
     };
@@ -129,7 +129,7 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
                 ..Request::default()
             },
         };
-        AUTHOR.compile("denim", &options).unwrap().texture.grid
+        PROMPTS.compile("denim", &options).unwrap().texture.grid
     };
     assert_eq!(with(Fidelity::Full, None).order, 21);
     assert_eq!(with(Fidelity::Order(5), None).order, 5);
@@ -137,7 +137,7 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
     assert_eq!(with(Fidelity::Auto, Some(1500.0)).sample_rate_hz, 1500.0);
     let mut absurd = plain();
     absurd.request.rate_hz = Some(f64::NAN);
-    let refused = AUTHOR.compile("denim", &absurd).unwrap_err();
+    let refused = PROMPTS.compile("denim", &absurd).unwrap_err();
     let refused: &dyn Error = &*refused;
     assert!(matches!(
         refused.downcast_ref::<Stopped>().unwrap().cause,
@@ -148,26 +148,26 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
 #[test]
 fn long_prompts_are_cut_with_a_warning_and_empty_ones_refused() {
     let long = "gritty ".repeat(400);
-    let authored = AUTHOR.compile(&long, &plain()).unwrap();
-    assert!(authored.found::<CompiledPrompt>().unwrap().tokens.1 > 200);
+    let compiled = PROMPTS.compile(&long, &plain()).unwrap();
+    assert!(compiled.found::<CompiledPrompt>().unwrap().tokens.1 > 200);
     assert!(
-        authored
+        compiled
             .warnings
             .iter()
             .any(|warning| warning.contains("too long"))
     );
-    assert!(authored.texture.name.len() <= 64);
-    let refused = AUTHOR.compile(" \n", &plain()).unwrap_err();
+    assert!(compiled.texture.name.len() <= 64);
+    let refused = PROMPTS.compile(" \n", &plain()).unwrap_err();
     let refused: &dyn Error = &*refused;
     assert!(matches!(refused.downcast_ref(), Some(PromptError::Empty)));
 }
 
 #[test]
 fn what_no_surface_is_like_is_told_apart_and_still_safe() {
-    let far = AUTHOR
+    let far = PROMPTS
         .compile("the quarterly inflation report of a central bank", &plain())
         .unwrap();
-    let near = AUTHOR.compile("coarse sandpaper", &plain()).unwrap();
+    let near = PROMPTS.compile("coarse sandpaper", &plain()).unwrap();
     assert!(far.certainty < near.certainty);
     let is_uncertain = |of: &Compiled| of.found::<CompiledPrompt>().unwrap().is_uncertain();
     assert!(is_uncertain(&far) && !is_uncertain(&near));
@@ -177,6 +177,6 @@ fn what_no_surface_is_like_is_told_apart_and_still_safe() {
 #[test]
 fn any_text_at_all_gives_a_texture() {
     for prompt in ["?", "ﷺ 🪨🧽", "a\u{0}b", "'; DROP TABLE--", "é́́́", "0"] {
-        assert!(AUTHOR.compile(prompt, &plain()).is_ok(), "{prompt:?}");
+        assert!(PROMPTS.compile(prompt, &plain()).is_ok(), "{prompt:?}");
     }
 }

@@ -1,8 +1,12 @@
 //! A simulated haptic device: the positions that a servo reads, and what its forces do.
 
 mod config;
+mod delay;
+mod quantise;
 
 pub use config::{Actuator, DeviceConfig, Mechanics, Sensor, Timing, Workspace};
+pub use delay::Delay;
+pub use quantise::{converter_step, to_step};
 
 use crate::axis::{AxisParams, AxisState, Pull};
 
@@ -145,80 +149,6 @@ pub fn norm(v: [f64; 3]) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
-// A delay of whole ticks.
-
-/// A ring buffer that returns each value `ticks` calls after it was put in.
-#[derive(Debug, Clone)]
-pub struct Delay<T> {
-    ring: Vec<T>,
-    next: usize,
-}
-
-impl<T: Copy> Delay<T> {
-    /// A delay of `ticks` that is full of `initial`. Nothing else here allocates.
-    #[must_use]
-    pub fn new(ticks: usize, initial: T) -> Self {
-        Self {
-            ring: vec![initial; ticks],
-            next: 0,
-        }
-    }
-
-    /// Puts a value in and takes the oldest one out.
-    pub fn push(&mut self, value: T) -> T {
-        let Some(slot) = self.ring.get_mut(self.next) else {
-            return value;
-        };
-        let due = std::mem::replace(slot, value);
-        self.next = (self.next + 1) % self.ring.len();
-        due
-    }
-}
-
-#[cfg(test)]
-mod delay_tests {
-    use super::*;
-
-    #[test]
-    fn what_goes_in_comes_out_exactly_so_many_ticks_later() {
-        for ticks in [0, 1, 2, 7, 100] {
-            let mut delay = Delay::new(ticks, -1_i64);
-            for n in 0..1000_i64 {
-                let expected = if n < ticks as i64 {
-                    -1
-                } else {
-                    n - ticks as i64
-                };
-                assert_eq!(delay.push(n), expected);
-            }
-        }
-    }
-}
-
-// Rounding to the steps of a sensor or a converter.
-
-/// Rounds to whole steps; a step of 0 leaves the value unchanged.
-#[must_use]
-pub fn to_step(value: f64, step: f64) -> f64 {
-    if step > 0.0 {
-        (value / step).round() * step
-    } else {
-        value
-    }
-}
-
-/// Step of a converter with `bits` over `±peak`: `2·peak / (2^bits − 2)`.
-///
-/// The number of levels is odd, so zero is one of them. A converter of 0 bits is perfect.
-#[must_use]
-pub fn converter_step(peak: f64, bits: u32) -> f64 {
-    match bits {
-        0 => 0.0,
-        1 => peak,
-        bits => 2.0 * peak / ((1_u64 << bits.min(52)) - 2) as f64,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -310,39 +240,6 @@ mod tests {
                 (depth_m * stiffness_n_m - 1.0).abs() <= slack_n,
                 "{depth_m}"
             );
-        }
-    }
-}
-
-#[cfg(test)]
-mod quantise_tests {
-    use super::*;
-
-    #[test]
-    fn rounding_is_to_the_nearest_step_and_idempotent() {
-        let step = 5.5e-5;
-        for n in -2000..2000 {
-            let value = f64::from(n) * 1.37e-6;
-            let rounded = to_step(value, step);
-            assert!((rounded - value).abs() <= 0.5 * step * (1.0 + 1e-12));
-            assert_eq!(to_step(rounded, step), rounded);
-            let count = rounded / step;
-            assert!((count - count.round()).abs() < 1e-9);
-        }
-        assert_eq!(to_step(0.123, 0.0), 0.123);
-    }
-
-    #[test]
-    fn a_converter_has_exactly_its_levels_with_zero_and_both_peaks() {
-        for bits in [2_u32, 8, 12, 16] {
-            let step = converter_step(3.3, bits);
-            let mut levels: Vec<i64> = (-100_000..=100_000)
-                .map(|n| (to_step(f64::from(n) * 3.3e-5, step) / step).round() as i64)
-                .collect();
-            levels.dedup();
-            assert_eq!(levels.len(), (1_usize << bits) - 1);
-            assert!(levels.contains(&0));
-            assert!((to_step(3.3, step) - 3.3).abs() < 1e-12);
         }
     }
 }

@@ -119,6 +119,7 @@ fn is_fresh(program: &Path, root: &Path) -> bool {
         "compiler",
         "device-sim",
         "lab",
+        "training",
     ];
     sources
         .iter()

@@ -6,7 +6,7 @@
 
 mod error;
 mod fault;
-mod lab;
+mod learning_curve;
 mod perform;
 mod sensors;
 mod textures;
@@ -15,7 +15,7 @@ mod truth;
 
 pub use error::ImportAccuracyError;
 pub use fault::{RecordingFault, faulty};
-pub use lab::{Checks, Figures, GOAL_DB, LOUD_DB, Row, checks, learn, summary};
+pub use learning_curve::{Checks, Figures, GOAL_DB, LOUD_DB, Row, checks, learn, summary};
 pub use perform::{Performance, Until, perform, perform_sine};
 pub use sensors::{BENT_S, GRAVITY_M_S2, HAND_HALF, across, of_tool};
 pub use sensors::{Sensors, record};

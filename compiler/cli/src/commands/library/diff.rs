@@ -3,14 +3,14 @@
 use crate::cli::Diff;
 use asperity::{
     edit::EditError,
-    library::{Change, Shelf, diff},
+    library::{Change, LoadedLibrary, diff},
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 
 pub(crate) fn run(args: &Diff, console: Console) -> Result<(), Failures> {
-    let old = Shelf::open(&args.old).map_err(one)?;
-    let new = Shelf::open(&args.new).map_err(one)?;
+    let old = LoadedLibrary::open(&args.old).map_err(one)?;
+    let new = LoadedLibrary::open(&args.new).map_err(one)?;
     let difference = diff(&old, &new).map_err(|error| one(EditError::from(error)))?;
     let printed = if args.json {
         // Plain structures of numbers and strings always serialise.

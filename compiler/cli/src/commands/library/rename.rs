@@ -3,7 +3,7 @@
 use crate::cli::Rename;
 use asperity::{
     edit::EditError,
-    library::{LibraryFault, NamedAsset, Shelf, encode, renamed},
+    library::{LibraryFault, LoadedLibrary, NamedAsset, encode, renamed},
     textures::{Textures, TexturesProblem},
 };
 use asperity_console::Console;
@@ -21,7 +21,7 @@ pub(crate) fn run(args: &Rename, console: Console) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file]);
     let output = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut shelf = Shelf::open(&args.file).map_err(one)?;
+    let mut shelf = LoadedLibrary::open(&args.file).map_err(one)?;
     if shelf.has_scene {
         return Err(one(LibraryFault::Scene(shelf.shown)));
     }

@@ -3,7 +3,7 @@
 use crate::cli::Split;
 use asperity::{
     edit::EditError,
-    library::{NamedAsset, Shelf, encode, renamed},
+    library::{LoadedLibrary, NamedAsset, encode, renamed},
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
@@ -13,7 +13,7 @@ use asperity_io::{
 };
 
 pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
-    let shelf = Shelf::library(&args.file)?;
+    let shelf = LoadedLibrary::library(&args.file)?;
     let (files, changed) = match args.into {
         Some(count) => (parts(&shelf, count as usize)?, Vec::new()),
         None => assets(&shelf)?,
@@ -32,7 +32,7 @@ pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
 type Files = Vec<(String, Vec<u8>)>;
 
 /// One asset a texture, under the name that the index gives it, and the names that no file can have.
-fn assets(shelf: &Shelf) -> Result<(Files, Vec<String>), Failures> {
+fn assets(shelf: &LoadedLibrary) -> Result<(Files, Vec<String>), Failures> {
     let names: Vec<&str> = shelf
         .textures
         .iter()
@@ -56,7 +56,7 @@ fn assets(shelf: &Shelf) -> Result<(Files, Vec<String>), Failures> {
 }
 
 /// Libraries of neighbouring textures, each as large as the others within one texture.
-fn parts(shelf: &Shelf, count: usize) -> Result<Files, Failures> {
+fn parts(shelf: &LoadedLibrary, count: usize) -> Result<Files, Failures> {
     let total = shelf.textures.len();
     let digits = count.to_string().len();
     (0..count)

@@ -1,4 +1,4 @@
-//! The bench as an experiment: a learning curve, and what the check finds.
+//! A learning curve: how well textures come back after so many seconds, and what the check of a recording finds.
 
 use asperity::{model::TextureModel, pipeline::Clock, recording};
 use asperity_recording::check::Severity;
