@@ -11,6 +11,7 @@
 
 mod candidates;
 mod discover;
+mod library;
 mod session;
 
 pub use discover::{Attempt, Discovery, NotFound, Source, discover};

@@ -7,7 +7,7 @@
 //! | `opened` | an open device, and what the runtime must know of it |
 //! | `replay` | a recording as a device: its conditions, and whether forces repeat |
 //! | `run` | one run of the loop on its thread |
-//! | `unfelt` | one that renders nothing: the tool touches a real surface |
+//! | `real_surface` | one that renders nothing: the tool touches a real surface |
 //! | `recorder` | every tick into a file, on a thread of its own |
 //! | `trace` | every tick as a row of CSV |
 

@@ -8,6 +8,7 @@
 mod format;
 mod kind;
 mod open;
+mod pipe;
 mod pipe_timeout;
 mod problem;
 mod reach;

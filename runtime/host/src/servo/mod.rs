@@ -4,9 +4,11 @@
 //! | file | holds |
 //! |---|---|
 //! | `periods` | the loop, generic over device, renderer, clock and observer |
-//! | `schedule` | due times without drift, and missed periods |
+//! | `deadlines` | due times without drift, and missed periods |
 //! | `clock` | the system's monotonic clock, and a virtual one |
 //! | `pace` | how many periods lie between two readings |
+//! | `heard` | what the supervised device said, for the records |
+//! | `recovery` | when a device that fails is asked to recover |
 //! | `event` | what is told once: faults, their end, recoveries that failed |
 //! | `render` | the runtime behind one trait: a texture, an exchange of textures, a scene |
 //! | `record`, `times` | what a tick leaves behind |
@@ -23,11 +25,13 @@
 mod clock;
 mod deadlines;
 mod event;
+mod heard;
 mod outlet;
 mod pace;
 mod periods;
 pub mod privileges;
 mod record;
+mod recovery;
 mod render;
 mod report;
 mod settings;

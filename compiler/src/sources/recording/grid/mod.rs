@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `clusters` | where vertices stand |
 //! | `band`, `lags`, `local` | what the segments near a place say, under the sensors' noise: an autocorrelation |
-//! | `beyond` | vertices beyond what was visited |
+//! | `extrapolation` | vertices beyond what was visited |
 //! | `vertex` | from an autocorrelation to a model |
 //! | `whittle` | how well a model predicts segments |
 //! | `shape`, `blocks`, `refine` | all vertices moved at once, so that their mixtures explain all segments |

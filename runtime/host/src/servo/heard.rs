@@ -1,0 +1,43 @@
+//! What a device said last, for the records: its supervision passes on samples alone.
+
+use crate::device::{Description, Device, DeviceError, Reading};
+
+/// A device, and what it said last.
+#[derive(Debug)]
+pub(super) struct Heard<'d, D: ?Sized> {
+    device: &'d mut D,
+    last: Result<Reading, DeviceError>,
+}
+
+impl<'d, D: ?Sized> Heard<'d, D> {
+    pub(super) fn new(device: &'d mut D) -> Self {
+        Self {
+            device,
+            last: Err(DeviceError::TimedOut),
+        }
+    }
+
+    /// What the last reading said.
+    pub(super) fn last(&self) -> Result<Reading, DeviceError> {
+        self.last
+    }
+}
+
+impl<D: Device + ?Sized> Device for Heard<'_, D> {
+    fn description(&self) -> &Description {
+        self.device.description()
+    }
+
+    fn read(&mut self) -> Result<Reading, DeviceError> {
+        self.last = self.device.read();
+        self.last
+    }
+
+    fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
+        self.device.write(force_n)
+    }
+
+    fn recover(&mut self) -> Result<(), DeviceError> {
+        self.device.recover()
+    }
+}
