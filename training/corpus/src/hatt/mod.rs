@@ -4,7 +4,7 @@
 //!    1 + z⁻¹ (`ar`), with its level.
 //! 2. `bins` clusters the measured places of all materials by `kmeans` into the bins of one grid.
 //! 3. `pool` holds, for each material and bin, the models that an instance draws from. The
-//!    material's `own` grid interpolates between them.
+//!    material's own grid interpolates between them (`interpolation`).
 //! 4. `tap` synthesises taps from the hardness in our `captions`, since HaTT has none.
 //!
 //! Models on the border of a material's rectangle are not measured; the source extends them from
