@@ -45,7 +45,7 @@ pub fn taps_of_grid(
 pub fn grid_of_taps(model: &LearnedModel, taps: &TapBank) -> Result<ModelGrid, ModelError> {
     let description = model.description();
     let z = model.encode(Present::Taps(&tap_channels(&description.taps, taps)))?;
-    Ok(texture::grid(description, &model.decode(&z)?))
+    Ok(texture::grid(&description.grid, &model.decode(&z)?))
 }
 
 /// What the AR encoder sees of a grid: 21 LSFs and the level in every bin.

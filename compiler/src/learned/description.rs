@@ -38,6 +38,10 @@ pub struct ModelDescription {
     pub certainty: CertaintyCurve,
     /// Familiarity below which a prompt is far from everything the model knows.
     pub unfamiliar: f64,
+    /// CRC-32 of earlier models with the same latent and the same decoders, whose textures can be
+    /// edited with this one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub same_latent: Vec<u32>,
 }
 
 /// What a model was trained on.

@@ -109,6 +109,12 @@ impl LearnedModel {
         self.crc32
     }
 
+    /// Whether latents that a model of this CRC-32 made mean the same here.
+    #[must_use]
+    pub fn has_latent_of(&self, crc32: u32) -> bool {
+        crc32 == self.crc32 || self.description.same_latent.contains(&crc32)
+    }
+
     /// The description of the model.
     #[must_use]
     pub fn description(&self) -> &ModelDescription {

@@ -1,7 +1,7 @@
 //! Builds a texture from what a latent decodes to.
 
 use super::{
-    description::ModelDescription,
+    description::{GridDescription, ModelDescription},
     edges,
     friction::{self, Neighbour},
     model::{Decoded, Latent},
@@ -46,7 +46,7 @@ pub fn build(
     let gains = defaults::gains();
     let texture = TextureModel {
         name,
-        grid: grid(description, decoded),
+        grid: grid(&description.grid, decoded),
         taps: taps(
             description,
             decoded,
@@ -79,8 +79,7 @@ pub fn build(
 
 /// The AR grid of decoded parameters, with its edge models.
 #[must_use]
-pub fn grid(description: &ModelDescription, decoded: &Decoded) -> ModelGrid {
-    let grid = &description.grid;
+pub fn grid(grid: &GridDescription, decoded: &Decoded) -> ModelGrid {
     let interior = (0..grid.speeds_mm_s.len())
         .map(|bin| {
             let raw = &decoded.lsf_rad[bin * grid.order..(bin + 1) * grid.order];

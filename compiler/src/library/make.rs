@@ -161,7 +161,8 @@ impl<'a> Maker<'a> {
             Some(bytes) => remembered(&Asset::parse(bytes).map_err(EditError::from)?)?,
             None => sourced.memory,
         };
-        if let Some(memory) = memory.filter(|memory| memory.model_crc32 == editor.model_crc32()) {
+        let model = editor.prompt_compiler().model();
+        if let Some(memory) = memory.filter(|memory| model.has_latent_of(memory.model_crc32)) {
             return Ok(FromLatents {
                 warnings: sourced.warnings,
                 certainty: sourced.certainty,

@@ -7,7 +7,7 @@
 //! says: not by the recall of the latent, whose directions know nothing of how a thing feels.
 
 use crate::{
-    attributes,
+    attributes::{self, Layout},
     captions::Captions,
     config::{self, Memory},
     kernel_ridge::KernelRidge,
@@ -139,8 +139,8 @@ impl AttributeRegression {
 pub(crate) const LEAST: f32 = 1e-30;
 
 /// The attributes of a material, by its prototype.
-pub(crate) fn of(material: &Material) -> Felt {
-    let attributes = attributes::of(&material.prototype);
+pub(crate) fn of(material: &Material, layout: &Layout) -> Felt {
+    let attributes = attributes::of(&material.prototype, layout);
     let ln = |x: f64| libm::log(x.max(f64::MIN_POSITIVE)) as f32;
     [
         attributes.rough_db as f32,

@@ -1,50 +1,77 @@
 //! Objective attributes of an instance, as the compiler defines them for a texture.
 
 use asperity::{
-    level::nyquist_rms,
-    lsf,
-    spectrum::{ArmaModel, trace_centroid_hz},
+    attributes::Meter,
+    learned::{
+        Decoded,
+        description::{GridDescription, ModelDescription},
+        texture,
+    },
+    spectrum::trace_centroid_hz,
 };
-use asperity_corpus::{Instance, SAMPLE_RATE_HZ, TAP_RATE_HZ};
+use asperity_corpus::{Corpus, Instance, ORDER, SAMPLE_RATE_HZ, TAP_RATE_HZ, TAPS, UnifiedGrid};
+
+/// What all instances of a corpus share: where their bins and their traces lie.
+#[derive(Debug, Clone)]
+pub(crate) struct Layout {
+    grid: GridDescription,
+    /// Impact speeds of the traces.
+    pub(crate) speeds_m_s: [f64; TAPS],
+}
+
+impl Layout {
+    /// The layout of a corpus.
+    pub(crate) fn of(corpus: &Corpus) -> Self {
+        Self {
+            grid: grid(&corpus.grid),
+            speeds_m_s: corpus.tap_speeds_m_s,
+        }
+    }
+
+    /// The layout of a model with these impact speeds.
+    pub(crate) fn of_model(description: &ModelDescription, speeds_m_s: [f64; TAPS]) -> Self {
+        Self {
+            grid: description.grid.clone(),
+            speeds_m_s,
+        }
+    }
+}
+
+/// A grid as a model describes it.
+pub(crate) fn grid(grid: &UnifiedGrid) -> GridDescription {
+    GridDescription {
+        order: ORDER,
+        sample_rate_hz: SAMPLE_RATE_HZ,
+        speeds_mm_s: grid.bins.iter().map(|bin| bin.speed_mm_s).collect(),
+        forces_n: grid.bins.iter().map(|bin| bin.force_n).collect(),
+        max_speed_mm_s: grid.max_speed_mm_s,
+        max_force_n: grid.max_force_n,
+    }
+}
 
 /// Attributes that can be read from an instance; friction is not among them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Attributes {
-    /// Mean over the bins of the level above 40 Hz, dB re 1 (m/s²)².
+    /// Level above 40 Hz at 100 mm/s and 1 N, dB re 1 (m/s²)².
     pub(crate) rough_db: f64,
-    /// Mean over the bins of the spectral centroid above 40 Hz, Hz.
+    /// Spectral centroid of the same, Hz.
     pub(crate) sharp_hz: f64,
     /// Spectral centroid of the fastest trace, Hz.
     pub(crate) hard_hz: f64,
 }
 
 /// The attributes of an instance; zero where something is silent.
-pub(crate) fn of(instance: &Instance) -> Attributes {
-    let vibrations: Vec<_> = instance
-        .lsf_rad
-        .iter()
-        .zip(instance.level_db)
-        .filter_map(|(lsf_rad, level_db)| {
-            let lsf_rad = lsf_rad.map(f64::from);
-            let level = libm::exp10(f64::from(level_db) / 20.0);
-            let model = ArmaModel {
-                sample_rate_hz: SAMPLE_RATE_HZ,
-                a: lsf::to_polynomial(&lsf_rad),
-                b: vec![1.0, 1.0],
-                level_m_s2: level / nyquist_rms(&lsf_rad),
-            };
-            model.vibration()
-        })
-        .collect();
-    let count = vibrations.len().max(1) as f64;
-    let fastest = instance.taps_m_s2[instance.taps_m_s2.len() - 1].map(f64::from);
+pub(crate) fn of(instance: &Instance, layout: &Layout) -> Attributes {
+    let decoded = Decoded {
+        lsf_rad: instance.lsf_rad.as_flattened().to_vec(),
+        level_db: instance.level_db.to_vec(),
+        taps_m_s2: Vec::new(),
+    };
+    let vibration = Meter::default().vibration(&texture::grid(&layout.grid, &decoded));
+    let fastest = instance.taps_m_s2[TAPS - 1].map(f64::from);
     Attributes {
-        rough_db: vibrations
-            .iter()
-            .map(|v| 10.0 * libm::log10(v.power))
-            .sum::<f64>()
-            / count,
-        sharp_hz: vibrations.iter().map(|v| v.centroid_hz).sum::<f64>() / count,
+        rough_db: vibration.map_or(0.0, |v| 10.0 * libm::log10(v.power)),
+        sharp_hz: vibration.map_or(0.0, |v| v.centroid_hz),
         hard_hz: trace_centroid_hz(&fastest, TAP_RATE_HZ).unwrap_or_default(),
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::{
     attribute_regression::{self, AttributeRegression, Felt},
+    attributes::Layout,
     batch::Instances,
     captions::Captions,
     checkpoint::{self, Identity},
@@ -155,6 +156,7 @@ impl<'a> TrainingRun<'a> {
             .flat_map(|(index, material)| vec![index; material.instances.len()])
             .collect();
         let friction = standardised_log_friction(corpus, &material);
+        let layout = Layout::of(corpus);
         let mut stream = Stream::new(config.seed, Purpose::Initialisation, 0);
         let (network, parameters) = Network::new(
             &config.network,
@@ -176,7 +178,7 @@ impl<'a> TrainingRun<'a> {
             },
             ratings: chosen().map(|(_, material)| material.rating).collect(),
             felt: chosen()
-                .map(|(_, material)| attribute_regression::of(material))
+                .map(|(_, material)| attribute_regression::of(material, &layout))
                 .collect(),
             state: State::new(parameters),
         })

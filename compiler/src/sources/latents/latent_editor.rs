@@ -23,7 +23,6 @@ use asperity_texture::model::{
 /// Everything that mixes and edits: a prompt compiler's model, and where its sliders lie.
 pub struct LatentEditor<'a> {
     pub(super) prompt_compiler: &'a PromptCompiler,
-    model_crc32: u32,
     pub(super) scale: Scale,
     pub(super) metric: Metric,
 }
@@ -35,7 +34,6 @@ impl<'a> LatentEditor<'a> {
         let description = prompt_compiler.model().description();
         Self {
             prompt_compiler,
-            model_crc32: prompt_compiler.model().crc32(),
             scale: Scale::of(description),
             metric: Metric::of(&description.anchors),
         }
@@ -45,12 +43,6 @@ impl<'a> LatentEditor<'a> {
     #[must_use]
     pub fn prompt_compiler(&self) -> &'a PromptCompiler {
         self.prompt_compiler
-    }
-
-    /// CRC-32 of the model.
-    #[must_use]
-    pub fn model_crc32(&self) -> u32 {
-        self.model_crc32
     }
 
     /// The scale of the sliders.
@@ -66,13 +58,14 @@ impl<'a> LatentEditor<'a> {
     pub fn memory(&self, asset: &Asset<'_>) -> Result<Memory, EditError> {
         let name = asset.name().to_owned();
         let memory = remembered(asset)?.ok_or_else(|| EditError::NoLatent(name.clone()))?;
-        if memory.model_crc32 == self.model_crc32 {
+        let model = self.prompt_compiler.model();
+        if model.has_latent_of(memory.model_crc32) {
             Ok(memory)
         } else {
             Err(EditError::OtherModel {
                 name,
                 found: memory.model_crc32,
-                expected: self.model_crc32,
+                expected: model.crc32(),
             })
         }
     }

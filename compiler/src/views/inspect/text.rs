@@ -2,7 +2,7 @@
 
 use super::json::{Document, Vertex};
 use asperity_formats::{Asset, SectionInfo};
-use asperity_texture::model::{Numerator, VertexKind};
+use asperity_texture::model::{Numerator, VertexKind, attributes};
 use std::fmt::Write as _;
 
 /// The text of an asset and its document: what it is, what it holds, how it was made.
@@ -112,15 +112,22 @@ fn write_text(
     let figure = |value: Option<f64>, unit: &str| {
         value.map_or_else(|| "undefined".to_owned(), |x| format!("{x:.1} {unit}"))
     };
+    let p = &d.provenance;
     writeln!(
         out,
-        "  attributes   rough {}, sharp {}, hard {}, μ {:.3}",
+        "  attributes   rough {}, sharp {} at {:.0} mm/s and {:.1} N; hard {}{}; μ {:.3}",
         figure(d.attributes.rough_db, "dB re 1 (m/s²)²"),
         figure(d.attributes.sharp_hz, "Hz"),
+        attributes::SPEED_MM_S.min(d.ar.max_speed_mm_s),
+        attributes::FORCE_N.min(d.ar.max_force_n),
         figure(d.attributes.hard_hz, "Hz"),
+        if p.taps_synthetic {
+            " (derived: no recorded taps)"
+        } else {
+            ""
+        },
         d.attributes.mu
     )?;
-    let p = &d.provenance;
     writeln!(
         out,
         "  provenance   {} from {:?} (CRC-32 {:08x}), fidelity {}, seed {}",

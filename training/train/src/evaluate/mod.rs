@@ -36,7 +36,7 @@ pub use report::{Conditions, Report};
 pub use signature::Objective;
 pub use watch::{Unwatched, Watch};
 
-use crate::{captions::Captions, config::Config, statistics};
+use crate::{attributes::Layout, captions::Captions, config::Config, statistics};
 use asperity::{inference::Backend, text::TextEncoder};
 use asperity_corpus::{Corpus, reference::LexiconEntry};
 use signature::Signature;
@@ -265,7 +265,7 @@ fn set_up<'a>(
     let signatures = materials
         .iter()
         .map(|&m| &corpus.materials[m])
-        .map(|m| Signature::of(&m.prototype, &corpus.tap_speeds_m_s, m.mu))
+        .map(|m| Signature::of(&m.prototype, &Layout::of(corpus), m.mu))
         .collect();
     Ok(Bench {
         subject,

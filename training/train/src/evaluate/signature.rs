@@ -1,9 +1,10 @@
 //! What is compared of a texture: spectra, levels, transients and objective attributes.
 
+use crate::attributes::{self, Layout};
 use asperity::{
     level::nyquist_rms,
     lsf,
-    spectrum::{ArmaModel, squared_magnitude, trace_centroid_hz},
+    spectrum::{ArmaModel, squared_magnitude},
 };
 use asperity_corpus::{BINS, Instance, SAMPLE_RATE_HZ, TAP_RATE_HZ, TAP_SAMPLES, TAPS};
 use serde::{Deserialize, Serialize};
@@ -25,9 +26,9 @@ const LEAST_SLOPE: f64 = 1e-2;
 /// Objective attributes, as the compiler defines them for a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Objective {
-    /// Mean over the bins of the level above 40 Hz, dB re 1 (m/s²)².
+    /// Level above 40 Hz at 100 mm/s and 1 N, dB re 1 (m/s²)².
     pub rough_db: f64,
-    /// Mean over the bins of the spectral centroid above 40 Hz, Hz.
+    /// Spectral centroid of the same, Hz.
     pub sharp_hz: f64,
     /// Spectral centroid of the fastest trace, Hz.
     pub hard_hz: f64,
@@ -89,30 +90,23 @@ pub(super) struct Distance {
 }
 
 impl Signature {
-    /// Of an instance whose impact speeds are `speeds_m_s`, with its friction.
-    pub(super) fn of(instance: &Instance, speeds_m_s: &[f64; TAPS], mu: f64) -> Self {
+    /// Of an instance of a layout, with its friction.
+    pub(super) fn of(instance: &Instance, layout: &Layout, mu: f64) -> Self {
         let mut spectra_db = Vec::with_capacity(BINS * (BAND_HZ.1 - BAND_HZ.0 + 1) as usize);
-        let (mut power_db, mut centroid_hz, mut sounding) = (0.0, 0.0, 0.0);
         for model in models(instance) {
             let points = BAND_HZ.0..=BAND_HZ.1;
             spectra_db.extend(points.map(|f| decibels(model.power(f64::from(f)))));
-            if let Some(vibration) = model.vibration() {
-                power_db += decibels(vibration.power);
-                centroid_hz += vibration.centroid_hz;
-                sounding += 1.0;
-            }
         }
-        let count = f64::max(sounding, 1.0);
-        let fastest = instance.taps_m_s2[TAPS - 1].map(f64::from);
+        let attributes = attributes::of(instance, layout);
         Self {
             spectra_db,
             level_db: instance.level_db,
             taps: instance.taps_m_s2.iter().map(third_octaves).collect(),
-            slope: slope(instance, speeds_m_s),
+            slope: slope(instance, &layout.speeds_m_s),
             objective: Objective {
-                rough_db: power_db / count,
-                sharp_hz: centroid_hz / count,
-                hard_hz: trace_centroid_hz(&fastest, TAP_RATE_HZ).unwrap_or_default(),
+                rough_db: attributes.rough_db,
+                sharp_hz: attributes.sharp_hz,
+                hard_hz: attributes.hard_hz,
                 mu,
             },
         }
@@ -220,9 +214,9 @@ mod tests {
         let quiet = corpus.materials[0].prototype.clone();
         let mut loud = quiet.clone();
         loud.level_db.iter_mut().for_each(|x| *x += 6.0);
-        let speeds = corpus.tap_speeds_m_s;
-        let truth = Signature::of(&quiet, &speeds, 0.5);
-        let distance = Signature::of(&loud, &speeds, 0.5).distance(&truth);
+        let layout = Layout::of(&corpus);
+        let truth = Signature::of(&quiet, &layout, 0.5);
+        let distance = Signature::of(&loud, &layout, 0.5).distance(&truth);
         assert!(distance.shape_db < 1e-4, "{distance:?}");
         assert!((distance.spectrum_db - 6.0).abs() < 1e-4);
         assert!((distance.level_db - 6.0).abs() < 1e-4);
@@ -239,9 +233,9 @@ mod tests {
             .iter_mut()
             .flatten()
             .for_each(|x| *x *= 2.0);
-        let speeds = corpus.tap_speeds_m_s;
-        let truth = Signature::of(&soft, &speeds, 0.5);
-        let distance = Signature::of(&strong, &speeds, 0.5).distance(&truth);
+        let layout = Layout::of(&corpus);
+        let truth = Signature::of(&soft, &layout, 0.5);
+        let distance = Signature::of(&strong, &layout, 0.5).distance(&truth);
         assert!(
             distance.taps_db > 4.0 && distance.taps_db < 6.03,
             "{distance:?}"

@@ -4,7 +4,7 @@ use super::{
     EvaluateError, cache,
     signature::{Objective, Signature},
 };
-use crate::trained::Seen;
+use crate::{attributes::Layout, trained::Seen};
 use asperity::{
     attributes,
     inference::Backend,
@@ -27,7 +27,7 @@ pub(super) struct Subject {
     model: LearnedModel,
     /// Checksum of its networks and its description, certainty apart.
     pub(super) crc32: u32,
-    speeds_m_s: [f64; TAPS],
+    layout: Layout,
 }
 
 /// A texture that a latent decodes to.
@@ -59,9 +59,9 @@ impl Subject {
         let speeds_m_s = taps.speeds_m_s.as_slice().try_into().ok();
         match speeds_m_s.filter(|_| shape == expected) {
             Some(speeds_m_s) => Ok(Self {
+                layout: Layout::of_model(model.description(), speeds_m_s),
                 model,
                 crc32,
-                speeds_m_s,
             }),
             None => Err(EvaluateError::Mismatch {
                 field: "order, bins, traces, samples",
@@ -112,7 +112,7 @@ impl Subject {
     pub(super) fn decode(&self, latents: &[Latent]) -> Result<Vec<Texture>, EvaluateError> {
         let textures = latents.par_iter().map(|z| {
             let instance = instance(&self.model.decode(z)?);
-            let signature = Signature::of(&instance, &self.speeds_m_s, self.mu(z));
+            let signature = Signature::of(&instance, &self.layout, self.mu(z));
             Ok(Texture {
                 instance,
                 signature,

@@ -30,8 +30,8 @@ fn bench(report: &Path) -> Bench<'static> {
     files.write(&model).unwrap();
     assert_eq!(data::config_of(&model).unwrap(), config);
     let subject = Subject::open(&model, &Backend::Portable).unwrap();
-    let signature =
-        |m: &asperity_corpus::Material| Signature::of(&m.prototype, &corpus.tap_speeds_m_s, m.mu);
+    let layout = Layout::of(&corpus);
+    let signature = |m: &asperity_corpus::Material| Signature::of(&m.prototype, &layout, m.mu);
     Bench {
         materials: data::materials(&subject, &corpus).unwrap(),
         signatures: corpus.materials.iter().map(signature).collect(),

@@ -1,17 +1,21 @@
 //! `model.json`.
 
 use super::ridge;
-use crate::{attributes, certainty::certainty_curve, metrics::Metrics, trained::Trained};
-use asperity::learned::description::{
-    Anchor, AttributeAxis, CorpusDescription, FORMAT, FrictionDescription, GridDescription,
-    ModelDescription, TapDescription, TextEncoderDescription,
+use crate::{
+    attributes::{self, Layout},
+    certainty::certainty_curve,
+    metrics::Metrics,
+    trained::Trained,
 };
-use asperity_corpus::{Corpus, ORDER, SAMPLE_RATE_HZ, TAP_RATE_HZ, TAP_SAMPLES};
+use asperity::learned::description::{
+    Anchor, AttributeAxis, CorpusDescription, FORMAT, FrictionDescription, ModelDescription,
+    TapDescription, TextEncoderDescription,
+};
+use asperity_corpus::{Corpus, TAP_RATE_HZ, TAP_SAMPLES};
 
 /// Everything about a model that is not a network.
 pub(super) fn describe(trained: &Trained, corpus: &Corpus, metrics: &Metrics) -> ModelDescription {
     let config = &trained.config;
-    let grid = &corpus.grid;
     let words = metrics.words.as_ref();
     let anchors = trained.materials.iter().map(|located| {
         let material = &corpus.materials[located.material];
@@ -37,14 +41,7 @@ pub(super) fn describe(trained: &Trained, corpus: &Corpus, metrics: &Metrics) ->
             width: trained.width,
         },
         seed: config.seed,
-        grid: GridDescription {
-            order: ORDER,
-            sample_rate_hz: SAMPLE_RATE_HZ,
-            speeds_mm_s: grid.bins.iter().map(|bin| bin.speed_mm_s).collect(),
-            forces_n: grid.bins.iter().map(|bin| bin.force_n).collect(),
-            max_speed_mm_s: grid.max_speed_mm_s,
-            max_force_n: grid.max_force_n,
-        },
+        grid: attributes::grid(&corpus.grid),
         taps: TapDescription {
             sample_rate_hz: TAP_RATE_HZ,
             speeds_m_s: corpus.tap_speeds_m_s.to_vec(),
@@ -59,6 +56,7 @@ pub(super) fn describe(trained: &Trained, corpus: &Corpus, metrics: &Metrics) ->
         spread: trained.spread.to_vec(),
         certainty: certainty_curve(words.map_or(&[], |words| &words.trials)),
         unfamiliar: words.map_or(0.0, |words| words.unfamiliar),
+        same_latent: Vec::new(),
     }
 }
 
@@ -69,10 +67,11 @@ fn axes(trained: &Trained, corpus: &Corpus) -> Vec<AttributeAxis> {
         .iter()
         .map(|z| z.iter().map(|&x| f64::from(x)).collect())
         .collect();
+    let layout = Layout::of(corpus);
     let decoded: Vec<_> = trained
         .decode(&latents)
         .iter()
-        .map(attributes::of)
+        .map(|instance| attributes::of(instance, &layout))
         .collect();
     let mu = trained
         .materials

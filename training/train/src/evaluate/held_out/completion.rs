@@ -10,6 +10,7 @@ use super::{
     split,
 };
 use crate::{
+    attributes::Layout,
     config::Config,
     evaluate::{
         EvaluateError, Watch, cache,
@@ -187,7 +188,7 @@ fn complete(
         pairs
             .map(|(instance, &p)| {
                 let mu = setting.signatures[p].objective.mu;
-                Signature::of(instance, &corpus.tap_speeds_m_s, mu)
+                Signature::of(instance, &Layout::of(corpus), mu)
             })
             .collect()
     };

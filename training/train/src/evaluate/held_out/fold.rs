@@ -2,6 +2,7 @@
 
 use super::errors::{METRICS, Trial, errors};
 use crate::{
+    attributes::Layout,
     captions::{Captions, dot},
     config::Config,
     error::FitError,
@@ -223,11 +224,11 @@ impl Asked<'_> {
             temperature: friction.temperature,
         };
         let decoded = self.trained.decode(latents);
-        let speeds_m_s = &self.setting.corpus.tap_speeds_m_s;
+        let layout = Layout::of(self.setting.corpus);
         let pairs = latents.iter().zip(&decoded);
         let signatures = pairs.map(|(z, instance)| {
             let near = friction::neighbours(z, self.anchors, how);
-            Signature::of(instance, speeds_m_s, friction::mu(&near, self.anchors))
+            Signature::of(instance, &layout, friction::mu(&near, self.anchors))
         });
         signatures.collect()
     }
@@ -264,5 +265,5 @@ pub(super) fn mean_texture(corpus: &Corpus, training: &[usize]) -> Signature {
         }),
     };
     let mu: Vec<f64> = training.iter().map(|&m| corpus.materials[m].mu).collect();
-    Signature::of(&instance, &corpus.tap_speeds_m_s, mean(&mu))
+    Signature::of(&instance, &Layout::of(corpus), mean(&mu))
 }
