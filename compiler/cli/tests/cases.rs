@@ -13,7 +13,7 @@ use std::{
 /// What checks a case: its folder, and one to write into.
 type Check = fn(&Case);
 
-const CHECKS: [(&str, Check); 15] = [
+const CHECKS: [(&str, Check); 16] = [
     (
         "ahap-control-semantics",
         controls_as_core_haptics_plays_them,
@@ -30,6 +30,7 @@ const CHECKS: [(&str, Check); 15] = [
         "manifest-messages",
         lists_are_read_or_refused_by_what_is_wrong,
     ),
+    ("prompt-zero-width", what_shows_nothing_changes_no_prompt),
     ("proposal-halves-time", a_proposal_keeps_the_clock),
     ("proposal-units", a_proposal_takes_units_from_the_header),
     ("thread-limit-panic", few_threads_bring_no_command_down),
@@ -334,6 +335,24 @@ fn lists_are_read_or_refused_by_what_is_wrong(case: &Case) {
             list.stdout
         );
     }
+}
+
+fn what_shows_nothing_changes_no_prompt(case: &Case) {
+    let prompt = fs::read_to_string(case.file("prompt.txt")).expect("a prompt");
+    let compiled = |prompt: &str| {
+        let run = case.asperity(&["compile", prompt, "-o", "p.asp", "--no-preview", "--json"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let json: Value = serde_json::from_str(&run.stdout).expect("JSON");
+        (
+            json["taken_as"].clone(),
+            json["attributes"].clone(),
+            run.stderr,
+        )
+    };
+    let (taken_as, attributes, warnings) = compiled(prompt.trim());
+    assert_eq!(taken_as, "sandpaper");
+    assert_eq!(attributes, compiled("sandpaper").1);
+    assert!(!warnings.contains("understood"), "{warnings}");
 }
 
 fn shared_stamps_are_a_clock_that_moves(case: &Case) {

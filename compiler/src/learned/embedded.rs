@@ -34,13 +34,21 @@ pub fn text_encoder(backend: &Backend) -> Result<WithWords<MiniLm>, ModelError> 
             file: "text_encoder.onnx".into(),
             message,
         })?;
-    let table = WordTable::new(Vocabulary::new(WORD_ROWS), WORD_VECTORS, WORD_WIDTH);
-    let table = table.map_err(|error| ModelError::Network {
-        file: "words.bin".into(),
-        message: error.to_string(),
-    })?;
+    let table = word_table()?;
     let sentence = MiniLm::new(session, Vocabulary::new(VOCABULARY));
     Ok(WithWords::new(sentence, table))
+}
+
+/// The table of words.
+///
+/// # Errors
+/// [`ModelError::Network`] when its bytes are no table.
+pub fn word_table() -> Result<WordTable, ModelError> {
+    let table = WordTable::new(Vocabulary::new(WORD_ROWS), WORD_VECTORS, WORD_WIDTH);
+    table.map_err(|error| ModelError::Network {
+        file: "words.bin".into(),
+        message: error.to_string(),
+    })
 }
 
 /// Bytes of the text encoder and of the learned model.

@@ -4,6 +4,7 @@ mod clip;
 mod completion;
 mod latents;
 mod modifiers;
+mod rewordings;
 mod together;
 mod words;
 

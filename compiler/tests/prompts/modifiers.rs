@@ -97,9 +97,9 @@ fn modifiers_move_the_right_way_and_are_noticed() {
 }
 
 /// Least share of the modifiers that move the right way.
-const LEAST_RIGHT: f64 = 0.95;
+const LEAST_RIGHT: f64 = 0.97;
 /// Least share that a person notices.
-const LEAST_NOTICED: f64 = 0.94;
+const LEAST_NOTICED: f64 = 0.95;
 /// Largest share of touchable things that are a guess.
 const MOST_THINGS: f64 = 0.05;
 /// Least share of nonsense that is a guess.
@@ -110,9 +110,13 @@ fn what_people_touch_is_familiar_and_nonsense_is_not() {
     let unfamiliar = |file: &str, stride: usize| {
         let text = evaluation(file);
         let lines: Vec<&str> = text.lines().step_by(stride).collect();
-        let far = lines
-            .par_iter()
-            .filter(|line| PROMPTS.project(line).expect(line).unfamiliar);
+        let far = lines.par_iter().filter(|line| {
+            let unfamiliar = PROMPTS.project(line).expect(line).unfamiliar;
+            if unfamiliar == (file == "touchable.txt") {
+                println!("{file}: {line} as {:?}", PROMPTS.read(line).text());
+            }
+            unfamiliar
+        });
         let count = far.count();
         println!("{file}: {count} of {} unfamiliar", lines.len());
         count as f64 / lines.len() as f64

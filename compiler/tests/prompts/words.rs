@@ -15,7 +15,7 @@ use std::error::Error;
 use toml::Value;
 
 /// Rightly ordered share of the committed pairs: rough, slippery, hard.
-const LEAST_SHARES: [(&str, f64); 3] = [("rough", 0.97), ("slippery", 0.93), ("hard", 0.93)];
+const LEAST_SHARES: [(&str, f64); 3] = [("rough", 0.95), ("slippery", 0.90), ("hard", 0.94)];
 
 fn plain() -> Options {
     Options::default().without_preview()
@@ -52,6 +52,7 @@ fn everyday_words_are_ordered_as_any_person_would() {
         _ => a.hard_hz.unwrap(),
     };
     let stride = sized("every so many pairs", 6, 1);
+    let mut missed = Vec::new();
     for (attribute, least_share) in LEAST_SHARES {
         let rows = pairs[attribute].as_array().unwrap();
         assert!(rows.len() >= 100, "{attribute}");
@@ -60,16 +61,20 @@ fn everyday_words_are_ordered_as_any_person_would() {
             .par_iter()
             .filter(|row| {
                 let [first, second] = [0, 1].map(|k| row[k].as_str().unwrap());
-                of(attribute, attributes(first)) > of(attribute, attributes(second))
+                let right = of(attribute, attributes(first)) > of(attribute, attributes(second));
+                if !right {
+                    let read = [first, second].map(|p| PROMPTS.read(p).text());
+                    println!("{attribute}: {first} is not above {second}: {read:?}");
+                }
+                right
             })
             .count();
-        assert!(
-            right >= least(least_share, rows.len()),
-            "{attribute}: {right} of {}",
-            rows.len()
-        );
         println!("{attribute}: {right} of {}", rows.len());
+        if right < least(least_share, rows.len()) {
+            missed.push(format!("{attribute}: {right} of {}", rows.len()));
+        }
     }
+    assert!(missed.is_empty(), "{missed:?}");
 }
 
 #[test]

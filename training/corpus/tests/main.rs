@@ -4,3 +4,4 @@
 mod evaluation;
 mod lexicon;
 mod measured;
+mod names;

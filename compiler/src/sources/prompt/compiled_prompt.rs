@@ -1,6 +1,6 @@
 //! What can be asked of a prompt's texture, and what there is to know of it.
 
-use super::understood::Understood;
+use super::{reading::Reading, understood::Understood};
 use crate::{learned::Latent, passes::reduce::Fidelity, pipeline::Request, views::preview};
 use asperity_texture::model::shift::Shift;
 
@@ -54,6 +54,8 @@ pub struct CompiledPrompt {
     pub similarity: f64,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
+    /// What the prompt names, and what it says of touch.
+    pub reading: Reading,
     /// Which words of the prompt the encoder can read.
     pub understood: Understood,
 }

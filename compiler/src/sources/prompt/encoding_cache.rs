@@ -58,10 +58,11 @@ impl PromptCompiler {
         let mut texts: Vec<String> = Vec::new();
         let mut seen = HashSet::new();
         for prompt in prompts {
-            let prompt = prompt.trim();
-            let things = phrase::parse(prompt).things().into_iter();
+            let reading = self.read(prompt);
+            let things = phrase::parse_words(&reading.words).things().into_iter();
             let things = things.filter(|thing| self.things.get(thing).is_none());
-            for text in std::iter::once(prompt.to_owned()).chain(things) {
+            let things = things.map(|thing| self.read(&thing).text());
+            for text in std::iter::once(reading.text()).chain(things) {
                 if self.cache.read(&text).is_none() && seen.insert(text.clone()) {
                     texts.push(text);
                 }

@@ -43,11 +43,7 @@ impl PromptCompiler {
         prompt: &str,
         projection: &Projection,
     ) -> Result<(Latent, Option<Scales>), PromptError> {
-        let phrase = if self.names_a_material(prompt) {
-            Phrase::Plain
-        } else {
-            phrase::parse(prompt)
-        };
+        let phrase = phrase::parse_words(&self.read(prompt).words);
         Ok(match phrase {
             Phrase::Plain => (projection.z, projection.felt),
             Phrase::Changed { base, changes } => {
@@ -93,21 +89,6 @@ impl PromptCompiler {
         let mut texture = self.plain(&z, &decoded);
         adjust(&mut texture, &shift);
         Ok(texture)
-    }
-
-    /// Whether a prompt is the name of a material: it then has no grammar.
-    fn names_a_material(&self, prompt: &str) -> bool {
-        let bare = |text: &str| {
-            let text = text.trim().to_lowercase();
-            let article = ["a ", "an ", "the "].iter();
-            let without = article
-                .filter_map(|article| text.strip_prefix(article))
-                .next();
-            without.unwrap_or(&text).to_owned()
-        };
-        let prompt = bare(prompt);
-        let anchors = &self.model().description().anchors;
-        anchors.iter().any(|anchor| bare(&anchor.name) == prompt)
     }
 
     /// A thing that a phrase names. Prompts of a library have few of them.

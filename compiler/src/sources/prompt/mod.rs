@@ -1,8 +1,9 @@
 //! A prompt as a source: words become a text vector, a latent, a texture.
 //!
-//! A frozen text encoder reads the prompt, the learned model places it among the materials that
-//! it was trained on and decodes the latent, the [grammar](phrase) of the prompt moves what a vector
-//! misses, and the [driver](crate::driver) does the rest.
+//! The prompt is [read](reading): what it names, and what it says of touch. A frozen text encoder
+//! encodes that, the learned model places it among the materials that it was trained on and decodes the
+//! latent, the [grammar](phrase) of the prompt moves what a vector misses, and the
+//! [driver](crate::driver) does the rest.
 
 mod compiled_prompt;
 mod encoding_cache;
@@ -11,6 +12,7 @@ mod meaning;
 mod named_things;
 pub mod phrase;
 mod prompt_compiler;
+pub mod reading;
 mod report;
 mod source;
 mod understood;

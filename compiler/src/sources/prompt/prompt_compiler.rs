@@ -4,6 +4,7 @@ use super::{
     CompiledPrompt, Nearest, PromptError,
     encoding_cache::{EncodingCache, Read},
     named_things::Things,
+    reading::{Reader, Reading, shown},
     understood::{Understood, check, understood},
 };
 use crate::{
@@ -31,6 +32,7 @@ const KEPT_PROMPT_BYTES: usize = 2048;
 pub struct PromptCompiler {
     pub(super) text: Box<dyn TextEncoder>,
     model: LearnedModel,
+    reader: Reader,
     pub(super) things: Things,
     pub(super) cache: EncodingCache,
     /// Whether its networks give a row of a batch the bits that it gets alone.
@@ -48,6 +50,7 @@ impl PromptCompiler {
             Ok(Self {
                 text,
                 model,
+                reader: Reader::new(embedded::word_table()?),
                 things: Things::default(),
                 cache: EncodingCache::default(),
                 together: false,
@@ -91,14 +94,20 @@ impl PromptCompiler {
         &self.model
     }
 
+    /// What a prompt names, and what it says of touch: what is encoded of it.
+    #[must_use]
+    pub fn read(&self, prompt: &str) -> Reading {
+        self.reader.read(prompt)
+    }
+
     /// The latent of a prompt before a seed moves it.
     ///
     /// # Errors
     /// [`PromptError`] for an empty prompt or a failing network.
     pub fn project(&self, prompt: &str) -> Result<Projection, PromptError> {
         check(prompt)?;
-        let prompt = prompt.trim();
-        let read = self.read(prompt)?;
+        let reading = self.read(prompt);
+        let read = self.encode(&reading.text())?;
         let (encoded, projected) = (&read.0, &read.1);
         let similarity = projected
             .similarity
@@ -115,15 +124,16 @@ impl PromptCompiler {
             ),
             unfamiliar: f64::from(projected.familiarity) < self.model.description().unfamiliar,
             tokens: (encoded.tokens, encoded.cut),
-            understood: understood(prompt, |word| self.text.reads(word)),
+            reading,
+            understood: understood(shown(prompt).trim(), |word| self.text.reads(word)),
         })
     }
 
-    fn read(&self, prompt: &str) -> Result<Read, PromptError> {
-        if let Some(read) = self.cache.read(prompt) {
+    fn encode(&self, text: &str) -> Result<Read, PromptError> {
+        if let Some(read) = self.cache.read(text) {
             return Ok(read);
         }
-        let encoded = self.text.encode(prompt)?;
+        let encoded = self.text.encode(text)?;
         let projected = self.model.project(&encoded.vector)?;
         Ok(Arc::new((encoded, projected)))
     }
@@ -168,6 +178,7 @@ impl PromptCompiler {
             unfamiliar: projection.unfamiliar,
             similarity: projection.similarity,
             tokens: projection.tokens,
+            reading: projection.reading,
             understood: projection.understood,
         };
         Ok(Sourced {
@@ -231,6 +242,8 @@ pub struct Projection {
     pub unfamiliar: bool,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
+    /// What the prompt names, and what it says of touch.
+    pub reading: Reading,
     /// Which words the encoder can read.
     pub understood: Understood,
 }

@@ -53,6 +53,10 @@ impl Findings for CompiledPrompt {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  {what:<12} {value}");
         };
+        line("taken as", self.reading.text());
+        if !self.reading.ignored.is_empty() {
+            line("left out", self.reading.ignored.join(", "));
+        }
         let nearest: Vec<String> = self
             .nearest
             .iter()
@@ -153,6 +157,9 @@ impl Findings for CompiledPrompt {
             "similarity": self.similarity,
             "low_certainty": self.is_uncertain(),
             "tokens": { "read": read, "cut": cut },
+            "taken_as": self.reading.text(),
+            "named": self.reading.names,
+            "left_out": self.reading.ignored,
             "understood": self.understood.read,
             "not_understood": self.understood.unread,
             "gains": compiled.texture.gains,

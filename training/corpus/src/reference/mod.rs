@@ -3,6 +3,7 @@
 
 pub mod check;
 pub mod lexicon;
+pub mod names;
 pub mod schema;
 
 use crate::{

@@ -14,7 +14,8 @@ mod table;
 mod words;
 
 pub use changed::{STEP, changed, from_base};
-pub use parse::parse;
+pub use parse::{parse, parse_words};
+pub use quality::{is_degree, is_quality};
 pub use relative::{Relative, Towards, relative};
 
 /// How far one attribute is to go from that of the base, in steps of [`STEP`].

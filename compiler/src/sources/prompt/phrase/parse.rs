@@ -10,10 +10,16 @@ use super::{
 /// Divides a prompt.
 #[must_use]
 pub fn parse(prompt: &str) -> Phrase {
-    let words = words(prompt);
-    between(&words)
-        .or_else(|| covered(&words))
-        .or_else(|| changed(&words))
+    parse_words(&words(prompt))
+}
+
+/// Divides the words of a prompt. A name of several words is one of them, so that none of its own
+/// changes it.
+#[must_use]
+pub fn parse_words(words: &[String]) -> Phrase {
+    between(words)
+        .or_else(|| covered(words))
+        .or_else(|| changed(words))
         .unwrap_or(Phrase::Plain)
 }
 

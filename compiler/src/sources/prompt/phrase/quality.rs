@@ -20,6 +20,20 @@ const BETWEEN: [&str; 10] = [
     "of", "the", "its", "a", "an", "any", "some", "in", "that", "all",
 ];
 
+/// Whether a word is a quality by itself or compared: "rough", "rougher", "grit".
+#[must_use]
+pub fn is_quality(word: &str) -> bool {
+    adjective(word, Use::Thing).is_some()
+        || compared(word, Use::Thing).is_some()
+        || table::noun(word).is_some()
+}
+
+/// Whether a word says how much: "very", "slightly".
+#[must_use]
+pub fn is_degree(word: &str) -> bool {
+    table::degree(word).is_some()
+}
+
 /// A quality that was found, and the words that it took.
 struct Found {
     signs: Signs,
@@ -92,7 +106,7 @@ fn quality(words: &[String], at: usize, about: Use) -> Option<Found> {
             }
             "half" if words[before + 1] == "as" => less = true,
             "too" if about == Use::Edit => too = true,
-            _ => match table::degree(word) {
+            _ => match table::degree_before(word) {
                 // "ever so slightly": the nearest degree counts.
                 Some(found) if range == PLAIN => range = found,
                 Some(_) => {}

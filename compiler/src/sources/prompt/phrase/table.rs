@@ -191,6 +191,12 @@ pub(super) fn degree(word: &str) -> Option<Range> {
     found.map(|(_, range)| *range)
 }
 
+/// The range of a word before a quality: of degree, or any other adverb ("awfully"), which stresses.
+pub(super) fn degree_before(word: &str) -> Option<Range> {
+    let adverb = word.len() > 4 && word.ends_with("ly") && adjective(word).is_none();
+    degree(word).or_else(|| adverb.then_some(VERY))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,0 +1,76 @@
+//! What a prompt names, and what it says of it.
+//!
+//! A sentence encoder reads the whole sentence: "make me gravel" is near to gravel, and near to making.
+//! So a prompt is read before it is encoded. It is [normalised](normalise), names of materials are found
+//! in it, longest first, and of the other words those stay that say how something feels. Only what is
+//! left is encoded. English only.
+
+mod closed_class;
+mod description;
+mod names;
+mod normalise;
+mod read;
+mod segment;
+#[cfg(test)]
+mod tests;
+mod word_sense;
+
+pub use closed_class::{is_colour, is_grammar};
+pub use names::key;
+pub use normalise::{Token, normalise, shown};
+
+use crate::learned::text::WordTable;
+
+/// Reads prompts.
+#[derive(Debug, Clone, Copy)]
+pub struct Reader {
+    table: WordTable,
+}
+
+/// What was read of a prompt.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Reading {
+    /// The names that it says, as the corpus spells them.
+    pub names: Vec<String>,
+    /// What is encoded: names, each as one, and the words that say how something feels.
+    pub words: Vec<String>,
+    /// Words that were left out because they say nothing of touch.
+    pub ignored: Vec<String>,
+}
+
+impl Reading {
+    /// The text that is encoded.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.words.join(" ")
+    }
+
+    /// Whether it is one name and nothing else.
+    #[must_use]
+    pub fn is_name(&self) -> bool {
+        self.words.len() == 1 && self.names.len() == 1
+    }
+}
+
+impl Reader {
+    /// A reader with the table of words of the shipped encoder.
+    #[must_use]
+    pub fn new(table: WordTable) -> Self {
+        Self { table }
+    }
+
+    /// Reads a prompt.
+    #[must_use]
+    pub fn read(&self, prompt: &str) -> Reading {
+        let items = segment::segment(prompt, |word| word_sense::sense(&self.table, word));
+        // Code, paths and markup are no prose, even where a word of them is a name.
+        let prose = !prompt.contains(['{', '}', '\\']);
+        let reading = read::read(&items, prose);
+        if reading.words.is_empty() {
+            // Signs alone: there is nothing to divide.
+            let words = vec![shown(prompt).trim().to_owned()];
+            return Reading { words, ..reading };
+        }
+        reading
+    }
+}

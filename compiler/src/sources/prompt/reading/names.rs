@@ -1,0 +1,99 @@
+//! What the lexicon holds: names of the materials that the model knows, their synonyms, things of the
+//! rated lexicon, and the words that say how its things feel.
+//!
+//! `names.tsv` has lines `key TAB name`, sorted by the bytes of the key; the name is left out where it
+//! equals the key. A key is a name as [`normalise`](super::normalise::normalise) divides it, each word
+//! in the singular. `qualities.txt` has a word a line. Both are written by
+//! `cargo run --release -p asperity-corpus --example names`.
+
+use super::normalise::{Token, normalise, singular};
+use std::cmp::Ordering;
+
+const NAMES: &str = include_str!("names.tsv");
+const QUALITIES: &str = include_str!("qualities.txt");
+/// Words of a name at most.
+pub(super) const LONGEST: usize = 5;
+
+/// The key of a name; `None` for a text of no words or too many.
+#[must_use]
+pub fn key(name: &str) -> Option<String> {
+    let tokens = normalise(name);
+    let words = tokens.iter().filter_map(|token| match token {
+        Token::Word(word) => Some(word.as_str()),
+        Token::Break => None,
+    });
+    let words: Vec<&str> = words.collect();
+    (1..=LONGEST).contains(&words.len()).then(|| key_of(&words))
+}
+
+fn key_of(words: &[&str]) -> String {
+    let mut key = String::new();
+    for word in words {
+        if !key.is_empty() {
+            key.push(' ');
+        }
+        key.push_str(&singular(word));
+    }
+    key
+}
+
+/// The name that these words are, as the corpus spells it.
+pub(super) fn name(words: &[&str]) -> Option<&'static str> {
+    let line = line(NAMES, &key_of(words))?;
+    Some(line.split_once('\t').map_or(line, |(_, name)| name))
+}
+
+/// Whether the lexicon says of something how it feels by this word.
+pub(super) fn is_quality(word: &str) -> bool {
+    line(QUALITIES, word).is_some()
+}
+
+/// The line of a table whose first field is this key; lines are sorted by the bytes of their keys.
+fn line(table: &'static str, key: &str) -> Option<&'static str> {
+    let bytes = table.as_bytes();
+    // The line of the key begins in low..high, if it is there.
+    let (mut low, mut high) = (0, bytes.len());
+    while low < high {
+        let middle = low + (high - low) / 2;
+        let before = bytes[low..middle].iter().rposition(|&byte| byte == b'\n');
+        let start = before.map_or(low, |line| low + line + 1);
+        let length = bytes[start..].iter().position(|&byte| byte == b'\n');
+        let end = length.map_or(bytes.len(), |length| start + length);
+        let line = &table[start..end];
+        let found = line.split_once('\t').map_or(line, |(found, _)| found);
+        match found.cmp(key) {
+            Ordering::Less => low = (end + 1).min(bytes.len()),
+            Ordering::Greater => high = start,
+            Ordering::Equal => return Some(line),
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_is_found_by_its_name() {
+        let lines: Vec<&str> = NAMES.lines().collect();
+        let keys: Vec<&str> = lines
+            .iter()
+            .map(|line| line.split('\t').next().unwrap_or_default())
+            .collect();
+        assert!(keys.windows(2).all(|pair| pair[0] < pair[1]), "sorted");
+        for line in lines {
+            let shown = line.split('\t').next_back().unwrap_or_default();
+            let words = key(shown).expect(shown);
+            let words: Vec<&str> = words.split(' ').collect();
+            assert_eq!(name(&words), Some(shown));
+        }
+    }
+
+    #[test]
+    fn plurals_and_other_spellings_are_the_same_name() {
+        assert_eq!(name(&["corks"]), name(&["cork"]));
+        assert_eq!(key("Steel-Wool"), key("steel wool"));
+        assert_eq!(name(&["zither", "soup"]), None);
+    }
+}

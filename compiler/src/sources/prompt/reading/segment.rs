@@ -1,0 +1,192 @@
+//! A prompt as items: names, longest first, and what every other word is.
+
+use super::{
+    closed_class::{
+        is_act, is_colour, is_covering, is_determiner, is_function, is_link, is_part, is_picture,
+    },
+    names::{self, LONGEST},
+    normalise::{Token, normalise},
+    word_sense::Sense,
+};
+use crate::sources::prompt::phrase;
+
+/// What an item is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Class {
+    /// A name.
+    Name,
+    /// A word that says how something feels.
+    Touch,
+    /// A word of degree or comparison: "very", "more".
+    Degree,
+    /// A denial: "not", "without".
+    Denial,
+    /// A word that joins: "of", "with", "that".
+    Link,
+    /// Another word of grammar.
+    Function,
+    /// A word of touching, or of the prompt itself: "texture", "stroking".
+    Act,
+    /// A word that names something that can be touched, and that no list holds.
+    Thing,
+    /// Any other word.
+    Other,
+    /// The end of a clause.
+    Break,
+}
+
+/// A part of a prompt.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Item {
+    /// The word, or the name as the corpus spells it.
+    pub(super) text: String,
+    /// The words as they were said.
+    pub(super) said: String,
+    pub(super) class: Class,
+}
+
+pub(super) fn is_name(item: &Item) -> bool {
+    item.class == Class::Name
+}
+
+const DENIALS: &[&str] = &["not", "no", "never", "non", "without", "lacking"];
+const COMPARED: &[&str] = &["more", "less", "least", "most", "too", "half"];
+
+/// Divides a prompt into items. `sense` tells what a word that no list holds says.
+pub(super) fn segment(prompt: &str, sense: impl Fn(&str) -> Sense) -> Vec<Item> {
+    let tokens = normalise(prompt);
+    let mut items = Vec::new();
+    let mut at = 0;
+    while at < tokens.len() {
+        let words: Vec<&str> = tokens[at..]
+            .iter()
+            .map_while(|token| match token {
+                Token::Word(word) => Some(word.as_str()),
+                Token::Break => None,
+            })
+            .take(LONGEST)
+            .collect();
+        let Some(&word) = words.first() else {
+            items.push(item("", Class::Break));
+            at += 1;
+            continue;
+        };
+        // "extremely rough concrete" is rough concrete no more.
+        let compared = items.last().is_some_and(|item: &Item| {
+            matches!(item.class, Class::Degree | Class::Denial) || is_adverb(item)
+        });
+        // "the back of", "an oyster's inside": a part, and no name.
+        let owned = items
+            .last()
+            .is_some_and(|item: &Item| item.text.ends_with("'s"));
+        let part = is_part(word) && (owned || words.get(1).is_some_and(|next| *next == "of"));
+        if part {
+            items.push(item(word, Class::Thing));
+            at += 1;
+        } else if let Some((count, name)) = longest(&words, compared) {
+            items.push(Item {
+                said: words[..count].join(" "),
+                ..item(name, Class::Name)
+            });
+            at += count;
+        } else if words.starts_with(&["far", "from"]) {
+            items.push(Item {
+                said: "far from".into(),
+                ..item("not", Class::Denial)
+            });
+            at += 2;
+        } else if words.starts_with(&["at", "all"]) {
+            items.push(item("at all", Class::Link));
+            at += 2;
+        } else {
+            let mut class = class(word, &sense);
+            // "a photo of" shows something; "a photo" is a thing.
+            if is_picture(word) && words.get(1).is_none_or(|next| *next != "of") {
+                class = Class::Thing;
+            }
+
+            let covering = items.last().is_some_and(|item: &Item| {
+                is_covering(&item.text) || (item.class == Class::Touch && item.text.ends_with("ed"))
+            });
+            if covering && ["in", "by", "from"].contains(&word) {
+                class = Class::Link;
+            }
+            // "less texture", "without its texture"
+            let sized = |item: &Item| matches!(item.class, Class::Degree | Class::Denial);
+            let before = items
+                .iter()
+                .rev()
+                .find(|item: &&Item| !is_determiner(&item.text));
+            if class == Class::Act && phrase::is_quality(word) && before.is_some_and(sized) {
+                class = Class::Touch;
+            }
+            items.push(item(word, class));
+            at += 1;
+        }
+    }
+    for n in 1..items.len() {
+        // "awfully rough"
+        if items[n].class == Class::Touch && is_adverb(&items[n - 1]) {
+            items[n - 1].class = Class::Degree;
+        }
+    }
+    items
+}
+
+/// Whether a word of no list is an adverb.
+fn is_adverb(item: &Item) -> bool {
+    const ADJECTIVES: &[&str] = &[
+        "lovely", "friendly", "lively", "ugly", "early", "likely", "homely", "cuddly", "costly",
+        "daily", "weekly", "family", "only", "silly",
+    ];
+    let adverb = item.text.len() > 4 && item.text.ends_with("ly");
+    item.class == Class::Other && adverb && !ADJECTIVES.contains(&item.text.as_str())
+}
+
+fn item(text: &str, class: Class) -> Item {
+    Item {
+        text: text.to_owned(),
+        said: text.to_owned(),
+        class,
+    }
+}
+
+/// The longest name that words begin with, and how many it takes. A word of grammar is no name by
+/// itself, and neither is a degree before a quality ("rock hard").
+fn longest(words: &[&str], compared: bool) -> Option<(usize, &'static str)> {
+    let first = words[0];
+    if compared && phrase::is_quality(first) {
+        return None;
+    }
+    let degree =
+        phrase::is_degree(first) && words.get(1).is_some_and(|next| phrase::is_quality(next));
+    (1..=words.len()).rev().find_map(|count| {
+        let alone = count == 1 && (is_function(first) || is_act(first) || degree);
+        let whole = !is_determiner(first) && !alone;
+        let name = names::name(&words[..count]).filter(|_| whole)?;
+        Some((count, name))
+    })
+}
+
+fn class(word: &str, sense: impl Fn(&str) -> Sense) -> Class {
+    if DENIALS.contains(&word) {
+        Class::Denial
+    } else if COMPARED.contains(&word) || phrase::is_degree(word) {
+        Class::Degree
+    } else if is_link(word) {
+        Class::Link
+    } else if is_function(word) {
+        Class::Function
+    } else if is_act(word) {
+        Class::Act
+    } else if phrase::is_quality(word) || names::is_quality(word) {
+        Class::Touch
+    } else {
+        match sense(word) {
+            _ if is_colour(word) || word.ends_with("'s") => Class::Other,
+            Sense { touch: true, .. } => Class::Touch,
+            Sense { thing: true, .. } => Class::Thing,
+            Sense { .. } => Class::Other,
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! What is read of prompts, of each kind of rule a few.
+
+use super::{Reader, Reading};
+use crate::learned::embedded;
+
+fn read(prompt: &str) -> Reading {
+    Reader::new(embedded::word_table().expect("the table of words")).read(prompt)
+}
+
+fn texts(cases: &[(&str, &str)]) {
+    for (prompt, expected) in cases {
+        assert_eq!(read(prompt).text(), *expected, "{prompt:?}");
+    }
+}
+
+#[test]
+fn a_name_is_found_in_what_asks_for_it() {
+    for prompt in [
+        "Gravel.",
+        "make me gravel",
+        "running a finger over gravel",
+        "what does gravel feel like",
+        "blue gravel",
+        "emerald green gravel",
+        "high quality gravel",
+        "my grandmother's gravel",
+        "gravel from the corner shop",
+        "the gravel that John brought from Spain",
+        "drawing with a pen on gravel",
+        "gravel, thanks!",
+        "gr\u{200b}avel",
+    ] {
+        let reading = read(prompt);
+        assert_eq!(reading.text(), "gravel", "{prompt:?}");
+        assert!(reading.is_name());
+    }
+}
+
+#[test]
+fn what_says_how_it_feels_stays() {
+    texts(&[
+        ("please, some very rough gravel", "very rough gravel"),
+        (
+            "cheap leather that is not rough at all",
+            "leather that is not rough at all",
+        ),
+        (
+            "steel without its grit, from Sheffield",
+            "steel without grit",
+        ),
+        ("my favourite wool, but softer", "wool but softer"),
+        ("bread soaked in milk from the farm", "bread soaked in milk"),
+        ("an awfully rough brick", "awfully rough brick"),
+    ]);
+}
+
+#[test]
+fn the_longest_name_wins_and_its_words_change_nothing() {
+    texts(&[
+        ("steel wool", "steel wool"),
+        ("KNURLED  brass", "knurled brass"),
+    ]);
+    let reading = read("oiled knurled brass");
+    assert_eq!(reading.words, ["oiled", "knurled brass"]);
+    // A degree before it makes its quality one that is said.
+    assert_eq!(
+        read("extremely rough concrete").words,
+        ["extremely", "rough", "concrete"]
+    );
+}
+
+#[test]
+fn what_is_left_out_is_told() {
+    let reading = read("imported gravel from my grandmother");
+    assert_eq!(reading.names, ["gravel"]);
+    assert_eq!(reading.ignored, ["grandmother"].map(str::to_owned));
+}
+
+#[test]
+fn descriptions_and_things_of_no_list_are_encoded_whole() {
+    texts(&[
+        ("a rough zorble", "a rough zorble"),
+        ("please make me a rough zorble", "rough zorble"),
+        (
+            "the untidy welds on a farm gate",
+            "the untidy welds on a farm gate",
+        ),
+        ("a manhole lid in a downpour", "a manhole lid in a downpour"),
+        ("the tray of a tea trolley", "the tray of a tea trolley"),
+        ("?!", "?!"),
+    ]);
+}

@@ -1,0 +1,205 @@
+//! What has a name: the table that the compiler's prompt reader looks names up in.
+
+use super::{EMBEDDED, EMBEDDED_LEXICON, schema};
+use asperity::prompt::{
+    phrase,
+    reading::{Token, is_colour, is_grammar, key, normalise},
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Files of the lexicon that list things. The others list qualities, or things with qualities.
+const THINGS: [&str; 14] = [
+    "lexicon/substances.csv",
+    "lexicon/finishes.csv",
+    "lexicon/household.csv",
+    "lexicon/clothing.csv",
+    "lexicon/food.csv",
+    "lexicon/plants.csv",
+    "lexicon/animals.csv",
+    "lexicon/body.csv",
+    "lexicon/tools.csv",
+    "lexicon/vehicles.csv",
+    "lexicon/buildings.csv",
+    "lexicon/nature.csv",
+    "lexicon/leisure.csv",
+    "lexicon/objects.csv",
+];
+/// Files of the lexicon whose phrases end with the thing that they speak of.
+const HEADS: [&str; 2] = ["lexicon/bases.csv", "lexicon/modifiers.csv"];
+/// Words of a name of the lexicon at most: longer ones are descriptions.
+const MOST_WORDS: usize = 4;
+/// Words that make a phrase more than a name.
+const JOINS: [&str; 24] = [
+    "in", "on", "from", "with", "by", "for", "to", "at", "under", "over", "that", "which", "is",
+    "the", "after", "before", "without", "not", "like", "than", "and", "or", "your", "my",
+];
+
+/// Lines `key TAB name` in the order of their keys, the name left out where it equals the key. Of
+/// several names of one key the first counts: materials, then synonyms, then the lexicon; of the
+/// lexicon that which is its own key.
+///
+/// # Panics
+/// If the committed corpus is broken, which a test of this crate finds first.
+#[must_use]
+pub fn table() -> String {
+    let families: Vec<_> = EMBEDDED
+        .iter()
+        .map(|(file, text)| schema::parse(file, text).expect("the committed corpus"))
+        .collect();
+    let materials = || families.iter().flat_map(|family| &family.material);
+    let mut names: BTreeMap<String, String> = BTreeMap::new();
+    let mut add = |name: &str| {
+        if let Some(key) = key(name) {
+            names.entry(key).or_insert_with(|| name.to_lowercase());
+        }
+    };
+    materials().for_each(|material| add(&material.name));
+    materials().for_each(|material| material.synonyms.iter().for_each(|name| add(name)));
+    let things: Vec<String> = EMBEDDED_LEXICON
+        .iter()
+        .filter(|(file, _)| THINGS.contains(file) || *file == "everyday.toml")
+        .flat_map(|(file, text)| things(file, text))
+        .collect();
+    // "blue brick" is brick.
+    let known: BTreeSet<String> = names.keys().cloned().collect();
+    let coloured = |name: &String| {
+        let rest = name.split_once(' ').filter(|(first, _)| is_colour(first));
+        rest.and_then(|(_, rest)| key(rest))
+            .is_some_and(|key| known.contains(&key))
+    };
+    let things: Vec<String> = things.into_iter().filter(|name| !coloured(name)).collect();
+    let mut add = |name: &str| {
+        if let Some(key) = key(name) {
+            names.entry(key).or_insert_with(|| name.to_lowercase());
+        }
+    };
+    // "a piece of wood", "plain wood", "rough wood": wood is a thing.
+    let heads: Vec<String> = EMBEDDED_LEXICON
+        .iter()
+        .filter(|(file, _)| HEADS.contains(file))
+        .flat_map(|(file, text)| heads(file, text))
+        .collect();
+    let is_key = |name: &&String| key(name).is_some_and(|key| key == **name);
+    things.iter().filter(is_key).for_each(|name| add(name));
+    things.iter().for_each(|name| add(name));
+    heads.iter().for_each(|name| add(name));
+    let line = |(key, name): (&String, &String)| {
+        if key == name {
+            format!("{key}\n")
+        } else {
+            format!("{key}\t{name}\n")
+        }
+    };
+    names.iter().map(line).collect()
+}
+
+/// Files of the lexicon that say how things feel.
+const QUALITIES: [&str; 3] = [
+    "lexicon/words.csv",
+    "lexicon/modifiers.csv",
+    "lexicon/negations.csv",
+];
+
+/// Words of those phrases that by themselves say nothing of touch, and name nothing.
+const NEITHER: [&str; 14] = [
+    "all", "animal", "before", "free", "garden", "gone", "half", "kitchen", "left", "neither",
+    "new", "nor", "old", "set",
+];
+
+/// Words, a line each and sorted, by which the lexicon says how something feels: all of its words of touch,
+/// and what stands before a thing that has a name.
+///
+/// # Panics
+/// As [`table`].
+#[must_use]
+pub fn qualities() -> String {
+    let table = table();
+    let named: BTreeSet<&str> = table
+        .lines()
+        .filter_map(|line| line.split('\t').next())
+        .collect();
+    let is_named = |word: &str| key(word).is_some_and(|key| named.contains(key.as_str()));
+    let mut found = BTreeSet::new();
+    for (file, text) in EMBEDDED_LEXICON
+        .iter()
+        .filter(|(file, _)| QUALITIES.contains(file))
+    {
+        let entries = super::lexicon::parse([(*file, *text)]).expect("the committed lexicon");
+        for entry in entries {
+            let words = words(&entry.text);
+            let thing = words.last().is_some_and(|word| is_named(word));
+            let qualities = words.len() - usize::from(thing);
+            found.extend(words.into_iter().take(qualities));
+        }
+    }
+    found.retain(|word| {
+        word.len() > 2
+            && !NEITHER.contains(&word.as_str())
+            && !is_grammar(word)
+            && !phrase::is_degree(word)
+            && !is_colour(word)
+            && !is_named(word)
+    });
+    found.iter().map(|word| format!("{word}\n")).collect()
+}
+
+fn words(text: &str) -> Vec<String> {
+    let tokens = normalise(text).into_iter();
+    let words = tokens.filter_map(|token| match token {
+        Token::Word(word) => Some(word),
+        Token::Break => None,
+    });
+    words.collect()
+}
+
+/// Names of things in a file of the lexicon.
+fn things(file: &str, text: &str) -> Vec<String> {
+    let entries = super::lexicon::parse([(file, text)]).expect("the committed lexicon");
+    let everyday = file == "everyday.toml";
+    entries
+        .into_iter()
+        .map(|entry| entry.text)
+        .filter(|text| {
+            let text = bare(text).to_lowercase();
+            let words: Vec<&str> = text
+                .split(|c: char| !c.is_alphanumeric() && c != '\'')
+                .collect();
+            let quality = |word: &&str| phrase::is_quality(word) || phrase::is_degree(word);
+            let last = words.last().is_some_and(quality);
+            // In the everyday lexicon, things and things with qualities stand side by side.
+            let qualified = everyday && words.iter().any(quality);
+            words.len() <= MOST_WORDS
+                && !words.iter().any(|word| JOINS.contains(word))
+                && !last
+                && !qualified
+        })
+        .map(|text| bare(&text).to_owned())
+        .collect()
+}
+
+/// What the phrases of a file of the lexicon speak of: their last word, after another.
+fn heads(file: &str, text: &str) -> Vec<String> {
+    let entries = super::lexicon::parse([(file, text)]).expect("the committed lexicon");
+    let head = |entry: super::LexiconEntry| {
+        let words = words(&entry.text);
+        let count = words.len();
+        let plain = (2..=4).contains(&count) && !words.iter().any(|word| word == "that");
+        let head = words.into_iter().next_back()?;
+        let says = NEITHER.contains(&head.as_str())
+            || is_grammar(&head)
+            || is_colour(&head)
+            || phrase::is_quality(&head)
+            || phrase::is_degree(&head);
+        (plain && !says).then_some(head)
+    };
+    entries.into_iter().filter_map(head).collect()
+}
+
+/// A name without its article.
+fn bare(name: &str) -> &str {
+    let articles = ["a ", "an ", "the ", "some "];
+    let found = articles
+        .iter()
+        .find_map(|article| name.strip_prefix(article));
+    found.unwrap_or(name)
+}
