@@ -148,9 +148,9 @@ fn explores(items: &[Item], n: usize) -> bool {
     let used = items[..n]
         .iter()
         .any(|item| item.class == Class::Act || item.text == "with");
-    let across = after.clone().any(|item| {
-        ACROSS.contains(&item.text.as_str()) && (used || item.text != "on")
-    });
+    let across = after
+        .clone()
+        .any(|item| ACROSS.contains(&item.text.as_str()) && (used || item.text != "on"));
     let is = after
         .clone()
         .any(|item| ["is", "as", "was"].contains(&item.text.as_str()));
