@@ -262,10 +262,11 @@ fn set_up<'a>(
     let texts = Texts::open(encoder, options.report)?;
     texts.learn(every_text(&corpus, &lexicon), watch)?;
     let captions = Captions::encode(&corpus, &lexicon, &texts)?;
+    let layout = Layout::of(&corpus);
     let signatures = materials
         .iter()
         .map(|&m| &corpus.materials[m])
-        .map(|m| Signature::of(&m.prototype, &Layout::of(corpus), m.mu))
+        .map(|m| Signature::of(&m.prototype, &layout, m.mu))
         .collect();
     Ok(Bench {
         subject,

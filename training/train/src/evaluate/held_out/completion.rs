@@ -176,6 +176,7 @@ fn complete(
     let corpus = setting.corpus;
     let training: Vec<usize> = positions.iter().map(|&p| setting.materials[p]).collect();
     let mean = mean_texture(corpus, &training);
+    let layout = Layout::of(corpus);
     let prototypes: Vec<_> = held_out
         .iter()
         .map(|&p| &corpus.materials[setting.materials[p]].prototype)
@@ -188,7 +189,7 @@ fn complete(
         pairs
             .map(|(instance, &p)| {
                 let mu = setting.signatures[p].objective.mu;
-                Signature::of(instance, &Layout::of(corpus), mu)
+                Signature::of(instance, &layout, mu)
             })
             .collect()
     };
