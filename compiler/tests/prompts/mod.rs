@@ -5,6 +5,7 @@ mod completion;
 mod latents;
 mod modifiers;
 mod rewordings;
+mod spelling;
 mod together;
 mod words;
 

@@ -71,6 +71,12 @@ impl WordTable {
         })
     }
 
+    /// Whether a word has a row, as it stands or without its ending.
+    #[must_use]
+    pub fn holds(&self, word: &str) -> bool {
+        self.row(word).is_some()
+    }
+
     /// Adds the row of a word to a sum; false where there is none.
     fn add(&self, word: &str, sum: &mut [f32]) -> bool {
         let Some(row) = self.row(word) else {

@@ -1,6 +1,6 @@
 //! The report of a compiled prompt, as text and as JSON.
 
-use super::CompiledPrompt;
+use super::{CompiledPrompt, reading::Correction};
 use crate::compiled::{Compiled, Findings};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -30,6 +30,9 @@ impl CompiledPrompt {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         warnings.extend(self.understood.warning());
+        if let Some(Correction { said, taken }) = &self.reading.correction {
+            warnings.push(format!("“{said}” is read as “{taken}”"));
+        }
         let (read, cut) = self.tokens;
         if cut > 0 {
             warnings.push(format!(
@@ -60,6 +63,8 @@ impl Findings for CompiledPrompt {
         let nearest: Vec<String> = self
             .nearest
             .iter()
+            // What rounds to nothing says nothing.
+            .filter(|near| near.weight >= 0.005)
             .map(|near| format!("{} {:.0} %", near.name, 100.0 * near.weight))
             .collect();
         line("nearest", nearest.join(", "));
@@ -160,6 +165,7 @@ impl Findings for CompiledPrompt {
             "taken_as": self.reading.text(),
             "named": self.reading.names,
             "left_out": self.reading.ignored,
+            "corrected": self.reading.correction.as_ref().map(|c| json!({ "said": c.said, "taken": c.taken })),
             "understood": self.understood.read,
             "not_understood": self.understood.unread,
             "gains": compiled.texture.gains,

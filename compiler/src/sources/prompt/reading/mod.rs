@@ -2,7 +2,7 @@
 //!
 //! A sentence encoder reads the whole sentence: "make me gravel" is near to gravel, and near to making.
 //! So a prompt is read before it is encoded. It is [normalised](normalise), names of materials are found
-//! in it, longest first, and of the other words those stay that say how something feels. Only what is
+//! in it, longest first, a misspelling is put right, and of the other words those stay that say how something feels. Only what is
 //! left is encoded. English only.
 
 mod closed_class;
@@ -11,6 +11,7 @@ mod names;
 mod normalise;
 mod read;
 mod segment;
+mod spelling;
 #[cfg(test)]
 mod tests;
 mod word_sense;
@@ -18,6 +19,7 @@ mod word_sense;
 pub use closed_class::{is_colour, is_grammar};
 pub use names::key;
 pub use normalise::{Token, normalise, shown};
+pub use spelling::Correction;
 
 use crate::learned::text::WordTable;
 
@@ -36,6 +38,8 @@ pub struct Reading {
     pub words: Vec<String>,
     /// Words that were left out because they say nothing of touch.
     pub ignored: Vec<String>,
+    /// A word that was misspelt.
+    pub correction: Option<Correction>,
 }
 
 impl Reading {
@@ -62,7 +66,9 @@ impl Reader {
     /// Reads a prompt.
     #[must_use]
     pub fn read(&self, prompt: &str) -> Reading {
-        let items = segment::segment(prompt, |word| word_sense::sense(&self.table, word));
+        let mut tokens = normalise(prompt);
+        let correction = spelling::correct(&mut tokens, &self.table);
+        let items = segment::segment(&tokens, |word| word_sense::sense(&self.table, word));
         // Code, paths and markup are no prose, even where a word of them is a name.
         let prose = !prompt.contains(['{', '}', '\\']);
         let reading = read::read(&items, prose);
@@ -71,6 +77,9 @@ impl Reader {
             let words = vec![shown(prompt).trim().to_owned()];
             return Reading { words, ..reading };
         }
-        reading
+        Reading {
+            correction,
+            ..reading
+        }
     }
 }

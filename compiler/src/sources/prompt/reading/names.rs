@@ -48,8 +48,21 @@ pub(super) fn is_quality(word: &str) -> bool {
     line(QUALITIES, word).is_some()
 }
 
+/// Every word of a name's key, as often as it stands in one, and every quality.
+pub(super) fn vocabulary() -> impl Iterator<Item = &'static str> {
+    keys()
+        .flat_map(|key| key.split(' '))
+        .chain(QUALITIES.lines())
+}
+
+/// The key of every name.
+pub(super) fn keys() -> impl Iterator<Item = &'static str> {
+    let key = |line: &'static str| line.split_once('\t').map_or(line, |(key, _)| key);
+    NAMES.lines().map(key)
+}
+
 /// The line of a table whose first field is this key; lines are sorted by the bytes of their keys.
-fn line(table: &'static str, key: &str) -> Option<&'static str> {
+pub(super) fn line(table: &'static str, key: &str) -> Option<&'static str> {
     let bytes = table.as_bytes();
     // The line of the key begins in low..high, if it is there.
     let (mut low, mut high) = (0, bytes.len());

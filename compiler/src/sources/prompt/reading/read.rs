@@ -42,6 +42,7 @@ fn named(items: &[Item], mut kept: Vec<bool>) -> Reading {
         names: names.map(|n| items[n].text.clone()).collect(),
         words,
         ignored,
+        correction: None,
     }
 }
 
@@ -240,5 +241,6 @@ fn unnamed(items: &[Item]) -> Reading {
         names: Vec::new(),
         words,
         ignored: Vec::new(),
+        correction: None,
     }
 }

@@ -5,7 +5,7 @@ use super::{
         is_act, is_colour, is_covering, is_determiner, is_function, is_link, is_part, is_picture,
     },
     names::{self, LONGEST},
-    normalise::{Token, normalise},
+    normalise::Token,
     word_sense::Sense,
 };
 use crate::sources::prompt::phrase;
@@ -52,9 +52,8 @@ pub(super) fn is_name(item: &Item) -> bool {
 const DENIALS: &[&str] = &["not", "no", "never", "non", "without", "lacking"];
 const COMPARED: &[&str] = &["more", "less", "least", "most", "too", "half"];
 
-/// Divides a prompt into items. `sense` tells what a word that no list holds says.
-pub(super) fn segment(prompt: &str, sense: impl Fn(&str) -> Sense) -> Vec<Item> {
-    let tokens = normalise(prompt);
+/// Divides the words of a prompt into items. `sense` tells what a word that no list holds says.
+pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<Item> {
     let mut items = Vec::new();
     let mut at = 0;
     while at < tokens.len() {
@@ -163,7 +162,10 @@ fn longest(words: &[&str], compared: bool) -> Option<(usize, &'static str)> {
     (1..=words.len()).rev().find_map(|count| {
         let alone = count == 1 && (is_function(first) || is_act(first) || degree);
         let whole = !is_determiner(first) && !alone;
-        let name = names::name(&words[..count]).filter(|_| whole)?;
+        let said = &words[..count];
+        // "bees wax" is beeswax.
+        let joined = || names::name(&[said.concat().as_str()]).filter(|_| count == 2);
+        let name = names::name(said).or_else(joined).filter(|_| whole)?;
         Some((count, name))
     })
 }

@@ -90,3 +90,24 @@ fn descriptions_and_things_of_no_list_are_encoded_whole() {
         ("?!", "?!"),
     ]);
 }
+
+#[test]
+fn a_misspelling_is_put_right_and_said() {
+    for (prompt, expected) in [
+        ("velvit", "velvet"),
+        ("make me some velvit", "velvet"),
+        ("patnt leather", "patent leather"),
+        ("bees wax", "beeswax"),
+        ("wug blicket dax", "wug blicket dax"),
+        ("gravel idk", "gravel"),
+        ("a fork", "fork"),
+    ] {
+        assert_eq!(read(prompt).text(), expected, "{prompt:?}");
+    }
+    let correction = read("velvit").correction.expect("a correction");
+    assert_eq!(
+        (correction.said.as_str(), correction.taken.as_str()),
+        ("velvit", "velvet")
+    );
+    assert_eq!(read("velvet").correction, None);
+}

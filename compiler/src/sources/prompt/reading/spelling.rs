@@ -1,0 +1,122 @@
+//! Misspellings: a word that no one knows, and that is nearly one of the reader's.
+
+use super::{
+    closed_class::{is_colour, is_grammar},
+    names,
+    normalise::{Token, singular},
+};
+use crate::{learned::text::WordTable, sources::prompt::phrase};
+use std::collections::BTreeMap;
+
+/// English words that the table of words lacks, and that one edit parts from a word of the reader's: no
+/// misspellings. From the package `word-list` (MIT, its licence beside this file), a line each and sorted;
+/// `compiler/model/tools/export_reading.py` writes it.
+const OWN_WORDS: &str = include_str!("own_words.txt");
+/// Letters of a word that can be misspelt.
+const SHORTEST: usize = 3;
+/// A word of fewer letters is misspelt only where it stands alone.
+const SHORT: usize = 5;
+/// Letters of a name of several words in which an error is looked for.
+const LONG: usize = 8;
+
+/// A word that was read as another.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Correction {
+    /// The word as it was typed.
+    pub said: String,
+    /// What it was read as.
+    pub taken: String,
+}
+
+/// Puts a misspelt name right, or the one misspelt word of a prompt.
+pub(super) fn correct(tokens: &mut Vec<Token>, table: &WordTable) -> Option<Correction> {
+    whole(tokens).or_else(|| one_word(tokens, table))
+}
+
+/// A prompt that is a name of several words with one error, even where the error makes another word:
+/// "patent lather". A word must be left over that says nothing by itself.
+fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
+    let words: Option<Vec<&str>> = tokens
+        .iter()
+        .map(|token| match token {
+            Token::Word(word) => Some(word.as_str()),
+            Token::Break => None,
+        })
+        .collect();
+    let words = words.filter(|words| (2..=names::LONGEST).contains(&words.len()))?;
+    let says = |word: &&str| {
+        let name = names::name(&[*word]).is_some();
+        name || is_grammar(word) || phrase::is_quality(word) || names::is_quality(word)
+    };
+    if names::name(&words).is_some() || names::name(&[&words.concat()]).is_some() {
+        return None;
+    }
+    let said = words.join(" ");
+    if said.len() < LONG || words.iter().all(says) {
+        return None;
+    }
+    let near = |key: &&str| {
+        let several = key.contains(' ') && key.len().abs_diff(said.len()) <= 1;
+        several && strsim::osa_distance(key, &said) <= 1
+    };
+    let taken = names::keys().find(near)?.to_owned();
+    let taken_words = taken.split(' ').map(|word| Token::Word(word.to_owned()));
+    *tokens = taken_words.collect();
+    Some(Correction { said, taken })
+}
+
+/// The one word that nobody knows. Where two are unknown, it is rather another language, or somebody's
+/// name, and nothing is touched.
+fn one_word(tokens: &mut [Token], table: &WordTable) -> Option<Correction> {
+    let alone = tokens.len() == 1;
+    let mut unknown = tokens.iter_mut().filter_map(|token| match token {
+        Token::Word(word) if !is_known(word, table) => Some(word),
+        _ => None,
+    });
+    let word = unknown.next()?;
+    if unknown.next().is_some() {
+        return None;
+    }
+    // Beside others, a short word is rather slang: "idk", "org".
+    if word.len() < SHORT && !alone {
+        return None;
+    }
+    let taken = nearest(word)?.to_owned();
+    let said = std::mem::replace(word, taken.clone());
+    Some(Correction { said, taken })
+}
+
+fn is_known(word: &str, table: &WordTable) -> bool {
+    let letters = word.chars().all(|c| c.is_ascii_lowercase());
+    !letters
+        || word.len() < SHORTEST
+        || table.holds(word)
+        || is_grammar(word)
+        || is_colour(word)
+        || phrase::is_quality(word)
+        || phrase::is_degree(word)
+        || names::is_quality(word)
+        || names::vocabulary().any(|known| known == word)
+        || names::line(OWN_WORDS, word).is_some()
+        || names::line(OWN_WORDS, &singular(word)).is_some()
+}
+
+/// The word of the reader's that one edit parts from this one. Of several, one with the same first letter,
+/// then the one in most names.
+fn nearest(word: &str) -> Option<&'static str> {
+    let word = singular(word);
+    let near = |known: &&'static str| {
+        known.len() >= SHORTEST
+            && known.len().abs_diff(word.len()) <= 1
+            && strsim::osa_distance(known, &word) <= 1
+    };
+    let mut found: BTreeMap<&'static str, usize> = BTreeMap::new();
+    for known in names::vocabulary().filter(near) {
+        *found.entry(known).or_default() += 1;
+    }
+    let rank = |(known, times): &(&'static str, usize)| {
+        let first = known.as_bytes().first() != word.as_bytes().first();
+        (first, usize::MAX - times)
+    };
+    Some(found.into_iter().min_by_key(rank)?.0)
+}
