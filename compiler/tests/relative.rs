@@ -31,7 +31,7 @@ fn scale(attribute: &str, a: &Attributes) -> f64 {
 
 fn latents(prompt: &str) -> Latents {
     let projection = PROMPTS.project(prompt).expect(prompt);
-    let meaning = PROMPTS.meaning(prompt, &projection).expect(prompt);
+    let meaning = PROMPTS.meaning(&projection).expect(prompt);
     Latents::whole(meaning.z).shifted(meaning.shift)
 }
 

@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let prompt_compiler = PromptCompiler::embedded(&Backend::Portable)?;
     let editor = LatentEditor::new(&prompt_compiler);
     let latents = |prompt: &str| -> Result<Latents, Box<dyn Error>> {
-        let meaning = prompt_compiler.meaning(prompt, &prompt_compiler.project(prompt)?)?;
+        let meaning = prompt_compiler.meaning(&prompt_compiler.project(prompt)?)?;
         Ok(Latents::whole(meaning.z).shifted(meaning.shift))
     };
     // A picture follows the words of a prompt; that of a mixture follows its neighbours.

@@ -72,7 +72,7 @@ fn modifiers_move_the_right_way_and_are_noticed() {
         );
     }
     println!("{right} of {all} the right way, {noticed} noticed");
-    let plain = |m: &Modified| parse(&m.to) == Phrase::Plain;
+    let plain = |m: &Modified| parse(&PROMPTS.read(&m.to).words) == Phrase::Plain;
     for (who, grammar) in [
         ("read by the grammar", true),
         ("left to the text vector", false),

@@ -19,6 +19,13 @@ impl Vocabulary {
     /// The id of the piece that is `prefix` and `rest` in one.
     #[must_use]
     pub fn id(&self, prefix: &str, rest: &str) -> Option<u32> {
+        let (_, id) = self.line(prefix, rest)?.split_once('\t')?;
+        id.parse().ok()
+    }
+
+    /// The line whose first field, up to a tab or its end, is `prefix` and `rest` in one.
+    #[must_use]
+    pub fn line(&self, prefix: &str, rest: &str) -> Option<&'static str> {
         let bytes = self.text.as_bytes();
         // The piece's line begins in low..high, if it is there.
         let (mut low, mut high) = (0, bytes.len());
@@ -28,12 +35,13 @@ impl Vocabulary {
             let start = before.map_or(low, |position| low + position + 1);
             let length = bytes[start..].iter().position(|&byte| byte == b'\n');
             let end = length.map_or(bytes.len(), |length| start + length);
-            let (piece, id) = self.text[start..end].split_once('\t')?;
+            let line = &self.text[start..end];
+            let piece = line.split_once('\t').map_or(line, |(piece, _)| piece);
             let wanted = prefix.bytes().chain(rest.bytes());
             match piece.bytes().cmp(wanted) {
                 Ordering::Less => low = (end + 1).min(bytes.len()),
                 Ordering::Greater => high = start,
-                Ordering::Equal => return id.parse().ok(),
+                Ordering::Equal => return Some(line),
             }
         }
         None

@@ -87,7 +87,7 @@ impl LatentEditor<'_> {
         let mut start = *latents;
         if let Some(towards) = &asked.towards {
             let projection = self.prompt_compiler.project(&towards.thing)?;
-            let meaning = self.prompt_compiler.meaning(&towards.thing, &projection)?;
+            let meaning = self.prompt_compiler.meaning(&projection)?;
             let thing = Latents::whole(meaning.z).shifted(meaning.shift);
             start = Latents::between(latents, &thing, towards.share);
         }

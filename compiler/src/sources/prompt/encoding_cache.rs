@@ -59,7 +59,7 @@ impl PromptCompiler {
         let mut seen = HashSet::new();
         for prompt in prompts {
             let reading = self.read(prompt);
-            let things = phrase::parse_words(&reading.words).things().into_iter();
+            let things = phrase::parse(&reading.words).things().into_iter();
             let things = things.filter(|thing| self.things.get(thing).is_none());
             let things = things.map(|thing| self.read(&thing).text());
             for text in std::iter::once(reading.text()).chain(things) {

@@ -32,18 +32,17 @@ impl PromptCompiler {
     ///
     /// # Errors
     /// [`PromptError`] for a failing network.
-    pub fn meaning(&self, prompt: &str, projection: &Projection) -> Result<Meaning, PromptError> {
-        let (z, wanted) = self.resolve_target(prompt, projection)?;
+    pub fn meaning(&self, projection: &Projection) -> Result<Meaning, PromptError> {
+        let (z, wanted) = self.resolve_target(projection)?;
         self.decode_target(z, wanted)
     }
 
     /// The latent of a prompt, and the attributes that its words ask for.
     pub(super) fn resolve_target(
         &self,
-        prompt: &str,
         projection: &Projection,
     ) -> Result<(Latent, Option<Scales>), PromptError> {
-        let phrase = phrase::parse_words(&self.read(prompt).words);
+        let phrase = phrase::parse(&projection.reading.words);
         Ok(match phrase {
             Phrase::Plain => (projection.z, projection.felt),
             Phrase::Changed { base, changes } => {
@@ -84,8 +83,7 @@ impl PromptCompiler {
     /// # Errors
     /// [`PromptError`] for an empty prompt or a failing network.
     pub fn texture(&self, prompt: &str) -> Result<TextureModel, PromptError> {
-        let prompt = prompt.trim();
-        let Meaning { z, shift, decoded } = self.meaning(prompt, &self.project(prompt)?)?;
+        let Meaning { z, shift, decoded } = self.meaning(&self.project(prompt)?)?;
         let mut texture = self.plain(&z, &decoded);
         adjust(&mut texture, &shift);
         Ok(texture)

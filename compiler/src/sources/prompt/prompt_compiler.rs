@@ -155,7 +155,7 @@ impl PromptCompiler {
     ) -> Result<Sourced, PromptError> {
         let prompt = prompt.trim();
         let projection = pipeline.run(Pass::Text, || self.project(prompt))?;
-        let (z, wanted) = pipeline.run(Pass::Text, || self.resolve_target(prompt, &projection))?;
+        let (z, wanted) = pipeline.run(Pass::Text, || self.resolve_target(&projection))?;
         let meant = pipeline.run(Pass::Decode, || self.decode_target(z, wanted))?;
         let shift = meant.shift;
         let z = varied(meant.z, &self.model.description().spread, seed);

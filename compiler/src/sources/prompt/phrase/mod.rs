@@ -14,7 +14,7 @@ mod table;
 mod words;
 
 pub use changed::{STEP, changed, from_base};
-pub use parse::{parse, parse_words};
+pub use parse::{is_cover, parse};
 pub use quality::{is_degree, is_quality};
 pub use relative::{Relative, Towards, relative};
 

@@ -4,19 +4,13 @@ use super::{
     Phrase,
     quality::{self, Use},
     table,
-    words::{EMPTY, words},
+    words::EMPTY,
 };
-
-/// Divides a prompt.
-#[must_use]
-pub fn parse(prompt: &str) -> Phrase {
-    parse_words(&words(prompt))
-}
 
 /// Divides the words of a prompt. A name of several words is one of them, so that none of its own
 /// changes it.
 #[must_use]
-pub fn parse_words(words: &[String]) -> Phrase {
+pub fn parse(words: &[String]) -> Phrase {
     between(words)
         .or_else(|| covered(words))
         .or_else(|| changed(words))
@@ -41,8 +35,9 @@ fn between(words: &[String]) -> Option<Phrase> {
     ))
 }
 
-/// "A covered with B".
-fn covered(words: &[String]) -> Option<Phrase> {
+/// Whether a participle says that one thing lies around another.
+#[must_use]
+pub fn is_cover(word: &str) -> bool {
     const VERBS: [&str; 6] = [
         "covered",
         "coated",
@@ -51,9 +46,12 @@ fn covered(words: &[String]) -> Option<Phrase> {
         "upholstered",
         "lined",
     ];
-    let verb = words
-        .iter()
-        .position(|word| VERBS.contains(&word.as_str()))?;
+    VERBS.contains(&word)
+}
+
+/// "A covered with B".
+fn covered(words: &[String]) -> Option<Phrase> {
+    let verb = words.iter().position(|word| is_cover(word))?;
     let joined = words.get(verb + 1)?;
     if !["with", "in", "by"].contains(&joined.as_str()) {
         return None;
@@ -120,7 +118,14 @@ fn tidy(mut base: Vec<String>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::Change, *};
+    use super::{
+        super::{Change, words::words},
+        *,
+    };
+
+    fn parse(prompt: &str) -> Phrase {
+        super::parse(&words(prompt))
+    }
 
     /// The base, and where rough, slippery and hard go.
     fn signs(prompt: &str) -> (String, [f64; 3]) {

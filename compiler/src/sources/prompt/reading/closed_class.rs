@@ -1,5 +1,7 @@
 //! Words of grammar: they name nothing themselves, and there is a fixed number of them.
 
+use crate::sources::prompt::phrase;
+
 /// Determiners and pronouns.
 const DETERMINERS: &[&str] = &[
     "a",
@@ -173,7 +175,6 @@ const ACTS: &[&str] = &[
     "produce",
     "build",
     "design",
-    "design",
     "want",
     "need",
     "needs",
@@ -186,13 +187,6 @@ const ACTS: &[&str] = &[
     "pretend",
     "suppose",
     "think",
-    "picture",
-    "image",
-    "photo",
-    "photograph",
-    "painting",
-    "drawing",
-    "sketch",
     "print",
     "pattern",
     "patterned",
@@ -348,27 +342,12 @@ const PARTS: &[&str] = &[
     "half",
     "rest",
 ];
-/// Participles after which "in", "with" or "from" names what a thing is covered with or made of.
+/// Further participles after which "in", "with" or "from" names what a thing is covered with or made of.
 const COVERING: &[&str] = &[
-    "covered",
-    "coated",
-    "wrapped",
-    "clad",
-    "upholstered",
-    "lined",
-    "soaked",
-    "dipped",
-    "drenched",
-    "filled",
-    "made",
-    "cut",
-    "carved",
-    "woven",
-    "knitted",
-    "embedded",
-    "bound",
-    "dusted",
+    "soaked", "dipped", "drenched", "filled", "made", "cut", "carved", "woven", "knitted",
+    "embedded", "bound", "dusted",
 ];
+
 /// Whether a word is a colour or a pattern.
 #[must_use]
 pub fn is_colour(word: &str) -> bool {
@@ -382,7 +361,7 @@ pub(super) fn is_part(word: &str) -> bool {
 
 /// Whether "in", "by" or "from" after this word names what a thing is covered with or made of.
 pub(super) fn is_covering(word: &str) -> bool {
-    COVERING.contains(&word)
+    phrase::is_cover(word) || COVERING.contains(&word)
 }
 
 /// Whether a word has no meaning of its own.
@@ -417,5 +396,5 @@ pub(super) fn is_link(word: &str) -> bool {
 
 /// Whether a word speaks of touching or of the prompt itself.
 pub(super) fn is_act(word: &str) -> bool {
-    ACTS.contains(&word)
+    ACTS.contains(&word) || PICTURES.contains(&word)
 }

@@ -1,9 +1,9 @@
 //! What a prompt names, and what it says of it.
 //!
 //! A sentence encoder reads the whole sentence: "make me gravel" is near to gravel, and near to making.
-//! So a prompt is read before it is encoded. It is [normalised](normalise), names of materials are found
-//! in it, longest first, a misspelling is put right, and of the other words those stay that say how something feels. Only what is
-//! left is encoded. English only.
+//! So a prompt is read before it is encoded. It is [normalised](normalise), a misspelling is put right,
+//! names of materials are found in it, longest first, and of the other words those stay that say how
+//! something feels. Only what is left is encoded. English only.
 
 mod closed_class;
 mod description;
@@ -47,12 +47,6 @@ impl Reading {
     #[must_use]
     pub fn text(&self) -> String {
         self.words.join(" ")
-    }
-
-    /// Whether it is one name and nothing else.
-    #[must_use]
-    pub fn is_name(&self) -> bool {
-        self.words.len() == 1 && self.names.len() == 1
     }
 }
 

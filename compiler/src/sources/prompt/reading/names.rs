@@ -7,7 +7,7 @@
 //! `cargo run --release -p asperity-corpus --example names`.
 
 use super::normalise::{Token, normalise, singular};
-use std::cmp::Ordering;
+use crate::learned::text::Vocabulary;
 
 const NAMES: &str = include_str!("names.tsv");
 const QUALITIES: &str = include_str!("qualities.txt");
@@ -39,13 +39,13 @@ fn key_of(words: &[&str]) -> String {
 
 /// The name that these words are, as the corpus spells it.
 pub(super) fn name(words: &[&str]) -> Option<&'static str> {
-    let line = line(NAMES, &key_of(words))?;
+    let line = Vocabulary::new(NAMES).line("", &key_of(words))?;
     Some(line.split_once('\t').map_or(line, |(_, name)| name))
 }
 
 /// Whether the lexicon says of something how it feels by this word.
 pub(super) fn is_quality(word: &str) -> bool {
-    line(QUALITIES, word).is_some()
+    Vocabulary::new(QUALITIES).line("", word).is_some()
 }
 
 /// Every word of a name's key, as often as it stands in one, and every quality.
@@ -59,28 +59,6 @@ pub(super) fn vocabulary() -> impl Iterator<Item = &'static str> {
 pub(super) fn keys() -> impl Iterator<Item = &'static str> {
     let key = |line: &'static str| line.split_once('\t').map_or(line, |(key, _)| key);
     NAMES.lines().map(key)
-}
-
-/// The line of a table whose first field is this key; lines are sorted by the bytes of their keys.
-pub(super) fn line(table: &'static str, key: &str) -> Option<&'static str> {
-    let bytes = table.as_bytes();
-    // The line of the key begins in low..high, if it is there.
-    let (mut low, mut high) = (0, bytes.len());
-    while low < high {
-        let middle = low + (high - low) / 2;
-        let before = bytes[low..middle].iter().rposition(|&byte| byte == b'\n');
-        let start = before.map_or(low, |line| low + line + 1);
-        let length = bytes[start..].iter().position(|&byte| byte == b'\n');
-        let end = length.map_or(bytes.len(), |length| start + length);
-        let line = &table[start..end];
-        let found = line.split_once('\t').map_or(line, |(found, _)| found);
-        match found.cmp(key) {
-            Ordering::Less => low = (end + 1).min(bytes.len()),
-            Ordering::Greater => high = start,
-            Ordering::Equal => return Some(line),
-        }
-    }
-    None
 }
 
 #[cfg(test)]

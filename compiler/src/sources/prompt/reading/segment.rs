@@ -103,7 +103,6 @@ pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<It
             if is_picture(word) && words.get(1).is_none_or(|next| *next != "of") {
                 class = Class::Thing;
             }
-
             let covering = items.last().is_some_and(|item: &Item| {
                 is_covering(&item.text) || (item.class == Class::Touch && item.text.ends_with("ed"))
             });
@@ -183,9 +182,10 @@ fn class(word: &str, sense: impl Fn(&str) -> Sense) -> Class {
         Class::Act
     } else if phrase::is_quality(word) || names::is_quality(word) {
         Class::Touch
+    } else if is_colour(word) || word.ends_with("'s") {
+        Class::Other
     } else {
         match sense(word) {
-            _ if is_colour(word) || word.ends_with("'s") => Class::Other,
             Sense { touch: true, .. } => Class::Touch,
             Sense { thing: true, .. } => Class::Thing,
             Sense { .. } => Class::Other,

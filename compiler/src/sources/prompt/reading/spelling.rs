@@ -5,7 +5,10 @@ use super::{
     names,
     normalise::{Token, singular},
 };
-use crate::{learned::text::WordTable, sources::prompt::phrase};
+use crate::{
+    learned::text::{Vocabulary, WordTable},
+    sources::prompt::phrase,
+};
 use std::collections::BTreeMap;
 
 /// English words that the table of words lacks, and that one edit parts from a word of the reader's: no
@@ -88,6 +91,7 @@ fn one_word(tokens: &mut [Token], table: &WordTable) -> Option<Correction> {
 
 fn is_known(word: &str, table: &WordTable) -> bool {
     let letters = word.chars().all(|c| c.is_ascii_lowercase());
+    let own = |word: &str| Vocabulary::new(OWN_WORDS).line("", word).is_some();
     !letters
         || word.len() < SHORTEST
         || table.holds(word)
@@ -96,9 +100,10 @@ fn is_known(word: &str, table: &WordTable) -> bool {
         || phrase::is_quality(word)
         || phrase::is_degree(word)
         || names::is_quality(word)
+        || own(word)
+        || own(&singular(word))
+        // Looked through from end to end, so last.
         || names::vocabulary().any(|known| known == word)
-        || names::line(OWN_WORDS, word).is_some()
-        || names::line(OWN_WORDS, &singular(word)).is_some()
 }
 
 /// The word of the reader's that one edit parts from this one. Of several, one with the same first letter,

@@ -32,7 +32,7 @@ fn a_name_is_found_in_what_asks_for_it() {
     ] {
         let reading = read(prompt);
         assert_eq!(reading.text(), "gravel", "{prompt:?}");
-        assert!(reading.is_name());
+        assert_eq!((reading.names.len(), reading.words.len()), (1, 1));
     }
 }
 
