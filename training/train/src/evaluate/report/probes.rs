@@ -9,7 +9,7 @@ pub(super) fn section(part: &Probing) -> String {
          Prompts of `training/corpora/probes.toml` and `pairs.toml`, never trained on, are decoded, \
          moved to the attributes that the projection gives for their words, and their objective \
          attributes read: rough from rough_db, slippery from −μ, hard from hard_hz. What is measured \
-         is the network alone: the grammar of prompts, which `compile` has on top of it, is left out. Two baselines: the training material nearest in text, and the rating of the \
+         is the network alone: the reading and the grammar of prompts, which `compile` has around it, are left out. Two baselines: the training material nearest in text, and the rating of the \
          nearest phrase of the everyday lexicon.\n\n\
          ![Directions and pairs](probes.png)\n\n",
     );
