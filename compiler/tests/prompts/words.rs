@@ -152,16 +152,28 @@ fn fidelity_sets_the_order_and_rate_the_clock() {
 
 #[test]
 fn long_prompts_are_cut_with_a_warning_and_empty_ones_refused() {
-    let long = "gritty ".repeat(400);
-    let compiled = PROMPTS.compile(&long, &plain()).unwrap();
-    assert!(compiled.found::<CompiledPrompt>().unwrap().tokens.1 > 200);
-    assert!(
-        compiled
-            .warnings
-            .iter()
-            .any(|warning| warning.contains("too long"))
-    );
-    assert!(compiled.texture.name.len() <= 64);
+    // More than the encoder reads; as long with words that say nothing, of which nobody reads; more than
+    // the reader reads; words that the encoder has no token for.
+    for (long, cut) in [
+        ("gritty ".repeat(400), "tokens after the first 128"),
+        ("a ".repeat(60_000), "58976 words after the first 1024"),
+        (
+            "my finger ".repeat(30_000),
+            "58976 words after the first 1024",
+        ),
+        ("木材 rough ".repeat(800), "576 words after the first 1024"),
+    ] {
+        let compiled = PROMPTS.compile(&long, &plain()).unwrap();
+        let too_long = |warning: &String| warning.contains("too long") && warning.contains(cut);
+        assert!(
+            compiled.warnings.iter().any(too_long),
+            "{:?}",
+            compiled.warnings
+        );
+        assert!(compiled.warnings.iter().all(|warning| warning.len() < 1000));
+        assert!(compiled.text().len() < 4000);
+        assert!(compiled.texture.name.len() <= 64);
+    }
     let refused = PROMPTS.compile(" \n", &plain()).unwrap_err();
     let refused: &dyn Error = &*refused;
     assert!(matches!(refused.downcast_ref(), Some(PromptError::Empty)));

@@ -1,6 +1,10 @@
 //! The report of a compiled prompt, as text and as JSON.
 
-use super::{CompiledPrompt, reading::Correction};
+use super::{
+    CompiledPrompt,
+    reading::{Correction, MOST_WORDS},
+    understood::excerpt,
+};
 use crate::compiled::{Compiled, Findings};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -34,7 +38,12 @@ impl CompiledPrompt {
             warnings.push(format!("“{said}” is read as “{taken}”"));
         }
         let (read, cut) = self.tokens;
-        if cut > 0 {
+        if self.reading.cut > 0 {
+            warnings.push(format!(
+                "the prompt is too long: {} words after the first {MOST_WORDS} were not read",
+                self.reading.cut
+            ));
+        } else if cut > 0 {
             warnings.push(format!(
                 "the prompt is too long for its encoder: {cut} tokens after the first {read} were not read"
             ));
@@ -56,9 +65,9 @@ impl Findings for CompiledPrompt {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  {what:<12} {value}");
         };
-        line("taken as", self.reading.text());
+        line("taken as", excerpt(self.reading.text()));
         if !self.reading.ignored.is_empty() {
-            line("left out", self.reading.ignored.join(", "));
+            line("left out", excerpt(self.reading.ignored.join(", ")));
         }
         let nearest: Vec<String> = self
             .nearest

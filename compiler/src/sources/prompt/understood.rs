@@ -6,6 +6,9 @@
 use super::PromptError;
 use std::mem;
 
+/// Characters of a prompt that a message repeats.
+const EXCERPT: usize = 160;
+
 /// A prompt, divided.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Understood {
@@ -56,15 +59,27 @@ impl Understood {
             return None;
         }
         let quoted: Vec<String> = self.unread.iter().map(|run| format!("“{run}”")).collect();
-        let unread = quoted.join(", ");
+        let unread = excerpt(quoted.join(", "));
         Some(if self.read.is_empty() {
             format!(
                 "nothing of the prompt was understood: {unread}; describe the surface in English"
             )
         } else {
-            format!("not understood: {unread}; only “{}” was", self.read)
+            format!(
+                "not understood: {unread}; only “{}” was",
+                excerpt(self.read.clone())
+            )
         })
     }
+}
+
+/// As much of a text as one line of a message holds.
+pub(super) fn excerpt(mut text: String) -> String {
+    if let Some((end, _)) = text.char_indices().nth(EXCERPT) {
+        text.truncate(end);
+        text.push('…');
+    }
+    text
 }
 
 #[derive(Clone, Copy, PartialEq)]

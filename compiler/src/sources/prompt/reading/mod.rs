@@ -23,6 +23,9 @@ pub use spelling::Correction;
 
 use crate::learned::text::WordTable;
 
+/// Words of a prompt that are read: several times what an encoder reads of them.
+pub const MOST_WORDS: usize = 1024;
+
 /// Reads prompts.
 #[derive(Debug, Clone, Copy)]
 pub struct Reader {
@@ -40,6 +43,8 @@ pub struct Reading {
     pub ignored: Vec<String>,
     /// A word that was misspelt.
     pub correction: Option<Correction>,
+    /// Words after the first [`MOST_WORDS`], which were not read.
+    pub cut: usize,
 }
 
 impl Reading {
@@ -61,6 +66,9 @@ impl Reader {
     #[must_use]
     pub fn read(&self, prompt: &str) -> Reading {
         let mut tokens = normalise(prompt);
+        let beyond = tokens.iter().skip(MOST_WORDS);
+        let cut = beyond.filter(|token| **token != Token::Break).count();
+        tokens.truncate(MOST_WORDS);
         let correction = spelling::correct(&mut tokens, &self.table);
         let items = segment::segment(&tokens, |word| word_sense::sense(&self.table, word));
         // Code, paths and markup are no prose, even where a word of them is a name.
@@ -73,6 +81,7 @@ impl Reader {
         }
         Reading {
             correction,
+            cut,
             ..reading
         }
     }

@@ -42,7 +42,7 @@ fn named(items: &[Item], mut kept: Vec<bool>) -> Reading {
         names: names.map(|n| items[n].text.clone()).collect(),
         words,
         ignored,
-        correction: None,
+        ..Reading::default()
     }
 }
 
@@ -238,9 +238,7 @@ fn unnamed(items: &[Item]) -> Reading {
         words.retain(|word| !word.is_empty());
     }
     Reading {
-        names: Vec::new(),
         words,
-        ignored: Vec::new(),
-        correction: None,
+        ..Reading::default()
     }
 }
