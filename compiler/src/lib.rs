@@ -28,6 +28,7 @@
 mod emit;
 mod passes;
 mod views;
+mod words;
 
 pub mod compiled;
 pub mod driver;

@@ -62,6 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let began = Instant::now();
         let description = Description {
             words: prompt,
+            coarser: 1.0,
             nearest: &[],
             feel: None,
             seed: 0,

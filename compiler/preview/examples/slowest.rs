@@ -22,6 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         for _ in 0..runs {
             let description = Description {
                 words: name,
+                coarser: 1.0,
                 nearest: &[],
                 feel: None,
                 seed: 0,

@@ -45,7 +45,16 @@ pub(crate) fn choose(description: &Description<'_>) -> (Pattern, Look) {
     if let Some(feel) = description.feel {
         felt(&mut look, feel);
     }
+    graded(&mut look, description.coarser);
     (material.pattern, look)
+}
+
+/// Grain of another size, half as many decades as it is, so that a picture shows both ends of a scale.
+fn graded(look: &mut Look, coarser: f64) {
+    let finer = libm::pow(coarser.clamp(1e-4, 1e4), -0.5).clamp(0.35, 3.0);
+    look.fineness *= finer as f32;
+    let (cells, strength) = look.grain;
+    look.grain = ((f64::from(cells) * finer) as i32, strength);
 }
 
 /// Level, wavelength, friction and hardness move the look within bounds that leave it the
@@ -197,6 +206,7 @@ mod tests {
     fn described<'a>(words: &'a str, nearest: &'a [(&'a str, f64)]) -> (Pattern, Look) {
         choose(&Description {
             words,
+            coarser: 1.0,
             nearest,
             feel: None,
             seed: 0,
@@ -244,6 +254,7 @@ mod tests {
         let with = |feel: Feel| {
             choose(&Description {
                 words: "leather",
+                coarser: 1.0,
                 nearest: &[],
                 feel: Some(feel),
                 seed: 0,
@@ -283,6 +294,7 @@ mod tests {
         let of = |words: &str, seed| {
             choose(&Description {
                 words,
+                coarser: 1.0,
                 nearest: &[],
                 feel: None,
                 seed,

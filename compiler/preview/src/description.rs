@@ -7,6 +7,8 @@ pub struct Description<'a> {
     pub words: &'a str,
     /// The nearest materials by name, with their shares, 0..=1.
     pub nearest: &'a [(&'a str, f64)],
+    /// How much coarser its relief is than that of the thing in general, by a number among the words.
+    pub coarser: f64,
     /// How it feels; `None` for the material as the table has it.
     pub feel: Option<Feel>,
     /// Seed of the arrangement.

@@ -14,7 +14,7 @@
 //! ```
 //! use asperity_preview::{Description, Picture, SIZE};
 //!
-//! let cork = Description { words: "cork", nearest: &[], feel: None, seed: 0 };
+//! let cork = Description { words: "cork", nearest: &[], coarser: 1.0, feel: None, seed: 0 };
 //! let png = Picture::draw(&cork, SIZE)?.compact_png()?;
 //! assert!(png.len() <= asperity_preview::COMPACT_BYTES);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

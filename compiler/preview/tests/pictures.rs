@@ -21,6 +21,7 @@ fn names() -> Vec<String> {
 fn draw(words: &str, size: u32, seed: u64) -> Picture {
     let description = Description {
         words,
+        coarser: 1.0,
         nearest: &[],
         feel: None,
         seed,
@@ -140,6 +141,7 @@ fn seeds_and_feel_change_a_picture_and_leave_the_material() {
         };
         let description = Description {
             words: "leather",
+            coarser: 1.0,
             nearest: &[],
             feel: Some(feel),
             seed: 0,
@@ -176,6 +178,7 @@ fn words_in_any_script_and_length_give_a_picture() {
     }
     let description = Description {
         words: "x",
+        coarser: 1.0,
         nearest: &[("cork", f64::NAN), ("oak", -1.0)],
         feel: None,
         seed: 0,

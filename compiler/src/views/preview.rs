@@ -4,6 +4,7 @@
 //! say what is drawn. The level, the spectrum, the friction and the taps move its grain, depth
 //! and gloss.
 
+use crate::words::grade;
 use asperity_io::diagnostic::Diagnostic;
 use asperity_preview::{Description, EncodeError, Feel, SizeError};
 use asperity_texture::model::{TextureModel, VertexKind, attributes};
@@ -50,8 +51,10 @@ pub fn draw(texture: &TextureModel, size_px: u32) -> Result<Picture, PreviewErro
     let anchors = texture.friction.anchors.iter();
     let nearest: Vec<(&str, f64)> = anchors.map(|a| (a.name.as_str(), a.weight)).collect();
     let prompt = texture.provenance.prompt.as_deref();
+    let words = prompt.unwrap_or(&texture.name);
     let description = Description {
-        words: prompt.unwrap_or(&texture.name),
+        words,
+        coarser: grade::coarser(words),
         nearest: &nearest,
         feel: feel(texture),
         seed: texture.provenance.seed,

@@ -2,6 +2,7 @@
 
 mod clip;
 mod completion;
+mod judged;
 mod latents;
 mod modifiers;
 mod rewordings;

@@ -2,7 +2,7 @@
 
 use super::{
     Projection, PromptCompiler, PromptError,
-    named_things::Thing,
+    named_things::{Thing, Things},
     phrase::{self, Phrase},
 };
 use crate::learned::{Decoded, Latent, texture};
@@ -42,27 +42,67 @@ impl PromptCompiler {
         &self,
         projection: &Projection,
     ) -> Result<(Latent, Option<Scales>), PromptError> {
-        let phrase = phrase::parse(&projection.reading.words);
-        Ok(match phrase {
-            Phrase::Plain => (projection.z, projection.felt),
+        let plain = || match (&projection.reading.words[..], projection.felt) {
+            ([name], Some(felt)) => Ok((projection.z, Some(self.wood(name, felt)?))),
+            (_, felt) => Ok((projection.z, felt)),
+        };
+        let found = match phrase::parse(&projection.reading.words) {
+            Phrase::Plain => return plain(),
             Phrase::Changed { base, changes } => {
                 let base = self.thing(&base)?;
-                let said = self.wanted(projection)?;
-                let wanted = phrase::changed(&base.wanted, &said, &changes);
-                (projection.z, Some(wanted))
+                // The vector of a composed thing says little of it, and less of its changes.
+                let (z, said) = if base.composed {
+                    (base.z, base.wanted)
+                } else {
+                    (projection.z, self.wanted(projection)?)
+                };
+                Thing {
+                    z,
+                    wanted: phrase::changed(&base.wanted, &said, &changes),
+                    ..base
+                }
             }
+            Phrase::Graded { base, grades } => self.graded(&base, &grades)?,
+            Phrase::Made { material, object } => {
+                let (material, object) = (self.thing(&material)?, self.thing(&object)?);
+                let [rough, slippery, _] = material.wanted;
+                let [_, _, hard] = shift::middle(&material.wanted, &object.wanted);
+                Thing {
+                    z: material.z,
+                    wanted: [rough, slippery, hard],
+                    composed: true,
+                }
+            }
+            Phrase::Part { name, .. } if self.is_anchor(&name) => return plain(),
+            Phrase::Part { part, .. } => Thing {
+                wanted: self.wanted(projection)?,
+                ..self.thing(&part)?
+            },
             Phrase::Between(first, second) => {
                 let (first, second) = (self.thing(&first)?, self.thing(&second)?);
-                let z = std::array::from_fn(|k| 0.5 * (first.z[k] + second.z[k]));
-                (z, Some(shift::middle(&first.wanted, &second.wanted)))
+                Thing {
+                    z: std::array::from_fn(|k| 0.5 * (first.z[k] + second.z[k])),
+                    wanted: shift::middle(&first.wanted, &second.wanted),
+                    composed: true,
+                }
             }
             Phrase::Covered { inside, cover } => {
                 let (inside, cover) = (self.thing(&inside)?, self.thing(&cover)?);
                 let [rough, slippery, _] = cover.wanted;
                 let [_, _, hard] = shift::middle(&inside.wanted, &cover.wanted);
-                (cover.z, Some([rough, slippery, hard]))
+                Thing {
+                    wanted: [rough, slippery, hard],
+                    ..cover
+                }
             }
-        })
+        };
+        Ok((found.z, Some(found.wanted)))
+    }
+
+    /// Whether the model holds a texture of this name.
+    fn is_anchor(&self, name: &str) -> bool {
+        let anchors = &self.model().description().anchors;
+        anchors.iter().any(|anchor| anchor.name == name)
     }
 
     /// What a latent decodes to, and the way from there to what is wanted.
@@ -89,28 +129,50 @@ impl PromptCompiler {
         Ok(texture)
     }
 
-    /// A thing that a phrase names. Prompts of a library have few of them.
-    fn thing(&self, text: &str) -> Result<Thing, PromptError> {
-        if let Some(known) = self.things.get(text) {
-            return Ok(known);
-        }
-        let projection = self.project(text)?;
-        let found = Thing {
-            z: projection.z,
-            wanted: self.wanted(&projection)?,
-        };
-        self.things.keep(text, found);
-        Ok(found)
+    /// A thing that a phrase names, which may be a phrase itself. Prompts of a library have few of them.
+    pub(super) fn thing(&self, text: &str) -> Result<Thing, PromptError> {
+        kept(&self.things, text, || {
+            let projection = self.project(text)?;
+            let composed = phrase::parse(&projection.reading.words) != Phrase::Plain;
+            let (z, wanted) = self.resolve_target(&projection)?;
+            self.as_thing(z, wanted, composed)
+        })
+    }
+
+    /// A thing by the name that the model knows it by, which is not read.
+    pub(super) fn named_thing(&self, name: &str) -> Result<Thing, PromptError> {
+        kept(&self.known, name, || {
+            let (_, projected) = &*self.encode(name)?;
+            let felt = projected.felt.map(|felt| felt.map(|x| Some(x.into())));
+            self.as_thing(projected.z, felt, false)
+        })
+    }
+
+    fn as_thing(
+        &self,
+        z: Latent,
+        wanted: Option<Scales>,
+        composed: bool,
+    ) -> Result<Thing, PromptError> {
+        Ok(Thing {
+            z,
+            wanted: self.or_decoded(&z, wanted)?,
+            composed,
+        })
     }
 
     /// The attributes that words ask for, or those of the decoded texture where the model does not
     /// say.
     fn wanted(&self, projection: &Projection) -> Result<Scales, PromptError> {
-        if let Some(felt) = projection.felt {
-            return Ok(felt);
+        self.or_decoded(&projection.z, projection.felt)
+    }
+
+    fn or_decoded(&self, z: &Latent, wanted: Option<Scales>) -> Result<Scales, PromptError> {
+        if let Some(wanted) = wanted {
+            return Ok(wanted);
         }
-        let decoded = self.decoded(&projection.z)?;
-        Ok(shift::scales(&self.attributes(&projection.z, &decoded)))
+        let decoded = self.decoded(z)?;
+        Ok(shift::scales(&self.attributes(z, &decoded)))
     }
 
     fn attributes(&self, z: &Latent, decoded: &Decoded) -> Attributes {
@@ -121,4 +183,17 @@ impl PromptCompiler {
         let (name, provenance) = (String::new(), Provenance::default());
         texture::build(self.model().description(), decoded, z, name, provenance).0
     }
+}
+
+fn kept(
+    things: &Things,
+    text: &str,
+    thing: impl FnOnce() -> Result<Thing, PromptError>,
+) -> Result<Thing, PromptError> {
+    if let Some(known) = things.get(text) {
+        return Ok(known);
+    }
+    let found = thing()?;
+    things.keep(text, found);
+    Ok(found)
 }

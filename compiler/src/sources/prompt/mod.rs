@@ -8,6 +8,7 @@
 mod compiled_prompt;
 mod encoding_cache;
 mod error;
+mod graded;
 mod meaning;
 mod named_things;
 pub mod phrase;
@@ -17,6 +18,7 @@ mod report;
 mod source;
 mod understood;
 
+pub use crate::words::grade::woods;
 pub use asperity_texture::model::shift::Shift;
 pub use compiled_prompt::{CompiledPrompt, Nearest, Options};
 pub use error::PromptError;

@@ -16,6 +16,8 @@ pub(super) struct Thing {
     pub(super) z: Latent,
     /// The attributes that its words ask for.
     pub(super) wanted: Scales,
+    /// Whether it was put together of others, so that no vector of words says what it is.
+    pub(super) composed: bool,
 }
 
 /// Things by their words. What is kept is what would be computed again, so

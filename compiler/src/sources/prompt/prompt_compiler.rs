@@ -34,6 +34,8 @@ pub struct PromptCompiler {
     model: LearnedModel,
     reader: Reader,
     pub(super) things: Things,
+    /// Those that the model knows by name.
+    pub(super) known: Things,
     pub(super) cache: EncodingCache,
     /// Whether its networks give a row of a batch the bits that it gets alone.
     pub(super) together: bool,
@@ -52,6 +54,7 @@ impl PromptCompiler {
                 model,
                 reader: Reader::new(embedded::word_table()?),
                 things: Things::default(),
+                known: Things::default(),
                 cache: EncodingCache::default(),
                 together: false,
             })
@@ -129,7 +132,7 @@ impl PromptCompiler {
         })
     }
 
-    fn encode(&self, text: &str) -> Result<Read, PromptError> {
+    pub(super) fn encode(&self, text: &str) -> Result<Read, PromptError> {
         if let Some(read) = self.cache.read(text) {
             return Ok(read);
         }

@@ -37,6 +37,11 @@ impl CompiledPrompt {
         if let Some(Correction { said, taken }) = &self.reading.correction {
             warnings.push(format!("“{said}” is read as “{taken}”"));
         }
+        if let Some([first, last]) = self.reading.conflict {
+            warnings.push(format!(
+                "{first} and {last} cannot both hold: {last} is taken"
+            ));
+        }
         let (read, cut) = self.tokens;
         if self.reading.cut > 0 {
             warnings.push(format!(

@@ -4,6 +4,7 @@ use super::{EMBEDDED, EMBEDDED_LEXICON, schema};
 use asperity::prompt::{
     phrase,
     reading::{Token, is_colour, is_grammar, key, normalise},
+    woods,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,6 +29,8 @@ const THINGS: [&str; 14] = [
 const HEADS: [&str; 2] = ["lexicon/bases.csv", "lexicon/modifiers.csv"];
 /// Words of a name of the lexicon at most: longer ones are descriptions.
 const MOST_WORDS: usize = 4;
+/// Things before whose names a word stands that is a name by itself.
+const OFTEN: usize = 5;
 /// Words that make a phrase more than a name.
 const JOINS: [&str; 24] = [
     "in", "on", "from", "with", "by", "for", "to", "at", "under", "over", "that", "which", "is",
@@ -35,8 +38,8 @@ const JOINS: [&str; 24] = [
 ];
 
 /// Lines `key TAB name` in the order of their keys, the name left out where it equals the key. Of
-/// several names of one key the first counts: materials, then synonyms, then the lexicon; of the
-/// lexicon that which is its own key.
+/// several names of one key the first counts: materials, then synonyms, then the lexicon, then woods; of
+/// the lexicon that which is its own key.
 ///
 /// # Panics
 /// If the committed corpus is broken, which a test of this crate finds first.
@@ -83,6 +86,27 @@ pub fn table() -> String {
     things.iter().filter(is_key).for_each(|name| add(name));
     things.iter().for_each(|name| add(name));
     heads.iter().for_each(|name| add(name));
+    for wood in woods() {
+        let key = key(wood).expect("a name");
+        let name = match wood.ends_with("wood") {
+            true => wood.to_owned(),
+            // By itself, hardly any text says that it is of wood: "ipe".
+            false => format!("{wood} wood"),
+        };
+        names.entry(key).or_insert(name);
+    }
+    // "glass" and "nylon" are no plurals without their s: they stand before or behind others.
+    let mut firsts: BTreeMap<&str, usize> = BTreeMap::new();
+    for (first, _) in things.iter().filter_map(|name| name.split_once(' ')) {
+        *firsts.entry(first).or_default() += 1;
+    }
+    let often = firsts.iter().filter(|(_, times)| **times >= OFTEN);
+    let often = often.map(|(first, _)| *first);
+    for word in often.chain(heads.iter().map(String::as_str)) {
+        if let Some(name) = names.get_mut(word) {
+            word.clone_into(name);
+        }
+    }
     let line = |(key, name): (&String, &String)| {
         if key == name {
             format!("{key}\n")
@@ -164,7 +188,7 @@ fn things(file: &str, text: &str) -> Vec<String> {
             let words: Vec<&str> = text
                 .split(|c: char| !c.is_alphanumeric() && c != '\'')
                 .collect();
-            let quality = |word: &&str| phrase::is_quality(word) || phrase::is_degree(word);
+            let quality = |word: &&str| phrase::is_lasting(word) || phrase::is_degree(word);
             let last = words.last().is_some_and(quality);
             // In the everyday lexicon, things and things with qualities stand side by side.
             let qualified = everyday && words.iter().any(quality);

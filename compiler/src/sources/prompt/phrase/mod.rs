@@ -7,15 +7,19 @@
 //! [`Shift`](asperity_texture::model::shift::Shift) moves the texture there. English only; whatever is not recognised stays with the text vector.
 
 mod changed;
+mod compound;
 mod parse;
 mod quality;
 mod relative;
 mod table;
 mod words;
 
+use crate::words::grade::Grade;
+
 pub use changed::{STEP, changed, from_base};
+pub(super) use compound::substance;
 pub use parse::{is_cover, parse};
-pub use quality::{is_degree, is_quality};
+pub use quality::{is_degree, is_lasting, is_quality};
 pub use relative::{Relative, Towards, relative};
 
 /// How far one attribute is to go from that of the base, in steps of [`STEP`].
@@ -52,6 +56,27 @@ pub enum Phrase {
         /// What changes.
         changes: Changes,
     },
+    /// A thing with numbers that say how rough or hard it is.
+    Graded {
+        /// The thing without them.
+        base: String,
+        /// What they say, in their order; at least one.
+        grades: Vec<Grade>,
+    },
+    /// A thing of a material, which is stroked; both are tapped.
+    Made {
+        /// What it is made of.
+        material: String,
+        /// What it is.
+        object: String,
+    },
+    /// A named part, which is as such parts are: "axe handle".
+    Part {
+        /// Its whole name.
+        name: String,
+        /// The part by itself.
+        part: String,
+    },
     /// Something between two things.
     Between(String, String),
     /// A thing that is covered with another: the cover is stroked, and both are tapped.
@@ -69,9 +94,11 @@ impl Phrase {
     pub fn things(self) -> Vec<String> {
         match self {
             Self::Plain => Vec::new(),
-            Self::Changed { base, .. } => vec![base],
+            Self::Changed { base, .. } | Self::Graded { base, .. } => vec![base],
             Self::Between(first, second) => vec![first, second],
             Self::Covered { inside, cover } => vec![inside, cover],
+            Self::Made { material, object } => vec![material, object],
+            Self::Part { part, .. } => vec![part],
         }
     }
 }

@@ -1,7 +1,9 @@
 //! A prompt into what it is about and what changes it.
 
+use crate::words::grade::Grade;
+
 use super::{
-    Phrase,
+    Phrase, compound,
     quality::{self, Use},
     table,
     words::EMPTY,
@@ -14,6 +16,9 @@ pub fn parse(words: &[String]) -> Phrase {
     between(words)
         .or_else(|| covered(words))
         .or_else(|| changed(words))
+        .or_else(|| graded(words))
+        .or_else(|| compound::made(words))
+        .or_else(|| compound::part(words))
         .unwrap_or(Phrase::Plain)
 }
 
@@ -76,6 +81,16 @@ fn changed(words: &[String]) -> Option<Phrase> {
         base: thing(&tidy(base))?,
         changes,
     })
+}
+
+/// "P80 sandpaper", "rubber of Shore A 60". A number by itself says what it is of.
+fn graded(words: &[String]) -> Option<Phrase> {
+    let mut base = words.to_vec();
+    let grades: Vec<Grade> = words.iter().filter_map(|word| Grade::of(word)).collect();
+    let first = grades.first()?;
+    base.retain(|word| Grade::of(word).is_none());
+    let base = thing(&tidy(base)).unwrap_or_else(|| first.thing().to_owned());
+    Some(Phrase::Graded { base, grades })
 }
 
 /// The base without what only joined it to its changes.

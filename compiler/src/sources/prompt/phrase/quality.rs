@@ -28,6 +28,14 @@ pub fn is_quality(word: &str) -> bool {
         || table::noun(word).is_some()
 }
 
+/// Whether a word is a quality that a thing has of itself, and not by what happened to it.
+#[must_use]
+pub fn is_lasting(word: &str) -> bool {
+    table::adjective(word).is_some()
+        || table::compared(word, table::adjective).is_some()
+        || table::noun(word).is_some()
+}
+
 /// Whether a word says how much: "very", "slightly".
 #[must_use]
 pub fn is_degree(word: &str) -> bool {
@@ -256,7 +264,9 @@ fn turned(words: &[String], at: usize, about: Use) -> Option<Found> {
 
 fn adjective(word: &str, about: Use) -> Option<Signs> {
     let edit = || table::edit_adjective(word).filter(|_| about == Use::Edit);
-    table::adjective(word).or_else(edit)
+    table::adjective(word)
+        .or_else(|| table::state(word))
+        .or_else(edit)
 }
 
 fn compared(word: &str, about: Use) -> Option<Signs> {

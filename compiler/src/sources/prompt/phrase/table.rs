@@ -7,6 +7,9 @@ type Table = LazyLock<HashMap<&'static str, Signs>>;
 
 /// Adjectives.
 static ADJECTIVES: Table = LazyLock::new(|| read(include_str!("adjectives.tsv")));
+/// What happened to a thing: participles and the like that say how it feels of any thing but one that has a
+/// name with them, as "boiled sweet" is.
+static STATES: Table = LazyLock::new(|| read(include_str!("states.tsv")));
 /// Nouns of qualities, for "without its grit".
 static NOUNS: Table = LazyLock::new(|| read(include_str!("nouns.tsv")));
 /// What is a quality in an edit alone.
@@ -30,6 +33,11 @@ fn read(table: &'static str) -> HashMap<&'static str, Signs> {
 /// The signs of a quality's adjective, plain.
 pub(super) fn adjective(word: &str) -> Option<Signs> {
     ADJECTIVES.get(word).copied()
+}
+
+/// The same of a state.
+pub(super) fn state(word: &str) -> Option<Signs> {
+    STATES.get(word).copied()
 }
 
 /// The signs of an adjective or a verb that is a quality in an edit alone: in a prompt it names a
@@ -205,6 +213,7 @@ mod tests {
     fn tables_are_sorted_whole_and_say_something() {
         let tables = [
             (include_str!("adjectives.tsv"), &ADJECTIVES),
+            (include_str!("states.tsv"), &STATES),
             (include_str!("nouns.tsv"), &NOUNS),
             (include_str!("edit_adjectives.tsv"), &EDIT_ADJECTIVES),
             (include_str!("edit_nouns.tsv"), &EDIT_NOUNS),

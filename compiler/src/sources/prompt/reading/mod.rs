@@ -1,14 +1,14 @@
 //! What a prompt names, and what it says of it.
 //!
 //! A sentence encoder reads the whole sentence: "make me gravel" is near to gravel, and near to making.
-//! So a prompt is read before it is encoded. It is [normalised](normalise), a misspelling is put right,
+//! So a prompt is read before it is encoded. It is [normalised](normalise()), a misspelling is put right,
 //! names of materials are found in it, longest first, and of the other words those stay that say how
 //! something feels. Only what is left is encoded. English only.
 
 mod closed_class;
 mod description;
 mod names;
-mod normalise;
+mod parts;
 mod read;
 mod segment;
 mod spelling;
@@ -16,12 +16,14 @@ mod spelling;
 mod tests;
 mod word_sense;
 
+pub use crate::words::{Token, normalise, shown};
 pub use closed_class::{is_colour, is_grammar};
 pub use names::key;
-pub use normalise::{Token, normalise, shown};
+pub(super) use parts::own_part;
 pub use spelling::Correction;
 
-use crate::learned::text::WordTable;
+use super::phrase::{self, Phrase};
+use crate::{learned::text::WordTable, words::grade::Grade};
 
 /// Words of a prompt that are read: several times what an encoder reads of them.
 pub const MOST_WORDS: usize = 1024;
@@ -33,7 +35,7 @@ pub struct Reader {
 }
 
 /// What was read of a prompt.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reading {
     /// The names that it says, as the corpus spells them.
     pub names: Vec<String>,
@@ -43,6 +45,8 @@ pub struct Reading {
     pub ignored: Vec<String>,
     /// A word that was misspelt.
     pub correction: Option<Correction>,
+    /// Two numbers of which only one can hold, the one that is taken last.
+    pub conflict: Option<[Grade; 2]>,
     /// Words after the first [`MOST_WORDS`], which were not read.
     pub cut: usize,
 }
@@ -71,18 +75,45 @@ impl Reader {
         tokens.truncate(MOST_WORDS);
         let correction = spelling::correct(&mut tokens, &self.table);
         let items = segment::segment(&tokens, |word| word_sense::sense(&self.table, word));
+        let (items, mut gone) = parts::divide(items);
         // Code, paths and markup are no prose, even where a word of them is a name.
         let prose = !prompt.contains(['{', '}', '\\']);
-        let reading = read::read(&items, prose);
+        let mut reading = read::read(&items, prose);
+        reading.ignored.append(&mut gone);
         if reading.words.is_empty() {
             // Signs alone: there is nothing to divide.
             let words = vec![shown(prompt).trim().to_owned()];
             return Reading { words, ..reading };
         }
         Reading {
+            conflict: conflict(&reading.words),
             correction,
             cut,
             ..reading
         }
     }
+}
+
+/// Whether a text is the name of something.
+pub(super) fn is_name(text: &str) -> bool {
+    names::name(&text.split(' ').collect::<Vec<_>>()).is_some()
+}
+
+/// The last number of one thing, and one before it that says otherwise.
+fn conflict(words: &[String]) -> Option<[Grade; 2]> {
+    let one = matches!(
+        phrase::parse(words),
+        Phrase::Graded { .. } | Phrase::Changed { .. }
+    );
+    let grades: Vec<Grade> = words.iter().filter_map(|word| Grade::of(word)).collect();
+    let pair = |(n, last): (usize, &Grade)| {
+        let first = grades[..n].iter().find(|first| first.conflicts(*last))?;
+        Some([*first, *last])
+    };
+    grades
+        .iter()
+        .enumerate()
+        .rev()
+        .find_map(pair)
+        .filter(|_| one)
 }

@@ -2,12 +2,12 @@
 //! rated lexicon, and the words that say how its things feel.
 //!
 //! `names.tsv` has lines `key TAB name`, sorted by the bytes of the key; the name is left out where it
-//! equals the key. A key is a name as [`normalise`](super::normalise::normalise) divides it, each word
+//! equals the key. A key is a name as [`normalise`](crate::words::normalise) divides it, each word
 //! in the singular. `qualities.txt` has a word a line. Both are written by
 //! `cargo run --release -p asperity-corpus --example names`.
 
-use super::normalise::{Token, normalise, singular};
 use crate::learned::text::Vocabulary;
+use crate::words::{Token, normalise, singular};
 
 const NAMES: &str = include_str!("names.tsv");
 const QUALITIES: &str = include_str!("qualities.txt");
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_line_is_found_by_its_name() {
+    fn every_line_is_found_by_its_key() {
         let lines: Vec<&str> = NAMES.lines().collect();
         let keys: Vec<&str> = lines
             .iter()
@@ -75,7 +75,7 @@ mod tests {
         assert!(keys.windows(2).all(|pair| pair[0] < pair[1]), "sorted");
         for line in lines {
             let shown = line.split('\t').next_back().unwrap_or_default();
-            let words = key(shown).expect(shown);
+            let words = key(line.split('\t').next().unwrap_or_default()).expect(shown);
             let words: Vec<&str> = words.split(' ').collect();
             assert_eq!(name(&words), Some(shown));
         }

@@ -5,10 +5,13 @@ use super::{
         is_act, is_colour, is_covering, is_determiner, is_function, is_link, is_part, is_picture,
     },
     names::{self, LONGEST},
-    normalise::Token,
     word_sense::Sense,
 };
-use crate::sources::prompt::phrase;
+use crate::sources::prompt::phrase::{self, substance};
+use crate::words::{
+    Token,
+    grade::{self, Grade},
+};
 
 /// What an item is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,7 +59,18 @@ const COMPARED: &[&str] = &["more", "less", "least", "most", "too", "half"];
 pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<Item> {
     let mut items = Vec::new();
     let mut at = 0;
+    let may = |token: &Token| match token {
+        Token::Word(word) => word.contains(|c: char| c.is_ascii_digit()) || word == "file",
+        Token::Break => false,
+    };
+    let graded = tokens.iter().any(may);
+    let context = graded.then(|| grade::Context::of(tokens));
     while at < tokens.len() {
+        if let Some((count, grade)) = context.and_then(|about| grade::read(&tokens[at..], about)) {
+            items.push(item(&grade.to_string(), Class::Touch));
+            at += count;
+            continue;
+        }
         let words: Vec<&str> = tokens[at..]
             .iter()
             .map_while(|token| match token {
@@ -123,13 +137,56 @@ pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<It
         }
     }
     for n in 1..items.len() {
+        // "nylon brush": at its end a name is no verb.
+        let ends = items
+            .get(n + 1)
+            .is_none_or(|next| next.class == Class::Break);
+        let noun = items[n].class == Class::Act && ends && substance(&items[n - 1].text).is_some();
+        if let Some(name) = names::name(&[&items[n].text]).filter(|_| noun) {
+            items[n] = Item {
+                said: items[n].said.clone(),
+                ..item(name, Class::Name)
+            };
+        }
         // "awfully rough"
         if items[n].class == Class::Touch && is_adverb(&items[n - 1]) {
             items[n - 1].class = Class::Degree;
         }
     }
+    if context.is_some() {
+        numbered(&mut items);
+    }
     items
 }
+
+/// A number beside sandpaper is its grit: "220 sandpaper", "sandpaper no. 80".
+fn numbered(items: &mut Vec<Item>) {
+    let paper = |item: Option<&Item>| {
+        item.is_some_and(|item| item.class == Class::Name && grade::is_abrasive(&item.text))
+    };
+    let mut n = 0;
+    while n < items.len() {
+        let number = items[n].text.parse::<u32>().ok();
+        let mut first = n;
+        while first > 0
+            && (items[first - 1].class == Class::Break
+                || NUMBER.contains(&items[first - 1].text.as_str()))
+        {
+            first -= 1;
+        }
+        let before = first.checked_sub(1).and_then(|at| items.get(at));
+        if let Some(number) = number.filter(|_| paper(items.get(n + 1)) || paper(before)) {
+            let said = Grade::of(&format!("{number} grit"));
+            let text = said.map(|grade| grade.to_string());
+            let new = text.map(|text| item(&text, Class::Touch));
+            n -= items.splice(first..=n, new).count() - 1;
+        }
+        n += 1;
+    }
+}
+
+/// Words before a number.
+const NUMBER: &[&str] = &["no", "nr", "number", "grade", "size"];
 
 /// Whether a word of no list is an adverb.
 fn is_adverb(item: &Item) -> bool {

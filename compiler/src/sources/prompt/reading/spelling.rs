@@ -3,8 +3,8 @@
 use super::{
     closed_class::{is_colour, is_grammar},
     names,
-    normalise::{Token, singular},
 };
+use crate::words::{Token, singular};
 use crate::{
     learned::text::{Vocabulary, WordTable},
     sources::prompt::phrase,
@@ -54,7 +54,11 @@ fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
     if names::name(&words).is_some() || names::name(&[&words.concat()]).is_some() {
         return None;
     }
+    // A wrong digit makes another number, and that is no misspelling.
     let said = words.join(" ");
+    if said.bytes().any(|byte| byte.is_ascii_digit()) {
+        return None;
+    }
     if said.len() < LONG || words.iter().all(says) {
         return None;
     }

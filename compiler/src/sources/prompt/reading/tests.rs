@@ -92,6 +92,39 @@ fn descriptions_and_things_of_no_list_are_encoded_whole() {
 }
 
 #[test]
+fn numbers_are_read_and_parts_are_taken_for_what_they_are() {
+    texts(&[
+        (
+            "a sheet of sandpaper, grit 80",
+            "sheet of sandpaper 80 grit",
+        ),
+        ("sandpaper no. 220", "sandpaper 220 grit"),
+        (
+            "please make me rubber of Shore A 60",
+            "rubber of Shore A 60",
+        ),
+        ("the handle of a toothbrush", "handle"),
+        ("a toothbrush's handle", "handle"),
+        ("handle of a wooden spoon", "handle of wood"),
+        ("the ends of a rope", "rope"),
+        ("a hammer's head", "hammer"),
+        ("rusty hinge", "rusty hinge"),
+        (
+            "the cutting edge of a guillotine",
+            "the cutting edge of a guillotine",
+        ),
+    ]);
+    let reading = read("P80 P400 sandpaper");
+    assert_eq!(
+        reading
+            .conflict
+            .map(|pair| pair.map(|grade| grade.to_string())),
+        Some(["P80".into(), "P400".into()])
+    );
+    assert_eq!(read("between P80 and P400 sandpaper").conflict, None);
+}
+
+#[test]
 fn a_misspelling_is_put_right_and_said() {
     for (prompt, expected) in [
         ("velvit", "velvet"),

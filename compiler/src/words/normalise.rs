@@ -50,6 +50,9 @@ pub fn normalise(prompt: &str) -> Vec<Token> {
             _ if character.is_alphanumeric() || is_accent(character) => word.push(character),
             // "#80" is a grit, "#cork" a word.
             '#' if word.is_empty() && digit => word.push('#'),
+            // "1,000" and "0,8"
+            ',' if digit && is_grouped(&word, characters.clone()) => {}
+            ',' if digit && word == "0" => word.push('.'),
             // "2.5"
             '.' if digit && word.ends_with(|c: char| c.is_ascii_digit()) => word.push('.'),
             _ => {
@@ -88,6 +91,13 @@ pub fn shown(prompt: &str) -> String {
         }
     }
     text
+}
+
+/// Whether a comma after these digits groups thousands: three digits follow it.
+fn is_grouped(before: &str, after: impl Iterator<Item = char>) -> bool {
+    let digits = after.take_while(char::is_ascii_digit).count();
+    let group = (1..=3).contains(&before.len()) && !before.starts_with('0');
+    group && digits == 3 && before.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 fn is_accent(character: char) -> bool {
@@ -131,7 +141,7 @@ fn spelled(word: &str) -> Cow<'_, str> {
 
 /// A word in the singular, by its ending: the key of a name, never what an encoder sees.
 #[must_use]
-pub(super) fn singular(word: &str) -> Cow<'_, str> {
+pub(crate) fn singular(word: &str) -> Cow<'_, str> {
     const IRREGULAR: &[(&str, &str)] = &[
         ("leaves", "leaf"),
         ("loaves", "loaf"),
@@ -186,6 +196,7 @@ mod tests {
             ("baby’s cheek", "baby's cheek"),
             ("🧱", "brick"),
             ("#80 (Ra 2.5)", "#80 / ra 2.5"),
+            ("1,000 grit, 0,8 or 3,5", "1000 grit / 0.8 or 3 / 5"),
             ("'cork'…", "cork"),
             ("#cork", "cork"),
         ] {

@@ -1,0 +1,124 @@
+//! How far a number moves a thing.
+
+use super::{PromptCompiler, PromptError, named_things::Thing};
+use crate::words::grade::{Grade, PAPERS, Scale, grit_um, is_paper, janka, own_grain_um};
+use asperity_texture::model::shift::Scales;
+
+/// ln Hz of a tap by which a pile with a relief e times as coarse yields more.
+const PILE_YIELDS: f64 = 0.6;
+/// What is known of Shore hardness: a thing, and its number. D is counted from A 50, as E follows both:
+/// lg(E/MPa) = 0.0235·S − 0.6403 (Ruess).
+const SHORE: [(&str, f64); 2] = [("rubber", 65.0), ("acrylic sheet", 135.0)];
+const D_FROM_A: f64 = 50.0;
+/// The softest and the hardest wood that the model knows, lbf.
+const WOODS: [(&str, f64); 2] = [("balsa", 80.0), ("ebony", 3080.0)];
+/// The same of Mohs.
+const MOHS: [(&str, f64); 2] = [("gypsum", 2.0), ("diamond", 10.0)];
+
+impl PromptCompiler {
+    /// A thing with what numbers say of it. Of numbers that conflict, the last holds.
+    pub(super) fn graded(&self, name: &str, grades: &[Grade]) -> Result<Thing, PromptError> {
+        let mut found = self.thing(name)?;
+        for (n, grade) in grades.iter().enumerate() {
+            if !grades[n + 1..].iter().any(|later| later.conflicts(*grade)) {
+                found = self.at_grade(found, name, *grade)?;
+            }
+        }
+        Ok(found)
+    }
+
+    /// What is wanted of a named wood: hardness by its measured one.
+    pub(super) fn wood(&self, name: &str, wanted: Scales) -> Result<Scales, PromptError> {
+        let Some(force) = janka(name) else {
+            return Ok(wanted);
+        };
+        let known = WOODS.map(|(name, force): (&str, f64)| (name, libm::log(force)));
+        let wood = Thing {
+            wanted,
+            ..self.named_thing(WOODS[0].0)?
+        };
+        Ok(self.as_hard(wood, known, libm::log(force))?.wanted)
+    }
+
+    fn at_grade(&self, thing: Thing, name: &str, grade: Grade) -> Result<Thing, PromptError> {
+        let Grade { scale, value } = grade;
+        let coarser = grade.coarser(name);
+        match scale {
+            Scale::Grit { .. } if is_paper(name) => self.paper(grit_um(value, name)),
+            Scale::Grit { .. } | Scale::Mesh => self.of_grain(thing, own_grain_um(name), coarser),
+            Scale::ShoreA => self.as_hard(thing, SHORE, value),
+            Scale::ShoreD => self.as_hard(thing, SHORE, value + D_FROM_A),
+            Scale::Mohs => self.as_hard(thing, MOHS, value),
+            Scale::Ra | Scale::Threads | Scale::Denier | Scale::Cut | Scale::Pile => {
+                let rougher = moved(thing, 0, self.rough_per_e()? * libm::log(coarser));
+                let yields = if scale == Scale::Pile {
+                    PILE_YIELDS
+                } else {
+                    0.0
+                };
+                Ok(moved(rougher, 2, -yields * libm::log(coarser)))
+            }
+        }
+    }
+
+    /// Sandpaper with this grain: between the two that the model knows, or beyond the last, by the
+    /// logarithm.
+    fn paper(&self, grain_um: f64) -> Result<Thing, PromptError> {
+        let after = PAPERS.iter().position(|(um, _)| *um <= grain_um);
+        let after = after.unwrap_or(PAPERS.len() - 1).max(1);
+        let [(coarse, a), (fine, b)] = [PAPERS[after - 1], PAPERS[after]];
+        let t = libm::log(coarse / grain_um) / libm::log(coarse / fine);
+        let (a, b) = (self.named_thing(a)?, self.named_thing(b)?);
+        // A latent beyond those that are known may be anything; attributes go on.
+        let within = t.clamp(0.0, 1.0) as f32;
+        Ok(Thing {
+            composed: true,
+            z: std::array::from_fn(|k| a.z[k] + within * (b.z[k] - a.z[k])),
+            wanted: std::array::from_fn(|k| {
+                let (a, b) = (a.wanted[k]?, b.wanted[k]?);
+                Some(if k == 2 {
+                    a + f64::from(within) * (b - a)
+                } else {
+                    a + t * (b - a)
+                })
+            }),
+        })
+    }
+
+    /// A thing with grain so much coarser than its own: as much rougher and grippier as sandpaper would be.
+    fn of_grain(&self, thing: Thing, own_um: f64, coarser: f64) -> Result<Thing, PromptError> {
+        let (to, from) = (self.paper(coarser * own_um)?, self.paper(own_um)?);
+        let by = |k: usize| Some(to.wanted[k]? - from.wanted[k]?);
+        let thing = moved(thing, 0, by(0).unwrap_or(0.0));
+        Ok(moved(thing, 1, by(1).unwrap_or(0.0)))
+    }
+
+    /// dB for grain, or relief, of e times the size, as sandpaper has it.
+    fn rough_per_e(&self) -> Result<f64, PromptError> {
+        let [(coarse, a), .., (fine, b)] = PAPERS;
+        let rough = |name| Ok::<_, PromptError>(self.named_thing(name)?.wanted[0].unwrap_or(0.0));
+        let (a, b): (f64, f64) = (rough(a)?, rough(b)?);
+        Ok((a - b) / libm::log(coarse / fine))
+    }
+
+    /// A thing as hard as the line through two known ones says.
+    fn as_hard(
+        &self,
+        thing: Thing,
+        known: [(&str, f64); 2],
+        number: f64,
+    ) -> Result<Thing, PromptError> {
+        let [(a, at_a), (b, at_b)] = known;
+        let hard = |name| Ok::<_, PromptError>(self.named_thing(name)?.wanted[2]);
+        let (a, b) = (hard(a)?, hard(b)?);
+        let mut wanted: Scales = thing.wanted;
+        let line = |a: f64, b: f64| a + (number - at_a) / (at_b - at_a) * (b - a);
+        wanted[2] = a.zip(b).map(|(a, b)| line(a, b)).or(wanted[2]);
+        Ok(Thing { wanted, ..thing })
+    }
+}
+
+fn moved(mut thing: Thing, attribute: usize, by: f64) -> Thing {
+    thing.wanted[attribute] = thing.wanted[attribute].map(|x| x + by);
+    thing
+}

@@ -1,0 +1,61 @@
+//! Things by what they are made of: "bamboo mat", "a gate of steel".
+//!
+//! The material is what is stroked, and material and thing together are what yields. A vector of both
+//! words may lie near a third thing, such as the mat of another material.
+
+use super::Phrase;
+use crate::{
+    learned::text::Vocabulary,
+    sources::prompt::reading::{is_name, own_part},
+};
+
+/// What things are made of: lines `word TAB substance`, sorted; the substance is left out where it is the
+/// word.
+const SUBSTANCES: &str = include_str!("substances.tsv");
+/// Things whose own relief is felt, of whatever they are made: "wire mesh", "nylon brush".
+const RELIEFS: &[&str] = &[
+    "band", "blanket", "braid", "bristle", "bristles", "broom", "brush", "carpet", "chain",
+    "chips", "cloth", "comb", "cord", "fabric", "fibre", "file", "fur", "grate", "grater", "grid",
+    "grille", "gravel", "hair", "knit", "lattice", "mesh", "net", "netting", "pebbles", "pile",
+    "rasp", "rope", "rug", "scourer", "screw", "shavings", "sieve", "sponge", "string", "thread",
+    "towel", "tread", "twine", "weave", "wire", "wool", "yarn", "zip",
+];
+
+/// The substance that a word names.
+pub(in crate::sources::prompt) fn substance(word: &str) -> Option<&'static str> {
+    let line = Vocabulary::new(SUBSTANCES).line("", word)?;
+    Some(line.split_once('\t').map_or(line, |(_, name)| name))
+}
+
+/// "bamboo mat", "a mat of bamboo", "a mat made of bamboo".
+pub(super) fn made(words: &[String]) -> Option<Phrase> {
+    let texts: Vec<&str> = words.iter().map(String::as_str).collect();
+    let texts = match &texts[..] {
+        ["a" | "an" | "the", rest @ ..] => rest,
+        all => all,
+    };
+    let (object, material) = match texts {
+        [material, object] => (object, material),
+        [object, "of" | "from", material] | [object, "made", "of" | "from", material] => {
+            (object, material)
+        }
+        _ => return None,
+    };
+    let material = substance(material)?;
+    let head = object.rsplit(' ').next()?;
+    let whole = is_name(object) && substance(object).is_none() && !RELIEFS.contains(&head);
+    whole.then(|| Phrase::Made {
+        material: material.to_owned(),
+        object: (*object).to_owned(),
+    })
+}
+
+/// "axe handle", which is a name; a vector of it lies near axes.
+pub(super) fn part(words: &[String]) -> Option<Phrase> {
+    let [name] = words else { return None };
+    let part = own_part(name)?.to_owned();
+    Some(Phrase::Part {
+        name: name.clone(),
+        part,
+    })
+}

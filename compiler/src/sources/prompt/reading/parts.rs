@@ -1,0 +1,131 @@
+//! Parts of things: the handle of a toothbrush is a handle, and the ends of a rope are rope.
+
+use super::{
+    closed_class::is_determiner,
+    names,
+    segment::{Class, Item, is_name},
+};
+use crate::sources::prompt::phrase::{is_quality, substance};
+use crate::words::singular;
+
+/// Parts that are as they are, whatever they belong to.
+const OWN: &[&str] = &[
+    "blade", "buckle", "button", "grip", "handle", "hilt", "hinge", "knob", "shaft", "spout",
+    "strap", "zip",
+];
+/// Parts that are as the whole is.
+const WHOLE: &[&str] = &[
+    "body", "end", "head", "middle", "piece", "point", "side", "surface", "tip", "top",
+];
+
+/// Whether a name is of a part that is as it is.
+pub(in crate::sources::prompt) fn own_part(name: &str) -> Option<&str> {
+    let (_, part) = name.rsplit_once(' ')?;
+    is(OWN, &singular(part)).then_some(part)
+}
+
+/// Items without what a part belongs to, or without the part; and the words that went.
+pub(super) fn divide(mut items: Vec<Item>) -> (Vec<Item>, Vec<String>) {
+    let mut gone = Vec::new();
+    let mut n = 0;
+    while n < items.len() {
+        let part = singular(&items[n].text);
+        if is(OWN, &part) {
+            own(&mut items, n, &mut gone);
+        } else if is(WHOLE, &part) {
+            whole(&mut items, n, &mut gone);
+        }
+        n += 1;
+    }
+    (items, gone)
+}
+
+fn is(parts: &[&str], part: &str) -> bool {
+    parts.contains(&part)
+}
+
+/// The owner after "of", with its articles: from..to, the last of them its name.
+fn owner(items: &[Item], n: usize) -> Option<std::ops::Range<usize>> {
+    items.get(n + 1).filter(|item| item.text == "of")?;
+    let before = |item: &&Item| is_determiner(&item.text) || item.class == Class::Touch;
+    let skipped = items[n + 2..].iter().take_while(before).count();
+    let name = n + 2 + skipped;
+    items.get(name).filter(|item| is_name(item))?;
+    Some(n + 2..name + 1)
+}
+
+/// "the handle of a toothbrush", "toothbrush handle".
+fn own(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
+    let thing =
+        |item: &Item| is_name(item) && substance(&item.text).is_none() && !is_quality(&item.text);
+    let owned = |item: &Item| item.text.ends_with("'s");
+    if let Some(owner) = owner(items, n) {
+        let last = owner.end - 1;
+        if !thing(&items[last]) {
+            return;
+        }
+        gone.push(items[last].said.clone());
+        // Of "a wooden spoon", the handle is wooden.
+        match items[last].said.split(' ').next().and_then(substance) {
+            Some(of) => {
+                items.splice(owner, [named(of)]);
+            }
+            None => {
+                let quality = |item: &Item| item.class == Class::Touch;
+                let kept: Vec<Item> = items[owner.clone()]
+                    .iter()
+                    .filter(|item| quality(item))
+                    .cloned()
+                    .collect();
+                items.splice(n + 1..owner.end, []);
+                items.splice(n..n, kept);
+            }
+        }
+    } else if n > 0 && (thing(&items[n - 1]) || owned(&items[n - 1])) {
+        gone.push(items.remove(n - 1).said);
+    } else {
+        return;
+    }
+    if let Some(part) = items.iter_mut().find(|item| is(OWN, &singular(&item.text))) {
+        part.class = Class::Name;
+    }
+}
+
+/// "the ends of a rope", "rope end", "a rope's end".
+fn whole(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
+    let said = items[n].said.clone();
+    // "the cutting edge of a guillotine" is no guillotine.
+    let content = |item: &Item| {
+        !matches!(
+            item.class,
+            Class::Function | Class::Act | Class::Link | Class::Break
+        )
+    };
+    let plain = !n
+        .checked_sub(1)
+        .is_some_and(|before| content(&items[before]));
+    if plain && owner(items, n).is_some() {
+        items.splice(n..n + 2, []);
+    } else if n > 0 && is_name(&items[n - 1]) {
+        items.remove(n);
+    } else if let Some(name) = n
+        .checked_sub(1)
+        .and_then(|at| items[at].text.strip_suffix("'s"))
+    {
+        let Some(name) = names::name(&[name]) else {
+            return;
+        };
+        items.splice(n - 1..=n, [named(name)]);
+    } else {
+        return;
+    }
+    gone.push(said);
+}
+
+fn named(name: &str) -> Item {
+    Item {
+        text: name.to_owned(),
+        said: name.to_owned(),
+        class: Class::Name,
+    }
+}

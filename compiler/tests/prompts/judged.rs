@@ -1,0 +1,167 @@
+//! Phrases that were judged before the code that reads them was written: compounds, parts, conditions,
+//! and numbers in order.
+
+use super::PROMPTS;
+use asperity::attributes::{self, Attributes};
+use asperity_tests::size::{least, sized};
+use rayon::prelude::*;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+const FOLDER: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../training/corpora/evaluation/"
+);
+/// Least share of phrases of which every claim holds, and of steps of series in order.
+const LEAST_PHRASES: f64 = 0.9;
+const LEAST_STEPS: f64 = 0.97;
+/// Two that feel alike are no further apart: dB, and the logarithms of frequency and friction.
+const ALIKE: [f64; 3] = [4.0, 0.3, 0.25];
+/// Largest fall of the centroid of the vibration from a grit to the next finer one.
+const MOST_FALL: f64 = 0.03;
+
+fn evaluation(file: &str) -> String {
+    let path = format!("{FOLDER}{file}");
+    std::fs::read_to_string(&path).expect(&path)
+}
+
+fn read(prompt: &str) -> Attributes {
+    attributes::of(&PROMPTS.texture(prompt).expect(prompt))
+}
+
+/// An attribute on a scale on which differences are alike, and how far apart two that feel alike may be.
+fn scale(attribute: &str, a: &Attributes) -> (f64, f64) {
+    let (value, alike) = match attribute {
+        "rough" => (a.rough_db, ALIKE[0]),
+        "hard" => (a.hard_hz.map(f64::ln), ALIKE[1]),
+        "mu" => (Some(a.mu.ln()), ALIKE[2]),
+        other => panic!("{other} is no attribute"),
+    };
+    (value.expect(attribute), alike)
+}
+
+/// Whether `ATTRIBUTE < | > | ~ PHRASE` holds.
+fn holds(phrase: &Attributes, claim: &str) -> bool {
+    let mut words = claim.splitn(3, ' ');
+    let mut word = || words.next().expect("ATTRIBUTE RELATION PHRASE");
+    let (attribute, relation, other) = (word(), word(), word());
+    let (here, alike) = scale(attribute, phrase);
+    let (there, _) = scale(attribute, &read(other));
+    match relation {
+        "<" => here < there,
+        ">" => here > there,
+        "~" => (here - there).abs() <= alike,
+        other => panic!("{other} is no relation"),
+    }
+}
+
+#[test]
+fn compounds_parts_and_conditions_feel_as_they_were_judged() {
+    let text = evaluation("phrases.tsv");
+    let stride = sized("every so many phrases", 4, 1);
+    let lines: Vec<&str> = text.lines().step_by(stride).collect();
+    let judged: Vec<(&str, bool)> = lines
+        .par_iter()
+        .map(|line| {
+            let fields: Vec<&str> = line.split('\t').collect();
+            let [kind, _, phrase, claims] = fields[..] else {
+                panic!("{line}: KIND, HEAD, PHRASE, CLAIMS");
+            };
+            let felt = read(phrase);
+            let missed: Vec<&str> = claims.split("; ").filter(|c| !holds(&felt, c)).collect();
+            if !missed.is_empty() {
+                let read = PROMPTS.read(phrase).text();
+                println!("{phrase} as {read:?} is not {}", missed.join("; "));
+            }
+            (kind, missed.is_empty())
+        })
+        .collect();
+    let mut kinds: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
+    for (kind, right) in &judged {
+        let [rights, all] = kinds.entry(kind).or_default();
+        *rights += usize::from(*right);
+        *all += 1;
+    }
+    println!("{kinds:?}");
+    let right = judged.iter().filter(|(_, right)| *right).count();
+    assert!(right >= least(LEAST_PHRASES, judged.len()), "{right}");
+}
+
+#[derive(Deserialize)]
+struct File {
+    series: Vec<Series>,
+}
+
+#[derive(Deserialize)]
+struct Series {
+    kind: String,
+    attribute: String,
+    /// Phrases in falling order of the attribute.
+    falls: Vec<String>,
+}
+
+#[test]
+fn numbers_woods_and_finishes_are_in_order() {
+    let file: File = toml::from_str(&evaluation("series.toml")).expect("series.toml");
+    let stride = sized("every so many series", 4, 1);
+    let series: Vec<&Series> = file.series.iter().step_by(stride).collect();
+    let steps: Vec<(&str, bool)> = series
+        .par_iter()
+        .flat_map_iter(|series| {
+            let felt: Vec<f64> = series
+                .falls
+                .iter()
+                .map(|phrase| scale(&series.attribute, &read(phrase)).0)
+                .collect();
+            let steps = felt.windows(2).zip(series.falls.windows(2));
+            let steps: Vec<_> = steps
+                .map(|(felt, phrases)| {
+                    let falls = felt[0] > felt[1];
+                    if !falls {
+                        println!("{}: {phrases:?} do not fall: {felt:.2?}", series.kind);
+                    }
+                    (series.kind.as_str(), falls)
+                })
+                .collect();
+            steps
+        })
+        .collect();
+    let mut kinds: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
+    for (kind, right) in &steps {
+        let [rights, all] = kinds.entry(kind).or_default();
+        *rights += usize::from(*right);
+        *all += 1;
+    }
+    println!("{kinds:?}");
+    let right = steps.iter().filter(|(_, right)| *right).count();
+    assert!(right >= least(LEAST_STEPS, steps.len()), "{right}");
+}
+
+#[test]
+fn every_notation_of_a_grit_is_the_same_paper_and_finer_ones_are_no_duller() {
+    let centroid = |prompt: &str| read(prompt).sharp_hz.expect(prompt);
+    let grits = [12, 16, 20, 24, 30, 36, 40, 50, 60, 80];
+    for pair in grits.windows(2) {
+        let [coarse, fine] = [pair[0], pair[1]].map(|grit| centroid(&format!("P{grit} sandpaper")));
+        assert!(
+            fine >= (1.0 - MOST_FALL) * coarse,
+            "P{}: {coarse} to {fine} Hz",
+            pair[1]
+        );
+    }
+    for grit in [60, 150, 400, 1500] {
+        let one = read(&format!("P{grit} sandpaper"));
+        for other in [
+            format!("{grit}-grit sandpaper"),
+            format!("{grit} grit sand paper"),
+            format!("sandpaper, grit {grit}"),
+            format!("#{grit} sandpaper"),
+            format!("Sandpaper ({grit})"),
+            format!("P{grit}"),
+        ] {
+            assert_eq!(read(&other), one, "{other}");
+        }
+    }
+    let both = PROMPTS.texture("P80 P400 sandpaper").unwrap();
+    assert_eq!(attributes::of(&both), read("P400 sandpaper"));
+}
