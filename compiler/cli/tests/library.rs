@@ -3,6 +3,7 @@
 
 use super::*;
 use asperity_formats::Asset;
+use serde_json::Value;
 
 /// Runs what must succeed.
 fn good(folder: &Path, arguments: &[&str]) -> String {
@@ -575,4 +576,44 @@ fn a_manifest_takes_every_kind_of_source() {
         .unwrap();
         refused(folder, &["build", "bad.toml", "-o", "bad.aspl"], &[told]);
     }
+}
+
+#[test]
+fn certainty_is_told_and_can_be_asked_for() {
+    let inputs = inputs();
+    let folder = inputs.path();
+    let list = "name,prompt\na,oak\nb,yellow\nc,bamboo mat\nd,xyzzy plugh\n";
+    fs::write(folder.join("list.csv"), list).expect("a manifest");
+    let build = [
+        "build",
+        "list.csv",
+        "--no-preview",
+        "--cache",
+        "cache",
+        "-o",
+    ];
+    let said = good(folder, &[&build[..], &["all.aspl"]].concat());
+    assert!(said.contains("2 are guesses"), "{said}");
+    let listed: Value =
+        serde_json::from_str(&good(folder, &["list", "all.aspl", "--json"])).expect("JSON");
+    let levels = listed["textures"].as_array().expect("textures").iter();
+    let levels: Vec<&Value> = levels.map(|texture| &texture["certainty_level"]).collect();
+    assert_eq!(levels, ["known", "guess", "close", "guess"]);
+    // All are in the cache by now, which keeps what it knows of them.
+    let least = |level| [&build[..], &["some.aspl", "--min-certainty", level]].concat();
+    let refused = asperity(folder, &least("close"));
+    let said = text(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("list.csv:3: \"b\"") && said.contains("list.csv:5: \"d\""),
+        "{said}"
+    );
+    assert!(
+        !said.contains("list.csv:2") && !said.contains("list.csv:4"),
+        "{said}"
+    );
+    assert!(!folder.join("some.aspl").exists());
+    assert_eq!(asperity(folder, &least("sure")).status.code(), Some(2));
+    good(folder, &least("guess"));
+    assert_eq!(bytes(folder, "some.aspl"), bytes(folder, "all.aspl"));
 }

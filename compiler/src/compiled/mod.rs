@@ -4,6 +4,7 @@ mod reference;
 
 pub use reference::ErrorReference;
 
+use crate::learned::Certainty;
 use crate::{
     emit::{
         lower::{ErrorSummary, Lowered},
@@ -41,8 +42,8 @@ pub struct Compiled {
     pub stabilised: f64,
     /// How far the asset is from its source, where that is known.
     pub compared: Option<Compared>,
-    /// Certainty of what was understood of the source, 0..=1.
-    pub certainty: Option<f64>,
+    /// How well what a prompt said is known.
+    pub certainty: Option<Certainty>,
     /// What a user should be told.
     pub warnings: Vec<String>,
     /// What the source found besides.

@@ -4,18 +4,22 @@ use super::{
     latents::{Latents, of_hex, to_hex},
     sliders::Sliders,
 };
+use crate::learned::Certainty;
 use asperity_formats::limits::MAX_HISTORY_BYTES;
 use asperity_texture::model::shift::Shift;
 use serde::{Deserialize, Serialize};
 
-/// How a texture was made, and every edit since. A texture of a prompt has an empty history,
-/// because its provenance names prompt and seed; or only a shift, where the prompt has a grammar.
+/// How a texture was made, and every edit since. Of a prompt, its provenance names prompt and seed, and the
+/// history holds how sure it was, and a shift, where the prompt has a grammar.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct History {
     /// How it was made, unless of a prompt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub made: Option<Origin>,
+    /// How well what the prompt says is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certainty: Option<Certainty>,
     /// Level that all textures were brought to, dB re 1 N RMS of force; none is the default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loudness_db: Option<f64>,

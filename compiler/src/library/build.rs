@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     edit_memory::AXES,
+    learned::Certainty,
     pipeline::{Clock, Pass, Pipeline, Timings},
     sources::{
         Tools,
@@ -46,6 +47,8 @@ pub struct Request<'a> {
     pub pinned: Pinned,
     /// What passes are timed by.
     pub clock: Clock,
+    /// The least certainty of a prompt; any if `None`.
+    pub min_certainty: Option<Certainty>,
     /// The folder where a temporary file keeps textures until the library is written; that of the
     /// system if `None`.
     pub scratch: Option<&'a Path>,
@@ -181,6 +184,7 @@ impl<'a> Build<'a> {
             return Err(failures);
         }
         let textures: Vec<Texture> = textures.into_iter().flatten().collect();
+        self.sure(&textures)?;
         let named = self
             .chosen
             .iter()
@@ -254,6 +258,32 @@ impl<'a> Build<'a> {
             facts,
             cached: false,
         })
+    }
+
+    /// Refuses textures whose prompts are less certain than is asked for.
+    fn sure(&self, textures: &[Texture]) -> Result<(), Failures> {
+        let least = self.request.min_certainty;
+        let unsure = self
+            .chosen
+            .iter()
+            .zip(textures)
+            .filter_map(|((index, _), texture)| {
+                let (found, least) = (texture.facts.certainty_level?, least?);
+                let fault = LibraryFault::Unsure { found, least };
+                (found < least)
+                    .then(|| EntryError::new(&self.manifest.entries[*index], fault.into()))
+            });
+        let mut unsure: Vec<EntryError> = unsure.collect();
+        unsure.sort_by_key(|error| error.place.line);
+        let failures: Failures = unsure
+            .into_iter()
+            .map(|error| Box::new(error) as _)
+            .collect();
+        if failures.is_empty() {
+            Ok(())
+        } else {
+            Err(failures)
+        }
     }
 
     fn rows(&self, textures: &[Texture]) -> Vec<Row> {
@@ -340,7 +370,7 @@ fn keys(
             let parts = if entry.origin.is_learned() {
                 let crcs = [pinned.model_crc32, pinned.text_encoder_crc32];
                 let crcs = crcs.map(u32::to_le_bytes).concat();
-                parts.text(&pinned.backend).part(&crcs)
+                parts.text(&pinned.backend).text(&pinned.reader).part(&crcs)
             } else {
                 parts
             };

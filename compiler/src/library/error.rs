@@ -1,6 +1,7 @@
 //! Why a library was not built.
 
 use super::manifest::{Entry, Place};
+use crate::learned::Certainty;
 use asperity_io::diagnostic::{Diagnostic, Failure};
 use thiserror::Error;
 
@@ -49,6 +50,14 @@ pub enum LibraryFault {
         /// Where the others are.
         kept: &'static str,
     },
+    /// A prompt is less certain than is asked for.
+    #[error("the certainty of the prompt is {found:?}, and at least {least:?} is asked for", found = found.to_string(), least = least.to_string())]
+    Unsure {
+        /// How certain it is.
+        found: Certainty,
+        /// How certain it is to be.
+        least: Certainty,
+    },
     /// A temporary file does not take more.
     #[error("the texture cannot be kept until its library is written: {0}")]
     NoRoom(String),
@@ -86,6 +95,10 @@ impl Diagnostic for LibraryFault {
         match self {
             Self::Unfinished { .. } => {
                 "correct what failed and build again: only that is made then".into()
+            }
+            Self::Unsure { .. } => {
+                "name the material, or see what was read with `asperity compile PROMPT --explain`"
+                    .into()
             }
             Self::NoRoom(_) => {
                 "free space beside the output, or in the folder for temporary files if it is `-`"

@@ -1,5 +1,6 @@
 //! What a report says of a texture besides its bytes; cached with them.
 
+use crate::learned::Certainty;
 use crate::{driver::Compiled, passes::reduce::Fidelity};
 use asperity_texture::model::attributes::Attributes;
 use serde::{Deserialize, Serialize};
@@ -17,7 +18,10 @@ pub struct Facts {
     pub hard_hz: Option<f64>,
     /// Coefficient of kinetic friction.
     pub mu: f64,
-    /// Certainty of a prompt, 0..=1.
+    /// How well what a prompt says is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certainty_level: Option<Certainty>,
+    /// The share of such prompts that came out right, 0..=1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certainty: Option<f64>,
     /// Largest spectral distance from the whole texture where the fidelity left something out, dB.
@@ -47,7 +51,8 @@ impl Facts {
             sharp_hz,
             hard_hz,
             mu,
-            certainty: compiled.certainty,
+            certainty_level: compiled.certainty,
+            certainty: compiled.certainty.map(Certainty::share),
             reduced_db: (compiled.fidelity != Fidelity::Full)
                 .then_some(compiled.reduction.worst_db),
             vibration_factor: if asked_s2_m > 0.0 {

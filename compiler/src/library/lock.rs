@@ -31,6 +31,8 @@ pub struct Pinned {
     pub text_encoder_crc32: u32,
     /// What runs the networks.
     pub backend: String,
+    /// How prompts are read: [`crate::prompt::reading::VERSION`].
+    pub reader: String,
 }
 
 /// A lock file beside its manifest.
@@ -113,11 +115,14 @@ struct Raw {
     text_encoder: String,
     text_encoder_crc32: String,
     backend: String,
+    /// Locks of version 0.1.0 did not pin it.
+    #[serde(default)]
+    reader: String,
 }
 
 impl Pinned {
     /// Every field by name, as text.
-    fn fields(&self) -> [(&'static str, String); 6] {
+    fn fields(&self) -> [(&'static str, String); 7] {
         [
             ("asperity", self.asperity.clone()),
             ("model", self.model.clone()),
@@ -128,6 +133,7 @@ impl Pinned {
                 format!("{:08x}", self.text_encoder_crc32),
             ),
             ("backend", self.backend.clone()),
+            ("reader", self.reader.clone()),
         ]
     }
 }
@@ -178,6 +184,7 @@ impl Lock {
             model: raw.model,
             text_encoder: raw.text_encoder,
             backend: raw.backend,
+            reader: raw.reader,
         });
         Ok(Self { file, found })
     }
@@ -248,6 +255,7 @@ mod tests {
             text_encoder: "minilm".into(),
             text_encoder_crc32: 7,
             backend: "portable".into(),
+            reader: "1".into(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! What a build did.
 
 use super::{facts::Facts, shard::Shard};
+use crate::learned::Certainty;
 use serde::Serialize;
 use std::fmt;
 
@@ -72,6 +73,12 @@ impl fmt::Display for Report {
         )?;
         if self.lowered > 0 {
             write!(f, "; auto-gain lowered {}", self.lowered)?;
+        }
+        let guess = |row: &&Row| row.facts.certainty_level == Some(Certainty::Guess);
+        match self.textures.iter().filter(guess).count() {
+            0 => {}
+            1 => write!(f, "; 1 is a guess")?,
+            guesses => write!(f, "; {guesses} are guesses")?,
         }
         writeln!(f)
     }

@@ -20,6 +20,7 @@ pub use crate::compiled::Findings;
 pub use kind::{Kind, Operand, Stated};
 pub use registry::Registry;
 
+use crate::learned::Certainty;
 use crate::{
     compiled::ErrorReference,
     edit_memory::Memory,
@@ -155,8 +156,8 @@ pub struct Sourced {
     pub memory: Option<Memory>,
     /// A picture that was made elsewhere, as PNG, in the place of a preview.
     pub picture: Option<Vec<u8>>,
-    /// Certainty of what was understood, 0..=1.
-    pub certainty: Option<f64>,
+    /// How well what a prompt said is known.
+    pub certainty: Option<Certainty>,
     /// What a user should be told.
     pub warnings: Vec<String>,
     /// What the source found besides.

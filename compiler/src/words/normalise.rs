@@ -152,6 +152,8 @@ pub(crate) fn singular(word: &str) -> Cow<'_, str> {
         ("teeth", "tooth"),
         ("feet", "foot"),
     ];
+    // Without their s they are adjectives.
+    const PAIRS: &[&str] = &["tights", "shorts", "briefs", "overalls"];
     const SAME: &[&str] = &["ss", "us", "is", "os", "'s"];
     let replaced = |ending: &str, other: &str| {
         let stem = word.strip_suffix(ending)?;
@@ -160,7 +162,11 @@ pub(crate) fn singular(word: &str) -> Cow<'_, str> {
     if let Some((_, one)) = IRREGULAR.iter().find(|(many, _)| *many == word) {
         return (*one).into();
     }
-    if !word.ends_with('s') || word.len() < 4 || SAME.iter().any(|same| word.ends_with(same)) {
+    if !word.ends_with('s')
+        || word.len() < 4
+        || PAIRS.contains(&word)
+        || SAME.iter().any(|same| word.ends_with(same))
+    {
         return word.into();
     }
     replaced("ies", "y")

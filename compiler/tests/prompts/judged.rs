@@ -2,7 +2,10 @@
 //! and numbers in order.
 
 use super::PROMPTS;
-use asperity::attributes::{self, Attributes};
+use asperity::{
+    attributes::{self, Attributes},
+    prompt::reading::VERSION,
+};
 use asperity_tests::size::{least, sized};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -40,40 +43,67 @@ fn scale(attribute: &str, a: &Attributes) -> (f64, f64) {
     (value.expect(attribute), alike)
 }
 
-/// Whether `ATTRIBUTE < | > | ~ PHRASE` holds.
-fn holds(phrase: &Attributes, claim: &str) -> bool {
-    let mut words = claim.splitn(3, ' ');
-    let mut word = || words.next().expect("ATTRIBUTE RELATION PHRASE");
-    let (attribute, relation, other) = (word(), word(), word());
-    let (here, alike) = scale(attribute, phrase);
-    let (there, _) = scale(attribute, &read(other));
-    match relation {
-        "<" => here < there,
-        ">" => here > there,
-        "~" => (here - there).abs() <= alike,
-        other => panic!("{other} is no relation"),
+/// `ATTRIBUTE < | > | ~ PHRASE`.
+struct Claim {
+    attribute: String,
+    relation: String,
+    other: String,
+}
+
+impl Claim {
+    fn parse(text: &str) -> Self {
+        let mut words = text.splitn(3, ' ');
+        let mut word = || words.next().expect("ATTRIBUTE RELATION PHRASE").to_owned();
+        Self {
+            attribute: word(),
+            relation: word(),
+            other: word(),
+        }
     }
+
+    fn holds(&self, phrase: &Attributes) -> bool {
+        let (here, alike) = scale(&self.attribute, phrase);
+        let (there, _) = scale(&self.attribute, &read(&self.other));
+        match self.relation.as_str() {
+            "<" => here < there,
+            ">" => here > there,
+            "~" => (here - there).abs() <= alike,
+            other => panic!("{other} is no relation"),
+        }
+    }
+}
+
+/// Kind, phrase and claims of every line.
+fn lines(text: &str) -> Vec<(&str, &str, Vec<Claim>)> {
+    text.lines()
+        .map(|line| {
+            let fields: Vec<&str> = line.split('\t').collect();
+            let [kind, _, phrase, claims] = fields[..] else {
+                panic!("{line}: KIND, HEAD, PHRASE, CLAIMS");
+            };
+            (kind, phrase, claims.split("; ").map(Claim::parse).collect())
+        })
+        .collect()
 }
 
 #[test]
 fn compounds_parts_and_conditions_feel_as_they_were_judged() {
     let text = evaluation("phrases.tsv");
     let stride = sized("every so many phrases", 4, 1);
-    let lines: Vec<&str> = text.lines().step_by(stride).collect();
+    let lines: Vec<_> = lines(&text).into_iter().step_by(stride).collect();
     let judged: Vec<(&str, bool)> = lines
         .par_iter()
-        .map(|line| {
-            let fields: Vec<&str> = line.split('\t').collect();
-            let [kind, _, phrase, claims] = fields[..] else {
-                panic!("{line}: KIND, HEAD, PHRASE, CLAIMS");
-            };
+        .map(|(kind, phrase, claims)| {
             let felt = read(phrase);
-            let missed: Vec<&str> = claims.split("; ").filter(|c| !holds(&felt, c)).collect();
+            let missed = claims.iter().filter(|claim| !claim.holds(&felt));
+            let missed: Vec<_> = missed
+                .map(|claim| [&*claim.attribute, &*claim.relation, &*claim.other].join(" "))
+                .collect();
             if !missed.is_empty() {
                 let read = PROMPTS.read(phrase).text();
                 println!("{phrase} as {read:?} is not {}", missed.join("; "));
             }
-            (kind, missed.is_empty())
+            (*kind, missed.is_empty())
         })
         .collect();
     let mut kinds: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
@@ -164,4 +194,27 @@ fn every_notation_of_a_grit_is_the_same_paper_and_finer_ones_are_no_duller() {
     }
     let both = PROMPTS.texture("P80 P400 sandpaper").unwrap();
     assert_eq!(attributes::of(&both), read("P400 sandpaper"));
+}
+
+#[test]
+fn the_version_of_the_reader_follows_what_it_reads() {
+    let mut crc = crc32fast::Hasher::new();
+    for file in [
+        "phrases.tsv",
+        "touchable.txt",
+        "nonsense.txt",
+        "near_words.txt",
+        "rewordings.toml",
+    ] {
+        for line in evaluation(file).lines() {
+            let read = PROMPTS.read(&line.replace("{}", "gravel"));
+            crc.update(read.text().as_bytes());
+            crc.update(read.ignored.join(",").as_bytes());
+        }
+    }
+    let version = format!("{:08x}", crc.finalize());
+    assert_eq!(
+        VERSION, version,
+        "set it in compiler/src/sources/prompt/reading/mod.rs"
+    );
 }

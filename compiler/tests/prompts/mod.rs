@@ -1,5 +1,6 @@
 //! What a prompt becomes with the shipped model, on the portable back end.
 
+mod certainty;
 mod clip;
 mod completion;
 mod judged;

@@ -2,6 +2,7 @@
 
 use super::PROMPTS;
 use asperity::attributes::{self, Attributes};
+use asperity::learned::Certainty;
 use asperity::prompt::phrase::{Phrase, parse};
 use asperity_tests::size::{least, sized};
 use rayon::prelude::*;
@@ -111,7 +112,7 @@ fn what_people_touch_is_familiar_and_nonsense_is_not() {
         let text = evaluation(file);
         let lines: Vec<&str> = text.lines().step_by(stride).collect();
         let far = lines.par_iter().filter(|line| {
-            let unfamiliar = PROMPTS.project(line).expect(line).unfamiliar;
+            let unfamiliar = PROMPTS.project(line).expect(line).certainty == Certainty::Guess;
             if unfamiliar == (file == "touchable.txt") {
                 println!("{file}: {line} as {:?}", PROMPTS.read(line).text());
             }

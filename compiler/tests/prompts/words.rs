@@ -3,9 +3,10 @@
 use super::PROMPTS;
 use asperity::{
     attributes::{self, Attributes},
-    driver::{Compiled, Stopped},
+    driver::Stopped,
+    learned::Certainty,
     pipeline::{PipelineError, Request},
-    prompt::{CompiledPrompt, Options, PromptError},
+    prompt::{Options, PromptError},
     reduce::Fidelity,
 };
 use asperity_tests::size::{least, sized};
@@ -185,9 +186,8 @@ fn what_no_surface_is_like_is_told_apart_and_still_safe() {
         .compile("the quarterly inflation report of a central bank", &plain())
         .unwrap();
     let near = PROMPTS.compile("coarse sandpaper", &plain()).unwrap();
-    assert!(far.certainty < near.certainty);
-    let is_uncertain = |of: &Compiled| of.found::<CompiledPrompt>().unwrap().is_uncertain();
-    assert!(is_uncertain(&far) && !is_uncertain(&near));
+    assert_eq!(far.certainty, Some(Certainty::Guess));
+    assert_eq!(near.certainty, Some(Certainty::Known));
     assert!(far.json()["low_certainty"] == Json::Bool(true));
 }
 

@@ -1,7 +1,7 @@
 //! Arguments of the commands that make libraries and take them apart.
 
 use super::{Inference, PreviewOptions, ReportOptions};
-use asperity::{library::Shard, scene::Target};
+use asperity::{learned::Certainty, library::Shard, scene::Target};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -22,6 +22,7 @@ manifest states it: it is lowered where that costs the least error.
 Examples:
   asperity build library.toml -o library.aspl
   asperity build prompts.csv -o prompts.aspl --json
+  asperity build prompts.csv -o prompts.aspl --min-certainty close
   asperity build library.toml -o small.aspl --preview-size 128
   asperity build library.toml --check
   asperity build received/list.toml --confined -o received.aspl
@@ -51,6 +52,9 @@ pub(crate) struct Build {
     /// Refuse a model or a version that the lock file does not pin
     #[arg(long)]
     pub(crate) locked: bool,
+    /// Refuse prompts that are less certain: known, close (to what is known), guess
+    #[arg(long, value_name = "known|close|guess", value_parser = certainty)]
+    pub(crate) min_certainty: Option<Certainty>,
     /// For a list that others sent: refuse every path that leaves the manifest's folder
     #[arg(long)]
     pub(crate) confined: bool,
@@ -69,6 +73,11 @@ pub(crate) struct Build {
     pub(crate) inference: Inference,
     #[command(flatten)]
     pub(crate) reporting: ReportOptions,
+}
+
+fn certainty(text: &str) -> Result<Certainty, String> {
+    text.parse()
+        .map_err(|()| "known, close or guess".to_owned())
 }
 
 fn percent(text: &str) -> Result<f64, String> {

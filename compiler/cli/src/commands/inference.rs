@@ -79,6 +79,7 @@ pub(crate) fn pinned(options: &Inference) -> Result<Pinned, Failures> {
         text_encoder,
         text_encoder_crc32,
         backend: options.backend.to_string(),
+        reader: asperity::prompt::reading::VERSION.to_owned(),
     })
 }
 

@@ -1,6 +1,7 @@
 //! Latents as a source: a blend, a composition, an edit, a recording that was encoded.
 
 use super::{Edit, EditError, LatentEditor, Part, Worded};
+use crate::learned::Certainty;
 use crate::{
     edit_memory::{History, HistoryError, Ingredient, Latents, Memory, Origin, Step},
     learned::{Decoded, LearnedModel, ModelError, friction, texture},
@@ -24,8 +25,8 @@ pub struct FromLatents {
     /// How friction depends on speed, of which latents say nothing: its factors multiply what they
     /// say of μ.
     pub law: Option<FrictionLaw>,
-    /// Certainty of the prompt that it began with, 0..=1.
-    pub certainty: Option<f64>,
+    /// How well what the prompt that it began with said is known.
+    pub certainty: Option<Certainty>,
     /// What a user should be told.
     pub warnings: Vec<String>,
 }

@@ -1,7 +1,12 @@
 //! What can be asked of a prompt's texture, and what there is to know of it.
 
 use super::{reading::Reading, understood::Understood};
-use crate::{learned::Latent, passes::reduce::Fidelity, pipeline::Request, views::preview};
+use crate::{
+    learned::{Certainty, Latent},
+    passes::reduce::Fidelity,
+    pipeline::Request,
+    views::preview,
+};
 use asperity_texture::model::shift::Shift;
 
 /// What a user can ask of a texture besides its prompt.
@@ -46,10 +51,8 @@ pub struct CompiledPrompt {
     pub shift: Shift,
     /// The nearest materials, which friction is interpolated from.
     pub nearest: Vec<Nearest>,
-    /// Certainty, 0..=1.
-    pub certainty: f64,
-    /// Whether the prompt is far from everything the model knows.
-    pub unfamiliar: bool,
+    /// How well what it says is known.
+    pub certainty: Certainty,
     /// Largest cosine between the prompt and a material's mean caption.
     pub similarity: f64,
     /// Tokens read, and cut off.

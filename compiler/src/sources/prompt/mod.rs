@@ -16,6 +16,7 @@ mod prompt_compiler;
 pub mod reading;
 mod report;
 mod source;
+mod sureness;
 mod understood;
 
 pub use crate::words::grade::woods;

@@ -10,7 +10,7 @@ use super::{
 use crate::{
     edit_memory::{History, Latents, Memory},
     learned::{
-        self, Decoded, Files, Latent, LearnedModel, ModelError, embedded, friction::Neighbour,
+        Certainty, Decoded, Files, Latent, LearnedModel, ModelError, embedded, friction::Neighbour,
         inference::Backend, text::TextEncoder, texture,
     },
     pipeline::{Pass, Pipeline, Ringing},
@@ -116,16 +116,13 @@ impl PromptCompiler {
             .similarity
             .iter()
             .fold(f64::NEG_INFINITY, |best, &s| best.max(f64::from(s)));
+        let unfamiliar = f64::from(projected.familiarity) < self.model.description().unfamiliar;
         Ok(Projection {
             z: projected.z,
             felt: projected.felt.map(|felt| felt.map(|x| Some(x.into()))),
             similarity,
             familiarity: f64::from(projected.familiarity),
-            certainty: learned::certainty(
-                &self.model.description().certainty,
-                projected.familiarity.into(),
-            ),
-            unfamiliar: f64::from(projected.familiarity) < self.model.description().unfamiliar,
+            certainty: self.sureness(&reading, unfamiliar),
             tokens: (encoded.tokens, encoded.cut),
             reading,
             understood: understood(shown(prompt).trim(), |word| self.text.reads(word)),
@@ -171,14 +168,16 @@ impl PromptCompiler {
         let memory = Memory {
             model_crc32: self.model.crc32(),
             latents: Latents::whole(z).shifted(shift),
-            history: History::default(),
+            history: History {
+                certainty: Some(projection.certainty),
+                ..History::default()
+            },
         };
         let compiled = CompiledPrompt {
             z,
             shift,
             nearest: self.nearest(&neighbours),
             certainty: projection.certainty,
-            unfamiliar: projection.unfamiliar,
             similarity: projection.similarity,
             tokens: projection.tokens,
             reading: projection.reading,
@@ -239,10 +238,8 @@ pub struct Projection {
     pub similarity: f64,
     /// Soft maximum of the cosines with all that the projection was trained on.
     pub familiarity: f64,
-    /// Certainty, 0..=1.
-    pub certainty: f64,
-    /// Whether the prompt is far from everything the model knows.
-    pub unfamiliar: bool,
+    /// How well what it says is known.
+    pub certainty: Certainty,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
     /// What the prompt names, and what it says of touch.

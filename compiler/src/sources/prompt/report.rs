@@ -5,30 +5,14 @@ use super::{
     reading::{Correction, MOST_WORDS},
     understood::excerpt,
 };
-use crate::compiled::{Compiled, Findings};
+use crate::{
+    compiled::{Compiled, Findings},
+    learned::Certainty,
+};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 impl CompiledPrompt {
-    /// Whether the prompt is far from anything the model was trained on.
-    #[must_use]
-    pub fn is_uncertain(&self) -> bool {
-        self.unfamiliar
-    }
-
-    /// The certainty in a word: `sure` where at least two of three phrases as familiar came out
-    /// right, `a guess` where the prompt is unfamiliar, `roughly` between them.
-    #[must_use]
-    pub fn sureness(&self) -> &'static str {
-        if self.unfamiliar {
-            "a guess"
-        } else if self.certainty < 2.0 / 3.0 {
-            "roughly"
-        } else {
-            "sure"
-        }
-    }
-
     /// What a user should be told apart from the result, one line each.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
@@ -53,11 +37,13 @@ impl CompiledPrompt {
                 "the prompt is too long for its encoder: {cut} tokens after the first {read} were not read"
             ));
         }
-        if self.is_uncertain() {
-            warnings.push(format!(
-                "a guess ({:.0} %): the prompt is far from everything the model knows",
-                100.0 * self.certainty
-            ));
+        if self.certainty == Certainty::Guess {
+            warnings.push(match self.reading.says {
+                true => "a guess: the prompt is far from everything the model knows".into(),
+                false => {
+                    "a guess: nothing in the prompt names something, or says how it feels".into()
+                }
+            });
         }
         warnings
     }
@@ -99,9 +85,9 @@ impl Findings for CompiledPrompt {
         line(
             "certainty",
             format!(
-                "{}: {:.0} % of phrases as familiar came out right",
-                self.sureness(),
-                100.0 * self.certainty
+                "{}: {:.0} % of comparisons with such prompts came out right",
+                self.certainty,
+                100.0 * self.certainty.share()
             ),
         );
         let texture = &compiled.texture;
@@ -172,9 +158,10 @@ impl Findings for CompiledPrompt {
             "seed": compiled.texture.provenance.seed,
             "nearest": nearest,
             "attributes": compiled.attributes(),
-            "certainty": self.certainty,
+            "certainty": self.certainty.share(),
+            "certainty_level": self.certainty,
             "similarity": self.similarity,
-            "low_certainty": self.is_uncertain(),
+            "low_certainty": self.certainty == Certainty::Guess,
             "tokens": { "read": read, "cut": cut },
             "taken_as": self.reading.text(),
             "named": self.reading.names,

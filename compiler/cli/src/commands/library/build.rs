@@ -174,6 +174,7 @@ impl<'a> Prepared<'a> {
             program: inference::program(),
             pinned: self.pins.pinned.clone(),
             clock: Clock(now),
+            min_certainty: self.args.min_certainty,
             scratch: (!self.outputs.to_standard_output()).then(|| folder_of(self.output)),
         }
     }

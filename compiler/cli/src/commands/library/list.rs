@@ -4,6 +4,8 @@ use crate::cli::List;
 use asperity::{
     attributes::{Attributes, Meter},
     edit::remembered,
+    edit_memory::History,
+    learned::Certainty,
     raise::raise,
     textures::Textures,
 };
@@ -32,22 +34,25 @@ pub(crate) fn run(args: &List, console: Console) -> Result<(), Failures> {
     printed.map_err(one)
 }
 
-/// Edits that an asset remembers; `None` for one without latents.
-fn edits(asset: &Asset<'_>) -> Option<usize> {
+/// How it was made, and every edit since; `None` for one without latents.
+fn history(asset: &Asset<'_>) -> Option<History> {
     let memory = remembered(asset).ok().flatten();
-    memory.map(|memory| memory.history.steps.len())
+    memory.map(|memory| memory.history)
 }
 
 fn in_json(name: &str, asset: &Asset<'_>, found: &Attributes) -> Value {
-    let edits = edits(asset);
+    let history = history(asset);
+    let certainty = history.as_ref().and_then(|history| history.certainty);
     json!({
         "name": name,
         "prompt": asset.provenance().and_then(|p| p.prompt),
         "bytes": { "haptic": asset.haptic_len(), "total": asset.total_len() },
         "attributes": found,
         "has_preview": asset.preview_png().is_some(),
-        "has_latent": edits.is_some(),
-        "edits": edits.unwrap_or(0),
+        "has_latent": history.is_some(),
+        "edits": history.map_or(0, |history| history.steps.len()),
+        "certainty_level": certainty,
+        "certainty": certainty.map(Certainty::share),
     })
 }
 
@@ -67,8 +72,12 @@ fn line(name: &str, asset: &Asset<'_>, found: &Attributes) -> String {
         // Writing to a string cannot fail.
         let _ = write!(text, ": {prompt:?}");
     }
-    if let Some(edits) = edits(asset).filter(|edits| *edits > 0) {
-        let _ = write!(text, ", edited {edits} ×");
+    let history = history(asset).unwrap_or_default();
+    if let Some(certainty) = history.certainty {
+        let _ = write!(text, ", {certainty}");
+    }
+    if !history.steps.is_empty() {
+        let _ = write!(text, ", edited {} ×", history.steps.len());
     }
     text.push('\n');
     text

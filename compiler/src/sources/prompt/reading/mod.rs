@@ -25,6 +25,10 @@ pub use spelling::Correction;
 use super::phrase::{self, Phrase};
 use crate::{learned::text::WordTable, words::grade::Grade};
 
+/// What tells two readers apart: the CRC-32 of what is read of the prompts in `training/corpora/evaluation/`,
+/// which the test `judged::the_version_of_the_reader_follows_what_it_reads` computes.
+pub const VERSION: &str = "db2ea8ac";
+
 /// Words of a prompt that are read: several times what an encoder reads of them.
 pub const MOST_WORDS: usize = 1024;
 
@@ -41,6 +45,8 @@ pub struct Reading {
     pub names: Vec<String>,
     /// What is encoded: names, each as one, and the words that say how something feels.
     pub words: Vec<String>,
+    /// Whether anything that is left names something, or says how it feels.
+    pub says: bool,
     /// Words that were left out because they say nothing of touch.
     pub ignored: Vec<String>,
     /// A word that was misspelt.

@@ -106,7 +106,10 @@ fn whole(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
         .is_some_and(|before| content(&items[before]));
     if plain && owner(items, n).is_some() {
         items.splice(n..n + 2, []);
-    } else if n > 0 && is_name(&items[n - 1]) {
+    } else if n > 0
+        && is_name(&items[n - 1])
+        && items.get(n + 1).is_none_or(|next| next.text != "of")
+    {
         items.remove(n);
     } else if let Some(name) = n
         .checked_sub(1)

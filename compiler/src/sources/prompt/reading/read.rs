@@ -4,8 +4,10 @@ use super::{
     Reading,
     closed_class::{ACROSS, PLACES, TOOLS, is_act, is_colour, is_determiner},
     description::{SUBJECTS, has_unknown_head, is_description},
+    names,
     segment::{Class, Item, is_name},
 };
+use crate::{sources::prompt::phrase, words::grade::Grade};
 
 /// What follows one of these happened to a thing: "a chin after the barber".
 const EVENTS: &[&str] = &["after", "before", "until"];
@@ -39,6 +41,7 @@ fn named(items: &[Item], mut kept: Vec<bool>) -> Reading {
     let words: Vec<String> = words.map(|n| items[n].text.clone()).collect();
     let names = (0..items.len()).filter(|n| kept[*n] && items[*n].class == Class::Name);
     Reading {
+        says: true,
         names: names.map(|n| items[n].text.clone()).collect(),
         words,
         ignored,
@@ -237,8 +240,20 @@ fn unnamed(items: &[Item]) -> Reading {
         words = items.iter().map(|item| item.said.clone()).collect();
         words.retain(|word| !word.is_empty());
     }
+    // Of a word of no list, the classifier cannot tell "minty" and "barking" from touch by themselves.
+    let listed = |word: &str| {
+        phrase::is_quality(word) || names::is_quality(word) || Grade::of(word).is_some()
+    };
+    let says = |item: &Item| match item.class {
+        Class::Name | Class::Thing => true,
+        Class::Touch => listed(&item.text),
+        // Whether it is a thing, its distance from what the model knows tells.
+        Class::Other => !is_colour(&item.text),
+        _ => false,
+    };
     Reading {
         words,
+        says: items[range].iter().any(says),
         ..Reading::default()
     }
 }
