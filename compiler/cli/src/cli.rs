@@ -139,7 +139,7 @@ pub(crate) struct Compile {
     /// Write the texture before its reduction as JSON, for `asperity import model`
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
-    /// Say which words moved which attribute
+    /// Say what every word was taken for, and which words moved which attribute
     #[arg(long)]
     pub(crate) explain: bool,
     #[command(flatten)]

@@ -244,6 +244,33 @@ fn words_are_told_by_what_they_moved() {
     assert_eq!(named, ["rough", "abrasive", "sheet"]);
     let rough = |n: usize| words[n]["rough"].as_f64().expect("a number");
     assert!(rough(1) > 0.0, "{words:?}");
+    let mut asked = compile;
+    asked[1] = "my very rough oak table, P80";
+    let json = made(folder.path(), &asked);
+    let roles = json["reading"].as_array().expect("a reading").iter();
+    let roles: Vec<(&str, &str)> = roles
+        .map(|taken| {
+            (
+                taken["text"].as_str().unwrap(),
+                taken["role"].as_str().unwrap(),
+            )
+        })
+        .collect();
+    let expected = [
+        ("very", "degree"),
+        ("rough", "quality"),
+        ("oak", "name"),
+        ("table", "name"),
+        ("P80", "number"),
+    ];
+    assert_eq!(roles, expected);
+    assert!(
+        json["phrase"]
+            .as_str()
+            .unwrap()
+            .starts_with("oak table P80, rough +"),
+        "{json}"
+    );
     let output = asperity(folder.path(), &compile);
     assert!(text(&output.stdout).contains("abrasive"));
 }

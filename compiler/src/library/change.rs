@@ -7,6 +7,7 @@ use crate::{
 use asperity_formats::Asset;
 use asperity_texture::model::{
     FrictionLaw, TextureModel,
+    attributes::{self, Attributes},
     mixture::{self, Field},
 };
 use serde::Serialize;
@@ -32,6 +33,8 @@ pub struct Change {
     /// Its law over speed, factors of μ: old and new. Absent where neither has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<[Option<FrictionLaw>; 2]>,
+    /// Attributes that moved as far as a person notices: `rough`, `sharp`, `hard`, `slippery`.
+    pub felt: Vec<&'static str>,
     /// Whether the picture is another one.
     pub picture: bool,
     /// Whether a hand can meet the change: anything but picture, provenance, latent and history.
@@ -61,11 +64,36 @@ impl Change {
             mu: both(|t| t.friction.mu),
             law: (before.friction.law.is_some() || after.friction.law.is_some())
                 .then(|| [&before, &after].map(|t| t.friction.law.clone())),
+            felt: felt(&attributes::of(&before), &attributes::of(&after)),
             picture: old.preview_png() != new.preview_png(),
             haptic,
             sections,
         })
     }
+}
+
+/// What a person notices: a level by 1.6 dB, a frequency by 18 %, friction by 10 %.
+const NOTICED: (f64, f64, f64) = (1.6, 1.18, 1.1);
+
+fn felt(old: &Attributes, new: &Attributes) -> Vec<&'static str> {
+    let (level, frequency, friction) = NOTICED;
+    let ratio = |old: Option<f64>, new: Option<f64>, least: f64| match (old, new) {
+        (Some(old), Some(new)) => (new / old).max(old / new) >= least,
+        (old, new) => old.is_some() != new.is_some(),
+    };
+    let louder = match (old.rough_db, new.rough_db) {
+        (Some(old), Some(new)) => (new - old).abs() >= level,
+        (old, new) => old.is_some() != new.is_some(),
+    };
+    let all = [
+        ("rough", louder),
+        ("sharp", ratio(old.sharp_hz, new.sharp_hz, frequency)),
+        ("hard", ratio(old.hard_hz, new.hard_hz, frequency)),
+        ("slippery", ratio(Some(old.mu), Some(new.mu), friction)),
+    ];
+    all.into_iter()
+        .filter_map(|(name, moved)| moved.then_some(name))
+        .collect()
 }
 
 fn sections(old: &Asset<'_>, new: &Asset<'_>) -> Vec<String> {
@@ -145,6 +173,9 @@ impl fmt::Display for Change {
         }
         if self.picture {
             parts.push("picture".into());
+        }
+        if !self.felt.is_empty() {
+            parts.push(format!("noticed as {}", self.felt.join(", ")));
         }
         if parts.is_empty() {
             parts.push(self.sections.join(", "));

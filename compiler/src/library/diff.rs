@@ -87,12 +87,17 @@ impl fmt::Display for Difference {
         for (name, change) in &self.changed {
             writeln!(f, "~ {name}: {change}")?;
         }
+        let felt = self
+            .changed
+            .values()
+            .filter(|change| !change.felt.is_empty());
         writeln!(
             f,
-            "{} added, {} removed, {} changed, {} the same",
+            "{} added, {} removed, {} changed, {} of them so that a person notices, {} the same",
             self.added.len(),
             self.removed.len(),
             self.changed.len(),
+            felt.count(),
             self.same
         )
     }

@@ -74,6 +74,8 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
             explain(&LatentEditor::new(&prompt_compiler), &args.prompt).map_err(one)?;
         // Plain structures of numbers and strings always serialise.
         json["words"] = serde_json::to_value(&explanation.words).unwrap_or_default();
+        json["reading"] = serde_json::to_value(&explanation.reading).unwrap_or_default();
+        json["phrase"] = explanation.phrase.as_str().into();
         words = explanation.text();
     }
     job.finish(&compiled, json, &text, &words)

@@ -4,7 +4,7 @@ use super::{error::EditError, latent_editor::LatentEditor};
 use crate::{
     edit_memory::{AXES, Latents},
     learned::{Latent, description::LATENT},
-    sources::prompt,
+    sources::prompt::{self, Taken},
 };
 use asperity_texture::model::attributes::{self, Attributes};
 use rayon::prelude::*;
@@ -29,6 +29,10 @@ pub struct WordEffect {
 /// What the words of a prompt did, in their order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Explanation {
+    /// What became of the words: what is encoded, then what was left out.
+    pub reading: Vec<Taken>,
+    /// What they are together.
+    pub phrase: String,
     /// Every word.
     pub words: Vec<WordEffect>,
 }
@@ -111,7 +115,10 @@ pub fn explain(editor: &LatentEditor<'_>, text: &str) -> Result<Explanation, Edi
             hard,
             slippery,
         });
+    let reading = editor.prompt_compiler().read(text);
     Ok(Explanation {
+        reading: reading.taken(),
+        phrase: reading.phrase(),
         words: effects.collect(),
     })
 }
@@ -168,8 +175,15 @@ impl Explanation {
     pub fn text(&self) -> String {
         let width = self.words.iter().map(|w| w.word.chars().count()).max();
         let width = width.unwrap_or(0).clamp(4, 32);
-        let mut text = format!(
-            "  {:<width$}  {:>6}  {:>6}  {:>6}  {:>8}\n",
+        let mut text = String::new();
+        for Taken { text: word, role } in &self.reading {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "  {word:<width$}  {role}");
+        }
+        let _ = writeln!(text, "  together      {}\n", self.phrase);
+        let _ = writeln!(
+            text,
+            "  {:<width$}  {:>6}  {:>6}  {:>6}  {:>8}",
             "word", "rough", "sharp", "hard", "slippery"
         );
         for word in &self.words {
@@ -180,7 +194,6 @@ impl Explanation {
                 hard,
                 slippery,
             } = word;
-            // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
                 "  {word:<width$}  {rough:>+6.0}  {sharp:>+6.0}  {hard:>+6.0}  {slippery:>+8.0}"

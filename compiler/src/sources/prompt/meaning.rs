@@ -73,7 +73,7 @@ impl PromptCompiler {
                     composed: true,
                 }
             }
-            Phrase::Part { name, .. } if self.is_anchor(&name) => return plain(),
+            Phrase::Part { name, .. } if self.own_latent(&name).is_some() => return plain(),
             Phrase::Part { part, .. } => Thing {
                 wanted: self.wanted(projection)?,
                 ..self.thing(&part)?
@@ -97,12 +97,6 @@ impl PromptCompiler {
             }
         };
         Ok((found.z, Some(found.wanted)))
-    }
-
-    /// Whether the model holds a texture of this name.
-    fn is_anchor(&self, name: &str) -> bool {
-        let anchors = &self.model().description().anchors;
-        anchors.iter().any(|anchor| anchor.name == name)
     }
 
     /// What a latent decodes to, and the way from there to what is wanted.
@@ -144,7 +138,7 @@ impl PromptCompiler {
         kept(&self.known, name, || {
             let (_, projected) = &*self.encode(name)?;
             let felt = projected.felt.map(|felt| felt.map(|x| Some(x.into())));
-            self.as_thing(projected.z, felt, false)
+            self.as_thing(self.own_latent(name).unwrap_or(projected.z), felt, false)
         })
     }
 

@@ -8,6 +8,7 @@
 mod compiled_prompt;
 mod encoding_cache;
 mod error;
+mod explained;
 mod graded;
 mod meaning;
 mod named_things;
@@ -23,6 +24,7 @@ pub use crate::words::grade::woods;
 pub use asperity_texture::model::shift::Shift;
 pub use compiled_prompt::{CompiledPrompt, Nearest, Options};
 pub use error::PromptError;
+pub use explained::Taken;
 pub use meaning::Meaning;
 pub use prompt_compiler::{Projection, PromptCompiler};
 pub use source::{KIND, Picture, Prompt};

@@ -117,8 +117,12 @@ impl PromptCompiler {
             .iter()
             .fold(f64::NEG_INFINITY, |best, &s| best.max(f64::from(s)));
         let unfamiliar = f64::from(projected.familiarity) < self.model.description().unfamiliar;
+        let own = match &reading.words[..] {
+            [name] => self.own_latent(name),
+            _ => None,
+        };
         Ok(Projection {
-            z: projected.z,
+            z: own.unwrap_or(projected.z),
             felt: projected.felt.map(|felt| felt.map(|x| Some(x.into()))),
             similarity,
             familiarity: f64::from(projected.familiarity),
@@ -127,6 +131,15 @@ impl PromptCompiler {
             reading,
             understood: understood(shown(prompt).trim(), |word| self.text.reads(word)),
         })
+    }
+
+    /// The latent of a material that the model has by this name; no vector of its name lies nearer.
+    pub(super) fn own_latent(&self, name: &str) -> Option<Latent> {
+        let anchors = &self.model.description().anchors;
+        let anchor = anchors
+            .iter()
+            .find(|anchor| anchor.name.eq_ignore_ascii_case(name))?;
+        anchor.z[..].try_into().ok()
     }
 
     pub(super) fn encode(&self, text: &str) -> Result<Read, PromptError> {

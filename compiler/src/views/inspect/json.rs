@@ -8,6 +8,7 @@ use asperity_texture::model::{
     attributes::{Attributes, Meter},
 };
 use serde::Serialize;
+use std::fmt::{self, Display, Formatter};
 
 /// One texture. Field names and their meaning are a contract.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -98,11 +99,45 @@ pub struct Taps {
 pub struct Friction {
     /// Coefficient of kinetic friction.
     pub mu: f64,
-    /// What it was interpolated from.
+    /// Its nearest materials.
     pub anchors: Vec<FrictionAnchor>,
+    /// Their weighted mean, from which words, edits or a recording moved `mu`; `None` without anchors.
+    pub anchors_mu: Option<f64>,
     /// How it depends on speed: factors of `mu`. Absent where it does not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<FrictionLaw>,
+}
+
+/// The mean of anchors by their weights.
+fn mean(anchors: &[FrictionAnchor]) -> Option<f64> {
+    let weights: f64 = anchors.iter().map(|anchor| anchor.weight).sum();
+    let sum: f64 = anchors.iter().map(|anchor| anchor.weight * anchor.mu).sum();
+    (weights > 0.0).then(|| sum / weights)
+}
+
+/// One line: μ, the materials that have a share of it, and how far words or edits moved it from their mean.
+impl Display for Friction {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "μ {:.3}", self.mu)?;
+        let Some(mean) = self.anchors_mu else {
+            return Ok(());
+        };
+        let moved = 100.0 * (self.mu / mean - 1.0);
+        if moved.abs() >= 0.5 {
+            write!(f, ", {moved:+.0} % by words or edits from {mean:.3}")?;
+        }
+        // What rounds to nothing says nothing.
+        let shown = self.anchors.iter().filter(|anchor| anchor.weight >= 0.005);
+        for (n, anchor) in shown.enumerate() {
+            let before = if n == 0 { " of " } else { ", " };
+            write!(
+                f,
+                "{before}{} μ {:.3} × {:.2}",
+                anchor.name, anchor.mu, anchor.weight
+            )?;
+        }
+        Ok(())
+    }
 }
 
 /// Sizes, bytes.
@@ -180,6 +215,7 @@ impl Document {
             },
             friction: Friction {
                 mu: texture.friction.mu,
+                anchors_mu: mean(&texture.friction.anchors),
                 anchors: texture.friction.anchors,
                 law: texture.friction.law,
             },
@@ -237,6 +273,7 @@ mod tests {
             "/taps/speeds_m_s/12",
             "/taps/traces_m_s2/12/99",
             "/friction/mu",
+            "/friction/anchors_mu",
             "/friction/anchors/0/name",
             "/friction/anchors/0/mu",
             "/friction/anchors/0/weight",

@@ -79,19 +79,7 @@ fn write_text(
         )?,
         _ => writeln!(out, "  taps         none")?,
     }
-    let anchors: Vec<String> = d
-        .friction
-        .anchors
-        .iter()
-        .map(|a| format!("{} μ {:.3} × {:.2}", a.name, a.mu, a.weight))
-        .collect();
-    writeln!(
-        out,
-        "  friction     μ {:.3}{}{}",
-        d.friction.mu,
-        if anchors.is_empty() { "" } else { " from " },
-        anchors.join(", ")
-    )?;
+    writeln!(out, "  friction     {}", d.friction)?;
     if let Some(law) = &d.friction.law {
         let points = law.points.iter();
         let points: Vec<String> = points

@@ -81,11 +81,11 @@ const SIEVES: &[(f64, f64)] = &[
 
 /// Sandpaper that the model knows: its grain, µm, and its name.
 pub(crate) const PAPERS: [(f64, &str); 5] = [
-    (425.0, "40-grit sandpaper"),
+    (269.0, "60-grit sandpaper"),
     (125.0, "120-grit sandpaper"),
+    (68.0, "220-grit sandpaper"),
     (35.0, "400-grit sandpaper"),
-    (18.3, "1000-grit sandpaper"),
-    (10.3, "2000-grit sandpaper"),
+    (18.3, "1000-grit wet-and-dry paper"),
 ];
 
 /// What stones for sharpening are called; they are graded by JIS.
@@ -121,17 +121,28 @@ const GRAINS: &[(&[&str], f64)] = &[
 /// Grain of sandpaper of no said grade, µm.
 const PAPER: f64 = 100.0;
 
-/// Whether a name is of sandpaper, which the model knows by its grades.
+/// Whether a name is that of sandpaper in general, which the model knows by its grades.
 pub(crate) fn is_paper(name: &str) -> bool {
-    let mut words = name.split(' ');
-    let paper = |word: &str| ["sandpaper", "glasspaper"].contains(&word);
-    words.any(paper)
-        || ["sand paper", "abrasive paper", "wet and dry paper", "paper"].contains(&name)
+    const NAMES: &[&str] = &[
+        "sandpaper",
+        "sand paper",
+        "sheet of sandpaper",
+        "piece of sandpaper",
+        "glasspaper",
+        "abrasive paper",
+        "abrasive sheet",
+        "sanding paper",
+        "wet and dry paper",
+        "paper",
+    ];
+    NAMES.contains(&name)
 }
 
 /// Whether a number beside a name is its grit.
 pub(crate) fn is_abrasive(name: &str) -> bool {
     const WORDS: &[&str] = &[
+        "sandpaper",
+        "glasspaper",
         "emery",
         "sanding",
         "abrasive",

@@ -1,0 +1,77 @@
+//! What became of the words of a prompt, for people who ask.
+
+use super::{
+    phrase::{self, Changes, Phrase},
+    reading::{Reading, is_name},
+};
+use crate::words::grade::Grade;
+use serde::Serialize;
+
+/// What a word, or several that are one name, were taken for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Taken {
+    /// The words as they were read.
+    pub text: String,
+    /// `name`, `number`, `quality`, `degree`, `word` for what is encoded besides, or `left out`.
+    pub role: &'static str,
+}
+
+impl Reading {
+    /// What became of every word, those that are left out at the end.
+    #[must_use]
+    pub fn taken(&self) -> Vec<Taken> {
+        let role = |text: &String| match text.as_str() {
+            text if Grade::of(text).is_some() => "number",
+            text if phrase::is_quality(text) => "quality",
+            text if is_name(text) => "name",
+            text if phrase::is_degree(text) => "degree",
+            _ => "word",
+        };
+        let kept = self.words.iter().map(|text| (text, role(text)));
+        let gone = self.ignored.iter().map(|text| (text, "left out"));
+        let taken = |(text, role): (&String, _)| Taken {
+            text: text.clone(),
+            role,
+        };
+        kept.chain(gone).map(taken).collect()
+    }
+
+    /// What its words are together, in a line.
+    #[must_use]
+    pub fn phrase(&self) -> String {
+        match phrase::parse(&self.words) {
+            Phrase::Plain if self.says => format!("what its words lie near: {}", self.text()),
+            Phrase::Plain => "nothing that names something, or says how it feels".into(),
+            Phrase::Changed { base, changes } => format!("{base}, {}", moved(&changes)),
+            Phrase::Graded { base, grades } => {
+                let grades: Vec<String> = grades.iter().map(Grade::to_string).collect();
+                format!("{base} at {}", grades.join(", "))
+            }
+            Phrase::Made { material, object } => {
+                format!("stroked as {material}, and yielding as {object} of it")
+            }
+            Phrase::Part { name, part } => format!("{part}, as rough, slippery and hard as {name}"),
+            Phrase::Between(first, second) => format!("half way between {first} and {second}"),
+            Phrase::Covered { inside, cover } => {
+                format!("stroked as {cover}, and yielding as {inside} under it")
+            }
+        }
+    }
+}
+
+/// Changes in steps: "rough +1.0 to +1.5 steps".
+fn moved(changes: &Changes) -> String {
+    let all = [
+        ("rough", changes.rough),
+        ("slippery", changes.slippery),
+        ("hard", changes.hard),
+    ];
+    let moved = all.into_iter().filter_map(|(attribute, change)| {
+        let change = change?;
+        Some(format!(
+            "{attribute} {:+.1} to {:+.1} steps",
+            change.least, change.most
+        ))
+    });
+    moved.collect::<Vec<_>>().join(", ")
+}
