@@ -10,8 +10,13 @@ const PILE_YIELDS: f64 = 0.6;
 /// lg(E/MPa) = 0.0235·S − 0.6403 (Ruess).
 const SHORE: [(&str, f64); 2] = [("rubber", 65.0), ("acrylic sheet", 135.0)];
 const D_FROM_A: f64 = 50.0;
-/// The softest and the hardest wood that the model knows, lbf.
-const WOODS: [(&str, f64); 2] = [("balsa", 80.0), ("ebony", 3080.0)];
+/// Woods that the model knows, from the softest to the hardest, lbf.
+const WOODS: [(&str, f64); 4] = [
+    ("balsa", 80.0),
+    ("pine", 560.0),
+    ("oak", 1290.0),
+    ("ebony", 3080.0),
+];
 /// The same of Mohs.
 const MOHS: [(&str, f64); 2] = [("gypsum", 2.0), ("diamond", 10.0)];
 
@@ -27,17 +32,24 @@ impl PromptCompiler {
         Ok(found)
     }
 
-    /// What is wanted of a named wood: hardness by its measured one.
-    pub(super) fn wood(&self, name: &str, wanted: Scales) -> Result<Scales, PromptError> {
+    /// A named wood: as hard as it was measured, with the grain of the known wood that is next to it in
+    /// hardness where only "wood" behind its name says that it is one. `None` for what is no wood.
+    pub(super) fn wood(&self, name: &str, thing: Thing) -> Result<Option<Thing>, PromptError> {
         let Some(force) = janka(name) else {
-            return Ok(wanted);
+            return Ok(None);
         };
         let known = WOODS.map(|(name, force): (&str, f64)| (name, libm::log(force)));
-        let wood = Thing {
-            wanted,
-            ..self.named_thing(WOODS[0].0)?
-        };
-        Ok(self.as_hard(wood, known, libm::log(force))?.wanted)
+        let [softest, .., hardest] = known;
+        let force = libm::log(force);
+        let wood = self.as_hard(thing, [softest, hardest], force)?;
+        if !name.ends_with(" wood") {
+            return Ok(Some(wood));
+        }
+        let apart = |of: &&(&str, f64)| (of.1 - force).abs();
+        let next = known.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let (next, _) = next.unwrap_or(&softest);
+        let z = self.named_thing(next)?.z;
+        Ok(Some(Thing { z, ..wood }))
     }
 
     fn at_grade(&self, thing: Thing, name: &str, grade: Grade) -> Result<Thing, PromptError> {

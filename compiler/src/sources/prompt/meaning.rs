@@ -42,9 +42,14 @@ impl PromptCompiler {
         &self,
         projection: &Projection,
     ) -> Result<(Latent, Option<Scales>), PromptError> {
-        let plain = || match (&projection.reading.words[..], projection.felt) {
-            ([name], Some(felt)) => Ok((projection.z, Some(self.wood(name, felt)?))),
-            (_, felt) => Ok((projection.z, felt)),
+        let plain = || {
+            let (z, felt) = (projection.z, projection.felt);
+            let ([name], Some(wanted)) = (&projection.reading.words[..], felt) else {
+                return Ok((z, felt));
+            };
+            let thing = self.as_thing(z, Some(wanted), false)?;
+            let wood = self.wood(name, thing)?;
+            Ok(wood.map_or((z, felt), |wood| (wood.z, Some(wood.wanted))))
         };
         let found = match phrase::parse(&projection.reading.words) {
             Phrase::Plain => return plain(),

@@ -87,13 +87,15 @@ pub fn table() -> String {
     things.iter().for_each(|name| add(name));
     heads.iter().for_each(|name| add(name));
     for wood in woods() {
-        let key = key(wood).expect("a name");
-        let name = match wood.ends_with("wood") {
+        // By itself, hardly any text says that it is of wood: "ipe".
+        let whole = match wood.ends_with("wood") {
             true => wood.to_owned(),
-            // By itself, hardly any text says that it is of wood: "ipe".
             false => format!("{wood} wood"),
         };
-        names.entry(key).or_insert(name);
+        for name in [wood, &whole] {
+            let key = key(name).expect("a name");
+            names.entry(key).or_insert_with(|| whole.clone());
+        }
     }
     // "glass" and "nylon" are no plurals without their s: they stand before or behind others.
     let mut firsts: BTreeMap<&str, usize> = BTreeMap::new();
