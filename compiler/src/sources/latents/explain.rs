@@ -173,14 +173,16 @@ impl Explanation {
     /// A table for people: a row a word, a column a slider.
     #[must_use]
     pub fn text(&self) -> String {
-        let width = self.words.iter().map(|w| w.word.chars().count()).max();
-        let width = width.unwrap_or(0).clamp(4, 32);
+        let read = self.reading.iter().map(|taken| &taken.text);
+        let words = self.words.iter().map(|effect| &effect.word).chain(read);
+        let width = words.map(|word| word.chars().count()).max();
+        let width = width.unwrap_or(0).clamp("together".len(), 32);
         let mut text = String::new();
         for Taken { text: word, role } in &self.reading {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  {word:<width$}  {role}");
         }
-        let _ = writeln!(text, "  together      {}\n", self.phrase);
+        let _ = writeln!(text, "  {:<width$}  {}\n", "together", self.phrase);
         let _ = writeln!(
             text,
             "  {:<width$}  {:>6}  {:>6}  {:>6}  {:>8}",

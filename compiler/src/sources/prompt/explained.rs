@@ -40,6 +40,7 @@ impl Reading {
     #[must_use]
     pub fn phrase(&self) -> String {
         match phrase::parse(&self.words) {
+            Phrase::Plain if self.words.iter().all(|word| is_name(word)) => self.words.join(" "),
             Phrase::Plain if self.says => format!("what its words lie near: {}", self.text()),
             Phrase::Plain => "nothing that names something, or says how it feels".into(),
             Phrase::Changed { base, changes } => format!("{base}, {}", moved(&changes)),
