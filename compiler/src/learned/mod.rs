@@ -17,7 +17,7 @@ mod model;
 pub mod text;
 pub mod texture;
 
-pub use certainty::{Certainty, certainty};
+pub use certainty::Certainty;
 pub use error::ModelError;
 pub use files::Files;
 pub use model::{Decoded, Latent, LearnedModel, Present, Projected};

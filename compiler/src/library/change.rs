@@ -73,27 +73,27 @@ impl Change {
 }
 
 /// What a person notices: a level by 1.6 dB, a frequency by 18 %, friction by 10 %.
-const NOTICED: (f64, f64, f64) = (1.6, 1.18, 1.1);
+const NOTICED_DB: f64 = 1.6;
+const NOTICED_FREQUENCY: f64 = 1.18;
+const NOTICED_FRICTION: f64 = 1.1;
 
 fn felt(old: &Attributes, new: &Attributes) -> Vec<&'static str> {
-    let (level, frequency, friction) = NOTICED;
-    let ratio = |old: Option<f64>, new: Option<f64>, least: f64| match (old, new) {
-        (Some(old), Some(new)) => (new / old).max(old / new) >= least,
-        (old, new) => old.is_some() != new.is_some(),
-    };
-    let louder = match (old.rough_db, new.rough_db) {
-        (Some(old), Some(new)) => (new - old).abs() >= level,
-        (old, new) => old.is_some() != new.is_some(),
-    };
+    let ln = |x: Option<f64>| x.map(libm::log);
+    let (frequency, friction) = (libm::log(NOTICED_FREQUENCY), libm::log(NOTICED_FRICTION));
     let all = [
-        ("rough", louder),
-        ("sharp", ratio(old.sharp_hz, new.sharp_hz, frequency)),
-        ("hard", ratio(old.hard_hz, new.hard_hz, frequency)),
-        ("slippery", ratio(Some(old.mu), Some(new.mu), friction)),
+        ("rough", old.rough_db, new.rough_db, NOTICED_DB),
+        ("sharp", ln(old.sharp_hz), ln(new.sharp_hz), frequency),
+        ("hard", ln(old.hard_hz), ln(new.hard_hz), frequency),
+        ("slippery", ln(Some(old.mu)), ln(Some(new.mu)), friction),
     ];
-    all.into_iter()
-        .filter_map(|(name, moved)| moved.then_some(name))
-        .collect()
+    let moved = |(name, old, new, least): (_, Option<f64>, Option<f64>, f64)| {
+        let far = match (old, new) {
+            (Some(old), Some(new)) => (new - old).abs() >= least,
+            (old, new) => old.is_some() != new.is_some(),
+        };
+        far.then_some(name)
+    };
+    all.into_iter().filter_map(moved).collect()
 }
 
 fn sections(old: &Asset<'_>, new: &Asset<'_>) -> Vec<String> {

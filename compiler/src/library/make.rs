@@ -165,7 +165,6 @@ impl<'a> Maker<'a> {
         if let Some(memory) = memory.filter(|memory| model.has_latent_of(memory.model_crc32)) {
             return Ok(FromLatents {
                 warnings: sourced.warnings,
-                certainty: sourced.certainty,
                 ..FromLatents::remembered(texture, memory)
             });
         }

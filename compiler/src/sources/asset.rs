@@ -7,6 +7,7 @@ use super::{
     libraries::OpenLibraries,
 };
 use crate::{
+    edit_memory::remembered,
     emit::raise::raise,
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request},
@@ -67,8 +68,12 @@ impl Source for AssetFile {
         pipeline: &mut Pipeline,
     ) -> Result<Sourced, Failure> {
         let bytes = pipeline.run(Pass::Read, || self.bytes(tools))?;
-        let texture = raise(&Asset::parse(&bytes).map_err(EditError::from)?);
+        let asset = Asset::parse(&bytes).map_err(EditError::from)?;
+        let texture = raise(&asset);
+        // Bytes that are taken as they are may have a history that this version does not read.
+        let memory = remembered(&asset).ok().flatten();
         Ok(Sourced {
+            certainty: memory.and_then(|memory| memory.history.certainty),
             asset: Some(bytes),
             ..Sourced::new(texture)
         })

@@ -86,6 +86,18 @@ fn lines(text: &str) -> Vec<(&str, &str, Vec<Claim>)> {
         .collect()
 }
 
+/// How many are right; prints how many of each kind.
+fn right(judged: &[(&str, bool)]) -> usize {
+    let mut kinds: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
+    for (kind, right) in judged {
+        let [rights, all] = kinds.entry(kind).or_default();
+        *rights += usize::from(*right);
+        *all += 1;
+    }
+    println!("{kinds:?}");
+    kinds.values().map(|[rights, _]| rights).sum()
+}
+
 #[test]
 fn compounds_parts_and_conditions_feel_as_they_were_judged() {
     let text = evaluation("phrases.tsv");
@@ -106,14 +118,7 @@ fn compounds_parts_and_conditions_feel_as_they_were_judged() {
             (*kind, missed.is_empty())
         })
         .collect();
-    let mut kinds: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
-    for (kind, right) in &judged {
-        let [rights, all] = kinds.entry(kind).or_default();
-        *rights += usize::from(*right);
-        *all += 1;
-    }
-    println!("{kinds:?}");
-    let right = judged.iter().filter(|(_, right)| *right).count();
+    let right = right(&judged);
     assert!(right >= least(LEAST_PHRASES, judged.len()), "{right}");
 }
 
@@ -156,14 +161,7 @@ fn numbers_woods_and_finishes_are_in_order() {
             steps
         })
         .collect();
-    let mut kinds: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
-    for (kind, right) in &steps {
-        let [rights, all] = kinds.entry(kind).or_default();
-        *rights += usize::from(*right);
-        *all += 1;
-    }
-    println!("{kinds:?}");
-    let right = steps.iter().filter(|(_, right)| *right).count();
+    let right = right(&steps);
     assert!(right >= least(LEAST_STEPS, steps.len()), "{right}");
 }
 
@@ -198,19 +196,34 @@ fn every_notation_of_a_grit_is_the_same_paper_and_finer_ones_are_no_duller() {
 
 #[test]
 fn the_version_of_the_reader_follows_what_it_reads() {
-    let mut crc = crc32fast::Hasher::new();
-    for file in [
-        "phrases.tsv",
+    let [phrases, rated] = ["phrases.tsv", "rated.tsv"].map(evaluation);
+    let [things, nonsense, near, rewordings] = [
         "touchable.txt",
         "nonsense.txt",
         "near_words.txt",
         "rewordings.toml",
-    ] {
-        for line in evaluation(file).lines() {
-            let read = PROMPTS.read(&line.replace("{}", "gravel"));
-            crc.update(read.text().as_bytes());
-            crc.update(read.ignored.join(",").as_bytes());
-        }
+    ]
+    .map(evaluation);
+    let series: File = toml::from_str(&evaluation("series.toml")).expect("series.toml");
+    let mut prompts: Vec<String> = lines(&phrases)
+        .iter()
+        .map(|line| line.1.to_owned())
+        .collect();
+    let first = |line: &str| line.split('\t').next().unwrap_or_default().to_owned();
+    prompts.extend(rated.lines().map(first));
+    prompts.extend(series.series.into_iter().flat_map(|series| series.falls));
+    let plain = [things, nonsense, near, rewordings.replace("{}", "gravel")];
+    prompts.extend(
+        plain
+            .iter()
+            .flat_map(|text| text.lines())
+            .map(str::to_owned),
+    );
+    let mut crc = crc32fast::Hasher::new();
+    for prompt in prompts {
+        let read = PROMPTS.read(&prompt);
+        crc.update(format!("{:?} {:?}", read.phrase, read.ignored).as_bytes());
+        crc.update(read.text().as_bytes());
     }
     let version = format!("{:08x}", crc.finalize());
     assert_eq!(

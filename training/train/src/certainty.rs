@@ -1,6 +1,6 @@
 //! From the similarity of a prompt to how far its texture can be trusted.
 
-use asperity::learned::{certainty, description::CertaintyCurve};
+use asperity::learned::description::CertaintyCurve;
 
 /// Knots of a curve, at most.
 const KNOTS: usize = 8;
@@ -39,6 +39,20 @@ pub fn certainty_curve(trials: &[(f64, f64)]) -> CertaintyCurve {
     }
 }
 
+/// Certainty, 0..=1, of a prompt of this familiarity. It is piecewise linear, falls to zero below the first
+/// knot, and is constant beyond the last.
+fn certainty(curve: &CertaintyCurve, familiarity: f64) -> f64 {
+    let (x, y) = (&curve.similarity, &curve.certainty);
+    let Some(after) = x.iter().position(|&knot| familiarity < knot) else {
+        return y.last().copied().unwrap_or(0.0);
+    };
+    if after == 0 {
+        return y[0] * (familiarity / x[0]).clamp(0.0, 1.0);
+    }
+    let share = (familiarity - x[after - 1]) / (x[after] - x[after - 1]);
+    y[after - 1] + share * (y[after] - y[after - 1])
+}
+
 /// Expected calibration error: |certainty − share that went well|, averaged over [`BINS`] bins of
 /// certainty by how many trials each holds. Every second trial makes the curve that the others are
 /// held against, and the other way round.
@@ -66,6 +80,24 @@ pub fn calibration_error(trials: &[(f64, f64)]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn it_is_linear_between_knots_flat_above_and_falls_to_nothing_below() {
+        let curve = CertaintyCurve {
+            similarity: vec![0.2, 0.4, 0.6],
+            certainty: vec![0.1, 0.5, 0.9],
+        };
+        for (similarity, expected) in [
+            (-1.0, 0.0),
+            (0.1, 0.05),
+            (0.2, 0.1),
+            (0.3, 0.3),
+            (0.5, 0.7),
+            (0.9, 0.9),
+        ] {
+            assert!((certainty(&curve, similarity) - expected).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn it_never_falls_and_keeps_the_mean() {

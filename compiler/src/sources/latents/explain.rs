@@ -118,7 +118,7 @@ pub fn explain(editor: &LatentEditor<'_>, text: &str) -> Result<Explanation, Edi
     let reading = editor.prompt_compiler().read(text);
     Ok(Explanation {
         reading: reading.taken(),
-        phrase: reading.phrase(),
+        phrase: reading.together(),
         words: effects.collect(),
     })
 }

@@ -1,7 +1,6 @@
 //! Latents as a source: a blend, a composition, an edit, a recording that was encoded.
 
 use super::{Edit, EditError, LatentEditor, Part, Worded};
-use crate::learned::Certainty;
 use crate::{
     edit_memory::{History, HistoryError, Ingredient, Latents, Memory, Origin, Step},
     learned::{Decoded, LearnedModel, ModelError, friction, texture},
@@ -25,8 +24,6 @@ pub struct FromLatents {
     /// How friction depends on speed, of which latents say nothing: its factors multiply what they
     /// say of μ.
     pub law: Option<FrictionLaw>,
-    /// How well what the prompt that it began with said is known.
-    pub certainty: Option<Certainty>,
     /// What a user should be told.
     pub warnings: Vec<String>,
 }
@@ -41,7 +38,6 @@ impl FromLatents {
             provenance,
             history,
             law: None,
-            certainty: None,
             warnings: Vec::new(),
         }
     }
@@ -172,7 +168,7 @@ impl Source for FromLatents {
                 latents: self.latents,
                 history: self.history.clone(),
             }),
-            certainty: self.certainty,
+            certainty: self.history.certainty,
             warnings: self.warnings.clone(),
             ..Sourced::new(texture)
         })

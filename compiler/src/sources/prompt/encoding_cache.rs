@@ -4,7 +4,7 @@
 //! sum in the same order whatever the batch. So what is read together is to the bit what is read
 //! alone, and weights are expanded once for many prompts.
 
-use super::{PromptCompiler, PromptError, phrase};
+use super::{PromptCompiler, PromptError};
 use crate::learned::{Decoded, Latent, Projected, text::Encoded};
 use std::{
     collections::{HashMap, HashSet},
@@ -59,9 +59,9 @@ impl PromptCompiler {
         let mut seen = HashSet::new();
         for prompt in prompts {
             let reading = self.read(prompt);
-            let things = phrase::parse(&reading.words).things().into_iter();
+            let things = reading.phrase.things().into_iter();
             let things = things.filter(|thing| self.things.get(thing).is_none());
-            let things = things.map(|thing| self.read(&thing).text());
+            let things = things.map(|thing| self.read(thing).text());
             for text in std::iter::once(reading.text()).chain(things) {
                 if self.cache.read(&text).is_none() && seen.insert(text.clone()) {
                     texts.push(text);

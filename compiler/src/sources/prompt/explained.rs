@@ -38,12 +38,12 @@ impl Reading {
 
     /// What its words are together, in a line.
     #[must_use]
-    pub fn phrase(&self) -> String {
-        match phrase::parse(&self.words) {
+    pub fn together(&self) -> String {
+        match &self.phrase {
             Phrase::Plain if self.words.iter().all(|word| is_name(word)) => self.words.join(" "),
             Phrase::Plain if self.says => format!("what its words lie near: {}", self.text()),
             Phrase::Plain => "nothing that names something, or says how it feels".into(),
-            Phrase::Changed { base, changes } => format!("{base}, {}", moved(&changes)),
+            Phrase::Changed { base, changes } => format!("{base}, {}", moved(changes)),
             Phrase::Graded { base, grades } => {
                 let grades: Vec<String> = grades.iter().map(Grade::to_string).collect();
                 format!("{base} at {}", grades.join(", "))

@@ -51,57 +51,45 @@ impl PromptCompiler {
             let wood = self.wood(name, thing)?;
             Ok(wood.map_or((z, felt), |wood| (wood.z, Some(wood.wanted))))
         };
-        let found = match phrase::parse(&projection.reading.words) {
+        let (z, wanted) = match &projection.reading.phrase {
             Phrase::Plain => return plain(),
             Phrase::Changed { base, changes } => {
-                let base = self.thing(&base)?;
+                let base = self.thing(base)?;
                 // The vector of a composed thing says little of it, and less of its changes.
                 let (z, said) = if base.composed {
                     (base.z, base.wanted)
                 } else {
                     (projection.z, self.wanted(projection)?)
                 };
-                Thing {
-                    z,
-                    wanted: phrase::changed(&base.wanted, &said, &changes),
-                    ..base
-                }
+                (z, phrase::changed(&base.wanted, &said, changes))
             }
-            Phrase::Graded { base, grades } => self.graded(&base, &grades)?,
-            Phrase::Made { material, object } => {
-                let (material, object) = (self.thing(&material)?, self.thing(&object)?);
-                let [rough, slippery, _] = material.wanted;
-                let [_, _, hard] = shift::middle(&material.wanted, &object.wanted);
-                Thing {
-                    z: material.z,
-                    wanted: [rough, slippery, hard],
-                    composed: true,
-                }
+            Phrase::Graded { base, grades } => {
+                let graded = self.graded(base, grades)?;
+                (graded.z, graded.wanted)
             }
-            Phrase::Part { name, .. } if self.own_latent(&name).is_some() => return plain(),
-            Phrase::Part { part, .. } => Thing {
-                wanted: self.wanted(projection)?,
-                ..self.thing(&part)?
-            },
+            Phrase::Part { name, .. } if self.own_latent(name).is_some() => return plain(),
+            Phrase::Part { part, .. } => (self.thing(part)?.z, self.wanted(projection)?),
             Phrase::Between(first, second) => {
-                let (first, second) = (self.thing(&first)?, self.thing(&second)?);
-                Thing {
-                    z: std::array::from_fn(|k| 0.5 * (first.z[k] + second.z[k])),
-                    wanted: shift::middle(&first.wanted, &second.wanted),
-                    composed: true,
-                }
+                let (first, second) = (self.thing(first)?, self.thing(second)?);
+                let z = std::array::from_fn(|k| 0.5 * (first.z[k] + second.z[k]));
+                (z, shift::middle(&first.wanted, &second.wanted))
             }
-            Phrase::Covered { inside, cover } => {
-                let (inside, cover) = (self.thing(&inside)?, self.thing(&cover)?);
-                let [rough, slippery, _] = cover.wanted;
-                let [_, _, hard] = shift::middle(&inside.wanted, &cover.wanted);
-                Thing {
-                    wanted: [rough, slippery, hard],
-                    ..cover
-                }
+            // What is outside is stroked, and both yield.
+            Phrase::Covered {
+                inside,
+                cover: outside,
+            }
+            | Phrase::Made {
+                object: inside,
+                material: outside,
+            } => {
+                let (inside, outside) = (self.thing(inside)?, self.thing(outside)?);
+                let [rough, slippery, _] = outside.wanted;
+                let [_, _, hard] = shift::middle(&inside.wanted, &outside.wanted);
+                (outside.z, [rough, slippery, hard])
             }
         };
-        Ok((found.z, Some(found.wanted)))
+        Ok((z, Some(wanted)))
     }
 
     /// What a latent decodes to, and the way from there to what is wanted.
@@ -132,7 +120,7 @@ impl PromptCompiler {
     pub(super) fn thing(&self, text: &str) -> Result<Thing, PromptError> {
         kept(&self.things, text, || {
             let projection = self.project(text)?;
-            let composed = phrase::parse(&projection.reading.words) != Phrase::Plain;
+            let composed = projection.reading.phrase != Phrase::Plain;
             let (z, wanted) = self.resolve_target(&projection)?;
             self.as_thing(z, wanted, composed)
         })

@@ -5,6 +5,7 @@
 //! latent, the [grammar](phrase) of the prompt moves what a vector misses, and the
 //! [driver](crate::driver) does the rest.
 
+mod certainty;
 mod compiled_prompt;
 mod encoding_cache;
 mod error;
@@ -17,7 +18,6 @@ mod prompt_compiler;
 pub mod reading;
 mod report;
 mod source;
-mod sureness;
 mod understood;
 
 pub use crate::words::grade::woods;

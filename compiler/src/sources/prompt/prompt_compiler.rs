@@ -126,7 +126,7 @@ impl PromptCompiler {
             felt: projected.felt.map(|felt| felt.map(|x| Some(x.into()))),
             similarity,
             familiarity: f64::from(projected.familiarity),
-            certainty: self.sureness(&reading, unfamiliar),
+            certainty: self.certainty(&reading, unfamiliar),
             tokens: (encoded.tokens, encoded.cut),
             reading,
             understood: understood(shown(prompt).trim(), |word| self.text.reads(word)),

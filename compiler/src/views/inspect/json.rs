@@ -108,13 +108,6 @@ pub struct Friction {
     pub law: Option<FrictionLaw>,
 }
 
-/// The mean of anchors by their weights.
-fn mean(anchors: &[FrictionAnchor]) -> Option<f64> {
-    let weights: f64 = anchors.iter().map(|anchor| anchor.weight).sum();
-    let sum: f64 = anchors.iter().map(|anchor| anchor.weight * anchor.mu).sum();
-    (weights > 0.0).then(|| sum / weights)
-}
-
 /// One line: μ, the materials that have a share of it, and how far words or edits moved it from their mean.
 impl Display for Friction {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -215,7 +208,7 @@ impl Document {
             },
             friction: Friction {
                 mu: texture.friction.mu,
-                anchors_mu: mean(&texture.friction.anchors),
+                anchors_mu: texture.friction.anchors_mu(),
                 anchors: texture.friction.anchors,
                 law: texture.friction.law,
             },

@@ -90,15 +90,10 @@ impl Grade {
 pub(crate) fn coarser(text: &str) -> f64 {
     let tokens = super::normalise(text);
     let context = Context::of(&tokens);
-    let last = (0..tokens.len()).rev();
-    let found = last.filter_map(|at| {
-        Some(
-            read(&tokens[at..], context)?
-                .1
-                .coarser(&text.to_lowercase()),
-        )
-    });
-    found.into_iter().find(|ratio| *ratio != 1.0).unwrap_or(1.0)
+    let text = text.to_lowercase();
+    let grades = (0..tokens.len()).rev();
+    let mut ratios = grades.filter_map(|at| Some(read(&tokens[at..], context)?.1.coarser(&text)));
+    ratios.find(|ratio| *ratio != 1.0).unwrap_or(1.0)
 }
 
 /// As [`Grade::of`] reads it.

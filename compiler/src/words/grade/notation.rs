@@ -132,10 +132,8 @@ fn grit(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
         parts.eat(GRIT);
         (false, value)
     } else if parts.eat(GRIT) {
-        let p = {
-            parts.pass(FILLERS);
-            parts.eat(&["p"])
-        };
+        parts.pass(FILLERS);
+        let p = parts.eat(&["p"]);
         parts.eat(&["#"]);
         (p, after(parts))
     } else {
@@ -158,7 +156,7 @@ fn mesh(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
         if !parts.eat(&["mesh"]) {
             return None;
         }
-        parts.clone().eat(&["size"]).then(|| parts.eat(&["size"]));
+        parts.eat(&["size"]);
         value
     };
     grade(Scale::Mesh, value, 2.0..=3000.0)
@@ -169,7 +167,9 @@ fn shore(parts: &mut Parts<'_>, context: Context) -> Option<Grade> {
     const SCALE: &[&str] = &["shore", "durometer", "duro"];
     const LETTERS: &[&str] = &["a", "d"];
     let mut d = None;
-    parts.eat(&["hardness"]).then(|| parts.pass(FILLERS));
+    if parts.eat(&["hardness"]) {
+        parts.pass(FILLERS);
+    }
     let value = if parts.eat(SCALE) {
         parts.pass(&["hardness", "scale"]);
         if parts.eat(&["a"]) {
@@ -220,7 +220,9 @@ fn shore(parts: &mut Parts<'_>, context: Context) -> Option<Grade> {
 /// "Mohs 7", "7 Mohs", "hardness 7 on the Mohs scale".
 fn mohs(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
     const MOHS: &[&str] = &["mohs", "moh's"];
-    parts.eat(&["hardness"]).then(|| parts.pass(FILLERS));
+    if parts.eat(&["hardness"]) {
+        parts.pass(FILLERS);
+    }
     let value = if parts.eat(MOHS) {
         after(parts)
     } else {
@@ -240,7 +242,6 @@ fn ra(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
     let said = parts.eat(&["ra"]);
     parts.pass(FILLERS);
     let value = parts.number()?;
-    let start = parts.clone();
     let (unit, factor) = if parts.eat(MICROMETRES) {
         (true, 1.0)
     } else if parts.eat(&["nm", "nanometre", "nanometres"]) {
@@ -255,10 +256,6 @@ fn ra(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
     if !said {
         return None;
     }
-    if !unit {
-        parts.clone_from(&start);
-        parts.eat(&["ra"]);
-    }
     // Binary fractions are not shown.
     let value = (value * factor * 1e6).round() / 1e6;
     grade(Scale::Ra, Some(value), 0.001..=200.0)
@@ -271,18 +268,11 @@ fn threads(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
         after(parts)
     } else {
         let value = parts.number();
-        if parts.eat(THREADS) {
-            if parts.eat(&["count"])
+        let counted = parts.eat(THREADS)
+            && (parts.eat(&["count"])
                 || parts.eat_all(&["per", "square", "inch"])
-                || parts.eat_all(&["per", "inch"])
-            {
-                value
-            } else {
-                None
-            }
-        } else {
-            value.filter(|_| parts.eat(&["tc"]))
-        }
+                || parts.eat_all(&["per", "inch"]));
+        value.filter(|_| counted || parts.eat(&["tc"]))
     };
     grade(Scale::Threads, value, 20.0..=3000.0)
 }

@@ -112,6 +112,14 @@ pub struct Friction {
 }
 
 impl Friction {
+    /// The weighted mean of the anchors, from which words, edits or a recording moved μ; `None` without any.
+    #[must_use]
+    pub fn anchors_mu(&self) -> Option<f64> {
+        let sum = |of: fn(&FrictionAnchor) -> f64| self.anchors.iter().map(of).sum::<f64>();
+        let weights = sum(|anchor| anchor.weight);
+        (weights > 0.0).then(|| sum(|anchor| anchor.weight * anchor.mu) / weights)
+    }
+
     /// μ at a speed, mm/s.
     #[must_use]
     pub fn mu_at(&self, speed_mm_s: f64) -> f64 {

@@ -45,9 +45,10 @@ pub struct Changes {
 }
 
 /// What a prompt says.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum Phrase {
     /// A thing, for the text vector alone.
+    #[default]
     Plain,
     /// A thing with changes.
     Changed {
@@ -91,7 +92,7 @@ pub enum Phrase {
 impl Phrase {
     /// The things that it names, unless it is one thing as a whole.
     #[must_use]
-    pub fn things(self) -> Vec<String> {
+    pub fn things(&self) -> Vec<&str> {
         match self {
             Self::Plain => Vec::new(),
             Self::Changed { base, .. } | Self::Graded { base, .. } => vec![base],

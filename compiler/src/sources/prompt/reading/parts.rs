@@ -59,7 +59,7 @@ fn own(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
     let thing =
         |item: &Item| is_name(item) && substance(&item.text).is_none() && !is_quality(&item.text);
     let owned = |item: &Item| item.text.ends_with("'s");
-    if let Some(owner) = owner(items, n) {
+    let at = if let Some(owner) = owner(items, n) {
         let last = owner.end - 1;
         if !thing(&items[last]) {
             return;
@@ -69,26 +69,23 @@ fn own(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
         match items[last].said.split(' ').next().and_then(substance) {
             Some(of) => {
                 items.splice(owner, [named(of)]);
+                n
             }
             None => {
-                let quality = |item: &Item| item.class == Class::Touch;
-                let kept: Vec<Item> = items[owner.clone()]
-                    .iter()
-                    .filter(|item| quality(item))
-                    .cloned()
-                    .collect();
-                items.splice(n + 1..owner.end, []);
+                let mut kept: Vec<Item> = items.drain(n + 1..owner.end).collect();
+                kept.retain(|item| item.class == Class::Touch);
+                let qualities = kept.len();
                 items.splice(n..n, kept);
+                n + qualities
             }
         }
     } else if n > 0 && (thing(&items[n - 1]) || owned(&items[n - 1])) {
         gone.push(items.remove(n - 1).said);
+        n - 1
     } else {
         return;
-    }
-    if let Some(part) = items.iter_mut().find(|item| is(OWN, &singular(&item.text))) {
-        part.class = Class::Name;
-    }
+    };
+    items[at].class = Class::Name;
 }
 
 /// "the ends of a rope", "rope end", "a rope's end".

@@ -49,10 +49,15 @@ fn draw_friction(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
             words.quiet(canvas, &format!("μ = {mu:.3} at {speed:.0} mm/s"));
         }
     }
-    if friction.anchors.is_empty() {
-        words.quiet(canvas, "no anchors");
-    } else {
-        words.quiet(canvas, "from its anchors:");
+    match friction.anchors_mu() {
+        None => words.quiet(canvas, "no anchors"),
+        Some(mean) => {
+            let moved = 100.0 * (friction.mu / mean - 1.0);
+            if moved.abs() >= 0.5 {
+                words.quiet(canvas, &format!("{moved:+.0} % by words or edits"));
+            }
+            words.quiet(canvas, &format!("from μ = {mean:.3} of its anchors:"));
+        }
     }
     for (index, anchor) in shown.iter().enumerate() {
         let dash = Stroke::new(ink::category(index), 2.5).dashed();

@@ -1,7 +1,7 @@
 //! How well what a prompt says is known.
 
 use super::{
-    phrase::{self, Phrase},
+    phrase::Phrase,
     prompt_compiler::PromptCompiler,
     reading::{Reading, is_name},
 };
@@ -10,7 +10,7 @@ use crate::learned::Certainty;
 impl PromptCompiler {
     /// What was read is known where it is one name, with qualities and numbers at most; close where it is put
     /// together of known things, or lies near to what the model was trained on; else a guess.
-    pub(super) fn sureness(&self, reading: &Reading, unfamiliar: bool) -> Certainty {
+    pub(super) fn certainty(&self, reading: &Reading, unfamiliar: bool) -> Certainty {
         let near = if unfamiliar {
             Certainty::Guess
         } else {
@@ -19,7 +19,7 @@ impl PromptCompiler {
         if !reading.says {
             return Certainty::Guess;
         }
-        match phrase::parse(&reading.words) {
+        match &reading.phrase {
             Phrase::Plain => match &reading.words[..] {
                 [name] if is_name(name) => Certainty::Known,
                 _ => near,
@@ -27,12 +27,12 @@ impl PromptCompiler {
             Phrase::Part { .. } => Certainty::Known,
             // Of words that lie near anything, what they are changed by says little.
             Phrase::Changed { base, .. } | Phrase::Graded { base, .. } => {
-                self.sureness(&self.read(&base), unfamiliar)
+                self.certainty(&self.read(base), unfamiliar)
             }
             composed => {
                 let things = composed.things();
                 let known =
-                    |thing: &String| self.sureness(&self.read(thing), true) == Certainty::Known;
+                    |thing: &&str| self.certainty(&self.read(thing), true) == Certainty::Known;
                 if things.iter().all(known) {
                     Certainty::Close
                 } else {
