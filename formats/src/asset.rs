@@ -1,11 +1,16 @@
 //! The asset: one texture, as a validated view of its bytes.
 
 use crate::{
-    Coupling, FormatError, Friction, Grid, Latents, Provenance, SectionInfo, Taps,
     checksum::crc32,
-    friction::text,
-    header::{self, HAPTIC, Header},
+    coupling::Coupling,
+    error::FormatError,
+    friction::{Friction, text},
+    grid::Grid,
+    header::{self, HAPTIC, Header, SectionInfo},
+    latent::Latents,
     limits,
+    provenance::Provenance,
+    taps::Taps,
 };
 
 /// One texture, borrowed from bytes whose every claim was checked.

@@ -1,6 +1,10 @@
 //! SURF: the wall and the gains.
 
-use crate::{FormatError, error::in_range, limits, wire::Reader};
+use crate::{
+    error::{FormatError, in_range},
+    limits,
+    wire::Reader,
+};
 
 /// The virtual wall `F = k·δ − b·ḋ` and the gains from accelerations to forces.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,14 +1,19 @@
 //! Writing an asset into a caller's buffer.
 
 use crate::{
-    Anchor, Asset, Coupling, FormatError, LawPoint, LsfCode, Numerator, Provenance, Vertex,
-    VertexKind,
+    asset::Asset,
     checksum::crc32,
+    coupling::Coupling,
+    error::{EncodeError, FormatError},
+    friction::Anchor,
+    friction_law::LawPoint,
+    grid::{Numerator, Vertex, VertexKind},
     header::{self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_LAW, VERSION_WITHOUT_LAW},
+    lsf::LsfCode,
+    provenance::Provenance,
     taps::FULL_SCALE,
     wire::Writer,
 };
-use thiserror::Error;
 
 /// Everything an asset is made of, already quantised where the format asks for it.
 #[derive(Debug, Clone, Copy)]
@@ -78,38 +83,6 @@ pub struct FrictionParts<'a> {
     /// Points of its law over speed, 2 to 8; none for friction that does not depend on speed. With
     /// a law the asset is of version 2.
     pub law: &'a [LawPoint],
-}
-
-/// Why an asset could not be written.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[non_exhaustive]
-pub enum EncodeError {
-    /// The buffer is too small.
-    #[error("the buffer has {available} bytes, {needed} or more are needed")]
-    BufferTooSmall {
-        /// Bytes needed up to the point of failure.
-        needed: usize,
-        /// Bytes there are.
-        available: usize,
-    },
-    /// A list has another length than its siblings say, or more than a byte counts.
-    #[error("{field}[{index}]: {found} entries, {expected} expected")]
-    Count {
-        /// Which list.
-        field: &'static str,
-        /// Which one of them.
-        index: usize,
-        /// Entries found.
-        found: usize,
-        /// Entries expected, or the most there can be.
-        expected: usize,
-    },
-    /// Metadata that postcard cannot write into the buffer.
-    #[error("provenance does not fit the buffer")]
-    Metadata,
-    /// The result would be rejected by a reader.
-    #[error("the asset would be rejected: {0}")]
-    Rejected(#[from] FormatError),
 }
 
 /// Writes an asset into `out` and returns its length.

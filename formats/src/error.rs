@@ -1,4 +1,4 @@
-//! Why bytes were rejected.
+//! Why bytes were rejected, or could not be written.
 
 use thiserror::Error;
 
@@ -118,6 +118,38 @@ impl FormatError {
             rule,
         }
     }
+}
+
+/// Why an asset could not be written.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum EncodeError {
+    /// The buffer is too small.
+    #[error("the buffer has {available} bytes, {needed} or more are needed")]
+    BufferTooSmall {
+        /// Bytes needed up to the point of failure.
+        needed: usize,
+        /// Bytes there are.
+        available: usize,
+    },
+    /// A list has another length than its siblings say, or more than a byte counts.
+    #[error("{field}[{index}]: {found} entries, {expected} expected")]
+    Count {
+        /// Which list.
+        field: &'static str,
+        /// Which one of them.
+        index: usize,
+        /// Entries found.
+        found: usize,
+        /// Entries expected, or the most there can be.
+        expected: usize,
+    },
+    /// Metadata that postcard cannot write into the buffer.
+    #[error("provenance does not fit the buffer")]
+    Metadata,
+    /// The result would be rejected by a reader.
+    #[error("the asset would be rejected: {0}")]
+    Rejected(#[from] FormatError),
 }
 
 /// Rejects a value that is not finite or not in `min..=max`.

@@ -1,8 +1,8 @@
 //! FRIC: μ, the anchors it was interpolated from and, in version 2, its law over speed.
 
 use crate::{
-    FormatError, FrictionLaw,
-    error::in_range,
+    error::{FormatError, in_range},
+    friction_law::FrictionLaw,
     header::{VERSION_WITH_LAW, VERSION_WITHOUT_LAW},
     limits,
     wire::Reader,

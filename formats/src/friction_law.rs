@@ -1,7 +1,8 @@
 //! The law of friction over speed, a part of FRIC in version 2: factors of μ.
 
 use crate::{
-    FormatError, limits,
+    error::FormatError,
+    limits,
     wire::{Reader, u16_at},
 };
 

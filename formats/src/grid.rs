@@ -1,9 +1,9 @@
 //! GRID: AR or ARMA models over the speed–force plane.
 
 use crate::{
-    FormatError, LsfCode,
-    error::in_range,
+    error::{FormatError, in_range},
     limits,
+    lsf::LsfCode,
     wire::{Reader, f16_at, f32_at},
 };
 

@@ -1,6 +1,6 @@
 //! The header and the section table: where everything is, and under which CRC.
 
-use crate::{FormatError, checksum::crc32, limits, wire::array_at};
+use crate::{checksum::crc32, error::FormatError, limits, wire::array_at};
 
 /// Latest version of the asset format; an asset is written in the lowest one that can hold it.
 pub const VERSION: u16 = VERSION_WITH_LAW;

@@ -1,6 +1,6 @@
 //! late: where a texture lies in the latent space of a learned model.
 
-use crate::{FormatError, limits, wire::Reader};
+use crate::{error::FormatError, limits, wire::Reader};
 
 /// The latents that an asset was decoded from. The runtime never reads them.
 #[derive(Debug, Clone, Copy, PartialEq)]

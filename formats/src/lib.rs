@@ -39,8 +39,8 @@ mod wire;
 
 pub use asset::Asset;
 pub use coupling::Coupling;
-pub use encode::{AssetParts, EncodeError, FrictionParts, GridParts, ModelParts, TapParts, encode};
-pub use error::FormatError;
+pub use encode::{AssetParts, FrictionParts, GridParts, ModelParts, TapParts, encode};
+pub use error::{EncodeError, FormatError};
 pub use friction::{Anchor, Friction};
 pub use friction_law::{FrictionLaw, LawPoint};
 pub use grid::{Grid, Model, Numerator, Vertex, VertexKind};

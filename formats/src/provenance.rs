@@ -1,6 +1,6 @@
 //! prov: where a texture comes from, as postcard metadata.
 
-use crate::{FormatError, limits};
+use crate::{error::FormatError, limits};
 use serde::{Deserialize, Serialize};
 
 /// Where a texture comes from. The runtime never reads it.

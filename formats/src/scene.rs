@@ -1,10 +1,10 @@
 //! SCEN: which surfaces a scene has, where they are, and which texture each one wears.
 
 use crate::{
-    FormatError, Solid,
     checksum::crc32,
-    error::in_range,
+    error::{FormatError, in_range},
     limits,
+    solid::Solid,
     wire::{Reader, Writer, array_at, f32_at, u16_at},
 };
 

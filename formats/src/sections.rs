@@ -1,8 +1,10 @@
 //! An asset of given sections: what changes some sections of another asset and keeps the rest.
 
 use crate::{
-    Asset, EncodeError, Friction,
+    asset::Asset,
     checksum::crc32,
+    error::EncodeError,
+    friction::Friction,
     header::{ENTRY_LEN, FIXED_LEN, FRICTION, HAPTIC, MAGIC, VERSION_WITHOUT_LAW},
     wire::Writer,
 };

@@ -1,8 +1,7 @@
 //! TAPS: the tap bank, traces at their own rate, twelve bits a sample.
 
 use crate::{
-    FormatError,
-    error::in_range,
+    error::{FormatError, in_range},
     limits,
     wire::{Reader, f32_at},
 };

@@ -1,6 +1,6 @@
 //! Bounds-checked little-endian reading and writing.
 
-use crate::{EncodeError, FormatError};
+use crate::error::{EncodeError, FormatError};
 use half::f16;
 
 /// Reads a section front to back; every step says what it wanted.

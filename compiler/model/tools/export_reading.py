@@ -135,8 +135,8 @@ def fit(x, y, weight):
 
 def own_words(english, rows):
     """English words that the table lacks, one edit from a word of the reader's."""
-    vocabulary = set((READER / "reading/qualities.txt").read_text("utf-8").split())
-    for line in (READER / "reading/names.tsv").read_text("utf-8").splitlines():
+    vocabulary = set((READER / "lexicon/qualities.txt").read_text("utf-8").split())
+    for line in (READER / "lexicon/names.tsv").read_text("utf-8").splitlines():
         vocabulary |= set(line.split("\t")[0].split())
 
     def shortened(word):

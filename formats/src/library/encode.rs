@@ -6,8 +6,9 @@ use super::{
     memory::Library,
 };
 use crate::{
-    Asset, EncodeError, FormatError,
+    asset::Asset,
     checksum::crc32,
+    error::{EncodeError, FormatError},
     limits,
     scene::{self, SceneSurface},
     wire::Writer,

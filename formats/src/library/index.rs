@@ -1,7 +1,7 @@
 //! The index: where each texture of a library lies.
 
 use super::layout::{ENTRY_LEN, HEADER_LEN, MAGIC, VERSION, VERSION_WITH_SCENE};
-use crate::{FormatError, checksum::crc32, friction::text, limits, scene, wire::array_at};
+use crate::{checksum::crc32, error::FormatError, friction::text, limits, scene, wire::array_at};
 use core::{cmp::Ordering, ops::Range};
 
 /// A validated index, borrowed from the front of a library.

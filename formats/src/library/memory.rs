@@ -1,7 +1,7 @@
 //! A whole library in memory, mapped or in flash.
 
 use super::index::{Entry, LibraryIndex};
-use crate::{Asset, FormatError, scene::Scene};
+use crate::{asset::Asset, error::FormatError, scene::Scene};
 use core::{cmp::Ordering, ops::Range};
 
 /// A whole library in memory.

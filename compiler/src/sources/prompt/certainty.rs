@@ -1,10 +1,6 @@
 //! How well what a prompt says is known.
 
-use super::{
-    phrase::Phrase,
-    prompt_compiler::PromptCompiler,
-    reading::{Reading, is_name},
-};
+use super::{lexicon::is_name, phrase::Phrase, prompt_compiler::PromptCompiler, reading::Reading};
 use crate::learned::Certainty;
 
 impl PromptCompiler {

@@ -1,8 +1,9 @@
 //! What became of the words of a prompt, for people who ask.
 
 use super::{
+    lexicon::is_name,
     phrase::{self, Changes, Phrase},
-    reading::{Reading, is_name},
+    reading::Reading,
 };
 use crate::words::grade::Grade;
 use serde::Serialize;

@@ -11,6 +11,7 @@ mod encoding_cache;
 mod error;
 mod explained;
 mod graded;
+mod lexicon;
 mod meaning;
 mod named_things;
 pub mod phrase;

@@ -4,14 +4,8 @@
 //! words may lie near a third thing, such as the mat of another material.
 
 use super::Phrase;
-use crate::{
-    learned::text::Vocabulary,
-    sources::prompt::reading::{is_name, own_part},
-};
+use crate::sources::prompt::lexicon::{is_name, own_part, substance};
 
-/// What things are made of: lines `word TAB substance`, sorted; the substance is left out where it is the
-/// word.
-const SUBSTANCES: &str = include_str!("substances.tsv");
 /// Things whose own relief is felt, of whatever they are made: "wire mesh", "nylon brush".
 const RELIEFS: &[&str] = &[
     "band", "blanket", "braid", "bristle", "bristles", "broom", "brush", "carpet", "chain",
@@ -20,12 +14,6 @@ const RELIEFS: &[&str] = &[
     "rasp", "rope", "rug", "scourer", "screw", "shavings", "sieve", "sponge", "string", "thread",
     "towel", "tread", "twine", "weave", "wire", "wool", "yarn", "zip",
 ];
-
-/// The substance that a word names.
-pub(in crate::sources::prompt) fn substance(word: &str) -> Option<&'static str> {
-    let line = Vocabulary::new(SUBSTANCES).line("", word)?;
-    Some(line.split_once('\t').map_or(line, |(_, name)| name))
-}
 
 /// "bamboo mat", "a mat of bamboo", "a mat made of bamboo".
 pub(super) fn made(words: &[String]) -> Option<Phrase> {

@@ -17,7 +17,6 @@ mod words;
 use crate::words::grade::Grade;
 
 pub use changed::{STEP, changed, from_base};
-pub(super) use compound::substance;
 pub use parse::{is_cover, parse};
 pub use quality::{is_degree, is_lasting, is_quality};
 pub use relative::{Relative, Towards, relative};

@@ -7,7 +7,6 @@
 
 mod closed_class;
 mod description;
-mod names;
 mod parts;
 mod read;
 mod segment;
@@ -16,10 +15,9 @@ mod spelling;
 mod tests;
 mod word_sense;
 
+pub use super::lexicon::key;
 pub use crate::words::{Token, normalise, shown};
 pub use closed_class::{is_colour, is_grammar};
-pub use names::key;
-pub(super) use parts::own_part;
 pub use spelling::Correction;
 
 use super::phrase::{self, Phrase};
@@ -102,11 +100,6 @@ impl Reader {
             ..reading
         }
     }
-}
-
-/// Whether a text is the name of something.
-pub(super) fn is_name(text: &str) -> bool {
-    names::name(&text.split(' ').collect::<Vec<_>>()).is_some()
 }
 
 /// The last number of one thing, and one before it that says otherwise.

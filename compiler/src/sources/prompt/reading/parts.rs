@@ -2,27 +2,18 @@
 
 use super::{
     closed_class::is_determiner,
-    names,
     segment::{Class, Item, is_name},
 };
-use crate::sources::prompt::phrase::{is_quality, substance};
+use crate::sources::prompt::{
+    lexicon::{self, is_own_part, substance},
+    phrase::is_quality,
+};
 use crate::words::singular;
 
-/// Parts that are as they are, whatever they belong to.
-const OWN: &[&str] = &[
-    "blade", "buckle", "button", "grip", "handle", "hilt", "hinge", "knob", "shaft", "spout",
-    "strap", "zip",
-];
 /// Parts that are as the whole is.
 const WHOLE: &[&str] = &[
     "body", "end", "head", "middle", "piece", "point", "side", "surface", "tip", "top",
 ];
-
-/// Whether a name is of a part that is as it is.
-pub(in crate::sources::prompt) fn own_part(name: &str) -> Option<&str> {
-    let (_, part) = name.rsplit_once(' ')?;
-    is(OWN, &singular(part)).then_some(part)
-}
 
 /// Items without what a part belongs to, or without the part; and the words that went.
 pub(super) fn divide(mut items: Vec<Item>) -> (Vec<Item>, Vec<String>) {
@@ -30,7 +21,7 @@ pub(super) fn divide(mut items: Vec<Item>) -> (Vec<Item>, Vec<String>) {
     let mut n = 0;
     while n < items.len() {
         let part = singular(&items[n].text);
-        if is(OWN, &part) {
+        if is_own_part(&part) {
             own(&mut items, n, &mut gone);
         } else if is(WHOLE, &part) {
             whole(&mut items, n, &mut gone);
@@ -112,7 +103,7 @@ fn whole(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
         .checked_sub(1)
         .and_then(|at| items[at].text.strip_suffix("'s"))
     {
-        let Some(name) = names::name(&[name]) else {
+        let Some(name) = lexicon::name(&[name]) else {
             return;
         };
         items.splice(n - 1..=n, [named(name)]);

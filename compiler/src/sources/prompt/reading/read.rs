@@ -4,10 +4,12 @@ use super::{
     Reading,
     closed_class::{ACROSS, PLACES, TOOLS, is_act, is_colour, is_determiner},
     description::{SUBJECTS, has_unknown_head, is_description},
-    names,
     segment::{Class, Item, is_name},
 };
-use crate::{sources::prompt::phrase, words::grade::Grade};
+use crate::{
+    sources::prompt::{lexicon, phrase},
+    words::grade::Grade,
+};
 
 /// What follows one of these happened to a thing: "a chin after the barber".
 const EVENTS: &[&str] = &["after", "before", "until"];
@@ -242,7 +244,7 @@ fn unnamed(items: &[Item]) -> Reading {
     }
     // Of a word of no list, the classifier cannot tell "minty" and "barking" from touch by themselves.
     let listed = |word: &str| {
-        phrase::is_quality(word) || names::is_quality(word) || Grade::of(word).is_some()
+        phrase::is_quality(word) || lexicon::is_quality(word) || Grade::of(word).is_some()
     };
     let says = |item: &Item| match item.class {
         Class::Name | Class::Thing => true,

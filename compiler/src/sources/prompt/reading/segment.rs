@@ -4,10 +4,12 @@ use super::{
     closed_class::{
         is_act, is_colour, is_covering, is_determiner, is_function, is_link, is_part, is_picture,
     },
-    names::{self, LONGEST},
     word_sense::Sense,
 };
-use crate::sources::prompt::phrase::{self, substance};
+use crate::sources::prompt::{
+    lexicon::{self, LONGEST, substance},
+    phrase,
+};
 use crate::words::{
     Token,
     grade::{self, Grade},
@@ -142,7 +144,7 @@ pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<It
             .get(n + 1)
             .is_none_or(|next| next.class == Class::Break);
         let noun = items[n].class == Class::Act && ends && substance(&items[n - 1].text).is_some();
-        if let Some(name) = names::name(&[&items[n].text]).filter(|_| noun) {
+        if let Some(name) = lexicon::name(&[&items[n].text]).filter(|_| noun) {
             items[n] = Item {
                 said: items[n].said.clone(),
                 ..item(name, Class::Name)
@@ -220,8 +222,8 @@ fn longest(words: &[&str], compared: bool) -> Option<(usize, &'static str)> {
         let whole = !is_determiner(first) && !alone;
         let said = &words[..count];
         // "bees wax" is beeswax.
-        let joined = || names::name(&[said.concat().as_str()]).filter(|_| count == 2);
-        let name = names::name(said).or_else(joined).filter(|_| whole)?;
+        let joined = || lexicon::name(&[said.concat().as_str()]).filter(|_| count == 2);
+        let name = lexicon::name(said).or_else(joined).filter(|_| whole)?;
         Some((count, name))
     })
 }
@@ -237,7 +239,7 @@ fn class(word: &str, sense: impl Fn(&str) -> Sense) -> Class {
         Class::Function
     } else if is_act(word) {
         Class::Act
-    } else if phrase::is_quality(word) || names::is_quality(word) {
+    } else if phrase::is_quality(word) || lexicon::is_quality(word) {
         Class::Touch
     } else if is_colour(word) || word.ends_with("'s") {
         Class::Other

@@ -1,13 +1,10 @@
 //! Misspellings: a word that no one knows, and that is nearly one of the reader's.
 
-use super::{
-    closed_class::{is_colour, is_grammar},
-    names,
-};
+use super::closed_class::{is_colour, is_grammar};
 use crate::words::{Token, singular};
 use crate::{
     learned::text::{Vocabulary, WordTable},
-    sources::prompt::phrase,
+    sources::prompt::{lexicon, phrase},
 };
 use std::collections::BTreeMap;
 
@@ -46,12 +43,12 @@ fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
             Token::Break => None,
         })
         .collect();
-    let words = words.filter(|words| (2..=names::LONGEST).contains(&words.len()))?;
+    let words = words.filter(|words| (2..=lexicon::LONGEST).contains(&words.len()))?;
     let says = |word: &&str| {
-        let name = names::name(&[*word]).is_some();
-        name || is_grammar(word) || phrase::is_quality(word) || names::is_quality(word)
+        let name = lexicon::name(&[*word]).is_some();
+        name || is_grammar(word) || phrase::is_quality(word) || lexicon::is_quality(word)
     };
-    if names::name(&words).is_some() || names::name(&[&words.concat()]).is_some() {
+    if lexicon::name(&words).is_some() || lexicon::name(&[&words.concat()]).is_some() {
         return None;
     }
     // A wrong digit makes another number, and that is no misspelling.
@@ -66,7 +63,7 @@ fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
         let several = key.contains(' ') && key.len().abs_diff(said.len()) <= 1;
         several && strsim::osa_distance(key, &said) <= 1
     };
-    let taken = names::keys().find(near)?.to_owned();
+    let taken = lexicon::keys().find(near)?.to_owned();
     let taken_words = taken.split(' ').map(|word| Token::Word(word.to_owned()));
     *tokens = taken_words.collect();
     Some(Correction { said, taken })
@@ -103,11 +100,11 @@ fn is_known(word: &str, table: &WordTable) -> bool {
         || is_colour(word)
         || phrase::is_quality(word)
         || phrase::is_degree(word)
-        || names::is_quality(word)
+        || lexicon::is_quality(word)
         || own(word)
         || own(&singular(word))
         // Looked through from end to end, so last.
-        || names::vocabulary().any(|known| known == word)
+        || lexicon::vocabulary().any(|known| known == word)
 }
 
 /// The word of the reader's that one edit parts from this one. Of several, one with the same first letter,
@@ -120,7 +117,7 @@ fn nearest(word: &str) -> Option<&'static str> {
             && strsim::osa_distance(known, &word) <= 1
     };
     let mut found: BTreeMap<&'static str, usize> = BTreeMap::new();
-    for known in names::vocabulary().filter(near) {
+    for known in lexicon::vocabulary().filter(near) {
         *found.entry(known).or_default() += 1;
     }
     let rank = |(known, times): &(&'static str, usize)| {

@@ -12,7 +12,7 @@ use crate::words::{Token, normalise, singular};
 const NAMES: &str = include_str!("names.tsv");
 const QUALITIES: &str = include_str!("qualities.txt");
 /// Words of a name at most.
-pub(super) const LONGEST: usize = 5;
+pub(in crate::sources::prompt) const LONGEST: usize = 5;
 
 /// The key of a name; `None` for a text of no words or too many.
 #[must_use]
@@ -38,25 +38,25 @@ fn key_of(words: &[&str]) -> String {
 }
 
 /// The name that these words are, as the corpus spells it.
-pub(super) fn name(words: &[&str]) -> Option<&'static str> {
+pub(in crate::sources::prompt) fn name(words: &[&str]) -> Option<&'static str> {
     let line = Vocabulary::new(NAMES).line("", &key_of(words))?;
     Some(line.split_once('\t').map_or(line, |(_, name)| name))
 }
 
 /// Whether the lexicon says of something how it feels by this word.
-pub(super) fn is_quality(word: &str) -> bool {
+pub(in crate::sources::prompt) fn is_quality(word: &str) -> bool {
     Vocabulary::new(QUALITIES).line("", word).is_some()
 }
 
 /// Every word of a name's key, as often as it stands in one, and every quality.
-pub(super) fn vocabulary() -> impl Iterator<Item = &'static str> {
+pub(in crate::sources::prompt) fn vocabulary() -> impl Iterator<Item = &'static str> {
     keys()
         .flat_map(|key| key.split(' '))
         .chain(QUALITIES.lines())
 }
 
 /// The key of every name.
-pub(super) fn keys() -> impl Iterator<Item = &'static str> {
+pub(in crate::sources::prompt) fn keys() -> impl Iterator<Item = &'static str> {
     let key = |line: &'static str| line.split_once('\t').map_or(line, |(key, _)| key);
     NAMES.lines().map(key)
 }
