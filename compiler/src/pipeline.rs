@@ -170,7 +170,7 @@ impl Pipeline {
         let mut lowered = self.lower(&texture, preview.as_deref())?;
         if let Some(memory) = beside.memory {
             let remembering = self.run(Pass::Lower, || remember(&lowered.bytes, memory));
-            lowered.bytes = remembering.map_err(LowerError::from)?;
+            lowered.set_bytes(remembering.map_err(LowerError::from)?)?;
         }
         let verified = self.verify(&texture, &lowered.bytes)?;
         Ok(Passed {

@@ -29,6 +29,9 @@ pub fn materials() -> Vec<PathBuf> {
     files
 }
 
+/// Materials of the HaTT that published figures are over, of its 100. Another copy gives other figures.
+pub const PUBLISHED: usize = 75;
+
 /// Every `stride`th of [`materials`].
 #[must_use]
 pub fn some_materials(stride: usize) -> Vec<PathBuf> {

@@ -7,6 +7,7 @@
 
 pub mod damage;
 pub mod draw;
+pub mod figures;
 pub mod force_limits;
 pub mod fuzz_ticks;
 pub mod hatt;

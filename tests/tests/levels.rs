@@ -1,4 +1,4 @@
-//! In a steady stroke of 60 s the third octaves of the vibration are within 1 dB of the model's,
+//! In a steady stroke of 60 s the third octaves of the vibration are those of the model, but for chance,
 //! at vertices and between them, for the built-in texture and HaTT materials.
 
 use crate::support;
@@ -6,7 +6,7 @@ use asperity::reduce::Fidelity;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{
-    hatt,
+    figures, hatt,
     oracle::{Texture, polynomial},
     size::sized,
     spectrum::{band_levels_db, model_power, periodogram, third_octaves},
@@ -18,9 +18,14 @@ const SECONDS: usize = 60;
 /// Below this frequency 60 s of a band hold too few independent samples to tell 1 dB from
 /// chance.
 const LOW_HZ: f64 = 25.0;
+/// What a band may be off beside chance, dB.
+const MOST_DB: f64 = 0.15;
+/// Standard deviations of a band's level that chance may take. The worst of the 2·10⁴ bands that are compared
+/// lies at some four.
+const SIGMAS: f64 = 4.5;
 
-/// Largest difference over the bands, dB, and the centre of that band, Hz.
-fn difference_db(bytes: &[u8], speed_mm_s: f64, force_n: f64, seed: u64) -> (f64, f64) {
+/// Largest difference over the bands, dB.
+fn difference_db(name: &str, bytes: &[u8], speed_mm_s: f64, force_n: f64, seed: u64) -> f64 {
     let asset = Asset::parse(bytes).unwrap();
     let rate_hz = asset.grid().sample_rate_hz();
     assert_eq!(rate_hz, 1000.0, "the trajectory is at 1 kHz");
@@ -54,9 +59,22 @@ fn difference_db(bytes: &[u8], speed_mm_s: f64, force_n: f64, seed: u64) -> (f64
         .iter()
         .zip(&expected)
         .zip(&bands)
-        .map(|((a, b), band)| ((a - b).abs(), band.0))
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .unwrap_or_default()
+        .map(|((a, b), &(centre_hz, low_hz, high_hz))| {
+            let (db, most_db) = ((a - b).abs(), MOST_DB + SIGMAS * deviation_db(high_hz - low_hz));
+            assert!(
+                db < most_db,
+                "{name} at {speed_mm_s} mm/s, {force_n} N: {db:.2} dB in the band around {centre_hz:.0} Hz, \
+                 {most_db:.2} at most"
+            );
+            db
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Standard deviation of the level of noise in a band over [`SECONDS`], dB: its power has twice bandwidth times
+/// duration degrees of freedom (Bendat and Piersol, Random Data, section 8.5).
+fn deviation_db(bandwidth_hz: f64) -> f64 {
+    10.0 / std::f64::consts::LN_10 / (bandwidth_hz * SECONDS as f64).sqrt()
 }
 
 /// Sounding vertices, and centroids of triangles that sound.
@@ -93,12 +111,9 @@ fn check(name: &str, bytes: &[u8], places_a_kind: usize) -> f64 {
         .par_iter()
         .enumerate()
         .map(|(seed, &(speed, force))| {
-            let (db, band_hz) = difference_db(bytes, speed, force, (bytes.len() + seed) as u64);
-            assert!(
-                db < 1.0,
-                "{name} at {speed} mm/s, {force} N: {db:.2} dB in the band around {band_hz:.0} Hz"
-            );
-            db
+            // Noise of each material's own, which does not follow the bytes.
+            let seed = u64::from(crc32fast::hash(name.as_bytes())) + seed as u64;
+            difference_db(name, bytes, speed, force, seed)
         })
         .reduce(|| 0.0, f64::max);
     println!("{name}: {} places, within {worst:.2} dB", chosen.len());
@@ -127,4 +142,14 @@ fn every_hatt_material() {
         })
         .reduce(|| 0.0, f64::max);
     println!("{} materials: within {worst:.2} dB", files.len());
+    if files.len() == hatt::PUBLISHED {
+        figures::hold_at_full(
+            "levels",
+            "-p asperity-tests --test it levels",
+            [
+                ("worst_db", figures::within(worst, 2)),
+                ("materials", files.len().to_string()),
+            ],
+        );
+    }
 }

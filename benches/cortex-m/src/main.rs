@@ -27,6 +27,7 @@ mod thumb;
 mod toolchain;
 
 use asperity_kernels::workload::Orders;
+use asperity_tests::figures;
 use package::{Result, home};
 use std::process::ExitCode;
 
@@ -125,6 +126,9 @@ fn run(triple: &str, build_core: bool) -> Result<()> {
     let toolchain = toolchain::Toolchain::find(target, build_core)?;
     let measured = measure::all(target, &toolchain)?;
     report::print(target, &measured);
+    if let Some((name, set)) = report::figures(target, &measured) {
+        figures::keep(name, &set)?;
+    }
     let mut faults = measure::differences(&measured);
     faults.extend(limits::exceeded(&limits, &measured));
     faults.extend(measure::search_for_panics_works(target, &toolchain)?);

@@ -17,6 +17,7 @@ use asperity_benches::{
     texture::texture,
 };
 use asperity_formats::{Asset, Numerator};
+use asperity_tests::figures::{self, Set};
 use std::{env, error::Error, hint::black_box};
 
 /// First argument of the measured program that loads.
@@ -59,27 +60,37 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     let asked: Option<u32> = arguments.first().map(|rate| rate.parse()).transpose()?;
+    let mut at_1_khz = Vec::new();
     for ratio in RATIOS {
         if asked.is_none_or(|asked| asked == ratio) {
-            table(ratio)?;
+            let rows = table(ratio)?;
+            if ratio == 1 {
+                at_1_khz = rows;
+            }
         }
     }
     println!("executed instructions of a sample the usual way (see `reference.rs`)");
+    let mut samples = Vec::new();
     for (index, (label, ..)) in TEXTURES.iter().enumerate() {
         let usual = |samples: u32| count(&[REFERENCE, &index.to_string(), &samples.to_string()]);
         let a_sample = (usual(2 * TICKS)? - usual(TICKS)?) / u64::from(TICKS);
         println!("{label:<24}{a_sample:>9}");
+        samples.push(a_sample);
     }
     println!("executed instructions at load");
     for (index, (_, label)) in Work::ALL.iter().enumerate() {
         let load = |times: u32| count(&[LOADING, &index.to_string(), &times.to_string()]);
         println!("{label:<32}{:>9}", (load(20)? - load(10)?) / 10);
     }
+    if !at_1_khz.is_empty() {
+        figures::keep("instructions", &figures(&at_1_khz, &samples))?;
+    }
     Ok(())
 }
 
 /// Every texture and motion at `ratio` kHz, models at 1 kHz.
-fn table(ratio: u32) -> Result<(), Box<dyn Error>> {
+fn table(ratio: u32) -> Result<Vec<Row>, Box<dyn Error>> {
+    let mut rows = Vec::new();
     println!(
         "executed instructions a tick at {ratio} kHz ({}, release)",
         env::consts::ARCH
@@ -95,10 +106,14 @@ fn table(ratio: u32) -> Result<(), Box<dyn Error>> {
         for motion_index in 0..Motion::ALL.len() {
             let motion = |ticks| count_motion(texture_index, motion_index, ratio, ticks);
             let (once, twice) = (motion(TICKS)?, motion(2 * TICKS)?);
-            let a_tick = (twice - once) as f64 / f64::from(TICKS);
+            let a_tick = ((twice - once) as f64 / f64::from(TICKS)).round();
             print!("{a_tick:>9.0}");
             counts.push(a_tick);
         }
+        rows.push(Row {
+            label,
+            ticks: counts.iter().map(|count| *count as u64).collect(),
+        });
         let most = counts.iter().copied().fold(f64::MIN, f64::max);
         let least = counts.iter().copied().fold(f64::MAX, f64::min);
         print!("{:>8.1}%", (most / least - 1.0) * 100.0);
@@ -117,7 +132,58 @@ fn table(ratio: u32) -> Result<(), Box<dyn Error>> {
             println!(" {} to {}", cycle[0], cycle[cycle.len() - 1]);
         }
     }
-    Ok(())
+    Ok(rows)
+}
+
+/// Executed instructions of a texture's ticks, in the order of [`Motion::ALL`].
+struct Row {
+    label: &'static str,
+    ticks: Vec<u64>,
+}
+
+/// What pages quote: the ticks at 1 kHz, and samples the usual way.
+fn figures(rows: &[Row], usual: &[u64]) -> Set {
+    let count = |row: &Row| figures::count(row.ticks.iter().copied().max().unwrap_or_default());
+    let least = rows[0].ticks.iter().copied().min().unwrap_or_default();
+    let line = |row: &Row| {
+        let cells: Vec<String> = row.ticks.iter().map(u64::to_string).collect();
+        format!("| {} | {} |\n", row.label, cells.join(" | "))
+    };
+    let head = Motion::ALL.map(|(_, motion)| motion).join(" | ");
+    let rule = "---:|".repeat(Motion::ALL.len());
+    let ratio = |n: usize| {
+        let ours = rows[n].ticks[STROKE];
+        format!("{:.0}", usual[n] as f64 / ours as f64)
+    };
+    let beside = rows.iter().zip(usual).enumerate().map(|(n, (row, usual))| {
+        let ours = row.ticks[STROKE];
+        format!(
+            "| {} | {} | {ours} | {} × |\n",
+            row.label,
+            figures::count(*usual),
+            ratio(n)
+        )
+    });
+    let ticks: String = rows.iter().map(line).collect();
+    let beside: String = beside.collect();
+    Set::new(
+        "cargo run --release -p asperity-benches --bin instructions 1",
+        [
+            ("least", figures::count(least)),
+            ("most", count(&rows[0])),
+            ("times_arma", ratio(0)),
+            ("times_ar", ratio(2)),
+            ("ticks", format!("| texture | {head} |\n|---|{rule}\n{ticks}")),
+            (
+                "beside",
+                format!(
+                    "| executed instructions | reference: a sample | ours: the whole tick | ratio |\n\
+                     |---|---:|---:|---:|\n{beside}"
+                ),
+            ),
+        ],
+    )
+    .under(format!("{}, {}", env::consts::ARCH, figures::compiler()))
 }
 
 /// The measured program: loading.

@@ -28,6 +28,8 @@ impl Page<'_> {
 
 `cargo run --release -p asperity --example figures` writes this page and its pictures. The textures are
 those of the shipped model, which was trained on a synthetic corpus; nothing was measured on a device.
+The tables state the attributes of the textures as decoded. `--fidelity auto`, the default of `compile`, moves
+those of the five prompts by at most 0.2 dB and 2 Hz.
 
 Each column is a texture: its preview, the spectra of its interior models in the colour of their speed, and its taps
 in the colour of their impact speed. All columns of a picture have the same axes.

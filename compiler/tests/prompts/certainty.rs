@@ -2,7 +2,10 @@
 
 use super::PROMPTS;
 use asperity::{attributes, learned::Certainty};
-use asperity_tests::size::{Size, sized};
+use asperity_tests::{
+    figures,
+    size::{Size, sized},
+};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -65,6 +68,20 @@ fn what_is_known_comes_out_right_more_often_than_a_guess() {
     let [guess, close, known] = [Certainty::Guess, Certainty::Close, Certainty::Known]
         .map(|level| share(level).expect("some of each"));
     assert!(guess < close && close < known, "{guess} {close} {known}");
+    let line = |level| {
+        let phrases = rated.iter().filter(|rated| rated.1 == level).count();
+        let [right, all] = table[&level];
+        let percent = figures::tenths_of_percent(right, all);
+        let all = figures::count(all as u64);
+        format!("| {level} | {phrases} | {all} | {percent} % |\n")
+    };
+    let lines = [Certainty::Known, Certainty::Close, Certainty::Guess].map(line);
+    let head = "| certainty | phrases | comparisons | in the rated order |\n|---|---:|---:|---:|\n";
+    figures::hold_at_full(
+        "certainty",
+        "-p asperity --test it certainty",
+        [("table", head.to_owned() + &lines.concat())],
+    );
     if Size::asked() == Size::Full {
         for (level, share) in table {
             let share = share[0] as f64 / share[1] as f64;

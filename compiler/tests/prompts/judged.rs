@@ -6,7 +6,10 @@ use asperity::{
     attributes::{self, Attributes},
     prompt::reading::VERSION,
 };
-use asperity_tests::size::{least, sized};
+use asperity_tests::{
+    figures,
+    size::{least, sized},
+};
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -86,8 +89,8 @@ fn lines(text: &str) -> Vec<(&str, &str, Vec<Claim>)> {
         .collect()
 }
 
-/// How many are right; prints how many of each kind.
-fn right(judged: &[(&str, bool)]) -> usize {
+/// How many of each kind are right, and of how many.
+fn kinds<'a>(judged: &[(&'a str, bool)]) -> BTreeMap<&'a str, [usize; 2]> {
     let mut kinds: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
     for (kind, right) in judged {
         let [rights, all] = kinds.entry(kind).or_default();
@@ -95,7 +98,7 @@ fn right(judged: &[(&str, bool)]) -> usize {
         *all += 1;
     }
     println!("{kinds:?}");
-    kinds.values().map(|[rights, _]| rights).sum()
+    kinds
 }
 
 #[test]
@@ -118,8 +121,24 @@ fn compounds_parts_and_conditions_feel_as_they_were_judged() {
             (*kind, missed.is_empty())
         })
         .collect();
-    let right = right(&judged);
+    let kinds = kinds(&judged);
+    let right: usize = kinds.values().map(|[right, _]| right).sum();
     assert!(right >= least(LEAST_PHRASES, judged.len()), "{right}");
+    let [compounds, conditions, parts] = ["compound", "condition", "part"].map(|kind| kinds[kind]);
+    figures::hold_at_full(
+        "phrases",
+        "-p asperity --test it compounds_parts",
+        [
+            ("right", right.to_string()),
+            ("of", judged.len().to_string()),
+            ("compounds", compounds[0].to_string()),
+            ("compounds_of", compounds[1].to_string()),
+            ("conditions", conditions[0].to_string()),
+            ("conditions_of", conditions[1].to_string()),
+            ("parts", parts[0].to_string()),
+            ("parts_of", parts[1].to_string()),
+        ],
+    );
 }
 
 #[derive(Deserialize)]
@@ -161,8 +180,17 @@ fn numbers_woods_and_finishes_are_in_order() {
             steps
         })
         .collect();
-    let right = right(&steps);
+    let right: usize = kinds(&steps).values().map(|[right, _]| right).sum();
     assert!(right >= least(LEAST_STEPS, steps.len()), "{right}");
+    figures::hold_at_full(
+        "series",
+        "-p asperity --test it numbers_woods",
+        [
+            ("series", series.len().to_string()),
+            ("right", right.to_string()),
+            ("of", steps.len().to_string()),
+        ],
+    );
 }
 
 #[test]

@@ -4,7 +4,10 @@ use super::PROMPTS;
 use asperity::attributes::{self, Attributes};
 use asperity::learned::Certainty;
 use asperity::prompt::phrase::{Phrase, parse};
-use asperity_tests::size::{least, sized};
+use asperity_tests::{
+    figures,
+    size::{least, sized},
+};
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -74,6 +77,7 @@ fn modifiers_move_the_right_way_and_are_noticed() {
     }
     println!("{right} of {all} the right way, {noticed} noticed");
     let plain = |m: &Modified| parse(&PROMPTS.read(&m.to).words) == Phrase::Plain;
+    let mut divided = Vec::new();
     for (who, grammar) in [
         ("read by the grammar", true),
         ("left to the text vector", false),
@@ -83,7 +87,28 @@ fn modifiers_move_the_right_way_and_are_noticed() {
         let count = |least: f64| steps.iter().filter(|&&step| step > least).count();
         let (right, noticed, all) = (count(0.0), count(1.0), steps.len());
         println!("{who}: {right} of {all} the right way, {noticed} noticed");
+        divided.push([right, noticed, all]);
     }
+    let [by_grammar, by_text] = divided[..] else {
+        unreachable!("two of them")
+    };
+    figures::hold_at_full(
+        "modifiers",
+        "-p asperity --test it modifiers",
+        [
+            ("right", right.to_string()),
+            ("noticed", noticed.to_string()),
+            ("of", all.to_string()),
+            ("right_percent", figures::percent(right, all)),
+            ("noticed_percent", figures::percent(noticed, all)),
+            ("grammar_right", by_grammar[0].to_string()),
+            ("grammar_noticed", by_grammar[1].to_string()),
+            ("grammar_of", by_grammar[2].to_string()),
+            ("text_right", by_text[0].to_string()),
+            ("text_noticed", by_text[1].to_string()),
+            ("text_of", by_text[2].to_string()),
+        ],
+    );
     assert!(right >= least(LEAST_RIGHT, all), "{right} of {all}");
     assert!(noticed >= least(LEAST_NOTICED, all), "{noticed} of {all}");
     for b in file.between.iter().step_by(stride) {
@@ -120,12 +145,30 @@ fn what_people_touch_is_familiar_and_nonsense_is_not() {
         });
         let count = far.count();
         println!("{file}: {count} of {} unfamiliar", lines.len());
-        count as f64 / lines.len() as f64
+        [count, lines.len()]
     };
     let things = sized("every so many things", 5, 1);
     let lines = sized("every so many lines of nonsense", 2, 1);
-    assert!(unfamiliar("touchable.txt", things) <= MOST_THINGS);
-    assert!(unfamiliar("nonsense.txt", lines) >= LEAST_NONSENSE);
+    let things = unfamiliar("touchable.txt", things);
+    let nonsense = unfamiliar("nonsense.txt", lines);
+    let share = |[count, of]: [usize; 2]| count as f64 / of as f64;
+    assert!(share(things) <= MOST_THINGS);
+    assert!(share(nonsense) >= LEAST_NONSENSE);
+    figures::hold_at_full(
+        "familiar",
+        "-p asperity --test it familiar",
+        [
+            ("things", things[0].to_string()),
+            ("things_of", things[1].to_string()),
+            ("things_percent", figures::percent(things[0], things[1])),
+            ("nonsense", nonsense[0].to_string()),
+            ("nonsense_of", nonsense[1].to_string()),
+            (
+                "nonsense_percent",
+                figures::percent(nonsense[0], nonsense[1]),
+            ),
+        ],
+    );
 }
 
 #[test]
@@ -144,4 +187,12 @@ fn a_name_is_its_material() {
     let right = right.count();
     println!("{right} of {} names", asked.len());
     assert!(right * 100 >= asked.len() * 95);
+    figures::hold_at_full(
+        "names",
+        "-p asperity --test it a_name_is_its_material",
+        [
+            ("right", right.to_string()),
+            ("of", asked.len().to_string()),
+        ],
+    );
 }

@@ -3,7 +3,10 @@
 
 use super::PROMPTS;
 use asperity::attributes::{self, Attributes};
-use asperity_tests::size::{least, sized};
+use asperity_tests::{
+    figures,
+    size::{least, sized},
+};
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::{
@@ -123,7 +126,7 @@ fn a_name_in_other_words_is_the_same_texture() {
             })
         })
         .collect();
-    let mut missed = Vec::new();
+    let (mut missed, mut rows) = (Vec::new(), Vec::new());
     for (kind, least_share) in LEAST_SHARES {
         let all = || reworded.iter().filter(|r| r.kind == kind);
         let mut worst: Vec<&Reworded<'_>> = all().filter(|r| r.distance > 1.0).collect();
@@ -137,6 +140,7 @@ fn a_name_in_other_words_is_the_same_texture() {
             "{kind}: {right} of {count}; held out: {} of {held_out}",
             held_out - wrong
         );
+        rows.push([right, count, held_out - wrong, held_out]);
         if right < least(least_share, count) {
             missed.push(format!("{kind}: {right} of {count}"));
         }
@@ -147,4 +151,37 @@ fn a_name_in_other_words_is_the_same_texture() {
         }
     }
     assert!(missed.is_empty(), "{missed:?}");
+    let [form, asking, look, chatter, place] = rows[..] else {
+        unreachable!("five kinds")
+    };
+    let all = |row: [usize; 4]| figures::tenths_of_percent(row[0], row[1]);
+    let apart = |row: [usize; 4]| figures::tenths_of_percent(row[2], row[3]);
+    let extreme = |share: fn(&[usize; 4]) -> f64, fold: fn(f64, f64) -> f64| {
+        let shares = rows.iter().map(share);
+        format!("{:.0}", shares.reduce(fold).expect("five kinds"))
+    };
+    let shares: [fn(&[usize; 4]) -> f64; 2] = [
+        |row| 100.0 * row[0] as f64 / row[1] as f64,
+        |row| 100.0 * row[2] as f64 / row[3] as f64,
+    ];
+    figures::hold_at_full(
+        "rewordings",
+        "-p asperity --test it rewordings",
+        [
+            ("form", all(form)),
+            ("asking", all(asking)),
+            ("look", all(look)),
+            ("chatter", all(chatter)),
+            ("place", all(place)),
+            ("form_apart", apart(form)),
+            ("asking_apart", apart(asking)),
+            ("look_apart", apart(look)),
+            ("chatter_apart", apart(chatter)),
+            ("place_apart", apart(place)),
+            ("least", extreme(shares[0], f64::min)),
+            ("most", extreme(shares[0], f64::max)),
+            ("least_apart", extreme(shares[1], f64::min)),
+            ("most_apart", extreme(shares[1], f64::max)),
+        ],
+    );
 }

@@ -1,7 +1,7 @@
 //! Misspelt names are put right, and said; words of their own are not.
 
 use super::PROMPTS;
-use asperity_tests::size::sized;
+use asperity_tests::{figures, size::sized};
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -49,6 +49,11 @@ fn a_misspelt_name_is_its_material_or_is_said() {
     assert!(
         right as f64 >= LEAST_RIGHT * count as f64,
         "{right} of {count}"
+    );
+    figures::hold_at_full(
+        "misspellings",
+        "-p asperity --test it misspelt",
+        [("right", right.to_string()), ("of", count.to_string())],
     );
 }
 

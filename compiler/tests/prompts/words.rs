@@ -9,10 +9,14 @@ use asperity::{
     prompt::{Options, PromptError},
     reduce::Fidelity,
 };
-use asperity_tests::size::{least, sized};
+use asperity_formats::Asset;
+use asperity_tests::{
+    figures,
+    size::{least, sized},
+};
 use rayon::prelude::*;
 use serde_json::Value as Json;
-use std::error::Error;
+use std::{collections::BTreeMap, error::Error};
 use toml::Value;
 
 /// Rightly ordered share of the committed pairs: rough, slippery, hard.
@@ -53,7 +57,7 @@ fn everyday_words_are_ordered_as_any_person_would() {
         _ => a.hard_hz.unwrap(),
     };
     let stride = sized("every so many pairs", 6, 1);
-    let mut missed = Vec::new();
+    let (mut missed, mut table) = (Vec::new(), BTreeMap::new());
     for (attribute, least_share) in LEAST_SHARES {
         let rows = pairs[attribute].as_array().unwrap();
         assert!(rows.len() >= 100, "{attribute}");
@@ -71,11 +75,33 @@ fn everyday_words_are_ordered_as_any_person_would() {
             })
             .count();
         println!("{attribute}: {right} of {}", rows.len());
+        table.insert(attribute, [right, rows.len()]);
         if right < least(least_share, rows.len()) {
             missed.push(format!("{attribute}: {right} of {}", rows.len()));
         }
     }
     assert!(missed.is_empty(), "{missed:?}");
+    let [rough, slippery, hard] = ["rough", "slippery", "hard"].map(|attribute| table[attribute]);
+    figures::hold_at_full(
+        "pairs",
+        "-p asperity --test it everyday",
+        [
+            ("right", (rough[0] + slippery[0] + hard[0]).to_string()),
+            ("of", (rough[1] + slippery[1] + hard[1]).to_string()),
+            ("rough", rough[0].to_string()),
+            ("rough_of", rough[1].to_string()),
+            ("rough_percent", figures::percent(rough[0], rough[1])),
+            ("slippery", slippery[0].to_string()),
+            ("slippery_of", slippery[1].to_string()),
+            (
+                "slippery_percent",
+                figures::percent(slippery[0], slippery[1]),
+            ),
+            ("hard", hard[0].to_string()),
+            ("hard_of", hard[1].to_string()),
+            ("hard_percent", figures::percent(hard[0], hard[1])),
+        ],
+    );
 }
 
 #[test]
@@ -97,18 +123,33 @@ fn the_same_prompt_gives_the_same_bytes_whatever_the_threads() {
 
 #[test]
 fn a_texture_fits_four_kibibytes() {
-    for prompt in [
-        "rough abrasive sheet with gritty particles",
-        "velvet",
-        "window glass",
-    ] {
-        let compiled = PROMPTS.compile(prompt, &plain()).unwrap();
+    // Sizes as the bytes themselves state them.
+    let haptic = |bytes: &[u8]| Asset::parse(bytes).unwrap().haptic_len();
+    let first = "rough abrasive sheet with gritty particles";
+    for prompt in [first, "velvet", "window glass"] {
+        let lowered = PROMPTS.compile(prompt, &plain()).unwrap().lowered;
+        assert_eq!(lowered.haptic_bytes, haptic(&lowered.bytes), "{prompt}");
         assert!(
-            compiled.lowered.haptic_bytes <= 4096,
+            lowered.haptic_bytes <= 4096,
             "{prompt}: {}",
-            compiled.lowered.haptic_bytes
+            lowered.haptic_bytes
         );
     }
+    let [bare, whole] = [plain(), Options::default()].map(|options| {
+        let compiled = PROMPTS.compile(first, &options).unwrap();
+        compiled.lowered.bytes
+    });
+    let kilobytes = |bytes: usize| format!("{:.1}", bytes as f64 / 1000.0);
+    figures::hold(
+        "sizes",
+        "-p asperity --test it four_kibibytes",
+        [
+            ("haptic", figures::count(haptic(&bare) as u64)),
+            ("haptic_kb", kilobytes(haptic(&bare))),
+            ("file_kb", kilobytes(bare.len())),
+            ("with_preview_kb", kilobytes(whole.len())),
+        ],
+    );
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod error;
 pub mod generator;
 mod grid;
 pub mod hatt;
+pub mod leaks;
 mod material;
 pub mod measured;
 pub mod reference;

@@ -1,14 +1,15 @@
 //! The prompts of `training/corpora/evaluation` are well formed, and no training text holds those of the pairs.
 
-use asperity_corpus::reference::{
-    self, ReferenceOptions,
-    check::words,
-    schema::{self, MaterialEntry},
+use asperity_corpus::{
+    leaks::TrainingTexts,
+    reference::{self, ReferenceOptions, check::words},
 };
+use asperity_tests::figures;
 use serde::Deserialize;
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
+    sync::LazyLock,
 };
 
 #[derive(Deserialize)]
@@ -80,64 +81,23 @@ fn parse<T: serde::de::DeserializeOwned>(path: &Path) -> T {
     toml::from_str(&read(path)).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// Files of a folder with an ending; none if there is no folder.
-fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return Vec::new();
-    };
-    entries
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|found| found == extension))
-        .collect()
-}
-
 /// Lower-case words with one space between them and around them.
 fn padded(text: &str) -> String {
     format!(" {} ", words(text).join(" "))
 }
 
-/// Every material.
-fn materials() -> Vec<MaterialEntry> {
-    let others = ["everyday.toml", "pairs.toml", "probes.toml"];
-    files(&corpora(), "toml")
-        .into_iter()
-        .filter(|path| !others.iter().any(|other| path.ends_with(other)))
-        .flat_map(|path| {
-            let family = schema::parse(&path.display().to_string(), &read(&path));
-            family.unwrap().material
-        })
-        .collect()
-}
-
-/// Phrases of the lexicon, names and synonyms: short enough to be part of a prompt.
-fn short_texts(materials: &[MaterialEntry]) -> BTreeSet<String> {
+/// Everything that the shipped model was trained on.
+static TRAINED: LazyLock<TrainingTexts> = LazyLock::new(|| {
     let options = ReferenceOptions {
         instances: 1,
         ..ReferenceOptions::default()
     };
-    let (_, lexicon) = reference::load(&options).unwrap();
-    let names = materials
-        .iter()
-        .flat_map(|m| m.synonyms.iter().chain([&m.name]));
-    let phrases = lexicon.iter().map(|entry| &entry.text);
-    names.chain(phrases).map(|text| padded(text)).collect()
-}
+    let (corpus, lexicon) = reference::load(&options).unwrap();
+    TrainingTexts::of(&corpus, &lexicon)
+});
 
-/// Words that mean something, by themselves and in the order of their bytes, without plurals.
-fn content(text: &str) -> Vec<String> {
-    const OTHERS: [&str; 20] = [
-        "a", "an", "the", "of", "some", "piece", "plain", "in", "on", "with", "and", "for", "to",
-        "at", "by", "from", "is", "that", "s", "it",
-    ];
-    let all = words(text).into_iter().map(|word| word.to_string());
-    let kept = all.filter(|word| !OTHERS.contains(&word.as_str()));
-    kept.map(|word| word.trim_end_matches('s').to_owned())
-        .collect()
-}
-
-fn sorted(mut words: Vec<String>) -> Vec<String> {
-    words.sort();
-    words
+fn share_a_pair<'a>(texts: impl Iterator<Item = &'a String>) -> usize {
+    texts.filter(|text| TRAINED.share_a_pair_with(text)).count()
 }
 
 #[test]
@@ -156,41 +116,32 @@ fn there_are_enough_pairs_and_none_twice() {
 }
 
 #[test]
-fn no_pair_shares_a_phrase_with_a_training_text() {
-    let materials = materials();
-    let captions = materials.iter().flat_map(|m| {
-        let training = m.training.iter().map(|caption| &caption.text);
-        training.map(|text| padded(text))
-    });
-    let all: BTreeSet<String> = captions.chain(short_texts(&materials)).collect();
-    let equal: BTreeSet<Vec<String>> = all.iter().map(|text| sorted(content(text))).collect();
-    let long: BTreeSet<&String> = all.iter().filter(|text| content(text).len() > 1).collect();
-    let longest = long.iter().map(|text| text.split(' ').count());
-    let longest = longest.max().expect("training texts");
-    let mut faults = Vec::new();
-    for prompt in Pairs::read("pairs.toml").prompts() {
-        if equal.contains(&sorted(content(prompt))) {
-            faults.push(format!("{prompt:?} is a training text"));
-        }
-        let its_words = words(prompt);
-        for length in 1..=longest.min(its_words.len()) {
-            for part in its_words.windows(length) {
-                let part = format!(" {} ", part.join(" "));
-                if long.contains(&part) {
-                    faults.push(format!("{prompt:?} holds {part:?}"));
-                }
-            }
-        }
-        let whole = padded(prompt);
-        if content(prompt).len() > 1
-            && let Some(text) = all.iter().find(|text| text.contains(&whole))
-        {
-            faults.push(format!("{prompt:?} is inside {text:?}"));
-        }
-    }
-    assert!(faults.is_empty(), "{faults:#?}");
+fn no_prompt_of_a_pair_is_a_training_text() {
+    let pairs = Pairs::read("pairs.toml");
+    let found: Vec<&String> = pairs.prompts().filter(|text| TRAINED.hold(text)).collect();
+    assert!(found.is_empty(), "{found:#?}");
 }
 
+/// What of the texts that judge the model shares something with its training, as pages say it.
+#[test]
+fn what_is_shared_with_training_is_stated() {
+    let pairs = Pairs::read("pairs.toml");
+    let modifiers: Modifiers = parse(&corpora().join("evaluation/modifiers.toml"));
+    let held = |of: fn(&Modified) -> &String| {
+        let texts = modifiers.modifiers.iter().map(of);
+        texts.filter(|text| TRAINED.hold(text)).count().to_string()
+    };
+    figures::hold(
+        "leaks",
+        "-p asperity-corpus --test it what_is_shared",
+        [
+            ("pairs", pairs.prompts().count().to_string()),
+            ("pairs_bigrams", share_a_pair(pairs.prompts()).to_string()),
+            ("modifiers_from", held(|m| &m.from)),
+            ("modifiers_to", held(|m| &m.to)),
+        ],
+    );
+}
 #[test]
 fn modifiers_are_many_and_well_formed() {
     let file: Modifiers = parse(&corpora().join("evaluation/modifiers.toml"));
@@ -210,16 +161,6 @@ fn modifiers_are_many_and_well_formed() {
     for b in &file.between {
         assert!(ATTRIBUTES.contains(&b.attribute.as_str()), "{}", b.phrase);
         assert!(b.phrase.contains(&b.more) && b.phrase.contains(&b.less));
-    }
-    let materials = materials();
-    let mut trained = short_texts(&materials);
-    trained.extend(
-        materials
-            .iter()
-            .flat_map(|m| m.training.iter().map(|caption| padded(&caption.text))),
-    );
-    for to in file.modifiers.iter().map(|m| &m.to) {
-        assert!(!trained.contains(&padded(to)), "{to:?} is a training text");
     }
 }
 
@@ -241,21 +182,7 @@ fn touchable_things_and_nonsense_are_many_lines_without_repetition() {
 
 #[test]
 fn no_touchable_thing_is_a_training_text() {
-    let materials = materials();
-    let mut trained = short_texts(&materials);
-    trained.extend(
-        materials
-            .iter()
-            .flat_map(|m| m.training.iter().map(|caption| padded(&caption.text))),
-    );
     let text = read(&corpora().join("evaluation/touchable.txt"));
-    let found: Vec<&str> = text
-        .lines()
-        .filter(|line| {
-            ["", "a ", "an ", "the "]
-                .iter()
-                .any(|article| trained.contains(&padded(&format!("{article}{line}"))))
-        })
-        .collect();
+    let found: Vec<&str> = text.lines().filter(|line| TRAINED.hold(line)).collect();
     assert!(found.is_empty(), "{found:?}");
 }

@@ -31,6 +31,24 @@ pub struct Lowered {
     pub lsf_error: ErrorSummary,
 }
 
+impl Lowered {
+    /// Another asset of the same texture: with sections that a runtime does not need.
+    ///
+    /// # Errors
+    /// [`LowerError`] for bytes that are no asset.
+    pub(crate) fn set_bytes(&mut self, bytes: Vec<u8>) -> Result<(), LowerError> {
+        self.haptic_bytes = haptic_len(&bytes)?;
+        self.bytes = bytes;
+        Ok(())
+    }
+}
+
+/// Bytes of an asset that a runtime needs. Each section has an entry in the table, so any section counts a little.
+fn haptic_len(bytes: &[u8]) -> Result<usize, LowerError> {
+    let asset = formats::Asset::parse(bytes).map_err(EncodeError::from)?;
+    Ok(asset.haptic_len())
+}
+
 /// Lowers a texture to an asset; `preview_png` goes last.
 ///
 /// Distinct models are stored once. The same texture gives the same bytes.
@@ -140,12 +158,9 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
     let mut bytes = vec![0; BUFFER_BYTES + preview_png.map_or(0, <[u8]>::len)];
     let len = formats::encode(&parts, &mut bytes)?;
     bytes.truncate(len);
-    let haptic_bytes = formats::Asset::parse(&bytes)
-        .map_err(EncodeError::from)?
-        .haptic_len();
     Ok(Lowered {
+        haptic_bytes: haptic_len(&bytes)?,
         bytes,
-        haptic_bytes,
         models: table.entries.len(),
         lsf_error,
     })
