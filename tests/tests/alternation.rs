@@ -109,7 +109,7 @@ impl Excess {
             "{name}: {pairs} pairs, a second at most {second:.2} dB, blocks of 20 ms: \
              99.9 % below {block:.2} dB, loudest {loudest:.2} dB"
         );
-        assert!(second <= 6.0 && block <= 12.0, "{name}: {second} {block}");
+        assert!(second <= 3.5 && block <= 7.0, "{name}: {second} {block}");
     }
 }
 

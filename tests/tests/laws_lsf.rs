@@ -1,7 +1,13 @@
-//! Convex mixtures of ordered line spectral frequencies are ordered, in ω and in cos ω,
-//! and give stable filters; extrapolations do not.
+//! Within a triangle the runtime's filter is that of the convex mixture of its corners' cosines, which are ordered,
+//! and it is stable; an extrapolation would not be.
 
-use asperity_tests::oracle::polynomial;
+use asperity_formats::{Asset, Numerator};
+use asperity_runtime::HostTexture;
+use asperity_tests::{
+    oracle::polynomial,
+    stability,
+    texture::{Kind, random},
+};
 use proptest::{collection::vec, prelude::*};
 use std::f64::consts::PI;
 
@@ -34,53 +40,66 @@ fn weights() -> impl Strategy<Value = [f64; 3]> {
     })
 }
 
-fn mix(lists: &[Vec<f64>; 3], weights: [f64; 3], map: fn(f64) -> f64) -> Vec<f64> {
+/// The mixture of cosines.
+fn mix(lists: &[Vec<f64>; 3], weights: [f64; 3]) -> Vec<f64> {
     (0..lists[0].len())
-        .map(|i| {
-            lists
-                .iter()
-                .zip(weights)
-                .map(|(list, w)| w * map(list[i]))
-                .sum()
-        })
+        .map(|i| lists.iter().zip(weights).map(|(list, w)| w * list[i]).sum())
         .collect()
 }
 
 fn stable(cosines: &[f64]) -> bool {
-    largest_reflection(&polynomial(cosines)) < 1.0
+    let a: Vec<f32> = polynomial(cosines).iter().map(|a| *a as f32).collect();
+    stability::largest_reflection(&a) < 1.0
 }
 
-fn largest_reflection(a: &[f64]) -> f64 {
-    let mut a = a.to_vec();
-    let mut largest = 0.0_f64;
-    while let Some(k) = a.pop() {
-        largest = largest.max(k.abs());
-        let above = a.clone();
-        for (i, a) in a.iter_mut().enumerate() {
-            *a = (*a - k * above[above.len() - 1 - i]) / (1.0 - k * k);
-        }
+/// LSF codes, steps of π/65536.
+fn codes(frequencies: &[f64]) -> Vec<u16> {
+    let code = |w: &f64| (w * 65536.0 / PI).round() as u16;
+    frequencies.iter().map(code).collect()
+}
+
+/// What the runtime's A(z) is where the three corners of a triangle weigh so much: corners at rest without force, at
+/// the largest speed, at the largest force.
+fn rendered(corners: &[Vec<u16>; 3], weights: [f64; 3]) -> Vec<f32> {
+    let kind = Kind {
+        ar_order: corners[0].len(),
+        ma_order: 0,
+        numerator: Numerator::None,
+        lattice: (2, 2),
+    };
+    let mut texture = random(1, kind);
+    for (model, lsf) in texture.models.iter_mut().zip(corners) {
+        model.lsf.clone_from(lsf);
     }
-    largest
+    let bytes = texture.encode();
+    let mut slot = Box::new(HostTexture::new());
+    slot.load(&Asset::parse(&bytes).unwrap(), 1000.0).unwrap();
+    let far = &texture.vertices[3];
+    let (speed, force) = (
+        weights[1] as f32 * far.speed_mm_s,
+        weights[2] as f32 * far.force_n,
+    );
+    slot.filter_at(speed, force).a[..corners[0].len()].to_vec()
 }
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn mixtures_in_omega_are_ordered_and_stable(lists in three(), weights in weights()) {
-        let mixed = mix(&lists, weights, |w| w);
-        prop_assert!(mixed.first().is_none_or(|&w| w > 0.0) && mixed.last().is_none_or(|&w| w < PI));
-        prop_assert!(mixed.windows(2).all(|pair| pair[0] < pair[1]));
-        let cosines: Vec<f64> = mixed.iter().map(|w| w.cos()).collect();
-        prop_assert!(stable(&cosines));
-    }
-
-    #[test]
-    fn mixtures_in_cos_omega_are_ordered_and_stable(lists in three(), weights in weights()) {
-        let mixed = mix(&lists, weights, f64::cos);
-        prop_assert!(mixed.first().is_none_or(|&x| x < 1.0) && mixed.last().is_none_or(|&x| x > -1.0));
+    fn the_runtime_mixes_cosines_within_a_triangle_and_stays_stable(lists in three(), weights in weights()) {
+        let corners = lists.map(|list| codes(&list));
+        let cosines = corners.clone().map(|list| {
+            list.iter().map(|&code| (f64::from(code) * PI / 65536.0).cos()).collect::<Vec<f64>>()
+        });
+        let mixed = mix(&cosines, weights);
         prop_assert!(mixed.windows(2).all(|pair| pair[0] > pair[1]));
-        prop_assert!(stable(&mixed));
+        let a = rendered(&corners, weights);
+        prop_assert!(stability::largest_reflection(&a) < 1.0, "{:?}", a);
+        let exact = polynomial(&mixed);
+        let scale: f64 = 1.0 + exact.iter().map(|a| a.abs()).sum::<f64>();
+        for (a, exact) in a.iter().zip(&exact) {
+            prop_assert!((f64::from(*a) - exact).abs() < 2e-5 * scale, "{} for {}", a, exact);
+        }
     }
 }
 
@@ -93,7 +112,8 @@ fn extrapolation_breaks_the_order_and_the_filter() {
         vec![0.1, 1.5, 1.6, 3.0],
         vec![0.3, 1.0, 1.8, 2.5],
     ];
-    let mixed = mix(&lists, [1.4, -0.3, -0.1], f64::cos);
+    let cosines = lists.map(|list: Vec<f64>| list.iter().map(|w| w.cos()).collect::<Vec<f64>>());
+    let mixed = mix(&cosines, [1.4, -0.3, -0.1]);
     assert!(mixed.windows(2).any(|pair| pair[0] <= pair[1]));
     assert!(!stable(&mixed));
 }

@@ -1,12 +1,12 @@
 //! Fills the figures of every page from their sets: `cargo run -p asperity-tests --bin figures`.
 //!
-//! `--report FILE` first writes the set that `asperity-train evaluate` measured. With `--check` the program writes nothing and fails where a page differs, where a figure stands without markers in a
+//! `--report FILE` first writes the set that `asperity-train evaluate` measured, `--tables SET FILE` that of tables. With `--check` the program writes nothing and fails where a page differs, where a figure stands without markers in a
 //! page that [`ALLOWED`] does not name, or where a page has more of them than it names. It prints the sets whose
 //! subject has changed since they were measured, as lines `stale: …`.
 
 #![forbid(unsafe_code)]
 
-use asperity_tests::figures::{Set, evaluation, folder, page, root, unmarked::unmarked};
+use asperity_tests::figures::{Set, evaluation, folder, page, root, tables, unmarked::unmarked};
 use std::{collections::BTreeMap, env, error::Error, fs, path::Path, process::Command};
 
 /// Pages and how many figures each may have outside markers: definitions, limits, examples, and what is not yet
@@ -24,7 +24,16 @@ fn main() -> Result<(), Box<dyn Error>> {
             evaluation::set(&report, &root)?.write(&folder.join("retrieval.toml"))?;
             false
         }
-        _ => return Err("usage: figures [--check | --report REPORT.JSON]".into()),
+        ["--tables", name, file] => {
+            let text = fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
+            tables::set(name, &text, &root)?.write(&folder.join(name).with_extension("toml"))?;
+            false
+        }
+        _ => {
+            return Err(
+                "usage: figures [--check | --report REPORT.JSON | --tables SET TABLES.MD]".into(),
+            );
+        }
     };
     let mut sets = BTreeMap::new();
     for file in fs::read_dir(&folder)? {

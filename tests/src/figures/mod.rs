@@ -7,6 +7,7 @@
 pub mod evaluation;
 pub mod page;
 mod set;
+pub mod tables;
 pub mod unmarked;
 
 pub use set::{Figure, Measured, Set, SetError};

@@ -29,9 +29,7 @@ const HARD_MPA: f64 = 500.0;
 fn main() -> Result<(), Box<dyn Error>> {
     let corpora = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora");
     let mut materials = BTreeMap::new();
-    for folder in [corpora.clone(), corpora.join("more")] {
-        read(&folder, &mut materials)?;
-    }
+    read(&corpora, &mut materials)?;
     banks(&materials);
     modes(&materials);
     profiles(&materials);

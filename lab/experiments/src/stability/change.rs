@@ -155,6 +155,6 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
                 ("a_k faded in 20 ms", rise_db(&faded(&textures, seed))),
             ],
         ),
-        FORCE.row(scenario, step_n, 2.0 + 1e-5, &[]),
+        FORCE.row(scenario, step_n, 0.5, &[]),
     ])
 }

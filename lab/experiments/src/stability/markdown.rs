@@ -31,7 +31,10 @@ fn table(text: &mut String, rows: &[Row]) {
         .iter()
         .map(|method| format!(" {method} |"))
         .collect();
-    let _ = writeln!(text, "{}:\n", rows[0].quantity);
+    let mut quantity = rows[0].quantity.chars();
+    let first = quantity.next().map(|c| c.to_uppercase().to_string());
+    let first = first.unwrap_or_default();
+    let _ = writeln!(text, "{first}{}:\n", quantity.as_str());
     let _ = writeln!(text, "| scenario | ours | at most |{header}");
     let _ = writeln!(text, "|---|---:|---:|{}", "---:|".repeat(methods.len()));
     for row in rows {
