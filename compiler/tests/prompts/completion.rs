@@ -2,7 +2,8 @@
 
 use super::PROMPTS;
 use asperity::{
-    builtin, learned::complete, mesh, raise, spectrum::trace_centroid_hz, tap_synthesis,
+    builtin, learned::complete, mesh, model::TapBank, raise, spectrum::trace_centroid_hz,
+    tap_synthesis,
 };
 use asperity_formats::Asset;
 
@@ -20,6 +21,36 @@ fn taps_decoded_from_a_grid_fit_the_texture_they_complete() {
             .traces
             .len(),
         13
+    );
+}
+
+/// Taps from the grids of materials, against those that the same latents decode to: the mean of all taps says
+/// less.
+#[test]
+fn taps_completed_from_a_grid_are_those_of_its_material() {
+    let fastest_hz = |taps: &TapBank| {
+        let trace = taps.traces.last().expect("a trace");
+        trace_centroid_hz(&trace.accel_m_s2, taps.sample_rate_hz).expect("a sound")
+    };
+    let anchors = &PROMPTS.model().description().anchors;
+    let pairs: Vec<[f64; 2]> = anchors
+        .iter()
+        .step_by(17)
+        .map(|anchor| {
+            let whole = PROMPTS.texture(&anchor.name).expect("a name");
+            let taps = complete::taps_of_grid(PROMPTS.model(), &whole.grid, &whole.gains).unwrap();
+            [&whole.taps, &taps].map(|taps| fastest_hz(taps).ln())
+        })
+        .collect();
+    let mean =
+        |of: &dyn Fn(&[f64; 2]) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
+    let middle = mean(&|[own, _]| *own);
+    let error = mean(&|[own, completed]| (completed - own).abs());
+    let baseline = mean(&|[own, _]| (own - middle).abs());
+    println!("ln ratio {error:.3}, of the mean {baseline:.3}");
+    assert!(
+        error < 0.15 && error < 0.25 * baseline,
+        "{error} against {baseline}"
     );
 }
 

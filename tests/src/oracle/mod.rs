@@ -1,5 +1,6 @@
 //! The tick in f64, written from the documents.
 
+mod attributes;
 mod bank;
 mod excitation;
 mod interpolator;
@@ -8,6 +9,7 @@ mod surface;
 mod texture;
 mod tick;
 
+pub use attributes::{Attributes, attributes, loudest_n, stroke_n};
 pub use bank::{Bank, impulse_response};
 pub use excitation::Excitation;
 pub use interpolator::Interpolator;

@@ -67,6 +67,20 @@ struct Between {
     attribute: String,
 }
 
+/// Prompts of the trainer's probes.
+#[derive(Deserialize)]
+struct Probes {
+    paraphrases: Vec<[String; 2]>,
+    directions: Vec<Direction>,
+    orders: Vec<[String; 3]>,
+}
+
+#[derive(Deserialize)]
+struct Direction {
+    from: String,
+    to: String,
+}
+
 const ATTRIBUTES: [&str; 3] = ["rough", "slippery", "hard"];
 
 fn corpora() -> PathBuf {
@@ -131,6 +145,15 @@ fn what_is_shared_with_training_is_stated() {
         let texts = modifiers.modifiers.iter().map(of);
         texts.filter(|text| TRAINED.hold(text)).count().to_string()
     };
+    let probes: Probes = parse(&corpora().join("probes.toml"));
+    let directions = probes.directions.iter().flat_map(|d| [&d.from, &d.to]);
+    let among = |texts: Vec<&String>| {
+        let held = texts.iter().filter(|text| TRAINED.hold(text)).count();
+        [held.to_string(), texts.len().to_string()]
+    };
+    let [paraphrases, paraphrases_of] = among(probes.paraphrases.iter().flatten().collect());
+    let [directions, directions_of] = among(directions.collect());
+    let [orders, orders_of] = among(probes.orders.iter().flatten().collect());
     figures::hold(
         "leaks",
         "-p asperity-corpus --test it what_is_shared",
@@ -139,6 +162,12 @@ fn what_is_shared_with_training_is_stated() {
             ("pairs_bigrams", share_a_pair(pairs.prompts()).to_string()),
             ("modifiers_from", held(|m| &m.from)),
             ("modifiers_to", held(|m| &m.to)),
+            ("paraphrases", paraphrases),
+            ("paraphrases_of", paraphrases_of),
+            ("directions", directions),
+            ("directions_of", directions_of),
+            ("orders", orders),
+            ("orders_of", orders_of),
         ],
     );
 }

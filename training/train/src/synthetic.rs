@@ -21,13 +21,10 @@ pub(crate) fn corpus(materials: usize, instances: usize) -> Corpus {
                 .map(|_| instance(traits.map(|t| t + 0.02 * stream.normal())))
                 .collect();
             let words = ["rough", "hard", "dull"].iter().zip(traits);
-            let text = |focus: &str| {
-                let words = words.clone();
-                let words: Vec<String> = words
-                    .map(|(w, t)| format!("{w}{}", (t * 6.0) as u8))
-                    .collect();
-                format!("{focus} name{index} {}", words.join(" "))
-            };
+            let words: Vec<String> = words
+                .map(|(w, t)| format!("{w}{}", (t * 6.0) as u8))
+                .collect();
+            let text = |focus: &str| format!("{focus} name{index} {}", words.join(" "));
             Material {
                 name: format!("material {index}"),
                 family: format!("family {}", index % 3),
@@ -42,7 +39,8 @@ pub(crate) fn corpus(materials: usize, instances: usize) -> Corpus {
                     text: text(word),
                 })
                 .to_vec(),
-                held_out: vec![text("held")],
+                // As in the real corpus, they do not name the material.
+                held_out: vec![format!("held {}", words.join(" "))],
                 rating: Some(Rating {
                     rough: f64::from(traits[0]) * 100.0,
                     slippery: f64::from(1.0 - traits[0]) * 100.0,

@@ -8,6 +8,7 @@ use crate::{
     synthetic::{self, WordBag},
 };
 use asperity::learned::description::LATENT;
+use asperity_corpus::{BINS, Corpus, Instance};
 
 pub(super) fn small() -> Config {
     let mut config = Config::reference().unwrap();
@@ -73,12 +74,12 @@ fn any_latent_decodes_to_ordered_lsfs_and_bounded_vibration() {
 }
 
 #[test]
-fn captions_find_their_material() {
+fn captions_that_were_left_out_find_their_material() {
     let trained = train(&small());
     let corpus = synthetic::corpus(8, 8);
     let captions = Captions::encode(&corpus, &[], &WordBag).unwrap();
     let mut hits = 0;
-    for (index, own) in captions.training.iter().enumerate() {
+    for (index, own) in captions.held_out.iter().enumerate() {
         let vectors: Vec<&[f32]> = own.iter().map(Vec::as_slice).collect();
         for z in trained.project(&vectors) {
             let best = trained
@@ -88,7 +89,51 @@ fn captions_find_their_material() {
             hits += usize::from(best.unwrap().material == index);
         }
     }
-    assert!(hits >= 20, "{hits} of 24");
+    // One in eight would by chance.
+    assert!(hits >= 4, "{hits} of 8");
+}
+
+#[test]
+fn what_is_held_out_has_no_part_in_training() {
+    let config = small();
+    let known: Vec<usize> = (0..7).collect();
+    let fitted = |corpus: &Corpus| {
+        let captions = Captions::encode(corpus, &[], &WordBag).unwrap();
+        fit_on(corpus, &known, &captions, &config, &mut Silent).unwrap()
+    };
+    let corpus = synthetic::corpus(8, 8);
+    let clean = fitted(&corpus);
+    let mut poisoned = corpus.clone();
+    for material in &mut poisoned.materials {
+        material.held_out = vec!["rough0 hard9 name0".to_owned()];
+    }
+    let unknown = &mut poisoned.materials[7];
+    unknown.mu = 9.0;
+    unknown.training.truncate(1);
+    unknown.training[0].text = "rough0 hard9 name1".to_owned();
+    for instance in unknown.instances.iter_mut().chain([&mut unknown.prototype]) {
+        instance.level_db = [55.0; BINS];
+        instance
+            .taps_m_s2
+            .iter_mut()
+            .flatten()
+            .for_each(|x| *x *= -40.0);
+    }
+    let again = fitted(&poisoned);
+    assert_eq!(clean.history(), again.history());
+    assert_eq!(clean.materials(), again.materials());
+    let z = [[0.3; LATENT]];
+    assert_eq!(clean.decode(&z)[0].taps_m_s2, again.decode(&z)[0].taps_m_s2);
+    assert_eq!(clean.decode(&z)[0].level_db, again.decode(&z)[0].level_db);
+}
+
+/// Pearson's.
+fn correlation(pairs: &[(f64, f64)]) -> f64 {
+    let mean = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let sum =
+        |of: &dyn Fn(f64, f64) -> f64| -> f64 { pairs.iter().map(|p| of(p.0 - x, p.1 - y)).sum() };
+    sum(&|x, y| x * y) / (sum(&|x, _| x * x) * sum(&|_, y| y * y)).sqrt()
 }
 
 #[test]
@@ -100,11 +145,19 @@ fn one_modality_is_enough_to_encode() {
         let posteriors = trained.encode(&instances, seen);
         assert_eq!(posteriors.len(), 8);
         let finite = |x: &[f32]| x.iter().all(|x| x.is_finite());
-        assert!(
-            posteriors
-                .iter()
-                .all(|p| finite(&p.mean) && finite(&p.log_variance))
-        );
+        assert!(posteriors.iter().all(|p| finite(&p.log_variance)));
+        let means: Vec<[f32; LATENT]> = posteriors.iter().map(|p| p.mean).collect();
+        let decoded = trained.decode(&means);
+        // Loud materials come back louder than quiet ones, whatever was seen of them.
+        let level = |instance: &Instance| f64::from(instance.level_db.iter().sum::<f32>());
+        let pairs: Vec<(f64, f64)> = instances
+            .iter()
+            .zip(&decoded)
+            .map(|(own, back)| (level(own), level(back)))
+            .collect();
+        let along = correlation(&pairs);
+        println!("{seen:?}: {along:.2}");
+        assert!(along > 0.5, "{seen:?}: {along}");
     }
     assert_ne!(
         trained.encode(&instances, Seen::Ar),
