@@ -6,8 +6,10 @@
 
 #![forbid(unsafe_code)]
 
-use asperity_tests::figures::{Set, evaluation, folder, page, root, tables, unmarked::unmarked};
-use std::{collections::BTreeMap, env, error::Error, fs, path::Path, process::Command};
+use asperity_tests::figures::{
+    Set, evaluation, files, folder, page, root, tables, unmarked::unmarked,
+};
+use std::{collections::BTreeMap, env, error::Error, fs, path::Path};
 
 /// Pages and how many figures each may have outside markers: definitions, limits, examples, and what is not yet
 /// quoted from a set.
@@ -85,20 +87,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Tracked pages that state figures.
+/// Pages that state figures: all but the changes of the past and inputs of tests.
 fn pages(root: &Path) -> Result<Vec<String>, Box<dyn Error>> {
-    let list = Command::new("git")
-        .current_dir(root)
-        .args(["ls-files", "-z", "--", "*.md"])
-        .output()?;
-    if !list.status.success() {
-        return Err("git ls-files failed: the pages are those that git tracks".into());
-    }
-    let history = |page: &&str| *page != "CHANGELOG.md" && !page.contains("tests/cases/");
-    let list = String::from_utf8(list.stdout)?;
-    Ok(list
-        .split_terminator('\0')
-        .filter(history)
-        .map(str::to_owned)
+    let page = |name: &String| {
+        let apart = name == "CHANGELOG.md" || name.contains("tests/cases/");
+        name.ends_with(".md") && !apart
+    };
+    let all = files(root, Path::new(""))?.into_iter();
+    Ok(all
+        .map(|file| file.to_string_lossy().replace('\\', "/"))
+        .filter(page)
         .collect())
 }

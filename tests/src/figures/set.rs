@@ -36,7 +36,7 @@ pub struct Measured {
     pub commit: String,
     /// Files and folders that decide the figures, from the top of the project.
     pub paths: Vec<PathBuf>,
-    /// CRC-32 over their tracked files, in hexadecimal.
+    /// CRC-32 over their files, in hexadecimal.
     pub crc32: String,
 }
 
@@ -77,13 +77,11 @@ impl Set {
     /// These figures as of what `paths` hold now.
     ///
     /// # Errors
-    /// [`io::Error`] where git does not run or a file cannot be read.
+    /// [`io::Error`] where a file cannot be read.
     pub fn of_now(mut self, root: &Path, paths: &[&str]) -> io::Result<Self> {
         let paths: Vec<PathBuf> = paths.iter().map(PathBuf::from).collect();
         self.measured = Some(Measured {
-            commit: git(root, &["rev-parse", "--short=12", "HEAD"])?
-                .trim()
-                .to_owned(),
+            commit: commit(root),
             crc32: crc32(root, &paths)?,
             paths,
         });
@@ -120,34 +118,57 @@ impl Set {
     /// Whether what was measured has changed since; `None` where a test holds the figures.
     ///
     /// # Errors
-    /// [`io::Error`] where git does not run or a file cannot be read.
+    /// [`io::Error`] where a file cannot be read.
     pub fn is_stale(&self, root: &Path) -> io::Result<Option<bool>> {
         let now = |m: &Measured| Ok(crc32(root, &m.paths)? != m.crc32);
         self.measured.as_ref().map(now).transpose()
     }
 }
 
-/// CRC-32 over names and contents of the tracked files under `paths`.
+/// CRC-32 over names and contents of the files under `paths`.
 fn crc32(root: &Path, paths: &[PathBuf]) -> io::Result<String> {
-    let mut arguments = vec!["ls-files", "-z", "--"];
-    arguments.extend(paths.iter().filter_map(|path| path.to_str()));
     let mut crc = crc32fast::Hasher::new();
-    for file in git(root, &arguments)?.split_terminator('\0') {
-        crc.update(file.as_bytes());
-        crc.update(&fs::read(root.join(file))?);
+    for path in paths {
+        for file in files(root, path)? {
+            crc.update(file.to_string_lossy().as_bytes());
+            crc.update(&fs::read(root.join(file))?);
+        }
     }
     Ok(format!("{:08x}", crc.finalize()))
 }
 
-fn git(root: &Path, arguments: &[&str]) -> io::Result<String> {
-    let output = Command::new("git")
-        .current_dir(root)
-        .args(arguments)
-        .output()?;
-    let error = String::from_utf8_lossy(&output.stderr).into_owned();
-    let text = output.status.success().then_some(output.stdout);
-    text.and_then(|bytes| String::from_utf8(bytes).ok())
-        .ok_or_else(|| io::Error::other(format!("git {}: {error}", arguments.join(" "))))
+/// The files under a path, from `root` and in order, without hidden ones and what is built.
+///
+/// # Errors
+/// [`io::Error`] for a folder that cannot be read.
+pub fn files(root: &Path, path: &Path) -> io::Result<Vec<PathBuf>> {
+    if !root.join(path).is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let mut names = Vec::new();
+    for entry in fs::read_dir(root.join(path))? {
+        names.push(entry?.file_name());
+    }
+    names.sort();
+    let mut found = Vec::new();
+    for name in names {
+        let built = ["target", "__pycache__", "node_modules"]
+            .iter()
+            .any(|built| name == *built);
+        if !built && !name.to_string_lossy().starts_with('.') {
+            found.extend(files(root, &path.join(name))?);
+        }
+    }
+    Ok(found)
+}
+
+/// The commit that is checked out, where git says so.
+fn commit(root: &Path) -> String {
+    let head = ["rev-parse", "--short=12", "HEAD"];
+    let output = Command::new("git").current_dir(root).args(head).output();
+    let said = output.ok().filter(|output| output.status.success());
+    let text = said.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned());
+    text.unwrap_or_else(|| "unknown".to_owned())
 }
 
 #[cfg(test)]
@@ -172,10 +193,6 @@ mod tests {
         fs::create_dir(root.join("src")).unwrap();
         fs::write(root.join("src/a"), "one").unwrap();
         fs::write(root.join("b"), "one").unwrap();
-        let who = ["-c", "user.name=a", "-c", "user.email=a@b"];
-        git(root, &["init", "-q"]).unwrap();
-        git(root, &["add", "-A"]).unwrap();
-        git(root, &[&who[..], &["commit", "-qm", "one"]].concat()).unwrap();
         let set = Set::new("x", []).of_now(root, &["src"]).unwrap();
         assert_eq!(set.is_stale(root).unwrap(), Some(false));
         fs::write(root.join("b"), "two").unwrap();

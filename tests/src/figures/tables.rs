@@ -24,7 +24,7 @@ const TABLES: [Tables; 1] = [Tables {
 /// A figure for each section of the tables, by its heading, and how many `rows` all have.
 ///
 /// # Errors
-/// [`io::Error`] for a set that no command is known of, or where git does not run.
+/// [`io::Error`] for a set that no command is known of, or where a file cannot be read.
 pub fn set(name: &str, text: &str, root: &Path) -> io::Result<Set> {
     let known = TABLES.iter().find(|tables| tables.set == name);
     let tables = known.ok_or_else(|| io::Error::other(format!("no tables are called {name}")))?;
