@@ -148,13 +148,13 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
             trusting(deep),
         ),
     ];
-    let limits: [(Words, fn(&[[f64; 3]]) -> f64, f64); 2] =
-        [(STUCK, step_n, 2.0 + 1e-5), (PEAK, largest_n, 3.3 + 1e-5)];
-    for (words, of, limit) in limits {
-        for (scenario, limited, free) in &cases {
-            let free = [("no limits", of(free))];
-            rows.push(words.row(*scenario, of(limited), limit, &free));
-        }
+    for (scenario, limited, free) in &cases {
+        let free = [("no limits", step_n(free))];
+        rows.push(STUCK.row(*scenario, step_n(limited), 2.0 + 1e-5, &free));
+    }
+    for (scenario, limited, free) in &cases {
+        let free = [("no limits", largest_n(free))];
+        rows.push(PEAK.row(*scenario, largest_n(limited), 3.3 + 1e-5, &free));
     }
     Ok(rows)
 }
