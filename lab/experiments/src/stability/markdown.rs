@@ -84,7 +84,7 @@ mod tests {
         ];
         let expected = "## wall
 
-energy (mJ):
+Energy (mJ):
 
 | scenario | ours | at most | as given | late |
 |---|---:|---:|---:|---:|
