@@ -124,6 +124,22 @@ fn limited(prompt_compiler: &PromptCompiler, prompt: &str) -> Limited {
     let before = lower(&before.texture, None).expect(prompt);
     let [before, after] =
         [&before, &compiled.lowered].map(|lowered| Asset::parse(&lowered.bytes).expect(prompt));
+    // Only gains differ, of which attributes know nothing; those that a report states are those of the bytes.
+    let of_bytes = oracle::attributes(&after);
+    assert_eq!(oracle::attributes(&before), of_bytes, "{prompt}");
+    let stated = compiled.attributes();
+    for (stated, found, rounding) in [
+        (stated.rough_db, of_bytes.rough_db, 0.05),
+        (stated.sharp_hz, of_bytes.sharp_hz, 0.5),
+        (stated.hard_hz, of_bytes.hard_hz, 2.0),
+        (Some(stated.mu), of_bytes.mu, 1e-3),
+    ] {
+        let off = stated.map(|stated| (stated - found).abs());
+        assert!(
+            off.is_none_or(|off| off <= rounding),
+            "{prompt}: {stated:?}, {found} in bytes"
+        );
+    }
     let share = |asset: &Asset<'_>| {
         oracle::loudest_n(asset) / (CONTINUOUS_SHARE * f64::from(asset.coupling().f_max_n))
     };

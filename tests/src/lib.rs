@@ -1,5 +1,5 @@
-//! Parts that the tests share: an f64 oracle of the tick, textures, trajectories, spectra, and
-//! the search for the HaTT materials.
+//! Parts that the tests share: an f64 oracle of the tick, textures, trajectories, spectra, the search for
+//! the HaTT materials, and the figures that pages quote.
 //!
 //! The oracle is written from the documents (the equations in the runtime's doc comments and
 //! `formats/SPEC.md`). It uses other methods than the runtime and none of its code, so a mistake

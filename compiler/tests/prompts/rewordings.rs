@@ -156,14 +156,16 @@ fn a_name_in_other_words_is_the_same_texture() {
     };
     let all = |row: [usize; 4]| figures::tenths_of_percent(row[0], row[1]);
     let apart = |row: [usize; 4]| figures::tenths_of_percent(row[2], row[3]);
-    let extreme = |share: fn(&[usize; 4]) -> f64, fold: fn(f64, f64) -> f64| {
-        let shares = rows.iter().map(share);
-        format!("{:.0}", shares.reduce(fold).expect("five kinds"))
+    let extremes = |right: usize, of: usize| {
+        let shares = rows
+            .iter()
+            .map(|row| 100.0 * row[right] as f64 / row[of] as f64);
+        let (least, most) = shares.fold((100.0, 0.0), |(least, most): (f64, f64), share| {
+            (least.min(share), most.max(share))
+        });
+        [least, most].map(|share| format!("{share:.0}"))
     };
-    let shares: [fn(&[usize; 4]) -> f64; 2] = [
-        |row| 100.0 * row[0] as f64 / row[1] as f64,
-        |row| 100.0 * row[2] as f64 / row[3] as f64,
-    ];
+    let ([least, most], [least_apart, most_apart]) = (extremes(0, 1), extremes(2, 3));
     figures::hold_at_full(
         "rewordings",
         "-p asperity --test it rewordings",
@@ -178,10 +180,10 @@ fn a_name_in_other_words_is_the_same_texture() {
             ("look_apart", apart(look)),
             ("chatter_apart", apart(chatter)),
             ("place_apart", apart(place)),
-            ("least", extreme(shares[0], f64::min)),
-            ("most", extreme(shares[0], f64::max)),
-            ("least_apart", extreme(shares[1], f64::min)),
-            ("most_apart", extreme(shares[1], f64::max)),
+            ("least", least),
+            ("most", most),
+            ("least_apart", least_apart),
+            ("most_apart", most_apart),
         ],
     );
 }

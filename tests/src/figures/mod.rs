@@ -10,7 +10,7 @@ mod set;
 pub mod tables;
 pub mod unmarked;
 
-pub use set::{Figure, Measured, Set, SetError, files};
+pub use set::{Measured, Set, SetError, files};
 
 use crate::size::{self, Size};
 use std::{

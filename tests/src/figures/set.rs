@@ -9,9 +9,6 @@ use std::{
     process::Command,
 };
 
-/// A figure, as pages print it: a number, or lines such as a table.
-pub type Figure = String;
-
 /// Figures of one command.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -24,8 +21,8 @@ pub struct Set {
     /// When they were measured; none where a test of `.ci/run` holds them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
-    /// The figures by name.
-    pub figures: BTreeMap<String, Figure>,
+    /// The figures by name, as pages print them: a number, or lines such as a table.
+    pub figures: BTreeMap<String, String>,
 }
 
 /// What was measured, so that a later change of it can be told.
@@ -57,7 +54,7 @@ impl Error for SetError {}
 
 impl Set {
     /// Figures that a test holds.
-    pub fn new<const N: usize>(command: &str, figures: [(&str, Figure); N]) -> Self {
+    pub fn new<const N: usize>(command: &str, figures: [(&str, String); N]) -> Self {
         let named = figures.map(|(name, figure)| (name.to_owned(), figure));
         Self {
             command: command.to_owned(),

@@ -1,4 +1,4 @@
-//! The tick in f64, written from the documents.
+//! The tick and the attributes of a texture in f64, written from the documents.
 
 mod attributes;
 mod bank;

@@ -20,6 +20,10 @@ const EMPTY: [&str; 20] = [
 /// All that was trained on.
 pub struct TrainingTexts {
     stemmer: Stemmer,
+    /// Each text as its words.
+    verbatim: HashSet<Vec<String>>,
+    /// Those of two meaning words or more.
+    phrases: HashSet<Vec<String>>,
     texts: HashSet<Vec<String>>,
     pairs: HashSet<[String; 2]>,
 }
@@ -50,11 +54,17 @@ impl TrainingTexts {
     pub fn new<'a>(texts: impl IntoIterator<Item = &'a str>) -> Self {
         let mut all = Self {
             stemmer: Stemmer::create(Algorithm::English),
+            verbatim: HashSet::new(),
+            phrases: HashSet::new(),
             texts: HashSet::new(),
             pairs: HashSet::new(),
         };
         for text in texts {
             let mut stems = all.stems(text);
+            if stems.len() > 1 {
+                all.phrases.insert(words(text));
+            }
+            all.verbatim.insert(words(text));
             all.pairs.extend(pairs(&stems));
             stems.sort_unstable();
             all.texts.insert(stems);
@@ -68,6 +78,28 @@ impl TrainingTexts {
         let mut stems = self.stems(text);
         stems.sort_unstable();
         self.texts.contains(&stems)
+    }
+
+    /// Whether a text is one of them, word for word.
+    #[must_use]
+    pub fn hold_verbatim(&self, text: &str) -> bool {
+        self.verbatim.contains(&words(text))
+    }
+
+    /// Whether one of them of two meaning words or more stands in a text word for word, or such a text in one of
+    /// them.
+    #[must_use]
+    pub fn share_a_phrase_with(&self, text: &str) -> bool {
+        let its_words = words(text);
+        let holds = (1..=its_words.len()).any(|length| {
+            its_words
+                .windows(length)
+                .any(|part| self.phrases.contains(part))
+        });
+        let mut all = self.verbatim.iter();
+        let within =
+            |outer: &Vec<String>| outer.windows(its_words.len()).any(|part| part == its_words);
+        holds || self.stems(text).len() > 1 && all.any(within)
     }
 
     /// Whether two words that mean something stand side by side in a text and in one of them.
@@ -108,5 +140,8 @@ mod tests {
         assert!(!trained.hold("ball bearings in grease") && !trained.hold("cheese"));
         assert!(trained.share_a_pair_with("ball bearings in grease"));
         assert!(!trained.share_a_pair_with("a bearing with a ball"));
+        assert!(trained.share_a_phrase_with("very hard cheese"));
+        assert!(!trained.share_a_phrase_with("hard cheeses"));
+        assert!(trained.hold_verbatim("Hard cheese") && !trained.hold_verbatim("the hard cheese"));
     }
 }

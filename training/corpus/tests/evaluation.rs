@@ -130,9 +130,10 @@ fn there_are_enough_pairs_and_none_twice() {
 }
 
 #[test]
-fn no_prompt_of_a_pair_is_a_training_text() {
+fn no_prompt_of_a_pair_is_a_training_text_or_shares_a_phrase_with_one() {
     let pairs = Pairs::read("pairs.toml");
-    let found: Vec<&String> = pairs.prompts().filter(|text| TRAINED.hold(text)).collect();
+    let leaks = |text: &&String| TRAINED.hold(text) || TRAINED.share_a_phrase_with(text);
+    let found: Vec<&String> = pairs.prompts().filter(leaks).collect();
     assert!(found.is_empty(), "{found:#?}");
 }
 
@@ -190,6 +191,9 @@ fn modifiers_are_many_and_well_formed() {
     for b in &file.between {
         assert!(ATTRIBUTES.contains(&b.attribute.as_str()), "{}", b.phrase);
         assert!(b.phrase.contains(&b.more) && b.phrase.contains(&b.less));
+    }
+    for to in file.modifiers.iter().map(|m| &m.to) {
+        assert!(!TRAINED.hold_verbatim(to), "{to:?} is a training text");
     }
 }
 

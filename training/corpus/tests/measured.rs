@@ -141,6 +141,7 @@ fn profiles_lie_within_six_decibels_most_of_them_within_three_and_the_generators
         distance.rms_db
     });
     distances.sort_by(f64::total_cmp);
+    assert!(distances[0] > 0.0, "{distances:?}");
     assert!(distances[distances.len() - 1] < 5.5, "{distances:?}");
     assert!(distances[distances.len() / 2] <= 3.0, "{distances:?}");
     let physical = materials["ABS"];

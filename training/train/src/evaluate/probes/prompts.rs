@@ -148,18 +148,30 @@ fn parse<T: DeserializeOwned>(file: &'static str, text: &str) -> Result<T, Evalu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_corpus::reference::{self, ReferenceOptions};
+    use asperity_corpus::{
+        leaks::TrainingTexts,
+        reference::{self, ReferenceOptions},
+    };
     use std::collections::BTreeSet;
 
     #[test]
-    fn there_are_enough_probes_and_their_ends_are_materials() {
+    fn there_are_enough_probes_and_none_was_trained_on_letter_for_letter() {
         let probes = Probes::read().unwrap();
         assert!(probes.paraphrases.len() + probes.directions.len() >= 60);
         let options = ReferenceOptions {
             instances: 1,
             ..ReferenceOptions::default()
         };
-        let (corpus, _) = reference::load(&options).unwrap();
+        let (corpus, lexicon) = reference::load(&options).unwrap();
+        let captions = corpus.materials.iter().flat_map(|m| &m.training);
+        let captions = captions.map(|caption| caption.text.as_str());
+        let phrases = lexicon.iter().map(|entry| entry.text.as_str());
+        let trained = TrainingTexts::new(captions.chain(phrases));
+        let found: Vec<&str> = probes
+            .prompts()
+            .filter(|prompt| trained.hold_verbatim(prompt))
+            .collect();
+        assert!(found.is_empty(), "{found:?}");
         for end in &probes.ends {
             assert!(
                 corpus.materials.iter().any(|m| m.name == end.reference),
