@@ -4,6 +4,8 @@ use asperity::{
     attributes::{self, Attributes},
     edit::Explanation,
     model::TextureModel,
+    pipeline::Pipeline,
+    reduce::Fidelity,
 };
 use std::fmt::Write as _;
 
@@ -17,19 +19,36 @@ pub(crate) struct Page<'a> {
 }
 
 impl Page<'_> {
+    /// How far `--fidelity auto` moves levels (dB) and centroids (Hz) at most.
+    fn moved_by_reduction(&self) -> (f64, f64) {
+        let mut most = (0.0_f64, 0.0_f64);
+        for texture in self.three.iter().chain(self.blend) {
+            let kept = Pipeline::default().reduce(texture, Fidelity::Auto).texture;
+            let [whole, kept] = [texture, &kept].map(attributes::of);
+            let moved = |of: fn(&Attributes) -> Option<f64>| {
+                let pair = of(&whole).zip(of(&kept));
+                pair.map_or(0.0, |(whole, kept)| (whole - kept).abs())
+            };
+            most.0 = most.0.max(moved(|a| a.rough_db));
+            most.1 = most.1.max(moved(|a| a.sharp_hz)).max(moved(|a| a.hard_hz));
+        }
+        most
+    }
+
     /// The page as Markdown.
     pub(crate) fn text(&self) -> String {
         let mut words = String::new();
         for (prompt, explanation) in self.explained {
             let _ = write!(words, "{prompt}\n{}\n", explanation.text());
         }
+        let (level_db, centroid_hz) = self.moved_by_reduction();
         format!(
             "# Figures
 
 `cargo run --release -p asperity --example figures` writes this page and its pictures. The textures are
 those of the shipped model, which was trained on a synthetic corpus; nothing was measured on a device.
 The tables state the attributes of the textures as decoded. `--fidelity auto`, the default of `compile`, moves
-those of the five prompts by at most 0.2 dB and 2 Hz.
+them by at most {level_db:.1} dB and {centroid_hz:.0} Hz.
 
 Each column is a texture: its preview, the spectra of its interior models in the colour of their speed, and its taps
 in the colour of their impact speed. All columns of a picture have the same axes.
