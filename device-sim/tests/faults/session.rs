@@ -1,13 +1,12 @@
 //! A long session with faults: nothing leaves its limits, no tick is lost, and all of it is
 //! rendered again to the bit.
 
-use std::io::Write;
-
 use asperity_host::device::fault_injection::{InjectedFault, Plan};
 use asperity_host::device::supervised::Report;
 use asperity_host::fault_plan::FaultKind as _;
 use asperity_host::session_log::{Encoder, Ending, SessionLog, render_again};
 use asperity_runtime::Config;
+use asperity_tests::figures;
 
 use super::servo::{Servo, asset, conditions, load};
 use super::simulated::Simulated;
@@ -19,10 +18,13 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
         .sqrt()
 }
 
-/// Ten minutes at 1 kHz, or what `ASPERITY_PERIODS` says.
+/// Ten minutes at 1 kHz.
+const PERIODS: u64 = 600_000;
+
+/// [`PERIODS`], or what `ASPERITY_PERIODS` says.
 fn periods() -> u64 {
     let asked = std::env::var("ASPERITY_PERIODS").ok();
-    asked.map_or(600_000, |text| {
+    asked.map_or(PERIODS, |text| {
         text.parse().expect("ASPERITY_PERIODS: a number of periods")
     })
 }
@@ -129,17 +131,29 @@ fn strokes_and_taps_with_one_percent_of_faults() {
         comparison.is_same() && comparison.compared == periods,
         "{comparison:?}"
     );
-    let line = format!(
-        "{periods} periods, {contacts} in contact; injected {} ({:.2} %), bad samples {bad}, safe state {} times, \
-         reported {began}; peak {largest:.3} N, steepest {steepest:.3} N in a period; rendered {largest_rendered:.4} N \
-         and {steepest_rendered:.4} N; \
-         file {:.1} bytes a tick, rendered again with 0 differences\n",
-        counts.total(),
-        100.0 * counts.total() as f64 / periods as f64,
-        counters.faults,
-        file.len() as f64 / periods as f64,
-    );
-    std::io::stdout()
-        .write_all(line.as_bytes())
-        .expect("printed");
+    let figures = [
+        ("periods", figures::count(periods)),
+        ("in_contact", figures::count(contacts)),
+        ("with_a_fault", figures::count(counts.total())),
+        (
+            "with_a_fault_percent",
+            format!("{:.2}", 100.0 * counts.total() as f64 / periods as f64),
+        ),
+        ("bad_samples", figures::count(bad)),
+        ("safe_states", figures::count(u64::from(counters.faults))),
+        ("reports", figures::count(began)),
+        ("largest_n", format!("{largest_rendered:.4}")),
+        ("largest_at_the_tip_n", format!("{largest:.3}")),
+        ("steepest_n", format!("{steepest_rendered:.4}")),
+        ("steepest_at_the_tip_n", format!("{steepest:.3}")),
+    ];
+    if periods == PERIODS {
+        figures::hold(
+            "fault_session",
+            "-p asperity-sim --test it strokes_and_taps",
+            figures,
+        );
+    } else {
+        println!("{figures:?}");
+    }
 }

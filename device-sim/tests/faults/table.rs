@@ -1,9 +1,4 @@
 //! Every fault on every back end: what becomes of the force, and when.
-//!
-//! `ASPERITY_BLESS=1 cargo test -p asperity-sim --test it faults::` writes the table of `docs/faults.md`
-//! anew.
-
-use std::path::Path;
 
 use asperity_host::device::dhd::Dhd;
 use asperity_host::device::fault_injection::trial::{AFTER, LASTS, Row, Trial};
@@ -14,6 +9,8 @@ use asperity_host::device::{Description, Device, DeviceError, Reading};
 use asperity_host::fault_plan::FaultKind as _;
 use asperity_host::session_log::{Encoder, SessionLog};
 use asperity_runtime::{Config, HostTexture};
+
+use asperity_tests::figures;
 
 use super::servo::{SEED, Servo, asset, conditions, load};
 use super::simulated::Simulated;
@@ -145,48 +142,67 @@ fn every_fault_on_every_emit() {
     let slew_n = limits.slew_n_s / Config::default().servo_rate_hz;
     let mut columns = columns(texture, &bytes);
     let whole = columns.len() == 5;
-    let mut table = String::from(
-        "| fault | back end | force before, N | to the safe state | from there to 2 % of it | back after the fault | \
-         steepest, N a period | safe state | reports |\n|---|---|---|---|---|---|---|---|---|\n",
-    );
+    let mut rows = Vec::new();
     for kind in InjectedFault::ALL {
+        let mut of_kind = Vec::new();
         for (name, column) in &mut columns {
             let row = column(kind);
             let what = format!("{} on {name}: {row:?}", kind.name());
             assert_eq!(row.broken(kind, limits.peak_n, slew_n), None, "{what}");
             assert!(*name == "null" || row.before_n > 0.1, "{what}");
-            let periods =
-                |count: Option<u32>| count.map_or("–".into(), |count| format!("{count} ms"));
-            table += &format!(
-                "| {} | {name} | {:.2} | {} | {} | {} | {:.2} | {} | {} |\n",
-                kind.name(),
-                row.before_n,
-                periods(row.safe_after),
-                periods(row.zero_after),
-                periods(row.whole_after),
-                row.steepest_n,
-                row.faults,
-                row.reports
-            );
+            of_kind.push(row);
         }
+        rows.push((kind, of_kind));
     }
+    let table = table(&rows);
     println!("{table}");
     if !whole {
         eprintln!("skipped: the table has no vendor back ends without a C compiler");
         return;
     }
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/faults.md");
-    let text = std::fs::read_to_string(&page).expect("docs/faults.md");
-    let (start, end) = ("<!-- table -->\n", "<!-- end of table -->");
-    let (head, rest) = text.split_once(start).expect("a place for the table");
-    let (committed, tail) = rest.split_once(end).expect("its end");
-    if std::env::var_os("ASPERITY_BLESS").is_some() {
-        std::fs::write(&page, format!("{head}{start}\n{table}\n{end}{tail}")).expect("written");
-    } else {
-        assert_eq!(
-            committed.trim(),
-            table.trim(),
-            "ASPERITY_BLESS=1 writes the table anew"
+    let command = "-p asperity-sim --test it every_fault_on_every";
+    figures::hold("faults", command, [("table", table)]);
+}
+
+/// A line a fault, with the least and the most of all back ends.
+fn table(rows: &[(InjectedFault, Vec<Row>)]) -> String {
+    let mut table = String::from(
+        "| fault | to the safe state | from there to 2 % of the force | whole force after the fault | steepest, N a period | \
+         safe states | reports |\n|---|---:|---:|---:|---:|---:|---:|\n",
+    );
+    let periods = |count: Option<u32>| count.map_or("–".into(), |count| format!("{count} ms"));
+    for (kind, rows) in rows {
+        table += &format!(
+            "| {} | {} | {} | {} | {} | {} | {} |\n",
+            kind.name(),
+            range(rows, |row| row.safe_after, periods),
+            range(rows, |row| row.zero_after, periods),
+            range(rows, |row| row.whole_after, periods),
+            range(
+                rows,
+                |row| row.steepest_n,
+                |force_n| format!("{force_n:.2}")
+            ),
+            range(rows, |row| row.faults, |count| count.to_string()),
+            range(rows, |row| row.reports, |count| count.to_string()),
         );
+    }
+    table
+}
+
+/// The least and the most of a quantity, or the one value.
+fn range<T: PartialOrd + Copy>(
+    rows: &[Row],
+    of: impl Fn(&Row) -> T,
+    text: impl Fn(T) -> String,
+) -> String {
+    let values = || rows.iter().map(&of);
+    let least = values().reduce(|a, b| if b < a { b } else { a });
+    let most = values().reduce(|a, b| if b > a { b } else { a });
+    let [least, most] = [least, most].map(|value| value.map_or(String::new(), &text));
+    if least == most {
+        least
+    } else {
+        format!("{least} to {most}")
     }
 }

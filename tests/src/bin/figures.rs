@@ -1,8 +1,9 @@
 //! Fills the figures of every page from their sets: `cargo run -p asperity-tests --bin figures`.
 //!
-//! `--report FILE` first writes the set that `asperity-train evaluate` measured, `--tables SET FILE` that of tables. With `--check` the program writes nothing and fails where a page differs, where a figure stands without markers in a
-//! page that [`ALLOWED`] does not name, or where a page has more of them than it names. It prints the sets whose
-//! subject has changed since they were measured, as lines `stale: …`.
+//! `--report FILE` first writes the set that `asperity-train evaluate` measured, `--tables SET FILE` renews a set from the
+//! sections of a Markdown file that its command wrote. With `--check` the program writes nothing and fails where a page
+//! differs, or has more or fewer figures without markers than [`ALLOWED`] says. It prints the sets whose subject has
+//! changed since they were measured, as lines `stale: …`.
 
 #![forbid(unsafe_code)]
 
@@ -28,7 +29,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         ["--tables", name, file] => {
             let text = fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
-            tables::set(name, &text, &root)?.write(&folder.join(name).with_extension("toml"))?;
+            let file = folder.join(name).with_extension("toml");
+            let renewed = tables::renewed(Set::read(&file)?, &text, &root);
+            let set = renewed.map_err(|error| format!("{}: {error}", file.display()))?;
+            set.write(&file)?;
             false
         }
         _ => {

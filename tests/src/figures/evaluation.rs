@@ -2,7 +2,10 @@
 
 use super::Set;
 use serde_json::Value;
-use std::{error::Error, path::Path};
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+};
 
 /// The command that writes the report.
 const COMMAND: &str = "asperity-train evaluate --model target/model --parts 2,7 -o report, then cargo run -p \
@@ -53,7 +56,7 @@ pub fn set(report: &str, root: &Path) -> Result<Set, Box<dyn Error>> {
             ("synonyms_tf_idf", tf_idf("names/left_out", "top_5")?),
         ],
     );
-    Ok(set.of_now(root, &PATHS)?)
+    Ok(set.of_now(root, PATHS.map(PathBuf::from).to_vec())?)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! [markers](page), which `cargo run -p asperity-tests --bin figures` fills in. A test that measures at full size
 //! [holds](hold) the file to what it found, so that neither the file nor a page can age unseen.
 
+pub mod cell;
 pub mod evaluation;
 pub mod page;
 mod set;

@@ -1,9 +1,10 @@
 //! A page whose figures stand between markers.
 //!
 //! `<!--=pairs.rough-->136<!--/-->` quotes figure `rough` of `pairs.toml`. Markdown shows no markers. A figure
-//! of several lines, such as a table, stands on lines of its own.
+//! of several lines, such as a table, stands on lines of its own. `<!--=edits.table|rough|edits-->363<!--/-->` quotes
+//! one [cell](super::cell) of a table.
 
-use super::Set;
+use super::{Set, cell::cell};
 use std::collections::BTreeMap;
 
 const OPENS: &str = "<!--=";
@@ -42,14 +43,18 @@ pub fn fill(
         let (said, after) = after
             .split_once(CLOSES)
             .ok_or_else(|| fault("a figure without its `<!--/-->`"))?;
-        let figure = name
+        let (whole, of_cell) = match name.split_once('|') {
+            Some((whole, path)) => (whole, Some(path)),
+            None => (name, None),
+        };
+        let figure = whole
             .split_once('.')
             .and_then(|(set, figure)| sets.get(set)?.figures.get(figure))
-            .ok_or_else(|| fault(&format!("docs/figures has no figure {name}")))?;
-        let right = if figure.contains('\n') {
-            format!("\n{}\n", figure.trim_end())
-        } else {
-            figure.clone()
+            .ok_or_else(|| fault(&format!("docs/figures has no figure {whole}")))?;
+        let right = match of_cell {
+            Some(path) => cell(figure, path).map_err(|what| fault(&format!("{whole}: {what}")))?,
+            None if figure.contains('\n') => format!("\n{}\n", figure.trim_end()),
+            None => figure.clone(),
         };
         filled += &format!("{OPENS}{name}{ENDS_NAME}{right}{CLOSES}");
         quoted.push(Quoted {
@@ -86,6 +91,16 @@ mod tests {
     fn a_table_stands_on_its_own_lines() {
         let (filled, _) = fill("<!--=pairs.table--><!--/-->", &sets()).unwrap();
         assert_eq!(filled, "<!--=pairs.table-->\n| a |\n|---|\n| 1 |\n<!--/-->");
+    }
+
+    #[test]
+    fn a_cell_of_a_table_is_quoted_by_row_and_column() {
+        let table = "| kind | a / b |\n|---|---:|\n| x | 1 / 2 |".to_owned();
+        let sets = [("s".to_owned(), Set::new("x", [("t", table)]))].into();
+        let (filled, _) = fill("<!--=s.t|x|a / b|2-->?<!--/-->", &sets).unwrap();
+        assert_eq!(filled, "<!--=s.t|x|a / b|2-->2<!--/-->");
+        let (line, what) = fill("\n<!--=s.t|y|a / b-->?<!--/-->", &sets).unwrap_err();
+        assert_eq!((line, what.as_str()), (2, "s.t: no row y"));
     }
 
     #[test]

@@ -22,6 +22,7 @@ pub struct Set {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
     /// The figures by name, as pages print them: a number, or lines such as a table.
+    #[serde(default)]
     pub figures: BTreeMap<String, String>,
 }
 
@@ -30,10 +31,12 @@ pub struct Set {
 #[serde(deny_unknown_fields)]
 pub struct Measured {
     /// The commit that was checked out.
+    #[serde(default)]
     pub commit: String,
     /// Files and folders that decide the figures, from the top of the project.
     pub paths: Vec<PathBuf>,
-    /// CRC-32 over their files, in hexadecimal.
+    /// CRC-32 over their files, in hexadecimal; empty where nobody knows it any more, so that the set is stale.
+    #[serde(default)]
     pub crc32: String,
 }
 
@@ -75,8 +78,7 @@ impl Set {
     ///
     /// # Errors
     /// [`io::Error`] where a file cannot be read.
-    pub fn of_now(mut self, root: &Path, paths: &[&str]) -> io::Result<Self> {
-        let paths: Vec<PathBuf> = paths.iter().map(PathBuf::from).collect();
+    pub fn of_now(mut self, root: &Path, paths: Vec<PathBuf>) -> io::Result<Self> {
         self.measured = Some(Measured {
             commit: commit(root),
             crc32: crc32(root, &paths)?,
@@ -190,7 +192,7 @@ mod tests {
         fs::create_dir(root.join("src")).unwrap();
         fs::write(root.join("src/a"), "one").unwrap();
         fs::write(root.join("b"), "one").unwrap();
-        let set = Set::new("x", []).of_now(root, &["src"]).unwrap();
+        let set = Set::new("x", []).of_now(root, vec!["src".into()]).unwrap();
         assert_eq!(set.is_stale(root).unwrap(), Some(false));
         fs::write(root.join("b"), "two").unwrap();
         assert_eq!(set.is_stale(root).unwrap(), Some(false));

@@ -1,34 +1,20 @@
-//! The tables that a command of the lab writes as Markdown, as a set.
+//! The sections of a Markdown file that a command writes, as a set.
 
 use super::Set;
 use std::{collections::BTreeMap, io, path::Path};
 
-/// A command that writes tables, and what decides them.
-struct Tables {
-    set: &'static str,
-    command: &'static str,
-    paths: &'static [&'static str],
-}
-
-const TABLES: [Tables; 1] = [Tables {
-    set: "stability",
-    command: "asperity-lab stability --hatt HATT --out target/stability, then cargo run -p asperity-tests --bin \
-              figures -- --tables stability target/stability/tables.md",
-    paths: &[
-        "runtime/src",
-        "device-sim/src",
-        "lab/experiments/src/stability",
-    ],
-}];
-
-/// A figure for each section of the tables, by its heading, and how many `rows` all have.
+/// The set with a figure for each section of `text`, and for how many `rows` all tables have, as of what its
+/// paths hold now.
+///
+/// A set that is new begins as a file with its command, the paths that decide its figures, and no figures.
 ///
 /// # Errors
-/// [`io::Error`] for a set that no command is known of, or where a file cannot be read.
-pub fn set(name: &str, text: &str, root: &Path) -> io::Result<Set> {
-    let known = TABLES.iter().find(|tables| tables.set == name);
-    let tables = known.ok_or_else(|| io::Error::other(format!("no tables are called {name}")))?;
-    let mut set = Set::new(tables.command, []);
+/// [`io::Error`] for a set without paths, or where a file cannot be read.
+pub fn renewed(mut set: Set, text: &str, root: &Path) -> io::Result<Set> {
+    let measured = set.measured.take();
+    let paths = measured
+        .ok_or_else(|| io::Error::other("the set names no measured.paths"))?
+        .paths;
     set.figures = sections(text);
     let lines = |what: &str| {
         let lines = set.figures.values().flat_map(|section| section.lines());
@@ -37,29 +23,52 @@ pub fn set(name: &str, text: &str, root: &Path) -> io::Result<Set> {
     // Each table has a head.
     let rows = lines("| ") - lines("|---");
     set.figures.insert("rows".to_owned(), rows.to_string());
-    set.of_now(root, tables.paths)
+    set.of_now(root, paths)
 }
 
+/// What follows each heading of the second and third level, by the words of the heading.
 fn sections(text: &str) -> BTreeMap<String, String> {
-    let text = format!("\n{text}");
-    let sections = text.split("\n## ").skip(1);
-    let sections = sections.filter_map(|section| section.split_once('\n'));
+    let mut sections = BTreeMap::<String, String>::new();
+    let mut name = None;
+    for line in text.lines() {
+        if let Some(heading) = line.strip_prefix("## ").or(line.strip_prefix("### ")) {
+            let words = heading.split(|c: char| !c.is_alphanumeric());
+            let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+            name = Some(words.join("_").to_lowercase());
+        } else if let Some(name) = &name {
+            *sections.entry(name.clone()).or_default() += &format!("{line}\n");
+        }
+    }
+    sections.retain(|_, body| !body.trim().is_empty());
+    for body in sections.values_mut() {
+        let trimmed = body.trim();
+        // A line by itself is quoted within a line.
+        let end = if trimmed.contains('\n') { "\n" } else { "" };
+        *body = format!("{trimmed}{end}");
+    }
     sections
-        .map(|(name, body)| (name.trim().replace(' ', "_"), format!("{}\n", body.trim())))
-        .collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use super::*;
+
     #[test]
     fn each_section_is_a_figure_and_rows_are_counted() {
         let table = "x:\n\n| a | b |\n|---|---:|\n| 1 | 2 |\n| 3 | 4 |";
-        let text = format!("head\n\n## wall\n\n{table}\n\n## two words\n\n{table}\n");
+        let text = format!(
+            "head\n\n## wall\n\n{table}\n\n## Above\n\n### Two words, 3\n\n{table}\n\n## line\n\na\n"
+        );
         let root = crate::figures::root();
-        let set = super::set("stability", &text, &root).unwrap();
+        let set = Set::new("x", [])
+            .of_now(&root, vec!["Cargo.toml".into()])
+            .unwrap();
+        let set = renewed(set, &text, &root).unwrap();
         assert_eq!(set.figures["rows"], "4");
         assert_eq!(set.figures["wall"], format!("{table}\n"));
-        assert!(set.figures.contains_key("two_words"));
-        assert!(super::set("none", &text, &root).is_err());
+        assert!(set.figures.contains_key("two_words_3") && !set.figures.contains_key("above"));
+        assert_eq!(set.figures["line"], "a");
+        assert_eq!(set.is_stale(&root).unwrap(), Some(false));
+        assert!(renewed(Set::new("x", []), &text, &root).is_err());
     }
 }

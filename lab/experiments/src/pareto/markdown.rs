@@ -101,7 +101,7 @@ fn predictions(text: &mut String, region: Region, held_out: &[MethodSummary]) {
     let models = rows.iter().map(|row| row.models).max().unwrap_or(0);
     let _ = write!(
         text,
-        "### {}, {models} models\n\n| varied | method | shape, dB: median / p95 | level, dB: median / p95 | level, signed median | nearer than the default |\n|---|---|---:|---:|---:|---:|\n",
+        "### {}\n\n{models} models:\n\n| method | varied | shape, dB: median / p95 | level, dB: median / p95 | level, signed median | nearer than the default |\n|---|---|---:|---:|---:|---:|\n",
         region.name()
     );
     for row in rows {
@@ -112,7 +112,7 @@ fn predictions(text: &mut String, region: Region, held_out: &[MethodSummary]) {
         };
         let _ = writeln!(
             text,
-            "| {varied} | {method} | {} | {} | {} | {} % |",
+            "| {method} | {varied} | {} | {} | {} | {} % |",
             pair(row.shape_db),
             pair(row.level_db),
             number(row.bias_db, 2),
@@ -142,7 +142,7 @@ fn kept(text: &mut String, results: &Results) {
     };
     let _ = write!(
         text,
-        "### what `auto` keeps of {} materials\n\n| | |\n|---|---:|\n| within the budget | {} |\n| instructions at least halved | {} |\n| instructions kept, median | {} % |\n| vertices kept, median | {} % |\n| tap samples kept, median | {} % |\n| bytes kept, median | {} % |\n| largest p95 / worst | {:.2} / {:.2} dB |\n",
+        "### what auto keeps\n\n| over {} materials | |\n|---|---:|\n| within the budget | {} |\n| instructions at least halved | {} |\n| instructions kept, median | {} % |\n| vertices kept, median | {} % |\n| tap samples kept, median | {} % |\n| bytes kept, median | {} % |\n| largest p95 / worst | {:.2} / {:.2} dB |\n",
         kept.len(),
         kept.iter().filter(|k| k.is_within_budget()).count(),
         ratios.iter().filter(|ratio| **ratio <= 0.5).count(),
@@ -165,7 +165,7 @@ fn kept(text: &mut String, results: &Results) {
     };
     let _ = write!(
         text,
-        "\nNot halved: {}. All poles and zeros kept: {}.\n",
+        "\n### not halved\n\n{}\n\n### all poles and zeros kept\n\n{}\n",
         names(&|k| k.ratio().is_some_and(|ratio| ratio > 0.5)),
         names(&|k| k.report.order.full == k.report.order.kept
             && k.report.zeros.full == k.report.zeros.kept)
@@ -178,7 +178,7 @@ fn kept(text: &mut String, results: &Results) {
     };
     let _ = write!(
         text,
-        "\nFitted exponents, quartiles: {} for speed, {} for force.\n",
+        "\n### fitted exponents\n\nThe quartiles are {} for speed and {} for force.\n",
         quartiles(|e| e.0),
         quartiles(|e| e.1)
     );
