@@ -124,11 +124,12 @@ impl Set {
     }
 }
 
-/// CRC-32 over names and contents of the files under `paths`.
+/// CRC-32 over names and contents of the files under `paths`, without pages, which measure nothing.
 fn crc32(root: &Path, paths: &[PathBuf]) -> io::Result<String> {
     let mut crc = crc32fast::Hasher::new();
     for path in paths {
-        for file in files(root, path)? {
+        let measures = |file: &PathBuf| file.extension().is_none_or(|e| e != "md");
+        for file in files(root, path)?.into_iter().filter(measures) {
             crc.update(file.to_string_lossy().as_bytes());
             crc.update(&fs::read(root.join(file))?);
         }
@@ -195,6 +196,7 @@ mod tests {
         let set = Set::new("x", []).of_now(root, vec!["src".into()]).unwrap();
         assert_eq!(set.is_stale(root).unwrap(), Some(false));
         fs::write(root.join("b"), "two").unwrap();
+        fs::write(root.join("src/page.md"), "two").unwrap();
         assert_eq!(set.is_stale(root).unwrap(), Some(false));
         fs::write(root.join("src/a"), "two").unwrap();
         assert_eq!(set.is_stale(root).unwrap(), Some(true));

@@ -6,11 +6,10 @@ use crate::evaluate::clustering::{Clustering, Collapse, Indices, PAPER};
 pub(super) fn section(part: &Clustering) -> String {
     let mut text = format!(
         "## 1. Do instances of a material lie together?\n\n\
-         Posterior means of {} augmented instances of {} materials, labelled by material; \
-         indices as scikit-learn defines them. ARI and NMI (arithmetic mean) compare the labels \
-         with k-means, k = {}: the smallest inertia of a farthest-point start and three k-means++ \
-         starts. *Unseen* instances are drawn as the training ones were, from other random \
-         numbers.{}\n\n",
+         Posterior means of {} augmented instances of {} materials. The indices are those of \
+         scikit-learn; ARI and NMI (arithmetic mean) compare the materials with k-means, k = {}, \
+         of which the best of four starts counts. *Unseen* instances differ from those of training \
+         in their random numbers alone.{}\n\n",
         part.instances,
         part.materials,
         part.materials,
@@ -34,8 +33,8 @@ pub(super) fn section(part: &Clustering) -> String {
         text += &indices(&name, &found.indices);
     }
     text += &format!(
-        "\nTightness alone can be had by forgetting everything but the label. Against that, what \
-         the same latents keep (AR + taps):\n\n{}",
+        "\nA latent that forgot everything but the label would be tight as well. What these latents \
+         keep (AR + taps):\n\n{}",
         table(&["", "training", "unseen"])
     );
     let (seen, unseen) = (&part.collapse, &part.collapse_unseen);

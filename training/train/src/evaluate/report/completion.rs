@@ -6,12 +6,12 @@ use crate::evaluate::held_out::{Completed, Completion};
 pub(super) fn section(part: &Completion) -> String {
     let mut text = format!(
         "## 8. Can the latent complete what was not recorded?\n\n\
-         {} folds of {} materials, single ones spread over the families; each trains the first stage \
-         ({} epochs, one half withheld from {:.0} % of the instances) without a part of them. Those \
-         are encoded from one half alone, and what was withheld is decoded. *Nearest*: the training \
-         material that is nearest in the given half, by its spectra with level or its taps' \
-         spectra. *Both*: encoded from both halves. Absolute errors as in section 3, mean ± \
-         deviation over folds.\n",
+         {} folds of {} materials, single ones spread over the families. Each trains the first stage \
+         ({} epochs, one half withheld from {:.0} % of the instances) without a part of the \
+         materials, encodes these from one half alone, and decodes what was withheld. *Nearest* is \
+         the training material that is nearest in the given half, by its spectra with level or by \
+         those of its taps; *both* is encoded from both halves. Absolute errors as in section \
+         3.\n",
         part.folds,
         part.materials,
         part.epochs,

@@ -11,17 +11,17 @@ pub(super) fn section(part: &HeldOut) -> String {
     let count = part.materials.folds.len();
     let mut text = format!(
         "## 3. What of materials whose textures and captions are left out?\n\n\
-         {count} folds; each trains the recipe ({} epochs of the first stage) without a part of \
+         {count} folds. Each trains the recipe ({} epochs of the first stage) without a part of \
          the materials, normalisation included, and decodes the held-out captions of those left out. \
          The rated lexicon is not split: a recipe that trains on it keeps all of it, names and \
          synonyms of materials left out included, and neither baseline uses it. \
-         Compared with the materials' unaugmented textures: RMS of log spectra over 10–450 Hz a \
-         bin; third octaves of 100–4000 Hz of the transients; initial slope of the transients \
-         over impact speed (rate-hardness); objective attributes; μ by the softmax over the \
-         remaining anchors. *Mean texture*: mean LSFs, levels, transients and μ of the training \
-         materials. *Nearest*: the training material whose mean caption is nearest in text. *Own \
-         latent*: the held-out texture itself, encoded and decoded: what the decoder alone costs. \
-         Absolute errors, mean ± deviation over folds; logarithms are natural. On another machine \
+         What comes out is compared with the materials' unaugmented textures: by the RMS of log \
+         spectra over 10–450 Hz, bin by bin; third octaves of the transients, 100–4000 Hz; their \
+         initial slope over impact speed (rate-hardness); objective attributes; and μ by the \
+         softmax over the remaining anchors. *Mean texture* has the mean LSFs, levels, transients \
+         and μ of the training materials. *Nearest* is the training material whose mean caption is \
+         nearest in text. *Own latent* is the held-out texture itself, encoded and decoded: what \
+         the decoder alone costs. Absolute errors, mean ± deviation over folds; logarithms are natural. On another machine \
          the same command gives other digits.\n\n",
         part.epochs
     );
@@ -34,7 +34,7 @@ pub(super) fn section(part: &HeldOut) -> String {
         "\n### Certainty\n\n\
          Share of held-out captions of held-out families whose attributes land within 6 dB of \
          rough_db, 25 % of hard_hz and a factor of e^0.35 of μ, by the largest cosine with a \
-         mean training caption: groups of equal size, made monotone by pooling (PAVA). \
+         mean training caption, in groups of equal size and made monotone (PAVA). \
          `certainty.json` holds the knots.\n\n{}\n{}",
         curve("families held out", &part.certainty),
         curve("both ways to hold out", &part.certainty_both)

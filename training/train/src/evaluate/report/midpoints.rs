@@ -12,11 +12,11 @@ pub(super) fn section(part: &Midpoints) -> String {
     let mut text = format!(
         "## 5. Does a mixture lie between its ends?\n\n\
          Latents of {} are mixed half and half, and decoded. The place of an attribute is (midpoint \
-         − A)/(B − A), all three decoded: inside 0..1 it lies between, 0.5 is halfway; — marks ends \
-         that differ by less than a tenth of the corpus's deviation. *On the line* projects all \
+         − A)/(B − A), all three decoded: from 0 to 1 it lies between, 0.5 is halfway, and — marks \
+         ends that differ by less than a tenth of the corpus's deviation. *On the line* projects all \
          four attributes, each in deviations of the corpus, onto the line between the ends; *off \
-         it* is the distance that remains, over that of the ends. This is the objective analogue \
-         of asking people whether a mixture feels between its ends; nobody was asked.\n\n",
+         it* is the distance that remains, over that of the ends. Nobody was asked whether a \
+         mixture feels between its ends.\n\n",
         ends.join(", ")
     );
     text += &table(&[
@@ -59,8 +59,8 @@ pub(super) fn map(part: &Map) -> String {
     format!(
         "## 6. How do the materials lie?\n\n\
          Anchors (mean latents of the materials) along the first two principal components, which \
-         hold {:.0} % and {:.0} % of their variance, and by exact t-SNE (perplexity 15, 1,000 \
-         steps, started at the components: no randomness).\n\n\
+         hold {:.0} % and {:.0} % of their variance, and by exact t-SNE (perplexity 15, \
+         started at the components: no randomness).\n\n\
          ![Anchors by family](anchors.png)\n\n\
          **Answer.** The nearest neighbour of {:.0} % of the anchors is of their own family.\n",
         100.0 * part.explained[0],

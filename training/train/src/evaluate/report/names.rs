@@ -41,11 +41,11 @@ pub(super) fn section(part: &Names) -> String {
 
 fn left_out(out: &LeftOut) -> String {
     let mut text = format!(
-        "\nThe {} synonyms, each left out of training in one of {} parts; synonyms of a material that \
+        "\nThe {} synonyms, each left out of training in one of {} parts. Synonyms of a material that \
          are nearer than a cosine of 0.8 are left out together, and phrases of the lexicon nearer \
-         than 0.9 with them ({} over all parts). The text stage is fitted anew without them; the \
-         anchors stay, because names have no part in what the texture is, but the first stage did \
-         see them as texts to align with. TF-IDF ranks by captions, names and remaining synonyms.\n\n",
+         than 0.9 with them ({} over all parts). The text stage is fitted anew without them. The \
+         anchors stay, because names have no part in what a texture is, but the first stage did \
+         see the synonyms as texts to align with. TF-IDF ranks by captions, names and remaining synonyms.\n\n",
         out.synonyms, out.folds, out.phrases
     );
     text += &table(&TITLES);

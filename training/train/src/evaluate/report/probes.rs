@@ -8,12 +8,11 @@ pub(super) fn section(part: &Probing) -> String {
         "## 4. Do words move the texture the right way?\n\n\
          Prompts of `training/corpora/probes.toml` and `pairs.toml` are decoded, moved to the \
          attributes that the projection gives for their words, and their objective attributes \
-         read: rough from rough_db, slippery from −μ, hard from hard_hz. What is measured is the \
-         network alone: the reading and the grammar of prompts, which `compile` has around it, \
-         are left out. No prompt is a caption of training or a phrase of the lexicon letter for \
-         letter. Some are one in another article, number or order of words, and names and \
-         synonyms were not excluded. Two baselines: the training material nearest in text, and \
-         the rating of the nearest phrase of the everyday lexicon.\n\n\
+         read: rough from rough_db, slippery from −μ, hard from hard_hz. This measures the network \
+         alone, without the reading and the grammar of prompts that `compile` has around it. No \
+         prompt is a caption of training or a phrase of the lexicon letter for letter; some are \
+         one in another article, number or order of words, and names and synonyms were not \
+         excluded. The baselines are the training material nearest in text, and the rating of the nearest phrase of the everyday lexicon.\n\n\
          ![Directions and pairs](probes.png)\n\n",
     );
     let p = &part.paraphrases;

@@ -7,8 +7,8 @@ pub(super) fn section(part: &Retrieval) -> String {
     let mut text = format!(
         "## 2. Does a caption never trained on find its material?\n\n\
          {} held-out captions, each ranking {} materials: by the cosine of its latent with the \
-         anchors, by the cosine of its text vector with their mean captions, and by TF-IDF over the \
-         same training captions (1 + ln n, smoothed idf, cosine; a document a material). Equal scores share a rank.\n\n",
+         anchors, by the cosine of its text vector with the materials' mean captions, and by TF-IDF \
+         over the same training captions, a document a material. Equal scores share a rank.\n\n",
         part.captions, part.materials
     );
     text += &table(&["by", "first", "among five", "MRR", "median rank"]);
