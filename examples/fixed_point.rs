@@ -16,7 +16,7 @@ use std::error::Error;
 type Slot<A> = Texture<HostCapacities, A>;
 
 /// Largest difference along an axis. Floats are within 0.3 mN of a tick in f64
-/// (`tests/tests/oracle_tick.rs`), and fixed point within 0.2 mN where no slew limit holds the
+/// (`runtime/tests/oracle_tick.rs`), and fixed point within 0.2 mN where no slew limit holds the
 /// force back (`docs/fixed-point.md`).
 const BOUND_N: f32 = 0.5e-3;
 

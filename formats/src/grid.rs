@@ -424,7 +424,7 @@ fn first_too_low(codes: &[[u8; 2]], floor: u16, gap: u16) -> Option<u16> {
 
 /// Record `index` of a table of records of `len` bytes.
 #[inline]
-fn record(table: &[u8], index: usize, len: usize) -> Option<&[u8]> {
+pub(crate) fn record(table: &[u8], index: usize, len: usize) -> Option<&[u8]> {
     let start = index.checked_mul(len)?;
     table.get(start..start.checked_add(len)?)
 }

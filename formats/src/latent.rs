@@ -1,6 +1,6 @@
 //! late: where a texture lies in the latent space of a learned model.
 
-use crate::{error::FormatError, limits, wire::Reader};
+use crate::{error::FormatError, grid::record, limits, wire::Reader};
 
 /// The latents that an asset was decoded from. The runtime never reads them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,21 +43,19 @@ impl<'a> Latents<'a> {
         }
         let numbers = reader.bytes("latent.numbers", 4 * parts * width)?;
         reader.finish("latent")?;
-        let latents = Self {
-            model_crc32: u32::from_le_bytes(crc),
-            parts,
-            width,
-            numbers,
-        };
-        let all = latents.numbers(0..parts * width);
-        match all.enumerate().find(|(_, x)| !x.is_finite()) {
+        match words(numbers).enumerate().find(|(_, x)| !x.is_finite()) {
             Some((index, x)) => Err(FormatError::invalid(
                 "latent.numbers",
                 index,
                 f64::from(x),
                 "must be finite",
             )),
-            None => Ok(latents),
+            None => Ok(Self {
+                model_crc32: u32::from_le_bytes(crc),
+                parts,
+                width,
+                numbers,
+            }),
         }
     }
 
@@ -75,17 +73,11 @@ impl<'a> Latents<'a> {
 
     /// The numbers of one latent; none for a part that is not there.
     pub fn part(&self, part: usize) -> impl Iterator<Item = f32> + use<'a> {
-        let range = if part < self.parts {
-            part * self.width..(part + 1) * self.width
-        } else {
-            0..0
-        };
-        self.numbers(range)
+        words(record(self.numbers, part, 4 * self.width).unwrap_or_default())
     }
+}
 
-    fn numbers(&self, range: core::ops::Range<usize>) -> impl Iterator<Item = f32> + use<'a> {
-        let bytes = self.numbers.get(4 * range.start..4 * range.end);
-        let words = bytes.unwrap_or_default().chunks_exact(4);
-        words.map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-    }
+fn words(bytes: &[u8]) -> impl Iterator<Item = f32> {
+    let words = bytes.as_chunks().0.iter();
+    words.map(|word| f32::from_le_bytes(*word))
 }

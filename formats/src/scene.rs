@@ -104,19 +104,7 @@ impl<'a> Scene<'a> {
         Ok(Self { records })
     }
 
-    /// Number of surfaces, 1..=64.
-    #[must_use]
-    pub const fn len(&self) -> usize {
-        self.records.len() / RECORD_LEN
-    }
-
-    /// Never: a scene has a surface.
-    #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.records.is_empty()
-    }
-
-    /// Every surface, in the order of the scene.
+    /// Every surface, 1 to 64 of them, in the order of the scene.
     pub fn surfaces(&self) -> impl ExactSizeIterator<Item = SceneSurface> + use<'a> {
         self.records.chunks_exact(RECORD_LEN).map(read)
     }

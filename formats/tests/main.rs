@@ -9,6 +9,7 @@ mod hostile;
 mod index_arithmetic;
 mod library;
 mod memory;
+mod readers;
 mod round_trip;
 mod scene;
 mod walk_through;

@@ -44,8 +44,12 @@ fn latents_and_history_are_read_back_and_leave_the_haptic_sections_alone() {
     let latents = found.latents().unwrap();
     assert_eq!(latents.model_crc32, 0xdead_beef);
     assert_eq!((latents.parts(), latents.width()), (3, 2));
-    assert_eq!(latents.part(2).collect::<Vec<_>>(), [5.0, -6.0]);
-    assert_eq!(latents.part(3).count(), 0);
+    for (part, numbers) in [[1.0, 2.0], [3.0, 4.0], [5.0, -6.0]].iter().enumerate() {
+        assert_eq!(latents.part(part).collect::<Vec<_>>(), numbers);
+    }
+    for absent in [3, usize::MAX] {
+        assert_eq!(latents.part(absent).count(), 0);
+    }
     assert_eq!(found.history(), Some("{\"steps\":[]}"));
     assert_eq!(sections(&found)[..5], sections(&asset)[..5]);
     let haptic = Asset::parse_haptic(&remembered[..found.haptic_len()]).unwrap();
@@ -58,12 +62,14 @@ fn a_wrong_latent_is_named() {
     let asset = Asset::parse(&bytes).unwrap();
     let mut reserved = latent(1, 1, &[0.0]);
     reserved[5] = 1;
-    let cases: [(Vec<u8>, &str); 7] = [
+    let infinite = [0.0, 0.0, 0.0, 0.0, 0.0, f32::INFINITY];
+    let cases: [(Vec<u8>, &str); 8] = [
         (latent(2, 1, &[0.0, 0.0]), "latent.parts"),
         (latent(1, 0, &[]), "latent.width"),
         (latent(1, 1025, &[0.0; 1025]), "latent.width"),
         (latent(1, 2, &[0.0]), "latent.numbers"),
         (latent(1, 1, &[f32::NAN]), "latent.numbers"),
+        (latent(3, 2, &infinite), "latent.numbers"),
         (latent(1, 1, &[0.0, 0.0]), "latent"),
         (reserved, "latent.reserved"),
     ];
@@ -79,6 +85,9 @@ fn a_wrong_latent_is_named() {
 fn a_history_is_text_of_bounded_length() {
     let bytes = full().encode();
     let asset = Asset::parse(&bytes).unwrap();
+    let mut longest = sections(&asset);
+    longest.push((*b"hist", &[b' '; 65_536]));
+    assert!(assembled(&longest).is_ok());
     for body in [&b"\xff"[..], &[b' '; 65_537]] {
         let mut more = sections(&asset);
         more.push((*b"hist", body));

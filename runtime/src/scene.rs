@@ -190,10 +190,11 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
     #[inline(never)]
     fn check_surfaces(library: &Library<'_>) -> Result<(), SceneError> {
         let scene = library.scene().ok_or(SceneError::NoScene)?;
-        if scene.len() > N {
+        let surfaces = scene.surfaces().len();
+        if surfaces > N {
             return Err(SceneError::Capacity {
                 field: "surfaces",
-                found: scene.len(),
+                found: surfaces,
                 capacity: N,
             });
         }

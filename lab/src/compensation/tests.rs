@@ -257,7 +257,7 @@ fn taps_and_scenes_take_the_filter_too() {
     let used = library::encode_scene(&named, &surfaces, &mut out).expect("a scene");
     let voiced = scene(&out[..used], &filter).expect("a scene");
     let parsed = Library::parse(&voiced).expect("a library");
-    assert_eq!(parsed.scene().map(|scene| scene.len()), Some(1));
+    assert_eq!(parsed.scene().map(|scene| scene.surfaces().len()), Some(1));
     assert_eq!(
         parsed.bytes(0).expect("an asset"),
         asset(&bytes, &filter).expect("an asset")

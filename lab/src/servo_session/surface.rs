@@ -86,7 +86,7 @@ impl Surface {
     fn of_scene(bytes: Vec<u8>, origin: String) -> Result<Self, ServoSessionError> {
         let facts = || -> Result<_, FormatError> {
             let library = Library::parse(&bytes)?;
-            let surfaces = library.scene().map_or(0, |scene| scene.len());
+            let surfaces = library.scene().map_or(0, |scene| scene.surfaces().len());
             let models_hz = library.asset(0)?.grid().sample_rate_hz();
             Ok((format!("a scene of {surfaces} surfaces"), models_hz))
         };

@@ -52,10 +52,10 @@ pub(super) fn check(
     }
     // Both hold the acceleration against another channel.
     let of_motion = ratio(&motion(recording, aligned, dead))
-        .and_then(|r| factor(r / of_accel, MOTION_TOLERANCE));
+        .and_then(|r| factor(r.map(|r| r / of_accel), MOTION_TOLERANCE));
     let of_mass = recording.description.tool.mass_kg.and_then(|mass_kg| {
-        let inverse = ratio(&vibration(recording, aligned, dead))?;
-        factor(1.0 / (inverse * mass_kg) * of_accel, MASS_TOLERANCE)
+        let of_force = ratio(&vibration(recording, aligned, dead))?;
+        factor(of_force.map(|r| of_accel / (r * mass_kg)), MASS_TOLERANCE)
     });
     match (of_motion, of_mass) {
         (Some(motion), Some(mass))
@@ -173,36 +173,41 @@ fn gravity_factor(recording: &Recording, aligned: &Aligned) -> Option<f64> {
     if axes.len() < 3 || steady < moving {
         return None;
     }
-    factor(steady / GRAVITY_M_S2, GRAVITY_TOLERANCE)
+    factor([steady / GRAVITY_M_S2; 2], GRAVITY_TOLERANCE)
 }
 
-/// RMS of the first over RMS of the second of pairs that go together.
-fn ratio(pairs: &[(Vec<f64>, Vec<f64>)]) -> Option<f64> {
+/// The first over the second of pairs that go together, as the noise of the second and of the first make it: the slopes
+/// of both regressions, between which the truth lies.
+fn ratio(pairs: &[(Vec<f64>, Vec<f64>)]) -> Option<[f64; 2]> {
     let power = |axis: &[f64]| axis.iter().map(|x| x * x).sum::<f64>();
     // One axis at a time: the largest is the surest.
-    let mut best: Option<(f64, f64)> = None;
+    let mut best: Option<(f64, [f64; 2])> = None;
     let reach = 30;
     for (x, y) in pairs {
         let found = crate::signal::correlate::delay(&[(x, y)], reach)?;
         if found.correlation > LEAST_CORRELATION
             && best.is_none_or(|(known, _)| found.correlation > known)
         {
-            // The part of the first that goes with the second.
-            best = Some((
-                found.correlation,
-                found.correlation * (power(x) / power(y)).sqrt(),
-            ));
+            let whole = (power(x) / power(y)).sqrt();
+            let slopes = [found.correlation * whole, whole / found.correlation];
+            best = Some((found.correlation, slopes));
         }
     }
-    best.map(|(_, ratio)| ratio)
+    best.map(|(_, slopes)| slopes)
 }
 
-/// The factor next to a ratio, if one is near.
-fn factor(ratio: f64, tolerance: f64) -> Option<f64> {
-    FACTORS.into_iter().find(|factor| {
-        let off = ratio / factor;
-        off < tolerance && off > 1.0 / tolerance
-    })
+/// The factor that lies between the slopes or near to them: 1 if it does, else the one next to the first slope.
+fn factor(slopes: [f64; 2], tolerance: f64) -> Option<f64> {
+    let [first, second] = slopes;
+    let (low, high) = (first.min(second) / tolerance, first.max(second) * tolerance);
+    let possible = || {
+        FACTORS
+            .into_iter()
+            .filter(|factor| low < *factor && *factor < high)
+    };
+    let off = |factor: &f64| libm::log(factor / first).abs();
+    let next = || possible().min_by(|a, b| off(a).total_cmp(&off(b)));
+    possible().find(|factor| *factor == 1.0).or_else(next)
 }
 
 /// The power of 1000 that brings a value into a range.
@@ -219,12 +224,32 @@ fn beyond(value: f64, (low, high): (f64, f64)) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signal::noise::white;
 
     #[test]
     fn only_the_factors_that_people_confuse_are_named() {
-        assert_eq!(factor(1.1, 1.25), Some(1.0));
-        assert_eq!(factor(0.11, 1.25), Some(1.0 / 9.806_65));
-        assert_eq!(factor(970.0, 1.25), Some(1000.0));
-        assert_eq!(factor(3.0, 1.25), None);
+        assert_eq!(factor([1.1; 2], 1.25), Some(1.0));
+        assert_eq!(factor([0.11; 2], 1.25), Some(1.0 / 9.806_65));
+        assert_eq!(factor([970.0; 2], 1.25), Some(1000.0));
+        assert_eq!(factor([3.0; 2], 1.25), None);
+    }
+
+    /// A quiet surface under a noisy force sensor: the slope on the noisy channel is too small by a factor of seven.
+    #[test]
+    fn noise_in_one_channel_is_no_wrong_unit() {
+        let (tool, sensor) = (white(1, 4000, 1), white(2, 4000, 1));
+        let noisy: Vec<f64> = tool.iter().zip(&sensor).map(|(a, n)| a + 2.5 * n).collect();
+        for (x, y) in [(&tool, &noisy), (&noisy, &tool)] {
+            let slopes = ratio(&[(x.clone(), y.clone())]).unwrap();
+            let widest = slopes[1] / slopes[0];
+            assert!(
+                widest > 6.0 && slopes[0] < 1.1 && slopes[1] > 0.9,
+                "{slopes:?}"
+            );
+            assert_eq!(factor(slopes, 1.8), Some(1.0));
+            // A unit that is wrong by 1000 is found all the same.
+            let grams = slopes.map(|slope| 1000.0 * slope);
+            assert_eq!(factor(grams, 2.6), Some(1000.0));
+        }
     }
 }
