@@ -196,7 +196,7 @@ fn a_scene_wears_it() {
     )
     .unwrap();
     let library = Library::parse(&built.bytes).unwrap();
-    assert_eq!(library.scene().unwrap().len(), 1);
+    assert_eq!(library.scene().unwrap().surfaces().len(), 1);
     assert!((line_hz(library.bytes(0).unwrap(), 120.0) - 40.0).abs() < 2.0);
 }
 

@@ -394,7 +394,12 @@ fn the_documented_scene_builds() {
     println!("{}", built.report);
     assert!(built.bytes.len() <= 7000 && built.report.instructions <= 2400);
     assert_eq!(
-        Library::parse(&built.bytes).unwrap().scene().unwrap().len(),
+        Library::parse(&built.bytes)
+            .unwrap()
+            .scene()
+            .unwrap()
+            .surfaces()
+            .len(),
         3
     );
 }
