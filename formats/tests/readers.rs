@@ -2,7 +2,7 @@
 
 use crate::common::{falling, full, small, span};
 use asperity_formats::{
-    Asset, FormatError, Library, assemble, assembled_len,
+    Asset, FormatError, Library, LsfCode, Vertex, assemble, assembled_len,
     library::{encode_library, encoded_len},
     taps::{BLOCK, side_by_side},
 };
@@ -31,6 +31,9 @@ fn parts_by_index_are_those_in_order() {
         for (index, vertex) in parts.vertices.iter().enumerate() {
             assert_eq!(grid.place(index), Some((vertex.speed_mm_s, vertex.force_n)));
         }
+        let most = |of: fn(&Vertex) -> f32| parts.vertices.iter().map(of).fold(0.0, f32::max);
+        assert_eq!(grid.max_speed_mm_s(), most(|vertex| vertex.speed_mm_s));
+        assert_eq!(grid.max_force_n(), most(|vertex| vertex.force_n));
         assert!(grid.place(parts.vertices.len()).is_none());
         assert!(grid.place(usize::MAX).is_none());
     }
@@ -77,10 +80,10 @@ fn triangles_tile_in_either_direction() {
     }
 }
 
-/// An overlap of a thousandth of the rectangle is the first that is refused. Every number here is exact.
+/// An overlap and a gap of a thousandth of the rectangle are the first that are refused. Every number here is exact.
 #[test]
 fn the_area_may_be_off_by_less_than_a_thousandth() {
-    let refused = |corner: f32| {
+    let refused = |corner: f32, triangles: &[[u8; 3]]| {
         let mut parts = small();
         for (vertex, place) in parts.vertices.iter_mut().zip([
             (0.0, 0.0),
@@ -91,10 +94,15 @@ fn the_area_may_be_off_by_less_than_a_thousandth() {
         ]) {
             (vertex.speed_mm_s, vertex.force_n) = place;
         }
-        parts.triangles = vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]];
+        parts.triangles = triangles.to_vec();
         parts.encode_into(1 << 17).is_err()
     };
-    assert!(refused(2.0) && !refused(1.875));
+    for triangles in [
+        &[[0, 1, 2], [0, 2, 3], [0, 3, 4]][..],
+        &[[0, 1, 2], [0, 2, 4]],
+    ] {
+        assert!(refused(2.0, triangles) && !refused(1.875, triangles));
+    }
 }
 
 #[test]
@@ -155,4 +163,16 @@ fn a_library_holds_bare_assets() {
         (asset.len() as u32, asset.len() as u32)
     );
     assert_eq!(library.bytes(0).unwrap(), asset);
+}
+
+#[test]
+fn a_code_counts_halves_of_a_turn_from_0_to_1() {
+    for bits in [0, 1, 0x4000, 0x8000, u16::MAX] {
+        let code = LsfCode::from_bits(bits);
+        assert_eq!(code.half_turns(), f32::from(bits) / 65536.0);
+        assert_eq!(
+            code.to_rad(),
+            f64::from(bits) / 65536.0 * std::f64::consts::PI
+        );
+    }
 }
