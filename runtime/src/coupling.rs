@@ -129,4 +129,74 @@ mod tests {
             assert!(left <= GRID / fraction, "{fraction}: {left:e}");
         }
     }
+
+    const STATED: [formats::Coupling; 2] = [
+        formats::Coupling {
+            stiffness_n_m: 500.0,
+            damping_n_s_m: 0.5,
+            vib_s2_m: 0.05,
+            effective_mass_kg: 0.08,
+            f_max_n: 3.3,
+        },
+        formats::Coupling {
+            stiffness_n_m: 200.0,
+            damping_n_s_m: 1.25,
+            vib_s2_m: 0.2,
+            effective_mass_kg: 0.01,
+            f_max_n: 8.0,
+        },
+    ];
+
+    /// All values, vib_mass and μ included.
+    fn all<A: Arithmetic>(coupling: &Coupling<A>) -> [f64; 7] {
+        let stated = coupling.values();
+        [
+            stated.stiffness_n_m,
+            stated.damping_n_s_m,
+            stated.vib_s2_m,
+            stated.effective_mass_kg,
+            stated.f_max_n,
+            coupling.mu.value(),
+            coupling.vib_mass.value(),
+        ]
+        .map(f64::from)
+    }
+
+    #[test]
+    fn every_value_goes_its_fraction_of_the_way_and_arrives_exactly() {
+        fn check<A: Arithmetic>(within: f64) {
+            let [from, to] = STATED;
+            let (from, to) = (Coupling::<A>::new(&from, 0.3), Coupling::<A>::new(&to, 0.9));
+            let (before, after) = (all(&from), all(&to));
+            for fraction in [0.0, 0.25, 0.5, 0.75] {
+                let mut found = from;
+                found.follow(&to, Quantity::of(fraction));
+                let found = all(&found);
+                let part = |k: usize| before[k] + f64::from(fraction) * (after[k] - before[k]);
+                for (k, value) in found.into_iter().enumerate().take(6) {
+                    let near = (value - part(k)).abs() < within * (before[k] + after[k]);
+                    assert!(near, "{k} at {fraction}: {value} {}", part(k));
+                }
+                let product = part(2) * part(4);
+                assert!((found[6] - product).abs() < within * 4.0, "{found:?}");
+            }
+            let mut found = from;
+            found.follow(&to, Quantity::whole(1));
+            assert_eq!(found, to);
+            found.follow(&from, Quantity::whole(1));
+            assert_eq!(found, from);
+        }
+        check::<Float>(1e-6);
+        check::<crate::Fixed>(1e-4);
+    }
+
+    #[test]
+    fn a_coupling_holds_what_the_asset_says() {
+        for stated in STATED {
+            let coupling = Coupling::<Float>::new(&stated, 0.5);
+            assert_eq!(coupling.values(), stated);
+            assert_eq!(coupling.mu.value(), 0.5);
+            assert_eq!(coupling.vib_mass.value(), stated.vib_s2_m * stated.f_max_n);
+        }
+    }
 }

@@ -157,3 +157,108 @@ impl Counters {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_of_flags_obey_the_laws_of_sets() {
+        let (a, b, c) = (Flags::CONTACT, Flags::RAMPING, Flags::FAULT);
+        let ab = a.union(b);
+        assert!(ab.contains(a) && ab.contains(b) && !ab.contains(c) && !a.contains(ab));
+        assert!(ab.intersects(a) && ab.intersects(b.union(c)) && !ab.intersects(c));
+        assert!(!ab.intersects(Flags::NONE) && !Flags::NONE.intersects(ab));
+        assert_eq!(ab.union(a), ab);
+        assert_eq!(ab.intersection(b.union(c)), b);
+        assert_eq!(ab.intersection(c), Flags::NONE);
+        assert_eq!(ab.when(true), ab);
+        assert_eq!(ab.when(false), Flags::NONE);
+        assert_eq!(Flags::LOWERED, Flags::SAFE_STATE.union(Flags::RAMPING));
+    }
+
+    #[test]
+    fn what_stages_tell_each_other_is_not_seen() {
+        for inner in [Flags::RESTART, Flags::BAD_SAMPLE, Flags::FAULT] {
+            assert_eq!((inner.seen(), inner.bits()), (Flags::NONE, 0));
+            for (seen, _) in Flags::ALL {
+                assert_eq!(seen.union(inner).seen(), seen);
+                assert!(!seen.intersects(inner));
+            }
+        }
+    }
+
+    /// Each flag by itself, and together.
+    #[test]
+    fn each_flag_counts_in_its_own_counter_alone() {
+        let of = |flags: Flags, elapsed_ticks: u32| {
+            let mut counters = Counters::default();
+            counters.count(flags, elapsed_ticks);
+            counters
+        };
+        let one = Counters {
+            ticks: 1,
+            ..Counters::default()
+        };
+        for (flag, counted) in [
+            (Flags::NONE, one),
+            (Flags::CONTACT.union(Flags::TAP_ACTIVE), one),
+            (Flags::HELD_SAMPLE.union(Flags::SAFE_STATE), one),
+            (
+                Flags::BAD_SAMPLE,
+                Counters {
+                    bad_samples: 1,
+                    ..one
+                },
+            ),
+            (Flags::FAULT, Counters { faults: 1, ..one }),
+            (Flags::TAP_STARTED, Counters { taps: 1, ..one }),
+            (
+                Flags::PEAK_LIMITED,
+                Counters {
+                    peak_limited: 1,
+                    ..one
+                },
+            ),
+            (
+                Flags::SLEW_LIMITED,
+                Counters {
+                    slew_limited: 1,
+                    ..one
+                },
+            ),
+        ] {
+            assert_eq!(of(flag, 1), counted, "{flag:?}");
+            assert_eq!(of(flag, 0), counted, "{flag:?}");
+        }
+        let all = Flags::COUNTED.union(Flags::CONTACT);
+        let counted = Counters {
+            ticks: 1,
+            bad_samples: 1,
+            missed_ticks: 4,
+            faults: 1,
+            taps: 1,
+            peak_limited: 1,
+            slew_limited: 1,
+        };
+        assert_eq!(of(all, 5), counted);
+    }
+
+    #[test]
+    fn full_counters_stay_full() {
+        let mut counters = Counters {
+            ticks: u32::MAX - 1,
+            missed_ticks: u32::MAX - 1,
+            faults: 7,
+            ..Counters::default()
+        };
+        counters.count(Flags::FAULT, 9);
+        assert_eq!(
+            (counters.ticks, counters.missed_ticks, counters.faults),
+            (u32::MAX, u32::MAX, 8)
+        );
+        let full = counters;
+        counters.count(Flags::COUNTED, 9);
+        assert_eq!(counters, full);
+    }
+}

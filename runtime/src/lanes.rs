@@ -192,3 +192,55 @@ impl Mul for F4 {
         Self(self.0 * other.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_next_to_nothing_is_rounded_to_the_grid() {
+        assert_eq!(GRID, 1.0 / (1_u64 << 62) as f32);
+        for grid in [GRID, 1.0 / 1024.0] {
+            for (x, wanted) in [
+                (0.0, 0.0),
+                (0.4, 0.0),
+                (0.6, 1.0),
+                (-0.6, -1.0),
+                (3.4, 3.0),
+                (-1000.7, -1001.0),
+                (1e6 + 0.25, 1e6),
+            ] {
+                let (x, wanted) = (x * grid, wanted * grid);
+                assert_eq!(settled(x, grid), wanted, "{x}");
+                assert_eq!(F4::splat(x).settled(grid).to_array(), [wanted; 4], "{x}");
+            }
+            let large = grid * 1e15;
+            assert_eq!(settled(large, grid), large);
+        }
+        for denormal in [f32::from_bits(1), 1e-40, -1e-30, 1e-19 / 2.0] {
+            assert_eq!(settled(denormal, GRID), 0.0);
+            assert_eq!(F4::splat(denormal).settled(GRID).to_array(), [0.0; 4]);
+        }
+    }
+
+    #[test]
+    fn lanes_are_marked_and_compared_one_by_one() {
+        let four = F4::load(&[1.0, -2.0, 3.0, -4.0]);
+        let bits = four.mark(0xff, 0x123).to_array().map(f32::to_bits);
+        assert_eq!(
+            bits,
+            [1.0, -2.0, 3.0, -4.0].map(|x: f32| x.to_bits() + 0x123)
+        );
+        let odd = F4::splat(f32::from_bits(0x4000_00f7));
+        assert_eq!(odd.mark(0xff, 1).to_array()[0].to_bits(), 0x4000_0001);
+        for (least, reached) in [(2.9, true), (3.0, true), (3.1, false), (-9.0, true)] {
+            assert_eq!(four.reaches(least), reached, "{least}");
+        }
+        assert_eq!(four.sum(), -2.0);
+        assert_eq!(four.dot3(F4::splat(2.0)), 4.0);
+        let other = F4::load(&[2.0, -3.0, 3.0, 0.0]);
+        assert_eq!(four.min(other).to_array(), [1.0, -3.0, 3.0, -4.0]);
+        assert_eq!(four.max(other).to_array(), [2.0, -2.0, 3.0, 0.0]);
+        assert_eq!(F3::of(four).four().to_array()[..3], [1.0, -2.0, 3.0]);
+    }
+}

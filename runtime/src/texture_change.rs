@@ -119,7 +119,8 @@ impl<A: RenderArithmetic> TextureChange<A> {
         let Sounded { y, clamped } = vibration.sound(self.recursion, upsampler, sounding);
         self.heard = y;
         let faded = Quantity::<A, Fraction>::of(FADE) * self.fading;
-        let audible = faded.max(-faded) > Quantity::of(A::SILENCE_M_S2);
+        // In fixed point a step or two are their own fade.
+        let audible = (faded.max(-faded) > Quantity::of(A::SILENCE_M_S2)) & (faded != self.fading);
         self.fading = if sounding && audible {
             faded
         } else {

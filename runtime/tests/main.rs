@@ -6,9 +6,24 @@
     reason = "the same bits everywhere are the tick's concern, not that of what judges it"
 )]
 
+mod arithmetics;
+mod config_ranges;
+mod counts;
+mod exchanges;
+mod fixed_points;
+mod fixed_ranges;
+mod force_stages;
 mod laws_force;
 mod laws_friction;
 mod laws_lsf;
 mod laws_queries;
+mod locations;
+mod maths;
+mod motion_stages;
 mod oracle_filter;
 mod oracle_tick;
+mod scene_steps;
+mod scenes;
+mod searches;
+mod slots;
+mod swaps;

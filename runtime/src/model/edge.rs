@@ -62,3 +62,42 @@ impl<A: Arithmetic> Extent<A> {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Fixed, Float};
+
+    #[test]
+    fn a_query_is_outside_where_either_number_is_beyond_its_most() {
+        fn check<A: Arithmetic>() {
+            let extent = Extent::<A>::new(200.0, 4.0);
+            assert_eq!(extent.values(), [200.0, 4.0]);
+            for (speed, force, outside) in [
+                (0.0, 0.0, false),
+                (200.0, 4.0, false),
+                (200.1, 4.0, true),
+                (200.0, 4.1, true),
+                (200.1, 4.1, true),
+            ] {
+                let (v, f) = (Quantity::of(speed), Quantity::of(force));
+                assert_eq!(extent.is_outside(v, f), outside, "{speed} {force}");
+                let near = extent.nearest(v, f).map(Quantity::value);
+                assert_eq!(
+                    near,
+                    [
+                        if speed > 200.0 { 200.0 } else { speed },
+                        if force > 4.0 { 4.0 } else { force }
+                    ]
+                );
+            }
+            let below = extent.nearest(Quantity::of(-1.0), Quantity::of(-1.0));
+            assert_eq!(below.map(Quantity::value), [0.0; 2]);
+        }
+        check::<Float>();
+        check::<Fixed>();
+        let extent = Extent::<Float>::new(200.0, 4.0);
+        assert!(extent.is_outside(Quantity(f32::NAN), Quantity(1.0)));
+        assert!(extent.is_outside(Quantity(1.0), Quantity(f32::NAN)));
+    }
+}

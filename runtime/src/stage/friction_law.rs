@@ -351,4 +351,44 @@ mod tests {
         law.load(None);
         assert!(!law.is_some());
     }
+
+    /// From one law to another, what remains of the old factor fades by the same share in each tick.
+    #[test]
+    fn a_factor_goes_to_that_of_another_law_little_by_little() {
+        fn check<A: FactorLookup>(within: f64) {
+            let (old, new) = (
+                law(&[(0, 16_384), (16, 16_384)]),
+                law(&[(0, 4096), (16, 4096)]),
+            );
+            let speed = Quantity::<A, MillimetrePerSecond>::of(50.0);
+            let mut crossing = FactorCrossing::<A>::START;
+            let step = |crossing: &mut FactorCrossing<A>, law: &FrictionLaw, fraction: f32| {
+                let mu = crossing.of(Quantity::of(0.5), law, speed, Quantity::of(fraction));
+                f64::from(mu.value()) / 0.5
+            };
+            // Without a change a law acts at once, and 1 where there is none.
+            assert_eq!(step(&mut crossing, &FrictionLaw::NONE, 0.25), 1.0);
+            assert!((step(&mut crossing, &old, 0.25) - 2.0).abs() < within);
+            crossing.begin();
+            let mut exact = 2.0;
+            for to in [new; 40].into_iter().chain([FrictionLaw::NONE; 80]) {
+                let target = if to.is_some() { 0.5 } else { 1.0 };
+                if !to.is_some() && matches!(crossing.way, Way::Remains(_)) && exact < 0.51 {
+                    crossing.begin();
+                }
+                exact = target + 0.75 * (exact - target);
+                let found = step(&mut crossing, &to, 0.25);
+                assert!((found - exact).abs() < within, "{found} {exact}");
+            }
+            assert!(matches!(crossing.way, Way::Arrived));
+            crossing.begin();
+            assert!(
+                (step(&mut crossing, &old, 1.0) - 2.0).abs() < within,
+                "at once"
+            );
+            assert!(matches!(crossing.way, Way::Arrived));
+        }
+        check::<Float>(1e-5);
+        check::<Fixed>(2e-5);
+    }
 }

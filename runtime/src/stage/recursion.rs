@@ -369,3 +369,19 @@ impl<A: InnerProduct> History<A> {
 const fn before(at: usize) -> usize {
     (at + LANES - 1) % LANES
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_recursion_has_as_many_blocks_as_its_longer_part_needs() {
+        for (ar, ma) in (0..=24).flat_map(|ar| (0..=24).map(move |ma| (ar, ma))) {
+            let (longer, fewest) = (if ar > ma { ar } else { ma }, if ma > 0 { 3 } else { 1 });
+            let blocks = Recursion::new(ar, ma).blocks();
+            let needed = longer.div_ceil(LANES);
+            assert_eq!(blocks, if needed > fewest { needed } else { fewest });
+            assert!(Recursion::new(ar, ma).0 <= 9);
+        }
+    }
+}

@@ -309,4 +309,28 @@ mod tests {
             assert_eq!(ticks_per_sample(model_hz, servo_hz), ticks, "{servo_hz}");
         }
     }
+
+    /// One number beyond silence, in any place, keeps all of them.
+    #[test]
+    fn only_a_state_that_nobody_feels_is_cleared() {
+        let silence = Float::SILENCE_M_S2;
+        let quiet = Held::<Float> {
+            re: [silence, -silence, 0.0, silence],
+            im: [-silence, silence, 0.0],
+        };
+        let mut held = quiet.clone();
+        held.settle();
+        assert_eq!(held, Held::SILENT);
+        for place in 0..7 {
+            let mut heard = quiet.clone();
+            if place < 4 {
+                heard.re[place] = 2.0 * silence;
+            } else {
+                heard.im[place - 4] = -2.0 * silence;
+            }
+            let mut kept = heard.clone();
+            kept.settle();
+            assert_eq!(kept, heard);
+        }
+    }
 }

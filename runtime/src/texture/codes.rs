@@ -91,3 +91,64 @@ const _: () = {
         order += 1;
     }
 };
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::{Fixed, Float};
+    use std::vec::Vec;
+
+    /// −2 cos(π·code/65536) of every code at the place where conversion expects it, zeros behind.
+    #[test]
+    fn every_code_becomes_its_cosine_at_its_place() {
+        fn check<A: Arithmetic>(within: f64) {
+            for order in 0..=MAX_ORDER {
+                let codes: Vec<u16> = (0..order)
+                    .map(|at| (65_536 * (at + 1) / (order + 1)) as u16)
+                    .collect();
+                let stored: Vec<_> = codes.iter().map(|code| code.to_le_bytes()).collect();
+                let mut row = [A::Scalar::of(1.5); MAX_ORDER];
+                to_cosines::<A>(&mut row, &stored);
+                for (index, &code) in codes.iter().enumerate() {
+                    let angle = core::f64::consts::PI * f64::from(code) / 65_536.0;
+                    let found = f64::from(row[place(index, order)].value());
+                    let exact = -2.0 * angle.cos();
+                    assert!(
+                        (found - exact).abs() < within,
+                        "{index} of {order}: {found}"
+                    );
+                }
+                let used: Vec<_> = (0..order).map(|index| place(index, order)).collect();
+                for (at, cosine) in row.iter().enumerate() {
+                    let next_to_nothing = cosine.value().abs() < 1e-12;
+                    assert!(used.contains(&at) || next_to_nothing, "{at} of {order}");
+                }
+            }
+        }
+        check::<Float>(5e-7);
+        check::<Fixed>(5e-7);
+    }
+
+    /// A short row takes what it has room for.
+    #[test]
+    fn a_row_of_the_length_of_its_order_is_filled() {
+        for order in (4..=MAX_ORDER).step_by(4) {
+            let codes: Vec<_> = (1..=order as u16)
+                .map(|at| (2000 * at).to_le_bytes())
+                .collect();
+            let (mut short, mut long) = ([0.0; MAX_ORDER], [0.0; MAX_ORDER]);
+            to_cosines::<Float>(&mut short[..order], &codes);
+            to_cosines::<Float>(&mut long, &codes);
+            assert_eq!(short[..order], long[..order]);
+        }
+    }
+
+    /// A line spectrum that goes to a cosine of 0 never passes through denormals.
+    #[test]
+    fn a_right_angle_is_next_to_nothing_and_not_zero() {
+        let mut row = [0.0; 4];
+        to_cosines::<Float>(&mut row, &[RIGHT_ANGLE]);
+        assert!(row[0] > 0.0 && row[0].is_normal() && row[0] < 1e-14);
+    }
+}

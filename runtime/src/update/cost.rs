@@ -230,4 +230,44 @@ mod tests {
             assert_eq!(next, items.count());
         }
     }
+
+    /// The whole of the work of some textures, added up by hand on a Cortex-M4F.
+    #[test]
+    fn the_work_costs_what_its_items_cost() {
+        for (orders, blocks, fours, parts, mix, pairs, assembly) in [
+            // Order 20: five pairs, of 2, 4, … 10 coefficients; 10 coefficients are three fours.
+            ((20, 0), 3, 5, 1, 190 + 5 * 38, 5 * 45 + 14 * 30, 3 * 50),
+            // Both polynomials: each pair twice; 9 coefficients are three fours, too.
+            (
+                (20, 18),
+                6,
+                10,
+                2,
+                190 + 10 * 38,
+                2 * (5 * 45 + 14 * 30),
+                6 * 50,
+            ),
+            ((4, 0), 1, 1, 1, 190 + 38, 45 + 14 * 2, 50),
+            (
+                (5, 9),
+                2,
+                4,
+                2,
+                190 + 4 * 38,
+                2 * (3 * 45 + 14 * 12),
+                3 * 50,
+            ),
+        ] {
+            let orders = Orders::new(orders.0, orders.1);
+            let items = Items::new(ONE_BY_ONE, blocks, fours, &orders, parts);
+            let all = orders.section_pairs() * parts;
+            assert_eq!(items.count(), blocks + 1 + all);
+            let cost =
+                |from: usize, to: usize| (from..to).map(|item| items.cost(item)).sum::<usize>();
+            assert_eq!(cost(0, blocks), 145 * blocks);
+            assert_eq!(cost(blocks, blocks + 1), mix);
+            assert_eq!(cost(blocks + 1, items.count()), pairs);
+            assert_eq!(items.assembly, assembly);
+        }
+    }
 }

@@ -59,3 +59,26 @@ impl Cycle {
         self.working as usize % Self::KINDS
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What changes just after a query waits for the next one, and then for its work.
+    #[test]
+    fn every_change_is_heard_within_the_lag() {
+        assert_eq!(Cycle::ALL.map(Cycle::working), [4, 5, 6]);
+        assert_eq!(Cycle::ALL.map(Cycle::samples), [8, 7, 6]);
+        for cycle in Cycle::ALL {
+            let lag = usize::from(cycle.samples() + cycle.working() - 2);
+            assert_eq!(lag, LAG_SAMPLES);
+            // Counting on from the rest ends when the next query is due.
+            let left = Cycle::OVER - cycle.rest();
+            assert_eq!(left, cycle.samples() - cycle.working());
+            assert!(cycle.rest() >= cycle.working() && cycle.kind() < Cycle::KINDS);
+        }
+        let kinds = Cycle::ALL.map(Cycle::kind);
+        assert!(kinds[0] != kinds[1] && kinds[1] != kinds[2] && kinds[0] != kinds[2]);
+        assert_eq!(Cycle::SLOWEST, Cycle::ALL[2]);
+    }
+}

@@ -93,3 +93,73 @@ pub(crate) fn slices<A: Arithmetic>(
     });
     Slices(slices)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Fixed, Float};
+
+    /// Bits depend on the cycle, so it is the same on every processor and in every version.
+    #[test]
+    fn the_cycle_of_a_texture_is_the_committed_one() {
+        let working = |(ar, ma): (usize, usize)| {
+            let orders = Orders::new(ar, ma);
+            [1, 2, 4, 6, 8, 12, 20, 32].map(|blocks| cycle(blocks, &orders).working())
+        };
+        let orders = [
+            (4, 0),
+            (10, 0),
+            (16, 0),
+            (20, 0),
+            (24, 0),
+            (8, 8),
+            (20, 18),
+            (24, 24),
+        ];
+        let committed = [
+            [4, 4, 4, 4, 4, 4, 6, 6],
+            [4, 4, 4, 4, 4, 5, 6, 6],
+            [4, 4, 4, 4, 4, 5, 6, 6],
+            [4, 4, 4, 4, 5, 6, 6, 6],
+            [4, 4, 4, 5, 5, 6, 6, 6],
+            [4, 4, 4, 4, 4, 5, 6, 6],
+            [5, 5, 6, 6, 6, 6, 6, 6],
+            [6, 6, 6, 6, 6, 6, 6, 6],
+        ];
+        assert_eq!(orders.map(working), committed);
+    }
+
+    /// Each block, the mixture and each part once, in this order, within as many ticks.
+    #[test]
+    fn slices_hold_all_of_the_work_once_and_in_turn() {
+        fn check<A: Arithmetic>() {
+            for (ar, ma) in [(1, 0), (4, 0), (20, 0), (20, 18), (24, 24), (3, 24)] {
+                let orders = Orders::new(ar, ma);
+                let all = orders.section_pairs() * orders.parts::<A>();
+                for blocks in [0, 1, 3, 9, 32] {
+                    for ticks in [4, 5, 6, 13] {
+                        let slices = slices::<A>(blocks, 6, &orders, ticks);
+                        let (mut looked, mut mixed, mut next) = (0, 0, 0);
+                        for tick in 0..16 {
+                            let slice = slices.of(tick);
+                            let works = *slice != Slice::NONE;
+                            assert!(!works || usize::from(tick) < ticks);
+                            assert!(slice.blocks == 0 || mixed == 0, "blocks come first");
+                            looked += usize::from(slice.blocks);
+                            mixed += usize::from(slice.mixes);
+                            let pairs = slice.section_pairs();
+                            if !pairs.is_empty() {
+                                assert!(mixed == 1 && pairs.start == next);
+                                next = pairs.end;
+                            }
+                        }
+                        assert_eq!((looked, mixed, next), (blocks, 1, all));
+                        assert!(!slices.of(0).mixes && slices.of(0).section_pairs().is_empty());
+                    }
+                }
+            }
+        }
+        check::<Float>();
+        check::<Fixed>();
+    }
+}

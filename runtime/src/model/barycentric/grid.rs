@@ -241,3 +241,116 @@ fn least(x: [f32; 3]) -> f32 {
 fn most(x: [f32; 3]) -> f32 {
     max(max(x[0], x[1]), x[2])
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::{Fixed, Float, capacity::HostCapacities};
+    use std::{boxed::Box, vec::Vec};
+
+    type Host<A> = Grid<HostCapacities, A>;
+    type Corners = Vec<(f32, f32)>;
+
+    /// Squares of a lattice over 8 mm/s × 4 N, two triangles each, without those of some columns.
+    fn lattice(columns: usize, rows: usize, gap: &[usize]) -> (Corners, Vec<[u8; 3]>) {
+        let corner = |at: usize| {
+            let (column, row) = (at % (columns + 1), at / (columns + 1));
+            (
+                8.0 * column as f32 / columns as f32,
+                4.0 * row as f32 / rows as f32,
+            )
+        };
+        let corners = (0..(columns + 1) * (rows + 1)).map(corner).collect();
+        let mut triangles = Vec::new();
+        for row in 0..rows {
+            for column in (0..columns).filter(|column| !gap.contains(column)) {
+                let at = (row * (columns + 1) + column) as u8;
+                let above = at + columns as u8 + 1;
+                triangles.extend([[at, at + 1, above], [at + 1, above + 1, above]]);
+            }
+        }
+        (corners, triangles)
+    }
+
+    fn loaded<A: WeightSearch>((corners, triangles): &(Corners, Vec<[u8; 3]>)) -> Box<Host<A>> {
+        let mut grid = Box::new(Host::EMPTY);
+        grid.load(triangles, |v| corners[usize::from(v)], 8.0, 4.0);
+        grid
+    }
+
+    /// The smallest weight of a point in a triangle, f64.
+    fn smallest(corners: &[(f32, f32)], triangle: [u8; 3], (x, y): (f64, f64)) -> f64 {
+        let [a, b, c] = triangle.map(|v| {
+            let (x, y) = corners[usize::from(v)];
+            (f64::from(x), f64::from(y))
+        });
+        let area = |p: (f64, f64), q: (f64, f64), r: (f64, f64)| {
+            (q.0 - p.0) * (r.1 - p.1) - (r.0 - p.0) * (q.1 - p.1)
+        };
+        let (all, p) = (area(a, b, c), (x, y));
+        let weights = [area(p, b, c), area(a, p, c), area(a, b, p)].map(|part| part / all);
+        weights[0].min(weights[1]).min(weights[2])
+    }
+
+    /// The best triangle is the one whose smallest weight is largest, in a gap too, whatever block
+    /// the search begins with, and wherever it pauses.
+    #[test]
+    fn a_search_finds_the_triangle_that_suits_best() {
+        fn check<A: WeightSearch>() {
+            for shape in [
+                lattice(4, 3, &[]),
+                lattice(7, 5, &[]),
+                lattice(8, 4, &[3]),
+                lattice(8, 6, &[0, 1, 2]),
+                lattice(8, 6, &[4, 5, 6, 7]),
+                lattice(1, 1, &[]),
+            ] {
+                let grid = loaded::<A>(&shape);
+                let (corners, triangles) = &shape;
+                for step in 0..400 {
+                    let (x, y) = (
+                        (step * 37 % 401) as f32 / 50.0,
+                        (step * 91 % 397) as f32 / 100.0,
+                    );
+                    let at = (f64::from(x), f64::from(y));
+                    let suits = |t: [u8; 3]| smallest(corners, t, at);
+                    let best = triangles.iter().map(|&t| suits(t)).fold(f64::MIN, f64::max);
+                    for first in [0, 1, 7, 31] {
+                        let (v, f) = (Quantity::of(x), Quantity::of(y));
+                        let mut search = grid.begin(v, f, first);
+                        grid.look(&mut search, grid.blocks());
+                        let chosen = suits(grid.choose(&search).vertices);
+                        assert!(chosen > best.min(0.0) - 1e-3, "({x}, {y}): {chosen} {best}");
+                        let mut paused = grid.begin(v, f, first);
+                        for _ in 0..grid.blocks() {
+                            grid.look(&mut paused, 1);
+                        }
+                        assert_eq!(paused, search);
+                    }
+                }
+            }
+        }
+        check::<Float>();
+        check::<Fixed>();
+    }
+
+    /// A query looks at the blocks near it. Where triangles leave a gap, it looks at all.
+    #[test]
+    fn a_query_looks_at_few_blocks_unless_there_is_a_gap() {
+        fn check<A: WeightSearch>() {
+            let shapes = [
+                lattice(8, 6, &[]),
+                lattice(8, 8, &[]),
+                lattice(2, 2, &[]),
+                lattice(1, 1, &[]),
+                // 72 triangles.
+                lattice(8, 6, &[3, 4]),
+            ];
+            let blocks = shapes.map(|shape| loaded::<A>(&shape).blocks());
+            assert_eq!(blocks, [6, 4, 2, 1, 18]);
+        }
+        check::<Float>();
+        check::<Fixed>();
+    }
+}
