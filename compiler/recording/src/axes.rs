@@ -105,6 +105,10 @@ pub fn principal(axes: &[Vec<f64>]) -> (Vec<f64>, f64) {
 }
 
 #[cfg(test)]
+#[path = "axes_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::signal::noise::white;

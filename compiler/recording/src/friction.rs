@@ -304,6 +304,10 @@ fn regress<const N: usize>(rows: impl Iterator<Item = ([f64; N], f64)>) -> Optio
 }
 
 #[cfg(test)]
+#[path = "friction_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

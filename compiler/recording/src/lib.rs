@@ -28,6 +28,8 @@ mod error;
 mod file;
 pub mod friction;
 pub mod impact;
+#[cfg(test)]
+mod made;
 pub mod reader;
 pub mod resonance;
 pub mod signal;

@@ -374,6 +374,10 @@ fn bartlett(axes: &[Vec<f64>], start: usize, length: usize, whitener: &[f64]) ->
 }
 
 #[cfg(test)]
+#[path = "steady_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::signal::noise::white;

@@ -385,3 +385,7 @@ fn drag_n(
     };
     Some(along.into_iter().map(|x| sign * x).collect())
 }
+
+#[cfg(test)]
+#[path = "timeline_tests.rs"]
+mod tests;

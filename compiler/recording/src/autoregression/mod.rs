@@ -44,3 +44,6 @@ impl Model {
         e
     }
 }
+
+#[cfg(test)]
+mod tests;

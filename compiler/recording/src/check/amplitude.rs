@@ -318,6 +318,10 @@ fn held(channel: &Channel) -> Vec<Range<u64>> {
 }
 
 #[cfg(test)]
+#[path = "amplitude_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::{

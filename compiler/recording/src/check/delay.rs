@@ -226,3 +226,7 @@ fn friction(recording: &Recording, aligned: &Aligned, dead: &[bool]) -> Pairs {
         .filter_map(|(v, f)| Some((unit(&v), against(f?))))
         .collect()
 }
+
+#[cfg(test)]
+#[path = "delay_tests.rs"]
+mod laws;

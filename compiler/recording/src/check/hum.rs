@@ -106,3 +106,7 @@ pub(super) fn check(recording: &Recording, aligned: &Aligned, timeline: &Timelin
     }
     findings
 }
+
+#[cfg(test)]
+#[path = "hum_tests.rs"]
+mod laws;

@@ -210,3 +210,7 @@ fn contradiction(described: &description::Channel) -> Option<(Kind, String)> {
     );
     Some((Kind::Unit, what))
 }
+
+#[cfg(test)]
+#[path = "label_tests.rs"]
+mod laws;

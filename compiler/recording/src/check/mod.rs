@@ -224,3 +224,6 @@ fn contact(timeline: &Timeline) -> Option<Finding> {
     }
     None
 }
+
+#[cfg(test)]
+mod tests;

@@ -222,6 +222,10 @@ fn beyond(value: f64, (low, high): (f64, f64)) -> Option<f64> {
 }
 
 #[cfg(test)]
+#[path = "scale_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::signal::noise::white;

@@ -207,3 +207,7 @@ impl Checked {
             .map_or(0.0, |(_, late_s)| *late_s)
     }
 }
+
+#[cfg(test)]
+#[path = "verdict_tests.rs"]
+mod tests;

@@ -113,3 +113,38 @@ impl Unit {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_unit_is_worth_what_it_is_in_si_and_belongs_to_one_quantity() {
+        use Quantity::{Acceleration, Force, Position, Speed, Torque};
+        for (name, quantity, to_si) in [
+            ("m/s^2", Acceleration, 1.0),
+            ("mm/s^2", Acceleration, 0.001),
+            ("g", Acceleration, 9.806_65),
+            ("mg", Acceleration, 0.009_806_65),
+            ("mN", Force, 0.001),
+            ("kN", Force, 1000.0),
+            ("kgf", Force, 9.806_65),
+            ("gf", Force, 0.009_806_65),
+            ("N*mm", Torque, 0.001),
+            ("um", Position, 0.000_001),
+            ("cm", Position, 0.01),
+            ("mm/s", Speed, 0.001),
+            ("cm/s", Speed, 0.01),
+        ] {
+            let found = Unit::named(name, quantity).expect(name);
+            assert!((found.to_si / to_si - 1.0).abs() < 1e-12, "{name}");
+            assert_eq!(Unit::any(name), Some(found));
+            for other in [Acceleration, Force, Torque, Position, Speed] {
+                assert_eq!(Unit::named(name, other).is_some(), other == quantity);
+            }
+        }
+        assert_eq!(Unit::any("gee"), None);
+        assert_eq!(Unit::all(Torque), "N*m, N*mm");
+        assert_eq!(Unit::all(Speed), "m/s, mm/s, cm/s");
+    }
+}

@@ -145,6 +145,10 @@ fn moved(trace: &[f64], shift: isize) -> Vec<f64> {
 }
 
 #[cfg(test)]
+#[path = "group_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

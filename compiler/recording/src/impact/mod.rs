@@ -178,3 +178,6 @@ fn landings(timeline: &Timeline, touches: &[bool]) -> Vec<usize> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests;

@@ -128,3 +128,7 @@ fn rest_before(accel_m_s2: &[f64], touches: &[bool], landing: usize) -> Option<u
         .min_by(|a, b| variance(*a).total_cmp(&variance(*b)))
         .map(|n| n + length / 2)
 }
+
+#[cfg(test)]
+#[path = "speed_tests.rs"]
+mod laws;

@@ -331,6 +331,10 @@ impl Fit {
 }
 
 #[cfg(test)]
+#[path = "clock_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

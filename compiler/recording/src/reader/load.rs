@@ -368,3 +368,7 @@ fn check_units(recording: &Recording, files: &[SensorFile]) -> Result<(), Record
         problem,
     ))
 }
+
+#[cfg(test)]
+#[path = "load_tests.rs"]
+mod tests;

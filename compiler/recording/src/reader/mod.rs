@@ -8,6 +8,8 @@ pub mod wav;
 
 pub(crate) use clock::period as clock_period;
 
+#[cfg(test)]
+pub(crate) use load::FileClock;
 pub use load::{MAX_KEPT, Recording, load, load_at_most};
 
 use crate::error::{Problem, RecordingError};

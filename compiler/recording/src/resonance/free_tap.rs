@@ -92,3 +92,7 @@ fn away(timeline: &Timeline) -> Vec<bool> {
     }
     away
 }
+
+#[cfg(test)]
+#[path = "free_tap_tests.rs"]
+mod laws;

@@ -69,6 +69,10 @@ pub(super) fn divided(samples: &[f32], rate_hz: f64, resonance_hz: f64, q: f64) 
 }
 
 #[cfg(test)]
+#[path = "inverse_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use std::f64::consts::TAU;

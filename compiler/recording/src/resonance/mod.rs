@@ -158,3 +158,6 @@ fn accelerometer(recording: &Recording) -> impl Iterator<Item = &Channel> {
         .iter()
         .filter(|channel| channel.quantity == Quantity::Acceleration)
 }
+
+#[cfg(test)]
+mod tests;

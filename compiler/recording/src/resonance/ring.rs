@@ -255,6 +255,10 @@ fn rms(signal: &[f64]) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "ring_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::signal::noise::white;

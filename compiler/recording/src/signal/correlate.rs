@@ -64,6 +64,10 @@ pub fn delay(pairs: &[(&[f64], &[f64])], reach: usize) -> Option<Delay> {
 }
 
 #[cfg(test)]
+#[path = "correlate_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::signal::noise::white;

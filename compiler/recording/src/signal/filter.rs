@@ -62,6 +62,10 @@ pub fn derivative(signal: &[f64]) -> Vec<f64> {
 }
 
 #[cfg(test)]
+#[path = "filter_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use std::f64::consts::TAU;

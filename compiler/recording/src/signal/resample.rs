@@ -74,6 +74,10 @@ pub fn resample(signal: &[f32], from: Clock, to: Clock, count: usize) -> Vec<f64
 }
 
 #[cfg(test)]
+#[path = "resample_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use std::f64::consts::TAU;

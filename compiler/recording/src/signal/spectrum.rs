@@ -56,6 +56,10 @@ pub fn omegas(rate_hz: f64, from_hz: f64, to_hz: f64, count: usize) -> Vec<f64> 
 }
 
 #[cfg(test)]
+#[path = "spectrum_tests.rs"]
+mod laws;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
