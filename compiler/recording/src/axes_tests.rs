@@ -1,7 +1,7 @@
 //! One signal of several axes, frequency by frequency.
 
 use super::*;
-use crate::{made::near, signal::noise::white};
+use crate::{signal::noise::white, test_recordings::near};
 use std::f64::consts::TAU;
 
 fn transformed(signal: &[f64], bin: usize) -> Complex<f64> {

@@ -1,7 +1,7 @@
 //! Exact tables of blocks, and laws that made data follow to the last digit.
 
 use super::*;
-use crate::made::{near, timeline};
+use crate::test_recordings::{near, timeline};
 
 /// What a timeline of these blocks gives: speed, load, μ. One sample more than the blocks.
 fn of(blocks: &[(f64, f64, f64)]) -> Timeline {

@@ -28,12 +28,12 @@ mod error;
 mod file;
 pub mod friction;
 pub mod impact;
-#[cfg(test)]
-mod made;
 pub mod reader;
 pub mod resonance;
 pub mod signal;
 pub mod steady;
+#[cfg(test)]
+mod test_recordings;
 pub mod timeline;
 
 pub use error::{Problem, RecordingError};

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::{
-    made::{near, timeline},
     signal::noise::white,
+    test_recordings::{near, timeline},
 };
 use std::f64::consts::TAU;
 

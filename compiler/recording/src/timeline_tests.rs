@@ -1,7 +1,7 @@
 //! Timelines of channels whose motion and load are known.
 
 use super::*;
-use crate::made::{channel, near, recording};
+use crate::test_recordings::{channel, near, recording};
 
 const SECONDS: usize = 4;
 

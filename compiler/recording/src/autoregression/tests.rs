@@ -1,7 +1,7 @@
 //! Models of signals so short that they can be worked out by hand, and laws of the estimates.
 
 use super::{least_squares::solve, *};
-use crate::{made::near, signal::noise::white};
+use crate::{signal::noise::white, test_recordings::near};
 use asperity_texture::signal::reflection::is_stable;
 
 fn all_near(found: &[f64], expected: &[f64], apart: f64) {

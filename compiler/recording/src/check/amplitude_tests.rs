@@ -5,10 +5,10 @@
 )]
 
 use super::*;
-use crate::{description::Axis, made, signal::noise::white};
+use crate::{description::Axis, signal::noise::white, test_recordings};
 
 fn of(quantity: Quantity, values: &[f64]) -> Channel {
-    made::channel(quantity, Axis::Z, 1000.0, values)
+    test_recordings::channel(quantity, Axis::Z, 1000.0, values)
 }
 
 /// A saw of steps that never repeat one value, between −0.8 and 0.8.
@@ -260,7 +260,12 @@ fn a_run_is_held_from_eight_samples_or_four_milliseconds_on() {
             let value = values[start];
             values[start..start + samples].fill(value);
         }
-        held(&made::channel(Quantity::Force, Axis::Z, rate_hz, &values))
+        held(&test_recordings::channel(
+            Quantity::Force,
+            Axis::Z,
+            rate_hz,
+            &values,
+        ))
     };
     assert!(held_at(1000.0, 7).is_empty());
     assert_eq!(held_at(1000.0, 8), [3000..3008, 9000..9008, 15_000..15_008]);

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::{
-    made::{self, near},
     signal::noise::white,
+    test_recordings::{self, near},
 };
 
 /// Noise, and the same noise later by so many samples and under noise of its own.
@@ -68,7 +68,7 @@ fn a_delay_that_is_no_surer_than_its_band_is_not_told() {
 }
 
 fn with(channels: Vec<crate::channel::Channel>) -> (Vec<FileDelay>, Vec<Finding>) {
-    let recording = made::recording(channels);
+    let recording = test_recordings::recording(channels);
     let count = recording.channels.len();
     let aligned = Aligned::new(&recording, &vec![0.0; count]).expect("long");
     check(&recording, &aligned, &vec![false; count])
@@ -79,9 +79,9 @@ fn a_force_that_shows_the_vibration_late_is_told_and_a_fault_from_eight_millisec
     let z = Axis::Z;
     let found = |late: usize, rate_hz: f64| {
         let (accel, force) = pair(late, 0.2, 5000);
-        let force = made::channel(Quantity::Force, z, rate_hz, &force);
+        let force = test_recordings::channel(Quantity::Force, z, rate_hz, &force);
         with(vec![
-            made::channel(Quantity::Acceleration, z, rate_hz, &accel),
+            test_recordings::channel(Quantity::Acceleration, z, rate_hz, &accel),
             force,
         ])
     };
@@ -122,10 +122,10 @@ fn the_motion_of_a_position_is_its_second_derivative() {
     let wave = |t: f64| 0.01 * libm::sin(25.0 * t);
     let position: Vec<f64> = (0..5000).map(|n| wave(at(n))).collect();
     let accel: Vec<f64> = (0..5000).map(|n| -625.0 * wave(at(n))).collect();
-    let recording = made::recording(vec![
-        made::channel(Quantity::Acceleration, Axis::X, 1000.0, &accel),
-        made::channel(Quantity::Position, Axis::X, 1000.0, &position),
-        made::channel(Quantity::Position, Axis::Y, 1000.0, &position),
+    let recording = test_recordings::recording(vec![
+        test_recordings::channel(Quantity::Acceleration, Axis::X, 1000.0, &accel),
+        test_recordings::channel(Quantity::Position, Axis::X, 1000.0, &position),
+        test_recordings::channel(Quantity::Position, Axis::Y, 1000.0, &position),
     ]);
     let aligned = Aligned::new(&recording, &[0.0; 3]).expect("long");
     let pairs = motion(&recording, &aligned, &[false; 3]);
@@ -139,10 +139,11 @@ fn the_motion_of_a_position_is_its_second_derivative() {
 
 #[test]
 fn friction_is_the_direction_of_the_motion_and_the_force_against_it() {
-    let constant =
-        |quantity, axis, value: f64| made::channel(quantity, axis, 1000.0, &vec![value; 3000]);
+    let constant = |quantity, axis, value: f64| {
+        test_recordings::channel(quantity, axis, 1000.0, &vec![value; 3000])
+    };
     let of = |vx: f64, vy: f64| {
-        let recording = made::recording(vec![
+        let recording = test_recordings::recording(vec![
             constant(Quantity::Speed, Axis::X, vx),
             constant(Quantity::Speed, Axis::Y, vy),
             constant(Quantity::Force, Axis::X, 0.25),

@@ -1,7 +1,7 @@
 //! Lines of the mains: taken away to the last digit, and told from 15 dB on.
 
 use super::*;
-use crate::{description::Axis, made, signal::noise::white};
+use crate::{description::Axis, signal::noise::white, test_recordings};
 use std::f64::consts::TAU;
 
 fn tone(hz: f64, size: f64, count: usize) -> Vec<f64> {
@@ -19,7 +19,7 @@ fn every_line_is_taken_away_and_what_lies_between_is_kept() {
     for hz in [3.0, 55.0, 90.0, 240.0] {
         let signal = tone(hz, 3.0, 2000);
         for (x, y) in without_hum(&signal).iter().zip(&signal) {
-            made::near(*x, *y, 1e-9);
+            test_recordings::near(*x, *y, 1e-9);
         }
     }
     // A piece shorter than a second is left as it is.
@@ -37,13 +37,18 @@ fn told(quantity: Quantity, hz: f64, size: f64, count: usize, contact: &[usize])
         .zip(tone(hz, size, count))
         .map(|(n, t)| 9.0 + n + t)
         .collect();
-    let recording = made::recording(vec![made::channel(quantity, Axis::Z, 1000.0, &values)]);
+    let recording = test_recordings::recording(vec![test_recordings::channel(
+        quantity,
+        Axis::Z,
+        1000.0,
+        &values,
+    )]);
     let aligned = Aligned {
         clock: recording.channels[0].clock,
         count,
         channels: vec![values],
     };
-    let mut timeline = made::timeline(count);
+    let mut timeline = test_recordings::timeline(count);
     timeline.contact.fill(false);
     contact.iter().for_each(|n| timeline.contact[*n] = true);
     check(&recording, &aligned, &timeline)

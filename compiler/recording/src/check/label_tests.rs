@@ -3,12 +3,12 @@
 use super::*;
 use crate::{
     description::Axis,
-    made::{self, described},
     signal::noise::white,
+    test_recordings::{self, described},
 };
 
 fn of(quantity: Quantity, axis: Axis, values: &[f64]) -> Channel {
-    made::channel(quantity, axis, 1000.0, values)
+    test_recordings::channel(quantity, axis, 1000.0, values)
 }
 
 #[test]
@@ -26,7 +26,7 @@ fn a_dead_axis_is_a_note_where_another_axis_moves_and_a_fault_elsewhere() {
     let moves: Vec<f64> = white(1, 500, 1);
     let still = [0.0; 500];
     let told = |channels: Vec<Channel>| -> Vec<(String, Severity)> {
-        let (_, found) = check(&made::recording(channels));
+        let (_, found) = check(&test_recordings::recording(channels));
         found.into_iter().map(|f| (f.channel, f.severity)).collect()
     };
     let (x, y) = (Axis::X, Axis::Y);
@@ -53,7 +53,7 @@ fn a_dead_axis_is_a_note_where_another_axis_moves_and_a_fault_elsewhere() {
         told(vec![of(Quantity::Torque, Axis::Z, &still)]),
         [("torque z".into(), Severity::Note)]
     );
-    let (dead, _) = check(&made::recording(vec![
+    let (dead, _) = check(&test_recordings::recording(vec![
         position(x, &moves),
         position(y, &still),
     ]));
@@ -73,7 +73,7 @@ fn ends(count: usize, rest: usize, end: usize) -> Vec<f64> {
 fn a_sensor_died_if_it_stands_still_for_half_a_second_a_twenty_fifth_and_five_rests() {
     let died = |count, rest, end| {
         let channel = of(Quantity::Acceleration, Axis::Z, &ends(count, rest, end));
-        let recording = made::recording(vec![channel.clone()]);
+        let recording = test_recordings::recording(vec![channel.clone()]);
         died(&recording, &[false], &channel)
     };
     let fault = Some(Severity::Fault);
@@ -87,7 +87,7 @@ fn a_hand_may_rest_at_the_end_and_a_force_may_not() {
     let quiet = |axis, end| of(Quantity::Position, axis, &ends(4000, 1, end));
     let of_first = |channels: Vec<Channel>, dead: &[bool]| {
         let first = channels[0].clone();
-        died(&made::recording(channels), dead, &first)
+        died(&test_recordings::recording(channels), dead, &first)
     };
     let (x, y) = (Axis::X, Axis::Y);
     // All axes of the motion for a quarter of the recording.
@@ -110,7 +110,7 @@ fn a_hand_may_rest_at_the_end_and_a_force_may_not() {
     );
     let force = of(Quantity::Force, Axis::Z, &ends(4000, 1, 500));
     assert_eq!(of_first(vec![force, quiet(y, 1)], &[false; 2]), warning);
-    let (_, found) = check(&made::recording(vec![quiet(x, 1000)]));
+    let (_, found) = check(&test_recordings::recording(vec![quiet(x, 1000)]));
     assert!(
         found[0].what.contains("from 3.000 s to its end, at 9 m"),
         "{}",
@@ -132,7 +132,7 @@ fn a_copy_is_the_same_quantity_sample_by_sample_and_not_short() {
     let mut other = noise.clone();
     other[50] += 0.1;
     assert!(!is_copy(&accel(&noise), &accel(&other)));
-    let (_, found) = check(&made::recording(vec![
+    let (_, found) = check(&test_recordings::recording(vec![
         accel(&noise),
         of(Quantity::Acceleration, Axis::Y, &noise),
     ]));
@@ -188,7 +188,7 @@ fn milliseconds_of_a_slow_clock_are_told_from_rows() {
     channel.clock.rate_hz = 250.0;
     let said = described(Quantity::Force, Axis::Z);
     assert_eq!(counter(&channel, &said), Some("milliseconds"));
-    let (_, found) = check(&made::recording(vec![channel]));
+    let (_, found) = check(&test_recordings::recording(vec![channel]));
     assert_eq!(
         (found[0].kind, found[0].severity),
         (Kind::Mislabelled, Severity::Fault)

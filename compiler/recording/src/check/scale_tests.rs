@@ -1,18 +1,18 @@
 //! Units: factors, bounds and what is said of them.
 
 use super::*;
-use crate::{made, signal::noise::white};
+use crate::{signal::noise::white, test_recordings};
 
 fn all(quantity: Quantity, values: [f64; 3]) -> Vec<crate::channel::Channel> {
     [Axis::X, Axis::Y, Axis::Z]
         .into_iter()
         .zip(values)
-        .map(|(axis, value)| made::channel(quantity, axis, 1000.0, &vec![value; 3000]))
+        .map(|(axis, value)| test_recordings::channel(quantity, axis, 1000.0, &vec![value; 3000]))
         .collect()
 }
 
 fn factor_of(channels: Vec<crate::channel::Channel>) -> Option<f64> {
-    let recording = made::recording(channels);
+    let recording = test_recordings::recording(channels);
     let aligned = Aligned::new(&recording, &vec![0.0; recording.channels.len()]).expect("long");
     gravity_factor(&recording, &aligned)
 }
@@ -43,7 +43,7 @@ fn an_accelerometer_that_moves_more_than_it_rests_tells_no_gravity() {
         let values: Vec<f64> = (0..3000)
             .map(|n| if n / 50 % 2 == 0 { size } else { -size })
             .collect();
-        channels[0] = made::channel(Quantity::Acceleration, Axis::X, 1000.0, &values);
+        channels[0] = test_recordings::channel(Quantity::Acceleration, Axis::X, 1000.0, &values);
         factor_of(channels)
     };
     assert_eq!(with(9.0), Some(1.0));
@@ -84,8 +84,8 @@ fn the_ratio_is_that_of_the_surest_axis() {
     let (a, b, c) = (noise(1), noise(2), noise(3));
     // Twice as large, exactly.
     let [first, second] = ratio(&[(times(&a, 2.0), a.clone())]).expect("alike");
-    made::near(first, 2.0, 0.05);
-    made::near(second, 2.0, 0.05);
+    test_recordings::near(first, 2.0, 0.05);
+    test_recordings::near(second, 2.0, 0.05);
     let noisy: Vec<f64> = b.iter().zip(&c).map(|(b, c)| b + c).collect();
     let pairs = |swap: bool| {
         let mut pairs = vec![
@@ -98,19 +98,19 @@ fn the_ratio_is_that_of_the_surest_axis() {
         pairs
     };
     for swap in [false, true] {
-        made::near(ratio(&pairs(swap)).expect("alike")[0], 2.0, 0.05);
+        test_recordings::near(ratio(&pairs(swap)).expect("alike")[0], 2.0, 0.05);
     }
     // Slopes of x = 70·(b + c) on b: 70 by its noise, and twice that by the other way.
     let [low, high] = ratio(&pairs(false)[..1]).expect("alike");
-    made::near(low, 70.0, 5.0);
-    made::near(high, 140.0, 10.0);
+    test_recordings::near(low, 70.0, 5.0);
+    test_recordings::near(high, 140.0, 10.0);
     assert_eq!(ratio(&[(a, c)]), None);
     assert_eq!(ratio(&[]), None);
 }
 
 #[test]
 fn a_wrong_unit_is_told_with_its_factor_and_the_file() {
-    let recording = made::recording(all(Quantity::Force, [0.0; 3]));
+    let recording = test_recordings::recording(all(Quantity::Force, [0.0; 3]));
     let large = finding(&recording, Quantity::Force, 1000.0, "x");
     assert!(
         large.what.contains("1000.0000 times too large, by x"),
@@ -133,18 +133,18 @@ fn a_wrong_unit_is_told_with_its_factor_and_the_file() {
 /// What is said of the units of a speed and a load of a hand, without gravity.
 fn told(speed_mm_s: f64, load_n: f64, dead: [bool; 3]) -> Vec<(String, bool)> {
     let channels = vec![
-        made::channel(Quantity::Acceleration, Axis::Z, 1000.0, &vec![0.0; 3000]),
-        made::channel(Quantity::Force, Axis::Z, 1000.0, &vec![load_n; 3000]),
-        made::channel(
+        test_recordings::channel(Quantity::Acceleration, Axis::Z, 1000.0, &vec![0.0; 3000]),
+        test_recordings::channel(Quantity::Force, Axis::Z, 1000.0, &vec![load_n; 3000]),
+        test_recordings::channel(
             Quantity::Speed,
             Axis::Along,
             1000.0,
             &vec![speed_mm_s; 3000],
         ),
     ];
-    let recording = made::recording(channels);
+    let recording = test_recordings::recording(channels);
     let aligned = Aligned::new(&recording, &[0.0; 3]).expect("long");
-    let mut timeline = made::timeline(aligned.count);
+    let mut timeline = test_recordings::timeline(aligned.count);
     timeline.speed_mm_s.fill(speed_mm_s);
     timeline.load_n.fill(load_n);
     check(&recording, &aligned, &timeline, &dead)

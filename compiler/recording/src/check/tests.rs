@@ -1,10 +1,10 @@
 //! What is said of clocks, of gravity and of contact.
 
 use super::*;
-use crate::{made, reader::FileClock};
+use crate::{reader::FileClock, test_recordings};
 
 fn touching(samples: usize) -> Option<Severity> {
-    let mut timeline = made::timeline(1000);
+    let mut timeline = test_recordings::timeline(1000);
     timeline.contact[samples..].fill(false);
     contact(&timeline).map(|finding| finding.severity)
 }
@@ -21,9 +21,10 @@ fn contact_of_less_than_a_twentieth_is_a_fault_and_no_time_in_the_air_a_warning(
 #[test]
 fn gravity_is_the_size_of_the_mean_acceleration_from_half_a_metre_on() {
     let told = |x: f64, y: f64| {
-        let of =
-            |quantity, axis, value: f64| made::channel(quantity, axis, 1000.0, &vec![value; 2500]);
-        let recording = made::recording(vec![
+        let of = |quantity, axis, value: f64| {
+            test_recordings::channel(quantity, axis, 1000.0, &vec![value; 2500])
+        };
+        let recording = test_recordings::recording(vec![
             of(Quantity::Acceleration, Axis::X, x),
             of(Quantity::Acceleration, Axis::Y, y),
             of(Quantity::Force, Axis::Z, 7.0),
@@ -37,7 +38,7 @@ fn gravity_is_the_size_of_the_mean_acceleration_from_half_a_metre_on() {
 }
 
 fn said(change: impl Fn(&mut FileClock)) -> Vec<(Kind, Severity, String)> {
-    let mut recording = made::recording(vec![made::channel(
+    let mut recording = test_recordings::recording(vec![test_recordings::channel(
         Quantity::Force,
         Axis::Z,
         1000.0,

@@ -1,7 +1,7 @@
 //! Groups of made impacts.
 
 use super::*;
-use crate::made::near;
+use crate::test_recordings::near;
 
 /// A pulse at a sample, proportional to the speed.
 fn impact(speed_m_s: f64, at: f64, size: f64) -> Impact {

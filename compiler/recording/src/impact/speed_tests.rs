@@ -5,7 +5,7 @@
 )]
 
 use super::*;
-use crate::made::{near, timeline};
+use crate::test_recordings::{near, timeline};
 
 #[test]
 fn the_speed_by_height_is_the_steepest_slope_that_the_clock_allows() {

@@ -5,12 +5,12 @@
 )]
 
 use super::*;
-use crate::made::{self, near};
+use crate::test_recordings::{self, near};
 
 #[test]
 fn a_landing_follows_forty_samples_in_the_air_and_is_good() {
     let at = |spans: &[std::ops::Range<usize>], bad: Option<usize>| {
-        let mut timeline = made::timeline(400);
+        let mut timeline = test_recordings::timeline(400);
         let touches: Vec<bool> = (0..400)
             .map(|n| spans.iter().any(|span| span.contains(&n)))
             .collect();
@@ -29,7 +29,7 @@ fn a_landing_follows_forty_samples_in_the_air_and_is_good() {
 #[test]
 fn a_load_shows_contact_above_its_noise_and_above_sixty_millinewtons() {
     let shows = |rest: f64, noise: f64, load: f64| {
-        let mut timeline = made::timeline(401);
+        let mut timeline = test_recordings::timeline(401);
         for n in 0..400 {
             timeline.contact[n] = false;
             timeline.unsmoothed_load_n[n] = rest + noise * [-1.0, 0.0, 1.0, 0.5][n % 4];
@@ -57,7 +57,7 @@ fn a_speed_says_where_it_comes_from_and_how_far_both_ways_are_apart() {
         impact(0.1, Some(0.13)),
         impact(0.1, None),
     ];
-    let mut timeline = made::timeline(10);
+    let mut timeline = test_recordings::timeline(10);
     let without = SpeedSource::new(&timeline, &impacts);
     assert_eq!((without.source, without.by_both), ("acceleration", 0));
     assert_eq!(

@@ -338,23 +338,8 @@ mod laws;
 mod tests {
     use super::*;
 
-    /// What is seen of these stamps.
     fn seen(stamps: &[f64]) -> Result<Seen, String> {
-        let mut follower = Follower::default();
-        for (line, at_s) in (2..).zip(stamps) {
-            follower
-                .take(line, *at_s)
-                .map_err(|problem| problem.to_string())?;
-            if follower.steps.is_none() && follower.has_enough() {
-                follower.set_steps();
-            }
-            follower
-                .judge(false)
-                .map_err(|(_, problem)| problem.to_string())?;
-        }
-        follower
-            .finish()
-            .map_err(|(_, problem)| problem.to_string())
+        super::laws::seen(stamps.iter().copied())
     }
 
     fn noise(n: usize) -> f64 {

@@ -1,9 +1,10 @@
 //! Clocks whose rates, gaps and delays are known.
 
 use super::*;
-use crate::made::near;
+use crate::test_recordings::near;
 
-fn seen(stamps: impl IntoIterator<Item = f64>) -> Result<Seen, String> {
+/// What is seen of these stamps.
+pub(super) fn seen(stamps: impl IntoIterator<Item = f64>) -> Result<Seen, String> {
     let mut follower = Follower::default();
     for (line, at_s) in (2..).zip(stamps) {
         follower

@@ -7,17 +7,17 @@
 use super::*;
 use crate::{
     description::{Axis, Quantity},
-    made::{self, near},
+    test_recordings::{self, near},
 };
 
 /// Files with clocks of a rate and so many rows: which is refused, and by which factor.
 fn refused(files: &[(f64, u64)]) -> Option<(String, f64)> {
     let channels = files.iter().enumerate().map(|(n, (rate_hz, _))| {
-        let mut channel = made::channel(Quantity::Force, Axis::Z, *rate_hz, &[0.0, 1.0]);
+        let mut channel = test_recordings::channel(Quantity::Force, Axis::Z, *rate_hz, &[0.0, 1.0]);
         channel.file = format!("{n}.csv");
         channel
     });
-    let mut recording = made::recording(channels.collect());
+    let mut recording = test_recordings::recording(channels.collect());
     let clocks = files
         .iter()
         .enumerate()

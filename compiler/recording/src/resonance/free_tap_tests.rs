@@ -1,11 +1,11 @@
 //! Made taps in made air.
 
 use super::*;
-use crate::made;
+use crate::test_recordings;
 
 /// In the air but for the last 300 of 2000 samples. A tap of a size at a sample.
 fn taps(change: impl Fn(&mut Timeline)) -> Vec<usize> {
-    let mut timeline = made::timeline(2000);
+    let mut timeline = test_recordings::timeline(2000);
     timeline.contact[..1700].fill(false);
     timeline.unsmoothed_load_n[..1700].fill(0.0);
     change(&mut timeline);

@@ -1,7 +1,7 @@
 //! The division of a tone, sample by sample.
 
 use super::*;
-use crate::made::near;
+use crate::test_recordings::near;
 use std::f64::consts::TAU;
 
 #[test]

@@ -3,8 +3,8 @@
 use super::*;
 use crate::{
     description::{Axis, Quantity},
-    made::{self, near},
     signal::noise::white,
+    test_recordings::{self, near},
 };
 use std::f64::consts::PI;
 
@@ -143,7 +143,7 @@ fn a_tap_is_followed_on_the_clock_of_its_channel() {
             9.81 + ring + 0.01 * noise[n]
         })
         .collect();
-    let mut channel = made::channel(Quantity::Acceleration, Axis::Z, 8000.0, &values);
+    let mut channel = test_recordings::channel(Quantity::Acceleration, Axis::Z, 8000.0, &values);
     channel.clock.start_s = 3.0;
     for late_s in [0.0, 0.02] {
         let ring = after(&channel, late_s, 4.0 - late_s).expect("a ring");

@@ -1,7 +1,7 @@
 //! What taps must share, and the parts of a fit.
 
 use super::*;
-use crate::made::near;
+use crate::test_recordings::near;
 
 fn rings(hz: &[f64]) -> Vec<Ring> {
     hz.iter()

@@ -1,7 +1,7 @@
 //! Delays against the definition of a normalised correlation.
 
 use super::*;
-use crate::{made::near, signal::noise::white};
+use crate::{signal::noise::white, test_recordings::near};
 
 /// Σ x[n]·y[n + lag] over the inner samples, normalised by both energies there.
 fn correlation(pairs: &[(&[f64], &[f64])], reach: usize, lag: i64) -> f64 {

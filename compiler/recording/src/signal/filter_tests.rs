@@ -1,7 +1,7 @@
 //! Filters against their definitions.
 
 use super::*;
-use crate::{made::near, signal::noise::white};
+use crate::{signal::noise::white, test_recordings::near};
 use std::f64::consts::PI;
 
 /// I₀ by its integral, the mean of e^(x cos θ).

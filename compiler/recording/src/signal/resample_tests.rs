@@ -1,7 +1,7 @@
 //! Resampling against the definition of a windowed sinc.
 
 use super::*;
-use crate::{made::near, signal::noise::white};
+use crate::{signal::noise::white, test_recordings::near};
 
 const fn clock(start_s: f64, rate_hz: f64) -> Clock {
     Clock { start_s, rate_hz }

@@ -1,7 +1,7 @@
 //! Power and autocorrelation against their definitions.
 
 use super::*;
-use crate::{made::near, signal::noise::white};
+use crate::{signal::noise::white, test_recordings::near};
 
 #[test]
 fn a_window_of_hann_is_the_square_of_a_sine_between_the_samples() {
