@@ -33,6 +33,18 @@ pub enum LoadError {
     /// The processor is set to round otherwise than to nearest: the texture would have other bits.
     #[error("the processor rounds otherwise than to nearest: reset its rounding mode")]
     Rounding,
+    /// A model whose filter rounding could make unstable.
+    #[error(
+        "grid.models[{model}]: |A| ranges over a factor of {range:e}, which must be at most {most:e}: rounding could make the filter unstable; take a lower order, or move the line spectral frequencies apart"
+    )]
+    Conditioning {
+        /// Index of the model.
+        model: usize,
+        /// max |A(e^jω)| / min |A(e^jω)|.
+        range: f32,
+        /// The largest that loads.
+        most: f32,
+    },
     /// A number beyond what fixed point can hold.
     #[error("{field} = {value}: a tick in fixed point takes {least} to {most}")]
     Range {

@@ -12,6 +12,9 @@ use asperity_formats::{Asset, Solid};
 
 /// Checks against the range of an arithmetic.
 pub trait Checked: Arithmetic {
+    /// The largest max |A(e^jω)| of a model.
+    const LARGEST_MAGNITUDE: f32;
+
     /// Whether a configuration lies in the range.
     ///
     /// # Errors
@@ -32,6 +35,9 @@ pub trait Checked: Arithmetic {
 }
 
 impl Checked for Float {
+    // The range of |A(e^jω)| bounds it: its minimum is at most 1.
+    const LARGEST_MAGNITUDE: f32 = f32::MAX;
+
     fn check_config(_: &Config) -> Result<(), ConfigError> {
         Ok(())
     }
@@ -46,6 +52,9 @@ impl Checked for Float {
 }
 
 impl Checked for Fixed {
+    // Partial products end at 64.
+    const LARGEST_MAGNITUDE: f32 = 32.0;
+
     fn check_config(config: &Config) -> Result<(), ConfigError> {
         check_config(config)
     }

@@ -1,6 +1,6 @@
 //! Random textures for the tests, made without the compiler.
 
-use crate::draw::Draw;
+use crate::{draw::Draw, stability};
 use asperity_formats::{
     AssetParts, Coupling, FrictionParts, GridParts, LawPoint, LsfCode, ModelParts, Numerator,
     TapParts, Vertex, VertexKind, encode,
@@ -85,6 +85,24 @@ fn ascending(draw: &mut Draw, order: usize, gap: f64) -> Vec<u16> {
         .collect()
 }
 
+/// LSFs moved towards even spacing as far as both arithmetics ask.
+fn well_conditioned(lsf: Vec<u16>) -> Vec<u16> {
+    let even = |index: usize| 65536.0 * (index as f64 + 1.0) / (lsf.len() as f64 + 1.0);
+    let moved = |eighth: i32| -> Vec<u16> {
+        let way = f64::from(eighth) / 8.0;
+        let all = lsf.iter().enumerate();
+        all.map(|(index, &code)| ((1.0 - way) * f64::from(code) + way * even(index)) as u16)
+            .collect()
+    };
+    let loads = |lsf: &Vec<u16>| {
+        let angle = |&code: &u16| f64::from(code) * std::f64::consts::PI / 65536.0;
+        let cosines: Vec<f64> = lsf.iter().map(|code| angle(code).cos()).collect();
+        let (least, most) = stability::magnitudes(&cosines);
+        most < 0.6e5 * least && most < 30.0
+    };
+    (0..=8).map(moved).find(loads).unwrap_or_default()
+}
+
 /// A random texture: a lattice over 250 mm/s × 4 N whose interior vertices are moved, σ that
 /// grows from 0 at the axes, and 13 taps at 10 kHz.
 #[must_use]
@@ -127,7 +145,7 @@ pub fn random(seed: u64, kind: Kind) -> Texture {
                 },
             });
             models.push(Model {
-                lsf: ascending(&mut draw, kind.ar_order, 500.0),
+                lsf: well_conditioned(ascending(&mut draw, kind.ar_order, 500.0)),
                 ma_lsf: ascending(&mut draw, ma_order, 200.0),
                 gain: if ma_order > 0 {
                     draw.range(0.2, 2.0) as f32

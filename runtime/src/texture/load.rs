@@ -2,18 +2,19 @@
 
 use super::{Texture, codes::to_cosines, needs::Needs};
 use crate::{
+    arithmetic::{Scalar as _, Zero as _},
     capacity::Capacity,
     coupling::Coupling,
     lanes::{GRID, settled},
     load_error::LoadError,
     math::rounds_to_nearest,
-    model::orders::Orders,
+    model::{condition::Range, orders::Orders},
     quantity::{Quantity, unit::ExcitationLevel},
     render_arithmetic::RenderArithmetic,
     stage::{recursion::Recursion, upsample::Upsampler},
     update::plan::Plan,
 };
-use asperity_formats::{Asset, FormatError, Grid, Numerator, Taps};
+use asperity_formats::{Asset, FormatError, Grid, Numerator, Taps, limits::MAX_ORDER};
 
 impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// Prepares a validated asset for a servo rate of 1, 2, 3, … 20 times the models' rate;
@@ -82,6 +83,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
         let needs = Needs::of(asset, servo_rate_hz)?;
         needs.fit::<S>()?;
         A::check_asset(asset)?;
+        check_ranges::<A>(asset.grid())?;
         Ok(needs.ticks_per_sample)
     }
 
@@ -133,4 +135,35 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
             grid.max_force_n(),
         );
     }
+}
+
+/// The largest range of a model's |A(e^jω)|, 100 dB. Unstable mixtures begin with models of a range of 10⁶, in f32 and
+/// in fixed point (`tests/laws_lsf.rs`).
+const WIDEST_RANGE: f32 = 1.0e5;
+
+/// Whether rounding leaves every mixture of a grid's models stable.
+#[inline(never)]
+fn check_ranges<A: RenderArithmetic>(grid: &Grid<'_>) -> Result<(), LoadError> {
+    for (model, stored) in grid.models().enumerate() {
+        let mut cosines = [A::Scalar::ZERO; MAX_ORDER];
+        to_cosines::<A>(&mut cosines, stored.stored_lsf());
+        let lines = cosines.map(|cosine| cosine.value());
+        let range = Range::of(lines.get(..grid.ar_order()).unwrap_or_default());
+        if range.ratio() > WIDEST_RANGE {
+            return Err(LoadError::Conditioning {
+                model,
+                range: range.ratio(),
+                most: WIDEST_RANGE,
+            });
+        }
+        if range.most() > A::LARGEST_MAGNITUDE {
+            return Err(LoadError::Range {
+                field: "grid max |A|",
+                value: range.most(),
+                least: 1.0,
+                most: A::LARGEST_MAGNITUDE,
+            });
+        }
+    }
+    Ok(())
 }
