@@ -3,10 +3,10 @@
 use crate::support::{Act, Kept, Scripted, length, texture};
 use asperity_host::device::DeviceError;
 use asperity_host::servo::{
-    End, Event, Overrun, Report, ServoLoop, Settings, SettingsError, SingleTexture, Stage, Virtual,
-    queues,
+    End, Event, Overrun, Played, Render as _, Report, ServoLoop, Settings, SettingsError,
+    SingleTexture, Stage, Virtual, queues,
 };
-use asperity_runtime::{Flags, State};
+use asperity_runtime::{Exchange, Flags, HostTexture, State};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -228,6 +228,35 @@ fn forces_that_do_not_arrive_are_a_fault_as_well() {
     assert!(flags.contains(Flags::SAFE_STATE));
     assert_eq!(run.kept.events.len(), 2);
     assert_within_limits(&run);
+}
+
+/// The report does not claim what the device never confirmed.
+#[test]
+fn a_force_that_nobody_could_take_away_is_reported() {
+    let run = run(
+        periods(600),
+        calm,
+        failing(300..u64::MAX, DeviceError::Stalled),
+        0,
+    );
+    assert!(!run.report.ended_without_force, "{:?}", run.report);
+}
+
+/// What the loop checks its rate against is the configuration of whatever renders.
+#[test]
+fn a_loop_has_the_configuration_of_its_renderer() {
+    let (mut playing, renderer) = texture(4000.0);
+    let [mut a, mut b] = [(); 2].map(|()| Box::new(HostTexture::new()));
+    let mut exchange = Exchange::new();
+    let (_, player) = exchange.split(&mut playing, [&mut a, &mut b], 1);
+    let single = SingleTexture {
+        renderer: &renderer,
+        texture: &texture(4000.0).0,
+        state: State::new(1),
+    };
+    assert_eq!(single.config(), renderer.config());
+    assert_eq!(Played::new(&renderer, player).config(), renderer.config());
+    assert_eq!(renderer.config().servo_rate_hz, 4000.0);
 }
 
 #[test]

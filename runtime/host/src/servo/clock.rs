@@ -162,6 +162,14 @@ mod tests {
         }
     }
 
+    /// The longest that can be asked for spins all the time.
+    #[test]
+    fn a_clock_spins_for_as_long_as_it_is_asked_to() {
+        let spun = |spin| Monotonic::spinning(spin).spin_ns;
+        assert_eq!(spun(Duration::from_micros(200)), 200_000);
+        assert_eq!(spun(Duration::MAX), u64::MAX);
+    }
+
     #[test]
     fn virtual_time_is_shared_and_passes_on_request() {
         let clock = Virtual::new();
