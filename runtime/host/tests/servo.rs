@@ -1,12 +1,13 @@
 //! The servo loop in virtual time: overruns, faults, shutdown, telemetry.
 
 use crate::support::{Act, Kept, Scripted, length, texture};
+use asperity_formats::Library;
 use asperity_host::device::DeviceError;
 use asperity_host::servo::{
-    End, Event, Overrun, Played, Render as _, Report, ServoLoop, Settings, SettingsError,
+    End, Event, InScene, Overrun, Played, Render as _, Report, ServoLoop, Settings, SettingsError,
     SingleTexture, Stage, Virtual, queues,
 };
-use asperity_runtime::{Exchange, Flags, HostTexture, State};
+use asperity_runtime::{Exchange, Flags, HostScene, HostTexture, SceneState, State};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -224,22 +225,31 @@ fn forces_that_do_not_arrive_are_a_fault_as_well() {
         0,
     );
     assert_eq!((run.report.write_faults, run.report.read_faults), (10, 0));
+    // The runtime counts what it was given: ten samples behind forces that did not arrive, and those of the end.
+    let counters = run.report.counters;
+    assert_eq!(u64::from(counters.ticks), run.report.ticks);
+    assert_eq!((counters.faults, counters.bad_samples), (2, 13));
     let flags = run.kept.records[303].output.flags;
     assert!(flags.contains(Flags::SAFE_STATE));
     assert_eq!(run.kept.events.len(), 2);
     assert_within_limits(&run);
 }
 
-/// The report does not claim what the device never confirmed.
+/// While the force of a device that takes nothing fades, the loop tries once more and then ends; the report does not
+/// claim what the device never confirmed.
 #[test]
 fn a_force_that_nobody_could_take_away_is_reported() {
-    let run = run(
-        periods(600),
-        calm,
-        failing(300..u64::MAX, DeviceError::Stalled),
-        0,
-    );
-    assert!(!run.report.ended_without_force, "{:?}", run.report);
+    for (until, taken) in [(603, true), (604, false), (u64::MAX, false)] {
+        let run = run(
+            periods(600),
+            calm,
+            failing(599..until, DeviceError::Stalled),
+            0,
+        );
+        assert_eq!(run.report.ended_without_force, taken, "{:?}", run.report);
+        // 600 periods, three in which the force fades, and the last try.
+        assert_eq!((run.report.ticks, run.forces.len()), (603, 604));
+    }
 }
 
 /// What the loop checks its rate against is the configuration of whatever renders.
@@ -256,6 +266,16 @@ fn a_loop_has_the_configuration_of_its_renderer() {
     };
     assert_eq!(single.config(), renderer.config());
     assert_eq!(Played::new(&renderer, player).config(), renderer.config());
+    let library = include_bytes!("../../../formats/tests/data/scene-v2.aspl");
+    let library = Library::parse(library).unwrap();
+    let mut slots = vec![HostTexture::EMPTY; library.index().len()];
+    let scene = HostScene::load(&library, renderer.config(), &mut slots).unwrap();
+    let in_scene = InScene {
+        renderer: &renderer,
+        scene: &scene,
+        state: SceneState::new(1),
+    };
+    assert_eq!(in_scene.config(), renderer.config());
     assert_eq!(renderer.config().servo_rate_hz, 4000.0);
 }
 
