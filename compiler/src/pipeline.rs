@@ -255,7 +255,7 @@ impl Pipeline {
         Ok(self.run(Pass::Lower, || lower::lower(texture, preview_png))?)
     }
 
-    /// What the runtime makes of the bytes of a texture.
+    /// Verifies the bytes of a texture with the runtime itself.
     ///
     /// # Errors
     /// [`PipelineError::Verify`] for an asset that is not fit to be felt.

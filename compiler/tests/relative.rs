@@ -16,7 +16,8 @@ static PROMPTS: LazyLock<PromptCompiler> = LazyLock::new(|| {
     PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads")
 });
 
-/// A thing, an edit in words, and where it goes; written for this test, by who wrote the grammar.
+/// A prompt, an edit in words, and the directions of the attributes; written for this test by the author of
+/// the grammar.
 const EDITS: &str = include_str!("relative_edits.tsv");
 
 /// An attribute on a scale on which a person notices 1: 1.6 dB, 10 % of friction, 15 % in Hz.

@@ -75,8 +75,8 @@ impl<A: RenderArithmetic> Renderer<A> {
         output
     }
 
-    /// The force equation on what is touched. `mu` gives μ at a speed; `sound` steps the vibration
-    /// and is told whether it may be heard.
+    /// The force equation on what is touched. `mu` gives μ at a speed; `sound` steps the vibration;
+    /// its flag says whether it may be heard.
     #[inline(always)]
     pub(crate) fn force<S: Capacity>(
         &self,

@@ -242,7 +242,7 @@ fn the_direction_of_motion_is_kept_below_a_tenth_of_a_millimetre_a_second() {
     check::<Fixed>();
 }
 
-/// An impact has a least speed; the detector arms a hair beyond the distance that it is told, and nowhere nearer.
+/// An impact has a least speed; the detector arms a hair beyond the configured distance, and nowhere nearer.
 #[test]
 fn an_impact_is_as_fast_and_comes_from_as_far_as_the_configuration_says() {
     fn check<A: RenderArithmetic>() {

@@ -1,4 +1,4 @@
-//! Crossing from one surface to another makes neither motion nor impact of the step between them.
+//! Crossing from one surface to another turns the step between them into neither motion nor impact.
 
 use crate::scenes::{anywhere, level, on_scene};
 use asperity_formats::SceneSurface;

@@ -8,7 +8,7 @@ use asperity_session::{CASES, Case};
 pub(crate) struct Target {
     pub(crate) triple: &'static str,
     pub(crate) processor: &'static str,
-    /// What the firmware computes with, as `host-session` is told.
+    /// Arithmetic of the firmware, as it is passed to `host-session`.
     pub(crate) arithmetic: &'static str,
     /// QEMU's machine; `firmware/build.rs` picks its memory map.
     pub(crate) machine: &'static str,

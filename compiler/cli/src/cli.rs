@@ -51,7 +51,7 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Make a texture of a prompt
+    /// Compile a prompt into a texture
     Compile(Compile),
     /// Build a library from a manifest, or pack what a scene touches, within a budget
     Build(Build),
@@ -73,7 +73,7 @@ pub(crate) enum Command {
     Compose(Compose),
     /// Make a texture rougher, sharper, harder or more slippery
     Edit(Edit),
-    /// Make a texture of the latent of a recording, so that it can be mixed and edited
+    /// Compile the latent of a recording into a texture, so that it can be mixed and edited
     Encode(Encode),
     /// Write a texture or a library in another tool's format, and say what that loses
     Export(Export),
@@ -139,9 +139,12 @@ pub(crate) struct Compile {
     /// Write the texture before its reduction as JSON, for `asperity import model`
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
-    /// Say what every word was taken for, and which words moved which attribute
+    /// Explain what every word was taken for, and which words moved which attribute
     #[arg(long)]
     pub(crate) explain: bool,
+    /// Report attributes in their units, gains, and what the passes did as well
+    #[arg(long)]
+    pub(crate) details: bool,
     #[command(flatten)]
     pub(crate) reporting: ReportOptions,
 }
@@ -192,13 +195,13 @@ pub(crate) enum Import {
     Hatt(ImportHatt),
     /// Import a model of one's own, or one that --emit-model wrote
     Model(ImportModel),
-    /// Make a texture of a recording: acceleration, force and motion of a tool on a surface
+    /// Compile a recording into a texture: acceleration, force and motion of a tool on a surface
     Recording(ImportRecording),
-    /// Make a texture of a `.haptic` file of NiceVibrations
+    /// Compile a NiceVibrations `.haptic` file into a texture
     Haptic(ImportEffects),
-    /// Make a texture of an Apple Haptic and Audio Pattern
+    /// Compile an Apple Haptic and Audio Pattern into a texture
     Ahap(ImportEffects),
-    /// Make a texture of an HJIF file, MPEG haptics
+    /// Compile an HJIF file (MPEG haptics) into a texture
     Hjif(ImportEffects),
 }
 

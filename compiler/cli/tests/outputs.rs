@@ -173,12 +173,9 @@ fn one_output_goes_to_standard_output_and_the_report_beside_it() {
             assert!(piped.stdout == file, "{command:?} {pipe}: other bytes");
             let told = text(&plain.stdout).replace("file.out", "standard output");
             let told = text(&plain.stderr) + &told;
-            if command[0] == "compile" {
-                // The times of a compilation differ.
-                assert_eq!(report.lines().count(), told.lines().count(), "{report}");
-            } else {
-                assert_eq!(report, told, "{command:?} {pipe}");
-            }
+            // There is nothing to try with a pipe.
+            let told = told.split("  try  ").next().unwrap_or_default();
+            assert_eq!(report, told, "{command:?} {pipe}");
         }
     }
     let json = asperity(folder, &["compile", "cork", "-o", "-", "--json"]);

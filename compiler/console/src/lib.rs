@@ -22,7 +22,7 @@ use std::{
     process::ExitCode,
 };
 
-/// Warnings of one kind that are told one by one.
+/// Warnings of one kind that are printed one by one.
 const SHOWN_WARNINGS: usize = 20;
 
 /// The console of one command.

@@ -41,7 +41,7 @@ impl Picture {
 /// Pixels of the source with their weights, which add up to 1.
 type Taps = Vec<(usize, f32)>;
 
-/// What makes up each pixel of a line.
+/// The taps of each pixel of a resampled line.
 fn taps(from: usize, to: usize, repeats: bool) -> Vec<Taps> {
     let scale = from as f32 / to as f32;
     let reach = scale.max(1.0);

@@ -1,11 +1,13 @@
 //! The figures of `docs/figures.md`, and the page itself.
 //!
-//! `cargo run --release -p asperity --example figures` writes `figures.md`,
-//! `images/three-prompts.png` and `images/midpoint.png` to `docs`, or to the folder that it is
-//! given, which is made where it is missing. Everything follows from the shipped model.
+//! `cargo run --release -p asperity --example figures` writes `figures.md`, the pictures `texture.png`,
+//! `three-prompts.png` and `midpoint.png`, and three sounds to `docs`, or to the folder that it is given, which is
+//! created where it is missing. Everything follows from the shipped model.
 
 mod page;
 mod sheet;
+mod sound;
+mod texture;
 
 use asperity::{
     edit::{LatentEditor, Latents, explain},
@@ -29,8 +31,10 @@ const ENDS: [&str; 2] = ["towel", "whiteboard"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(env::args().nth(1).unwrap_or_else(|| "docs".to_owned()));
-    let images = folder.join("images");
-    fs::create_dir_all(&images).map_err(|error| format!("{}: {error}", images.display()))?;
+    for part in ["images", "sounds"] {
+        let part = folder.join(part);
+        fs::create_dir_all(&part).map_err(|error| format!("{}: {error}", part.display()))?;
+    }
     let prompt_compiler = PromptCompiler::embedded(&Backend::Portable)?;
     let editor = LatentEditor::new(&prompt_compiler);
     let latents = |prompt: &str| -> Result<Latents, Box<dyn Error>> {
@@ -67,8 +71,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         blend: &blend,
     };
     for (file, bytes) in [
+        ("images/texture.png", texture::png(&three[0])?),
         ("images/three-prompts.png", sheet::png(&three)?),
         ("images/midpoint.png", sheet::png(&blend)?),
+        ("sounds/abrasive.wav", sound::wav(&three[0])?),
+        ("sounds/cork.wav", sound::wav(&three[1])?),
+        ("sounds/foam.wav", sound::wav(&three[2])?),
         ("figures.md", page.text().into_bytes()),
     ] {
         let file = folder.join(file);

@@ -36,7 +36,8 @@ pub(crate) fn png(textures: &[TextureModel]) -> Result<Vec<u8>, Box<dyn Error>> 
         let x = COLUMN * column as f32;
         let last = column + 1 == textures.len();
         head(&mut canvas, x, texture);
-        picture(&mut canvas, x, texture)?;
+        let left = x + 0.5 * (COLUMN - PICTURE);
+        picture(&mut canvas, (left, HEAD), PICTURE, texture)?;
         let rect = |row: f32| {
             let bar = if last { BAR } else { 0.0 };
             Rect::new(x, HEAD + PICTURE + row * ROW, COLUMN + bar, ROW)
@@ -48,7 +49,7 @@ pub(crate) fn png(textures: &[TextureModel]) -> Result<Vec<u8>, Box<dyn Error>> 
 }
 
 /// The same picture in half the size, each pixel the mean of four: as wide as a page shows it.
-fn halved(drawn: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
+pub(crate) fn halved(drawn: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut reader = png::Decoder::new(Cursor::new(drawn)).read_info()?;
     let width = reader.info().width;
     let row = 3 * width as usize;
@@ -115,13 +116,18 @@ fn broken(canvas: &Canvas, title: &str, style: &TextStyle) -> Vec<String> {
     lines
 }
 
-fn picture(canvas: &mut Canvas, x: f32, texture: &TextureModel) -> Result<(), Box<dyn Error>> {
-    let drawn = preview::draw(texture, PICTURE as u32)?;
+/// A texture's preview of a side in pixels.
+pub(crate) fn picture(
+    canvas: &mut Canvas,
+    (left, top): (f32, f32),
+    side: f32,
+    texture: &TextureModel,
+) -> Result<(), Box<dyn Error>> {
+    let drawn = preview::draw(texture, side as u32)?;
     let side = drawn.size() as usize;
-    let left = x + 0.5 * (COLUMN - PICTURE);
     for (k, [r, g, b]) in drawn.pixels().iter().copied().enumerate() {
         let (column, row) = ((k % side) as f32, (k / side) as f32);
-        let dot = Rect::new(left + column, HEAD + row, 1.0, 1.0);
+        let dot = Rect::new(left + column, top + row, 1.0, 1.0);
         canvas.fill_rect(dot, Color { r, g, b, a: 255 });
     }
     Ok(())

@@ -36,8 +36,8 @@ impl Surface {
         }
     }
 
-    /// Puts a thing around (u, v), no larger than `radius` patches. `shape` gets the way from the
-    /// middle in patches and says what is there, if anything. What is higher hides what is lower.
+    /// Stamps a shape around (u, v) within `radius` patches. `shape` maps an offset from the centre, in
+    /// patches, to the texel there, if any. A higher texel hides a lower one.
     pub(crate) fn stamp(
         &mut self,
         place: (f32, f32),

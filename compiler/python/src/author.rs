@@ -37,7 +37,7 @@ pub(crate) fn shared() -> Result<Arc<prompt::PromptCompiler>, Failure> {
     Ok(loaded)
 }
 
-/// Makes a texture of a prompt, verified by the runtime itself.
+/// Compiles a prompt into a texture, verified by the runtime itself.
 ///
 /// The same prompt, arguments and version give the same bytes on every machine, and the same as
 /// ``asperity compile``. The model is loaded by the first call. Other threads run meanwhile.
@@ -147,7 +147,7 @@ impl Author {
         Ok(Self { author })
     }
 
-    /// Makes a texture of a prompt; see `asperity.compile`.
+    /// Compiles a prompt into a texture; see `asperity.compile`.
     ///
     /// Parameters
     /// ----------
@@ -243,7 +243,7 @@ fn options(seed: Seed, fidelity: Fidelity, rate_hz: Option<f64>, preview: bool) 
     }
 }
 
-/// The texture; its warnings are told.
+/// The texture; its warnings are issued as `AsperityWarning`.
 fn told(py: Python<'_>, authored: Compiled) -> PyResult<Texture> {
     let category = py.import("asperity._errors")?.getattr("AsperityWarning")?;
     for warning in &authored.warnings {

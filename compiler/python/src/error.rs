@@ -7,7 +7,7 @@ use asperity_io::diagnostic::Diagnostic;
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::{error::Error, fmt::Display};
 
-/// What went wrong and what to do about it: an exception, once Python is told.
+/// What went wrong and what to do about it; Python raises it as an exception.
 #[derive(Debug)]
 pub(crate) struct Failure {
     class: &'static str,

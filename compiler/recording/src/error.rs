@@ -12,7 +12,7 @@ pub struct RecordingError {
     pub file: PathBuf,
     /// The line or row at fault, from 1.
     pub line: Option<u64>,
-    /// What is wrong. It is told with the place, so it is no source besides.
+    /// What is wrong. `Display` prints it after the place, so it is not a `source` as well.
     pub problem: Problem,
 }
 

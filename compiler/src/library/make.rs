@@ -18,7 +18,7 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
-/// Makes textures of a manifest, on any number of threads.
+/// Compiles the textures of a manifest, on any number of threads.
 pub(super) struct Maker<'a> {
     manifest: &'a Manifest,
     /// `None` where no texture needs the learned model.
@@ -58,7 +58,7 @@ impl<'a> Maker<'a> {
         }
     }
 
-    /// Makes the texture at an index of the manifest.
+    /// Compiles the texture at an index of the manifest.
     pub(super) fn make(&self, index: usize) -> Result<Compiled, Failure> {
         let entry = &self.manifest.entries[index];
         let options = &entry.options;

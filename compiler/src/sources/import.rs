@@ -1,4 +1,4 @@
-//! Files of other tools, whose kind is told from the file.
+//! Files of other tools; the kind is detected from the file.
 
 use super::{
     Source,

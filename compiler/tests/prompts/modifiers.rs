@@ -1,4 +1,4 @@
-//! What modifiers do to a thing, and what is said to be a guess.
+//! What modifiers do to a material, and which prompts are reported as guesses.
 
 use super::PROMPTS;
 use asperity::attributes::{self, Attributes};

@@ -96,7 +96,7 @@ pub struct Timing {
 }
 
 impl DeviceConfig {
-    /// The mechanics that the runtime is told: the smallest values of the three axes.
+    /// The mechanics with which the runtime is configured: the smallest values of the three axes.
     #[must_use]
     pub fn mechanics_config(&self) -> MechanicsConfig {
         let least = |values: [f64; 3]| values.into_iter().fold(f64::INFINITY, f64::min) as f32;

@@ -1,5 +1,5 @@
 //! Faults around every kind of device: the force stays within its limits, goes to zero, comes back,
-//! and each fault is told once.
+//! and each fault is reported once.
 
 mod falcon;
 mod servo;

@@ -118,7 +118,7 @@ fn strokes_and_taps_with_one_percent_of_faults() {
         bad >= harmful - counts.of(InjectedFault::WriteFailed) - 2,
         "{bad} of {harmful}"
     );
-    // Each fault is told once, and its end as well.
+    // Each fault is reported once, and so is its end.
     assert_eq!(began, tally.episodes);
     assert!(ended == began || ended + 1 == began);
     assert!(began <= harmful && began > 0);

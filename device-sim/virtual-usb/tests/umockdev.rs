@@ -32,7 +32,7 @@ use asperity_virtual_usb::{AnyDevice, Port, Socket};
 const BRIDGE: &str = "ASPERITY_USB_BRIDGE";
 /// Time for what a machine without other work does in a second or two.
 const PATIENCE: Duration = Duration::from_secs(120);
-/// What the child is told.
+/// Environment variable with what a test passes to its child.
 const TOLD: &str = "ASPERITY_USB_CHILD";
 
 /// A device that is served until it goes out of scope.

@@ -3,7 +3,7 @@
 //!
 //! A table holds one row a servo period: `t_s,force_n,accel_m_s2`, the force that was commanded and
 //! the acceleration of the tip along it. A user records one with an accelerometer; [`simulate`]
-//! makes one of the simulated device, with the stylus held by a weak spring and by no hand.
+//! computes one for the simulated device, with the stylus held by a weak spring and by no hand.
 
 mod chart;
 mod error;

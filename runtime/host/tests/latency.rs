@@ -121,7 +121,7 @@ fn above(histogram: &Histogram<u64>, bound_ns: u64) -> u64 {
     counts.map(|step| step.count_since_last_iteration()).sum()
 }
 
-/// Values of three digits are told to a thousandth.
+/// Values with three significant digits agree to a thousandth.
 fn close(value: u64, expected: u64) -> bool {
     value.abs_diff(expected) <= expected / 1000 + 1
 }
@@ -257,7 +257,7 @@ fn a_shift_is_told_apart_from_none_and_the_tail_only_with_enough_values() {
         let same = |s: &&asperity_host::latency::Shift| {
             s.stage == stage.name() && s.percentile == percentile
         };
-        shifts.iter().find(same).expect("it is told").clone()
+        shifts.iter().find(same).expect("a shift").clone()
     };
     let none = compare(&calm, &calm, 1);
     assert!(

@@ -185,7 +185,7 @@ fn a_device_that_is_unplugged_in_mid_stroke_and_back_recovers_by_itself() {
             .iter()
             .all(|force| *force == [0.0; 3])
     );
-    // The time away is told to the runtime.
+    // The sample covers the time away, so the runtime knows of it.
     assert!(run.kept.records[back].sample.elapsed_ticks > AWAY);
 
     // The gain rises by 1/(ramp · rate) a tick, so no force is above that part of the peak.

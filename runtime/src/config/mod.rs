@@ -1,4 +1,4 @@
-//! What a renderer is told once: rates, cut-offs, limits, the solid.
+//! The configuration of a renderer: rates, cut-offs, limits, the solid.
 
 mod check;
 mod error;

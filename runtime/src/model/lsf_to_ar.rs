@@ -11,7 +11,7 @@
 //! large and cancel later, which in f32 costs up to 0.4 dB on real models; this order costs less
 //! than 0.001 dB. A low section and a high one, a section pair, are multiplied in at once, Q and P
 //! of A(z) and B(z) side by side. [`super::partial_products`] multiplies one pair in,
-//! [`super::assembly`] makes coefficients of the finished products.
+//! [`super::assembly`] turns the finished products into coefficients.
 
 use super::{
     orders::Orders,

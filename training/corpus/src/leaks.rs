@@ -11,7 +11,7 @@ use crate::{
 use rust_stemmers::{Algorithm, Stemmer};
 use std::{collections::HashSet, fmt};
 
-/// Words that say nothing of a thing by themselves.
+/// Words that by themselves do not describe a material.
 const EMPTY: [&str; 20] = [
     "a", "an", "the", "of", "some", "piece", "plain", "in", "on", "with", "and", "for", "to", "at",
     "by", "from", "is", "that", "s", "it",

@@ -4,7 +4,7 @@
 //! less closely than a regression on the ratings themselves. Ratings become attributes by a line
 //! for each, fitted to the materials. A material's name is drawn to its own attributes, with the
 //! weights `exp((e·e_i − 1)/τ)` of names beside those of phrases, which keep what the regression
-//! says: not by the recall of the latent, whose directions know nothing of how a thing feels.
+//! says: not by the recall of the latent, whose directions carry nothing about how a material feels.
 
 use crate::{
     attributes::{self, Layout},

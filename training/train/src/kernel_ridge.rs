@@ -42,8 +42,8 @@ pub(crate) struct KernelRidge {
 }
 
 impl KernelRidge {
-    /// Fits unit vectors to their latents, each weighed by how sure it is. `done` is told of
-    /// every step of the solver, with the largest residual left, relative to the first.
+    /// Fits unit vectors to their latents, each weighed by how sure it is. `done` is called
+    /// after every step of the solver with the largest residual left, relative to the first.
     pub(crate) fn fit(
         vectors: &[&[f32]],
         targets: &[[f32; LATENT]],

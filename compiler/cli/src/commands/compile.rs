@@ -10,14 +10,15 @@ use asperity::{
     edit::{LatentEditor, explain},
     pipeline::Request,
     preview,
-    prompt::{self, Picture, Prompt},
+    prompt::{self, CompiledPrompt, Picture, Prompt},
     sources::Tools,
 };
 use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Failures, one},
-    output::display,
+    output::{display, is_standard_output},
 };
+use std::path::Path;
 
 pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     // Before half a second of loading.
@@ -63,20 +64,52 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     };
     let compiled = job.compile(&source, &request, &Tools::of(&prompt_compiler))?;
     let mut json = compiled.json();
-    let mut text = format!("{}\n{}", display(&args.output), compiled.text());
+    let editor = LatentEditor::new(&prompt_compiler);
+    let summary = compiled.found::<CompiledPrompt>();
+    let summary = summary.map(|found| found.summary(&compiled, editor.scale()));
+    let mut text = format!("{}\n{}", display(&args.output), summary.unwrap_or_default());
+    if args.details {
+        text += &compiled.text();
+    }
     if let Some(Picture { made, .. }) = &source.picture {
         json["preview"] = made.as_str().into();
         text += &format!("  preview      {made}\n");
     }
     let mut words = String::new();
     if args.explain {
-        let explanation =
-            explain(&LatentEditor::new(&prompt_compiler), &args.prompt).map_err(one)?;
+        let explanation = explain(&editor, &args.prompt).map_err(one)?;
         // Plain structures of numbers and strings always serialise.
         json["words"] = serde_json::to_value(&explanation.words).unwrap_or_default();
         json["reading"] = serde_json::to_value(&explanation.reading).unwrap_or_default();
         json["phrase"] = explanation.phrase.as_str().into();
         words = explanation.text();
     }
+    if !is_standard_output(&args.output) {
+        text += &next(&args.output);
+    }
     job.finish(&compiled, json, &text, &words)
+}
+
+/// What to try with a texture.
+fn next(asset: &Path) -> String {
+    let beside = |extension: &str| quoted(&asset.with_extension(extension));
+    let asset = quoted(asset);
+    format!(
+        "  try          asperity plot {asset} -o {}\n               asperity listen {asset} -o {}\n               \
+         asperity edit {asset} --rougher 20 -o {}\n",
+        beside("png"),
+        beside("wav"),
+        beside("rougher.asp"),
+    )
+}
+
+/// A path as a shell takes it.
+fn quoted(path: &Path) -> String {
+    let text = display(path).to_string();
+    let plain = |c: char| c.is_alphanumeric() || "/._-".contains(c);
+    if text.chars().all(plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
 }

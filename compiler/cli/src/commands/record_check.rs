@@ -21,7 +21,7 @@ struct Faulty {
 
 impl Diagnostic for Faulty {
     fn remedy(&self) -> String {
-        "follow the arrows of the report; docs/recording.md explains each fault".into()
+        "follow the arrows of the report; docs/recording-faults.md explains each fault".into()
     }
 }
 

@@ -5,7 +5,7 @@
 //! direction of text, and spaces and dots at the end. A name gets a `_` in front where it begins with a dash, a
 //! dot, a tilde or a space, or where Windows takes it for a device (`NUL`, `COM1`). Names that
 //! would then be one file, also where upper and lower case and composed and decomposed letters are
-//! the same, are told apart by a number.
+//! the same, are distinguished by a number.
 
 use std::collections::HashMap;
 use unicode_categories::UnicodeCategories as _;

@@ -28,7 +28,7 @@ const VIBRATION_HZ: (f64, f64) = (30.0, 250.0);
 const MOTION_HZ: (f64, f64) = (2.0, 7.0);
 /// Turns of strokes, which friction and velocity share, Hz.
 const FRICTION_HZ: (f64, f64) = (0.5, 20.0);
-/// Standard deviations from which on a delay is told.
+/// Standard deviations that a delay beyond `FAULT_S` must exceed to be reported.
 const SURE: f64 = 3.0;
 /// Half lengths of the filters, samples.
 const HALF: (usize, usize) = (60, 300);

@@ -1,4 +1,4 @@
-//! Delays of made pairs, just inside and outside of what is told.
+//! Delays of synthetic pairs, just inside and outside the limits for a report.
 
 use super::*;
 use crate::{

@@ -11,7 +11,7 @@ use crate::{
     timeline::{Aligned, RATE_HZ, Timeline},
 };
 
-/// Samples of a stretch, 1 s: lines 4 Hz wide are told apart.
+/// Samples of a stretch, 1 s: under the Hann window a line is 4 Hz wide.
 const STRETCH: usize = 1000;
 /// A line as many times stronger than its neighbourhood is hum.
 const LINE: f64 = 30.0;

@@ -1,4 +1,4 @@
-//! Dead, dying, copied, counted and misnamed channels, at the edges of what is told.
+//! Dead, dying, copied, counted and misnamed channels, at the limits for a report.
 
 use super::*;
 use crate::{

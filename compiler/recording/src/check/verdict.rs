@@ -60,7 +60,7 @@ pub struct Finding {
     pub kind: Kind,
     /// How bad it is.
     pub severity: Severity,
-    /// What is so.
+    /// What was found.
     pub what: String,
     /// What to do about it.
     pub remedy: String,

@@ -33,7 +33,7 @@ pub struct Header {
 /// What is wrong with a file that can be read all the same.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remark {
-    /// What is so.
+    /// The problem.
     pub what: String,
     /// What to do about it.
     pub remedy: &'static str,

@@ -26,7 +26,7 @@ const STANDARD_INPUT: &str = "-";
 /// Textures that are in memory together where all are looked at, and their bytes.
 const TOGETHER: usize = 4096;
 const TOGETHER_BYTES: u64 = 16 << 20;
-/// Bytes by which the format of another file is told.
+/// Leading bytes from which the format of another file is detected.
 const FORMAT_BYTES: u64 = 1 << 20;
 
 /// An open asset or library.

@@ -1,4 +1,4 @@
-//! The check of one row by itself. It goes on after a fault, so that all are told at once.
+//! The check of one row by itself. It goes on after a fault, so that all faults are reported at once.
 
 use super::{
     entry::{Options, Place},

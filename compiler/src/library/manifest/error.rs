@@ -134,7 +134,7 @@ pub enum ManifestProblem {
     /// A manifest that is included twice.
     #[error("{0} is included twice")]
     IncludedTwice(String),
-    /// More faults than are told.
+    /// More faults than are reported.
     #[error("there are more faults")]
     More,
     /// A path that leaves the folder of a manifest that may not.

@@ -58,7 +58,7 @@ pub(super) struct Sheet {
 
 /// Textures that one manifest may list, includes and all; what is read beyond them is dropped.
 pub(super) const MAX_ROWS: usize = 1 << 17;
-/// Faults that are told one by one.
+/// Faults that are reported one by one.
 pub(super) const MAX_FAULTS: usize = 100;
 
 /// Adds a field under a dotted key: `blend.a` is `a` in the table `blend`.

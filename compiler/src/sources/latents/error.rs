@@ -74,7 +74,8 @@ impl Diagnostic for EditError {
             Self::Source(error) => error.remedy(),
             Self::Format(_) | Self::History(_) => "make the file again from its source".into(),
             Self::NoLatent(_) => {
-                "give a texture of a prompt, or make one of it with `asperity encode`".into()
+                "give a texture compiled from a prompt, or encode this one with `asperity encode`"
+                    .into()
             }
             Self::OtherModel { .. } => {
                 "give the folder of its model with --model, or compile its prompt again".into()

@@ -39,7 +39,7 @@ pub struct Explanation {
 
 /// Words that are looked at.
 const MOST_WORDS: usize = 64;
-/// Words that are told apart in every company; each one more doubles the prompts to be read.
+/// Most words of which every subset is read; each one more doubles the prompts to be read.
 const MOST_TOGETHER: usize = 6;
 
 /// Attributes a prompt to its words. A word's effect is what taking it away does, in the mean over

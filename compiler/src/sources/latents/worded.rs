@@ -36,9 +36,9 @@ impl Edit {
 pub struct Worded {
     /// The latents after it.
     pub latents: Latents,
-    /// The steps that its words came to, after the way to a thing.
+    /// The steps that its words ask for, after the blend towards a material.
     pub sliders: Sliders,
-    /// The thing that it went towards.
+    /// The material that it was blended towards.
     pub towards: Option<Towards>,
     /// Words that were not understood.
     pub unread: Vec<String>,
@@ -67,8 +67,8 @@ impl LatentEditor<'_> {
     }
 
     /// The latents after an edit in words. A likeness ("more like leather") is a blend with the
-    /// texture of its words; every other change moves an attribute as far from where it is as the
-    /// grammar of `compile` would move it from that of a thing.
+    /// texture of its words; every other change moves an attribute from its present value as far as
+    /// the grammar of `compile` would move it from that of a material.
     ///
     /// # Errors
     /// [`EditError::NotUnderstood`] where the words ask for nothing; else as

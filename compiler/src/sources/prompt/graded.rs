@@ -1,4 +1,4 @@
-//! How far a number moves a thing.
+//! How far a number moves the attributes of a material.
 
 use super::{PromptCompiler, PromptError, named_things::Thing};
 use crate::words::grade::{Grade, PAPERS, Scale, grit_um, is_paper, janka, own_grain_um};
@@ -6,7 +6,7 @@ use asperity_texture::model::shift::Scales;
 
 /// ln Hz of a tap by which a pile with a relief e times as coarse yields more.
 const PILE_YIELDS: f64 = 0.6;
-/// What is known of Shore hardness: a thing, and its number. D is counted from A 50, as E follows both:
+/// Known Shore hardnesses: a material and its number. D is counted from A 50, as E follows both:
 /// lg(E/MPa) = 0.0235·S − 0.6403 (Ruess).
 const SHORE: [(&str, f64); 2] = [("rubber", 65.0), ("acrylic sheet", 135.0)];
 const D_FROM_A: f64 = 50.0;
@@ -21,7 +21,7 @@ const WOODS: [(&str, f64); 4] = [
 const MOHS: [(&str, f64); 2] = [("gypsum", 2.0), ("diamond", 10.0)];
 
 impl PromptCompiler {
-    /// A thing with what numbers say of it. Of numbers that conflict, the last holds.
+    /// A material at its grades. Where grades conflict, the last holds.
     pub(super) fn graded(&self, name: &str, grades: &[Grade]) -> Result<Thing, PromptError> {
         let mut found = self.thing(name)?;
         for (n, grade) in grades.iter().enumerate() {
@@ -97,7 +97,7 @@ impl PromptCompiler {
         })
     }
 
-    /// A thing with grain so much coarser than its own: as much rougher and grippier as sandpaper would be.
+    /// A material with grain so much coarser than its own: as much rougher and grippier as sandpaper would be.
     fn of_grain(&self, thing: Thing, own_um: f64, coarser: f64) -> Result<Thing, PromptError> {
         let (to, from) = (self.paper(coarser * own_um)?, self.paper(own_um)?);
         let by = |k: usize| Some(to.wanted[k]? - from.wanted[k]?);
@@ -113,7 +113,7 @@ impl PromptCompiler {
         Ok((a - b) / libm::log(coarse / fine))
     }
 
-    /// A thing as hard as the line through two known ones says.
+    /// A material of the hardness on the line through two known ones.
     fn as_hard(
         &self,
         thing: Thing,

@@ -27,8 +27,8 @@ pub struct Meaning {
 impl PromptCompiler {
     /// The meaning of a prompt that was [projected](PromptCompiler::project).
     ///
-    /// The words say how rough, slippery and hard a thing is, and the latent says all the rest: the
-    /// decoded texture is moved to the attributes of the words. Grammar moves these.
+    /// The words determine how rough, slippery and hard a material is, and the latent everything else:
+    /// the decoded texture is moved to the attributes of the words. Grammar moves these.
     ///
     /// # Errors
     /// [`PromptError`] for a failing network.
@@ -116,7 +116,7 @@ impl PromptCompiler {
         Ok(texture)
     }
 
-    /// A thing that a phrase names, which may be a phrase itself. Prompts of a library have few of them.
+    /// The material that a text names; the text may be a phrase itself. Prompts of a library name few of them.
     pub(super) fn thing(&self, text: &str) -> Result<Thing, PromptError> {
         kept(&self.things, text, || {
             let projection = self.project(text)?;
@@ -126,7 +126,7 @@ impl PromptCompiler {
         })
     }
 
-    /// A thing by the name that the model knows it by, which is not read.
+    /// A material by the name under which the model knows it; the name is not parsed.
     pub(super) fn named_thing(&self, name: &str) -> Result<Thing, PromptError> {
         kept(&self.known, name, || {
             let (_, projected) = &*self.encode(name)?;

@@ -1,4 +1,4 @@
-//! Things that prompts named, so that a library reads each of them once.
+//! Materials that prompts named, so that a library reads each of them once.
 
 use crate::learned::Latent;
 use asperity_texture::model::shift::Scales;
@@ -7,10 +7,10 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
-/// Things that are kept; about 400 bytes each.
+/// Materials that are kept; about 400 bytes each.
 const MOST: usize = 4096;
 
-/// What a prompt says of a thing.
+/// A material as a prompt describes it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Thing {
     pub(super) z: Latent,
@@ -20,7 +20,7 @@ pub(super) struct Thing {
     pub(super) composed: bool,
 }
 
-/// Things by their words. What is kept is what would be computed again, so
+/// Materials by their words. What is kept is what would be computed again, so
 /// nothing depends on it but time.
 #[derive(Debug, Default)]
 pub(super) struct Things(Mutex<HashMap<String, Thing>>);
@@ -31,7 +31,7 @@ impl Things {
         things.get(text).copied()
     }
 
-    /// Keeps a thing while there is room.
+    /// Keeps a material while there is room.
     pub(super) fn keep(&self, text: &str, found: Thing) {
         let mut things = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if things.len() < MOST {

@@ -7,7 +7,9 @@ use super::{
 };
 use crate::{
     compiled::{Compiled, Findings},
+    edit_memory::Axis,
     learned::Certainty,
+    sources::latents::Scale,
 };
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -49,30 +51,97 @@ impl CompiledPrompt {
     }
 }
 
-impl Findings for CompiledPrompt {
-    fn text(&self, compiled: &Compiled) -> String {
-        let mut text = String::new();
-        let mut line = |what: &str, value: String| {
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "  {what:<12} {value}");
-        };
-        line("taken as", excerpt(self.reading.text()));
+/// The longest list of nearest materials for people.
+const NAMED: usize = 3;
+
+impl CompiledPrompt {
+    /// What a designer asks of a texture: what the words were taken for, how it feels on the scales of the sliders, how
+    /// sure that is.
+    #[must_use]
+    pub fn summary(&self, compiled: &Compiled, scale: &Scale) -> String {
+        let mut lines = Lines::default();
+        lines.add("taken as", excerpt(self.reading.text()));
         if !self.reading.ignored.is_empty() {
-            line("left out", excerpt(self.reading.ignored.join(", ")));
+            lines.add("left out", excerpt(self.reading.ignored.join(", ")));
         }
-        let nearest: Vec<String> = self
-            .nearest
-            .iter()
-            // What rounds to nothing says nothing.
-            .filter(|near| near.weight >= 0.005)
+        lines.add("feels like", self.materials(NAMED));
+        let attributes = compiled.attributes();
+        for axis in [Axis::Rough, Axis::Slippery, Axis::Hard] {
+            let place = scale.place(axis, &attributes);
+            lines.add(axis.name(), place.map_or("undefined".into(), on_slider));
+        }
+        lines.add(
+            "certainty",
+            format!(
+                "{}: {:.0} % of comparisons with such prompts came out right",
+                self.certainty,
+                100.0 * self.certainty.share()
+            ),
+        );
+        let kb = |bytes: usize| format!("{:.1} kB", bytes as f64 / 1000.0);
+        let all = compiled.lowered.bytes.len();
+        lines.add(
+            "size",
+            match &compiled.preview {
+                Some(_) => format!(
+                    "{} haptic, {} with the preview",
+                    kb(compiled.lowered.haptic_bytes),
+                    kb(all)
+                ),
+                None => format!(
+                    "{} haptic, {} in all",
+                    kb(compiled.lowered.haptic_bytes),
+                    kb(all)
+                ),
+            },
+        );
+        lines.0
+    }
+
+    /// The nearest materials with their weights; what rounds to nothing says nothing.
+    fn materials(&self, most: usize) -> String {
+        let nearest = self.nearest.iter().filter(|near| near.weight >= 0.005);
+        let nearest: Vec<String> = nearest
+            .take(most)
             .map(|near| format!("{} {:.0} %", near.name, 100.0 * near.weight))
             .collect();
-        line("nearest", nearest.join(", "));
+        nearest.join(", ")
+    }
+}
+
+/// A place on a slider: 5 % of the known materials lie below 0, and 5 % above 100.
+fn on_slider(place: f64) -> String {
+    // 0 without a sign.
+    let place = place.round() + 0.0;
+    let beyond = match place {
+        ..0.0 => ", less than 95 % of the known materials",
+        100.5.. => ", more than 95 % of the known materials",
+        _ => "",
+    };
+    format!("{place:>3} of 100{beyond}")
+}
+
+/// Lines of a report, each with its name.
+#[derive(Default)]
+struct Lines(String);
+
+impl Lines {
+    fn add(&mut self, what: &str, value: String) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(self.0, "  {what:<12} {value}");
+    }
+}
+
+impl Findings for CompiledPrompt {
+    /// What the passes did.
+    fn text(&self, compiled: &Compiled) -> String {
+        let mut lines = Lines::default();
+        lines.add("nearest", self.materials(usize::MAX));
         let a = compiled.attributes();
         let number = |value: Option<f64>, unit: &str| {
             value.map_or("none".into(), |value| format!("{value:.1} {unit}"))
         };
-        line(
+        lines.add(
             "attributes",
             format!(
                 "rough {}, sharp {}, hard {}, μ {:.3}",
@@ -82,16 +151,8 @@ impl Findings for CompiledPrompt {
                 a.mu
             ),
         );
-        line(
-            "certainty",
-            format!(
-                "{}: {:.0} % of comparisons with such prompts came out right",
-                self.certainty,
-                100.0 * self.certainty.share()
-            ),
-        );
         let texture = &compiled.texture;
-        line(
+        lines.add(
             "gains",
             format!(
                 "vibration {:.5} s²/m of {:.2} N, effective mass {:.3} kg, wall {:.0} N/m",
@@ -101,7 +162,7 @@ impl Findings for CompiledPrompt {
                 texture.wall.stiffness_n_m
             ),
         );
-        line(
+        lines.add(
             "model",
             format!(
                 "AR order {}, {} vertices, {:.0} Hz",
@@ -110,9 +171,9 @@ impl Findings for CompiledPrompt {
                 texture.grid.sample_rate_hz
             ),
         );
-        line("kept", compiled.reduction.to_string());
+        lines.add("kept", compiled.reduction.to_string());
         let preview = compiled.preview.as_ref().map_or(0, Vec::len);
-        line(
+        lines.add(
             "bytes",
             format!(
                 "{} haptic, {preview} preview, {} in all",
@@ -121,7 +182,7 @@ impl Findings for CompiledPrompt {
             ),
         );
         if let Some(verified) = &compiled.verified {
-            line(
+            lines.add(
                 "verified",
                 format!(
                     "stable at {} queries, {} ticks, peak force {:.2} N",
@@ -134,8 +195,8 @@ impl Findings for CompiledPrompt {
             .iter()
             .map(|(pass, took)| format!("{} {:.1}", pass.name(), 1e3 * took.as_secs_f64()))
             .collect();
-        line("ms", passes.join(", "));
-        text
+        lines.add("ms", passes.join(", "));
+        lines.0
     }
 
     fn json(&self, compiled: &Compiled) -> Value {
@@ -183,5 +244,25 @@ impl Findings for CompiledPrompt {
             "stages_ms": compiled.timings.json(),
             "warnings": compiled.warnings,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::on_slider;
+
+    #[test]
+    fn a_place_beyond_the_slider_is_explained() {
+        assert_eq!(on_slider(-0.3), "  0 of 100");
+        assert_eq!(on_slider(94.6), " 95 of 100");
+        assert_eq!(on_slider(100.4), "100 of 100");
+        assert_eq!(
+            on_slider(130.7),
+            "131 of 100, more than 95 % of the known materials"
+        );
+        assert_eq!(
+            on_slider(-7.0),
+            " -7 of 100, less than 95 % of the known materials"
+        );
     }
 }

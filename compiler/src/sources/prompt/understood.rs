@@ -1,7 +1,7 @@
 //! Which part of a prompt its text encoder can read.
 //!
 //! The encoders were trained on English. Of other scripts they know some characters, but not what
-//! they mean; of emoji hardly any. What they cannot read still moves the vector, so a user is told.
+//! they mean; of emoji hardly any. What they cannot read still moves the vector, so the user is warned.
 
 use super::PromptError;
 use std::mem;

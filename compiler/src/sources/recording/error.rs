@@ -19,7 +19,7 @@ pub enum RecordingFailure {
         folder: PathBuf,
         /// How many.
         count: usize,
-        /// What is so.
+        /// The first fault.
         first: String,
         /// What to do.
         remedy: String,

@@ -89,7 +89,7 @@ fn write_text(
     }
     writeln!(
         out,
-        "  wall         {} N/m, {:.3} N·s/m",
+        "  wall         {:.0} N/m, {:.3} N·s/m",
         d.wall.stiffness_n_m, d.wall.damping_n_s_m
     )?;
     writeln!(

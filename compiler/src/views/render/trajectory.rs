@@ -129,7 +129,7 @@ impl<'a, R: Read> Rows<'a, R> {
 const BUFFER_BYTES: usize = 8 * 1024;
 
 /// A reader that fails where one row, or the file, gives too many bytes. The parser keeps a row in
-/// memory, however long it is, and a quotation mark that is not closed makes a row of the rest.
+/// memory, however long it is, and an unclosed quotation mark turns the rest into one row.
 struct Bounded<R> {
     input: R,
     /// Bytes read since the row before was complete: the row's, and what the parser reads ahead.

@@ -154,7 +154,7 @@ pub(crate) fn is_abrasive(name: &str) -> bool {
     says || (is_paper(name) && name != "paper")
 }
 
-/// Grain that a thing has where none is said, µm.
+/// Grain of a material where none is stated, µm.
 pub(crate) fn own_grain_um(name: &str) -> f64 {
     let holds = |words: &&(&[&str], f64)| name.split(' ').any(|word| words.0.contains(&word));
     GRAINS.iter().find(holds).map_or(PAPER, |(_, um)| *um)
@@ -185,7 +185,7 @@ const BASTARD: f64 = 30.0;
 const CARPET_MM: f64 = 8.0;
 
 impl Grade {
-    /// How much coarser the relief of a thing is than its own; 1 for numbers that say nothing of relief.
+    /// How much coarser the relief is than the named material's own; 1 for numbers that do not concern relief.
     pub(crate) fn coarser(self, name: &str) -> f64 {
         match self.scale {
             Scale::Grit { .. } => grit_um(self.value, name) / own_grain_um(name),

@@ -37,7 +37,7 @@ pub struct Magnitudes {
     zeros: u64,
 }
 
-/// Exponent of the least magnitude that is told from zero.
+/// Exponent of the least magnitude that is resolved; smaller ones share the first class.
 const LEAST: i32 = -80;
 /// Classes of an octave.
 const CLASSES: i32 = 8;

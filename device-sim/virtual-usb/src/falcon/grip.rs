@@ -97,7 +97,7 @@ impl Grip {
         self.felt
     }
 
-    /// What the motors are told, counts.
+    /// The last command to the motors, counts.
     #[must_use]
     pub fn motors(&self) -> [i16; 3] {
         self.motors

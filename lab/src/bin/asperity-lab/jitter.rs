@@ -25,7 +25,7 @@ use crate::loop_options::{self, LoopOptions, refusals, stop_on_interrupt};
 /// Measure how punctual a servo loop is
 ///
 /// Wake-up, reading, computing and writing of every tick go into HdrHistograms, as recorded and
-/// corrected for coordinated omission; the ten worst ticks are told with their stage.
+/// corrected for coordinated omission; the ten worst ticks are reported with their stage.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Examples:

@@ -30,7 +30,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// What the renderer is told of a device.
+    /// The configuration of the renderer for a device.
     #[must_use]
     pub fn config(&self, device: &Description) -> Config {
         let mut config = Config::default();

@@ -1,8 +1,8 @@
-//! No device: it rests where it is told to, and takes any force.
+//! No device: it rests at a set height, and takes any force.
 
 use super::{Description, Device, DeviceError, Reading, Uri, open::OpenError};
 
-/// Where it rests unless it is told otherwise, m: in free air over the plane z = 0.
+/// Where it rests by default, m: in free air over the plane z = 0.
 const FREE_AIR_M: f32 = 0.05;
 /// How far away it may rest, mm.
 const REACH_MM: f32 = 1000.0;

@@ -14,8 +14,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use thiserror::Error;
 
-/// Latencies of up to so many µs are told apart: the most that cyclictest takes. Larger ones are in no
-/// percentile.
+/// Largest latency of the histogram, µs: the most that cyclictest accepts. Larger ones are in no percentile.
 const TOLD_APART_US: u32 = 1_000_000;
 
 /// Why there is nothing of cyclictest.

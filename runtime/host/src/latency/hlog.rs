@@ -20,7 +20,7 @@ use thiserror::Error;
 
 /// What begins the comment with the facts.
 const FACTS: &str = "asperity-lab jitter ";
-/// Largest values are told in ms.
+/// Largest values are written in ms.
 const MAX_DIVISOR: f64 = 1e6;
 /// More bytes than any histogram of ours takes before it is compressed.
 const MOST_BYTES: u64 = 1 << 24;

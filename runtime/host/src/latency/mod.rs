@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `collect` | from records to a run |
 //! | `run` | a run: its intervals, sums, and corrected histograms |
-//! | `percentiles` | which percentiles are told |
+//! | `percentiles` | which percentiles are reported |
 //! | `worst` | the worst ticks |
 //! | `hgrm`, `hlog` | the files of HdrHistogram's own tools |
 //! | `compare` | the shift of each percentile, with a bootstrap confidence |

@@ -1,4 +1,4 @@
-//! Which percentiles of a distribution are told.
+//! Which percentiles of a distribution are reported.
 
 use hdrhistogram::Histogram;
 use serde::{Deserialize, Serialize};

@@ -2,7 +2,7 @@
 //!
 //! A profile is a TOML file. Two devices do not feel alike: the same force gives another
 //! acceleration at the tip. [`response::estimate`] measures it from a commanded force and an
-//! acceleration, and [`compensation::design`] makes a short filter of it, so that one texture has
+//! acceleration, and [`compensation::design`] derives a short filter from it, so that one texture has
 //! the same acceleration spectrum on both.
 
 pub mod compensation;

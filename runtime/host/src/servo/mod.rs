@@ -9,7 +9,7 @@
 //! | `pace` | how many periods lie between two readings |
 //! | `heard` | what the supervised device said, for the records |
 //! | `recovery` | when a device that fails is asked to recover |
-//! | `event` | what is told once: faults, their end, recoveries that failed |
+//! | `event` | what is reported once: faults, their end, recoveries that failed |
 //! | `render` | the runtime behind one trait: a texture, an exchange of textures, a scene |
 //! | `record`, `times` | what a tick leaves behind |
 //! | `outlet` | records and events to another thread |

@@ -75,8 +75,8 @@ pub enum RenderAgainError {
     Prepare(#[from] PrepareError),
 }
 
-/// Compares a recording with what `tick` answers to its samples. `tick` is told of each entry's
-/// number and sample.
+/// Compares a recording with what `tick` answers to its samples. `tick` gets each entry's number
+/// and sample.
 ///
 /// # Errors
 /// What `tick` says.

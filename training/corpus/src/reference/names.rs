@@ -76,7 +76,7 @@ pub fn table() -> String {
             names.entry(key).or_insert_with(|| name.to_lowercase());
         }
     };
-    // "a piece of wood", "plain wood", "rough wood": wood is a thing.
+    // "a piece of wood", "plain wood", "rough wood": "wood" is a name.
     let heads: Vec<String> = EMBEDDED_LEXICON
         .iter()
         .filter(|(file, _)| HEADS.contains(file))
@@ -133,7 +133,7 @@ const NEITHER: [&str; 14] = [
 ];
 
 /// Words, a line each and sorted, by which the lexicon says how something feels: all of its words of touch,
-/// and what stands before a thing that has a name.
+/// and the words that stand before a name.
 ///
 /// # Panics
 /// As [`table`].

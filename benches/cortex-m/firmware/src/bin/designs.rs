@@ -49,7 +49,7 @@ fn run(orders: Orders) {
 #[cortex_m_rt::entry]
 fn main() -> ! {
     static mut MEMORY: [MaybeUninit<u8>; HEAP_BYTES] = [MaybeUninit::uninit(); HEAP_BYTES];
-    #[allow(unsafe_code, reason = "an allocator is told its memory once")]
+    #[allow(unsafe_code, reason = "an allocator is given its memory once")]
     // SAFETY: called once, before anything allocates, with memory that nothing else uses.
     unsafe {
         HEAP.init(MEMORY.as_mut_ptr() as usize, HEAP_BYTES);

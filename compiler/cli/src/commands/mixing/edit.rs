@@ -12,7 +12,7 @@ use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 use serde_json::{Value, json};
 
-/// Steps by which an attribute may miss what was asked for before a user is told.
+/// Steps by which an attribute may miss its target before the user is warned.
 const NEAR: f64 = 3.0;
 
 pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
@@ -46,7 +46,7 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
             None => Edit::Steps(sliders),
         };
         let done = source.edit(&editor, &edit, &request).map_err(one)?;
-        // After a way to a thing every attribute has moved.
+        // A blend towards a material moves every attribute: no target is compared.
         asked = done.towards.is_none().then_some(done.sliders);
         towards = done.towards;
     }

@@ -1,10 +1,11 @@
-//! What the grammar of a prompt says of a thing: "very rough silk", "foam, but firmer", "between
-//! cork and felt".
+//! What the grammar of a prompt says about a material: "very rough silk", "foam, but firmer",
+//! "between cork and felt".
 //!
 //! A text vector knows that rough silk is about silk, and hardly that it is rougher than silk.
 //! So a prompt is divided: its base is what remains without the words that change it ("silk"),
 //! and each change says where roughness, slipperiness or hardness goes, and how far. A
-//! [`Shift`](asperity_texture::model::shift::Shift) moves the texture there. English only; whatever is not recognised stays with the text vector.
+//! [`Shift`](asperity_texture::model::shift::Shift) moves the texture there. English only; whatever is not
+//! recognised stays with the text vector.
 
 mod changed;
 mod compound;
@@ -46,28 +47,28 @@ pub struct Changes {
 /// What a prompt says.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Phrase {
-    /// A thing, for the text vector alone.
+    /// A material, described by the text vector alone.
     #[default]
     Plain,
-    /// A thing with changes.
+    /// A material with changes.
     Changed {
-        /// The thing without them.
+        /// The material without them.
         base: String,
         /// What changes.
         changes: Changes,
     },
-    /// A thing with numbers that say how rough or hard it is.
+    /// A material with numbers for its roughness or hardness.
     Graded {
-        /// The thing without them.
+        /// The material without them.
         base: String,
         /// What they say, in their order; at least one.
         grades: Vec<Grade>,
     },
-    /// A thing of a material, which is stroked; both are tapped.
+    /// An object made of a material: the material is stroked, and both are tapped.
     Made {
-        /// What it is made of.
+        /// Its material.
         material: String,
-        /// What it is.
+        /// The object.
         object: String,
     },
     /// A named part, which is as such parts are: "axe handle".
@@ -77,9 +78,9 @@ pub enum Phrase {
         /// The part by itself.
         part: String,
     },
-    /// Something between two things.
+    /// Something between two materials.
     Between(String, String),
-    /// A thing that is covered with another: the cover is stroked, and both are tapped.
+    /// An object with a cover: the cover is stroked, and both are tapped.
     Covered {
         /// What is inside.
         inside: String,

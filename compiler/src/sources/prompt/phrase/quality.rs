@@ -9,7 +9,7 @@ use super::{
 /// What a text is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Use {
-    /// A thing, which a prompt names beside its qualities.
+    /// A material, which a prompt names beside its qualities.
     Thing,
     /// An edit of a texture at hand. More words count, and "too rough" asks for less.
     Edit,
@@ -28,7 +28,7 @@ pub fn is_quality(word: &str) -> bool {
         || table::noun(word).is_some()
 }
 
-/// Whether a word is a quality that a thing has of itself, and not by what happened to it.
+/// Whether a word is a quality that a material has by itself, not because of what happened to it.
 #[must_use]
 pub fn is_lasting(word: &str) -> bool {
     table::adjective(word).is_some()

@@ -12,16 +12,16 @@ use super::{
 pub struct Relative {
     /// Where attributes go from the texture at hand.
     pub changes: Changes,
-    /// A thing that it becomes more like.
+    /// A material that it becomes more like.
     pub towards: Option<Towards>,
     /// Words that say something that is not understood.
     pub unread: Vec<String>,
 }
 
-/// Something that a texture becomes more like.
+/// A material that a texture becomes more like.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Towards {
-    /// The thing.
+    /// The material.
     pub thing: String,
     /// The way to it, up to 1; negative for away from it.
     pub share: f64,
@@ -35,7 +35,7 @@ impl Relative {
     }
 }
 
-/// The way to a thing, without a degree and with one.
+/// Shares of the way to a material: with a weak degree, without a degree, with a strong one.
 const SHARE: (f64, f64, f64) = (0.25, 0.5, 0.75);
 /// Words that an edit may have without asking for anything.
 const FILLERS: [&str; 106] = [
@@ -150,7 +150,7 @@ const FILLERS: [&str; 106] = [
 /// Reads an edit.
 #[must_use]
 pub fn relative(text: &str) -> Relative {
-    // "more like silk, firmer": a thing ends at a comma.
+    // "more like silk, firmer": the material ends at a comma.
     let words = words(&text.replace([',', ';'], " and "));
     let (head, towards) = towards(&words);
     let (changes, rest) =
@@ -163,7 +163,7 @@ pub fn relative(text: &str) -> Relative {
     }
 }
 
-/// "more like leather", "closer to silk", "towards wood": the words before it, and the thing.
+/// "more like leather", "closer to silk", "towards wood": the words before it, and the material.
 fn towards(words: &[String]) -> (Vec<String>, Option<Towards>) {
     let place = |n: usize| words.get(n).map(String::as_str);
     let found = (0..words.len()).find_map(|n| match (place(n)?, place(n + 1)) {
@@ -194,7 +194,7 @@ fn towards(words: &[String]) -> (Vec<String>, Option<Towards>) {
         match (words[before].as_str(), table::degree(&words[before])) {
             (_, Some(range)) if range.1 < 1.0 => share = SHARE.0.copysign(share),
             (_, Some(_)) => share = SHARE.2.copysign(share),
-            // Away from a thing leads out of the materials, so not far.
+            // Away from a material leads out of the known ones, so not far.
             ("less", None) => share = -SHARE.0,
             ("more" | "a" | "rather", None) => {}
             _ => break,

@@ -1,4 +1,4 @@
-//! Words that change a thing.
+//! Words that change how a material feels.
 
 use std::{collections::HashMap, sync::LazyLock};
 
@@ -7,8 +7,8 @@ type Table = LazyLock<HashMap<&'static str, Signs>>;
 
 /// Adjectives.
 static ADJECTIVES: Table = LazyLock::new(|| read(include_str!("adjectives.tsv")));
-/// What happened to a thing: participles and the like that say how it feels of any thing but one that has a
-/// name with them, as "boiled sweet" is.
+/// What happened to a material: participles and the like that say how it feels, unless they are part of a
+/// name, as in "boiled sweet".
 static STATES: Table = LazyLock::new(|| read(include_str!("states.tsv")));
 /// Nouns of qualities, for "without its grit".
 static NOUNS: Table = LazyLock::new(|| read(include_str!("nouns.tsv")));

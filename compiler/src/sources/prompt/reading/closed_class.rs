@@ -55,7 +55,7 @@ const AUXILIARIES: &[&str] = &[
     "have", "had", "having", "can", "could", "will", "would", "shall", "should", "may", "might",
     "must", "let", "lets", "let's", "i'd", "i'm", "it's",
 ];
-/// What joins two things, or a thing and its qualities.
+/// Words that join two objects, or an object and its qualities.
 const LINKS: &[&str] = &[
     "of", "with", "without", "and", "but", "or", "than", "like", "between", "as", "not", "no",
     "never", "non", "lacking", "more", "less", "least", "most", "too", "is", "are", "was", "has",
@@ -308,7 +308,7 @@ const COLOURS: &[&str] = &[
     "patterned",
 ];
 
-/// What shows a thing where "of" follows.
+/// Words for a picture of an object where "of" follows.
 const PICTURES: &[&str] = &[
     "picture",
     "image",
@@ -318,7 +318,7 @@ const PICTURES: &[&str] = &[
     "drawing",
     "sketch",
 ];
-/// What is a part of a thing where "of" follows.
+/// Words for a part of an object where "of" follows.
 const PARTS: &[&str] = &[
     "back",
     "front",
@@ -342,7 +342,7 @@ const PARTS: &[&str] = &[
     "half",
     "rest",
 ];
-/// Further participles after which "in", "with" or "from" names what a thing is covered with or made of.
+/// Further participles after which "in", "with" or "from" names the cover or the material of an object.
 const COVERING: &[&str] = &[
     "soaked", "dipped", "drenched", "filled", "made", "cut", "carved", "woven", "knitted",
     "embedded", "bound", "dusted",
@@ -354,12 +354,12 @@ pub fn is_colour(word: &str) -> bool {
     COLOURS.contains(&word) || word.ends_with("coloured") || word.ends_with("chequered")
 }
 
-/// Whether a word before "of" is a part of a thing.
+/// Whether a word before "of" is a part of an object.
 pub(super) fn is_part(word: &str) -> bool {
     PARTS.contains(&word)
 }
 
-/// Whether "in", "by" or "from" after this word names what a thing is covered with or made of.
+/// Whether "in", "by" or "from" after this word names the cover or the material of an object.
 pub(super) fn is_covering(word: &str) -> bool {
     phrase::is_cover(word) || COVERING.contains(&word)
 }
@@ -389,7 +389,7 @@ pub(super) fn is_determiner(word: &str) -> bool {
     DETERMINERS.contains(&word)
 }
 
-/// Whether a word joins a thing and what is said of it.
+/// Whether a word joins an object and its description.
 pub(super) fn is_link(word: &str) -> bool {
     LINKS.contains(&word)
 }

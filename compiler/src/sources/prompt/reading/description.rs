@@ -5,7 +5,7 @@ use super::{
     segment::{Class, Item, is_name},
 };
 
-/// Subjects with which a clause about a thing begins.
+/// Subjects that begin a clause about an object.
 pub(super) const SUBJECTS: &[&str] = &[
     "that",
     "which",
@@ -22,7 +22,7 @@ pub(super) const SUBJECTS: &[&str] = &[
     "someone",
     "somebody",
 ];
-/// Who asks, and whose a thing is.
+/// Words for who asks, and for the owner of an object.
 const PERSONS: &[&str] = &[
     "i", "me", "my", "you", "your", "we", "us", "our", "his", "her", "their", "please", "yours",
     "mine",
@@ -75,7 +75,7 @@ pub(super) fn has_unknown_head(items: &[Item]) -> bool {
         && !after.get(1).is_some_and(|item| ["mine", "yours", "ours"].contains(&item.text.as_str()))
 }
 
-/// Whether a prompt describes a thing at length and says nothing of who asks: "an insect hotel packed
+/// Whether a prompt describes an object at length and does not mention who asks: "an insect hotel packed
 /// with cones", "a manhole lid in a downpour". What it says behind the name cannot be left out word by
 /// word.
 pub(super) fn is_description(items: &[Item], kept: &[bool]) -> bool {

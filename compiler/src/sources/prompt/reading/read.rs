@@ -11,7 +11,7 @@ use crate::{
     words::grade::Grade,
 };
 
-/// What follows one of these happened to a thing: "a chin after the barber".
+/// What follows one of these happened to an object: "a chin after the barber".
 const EVENTS: &[&str] = &["after", "before", "until"];
 
 /// Reads items; what is no prose is left as it is.
@@ -249,7 +249,7 @@ fn unnamed(items: &[Item]) -> Reading {
     let says = |item: &Item| match item.class {
         Class::Name | Class::Thing => true,
         Class::Touch => listed(&item.text),
-        // Whether it is a thing, its distance from what the model knows tells.
+        // Its distance from what the model knows decides whether it is an object.
         Class::Other => !is_colour(&item.text),
         _ => false,
     };

@@ -115,7 +115,7 @@ pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<It
             at += 2;
         } else {
             let mut class = class(word, &sense);
-            // "a photo of" shows something; "a photo" is a thing.
+            // "a photo of" depicts an object; "a photo" is one.
             if is_picture(word) && words.get(1).is_none_or(|next| *next != "of") {
                 class = Class::Thing;
             }

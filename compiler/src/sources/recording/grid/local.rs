@@ -61,7 +61,7 @@ pub(super) struct Local {
     transform: Transform,
 }
 
-/// What is so at a speed and a force.
+/// The autocorrelation estimated at a speed and a force.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Estimate {
     /// Autocorrelation at the first lags, (m/s²)².

@@ -1,7 +1,7 @@
 //! Vertices that explain all segments together.
 //!
-//! Between vertices the runtime mixes cos ω and the level. A vertex that says best what is so at its own
-//! place is not the one whose mixtures say best what is so between the places. So all vertices are
+//! Between vertices the runtime mixes cos ω and the level. The vertex that best fits the vibration at its
+//! own place is not the one whose mixtures best fit the vibration between the places. So all vertices are
 //! moved at once to the least sum over segments of Whittle's measure, ln S + P/S, where S is the
 //! spectrum of the mixture with the sensors' noise. What the neighbourhood of a vertex says counts
 //! as some further seconds of vibration. Vertices beyond what was visited stay where they are.

@@ -38,7 +38,7 @@ impl Bench {
         }
     }
 
-    /// The mechanics that the runtime is told.
+    /// The mechanics with which the runtime is configured.
     #[must_use]
     pub fn mechanics(&self) -> MechanicsConfig {
         MechanicsConfig {

@@ -305,7 +305,7 @@ mod tests {
             }
             assert_eq!(value["usb"], works);
             assert_eq!(value["devices"][0]["state"].as_str(), state, "{value}");
-            // The rest is told whatever USB says.
+            // The rest is listed whatever USB reports.
             for word in [
                 "not installed: openhaptics:",
                 "ASPERITY_OPENHAPTICS",

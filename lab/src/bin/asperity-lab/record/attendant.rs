@@ -158,11 +158,11 @@ impl Attendant {
             if let Some((simulated, to)) = &mut self.simulated
                 && let Some(lines) = simulated.tick(&record)
             {
-                // A sensor that is not read has ended, which is told elsewhere.
+                // A sensor that is not read has ended, which is reported elsewhere.
                 let _ = to.try_send(lines.into_bytes());
             }
         }
-        // What the device failed with is told if it stays away.
+        // A device fault is reported only if the device stays away.
         while inlet.event().is_some() {}
         while let Some(batch) = self.reader.batch() {
             if let Some(told) = self.reader.told() {

@@ -31,7 +31,7 @@ use summary::Summary;
 ///
 /// You are led through the air, taps, and strokes at all speeds and forces. The grid of what was
 /// stroked is shown as it fills. The recording ends when it is full, after --seconds, or at Ctrl-C;
-/// what was recorded until then is kept. `asperity import recording DIR` makes a texture of it.
+/// what was recorded until then is kept. `asperity import recording DIR` compiles it into a texture.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab record oak --device 'sim:?grip=firm&hand=record' --accel sim: --seconds 60

@@ -278,7 +278,7 @@ impl<'c> Attendant<'c> {
                 told.lost
             ));
         }
-        // The session is told even where its record was lost.
+        // The session is reported even where its record was lost.
         if self.json {
             self.console
                 .json(&summary::json(session, &told))

@@ -43,7 +43,7 @@ Devices:
                                  `asperity-lab device probe URI` says what one needs
   touch:                         only identified; openhaptics: moves it
 
-What the system does not permit (policy, locked memory, …) is told with the command that
+What the system does not permit (policy, locked memory, …) is reported with the command that
 grants it, and the loop runs without.")]
 pub(crate) struct Arguments {
     #[command(flatten)]

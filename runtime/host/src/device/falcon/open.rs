@@ -78,7 +78,7 @@ impl OpenError {
         }
     }
 
-    /// As the servo loop is told.
+    /// The fault that the servo loop receives.
     #[must_use]
     pub fn fault(&self) -> DeviceError {
         match self {

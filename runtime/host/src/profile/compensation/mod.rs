@@ -26,7 +26,7 @@ pub struct Design {
     pub after_db: f64,
 }
 
-/// Makes the filter of a response.
+/// Designs the filter that evens out a response.
 #[must_use]
 pub fn design(response: &Response) -> Design {
     let rate_hz = response.rate_hz;

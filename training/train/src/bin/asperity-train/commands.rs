@@ -221,7 +221,7 @@ fn make_folder(folder: &Path) -> Result<bool, Failure> {
     fs::create_dir(folder).map_err(|source| {
         boxed(FitError::from(asperity_io::output::OutputError {
             path: folder.to_owned(),
-            doing: "cannot make the folder for the state of the run",
+            doing: "cannot create the folder for the run's state",
             source,
         }))
     })?;
