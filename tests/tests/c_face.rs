@@ -40,7 +40,7 @@ fn folder() -> PathBuf {
     folder
 }
 
-/// The shared library as `docs/c.md` links it, built once. Its folder.
+/// The shared library as `runtime/c/Makefile` links it, built once. Its folder.
 fn shared() -> &'static Path {
     static PATH: OnceLock<PathBuf> = OnceLock::new();
     PATH.get_or_init(|| {

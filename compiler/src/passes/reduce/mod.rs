@@ -235,6 +235,17 @@ mod tests {
     use asperity_texture::model::mesh;
 
     #[test]
+    fn a_fidelity_is_read_as_it_is_printed() {
+        for text in ["full", "auto", "1", "24"] {
+            assert_eq!(
+                text.parse::<Fidelity>().map(|f| f.to_string()).as_deref(),
+                Ok(text)
+            );
+        }
+        assert!("25".parse::<Fidelity>().is_err() && "0".parse::<Fidelity>().is_err());
+    }
+
+    #[test]
     fn auto_is_within_its_budget_tiled_and_renders() {
         let full = builtin::texture();
         let Reduction { texture, report } = reduce(&full, Fidelity::Auto);

@@ -304,3 +304,16 @@ fn apply(changes: &mut Changes, found: &Found) {
 fn strength(change: Change) -> f64 {
     (change.least + change.most).abs()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::is_lasting;
+
+    /// Adjectives, their comparatives, and nouns of qualities; not states, into which something came.
+    #[test]
+    fn a_material_has_a_lasting_quality_by_itself() {
+        let lasting = ["rough", "rougher", "roughness"].map(is_lasting);
+        assert_eq!(lasting, [true; 3]);
+        assert_eq!(["boiled", "towel", "very", ""].map(is_lasting), [false; 4]);
+    }
+}

@@ -231,6 +231,9 @@ mod tests {
             ("make the vibration weaker", [-1.0, 0.0, 0.0]),
             ("not so rough", [-1.0, 0.0, 0.0]),
             ("without the stickiness", [0.0, 1.0, 0.0]),
+            ("not as hard", [0.0, 0.0, -1.0]),
+            ("twice as hard", [0.0, 0.0, 1.0]),
+            ("half as hard", [0.0, 0.0, -1.0]),
         ] {
             assert_eq!(signs(text), expected, "{text}");
         }
@@ -248,6 +251,8 @@ mod tests {
                 "{plain}"
             );
         }
+        assert!(far("less hard by a lot") < far("less hard"));
+        assert!(far("less hard") < far("less hard, but only slightly"));
     }
 
     #[test]
