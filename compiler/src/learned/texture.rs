@@ -21,6 +21,8 @@ const LEAST_GAP_RAD: f64 = 0.01;
 /// Largest RMS gain of a filter, twice that of trained materials. Very different models of a
 /// larger gain that take turns within a stroke can ring.
 const LARGEST_GAIN: f64 = 8.0;
+/// Widest range of |A(e^jω)|: a quarter of what the runtime loads, so that it holds after a reduction as well.
+const WIDEST_RANGE: f64 = 2.5e4;
 /// Range of the level of a bin, dB re 1 m/s², whatever a decoder says. At the default gain, 20 dB
 /// are 0.5 N RMS.
 const LEVEL_RANGE_DB: (f64, f64) = (-60.0, 20.0);
@@ -133,12 +135,14 @@ pub fn taps(description: &ModelDescription, decoded: &Decoded, limit_m_s2: f64) 
     }
 }
 
-/// LSFs moved towards white noise until the gain is within bounds.
+/// LSFs moved towards white noise until the gain and the range of |A| are within bounds.
 fn tamed(lsf_rad: Vec<f64>) -> Vec<f64> {
     const STEPS: u32 = 20;
     (0..=STEPS)
         .map(|step| lsf::towards_white_noise(&lsf_rad, f64::from(step) / f64::from(STEPS)))
-        .find(|mixed| nyquist_rms(mixed) <= LARGEST_GAIN)
+        .find(|mixed| {
+            nyquist_rms(mixed) <= LARGEST_GAIN && lsf::magnitude_range(mixed) <= WIDEST_RANGE
+        })
         .unwrap_or(lsf_rad)
 }
 

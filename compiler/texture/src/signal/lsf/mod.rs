@@ -52,6 +52,42 @@ pub fn from_cosines(cosines: &[f64]) -> Vec<f64> {
     monic
 }
 
+/// The largest |A(e^jω)| over the least, at the frequencies, half-way between neighbours, at 0 and at π: how exact an
+/// arithmetic has to be that renders A(z). Infinite where two frequencies are the same.
+#[must_use]
+pub fn magnitude_range(lsf_rad: &[f64]) -> f64 {
+    let cosines: Vec<f64> = lsf_rad.iter().map(|&omega| libm::cos(omega)).collect();
+    let even = lsf_rad.len().is_multiple_of(2);
+    let squared = |omega: f64| {
+        let x = libm::cos(omega);
+        let product = |first: usize| {
+            let zeros = cosines.iter().skip(first).step_by(2);
+            zeros.fold(1.0, |product, zero| product * 2.0 * (x - zero))
+        };
+        let (q, p) = (product(0).powi(2), product(1).powi(2));
+        // |1 + z⁻¹|², |1 − z⁻¹|² and |1 − z⁻²|².
+        if even {
+            (q * 2.0 * (1.0 + x) + p * 2.0 * (1.0 - x)) / 4.0
+        } else {
+            (q + p * 4.0 * (1.0 - x * x)) / 4.0
+        }
+    };
+    let all: Vec<f64> = std::iter::once(0.0)
+        .chain(lsf_rad.iter().copied())
+        .chain([PI])
+        .collect();
+    let between = all.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+    let (least, most) = all
+        .iter()
+        .copied()
+        .chain(between)
+        .map(squared)
+        .fold((f64::INFINITY, 0.0_f64), |(least, most), squared| {
+            (least.min(squared), most.max(squared))
+        });
+    (most / least).sqrt()
+}
+
 fn multiply(x: &[f64], y: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; x.len() + y.len() - 1];
     for (i, a) in x.iter().enumerate() {
@@ -148,6 +184,20 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn the_range_of_a_magnitude_is_that_of_its_polynomial(lsf_rad in ordered()) {
+            let monic = to_polynomial(&lsf_rad);
+            let squares = (0..=4096).map(|n| {
+                crate::signal::spectrum::squared_magnitude(&monic, PI * f64::from(n) / 4096.0)
+            });
+            let (least, most) = squares.fold((f64::INFINITY, 0.0_f64), |(least, most), squared| {
+                (least.min(squared), most.max(squared))
+            });
+            let exact = (most / least).sqrt();
+            let found = magnitude_range(&lsf_rad);
+            prop_assert!((0.7 * exact..1.01 * exact).contains(&found), "{} for {}", found, exact);
+        }
+
         #[test]
         fn ordered_frequencies_give_a_stable_polynomial(lsf in ordered()) {
             prop_assert!(is_stable(&to_polynomial(&lsf)));
