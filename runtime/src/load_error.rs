@@ -35,7 +35,7 @@ pub enum LoadError {
     Rounding,
     /// A model whose filter rounding could make unstable.
     #[error(
-        "grid.models[{model}]: |A| ranges over a factor of {range:e}, which must be at most {most:e}: rounding could make the filter unstable; take a lower order, or move the line spectral frequencies apart"
+        "grid.models[{model}]: |A| ranges over a factor of {range:.1e}, which must be at most {most:e}: rounding could make the filter unstable; take a lower order, or move the line spectral frequencies apart"
     )]
     Conditioning {
         /// Index of the model.

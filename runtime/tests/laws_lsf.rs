@@ -208,7 +208,7 @@ fn whatever_loads_mixes_cosines_within_a_triangle_and_stays_stable() {
 fn no_mixture_comes_nearer_to_zero_than_its_corners() {
     let triangles = sized("triangles", 3000, 100_000);
     let mut draw = Draw::new(2);
-    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    let (mut least, mut most, mut mixtures) = (f64::INFINITY, 0.0_f64, 0);
     for _ in 0..triangles {
         let corners = Corners::draw(&mut draw);
         if corners.range > 100.0 * WIDEST {
@@ -218,9 +218,11 @@ fn no_mixture_comes_nearer_to_zero_than_its_corners() {
             let mixed = magnitudes(&mix(&corners.cosines, weights(&mut draw)));
             least = least.min(mixed.0 / corners.least);
             most = most.max(mixed.1 / corners.most);
+            mixtures += 1;
         }
     }
-    println!("min |A| × {least:.4} or more, max |A| × {most:.4} or less");
+    println!("{mixtures} mixtures: min |A| × {least:.4} or more, max |A| × {most:.4} or less");
+    assert!(mixtures > 2 * triangles, "{mixtures}");
     assert!((0.98..1.1).contains(&least), "{least}");
     assert!(most < 1.5, "{most}");
 }

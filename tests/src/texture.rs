@@ -100,7 +100,7 @@ fn well_conditioned(lsf: Vec<u16>) -> Vec<u16> {
         let (least, most) = stability::magnitudes(&cosines);
         most < 0.6e5 * least && most < 30.0
     };
-    (0..=8).map(moved).find(loads).unwrap_or_default()
+    (0..=8).map(moved).find(loads).expect("white noise loads")
 }
 
 /// A random texture: a lattice over 250 mm/s × 4 N whose interior vertices are moved, σ that

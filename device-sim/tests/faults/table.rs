@@ -143,10 +143,7 @@ fn every_fault_on_every_back_end() {
     let mut columns = columns(texture, &bytes);
     let whole = columns.len() == 5;
     let mut rows = Vec::new();
-    let mut each = String::from(
-        "| fault | back end | force before, N | to the safe state | from there to 2 % of it | back after the fault | \
-         steepest, N a period | safe state | reports |\n|---|---|---|---|---|---|---|---|---|\n",
-    );
+    let mut each = Row::TABLE_HEAD.to_owned();
     for kind in InjectedFault::ALL {
         let mut of_kind = Vec::new();
         for (name, column) in &mut columns {
@@ -154,17 +151,7 @@ fn every_fault_on_every_back_end() {
             let what = format!("{} on {name}: {row:?}", kind.name());
             assert_eq!(row.broken(kind, limits.peak_n, slew_n), None, "{what}");
             assert!(*name == "null" || row.before_n > 0.1, "{what}");
-            each += &format!(
-                "| {} | {name} | {:.2} | {} | {} | {} | {:.2} | {} | {} |\n",
-                kind.name(),
-                row.before_n,
-                periods(row.safe_after),
-                periods(row.zero_after),
-                periods(row.whole_after),
-                row.steepest_n,
-                row.faults,
-                row.reports
-            );
+            each += &row.line(kind, name);
             of_kind.push(row);
         }
         rows.push((kind, of_kind));

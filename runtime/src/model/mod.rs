@@ -10,17 +10,17 @@
 //! | `barycentric` | f–v grid | triangle and weights |
 //! | `mixture` | interpolation of parameters | mixed −2 cos ω and level |
 //! | `lsf_to_ar` | LSF → AR | line spectrum to coefficients, with `partial_products` and `assembly` |
-//! | `condition` | | the range of \|A\|, which tells how much rounding a model bears |
+//! | `magnitude_range` | | how much rounding a model bears, for the check at load |
 //! | `filter` | a_k(F_n, v_t), σ(F_n, v_t) | the whole way in one function |
 //!
 //! [`update`](crate::update) does the same work in slices, one a tick.
 
 pub(crate) mod assembly;
 pub(crate) mod barycentric;
-pub(crate) mod condition;
 pub(crate) mod edge;
 pub(crate) mod filter;
 pub(crate) mod lsf_to_ar;
+pub(crate) mod magnitude_range;
 pub(crate) mod mixture;
 pub(crate) mod orders;
 pub(crate) mod partial_products;

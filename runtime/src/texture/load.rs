@@ -8,7 +8,7 @@ use crate::{
     lanes::{GRID, settled},
     load_error::LoadError,
     math::rounds_to_nearest,
-    model::{condition::Range, orders::Orders},
+    model::{magnitude_range::MagnitudeRange, orders::Orders},
     quantity::{Quantity, unit::ExcitationLevel},
     render_arithmetic::RenderArithmetic,
     stage::{recursion::Recursion, upsample::Upsampler},
@@ -83,7 +83,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
         let needs = Needs::of(asset, servo_rate_hz)?;
         needs.fit::<S>()?;
         A::check_asset(asset)?;
-        check_ranges::<A>(asset.grid())?;
+        check_magnitudes::<A>(asset.grid())?;
         Ok(needs.ticks_per_sample)
     }
 
@@ -143,12 +143,12 @@ const WIDEST_RANGE: f32 = 1.0e5;
 
 /// Whether rounding leaves every mixture of a grid's models stable.
 #[inline(never)]
-fn check_ranges<A: RenderArithmetic>(grid: &Grid<'_>) -> Result<(), LoadError> {
+fn check_magnitudes<A: RenderArithmetic>(grid: &Grid<'_>) -> Result<(), LoadError> {
     for (model, stored) in grid.models().enumerate() {
         let mut cosines = [A::Scalar::ZERO; MAX_ORDER];
         to_cosines::<A>(&mut cosines, stored.stored_lsf());
         let lines = cosines.map(|cosine| cosine.value());
-        let range = Range::of(lines.get(..grid.ar_order()).unwrap_or_default());
+        let range = MagnitudeRange::of(lines.get(..grid.ar_order()).unwrap_or_default());
         if range.ratio() > WIDEST_RANGE {
             return Err(LoadError::Conditioning {
                 model,

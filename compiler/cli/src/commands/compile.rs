@@ -7,7 +7,7 @@ use super::{
 use crate::cli::Compile;
 use asperity::{
     diffusion::framed,
-    edit::{LatentEditor, explain},
+    edit::{LatentEditor, Scale, explain},
     pipeline::Request,
     preview,
     prompt::{self, CompiledPrompt, Picture, Prompt},
@@ -64,9 +64,9 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     };
     let compiled = job.compile(&source, &request, &Tools::of(&prompt_compiler))?;
     let mut json = compiled.json();
-    let editor = LatentEditor::new(&prompt_compiler);
+    let scale = Scale::of(prompt_compiler.model().description());
     let summary = compiled.found::<CompiledPrompt>();
-    let summary = summary.map(|found| found.summary(&compiled, editor.scale()));
+    let summary = summary.map(|found| found.summary(&compiled, &scale));
     let mut text = format!("{}\n{}", display(&args.output), summary.unwrap_or_default());
     if args.details {
         text += &compiled.text();
@@ -77,7 +77,8 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     }
     let mut words = String::new();
     if args.explain {
-        let explanation = explain(&editor, &args.prompt).map_err(one)?;
+        let explanation =
+            explain(&LatentEditor::new(&prompt_compiler), &args.prompt).map_err(one)?;
         // Plain structures of numbers and strings always serialise.
         json["words"] = serde_json::to_value(&explanation.words).unwrap_or_default();
         json["reading"] = serde_json::to_value(&explanation.reading).unwrap_or_default();

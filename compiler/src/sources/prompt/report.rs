@@ -109,14 +109,14 @@ impl CompiledPrompt {
     }
 }
 
-/// A place on a slider: 5 % of the known materials lie below 0, and 5 % above 100.
+/// A place on a slider, which ends at 0 and 100 where materials go further.
 fn on_slider(place: f64) -> String {
     // 0 without a sign.
     let place = place.round() + 0.0;
-    let beyond = match place {
-        ..0.0 => ", less than 95 % of the known materials",
-        100.5.. => ", more than 95 % of the known materials",
-        _ => "",
+    let beyond = if (0.0..=100.0).contains(&place) {
+        ""
+    } else {
+        ", beyond the slider"
     };
     format!("{place:>3} of 100{beyond}")
 }
@@ -133,7 +133,7 @@ impl Lines {
 }
 
 impl Findings for CompiledPrompt {
-    /// What the passes did.
+    /// The report behind [`CompiledPrompt::summary`]: attributes in their units, and what the passes did.
     fn text(&self, compiled: &Compiled) -> String {
         let mut lines = Lines::default();
         lines.add("nearest", self.materials(usize::MAX));
@@ -256,13 +256,7 @@ mod tests {
         assert_eq!(on_slider(-0.3), "  0 of 100");
         assert_eq!(on_slider(94.6), " 95 of 100");
         assert_eq!(on_slider(100.4), "100 of 100");
-        assert_eq!(
-            on_slider(130.7),
-            "131 of 100, more than 95 % of the known materials"
-        );
-        assert_eq!(
-            on_slider(-7.0),
-            " -7 of 100, less than 95 % of the known materials"
-        );
+        assert_eq!(on_slider(130.7), "131 of 100, beyond the slider");
+        assert_eq!(on_slider(-7.0), " -7 of 100, beyond the slider");
     }
 }

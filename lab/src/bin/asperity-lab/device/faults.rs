@@ -159,24 +159,10 @@ fn table(
     rows: &[(InjectedFault, Row)],
     broken: impl Fn(InjectedFault, &Row) -> Option<&'static str>,
 ) -> String {
-    let mut text = String::from(
-        "| fault | back end | force before, N | to the safe state | from there to 2 % of it | back after the fault | \
-         steepest, N a period | safe state | reports |\n|---|---|---|---|---|---|---|---|---|\n",
-    );
-    let periods = |count: Option<u32>| count.map_or("–".into(), |count| format!("{count} ms"));
-    for (kind, row) in rows {
-        text += &format!(
-            "| {} | {name} | {:.2} | {} | {} | {} | {:.2} | {} | {} |\n",
-            kind.name(),
-            row.before_n,
-            periods(row.safe_after),
-            periods(row.zero_after),
-            periods(row.whole_after),
-            row.steepest_n,
-            row.faults,
-            row.reports
-        );
-    }
+    let lines = rows.iter().map(|(kind, row)| row.line(*kind, name));
+    let mut text: String = std::iter::once(Row::TABLE_HEAD.to_owned())
+        .chain(lines)
+        .collect();
     for (kind, row) in rows {
         if row.disturbed > 0 {
             text += &format!(

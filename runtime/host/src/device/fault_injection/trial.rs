@@ -13,6 +13,7 @@ use serde::Serialize;
 use super::{Faulty, InjectedFault};
 use crate::device::supervised::{Plausible, Report, Supervised};
 use crate::device::{Description, Device, DeviceError, Reading};
+use crate::fault_plan::FaultKind as _;
 
 /// Periods of a fault. A clock step skips as many at once.
 pub const LASTS: u32 = 20;
@@ -57,6 +58,28 @@ pub const fn promised(kind: InjectedFault) -> Option<u32> {
 }
 
 impl Row {
+    /// The head of a Markdown table of [`Row::line`]s.
+    pub const TABLE_HEAD: &str = "| fault | back end | force before, N | to the safe state | from there to 2 % of it | \
+         back after the fault | steepest, N a period | safe state | reports |\n|---|---|---|---|---|---|---|---|---|\n";
+
+    /// The row as a line of a Markdown table. A period is 1 ms.
+    #[must_use]
+    pub fn line(&self, kind: InjectedFault, back_end: &str) -> String {
+        let periods =
+            |count: Option<u32>| count.map_or("–".into(), |count| format!("{count} ms"));
+        format!(
+            "| {} | {back_end} | {:.2} | {} | {} | {} | {:.2} | {} | {} |\n",
+            kind.name(),
+            self.before_n,
+            periods(self.safe_after),
+            periods(self.zero_after),
+            periods(self.whole_after),
+            self.steepest_n,
+            self.faults,
+            self.reports
+        )
+    }
+
     /// What of the promises it breaks, in words. `peak_n` and `slew_n` (a period) are the limits.
     #[must_use]
     pub fn broken(&self, kind: InjectedFault, peak_n: f32, slew_n: f32) -> Option<&'static str> {

@@ -1,9 +1,8 @@
-//! How much rounding A(z) bears.
+//! The range of |A(e^jω)|, which tells how much rounding A(z) bears.
 //!
 //! Coefficients that are off by δ_k are those of a stable filter as long as Σ|δ_k| < min |A(e^jω)|: A(z) keeps its
 //! zeros inside the unit circle (Rouché's theorem). δ_k grows with the partial products of the conversion, hence with
-//! max |A(e^jω)|. The range of |A(e^jω)|, its maximum over its minimum, therefore tells how exact an arithmetic has to
-//! be. In a mixture the minimum is no smaller than the smallest of its corners, and the maximum at most half more than
+//! max |A(e^jω)|. The range, maximum over minimum, therefore tells how exact an arithmetic has to be. In a mixture the minimum is no smaller than the smallest of its corners, and the maximum at most half more than
 //! the largest of theirs (measured, `tests/laws_lsf.rs`; not proven). So a look at the models of a texture covers every
 //! query.
 
@@ -36,14 +35,14 @@ const EVEN: [f32; POINTS] = [
 
 /// The range of |A(e^jω)|².
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Range {
+pub(crate) struct MagnitudeRange {
     /// The least at the line spectral frequencies, 0 and π; 0 where it is too small for f32.
     least_squared: f32,
     /// The largest there and at 16 frequencies in between.
     most_squared: f32,
 }
 
-impl Range {
+impl MagnitudeRange {
     /// Of the A(z) of these line spectral frequencies, as −2 cos ω in the order of
     /// [`place`](super::lsf_to_ar::place).
     pub(crate) fn of(lines: &[f32]) -> Self {
@@ -55,18 +54,24 @@ impl Range {
         };
         let sum = Zeros::new(lines, of_sum);
         let difference = Zeros::new(lines.get(1..).unwrap_or_default(), of_difference);
+        let (mut least, mut most) = (f32::INFINITY, 0.0);
         // Where one polynomial is 0, |A| is half of the other.
-        let [a, b] = [sum.squares(&difference.all), difference.squares(&sum.all)];
-        let (q, p) = (sum.squares(&EVEN), difference.squares(&EVEN));
-        let (mut least, mut most) = (a, a);
-        let squares = b.iter().zip(q.iter().zip(p));
-        for ((least, most), (b, (q, p))) in least.iter_mut().zip(&mut most).zip(squares) {
-            *least = math::min(*least, *b);
-            *most = math::max(math::max(*most, *b), q + p);
+        for (polynomial, other) in [(&sum, &difference), (&difference, &sum)] {
+            for squared in polynomial.squares(&other.all) {
+                least = math::min(least, squared);
+                most = math::max(most, squared);
+            }
+        }
+        for (q, p) in sum
+            .squares(&EVEN)
+            .into_iter()
+            .zip(difference.squares(&EVEN))
+        {
+            most = math::max(most, q + p);
         }
         Self {
-            least_squared: least.into_iter().fold(f32::INFINITY, math::min),
-            most_squared: most.into_iter().fold(0.0, math::max),
+            least_squared: least,
+            most_squared: most,
         }
     }
 
