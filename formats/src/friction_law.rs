@@ -118,8 +118,12 @@ mod tests {
             assert!((f64::from(point.speed_mm_s()) - speed).abs() <= 0.5 / 16.0);
             assert!((f64::from(point.factor()) - factor).abs() <= 0.5 / 8192.0);
         }
+        let largest = LawPoint::nearest(4_095.968_749, 7.999_938).unwrap();
+        assert_eq!((largest.speed_code, largest.factor_code), (65535, 65535));
         for (speed, factor) in [
             (-0.01, 1.0),
+            // Half a step above the largest, to the bit.
+            (4_095.968_75, 1.0),
             (4096.0, 1.0),
             (f64::NAN, 1.0),
             (f64::INFINITY, 1.0),

@@ -87,6 +87,13 @@ mod tests {
             .read_to_string(&mut text)
             .expect("short lines");
         assert_eq!(text.len(), many.len());
+        // The longest line, after an end, read in two parts.
+        for (length, fits) in [(MAX_LINE, true), (MAX_LINE + 1, false)] {
+            let text = format!("1\n{}", "x".repeat(length));
+            let read =
+                Lines::new(text.as_bytes()).read_to_end(&mut Vec::with_capacity(4 * MAX_LINE));
+            assert_eq!(read.is_ok(), fits, "{length}");
+        }
         let error = Lines::new(io::repeat(0))
             .read_to_end(&mut Vec::new())
             .expect_err("endless");

@@ -4,10 +4,10 @@ use crate::support::{Act, Kept, Scripted, length, texture};
 use asperity_formats::Library;
 use asperity_host::device::DeviceError;
 use asperity_host::servo::{
-    End, Event, InScene, Overrun, Played, Render as _, Report, ServoLoop, Settings, SettingsError,
-    SingleTexture, Stage, Virtual, queues,
+    End, Event, InScene, Observer as _, Overrun, Played, Render as _, Report, ServoLoop, Settings,
+    SettingsError, SingleTexture, Stage, Virtual, queues,
 };
-use asperity_runtime::{Exchange, Flags, HostScene, HostTexture, SceneState, State};
+use asperity_runtime::{Exchange, Flags, HostScene, HostTexture, Sample, SceneState, State};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -280,6 +280,28 @@ fn a_loop_has_the_configuration_of_its_renderer() {
 }
 
 #[test]
+fn every_exchange_is_counted_once() {
+    let (mut playing, renderer) = texture(1000.0);
+    let [mut a, mut b] = [(); 2].map(|()| Box::new(HostTexture::new()));
+    let mut exchange = Exchange::new();
+    let (mut preparer, player) = exchange.split(&mut playing, [&mut a, &mut b], 1);
+    let mut played = Played::new(&renderer, player);
+    let asset = include_bytes!("../../tests/data/builtin-v1.asp");
+    let asset = asperity_formats::Asset::parse(asset).unwrap();
+    let mut counted = Vec::new();
+    for tick in 0..900 {
+        if tick % 300 == 150 {
+            preparer.prepare(&asset, 1000.0).unwrap();
+        }
+        played.tick(&Sample::at([0.0, 0.0, 1e-2]));
+        if tick % 300 == 299 {
+            counted.push(played.exchanges());
+        }
+    }
+    assert_eq!(counted, [1, 2, 3]);
+}
+
+#[test]
 fn a_device_that_says_nothing_new_is_silent_after_three_ticks() {
     let read = |call| Act {
         old: (300..320).contains(&call),
@@ -372,6 +394,23 @@ fn a_slow_reader_loses_records_and_never_a_tick() {
     assert_eq!(kept, (0..8).collect::<Vec<_>>());
     assert_eq!(inlet.lost(), report.ticks - 8);
     assert!(inlet.is_over());
+}
+
+#[test]
+fn a_slow_reader_loses_the_latest_events_and_they_are_counted() {
+    let back = |period| Event::Back {
+        period,
+        faulty_ticks: 1,
+    };
+    let (mut outlet, mut inlet) = queues(1);
+    assert_eq!((inlet.event(), inlet.lost()), (None, 0));
+    for period in 0..1000 {
+        outlet.event(back(period));
+    }
+    let kept: Vec<Event> = std::iter::from_fn(|| inlet.event()).collect();
+    assert!((1..1000).contains(&kept.len()));
+    assert_eq!(kept, (0..kept.len() as u64).map(back).collect::<Vec<_>>());
+    assert_eq!(inlet.lost(), 1000 - kept.len() as u64);
 }
 
 #[test]

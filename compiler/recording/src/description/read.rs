@@ -291,6 +291,10 @@ range = [-16, 16]
         );
         assert!(fault(&GOOD.replace("accel.csv", "../x.csv")).contains("inside the folder"));
         assert!(fault("name = \"x\"").contains("[[file]]"));
+        let named = |length: usize| format!("name = \"{}\"", "n".repeat(length));
+        let line = GOOD.lines().find(|line| line.starts_with("name")).unwrap();
+        assert!(parse(&GOOD.replace(line, &named(64)), Path::new("x")).is_ok());
+        assert!(fault(&GOOD.replace(line, &named(65))).contains("1 to 64 bytes"));
         assert!(fault(&GOOD.replace("0.05", "-1")).contains("recording.toml:4: mass_kg"));
     }
 }

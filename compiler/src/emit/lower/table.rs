@@ -124,3 +124,38 @@ fn quantisation_error_db(
     }
     band.distance_db(&exact, &rounded)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_is_measured_between_neighbours_and_at_both_ends() {
+        let step = std::f64::consts::PI / 65536.0;
+        let codes = |codes: &[u32]| -> Vec<LsfCode> {
+            let lsf_rad = codes.iter().map(|&code| f64::from(code) * step);
+            lsf_rad.map(|x| LsfCode::from_rad(x).unwrap()).collect()
+        };
+        let least = u32::from(limits::MIN_LSF_GAP_CODES);
+        let top = 65536 - least;
+        assert!(check_gap(0, &codes(&[least, 2 * least, top])).is_ok());
+        for (fault, gap) in [
+            ([least - 1, 20_000, top], least - 1),
+            ([20_000, 20_000 + least - 2, top], least - 2),
+            ([least, 20_000, top + 1], least - 1),
+        ] {
+            let error = check_gap(7, &codes(&fault)).unwrap_err();
+            let LowerError::Gap {
+                vertex,
+                gap_rad,
+                least_rad,
+            } = error
+            else {
+                panic!("{error}");
+            };
+            assert_eq!(vertex, 7);
+            assert!((gap_rad - f64::from(gap) * step).abs() < 1e-12, "{gap_rad}");
+            assert!((least_rad - f64::from(least) * step).abs() < 1e-12);
+        }
+    }
+}

@@ -1,4 +1,25 @@
 //! The gate before an asset is written: the runtime itself renders it over its whole domain.
+//!
+//! Weights must be convex, filters stable, spectra close to those of the model, and a scripted run of taps, strokes,
+//! lost and absurd samples must stay within the limits of force.
+//!
+//! ```
+//! use asperity::{
+//!     builtin,
+//!     lower::lower,
+//!     verify::{VerifyError, verify},
+//! };
+//!
+//! let texture = builtin::texture();
+//! let bytes = lower(&texture, None).expect("a texture that fits an asset").bytes;
+//! assert!(verify(&texture, &bytes).is_ok());
+//!
+//! // An asset that sounds unlike its model is refused.
+//! let mut louder = texture.clone();
+//! louder.grid.vertices[3].sigma_m_s2 *= 1.2;
+//! let bytes = lower(&louder, None).expect("a texture that fits an asset").bytes;
+//! assert!(matches!(verify(&texture, &bytes), Err(VerifyError::Spectrum { vertex: 3, .. })));
+//! ```
 
 mod error;
 mod queries;
@@ -154,6 +175,20 @@ mod tests {
         assert!(report.max_db < 0.1, "{report:?}");
         assert!(report.queries > 2000 && report.ticks > 1000);
         assert!(report.peak_force_n > 1.0);
+    }
+
+    #[test]
+    fn the_script_presses_eight_times_down_to_eight_millimetres() {
+        let depths_m: Vec<f32> = script(1000.0)
+            .iter()
+            .skip(100)
+            .take(1000)
+            .map(|sample| -sample.position_m[2])
+            .collect();
+        let deepest_m = depths_m.iter().copied().fold(0.0, f32::max);
+        assert!((0.007_9..=0.008).contains(&deepest_m), "{deepest_m}");
+        let pressed = |pair: &[f32]| pair[0] < 0.004 && pair[1] >= 0.004;
+        assert_eq!(depths_m.windows(2).filter(|pair| pressed(pair)).count(), 8);
     }
 
     #[test]

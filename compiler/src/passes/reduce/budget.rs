@@ -253,3 +253,32 @@ impl Band {
         inverse
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_where_one_grid_alone_sounds_has_no_distance_and_is_counted() {
+        let all = Distances(vec![0.25, f64::INFINITY, 0.5, f64::INFINITY]);
+        let (sounding, others) = all.clone().sounding();
+        assert_eq!((sounding, others), (Some(Distances(vec![0.25, 0.5])), 2));
+        assert_eq!(all.summary().1, f64::INFINITY);
+        let silent = Distances(vec![f64::INFINITY; 3]);
+        assert_eq!(silent.sounding(), (None, 3));
+    }
+
+    #[test]
+    fn one_place_in_twenty_may_lie_beyond_the_first_budget_and_none_beyond_the_second() {
+        let (most, worst) = (BUDGET_DB.0 - ROOM_DB, BUDGET_DB.1 - ROOM_DB);
+        let with = |places: usize, beyond: usize, db: f64| {
+            let mut all = vec![most; places - beyond];
+            all.extend(vec![db; beyond]);
+            Distances(all).are_within_budget()
+        };
+        assert!(with(40, 2, worst) && !with(40, 3, worst));
+        assert!(with(39, 1, worst) && !with(39, 2, worst));
+        assert!(!with(40, 1, worst + 1e-9) && !with(40, 1, f64::INFINITY));
+        assert!(with(40, 0, 0.0) && with(1, 0, 0.0));
+    }
+}

@@ -163,6 +163,17 @@ mod tests {
     }
 
     #[test]
+    fn a_lower_order_has_no_numerator_of_its_own() {
+        let mut full = builtin::texture().grid;
+        full.numerator = Numerator::Lsf;
+        for vertex in &mut full.vertices {
+            vertex.ma_lsf_rad = Some(vertex.lsf_rad.clone());
+        }
+        let reduced = Fits::new(&full, Numerator::Nyquist).unwrap().at(4).unwrap();
+        assert!(reduced.vertices.iter().all(|v| v.ma_lsf_rad.is_none()));
+    }
+
+    #[test]
     fn a_lower_order_keeps_the_level_of_every_vertex() {
         let full = builtin::texture().grid;
         for numerator in [Numerator::Nyquist, Numerator::None] {

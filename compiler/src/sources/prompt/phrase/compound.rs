@@ -47,3 +47,34 @@ pub(super) fn part(words: &[String]) -> Option<Phrase> {
         part,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_material_stands_before_its_thing_or_behind_it() {
+        let read = |text: &str| {
+            let words: Vec<String> = text.split(' ').map(str::to_owned).collect();
+            made(&words)
+        };
+        let mat = Phrase::Made {
+            material: "bamboo".into(),
+            object: "mat".into(),
+        };
+        for text in [
+            "bamboo mat",
+            "a bamboo mat",
+            "the mat of bamboo",
+            "mat from bamboo",
+            "a mat made of bamboo",
+            "mat made from bamboo",
+        ] {
+            assert_eq!(read(text).as_ref(), Some(&mat), "{text}");
+        }
+        // A relief is felt whatever it is made of; a thing is no material.
+        for text in ["steel mesh", "mat bamboo", "bamboo", "mat on bamboo"] {
+            assert_eq!(read(text), None, "{text}");
+        }
+    }
+}

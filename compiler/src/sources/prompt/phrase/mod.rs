@@ -3,9 +3,18 @@
 //!
 //! A text vector knows that rough silk is about silk, and hardly that it is rougher than silk.
 //! So a prompt is divided: its base is what remains without the words that change it ("silk"),
-//! and each change says where roughness, slipperiness or hardness goes, and how far. A
+//! and each change says in which direction roughness, slipperiness or hardness moves, and how far. A
 //! [`Shift`](asperity_texture::model::shift::Shift) moves the texture there. English only; whatever is not
-//! recognised stays with the text vector.
+//! recognised is left to the text vector.
+//!
+//! ```
+//! use asperity::prompt::phrase::{Phrase, parse};
+//!
+//! let words = ["very", "rough", "sandpaper"].map(String::from);
+//! let Phrase::Changed { base, changes } = parse(&words) else { panic!("a material with a change") };
+//! assert_eq!(base, "sandpaper");
+//! assert!(changes.rough.is_some_and(|change| change.least > 0.0) && changes.hard.is_none());
+//! ```
 
 mod changed;
 mod compound;

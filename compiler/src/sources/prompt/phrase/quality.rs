@@ -307,7 +307,24 @@ fn strength(change: Change) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::is_lasting;
+    use super::{PLAIN, Use, is_lasting, turned};
+
+    /// "the friction up": as far as a plain comparative, in an edit alone.
+    #[test]
+    fn a_direction_behind_a_noun_turns_it() {
+        let range = |second: &str, about: Use| {
+            let words = ["friction", second].map(str::to_owned);
+            turned(&words, 0, about).map(|found| found.range)
+        };
+        for up in ["up", "higher", "more"] {
+            assert_eq!(range(up, Use::Edit), Some(PLAIN), "{up}");
+            assert_eq!(range(up, Use::Thing), None, "{up}");
+        }
+        for down in ["down", "lower", "less"] {
+            assert_eq!(range(down, Use::Edit), Some((-PLAIN.1, -PLAIN.0)), "{down}");
+        }
+        assert_eq!(range("sideways", Use::Edit), None);
+    }
 
     /// Adjectives, their comparatives, and nouns of qualities; not states, into which something came.
     #[test]

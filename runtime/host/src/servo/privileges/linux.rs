@@ -123,3 +123,42 @@ fn schedule(wanted: &Wanted, rate_hz: u32) -> Result<(), Refusal> {
         remedy: remedy(&error),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Real-time priority and policy of the calling thread, as the kernel states them: fields 40 and 41 of
+    /// proc_pid_stat(5).
+    fn scheduled() -> [u32; 2] {
+        let text = std::fs::read_to_string("/proc/thread-self/stat").unwrap();
+        // The name, which may hold spaces, ends with the last parenthesis; the third field follows.
+        let fields: Vec<&str> = text[text.rfind(')').unwrap() + 1..]
+            .split_ascii_whitespace()
+            .collect();
+        [40, 41].map(|field| fields[field - 3].parse().unwrap())
+    }
+
+    #[test]
+    fn a_policy_that_is_granted_is_the_one_that_the_kernel_states() {
+        // No kernel has a priority of 100.
+        for priority in [1, 100] {
+            let wanted = Wanted {
+                policy: Policy::Fifo { priority },
+                ..Wanted::NOTHING
+            };
+            let asked = std::thread::spawn(move || {
+                let before = scheduled();
+                let mut grants = Vec::new();
+                acquire(&wanted, 1000, &mut grants, &mut Vec::new());
+                let policy = grants.into_iter().find(|grant| grant.what == "policy");
+                (policy.unwrap().refusal.is_none(), before, scheduled())
+            });
+            let (granted, before, after) = asked.join().unwrap();
+            assert_eq!(before, [0, 0]);
+            assert!(!granted || priority == 1);
+            let fifo = [1, libc::SCHED_FIFO.cast_unsigned()];
+            assert_eq!(after, if granted { fifo } else { before });
+        }
+    }
+}
