@@ -1,7 +1,8 @@
 //! A change of the texture in the middle of a stroke.
 
-use asperity::lsf;
-use asperity_runtime::{Config, Renderer, Sample, State, stage::excitation::Excitation};
+use asperity::{lower::lower, lsf};
+use asperity_formats::Asset;
+use asperity_runtime::{Config, Exchange, Renderer, Sample, State, stage::excitation::Excitation};
 
 use super::error::StabilityError;
 use super::filters::resonant;
@@ -29,6 +30,19 @@ fn textures() -> Result<[Material; 2], StabilityError> {
     Ok([texture(60.0, 2.0)?, texture(400.0, 0.25)?])
 }
 
+/// Two textures that hardly vibrate, of walls of 500 and 250 N/m, 2 mm deep, and μ of 0.7 and 0.2.
+fn walls() -> Result<[Material; 2], StabilityError> {
+    let like = asperity::builtin::texture();
+    let texture = |stiffness_n_m: f64, mu: f64| {
+        let mut vertex = like.grid.vertices[0].clone();
+        vertex.sigma_m_s2 = 1e-6;
+        let mut like = like.clone();
+        (like.wall.stiffness_n_m, like.friction.mu) = (stiffness_n_m, mu);
+        Material::constant(&like, &vertex)
+    };
+    Ok([texture(500.0, 0.7)?, texture(250.0, 0.2)?])
+}
+
 fn impulse_response(monic: &[f64]) -> impl Iterator<Item = f64> {
     let mut filter = AllPole::default();
     (0..4000).map(move |n| filter.step(monic, if n == 0 { 1.0 } else { 0.0 }))
@@ -51,27 +65,62 @@ fn rise_db(signal: &[f64]) -> f64 {
     20.0 * (after / elsewhere).log10()
 }
 
-/// The vibration of a stroke at 100 mm/s and 1 N over textures that take turns, and the largest
-/// step of the force, N.
-fn ours(textures: &[Material; 2], seed: u64) -> (Vec<f64>, f64) {
+/// A sample of a stroke at 100 mm/s, 2 mm deep: 1 N on a wall of 500 N/m.
+fn stroke(tick: usize) -> Sample {
+    Sample::at([1e-4 * tick as f32, 0.0, -2e-3])
+}
+
+/// The vibration of the stroke over textures that take turns.
+fn ours(textures: &[Material; 2], seed: u64) -> Vec<f64> {
     let renderer = Renderer::new(&Config::default()).expect("the default");
     let mut state = State::new(seed);
-    let (mut last, mut step_n) = ([0.0; 3], 0.0_f64);
-    let vibration = (0..PERIOD * CHANGES)
+    (0..PERIOD * CHANGES)
         .map(|n| {
             let texture = &textures[n / PERIOD % 2].slot;
-            let sample = Sample::at([1e-4 * n as f32, 0.0, -2e-3]);
-            let output = renderer.tick(texture, &mut state, &sample);
-            let force = output.force_n.map(f64::from);
-            let change: f64 = (0..3).map(|i| (force[i] - last[i]).powi(2)).sum();
-            if n > PERIOD / 2 {
-                step_n = step_n.max(change.sqrt());
-            }
-            last = force;
+            let output = renderer.tick(texture, &mut state, &stroke(n));
             f64::from(output.vib_m_s2)
         })
-        .collect();
-    (vibration, step_n)
+        .collect()
+}
+
+/// Distance of two forces, N.
+fn step_n([from, to]: [[f32; 3]; 2]) -> f64 {
+    let squares = (0..3).map(|i| (f64::from(to[i]) - f64::from(from[i])).powi(2));
+    squares.sum::<f64>().sqrt()
+}
+
+/// The largest step of the force in the stroke, N, over textures that are exchanged in turn.
+fn largest_step_n(textures: [Material; 2], seed: u64) -> Result<f64, StabilityError> {
+    let [first, second] = textures.each_ref().map(|m| lower(&m.model, None));
+    let bytes = [first?.bytes, second?.bytes];
+    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let [mut playing, mut spare] = textures.map(|material| material.slot);
+    let mut exchange = Exchange::new();
+    let (mut preparer, mut player) = exchange.split(&mut playing, [&mut spare], seed);
+    let (mut last, mut largest) = ([0.0; 3], 0.0_f64);
+    for n in 0..PERIOD * CHANGES {
+        if n > 0 && n % PERIOD == 0 {
+            let asset = Asset::parse(&bytes[n / PERIOD % 2]).expect("the compiler's own bytes");
+            let prepared = preparer.prepare(&asset, 1000.0);
+            prepared.expect("the spare slot is back");
+        }
+        let force_n = renderer.tick_player(&mut player, &stroke(n)).force_n;
+        if n > PERIOD / 2 {
+            largest = largest.max(step_n([last, force_n]));
+        }
+        last = force_n;
+    }
+    Ok(largest)
+}
+
+/// Step of the force, N, where wall and friction change at once.
+fn step_at_once_n(textures: &[Material; 2], seed: u64) -> f64 {
+    let renderer = Renderer::new(&Config::default()).expect("the default");
+    step_n(textures.each_ref().map(|material| {
+        let mut state = State::new(seed);
+        let mut tick = |n| renderer.tick(&material.slot, &mut state, &stroke(n));
+        (0..PERIOD).map(&mut tick).last().expect("a tick").force_n
+    }))
 }
 
 /// The same vibration by a transposed direct form II. Its state holds products with the old
@@ -133,7 +182,7 @@ const FORCE: Words = Words {
     theme: "change",
     quantity: "largest step of the force in a tick (N)",
     fails: "stiffness and μ that change at once step the force by Δk·δ",
-    instead: "the total is slew-limited to 2 N a tick",
+    instead: "in an exchange, wall, gains and friction go to the new texture as a one-pole",
 };
 
 /// The rows.
@@ -141,13 +190,13 @@ const FORCE: Words = Words {
 /// # Errors
 /// None for these textures.
 pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
-    let textures = textures()?;
-    let (vibration, step_n) = ours(&textures, seed);
-    let scenario =
-        format!("two textures take turns every {PERIOD} ms of a stroke, {CHANGES} times");
+    let (textures, walls) = (textures()?, walls()?);
+    let vibration = ours(&textures, seed);
+    let at_once_n = step_at_once_n(&walls, seed);
+    let every = format!("take turns every {PERIOD} ms of a stroke, {CHANGES} times");
     Ok(vec![
         CHANGE.row(
-            scenario.clone(),
+            format!("two textures {every}"),
             rise_db(&vibration),
             0.0,
             &[
@@ -155,6 +204,11 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
                 ("a_k faded in 20 ms", rise_db(&faded(&textures, seed))),
             ],
         ),
-        FORCE.row(scenario, step_n, 0.5, &[]),
+        FORCE.row(
+            format!("walls of 500 and 250 N/m, μ 0.7 and 0.2, {every}"),
+            largest_step_n(walls, seed)?,
+            0.2,
+            &[("at once", at_once_n)],
+        ),
     ])
 }
