@@ -3,6 +3,22 @@
 //! The [driver](crate::driver) takes a texture through all of them. Each is a method, so that a
 //! search over fidelities, as for a [scene](crate::scene), runs the same passes in another order.
 //! Every pass is named and timed.
+//!
+//! ```
+//! use asperity::{
+//!     builtin,
+//!     pipeline::{Pass, Pipeline},
+//!     reduce::Fidelity,
+//! };
+//!
+//! let mut pipeline = Pipeline::default();
+//! let reduced = pipeline.reduce(&builtin::texture(), Fidelity::Auto).texture;
+//! let lowered = pipeline.lower(&reduced, None)?;
+//! pipeline.verify(&reduced, &lowered.bytes)?;
+//! let passes: Vec<Pass> = pipeline.timings().iter().map(|(pass, _)| pass).collect();
+//! assert_eq!(passes, [Pass::Reduce, Pass::Lower, Pass::Verify]);
+//! # Ok::<(), asperity::pipeline::PipelineError>(())
+//! ```
 
 mod error;
 mod timings;

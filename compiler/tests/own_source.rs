@@ -209,10 +209,14 @@ fn its_faults_are_told_like_those_of_every_source() {
         "{period}"
     );
     let seed = one("grating = \"2\"\nseed = 1");
-    assert!(seed.contains("seed: it does not go with grating"), "{seed}");
+    assert!(
+        seed.contains("seed: cannot be combined with grating"),
+        "{seed}"
+    );
     let nothing = one("fidelity = \"full\"");
     assert!(
-        nothing.contains("asset, grating, of, blend and compose is wanted"),
+        nothing.contains("no source; a texture has one of")
+            && nothing.contains("asset, grating, of, blend and compose"),
         "{nothing}"
     );
 }

@@ -244,19 +244,19 @@ fn errors_name_the_file_the_field_and_the_remedy() {
         (
             "asset = \"hard.asp\"",
             "",
-            "scene.toml:2: nothing that it is made of",
-            "leave one",
+            "scene.toml:2: no source",
+            "exactly one source",
         ),
         (
             "asset = \"hard.asp\"",
             "asset = \"hard.asp\"\nprompt = \"cork\"",
             "scene.toml:5: asset and prompt",
-            "leave one",
+            "exactly one source",
         ),
         (
             "asset = \"hard.asp\"",
             "asset = \"hard.asp\"\nseed = 1",
-            "scene.toml:5: seed: it does not go with asset",
+            "scene.toml:5: seed: cannot be combined with asset",
             "remove",
         ),
         (

@@ -6,14 +6,28 @@
 //! meaning, in that order and in time linear in the size, and returns a view that
 //! borrows the bytes. Whatever reads through the view afterwards cannot fail.
 //!
-//! `SPEC.md` beside this crate specifies every byte.
-//!
 //! ```
 //! use asperity_formats::{Asset, FormatError};
 //!
+//! # let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/law-v2.asp"));
+//! let asset = Asset::parse(bytes)?;
+//! assert_eq!(asset.name(), "Cork, waxed");
+//! assert!(asset.grid().vertices().all(|vertex| vertex.sigma_m_s2 >= 0.0));
+//!
+//! // A single damaged bit is found.
+//! let mut damaged = *bytes;
+//! damaged[bytes.len() - 1] ^= 1;
+//! assert!(matches!(Asset::parse(&damaged), Err(FormatError::Checksum { .. })));
 //! let error = Asset::parse(b"RIFF....").unwrap_err();
 //! assert!(matches!(error, FormatError::TooShort { .. }));
+//! # Ok::<(), FormatError>(())
 //! ```
+//!
+//! # What to read first
+//!
+//! [`Asset`], then the views that it gives: [`Grid`], [`Taps`], [`Friction`], [`Coupling`]. [`encode()`] writes an
+//! asset from [`AssetParts`]. [`Library`] finds one texture among many, [`Scene`] places them on solids, and
+//! [`limits`] states what readers have to make room for. `SPEC.md` beside this crate specifies every byte.
 #![no_std]
 #![forbid(unsafe_code)]
 

@@ -203,7 +203,7 @@ fn a_vendor_library_is_probed_and_what_is_wrong_with_one_is_told() {
     let said = text(&output.stdout);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(
-        said.contains("no force was commanded") && said.contains("unconfirmed"),
+        said.contains("only zero force was commanded") && said.contains("unconfirmed"),
         "{said}"
     );
     // The list finds it by the variable.

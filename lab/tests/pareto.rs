@@ -134,7 +134,7 @@ fn tables_do_not_replace_the_counts_they_are_made_of() {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{error}");
     assert!(
-        error.contains("summary.csv: it is also an input"),
+        error.contains("summary.csv: the output is also an input"),
         "{error}"
     );
     let entries = fs::read_dir(&charts).expect("the folder").count();

@@ -162,9 +162,9 @@ fn a_changed_file_is_felt_anew_and_a_broken_one_is_not() {
         assert!(line.is_some(), "{words}");
     };
     replace(b"no texture");
-    until("the old one stays");
+    until("the previous version stays in use");
     replace(&lower(1.0));
-    until("loaded anew");
+    until("reloaded");
     interrupt(&child);
     let output = child.wait_with_output().expect("it ends");
     let told = json(&String::from_utf8(output.stdout).expect("text"));

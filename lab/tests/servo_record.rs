@@ -97,7 +97,7 @@ fn a_recorded_session_is_played_to_the_same_bits() {
     assert!(errors(&another_seed).contains("seed 77"));
     assert!(number(&told["replay"]["different"]) > 0, "another seed");
     let said = errors(&another_texture);
-    assert!(said.contains("is another one"), "{said}");
+    assert!(said.contains("is a different one"), "{said}");
 }
 
 /// A library with a scene: the built-in texture on a board, whose top is at this height.
@@ -151,7 +151,7 @@ fn a_recorded_scene_is_played_to_the_same_bits_and_another_one_is_told() {
         let (different, said) = told(&other);
         assert!(
             said.contains("the recording is of a scene of 1 surfaces (CRC-32 ")
-                && said.contains("is another one"),
+                && said.contains("is a different one"),
             "{said}"
         );
         assert!(different > 0, "the warning is for a reason: {said}");

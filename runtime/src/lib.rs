@@ -8,23 +8,6 @@
 //! Time is an argument: a simulator, a servo loop and a replay drive the same
 //! function. One call is one servo period.
 //!
-//! Every stage is written once over a [`RenderArithmetic`]: [`Float`], the default, or [`Fixed`]
-//! for processors without an FPU.
-//!
-//! | folder or file | what it holds |
-//! |---|---|
-//! | [`quantity`] | numbers with a unit; which product gives which unit |
-//! | [`arithmetic`] | floats, or fixed point with a binary point for each unit |
-//! | `model` | the paper's parameters at a speed and a force: edge models, barycentric weights, mixture, LSF → AR |
-//! | `update` | the same, cut into slices over ticks |
-//! | [`stage`] | gate, contact, velocity, wall, friction, tap, vibration (excitation, recursion, upsampling), limiter |
-//! | [`tick`] | the sum of the stages: the paper's force equation |
-//! | `texture` | the slot: an asset prepared for the tick |
-//! | [`scene`] | which of several surfaces is touched |
-//! | [`exchange`] | another texture while the servo loop runs |
-//!
-//! `docs/reading.md` follows a sample through these files.
-//!
 //! ```
 //! use asperity_formats::Asset;
 //! use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, State};
@@ -53,6 +36,29 @@
 //! assert_eq!(output.force_n, [0.0; 3]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # What to read first
+//!
+//! [`tick`], which sums the forces of the stages, then [`stage`], a file for each of them. `docs/reading.md` in the
+//! repository follows a sample through these files. To use the crate: [`Config`], [`HostTexture`] or a [`Texture`] with
+//! capacities of your own, [`Renderer`], [`State`]; [`Exchange`] and [`Scene`] for more than one texture.
+//!
+//! # Where everything is
+//!
+//! Every stage is written once over a [`RenderArithmetic`]: [`Float`], the default, or [`Fixed`]
+//! for processors without an FPU.
+//!
+//! | folder or file | what it holds |
+//! |---|---|
+//! | [`quantity`] | numbers with a unit; which product gives which unit |
+//! | [`arithmetic`] | floats, or fixed point with a binary point for each unit |
+//! | `model` | the paper's parameters at a speed and a force: edge models, barycentric weights, mixture, LSF → AR |
+//! | `update` | the same, cut into slices over ticks |
+//! | [`stage`] | gate, contact, velocity, wall, friction, tap, vibration (excitation, recursion, upsampling), limiter |
+//! | [`tick`] | the sum of the stages: the paper's force equation |
+//! | `texture` | the slot: an asset prepared for the tick |
+//! | [`scene`] | which of several surfaces is touched |
+//! | [`exchange`] | another texture while the servo loop runs |
 //!
 //! What must stay absent: allocation, a file system, a clock, platform maths, any
 //! dependency on a crate above.

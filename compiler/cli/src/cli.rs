@@ -20,7 +20,7 @@ use std::path::PathBuf;
 #[command(
     name = "asperity",
     version,
-    about = "Haptic textures: from a prompt or a recording to an asset, and back to the eye",
+    about = "Compile prompts, recordings and models into haptic textures; inspect, edit and export them",
     after_help = "Examples:
   asperity compile \"rough abrasive sheet with gritty particles\" -o sandpaper.asp
   asperity builtin -o grit.asp
@@ -35,16 +35,16 @@ use std::path::PathBuf;
   asperity export grit.asp --to ahap -o grit.ahap
   asperity build desk.toml -o desk.aspl --target cortex-m4f@16MHz
 
-A file that is written to `-` goes to standard output, and the report then to standard error. An
-output that is also an input, or another output, is refused.
+Give `-` as an output to write it to standard output; the report then goes to standard error. An
+output must not be the same file as an input or as another output.
 
-Exit status: 0 success, 1 failure, 2 wrong usage."
+Exit status: 0 on success, 1 on failure, 2 on wrong usage."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
-    /// Show no progress and no report of what was written; what was asked for, --json and warnings
-    /// are printed all the same
+    /// Print neither progress nor a report of what was written; requested results, --json and
+    /// warnings are still printed
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
 }
@@ -53,34 +53,34 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Compile a prompt into a texture
     Compile(Compile),
-    /// Build a library from a manifest, or pack what a scene touches, within a budget
+    /// Build a library from a manifest, or pack the textures of a scene within a budget
     Build(Build),
-    /// Join libraries, such as the parts that several machines built
+    /// Merge libraries, such as shards that were built on several machines
     Merge(Merge),
     /// List the textures of a library
     List(List),
-    /// Take one texture out of a library
+    /// Extract one texture from a library
     Extract(Extract),
-    /// Give a texture of a library another name
+    /// Rename a texture in a library or an asset
     Rename(Rename),
-    /// Write every texture of a library to a file of its own
+    /// Split a library into one asset per texture, or into several smaller libraries
     Split(Split),
     /// Show what changed between two libraries, or two assets
     Diff(Diff),
-    /// Make a texture between two others
+    /// Interpolate between two textures
     Blend(Blend),
-    /// Make a texture that taps like one, slides like another and is as slippery as a third
+    /// Combine the taps of one texture, the vibration of another and the friction of a third
     Compose(Compose),
     /// Make a texture rougher, sharper, harder or more slippery
     Edit(Edit),
-    /// Compile the latent of a recording into a texture, so that it can be mixed and edited
+    /// Encode a recorded texture with the learned model, so that it can be blended and edited
     Encode(Encode),
-    /// Write a texture or a library in another tool's format, and say what that loses
+    /// Export a texture or a library to another tool's format, and report what is lost
     Export(Export),
-    /// Import recorded textures, other tools' effects, and models of one's own
+    /// Import recordings, HaTT materials, effects of other tools, and your own models
     #[command(subcommand)]
     Import(Import),
-    /// Check a recording: a verdict for each channel, and what to do about it
+    /// Check a recording: one verdict per channel, and a remedy for every problem
     RecordCheck(RecordCheck),
     /// Write the built-in synthetic texture
     Builtin(Builtin),
@@ -88,21 +88,22 @@ pub(crate) enum Command {
     Inspect(Inspect),
     /// Draw a texture on one sheet: poles, spectra, taps, grid, friction
     Plot(Plot),
-    /// Show what a texture looks like: its picture, height map and normal map
+    /// Write the preview picture of a texture, and its height and normal maps if requested
     Preview(Preview),
-    /// Hear strokes and taps as the runtime renders them
+    /// Render strokes and taps to a WAV file, so that you can hear them
     Listen(Listen),
-    /// Run a trajectory through the runtime, offline
+    /// Render a trajectory offline, with the runtime itself
     Render(Render),
-    /// Show which encoders, models and back ends were found
+    /// Show which encoders, models and back ends are available, and how to get the others
     Doctor(Doctor),
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The prompt is read by a frozen text encoder, placed among the materials a \
-model was trained on, decoded, reduced, verified by the runtime itself and written. The same \
-prompt, options and version give the same bytes on any machine with the portable back end.
+    after_help = "A frozen text encoder reads the prompt, and a learned model places it among \
+the materials it was trained on and decodes it into a texture. The texture is then reduced, \
+verified with the runtime itself, and written. With the portable back end, the same prompt, \
+options and version give the same bytes on every machine.
 
 Examples:
   asperity compile \"rough abrasive sheet with gritty particles\" -o sandpaper.asp --plot sandpaper.png
@@ -113,18 +114,18 @@ Examples:
 )]
 #[command(mut_arg("no_preview", |no_preview| no_preview.conflicts_with("diffusion")))]
 pub(crate) struct Compile {
-    /// What the surface feels like, looks like, is made of or is for
+    /// Description of the surface: what it feels or looks like, is made of, or is used for
     pub(crate) prompt: String,
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// 0 for the texture that the prompt means, others for variations of it
+    /// Seed: 0 gives the texture that the prompt describes, other values give variations of it
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
-    /// How much of the texture is kept: all, the least within 0.5 dB, or an AR order
+    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
-    /// Rate of the AR models, Hz: that of the servo loop
+    /// Sample rate of the AR models, Hz; use the rate of your servo loop
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
     #[command(flatten)]
@@ -136,13 +137,13 @@ pub(crate) struct Compile {
     /// Draw the texture on one sheet, as `asperity plot` does
     #[arg(long, value_name = "FILE.png")]
     pub(crate) plot: Option<PathBuf>,
-    /// Write the texture before its reduction as JSON, for `asperity import model`
+    /// Also write the unreduced texture as JSON, which `asperity import model` reads
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
-    /// Explain what every word was taken for, and which words moved which attribute
+    /// Explain how each word was read, and how far it moved each attribute
     #[arg(long)]
     pub(crate) explain: bool,
-    /// Report attributes in their units, gains, and what the passes did as well
+    /// Also report attributes in physical units, gains, and what each pass did
     #[arg(long)]
     pub(crate) details: bool,
     #[command(flatten)]
@@ -153,7 +154,11 @@ fn pixels(text: &str) -> Result<u32, String> {
     let sizes = preview::SIZES;
     match text.parse() {
         Ok(pixels) if sizes.contains(&pixels) => Ok(pixels),
-        _ => Err(format!("{} to {} pixels", sizes.start(), sizes.end())),
+        _ => Err(format!(
+            "must be {} to {} pixels",
+            sizes.start(),
+            sizes.end()
+        )),
     }
 }
 
@@ -161,20 +166,20 @@ fn pixels(text: &str) -> Result<u32, String> {
 fn within(text: &str, low: f32, high: f32) -> Result<f32, String> {
     match text.parse() {
         Ok(value) if (low..=high).contains(&value) => Ok(value),
-        _ => Err(format!("{low} to {high}")),
+        _ => Err(format!("must be a number from {low} to {high}")),
     }
 }
 
 /// Where networks come from and where they run.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct Inference {
-    /// `minilm`, embedded, or `clip:DIR` with an export of CLIP's text tower
+    /// Text encoder: the embedded `minilm`, or `clip:DIR` for an exported text tower of CLIP
     #[arg(long, default_value = "minilm", value_name = "minilm|clip:DIR")]
     pub(crate) text_encoder: TextEncoderChoice,
-    /// A model folder that `asperity-train fit` wrote, instead of the embedded one
+    /// Model folder written by `asperity-train fit` [default: the embedded model]
     #[arg(long, value_name = "DIR")]
     pub(crate) model: Option<PathBuf>,
-    /// `portable`, the same bits everywhere, or `onnxruntime` where it is installed
+    /// Inference back end: `portable`, which gives the same bits everywhere, or `onnxruntime`
     #[arg(long, default_value_t, value_name = "portable|onnxruntime")]
     pub(crate) backend: BackendName,
 }
@@ -193,9 +198,9 @@ pub(crate) struct Doctor {
 pub(crate) enum Import {
     /// Import materials of the Penn Haptic Texture Toolkit
     Hatt(ImportHatt),
-    /// Import a model of one's own, or one that --emit-model wrote
+    /// Import an AR model in JSON: your own, or one that --emit-model wrote
     Model(ImportModel),
-    /// Compile a recording into a texture: acceleration, force and motion of a tool on a surface
+    /// Compile a recording of a tool on a surface: its acceleration, force and motion
     Recording(ImportRecording),
     /// Compile a NiceVibrations `.haptic` file into a texture
     Haptic(ImportEffects),
@@ -209,15 +214,15 @@ pub(crate) enum Import {
 #[command(
     after_help = "A recording is a folder with recording.toml and CSV, WAV or NumPy files; \
 docs/recording.md lists every key. The check aligns the files and looks for clipping, drop-outs, \
-impossible values, clock drift, delays, hum and wrong units. A folder without recording.toml gets \
-a proposal from the files' headers. Exit status 1 if a fault was found.
+impossible values, clock drift, delays, hum and wrong units. If recording.toml is missing, a draft \
+of it is printed, based on the headers of the files. The exit status is 1 if there is a fault.
 
 Examples:
   asperity record-check oak/
   asperity record-check oak/ --json"
 )]
 pub(crate) struct RecordCheck {
-    /// The folder
+    /// Folder of the recording
     pub(crate) folder: PathBuf,
     /// Print JSON
     #[arg(long)]
@@ -228,8 +233,8 @@ pub(crate) struct RecordCheck {
 #[command(
     after_help = "The recording is checked and aligned, cut into segments of steady speed and \
 force, and fitted by AR models on a grid of speed and force; friction and taps are measured. \
-Vertices, order and smoothing are those that predict held-out segments best. What was not recorded \
-is completed by the learned model, and the report says so. docs/recording.md explains every step.
+Vertices, order and smoothing are those that predict held-out segments best. The learned model \
+fills in what was not recorded, as the report then states. docs/recording.md explains every step.
 
 Examples:
   asperity import recording oak/ -o oak.asp
@@ -237,32 +242,32 @@ Examples:
   asperity import recording oak/ -o oak.asp --fidelity full --emit-model oak-model.json"
 )]
 pub(crate) struct ImportRecording {
-    /// The folder
+    /// Folder of the recording
     pub(crate) folder: PathBuf,
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// How much of the models is kept: all, the least within 0.5 dB, or an AR order
+    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
-    /// Rate of the AR models, Hz: that of the servo loop [default: 1000]
+    /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: 1000]
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
-    /// Import in spite of faults that the check found
+    /// Import even if the check found faults
     #[arg(long)]
     pub(crate) force: bool,
-    /// A model folder that `asperity-train fit` wrote, instead of the embedded one
+    /// Model folder written by `asperity-train fit` [default: the embedded model]
     #[arg(long, value_name = "DIR")]
     pub(crate) model: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) preview: PreviewOptions,
-    /// Draw all steps on one sheet
+    /// Plot every step of the import on one sheet
     #[arg(long, value_name = "FILE.png")]
     pub(crate) plot: Option<PathBuf>,
-    /// Write the report of all steps as JSON
+    /// Write the report of every step as JSON
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
-    /// Write the texture before its reduction as JSON, for `asperity import model`
+    /// Also write the unreduced texture as JSON, which `asperity import model` reads
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
     #[command(flatten)]
@@ -271,11 +276,12 @@ pub(crate) struct ImportRecording {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Prints one line of figures a material: the RMS distance of its log \
-spectra from the source over 10–450 Hz, level included, and its size. In full, every vertex \
-and triangle is kept; `auto` keeps the smallest order and numerator, the fewest vertices and \
-the shortest taps within 0.5 dB at 95 % of the grid and 1 dB at worst. HaTT holds no tapping traces: they are synthesised, or decoded by the \
-learned model from the AR grid with --complete-taps, and marked so.
+    after_help = "Prints one line per material: the RMS distance of its log spectra from \
+the source over 10–450 Hz, level included, and its size. `full` keeps every vertex and triangle; \
+`auto` keeps the smallest order and numerator, the fewest vertices and the shortest taps within \
+0.5 dB at 95 % of the grid and 1 dB at worst. HaTT has no recordings of taps, so they are \
+synthesised or, with --complete-taps, decoded by the learned model from the AR grid. Either way \
+the asset marks them as synthetic.
 
 Examples:
   asperity import hatt Models_Cork.xml -o cork.asp
@@ -286,33 +292,33 @@ Examples:
 pub(crate) struct ImportHatt {
     /// One `Models_<name>.xml`, or a folder of them
     pub(crate) input: PathBuf,
-    /// One asset (.asp), a folder for one asset a material, or a library (.aspl); `-` is standard
-    /// output, for an asset of a file or a library of a folder
+    /// One asset (.asp), a folder for one asset per material, or a library (.aspl); `-` is standard
+    /// output: a file is then written as an asset, a folder as a library
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// How much of the source is kept: all, the least within 0.5 dB, or an AR order
+    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "full", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
-    /// Let the learned model decode taps from the AR grid
+    /// Decode taps from the AR grid with the learned model instead of synthesising them
     #[arg(long)]
     pub(crate) complete_taps: bool,
-    /// A model folder that `asperity-train fit` wrote, instead of the embedded one
+    /// Model folder written by `asperity-train fit` [default: the embedded model]
     #[arg(long, value_name = "DIR", requires = "complete_taps")]
     pub(crate) model: Option<PathBuf>,
-    /// Write the texture before its reduction as JSON; takes a single material
+    /// Also write the unreduced texture as JSON; only for a single material
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
-    /// Print on standard error how long each pass took
+    /// Print how long each pass took, on standard error
     #[arg(long)]
     pub(crate) timings: bool,
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The file states AR or ARMA models over speed and force, and may state taps, \
-wall, gains and where they come from; docs/model.md lists every key. It goes the way of every \
-other texture: reduced, verified by the runtime itself and written. Prints the distance of the \
-log spectra from the file over 10–450 Hz, level included, and the size.
+    after_help = "The file gives AR or ARMA models over speed and force, and optionally taps, \
+wall, gains and provenance; docs/model.md lists every key. As with any other source, the texture \
+is reduced, verified with the runtime itself, and written. Prints how far the log spectra are from \
+those of the file over 10–450 Hz, level included, and the size.
 
 Examples:
   asperity import model bench.json -o bench.asp
@@ -326,10 +332,10 @@ pub(crate) struct ImportModel {
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// How much of the model is kept: all, the least within 0.5 dB, or an AR order
+    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "full", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
-    /// Rate of the AR models, Hz: that of the servo loop [default: the file's]
+    /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: the file's]
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
     #[command(flatten)]
@@ -346,19 +352,19 @@ pub(crate) struct Builtin {
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// Write the texture before its reduction as JSON, for `asperity import model`
+    /// Also write the unreduced texture as JSON, which `asperity import model` reads
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
-    /// Print on standard error how long each pass took
+    /// Print how long each pass took, on standard error
     #[arg(long)]
     pub(crate) timings: bool,
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Every checksum is verified, of a library those of all textures. With \
---json, an asset is one object; a library is {format_version, textures: [object, …]} in order \
-of name.
+    after_help = "Verifies every checksum; for a library, those of all its textures. With \
+--json, an asset is one object, and a library is {format_version, textures: [object, …]}, sorted \
+by name.
 
 Examples:
   asperity inspect grit.asp
@@ -372,7 +378,7 @@ pub(crate) struct Inspect {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// One texture of a library, by name or index from 0; the others are not read
+    /// Read only this texture of a library, by name or index from 0
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
 }
@@ -395,10 +401,10 @@ pub(crate) struct Plot {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The trajectory has the header t_s,x_mm,y_mm,z_mm and one row a tick at \
-the texture's rate. The surface is the infinite plane z = 0, contact where z < 0; a library \
-with a scene is rendered on the scene's surfaces, and a last column says which one is touched. \
-The same file, trajectory and seed give the same bytes.
+    after_help = "The trajectory has the header t_s,x_mm,y_mm,z_mm and one row per tick, at \
+--rate. The surface is the infinite plane z = 0, with contact where z < 0. A library with a scene \
+is rendered on the surfaces of the scene, and a last column names the surface in contact. The same \
+file, trajectory and seed give the same bytes.
 
 Examples:
   asperity render grit.asp --trajectory stroke.csv -o felt.csv --seed 1
@@ -408,10 +414,10 @@ Examples:
 pub(crate) struct Render {
     /// An asset (.asp) or a library (.aspl); `-` is standard input
     pub(crate) file: PathBuf,
-    /// The trajectory, CSV
+    /// Trajectory to follow, CSV
     #[arg(long, value_name = "IN.csv")]
     pub(crate) trajectory: PathBuf,
-    /// The result, CSV; `-` is standard output
+    /// Table to write, CSV; `-` is standard output
     #[arg(short, long, value_name = "OUT.csv")]
     pub(crate) output: PathBuf,
     /// Seed of the excitation
@@ -427,15 +433,15 @@ pub(crate) struct Render {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Without an option, the picture that the asset holds is written as it is. With \
---redraw, --size, --height or --normal, or where the asset holds none, pictures are drawn anew in \
-all their colours from what the asset says: prompt or name, seed, nearest materials, and how the \
-texture feels. All of them repeat in both directions. Heights have 16 bits and are linear. Normals \
-are in tangent space with green up, as glTF and OpenGL have them.
+    after_help = "By default, the picture stored in the asset is written unchanged. With --redraw, \
+--size, --height or --normal, or if the asset has no picture, a new one is drawn in full colour \
+from the prompt or name, the seed, the nearest materials and the feel of the texture. All pictures \
+tile in both directions. Height maps are linear, with 16 bits. Normal maps are in tangent space \
+with green up, as in glTF and OpenGL.
 
-With --diffusion, Stable Diffusion makes the picture from the texture's prompt, or else its name, \
-at its own size or at --size. The folder is the user's own; docs/preview.md says how to export it. \
-ONNX Runtime must be installed: `asperity doctor` says how.
+With --diffusion, Stable Diffusion draws the picture from the texture's prompt, or from its name if \
+it has none, at --size or the size of the model. You provide the model folder; docs/preview.md \
+explains how to export it. ONNX Runtime must be installed, and `asperity doctor` explains how.
 
 Examples:
   asperity preview grit.asp -o grit.png
@@ -452,18 +458,18 @@ pub(crate) struct Preview {
     /// Width and height, pixels: 64 to 1024
     #[arg(long, value_name = "PX", value_parser = pixels)]
     pub(crate) size: Option<u32>,
-    /// Draw the picture anew, even if the asset holds one
+    /// Draw a new picture even if the asset has one
     #[arg(long, conflicts_with = "diffusion")]
     pub(crate) redraw: bool,
-    /// Write the heights as well
+    /// Also write a height map
     #[arg(long, value_name = "FILE.png", conflicts_with = "diffusion")]
     pub(crate) height: Option<PathBuf>,
-    /// Write the normals as well
+    /// Also write a normal map
     #[arg(long, value_name = "FILE.png", conflicts_with = "diffusion")]
     pub(crate) normal: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) diffusion: Diffusion,
-    /// What the picture shows, as it is [default: the texture's prompt, as a texture from above]
+    /// Prompt for the picture, used as given [default: the texture's, as a texture seen from above]
     #[arg(long, value_name = "TEXT", requires = "diffusion")]
     pub(crate) prompt: Option<String>,
     /// Seed of the noise [default: the texture's]
@@ -476,11 +482,11 @@ pub(crate) struct Preview {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Six strokes, at two forces and three speeds, and three taps, unless options ask \
-for others. They are the accelerations that the runtime renders at the rate of a servo loop, \
-before device gain, resampled to 44.1 kHz. Strokes share one gain and taps another, each such \
-that the loudest sample is 1 dB below full scale; the report states both. The same file, options \
-and seed give the same bytes.
+    after_help = "By default, the file has six strokes, at two forces and three speeds, and three \
+taps. They are the accelerations that the runtime renders at the servo rate, before device gain, \
+resampled to 44.1 kHz. All strokes share one gain, and all taps another, chosen so that the loudest \
+sample of each is 1 dB below full scale; the report gives both. The same file, options and seed \
+give the same bytes.
 
 Examples:
   asperity listen grit.asp -o grit.wav
@@ -490,7 +496,7 @@ Examples:
 pub(crate) struct Listen {
     /// An asset (.asp) or a library (.aspl); `-` is standard input
     pub(crate) file: PathBuf,
-    /// The sound to write, WAV of 16 bits at 44.1 kHz; `-` is standard output
+    /// The sound to write, a 16-bit WAV at 44.1 kHz; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// One stroke at this speed, mm/s: 1 to 1000 [with --force alone: 100]
@@ -499,7 +505,7 @@ pub(crate) struct Listen {
     /// One stroke at this normal force, N: 0.05 to 20 [with --speed alone: 1]
     #[arg(long, value_name = "N", value_parser = |text: &str| within(text, 0.05, 20.0))]
     pub(crate) force: Option<f32>,
-    /// Taps, and no stroke unless one is asked for
+    /// Render taps, and no stroke unless --speed or --force is given
     #[arg(long)]
     pub(crate) taps: bool,
     /// Seed of the excitation

@@ -58,13 +58,13 @@ fn order_threads_cache_and_parts_do_not_change_a_byte() {
     let build = ["build", "library.toml", "--cache", "cache", "-o"];
     let said = good(folder, &[&build[..], &["one.aspl"]].concat());
     assert!(
-        said.contains("11 textures, 11 made, 0 from the cache"),
+        said.contains("11 textures, 11 compiled, 0 from the cache"),
         "{said}"
     );
     let one = bytes(folder, "one.aspl");
     // Again: all of it from the cache.
     let said = good(folder, &[&build[..], &["again.aspl"]].concat());
-    assert!(said.contains("0 made, 11 from the cache"), "{said}");
+    assert!(said.contains("0 compiled, 11 from the cache"), "{said}");
     assert!(bytes(folder, "again.aspl") == one);
     // Another order of the same textures, on one thread, without a cache.
     let (head, tail) = MANIFEST.split_at(MANIFEST.find("[[texture]]").expect("textures"));
@@ -200,20 +200,20 @@ fn every_fault_of_a_manifest_is_told_at_once_with_file_line_and_key() {
     assert_eq!(output.status.code(), Some(1), "{error}");
     for fault in [
         "bad.toml:1: include: none.toml: cannot read it",
-        "bad.toml:1: include: included by itself: bad.toml → bad.toml",
+        "bad.toml:1: include: the manifest includes itself: bad.toml → bad.toml",
         "bad.toml:3: defaults.seeds: no such key",
         "bad.toml:5: name: ",
         "bad.toml:10: prompt and asset",
         "bad.toml:13: import: gone.xml: cannot read it",
         "bad.toml:17: fidelity: ",
-        "bad.toml:20: blend.b: nothing",
-        "bad.toml:20: blend.t: \"2\", where a number in 0..=1",
-        "bad.toml:21: nothing that it is made of",
-        "bad.toml:26: seed: it does not go with asset",
-        "bad.toml:30: edit.prompt: \"nice\" says nothing of rough",
-        "bad.toml:30: edit.rougher: it does not go with edit.prompt",
+        "bad.toml:20: blend.b: must be the name of a texture, but is missing",
+        "bad.toml:20: blend.t: \"2\" must be a number from 0 to 1",
+        "bad.toml:21: no source",
+        "bad.toml:26: seed: cannot be combined with asset",
+        "bad.toml:30: edit.prompt: \"nice\" names neither a quality to change",
+        "bad.toml:30: edit.rougher: cannot be combined with edit.prompt",
         "bad.toml:30: edit.softer: no such key",
-        "bad.csv:2: nothing that it is made of",
+        "bad.csv:2: no source",
         "bad.csv:3: seed: \"many\"",
         // Its namesake has another fault.
         "bad.csv:4: name: \"same\" is also",
@@ -233,7 +233,7 @@ fn every_fault_of_a_manifest_is_told_at_once_with_file_line_and_key() {
     refused(
         folder,
         &["build", "bad.toml", "--check"],
-        &["bad.toml:1", "made of itself", "\"a\" → \"b\""],
+        &["bad.toml:1", "depends on itself", "\"a\" → \"b\""],
     );
     fs::write(
         folder.join("bad.toml"),
@@ -271,7 +271,7 @@ fn one_bad_entry_fails_with_its_line_and_the_others_are_kept() {
     assert!(!folder.join("out.aspl").exists());
     fs::write(folder.join("mixed/b.xml"), material("B")).expect("a material");
     let said = good(folder, &build);
-    assert!(said.contains("1 made, 1 from the cache"), "{said}");
+    assert!(said.contains("1 compiled, 1 from the cache"), "{said}");
 }
 
 #[test]
@@ -295,13 +295,13 @@ fn a_tampered_entry_is_made_again() {
     content[last] ^= 1;
     fs::write(&entry, content).expect("it");
     let said = good(folder, &build);
-    assert!(said.contains("1 made, 0 from the cache"), "{said}");
+    assert!(said.contains("1 compiled, 0 from the cache"), "{said}");
     assert!(bytes(folder, "out.aspl") == first);
     // What decides the bytes decides the key.
     let other = material("Wood").replace("<mu>0.4</mu>", "<mu>0.5</mu>");
     fs::write(folder.join("wood.xml"), other).expect("a material");
     let said = good(folder, &build);
-    assert!(said.contains("1 made"), "{said}");
+    assert!(said.contains("1 compiled"), "{said}");
     assert!(bytes(folder, "out.aspl") != first);
 }
 
@@ -353,7 +353,7 @@ fn a_difference_is_told_in_figures_and_by_the_exit_status() {
         "<mu>0.5</mu>",
         "[[texture]]\nname = \"g\"\nasset = \"good.asp\"\n",
     );
-    assert!(good(folder, &["diff", "old.aspl", "old.aspl"]).contains("1 the same"));
+    assert!(good(folder, &["diff", "old.aspl", "old.aspl"]).contains("1 unchanged"));
     let output = asperity(folder, &["diff", "old.aspl", "new.aspl"]);
     assert_eq!(output.status.code(), Some(1));
     let said = text(&output.stdout);

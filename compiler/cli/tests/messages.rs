@@ -26,7 +26,7 @@ fn what_a_file_says_is_repeated_without_escapes_and_in_short() {
         (escapes, "line 1, column 17"),
         (&long, "line 1, column 17"),
         (&unknown, "servo_rate_hz"),
-        (&name, "is no name"),
+        (&name, "is not a valid name"),
     ] {
         fs::write(folder.join("hostile.toml"), scene(line)).expect("a scene");
         let arguments = ["build", "hostile.toml", "-o", "out.aspl"];

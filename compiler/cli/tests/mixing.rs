@@ -61,7 +61,7 @@ fn an_edit_moves_what_was_asked_is_reproducible_and_is_taken_back_to_the_byte() 
     refused(
         folder,
         &["edit", "none.asp", "--undo", "-o", "x.asp"],
-        &["no edit to take back"],
+        &["no edit to undo"],
     );
     let nothing = asperity(folder, &["edit", "none.asp", "-o", "x.asp"]);
     assert_eq!(nothing.status.code(), Some(2));
@@ -167,7 +167,7 @@ fn a_recording_has_no_latent_until_it_is_encoded() {
     let inputs = inputs();
     let folder = inputs.path();
     let edit = ["edit", "good.asp", "--rougher", "5", "-o", "x.asp"];
-    refused(folder, &edit, &["remembers no latent", "asperity encode"]);
+    refused(folder, &edit, &["has no latent", "asperity encode"]);
     let json = made(
         folder,
         &[
@@ -224,7 +224,7 @@ fn a_latent_of_another_model_is_refused() {
         "-o",
         "x.asp",
     ];
-    refused(folder, &edit, &["was decoded from model", "--model"]);
+    refused(folder, &edit, &["was decoded with model", "--model"]);
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn a_preview_is_extracted_as_it_is_and_drawn_anew_where_there_is_none() {
     let folder = folder.path();
     let output = asperity(folder, &["preview", "cork.asp", "-o", "kept.png"]);
     assert!(
-        text(&output.stdout).contains("as the asset holds it"),
+        text(&output.stdout).contains("as stored in the asset"),
         "{output:?}"
     );
     let bytes = read(folder, "cork.asp");
@@ -48,7 +48,7 @@ fn a_preview_is_extracted_as_it_is_and_drawn_anew_where_there_is_none() {
 
     let output = asperity(folder, &["preview", "plain.asp", "-o", "drawn.png"]);
     assert!(
-        text(&output.stdout).contains("the asset holds none"),
+        text(&output.stdout).contains("the asset has no picture"),
         "{output:?}"
     );
     assert_eq!(
@@ -93,7 +93,7 @@ fn maps_come_with_the_picture_and_standard_output_takes_it() {
     let output = asperity(folder, &maps);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(
-        text(&output.stderr).contains("drawn anew"),
+        text(&output.stderr).contains("newly drawn"),
         "the report goes to standard error"
     );
     assert_eq!(stored(&output.stdout).expect("a picture").width, 64);

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// The system lets no thread wait for an interrupt.
 #[derive(Debug, Error)]
-#[error("nothing can wait for an interrupt")]
+#[error("cannot install a handler for interrupts")]
 pub struct NoHandler(#[source] io::Error);
 
 impl Diagnostic for NoHandler {

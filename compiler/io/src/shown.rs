@@ -1,6 +1,6 @@
-//! How text from outside is shown: names, prompts, lines of files.
+//! How text is shown: names, prompts and lines of files from outside; counts and sizes with units.
 
-use std::borrow::Cow;
+use std::{borrow::Cow, fmt::Display};
 
 /// Characters of a line that an excerpt keeps at its beginning and at its end.
 const KEPT_CHARS: (usize, usize) = (300, 150);
@@ -38,6 +38,24 @@ fn commands(character: char) -> bool {
     }
 }
 
+/// A count with its noun: `1 fault`, `2 faults`.
+#[must_use]
+pub fn counted<N: Display + PartialEq + From<u8>>(count: N, one: &str, many: &str) -> String {
+    let noun = if count == N::from(1) { one } else { many };
+    format!("{count} {noun}")
+}
+
+/// A size in the largest unit in which it is at least 1, with one digit behind the point.
+#[must_use]
+pub fn size(bytes: u64) -> String {
+    match bytes {
+        0..1_000 => counted(bytes, "byte", "bytes"),
+        1_000..999_950 => format!("{:.1} kB", bytes as f64 / 1e3),
+        999_950..999_950_000 => format!("{:.1} MB", bytes as f64 / 1e6),
+        _ => format!("{:.1} GB", bytes as f64 / 1e9),
+    }
+}
+
 /// The text with long lines, and many lines, cut in their middle, where `…` then stands.
 #[must_use]
 pub fn excerpt(text: &str) -> String {
@@ -71,6 +89,25 @@ mod tests {
         for text in ["", "Ärmel 木 🔥\nμ 0.3", "العربية"] {
             assert_eq!(plain(text), text);
             assert_eq!(excerpt(text), text);
+        }
+    }
+
+    #[test]
+    fn counts_and_sizes_have_their_units() {
+        let faults = |count: usize| counted(count, "fault", "faults");
+        assert_eq!(
+            [0, 1, 2].map(faults),
+            ["0 faults", "1 fault", "2 faults"].map(str::to_owned)
+        );
+        for (bytes, shown) in [
+            (1, "1 byte"),
+            (999, "999 bytes"),
+            (52_367, "52.4 kB"),
+            (999_950, "1.0 MB"),
+            (3_740_000, "3.7 MB"),
+            (2_000_000_000, "2.0 GB"),
+        ] {
+            assert_eq!(size(bytes), shown);
         }
     }
 

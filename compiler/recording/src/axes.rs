@@ -4,6 +4,19 @@
 //! "Dimensional reduction of high-frequency accelerations for haptic rendering", 2010) adds the
 //! energies of the axes at every frequency, with the phase of their sum. The principal component is
 //! one direction, and loses what lies across it.
+//!
+//! ```
+//! use asperity_recording::axes::dft321;
+//!
+//! // A tone along x and another along y.
+//! let tone = |cycles: f64| -> Vec<f64> {
+//!     (0..256).map(|n| (std::f64::consts::TAU * cycles * f64::from(n) / 256.0).sin()).collect()
+//! };
+//! let axes = [tone(10.0), tone(25.0)];
+//! let energy = |signal: &[f64]| signal.iter().map(|x| x * x).sum::<f64>();
+//! let both = energy(&axes[0]) + energy(&axes[1]);
+//! assert!((energy(&dft321(&axes)) - both).abs() < 1e-6 * both);
+//! ```
 
 use realfft::{RealFftPlanner, num_complex::Complex};
 

@@ -178,8 +178,8 @@ impl Problem {
         match self {
             Self::Unreadable(_) => "check the name under `file` in recording.toml".into(),
             Self::NoDescription { proposal: Some(_) } => {
-                "save what `asperity record-check` prints as recording.toml in the folder, and correct \
-                 its guesses"
+                "save the draft that `asperity record-check` prints as recording.toml in the folder, and \
+                 correct its guesses"
                     .into()
             }
             Self::NoDescription { proposal: None } => {

@@ -1,4 +1,15 @@
-//! What came of a source: a compiled texture, how far it is from what it was made of, and the reports of both.
+//! The result of a source: a compiled texture, how far its asset is from the source, and the reports of both.
+//!
+//! ```
+//! use asperity::{builtin::Builtin, driver, pipeline::Request, reduce::Fidelity, sources::Tools};
+//!
+//! let request = Request { fidelity: Fidelity::Auto, ..Request::default() };
+//! let compiled = driver::compile(&Builtin, &request, &Tools::default())?;
+//! let left_out = compiled.reduced().expect("a report, as not everything was to be kept");
+//! assert!(left_out.order.kept < left_out.order.full);
+//! assert_eq!(compiled.json()["name"], "Built-in Grit"); // for machines; `text` is for people
+//! # Ok::<(), asperity::driver::Failure>(())
+//! ```
 
 mod reference;
 
@@ -13,6 +24,7 @@ use crate::{
     passes::reduce::{self, Fidelity},
     pipeline::Timings,
 };
+use asperity_io::shown::{counted, size};
 use asperity_plot::PlotError;
 use asperity_texture::model::{
     TextureModel,
@@ -144,21 +156,21 @@ impl Compiled {
                     Some(_) => format!("{count} places"),
                 };
                 format!(
-                    "max {:.4} dB, mean {:.4} dB over {over}",
+                    "{:.4} dB from its source at worst, {:.4} dB on average over {over}",
                     error.max_db, error.mean_db
                 )
             }
         };
         let reduced = self
             .reduced()
-            .map_or_else(String::new, |report| format!(", {report}"));
+            .map_or_else(String::new, |report| format!("; kept {report}"));
         format!(
-            "{}: {error}, {} triangles, {} models, {} haptic bytes, {} in all{reduced}",
+            "{}: {error}; {}, {}; {} haptic, {} in total{reduced}",
             self.texture.name,
-            grid.triangles.len(),
-            self.lowered.models,
-            self.lowered.haptic_bytes,
-            self.lowered.bytes.len(),
+            counted(self.lowered.models, "model", "models"),
+            counted(grid.triangles.len(), "triangle", "triangles"),
+            size(self.lowered.haptic_bytes as u64),
+            size(self.lowered.bytes.len() as u64),
         )
     }
 }

@@ -1,4 +1,24 @@
-//! What an asset remembers of its making: latents and history, outside the haptic sections.
+//! What an asset remembers of how it was made: latents and history, outside the haptic sections.
+//!
+//! The runtime skips both; [edits](crate::edit) begin with them. An asset that was not decoded from a latent remembers
+//! nothing:
+//!
+//! ```
+//! use asperity::{
+//!     builtin,
+//!     edit_memory::{Latents, remembered},
+//!     learned::description::LATENT,
+//!     lower::lower,
+//! };
+//! use asperity_formats::Asset;
+//!
+//! let bytes = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;
+//! let asset = Asset::parse(&bytes).expect("a valid asset");
+//! assert_eq!(remembered(&asset).expect("no damaged history"), None);
+//!
+//! let (a, b) = (Latents::whole([0.0; LATENT]), Latents::whole([1.0; LATENT]));
+//! assert_eq!(Latents::between(&a, &b, 0.5).slide, [0.5; LATENT]);
+//! ```
 
 mod history;
 mod latents;
@@ -74,7 +94,7 @@ pub struct HistoryError {
 
 impl Diagnostic for HistoryError {
     fn remedy(&self) -> String {
-        "make the file again from its source".into()
+        "build the file again from its source".into()
     }
 }
 

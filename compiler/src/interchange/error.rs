@@ -131,7 +131,7 @@ pub enum EffectProblem {
         reasons: Vec<String>,
     },
     /// A name that an asset cannot hold.
-    #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
+    #[error("{0:?} is not a valid name: a name has 1 to 64 bytes and no control characters")]
     Name(String),
 }
 

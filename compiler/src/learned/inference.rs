@@ -1,4 +1,12 @@
 //! Where networks run: the portable engine, or ONNX Runtime where it is installed.
+//!
+//! ```
+//! use asperity::inference::{Backend, BackendName};
+//!
+//! let name: BackendName = "portable".parse()?;
+//! assert_eq!(Backend::open(name).expect("an engine that is always there"), Backend::Portable);
+//! # Ok::<(), String>(())
+//! ```
 
 use asperity_io::diagnostic::Diagnostic;
 use asperity_nn::{Bytes, Portable, Session};
@@ -49,7 +57,7 @@ impl fmt::Display for BackendName {
 
 /// ONNX Runtime was asked for and is not installed.
 #[derive(Debug, Error)]
-#[error("ONNX Runtime: {0}")]
+#[error(transparent)]
 pub struct BackendError(#[from] asperity_onnxruntime::NotFound);
 
 impl BackendError {

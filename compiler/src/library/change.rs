@@ -5,6 +5,7 @@ use crate::{
     passes::{ceiling, reduce::Reference},
 };
 use asperity_formats::Asset;
+use asperity_io::shown::counted;
 use asperity_texture::model::{
     FrictionLaw, TextureModel,
     attributes::{self, Attributes},
@@ -147,8 +148,10 @@ impl fmt::Display for Change {
         let mut parts = Vec::new();
         match self.spectrum_db {
             Some([_, 0.0]) => {}
-            Some([p95, worst]) => parts.push(format!("spectra {p95:.2} dB, {worst:.2} at worst")),
-            None => parts.push("spectra not comparable".into()),
+            Some([p95, worst]) => parts.push(format!(
+                "spectra differ by {p95:.2} dB at 95 % of the grid, {worst:.2} dB at worst"
+            )),
+            None => parts.push("spectra cannot be compared".into()),
         }
         let pairs = [
             ("vibration", self.vibration_n, "N", 3),
@@ -158,6 +161,9 @@ impl fmt::Display for Change {
         ];
         for (what, [old, new], unit, digits) in pairs {
             if old != new {
+                // With more digits where the usual ones show no difference.
+                let differs = |n: &usize| format!("{old:.0$}", *n) != format!("{new:.0$}", *n);
+                let digits = (digits..digits + 6).find(differs).unwrap_or(digits);
                 let figure = format!("{what} {old:.digits$} → {new:.digits$} {unit}");
                 parts.push(figure.trim_end().to_owned());
             }
@@ -166,19 +172,19 @@ impl fmt::Display for Change {
             && old != new
         {
             let way = |law: &Option<FrictionLaw>| match law {
-                Some(law) => format!("law of {} points", law.points.len()),
-                None => "no law".to_owned(),
+                Some(law) => counted(law.points.len(), "point", "points"),
+                None => "constant".to_owned(),
             };
             parts.push(format!("μ over speed: {} → {}", way(old), way(new)));
         }
         if self.picture {
-            parts.push("picture".into());
+            parts.push("picture changed".into());
         }
         if !self.felt.is_empty() {
-            parts.push(format!("noticed as {}", self.felt.join(", ")));
+            parts.push(format!("noticeable as {}", self.felt.join(", ")));
         }
         if parts.is_empty() {
-            parts.push(self.sections.join(", "));
+            parts.push(format!("only in {}", self.sections.join(", ")));
         }
         f.write_str(&parts.join("; "))
     }

@@ -93,7 +93,7 @@ impl fmt::Display for Difference {
             .filter(|change| !change.felt.is_empty());
         writeln!(
             f,
-            "{} added, {} removed, {} changed, {} of them so that a person notices, {} the same",
+            "{} added, {} removed, {} changed ({} noticeably), {} unchanged",
             self.added.len(),
             self.removed.len(),
             self.changed.len(),

@@ -51,7 +51,7 @@ pub enum LibraryFault {
         kept: &'static str,
     },
     /// A prompt is less certain than is asked for.
-    #[error("the certainty of the prompt is {found:?}, and at least {least:?} is asked for", found = found.to_string(), least = least.to_string())]
+    #[error("the certainty of the prompt is {found:?}, but --min-certainty requires {least:?}", found = found.to_string(), least = least.to_string())]
     Unsure {
         /// How certain it is.
         found: Certainty,
@@ -59,10 +59,10 @@ pub enum LibraryFault {
         least: Certainty,
     },
     /// A temporary file does not take more.
-    #[error("the texture cannot be kept until its library is written: {0}")]
+    #[error("the texture cannot be stored until the library is written: {0}")]
     NoRoom(String),
     /// Two libraries have textures of one name that differ.
-    #[error("{name:?} is in {first} and in {second}, and they differ")]
+    #[error("{name:?} is in both {first} and {second}, but with different contents")]
     Differ {
         /// The name.
         name: String,
@@ -72,13 +72,13 @@ pub enum LibraryFault {
         second: String,
     },
     /// A library with a scene.
-    #[error("{0}: a library with a scene")]
+    #[error("{0}: a library with a scene cannot be changed")]
     Scene(String),
     /// An asset where a library is wanted.
-    #[error("{0}: an asset, a library is wanted")]
+    #[error("{0}: an asset, not a library")]
     NoLibrary(String),
     /// There is a texture of that name.
-    #[error("{file}: there is a texture {name:?} already")]
+    #[error("{file}: there is already a texture {name:?}")]
     Taken {
         /// The library.
         file: String,
@@ -86,7 +86,7 @@ pub enum LibraryFault {
         name: String,
     },
     /// A name that no texture can have.
-    #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
+    #[error("{0:?} is not a valid name: a name has 1 to 64 bytes and no control characters")]
     Name(String),
 }
 
@@ -94,10 +94,10 @@ impl Diagnostic for LibraryFault {
     fn remedy(&self) -> String {
         match self {
             Self::Unfinished { .. } => {
-                "correct what failed and build again: only that is made then".into()
+                "correct the textures that failed and build again: only they are compiled then".into()
             }
             Self::Unsure { .. } => {
-                "name the material, or see what was read with `asperity compile PROMPT --explain`"
+                "name a material, or see how the prompt is read with `asperity compile PROMPT -o FILE --explain`"
                     .into()
             }
             Self::NoRoom(_) => {
@@ -105,9 +105,10 @@ impl Diagnostic for LibraryFault {
                     .into()
             }
             Self::Differ { .. } => {
-                "build the shards of one manifest with one version and one model".into()
+                "rename one of them with `asperity rename`, or build all shards with one version and model"
+                    .into()
             }
-            Self::Scene(_) => "build the scene again with `asperity build`".into(),
+            Self::Scene(_) => "change its manifest, and build it again with `asperity build`".into(),
             Self::NoLibrary(_) => "give a library (.aspl)".into(),
             Self::Taken { .. } | Self::Name(_) => "choose another name".into(),
         }

@@ -5,8 +5,32 @@
 //! ```
 //!
 //! A texture's [key](crate::sources::key) is everything that decides its bytes. What the cache holds
-//! under it is not made again, so a build that was interrupted goes on where it stopped.
+//! under it is not made again, so a build that was interrupted continues where it stopped.
 //! `docs/libraries.md` describes the manifest and shows the commands.
+//!
+//! ```
+//! use asperity::{
+//!     builtin,
+//!     library::{Build, Manifest, Request},
+//!     lower::lower,
+//! };
+//! use asperity_formats::Library;
+//!
+//! let folder = tempfile::tempdir().expect("a temporary folder");
+//! let grit = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;
+//! std::fs::write(folder.path().join("grit.asp"), &grit).expect("a writable folder");
+//! let text = "[[texture]]\nname = \"grit\"\nasset = \"grit.asp\"\n";
+//! let manifest = Manifest::of_text(&folder.path().join("desk.toml"), text).expect("a valid manifest");
+//!
+//! let request = Request::default();
+//! let build = Build::new(&manifest, &request).expect("files that can be read");
+//! // Entries with a prompt would ask for a prompt compiler.
+//! let built = build.run(&|| unreachable!(), &|| ()).expect("textures that pass");
+//! let mut bytes = Vec::new();
+//! built.library.write(&mut bytes).expect("room in memory");
+//! let library = Library::parse(&bytes).expect("a valid library");
+//! assert_eq!(library.index().find("grit"), Some(0));
+//! ```
 
 mod build;
 mod cache;

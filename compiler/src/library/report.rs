@@ -2,6 +2,7 @@
 
 use super::{facts::Facts, shard::Shard};
 use crate::learned::Certainty;
+use asperity_io::shown::{counted, size};
 use serde::Serialize;
 use std::fmt;
 
@@ -61,18 +62,20 @@ impl Report {
 /// One line.
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let count = self.textures.len();
-        write!(f, "{count} textures")?;
+        let count = counted(self.textures.len(), "texture", "textures");
+        write!(f, "{count}")?;
         if let Some(shard) = &self.shard {
-            write!(f, " of part {shard}")?;
+            write!(f, " in shard {shard}")?;
         }
         write!(
             f,
-            ", {} made, {} from the cache, {} bytes",
-            self.made, self.cached, self.bytes
+            ", {} compiled, {} from the cache, {}",
+            self.made,
+            self.cached,
+            size(self.bytes)
         )?;
         if self.lowered > 0 {
-            write!(f, "; auto-gain lowered {}", self.lowered)?;
+            write!(f, "; auto-gain lowered the vibration of {}", self.lowered)?;
         }
         let guess = |row: &&Row| row.facts.certainty_level == Some(Certainty::Guess);
         match self.textures.iter().filter(guess).count() {

@@ -11,6 +11,17 @@
 //! stay within the peak wherever the wall alone is within F_c. A harder push than that takes the
 //! whole device by itself, and the limiter shortens the sum. Models and traces stay as they are, so
 //! the objective attributes do.
+//!
+//! ```
+//! use asperity::{builtin, ceiling};
+//!
+//! let mut texture = builtin::texture();
+//! for vertex in &mut texture.grid.vertices {
+//!     vertex.sigma_m_s2 *= 100.0;
+//! }
+//! let found = ceiling::limit(&mut texture);
+//! assert!(found.asked_n > found.continuous_n && found.rms_n <= found.continuous_n);
+//! ```
 
 use asperity_texture::{
     model::{

@@ -2,6 +2,15 @@
 //!
 //! Every model is fitted again to its own power spectrum at the new rate. Above half the old rate
 //! there was no power, except for a floor that keeps the fit regular.
+//!
+//! ```
+//! use asperity::{builtin, rerate::rerate};
+//!
+//! let grid = builtin::texture().grid;
+//! let doubled = rerate(&grid, 2.0 * grid.sample_rate_hz).expect("a rate within range");
+//! assert!(doubled.order > grid.order); // the same band is a smaller part of the unit circle
+//! assert_eq!(rerate(&grid, 0.0), None);
+//! ```
 
 use asperity_formats::limits;
 use asperity_texture::{

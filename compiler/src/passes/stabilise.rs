@@ -3,6 +3,14 @@
 //! Each model is stable by itself and its gain is bounded, but models of opposite spectra that
 //! take turns faster than they ring can still drive each other up. Models that resemble each
 //! other cannot, and white noise has no memory at all.
+//!
+//! ```
+//! use asperity::{builtin, lsf, stabilise::stabilise};
+//!
+//! let white = stabilise(&builtin::texture(), 1.0);
+//! let polynomial = lsf::to_polynomial(&white.grid.vertices[0].lsf_rad);
+//! assert!(polynomial[1..].iter().all(|a| a.abs() < 1e-9)); // A(z) = 1
+//! ```
 
 use asperity_texture::{
     model::TextureModel,

@@ -1,4 +1,12 @@
 //! Triangulates vertices that a source gives without triangles.
+//!
+//! ```
+//! use asperity::{builtin, mesh, triangulate::delaunay};
+//!
+//! let mut grid = builtin::texture().grid;
+//! grid.triangles = delaunay(&grid.vertices);
+//! assert_eq!(mesh::check(&grid), Ok(())); // they tile the rectangle
+//! ```
 
 use asperity_texture::model::GridVertex;
 use delaunator::Point;

@@ -13,10 +13,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum PipelineError {
     /// The models cannot be converted to the rate.
-    #[error("--rate {0} Hz: not in {min}..={max} Hz", min = rerate::RATE_RANGE_HZ.0, max = rerate::RATE_RANGE_HZ.1)]
+    #[error("--rate {0} Hz: must be {min} to {max} Hz", min = rerate::RATE_RANGE_HZ.0, max = rerate::RATE_RANGE_HZ.1)]
     Rate(f64),
     /// The models cannot be converted to the rate of the servo loop.
-    #[error("its models run at {from_hz} Hz and cannot be converted to {to_hz} Hz")]
+    #[error("the AR models run at {from_hz} Hz and cannot be converted to {to_hz} Hz")]
     ServoRate {
         /// Rate of the models, Hz.
         from_hz: f64,
@@ -24,7 +24,9 @@ pub enum PipelineError {
         to_hz: f64,
     },
     /// A vertex of the asset is too far from the model that it came from.
-    #[error("model {model} is {distance_db:.3} dB from its source, {budget_db} at most")]
+    #[error(
+        "model {model} is {distance_db:.3} dB from its source, and at most {budget_db} dB is accepted"
+    )]
     Budget {
         /// Number of the model in its file, from 1.
         model: usize,

@@ -26,16 +26,16 @@ pub enum SceneProblem {
     #[error("{0}")]
     Syntax(TomlError),
     /// One table in single brackets in a list.
-    #[error("one table in single brackets, where a list of tables is wanted")]
+    #[error("one table in single brackets, but a list of tables is expected")]
     Single(&'static str),
     /// The scene has no surface.
     #[error("the scene has no surface")]
     NoSurface,
     /// More surfaces than a library holds.
-    #[error("{0} surfaces, a scene holds 64")]
+    #[error("{0} surfaces, but a scene has at most 64")]
     TooMany(usize),
     /// A surface wears a texture that the scene does not have.
-    #[error("no texture {wanted:?}; there are {known:?}")]
+    #[error("no texture {wanted:?}; the scene has {known:?}")]
     UnknownTexture {
         /// What was asked for.
         wanted: String,
@@ -43,10 +43,10 @@ pub enum SceneProblem {
         known: Vec<String>,
     },
     /// The surface has no solid, or several.
-    #[error("a surface is one of `plane`, `sphere` and `box`")]
+    #[error("a surface must have exactly one of `plane`, `sphere` and `box`")]
     Solid,
     /// A number out of its range.
-    #[error("{value} is not in {low}..={high}")]
+    #[error("{value} is not from {low} to {high}")]
     Value {
         /// The number.
         value: f64,
@@ -72,7 +72,7 @@ pub enum SceneProblem {
         servo_hz: f64,
     },
     /// Too many instructions at every fidelity.
-    #[error("{name:?} takes {least} instructions a tick at its lowest fidelity, {over} more than the budget of {budget} ({target})", over = least - budget)]
+    #[error("{name:?} takes {least} instructions per tick at its lowest fidelity, {over} more than the budget of {budget} ({target})", over = least - budget)]
     Instructions {
         /// The texture.
         name: String,
@@ -84,7 +84,7 @@ pub enum SceneProblem {
         target: Target,
     },
     /// Too many bytes at the lowest fidelities.
-    #[error("the library takes {least} bytes at the lowest fidelities, {over} more than the budget of {budget}", over = least - budget)]
+    #[error("the library takes {least} bytes at the lowest fidelities, {over} more than the budget of {budget} bytes", over = least - budget)]
     Bytes {
         /// The fewest bytes.
         least: u64,
@@ -101,7 +101,9 @@ pub enum SceneProblem {
 impl Diagnostic for SceneError {
     fn remedy(&self) -> String {
         match &self.problem {
-            SceneProblem::Single(key) => format!("write [[{key}]], in two brackets, above each"),
+            SceneProblem::Single(key) => {
+                format!("write [[{key}]], in double brackets, above each of them")
+            }
             SceneProblem::Syntax(_) => "see the example in docs/scenes.md".into(),
             SceneProblem::NoSurface => {
                 "add a [[surface]] with a texture and a plane, sphere or box".into()
@@ -111,7 +113,7 @@ impl Diagnostic for SceneError {
                 format!("add a [[texture]] with name = {wanted:?}, or correct the name")
             }
             SceneProblem::Solid => {
-                "leave one of them, e.g. plane = { point_m = [0, 0, 0], normal = [0, 0, 1] }".into()
+                "give one, such as plane = { point_m = [0, 0, 0], normal = [0, 0, 1] }".into()
             }
             SceneProblem::Value { .. } => {
                 "give a number in that range; lengths are in metres".into()
@@ -126,11 +128,12 @@ impl Diagnostic for SceneError {
                 "give a faster clock, a larger --share or a lower servo_rate_hz, or remove surfaces"
                     .into()
             }
-            SceneProblem::Bytes { textures, .. } => {
-                format!(
+            SceneProblem::Bytes { textures, .. } => match textures {
+                1 => "raise --budget-bytes".into(),
+                _ => format!(
                     "raise --budget-bytes, or use fewer than {textures} textures: surfaces can share one"
-                )
-            }
+                ),
+            },
             SceneProblem::Library(error) => error.remedy(),
         }
     }

@@ -2,6 +2,7 @@
 
 use super::{budget::Budget, description::Description, fidelity::Candidate, target::Target};
 use crate::library::manifest::Entry;
+use asperity_io::shown::{counted, size};
 use serde::Serialize;
 use std::fmt;
 
@@ -144,23 +145,25 @@ impl fmt::Display for Report {
         }
         write!(
             f,
-            "{} surfaces; a tick takes {} instructions of a {}",
-            self.surfaces, self.instructions, self.processor
+            "{}; a tick takes at most {} instructions on a {}",
+            counted(self.surfaces, "surface", "surfaces"),
+            self.instructions,
+            self.processor
         )?;
+        let above = self.instructions_above_percent;
+        write!(f, " (estimated, at most {above} % too high)")?;
         if let (Some(budget), Some(target)) = (self.instructions_budget, &self.target) {
-            write!(f, " of {budget} ({target}")?;
+            write!(f, ", within a budget of {budget} ({target}")?;
             if target.contains('@') {
-                let percent = 100.0 * self.share;
-                write!(f, ", {percent:.0} % of {} Hz", self.servo_rate_hz)?;
+                // Two digits of a small share, and no zeros behind the point.
+                let percent = (1e4 * self.share).round() / 1e2;
+                write!(f, ", {percent} % of a period at {} Hz", self.servo_rate_hz)?;
             }
             write!(f, ")")?;
         }
-        let above = self.instructions_above_percent;
-        write!(f, ", up to {above} % above what was counted")?;
-        write!(f, "; the library {} bytes", self.bytes)?;
-        if let Some(budget) = self.bytes_budget {
-            write!(f, " of {budget}")?;
+        match self.bytes_budget {
+            None => writeln!(f, "; library {}", size(self.bytes as u64)),
+            Some(budget) => writeln!(f, "; library {} of {budget} bytes", self.bytes),
         }
-        writeln!(f)
     }
 }

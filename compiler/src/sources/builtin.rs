@@ -1,9 +1,18 @@
-//! The built-in texture: grit under a stylus, made from a small model of its physics.
+//! The built-in texture: grit under a stylus, made from a small model of its physics. It needs no file and no learned
+//! model, so examples and tests begin with it.
 //!
 //! Grains at a distance λ pass the tip `v/λ` times a second. Their impacts give a spectral line at
 //! that frequency and a weaker harmonic, both widened by the irregular spacing. The stylus adds a
 //! resonance, and a broad floor falls with frequency. The level grows with powers of speed and force
 //! below one, as that of real textures does. No recording went into it.
+//!
+//! ```
+//! use asperity::builtin;
+//!
+//! let texture = builtin::texture();
+//! assert_eq!(texture.name, "Built-in Grit");
+//! assert_eq!(texture, builtin::texture()); // the same on every call
+//! ```
 
 use crate::{
     passes::triangulate,

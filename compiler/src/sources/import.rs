@@ -30,7 +30,7 @@ const WANTED: &str = "a HaTT material, a model, AHAP, .haptic or HJIF";
 
 /// A file of no format that is known.
 #[derive(Debug, Error)]
-#[error("{}: it is of no known format, {WANTED} is wanted", .0.display())]
+#[error("{}: unknown format; must be {WANTED}", .0.display())]
 struct Unknown(PathBuf);
 
 impl Diagnostic for Unknown {

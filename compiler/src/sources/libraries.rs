@@ -12,7 +12,7 @@ use thiserror::Error;
 
 /// A library of several textures in the place of one.
 #[derive(Debug, Error)]
-#[error("{file}: a library of {count} textures, and none is named", file = file.display())]
+#[error("{file}: the library has {count} textures, and none is named", file = file.display())]
 struct NoneNamed {
     file: PathBuf,
     count: usize,

@@ -1,6 +1,22 @@
-//! What textures are made of: words, recordings, effects, a model of one's own, a formula. A source
-//! is one folder or file with one type that implements [`Source`]; a line of the [`Registry`] lets
-//! manifests name it.
+//! What a texture can be made from: words, recordings, effects of other tools, a model of your own, a formula.
+//!
+//! A source is a type that implements [`Source`], in a file or a folder of its own. It reads its input and models the
+//! texture; the [driver](crate::driver) does what all of them have in common. A line in the [`Registry`] lets manifests
+//! name it. A texture that a program already holds is a source as well:
+//!
+//! ```
+//! use asperity::{
+//!     builtin, driver,
+//!     pipeline::Request,
+//!     sources::{Sourced, Tools},
+//! };
+//!
+//! let mut texture = builtin::texture();
+//! texture.friction.mu = 0.2;
+//! let compiled = driver::compile(&Sourced::new(texture), &Request::default(), &Tools::default())?;
+//! assert_eq!(compiled.attributes().mu, 0.2);
+//! # Ok::<(), asperity::driver::Failure>(())
+//! ```
 
 pub mod asset;
 pub mod builtin;

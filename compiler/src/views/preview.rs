@@ -1,8 +1,16 @@
-//! What a texture looks like: drawn by `asperity-preview` from what an asset says of it.
+//! What a texture looks like: drawn by `asperity-preview` from what an asset says about it.
 //!
 //! The prompt, or else the name, and the nearest materials, which are the anchors of its friction,
-//! say what is drawn. The level, the spectrum, the friction and the taps move its grain, depth
+//! decide what is drawn. The level, the spectrum, the friction and the taps change its grain, depth
 //! and gloss.
+//!
+//! ```
+//! use asperity::{builtin, preview};
+//!
+//! let png = preview::png(&builtin::texture(), 64)?;
+//! assert_eq!(preview::width(&png), Some(64));
+//! # Ok::<(), preview::PreviewError>(())
+//! ```
 
 use crate::words::grade;
 use asperity_io::diagnostic::Diagnostic;

@@ -65,7 +65,7 @@ impl Diagnostic for CalibrationError {
     fn remedy(&self) -> String {
         match self {
             Self::Read(error) => error.remedy(),
-            Self::Table { .. } => format!("write the columns {} and a row a servo period", COLUMNS.join(",")),
+            Self::Table { .. } => format!("write the columns {} and one row per servo period", COLUMNS.join(",")),
             Self::Time { .. } => "write every servo period, each once, in order".into(),
             Self::Response { cause, .. } => cause.remedy().into(),
             Self::Coherence { .. } => {

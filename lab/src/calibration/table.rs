@@ -52,7 +52,11 @@ impl Measured {
             let found: Vec<&str> = head.iter().collect();
             return Err(table(
                 1,
-                format!("columns {}, not {}", found.join(","), COLUMNS.join(",")),
+                format!(
+                    "the columns are {}, but must be {}",
+                    found.join(","),
+                    COLUMNS.join(",")
+                ),
             ));
         }
         let (mut times_s, mut force_n, mut accel_m_s2) = (Vec::new(), Vec::new(), Vec::new());

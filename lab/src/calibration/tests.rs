@@ -102,7 +102,7 @@ fn a_table_reads_back_and_bad_ones_are_named() {
     assert!((again.rate_hz - 1000.0).abs() < 1e-6);
     for (text, named) in [
         ("", "a.csv:1"),
-        ("t,f,a\n", "columns t,f,a"),
+        ("t,f,a\n", "the columns are t,f,a, but"),
         ("t_s,force_n,accel_m_s2\n0,0,0\n", "no two rows"),
         (
             "t_s,force_n,accel_m_s2\n0,0,0\n0.001,x,0\n",

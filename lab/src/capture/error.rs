@@ -42,10 +42,10 @@ pub enum SensorError {
         seconds: u64,
     },
     /// It was unplugged, or whoever wrote has gone.
-    #[error("{0}: it has ended; was it unplugged?")]
+    #[error("{0}: the data ended; was the sensor unplugged?")]
     Ended(String),
     /// What came is not the line protocol.
-    #[error("{name}: {count} lines in a row are no samples, such as `{example}`")]
+    #[error("{name}: {count} consecutive lines are not samples, such as `{example}`")]
     Garbage {
         /// The port.
         name: String,
@@ -71,7 +71,7 @@ pub enum SensorError {
         why: String,
     },
     /// Its own clock or count went back.
-    #[error("{name}: its clock went back from {before} to {now}; it has restarted")]
+    #[error("{name}: the sensor restarted: its clock went back from {before} to {now}")]
     Restarted {
         /// The port.
         name: String,
@@ -108,7 +108,7 @@ impl Diagnostic for SensorError {
             }
             Self::Read { .. } | Self::Ended(_) => "check the cable, and record again".into(),
             Self::Stalled { .. } => {
-                "check that the board runs, or that the program which writes the file does".into()
+                "check that the board, or the program that writes the file, is running".into()
             }
             Self::Garbage { .. } | Self::LongLine { .. } => {
                 "check ?baud=, and that the board sends lines of numbers as docs/recording.md says"
@@ -118,7 +118,7 @@ impl Diagnostic for SensorError {
                 "let the board send `#t_us,ax_g,ay_g,az_g` every second, or give ?columns=; check ?baud="
                     .into()
             }
-            Self::Restarted { .. } => "check the board's supply, and record again".into(),
+            Self::Restarted { .. } => "check the power supply of the board, and record again".into(),
             Self::Changed { .. } => {
                 "let the other program write one file from beginning to end".into()
             }

@@ -64,7 +64,11 @@ impl FromStr for Sensor {
             "serial" => (Kind::Serial, &["baud", "columns", "delay_ms", "g", "n"]),
             "wav" => (Kind::Wav, &["columns", "delay_ms", "g", "n"]),
             "sim" => (Kind::Simulated, &["seed"]),
-            _ => return Err(fail("known are serial:, wav: and sim:")),
+            _ => {
+                return Err(fail(
+                    "unknown kind of sensor; known kinds are serial:, wav: and sim:",
+                ));
+            }
         };
         if (kind == Kind::Simulated) != which.is_empty() {
             return Err(fail(match kind {
@@ -191,7 +195,7 @@ mod tests {
     fn a_name_that_is_wrong_is_told_with_what_would_be_right() {
         for (name, part) in [
             ("accel", "no kind"),
-            ("usb:1", "known are"),
+            ("usb:1", "known kinds are"),
             ("serial:", "no port"),
             ("sim:x", "no file"),
             ("wav:a.wav", "g is missing"),

@@ -28,7 +28,7 @@ pub enum CompensationError {
 impl Diagnostic for CompensationError {
     fn remedy(&self) -> String {
         match self {
-            Self::Format(_) => "make the file again from its source".into(),
+            Self::Format(_) => "build the file again from its source".into(),
             _ => "measure the device again with `asperity-lab device calibrate`, or leave out \
                   `[compensation]` of its profile"
                 .into(),

@@ -30,9 +30,11 @@ impl Diagnostic for FeelError {
     fn remedy(&self) -> String {
         match self {
             Self::Load(LoadError::Rate { model_hz, .. }) => format!(
-                "set `timing.servo_rate_hz = {model_hz}`, or 2, 3, … 20 times as much, in the device file, or make the texture for the device's rate"
+                "set `timing.servo_rate_hz = {model_hz}`, or 2, 3, … 20 times as much, in the device file, or compile the texture for the rate of the device"
             ),
-            Self::Load(_) => "make the texture again with fewer vertices or a lower order".into(),
+            Self::Load(_) => {
+                "compile the texture again with fewer vertices or a lower order".into()
+            }
             Self::Config(_) => "change the value in the device file".into(),
             Self::Plot(_) | Self::Wav(_) | Self::Csv(_) | Self::Transform(_) => {
                 "run again with fewer --seconds".into()

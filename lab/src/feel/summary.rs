@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use asperity_io::shown::counted;
 use asperity_recording::signal::quantile::quantile;
 use asperity_runtime::Flags;
 
@@ -193,8 +194,10 @@ impl fmt::Display for Summary<'_> {
         )?;
         writeln!(
             f,
-            "device     {} (simulated), {:.0} Hz, {} ticks of transport delay",
-            device.name, device.timing.servo_rate_hz, device.timing.transport_delay_ticks
+            "device     {} (simulated), {:.0} Hz, {} of transport delay",
+            device.name,
+            device.timing.servo_rate_hz,
+            counted(device.timing.transport_delay_ticks, "tick", "ticks")
         )?;
         writeln!(
             f,
@@ -203,7 +206,7 @@ impl fmt::Display for Summary<'_> {
         )?;
         writeln!(
             f,
-            "duration   {:.3} s of virtual time, {} ticks, in contact {:.1} %",
+            "duration   {:.3} s of virtual time, {} ticks, {:.1} % of them in contact",
             self.recording.duration_s(),
             self.recording.records.len(),
             100.0 * self.contact_fraction
@@ -235,16 +238,16 @@ impl fmt::Display for Summary<'_> {
         writeln!(f, "\nforces")?;
         writeln!(
             f,
-            "  normal     mean {mean_n:.3} N, 5/50/95 % {p5:.3} / {p50:.3} / {p95:.3} N, max {max:.3} N"
+            "  normal     mean {mean_n:.3} N, 5/50/95 % quantiles {p5:.3} / {p50:.3} / {p95:.3} N, max {max:.3} N"
         )?;
         writeln!(
             f,
-            "  friction   mean {:.3} N while sliding, μ·F_n {:.3} N",
+            "  friction   mean {:.3} N while sliding, against a mean μ·F_n of {:.3} N",
             self.friction_n, self.coulomb_n
         )?;
         writeln!(
             f,
-            "  total      peak {:.3} of {:.3} N, slew {:.0} of {:.0} N/s, rms {:.3} N (continuous {:.2} N)",
+            "  total      peak {:.3} N of {:.3} N, slew {:.0} N/s of {:.0} N/s, rms {:.3} N (continuous limit {:.2} N)",
             self.peak_n,
             device.actuator.peak_force_n,
             self.slew_n_s,
@@ -254,13 +257,15 @@ impl fmt::Display for Summary<'_> {
         )?;
         writeln!(
             f,
-            "  limiter    {} ticks at the peak, {} at the slew limit; vibration bounded in {}",
-            counters.peak_limited, counters.slew_limited, self.vib_clamped
+            "  limiter    {} at the peak limit, {} at the slew limit; vibration clamped in {}",
+            counted(counters.peak_limited, "tick", "ticks"),
+            counters.slew_limited,
+            counted(self.vib_clamped, "tick", "ticks")
         )?;
         writeln!(
             f,
-            "  grid       {} ticks of contact outside it",
-            self.outside_grid
+            "  grid       {} in contact outside it",
+            counted(self.outside_grid, "tick", "ticks")
         )?;
         writeln!(
             f,
@@ -269,8 +274,10 @@ impl fmt::Display for Summary<'_> {
         )?;
         writeln!(
             f,
-            "device     {} commands clipped, {} not finite, {} ticks at a workspace stop",
-            device_counts.clipped, device_counts.not_finite, device_counts.at_stop
+            "device     {} clipped, {} not finite, {} at a workspace stop",
+            counted(device_counts.clipped, "command", "commands"),
+            device_counts.not_finite,
+            counted(device_counts.at_stop, "tick", "ticks")
         )?;
         writeln!(f, "\ncaveats")?;
         for caveat in self.caveats() {
@@ -290,7 +297,7 @@ impl Summary<'_> {
             .count();
         writeln!(
             f,
-            "\ntaps       {} scripted, {played} rendered, {} others",
+            "\ntaps       {} scripted, {played} rendered, {} unscripted",
             self.taps.scripted.len(),
             self.taps.others_s.len()
         )?;
@@ -322,7 +329,7 @@ impl Summary<'_> {
     fn write_strokes(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "\nstrokes    {}, over their steady parts",
+            "\nstrokes    {}, measured over their steady parts",
             self.strokes.len()
         )?;
         if self.strokes.is_empty() {

@@ -2,6 +2,7 @@
 
 use asperity_host::latency::{Conditions, Percentiles, QUANTILES, Run, Shift, Wakeups};
 use asperity_host::servo::Stage;
+use asperity_io::shown::counted;
 use std::fmt::Write as _;
 
 /// The report of a run.
@@ -9,8 +10,8 @@ use std::fmt::Write as _;
 pub fn report(run: &Run, cyclictest: Option<&Wakeups>) -> String {
     let facts = &run.facts;
     let mut text = format!(
-        "{} ticks of {} µs, {} missed, longest gap {} µs\n\n",
-        facts.ticks,
+        "{} with a period of {} µs, {} missed, longest gap {} µs\n\n",
+        counted(facts.ticks, "tick", "ticks"),
         us(facts.period_ns),
         facts.missed,
         us(facts.longest_gap_ns)
@@ -41,7 +42,8 @@ pub fn report(run: &Run, cyclictest: Option<&Wakeups>) -> String {
         row("cyclictest's wakeup", &percentiles);
     }
     if facts.lost > 0 {
-        let _ = writeln!(text, "\n{} ticks are in no histogram", facts.lost);
+        let lost = counted(facts.lost, "tick was", "ticks were");
+        let _ = writeln!(text, "\n{lost} lost and missing from the histograms");
     }
     text += "\nworst ticks, µs\n";
     let _ = writeln!(
@@ -71,11 +73,11 @@ pub fn report(run: &Run, cyclictest: Option<&Wakeups>) -> String {
 
 fn conditions_of(conditions: &Conditions) -> String {
     let machine = &conditions.machine;
-    let told = |value: &Option<String>| value.clone().unwrap_or_else(|| "none told".into());
+    let told = |value: &Option<String>| value.clone().unwrap_or_else(|| "unknown".into());
     let kind = match machine.virtual_machine {
         Some(true) => "a virtual machine",
-        Some(false) => "no virtual machine",
-        None => "unknown whether virtual",
+        Some(false) => "not a virtual machine",
+        None => "unknown whether it is virtual",
     };
     let or_none = |list: &[String]| {
         if list.is_empty() {
@@ -85,11 +87,11 @@ fn conditions_of(conditions: &Conditions) -> String {
         }
     };
     let mut text = format!(
-        "kernel     {}, preemption {}\nmachine    {}, {} processors, {kind}, clock {}, load {}\n",
+        "kernel     {}, preemption {}\nmachine    {}, {}, {kind}, clock {}, load {}\n",
         machine.kernel,
         machine.preemption,
         told(&machine.processor),
-        machine.processors,
+        counted(machine.processors, "processor", "processors"),
         told(&machine.clock_source),
         told(&machine.load_average),
     );

@@ -59,7 +59,7 @@ pub enum ServoSessionError {
     BuiltIn(String),
     /// A device that is only identified.
     #[error(
-        "`{0}`: a Touch is identified over USB, and not moved: its frames are its vendor's secret"
+        "`{0}`: a Touch can only be identified over USB, not driven, because its protocol is not public"
     )]
     IdentifiedOnly(String),
     /// The device cannot be opened.
@@ -78,10 +78,10 @@ pub enum ServoSessionError {
     #[error("cannot start a thread: {0}")]
     Thread(io::Error),
     /// A name that says nothing of how to record.
-    #[error("{}: the name does not say how to record", .0.display())]
+    #[error("{}: unknown format of a recording: the name must end in .aspr or .csv", .0.display())]
     RecordName(PathBuf),
     /// The record cannot be written.
-    #[error("{}: the record cannot be written: {cause}", path.display())]
+    #[error("{}: the recording cannot be written: {cause}", path.display())]
     Record {
         /// The file.
         path: PathBuf,
@@ -89,7 +89,7 @@ pub enum ServoSessionError {
         cause: io::Error,
     },
     /// A rate other than the one at which a recording was made.
-    #[error("the recording was made at {recorded_hz} Hz, and cannot be played at {asked_hz} Hz")]
+    #[error("the recording was made at {recorded_hz} Hz and cannot be replayed at {asked_hz} Hz")]
     RecordedRate {
         /// Its rate.
         recorded_hz: f32,
@@ -97,7 +97,7 @@ pub enum ServoSessionError {
         asked_hz: u32,
     },
     /// The servo thread panicked.
-    #[error("the servo thread ended by a bug")]
+    #[error("the servo thread panicked")]
     Bug,
 }
 
@@ -116,23 +116,23 @@ impl Diagnostic for ServoSessionError {
     fn remedy(&self) -> String {
         match self {
             Self::Source(error) => error.remedy(),
-            Self::Format { .. } => "make the file again from its source".into(),
+            Self::Format { .. } => "build the file again from its source".into(),
             Self::Load {
                 cause: LoadError::Rate { model_hz, .. },
                 ..
             } => format!("give --rate {model_hz}, or 2, 3, … 20 times as much"),
             Self::Load { .. } | Self::Scene { .. } => {
-                "make the texture again with fewer vertices or a lower order".into()
+                "compile the texture again with fewer vertices or a lower order".into()
             }
             Self::Voice { cause, .. } => cause.remedy(),
             Self::Profile(error) => error.remedy().into(),
             Self::BuiltIn(_) | Self::Bug => "report this as a bug".into(),
             Self::IdentifiedOnly(_) => {
-                "use openhaptics: with the vendor's library, or `asperity-lab device probe touch:` to see its state".into()
+                "use openhaptics: with the vendor's library, or check its state with `asperity-lab device probe touch:`".into()
             }
             Self::Open(error) => error.remedy(),
             Self::RecordName(_) => {
-                "give OUT.aspr for a recording that replay: plays, or OUT.csv for a table".into()
+                "give OUT.aspr for a recording to replay, or OUT.csv for a table".into()
             }
             Self::Record { cause, .. } => system::remedy(cause)
                 .unwrap_or("record fewer seconds, or onto another disk")
@@ -141,7 +141,7 @@ impl Diagnostic for ServoSessionError {
             Self::Simulated(error) => error.remedy(),
             Self::Config(_) => "change the value in the device file".into(),
             Self::Settings(SettingsError::Rounding) => {
-                "a library in this process has changed it: reset its rounding mode".into()
+                "reset the rounding mode, which a library in this process has changed".into()
             }
             Self::Settings(_) => "give --rate 250 to 10000".into(),
             Self::Thread(_) => "close other programs, or raise `ulimit -u`".into(),

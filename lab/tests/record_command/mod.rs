@@ -105,7 +105,7 @@ fn a_simulated_session_is_kept_and_told() {
     let again = record(folder.path(), &arguments);
     assert_eq!(again.status.code(), Some(1));
     assert!(
-        errors(&again).contains("is there already"),
+        errors(&again).contains("oak: cannot create the folder"),
         "{}",
         errors(&again)
     );
@@ -171,7 +171,7 @@ fn what_cannot_be_recorded_is_refused_and_leaves_nothing() {
         assert!(error.contains(part), "{part} in {error}");
     }
     for (accel, part) in [
-        ("usb:", "known are"),
+        ("usb:", "known kinds are"),
         ("wav:a.wav", "g is missing"),
         ("serial:x?columns=speed", "`speed`"),
     ] {

@@ -123,13 +123,13 @@ fn a_serial_port_is_read_and_one_that_is_unplugged_keeps_what_it_sent() {
     // On a busy machine the command takes seconds to begin.
     let after = [4, 16].map(Duration::from_secs);
     let output = unplugged(folder.path(), after[0]);
-    let output = match errors(&output).contains("less than a second together") {
+    let output = match errors(&output).contains("overlap for less than one second") {
         true => unplugged(folder.path(), after[1]),
         false => output,
     };
     assert_eq!(output.status.code(), Some(1));
     let error = errors(&output);
-    assert!(error.contains("was it unplugged?"), "{error}");
+    assert!(error.contains("was the sensor unplugged?"), "{error}");
     assert_eq!(told(&output)["end"], "device or sensor has gone");
     kept(&folder.path().join("oak"));
 }
@@ -138,7 +138,7 @@ fn a_serial_port_is_read_and_one_that_is_unplugged_keeps_what_it_sent() {
 fn a_port_that_sends_no_samples_is_told_and_leaves_nothing() {
     for (sent, columns, part) in [
         ("\u{1b}[31mhello\r\n", "", "its header did not come"),
-        ("1,2\r\n", "?columns=ax", "are no samples"),
+        ("1,2\r\n", "?columns=ax", "are not samples"),
         (
             "nan,nan,nan,nan\r\n",
             "?columns=ax,ay,az,fz",
@@ -151,7 +151,7 @@ fn a_port_that_sends_no_samples_is_told_and_leaves_nothing() {
             "?columns=ax,ay,az",
             "nothing measures the force",
         ),
-        ("0.1,0.2\r\n", "?columns=ax,fx", "not that along z"),
+        ("0.1,0.2\r\n", "?columns=ax,fx", "not the one along z"),
     ] {
         let folder = tempfile::tempdir().expect("a folder");
         let (mut end, name) = pty();
@@ -186,7 +186,12 @@ fn a_port_that_is_none_is_refused() {
     let with = |accel| ["oak", "--device", "null:", "--accel", accel];
     refused(folder.path(), &with("serial:none"), 1, "cannot open it");
     refused(folder.path(), &with("serial:a.txt"), 1, "cannot open it");
-    refused(folder.path(), &with("serial:/dev/null"), 1, "has ended");
+    refused(
+        folder.path(),
+        &with("serial:/dev/null"),
+        1,
+        "the data ended",
+    );
     refused(
         folder.path(),
         &with("serial:/dev/zero"),
@@ -285,7 +290,7 @@ fn an_interrupt_keeps_what_was_recorded_or_leaves_nothing() {
     let output = wait(child);
     assert_eq!(output.status.code(), Some(1));
     assert!(
-        errors(&output).contains("nothing is left"),
+        errors(&output).contains("nothing was kept"),
         "{}",
         errors(&output)
     );
@@ -319,7 +324,7 @@ fn a_full_disk_is_told_and_leaves_nothing() {
     assert_eq!(output.status.code(), Some(1));
     let error = errors(&output);
     assert!(
-        error.contains("oak") && error.contains("nothing is left"),
+        error.contains("oak") && error.contains("the recording was not kept"),
         "{error}"
     );
     assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0);

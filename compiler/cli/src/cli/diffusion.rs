@@ -10,16 +10,16 @@ use std::path::PathBuf;
 /// Which model makes a picture, and how.
 #[derive(Debug, Args)]
 pub(crate) struct Diffusion {
-    /// Let Stable Diffusion make the picture: an ONNX folder of your own, see docs/preview.md
+    /// Draw the picture with Stable Diffusion, from this ONNX folder (see docs/preview.md)
     #[arg(long, value_name = "DIR")]
     pub(crate) diffusion: Option<PathBuf>,
-    /// Steps from noise to the picture, 1 to 1000
+    /// Denoising steps, 1 to 1000
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = value_parser!(u16).range(1..=1000), requires = "diffusion")]
     pub(crate) steps: u16,
-    /// How far each step goes towards the prompt, 1 to 30; 1 leaves the negative prompt out
+    /// Guidance scale, 1 to 30: how closely to follow the prompt; 1 ignores the negative prompt
     #[arg(long, value_name = "SCALE", default_value_t = 7.5, value_parser = |text: &str| super::within(text, 1.0, 30.0), requires = "diffusion")]
     pub(crate) guidance: f32,
-    /// How steps are taken
+    /// Scheduler of the denoising steps
     #[arg(
         long,
         value_name = "ddim|euler",
@@ -27,7 +27,7 @@ pub(crate) struct Diffusion {
         requires = "diffusion"
     )]
     pub(crate) scheduler: Method,
-    /// What the picture does not show
+    /// Negative prompt: what the picture must not show
     #[arg(
         long,
         value_name = "TEXT",
@@ -36,10 +36,10 @@ pub(crate) struct Diffusion {
         requires = "diffusion"
     )]
     pub(crate) negative: String,
-    /// Let the picture repeat in both directions; decoding takes four times as long
+    /// Draw a picture that tiles seamlessly; decoding takes four times as long
     #[arg(long, requires = "diffusion")]
     pub(crate) tile: bool,
-    /// Where its networks run: `onnxruntime`, or `portable` for networks as small as tests have
+    /// Back end of the diffusion networks; `portable` is only fast enough for tiny ones, as in tests
     #[arg(long, value_name = "onnxruntime|portable", default_value_t = BackendName::OnnxRuntime, requires = "diffusion")]
     pub(crate) diffusion_backend: BackendName,
 }

@@ -6,10 +6,10 @@ use clap::Args;
 /// Whether what is written carries a preview, and of which size.
 #[derive(Debug, Args)]
 pub(crate) struct PreviewOptions {
-    /// Draw no preview
+    /// Leave out the preview picture
     #[arg(long)]
     pub(crate) no_preview: bool,
-    /// Width and height of the preview, pixels: 64 to 1024 [default: as the source says, or 256]
+    /// Width and height of the preview in pixels, 64 to 1024 [default: that of the source, or 256]
     #[arg(long, value_name = "PX", value_parser = pixels, conflicts_with = "no_preview")]
     pub(crate) preview_size: Option<u32>,
 }
@@ -27,7 +27,7 @@ pub(crate) struct ReportOptions {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Print on standard error how long each pass took
+    /// Print how long each pass took, on standard error
     #[arg(long)]
     pub(crate) timings: bool,
 }

@@ -8,12 +8,12 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Formats: c-array and rust hold the asset, or a whole library, as an aligned \
-constant array; `-o NAME.c` writes NAME.h beside it. hjif and hmpg (MPEG haptics), ahap (Apple), \
-haptic (NiceVibrations), wav and csv hold strokes and taps as the runtime renders them: one stroke \
-and three taps, unless options ask for others. gltf holds a material with the MPEG_haptic_material \
-extension. Of a library, every texture goes to a file of its own in a folder. What a format loses \
-of each stroke and tap is printed in dB, over third octaves; docs/export.md says how.
+    after_help = "Formats: c-array and rust embed the asset, or a whole library, as an aligned \
+constant array; `-o NAME.c` also writes NAME.h. hjif and hmpg (MPEG haptics), ahap (Apple), haptic \
+(NiceVibrations), wav and csv contain strokes and taps as the runtime renders them, by default one \
+stroke and three taps. gltf contains a material with the MPEG_haptic_material extension. A library \
+is exported to a folder, with one file per texture. The report gives the loss of each stroke and \
+tap in dB over third octaves; docs/export.md explains how it is measured.
 
 Examples:
   asperity export grit.asp --to c-array -o grit.c
@@ -25,7 +25,7 @@ Examples:
 pub(crate) struct Export {
     /// An asset (.asp) or a library (.aspl); `-` is standard input
     pub(crate) file: PathBuf,
-    /// The format
+    /// Format to export to
     #[arg(long, value_name = "c-array|rust|hjif|hmpg|ahap|haptic|gltf|wav|csv")]
     pub(crate) to: Format,
     /// The file to write, or a folder for a library; `-` is standard output
@@ -37,16 +37,16 @@ pub(crate) struct Export {
     /// Normal force of the stroke, N: 0.05 to 20 [default: 1]
     #[arg(long, value_name = "N", value_parser = |text: &str| within(text, 0.05, 20.0))]
     pub(crate) force: Option<f32>,
-    /// Time of the stroke, s: 0.3 to 60 [default: 1]
+    /// Duration of the stroke, s: 0.3 to 60 [default: 1]
     #[arg(long, value_name = "S", value_parser = |text: &str| within(text, 0.3, 60.0))]
     pub(crate) time: Option<f32>,
-    /// Taps, and no stroke unless one is asked for
+    /// Render taps, and no stroke unless --speed or --force is given
     #[arg(long)]
     pub(crate) taps: bool,
-    /// Acceleration that a full scale stands for in strokes, m/s² [default: the largest one]
+    /// Acceleration at full scale in strokes, m/s² [default: the largest in the clip]
     #[arg(long, value_name = "M_S2", value_parser = |text: &str| within(text, 0.001, 10_000.0))]
     pub(crate) full_scale: Option<f32>,
-    /// Acceleration that a full scale stands for in taps, m/s² [default: the largest one]
+    /// Acceleration at full scale in taps, m/s² [default: the largest in the clip]
     #[arg(long, value_name = "M_S2", value_parser = |text: &str| within(text, 0.001, 10_000.0))]
     pub(crate) tap_full_scale: Option<f32>,
     /// Seed of the excitation
@@ -55,7 +55,7 @@ pub(crate) struct Export {
     /// Rate of the servo loop, 1 to 20 times that of the texture [default: the texture's]
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f32>,
-    /// Width and height of the pictures of gltf, pixels: 64 to 1024
+    /// Width and height of the pictures in a gltf export, in pixels, 64 to 1024
     #[arg(long, value_name = "PX", default_value_t = preview::SIZE, value_parser = pixels)]
     pub(crate) size: u32,
     /// One texture of a library, by name or index from 0
@@ -68,10 +68,10 @@ pub(crate) struct Export {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Such a file states no speed, no force and no acceleration. Its continuous \
-effects become one stroke at --speed and --force: an AR model with their level and spectrum. Its \
-transients become taps: the loudest at --tap-speed, the others slower as they are quieter. \
-docs/export.md says how each format is read.
+    after_help = "Effect files give no speed, force or acceleration, so the options supply them. \
+The continuous effects become one stroke at --speed and --force: an AR model with their level and \
+spectrum. The transients become taps: the loudest at --tap-speed, quieter ones at lower speeds. \
+docs/export.md explains how each format is read.
 
 Examples:
   asperity import haptic gravel.haptic -o gravel.asp
@@ -79,12 +79,12 @@ Examples:
   asperity import hjif gravel.hjif -o gravel.asp --mu 0.7 --json"
 )]
 pub(crate) struct ImportEffects {
-    /// The file
+    /// Effect file to import
     pub(crate) input: PathBuf,
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// Name of the texture [default: that of the file]
+    /// Name of the texture [default: the name of the file]
     #[arg(long)]
     pub(crate) name: Option<String>,
     /// Speed of the stroke, mm/s: 1 to 1000
@@ -93,10 +93,10 @@ pub(crate) struct ImportEffects {
     /// Normal force of the stroke, N: 0.05 to 20
     #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = |text: &str| within(text, 0.05, 20.0))]
     pub(crate) force: f32,
-    /// Acceleration that a full scale stands for in strokes, m/s²
+    /// Acceleration at full scale in strokes, m/s²
     #[arg(long, value_name = "M_S2", default_value_t = 5.0, value_parser = |text: &str| within(text, 0.001, 10_000.0))]
     pub(crate) full_scale: f32,
-    /// Acceleration that a full scale stands for in taps, m/s²
+    /// Acceleration at full scale in taps, m/s²
     #[arg(long, value_name = "M_S2", default_value_t = 50.0, value_parser = |text: &str| within(text, 0.001, 10_000.0))]
     pub(crate) tap_full_scale: f32,
     /// Impact speed of the loudest tap, m/s
@@ -105,10 +105,10 @@ pub(crate) struct ImportEffects {
     /// Coefficient of friction
     #[arg(long, default_value_t = 0.5, value_parser = |text: &str| within(text, 0.0, 2.0))]
     pub(crate) mu: f32,
-    /// How much of the model is kept: all, the least within 0.5 dB, or an AR order
+    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
-    /// Rate of the AR models, Hz: that of the servo loop [default: 1000]
+    /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: 1000]
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
     #[command(flatten)]

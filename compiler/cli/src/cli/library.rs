@@ -8,16 +8,16 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "A manifest is a TOML file with [defaults], include = [...] and [[texture]] entries \
-(name and one of prompt, import, asset, blend, compose, and options of its own), a CSV file whose \
-header names the same keys, or JSON lines. What was made before is taken from a cache: an \
-interrupted build goes on where it stopped. Textures are made in parallel; the bytes do not depend \
-on order, threads, cache or parts. FILE.lock pins model and versions.
+(a name, one of prompt, import, asset, blend and compose, and options for this texture), a CSV file \
+whose header names the same keys, or JSON lines. Compiled textures are cached, so an interrupted \
+build resumes where it stopped. Textures are compiled in parallel; the bytes do not depend on \
+order, threads, cache or shards. FILE.lock pins the model and the versions.
 
-A scene is a TOML manifest with servo_rate_hz and [[surface]] entries (texture and one of plane, \
-sphere, box). Only textures that a surface wears are packed, each once. A target limits the \
-instructions of a tick, a clock by a share of its period at one instruction a clock. Within a \
-budget, textures have no preview, and each has the fidelity that the budget allows, unless the \
-manifest states it: it is lowered where that costs the least error.
+A scene is a TOML manifest with servo_rate_hz and [[surface]] entries (a texture and one of plane, \
+sphere and box). Only textures used by a surface are packed, each of them once. --target limits the \
+instructions per tick, either to a number or to a share of the clock cycles of a period, counted \
+as one instruction per cycle. Within a budget, textures have no preview, and fidelity is reduced \
+where that costs the least error, except for textures whose fidelity the manifest gives.
 
 Examples:
   asperity build library.toml -o library.aspl
@@ -37,36 +37,36 @@ pub(crate) struct Build {
     /// The library to write (.aspl); `-` is standard output
     #[arg(short, long, required_unless_present = "check")]
     pub(crate) output: Option<PathBuf>,
-    /// Check the manifest and all that it names, and build nothing
+    /// Check the manifest and the files it names, without building anything
     #[arg(long, conflicts_with_all = ["output", "shard"])]
     pub(crate) check: bool,
-    /// Build one part of several, such as 1/4; `asperity merge` joins them
+    /// Build one shard of several, such as 1/4; join them with `asperity merge`
     #[arg(long, value_name = "i/n")]
     pub(crate) shard: Option<Shard>,
-    /// Folder that keeps textures between builds [default: ASPERITY_CACHE, or the user's cache]
+    /// Folder of the texture cache [default: $ASPERITY_CACHE, or the user's cache folder]
     #[arg(long, value_name = "DIR")]
     pub(crate) cache: Option<PathBuf>,
-    /// Make every texture, and keep none
+    /// Compile every texture afresh, and cache none
     #[arg(long, conflicts_with = "cache")]
     pub(crate) no_cache: bool,
-    /// Refuse a model or a version that the lock file does not pin
+    /// Fail if the model or a version differs from the lock file
     #[arg(long)]
     pub(crate) locked: bool,
-    /// Refuse prompts that are less certain: known, close (to what is known), guess
+    /// Fail for prompts that are less certain than this: known, close (to something known) or guess
     #[arg(long, value_name = "known|close|guess", value_parser = certainty)]
     pub(crate) min_certainty: Option<Certainty>,
-    /// For a list that others sent: refuse every path that leaves the manifest's folder
+    /// For untrusted manifests: refuse every path outside the manifest's folder
     #[arg(long)]
     pub(crate) confined: bool,
     #[command(flatten)]
     pub(crate) preview: PreviewOptions,
-    /// Scenes: where a tick has to fit, a processor and its clock, or a number of instructions
+    /// Scenes: what a tick must fit into, a processor and its clock or a number of instructions
     #[arg(long, value_name = "cortex-m4f@168MHz|INSTRUCTIONS")]
     pub(crate) target: Option<Target>,
-    /// Scenes: percent of the target's clocks that a tick may take
+    /// Scenes: percentage of the target's clock cycles that a tick may use
     #[arg(long, default_value_t = 100.0 * asperity::scene::DEFAULT_SHARE, value_name = "PERCENT", value_parser = percent, requires = "target")]
     pub(crate) share: f64,
-    /// Scenes: bytes that the library may take
+    /// Scenes: largest size of the library, bytes
     #[arg(long, value_name = "N")]
     pub(crate) budget_bytes: Option<u64>,
     #[command(flatten)]
@@ -83,14 +83,14 @@ fn certainty(text: &str) -> Result<Certainty, String> {
 fn percent(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(percent) if percent > 0.0 && percent <= 100.0 => Ok(percent),
-        _ => Err("above 0, at most 100".to_owned()),
+        _ => Err("must be a percentage above 0 and at most 100".to_owned()),
     }
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The parts of a manifest, built with --shard, give the bytes of one build. A \
-texture may be in several libraries if it is the same in all.
+    after_help = "Merging all shards of a manifest, built with --shard, gives the same bytes as \
+one build. A texture may be in several of the libraries if it is identical in all of them.
 
 Examples:
   asperity merge part1.aspl part2.aspl -o library.aspl
@@ -158,17 +158,17 @@ pub(crate) struct Split {
     /// The folder to write into
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
-    /// Write this number of libraries instead of an asset a texture
+    /// Write this number of libraries instead of one asset per texture
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999))]
     pub(crate) into: Option<u32>,
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "One line a texture that changed: how far apart the spectra are, and forces, \
-friction and picture where they differ. Two assets are compared whatever their names.
+    after_help = "Prints one line per changed texture: the distance of the spectra, and forces, \
+friction and picture if they differ. Two assets are compared even if their names differ.
 
-Exit status: 0 if nothing changed, 1 if something did or the comparison failed, 2 wrong usage.
+Exit status: 0 if nothing changed, 1 if something did or the comparison failed, 2 on wrong usage.
 
 Examples:
   asperity diff old.aspl new.aspl
@@ -180,7 +180,7 @@ pub(crate) struct Diff {
     pub(crate) old: PathBuf,
     /// The new one
     pub(crate) new: PathBuf,
-    /// Exit with 0 also if all that changed are spectra, by this many dB at worst
+    /// Also exit with 0 if only spectra changed, by at most this many dB
     #[arg(long, value_name = "DB")]
     pub(crate) within: Option<f64>,
     /// Print JSON

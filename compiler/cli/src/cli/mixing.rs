@@ -24,8 +24,8 @@ pub(crate) struct Mixed {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Both textures remember the latent they were decoded from; the one between them is \
-decoded from (1 − t)·a + t·b. It is kept as A was: fidelity and rate.
+    after_help = "Each texture stores the latent it was decoded from. The new one is decoded from \
+(1 − t)·a + t·b, with the fidelity and the rate of A.
 
 Examples:
   asperity blend towel.asp whiteboard.asp -o between.asp
@@ -36,7 +36,7 @@ pub(crate) struct Blend {
     pub(crate) a: String,
     /// The texture at t = 1
     pub(crate) b: String,
-    /// Where between them, 0 to 1
+    /// Position between A and B, 0 to 1
     #[arg(short, default_value_t = 0.5, value_parser = share)]
     pub(crate) t: f64,
     #[command(flatten)]
@@ -46,27 +46,27 @@ pub(crate) struct Blend {
 fn share(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
-        _ => Err("a number from 0 to 1".to_owned()),
+        _ => Err("must be a number from 0 to 1".to_owned()),
     }
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Taps and wall come from one texture, the models from another, friction from a \
-third. Without --friction it comes from the one that is slid on.
+    after_help = "Taps and wall come from --tap, the AR models from --slide, and friction from \
+--friction, or from --slide if --friction is not given.
 
 Examples:
   asperity compose --tap anvil.asp --slide velvet.asp -o mixed.asp
   asperity compose --tap anvil.asp --slide velvet.asp --friction ice.asp -o mixed.asp"
 )]
 pub(crate) struct Compose {
-    /// What tapping feels like (.asp, or FILE.aspl#NAME)
+    /// Texture that gives the taps (.asp, or FILE.aspl#NAME)
     #[arg(long, value_name = "FILE")]
     pub(crate) tap: String,
-    /// What sliding feels like
+    /// Texture that gives the vibration of sliding
     #[arg(long, value_name = "FILE")]
     pub(crate) slide: String,
-    /// Where friction comes from
+    /// Texture that gives the friction [default: that of --slide]
     #[arg(long, value_name = "FILE")]
     pub(crate) friction: Option<String>,
     #[command(flatten)]
@@ -75,12 +75,11 @@ pub(crate) struct Compose {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "A slider of 0 to 100 spans the materials of the model, from the 5 % that have the \
-least of an attribute to the 5 % that have the most. Each option moves its attribute by as many \
-steps, down if it is negative, and leaves the others where they are. What the model cannot reach \
-is moved after decoding. --prompt says in words what changes from where the texture is: qualities \
-with their degree, and things to be more like. The asset remembers every edit; --undo takes back \
-the last one.
+    after_help = "The sliders run from 0 to 100, which are the 5th and the 95th percentile of that \
+attribute over the materials of the model. Each option moves its attribute by this many steps, down \
+if negative, and holds the others still. Changes that the model cannot reach are applied after \
+decoding. --prompt describes the change in words: qualities with their degree, and materials to be \
+more like. The asset stores every edit; --undo reverts the last one.
 
 Examples:
   asperity edit sheet.asp --rougher 20 -o rougher.asp
@@ -92,22 +91,22 @@ Examples:
 pub(crate) struct Edit {
     /// The texture (.asp, or FILE.aspl#NAME)
     pub(crate) file: String,
-    /// Steps of level of the vibration
+    /// Raise the vibration level by this many steps
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true)]
     pub(crate) rougher: Option<f64>,
-    /// Steps of spectral centroid of the vibration
+    /// Raise the spectral centroid of the vibration by this many steps
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true)]
     pub(crate) sharper: Option<f64>,
-    /// Steps of spectral centroid of taps
+    /// Raise the spectral centroid of the taps by this many steps
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true)]
     pub(crate) harder: Option<f64>,
-    /// Steps of friction, less of it if positive
+    /// Lower the friction by this many steps
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true)]
     pub(crate) slipperier: Option<f64>,
-    /// What changes, in words, such as "less gritty, more waxy"
+    /// Describe the change in words, such as "less gritty, more waxy"
     #[arg(long, value_name = "TEXT", conflicts_with_all = ["rougher", "sharper", "harder", "slipperier"])]
     pub(crate) prompt: Option<String>,
-    /// Take back the last edit
+    /// Revert the last edit
     #[arg(long, conflicts_with_all = ["rougher", "sharper", "harder", "slipperier", "prompt"])]
     pub(crate) undo: bool,
     #[command(flatten)]
@@ -118,15 +117,15 @@ fn steps(text: &str) -> Result<f64, String> {
     let largest = asperity::edit::Sliders::LARGEST;
     match text.parse() {
         Ok(steps) if (-largest..=largest).contains(&steps) => Ok(steps),
-        _ => Err(format!("a number from {} to {largest}", -largest)),
+        _ => Err(format!("must be a number from {} to {largest}", -largest)),
     }
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The encoder of the model places a recording among the materials that it was \
-trained on, and the texture is decoded from there: what was not recorded is completed. Says how \
-far the decoded spectra are from the recorded ones.
+    after_help = "The encoder of the model maps the recording to a latent, and the texture is \
+decoded from it, which also fills in what was not recorded. The report gives the distance of the \
+decoded spectra from the recorded ones.
 
 Examples:
   asperity import hatt Models_Cork.xml -o cork.asp
@@ -136,7 +135,7 @@ Examples:
 pub(crate) struct Encode {
     /// The recording (.asp, or FILE.aspl#NAME)
     pub(crate) file: String,
-    /// What of it is encoded [default: what was recorded; synthesised taps were not]
+    /// Part to encode [default: what was recorded, which excludes synthesised taps]
     #[arg(long, value_name = "whole|taps|slide")]
     pub(crate) part: Option<Part>,
     #[command(flatten)]

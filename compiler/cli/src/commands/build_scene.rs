@@ -17,12 +17,13 @@ use asperity_io::{
     diagnostic::{Diagnostic, Failures, one},
     input::Reach,
     output::display,
+    shown::counted,
 };
 use thiserror::Error;
 
 /// Why the options do not go together.
 #[derive(Debug, Error)]
-#[error("{0} is for libraries, and this manifest has a [[surface]]")]
+#[error("{0} applies only to libraries, but the manifest has a [[surface]]")]
 struct ForLibraries(&'static str);
 
 impl Diagnostic for ForLibraries {
@@ -48,8 +49,9 @@ pub(crate) fn run(
         Description::within(&args.scene, text, reach.clone(), &Registry::default())?;
     previews(args, &mut description.manifest);
     if args.check {
-        let (file, count) = (args.scene.display(), description.worn().len());
-        let report = format!("{file}: a scene of {count} textures, no fault\n");
+        let file = args.scene.display();
+        let textures = counted(description.worn().len(), "texture", "textures");
+        let report = format!("{file}: a scene with {textures}, no faults found\n");
         return console.report(&report).map_err(one);
     }
     let budget = Budget {

@@ -97,7 +97,7 @@ fn findings(args: &Doctor) -> Vec<Finding> {
                     megabytes(encoder_bytes)
                 )
             })
-            .map_err(|error| (error, "build the command anew".to_owned())),
+            .map_err(|error| (error, "reinstall or rebuild asperity".to_owned())),
     ));
     let model = inference::model(&args.inference, &Backend::Portable).and_then(|model| {
         runs(&model).map_err(one)?;

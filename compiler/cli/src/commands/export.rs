@@ -12,6 +12,7 @@ use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{FileNames, Outputs, display, write_folder_beside},
+    shown::{counted, size},
 };
 use serde_json::{Value, json};
 use std::{fmt::Write as _, path::Path};
@@ -73,9 +74,9 @@ fn source(args: &Export, language: Language, console: Console) -> Result<(), Fai
     } else {
         let to = display(&args.output);
         console.report(&format!(
-            "{to}: {} bytes of {name} as {}\n",
-            bytes.len(),
-            args.to
+            "{to}: {name} as {}, {} of data\n",
+            args.to,
+            size(bytes.len() as u64)
         ))
     };
     printed.map_err(one)
@@ -168,7 +169,8 @@ fn folder(
             "textures": textures,
         }))
     } else {
-        let mut text = format!("{}: {} files\n", display(&args.output), files.len());
+        let count = counted(files.len(), "file", "files");
+        let mut text = format!("{}: wrote {count}\n", display(&args.output));
         for ((_, exported), (file, _)) in all() {
             text += &report(file, exported);
         }
@@ -188,7 +190,7 @@ fn in_json(name: &str, exported: &Exported) -> Value {
 }
 
 fn report(file: &str, exported: &Exported) -> String {
-    let mut text = format!("{file}: {} bytes", exported.bytes.len());
+    let mut text = format!("{file}: {}", size(exported.bytes.len() as u64));
     if let Some(scale) = exported.scale {
         let has = |word: &str| exported.carried.iter().any(|c| c.part.starts_with(word));
         let mut said = Vec::new();
@@ -197,20 +199,22 @@ fn report(file: &str, exported: &Exported) -> String {
             ("tap", "taps", scale.tap_m_s2),
         ] {
             if has(word) {
-                said.push(format!("{m_s2:.3} m/s² in {part}"));
+                said.push(format!("{m_s2:.3} m/s² for {part}"));
             }
         }
         // Writing to a string cannot fail.
-        let _ = write!(text, "; a full scale is {}", said.join(", "));
+        let _ = write!(text, "; full scale is {}", said.join(" and "));
     }
     text.push('\n');
+    let widths = exported.carried.iter().map(|c| c.part.chars().count());
+    let width = widths.max().unwrap_or(0);
     for Carried { part, loss } in &exported.carried {
         let _ = match loss {
-            None => writeln!(text, "  {part}: silent"),
-            Some(loss) if loss.worst_db < 0.005 => writeln!(text, "  {part}: no loss"),
+            None => writeln!(text, "  {part:<width$}  silent"),
+            Some(loss) if loss.worst_db < 0.005 => writeln!(text, "  {part:<width$}  no loss"),
             Some(loss) => writeln!(
                 text,
-                "  {part}: loses {:.2} dB RMS in third octaves, {:.2} dB at most, at {:.0} Hz",
+                "  {part:<width$}  loses {:>5.2} dB RMS over third octaves, at most {:>5.2} dB at {:.0} Hz",
                 loss.rms_db, loss.worst_db, loss.worst_hz
             ),
         };

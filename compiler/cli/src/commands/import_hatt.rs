@@ -14,13 +14,14 @@ use asperity_io::{
     clock::now,
     diagnostic::{Diagnostic, Failures, one},
     output::{self, FileNames, Outputs},
+    shown::counted,
 };
 use std::{fmt::Write as _, path::PathBuf};
 use thiserror::Error;
 
 /// A folder was to go into one asset.
 #[derive(Debug, Error)]
-#[error("{folder}: {count} materials do not fit the one asset {output}", folder = folder.display(), output = output.display())]
+#[error("{}: {} cannot go into the single asset {}", folder.display(), counted(*count, "material", "materials"), output.display())]
 struct ManyIntoOne {
     folder: PathBuf,
     count: usize,
@@ -33,13 +34,13 @@ impl Diagnostic for ManyIntoOne {
     }
 
     fn remedy(&self) -> String {
-        "give a folder, or a library whose name ends in .aspl".into()
+        "give a folder, or a library (.aspl), as the output".into()
     }
 }
 
 /// One model was to be written of several materials, or of a library.
 #[derive(Debug, Error)]
-#[error("{path}: --emit-model writes the model of one material that becomes one asset", path = path.display())]
+#[error("{path}: --emit-model needs one material as the input and one asset as the output", path = path.display())]
 struct NoSingleModel {
     path: PathBuf,
 }
@@ -227,7 +228,7 @@ fn figures(imported: &[Compiled]) -> String {
         };
         let _ = writeln!(
             text,
-            "{} materials: max {max_db:.4} dB, mean {:.4} dB over {compared} {places}",
+            "{} materials: {max_db:.4} dB from their sources at worst, {:.4} dB on average over {compared} {places}",
             imported.len(),
             sum_db / compared.max(1) as f64
         );

@@ -8,7 +8,10 @@ use asperity::{
 };
 use asperity_console::Console;
 use asperity_formats::{Asset, library};
-use asperity_io::diagnostic::{Failures, one};
+use asperity_io::{
+    diagnostic::{Failures, one},
+    shown::counted,
+};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -70,20 +73,21 @@ fn whole_library(
         return print_json(&document, console);
     }
     let mut text = format!(
-        "{}: a library of {} textures, every checksum holds\n",
+        "{}: a library of {}, all checksums verified\n",
         textures.shown(),
-        names.len()
+        counted(names.len(), "texture", "textures")
     );
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  index  haptic   total  order  vertices  rough dB  sharp Hz      μ  name"
+        "  index  haptic B  total B  order  vertices  rough dB  sharp Hz      μ  name"
     );
     for (index, row) in rows.iter().enumerate() {
         let _ = writeln!(text, "  {index:>5}  {row}");
     }
     if !surfaces.is_empty() {
-        let _ = writeln!(text, "  a scene of {} surfaces", surfaces.len());
+        let count = counted(surfaces.len(), "surface", "surfaces");
+        let _ = writeln!(text, "  a scene with {count}");
     }
     for (index, surface) in surfaces.iter().enumerate() {
         let _ = writeln!(text, "  {index:>5}  {surface}");
@@ -95,7 +99,7 @@ fn whole_library(
 fn row(name: &str, d: &Document) -> String {
     let figure = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
     format!(
-        "{:>6}  {:>6}  {:>5}  {:>8}  {:>8}  {:>8}  {:>5.3}  {name}",
+        "{:>8}  {:>7}  {:>5}  {:>8}  {:>8}  {:>8}  {:>5.3}  {name}",
         d.bytes.haptic,
         d.bytes.total,
         d.ar.order,

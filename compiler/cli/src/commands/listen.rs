@@ -10,6 +10,7 @@ use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{Outputs, display},
+    shown::counted,
 };
 use std::path::Path;
 
@@ -33,8 +34,8 @@ fn report(path: &Path, heard: &Heard) -> String {
     let part = |part: &Part, one: &str, many: &str| match part.count {
         0 => None,
         count => Some(format!(
-            "{count} {}, {:.3} m/s² at most, gain {}\n",
-            if count == 1 { one } else { many },
+            "{}, peak {:.3} m/s², gain {}\n",
+            counted(count, one, many),
             part.peak_m_s2,
             gain(part.gain_per_m_s2)
         )),

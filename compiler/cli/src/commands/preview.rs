@@ -13,6 +13,7 @@ use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{Outputs, display},
+    shown::size,
 };
 
 pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
@@ -45,20 +46,20 @@ pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
             outputs.fill(color, &png).map_err(one)?;
             let size_px = drawn.size_px();
             format!(
-                "{size_px} × {size_px} pixels, {} bytes, {}",
-                png.len(),
+                "{size_px} × {size_px} pixels, {}, {}",
+                size(png.len() as u64),
                 drawn.note
             )
         }
         (None, Some(png)) => {
             // Read before it is passed on, so that what is no picture is not written as one.
-            let size = preview::stored(png).map_err(one)?;
+            let stored = preview::stored(png).map_err(one)?;
             outputs.fill(color, png).map_err(one)?;
             format!(
-                "{} × {} pixels, {} bytes, as the asset holds it",
-                size.width,
-                size.height,
-                png.len()
+                "{} × {} pixels, {}, as stored in the asset",
+                stored.width,
+                stored.height,
+                size(png.len() as u64)
             )
         }
         (None, None) => {
@@ -78,11 +79,11 @@ pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
             let why = if stored.is_some() {
                 ""
             } else {
-                "; the asset holds none"
+                ", because the asset has no picture"
             };
             format!(
-                "{size_px} × {size_px} pixels, {} bytes, drawn anew{why}",
-                png.len()
+                "{size_px} × {size_px} pixels, {}, newly drawn{why}",
+                size(png.len() as u64)
             )
         }
     };

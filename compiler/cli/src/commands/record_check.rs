@@ -3,7 +3,10 @@
 use crate::cli::RecordCheck;
 use asperity::recording;
 use asperity_console::Console;
-use asperity_io::diagnostic::{Diagnostic, Failures, one};
+use asperity_io::{
+    diagnostic::{Diagnostic, Failures, one},
+    shown::counted,
+};
 use asperity_recording::{
     Problem,
     check::{Checked, Severity},
@@ -13,7 +16,7 @@ use thiserror::Error;
 
 /// The check found faults; its report has them.
 #[derive(Debug, Error)]
-#[error("{folder}: {count} faults", folder = folder.display())]
+#[error("{}: {}", folder.display(), counted(*count, "fault", "faults"))]
 struct Faulty {
     folder: PathBuf,
     count: usize,
@@ -21,7 +24,8 @@ struct Faulty {
 
 impl Diagnostic for Faulty {
     fn remedy(&self) -> String {
-        "follow the arrows of the report; docs/recording-faults.md explains each fault".into()
+        "the report gives a remedy after each arrow; docs/recording-faults.md explains each fault"
+            .into()
     }
 }
 

@@ -11,6 +11,7 @@ use asperity_io::{
     diagnostic::{Failures, one},
     input::{self, InputError, Kind},
     output::{Outputs, display},
+    shown::counted,
 };
 use std::io::BufWriter;
 
@@ -62,11 +63,11 @@ pub(crate) fn run(args: &Render, console: Console) -> Result<(), Failures> {
     })?;
     outputs.commit().map_err(one)?;
     let report = format!(
-        "{}: {} ticks, {} in contact, {} taps, {:.3} N at most\n",
+        "{}: {}, {} of them in contact; {}; peak force {:.3} N\n",
         display(&args.output),
-        report.ticks,
+        counted(report.ticks, "tick", "ticks"),
         report.contact_ticks,
-        report.taps,
+        counted(report.taps, "tap", "taps"),
         report.peak_force_n
     );
     console.report(&report).map_err(one)

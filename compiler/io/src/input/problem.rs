@@ -33,7 +33,7 @@ pub enum InputProblem {
     #[error("cannot read it: a device or a socket, which may have no end")]
     Device,
     /// It is larger than its kind may be.
-    #[error("more than {limit} bytes, the most that {kind} may have", limit = kind.max_bytes())]
+    #[error("larger than {limit} bytes, the limit for {kind}", limit = kind.max_bytes())]
     TooLarge {
         /// What it is meant to be.
         kind: Kind,

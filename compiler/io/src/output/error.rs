@@ -28,7 +28,7 @@ impl Diagnostic for OutputError {
             }
             io::ErrorKind::IsADirectory => "give a path for a file, not a folder".into(),
             io::ErrorKind::NotADirectory => "give a folder, not a file".into(),
-            io::ErrorKind::AlreadyExists => "give another path".into(),
+            io::ErrorKind::AlreadyExists => "give another path, or remove it first".into(),
             _ => "check the path and the disk".into(),
         }
     }
@@ -39,7 +39,7 @@ impl Diagnostic for OutputError {
 #[non_exhaustive]
 pub enum OpenError {
     /// One of them is an input or another output.
-    #[error("{output}: it is also {other}", output = output.display())]
+    #[error("{output}: the output is also {other}", output = output.display())]
     Same {
         /// The output.
         output: PathBuf,
@@ -69,8 +69,8 @@ pub enum OpenError {
 impl Diagnostic for OpenError {
     fn remedy(&self) -> String {
         match self {
-            Self::Same { .. } | Self::Case { .. } => "give every output a path of its own".into(),
-            Self::TwoToStandardOutput => "give `-` to one of them and a path to the other".into(),
+            Self::Same { .. } | Self::Case { .. } => "give each output its own path".into(),
+            Self::TwoToStandardOutput => "give `-` for one of them and a path for the other".into(),
             Self::Output(error) => error.remedy(),
         }
     }

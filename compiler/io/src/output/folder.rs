@@ -22,7 +22,7 @@ pub fn write_folder(folder: &Path, files: &[(String, &[u8])]) -> Result<(), Outp
         // Without inputs, only the names can be at fault.
         _ => OutputError {
             path: folder.to_owned(),
-            doing: "two files have one name",
+            doing: "two files have the same name",
             source: io::ErrorKind::AlreadyExists.into(),
         },
     })
@@ -45,7 +45,7 @@ pub fn write_folder_beside(
     };
     if is_standard_output(folder) {
         let source = io::Error::from(io::ErrorKind::NotADirectory);
-        return Err(fail("standard output is no folder", source).into());
+        return Err(fail("standard output cannot take several files", source).into());
     }
     let made = if folder.is_dir() {
         None
@@ -83,9 +83,10 @@ impl NewFolder {
         };
         let mut list = unfinished();
         fs::create_dir(folder).map_err(|e| match e.kind() {
-            io::ErrorKind::AlreadyExists if folder.is_dir() => fail("is there already", e),
-            io::ErrorKind::AlreadyExists => fail("is a file", io::ErrorKind::NotADirectory.into()),
-            _ => fail("cannot make the folder", e),
+            io::ErrorKind::AlreadyExists if !folder.is_dir() => {
+                fail("is a file", io::ErrorKind::NotADirectory.into())
+            }
+            _ => fail("cannot create the folder", e),
         })?;
         list.insert(folder.to_owned());
         Ok(Self(folder.to_owned()))

@@ -1,6 +1,14 @@
 //! AR and ARMA models of a stretch by the well-known methods, and how well each predicts.
 //!
 //! `A(z) = 1 + Σ a_k z⁻ᵏ`, `y[n] = −Σ a_k y[n−k] + e[n] + Σ b_k e[n−k]`.
+//!
+//! ```
+//! use asperity_recording::autoregression::levinson;
+//!
+//! // The autocorrelation of y[n] = 0.5·y[n−1] + e[n] falls by half with every lag.
+//! let model = levinson(&[1.0, 0.5]);
+//! assert_eq!((model.a, model.variance), (vec![1.0, -0.5], 0.75));
+//! ```
 
 mod ar;
 mod arma;

@@ -1,4 +1,17 @@
 //! `recording.toml`: what the files of a recording hold.
+//!
+//! A folder without one gets a proposal, from what the headers of its files say:
+//!
+//! ```
+//! use asperity_recording::description;
+//!
+//! let folder = tempfile::tempdir()?;
+//! let table = "time (s),acc_x (m/s^2)\n0.000,0.1\n0.001,0.2\n0.002,0.1\n";
+//! std::fs::write(folder.path().join("tool.csv"), table)?;
+//! let proposal = description::propose(folder.path())?.expect("a file of a known kind");
+//! assert!(proposal.contains("path = \"tool.csv\"") && proposal.contains("clock_unit = \"s\""));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod column_name;
 mod propose;

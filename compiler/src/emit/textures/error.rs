@@ -4,6 +4,7 @@ use asperity_formats::FormatError;
 use asperity_io::{
     diagnostic::Diagnostic,
     input::{InputProblem, Kind},
+    shown::counted,
 };
 use std::path::PathBuf;
 use thiserror::Error;
@@ -43,19 +44,19 @@ pub enum TexturesProblem {
     #[error("neither an asset (.asp) nor a library (.aspl)")]
     WrongKind,
     /// It is larger than any asset, or than a library with a scene.
-    #[error("{bytes} bytes, {limit} at most", limit = Kind::Asset.max_bytes())]
+    #[error("{bytes} bytes, but an asset or a library has at most {limit}", limit = Kind::Asset.max_bytes())]
     TooLarge {
         /// Its size; of a pipe, what was read of it.
         bytes: u64,
     },
     /// The library holds several textures and none was chosen.
-    #[error("a library of {count} textures, and none was chosen")]
+    #[error("the library has {count} textures, and none was chosen")]
     NoneChosen {
         /// Textures it holds.
         count: usize,
     },
     /// The library has no such texture.
-    #[error("no texture {wanted:?} among {count}")]
+    #[error("no texture {wanted:?}; the file has {}", counted(*count, "texture", "textures"))]
     NoSuchTexture {
         /// What was asked for.
         wanted: String,
@@ -73,15 +74,18 @@ impl Diagnostic for TexturesError {
         match &self.problem {
             TexturesProblem::Input(problem) => problem.remedy(),
             TexturesProblem::Format(FormatError::Version { .. }) => {
-                "update asperity, or make the file again with this version".into()
+                "update asperity, or build the file again with this version".into()
             }
-            TexturesProblem::Format(_) => "make the file again from its source".into(),
+            TexturesProblem::Format(_) => "build the file again from its source".into(),
             TexturesProblem::WrongKind | TexturesProblem::TooLarge { .. } => {
-                "give a file that `asperity import` or `asperity builtin` wrote".into()
+                "give a file that `asperity compile`, `build` or `import` wrote".into()
             }
-            TexturesProblem::NoneChosen { .. } => "choose one with --texture NAME or INDEX".into(),
+            TexturesProblem::NoneChosen { .. } => format!(
+                "choose one with --texture NAME or INDEX; `asperity list {:?}` lists them",
+                self.path.display()
+            ),
             TexturesProblem::NoSuchTexture { .. } => format!(
-                "list the names with `asperity inspect {:?}`",
+                "list the names with `asperity list {:?}`",
                 self.path.display()
             ),
         }

@@ -1,4 +1,17 @@
 //! Opens what other commands wrote: an asset, or one texture of a library.
+//!
+//! Of a library file, only the index and the chosen textures are read.
+//!
+//! ```
+//! use asperity::{builtin, lower::lower, textures::Textures};
+//! use std::path::Path;
+//!
+//! let bytes = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;
+//! let mut file = Textures::from_reader(Path::new("grit.asp"), &bytes[..])?;
+//! assert!(!file.is_library());
+//! assert_eq!(file.choose(None)?, bytes);
+//! # Ok::<(), asperity::textures::TexturesError>(())
+//! ```
 
 mod error;
 mod index;

@@ -68,7 +68,7 @@ fn an_asset_or_a_library_comes_through_a_reader() {
     }
     let endless = Textures::from_reader(Path::new("-"), std::io::repeat(b'A')).unwrap_err();
     let text = endless.to_string();
-    assert!(text.contains("-: more than 67108864 bytes"), "{text}");
+    assert!(text.contains("-: larger than 67108864 bytes"), "{text}");
 }
 
 #[cfg(unix)]

@@ -122,7 +122,7 @@ impl Checker<'_> {
         let origin = match sources[..] {
             [source] => self.origin(source, row, all.seed),
             [] => {
-                let problem = self.no_origin("nothing that it is made of".into());
+                let problem = self.no_origin("no source".into());
                 self.fault(row.line, "", problem);
                 None
             }
@@ -305,7 +305,7 @@ impl Checker<'_> {
                 key,
                 ManifestProblem::Type {
                     wanted: "the name of a texture",
-                    found: "nothing",
+                    found: "missing",
                 },
             );
             return None;

@@ -45,7 +45,7 @@ impl fmt::Display for Key<'_> {
 
 /// What to do about a path that leaves the folder of its list.
 pub(crate) const CONFINED_REMEDY: &str =
-    "copy the file beside the manifest, or leave --confined out if you trust who wrote it";
+    "copy the file next to the manifest, or leave out --confined if you trust its author";
 
 /// What is wrong.
 #[derive(Debug, Error)]
@@ -58,25 +58,25 @@ pub enum ManifestProblem {
     #[error("{0}")]
     Syntax(String),
     /// Its name ends in nothing that is known.
-    #[error("a manifest is .toml, .csv or .jsonl")]
+    #[error("not a manifest: the name must end in .toml, .csv or .jsonl")]
     Kind,
     /// There is no texture in it.
-    #[error("no texture")]
+    #[error("the manifest lists no texture")]
     Empty,
     /// More textures than a manifest may list.
     #[error("more than {0} textures")]
     TooMany(usize),
     /// A key that is not known there.
-    #[error("no such key; there are {known}")]
+    #[error("no such key; known keys are {known}")]
     UnknownKey {
         /// What there is.
         known: String,
     },
     /// One table `[texture]` in a list of textures.
-    #[error("one table in single brackets, where a list of tables is wanted")]
+    #[error("one table in single brackets, but a list of tables is expected")]
     Single,
     /// A value of another type.
-    #[error("{found}, where {wanted} is wanted")]
+    #[error("must be {wanted}, but is {found}")]
     Type {
         /// What was wanted.
         wanted: &'static str,
@@ -84,7 +84,7 @@ pub enum ManifestProblem {
         found: &'static str,
     },
     /// A value that is not accepted.
-    #[error("{found:?}, where {wanted} is wanted")]
+    #[error("{found:?} must be {wanted}")]
     Value {
         /// What was wanted.
         wanted: String,
@@ -92,10 +92,10 @@ pub enum ManifestProblem {
         found: String,
     },
     /// A name that no texture can have.
-    #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
+    #[error("{0:?} is not a valid name: a name has 1 to 64 bytes and no control characters")]
     Name(String),
     /// The row has no source, or several.
-    #[error("{found}; one of {known} is wanted")]
+    #[error("{found}; a texture has one of {known}")]
     Origin {
         /// What was found.
         found: String,
@@ -106,13 +106,15 @@ pub enum ManifestProblem {
     #[error("{0}")]
     Source(Failure),
     /// A key that does not go with the source.
-    #[error("it does not go with {origin}")]
+    #[error("cannot be combined with {origin}")]
     Misplaced {
         /// Key of the source.
         origin: &'static str,
     },
     /// Words of an edit that ask for nothing.
-    #[error("{0:?} says nothing of rough, slippery or hard, and names nothing to be like")]
+    #[error(
+        "{0:?} names neither a quality to change, such as rough, nor a material to be more like"
+    )]
     NoChange(String),
     /// Two textures of one name.
     #[error("{name:?} is also the name of the texture at {other}")]
@@ -126,16 +128,16 @@ pub enum ManifestProblem {
     #[error("no texture {0:?} in this manifest")]
     NoSuchTexture(String),
     /// Blends that are made of each other.
-    #[error("made of itself: {0}")]
+    #[error("the texture depends on itself: {0}")]
     Cycle(String),
     /// A manifest that includes itself.
-    #[error("included by itself: {0}")]
+    #[error("the manifest includes itself: {0}")]
     IncludeCycle(String),
     /// A manifest that is included twice.
     #[error("{0} is included twice")]
     IncludedTwice(String),
     /// More faults than are reported.
-    #[error("there are more faults")]
+    #[error("further faults are not shown")]
     More,
     /// A path that leaves the folder of a manifest that may not.
     #[error("{stated:?} is {outside}, and the manifest is confined to its folder")]
@@ -163,7 +165,9 @@ impl Diagnostic for ManifestError {
                 "see the examples in docs/libraries.md".into()
             }
             ManifestProblem::Empty => "add a [[texture]] with a name and a prompt".into(),
-            ManifestProblem::TooMany(_) => "split the manifest, and merge the libraries".into(),
+            ManifestProblem::TooMany(_) => {
+                "split the manifest, and join the libraries with `asperity merge`".into()
+            }
             ManifestProblem::More => "correct these first".into(),
             ManifestProblem::Single => {
                 "write [[texture]], in two brackets, above each texture".into()
@@ -173,11 +177,11 @@ impl Diagnostic for ManifestError {
                 "correct the value".into()
             }
             ManifestProblem::Name(_) => "choose another name".into(),
-            ManifestProblem::Origin { .. } => "leave one of them".into(),
+            ManifestProblem::Origin { .. } => "give every texture exactly one source".into(),
             ManifestProblem::Source(failure) => failure.remedy(),
             ManifestProblem::Misplaced { .. } => "remove the key".into(),
             ManifestProblem::NoChange(_) => {
-                "say it relatively, as in \"less gritty, more waxy\" or \"more like leather\""
+                "describe a change, as in \"less gritty, more waxy\" or \"more like leather\""
                     .into()
             }
             ManifestProblem::SameName { .. } => "rename one of them".into(),

@@ -34,7 +34,7 @@ fn row(content: &str, line: usize) -> Result<Row, String> {
         error.to_string().replace(" at line 1 column", ", column")
     })?;
     let Value::Table(object) = json.at(line) else {
-        return Err("an object is wanted, such as {\"prompt\": \"cork\"}".into());
+        return Err("must be an object, such as {\"prompt\": \"cork\"}".into());
     };
     let mut fields = Vec::new();
     for Field { key, value, .. } in object {

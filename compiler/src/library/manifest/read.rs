@@ -290,7 +290,12 @@ impl Reader {
                     } else {
                         error.without_text()
                     };
-                    fault(error.line, shown);
+                    // The line stands beside the name of the file.
+                    let line = format!("line {}, ", error.line);
+                    fault(
+                        error.line,
+                        shown.strip_prefix(&line).unwrap_or(&shown).to_owned(),
+                    );
                 })
                 .ok(),
             Some(Syntax::Csv) => csv_file::parse(text, &self.registry)

@@ -137,7 +137,7 @@ impl Checker<'_> {
         if (low..=high).contains(&number) {
             Some(number)
         } else {
-            let wanted = format!("a number in {low}..={high}");
+            let wanted = format!("a number from {low} to {high}");
             self.wrong_value(field.line, key, wanted, number.to_string())
         }
     }

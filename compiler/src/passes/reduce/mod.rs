@@ -4,6 +4,19 @@
 //! cheapest numerator ([`order`]), the fewest vertices ([`vertices`]), and the part of the taps that
 //! a hand can feel ([`taps`]). The measure is what the grid renders at every vertex and in the
 //! middle of every edge and triangle, compared with the whole texture.
+//!
+//! ```
+//! use asperity::{
+//!     builtin,
+//!     reduce::{BUDGET_DB, Fidelity, reduce},
+//! };
+//!
+//! let whole = builtin::texture();
+//! let report = reduce(&whole, Fidelity::Auto).report;
+//! assert!(report.order.kept < report.order.full);
+//! assert!(report.p95_db <= BUDGET_DB.0 && report.worst_db <= BUDGET_DB.1);
+//! assert_eq!(reduce(&whole, Fidelity::Full).texture, whole);
+//! ```
 
 mod budget;
 pub mod order;
@@ -100,11 +113,11 @@ impl fmt::Display for Report {
             }
         }
         if first {
-            return f.write_str("everything kept");
+            return f.write_str("everything");
         }
         write!(
             f,
-            "; {:.2} dB at 95 % of the places, {:.2} dB at worst",
+            "; spectra within {:.2} dB at 95 % of the grid, {:.2} dB at worst",
             self.p95_db, self.worst_db
         )
     }
@@ -278,7 +291,7 @@ mod tests {
         let full = builtin::texture();
         let same = reduce(&full, Fidelity::Full);
         assert_eq!(same.texture, full);
-        assert_eq!(same.report.to_string(), "everything kept");
+        assert_eq!(same.report.to_string(), "everything");
         let five = reduce(&full, Fidelity::Order(5));
         assert_eq!(five.texture.grid.order, 5);
         assert_eq!(five.texture.taps, full.taps);

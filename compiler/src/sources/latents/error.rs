@@ -22,10 +22,10 @@ pub enum EditError {
     #[error(transparent)]
     Format(#[from] FormatError),
     /// It remembers no latent.
-    #[error("{0:?} remembers no latent")]
+    #[error("{0:?} has no latent")]
     NoLatent(String),
     /// Its latent belongs to another model.
-    #[error("{name:?} was decoded from model {found:08x}, and this is model {expected:08x}")]
+    #[error("{name:?} was decoded with model {found:08x}, but this is model {expected:08x}")]
     OtherModel {
         /// The texture.
         name: String,
@@ -38,13 +38,15 @@ pub enum EditError {
     #[error(transparent)]
     History(#[from] HistoryError),
     /// There is no edit to take back.
-    #[error("{0:?} has no edit to take back")]
+    #[error("{0:?} has no edit to undo")]
     NothingToUndo(String),
     /// The edit moves nothing.
-    #[error("the edit asks for nothing")]
+    #[error("no edit is given")]
     NothingAsked,
     /// Nothing in the words of an edit is understood.
-    #[error("the edit {0:?} says nothing of rough, slippery or hard, and names nothing to be like")]
+    #[error(
+        "the edit {0:?} names neither a quality to change, such as rough, nor a material to be more like"
+    )]
     NotUnderstood(String),
     /// The texture has no such part.
     #[error("{name:?} has no {part} to encode")]
@@ -72,7 +74,7 @@ impl Diagnostic for EditError {
     fn remedy(&self) -> String {
         match self {
             Self::Source(error) => error.remedy(),
-            Self::Format(_) | Self::History(_) => "make the file again from its source".into(),
+            Self::Format(_) | Self::History(_) => "build the file again from its source".into(),
             Self::NoLatent(_) => {
                 "give a texture compiled from a prompt, or encode this one with `asperity encode`"
                     .into()
@@ -85,7 +87,7 @@ impl Diagnostic for EditError {
                 "give a slider, such as --rougher 20, words with --prompt, or --undo".into()
             }
             Self::NotUnderstood(_) => {
-                "say it relatively, as in \"less gritty, more waxy\" or \"more like leather\""
+                "describe a change, as in \"less gritty, more waxy\" or \"more like leather\""
                     .into()
             }
             Self::NoPart { .. } => {

@@ -196,6 +196,9 @@ impl Explanation {
                 hard,
                 slippery,
             } = word;
+            // 0 without a minus sign.
+            let [rough, sharp, hard, slippery] =
+                [rough, sharp, hard, slippery].map(|steps| steps.round() + 0.0);
             let _ = writeln!(
                 text,
                 "  {word:<width$}  {rough:>+6.0}  {sharp:>+6.0}  {hard:>+6.0}  {slippery:>+8.0}"

@@ -1,8 +1,32 @@
-//! Latents as a source: mixing and editing in the latent space of the learned model.
+//! Latents as a source: textures mixed and edited in the latent space of the learned model.
 //!
 //! An asset [remembers](crate::edit_memory) the [`Latents`] it was decoded from and its [`History`]. A
 //! [`LatentEditor`] decodes them again after they were blended, composed, or moved along the [`Sliders`];
 //! from there on a texture goes the way of every other. `docs/libraries.md` shows the commands.
+//!
+//! ```
+//! use asperity::{
+//!     driver,
+//!     edit::{Edit, LatentEditor, Sliders},
+//!     inference::Backend,
+//!     prompt::{Options, PromptCompiler},
+//!     sources::Tools,
+//! };
+//! use asperity_formats::Asset;
+//!
+//! let prompt_compiler = PromptCompiler::embedded(&Backend::Portable)?;
+//! let cork = prompt_compiler.compile("cork", &Options::default().without_preview())?;
+//! let asset = Asset::parse(&cork.lowered.bytes).expect("a verified asset");
+//!
+//! let editor = LatentEditor::new(&prompt_compiler);
+//! let request = editor.request(&asset); // the options that it was compiled with
+//! let mut source = editor.remembered(&asset)?;
+//! let sliders = Sliders { rougher: 20.0, ..Sliders::default() };
+//! source.edit(&editor, &Edit::Steps(sliders), &request)?;
+//! let rougher = driver::compile(&source, &request, &Tools::of(&prompt_compiler))?;
+//! assert!(rougher.attributes().rough_db > cork.attributes().rough_db);
+//! # Ok::<(), asperity::driver::Failure>(())
+//! ```
 
 mod edited;
 mod encode;

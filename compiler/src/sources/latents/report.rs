@@ -12,12 +12,13 @@ pub fn attributes_line(attributes: &Attributes, scale: &Scale) -> String {
         let Some(value) = axis.of(attributes) else {
             return format!("{} none", axis.name());
         };
-        let place = scale.place(axis, attributes).unwrap_or(0.0);
+        // 0 without a minus sign.
+        let place = scale.place(axis, attributes).unwrap_or(0.0).round() + 0.0;
         match axis {
-            Axis::Rough => format!("rough {value:.1} dB ({place:.0})"),
-            Axis::Sharp => format!("sharp {value:.1} Hz ({place:.0})"),
-            Axis::Hard => format!("hard {value:.1} Hz ({place:.0})"),
-            Axis::Slippery => format!("slippery μ {:.3} ({place:.0})", -value),
+            Axis::Rough => format!("rough {place:.0} ({value:.1} dB)"),
+            Axis::Sharp => format!("sharp {place:.0} ({value:.0} Hz)"),
+            Axis::Hard => format!("hard {place:.0} ({value:.0} Hz)"),
+            Axis::Slippery => format!("slippery {place:.0} (μ {:.3})", -value),
         }
     };
     AXES.map(one).join(", ")

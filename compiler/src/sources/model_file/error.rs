@@ -31,22 +31,22 @@ pub enum ModelFileProblem {
     #[error("{0}")]
     Json(String),
     /// It is JSON of another kind.
-    #[error("{found}, {FORMAT:?} expected")]
+    #[error("{found}, but {FORMAT:?} is expected")]
     Format {
         /// What the file says it is.
         found: String,
     },
     /// A later version, or none.
-    #[error("{found}, this program reads version {VERSION}")]
+    #[error("{found}, but this program reads version {VERSION}")]
     Version {
         /// What the file says.
         found: String,
     },
     /// A text that an asset cannot hold.
-    #[error("{0:?} is no name: 1 to 64 bytes without control characters")]
+    #[error("{0:?} is not a valid name: a name has 1 to 64 bytes and no control characters")]
     Name(String),
     /// A text that is longer than an asset can hold.
-    #[error("{bytes} bytes, must be {limit} at most")]
+    #[error("{bytes} bytes, but at most {limit} are accepted")]
     Text {
         /// Bytes of the text.
         bytes: usize,

@@ -1,7 +1,22 @@
-//! A model of one's own as a source: the intermediate model as JSON, written and read.
+//! A model of your own as a source: the intermediate model as JSON, written and read.
 //!
-//! A source of one's own needs no Rust: it writes such a file, and `asperity import model`
+//! A source of your own needs no Rust: it writes such a file, and `asperity import model`
 //! compiles it. `docs/model.md` documents the format.
+//!
+//! ```
+//! use asperity::{
+//!     builtin,
+//!     model_file::{from_json, to_json},
+//! };
+//!
+//! let texture = builtin::texture();
+//! let read = from_json(&to_json(&texture)).expect("a file that this crate wrote");
+//! assert_eq!(read.grid, texture.grid); // to the bit
+//!
+//! // A refusal names the JSON path of the field at fault.
+//! let (field, _) = from_json(b"{}").unwrap_err();
+//! assert_eq!(field, "format");
+//! ```
 
 mod check;
 mod emit;

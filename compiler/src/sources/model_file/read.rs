@@ -57,10 +57,13 @@ pub fn from_json(bytes: &[u8]) -> Result<TextureModel, (String, ModelFileProblem
 fn parsed<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
     let mut json = serde_json::Deserializer::from_str(text);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        // What cannot be parsed has no name within its object; a single dot is the file as a whole.
         let path = error.path().to_string();
-        // A single dot is the file as a whole.
-        let field = if path == "." { String::new() } else { path };
-        (field, ModelFileProblem::Json(error.inner().to_string()))
+        let field = path.trim_end_matches('?').trim_end_matches('.');
+        (
+            field.to_owned(),
+            ModelFileProblem::Json(error.inner().to_string()),
+        )
     })?;
     let trailing = |e: serde_json::Error| (String::new(), ModelFileProblem::Json(e.to_string()));
     json.end().map_err(trailing)?;

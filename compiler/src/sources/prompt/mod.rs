@@ -1,9 +1,26 @@
-//! A prompt as a source: words become a text vector, a latent, a texture.
+//! Prompts as a source: words become a text vector, then a latent, then a texture.
 //!
-//! The prompt is [read](reading): what it names, and what it says of touch. A frozen text encoder
-//! encodes that, the learned model places it among the materials that it was trained on and decodes the
-//! latent, the [grammar](phrase) of the prompt moves what a vector misses, and the
-//! [driver](crate::driver) does the rest.
+//! A prompt is first [read](reading): what does it name, and what does it say about touch? A frozen text encoder
+//! encodes that part. The learned model places the vector among the materials that it was trained on and decodes the
+//! latent, and the [grammar](phrase) of the prompt shifts what a vector misses. The [driver](crate::driver) does the
+//! rest.
+//!
+//! [`PromptCompiler`] loads the networks once and answers any number of prompts. [`PromptCompiler::compile`] goes all
+//! the way to an asset; a [`Prompt`] is the same as a [source](crate::sources::Source). The steps before that can be
+//! looked at one by one:
+//!
+//! ```
+//! use asperity::{attributes, inference::Backend, learned::Certainty, prompt::PromptCompiler};
+//!
+//! let prompt_compiler = PromptCompiler::embedded(&Backend::Portable)?;
+//! let projection = prompt_compiler.project("please, some very rough gravel")?;
+//! assert_eq!(projection.reading.text(), "very rough gravel");
+//! assert_eq!(projection.certainty, Certainty::Known);
+//!
+//! let rough_db = |prompt| prompt_compiler.texture(prompt).map(|texture| attributes::of(&texture).rough_db);
+//! assert!(rough_db("very rough gravel")? > rough_db("gravel")?);
+//! # Ok::<(), asperity::driver::Failure>(())
+//! ```
 
 mod certainty;
 mod compiled_prompt;

@@ -73,7 +73,7 @@ impl CompiledPrompt {
         lines.add(
             "certainty",
             format!(
-                "{}: {:.0} % of comparisons with such prompts came out right",
+                "{} ({:.0} % of prompt pairs at this level come out in the order a person rated them)",
                 self.certainty,
                 100.0 * self.certainty.share()
             ),
@@ -89,7 +89,7 @@ impl CompiledPrompt {
                     kb(all)
                 ),
                 None => format!(
-                    "{} haptic, {} in all",
+                    "{} haptic, {} in total",
                     kb(compiled.lowered.haptic_bytes),
                     kb(all)
                 ),
@@ -155,7 +155,7 @@ impl Findings for CompiledPrompt {
         lines.add(
             "gains",
             format!(
-                "vibration {:.5} s²/m of {:.2} N, effective mass {:.3} kg, wall {:.0} N/m",
+                "vibration {:.5} s²/m × {:.2} N, effective mass {:.3} kg, wall {:.0} N/m",
                 texture.gains.vib_s2_m,
                 texture.gains.f_max_n,
                 texture.gains.effective_mass_kg,
@@ -165,7 +165,7 @@ impl Findings for CompiledPrompt {
         lines.add(
             "model",
             format!(
-                "AR order {}, {} vertices, {:.0} Hz",
+                "AR order {}, {} vertices, sampled at {:.0} Hz",
                 texture.grid.order,
                 texture.grid.vertices.len(),
                 texture.grid.sample_rate_hz
@@ -176,7 +176,7 @@ impl Findings for CompiledPrompt {
         lines.add(
             "bytes",
             format!(
-                "{} haptic, {preview} preview, {} in all",
+                "{} haptic, {preview} preview, {} in total",
                 compiled.lowered.haptic_bytes,
                 compiled.lowered.bytes.len()
             ),
@@ -185,8 +185,8 @@ impl Findings for CompiledPrompt {
             lines.add(
                 "verified",
                 format!(
-                    "stable at {} queries, {} ticks, peak force {:.2} N",
-                    verified.queries, verified.ticks, verified.peak_force_n
+                    "stable at all {} queries; peak force {:.2} N over {} ticks",
+                    verified.queries, verified.peak_force_n, verified.ticks
                 ),
             );
         }

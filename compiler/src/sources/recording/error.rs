@@ -1,6 +1,6 @@
 //! What can go wrong between a folder and an asset.
 
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::{diagnostic::Diagnostic, shown::counted};
 use asperity_recording::RecordingError;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -13,7 +13,7 @@ pub enum RecordingFailure {
     #[error(transparent)]
     Recording(#[from] RecordingError),
     /// A fault that would end up in the texture.
-    #[error("{folder}: {count} faults, the first: {first}", folder = folder.display())]
+    #[error("{}: {}, the first: {first}", folder.display(), counted(*count, "fault", "faults"))]
     Faulty {
         /// The folder.
         folder: PathBuf,
@@ -25,7 +25,7 @@ pub enum RecordingFailure {
         remedy: String,
     },
     /// Too few steady strokes.
-    #[error("{folder}: {found_s:.1} s of steady strokes in {segments} stretches; at least {least_s} s are needed", folder = folder.display())]
+    #[error("{}: {found_s:.1} s of steady strokes in {}; at least {least_s} s are needed", folder.display(), counted(*segments, "segment", "segments"))]
     TooFewStrokes {
         /// The folder.
         folder: PathBuf,
@@ -42,8 +42,13 @@ impl Diagnostic for RecordingFailure {
     fn remedy(&self) -> String {
         match self {
             Self::Recording(error) => error.remedy(),
-            Self::Faulty { remedy, .. } => format!("{remedy}; `asperity record-check` lists all, --force imports all the same"),
-            Self::TooFewStrokes { .. } => "stroke for a minute at many speeds and forces without stopping; docs/recording.md says how".into(),
+            Self::Faulty { remedy, .. } => format!(
+                "{remedy}; `asperity record-check` lists every fault, and --force imports regardless"
+            ),
+            Self::TooFewStrokes { .. } => {
+                "stroke for a minute at many speeds and forces without stopping, as docs/recording.md explains"
+                    .into()
+            },
         }
     }
 }

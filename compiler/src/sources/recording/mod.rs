@@ -1,8 +1,10 @@
-//! A recording as a source: sensor files of a tool on a surface become a texture.
+//! Recordings as a source: the sensor files of a tool on a surface become a texture.
 //!
-//! `asperity-recording` reads, checks and aligns the files, and finds segments, friction and impacts.
-//! Here they become a [`TextureModel`](asperity_texture::model::TextureModel). What was not recorded is
-//! completed by the learned model and marked so.
+//! [`asperity_recording`] reads, checks and aligns the files, and finds segments, friction and impacts. Here they
+//! become a [`TextureModel`](asperity_texture::model::TextureModel). What was not recorded is completed by the
+//! learned model and marked so. [`analyse()`] goes from the files to a grid, friction and impacts, and [`texture()`]
+//! from there to the model; [`RecordingFolder`] does both for the [driver](crate::driver). `docs/recording.md`
+//! describes what a folder holds.
 
 mod analyse;
 mod complete;

@@ -2,6 +2,7 @@
 
 use super::{Analysis, Recorded};
 use crate::compiled::Compiled;
+use asperity_io::shown::counted;
 use asperity_recording::{
     friction::{Friction, Law},
     impact::SpeedSource,
@@ -76,11 +77,11 @@ fn lines(recorded: &Recorded, f: &mut String) -> fmt::Result {
     writeln!(f, "resonance {}", resonance_text(free_air))?;
     writeln!(
         f,
-        "strokes   {:.1} s steady in {} segments of {:.1} s in contact, {} rejected",
+        "strokes   {:.1} s of steady strokes in {}, out of {:.1} s in contact; {} rejected",
         steady.covered_s(),
-        steady.segments.len(),
+        counted(steady.segments.len(), "segment", "segments"),
         checked.contact_s,
-        steady.rejected
+        counted(steady.rejected, "segment", "segments")
     )?;
     let chosen = &fit.chosen;
     let zero = if chosen.nyquist_zero {
@@ -90,43 +91,51 @@ fn lines(recorded: &Recorded, f: &mut String) -> fmt::Result {
     };
     writeln!(
         f,
-        "grid      {} measured vertices, {} extrapolated beyond what was visited, AR order {}{zero}, chosen by held-out segments",
-        fit.facts.len(),
-        fit.extrapolated().count(),
+        "grid      {} and {}, AR order {}{zero}, chosen by held-out segments",
+        counted(fit.facts.len(), "measured vertex", "measured vertices"),
+        counted(
+            fit.extrapolated().count(),
+            "extrapolated vertex",
+            "extrapolated vertices"
+        ),
         chosen.order
     )?;
     match friction {
         Some(friction) => {
             let law = match friction.law {
-                Law::Coulomb => "as Coulomb says".to_owned(),
+                Law::Coulomb => "Coulomb's law".to_owned(),
                 Law::Power {
                     of_speed, of_load, ..
-                } => format!("goes as v^{of_speed:.2}·F^{of_load:.2}"),
+                } => format!("proportional to v^{of_speed:.2}·F^{of_load:.2}"),
                 Law::Stribeck {
                     sliding,
                     rest,
                     v_s_mm_s,
-                } => format!("goes from {rest:.2} to {sliding:.2} over {v_s_mm_s:.0} mm/s"),
+                } => {
+                    format!(
+                        "from {rest:.2} at rest to {sliding:.2} sliding, over {v_s_mm_s:.0} mm/s"
+                    )
+                }
             };
             writeln!(
                 f,
-                "friction  μ = {:.3} ± {:.3} over {} blocks, {law}{}",
+                "friction  μ = {:.3} ± {:.3} over {}, {law}{}",
                 friction.mu,
                 friction.spread,
-                friction.blocks,
+                counted(friction.blocks, "block", "blocks"),
                 rendered(friction)
             )?;
             if friction.stick_slip > 0.02 {
                 writeln!(
                     f,
-                    "          sticks and slips in {:.0} % of the sliding time",
+                    "          stick-slip in {:.0} % of the sliding time",
                     100.0 * friction.stick_slip
                 )?;
             }
         }
         None => writeln!(
             f,
-            "friction  not recorded; completed by the nearest materials"
+            "friction  not recorded; taken from the nearest materials"
         )?,
     }
     if recorded.parts.taps == "recorded" {
@@ -134,11 +143,15 @@ fn lines(recorded: &Recorded, f: &mut String) -> fmt::Result {
             .iter()
             .map(|t| format!("{:.3} ({})", t.speed_m_s, t.impacts))
             .collect();
-        write!(f, "taps      m/s (impacts): {}", speeds.join(", "))?;
+        write!(
+            f,
+            "taps      impact speeds in m/s (number of impacts): {}",
+            speeds.join(", ")
+        )?;
         if recorded.parts.tap_scale < 1.0 {
             write!(
                 f,
-                "; scaled by {:.2} to what the device can give",
+                "; scaled by {:.2} to what the device can render",
                 recorded.parts.tap_scale
             )?;
         }
@@ -146,8 +159,8 @@ fn lines(recorded: &Recorded, f: &mut String) -> fmt::Result {
     } else {
         writeln!(
             f,
-            "taps      {} impacts found, too few at one speed; completed by the learned model",
-            impacts.len()
+            "taps      {} found, too few at any one speed; decoded by the learned model instead",
+            counted(impacts.len(), "impact", "impacts")
         )?;
     }
     let nearest: Vec<String> = recorded
@@ -165,7 +178,7 @@ fn rendered(friction: &Friction) -> String {
     if friction.depends_on_speed() {
         let [slow, fast] = friction.speeds_mm_s;
         let load = if of_load {
-            ", at the median load whatever the load"
+            ", at the median load for every load"
         } else {
             ""
         };
@@ -173,16 +186,16 @@ fn rendered(friction: &Friction) -> String {
     } else if friction.law == Law::Coulomb {
         String::new()
     } else {
-        ", rendered as Coulomb's: it depends on the load alone".to_owned()
+        ", rendered as Coulomb friction, because it depends only on the load".to_owned()
     }
 }
 
 /// What free-air taps showed, and what was done.
 fn resonance_text(free_air: &FreeAir) -> String {
     if free_air.taps == 0 {
-        return "of tool and sensor left: there is no tap in free air".into();
+        return "of tool and sensor not compensated: there is no tap in free air".into();
     }
-    let taps = |count: usize| format!("{count} {}", if count == 1 { "tap" } else { "taps" });
+    let taps = |count: usize| counted(count, "tap", "taps");
     if free_air.resonances.is_empty() {
         return format!(
             "of tool and sensor: none in {} in free air; nothing was changed",
@@ -207,15 +220,15 @@ fn resonance_text(free_air: &FreeAir) -> String {
 /// Where impact speeds come from, and how far two sources agree.
 fn speeds_text(source: &SpeedSource) -> String {
     let by = match source.source {
-        "position" => "speeds by the height",
-        _ => "speeds by the integrated acceleration: no position along z was recorded",
+        "position" => "speeds from the position along z",
+        _ => "speeds from the integrated acceleration: no position along z was recorded",
     };
     match (source.integrated_over_position, source.apart) {
         (Some(off), Some(apart)) => format!(
-            "{by}; those of the integrated acceleration differ by {:+.0} % in the median ({:.0} % in size) of {}",
+            "{by}; those from the integrated acceleration differ by {:+.0} % in the median ({:.0} % in magnitude) over {}",
             100.0 * off,
             100.0 * apart,
-            source.by_both
+            counted(source.by_both, "impact", "impacts")
         ),
         _ => by.into(),
     }

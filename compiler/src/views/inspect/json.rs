@@ -117,16 +117,18 @@ impl Display for Friction {
         };
         let moved = 100.0 * (self.mu / mean - 1.0);
         if moved.abs() >= 0.5 {
-            write!(f, ", {moved:+.0} % by words or edits from {mean:.3}")?;
+            write!(f, " ({moved:+.0} % from {mean:.3} by words or edits)")?;
         }
         // What rounds to nothing says nothing.
         let shown = self.anchors.iter().filter(|anchor| anchor.weight >= 0.005);
         for (n, anchor) in shown.enumerate() {
-            let before = if n == 0 { " of " } else { ", " };
+            let before = if n == 0 { ", mean of " } else { ", " };
             write!(
                 f,
-                "{before}{} μ {:.3} × {:.2}",
-                anchor.name, anchor.mu, anchor.weight
+                "{before}{} (μ {:.3}, {:.0} %)",
+                anchor.name,
+                anchor.mu,
+                100.0 * anchor.weight
             )?;
         }
         Ok(())

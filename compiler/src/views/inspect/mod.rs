@@ -1,4 +1,22 @@
 //! Everything in an asset, as JSON for programs and as text for people.
+//!
+//! The names and the meaning of the JSON fields are a contract.
+//!
+//! ```
+//! use asperity::{
+//!     builtin,
+//!     inspect::{Document, text},
+//!     lower::lower,
+//! };
+//! use asperity_formats::Asset;
+//!
+//! let bytes = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;
+//! let asset = Asset::parse(&bytes).expect("a valid asset");
+//! let document = Document::of(&asset);
+//! let json = serde_json::to_value(&document).expect("plain numbers and strings");
+//! assert_eq!(json["bytes"]["total"], bytes.len());
+//! assert!(text(&document, &asset).starts_with("Built-in Grit\n"));
+//! ```
 
 mod json;
 mod scene;

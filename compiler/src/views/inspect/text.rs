@@ -25,12 +25,12 @@ fn write_text(
     }
     writeln!(
         out,
-        "  format       version {}, every checksum holds",
+        "  format       version {}, all checksums verified",
         d.format_version
     )?;
     writeln!(
         out,
-        "  bytes        {} haptic, {} preview, {} in all",
+        "  bytes        {} haptic, {} preview, {} in total",
         d.bytes.haptic, d.bytes.preview, d.bytes.total
     )?;
     let listed: Vec<String> = sections
@@ -94,7 +94,7 @@ fn write_text(
     )?;
     writeln!(
         out,
-        "  gains        vibration {:.5} s²/m of {:.2} N, effective mass {:.3} kg",
+        "  gains        vibration {:.5} s²/m × {:.2} N, effective mass {:.3} kg",
         d.gains.vib_s2_m, d.gains.f_max_n, d.gains.effective_mass_kg
     )?;
     let figure = |value: Option<f64>, unit: &str| {
@@ -110,7 +110,7 @@ fn write_text(
         attributes::FORCE_N.min(d.ar.max_force_n),
         figure(d.attributes.hard_hz, "Hz"),
         if p.taps_synthetic {
-            " (derived: no recorded taps)"
+            " (from synthetic taps)"
         } else {
             ""
         },

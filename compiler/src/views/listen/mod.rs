@@ -1,4 +1,21 @@
-//! Strokes and taps as sound: what the runtime renders for a hand that does one after the other.
+//! Strokes and taps as sound: what the runtime renders for a hand that performs one after the other.
+//!
+//! ```
+//! use asperity::{
+//!     builtin,
+//!     listen::{Gesture, perform},
+//!     lower::lower,
+//! };
+//! use asperity_formats::Asset;
+//!
+//! let bytes = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;
+//! let asset = Asset::parse(&bytes).expect("a valid asset");
+//! let stroke = Gesture::asked(Some(100.0), Some(1.0), false); // mm/s, N, no taps
+//! let performance = perform(&asset, &stroke, None, 1)?;
+//! let (_, vibration_m_s2) = &performance.strokes[0];
+//! assert!(vibration_m_s2.iter().any(|a| a.abs() > 0.0) && performance.taps.is_empty());
+//! # Ok::<(), asperity::listen::ListenError>(())
+//! ```
 
 mod hand;
 
@@ -115,7 +132,7 @@ pub struct Part {
 #[derive(Debug, Error)]
 pub enum ListenError {
     /// The rate is no servo rate.
-    #[error("{texture}: {cause}")]
+    #[error("{texture}: the servo rate is not supported: {cause}")]
     Config {
         /// Name of the texture.
         texture: String,
@@ -131,7 +148,7 @@ pub enum ListenError {
         cause: LoadError,
     },
     /// Nothing to hear was asked for.
-    #[error("{texture}: it holds no taps")]
+    #[error("{texture}: the texture has no taps")]
     NoTaps {
         /// Name of the texture.
         texture: String,

@@ -1,6 +1,13 @@
 //! A picture of a whole texture on one page, deterministic to the byte.
 //!
 //! It is drawn with `asperity-plot`, like every Asperity picture.
+//!
+//! ```
+//! use asperity::{builtin, plot};
+//!
+//! let png = plot::sheet(&builtin::texture(), None).expect("the embedded font and an encoder");
+//! assert!(png.starts_with(b"\x89PNG"));
+//! ```
 
 mod roots;
 mod sheet;

@@ -68,7 +68,7 @@ pub enum RenderError {
     },
     /// A time that does not match the rate of the texture.
     #[error(
-        "{file}:{line}: t_s = {found}, but row {row} at {rate_hz} Hz is due at {due}",
+        "{file}:{line}: t_s = {found} s, but at {rate_hz} Hz row {row} must be at {due} s",
         file = file.display()
     )]
     Rate {
@@ -86,7 +86,7 @@ pub enum RenderError {
         rate_hz: f32,
     },
     /// There is no row.
-    #[error("{file}: has no row", file = file.display())]
+    #[error("{file}: the trajectory has no rows", file = file.display())]
     Empty {
         /// The file.
         file: PathBuf,
@@ -103,7 +103,7 @@ pub enum RenderError {
     #[error("the scene cannot be rendered: {0}")]
     Scene(SceneError),
     /// The texture's rate is no servo rate.
-    #[error("{texture}: {cause}")]
+    #[error("{texture}: the servo rate is not supported: {cause}")]
     Config {
         /// Name of the texture.
         texture: String,
@@ -120,10 +120,11 @@ impl Diagnostic for RenderError {
         match self {
             Self::Input(error) => error.remedy(),
             Self::Textures { .. } => {
-                "build the scene again: `asperity build` packs what surfaces wear".into()
+                "build the scene again with `asperity build`, which packs only textures in use"
+                    .into()
             }
             Self::NotCsv { .. } | Self::Empty { .. } | Self::RowTooLong { .. } => format!(
-                "give UTF-8 text with the header {} and one row a tick",
+                "give UTF-8 text with the header {} and one row per tick",
                 INPUT_COLUMNS.join(",")
             ),
             Self::MissingColumn { .. } | Self::RepeatedColumn { .. } => {
@@ -131,7 +132,7 @@ impl Diagnostic for RenderError {
             }
             Self::NotANumber { .. } => "write a number, such as 12.5".into(),
             Self::Rate { rate_hz, .. } => format!(
-                "resample the trajectory to {rate_hz} Hz: t_s grows by {} s a row",
+                "resample the trajectory to {rate_hz} Hz, so that t_s increases by {} s per row",
                 1.0 / rate_hz
             ),
             Self::Load {
@@ -143,7 +144,8 @@ impl Diagnostic for RenderError {
                 ..
             }) => format!("give --rate {model_hz} or 2, 3, … 20 times as much"),
             Self::Load { .. } | Self::Config { .. } => {
-                "give a --rate that the runtime can have, or make the texture for one".into()
+                "give a --rate that the runtime supports, or compile the texture for another rate"
+                    .into()
             }
             Self::Scene(_) => "build the scene again".into(),
             Self::Write(error) if error.kind() == io::ErrorKind::StorageFull => {

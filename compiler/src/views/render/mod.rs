@@ -1,4 +1,20 @@
 //! Running the runtime offline: from a trajectory to what a hand would feel.
+//!
+//! ```
+//! use asperity::{builtin, lower::lower, render::render};
+//! use asperity_formats::Asset;
+//! use std::path::Path;
+//!
+//! let bytes = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;
+//! let asset = Asset::parse(&bytes).expect("a valid asset");
+//! // Three periods at 1 kHz, 2 mm deep in the plane z = 0.
+//! let stroke = "t_s,x_mm,y_mm,z_mm\n0.000,0.0,0,-2\n0.001,0.1,0,-2\n0.002,0.2,0,-2\n";
+//! let mut table = Vec::new();
+//! let report = render(&asset, None, Path::new("stroke.csv"), stroke.as_bytes(), &mut table, 1)?;
+//! assert_eq!((report.ticks, report.contact_ticks), (3, 3));
+//! assert!(table.starts_with(b"tick,t_s,depth_mm,"));
+//! # Ok::<(), asperity::render::RenderError>(())
+//! ```
 
 mod columns;
 mod error;
@@ -334,10 +350,10 @@ mod tests {
             (format!("{head}\n0,0,0,"), "in.csv:2: z_mm = \"\" is not"),
             (
                 format!("{head}\n0,0,0,0\n0.002,0,0,0"),
-                "in.csv:3: t_s = 0.002, but row 1 at 1000 Hz",
+                "in.csv:3: t_s = 0.002 s, but at 1000 Hz row 1",
             ),
             (format!("{head}\n0,0,0,0\n0.001,0,0"), "not a CSV table"),
-            (head.clone(), "has no row"),
+            (head.clone(), "the trajectory has no rows"),
             (String::new(), "column t_s is missing"),
         ] {
             assert!(

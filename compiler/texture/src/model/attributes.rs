@@ -1,4 +1,46 @@
 //! Objective attributes of a texture: what rough, sharp, hard and slippery mean here.
+//!
+//! They describe the vibration that a grid mixes at one stated stroke, the fastest tap trace, and friction. Reports,
+//! sliders and the grammar of prompts all refer to these numbers.
+//!
+//! ```
+//! use asperity_texture::model::attributes;
+//! # use asperity_texture::model::{
+//! #     Friction, GridVertex, ModelGrid, Numerator, Provenance, TapBank, TextureModel, VertexKind, defaults,
+//! # };
+//! # let texture = |sigma_m_s2: f64| {
+//! #     let corner = |speed_mm_s: f64, force_n: f64| GridVertex {
+//! #         speed_mm_s,
+//! #         force_n,
+//! #         kind: VertexKind::Edge,
+//! #         lsf_rad: vec![0.4, 0.9],
+//! #         ma_lsf_rad: None,
+//! #         gain: 1.0,
+//! #         sigma_m_s2,
+//! #     };
+//! #     TextureModel {
+//! #         name: "buzz".into(),
+//! #         grid: ModelGrid {
+//! #             sample_rate_hz: 1000.0,
+//! #             order: 2,
+//! #             numerator: Numerator::None,
+//! #             vertices: vec![corner(0.0, 0.0), corner(200.0, 0.0), corner(200.0, 2.0), corner(0.0, 2.0)],
+//! #             triangles: vec![[0, 1, 2], [0, 2, 3]],
+//! #         },
+//! #         taps: TapBank::default(),
+//! #         friction: Friction { mu: 0.5, anchors: Vec::new(), law: None },
+//! #         wall: defaults::wall(),
+//! #         gains: defaults::gains(),
+//! #         provenance: Provenance::default(),
+//! #     }
+//! # };
+//!
+//! // Two textures without taps: one resonance, excited with 0.1 and with 1 m/s².
+//! let (quiet, loud) = (attributes::of(&texture(0.1)), attributes::of(&texture(1.0)));
+//! let change_db = loud.rough_db.expect("a vibration") - quiet.rough_db.expect("a vibration");
+//! assert!((change_db - 20.0).abs() < 1e-6);
+//! assert_eq!((loud.hard_hz, loud.mu), (None, 0.5));
+//! ```
 
 use crate::{
     model::{ModelGrid, TextureModel, mesh, mixture::Field},

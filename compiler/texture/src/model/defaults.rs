@@ -1,5 +1,12 @@
-//! Values for what no source states. Nobody confirmed them on a device, and a source may set
+//! Values for what no source states. Nobody has confirmed them on a device, and a source may set
 //! others.
+//!
+//! ```
+//! use asperity_texture::model::defaults;
+//!
+//! let gains = defaults::gains();
+//! assert!((gains.vib_s2_m * gains.f_max_n - defaults::VIBRATING_MASS_KG).abs() < 1e-12);
+//! ```
 
 use crate::model::{Gains, Wall};
 

@@ -1,4 +1,32 @@
 //! Whether triangles tile the rectangle of the grid.
+//!
+//! The runtime looks up the triangle around a speed and a force, so every point needs one, and none may overlap
+//! another.
+//!
+//! ```
+//! use asperity_texture::model::{GridVertex, ModelGrid, Numerator, VertexKind, mesh};
+//!
+//! # let vertex = |speed_mm_s, force_n| GridVertex {
+//! #     speed_mm_s,
+//! #     force_n,
+//! #     kind: VertexKind::Edge,
+//! #     lsf_rad: vec![1.0],
+//! #     ma_lsf_rad: None,
+//! #     gain: 1.0,
+//! #     sigma_m_s2: 1.0,
+//! # };
+//! // `vertex` gives a model at a speed, mm/s, and a force, N.
+//! let mut grid = ModelGrid {
+//!     sample_rate_hz: 1000.0,
+//!     order: 1,
+//!     numerator: Numerator::None,
+//!     vertices: vec![vertex(0.0, 0.0), vertex(200.0, 0.0), vertex(200.0, 2.0), vertex(0.0, 2.0)],
+//!     triangles: vec![[0, 1, 2], [0, 2, 3]],
+//! };
+//! assert_eq!(mesh::check(&grid), Ok(()));
+//! grid.triangles.pop();
+//! assert_eq!(mesh::check(&grid), Err(mesh::MeshError::Hole { from: 0, to: 2 }));
+//! ```
 
 use crate::model::ModelGrid;
 use std::collections::HashMap;

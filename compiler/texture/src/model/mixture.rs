@@ -2,6 +2,34 @@
 //!
 //! Line spectral frequencies are mixed as cos ω, and levels as gain·σ, with the barycentric
 //! weights of the triangle around the query. A query outside the grid is moved to its border.
+//!
+//! ```
+//! use asperity_texture::model::{GridVertex, ModelGrid, Numerator, VertexKind, mixture::Field};
+//!
+//! # let vertex = |speed_mm_s, force_n, sigma_m_s2| GridVertex {
+//! #     speed_mm_s,
+//! #     force_n,
+//! #     kind: VertexKind::Edge,
+//! #     lsf_rad: vec![1.0],
+//! #     ma_lsf_rad: None,
+//! #     gain: 1.0,
+//! #     sigma_m_s2,
+//! # };
+//! // `vertex` gives a model at a speed, mm/s, and a force, N, with its level, m/s².
+//! let grid = ModelGrid {
+//!     sample_rate_hz: 1000.0,
+//!     order: 1,
+//!     numerator: Numerator::None,
+//!     vertices: vec![vertex(0.0, 0.0, 0.0), vertex(200.0, 0.0, 0.0), vertex(200.0, 2.0, 3.0), vertex(0.0, 2.0, 0.0)],
+//!     triangles: vec![[0, 1, 2], [0, 2, 3]],
+//! };
+//! let field = Field::new(&grid);
+//! let level_m_s2 = |speed_mm_s, force_n| {
+//!     field.locate(speed_mm_s, force_n).map(|place| field.mixture(&place).level_m_s2)
+//! };
+//! assert!(level_m_s2(100.0, 1.0).is_some_and(|level| (level - 1.5).abs() < 1e-9));
+//! assert_eq!(level_m_s2(900.0, 9.0), level_m_s2(200.0, 2.0)); // the corner
+//! ```
 
 use crate::{
     model::{ModelGrid, Numerator, mesh},

@@ -1,7 +1,18 @@
-//! Shifts: the attributes of a texture move, and nothing else of it.
+//! Shifts: attributes of a texture move, and nothing else changes.
 //!
 //! Roughness moves by the level of every model, slipperiness by μ, hardness by the time in which
 //! a tap passes: a tap that is over in half the time has twice the pitch, and the same impulse.
+//!
+//! ```
+//! use asperity_texture::model::{
+//!     attributes::Attributes,
+//!     shift::{Shift, scales, to},
+//! };
+//!
+//! let cork = Attributes { rough_db: Some(-3.0), sharp_hz: None, hard_hz: None, mu: 0.6 };
+//! let wanted = scales(&Attributes { rough_db: Some(3.0), ..cork });
+//! assert_eq!(to(&wanted, &cork), Shift { rough_db: 6.0, ..Shift::default() });
+//! ```
 
 use super::{
     TextureModel,

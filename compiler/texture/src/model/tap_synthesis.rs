@@ -4,6 +4,16 @@
 //! the texture's frequency. Everything else follows [`impact`] for a material of that contact time:
 //! the time falls with the impact speed, and the centroid rises. Nothing says how the surface rings,
 //! so it has no modes. All of it is a guess at the material, so such a bank is marked synthetic.
+//!
+//! ```
+//! use asperity_texture::model::{defaults, tap_synthesis};
+//!
+//! let bank = tap_synthesis::bank(200.0, &defaults::gains());
+//! assert_eq!(bank.traces.len(), tap_synthesis::SPEEDS);
+//! let softest = &bank.traces[0];
+//! let impulse_m_s = tap_synthesis::impulse_m_s(&softest.accel_m_s2, bank.sample_rate_hz);
+//! assert!((impulse_m_s / (tap_synthesis::IMPULSE_PER_SPEED * softest.speed_m_s) - 1.0).abs() < 1e-9);
+//! ```
 
 pub use crate::signal::impact::{SAMPLE_RATE_HZ, SAMPLES, SPEED_STEP_M_S, SPEEDS};
 

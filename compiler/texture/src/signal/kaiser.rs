@@ -1,4 +1,11 @@
 //! The Kaiser window: the taper of every interpolator and filter here.
+//!
+//! ```
+//! use asperity_texture::signal::kaiser;
+//!
+//! assert_eq!((kaiser::window(0.0), kaiser::window(1.0)), (1.0, 0.0));
+//! assert!(kaiser::window(0.5) < 1.0);
+//! ```
 
 /// Shape of the window, which leaves side lobes some 80 dB below the main lobe.
 pub const BETA: f64 = 8.0;

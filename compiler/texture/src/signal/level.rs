@@ -1,4 +1,16 @@
 //! From the excitation of a model to the level of its vibration, in closed form.
+//!
+//! A resonance amplifies its excitation, so models of equal level differ in σ; these sums say by how much.
+//!
+//! ```
+//! use asperity_texture::signal::{level, lsf};
+//!
+//! // White noise through 1 + z⁻¹ has twice its variance.
+//! let white = lsf::towards_white_noise(&[0.4, 0.9], 1.0);
+//! assert!((level::nyquist_rms(&white) - std::f64::consts::SQRT_2).abs() < 1e-9);
+//! // Frequencies that lie close together are a resonance.
+//! assert!(level::nyquist_rms(&[0.4, 0.5]) > level::nyquist_rms(&[0.4, 0.9]));
+//! ```
 
 use crate::signal::{lsf, reflection};
 

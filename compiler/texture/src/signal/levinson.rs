@@ -1,4 +1,13 @@
 //! The AR model of a power spectrum: autocorrelation and Levinson's recursion.
+//!
+//! ```
+//! use asperity_texture::signal::{levinson, spectrum::squared_magnitude};
+//!
+//! let truth = [1.0, -1.2, 0.9, -0.3];
+//! let (found, sigma) = levinson::all_pole(3, |omega| 4.0 / squared_magnitude(&truth, omega));
+//! assert!((sigma - 2.0).abs() < 1e-9);
+//! assert!(found.iter().zip(truth).all(|(found, a)| (found - a).abs() < 1e-9));
+//! ```
 
 use crate::signal::reflection::step_up;
 use std::f64::consts::PI;

@@ -1,4 +1,11 @@
 //! Order statistics.
+//!
+//! ```
+//! use asperity_texture::signal::quantile::{mean, median};
+//!
+//! assert_eq!(median([3.0, 1.0, f64::NAN, 2.0]), 2.0); // what is not finite does not count
+//! assert_eq!(mean(&[1.0, 2.0, 6.0]), 3.0);
+//! ```
 
 /// RMS of Gaussian noise over the median of its size.
 pub const RMS_OF_MEDIAN: f64 = 1.4826;

@@ -1,4 +1,12 @@
 //! Reflection coefficients: the step-down recursion, and stability by it.
+//!
+//! ```
+//! use asperity_texture::signal::reflection::{is_stable, step_down, step_up};
+//!
+//! assert_eq!(step_up(&[0.5]), [1.0, 0.5]);
+//! assert_eq!(step_down(&[1.0, 0.5]), Some(vec![0.5]));
+//! assert!(is_stable(&[1.0, -0.999]) && !is_stable(&[1.0, -1.0]));
+//! ```
 
 use multiversion::multiversion;
 

@@ -8,6 +8,14 @@
 //! R = 48 samples of that rate on either side. The response is flat within 0.01 dB up to 0.43 of
 //! the rate, and images and aliases of what lies below that are at −75 dB or less. A phase's
 //! weights sum to 1, so a constant is unchanged; beyond its ends the signal counts as 0.
+//!
+//! ```
+//! use asperity_texture::signal::resample::resample;
+//!
+//! let raised = resample(&[1.5; 400], 1000, 48_000);
+//! assert_eq!(raised.len(), 400 * 48);
+//! assert!((raised[200 * 48] - 1.5).abs() < 1e-9);
+//! ```
 
 use super::kaiser::{BETA, bessel_i0};
 use std::f64::consts::TAU;

@@ -25,45 +25,45 @@ const REFERENCE: usize = 24;
   asperity-lab bench
   asperity-lab bench --hatt materials/ --seconds 5,15,60,300
   asperity-lab bench --checks 100
-  asperity-lab bench --write oak --seconds 30        a recording to try the import with
+  asperity-lab bench --write oak --seconds 30        a recording to try an import on
 
 Without --hatt, the textures are the built-in one and materials of the learned model.")]
 pub(crate) struct Arguments {
     /// Folder of HaTT XML files
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
-    /// Seconds of strokes, one or several; air and taps come in addition. With --write, seconds of
-    /// the whole recording
+    /// Seconds of strokes, one or more values; time in the air and taps are added. With --write, the
+    /// length of the whole recording
     #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = seconds)]
     seconds: Vec<f64>,
-    /// At most so many textures
+    /// Use at most this many textures
     #[arg(long, value_name = "N")]
     textures: Option<usize>,
-    /// Only every so many of the textures
+    /// Use only every Nth texture
     #[arg(long, value_name = "N", default_value_t = 1)]
     every: usize,
-    /// Noise of the accelerometer, times the usual 80 µg/√Hz
+    /// Noise of the accelerometer, as a multiple of 80 µg/√Hz
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
     noise: f64,
-    /// Frequency in Hz and Q of the resonance of the tool with its accelerometer
+    /// Resonance of the tool with its accelerometer: frequency in Hz, and Q
     #[arg(long, value_name = "HZ,Q", conflicts_with = "checks")]
     resonance: Option<Resonance>,
-    /// Tap the tool so often in free air at the start
+    /// Number of taps of the tool in free air, at the start
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(..=MOST_FREE_TAPS as i64), conflicts_with = "checks")]
     free_taps: u8,
-    /// Record no position along z
+    /// Do not record the position along z
     #[arg(long, conflicts_with = "checks")]
     no_height: bool,
-    /// Write every visited cell of every texture into this CSV file
+    /// Write every visited cell of every texture to this CSV file
     #[arg(long, value_name = "FILE", conflicts_with_all = ["write", "checks"])]
     cells: Option<PathBuf>,
-    /// Check so many faulty and as many clean recordings of 20 s instead
+    /// Instead, run the check on this many faulty and as many clean recordings of 20 s
     #[arg(long, value_name = "N", conflicts_with = "write")]
     checks: Option<usize>,
-    /// Write one recording of the first texture into this folder instead; made if its parent exists
+    /// Instead, write one recording of the first texture to this new folder, whose parent must exist
     #[arg(long, value_name = "DIR")]
     write: Option<PathBuf>,
-    /// Seed of everything random
+    /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Print JSON
@@ -118,7 +118,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         std::fs::write(path, cells_csv(&all)).map_err(|error| {
             Plain::failure(
                 format!("{}: {error}", path.display()),
-                "give a file that can be written",
+                "give a path that you can write to",
             )
         })?;
     }
@@ -236,13 +236,13 @@ fn write(
     let fail = |error: std::io::Error| {
         Plain::failure(
             format!("{}: {error}", folder.display()),
-            "give a folder that can be made",
+            "give a folder that can be created",
         )
     };
     if folder.exists() {
         return Err(Plain::failure(
-            format!("{} exists", folder.display()),
-            "give a folder that is not there yet",
+            format!("{}: already exists", folder.display()),
+            "give a folder that does not exist yet",
         ));
     }
     std::fs::create_dir(folder).map_err(fail)?;

@@ -13,11 +13,11 @@ use asperity_sim::hand::{Grip, GripPreset};
 
 use crate::error::Plain;
 
-/// Let a simulated hand explore a texture on a simulated device
+/// Explore a texture with a simulated hand on a simulated device
 ///
 /// The hand approaches, taps at four speeds, presses, rests, strokes at four
 /// speeds and forces, scrubs and lifts. Time is virtual, and the same seed gives
-/// the same bytes. The summary goes to stdout.
+/// the same bytes. The summary goes to standard output.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab feel                             the built-in texture
@@ -26,24 +26,24 @@ use crate::error::Plain;
   asperity-lab feel brick.asp --device my-touch.toml --seconds 60
 
 Columns of the CSV: tick, t_s, motion; true position, true velocity, measured
-position; depth, speed, k·δ, vibration, tap, friction and force as the renderer
-gives them; the force the device held; the normal force the hand meant; flags.")]
+position; depth, speed, k·δ, vibration, tap, friction and force as rendered; the
+force that the device applied; the normal force that the hand aimed for; flags.")]
 pub(crate) struct Arguments {
-    /// Asset (.asp) or library (.aspl), `-` for standard input; the built-in texture without it
+    /// Asset (.asp) or library (.aspl); `-` is standard input [default: the built-in texture]
     file: Option<PathBuf>,
-    /// Which texture of a library, by name or index
+    /// Texture of a library, by name or index from 0
     #[arg(long, value_name = "NAME", requires = "file")]
     texture: Option<String>,
-    /// Device to simulate, a TOML file; a 3D Systems Touch without it
+    /// Simulated device, a TOML file [default: a 3D Systems Touch]
     #[arg(long, value_name = "TOML")]
     device: Option<PathBuf>,
     /// Grip of the hand: light, firm, or a TOML file
     #[arg(long, value_name = "light|firm|TOML", default_value = "light")]
     grip: String,
-    /// Seed of the script's variations and of the texture's excitation
+    /// Seed of the variations of the script and of the texture's excitation
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Virtual time to run, s (0.1 to 600); one whole exploration, about 12 s, without it
+    /// Virtual time to run, s (0.1 to 600) [default: one whole exploration, about 12 s]
     #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<f64>,
     /// Write every tick to a CSV file; `-` is standard output
@@ -52,7 +52,7 @@ pub(crate) struct Arguments {
     /// Write a sheet with position, force, vibration, spectrogram and taps; `-` is standard output
     #[arg(long, value_name = "OUT.png")]
     plot: Option<PathBuf>,
-    /// Write the vibration as sound, 16 bit, 48 kHz; `-` is standard output
+    /// Write the vibration as a 16-bit WAV at 48 kHz; `-` is standard output
     #[arg(long, value_name = "OUT.wav")]
     wav: Option<PathBuf>,
 }
@@ -61,7 +61,7 @@ fn seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(value) if (0.1..=600.0).contains(&value) => Ok(value),
         Ok(_) => Err("must be 0.1 to 600 s".into()),
-        Err(_) => Err("not a number of seconds".into()),
+        Err(_) => Err("must be a number of seconds".into()),
     }
 }
 
@@ -98,7 +98,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let asset = Asset::parse(&bytes).map_err(|error| {
         Plain::failure(
             format!("{origin}: {error}"),
-            "make the file again from its source",
+            "build the file again from its source",
         )
     })?;
     let recording = record(&asset, &origin, &options).map_err(one)?;
@@ -120,10 +120,13 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         activity.set_message("writing the sound");
         let sound = wav::encode(&recording).map_err(one)?;
         report += &format!(
-            "\nwav        {}, {} Hz, 16 bit, vibration before device gain, full scale is {}",
+            "\nwav        {}, {} Hz, 16 bit, vibration before device gain; full scale is {}",
             display(path),
             sound.sample_rate_hz,
-            if sound.gain_per_m_s2 > 0.0 {
+            if sound.gain_per_m_s2 > 1e3 {
+                // A vibration that no hand feels.
+                format!("{:.2e} m/s²", 1.0 / sound.gain_per_m_s2)
+            } else if sound.gain_per_m_s2 > 0.0 {
                 format!("{:.4} m/s²", 1.0 / sound.gain_per_m_s2)
             } else {
                 "undefined: silence".to_owned()

@@ -22,17 +22,18 @@ use asperity_lab::servo_session::{Setup, run as run_loop};
 use crate::error::Plain;
 use crate::loop_options::{self, LoopOptions, refusals, stop_on_interrupt};
 
-/// Measure how punctual a servo loop is
+/// Measure the latency and jitter of a servo loop
 ///
-/// Wake-up, reading, computing and writing of every tick go into HdrHistograms, as recorded and
-/// corrected for coordinated omission; the ten worst ticks are reported with their stage.
+/// The times to wake up, read, compute and write are collected for every tick in HdrHistograms, both
+/// as recorded and corrected for coordinated omission. The report lists the ten worst ticks with the
+/// stage that took longest.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Examples:
   asperity-lab jitter                                  10 s at 1 kHz without a device
   asperity-lab jitter --seconds 100 --rate 10000 --cpu 1 --cyclictest --out run
   asperity-lab jitter brick.asp --device sim: --load memory --json
-  asperity-lab jitter --inject compute:300:1000        is a delay of 300 µs found?
+  asperity-lab jitter --inject compute:300:1000        does the report find a delay of 300 µs?
   asperity-lab jitter merge monday.hlog tuesday.hlog -o both.hlog
   asperity-lab jitter compare calm/run.hlog loaded/run.hlog
 
@@ -43,22 +44,22 @@ pub(crate) struct Arguments {
     command: Option<Command>,
     #[command(flatten)]
     options: LoopOptions,
-    /// Device; without it, none that rests 1 mm deep in the texture
+    /// Device to read and drive; the default is no device, resting 1 mm deep in the texture
     #[arg(long, value_name = "URI", value_parser = loop_options::device, default_value = "null:?z_mm=-1")]
     device: Uri,
-    /// Time to measure, s (0.1 to 86400)
+    /// Duration of the measurement, s (0.1 to 86400)
     #[arg(long, value_name = "S", value_parser = loop_options::seconds, default_value = "10")]
     seconds: f64,
-    /// What else the machine does meanwhile
+    /// Load to put on the machine during the measurement
     #[arg(long, value_enum, default_value = "none")]
     load: LoadName,
-    /// Put a delay into one of so many ticks: STAGE:MICROSECONDS:EVERY
+    /// Inject a delay into one tick in EVERY, to test the measurement: STAGE:MICROSECONDS:EVERY
     #[arg(long, value_name = "DELAY")]
     inject: Option<Injection>,
-    /// Measure with cyclictest of rt-tests in the same run
+    /// Also run cyclictest (from rt-tests) at the same time, for comparison
     #[arg(long)]
     cyclictest: bool,
-    /// Folder for all files; made if its parent exists
+    /// Folder to write all files to; created if its parent exists
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print JSON
@@ -70,14 +71,14 @@ pub(crate) struct Arguments {
 enum Command {
     /// Merge the interval logs of several runs into one
     Merge {
-        /// Logs, run.hlog of a measurement
+        /// Interval logs (run.hlog) to merge
         #[arg(required = true, num_args = 2..)]
         logs: Vec<PathBuf>,
         /// The merged log; `-` is standard output
         #[arg(long, short, value_name = "OUT.hlog")]
         output: PathBuf,
     },
-    /// Tell the shift of each percentile from one run to another, with its confidence
+    /// Compare two runs: the shift of every percentile, with its confidence interval
     Compare {
         /// Log of the first run
         a: PathBuf,
@@ -94,13 +95,13 @@ enum Command {
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
 enum LoadName {
-    /// Nothing
+    /// No load
     None,
-    /// A busy thread on every processor
+    /// One busy thread per processor
     Cpu,
-    /// A thread on every processor that streams through 32 MiB
+    /// One thread per processor that streams through 32 MiB
     Memory,
-    /// Writing 16 MiB over and over, waiting for the disk
+    /// Repeated writes of 16 MiB that wait for the disk
     Disk,
     /// 32 threads with timers of 200 µs
     Timers,
@@ -152,7 +153,7 @@ fn measure(arguments: &Arguments, console: Console) -> Result<(), Failures> {
     }
     let folder = tempfile::tempdir().map_err(|error| {
         Plain::failure(
-            format!("cannot make a temporary folder: {error}"),
+            format!("cannot create a temporary folder: {error}"),
             system::remedy(&error).unwrap_or("set TMPDIR to a folder that can be written"),
         )
     })?;
@@ -239,7 +240,7 @@ fn check_folder(folder: &Path) -> Result<(), Failures> {
     }
     Err(Plain::failure(
         format!(
-            "{}: no folder, and none can be made there",
+            "{}: not a folder, and it cannot be created there",
             folder.display()
         ),
         "give a folder whose parent exists",
@@ -247,7 +248,7 @@ fn check_folder(folder: &Path) -> Result<(), Failures> {
 }
 
 fn warn_of(error: &CyclictestError, console: Console) {
-    console.warn(&format!("{error}; measured without it"));
+    console.warn(&format!("{error}; the measurement continues without it"));
 }
 
 fn collector(settings: &Settings, conditions: Conditions, seconds: f64) -> Collector {
@@ -356,12 +357,12 @@ fn merge(logs: &[PathBuf], output: &Path, console: Console) -> Result<(), Failur
         if run.facts.period_ns != merged.facts.period_ns {
             return Err(Plain::failure(
                 format!(
-                    "{}: periods of {} ns, of the first log {} ns",
+                    "{}: the period is {} µs, but {} µs in the first log",
                     path.display(),
-                    run.facts.period_ns,
-                    merged.facts.period_ns
+                    1e-3 * run.facts.period_ns as f64,
+                    1e-3 * merged.facts.period_ns as f64
                 ),
-                "merge runs of one rate; compare runs of different rates",
+                "merge runs of the same rate; use `asperity-lab jitter compare` for different rates",
             ));
         }
         merged.merge(run);
@@ -372,7 +373,7 @@ fn merge(logs: &[PathBuf], output: &Path, console: Console) -> Result<(), Failur
     let ticks = merged.facts.ticks;
     console
         .report(&format!(
-            "{}: {} runs, {ticks} ticks\n",
+            "{}: merged {} runs, {ticks} ticks\n",
             display(output),
             logs.len()
         ))

@@ -15,48 +15,48 @@ use asperity_lab::servo_session::{OpenDevice, ServoSessionError, Surface, open};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct LoopOptions {
-    /// Texture (.asp), library (.aspl) or scene; the built-in texture without it
+    /// Texture (.asp), library (.aspl) or scene [default: the built-in texture]
     pub(crate) file: Option<PathBuf>,
-    /// Which texture of a library, by name or index
+    /// Texture of a library, by name or index from 0
     #[arg(long, value_name = "NAME", requires = "file")]
     pub(crate) texture: Option<String>,
-    /// Profile of the device, TOML: its limits and mechanics, and the filter that evens out its
-    /// response, which goes into the texture as it is loaded
+    /// Device profile, TOML: limits, mechanics, and the filter that flattens its response, which is
+    /// applied to the texture at load
     #[arg(long, value_name = "TOML")]
     pub(crate) profile: Option<PathBuf>,
-    /// Servo rate, 250 to 10000 Hz; that of the texture's models without it
+    /// Servo rate, 250 to 10000 Hz [default: the rate of the texture's models]
     #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(250..=10_000))]
     pub(crate) rate: Option<u32>,
-    /// What happens to periods that were missed
+    /// What to do about missed periods
     #[arg(long, value_enum, default_value = "skip")]
     pub(crate) overrun: OverrunName,
-    /// Scheduling: other, fifo, fifo:PRIORITY, deadline, deadline:PERCENT
+    /// Scheduling policy: other, fifo, fifo:PRIORITY, deadline or deadline:PERCENT
     #[arg(long, value_name = "POLICY", default_value = "fifo")]
     pub(crate) policy: Policy,
-    /// Run the loop on this processor alone
+    /// Pin the loop to this processor
     #[arg(long, value_name = "N")]
     pub(crate) cpu: Option<usize>,
-    /// Stop sleeping so many µs early and wait for the time instead (0 to 1000)
+    /// Wake this many µs early and busy-wait until the period begins (0 to 1000)
     #[arg(long, value_name = "US", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1000))]
     pub(crate) spin: u64,
     /// Do not lock memory
     #[arg(long)]
     pub(crate) no_lock: bool,
-    /// Let processors go into deep idle states
+    /// Let processors enter deep idle states
     #[arg(long)]
     pub(crate) deep_idle: bool,
-    /// Seed of the texture's excitation; without it 1, or that of a recording that is played
+    /// Seed of the texture's excitation [default: that of a replayed recording, or else 1]
     #[arg(long)]
     pub(crate) seed: Option<u64>,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
 pub(crate) enum OverrunName {
-    /// Skip them; the next sample says how many passed
+    /// Skip them; the next sample carries their number
     Skip,
-    /// Make up for them, one tick right after the other
+    /// Run the missed ticks back to back
     CatchUp,
-    /// End the loop
+    /// Stop the loop
     Stop,
 }
 
@@ -201,6 +201,6 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(value) if (0.1..=86_400.0).contains(&value) => Ok(value),
         Ok(_) => Err("must be 0.1 to 86400 s".into()),
-        Err(_) => Err("not a number of seconds".into()),
+        Err(_) => Err("must be a number of seconds".into()),
     }
 }

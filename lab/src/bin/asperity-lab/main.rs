@@ -20,8 +20,8 @@ use asperity_io::diagnostic::{Failures, one};
 use clap::{Parser, Subcommand};
 use error::Plain;
 
-/// Labs for Asperity textures: what a simulated user feels on a simulated device, and where
-/// methods fail.
+/// Measure Asperity textures: simulated users and devices, servo-loop latency, stability, accuracy
+/// of imports, and real devices.
 #[derive(Debug, Parser)]
 #[command(name = "asperity-lab", version)]
 #[command(after_help = "Examples:
@@ -37,8 +37,8 @@ use error::Plain;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
-    /// Show no progress and no report of what was written; what was asked for, --json and warnings
-    /// are printed all the same
+    /// Print neither progress nor a report of what was written; requested results, --json and
+    /// warnings are still printed
     #[arg(long, short, global = true)]
     quiet: bool,
 }

@@ -14,11 +14,11 @@ use asperity_io::output;
 
 use crate::error::Plain;
 
-/// Measure speed against accuracy over many materials
+/// Measure the trade-off between speed and accuracy over many materials
 ///
-/// Every factor of the tick is varied alone from the default, and some together. Errors are
-/// against the f64 oracle, at rest and moving; measured models are predicted from their
-/// neighbours. The same seed gives the same tables.
+/// Every design factor of the tick is varied from its default, alone and in some combinations.
+/// Errors are relative to the f64 oracle, at rest and in motion; measured models are also
+/// predicted from their neighbours. The same seed gives the same tables.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab pareto --out charts                      the reference corpus
@@ -26,23 +26,23 @@ use crate::error::Plain;
   asperity-lab pareto --quick --json                    a few materials, no counting
 
 Writes summary.csv, designs.csv, held-out.csv, fidelity.csv, their tables.md, and charts as
-.svg and .png. Instructions a tick are counted by valgrind where it is installed, at the
-orders that most of the materials have. A firmware bench's counts (factor,name,instructions)
-are added by --cortex-m.")]
+.svg and .png. If valgrind is installed, it counts the instructions per tick, at the most
+common orders of the materials. --cortex-m adds the counts of a firmware bench
+(factor,name,instructions).")]
 pub(crate) struct Arguments {
-    /// Folder of HaTT models; the reference corpus without it
+    /// Folder of HaTT models [default: the reference corpus]
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
-    /// Folder for tables and charts; made if its parent exists
+    /// Folder to write tables and charts to; created if its parent exists
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Six materials, half a second of motion, nothing counted: below a minute
+    /// Quick run of less than a minute: six materials, half a second of motion, no counting
     #[arg(long)]
     quick: bool,
-    /// Time every kernel beside the default: depends on the machine
+    /// Also time every kernel against the default; the result depends on the machine
     #[arg(long)]
     time: bool,
-    /// Instructions a tick on a Cortex-M4F, CSV: factor,name,instructions
+    /// Instructions per tick on a Cortex-M4F, CSV: factor,name,instructions
     #[arg(long, value_name = "FILE.csv")]
     cortex_m: Option<PathBuf>,
     /// Seed of motions and excitations
@@ -84,7 +84,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     }
     if let Some(reason) = &results.not_counted {
         console.warn(&format!(
-            "no instructions counted: {reason}; install valgrind"
+            "instructions were not counted: {reason}; install valgrind"
         ));
     }
     let printed = if arguments.json {

@@ -10,11 +10,11 @@ use asperity_io::output;
 
 use crate::error::Plain;
 
-/// Try our methods, the paper's and the textbook's where methods fail
+/// Compare the runtime with published and textbook methods in scenarios where those fail
 ///
-/// Every row measures one figure in virtual time: of the runtime itself, and of other
-/// methods in the same scenario. A row passes if ours is within its limit. The last line
-/// counts; the exit status is 1 if a row fails.
+/// Every row measures one figure in virtual time, for the runtime itself and for other
+/// methods in the same scenario. A row passes if the runtime is within its limit. The last
+/// line counts the rows; the exit status is 1 if a row fails.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab stability
@@ -22,18 +22,18 @@ use crate::error::Plain;
   asperity-lab stability --json > table.json
 
 With --out: wall-map.png (stiffness, delay and damping against the bound),
-waveforms.png (the worst cases) and tables.md (the rows as the documentation has them).")]
+waveforms.png (the worst cases) and tables.md (the rows in the form of docs/stability.md).")]
 pub(crate) struct Arguments {
-    /// Folder of HaTT XML files, for the rows that need real materials
+    /// Folder of HaTT XML files, for rows that need real materials
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
-    /// Write pictures and tables to a folder; made if its parent exists
+    /// Folder to write pictures and tables to; created if its parent exists
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Seed of everything random
+    /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Print the rows as JSON instead, the count on stderr
+    /// Print the rows as JSON, and the count on standard error
     #[arg(long)]
     json: bool,
 }

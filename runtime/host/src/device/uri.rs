@@ -65,7 +65,7 @@ pub struct Uri {
 pub enum UriError {
     /// No scheme, or an unknown one.
     #[error(
-        "`{0}` names no kind of device; known are sim:, falcon:, openhaptics:, dhd:, touch:, replay:FILE and null:"
+        "`{0}` is not a known kind of device; known kinds are sim:, falcon:, openhaptics:, dhd:, touch:, replay:FILE and null:"
     )]
     Scheme(String),
     /// A setting without a value.

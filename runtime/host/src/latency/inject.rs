@@ -21,7 +21,7 @@ pub struct Injection {
 /// Why a text is no injection.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "`{0}` is no delay: write STAGE:MICROSECONDS:EVERY, such as compute:300:1000, with the stage read, compute or write, at most 100000 µs, in one of 2 to 1000000 ticks"
+    "`{0}` is not a delay: write STAGE:MICROSECONDS:EVERY, such as compute:300:1000, with the stage read, compute or write, at most 100000 µs, in one of 2 to 1000000 ticks"
 )]
 pub struct InjectionError(String);
 

@@ -18,6 +18,7 @@ use asperity_io::{
     diagnostic::{Diagnostic, Failures, one},
     input::Reach,
     output::{OutputId, Outputs, display, is_standard_output, write_atomic},
+    shown::counted,
 };
 use serde_json::json;
 use std::{
@@ -32,7 +33,7 @@ const WARNINGS: usize = 20;
 /// Why the options do not go together.
 #[derive(Debug, Error)]
 enum Usage {
-    #[error("{0} is for scenes, and this manifest has no [[surface]]")]
+    #[error("{0} applies only to scenes, but the manifest has no [[surface]]")]
     ForScenes(&'static str),
     #[error("{file}: defaults.{key}: {message}", file = file.display())]
     Setup {
@@ -45,7 +46,7 @@ enum Usage {
 impl Diagnostic for Usage {
     fn remedy(&self) -> String {
         match self {
-            Self::ForScenes(_) => "leave it out, or add the surfaces that wear the textures".into(),
+            Self::ForScenes(_) => "leave it out, or add a [[surface]] for every texture".into(),
             Self::Setup { .. } => "correct the value".into(),
         }
     }
@@ -198,8 +199,8 @@ impl Pins {
         let shown = warnings.len().min(WARNINGS);
         console.warnings(&warnings[..shown], args.reporting.json);
         if warnings.len() > shown && !args.reporting.json {
-            let more = warnings.len() - shown;
-            console.warn(&format!("{more} more warnings; --json has all of them"));
+            let more = counted(warnings.len() - shown, "more warning", "more warnings");
+            console.warn(&format!("{more}; --json lists all of them"));
         }
         warnings
     }
@@ -219,7 +220,8 @@ fn checked(args: &Arguments, manifest: &Manifest, console: Console) -> Result<()
         console.json(&json!({ "textures": count, "files": manifest.sources.len() }))
     } else {
         let file = args.scene.display();
-        console.report(&format!("{file}: {count} textures, no fault\n"))
+        let textures = counted(count, "texture", "textures");
+        console.report(&format!("{file}: {textures}, no faults found\n"))
     };
     printed.map_err(one)
 }

@@ -7,6 +7,7 @@ use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{Outputs, display},
+    shown::size,
 };
 
 pub(crate) fn run(args: &Extract, console: Console) -> Result<(), Failures> {
@@ -19,12 +20,18 @@ pub(crate) fn run(args: &Extract, console: Console) -> Result<(), Failures> {
     let bytes = textures.choose(wanted).map_err(one)?;
     let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
     // The name in the index counts.
-    let bytes = match name.filter(|name| name != asset.name()) {
-        Some(name) => renamed(&bytes, &name).map_err(|e| one(EditError::from(e)))?,
-        None => bytes.clone(),
+    let name = name.as_deref().unwrap_or(asset.name());
+    let extracted = if name == asset.name() {
+        bytes.clone()
+    } else {
+        renamed(&bytes, name).map_err(|e| one(EditError::from(e)))?
     };
-    outputs.fill(output, &bytes).map_err(one)?;
+    outputs.fill(output, &extracted).map_err(one)?;
     outputs.commit().map_err(one)?;
-    let report = format!("{}: {} bytes\n", display(&args.output), bytes.len());
+    let report = format!(
+        "{}: {name:?}, {}\n",
+        display(&args.output),
+        size(extracted.len() as u64)
+    );
     console.report(&report).map_err(one)
 }

@@ -11,7 +11,10 @@ use asperity::{
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
-use asperity_io::diagnostic::{Failures, one};
+use asperity_io::{
+    diagnostic::{Failures, one},
+    shown::counted,
+};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -27,9 +30,9 @@ pub(crate) fn run(args: &List, console: Console) -> Result<(), Failures> {
             line(name, asset, &meter.of(&raise(asset)))
         });
         let rows = rows.map_err(one)?;
-        let count = rows.len();
-        let head = "  haptic   total  rough dB  sharp Hz  hard Hz      μ  name";
-        console.text(&format!("{head} ({count} textures)\n{}", rows.concat()))
+        let count = counted(rows.len(), "texture", "textures");
+        let head = "  haptic B  total B  rough dB  sharp Hz  hard Hz      μ  name";
+        console.text(&format!("{count}\n{head}\n{}", rows.concat()))
     };
     printed.map_err(one)
 }
@@ -59,7 +62,7 @@ fn in_json(name: &str, asset: &Asset<'_>, found: &Attributes) -> Value {
 fn line(name: &str, asset: &Asset<'_>, found: &Attributes) -> String {
     let figure = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
     let mut text = format!(
-        "  {:>6}  {:>6}  {:>8}  {:>8}  {:>7}  {:>5.3}  {name}",
+        "  {:>8}  {:>7}  {:>8}  {:>8}  {:>7}  {:>5.3}  {name}",
         asset.haptic_len(),
         asset.total_len(),
         figure(found.rough_db),
@@ -74,10 +77,10 @@ fn line(name: &str, asset: &Asset<'_>, found: &Attributes) -> String {
     }
     let history = history(asset).unwrap_or_default();
     if let Some(certainty) = history.certainty {
-        let _ = write!(text, ", {certainty}");
+        let _ = write!(text, ", certainty {certainty}");
     }
     if !history.steps.is_empty() {
-        let _ = write!(text, ", edited {} ×", history.steps.len());
+        let _ = write!(text, ", {}", counted(history.steps.len(), "edit", "edits"));
     }
     text.push('\n');
     text

@@ -6,6 +6,7 @@ use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{Outputs, display},
+    shown::{counted, size},
 };
 
 pub(crate) fn run(args: &Merge, console: Console) -> Result<(), Failures> {
@@ -23,7 +24,8 @@ pub(crate) fn run(args: &Merge, console: Console) -> Result<(), Failures> {
     let bytes = merge(&parts)?;
     outputs.fill(library, &bytes).map_err(one)?;
     outputs.commit().map_err(one)?;
-    let (to, count) = (display(&args.output), parts.len());
-    let report = format!("{to}: {count} libraries joined, {} bytes\n", bytes.len());
+    let to = display(&args.output);
+    let files = counted(parts.len(), "file", "files");
+    let report = format!("{to}: merged {files}, {}\n", size(bytes.len() as u64));
     console.report(&report).map_err(one)
 }

@@ -53,6 +53,9 @@ pub(crate) fn run(args: &Rename, console: Console) -> Result<(), Failures> {
     };
     outputs.fill(output, &bytes).map_err(one)?;
     outputs.commit().map_err(one)?;
-    let report = format!("{}: {before:?} is {name:?}\n", display(&args.output));
+    let report = format!(
+        "{}: renamed {before:?} to {name:?}\n",
+        display(&args.output)
+    );
     console.report(&report).map_err(one)
 }

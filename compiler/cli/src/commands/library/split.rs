@@ -10,6 +10,7 @@ use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{FileNames, display, write_folder_beside},
+    shown::counted,
 };
 
 pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
@@ -24,7 +25,8 @@ pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
         .collect();
     write_folder_beside(std::slice::from_ref(&args.file), &args.output, &listed).map_err(one)?;
     console.warn_of_many(&changed);
-    let report = format!("{}: {} files\n", display(&args.output), files.len());
+    let count = counted(files.len(), "file", "files");
+    let report = format!("{}: wrote {count}\n", display(&args.output));
     console.report(&report).map_err(one)
 }
 

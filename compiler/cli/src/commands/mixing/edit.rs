@@ -78,7 +78,8 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
         by.insert(axis.name().to_owned(), json!(by_steps));
     }
     let line = moved
-        .map(|(axis, by)| format!("{} {by:+.1}", axis.name()))
+        // 0 without a minus sign.
+        .map(|(axis, by)| format!("{} {:+.1}", axis.name(), (10.0 * by).round() / 10.0 + 0.0))
         .join(", ");
     let before = attributes_line(&before, editor.scale());
     let more = json!({ "moved": Value::Object(by), "undone": args.undo, "prompt": args.prompt });

@@ -37,7 +37,7 @@ pub(crate) fn run(args: &Encode, console: Console) -> Result<(), Failures> {
     source.name = mixing.name(asset.name());
     let compiled = mixing.compile(&editor, &source, &request)?;
     let mut distance = match encoded.distance_db {
-        Some((p95, worst)) => format!("{p95:.1} dB at 95 % of the places, {worst:.1} dB at worst"),
+        Some((p95, worst)) => format!("{p95:.1} dB at 95 % of the grid, {worst:.1} dB at worst"),
         None => "not measured".into(),
     };
     let silent = encoded.silent_places;

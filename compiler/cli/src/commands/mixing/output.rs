@@ -20,7 +20,7 @@ use asperity::{
 };
 use asperity_console::Console;
 use asperity_formats::{Asset, limits::MAX_NAME_BYTES};
-use asperity_io::{diagnostic::Failures, diagnostic::one, output::display};
+use asperity_io::{diagnostic::Failures, diagnostic::one, output::display, shown::size};
 use serde_json::{Map, Value, json};
 
 /// The output of a mixing command, opened before its work.
@@ -118,8 +118,15 @@ impl<'a> Mixing<'a> {
         }
         let mut text = format!("{}\n", display(&self.args.output));
         let own = [
-            ("attributes", attributes_line(&attributes, editor.scale())),
-            ("bytes", format!("{haptic} haptic, {total} in all")),
+            ("sliders", attributes_line(&attributes, editor.scale())),
+            (
+                "size",
+                format!(
+                    "{} haptic, {} in total",
+                    size(haptic as u64),
+                    size(total as u64)
+                ),
+            ),
         ];
         for (what, value) in lines.iter().chain(&own) {
             text += &format!("  {what:<12} {value}\n");

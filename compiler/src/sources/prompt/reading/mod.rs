@@ -1,9 +1,20 @@
-//! What a prompt names, and what it says of it.
+//! What a prompt names, and what it says about it.
 //!
 //! A sentence encoder reads the whole sentence: "make me gravel" is near to gravel, and near to making.
-//! So a prompt is read before it is encoded. It is [normalised](normalise()), a misspelling is put right,
-//! names of materials are found in it, longest first, and of the other words those stay that say how
+//! So a prompt is read before it is encoded. It is [normalised](normalise()), a misspelling is corrected,
+//! names of materials are found in it, the longest first, and of the other words those stay that say how
 //! something feels. Only what is left is encoded. English only.
+//!
+//! ```
+//! use asperity::{embedded, prompt::reading::Reader};
+//!
+//! let reader = Reader::new(embedded::word_table()?);
+//! let reading = reader.read("imported gravel from my grandmother");
+//! assert_eq!(reading.names, ["gravel"]);
+//! assert_eq!(reading.ignored, ["grandmother"]);
+//! assert_eq!(reader.read("please, some very rough gravel").text(), "very rough gravel");
+//! # Ok::<(), asperity::learned::ModelError>(())
+//! ```
 
 mod closed_class;
 mod description;

@@ -3,12 +3,21 @@
 //!
 //! 1. `pulse`: Hertz's contact. Its time falls as v^(−1/5) with the impact speed v, and its force
 //!    grows as v^(6/5). Losses that rise with speed (Hunt and Crossley, 1975) lean it forward, and a
-//!    soft thing keeps a dent, so the contact opens sooner than it closed.
+//!    soft material keeps a dent, so the contact opens sooner than it closed.
 //! 2. `resonator`: the hand, which holds a part of the stylus at the contact resonance, and the
 //!    first modes of the surface, which the pulse excites.
 //!
 //! [`Impact::of_material`] has the constants. What no measurement decides is marked *chosen*. The
 //! modes follow measured ones (`training/corpora/measured`); `docs/taps.md` compares them.
+//!
+//! ```
+//! use asperity_texture::signal::impact::{Impact, SAMPLE_RATE_HZ};
+//!
+//! let (foam, steel) = (Impact::of_material(0.05, 0.3), Impact::of_material(1e5, 0.02));
+//! assert!(steel.contact_time_s(0.1) < foam.contact_time_s(0.1));
+//! let impulse: f64 = steel.unit_trace(0.1).iter().sum::<f64>() / SAMPLE_RATE_HZ;
+//! assert!((impulse - 1.0).abs() < 1e-9);
+//! ```
 
 mod resonator;
 

@@ -4,6 +4,20 @@
 //! and `P(z) = A(z) − z⁻⁽ᵖ⁺¹⁾A(z⁻¹)` the difference polynomial, so `A = (P + Q)/2`.
 //! The roots of both lie on the unit circle where A is stable, and alternate; their
 //! angles in (0, π) are the LSFs, the first of which belongs to Q.
+//!
+//! A polynomial is stable exactly when its frequencies ascend, and a convex mixture of ascending frequencies ascends.
+//! So models are stored and mixed in this form:
+//!
+//! ```
+//! use asperity_texture::signal::lsf;
+//!
+//! let (a, b) = ([1.0, -1.2, 0.9], [1.0, 0.4, 0.8]);
+//! let (a, b) = (lsf::from_polynomial(&a).expect("stable"), lsf::from_polynomial(&b).expect("stable"));
+//! let middle: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 0.5 * (a + b)).collect();
+//! assert!(lsf::is_ordered(&middle));
+//! assert!(lsf::from_polynomial(&lsf::to_polynomial(&middle)).is_some());
+//! assert_eq!(lsf::from_polynomial(&[1.0, -2.5, 1.2]), None); // not stable
+//! ```
 
 mod roots;
 

@@ -1,4 +1,19 @@
 //! The power spectrum of a model, and how far two of them are apart.
+//!
+//! ```
+//! use asperity_texture::signal::spectrum::{ArmaModel, log_spectral_distance_db};
+//!
+//! let model = |level_m_s2| ArmaModel {
+//!     sample_rate_hz: 1000.0,
+//!     a: vec![1.0, -1.2, 0.9],
+//!     b: vec![1.0],
+//!     level_m_s2,
+//! };
+//! // The same shape, ten times as strong.
+//! assert!((log_spectral_distance_db(&model(1.0), &model(10.0)) - 20.0).abs() < 1e-6);
+//! let centroid_hz = |model: ArmaModel| model.vibration().map(|vibration| vibration.centroid_hz);
+//! assert!(centroid_hz(model(1.0)).is_some() && centroid_hz(model(0.0)).is_none());
+//! ```
 
 mod angles;
 mod decibels;

@@ -11,28 +11,28 @@ use asperity_sim::device::DeviceConfig;
 
 use crate::error::Plain;
 
-/// Fit a device's response from a commanded force and an acceleration, and write its profile
+/// Fit the response of a device to commanded forces, and write its profile
 ///
-/// The table has one row a servo period: t_s, force_n, accel_m_s2, the force that was
-/// commanded and the acceleration of the tip along it. Without a table the sweep is played
-/// on the simulated device. The report says gain, resonance, delay and coherence, and how
-/// far the device is from the reference between 40 and 400 Hz, without and with the filter.
+/// The table has one row per servo period: t_s, force_n (the commanded force) and accel_m_s2
+/// (the acceleration of the tip along that force). Without a table, the sweep is played on the
+/// simulated device. The report gives resonance, delay and coherence, and the deviation from
+/// the reference between 40 and 400 Hz, without and with the filter.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab device calibrate                          the simulated Touch
-  asperity-lab device calibrate --table sweep.csv        its table, as a pattern
+  asperity-lab device calibrate --table sweep.csv        its table, as an example
   asperity-lab device calibrate measured.csv --profile touch.toml -o mine.toml --plot mine.png
   asperity-lab servo brick.asp --device falcon: --profile mine.toml
 
 The sweep: 20 Hz to 0.48 of the rate and back in 20 s, at --amplitude. Hold the stylus by a
 thread or a weak spring. No table of real hardware has been fitted yet.")]
 pub(crate) struct Arguments {
-    /// Table of a measurement, CSV; the simulated device without it
+    /// Measured table, CSV [default: a sweep of the simulated device]
     table_file: Option<PathBuf>,
-    /// Profile to begin with, TOML: limits and mechanics
+    /// Profile to start from, TOML: limits and mechanics
     #[arg(long, value_name = "TOML")]
     profile: Option<PathBuf>,
-    /// Simulated device, a TOML file; a 3D Systems Touch without it
+    /// Simulated device, a TOML file [default: a 3D Systems Touch]
     #[arg(long, value_name = "TOML", conflicts_with = "table_file")]
     device: Option<PathBuf>,
     /// Amplitude of the simulated sweep, N (0.01 to 10)
@@ -41,10 +41,10 @@ pub(crate) struct Arguments {
     /// Write the table of the simulated sweep; `-` is standard output
     #[arg(long, value_name = "OUT.csv", conflicts_with = "table_file")]
     table: Option<PathBuf>,
-    /// Draw the response without and with the filter, and the coherence; `-` is standard output
+    /// Plot the response without and with the filter, and the coherence; `-` is standard output
     #[arg(long, value_name = "OUT.png")]
     plot: Option<PathBuf>,
-    /// Write the profile with its filter; `-` is standard output
+    /// Write the profile, including the filter; `-` is standard output
     #[arg(short, long, value_name = "OUT.toml")]
     output: Option<PathBuf>,
 }
@@ -53,7 +53,7 @@ fn amplitude(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(value) if (0.01..=10.0).contains(&value) => Ok(value),
         Ok(_) => Err("must be 0.01 to 10 N".into()),
-        Err(_) => Err("not a force".into()),
+        Err(_) => Err("must be a number of newtons".into()),
     }
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     };
     let (response, design) = measured.fit(&origin).map_err(one)?;
     let mut report = format!(
-        "measured   {origin}, {} periods at {:.1} Hz\n\
+        "measured   {origin}, {} periods at {:.0} Hz\n\
          resonance  {:.0} Hz, {:+.1} dB over the median gain\n\
          delay      {:.2} ms\n\
          coherence  {:.2} at worst, 40 to 400 Hz\n\

@@ -6,31 +6,32 @@ use asperity_host::device::Scheme;
 use asperity_host::device::exercise::{Plan, exercise};
 use asperity_host::device::falcon::on_usb;
 use asperity_io::diagnostic::{Failures, one};
+use asperity_io::shown::counted;
 use asperity_runtime::{Config, HostTexture};
 use serde_json::json;
 
 use super::{failure, probe::parse};
 use crate::error::Plain;
 
-/// Run the built-in texture on a device and count what becomes of every tick
+/// Run the built-in texture on a Falcon and count the outcome of every tick
 ///
-/// The exit status is 1 if a force was beyond the limits, or the device was lost for good. For a
-/// loop that keeps time, use `asperity-lab servo`.
+/// The exit status is 1 if a force exceeded the limits, or if the device was lost for good. For a
+/// real-time loop, use `asperity-lab servo`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab device exercise falcon: --ticks 10000
   asperity-lab device exercise 'falcon:?firmware=falcon.bin' --peak-n 2 --json > report.json")]
 pub(crate) struct Arguments {
-    /// Which device: falcon:, with a serial number or BUS-ADDRESS behind the colon
+    /// Device to run on: falcon:, optionally followed by a serial number or BUS-ADDRESS
     #[arg(value_name = "URI")]
     uri: String,
-    /// Ticks
+    /// Number of ticks
     #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     ticks: u32,
-    /// Ticks a second; 0 waits for an answer of the device in each
+    /// Ticks per second; 0 waits for an answer of the device in every tick
     #[arg(long, default_value_t = 1000.0, value_parser = rate)]
     rate: f64,
-    /// Largest force, N
+    /// Force limit, N
     #[arg(long, default_value_t = 3.3, value_parser = peak)]
     peak_n: f32,
     /// Seed of the texture's excitation
@@ -62,8 +63,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     let uri = parse(&arguments.uri)?;
     if uri.scheme != Scheme::Falcon {
         return Err(Plain::failure(
-            format!("`{}` is not opened over USB", arguments.uri),
-            "name a falcon:, or use `asperity-lab servo`",
+            format!("`{}` is not a Falcon on USB", arguments.uri),
+            "give a falcon:, or use `asperity-lab servo` for other devices",
         ));
     }
     let lowered = asperity::lower::lower(&asperity::builtin::texture(), None).map_err(one)?;
@@ -98,17 +99,22 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
         super::json(console, &value)?;
     } else {
         let mut text = format!(
-            "{} ticks in {:.1} s: {} fresh, {} stale; {} in contact, {} in the safe state\n",
-            report.ticks, report.seconds, report.fresh, report.stale, report.contact, report.safe
+            "{} in {:.1} s: {} with a new position, {} without; {} in contact, {} in the safe state\n",
+            counted(report.ticks, "tick", "ticks"),
+            report.seconds,
+            report.fresh,
+            report.stale,
+            report.contact,
+            report.safe
         );
         for (fault, count) in &report.faults {
             text += &format!("  {count} × {fault}\n");
         }
         text += &format!(
-            "  {} commands not taken; {} times lost and found again\n  forces: at most {:.2} of \
-             {:.2} N, {:.2} of {:.2} N a tick; {} beyond the limits\n",
-            report.lost_writes,
-            report.recovered,
+            "  {} rejected; device lost and recovered {}\n  forces: at most {:.2} N of {:.2} N, \
+             steps of at most {:.2} N of {:.2} N per tick; {} beyond the limits\n",
+            counted(report.lost_writes, "command", "commands"),
+            counted(report.recovered, "time", "times"),
             report.largest_force_n,
             report.peak_n,
             report.largest_step_n,

@@ -9,6 +9,7 @@ use asperity_host::device::fault_injection::InjectedFault;
 use asperity_host::device::fault_injection::trial::{Paced, Row, Trial};
 use asperity_host::fault_plan::FaultKind as _;
 use asperity_io::diagnostic::{Failures, one};
+use asperity_io::shown::counted;
 use asperity_lab::servo_session;
 use asperity_runtime::{Config, HostTexture};
 use serde_json::json;
@@ -16,30 +17,30 @@ use serde_json::json;
 use super::probe::parse;
 use crate::error::Plain;
 
-/// Put every fault on a device in contact, and see what becomes of its force
+/// Inject every kind of fault while a device is in contact, and record the force
 ///
-/// The surface of the built-in texture is put above where the device is. Hold it still there: each
-/// fault lasts 20 periods, and 400 periods follow in which the force must come back. The faults are
-/// injected between the device and the loop; the device itself and its bus are real. Each of its
-/// answers is a period. The exit status is 1 if a promise was broken.
+/// The surface of the built-in texture is placed above the position of the device, which you must
+/// hold still. Each fault lasts 20 periods, followed by 400 periods in which the force must return.
+/// Faults are injected between the device and the loop; the device and its bus are real. A period is
+/// one answer of the device. The exit status is 1 if a requirement was violated.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab device faults null:
   asperity-lab device faults sim:?grip=firm&time=stepped
   asperity-lab device faults 'falcon:?firmware=falcon.bin' --peak-n 1 --json > faults.json
 
-The table is that of docs/faults.md.")]
+The table has the form of those in docs/faults.md.")]
 pub(crate) struct Arguments {
-    /// Which device, such as falcon: or openhaptics:
+    /// Device to test, such as falcon: or openhaptics:
     #[arg(value_name = "URI")]
     uri: String,
-    /// Largest force, N (0.1 to 8.9); the device's own limit if that is less
+    /// Force limit, N (0.1 to 8.9), or the limit of the device if that is lower
     #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = peak)]
     peak_n: f32,
-    /// How deep the device is in the surface at first, mm (1 to 60)
+    /// Initial depth of the device in the surface, mm (1 to 60)
     #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = depth)]
     depth_mm: f32,
-    /// Time for a first position, s (1 to 600): homing a Falcon takes a while
+    /// How long to wait for the first position, s (1 to 600); homing a Falcon takes a while
     #[arg(long, value_name = "S", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=600))]
     patience: u64,
     /// Print JSON
@@ -73,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     let uri = parse(&arguments.uri)?;
     if uri.scheme == Scheme::Touch {
         return Err(Plain::failure(
-            "a Touch cannot be felt over USB",
+            "a Touch cannot be driven over USB, because its protocol is not public",
             "install the vendor's OpenHaptics and its driver, and use `openhaptics:`",
         ));
     }
@@ -148,7 +149,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
         console.warn("there was no contact before some faults: hold the device still, or give a larger --depth-mm");
     }
     if rows.iter().any(|(_, row)| row.disturbed > 0) {
-        console.warn("other faults of the device came between; the rows that say so tell nothing");
+        console
+            .warn("the device had other faults as well; the rows that list them are inconclusive");
     }
     Ok(kept)
 }
@@ -166,12 +168,12 @@ fn table(
     for (kind, row) in rows {
         if row.disturbed > 0 {
             text += &format!(
-                "{}: {} faults that nobody injected\n",
+                "{}: {} not injected\n",
                 kind.name(),
-                row.disturbed
+                counted(row.disturbed, "fault that was", "faults that were")
             );
         } else if let Some(promise) = broken(*kind, row) {
-            text += &format!("{}: broken: {promise}\n", kind.name());
+            text += &format!("{}: violated: {promise}\n", kind.name());
         }
     }
     text

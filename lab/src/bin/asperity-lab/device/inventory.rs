@@ -4,7 +4,7 @@ use asperity_host::device::usb::scan::{Access, Found, refuse};
 use asperity_host::device::usb::{Kind, UsbError};
 use asperity_host::device::vendor_library::LibraryError;
 use asperity_host::device::{dhd, openhaptics};
-use asperity_io::shown::plain;
+use asperity_io::shown::{counted, plain};
 use serde_json::{Value, json};
 
 /// Devices that need neither USB nor a vendor's library.
@@ -56,10 +56,10 @@ impl VendorLibrary {
         let Self { product, uri, .. } = self;
         match &self.found {
             Ok(path) => format!("{product}  {}\n  ready: {uri}\n", plain(path)),
-            // The loader's words tell nothing more.
+            // The loader's words add nothing.
             Err(error @ LibraryError::NotFound { .. }) => {
                 format!(
-                    "{product}\n  not installed: {uri} needs it\n  help: {}\n",
+                    "{product}\n  not installed, but required by {uri}\n  help: {}\n",
                     error.remedy()
                 )
             }
@@ -101,11 +101,11 @@ impl Inventory {
             Ok(found) if found.iter().any(|found| found.kind.is_some()) => None,
             Ok(found) => Some((
                 format!(
-                    "no haptic device is plugged in ({} other devices on USB)",
-                    found.len()
+                    "no haptic device is plugged in ({} on USB)",
+                    counted(found.len(), "other device", "other devices")
                 ),
-                "plug it in and switch its power on; `--all` lists everything, and if yours is \
-                 there under other ids, put them into a list for --ids"
+                "plug it in and switch its power on; `--all` lists every USB device, and if yours is \
+                 listed under other ids, put these into a file for --ids"
                     .into(),
             )),
         }
@@ -122,7 +122,7 @@ impl Inventory {
         for library in &self.libraries {
             text += &library.line();
         }
-        text + &format!("Anywhere: {}\n", ANYWHERE.join(", "))
+        text + &format!("Always available: {}\n", ANYWHERE.join(", "))
     }
 
     pub(super) fn value(&self) -> Value {
@@ -156,7 +156,7 @@ fn state(found: &Found) -> (&'static str, String) {
     match (&found.access, found.kind) {
         (Access::Ready, Some(Kind::Touch)) => (
             "identified",
-            "identified; forces go through its vendor's library: openhaptics:".into(),
+            "identified only; to drive it, use its vendor's library: openhaptics:".into(),
         ),
         (Access::Ready, _) => (
             "ready",
@@ -165,7 +165,7 @@ fn state(found: &Found) -> (&'static str, String) {
         (Access::NotPermitted, _) => ("not_permitted", "this user may not open it".into()),
         (Access::InUse, _) => ("in_use", "in use by another program or driver".into()),
         (Access::Failed(problem), _) => ("failed", format!("cannot be opened: {problem}")),
-        (Access::Unknown, _) => ("unknown", "none of ours; not opened".into()),
+        (Access::Unknown, _) => ("unknown", "not a known haptic device; not opened".into()),
     }
 }
 
@@ -269,7 +269,7 @@ mod tests {
             (
                 Ok(vec![found(Access::Unknown, None)]),
                 None,
-                ["1 other devices on USB", "--ids"],
+                ["(1 other device on USB)", "--ids"],
             ),
             (
                 Ok(vec![found(Access::NotPermitted, falcon)]),
@@ -307,7 +307,7 @@ mod tests {
             assert_eq!(value["devices"][0]["state"].as_str(), state, "{value}");
             // The rest is listed whatever USB reports.
             for word in [
-                "not installed: openhaptics:",
+                "not installed, but required by openhaptics:",
                 "ASPERITY_OPENHAPTICS",
                 "sim:, null:",
             ] {
@@ -322,9 +322,13 @@ mod tests {
     #[test]
     fn what_is_none_of_ours_is_shown_on_request() {
         let mut inventory = inventory(Ok(vec![found(Access::Unknown, None)]));
-        assert!(!inventory.text().contains("none of ours"));
+        assert!(!inventory.text().contains("not a known haptic device"));
         inventory.all = true;
-        assert!(inventory.text().contains("none of ours; not opened"));
+        assert!(
+            inventory
+                .text()
+                .contains("not a known haptic device; not opened")
+        );
         assert_eq!(inventory.value()["devices"][0]["state"], "unknown");
     }
 }

@@ -11,34 +11,34 @@ use asperity_io::diagnostic::{Failures, one};
 use super::failure;
 use super::inventory::{Inventory, line};
 
-/// List what can be opened: devices on USB, vendors' libraries, simulated ones
+/// List the devices that can be opened: on USB, through vendor libraries, and simulated ones
 ///
-/// Devices whose ids are known are opened for a moment to see whether this user may use them.
-/// Nothing is sent to them but the requests that every USB device answers. Vendors' libraries are
-/// loaded for a moment, and none of their functions is called.
+/// Devices with known ids are opened briefly to check the permissions of this user. They receive
+/// only the standard requests that every USB device answers. Vendor libraries are loaded briefly,
+/// without calling any of their functions.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab device list
   asperity-lab device list --all --json
   asperity-lab device list --rules | sudo tee /etc/udev/rules.d/70-asperity.rules
 
-A list of ids (--ids) is a TOML file of tables such as
+A list of ids (--ids) is a TOML file with tables such as
   [[device]]
   vendor = 0x0403
   product = 0xcb48
   kind = \"falcon\"      # or \"touch\"
   name = \"Novint Falcon\"")]
 pub(crate) struct Arguments {
-    /// List devices that are none of ours as well
+    /// Also list USB devices that are not known haptic devices
     #[arg(long)]
     all: bool,
-    /// Use another list of USB ids
+    /// Use this list of USB ids instead of the built-in one
     #[arg(long, value_name = "TOML")]
     ids: Option<PathBuf>,
-    /// Print the udev rules that let a user open these devices, and nothing else
+    /// Only print the udev rules that let a user open these devices
     #[arg(long, conflicts_with_all = ["all", "json", "watch"])]
     rules: bool,
-    /// Go on, and tell what is plugged in and out
+    /// Keep running, and report devices as they are plugged in or unplugged
     #[arg(long, conflicts_with = "json")]
     watch: bool,
     /// Print JSON

@@ -12,7 +12,7 @@ use asperity_console::Console;
 use asperity_io::diagnostic::Failures;
 use clap::Subcommand;
 
-/// Devices: what is plugged in, whether it works, and virtual ones
+/// List, test, calibrate and emulate devices
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab device list

@@ -9,17 +9,18 @@ use asperity_host::device::usb::scan::scan;
 use asperity_host::device::usb::{Ids, Kind, UsbError};
 use asperity_host::device::{Device as _, DeviceError, Scheme, Uri};
 use asperity_io::diagnostic::{Failures, one};
+use asperity_io::shown::counted;
 use serde_json::{Value, json};
 
 use super::failure;
 use crate::error::Plain;
 
-/// See whether a device works
+/// Check whether a device works
 ///
-/// A Falcon is opened, given its firmware if it has none, and sent commands without force for two
-/// seconds. A Touch on USB is identified, and nothing is sent to it: its protocol is not public.
-/// Any other device is opened, read and told to give no force. Without a URI the devices on USB are
-/// probed in turn. The exit status is 1 if one does not work.
+/// A Falcon is opened, loaded with its firmware if necessary, and sent commands of zero force for
+/// two seconds. A Touch on USB is only identified, because its protocol is not public. Any other
+/// device is opened, read, and commanded zero force. Without a URI, the devices on USB are probed in
+/// turn. The exit status is 1 if any of them does not work.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab device probe
@@ -29,11 +30,11 @@ use crate::error::Plain;
 
 Settings of falcon: are firmware=FILE, tries=N, peak_n=N, motor_step=COUNTS, ids=TOML.")]
 pub(crate) struct Arguments {
-    /// Which device, such as falcon:, touch:, openhaptics: or dhd:; behind the colon a serial number,
+    /// Device to probe: falcon:, touch:, openhaptics: or dhd:, optionally followed by a serial number,
     /// a name or BUS-ADDRESS
     #[arg(value_name = "URI")]
     uri: Option<String>,
-    /// Time of the commands, s (0.1 to 60)
+    /// Duration of the test, s (0.1 to 60)
     #[arg(long, default_value_t = 2.0, value_parser = seconds)]
     seconds: f64,
     /// Print JSON
@@ -165,14 +166,27 @@ fn any(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
     let position = match &last {
         Ok(position_m) => {
             let [x, y, z] = position_m.map(|metres| metres * 1e3);
-            format!("position {x:.2}, {y:.2}, {z:.2} mm, buttons {buttons:#b}")
+            let pressed: Vec<String> = (0..u32::BITS)
+                .filter(|bit| (buttons >> bit) & 1 == 1)
+                .map(|bit| (bit + 1).to_string())
+                .collect();
+            let pressed = match pressed.len() {
+                0 => "no button pressed".to_owned(),
+                1 => format!("button {} pressed", pressed[0]),
+                _ => format!("buttons {} pressed", pressed.join(", ")),
+            };
+            format!("position {x:.2}, {y:.2}, {z:.2} mm; {pressed}")
         }
         Err(fault) => format!("no position: {fault}"),
     };
     let mut text = format!(
-        "{}  {serial}\n  {readings} readings: {fresh} new ({rate_hz:.0} Hz), {faults} faults; no force was \
-         commanded\n  {position}\n  forces: {:.2} N at most, {:.2} N for long\n",
-        description.name, description.peak_force_n, description.continuous_force_n,
+        "{}  {serial}\n  {}, {fresh} of them new ({rate_hz:.0} Hz); {}; only zero force was \
+         commanded\n  {position}\n  force limits: {:.2} N peak, {:.2} N continuous\n",
+        description.name,
+        counted(readings, "reading", "readings"),
+        counted(faults, "fault", "faults"),
+        description.peak_force_n,
+        description.continuous_force_n,
     );
     for sentence in &description.unconfirmed {
         text += &format!("  unconfirmed: {sentence}\n");
@@ -198,8 +212,7 @@ fn any(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
         let why = last.err().unwrap_or(DeviceError::TimedOut);
         Err((
             format!("{} gives no position: {why}", description.name),
-            "see what the table of docs/vendor.md says, and try the vendor's own test program"
-                .into(),
+            "consult the table in docs/vendor.md, and try the vendor's own test program".into(),
         ))
     }
 }
@@ -255,16 +268,16 @@ fn falcon(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
     };
     let serial = description.serial.as_deref().unwrap_or("no serial number");
     let mut text = format!(
-        "{}  {serial}\n  the firmware runs; {commands} commands without force, {} answers, \
-         {rate_hz:.0} Hz\n  {position}\n  {} stalls, {} short, {} timed out, {} other errors, {} \
-         bytes of no frame\n",
+        "{}  {serial}\n  the firmware runs; {} of zero force, {} ({rate_hz:.0} Hz)\n  {position}\n  \
+         transfers: {} stalled, {} short, {} timed out, {} failed otherwise; {} outside any frame\n",
         description.name,
-        counts.received,
+        counted(commands, "command", "commands"),
+        counted(counts.received, "answer", "answers"),
         counts.stalled,
         counts.short,
         counts.timed_out,
         counts.failed,
-        counts.skipped_bytes,
+        counted(counts.skipped_bytes, "byte", "bytes"),
     );
     for sentence in &description.unconfirmed {
         text += &format!("  unconfirmed: {sentence}\n");

@@ -9,6 +9,7 @@ use std::time::Duration;
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::output::{Outputs, display};
+use asperity_io::shown::counted;
 use asperity_io::system;
 use asperity_lab::servo_session::ServoSessionError;
 use asperity_virtual_usb::falcon::{Falcon, Quirks, image};
@@ -19,39 +20,39 @@ use asperity_virtual_usb::{AnyDevice, Port, Socket};
 
 use crate::error::Plain;
 
-/// Serve virtual devices over USB/IP, so that Linux sees them as real ones
+/// Serve virtual devices over USB/IP, so that Linux treats them as real ones
 ///
-/// The virtual Falcon has a boot loader that waits for a firmware of its own kind, a grip, and a
-/// hand that homes it and then strokes and taps. The virtual Touch identifies itself.
+/// The virtual Falcon has a boot loader that waits for its own kind of firmware, a grip, and a hand
+/// that homes it and then strokes and taps. The virtual Touch only identifies itself.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab device serve falcon
   asperity-lab device serve falcon touch --listen 127.0.0.1:3240 --faults 0.01
   asperity-lab device serve --firmware-file virtual.bin
 
-On the Linux that shall see the device, as root:
+On the Linux machine that is to use the device, as root:
   modprobe vhci-hcd
   usbip attach --remote 127.0.0.1 --busid 1-1")]
 pub(crate) struct Arguments {
-    /// Which devices, as 1-1, 1-2 and so on
+    /// Devices to serve, in the order of their bus ids 1-1, 1-2 and so on
     #[arg(value_enum, required_unless_present = "firmware_file")]
     devices: Vec<Which>,
-    /// Address to listen at; port 0 lets the system choose
+    /// Address to listen on; port 0 lets the system choose one
     #[arg(long, default_value = "127.0.0.1:3240", value_name = "ADDRESS")]
     listen: SocketAddr,
-    /// Share of bulk transfers that a fault meets: stalls, short ones, time-outs, unplugging
+    /// Fraction of bulk transfers that fail: stalls, short transfers, time-outs, unplugging
     #[arg(long, default_value_t = 0.0, value_parser = share)]
     faults: f64,
     /// Seed of the faults
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// End after this time, s, instead of at an interrupt
+    /// Stop after this many seconds instead of at Ctrl-C
     #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<f64>,
-    /// End when standard input ends
+    /// Stop when standard input ends
     #[arg(long, conflicts_with = "seconds")]
     until_eof: bool,
-    /// Write a firmware that the virtual Falcon takes; `-` is standard output
+    /// Write a firmware that the virtual Falcon accepts; `-` is standard output
     #[arg(long, value_name = "FILE")]
     firmware_file: Option<PathBuf>,
 }
@@ -106,7 +107,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         outputs.fill(opened, &image::image(8192)).map_err(one)?;
         outputs.commit().map_err(one)?;
         let text = format!(
-            "{}: a firmware for the virtual Falcon alone\n",
+            "{}: a firmware for the virtual Falcon only\n",
             display(path)
         );
         console.report(&text).map_err(one)?;
@@ -124,7 +125,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let listener = TcpListener::bind(arguments.listen).map_err(listen)?;
     let address = listener.local_addr().map_err(listen)?;
     if !address.ip().is_loopback() {
-        console.warn("anybody who reaches this address can use the virtual devices");
+        console.warn("anyone who can reach this address can use the virtual devices");
     }
     let sockets: Vec<Socket<AnyDevice>> = arguments
         .devices
@@ -180,20 +181,20 @@ fn summary(port: &Port<AnyDevice>) -> String {
     let counts = port.counts();
     let [stalls, short, lost, unplugged] = counts.of;
     let faults = format!(
-        "{} bulk transfers, {stalls} stalled, {short} short, {lost} timed out, {unplugged} unplugged",
-        counts.transfers
+        "{}: {stalls} stalled, {short} short, {lost} timed out, {unplugged} unplugged",
+        counted(counts.transfers, "bulk transfer", "bulk transfers")
     );
     match &port.device {
         AnyDevice::Falcon(falcon) => {
             let felt = falcon.grip.felt();
             format!(
-                "{faults}; {} commands, at most {:.2} N, {} counts, {} counts a step; {} forces before \
-                 homing, {} at first after plugging in",
-                felt.commands,
+                "{faults}; {}: at most {:.2} N, {} counts, and steps of {} counts; {} before homing, \
+                 {} right after plugging in",
+                counted(felt.commands, "command", "commands"),
                 felt.largest_force_n,
                 felt.largest_count,
                 felt.largest_step,
-                felt.unhomed_forces,
+                counted(felt.unhomed_forces, "force", "forces"),
                 felt.pushes_at_first
             )
         }

@@ -142,7 +142,7 @@ impl Attendant {
             Some(End::Lost)
         } else if is_gone {
             self.failures.extend(Plain::failure(
-                "the device told no new position for 0.9 s",
+                "the device gave no new position for 0.9 s",
                 "run `asperity-lab device probe` with its name, and record again",
             ));
             Some(End::Lost)

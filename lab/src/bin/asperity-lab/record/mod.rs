@@ -27,11 +27,12 @@ use crate::loop_options::{self, Interrupt, LoopOptions, stop_on_interrupt};
 use attendant::{Attendant, End};
 use summary::Summary;
 
-/// Record a surface: a device tells where the tool is, an accelerometer what it feels
+/// Record a surface: a device gives the position of the tool, an accelerometer its vibration
 ///
-/// You are led through the air, taps, and strokes at all speeds and forces. The grid of what was
-/// stroked is shown as it fills. The recording ends when it is full, after --seconds, or at Ctrl-C;
-/// what was recorded until then is kept. `asperity import recording DIR` compiles it into a texture.
+/// Prompts on the screen guide you through rest in the air, taps, and strokes at all speeds and
+/// forces, and a grid shows what is covered so far. The recording ends when the grid is full, after
+/// --seconds, or at Ctrl-C, and is kept in each case. `asperity import recording DIR` compiles it
+/// into a texture.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab record oak --device 'sim:?grip=firm&hand=record' --accel sim: --seconds 60
@@ -40,9 +41,9 @@ use summary::Summary;
   asperity-lab record oak --device openhaptics: --accel 'wav:oak.wav?columns=ax,ay,fz&g=16&n=20'
   asperity-lab record played oak.asp --device dhd: --accel serial:/dev/ttyACM0
 
-Devices are those of `asperity-lab servo`. Without FILE a device renders no force, and the tool
-touches a real surface; then the sensor must measure the force as well. With FILE the device plays
-a texture, and the recording is of that. sim: and replay: play the built-in texture without FILE.
+Devices are those of `asperity-lab servo`. Without FILE, the device applies no force and the tool
+touches a real surface, so the sensor must measure the force as well. With FILE, the device renders
+that texture, which is then recorded. Without FILE, sim: and replay: render the built-in texture.
 
 Sensors:
   serial:PORT[?baud=115200&columns=t_us,ax_g,ay_g,az_g,fz_N]   lines of numbers, or a pipe of them;
@@ -50,31 +51,31 @@ Sensors:
   wav:FILE?g=16[&columns=ax,ay,az,fz&n=20]   a WAV that another program is writing, with the g and
                              the newtons of full scale
   sim:[?seed=N]              an accelerometer on the tool of sim: or replay:
-  serial: and wav: take delay_ms=N as well, by which the sensor is known to be late
+  serial: and wav: also take delay_ms=N, the known latency of the sensor
 
-docs/recording.md describes the lines and the folder. Nobody has confirmed a real sensor yet.")]
+docs/recording.md describes the lines and the folder. No real sensor has been tested yet.")]
 pub(crate) struct Arguments {
-    /// Folder of the recording; it is made, and must not be there yet
+    /// Folder of the recording; created, and must not exist yet
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     #[command(flatten)]
     options: LoopOptions,
-    /// Device, such as falcon:
+    /// Device that holds the tool, such as falcon:
     #[arg(long, value_name = "URI", value_parser = loop_options::device)]
     device: Uri,
     /// Accelerometer, such as serial:/dev/ttyACM0
     #[arg(long, value_name = "SENSOR", value_parser = sensor)]
     accel: Sensor,
-    /// Name of the material, 1 to 64 bytes; that of the folder without it
+    /// Name of the material, 1 to 64 bytes [default: the name of the folder]
     #[arg(long, value_parser = name)]
     name: Option<String>,
-    /// The tool, such as "steel ball, 3 mm"
+    /// Description of the tool, such as "steel ball, 3 mm"
     #[arg(long, value_parser = name)]
     tool: Option<String>,
     /// Moving mass of the tool without the hand, kg
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     tool_mass: Option<f64>,
-    /// Edges of the bands of speed, mm/s
+    /// Edges of the speed bands, mm/s
     #[arg(
         long,
         value_name = "MM_S,…",
@@ -82,7 +83,7 @@ pub(crate) struct Arguments {
         default_value = "20,40,80,160,300"
     )]
     speeds: Vec<f64>,
-    /// Edges of the bands of force, N
+    /// Edges of the force bands, N
     #[arg(
         long,
         value_name = "N,…",
@@ -90,13 +91,13 @@ pub(crate) struct Arguments {
         default_value = "0.2,0.5,1,2"
     )]
     forces: Vec<f64>,
-    /// Seconds of steady strokes that each cell of the grid needs (0.1 to 60)
+    /// Seconds of steady strokes required in each cell of the grid (0.1 to 60)
     #[arg(long, value_name = "S", default_value_t = 2.0, value_parser = cell_seconds)]
     cell_seconds: f64,
-    /// Taps in each of four bands of impact speed
+    /// Taps required in each of four bands of impact speed
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=100))]
     taps: u32,
-    /// End after so many seconds (0.1 to 86400)
+    /// Stop after this many seconds (0.1 to 86400)
     #[arg(long, value_name = "S", default_value = "900", value_parser = loop_options::seconds)]
     seconds: f64,
     /// Print the result as JSON
@@ -146,8 +147,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let is_simulated = matches!(scheme, Scheme::Sim | Scheme::Replay);
     if arguments.accel.kind == Kind::Simulated && !is_simulated {
         return Err(Plain::usage(
-            "--accel sim: is on the tool of a simulated device, and this one is real",
-            "name the accelerometer, such as serial:/dev/ttyACM0, or take --device sim:",
+            "--accel sim: needs a simulated device, but --device is a real one",
+            "give the accelerometer, such as --accel serial:/dev/ttyACM0, or use --device sim:",
         ));
     }
     let is_played = is_simulated || arguments.options.file.is_some();
@@ -176,12 +177,11 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
             .told()
             .is_some_and(|told| told.layout.has(Quantity::Force));
         let what = if has_force {
-            "the sensor measures a force, and not that along z"
+            "the sensor measures a force, but not the one along z"
         } else {
             "nothing measures the force on the surface"
         };
-        let remedy =
-            "let the sensor send fz_N beside the acceleration, or give FILE for the device to play";
+        let remedy = "let the sensor also send fz_N, or give FILE for the device to render";
         return Err(Plain::failure(what, remedy));
     }
 
@@ -229,7 +229,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let Some(part) = capture::part(&recorded.take) else {
         let mut failures = recorded.failures;
         failures.extend(Plain::failure(
-            "device and sensor have less than a second together: nothing is left",
+            "device and sensor overlap for less than one second, so nothing was kept",
             "record for longer",
         ));
         return Err(failures);
@@ -272,10 +272,10 @@ fn material(arguments: &Arguments) -> Result<String, Failures> {
     name(&folder.to_string_lossy()).map_err(|why| {
         Plain::usage(
             format!(
-                "the name of {} is none of a material: it {why}",
+                "{}: the name of the folder cannot name the material: it {why}",
                 arguments.folder.display()
             ),
-            "give --name",
+            "give the name of the material with --name",
         )
     })
 }
@@ -296,18 +296,15 @@ fn wait_for_sensor(reader: Reader, interrupt: &Interrupt) -> Result<Reader, Fail
             return Ok(reader);
         }
         if interrupt.stop.load(Relaxed) {
-            let what = "interrupted before the sensor sent anything: nothing is left";
-            return Err(Plain::failure(
-                what,
-                "let the sensor send before you record",
-            ));
+            let what = "interrupted before the sensor sent anything, so nothing was kept";
+            return Err(Plain::failure(what, "start the sensor before you record"));
         }
         if reader.is_over() {
             let (_, ended) = reader.end();
             return Err(match ended {
                 Err(error) => one(error),
                 Ok(()) => {
-                    Plain::failure("the sensor's thread ended by a bug", "report this as a bug")
+                    Plain::failure("the thread of the sensor panicked", "report this as a bug")
                 }
             });
         }
@@ -367,7 +364,7 @@ fn write(
         let file = outputs.file(*id);
         capture::write(which, about, take, part, file).map_err(|source| OutputError {
             path: file.target().to_owned(),
-            doing: "cannot write it; nothing is left of the recording",
+            doing: "cannot write it, so the recording was not kept",
             source,
         })?;
     }

@@ -5,6 +5,7 @@ use std::path::Path;
 use asperity::recording;
 use asperity_console::Console;
 use asperity_io::output::display;
+use asperity_io::shown::counted;
 use asperity_lab::capture::Part;
 use asperity_recording::check::Severity;
 use serde_json::{Value, json};
@@ -39,24 +40,25 @@ impl Summary<'_> {
         let mut warnings = Vec::new();
         if counts.bad_lines > 0 {
             warnings.push(format!(
-                "{} lines of the sensor were no samples",
-                counts.bad_lines
+                "{} from the sensor",
+                counted(counts.bad_lines, "invalid line", "invalid lines")
             ));
         }
         if counts.missing > 0 {
             warnings.push(format!(
-                "{} values of the sensor are missing",
-                counts.missing
+                "{} from the sensor",
+                counted(counts.missing, "missing value", "missing values")
             ));
         }
         if *lost != (0, 0) {
             warnings.push(format!(
-                "{} ticks and {} samples were lost because they were read too slowly",
-                lost.0, lost.1
+                "{} and {} were lost because they were read too slowly",
+                counted(lost.0, "tick", "ticks"),
+                counted(lost.1, "sample", "samples")
             ));
         }
         if self.part.is_cut {
-            warnings.push("what came after a gap of 0.9 s was left out".into());
+            warnings.push("everything after a gap of 0.9 s was left out".into());
         }
         match recording::check(self.folder) {
             Ok((_, checked, _)) => {
@@ -100,12 +102,12 @@ impl Summary<'_> {
         let (touches, samples) = self.part.rows();
         let taps: Vec<String> = exploration.taps().iter().map(u32::to_string).collect();
         format!(
-            "{}\nrecording  {}, {:.1} s\ndevice     {}, {touches} positions, {} periods missed\nsensor     {}, {samples} samples, {:.1} Hz\ncovered    {covered} of {cells} cells; taps {}; {:.0} s in the air\nend        {}\n",
+            "{}\nrecording  {}, {:.1} s\ndevice     {}, {touches} positions, {}\nsensor     {}, {samples} samples at {:.1} Hz\ncovered    {covered} of {cells} cells; taps {}; {:.0} s in the air\nend        {}\n",
             screen::grid(exploration),
             display(self.folder),
             self.part.seconds,
             self.device,
-            self.recorded.missed,
+            counted(self.recorded.missed, "missed period", "missed periods"),
             self.sensor,
             self.part.rate_hz,
             taps.join(" "),

@@ -11,6 +11,7 @@ use asperity_formats::Asset;
 use asperity_host::servo::{Event, Inlet, Record};
 use asperity_host::session_log::TextureInfo;
 use asperity_io::diagnostic::{Failures, one, report as told};
+use asperity_io::shown::counted;
 use asperity_lab::servo_session::{Attended, Recorder, Surface};
 use asperity_runtime::{Flags, PrepareError, Preparer};
 use indicatif::ProgressBar;
@@ -124,7 +125,7 @@ impl<'c> Attendant<'c> {
         if next.is_some() && self.recorder.as_mut().is_some_and(Recorder::begin_anew) {
             self.told_of_recorder = true;
             self.console
-                .warn("the recording ends here, since the changed scene begins anew");
+                .warn("the recording ends here, because the changed scene starts afresh");
         }
         next
     }
@@ -143,15 +144,15 @@ impl<'c> Attendant<'c> {
                     // Records of it are still in the queue at best.
                     recorder.announce(TextureInfo::of(texture.name.clone(), &texture.bytes));
                 }
-                self.say(&format!(
-                    "{}: loaded anew, {}",
-                    texture.origin, texture.name
-                ));
+                self.say(&format!("{}: reloaded, {}", texture.origin, texture.name));
                 true
             }
             Err(PrepareError::NoneSpare) => false,
             Err(error) => {
-                self.say(&format!("{}: {error}; the old one stays", texture.origin));
+                self.say(&format!(
+                    "{}: {error}; the previous version stays in use",
+                    texture.origin
+                ));
                 true
             }
         }
@@ -196,7 +197,7 @@ impl<'c> Attendant<'c> {
         let failed = self.recorder.as_ref().and_then(Recorder::failure);
         if let Some(why) = failed.filter(|_| !self.told_of_recorder) {
             self.say(&format!(
-                "the record cannot be written: {why}; the loop goes on without"
+                "the recording cannot be written: {why}; the loop continues without it"
             ));
             self.told_of_recorder = true;
         }
@@ -244,7 +245,10 @@ impl<'c> Attendant<'c> {
         match options.read() {
             Ok(surface) => Some(surface),
             Err(error) => {
-                self.say(&format!("{}\n  the old one stays", told(&error)));
+                self.say(&format!(
+                    "{}\n  the previous version stays in use",
+                    told(&error)
+                ));
                 None
             }
         }
@@ -274,8 +278,8 @@ impl<'c> Attendant<'c> {
         }
         if told.lost > 0 {
             self.console.warn(&format!(
-                "{} records were lost because they were read or written too slowly; no tick was",
-                told.lost
+                "{} lost because reading or writing was too slow; the ticks themselves ran",
+                counted(told.lost, "record was", "records were")
             ));
         }
         // The session is reported even where its record was lost.

@@ -13,6 +13,7 @@ use asperity_host::servo::{End, Report, queues};
 use asperity_host::session_log::{Conditions, TextureInfo};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::output::Outputs;
+use asperity_io::shown::counted;
 use asperity_lab::servo_session::{Form, OpenDevice, Recorder, Setup, Surface, run as run_loop};
 use asperity_runtime::Counters;
 
@@ -21,43 +22,43 @@ use crate::loop_options::{self, LoopOptions, stop_on_interrupt};
 use attendant::Attendant;
 use summary::ServoSummary;
 
-/// Feel a texture or a scene, live
+/// Render a texture or a scene on a device in real time
 ///
-/// A servo loop reads the device, renders, and writes the force, until Ctrl-C or for some
-/// seconds. At the end the force goes to zero at the slew limit, and the device is released.
+/// The servo loop reads the device, renders, and writes the force until Ctrl-C or --seconds. At the
+/// end, the force goes to zero at the slew limit, and the device is released.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab servo brick.asp --device sim:
   asperity-lab servo brick.asp --device sim: --watch      compile in one window, feel in the other
   asperity-lab servo brick.asp --device sim: --seconds 30 --record brick.aspr
-  asperity-lab servo brick.asp --device replay:brick.aspr     are the forces the same, bit for bit?
+  asperity-lab servo brick.asp --device replay:brick.aspr     are the forces bit-identical?
   asperity-lab servo desk.aspl --device sim:?grip=firm --seconds 30 --record ticks.csv
   asperity-lab servo all.aspl --texture Cork --device null: --rate 2000 --policy deadline
 
 Devices:
   sim:[FILE.toml][?grip=light|firm|FILE.toml&hand=explore|record&seed=N&time=real|stepped]
                                  a simulated Touch and hand
-  null:[?z_mm=Z]                 rests somewhere and takes any force
-  replay:FILE.aspr[?end=loop]    a recorded session, under its own conditions
-  falcon:, openhaptics:, dhd:    devices; `asperity-lab device list` shows them, and
-                                 `asperity-lab device probe URI` says what one needs
-  touch:                         only identified; openhaptics: moves it
+  null:[?z_mm=Z]                 no device: rests at one height and accepts any force
+  replay:FILE.aspr[?end=loop]    a recorded session, under its original conditions
+  falcon:, openhaptics:, dhd:    real devices; `asperity-lab device list` shows them, and
+                                 `asperity-lab device probe URI` tells what one needs
+  touch:                         can only be identified; use openhaptics: to drive it
 
-What the system does not permit (policy, locked memory, …) is reported with the command that
-grants it, and the loop runs without.")]
+If the system refuses a request (policy, locked memory, …), a warning names the command that grants
+it, and the loop runs without it.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     options: LoopOptions,
-    /// Device, such as sim:
+    /// Device to render on, such as sim:
     #[arg(long, value_name = "URI", value_parser = loop_options::device)]
     device: Uri,
-    /// Load the file anew when it changes
+    /// Reload the file whenever it changes
     #[arg(long, requires = "file")]
     watch: bool,
-    /// Record every tick: OUT.aspr can be replayed, OUT.csv is a table, as is `-`, standard output
+    /// Record every tick: OUT.aspr for replay, OUT.csv for a table; `-` is a table on standard output
     #[arg(long, value_name = "OUT")]
     record: Option<PathBuf>,
-    /// End after so many seconds (0.1 to 86400)
+    /// Stop after this many seconds (0.1 to 86400)
     #[arg(long, value_name = "S", value_parser = loop_options::seconds)]
     seconds: Option<f64>,
     /// Print the result as JSON
@@ -74,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let is_replay = arguments.device.scheme == Scheme::Replay;
     if arguments.watch && is_replay {
         return Err(Plain::usage(
-            "replay: plays what was recorded, and --watch would change it",
+            "--watch cannot be used with replay:, which renders the recorded session only",
             "leave out --watch",
         ));
     }
@@ -176,39 +177,39 @@ fn differences(opened: &OpenDevice, surface: &Surface, options: &LoopOptions) ->
     let mut told = Vec::new();
     match (&conditions.texture, &conditions.scene) {
         (Some(texture), _) if surface.is_scene || !texture.is(&surface.bytes) => told.push(format!(
-            "the recording is of texture \"{}\" (CRC-32 {:08x}), and {} is another one: other forces",
+            "the recording is of texture \"{}\" (CRC-32 {:08x}), but {} is a different one, so the forces will differ",
             texture.name, texture.crc32, surface.origin
         )),
         (None, Some(scene)) if !surface.is_scene || !scene.is(&surface.bytes) => told.push(format!(
-            "the recording is of {} (CRC-32 {:08x}), and {} is another one: name its file, or expect \
-             other forces",
+            "the recording is of {} (CRC-32 {:08x}), but {} is a different one: give its file, or the forces \
+             will differ",
             scene.name, scene.crc32, surface.origin
         )),
         (None, None) if !surface.is_scene => {
-            told.push("the recording is of a scene: name its file, or expect other forces".into());
+            told.push("the recording is of a scene: give its file, or the forces will differ".into());
         }
         (None, None) => told.push(format!(
-            "the recording does not say of which scene it is: other forces unless it is {}",
+            "the recording does not name its scene: the forces will differ unless it is {}",
             surface.origin
         )),
         _ => {}
     }
     if options.seed.is_some_and(|seed| seed != conditions.seed) {
         told.push(format!(
-            "the recording has the seed {}: other forces",
+            "the recording was made with seed {}, so the forces will differ",
             conditions.seed
         ));
     }
     if replayed.exchanges > 0 {
         told.push(format!(
-            "{} other textures began to play in the recording: other forces from then on",
-            replayed.exchanges
+            "the texture was changed {} during the recording: the forces will differ from then on",
+            counted(replayed.exchanges, "time", "times")
         ));
     }
     if replayed.lost > 0 {
         told.push(format!(
-            "{} ticks were not recorded: other forces after the first of them",
-            replayed.lost
+            "{} not recorded: the forces will differ after the first gap",
+            counted(replayed.lost, "tick was", "ticks were")
         ));
     }
     told

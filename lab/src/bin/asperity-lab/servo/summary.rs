@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use asperity_host::servo::{End, Report};
 use asperity_io::output::display;
+use asperity_io::shown::counted;
 use asperity_lab::servo_session::Surface;
 use serde_json::{Value, json};
 
@@ -73,45 +74,48 @@ pub(super) fn text(session: &ServoSummary<'_>, told: &Told) -> String {
         repeated,
     } = session;
     let mut text = format!(
-        "surface    {}, {}\ndevice     {device}\nloop       {rate_hz} Hz, {} ticks, {} missed, longest gap {:.3} ms\n",
+        "surface    {}, {}\ndevice     {device}\nloop       {rate_hz} Hz, {}, {} missed, longest gap {:.3} ms\n",
         surface.name,
         surface.origin,
-        report.ticks,
+        counted(report.ticks, "tick", "ticks"),
         report.missed,
         1e-6 * report.longest_gap_ns as f64,
     );
     text += &format!(
-        "faults     {}; {} ticks without a new position, {} readings and {} forces failed, back {} of {} times when asked\n",
+        "faults     {}; {} without a new position; {} and {} failed; {} of {} succeeded\n",
         report.episodes,
-        report.stale,
-        report.read_faults,
-        report.write_faults,
+        counted(report.stale, "tick", "ticks"),
+        counted(report.read_faults, "read", "reads"),
+        counted(report.write_faults, "write", "writes"),
         report.recovered,
-        report.recoveries
+        counted(report.recoveries, "recovery", "recoveries")
     );
     text += &format!(
-        "runtime    {} taps, {} safe states, {} ticks at the peak, {} at the slew limit\n",
-        report.counters.taps,
-        report.counters.faults,
-        report.counters.peak_limited,
+        "runtime    {}; safe state entered {}; {} at the peak limit, {} at the slew limit\n",
+        counted(report.counters.taps, "tap", "taps"),
+        counted(report.counters.faults, "time", "times"),
+        counted(report.counters.peak_limited, "tick", "ticks"),
         report.counters.slew_limited
     );
     match repeated {
         Some((forces, 0)) => {
-            text += &format!("replay     {forces} forces, all as recorded, bit for bit\n");
+            text += &format!("replay     {forces} forces, all bit-identical to the recording\n");
         }
         Some((forces, different)) => {
-            text += &format!("replay     {forces} forces, {different} other than recorded\n");
+            text += &format!(
+                "replay     {forces} forces, {different} of them different from the recording\n"
+            );
         }
         None => {}
     }
     if let Some((path, ticks)) = &told.recorded {
-        text += &format!("record     {}, {ticks} ticks\n", display(path));
+        let ticks = counted(*ticks, "tick", "ticks");
+        text += &format!("record     {}, {ticks}\n", display(path));
     }
     let zero = if report.ended_without_force {
         "the force is zero"
     } else {
-        "THE DEVICE DID NOT TAKE THE LAST FORCE OF ZERO"
+        "THE DEVICE DID NOT ACCEPT THE FINAL FORCE OF ZERO"
     };
     text + &format!("end        {}; {zero}\n", end(report))
 }

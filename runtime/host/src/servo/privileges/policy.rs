@@ -24,7 +24,7 @@ pub enum Policy {
 /// Why a text is no policy.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "`{0}` is no policy: write other, fifo, fifo:1 to fifo:99, deadline, or deadline:5 to deadline:90 (percent of a period)"
+    "`{0}` is not a policy: write other, fifo, fifo:1 to fifo:99, deadline, or deadline:5 to deadline:90 (percent of a period)"
 )]
 pub struct PolicyError(String);
 
