@@ -25,6 +25,8 @@ pub struct Captions {
 /// A phrase of the lexicon.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phrase {
+    /// Its words.
+    pub text: String,
     /// Its unit vector.
     pub vector: Vec<f32>,
     /// Its rating.
@@ -64,6 +66,7 @@ impl Captions {
         let mean_sure = (mean_sure / lexicon.len().max(1) as f64).max(1.0);
         let lexicon = lexicon.par_iter().map(|entry| {
             Ok(Phrase {
+                text: entry.text.clone(),
                 vector: vector(&entry.text)?,
                 rating: entry.rating,
                 weight: (entry.sure / mean_sure).clamp(LEAST_WEIGHT, MOST_WEIGHT) as f32,

@@ -3,6 +3,7 @@
 use super::{
     EvaluateError, Watch,
     draws::Draws,
+    held_out::SAME,
     retrieval::{Found, TfIdf, Words, found},
     statistics::Share,
     subject::Subject,
@@ -23,8 +24,6 @@ use serde::{Deserialize, Serialize};
 
 /// Parts that the synonyms are left out in.
 const FOLDS: usize = 5;
-/// A phrase of the lexicon of a larger cosine with a left-out synonym is left out with it.
-const SAME: f32 = 0.9;
 
 /// Part 7.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -128,6 +128,7 @@ fn what_is_held_out_has_no_part_in_training() {
     let again = fitted(&poisoned);
     assert_eq!(clean.history(), again.history());
     assert_eq!(clean.materials(), again.materials());
+    assert_eq!(clean.normaliser(), again.normaliser());
     let z = [[0.3; LATENT]];
     assert_eq!(clean.decode(&z)[0].taps_m_s2, again.decode(&z)[0].taps_m_s2);
     assert_eq!(clean.decode(&z)[0].level_db, again.decode(&z)[0].level_db);

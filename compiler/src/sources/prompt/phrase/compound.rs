@@ -72,7 +72,7 @@ mod tests {
         ] {
             assert_eq!(read(text).as_ref(), Some(&mat), "{text}");
         }
-        // A relief is felt whatever it is made of; a thing is no material.
+        // A relief is felt whatever it is made of, and a mat is no material.
         for text in ["steel mesh", "mat bamboo", "bamboo", "mat on bamboo"] {
             assert_eq!(read(text), None, "{text}");
         }

@@ -1,5 +1,6 @@
 //! How wrong a prediction is, in every unit that matters.
 
+use super::fold::PREDICTORS;
 use crate::evaluate::signature::{Objective, Signature};
 use serde::{Deserialize, Serialize};
 
@@ -27,11 +28,11 @@ pub struct Trial {
     /// Its largest cosine with the mean caption of a training material.
     pub similarity: f64,
     /// Whether each predictor's attributes lie within tolerance.
-    pub within: [bool; 4],
+    pub within: [bool; PREDICTORS],
 }
 
 impl Trial {
-    pub(super) fn new(similarity: f64, said: &[Objective; 4], truth: &Objective) -> Self {
+    pub(super) fn new(similarity: f64, said: &[Objective; PREDICTORS], truth: &Objective) -> Self {
         Self {
             similarity,
             within: said.map(|said| within_tolerance(&said, truth)),

@@ -1,6 +1,9 @@
 //! One fold: train without some materials, then ask for them by captions nobody saw.
 
-use super::errors::{METRICS, Trial, errors};
+use super::{
+    errors::{METRICS, Trial, errors},
+    lexicon::{nearest_rating, without},
+};
 use crate::{
     attributes::Layout,
     captions::{Captions, dot},
@@ -32,6 +35,9 @@ pub enum Predictor {
     Mean,
     /// The training material whose mean caption is nearest to the caption.
     Nearest,
+    /// The same with the phrases of the lexicon beside the captions, all that the model has: a phrase
+    /// that is nearer stands for the training material whose rating is nearest to its own.
+    NearestRated,
     /// The model, from the texture itself: encoded and decoded. No prediction, but how
     /// much of the error is the decoder's.
     Own,
@@ -39,8 +45,17 @@ pub enum Predictor {
 
 impl Predictor {
     /// All of them, in the order of every array.
-    pub const ALL: [Self; 4] = [Self::Text, Self::Mean, Self::Nearest, Self::Own];
+    pub const ALL: [Self; PREDICTORS] = [
+        Self::Text,
+        Self::Mean,
+        Self::Nearest,
+        Self::NearestRated,
+        Self::Own,
+    ];
 }
+
+/// Number of predictors.
+pub(super) const PREDICTORS: usize = 5;
 
 /// Errors on one held-out material, means over its captions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,7 +65,7 @@ pub struct Material {
     /// Its family.
     pub family: String,
     /// A row a predictor, a column a metric.
-    pub errors: [[f64; METRICS]; 4],
+    pub errors: [[f64; METRICS]; PREDICTORS],
 }
 
 /// What came of a fold.
@@ -58,11 +73,13 @@ pub struct Material {
 pub struct Fold {
     /// Materials trained on.
     pub training: usize,
+    /// Phrases of the lexicon that were left out with the materials.
+    pub phrases: usize,
     /// Materials held out.
     pub materials: Vec<Material>,
     /// Rank correlation of predicted and true attributes over captions, a row a
     /// predictor, in the order of `Objective::NAMES`.
-    pub spearman: [[Option<f64>; 4]; 4],
+    pub spearman: [[Option<f64>; 4]; PREDICTORS],
     /// Every held-out caption.
     pub trials: Vec<Trial>,
 }
@@ -85,6 +102,13 @@ pub(super) fn run(
     watch: &mut dyn Watch,
 ) -> Result<Fold, EvaluateError> {
     let corpus = setting.corpus;
+    let left_out: Vec<usize> = held_out.iter().map(|&p| setting.materials[p]).collect();
+    let captions = without(setting.captions, &corpus.materials, &left_out);
+    let phrases = setting.captions.lexicon.len() - captions.lexicon.len();
+    let setting = &Setting {
+        captions: &captions,
+        ..*setting
+    };
     let (trained, positions) = train(setting, held_out, what, watch)?;
     let training: Vec<usize> = positions.iter().map(|&p| setting.materials[p]).collect();
     let anchors = anchors(&trained, corpus);
@@ -94,6 +118,7 @@ pub(super) fn run(
         anchors: &anchors,
         mean: mean_texture(corpus, &training),
         positions: &positions,
+        phrases,
     };
     Ok(asked.all(held_out))
 }
@@ -133,6 +158,7 @@ struct Asked<'a> {
     mean: Signature,
     /// Positions of the training materials, in the order of the anchors.
     positions: &'a [usize],
+    phrases: usize,
 }
 
 impl Asked<'_> {
@@ -140,13 +166,13 @@ impl Asked<'_> {
         let mut materials = Vec::new();
         let mut trials = Vec::new();
         // Predicted values a predictor, and true ones, of every caption.
-        let mut said: [Vec<[f64; 4]>; 4] = Default::default();
+        let mut said: [Vec<[f64; 4]>; PREDICTORS] = Default::default();
         let mut truth = Vec::new();
         for &position in held_out {
             let index = self.setting.materials[position];
             let material = &self.setting.corpus.materials[index];
             let own = &self.setting.signatures[position];
-            let mut sums = [[0.0; METRICS]; 4];
+            let mut sums = [[0.0; METRICS]; PREDICTORS];
             let asked = self.material(index);
             let count = asked.len().max(1) as f64;
             for (similarity, predictions) in asked {
@@ -177,6 +203,7 @@ impl Asked<'_> {
         });
         Fold {
             training: self.positions.len(),
+            phrases: self.phrases,
             materials,
             spearman,
             trials,
@@ -185,7 +212,7 @@ impl Asked<'_> {
 
     /// Of every held-out caption of a material: its largest cosine with a mean caption of
     /// a training material, and what each predictor says.
-    fn material(&self, index: usize) -> Vec<(f64, [Signature; 4])> {
+    fn material(&self, index: usize) -> Vec<(f64, [Signature; PREDICTORS])> {
         let Setting {
             corpus, captions, ..
         } = *self.setting;
@@ -198,10 +225,12 @@ impl Asked<'_> {
         let decoded = self.decode(&latents);
         let predictions = vectors.iter().zip(decoded).map(|(vector, text)| {
             let (nearest, similarity) = self.nearest(vector);
-            let nearest = self.setting.signatures[self.positions[nearest]].clone();
+            let rated = self.nearest_rated(vector).unwrap_or(nearest);
+            let [nearest, rated] = [nearest, rated]
+                .map(|place| self.setting.signatures[self.positions[place]].clone());
             // One latent gives one texture.
             let own = own.first().cloned().unwrap_or_else(|| text.clone());
-            (similarity, [text, self.mean.clone(), nearest, own])
+            (similarity, [text, self.mean.clone(), nearest, rated, own])
         });
         predictions.collect()
     }
@@ -215,6 +244,21 @@ impl Asked<'_> {
             }
         }
         (best.0, f64::from(best.1))
+    }
+
+    /// The training material of the nearest rated phrase, where one is nearer than every mean caption.
+    fn nearest_rated(&self, vector: &[f32]) -> Option<usize> {
+        let lexicon = self.setting.captions.lexicon.iter();
+        let phrases = lexicon.map(|phrase| (phrase, f64::from(dot(vector, &phrase.vector))));
+        let (phrase, similarity) = phrases.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        if similarity <= self.nearest(vector).1 {
+            return None;
+        }
+        let ratings = self.positions.iter().map(|&p| {
+            let material = self.setting.materials[p];
+            self.setting.corpus.materials[material].rating
+        });
+        nearest_rating(&phrase.rating, ratings)
     }
 
     fn decode(&self, latents: &[Latent]) -> Vec<Signature> {

@@ -6,12 +6,14 @@
 pub(super) mod completion;
 mod errors;
 mod fold;
+mod lexicon;
 mod split;
 mod summary;
 
 pub use completion::{Completed, Completion, Direction};
 pub use errors::{METRICS, NAMES, Trial};
 pub use fold::{Fold, Material, Predictor};
+pub(super) use lexicon::SAME;
 pub use summary::{Folds, Metric, Ranks};
 
 use super::{EvaluateError, Watch, cache, cache::Cache, signature::Signature};

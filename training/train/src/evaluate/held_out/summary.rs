@@ -2,7 +2,7 @@
 
 use super::{
     errors::{METRICS, NAMES},
-    fold::{Fold, Predictor},
+    fold::{Fold, PREDICTORS, Predictor},
 };
 use crate::evaluate::{
     signature::Objective,
@@ -16,14 +16,15 @@ pub struct Metric {
     /// Its name and unit.
     pub name: String,
     /// Mean and spread over folds of the means over materials, a predictor each.
-    pub errors: [Spread; 4],
+    pub errors: [Spread; PREDICTORS],
     /// The model's mean over that of the mean texture.
     pub to_mean: f64,
-    /// The model's mean over that of the nearest material.
+    /// The model's mean over that of the nearest material, by captions alone or by captions and lexicon, whichever
+    /// is less off.
     pub to_nearest: f64,
     /// Materials on which the model is better than the mean texture.
     pub better_than_mean: Share,
-    /// Materials on which the model is better than the nearest material.
+    /// Materials on which the model is better than the nearest material, the same of the two.
     pub better_than_nearest: Share,
 }
 
@@ -33,7 +34,7 @@ pub struct Ranks {
     /// The attribute.
     pub attribute: String,
     /// A predictor each; `None` where it says the same of everything.
-    pub spearman: [Option<Spread>; 4],
+    pub spearman: [Option<Spread>; PREDICTORS],
 }
 
 /// All folds of a way to split.
@@ -46,7 +47,7 @@ pub struct Folds {
     /// Every attribute.
     pub ranks: Vec<Ranks>,
     /// Captions whose attributes lie within tolerance, a predictor each.
-    pub within: [Share; 4],
+    pub within: [Share; PREDICTORS],
     /// The folds themselves.
     pub folds: Vec<Fold>,
 }
@@ -75,6 +76,10 @@ impl Folds {
                     1.0
                 }
             };
+            let nearest = [Predictor::Nearest, Predictor::NearestRated]
+                .into_iter()
+                .min_by(|&a, &b| errors[a as usize].mean.total_cmp(&errors[b as usize].mean))
+                .unwrap_or(Predictor::Nearest);
             let better = |other: Predictor| {
                 let materials = folds.iter().flat_map(|fold| &fold.materials);
                 Share::of(materials.map(|m| m.errors[0][metric] < m.errors[other as usize][metric]))
@@ -83,9 +88,9 @@ impl Folds {
                 name: NAMES[metric].into(),
                 errors,
                 to_mean: ratio(Predictor::Mean),
-                to_nearest: ratio(Predictor::Nearest),
+                to_nearest: ratio(nearest),
                 better_than_mean: better(Predictor::Mean),
-                better_than_nearest: better(Predictor::Nearest),
+                better_than_nearest: better(nearest),
             }
         });
         let ranks = Objective::NAMES
@@ -135,16 +140,24 @@ mod tests {
                 [text; METRICS],
                 [mean; METRICS],
                 [4.0; METRICS],
+                [5.0; METRICS],
                 [0.0; METRICS],
             ],
         };
         let fold = |materials| Fold {
             training: 2,
+            phrases: 0,
             materials,
-            spearman: [[Some(0.5); 4], [None; 4], [Some(0.2); 4], [Some(1.0); 4]],
+            spearman: [
+                [Some(0.5); 4],
+                [None; 4],
+                [Some(0.2); 4],
+                [Some(0.1); 4],
+                [Some(1.0); 4],
+            ],
             trials: vec![Trial {
                 similarity: 0.3,
-                within: [true, false, false, true],
+                within: [true, false, false, false, true],
             }],
         };
         let folds = Folds::of(

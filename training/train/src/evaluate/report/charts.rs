@@ -19,7 +19,7 @@ pub(super) fn held_out(part: &HeldOut) -> Result<Vec<u8>, PlotError> {
     let mut canvas = Canvas::new(WIDTH as u32, HEIGHT as u32)?;
     let series: [(&str, Color); 3] = [
         ("text", ink::BLUE),
-        ("nearest material", ink::ORANGE),
+        ("nearest, rated", ink::ORANGE),
         ("own latent", ink::LIGHT),
     ];
     let groups = [(&part.materials, 0.0, 'a'), (&part.families, 930.0, 'b')];
@@ -58,7 +58,7 @@ fn relative(folds: &Folds) -> Vec<Group> {
         let below = metric.errors[Predictor::Mean as usize]
             .mean
             .max(f64::MIN_POSITIVE);
-        let shown = [Predictor::Text, Predictor::Nearest, Predictor::Own];
+        let shown = [Predictor::Text, Predictor::NearestRated, Predictor::Own];
         let bars = shown.map(|predictor| {
             let spread = metric.errors[predictor as usize];
             Bar {
