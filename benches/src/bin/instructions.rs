@@ -4,7 +4,8 @@
 //! Every scenario runs twice under `valgrind --tool=callgrind`, with n and with 2n ticks;
 //! the difference over n is one tick, without start-up. The command also counts the ticks of
 //! one cycle one by one, loading, and servo loops that are faster than the models. `instructions 1`
-//! leaves these loops out: its argument is a rate in kHz. It needs valgrind on the PATH.
+//! leaves these loops out: its argument is a rate in kHz. `instructions ASSET…` counts these assets in a stroke and
+//! beyond their grids instead. It needs valgrind on the PATH.
 #![forbid(unsafe_code)]
 
 use asperity_benches::{
@@ -17,11 +18,16 @@ use asperity_benches::{
     texture::texture,
 };
 use asperity_formats::{Asset, Numerator};
-use asperity_tests::figures::{self, Set};
-use std::{env, error::Error, hint::black_box};
+use asperity_tests::{
+    figures::{self, Set},
+    hatt,
+};
+use std::{env, error::Error, fs, hint::black_box};
 
 /// First argument of the measured program that loads.
 const LOADING: &str = "load";
+/// First argument of the measured program that renders an asset.
+const ASSET: &str = "asset";
 /// First argument of the measured program that renders the usual way.
 const REFERENCE: &str = "reference";
 const TICKS: u32 = 4000;
@@ -29,6 +35,10 @@ const TICKS: u32 = 4000;
 const RATIOS: [u32; 3] = [1, 5, 10];
 /// The motion whose ticks are counted one by one.
 const STROKE: usize = 2;
+/// The motion that takes most.
+const BEYOND: usize = 3;
+/// Instructions that a tick is to take at most.
+const GOAL: u64 = 700;
 const TEXTURES: [(&str, usize, Numerator); 4] = [
     ("order 20, ARMA", 20, Numerator::Lsf),
     ("order 20, Nyquist zero", 20, Numerator::Nyquist),
@@ -50,9 +60,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         reference(texture_index.parse()?, samples.parse()?);
         return Ok(());
     }
+    if let [ASSET, file, motion_index, ticks] =
+        arguments.iter().map(String::as_str).collect::<Vec<_>>()[..]
+    {
+        let ticks = ticks.parse()?;
+        run(&fs::read(file)?, motion_index.parse()?, 1, ticks);
+        return Ok(());
+    }
+    if arguments.iter().any(|argument| argument.ends_with(".asp")) {
+        return many(&arguments);
+    }
     if let [texture_index, motion_index, ratio, ticks] = arguments.as_slice() {
+        let (_, order, numerator) = TEXTURES[texture_index.parse::<usize>()?];
         run(
-            texture_index.parse()?,
+            &texture(order, numerator),
             motion_index.parse()?,
             ratio.parse()?,
             ticks.parse()?,
@@ -135,6 +156,57 @@ fn table(ratio: u32) -> Result<Vec<Row>, Box<dyn Error>> {
     Ok(rows)
 }
 
+/// The ticks of each asset in two motions, and their quantiles.
+fn many(files: &[String]) -> Result<(), Box<dyn Error>> {
+    println!("executed instructions a tick: stroke, beyond the grid, asset");
+    let mut counts = [const { Vec::new() }; 2];
+    for file in files {
+        let motions = [STROKE, BEYOND].map(|motion| {
+            let ticks = |ticks: u32| {
+                let arguments = [ASSET, file, &motion.to_string(), &ticks.to_string()];
+                count(&arguments)
+            };
+            let difference = ticks(2 * TICKS)? - ticks(TICKS)?;
+            Ok::<u64, Box<dyn Error>>((difference as f64 / f64::from(TICKS)).round() as u64)
+        });
+        for (counts, motion) in counts.iter_mut().zip(motions) {
+            let found = motion?;
+            print!("{found:>6}");
+            counts.push(found);
+        }
+        println!("  {file}");
+    }
+    counts.iter_mut().for_each(|counts| counts.sort_unstable());
+    let quantiles = |counts: &[u64]| [0, counts.len() / 2, counts.len() - 1].map(|n| counts[n]);
+    for (motion, counts) in ["stroke", "beyond"].iter().zip(&counts) {
+        let [least, median, most] = quantiles(counts);
+        let above = counts.iter().filter(|&&count| count > GOAL).count();
+        println!(
+            "{motion}: {least} to {most}, median {median}; {above} of {} above {GOAL}",
+            counts.len()
+        );
+    }
+    if files.len() == hatt::PUBLISHED {
+        let [[least, median, most], beyond] = counts.each_ref().map(|counts| quantiles(counts));
+        let above = counts[0].iter().filter(|&&count| count > GOAL).count();
+        let figures = [
+            ("least", least),
+            ("median", median),
+            ("most", most),
+            ("most_beyond", beyond[2]),
+            ("above", above as u64),
+        ];
+        let set = Set::new(
+            "asperity import hatt HATT -o hatt.aspl, asperity split hatt.aspl -o hatt, cargo run --release -p asperity-benches --bin instructions hatt/*.asp",
+            figures.map(|(key, count)| (key, figures::count(count))),
+        );
+        let set = set.under(format!("{}, {}", env::consts::ARCH, figures::compiler()));
+        let set = set.of_now(&figures::root(), vec!["runtime/src".into()])?;
+        figures::keep("instructions_hatt", &set)?;
+    }
+    Ok(())
+}
+
 /// Executed instructions of a texture's ticks, in the order of [`Motion::ALL`].
 struct Row {
     label: &'static str,
@@ -207,10 +279,9 @@ fn reference(texture_index: usize, samples: usize) {
 }
 
 /// The measured program: ticks on samples made beforehand.
-fn run(texture_index: usize, motion_index: usize, ratio: u32, ticks: u32) {
-    let (_, order, numerator) = TEXTURES[texture_index];
+fn run(asset: &[u8], motion_index: usize, ratio: u32, ticks: u32) {
     let motion = Motion::ALL[motion_index].0;
-    let mut rig = Rig::at(&texture(order, numerator), 1000.0 * ratio as f32);
+    let mut rig = Rig::at(asset, 1000.0 * ratio as f32);
     // The same number of samples for n as for 2n ticks, so that the cost of making them cancels.
     let samples: Vec<_> = (0..TICKS)
         .map(|tick| motion.sample_at(tick, ratio))
