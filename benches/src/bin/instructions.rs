@@ -22,7 +22,7 @@ use asperity_tests::{
     figures::{self, Set},
     hatt,
 };
-use std::{env, error::Error, fs, hint::black_box};
+use std::{env, error::Error, fmt, fs, hint::black_box};
 
 /// First argument of the measured program that loads.
 const LOADING: &str = "load";
@@ -37,7 +37,7 @@ const RATIOS: [u32; 3] = [1, 5, 10];
 const STROKE: usize = 2;
 /// The motion that takes most.
 const BEYOND: usize = 3;
-/// Instructions that a tick is to take at most.
+/// Instructions that the mean tick of a motion is to take at most.
 const GOAL: u64 = 700;
 const TEXTURES: [(&str, usize, Numerator); 4] = [
     ("order 20, ARMA", 20, Numerator::Lsf),
@@ -67,7 +67,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         run(&fs::read(file)?, motion_index.parse()?, 1, ticks);
         return Ok(());
     }
-    if arguments.iter().any(|argument| argument.ends_with(".asp")) {
+    if arguments
+        .first()
+        .is_some_and(|argument| argument.ends_with(".asp"))
+    {
         return many(&arguments);
     }
     if let [texture_index, motion_index, ratio, ticks] = arguments.as_slice() {
@@ -161,40 +164,25 @@ fn many(files: &[String]) -> Result<(), Box<dyn Error>> {
     println!("executed instructions a tick: stroke, beyond the grid, asset");
     let mut counts = [const { Vec::new() }; 2];
     for file in files {
-        let motions = [STROKE, BEYOND].map(|motion| {
-            let ticks = |ticks: u32| {
-                let arguments = [ASSET, file, &motion.to_string(), &ticks.to_string()];
-                count(&arguments)
-            };
+        for (counts, motion) in counts.iter_mut().zip([STROKE, BEYOND]) {
+            let motion = motion.to_string();
+            let ticks = |ticks: u32| count(&[ASSET, file, &motion, &ticks.to_string()]);
             let difference = ticks(2 * TICKS)? - ticks(TICKS)?;
-            Ok::<u64, Box<dyn Error>>((difference as f64 / f64::from(TICKS)).round() as u64)
-        });
-        for (counts, motion) in counts.iter_mut().zip(motions) {
-            let found = motion?;
-            print!("{found:>6}");
-            counts.push(found);
+            let a_tick = (difference as f64 / f64::from(TICKS)).round() as u64;
+            print!("{a_tick:>6}");
+            counts.push(a_tick);
         }
         println!("  {file}");
     }
-    counts.iter_mut().for_each(|counts| counts.sort_unstable());
-    let quantiles = |counts: &[u64]| [0, counts.len() / 2, counts.len() - 1].map(|n| counts[n]);
-    for (motion, counts) in ["stroke", "beyond"].iter().zip(&counts) {
-        let [least, median, most] = quantiles(counts);
-        let above = counts.iter().filter(|&&count| count > GOAL).count();
-        println!(
-            "{motion}: {least} to {most}, median {median}; {above} of {} above {GOAL}",
-            counts.len()
-        );
-    }
+    let [stroke, beyond] = counts.map(Counts::of);
+    println!("stroke: {stroke}\nbeyond: {beyond}");
     if files.len() == hatt::PUBLISHED {
-        let [[least, median, most], beyond] = counts.each_ref().map(|counts| quantiles(counts));
-        let above = counts[0].iter().filter(|&&count| count > GOAL).count();
         let figures = [
-            ("least", least),
-            ("median", median),
-            ("most", most),
-            ("most_beyond", beyond[2]),
-            ("above", above as u64),
+            ("least", stroke.least),
+            ("median", stroke.median),
+            ("most", stroke.most),
+            ("most_beyond", beyond.most),
+            ("above", stroke.above as u64),
         ];
         let set = Set::new(
             "asperity import hatt HATT -o hatt.aspl, asperity split hatt.aspl -o hatt, cargo run --release -p asperity-benches --bin instructions hatt/*.asp",
@@ -205,6 +193,46 @@ fn many(files: &[String]) -> Result<(), Box<dyn Error>> {
         figures::keep("instructions_hatt", &set)?;
     }
     Ok(())
+}
+
+/// What several assets take in a motion.
+struct Counts {
+    least: u64,
+    median: u64,
+    most: u64,
+    /// Assets above the [`GOAL`].
+    above: usize,
+    of: usize,
+}
+
+impl Counts {
+    fn of(mut counts: Vec<u64>) -> Self {
+        counts.sort_unstable();
+        let of = counts.len();
+        Self {
+            least: counts[0],
+            median: counts[of / 2],
+            most: counts[of - 1],
+            above: counts.iter().filter(|&&count| count > GOAL).count(),
+            of,
+        }
+    }
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            least,
+            median,
+            most,
+            above,
+            of,
+        } = self;
+        write!(
+            f,
+            "{least} to {most}, median {median}; {above} of {of} above {GOAL}"
+        )
+    }
 }
 
 /// Executed instructions of a texture's ticks, in the order of [`Motion::ALL`].

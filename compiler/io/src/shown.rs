@@ -45,6 +45,13 @@ pub fn counted<N: Display + PartialEq + From<u8>>(count: N, one: &str, many: &st
     format!("{count} {noun}")
 }
 
+/// A value rounded to so many digits behind the point, where zero has no minus sign.
+#[must_use]
+pub fn rounded(value: f64, digits: i32) -> f64 {
+    let scale = 10_f64.powi(digits);
+    (value * scale).round() / scale + 0.0
+}
+
 /// A size in the largest unit in which it is at least 1, with one digit behind the point.
 #[must_use]
 pub fn size(bytes: u64) -> String {
@@ -90,6 +97,13 @@ mod tests {
             assert_eq!(plain(text), text);
             assert_eq!(excerpt(text), text);
         }
+    }
+
+    #[test]
+    fn what_rounds_to_zero_has_no_sign() {
+        assert_eq!(format!("{:+.1}", rounded(-0.04, 1)), "+0.0");
+        assert_eq!(format!("{:.0}", rounded(-0.4, 0)), "0");
+        assert_eq!([rounded(-0.06, 1), rounded(2.449, 2)], [-0.1, 2.45]);
     }
 
     #[test]

@@ -9,7 +9,10 @@ use asperity::{
     text::{TextEncoder, TextEncoderChoice},
 };
 use asperity_console::Console;
-use asperity_io::diagnostic::{Diagnostic, Failures, one};
+use asperity_io::{
+    diagnostic::{Diagnostic, Failures, one},
+    shown::size,
+};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -93,8 +96,8 @@ fn findings(args: &Doctor) -> Vec<Finding> {
             .and_then(|encoder| encoder.encode(PROBE).map_err(|error| error.to_string()))
             .map(|_| {
                 format!(
-                    "all-MiniLM-L6-v2, int8 weights, embedded, {} MB",
-                    megabytes(encoder_bytes)
+                    "all-MiniLM-L6-v2, int8 weights, embedded, {}",
+                    size(encoder_bytes as u64)
                 )
             })
             .map_err(|error| (error, "reinstall or rebuild asperity".to_owned())),
@@ -116,7 +119,7 @@ fn findings(args: &Doctor) -> Vec<Finding> {
                     description.text_encoder.name,
                     description.text_encoder.width,
                     args.inference.model.as_ref().map_or_else(
-                        || format!("embedded, {} MB", megabytes(model_bytes)),
+                        || format!("embedded, {}", size(model_bytes as u64)),
                         |folder| folder.display().to_string()
                     )
                 )
@@ -193,10 +196,6 @@ fn check(what: &'static str, result: Result<String, (String, String)>) -> Findin
             remedy: Some(remedy),
         },
     }
-}
-
-fn megabytes(bytes: usize) -> String {
-    format!("{:.1}", bytes as f64 / 1e6)
 }
 
 fn as_text(findings: &[Finding]) -> String {

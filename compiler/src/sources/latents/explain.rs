@@ -6,6 +6,7 @@ use crate::{
     learned::{Latent, description::LATENT},
     sources::prompt::{self, Taken},
 };
+use asperity_io::shown::rounded;
 use asperity_texture::model::attributes::{self, Attributes};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -196,9 +197,8 @@ impl Explanation {
                 hard,
                 slippery,
             } = word;
-            // 0 without a minus sign.
             let [rough, sharp, hard, slippery] =
-                [rough, sharp, hard, slippery].map(|steps| steps.round() + 0.0);
+                [rough, sharp, hard, slippery].map(|steps| rounded(*steps, 0));
             let _ = writeln!(
                 text,
                 "  {word:<width$}  {rough:>+6.0}  {sharp:>+6.0}  {hard:>+6.0}  {slippery:>+8.0}"

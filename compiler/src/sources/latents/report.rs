@@ -2,6 +2,7 @@
 
 use super::scale::Scale;
 use crate::edit_memory::{AXES, Axis};
+use asperity_io::shown::rounded;
 use asperity_texture::model::attributes::Attributes;
 
 /// The attributes in their units, and where they lie on their sliders, as
@@ -12,8 +13,7 @@ pub fn attributes_line(attributes: &Attributes, scale: &Scale) -> String {
         let Some(value) = axis.of(attributes) else {
             return format!("{} none", axis.name());
         };
-        // 0 without a minus sign.
-        let place = scale.place(axis, attributes).unwrap_or(0.0).round() + 0.0;
+        let place = rounded(scale.place(axis, attributes).unwrap_or(0.0), 0);
         match axis {
             Axis::Rough => format!("rough {place:.0} ({value:.1} dB)"),
             Axis::Sharp => format!("sharp {place:.0} ({value:.0} Hz)"),

@@ -11,6 +11,7 @@ use crate::{
     learned::Certainty,
     sources::latents::Scale,
 };
+use asperity_io::shown::{rounded, size};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -78,21 +79,13 @@ impl CompiledPrompt {
                 100.0 * self.certainty.share()
             ),
         );
-        let kb = |bytes: usize| format!("{:.1} kB", bytes as f64 / 1000.0);
-        let all = compiled.lowered.bytes.len();
+        let haptic = size(compiled.lowered.haptic_bytes as u64);
+        let all = size(compiled.lowered.bytes.len() as u64);
         lines.add(
             "size",
             match &compiled.preview {
-                Some(_) => format!(
-                    "{} haptic, {} with the preview",
-                    kb(compiled.lowered.haptic_bytes),
-                    kb(all)
-                ),
-                None => format!(
-                    "{} haptic, {} in total",
-                    kb(compiled.lowered.haptic_bytes),
-                    kb(all)
-                ),
+                Some(_) => format!("{haptic} haptic, {all} with the preview"),
+                None => format!("{haptic} haptic, {all} in total"),
             },
         );
         lines.0
@@ -111,8 +104,7 @@ impl CompiledPrompt {
 
 /// A place on a slider, which ends at 0 and 100 where materials go further.
 fn on_slider(place: f64) -> String {
-    // 0 without a sign.
-    let place = place.round() + 0.0;
+    let place = rounded(place, 0);
     let beyond = if (0.0..=100.0).contains(&place) {
         ""
     } else {

@@ -9,7 +9,10 @@ use asperity::{
     raise::raise,
 };
 use asperity_console::Console;
-use asperity_io::diagnostic::{Failures, one};
+use asperity_io::{
+    diagnostic::{Failures, one},
+    shown::rounded,
+};
 use serde_json::{Value, json};
 
 /// Steps by which an attribute may miss its target before the user is warned.
@@ -78,8 +81,7 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
         by.insert(axis.name().to_owned(), json!(by_steps));
     }
     let line = moved
-        // 0 without a minus sign.
-        .map(|(axis, by)| format!("{} {:+.1}", axis.name(), (10.0 * by).round() / 10.0 + 0.0))
+        .map(|(axis, by)| format!("{} {:+.1}", axis.name(), rounded(by, 1)))
         .join(", ");
     let before = attributes_line(&before, editor.scale());
     let more = json!({ "moved": Value::Object(by), "undone": args.undo, "prompt": args.prompt });

@@ -225,7 +225,7 @@ impl Asked<'_> {
         let decoded = self.decode(&latents);
         let predictions = vectors.iter().zip(decoded).map(|(vector, text)| {
             let (nearest, similarity) = self.nearest(vector);
-            let rated = self.nearest_rated(vector).unwrap_or(nearest);
+            let rated = self.nearest_rated(vector, similarity).unwrap_or(nearest);
             let [nearest, rated] = [nearest, rated]
                 .map(|place| self.setting.signatures[self.positions[place]].clone());
             // One latent gives one texture.
@@ -246,12 +246,12 @@ impl Asked<'_> {
         (best.0, f64::from(best.1))
     }
 
-    /// The training material of the nearest rated phrase, where one is nearer than every mean caption.
-    fn nearest_rated(&self, vector: &[f32]) -> Option<usize> {
+    /// The training material of the nearest rated phrase, where one is nearer than the nearest mean caption.
+    fn nearest_rated(&self, vector: &[f32], nearest_caption: f64) -> Option<usize> {
         let lexicon = self.setting.captions.lexicon.iter();
         let phrases = lexicon.map(|phrase| (phrase, f64::from(dot(vector, &phrase.vector))));
         let (phrase, similarity) = phrases.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        if similarity <= self.nearest(vector).1 {
+        if similarity <= nearest_caption {
             return None;
         }
         let ratings = self.positions.iter().map(|&p| {
