@@ -359,8 +359,8 @@ fn merge(logs: &[PathBuf], output: &Path, console: Console) -> Result<(), Failur
                 format!(
                     "{}: the period is {} µs, but {} µs in the first log",
                     path.display(),
-                    1e-3 * run.facts.period_ns as f64,
-                    1e-3 * merged.facts.period_ns as f64
+                    run.facts.period_ns as f64 / 1e3,
+                    merged.facts.period_ns as f64 / 1e3
                 ),
                 "merge runs of the same rate; use `asperity-lab jitter compare` for different rates",
             ));

@@ -45,7 +45,7 @@ impl Page<'_> {
         format!(
             "# Figures
 
-`cargo run --release -p asperity --example figures` writes this page and its pictures. The textures are
+`cargo run --release -p asperity --example draw_figures` writes this page and its pictures. The textures are
 those of the shipped model, which was trained on a synthetic corpus; nothing was measured on a device.
 The tables state the attributes of the textures as decoded. `--fidelity auto`, the default of `compile`, moves
 them by at most {level_db:.1} dB and {centroid_hz:.0} Hz.

@@ -1,6 +1,6 @@
 //! The figures of `docs/figures.md`, and the page itself.
 //!
-//! `cargo run --release -p asperity --example figures` writes `figures.md`, the pictures `texture.png`,
+//! `cargo run --release -p asperity --example draw_figures` writes `figures.md`, the pictures `texture.png`,
 //! `three-prompts.png` and `midpoint.png`, and three sounds to `docs`, or to the folder that it is given, which is
 //! created where it is missing. Everything follows from the shipped model.
 
