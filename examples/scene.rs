@@ -47,12 +47,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Builds `desk.toml` within 7 kB and 5 % of a Cortex-M4F at 48 MHz.
+/// Builds `desk.toml` within 7 kB and 6 % of a Cortex-M4F at 48 MHz.
 fn library() -> Result<Vec<u8>, Box<dyn Error>> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("desk.toml");
     let budget = Budget {
         target: Some("cortex-m4f@48MHz".parse()?),
-        share: 0.05,
+        share: 0.06,
         bytes: Some(7000),
     };
     let told = |failures: Failures| {

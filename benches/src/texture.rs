@@ -2,8 +2,8 @@
 //! 13 taps of 100 samples at 10 kHz. They are synthetic: only their sizes matter.
 
 use asperity_formats::{
-    Anchor, AssetParts, Coupling, FrictionParts, GridParts, LsfCode, ModelParts, Numerator,
-    TapParts, Vertex, VertexKind, encode,
+    Anchor, AssetParts, Coupling, FrictionParts, GridParts, LawPoint, LsfCode, ModelParts,
+    Numerator, TapParts, Vertex, VertexKind, encode, limits::MAX_LAW_POINTS,
 };
 
 const COLUMNS: usize = 8;
@@ -23,12 +23,38 @@ pub fn texture(order: usize, numerator: Numerator) -> Vec<u8> {
     texture_on(order, numerator, COLUMNS, ROWS)
 }
 
+/// [`texture`] with a law of friction of the most points, from 0 to the largest speed of the grid.
+///
+/// # Panics
+/// If the format refuses the texture.
+#[must_use]
+pub fn texture_with_law(order: usize, numerator: Numerator) -> Vec<u8> {
+    let step = (16.0 * MAX_SPEED_MM_S) as u16 / (MAX_LAW_POINTS as u16 - 1);
+    let law: Vec<LawPoint> = (0..MAX_LAW_POINTS as u16)
+        .map(|k| LawPoint {
+            speed_code: k * step,
+            factor_code: 8192 - 512 * k,
+        })
+        .collect();
+    encoded(order, numerator, COLUMNS, ROWS, &law)
+}
+
 /// [`texture`] on a grid of its own: `columns` × `rows` vertices, two triangles to each rectangle.
 ///
 /// # Panics
 /// If the format refuses the texture.
 #[must_use]
 pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usize) -> Vec<u8> {
+    encoded(order, numerator, columns, rows, &[])
+}
+
+fn encoded(
+    order: usize,
+    numerator: Numerator,
+    columns: usize,
+    rows: usize,
+    law: &[LawPoint],
+) -> Vec<u8> {
     let ma_order = if numerator == Numerator::Lsf {
         order.saturating_sub(2).max(1)
     } else {
@@ -83,7 +109,7 @@ pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usiz
                 mu: 0.4,
                 weight: 1.0,
             }],
-            law: &[],
+            law,
         },
         coupling: Coupling {
             stiffness_n_m: 500.0,

@@ -16,6 +16,8 @@ struct Cost {
     pole: f64,
     zero: f64,
     triangle: f64,
+    /// Of a law of friction.
+    law: f64,
     /// Of a plane, a sphere and a box.
     surfaces: [f64; 3],
 }
@@ -51,7 +53,7 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
     let rows = counted.len() * SCENE_CASES.len();
     let _ = writeln!(
         text,
-        "pub(super) const MEASURED: [(&str, [usize; 6], u64); {rows}] = ["
+        "pub(super) const MEASURED: [(&str, [usize; 7], u64); {rows}] = ["
     );
     for (processor, worst) in counted {
         for (case, count) in SCENE_CASES.iter().zip(worst) {
@@ -59,13 +61,14 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
                 poles,
                 zeros,
                 triangles,
+                laws,
                 apart: [planes, spheres, boxes],
                 ..
             } = case;
             let planes = planes + TOUCHED;
             let _ = writeln!(
                 text,
-                "    ({processor:?}, [{poles}, {zeros}, {triangles}, {planes}, {spheres}, {boxes}], {count}),"
+                "    ({processor:?}, [{poles}, {zeros}, {triangles}, {laws}, {planes}, {spheres}, {boxes}], {count}),"
             );
         }
     }
@@ -74,14 +77,15 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
 }
 
 const HEAD: &str = "\
-//! Written by `cargo run --release --manifest-path benches/cortex-m/Cargo.toml -- costs`.
+//! Written by `cargo run --release -p asperity-cortex-m -- costs`.
 
 use super::cost::Cost;
 
 /// Slopes between the ends of what was counted; the base such that no count is above the model.
 ";
 const MEASURED: &str = "\
-/// The costliest tick of 12,000, in QEMU: poles, zeros that are mixed and converted, triangles, planes, spheres, boxes.
+/// The costliest tick of 12,000, in QEMU: poles, zeros that are mixed and converted, triangles,
+/// laws of friction, planes, spheres, boxes.
 #[cfg(test)]
 ";
 
@@ -89,22 +93,28 @@ impl Cost {
     /// Slopes between the ends of what was counted; the base such that no case costs more
     /// than the model says.
     fn fit(worst: &[u64]) -> Self {
-        let at = |poles, zeros, triangles, apart| {
+        let at = |poles, zeros, triangles, laws, apart| {
             let wanted = |case: &SceneCase| {
-                (case.poles, case.zeros, case.triangles, case.apart)
-                    == (poles, zeros, triangles, apart)
+                (
+                    case.poles,
+                    case.zeros,
+                    case.triangles,
+                    case.laws,
+                    case.apart,
+                ) == (poles, zeros, triangles, laws, apart)
             };
             let index = SCENE_CASES.iter().position(wanted);
             index.map_or(f64::NAN, |index| worst[index] as f64)
         };
-        let alone = |poles, zeros| at(poles, zeros, 56, [0; 3]);
+        let alone = |poles, zeros| at(poles, zeros, 56, 0, [0; 3]);
         let middle = alone(10, 0);
-        let one = |apart| (at(10, 0, 56, apart) - middle) / 8.0;
+        let one = |apart| (at(10, 0, 56, 0, apart) - middle) / 8.0;
         let mut cost = Self {
             base: 0.0,
             pole: tenths((alone(20, 0) - alone(4, 0)) / 16.0),
             zero: tenths((alone(20, 18) - alone(20, 0)) / 18.0),
-            triangle: tenths((at(10, 0, 98, [0; 3]) - at(10, 0, 12, [0; 3])) / 86.0),
+            triangle: tenths((at(10, 0, 98, 0, [0; 3]) - at(10, 0, 12, 0, [0; 3])) / 86.0),
+            law: tenths(at(10, 0, 56, 1, [0; 3]) - middle),
             surfaces: [one([8, 0, 0]), one([0, 8, 0]), one([0, 0, 8])].map(tenths),
         };
         let missing = SCENE_CASES
@@ -125,6 +135,7 @@ impl Cost {
             pole,
             zero,
             triangle,
+            law,
             surfaces: [plane, sphere, cuboid],
         } = self;
         format!(
@@ -134,6 +145,7 @@ impl Cost {
         pole: {pole:.1},
         zero: {zero:.1},
         triangle: {triangle:.1},
+        law: {law:.1},
         surfaces: [{plane:.1}, {sphere:.1}, {cuboid:.1}],
         above_percent: {above:.1},
     }},\n"
@@ -148,6 +160,7 @@ impl Cost {
             + self.pole * f64::from(case.poles)
             + self.zero * f64::from(case.zeros)
             + self.triangle * f64::from(case.triangles)
+            + self.law * f64::from(case.laws)
             + touched
             + apart.map(|(cost, n)| cost * f64::from(n)).sum::<f64>()
     }

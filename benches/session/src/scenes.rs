@@ -37,6 +37,8 @@ pub struct SceneCase {
     pub zeros: u32,
     /// Triangles of its grid.
     pub triangles: u32,
+    /// Laws of friction of its texture: 0 or 1.
+    pub laws: u32,
     /// Planes, spheres and boxes beside what is touched.
     pub apart: [u32; 3],
 }
@@ -47,6 +49,7 @@ const fn case(texture: &'static str, poles: u32, zeros: u32) -> SceneCase {
         poles,
         zeros,
         triangles: 56,
+        laws: 0,
         apart: [0; 3],
     }
 }
@@ -63,7 +66,7 @@ const fn beside(apart: [u32; 3]) -> SceneCase {
 }
 
 /// Every case.
-pub const SCENE_CASES: [SceneCase; 16] = [
+pub const SCENE_CASES: [SceneCase; 17] = [
     case("4 nyquist", 4, 0),
     case("10 nyquist", 10, 0),
     case("20 nyquist", 20, 0),
@@ -76,6 +79,10 @@ pub const SCENE_CASES: [SceneCase; 16] = [
     case("15+13", 15, 13),
     on(12, case("10 nyquist, 12", 10, 0)),
     on(98, case("10 nyquist, 98", 10, 0)),
+    SceneCase {
+        laws: 1,
+        ..case("10 nyquist, law", 10, 0)
+    },
     beside([8, 0, 0]),
     beside([0, 8, 0]),
     beside([0, 0, 8]),

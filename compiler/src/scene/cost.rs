@@ -1,10 +1,10 @@
 //! What a tick costs on a processor, as far as it depends on the texture and the scene.
 
 use asperity_formats::Solid;
-use asperity_texture::model::{ModelGrid, Numerator};
+use asperity_texture::model::{ModelGrid, Numerator, TextureModel};
 
 /// A model of the executed instructions of the costliest tick on a processor: a sum over poles,
-/// zeros, triangles and surfaces that is never below what was counted.
+/// zeros, triangles, a law of friction and surfaces that is never below what was counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cost {
     /// Name of the processor.
@@ -17,6 +17,8 @@ pub(super) struct Cost {
     pub(super) zero: f64,
     /// What a triangle adds.
     pub(super) triangle: f64,
+    /// What the texture's law of friction adds.
+    pub(super) law: f64,
     /// What the distance to a plane, a sphere and a box adds.
     pub(super) surfaces: [f64; 3],
     /// The most that the sum is above a count, percent.
@@ -47,7 +49,7 @@ impl Cost {
     /// Executed instructions of the costliest tick.
     pub(super) fn instructions(
         &self,
-        [poles, zeros, triangles]: [usize; 3],
+        [poles, zeros, triangles, laws]: [usize; 4],
         surfaces: Surfaces,
     ) -> u64 {
         let surfaces = self.surfaces.iter().zip(surfaces.0);
@@ -55,9 +57,17 @@ impl Cost {
             + self.pole * poles as f64
             + self.zero * zeros as f64
             + self.triangle * triangles as f64
+            + self.law * laws as f64
             + surfaces.map(|(cost, n)| cost * n as f64).sum::<f64>();
         cost.ceil() as u64
     }
+}
+
+/// What the cost of a texture depends on: poles, zeros, triangles and laws of friction (0 or 1).
+pub(super) fn sizes(texture: &TextureModel) -> [usize; 4] {
+    let grid = &texture.grid;
+    let laws = usize::from(texture.friction.law.is_some());
+    [grid.order, zeros(grid), grid.triangles.len(), laws]
 }
 
 /// Number of zeros of a grid that are mixed and converted.

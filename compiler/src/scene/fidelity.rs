@@ -44,7 +44,7 @@ pub(super) fn candidates(
             let bytes = pipeline.lower(&texture, None)?.bytes;
             Ok::<_, PipelineError>(Candidate {
                 fidelity,
-                instructions: target.instructions(&texture.grid, surfaces),
+                instructions: target.instructions(&texture, surfaces),
                 texture,
                 bytes,
                 error_db,
@@ -129,7 +129,7 @@ impl Candidate {
         let texture = raise(&Asset::parse(&bytes)?);
         Ok(Self {
             fidelity: texture.provenance.fidelity.clone(),
-            instructions: target.instructions(&texture.grid, surfaces),
+            instructions: target.instructions(&texture, surfaces),
             texture,
             bytes,
             error_db,

@@ -1,10 +1,10 @@
 //! Where a scene is to run, and what it may cost there.
 
 use super::{
-    cost::{Cost, Surfaces, zeros},
+    cost::{Cost, Surfaces, sizes},
     counted::COSTS,
 };
-use asperity_texture::model::ModelGrid;
+use asperity_texture::model::TextureModel;
 use std::{fmt, str::FromStr};
 
 /// Where a scene is to run: a processor at a clock, or a number of instructions on the first
@@ -22,11 +22,10 @@ enum Supply {
 }
 
 impl Target {
-    /// Executed instructions of a tick with this grid among these surfaces.
+    /// Executed instructions of a tick with this texture among these surfaces.
     #[must_use]
-    pub fn instructions(&self, grid: &ModelGrid, surfaces: Surfaces) -> u64 {
-        let texture = [grid.order, zeros(grid), grid.triangles.len()];
-        self.cost.instructions(texture, surfaces)
+    pub fn instructions(&self, texture: &TextureModel, surfaces: Surfaces) -> u64 {
+        self.cost.instructions(sizes(texture), surfaces)
     }
 
     /// The most that [`Target::instructions`] is above what was counted, percent.
@@ -113,16 +112,17 @@ mod tests {
 
     #[test]
     fn no_count_is_above_the_model_nor_further_below_than_stated() {
-        for (processor, [poles, zeros, triangles, planes, spheres, boxes], count) in MEASURED {
+        for (processor, [poles, zeros, triangles, laws, planes, spheres, boxes], count) in MEASURED
+        {
             let cost = COSTS.iter().find(|cost| cost.processor == processor);
             let cost = cost.expect("an entry");
             let surfaces = Surfaces([planes, spheres, boxes]);
-            let modelled = cost.instructions([poles, zeros, triangles], surfaces);
+            let modelled = cost.instructions([poles, zeros, triangles, laws], surfaces);
             // Both sides are rounded up to a whole instruction.
             let most = (count as f64 * (1.0 + cost.above_percent / 100.0)).ceil() as u64;
             assert!(
                 (count..=most).contains(&modelled),
-                "{processor}, {poles} poles, {zeros} zeros: {count} counted, {modelled} modelled"
+                "{processor}, {poles} poles, {zeros} zeros, {laws} laws: {count} counted, {modelled} modelled"
             );
         }
     }
