@@ -9,6 +9,9 @@ pub enum Scale {
     Linear,
     /// Proportional to the logarithm; both ends are positive.
     Log,
+    /// Percentiles, proportional to the logarithm of how rarely they are exceeded: as far from
+    /// 90 to 99 as from 99 to 99.9. Below 100.
+    Percentile,
 }
 
 /// An axis: its label with unit, and its range.
@@ -66,6 +69,16 @@ impl Axis {
         }
     }
 
+    /// An axis of the percentiles of `count` values, from 0 to the last one that has a value
+    /// beyond it.
+    #[must_use]
+    pub fn percentiles(label: impl Into<String>, count: u64) -> Self {
+        Self {
+            scale: Scale::Percentile,
+            ..Self::new(label, 0.0, 100.0 * (1.0 - 1.0 / count.max(2) as f64))
+        }
+    }
+
     /// The same axis with about `count` ticks.
     #[must_use]
     pub fn ticks_about(self, count: usize) -> Self {
@@ -90,6 +103,23 @@ impl Axis {
         match self.scale {
             Scale::Linear => (value - self.min) / (self.max - self.min),
             Scale::Log => (value / self.min).ln() / (self.max / self.min).ln(),
+            Scale::Percentile => {
+                let rarity = |percentile: f64| -(1.0 - percentile / 100.0).ln();
+                (rarity(value) - rarity(self.min)) / (rarity(self.max) - rarity(self.min))
+            }
+        }
+    }
+
+    /// The value at a position: the inverse of [`Axis::fraction`].
+    #[must_use]
+    pub fn value(&self, fraction: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => self.min + fraction * (self.max - self.min),
+            Scale::Log => self.min * (self.max / self.min).powf(fraction),
+            Scale::Percentile => {
+                let (low, high) = (100.0 - self.min, 100.0 - self.max);
+                100.0 - low * (high / low).powf(fraction)
+            }
         }
     }
 
@@ -108,6 +138,7 @@ impl Axis {
                     .collect()
             }
             Scale::Log => log_ticks(self.min, self.max),
+            Scale::Percentile => percentile_ticks(self.min, self.max),
         }
     }
 
@@ -176,6 +207,20 @@ fn log_ticks(min: f64, max: f64) -> Vec<(f64, String)> {
         }
     }
     ticks
+}
+
+/// 0, 50, and as many nines as the range has.
+fn percentile_ticks(min: f64, max: f64) -> Vec<(f64, String)> {
+    let nines = (1..=12).map(|nines| {
+        let value = 100.0 * (1.0 - 10_f64.powi(-nines));
+        let decimals = usize::try_from(nines - 2).unwrap_or(0);
+        (value, format!("{value:.decimals$}"))
+    });
+    [(0.0, "0".to_owned()), (50.0, "50".to_owned())]
+        .into_iter()
+        .chain(nines)
+        .filter(|(value, _)| (min..=max * (1.0 + 1e-12)).contains(value))
+        .collect()
 }
 
 /// How many decimals show every multiple of `step` exactly.
@@ -249,6 +294,35 @@ mod tests {
         assert!((value - 1.2e-4).abs() < 1e-16);
         assert_eq!(Axis::new("x", -3e6, 0.0).full_label(), "x × 10⁶");
         assert_eq!(Axis::new("x", 0.0, 0.02).full_label(), "x");
+    }
+
+    /// Claim: percentiles have a tick for each nine that the count can carry, equally far apart.
+    #[test]
+    fn percentiles_are_marked_by_nines() {
+        let axis = Axis::percentiles("", 10_000);
+        let ticks = axis.ticks();
+        let labels: Vec<&str> = ticks.iter().map(|tick| tick.1.as_str()).collect();
+        assert_eq!(labels, ["0", "50", "90", "99", "99.9", "99.99"]);
+        for (tick, place) in ticks.iter().skip(2).zip([0.25, 0.5, 0.75, 1.0]) {
+            assert!((axis.fraction(tick.0) - place).abs() < 1e-9);
+        }
+        assert_eq!(Axis::percentiles("", 9999).ticks().len(), 5);
+        assert!(Axis::percentiles("", 0).fraction(0.0).abs() < 1e-12);
+    }
+
+    /// Claim: a position's value has that position.
+    #[test]
+    fn a_value_is_where_it_is_said_to_be() {
+        let axes = [
+            Axis::new("", -3.0, 7.0),
+            Axis::log("", 0.01, 40.0),
+            Axis::percentiles("", 5000),
+        ];
+        for axis in axes {
+            for fraction in [0.0, 0.2, 0.5, 0.9, 1.0] {
+                assert!((axis.fraction(axis.value(fraction)) - fraction).abs() < 1e-9);
+            }
+        }
     }
 
     /// Claim: no range, however degenerate, gives an axis that maps to NaN.

@@ -1,6 +1,6 @@
 //! Data in a panel: lines, points, bands and fields of colour.
 
-use crate::axis::{Axis, Scale};
+use crate::axis::Axis;
 use crate::canvas::Canvas;
 use crate::color::Color;
 use crate::marker::Marker;
@@ -97,11 +97,7 @@ impl Panel {
         let columns = (area.width / square).round().max(1.0) as usize;
         let rows = (area.height / square).round().max(1.0) as usize;
         let value = |axis: &Axis, index: usize, count: usize| {
-            let t = (index as f64 + 0.5) / count as f64;
-            match axis.scale {
-                Scale::Linear => axis.min + t * (axis.max - axis.min),
-                Scale::Log => axis.min * (axis.max / axis.min).powf(t),
-            }
+            axis.value((index as f64 + 0.5) / count as f64)
         };
         canvas.cells(area, columns, rows, |column, row| {
             color(value(&self.x, column, columns), value(&self.y, row, rows))

@@ -22,6 +22,20 @@ pub enum Marker {
     Triangle,
 }
 
+impl Marker {
+    /// The shape of category `index`, counted from 0; four repeat.
+    #[must_use]
+    pub const fn category(index: usize) -> Self {
+        const SHAPES: [Marker; 4] = [
+            Marker::Circle,
+            Marker::Square,
+            Marker::Triangle,
+            Marker::Diamond,
+        ];
+        SHAPES[index % SHAPES.len()]
+    }
+}
+
 impl Canvas {
     /// Draws a data point of the given radius.
     pub fn marker(

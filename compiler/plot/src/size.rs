@@ -8,6 +8,8 @@ pub const TITLE: f32 = 29.0;
 pub const LABEL: f32 = 25.0;
 /// Tick labels and annotations.
 pub const TICK: f32 = 22.0;
+/// From one line of a legend to the next, and what a legend adds to a panel's top margin.
+pub const LEGEND_ROW: f32 = 30.0;
 /// Data lines.
 pub const LINE: f32 = 2.5;
 /// Frames and tick marks.

@@ -1,6 +1,6 @@
 //! How a line is drawn.
 
-use crate::color::Color;
+use crate::color::{Color, ink};
 
 /// Colour, width and dashes of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +24,24 @@ impl Stroke {
         }
     }
 
+    /// The line of category `index`, counted from 0: a colour of [`ink::category`] and dashes of
+    /// its own, so that lines can be told apart in grey. Five dashes and six colours repeat.
+    #[must_use]
+    pub const fn category(index: usize, width: f32) -> Self {
+        const DASHES: [Option<[f32; 2]>; 5] = [
+            None,
+            Some([16.0, 6.0]),
+            Some([4.0, 5.0]),
+            Some([34.0, 8.0]),
+            Some([9.0, 9.0]),
+        ];
+        Self {
+            color: ink::category(index),
+            width,
+            dash: DASHES[index % DASHES.len()],
+        }
+    }
+
     /// The same line, dashed.
     #[must_use]
     pub const fn dashed(self) -> Self {
@@ -39,6 +57,26 @@ impl Stroke {
         Self {
             dash: Some([3.0, 5.0]),
             ..self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: without colour, any two of six lines differ in their dashes or clearly in lightness.
+    #[test]
+    fn categories_differ_in_grey() {
+        let lines: Vec<Stroke> = (0..6).map(|index| Stroke::category(index, 2.0)).collect();
+        for (index, one) in lines.iter().enumerate() {
+            for other in &lines[..index] {
+                let lightness = (one.color.luma() - other.color.luma()).abs();
+                assert!(
+                    one.dash != other.dash || lightness > 0.2,
+                    "{one:?} {other:?}"
+                );
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use asperity_host::profile::compensation::{Design, levels_db};
 use asperity_host::profile::response::{BAND_HZ, Response};
 use asperity_plot::{
-    Axis, Canvas, Key, Margins, Panel, PlotError, Rect, Stroke, TextStyle, ink, legend, size,
+    Axis, Canvas, Key, Margins, Panel, PlotError, Rect, Stroke, TextStyle, ink, size,
 };
 
 use super::LEAST_COHERENCE;
@@ -73,29 +73,28 @@ fn levels(canvas: &mut Canvas, outer: Rect, response: &Response, design: &Design
     );
     panel.draw_frame(canvas);
     for level in [-ALLOWED_DB, ALLOWED_DB] {
-        panel.horizontal_line(canvas, level, Stroke::new(ink::LIGHT, size::FRAME).dashed());
+        panel.horizontal_line(canvas, level, Stroke::new(ink::GREY, size::FRAME).dotted());
     }
     for freq_hz in [BAND_HZ.0, BAND_HZ.1] {
         panel.vertical_line(
             canvas,
             freq_hz,
-            Stroke::new(ink::LIGHT, size::FRAME).dashed(),
+            Stroke::new(ink::GREY, size::FRAME).dotted(),
         );
     }
     let without = Stroke::new(ink::BLUE, size::LINE);
-    let with = Stroke::new(ink::VERMILION, size::LINE);
+    let with = Stroke::new(ink::VERMILION, size::LINE).dashed();
     panel.line(canvas, before, without);
     panel.line(canvas, after, with);
-    let area = panel.area();
     let keys = [
         (Key::Line(without), "without the filter"),
         (Key::Line(with), "with it"),
         (
-            Key::Line(Stroke::new(ink::LIGHT, size::FRAME).dashed()),
+            Key::Line(Stroke::new(ink::GREY, size::FRAME).dotted()),
             "±3 dB, 40 to 400 Hz",
         ),
     ];
-    legend(canvas, (area.x, area.y - 22.0), area.right(), &keys);
+    panel.legend(canvas, &keys);
 }
 
 fn coherence(canvas: &mut Canvas, outer: Rect, response: &Response) {
@@ -107,7 +106,7 @@ fn coherence(canvas: &mut Canvas, outer: Rect, response: &Response) {
         "How far the acceleration follows from the force",
     );
     panel.draw_frame(canvas);
-    let least = Stroke::new(ink::LIGHT, size::FRAME).dashed();
+    let least = Stroke::new(ink::GREY, size::FRAME).dotted();
     panel.horizontal_line(canvas, LEAST_COHERENCE, least);
     let stroke = Stroke::new(ink::GREEN, size::LINE);
     let points = response
@@ -115,10 +114,9 @@ fn coherence(canvas: &mut Canvas, outer: Rect, response: &Response) {
         .iter()
         .map(|point| (point.freq_hz, point.coherence));
     panel.line(canvas, points, stroke);
-    let area = panel.area();
     let keys = [
         (Key::Line(stroke), "coherence"),
         (Key::Line(least), "least that makes a filter"),
     ];
-    legend(canvas, (area.x, area.y - 22.0), area.right(), &keys);
+    panel.legend(canvas, &keys);
 }

@@ -3,8 +3,7 @@
 use asperity_host::latency::{Run, Wakeups};
 use asperity_host::servo::Stage;
 use asperity_plot::{
-    Axis, Canvas, Color, Key, Margins, Marker, Panel, PlotError, Rect, Stroke, TextStyle, ink,
-    legend, size,
+    Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, TextStyle, ink, size,
 };
 use hdrhistogram::Histogram;
 
@@ -13,14 +12,17 @@ const HEADING_PX: f32 = 130.0;
 /// Steps of the percentile in each half of the distance to 100 %.
 const STEPS: u32 = 8;
 
-/// Stages that are drawn, with their colours. The interval between wake-ups is about a period and
-/// would hide the others. The later ones cover the earlier ones.
-const DRAWN: [(Stage, Color, &str); 5] = [
-    (Stage::Total, ink::LIGHT, "due to written"),
-    (Stage::WakeUp, ink::BLUE, "wake-up"),
-    (Stage::Read, ink::GREEN, "read"),
-    (Stage::Compute, ink::VERMILION, "compute"),
-    (Stage::Write, ink::ORANGE, "write"),
+/// The sum of the stages is wider, since its largest part lies upon it.
+const TOTAL: Stroke = Stroke::new(ink::LIGHT, 2.5 * size::LINE);
+const CYCLICTEST: Stroke = Stroke::category(4, size::LINE);
+/// Stages that are drawn. The interval between wake-ups is about a period and would hide the
+/// others. The later ones cover the earlier ones.
+const DRAWN: [(Stage, Stroke, &str); 5] = [
+    (Stage::Total, TOTAL, "due to written"),
+    (Stage::WakeUp, Stroke::category(0, size::LINE), "wake-up"),
+    (Stage::Read, Stroke::category(1, size::LINE), "read"),
+    (Stage::Compute, Stroke::category(2, size::LINE), "compute"),
+    (Stage::Write, Stroke::category(3, size::LINE), "write"),
 ];
 
 /// Draws a run as PNG.
@@ -87,12 +89,9 @@ fn period_stroke() -> Stroke {
 }
 
 fn panel(outer: Rect, x: Axis, y: Axis, letter: char, title: &str) -> Panel {
-    let mut panel = Panel::new(outer, x, y).letter(letter).title(title);
-    panel.margins = Margins {
-        top: 142.0,
-        right: 48.0,
-        ..panel.margins
-    };
+    let panel = Panel::new(outer, x, y).letter(letter).title(title);
+    let mut panel = panel.with_legend(2);
+    panel.margins.right = 48.0;
     panel
 }
 
@@ -108,58 +107,47 @@ fn latencies(label: &str, largest_ns: u64) -> Axis {
     Axis::log(label, LOWEST_US, 2.0 * us(largest_ns).max(1.0))
 }
 
-/// Points (one tick in so many, µs) of a distribution.
+/// Points (percentile, µs) of a distribution, up to the largest value.
 fn curve(histogram: &Histogram<u64>) -> Vec<(f64, f64)> {
-    let total = histogram.len() as f64;
+    let last = 1.0 - 1.0 / histogram.len() as f64;
     let steps = histogram.iter_quantiles(STEPS);
     let points = steps.map(|step| {
-        let beyond = (1.0 - step.quantile_iterated_to()).max(1.0 / total);
-        (1.0 / beyond, us(step.value_iterated_to()))
+        let percentile = 100.0 * step.quantile_iterated_to().min(last);
+        (percentile, us(step.value_iterated_to()))
     });
     points.collect()
 }
 
-/// The sum of the stages is wider, since its largest part lies upon it.
-fn stroke_of(stage: Stage, color: Color) -> Stroke {
-    let wider = if stage == Stage::Total { 2.5 } else { 1.0 };
-    Stroke::new(color, wider * size::LINE)
-}
-
 fn percentiles(canvas: &mut Canvas, outer: Rect, run: &Run, cyclictest: Option<&Wakeups>) {
-    let ticks = run.facts.ticks.max(10) as f64;
     let corrected = run.corrected(Stage::WakeUp);
     let largest = run.raw(Stage::Total).max().max(corrected.max());
     let largest = largest.max(cyclictest.map_or(0, |wakeups| wakeups.max_ns));
     let panel = panel(
         outer,
-        Axis::log("One tick in so many takes longer", 1.0, ticks),
+        Axis::percentiles("Percentile of the ticks (%)", run.facts.ticks.max(10)),
         latencies("Latency (µs)", largest),
         'a',
         "Percentiles",
     );
     panel.draw_frame(canvas);
     let period = us(run.facts.period_ns);
-    panel.line(canvas, [(1.0, period), (ticks, period)], period_stroke());
+    panel.horizontal_line(canvas, period, period_stroke());
     let mut keys = Vec::new();
-    for (stage, color, name) in DRAWN {
-        let stroke = stroke_of(stage, color);
+    for (stage, stroke, name) in DRAWN {
         panel.line(canvas, curve(&run.raw(stage)), stroke);
         keys.push((Key::Line(stroke), name));
     }
-    let mut others = vec![(Key::Line(period_stroke()), "a period")];
+    keys.push((Key::Line(period_stroke()), "a period"));
     if let Some(wakeups) = cyclictest {
-        let stroke = Stroke::new(ink::SKY, size::LINE);
-        panel.line(canvas, curve(&wakeups.counts.histogram()), stroke);
-        others.push((Key::Line(stroke), "cyclictest's wake-up"));
+        panel.line(canvas, curve(&wakeups.counts.histogram()), CYCLICTEST);
+        keys.push((Key::Line(CYCLICTEST), "cyclictest's wake-up"));
     }
     if corrected != run.raw(Stage::WakeUp) {
-        let stroke = Stroke::new(ink::BLUE, size::LINE).dashed();
+        let stroke = Stroke::new(ink::BLUE, size::LINE).dotted();
         panel.line(canvas, curve(&corrected), stroke);
-        others.push((Key::Line(stroke), "wake-up, corrected for omitted ticks"));
+        keys.push((Key::Line(stroke), "wake-up, corrected for omitted ticks"));
     }
-    let area = panel.area();
-    legend(canvas, (area.x, area.y - 52.0), area.right(), &keys);
-    legend(canvas, (area.x, area.y - 22.0), area.right(), &others);
+    panel.legend(canvas, &keys);
 }
 
 fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
@@ -175,10 +163,9 @@ fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
     );
     panel.draw_frame(canvas);
     let period = us(run.facts.period_ns);
-    panel.line(canvas, [(0.0, period), (end_s, period)], period_stroke());
+    panel.horizontal_line(canvas, period, period_stroke());
     let mut keys = Vec::new();
-    for (stage, color, name) in DRAWN {
-        let stroke = stroke_of(stage, color);
+    for (stage, stroke, name) in DRAWN {
         let longest = run.intervals.iter().filter_map(|interval| {
             let (ns, _) = interval.stage(stage).0.last()?;
             Some((interval.start_s + 0.5 * interval.length_s, us(*ns)))
@@ -198,11 +185,7 @@ fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
         Some(outline),
     );
     let key = Key::Point(Marker::Circle, 7.0, Some(ink::PAPER), Some(outline));
-    let area = panel.area();
-    legend(canvas, (area.x, area.y - 52.0), area.right(), &keys);
-    let worst = [
-        (Key::Line(period_stroke()), "a period"),
-        (key, "the ten worst ticks"),
-    ];
-    legend(canvas, (area.x, area.y - 22.0), area.right(), &worst);
+    keys.push((Key::Line(period_stroke()), "a period"));
+    keys.push((key, "the ten worst ticks"));
+    panel.legend(canvas, &keys);
 }

@@ -51,7 +51,8 @@ pub(super) fn tap(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
     .letter('f')
     .title(title);
     panel.draw_frame(canvas);
-    let [total, transient] = [ink::VERMILION, ink::BLUE].map(|c| Stroke::new(c, size::LINE));
+    let total = Stroke::new(ink::VERMILION, 1.6 * size::LINE);
+    let transient = Stroke::new(ink::BLUE, size::LINE);
     panel.vertical_line(canvas, 0.0, Stroke::new(ink::BLACK, size::FRAME).dashed());
     panel.line(canvas, part.iter().map(|&(t, z, _)| (t, z)), total);
     panel.line(canvas, part.iter().map(|&(t, _, tap)| (t, tap)), transient);
@@ -119,7 +120,7 @@ pub(super) fn spectra(
     let key = TextStyle::new(size::TICK);
     let area = panel.area();
     for (index, (name, curve)) in curves.into_iter().enumerate() {
-        let stroke = Stroke::new(ink::category(index), size::LINE);
+        let stroke = Stroke::category(index, size::LINE);
         panel.line(canvas, curve, stroke);
         let text = name.trim_start_matches("stroke ").to_owned();
         let y = area.y + 30.0 + 32.0 * index as f32;

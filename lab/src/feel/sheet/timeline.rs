@@ -53,7 +53,7 @@ pub(super) fn plane(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
     let panel = framed(canvas, recording, outer, axis, 'a', "Position in the plane");
     let (blue, green) = (
         Stroke::new(ink::BLUE, size::LINE),
-        Stroke::new(ink::GREEN, size::LINE),
+        Stroke::new(ink::GREEN, size::LINE).dashed(),
     );
     line(canvas, &panel, recording, &x, blue);
     line(canvas, &panel, recording, &y, green);
@@ -143,8 +143,10 @@ pub(super) fn force(canvas: &mut Canvas, recording: &Recording, outer: Rect) {
     let all = x.iter().chain(&y).chain(&z).copied();
     let axis = Axis::covering("Force (N)", all).ticks_about(6);
     let panel = framed(canvas, recording, outer, axis, 'c', "Force on the hand");
-    let [blue, green, red] = [ink::BLUE, ink::GREEN, ink::VERMILION].map(|c| Stroke::new(c, 2.0));
-    let meant = Stroke::new(ink::BLACK, 2.0).dashed();
+    let [blue, green] = [ink::BLUE, ink::GREEN].map(|c| Stroke::new(c, 2.0));
+    let green = green.dashed();
+    let red = Stroke::new(ink::VERMILION, 3.5);
+    let meant = Stroke::new(ink::BLACK, 2.0).dotted();
     line(canvas, &panel, recording, &x, blue);
     line(canvas, &panel, recording, &y, green);
     line(canvas, &panel, recording, &z, red);

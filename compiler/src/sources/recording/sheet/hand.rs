@@ -1,7 +1,9 @@
 //! What the hand did: motion, coverage, friction, taps.
 
 use super::Shown;
-use asperity_plot::{Axis, Canvas, Color, ColorMap, ColorScale, Marker, Panel, Rect, Stroke, ink};
+use asperity_plot::{
+    Axis, Canvas, ColorMap, ColorScale, Key, Marker, Panel, Rect, Stroke, ink, size,
+};
 use asperity_recording::{impact::TAP_RATE_HZ, timeline::RATE_HZ};
 
 /// Points of a drawn time series.
@@ -67,36 +69,41 @@ pub(super) fn motion(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
     }
 }
 
-fn plane(rect: Rect, import: &Shown<'_>, letter: char, title: &str) -> Panel {
+/// Where the strokes were, and where the vertices stand.
+pub(super) fn coverage(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
     let grid = &import.whole.grid;
     let largest = |pick: fn(&asperity_texture::model::GridVertex) -> f64| {
         grid.vertices.iter().map(pick).fold(0.0, f64::max)
     };
-    Panel::new(
+    let panel = Panel::new(
         rect,
         Axis::new("Speed (mm/s)", 0.0, largest(|v| v.speed_mm_s)),
         Axis::new("Load (N)", 0.0, largest(|v| v.force_n)),
     )
-    .letter(letter)
-    .title(title)
-}
-
-/// Where the strokes were, and where the vertices stand.
-pub(super) fn coverage(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
-    let panel = plane(rect, import, 'c', "Segments and vertices");
+    .letter('c')
+    .title("Where it was stroked")
+    .with_legend(1);
     panel.draw_frame(canvas);
-    let grid = &import.whole.grid;
+    let edges = Stroke::new(ink::LIGHT, 1.0);
+    let ring = Some(Stroke::new(ink::VERMILION, 3.0));
+    panel.legend(
+        canvas,
+        &[
+            (
+                Key::Point(Marker::Circle, 4.0, Some(ink::BLUE), None),
+                "segments used",
+            ),
+            (Key::Point(Marker::Circle, 9.0, None, ring), "vertices"),
+            (Key::Line(edges), "grid"),
+        ],
+    );
     for triangle in &grid.triangles {
         let corner = |n: usize| {
             let v = &grid.vertices[triangle[n % 3]];
             (v.speed_mm_s, v.force_n)
         };
         let outline: Vec<(f64, f64)> = (0..4).map(corner).collect();
-        panel.line(
-            canvas,
-            outline.iter().copied(),
-            Stroke::new(ink::LIGHT, 1.0),
-        );
+        panel.line(canvas, outline, edges);
     }
     let dots: Vec<(f64, f64)> = import
         .analysis
@@ -113,14 +120,7 @@ pub(super) fn coverage(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
         .iter()
         .map(|v| (v.speed_mm_s, v.force_n))
         .collect();
-    panel.points(
-        canvas,
-        vertices,
-        Marker::Circle,
-        11.0,
-        None,
-        Some(Stroke::new(ink::VERMILION, 3.0)),
-    );
+    panel.points(canvas, vertices, Marker::Circle, 11.0, None, ring);
 }
 
 /// Drag over load, with μ.
@@ -134,6 +134,7 @@ pub(super) fn friction(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
             .map(|n| (timeline.load_n[n], drag[n]))
             .collect()
     });
+    let recorded = !points.is_empty();
     let most = points.iter().map(|p| p.0).fold(0.1, f64::max);
     let title = match &analysis.friction {
         Some(friction) => format!(
@@ -157,7 +158,8 @@ pub(super) fn friction(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
         Axis::covering("Drag (N)", points.iter().map(|p| p.1).chain([0.0])),
     )
     .letter('g')
-    .title(title);
+    .title(title)
+    .with_legend(1);
     panel.draw_frame(canvas);
     panel.points(
         canvas,
@@ -169,14 +171,24 @@ pub(super) fn friction(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
     );
     let friction = &import.whole.friction;
     let ray = |mu: f64| [(0.0, 0.0), (most, mu * most)];
-    panel.line(canvas, ray(friction.mu), Stroke::new(ink::VERMILION, 3.0));
+    let rendered = Stroke::new(ink::VERMILION, 3.0);
+    let at_ends = Stroke::new(ink::VERMILION, 2.0).dashed();
+    panel.line(canvas, ray(friction.mu), rendered);
+    let mut keys = vec![(Key::Line(rendered), "texture")];
+    if recorded {
+        let dot = Key::Point(Marker::Circle, 4.0, Some(ink::BLUE.alpha(120)), None);
+        keys.insert(0, (dot, "recorded"));
+    }
     // What is rendered at the slowest and at the fastest recorded speed.
     let points = friction.law.as_ref().map(|law| &law.points);
     let ends = points.into_iter().flat_map(|p| [p.first(), p.last()]);
     for point in ends.flatten() {
-        let stroke = Stroke::new(ink::VERMILION, 2.0).dashed();
-        panel.line(canvas, ray(friction.mu * point.factor), stroke);
+        panel.line(canvas, ray(friction.mu * point.factor), at_ends);
     }
+    if friction.law.is_some() {
+        keys.push((Key::Line(at_ends), "texture, slowest and fastest"));
+    }
+    panel.legend(canvas, &keys);
 }
 
 /// The transients of the texture.
@@ -198,25 +210,20 @@ pub(super) fn taps(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
     } else {
         TAP_RATE_HZ
     };
-    let title = format!("Taps, {}: a trace for each impact speed", import.parts.taps);
-    let panel = Panel::new(
+    let mut panel = Panel::new(
         rect,
         Axis::new("Time (ms)", 0.0, 1e3 * length as f64 / rate),
         Axis::covering("Acceleration (m/s²)", values().chain([0.0])),
     )
     .letter('h')
-    .title(title);
+    .title(format!("Taps, {}", import.parts.taps));
+    panel.margins.right = 150.0;
     panel.draw_frame(canvas);
     let fastest = bank.traces.last().map_or(1.0, |t| t.speed_m_s);
-    let scale = ColorScale::new(ColorMap::Viridis, 0.0, fastest);
+    let scale = ColorScale::new(ColorMap::Plasma, 0.0, fastest);
     for trace in &bank.traces {
-        let color: Color = scale.color(trace.speed_m_s);
-        panel.series(
-            canvas,
-            0.0,
-            1e3 / rate,
-            &trace.accel_m_s2,
-            Stroke::new(color, 2.0),
-        );
+        let stroke = Stroke::new(scale.color(trace.speed_m_s), size::LINE);
+        panel.series(canvas, 0.0, 1e3 / rate, &trace.accel_m_s2, stroke);
     }
+    panel.colorbar(canvas, &scale, "Impact speed (m/s)");
 }

@@ -1,7 +1,7 @@
 //! What became of it: spectra, how the grid was chosen, how sure it is.
 
 use crate::sources::recording::{grid::Tried, sheet::Shown};
-use asperity_plot::{Axis, Canvas, Key, Marker, Panel, Rect, Stroke, ink, legend};
+use asperity_plot::{Axis, Canvas, Key, Marker, Panel, Rect, Stroke, ink};
 use asperity_recording::steady::frequencies_hz;
 use asperity_texture::model::mixture::Field;
 
@@ -60,33 +60,23 @@ pub(super) fn spectra(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>, part:
         Axis::covering("Power (dB re 1 (m/s²)²)", values),
     )
     .letter(if part == 0 { 'd' } else { 'e' })
-    .title(title);
+    .title(title)
+    .with_legend(1);
     panel.draw_frame(canvas);
-    panel.line(
-        canvas,
-        measured.iter().copied(),
-        Stroke::new(ink::GREY, 2.0),
-    );
-    if let Some(noise) = noise {
-        panel.line(canvas, noise.iter().copied(), Stroke::new(ink::LIGHT, 2.0));
-    }
-    panel.line(
-        canvas,
-        model.iter().copied(),
-        Stroke::new(ink::VERMILION, 3.0),
-    );
-    let area = panel.area();
-    let keys = [
-        (Key::Line(Stroke::new(ink::GREY, 2.0)), "recorded"),
-        (Key::Line(Stroke::new(ink::VERMILION, 3.0)), "texture"),
-        (Key::Line(Stroke::new(ink::LIGHT, 2.0)), "sensor in the air"),
+    let recorded = Stroke::new(ink::GREY, 2.0);
+    let rendered = Stroke::new(ink::VERMILION, 3.0);
+    let sensor = Stroke::new(ink::GREY, 2.0).dotted();
+    let mut keys = vec![
+        (Key::Line(recorded), "recorded"),
+        (Key::Line(rendered), "texture"),
     ];
-    legend(
-        canvas,
-        (area.x + area.width - 260.0, area.y + 24.0),
-        area.x + area.width,
-        &keys,
-    );
+    panel.line(canvas, measured, recorded);
+    if let Some(noise) = noise {
+        panel.line(canvas, noise, sensor);
+        keys.push((Key::Line(sensor), "sensor in the air"));
+    }
+    panel.line(canvas, model, rendered);
+    panel.legend(canvas, &keys);
 }
 
 /// Held-out error over the number of vertices, and over the AR order.
@@ -127,33 +117,22 @@ pub(super) fn held_out(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
         Axis::covering("Held-out excess (nats)", values),
     )
     .letter('f')
-    .title("How vertices and order were chosen");
+    .title("How vertices and order were chosen")
+    .with_legend(1);
     panel.draw_frame(canvas);
-    for (points, color, marker) in [
-        (&by_count, ink::BLUE, Marker::Circle),
-        (&by_order, ink::VERMILION, Marker::Diamond),
-    ] {
-        panel.line(canvas, points.iter().copied(), Stroke::new(color, 2.0));
-        panel.points(
-            canvas,
-            points.iter().copied(),
-            marker,
-            7.0,
-            Some(color),
-            None,
-        );
-    }
-    let area = panel.area();
-    let keys = [
-        (Key::Line(Stroke::new(ink::BLUE, 2.0)), "vertices"),
-        (Key::Line(Stroke::new(ink::VERMILION, 2.0)), "AR order"),
-    ];
-    legend(
-        canvas,
-        (area.x + area.width - 180.0, area.y + 24.0),
-        area.x + area.width,
-        &keys,
-    );
+    let drawn = [(by_count, "vertices"), (by_order, "AR order")];
+    let keys = drawn
+        .into_iter()
+        .enumerate()
+        .map(|(index, (points, name))| {
+            let stroke = Stroke::category(index, 2.0);
+            let (marker, fill) = (Marker::category(index), Some(stroke.color));
+            panel.line(canvas, points.iter().copied(), stroke);
+            panel.points(canvas, points, marker, 7.0, fill, None);
+            (Key::Point(marker, 7.0, fill, None), name)
+        });
+    let keys: Vec<_> = keys.collect();
+    panel.legend(canvas, &keys);
 }
 
 /// Seconds behind each vertex, and how far its residual is from white.

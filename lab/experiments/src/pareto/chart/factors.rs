@@ -3,15 +3,18 @@
 use super::costs::Costs;
 use super::errors::{BUDGET, error_axis, within};
 use super::labels::Labels;
-use super::mark::mark;
+use super::mark::{DEFAULT, UNSTABLE, mark, of_factor};
 use super::picture::{Picture, finished};
 use crate::pareto::measure::Results;
 use crate::pareto::summary::VariantSummary;
 use asperity::reduce::BUDGET_DB;
 use asperity_kernels::design::Factor;
-use asperity_plot::{Canvas, Marker, Panel, PlotError, Rect, ink};
+use asperity_plot::{Canvas, Key, Marker, Panel, PlotError, Rect, ink, legend};
 
-const SIZE: (f32, f32) = (2200.0, 2720.0);
+const SIZE: (f32, f32) = (2200.0, 2780.0);
+/// Height of the legend, which holds for every panel.
+const LEGEND: f32 = 60.0;
+const OTHER: Key = Key::Point(Marker::Circle, 5.0, Some(ink::LIGHT), None);
 const COLUMNS: usize = 2;
 
 /// The error by which the variants of a factor differ.
@@ -47,10 +50,23 @@ impl Measure {
 pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
     let mut canvas = Canvas::recording(SIZE.0 as u32, SIZE.1 as u32)?;
     let costs = Costs::of(results);
-    let (width, height) = (SIZE.0 / COLUMNS as f32, SIZE.1 / 4.0);
+    let (width, height) = (SIZE.0 / COLUMNS as f32, (SIZE.1 - LEGEND) / 4.0);
+    let keys = [
+        (DEFAULT, "default"),
+        (of_factor(0), "a panel's own designs, in its colour"),
+        (UNSTABLE, "not stable everywhere"),
+        (OTHER, "designs of other panels"),
+        (Key::Line(BUDGET), "budget, 0.5 dB"),
+    ];
+    legend(&mut canvas, (120.0, 40.0), SIZE.0, &keys);
     for (index, factor) in Factor::VARIED.into_iter().enumerate() {
         let (row, column) = (index / COLUMNS, index % COLUMNS);
-        let outer = Rect::new(column as f32 * width, row as f32 * height, width, height);
+        let outer = Rect::new(
+            column as f32 * width,
+            LEGEND + row as f32 * height,
+            width,
+            height,
+        );
         draw_factor(&mut canvas, results, &costs, (index, factor), outer);
     }
     finished(&canvas)
@@ -80,7 +96,9 @@ fn draw_factor(
     panel.horizontal_line(canvas, BUDGET_DB.0, BUDGET);
     let at = |summary: &VariantSummary| (costs.value(summary), within(measure.value(summary)));
     let others = results.summaries.iter().map(at);
-    panel.points(canvas, others, Marker::Circle, 5.0, Some(ink::LIGHT), None);
+    if let Key::Point(marker, radius, fill, outline) = OTHER {
+        panel.points(canvas, others, marker, radius, fill, outline);
+    }
     for summary in &mine {
         mark(canvas, &panel, at(summary), summary);
     }

@@ -5,7 +5,7 @@ use super::picture::{Picture, finished};
 use crate::pareto::kept::Kept;
 use crate::pareto::measure::Results;
 use asperity::reduce::BUDGET_DB;
-use asperity_plot::{Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend};
+use asperity_plot::{Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink};
 
 const SIZE: (u32, u32) = (2200, 860);
 
@@ -20,14 +20,14 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
         (1..).map(f64::from).zip(values).collect()
     };
 
-    let mut saved = Panel::new(
+    let saved = Panel::new(
         Rect::new(0.0, 0.0, half, SIZE.1 as f32),
         materials(),
         Axis::new("Kept of the whole texture (share)", 0.0, 1.05),
     )
     .letter('a')
-    .title("What auto keeps");
-    saved.margins.top = 110.0;
+    .title("What auto keeps")
+    .with_legend(1);
     saved.draw_frame(&mut canvas);
     saved.horizontal_line(&mut canvas, 0.5, Stroke::new(ink::GREY, 2.0).dotted());
     let ratio = |full: usize, kept: usize| Some(kept as f64 / full.max(1) as f64);
@@ -53,24 +53,24 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
         ),
     ];
     let mut keys = Vec::new();
-    for (name, color, points) in series {
+    for (index, (name, color, points)) in series.into_iter().enumerate() {
         if points.is_empty() {
             continue;
         }
-        saved.points(&mut canvas, points, Marker::Circle, 6.0, Some(color), None);
-        keys.push((Key::Point(Marker::Circle, 7.0, Some(color), None), name));
+        let marker = Marker::category(index);
+        saved.points(&mut canvas, points, marker, 6.0, Some(color), None);
+        keys.push((Key::Point(marker, 7.0, Some(color), None), name));
     }
-    let area = saved.area();
-    legend(&mut canvas, (area.x, area.y - 26.0), area.right(), &keys);
+    saved.legend(&mut canvas, &keys);
 
-    let mut lost = Panel::new(
+    let lost = Panel::new(
         Rect::new(half, 0.0, half, SIZE.1 as f32),
         materials(),
         Axis::new("Distortion over the grid (dB)", 0.0, 1.15),
     )
     .letter('b')
-    .title("What that costs");
-    lost.margins.top = 110.0;
+    .title("What that costs")
+    .with_legend(1);
     lost.draw_frame(&mut canvas);
     lost.horizontal_line(&mut canvas, BUDGET_DB.0, BUDGET);
     lost.horizontal_line(&mut canvas, BUDGET_DB.1, BUDGET);
@@ -87,12 +87,12 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
         ),
     ];
     let mut keys = Vec::new();
-    for (name, color, points) in series {
-        lost.points(&mut canvas, points, Marker::Circle, 6.0, Some(color), None);
-        keys.push((Key::Point(Marker::Circle, 7.0, Some(color), None), name));
+    for (index, (name, color, points)) in series.into_iter().enumerate() {
+        let marker = Marker::category(index);
+        lost.points(&mut canvas, points, marker, 6.0, Some(color), None);
+        keys.push((Key::Point(marker, 7.0, Some(color), None), name));
     }
     keys.push((Key::Line(BUDGET), "budgets, 0.5 and 1 dB"));
-    let area = lost.area();
-    legend(&mut canvas, (area.x, area.y - 26.0), area.right(), &keys);
+    lost.legend(&mut canvas, &keys);
     finished(&canvas)
 }

@@ -3,21 +3,22 @@
 use super::costs::Costs;
 use super::errors::{BUDGET, error_axis, larger_error};
 use super::labels::Labels;
-use super::mark::{color, mark};
+use super::mark::{DEFAULT, UNSTABLE, mark, of_factor};
 use super::picture::{Picture, finished};
 use crate::pareto::front::on_front;
 use crate::pareto::measure::Results;
 use crate::pareto::summary::VariantSummary;
 use asperity::reduce::BUDGET_DB;
 use asperity_kernels::design::{Factor, Order};
-use asperity_plot::{Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink, legend};
+use asperity_plot::{Canvas, Key, Panel, PlotError, Rect, Stroke, ink};
 
 const SIZE: (u32, u32) = (2000, 1300);
+const FRONT: Stroke = Stroke::new(ink::LIGHT, 3.0);
 
 pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
     let mut canvas = Canvas::recording(SIZE.0, SIZE.1)?;
     let costs = Costs::of(results);
-    let mut panel = Panel::new(
+    let panel = Panel::new(
         Rect::new(0.0, 0.0, SIZE.0 as f32, SIZE.1 as f32),
         costs.axis(&results.summaries),
         error_axis("p95 of the larger error, at rest or in motion (dB)"),
@@ -25,8 +26,8 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
     .title(format!(
         "Cost and error of every design over {} materials",
         results.materials.len()
-    ));
-    panel.margins.top = 150.0;
+    ))
+    .with_legend(2);
     panel.draw_frame(&mut canvas);
     panel.horizontal_line(&mut canvas, BUDGET_DB.0, BUDGET);
     draw_legend(&mut canvas, &panel);
@@ -51,11 +52,7 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
         }
         steps.push(points[index]);
     }
-    panel.line(
-        &mut canvas,
-        steps.iter().copied(),
-        Stroke::new(ink::LIGHT, 3.0),
-    );
+    panel.line(&mut canvas, steps.iter().copied(), FRONT);
 
     let every = results
         .summaries
@@ -96,32 +93,14 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
 }
 
 fn draw_legend(canvas: &mut Canvas, panel: &Panel) {
-    let point = |index| Key::Point(Marker::Circle, 8.0, Some(color(index)), None);
-    let mut entries: Vec<(Key, &str)> = Factor::VARIED
-        .iter()
-        .enumerate()
-        .map(|(index, factor)| (point(index), factor.name()))
-        .collect();
-    let area = panel.area();
-    let second = entries.split_off(4);
-    let right = area.right() + 20.0;
-    let end = legend(canvas, (area.x, area.y - 62.0), right, &entries);
-    let outline = Some(Stroke::new(ink::VERMILION, 2.5));
-    let more = [
-        (
-            Key::Point(Marker::Cross, 9.0, None, outline),
-            "not stable everywhere",
-        ),
+    let factors = Factor::VARIED.iter().enumerate();
+    let factors = factors.map(|(index, factor)| (of_factor(index), factor.name()));
+    let others = [
+        (UNSTABLE, "not stable everywhere"),
+        (DEFAULT, "default"),
+        (Key::Line(FRONT), "front"),
         (Key::Line(BUDGET), "budget, 0.5 dB"),
     ];
-    legend(canvas, (end + 28.0, area.y - 62.0), right, &more);
-    let end = legend(canvas, (area.x, area.y - 26.0), right, &second);
-    let more = [
-        (
-            Key::Point(Marker::Diamond, 11.0, Some(ink::BLACK), None),
-            "default",
-        ),
-        (Key::Line(Stroke::new(ink::LIGHT, 3.0)), "front"),
-    ];
-    legend(canvas, (end + 28.0, area.y - 26.0), right, &more);
+    let keys: Vec<_> = factors.chain(others).collect();
+    panel.legend(canvas, &keys);
 }

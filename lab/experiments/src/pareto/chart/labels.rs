@@ -1,6 +1,9 @@
 //! Names beside points, placed so that none overlaps another.
 
-use asperity_plot::{Align, Canvas, Color, Rect, TextStyle, VAlign, size};
+use asperity_plot::{Align, Canvas, Color, Rect, Stroke, TextStyle, VAlign, ink, size};
+
+/// From a point to a name that stands off.
+const LEADER: Stroke = Stroke::new(ink::GREY, 1.0);
 
 /// The places that are taken.
 pub(super) struct Labels {
@@ -33,7 +36,8 @@ impl Labels {
         }
     }
 
-    /// Sets a name beside a point where there is room, and leaves it out where there is none.
+    /// Sets a name beside a point where there is room, with a line to the point if others stand
+    /// between, and leaves it out where there is no room.
     pub(super) fn set(&mut self, canvas: &mut Canvas, text: &str, at: (f32, f32), color: Color) {
         let style = TextStyle::new(size::TICK - 2.0)
             .color(color)
@@ -56,6 +60,11 @@ impl Labels {
             inside && !self.taken.iter().any(|other| overlap(other, &rect))
         });
         if let Some((left, middle)) = free {
+            let near = (x.clamp(left, left + width), middle);
+            if (near.1 - y).abs() > 0.8 * height {
+                let edge = near.1 - 0.5 * height * (near.1 - y).signum();
+                canvas.line(&[at, (near.0, edge)], LEADER, None);
+            }
             canvas.text(text, (left, middle), &style);
             self.taken
                 .push(Rect::new(left, middle - 0.5 * height, width, height));

@@ -1,15 +1,37 @@
-//! The point of a design.
+//! The point of a design, and its key in a legend.
 
 use crate::pareto::summary::VariantSummary;
 use asperity_kernels::design::Factor;
-use asperity_plot::{Canvas, Color, Marker, Panel, Stroke, ink};
+use asperity_plot::{Canvas, Color, Key, Marker, Panel, Stroke, ink};
 
-/// Colour of a factor's points.
-pub(super) fn color(index: usize) -> Color {
-    pub(super) const MORE: [Color; 2] = [Color::rgb(120, 94, 40), Color::rgb(60, 60, 150)];
-    match index {
+/// The default among all other designs.
+pub(super) const DEFAULT: Key = Key::Point(Marker::Diamond, 12.0, Some(ink::BLACK), None);
+/// A design that is not stable everywhere.
+pub(super) const UNSTABLE: Key = Key::Point(
+    Marker::Cross,
+    10.0,
+    None,
+    Some(Stroke::new(ink::VERMILION, 3.0)),
+);
+
+/// The point of a factor's designs: a colour and, in grey, a shape of its own.
+pub(super) fn of_factor(index: usize) -> Key {
+    const MORE: [Color; 2] = [Color::rgb(120, 94, 40), Color::rgb(60, 60, 150)];
+    const SHAPES: [Marker; 3] = [Marker::Circle, Marker::Square, Marker::Triangle];
+    let color = match index {
         0..6 => ink::category(index),
         _ => MORE[index % 2],
+    };
+    let shape = SHAPES[index % 3];
+    match index / 3 {
+        0 => Key::Point(shape, 8.0, Some(color), None),
+        1 => Key::Point(shape, 7.0, Some(ink::PAPER), Some(Stroke::new(color, 3.5))),
+        _ => Key::Point(
+            Marker::Diamond,
+            7.0,
+            [Some(color), Some(ink::PAPER)][index % 2],
+            Some(Stroke::new(color, 3.0)),
+        ),
     }
 }
 
@@ -18,15 +40,12 @@ pub(super) fn mark(canvas: &mut Canvas, panel: &Panel, at: (f64, f64), summary: 
     let index = Factor::VARIED
         .iter()
         .position(|f| *f == summary.variant.factor);
-    let (marker, radius, fill, outline) = match index {
-        None => (Marker::Diamond, 12.0, Some(ink::BLACK), None),
-        Some(_) if summary.unstable > 0.0 => (
-            Marker::Cross,
-            10.0,
-            None,
-            Some(Stroke::new(ink::VERMILION, 3.0)),
-        ),
-        Some(index) => (Marker::Circle, 8.0, Some(color(index)), None),
+    let key = match index {
+        None => DEFAULT,
+        Some(_) if summary.unstable > 0.0 => UNSTABLE,
+        Some(index) => of_factor(index),
     };
-    panel.points(canvas, [at], marker, radius, fill, outline);
+    if let Key::Point(marker, radius, fill, outline) = key {
+        panel.points(canvas, [at], marker, radius, fill, outline);
+    }
 }

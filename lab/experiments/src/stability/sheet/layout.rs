@@ -1,6 +1,6 @@
-//! The width, headings and legends that the sheets share.
+//! The width and headings that the sheets share.
 
-use asperity_plot::{Canvas, Key, Panel, TextStyle, ink, legend, size};
+use asperity_plot::{Canvas, TextStyle, ink, size};
 
 pub(super) const WIDTH_PX: f32 = 2400.0;
 
@@ -10,10 +10,4 @@ pub(super) fn heading(canvas: &mut Canvas, title: &str, below: &str) {
     let style = TextStyle::new(size::LABEL).color(ink::GREY);
     let line = canvas.fitted(below, &style, WIDTH_PX - 60.0);
     canvas.text(&line, (30.0, 106.0), &style);
-}
-
-/// A legend between a panel's title and its frame.
-pub(super) fn keys(canvas: &mut Canvas, panel: &Panel, entries: &[(Key, &str)]) {
-    let area = panel.area();
-    legend(canvas, (area.x, area.y - 22.0), area.right(), entries);
 }

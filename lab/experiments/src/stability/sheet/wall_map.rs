@@ -2,16 +2,18 @@
 //! by the bound.
 
 use asperity_plot::{
-    Axis, Canvas, ColorMap, ColorScale, Key, Margins, Marker, Panel, Rect, Stroke, ink, size,
+    Axis, Canvas, Color, ColorMap, ColorScale, Key, Margins, Marker, Panel, Rect, Stroke, ink,
+    legend, size,
 };
 use asperity_runtime::{Passivity, Wall};
 
-use super::layout::{WIDTH_PX, heading, keys};
+use super::layout::{WIDTH_PX, heading};
 use crate::stability::error::StabilityError;
 use crate::stability::wall::{Bench, REPORTED, ROUNDING_J, law_j};
 
 const HEIGHT_PX: f32 = 1010.0;
-const HEADING_PX: f32 = 130.0;
+/// With the legend, which holds for every panel.
+const HEADING_PX: f32 = 178.0;
 /// Delays shown, ticks.
 const DELAYS: [u32; 3] = [0, 1, 2];
 /// Physical damping shown, N·s/m, and stiffness, N/m.
@@ -34,6 +36,13 @@ pub fn wall_map() -> Result<Vec<u8>, StabilityError> {
         "Largest net energy to a hand that moves the stylus as it likes, 1–460 Hz below 0.65 m/s, \
          1 kHz, no friction; cells: rendered damping 0",
     );
+    let keys = [
+        (Key::Line(BOUND), "bound, rendered damping 0"),
+        (Key::Line(DAMPED), "bound, rendered damping 0.2 N·s/m"),
+        (MEASURED, "measured, rendered damping 0.2 N·s/m"),
+        (Key::Line(OURS), "ours, asked for 500 N/m and 0.1 N·s/m"),
+    ];
+    legend(&mut canvas, (30.0, 150.0), WIDTH_PX, &keys);
     let scale = ColorScale::new(ColorMap::Viridis, -4.0, 3.0);
     let bar_px = 150.0;
     let width = (WIDTH_PX - bar_px) / DELAYS.len() as f32;
@@ -49,7 +58,7 @@ pub fn wall_map() -> Result<Vec<u8>, StabilityError> {
         let panel = panel(outer, index, delay, extra);
         cells(&mut canvas, &panel, delay, &scale);
         panel.draw_frame(&mut canvas);
-        lines(&mut canvas, &panel, delay, index);
+        lines(&mut canvas, &panel, delay);
         if last {
             panel.colorbar(&mut canvas, &scale, "log₁₀ of energy given off (mJ)");
         }
@@ -72,7 +81,6 @@ fn panel(outer: Rect, index: usize, delay: u32, extra: f32) -> Panel {
     .title(title)
     .without_grid();
     panel.margins = Margins {
-        top: 112.0,
         right: panel.margins.right + extra,
         ..panel.margins
     };
@@ -88,16 +96,24 @@ fn cells(canvas: &mut Canvas, panel: &Panel, delay: u32, scale: &ColorScale) {
     });
 }
 
+const BOUND: Stroke = Stroke::new(ink::BLACK, size::LINE);
+const DAMPED: Stroke = BOUND.dashed();
+const OURS: Stroke = Stroke::new(ink::VERMILION, 2.0 * size::LINE);
+const DOT: (Marker, f32, Option<Color>, Option<Stroke>) = (
+    Marker::Circle,
+    7.0,
+    Some(ink::PAPER),
+    Some(Stroke::new(ink::BLACK, size::FRAME)),
+);
+const MEASURED: Key = Key::Point(DOT.0, DOT.1, DOT.2, DOT.3);
+
 /// Draws the bound without and with rendered damping, the boundary measured with it, and our
 /// wall.
-fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32, index: usize) {
-    let bound = Stroke::new(ink::BLACK, size::LINE);
-    let damped = bound.dashed();
-    let ours = Stroke::new(ink::VERMILION, 2.0 * size::LINE);
+fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32) {
     let per_stiffness = 1e-3 * (0.5 + f64::from(delay));
     let dampings =
         || (0..=200).map(|n| DAMPING.0 * (DAMPING.1 / DAMPING.0).powf(f64::from(n) / 200.0));
-    for (stroke, rendered) in [(bound, 0.0), (damped, RENDERED_N_S_M)] {
+    for (stroke, rendered) in [(BOUND, 0.0), (DAMPED, RENDERED_N_S_M)] {
         let line = dampings()
             .filter(|b| *b > rendered)
             .map(|b| (b, (b - rendered) / per_stiffness));
@@ -108,28 +124,10 @@ fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32, index: usize) {
         let wall = passivity.bear(Wall::of(REPORTED.0 as f32, REPORTED.1 as f32));
         (b, f64::from(wall.stiffness.value()))
     };
-    panel.line(canvas, dampings().map(ours_at), ours);
-    let outline = Stroke::new(ink::BLACK, size::FRAME);
+    panel.line(canvas, dampings().map(ours_at), OURS);
     let measured = [20.0, 40.0, 80.0, 160.0, 320.0, 640.0, 1280.0, 2560.0]
         .map(|stiffness| (least_damping(stiffness, delay), stiffness));
-    panel.points(
-        canvas,
-        measured,
-        Marker::Circle,
-        7.0,
-        Some(ink::PAPER),
-        Some(outline),
-    );
-    let point = Key::Point(Marker::Circle, 7.0, Some(ink::PAPER), Some(outline));
-    let entries = match index {
-        0 => vec![
-            (Key::Line(bound), "bound"),
-            (Key::Line(damped), "with B = 0.2 N·s/m"),
-        ],
-        1 => vec![(point, "measured with B = 0.2 N·s/m")],
-        _ => vec![(Key::Line(ours), "ours for 500 N/m, 0.1 N·s/m")],
-    };
-    keys(canvas, panel, &entries);
+    panel.points(canvas, measured, DOT.0, DOT.1, DOT.2, DOT.3);
 }
 
 /// Least physical damping, N·s/m, with which a wall of the rendered damping above is passive,

@@ -1,8 +1,8 @@
 //! The worst cases as waveforms, of our method and of others in the same scenario.
 
-use asperity_plot::{Axis, Canvas, Key, Margins, Panel, Rect, Stroke, ink, size};
+use asperity_plot::{Axis, Canvas, Key, Panel, Rect, Stroke, ink, size};
 
-use super::layout::{WIDTH_PX, heading, keys};
+use super::layout::{WIDTH_PX, heading};
 use crate::signal::rms;
 use crate::stability::error::StabilityError;
 use crate::stability::friction::{self, Law};
@@ -49,9 +49,10 @@ pub fn waveforms(options: &StabilityOptions) -> Result<Vec<u8>, StabilityError> 
     Ok(canvas.png()?)
 }
 
-const OURS: Stroke = Stroke::new(ink::BLUE, 1.4 * size::LINE);
+/// Told apart in grey by width and dots.
+const OURS: Stroke = Stroke::new(ink::BLUE, 1.8 * size::LINE);
 const PAPER: Stroke = Stroke::new(ink::VERMILION, size::LINE);
-const REFERENCE: Stroke = Stroke::new(ink::ORANGE, size::LINE);
+const REFERENCE: Stroke = Stroke::new(ink::ORANGE, 1.4 * size::LINE).dotted();
 
 /// A panel with its curves, the last on top.
 fn draw(
@@ -64,12 +65,9 @@ fn draw(
 ) {
     let mut panel = Panel::new(outer, axes.0, axes.1)
         .letter(letter)
-        .title(title);
-    panel.margins = Margins {
-        top: 112.0,
-        right: 48.0,
-        ..panel.margins
-    };
+        .title(title)
+        .with_legend(1);
+    panel.margins.right = 48.0;
     panel.draw_frame(canvas);
     for (_, stroke, points) in curves {
         panel.line(canvas, points.iter().copied(), *stroke);
@@ -78,7 +76,7 @@ fn draw(
         .iter()
         .map(|(name, stroke, _)| (Key::Line(*stroke), *name))
         .collect();
-    keys(canvas, &panel, &entries);
+    panel.legend(canvas, &entries);
 }
 
 fn dropped(canvas: &mut Canvas, outer: Rect) -> Result<(), StabilityError> {
