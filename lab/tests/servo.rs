@@ -20,7 +20,7 @@ fn lab(folder: &Path) -> Command {
 
 fn run(folder: &Path, arguments: &[&str]) -> Output {
     // Merging and comparing run no loop.
-    let no_loop = ["merge", "compare"].contains(&arguments[1]);
+    let no_loop = ["merge", "compare", "overlay"].contains(&arguments[1]);
     let plain = if no_loop { &PLAIN[4..] } else { &PLAIN };
     let output = lab(folder).args(arguments).args(plain).output();
     output.expect("the command starts")
@@ -238,6 +238,144 @@ fn a_run_is_written_merged_and_compared() {
     assert_eq!(median.count(), 1);
 }
 
+/// Claim: limits decide about the exit status and about nothing else, a series has a line for each
+/// tick, and a run is not replaced unawares.
+#[test]
+fn a_run_beyond_its_limits_exits_with_1_and_is_written_all_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let series = [
+        "jitter",
+        "--seconds",
+        "1",
+        "--series",
+        "ticks.csv",
+        "--out",
+        "a",
+    ];
+    let told = ok(
+        folder.path(),
+        &[&series[..], &["--max-us", "60000000", "--json"]].concat(),
+    );
+    let told = json(&told);
+    let rows = fs::read_to_string(at("ticks.csv")).expect("a series");
+    assert_eq!(
+        Some(rows.lines().count() as u64 - 1),
+        told["ticks"].as_u64()
+    );
+    assert!(rows.starts_with("period,t_s,missed,wakeup_ns,"));
+    assert_eq!(told["verdict"]["exceeded"], serde_json::json!([]));
+
+    let run_at = fs::read(at("a/run.json")).expect("a run");
+    let again = run(folder.path(), &["jitter", "--seconds", "1", "--out", "a"]);
+    let errors = String::from_utf8_lossy(&again.stderr).into_owned();
+    assert_eq!(again.status.code(), Some(1));
+    assert!(
+        errors.contains("holds a run") && errors.contains("--force"),
+        "{errors}"
+    );
+    assert_eq!(fs::read(at("a/run.json")).expect("a run"), run_at);
+
+    // A tick in ten computes for 3 ms: periods are missed, and forces come late.
+    let late = [
+        "jitter",
+        "--seconds",
+        "1",
+        "--inject",
+        "compute:3000:10",
+        "--json",
+    ];
+    for (limit, words) in [
+        (&["--max-us", "2000"][..], "--max-us 2000"),
+        (&["--max-missed", "0"], "--max-missed 0"),
+    ] {
+        let folders = ["--out", "a", "--force"];
+        let output = run(folder.path(), &[&late[..], limit, &folders].concat());
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{errors}");
+        assert!(errors.contains(words), "{errors}");
+        let told = json(&String::from_utf8(output.stdout).expect("text"));
+        assert_eq!(told["verdict"]["punctuality"], "missed");
+        let written = fs::read_to_string(at("a/run.json")).expect("a run");
+        assert_eq!(json(&written), told);
+    }
+}
+
+/// Claim: any number of runs, of ours and of other tools, are drawn over each other and tabled.
+#[test]
+fn runs_are_laid_over_each_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    ok(
+        folder.path(),
+        &[
+            "jitter",
+            "--seconds",
+            "1",
+            "--out",
+            "a",
+            "--series",
+            "b.csv",
+        ],
+    );
+    fs::write(
+        at("c.json"),
+        r#"{"thread": {"0": {"cycles": 3, "max": 40, "histogram": {"12": 2, "40": 1}}}}"#,
+    )
+    .expect("a file");
+    let all = ["a/run.hlog", "a/wakeup.hgrm", "b.csv", "c.json"];
+    let told = ok(
+        folder.path(),
+        &[
+            &["jitter", "overlay"],
+            &all[..],
+            &["-o", "over.png", "--json"],
+        ]
+        .concat(),
+    );
+    let told = json(&told);
+    let runs = told["runs"].as_array().expect("an array");
+    let names: Vec<_> = runs.iter().filter_map(|run| run["name"].as_str()).collect();
+    assert_eq!(names, all);
+    // The first three are one run.
+    let median = |index: usize| runs[index]["percentiles_ns"]["p50"].as_f64().expect("ns");
+    assert!((1..3).all(|index| (median(index) / median(0) - 1.0).abs() < 0.05));
+    assert_eq!(runs[3]["percentiles_ns"]["count"], 3);
+    assert!(
+        fs::read(at("over.png"))
+            .expect("a picture")
+            .starts_with(b"\x89PNG")
+    );
+    let shifts = ok(
+        folder.path(),
+        &["jitter", "compare", "a/run.hlog", "c.json", "--json"],
+    );
+    assert!(
+        json(&shifts)["shifts"]
+            .as_array()
+            .is_some_and(|all| !all.is_empty())
+    );
+    let output = run(
+        folder.path(),
+        &[
+            "jitter", "overlay", "c.json", "-o", "d.png", "--stage", "read", "--column", "x",
+        ],
+    );
+    assert!(
+        output.status.success(),
+        "a file of another tool is of the stage that is stated"
+    );
+    let output = run(
+        folder.path(),
+        &["jitter", "overlay", "a/percentiles.csv", "-o", "d.png"],
+    );
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        output.status.code() == Some(1) && errors.contains("--column"),
+        "{errors}"
+    );
+}
+
 #[test]
 fn what_cannot_be_is_refused_before_anything_runs() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -258,6 +396,8 @@ fn what_cannot_be_is_refused_before_anything_runs() {
         (&["servo", "none.asp", "--device", "null:"], 1, "none.asp"),
         (&["jitter", "--inject", "read:1:1"], 2, "read:1:1"),
         (&["jitter", "--out", "no/such/folder"], 1, "no/such/folder"),
+        (&["jitter", "--max-us=-1"], 2, "above 0"),
+        (&["jitter", "--force"], 2, "--out"),
         (&["jitter", "compare", "x.hlog", "x.hlog"], 1, "x.hlog"),
     ] {
         let output = run(folder.path(), arguments);

@@ -45,6 +45,12 @@ impl Panel {
         self
     }
 
+    /// Lines that a legend of these entries takes.
+    #[must_use]
+    pub fn legend_lines(&self, canvas: &Canvas, entries: &[(Key, &str)]) -> usize {
+        rows(canvas, self.area().width, entries).len()
+    }
+
     /// Sets keys and names between the title and the frame. Where one line is too short, further
     /// ones stand above it; [`Panel::with_legend`] makes room.
     pub fn legend(&self, canvas: &mut Canvas, entries: &[(Key, &str)]) {

@@ -84,7 +84,7 @@ fn grouped(number: u64) -> String {
 }
 
 /// The stroke of the length of a period.
-fn period_stroke() -> Stroke {
+pub(super) fn period_stroke() -> Stroke {
     Stroke::new(ink::GREY, size::FRAME).dashed()
 }
 
@@ -96,7 +96,7 @@ fn panel(outer: Rect, x: Axis, y: Axis, letter: char, title: &str) -> Panel {
 }
 
 /// µs, no less than what is drawn.
-fn us(ns: u64) -> f64 {
+pub(super) fn us(ns: u64) -> f64 {
     (1e-3 * ns as f64).max(LOWEST_US)
 }
 
@@ -108,7 +108,7 @@ fn latencies(label: &str, largest_ns: u64) -> Axis {
 }
 
 /// Points (percentile, µs) of a distribution, up to the largest value.
-fn curve(histogram: &Histogram<u64>) -> Vec<(f64, f64)> {
+pub(super) fn curve(histogram: &Histogram<u64>) -> Vec<(f64, f64)> {
     let last = 1.0 - 1.0 / histogram.len() as f64;
     let steps = histogram.iter_quantiles(STEPS);
     let points = steps.map(|step| {

@@ -1,13 +1,14 @@
 //! A run, and a comparison of two, as JSON.
 
-use asperity_host::latency::{Percentiles, Run, Shift, Wakeups};
+use asperity_host::latency::{Percentiles, Run, Shift, Verdict, Wakeups};
 use asperity_host::servo::Stage;
 use serde_json::{Map, Value, json};
 
-/// A run: `{ticks, missed, lost, period_ns, longest_gap_ns, wakeup_ns, …, conditions, worst}`. Each
-/// stage is there as recorded and as corrected for coordinated omission.
+/// A run: `{ticks, missed, lost, period_ns, longest_gap_ns, verdict, wakeup_ns, …, conditions,
+/// worst}`. Each stage is there as recorded and as corrected for coordinated omission, in the
+/// percentiles that its count carries.
 #[must_use]
-pub fn encode(run: &Run, cyclictest: Option<&Wakeups>) -> Value {
+pub fn encode(run: &Run, verdict: &Verdict, cyclictest: Option<&Wakeups>) -> Value {
     let facts = &run.facts;
     let mut object = Map::new();
     let mut put = |key: &str, value: Value| {
@@ -18,6 +19,7 @@ pub fn encode(run: &Run, cyclictest: Option<&Wakeups>) -> Value {
     put("lost", facts.lost.into());
     put("period_ns", facts.period_ns.into());
     put("longest_gap_ns", facts.longest_gap_ns.into());
+    put("verdict", json!(verdict));
     for stage in Stage::ALL {
         let name = stage.name();
         put(&format!("{name}_ns"), json!(run.percentiles(stage)));
@@ -45,6 +47,15 @@ pub fn encode(run: &Run, cyclictest: Option<&Wakeups>) -> Value {
         );
     }
     Value::Object(object)
+}
+
+/// Runs side by side: an array of `{name, percentiles_ns}`.
+#[must_use]
+pub fn encode_runs(runs: &[(String, Run)], stage: Stage) -> Value {
+    let runs = runs
+        .iter()
+        .map(|(name, run)| json!({ "name": name, "percentiles_ns": run.percentiles(stage) }));
+    json!({ "stage": stage.name(), "runs": runs.collect::<Vec<_>>() })
 }
 
 /// A comparison: an array of shifts.

@@ -5,9 +5,11 @@
 mod chart;
 mod csv;
 mod json;
+mod overlay;
 mod table;
 
 pub use chart::draw;
 pub use csv::percentiles;
-pub use json::{encode, encode_shifts};
-pub use table::{report, shifts};
+pub use json::{encode, encode_runs, encode_shifts};
+pub use overlay::draw as draw_overlay;
+pub use table::{report, shifts, side_by_side};

@@ -1,46 +1,39 @@
 //! A run, and a comparison of two, for a person.
 
-use asperity_host::latency::{Conditions, Percentiles, QUANTILES, Run, Shift, Wakeups};
+use asperity_host::latency::{
+    Conditions, Percentiles, Punctuality, QUANTILES, Run, Shift, Verdict, Wakeups,
+};
 use asperity_host::servo::Stage;
 use asperity_io::shown::counted;
 use std::fmt::Write as _;
 
 /// The report of a run.
 #[must_use]
-pub fn report(run: &Run, cyclictest: Option<&Wakeups>) -> String {
+pub fn report(run: &Run, verdict: &Verdict, cyclictest: Option<&Wakeups>) -> String {
     let facts = &run.facts;
     let mut text = format!(
-        "{} with a period of {} µs, {} missed, longest gap {} µs\n\n",
+        "{} with a period of {} µs, {} missed, longest gap {} µs\n{}\n",
         counted(facts.ticks, "tick", "ticks"),
         us(facts.period_ns),
         facts.missed,
-        us(facts.longest_gap_ns)
+        us(facts.longest_gap_ns),
+        in_words(verdict),
     );
-    let mut heading = format!("{:<22}", "µs");
-    for (_, name) in QUANTILES {
-        let _ = write!(heading, "{name:>10}");
-    }
-    text += &format!("{heading}{:>10}\n", "max");
-    let mut row = |name: &str, percentiles: &Percentiles| {
-        let mut line = format!("{name:<22}");
-        for ns in percentiles.values().into_iter().chain([percentiles.max]) {
-            let _ = write!(line, "{:>10}", us(ns));
-        }
-        text += &format!("{line}\n");
-    };
+    let mut rows = Vec::new();
     for stage in Stage::ALL {
         let raw = run.percentiles(stage);
-        row(stage.name(), &raw);
+        rows.push((stage.name().to_owned(), raw));
         let corrected = Percentiles::of(&run.corrected(stage));
         if corrected != raw {
-            row(&format!("  {}, corrected", stage.name()), &corrected);
+            rows.push((format!("  {}, corrected", stage.name()), corrected));
         }
     }
     if let Some(wakeups) = cyclictest {
         let mut percentiles = Percentiles::of(&wakeups.counts.histogram());
         percentiles.max = wakeups.max_ns;
-        row("cyclictest's wakeup", &percentiles);
+        rows.push(("cyclictest's wakeup".to_owned(), percentiles));
     }
+    text += &percentile_table(&rows);
     if facts.lost > 0 {
         let lost = counted(facts.lost, "tick was", "ticks were");
         let _ = writeln!(text, "\n{lost} lost and missing from the histograms");
@@ -67,6 +60,62 @@ pub fn report(run: &Run, cyclictest: Option<&Wakeups>) -> String {
     }
     for conditions in &facts.conditions {
         text += &format!("\n{}", conditions_of(conditions));
+    }
+    text
+}
+
+/// A row for each name, in the percentiles that a count carries.
+fn percentile_table(rows: &[(String, Percentiles)]) -> String {
+    let carried = |at: usize| rows.iter().any(|(_, row)| row.values()[at].is_some());
+    let columns: Vec<usize> = (0..QUANTILES.len()).filter(|at| carried(*at)).collect();
+    let width = rows.iter().map(|(name, _)| name.chars().count()).max();
+    let width = width.unwrap_or(0).max(22);
+    let mut text = format!("{:<width$}", "µs");
+    for &at in &columns {
+        let _ = write!(text, "{:>10}", QUANTILES[at].1);
+    }
+    text += &format!("{:>10}\n", "max");
+    for (name, row) in rows {
+        let _ = write!(text, "{name:<width$}");
+        for &at in &columns {
+            let value = row.values()[at].map_or_else(|| "–".to_owned(), us);
+            let _ = write!(text, "{value:>10}");
+        }
+        text += &format!("{:>10}\n", us(row.max));
+    }
+    text
+}
+
+/// Runs side by side: the percentiles of a stage.
+#[must_use]
+pub fn side_by_side(runs: &[(String, Run)], stage: Stage) -> String {
+    let rows: Vec<_> = runs
+        .iter()
+        .map(|(name, run)| (name.clone(), run.percentiles(stage)))
+        .collect();
+    format!("{}\n{}", stage.name(), percentile_table(&rows))
+}
+
+/// A run by the rule of thumb, and by the limits that were stated.
+fn in_words(verdict: &Verdict) -> String {
+    let rule = us(verdict.rule_ns);
+    let latest = us(verdict.latest_wakeup_ns);
+    let mut text = match verdict.punctuality {
+        Punctuality::Punctual => format!(
+            "punctual: no period missed, and no wake-up later than {rule} µs, a tenth of a period\n"
+        ),
+        Punctuality::Late => format!(
+            "late: no period missed, but a wake-up was {latest} µs late; at most {rule} µs, a tenth of a period, is good\n"
+        ),
+        Punctuality::Missed => format!(
+            "periods missed: {} of {} ({:.2} %), and a wake-up was {latest} µs late; none missed, and at most {rule} µs, a tenth of a period, is good\n",
+            verdict.missed,
+            verdict.periods,
+            100.0 * verdict.missed as f64 / verdict.periods.max(1) as f64,
+        ),
+    };
+    for exceeded in &verdict.exceeded {
+        let _ = writeln!(text, "exceeded: {exceeded}");
     }
     text
 }

@@ -2,6 +2,7 @@
 //! its line here; `.ci/check-tests` fails without it.
 
 mod dhd;
+mod distribution;
 mod fakes;
 mod interval_log;
 mod latency;

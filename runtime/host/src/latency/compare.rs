@@ -5,7 +5,7 @@
 //! 95 % of the shifts between drawn runs.
 
 use super::{
-    percentiles::QUANTILES,
+    percentiles::{QUANTILES, carries},
     run::{Counts, Run},
 };
 use crate::servo::Stage;
@@ -47,7 +47,7 @@ impl Shift {
     }
 }
 
-/// Compares two runs. The same seed gives the same confidence.
+/// Compares two runs, in the percentiles that both carry. The same seed gives the same confidence.
 #[must_use]
 pub fn compare(a: &Run, b: &Run, seed: u64) -> Vec<Shift> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
@@ -70,7 +70,11 @@ pub fn compare(a: &Run, b: &Run, seed: u64) -> Vec<Shift> {
             }
         }
         for (n, (quantile, percentile)) in QUANTILES.into_iter().enumerate() {
-            let beyond = (1.0 - quantile) * a.total.min(b.total) as f64;
+            let fewer = a.total.min(b.total);
+            if !carries(fewer, quantile) {
+                continue;
+            }
+            let beyond = (1.0 - quantile) * fewer as f64;
             shifts.push(Shift {
                 stage: stage.name(),
                 percentile,

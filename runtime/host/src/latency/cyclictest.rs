@@ -34,7 +34,7 @@ pub enum CyclictestError {
     #[error("cyclictest has no SCHED_DEADLINE")]
     Policy,
     /// Its file is not what version 2 of rt-tests writes.
-    #[error("cannot read what cyclictest wrote: {0}")]
+    #[error("not what `cyclictest --json` writes: {0}")]
     Json(#[from] serde_json::Error),
 }
 

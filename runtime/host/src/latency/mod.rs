@@ -8,6 +8,8 @@
 //! | `collect` | from records to a run |
 //! | `run` | a run: its intervals, sums, and corrected histograms |
 //! | `percentiles` | which percentiles are reported |
+//! | `verdict` | whether a run was punctual, and within stated limits |
+//! | `series` | every tick as a line of CSV |
 //! | `worst` | the worst ticks |
 //! | `hgrm`, `hlog` | the files of HdrHistogram's own tools |
 //! | `compare` | the shift of each percentile, with a bootstrap confidence |
@@ -15,11 +17,13 @@
 //! | `load` | bounded work for the machine meanwhile |
 //! | `conditions` | under which conditions a run was made |
 //! | `cyclictest` | the same by another program |
+//! | `distribution` | latencies that other tools counted |
 
 mod collect;
 mod compare;
 mod conditions;
 mod cyclictest;
+mod distribution;
 mod facts;
 mod hgrm;
 mod hlog;
@@ -27,17 +31,22 @@ mod inject;
 mod load;
 mod percentiles;
 mod run;
+mod series;
+mod verdict;
 mod worst;
 
 pub use collect::Collector;
 pub use compare::{Shift, compare};
 pub use conditions::{Conditions, Machine};
 pub use cyclictest::{Cyclictest, CyclictestError, Wakeups};
+pub use distribution::{DistributionError, Unit, read_distribution};
 pub use facts::Facts;
 pub use hgrm::percentile_distribution;
 pub use hlog::{LogError, read_log, write_log};
 pub use inject::{Delayed, Injection, InjectionError};
 pub use load::{Load, Loading};
-pub use percentiles::{Percentiles, QUANTILES};
+pub use percentiles::{Percentiles, QUANTILES, carries};
 pub use run::{Counts, Interval, Run};
+pub use series::Series;
+pub use verdict::{Limits, Punctuality, Verdict};
 pub use worst::{WORST, WorstTick};
