@@ -202,6 +202,12 @@ fn a_run_is_written_merged_and_compared() {
     assert!(told["compute_ns"]["max"].as_u64() >= Some(300_000));
     assert_eq!(told["conditions"]["injected"], "compute:300:100");
     assert_eq!(told["worst"].as_array().map(Vec::len), Some(10));
+    let settings = told["settings"].as_array().expect("an array");
+    let throttling = settings
+        .iter()
+        .find(|setting| setting["name"] == "throttling");
+    assert_eq!(throttling.is_some(), cfg!(target_os = "linux"));
+    assert!(settings.iter().all(|setting| setting["change"].is_string()));
     for name in [
         "run.json",
         "percentiles.csv",

@@ -11,6 +11,7 @@ use asperity::{
 use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Diagnostic, Failures, one},
+    realtime::{self, Setting},
     shown::size,
 };
 use serde_json::{Value, json};
@@ -32,10 +33,11 @@ pub(crate) fn run(args: &Doctor, console: Console) -> Result<(), Failures> {
         "clip" => matches!(args.inference.text_encoder, TextEncoderChoice::Clip(_)),
         _ => true,
     };
+    let settings = realtime::settings(None);
     let printed = if args.json {
-        console.json(&as_json(&findings))
+        console.json(&as_json(&findings, &settings))
     } else {
-        console.text(&as_text(&findings))
+        console.text(&as_text(&findings, &settings))
     };
     printed.map_err(one)?;
     match findings.iter().find(|f| !f.found && asked(f)) {
@@ -198,7 +200,7 @@ fn check(what: &'static str, result: Result<String, (String, String)>) -> Findin
     }
 }
 
-fn as_text(findings: &[Finding]) -> String {
+fn as_text(findings: &[Finding], settings: &[Setting]) -> String {
     let mut text = String::new();
     for finding in findings {
         let mark = if finding.found { "found" } else { "—" };
@@ -208,11 +210,15 @@ fn as_text(findings: &[Finding]) -> String {
             let _ = writeln!(text, "{:<19} {remedy}", "");
         }
     }
+    if !settings.is_empty() {
+        text += "\nThis machine for servo loops (asperity-lab), and how to change it:\n";
+        text += &realtime::table(settings);
+    }
     text
 }
 
-fn as_json(findings: &[Finding]) -> Value {
-    let entries: serde_json::Map<String, Value> = findings
+fn as_json(findings: &[Finding], settings: &[Setting]) -> Value {
+    let mut entries: serde_json::Map<String, Value> = findings
         .iter()
         .map(|finding| {
             let value = json!({
@@ -223,5 +229,13 @@ fn as_json(findings: &[Finding]) -> Value {
             (finding.what.to_owned(), value)
         })
         .collect();
+    let suited = settings.iter().filter(|setting| setting.good == Some(true));
+    let machine = json!({
+        "found": !settings.is_empty(),
+        "detail": format!("{} of {} settings suit a servo loop", suited.count(), settings.len()),
+        "remedy": null,
+        "settings": settings,
+    });
+    entries.insert("realtime".to_owned(), machine);
     Value::Object(entries)
 }

@@ -15,9 +15,10 @@ use asperity_host::latency::{
 use asperity_host::servo::{Clock as _, Event, Inlet, SECOND_NS, Settings, Stage, queues};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::output::{self, AtomicFile, Outputs};
-use asperity_io::system;
+use asperity_io::{realtime, system};
 use asperity_lab::jitter::{draw, encode, percentiles, report};
 use asperity_lab::servo_session::{Setup, run as run_loop};
+use serde_json::json;
 
 use crate::error::Plain;
 use crate::loop_options::{refusals, stop_on_interrupt};
@@ -222,7 +223,9 @@ fn tell(
         max_missed: arguments.max_missed,
     };
     let verdict = Verdict::on(run, &limits);
-    let json = encode(run, &verdict, wakeups);
+    let settings = realtime::settings(arguments.options.cpu);
+    let mut json = encode(run, &verdict, wakeups);
+    json["settings"] = json!(settings);
     if let Some(folder) = &arguments.out {
         let mut files = vec![
             ("run.json".to_owned(), format!("{json:#}\n").into_bytes()),
@@ -253,7 +256,14 @@ fn tell(
     } else {
         let wrote = arguments.out.is_some();
         console
-            .result_of(wrote, &report(run, &verdict, wakeups))
+            .result_of(
+                wrote,
+                &format!(
+                    "{}\nthis machine, and how to change it\n{}",
+                    report(run, &verdict, wakeups),
+                    realtime::table(&settings)
+                ),
+            )
             .map_err(one)?;
     }
     if verdict.exceeded.is_empty() {

@@ -1,0 +1,236 @@
+//! Each setting, as far as the system tells.
+
+use super::{
+    Setting,
+    files::{Files, listed},
+};
+use crate::shown::{counted, size};
+
+/// Bits of the effective capabilities: memory may be locked, priorities may be raised.
+pub(super) const CAP_IPC_LOCK: u32 = 14;
+pub(super) const CAP_SYS_NICE: u32 = 23;
+/// Idle states that take longer to leave than this are deep, µs.
+const DEEP_US: u64 = 10;
+/// Grants what the loop asks for itself.
+const GRANT: &str = r#"sudo setcap cap_sys_nice,cap_ipc_lock+ep "$(which asperity-lab)""#;
+
+fn setting(
+    name: &'static str,
+    now: Option<String>,
+    good: impl FnOnce(&str) -> bool,
+    change: impl Into<String>,
+) -> Setting {
+    Setting {
+        name,
+        good: now.as_deref().map(good),
+        now: now.unwrap_or_else(|| "unknown".into()),
+        change: change.into(),
+    }
+}
+
+pub(super) fn preemption(files: &Files) -> Setting {
+    let now = files.text("proc/sys/kernel/version").map(|version| {
+        let models = ["PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT"];
+        let model = models.into_iter().find(|model| version.contains(model));
+        model.unwrap_or("not preemptible").to_owned()
+    });
+    setting(
+        "kernel",
+        now,
+        |model| model == "PREEMPT_RT",
+        "sudo apt install linux-image-rt-amd64, or your distribution's real-time kernel",
+    )
+}
+
+/// By default the kernel stops real-time threads for 5 % of each second.
+pub(super) fn throttling(files: &Files) -> Setting {
+    let runtime_us: Option<i64> = files.number("proc/sys/kernel/sched_rt_runtime_us");
+    let period_us: Option<i64> = files.number("proc/sys/kernel/sched_rt_period_us");
+    let now = runtime_us.zip(period_us).map(|(runtime_us, period_us)| {
+        if runtime_us < 0 || runtime_us >= period_us {
+            "off".to_owned()
+        } else {
+            format!("real-time threads get {runtime_us} of {period_us} µs")
+        }
+    });
+    setting(
+        "throttling",
+        now,
+        |now| now == "off",
+        "sudo sysctl -w kernel.sched_rt_runtime_us=-1",
+    )
+}
+
+/// Whether this process has a capability, or a limit above zero that stands for it.
+pub(super) fn privilege(
+    files: &Files,
+    name: &'static str,
+    capability: u32,
+    limit: &str,
+) -> Setting {
+    let status = files.text("proc/self/status");
+    let capable = status.as_deref().and_then(|status| {
+        let line = status
+            .lines()
+            .find_map(|line| line.strip_prefix("CapEff:"))?;
+        let bits = u64::from_str_radix(line.trim(), 16).ok()?;
+        Some(bits & (1 << capability) != 0)
+    });
+    let limits = files.text("proc/self/limits");
+    let allowed = limits.as_deref().and_then(|limits| {
+        let line = limits.lines().find_map(|line| line.strip_prefix(limit))?;
+        line.split_whitespace().next().map(str::to_owned)
+    });
+    let now = match (capable, allowed) {
+        (Some(true), _) => Some("permitted".to_owned()),
+        (_, Some(allowed)) if allowed == "unlimited" => Some("permitted".to_owned()),
+        (_, Some(allowed)) => Some(match allowed.parse::<u64>() {
+            Ok(0) => "not permitted".to_owned(),
+            Ok(bytes) if capability == CAP_IPC_LOCK => {
+                format!("permitted up to {}", size(bytes))
+            }
+            _ => format!("permitted up to {allowed}"),
+        }),
+        (Some(false), None) => Some("not permitted".to_owned()),
+        (None, None) => None,
+    };
+    // The loop's own memory is a few MB; a priority of 80 is what it asks for.
+    let enough = |now: &str| match now.strip_prefix("permitted up to ") {
+        Some(priority) if capability == CAP_SYS_NICE => {
+            priority.parse().is_ok_and(|priority: u32| priority >= 80)
+        }
+        Some(_) => false,
+        None => now == "permitted",
+    };
+    setting(name, now, enough, GRANT)
+}
+
+pub(super) fn isolation(files: &Files, cpu: Option<usize>) -> Setting {
+    let last = files.processors() - 1;
+    let wanted = cpu.unwrap_or(last);
+    let isolated = files.text("sys/devices/system/cpu/isolated");
+    let isolated = isolated.map_or_else(Vec::new, |list| listed(&list));
+    let good = cpu.is_some_and(|cpu| isolated.contains(&cpu));
+    let others = match wanted {
+        0 => "1".to_owned(),
+        1 => "0".to_owned(),
+        _ => format!("0-{}", wanted - 1),
+    };
+    Setting {
+        name: "isolated processor",
+        now: match (isolated.as_slice(), cpu) {
+            ([], _) => "none".to_owned(),
+            (list, None) => {
+                let list: Vec<String> = list.iter().map(usize::to_string).collect();
+                format!("{}, and the loop is not pinned there", list.join(","))
+            }
+            (_, Some(cpu)) if good => format!("{cpu}, the loop's"),
+            (_, Some(cpu)) => format!("not {cpu}, the loop's"),
+        },
+        good: (files.processors() > 1 || good).then_some(good),
+        change: format!(
+            "kernel parameters isolcpus={wanted} nohz_full={wanted} rcu_nocbs={wanted} irqaffinity={others}, then --cpu {wanted}"
+        ),
+    }
+}
+
+/// Interrupts that the loop's processor may be given.
+pub(super) fn interrupts(files: &Files, cpu: Option<usize>) -> Setting {
+    let names = files.names("proc/irq");
+    let numbers = || names.iter().filter(|name| name.parse::<u32>().is_ok());
+    let served_by = |cpu: usize| {
+        let served = numbers().filter(|number| {
+            let affinity = ["effective_affinity_list", "smp_affinity_list"];
+            let list = affinity
+                .iter()
+                .find_map(|file| files.text(&format!("proc/irq/{number}/{file}")));
+            list.is_some_and(|list| listed(&list).contains(&cpu))
+        });
+        served.count() as u64
+    };
+    let count = (numbers().count() > 0).then(|| match cpu {
+        Some(cpu) => served_by(cpu),
+        None => numbers().count() as u64,
+    });
+    let now = count.map(|count| {
+        let count = counted(count, "interrupt", "interrupts");
+        match cpu {
+            Some(cpu) => format!("{count} on processor {cpu}"),
+            None => format!("{count}, and the loop is not pinned (--cpu N)"),
+        }
+    });
+    setting(
+        "interrupts",
+        now,
+        |now| now.starts_with("0 "),
+        "for f in /proc/irq/[0-9]*/smp_affinity_list; do echo 0 | sudo tee $f; done, where the loop is not on processor 0",
+    )
+}
+
+pub(super) fn governor(files: &Files, cpu: usize) -> Setting {
+    setting(
+        "frequency governor",
+        files.text(&format!(
+            "sys/devices/system/cpu/cpu{cpu}/cpufreq/scaling_governor"
+        )),
+        |governor| governor == "performance",
+        "sudo cpupower frequency-set -g performance",
+    )
+}
+
+/// The deepest idle state that is not disabled. The loop holds them shallow itself where it may.
+pub(super) fn idle(files: &Files, cpu: usize) -> Setting {
+    let folder = format!("sys/devices/system/cpu/cpu{cpu}/cpuidle");
+    let states = files.names(&folder);
+    let states = states.iter().filter_map(|state| {
+        let enabled = files.text(&format!("{folder}/{state}/disable")).as_deref() != Some("1");
+        let latency_us: u64 = files.number(&format!("{folder}/{state}/latency"))?;
+        let name = files.text(&format!("{folder}/{state}/name"))?;
+        enabled.then_some((latency_us, name))
+    });
+    let deepest = states.max();
+    let shallow = deepest
+        .as_ref()
+        .map(|(latency_us, _)| *latency_us <= DEEP_US);
+    Setting {
+        name: "idle states",
+        now: deepest.map_or_else(
+            || "unknown".to_owned(),
+            |(latency_us, name)| format!("down to {name}, {latency_us} µs to leave"),
+        ),
+        good: shallow,
+        change: format!(
+            "sudo cpupower idle-set -D {DEEP_US}, or write access to /dev/cpu_dma_latency"
+        ),
+    }
+}
+
+pub(super) fn smt(files: &Files) -> Setting {
+    let active = files.text("sys/devices/system/cpu/smt/active");
+    setting(
+        "hyper-threading",
+        active.map(|active| if active == "1" { "on" } else { "off" }.to_owned()),
+        |now| now == "off",
+        "echo off | sudo tee /sys/devices/system/cpu/smt/control",
+    )
+}
+
+/// Whether the kernel can look for times in which firmware or a host took the processor away.
+pub(super) fn hardware(files: &Files) -> Setting {
+    let folders = ["sys/kernel/tracing", "sys/kernel/debug/tracing"];
+    let tracers = folders
+        .iter()
+        .find_map(|folder| files.text(&format!("{folder}/available_tracers")));
+    let has = tracers.map(|tracers| tracers.split_whitespace().any(|tracer| tracer == "hwlat"));
+    Setting {
+        name: "hardware latency",
+        now: match has {
+            Some(true) => "not measured; this kernel can (hwlat)".to_owned(),
+            Some(false) => "not measured; this kernel has no hwlat".to_owned(),
+            None => "not measured; the kernel's tracers cannot be read".to_owned(),
+        },
+        good: None,
+        change: "sudo hwlatdetect --duration=60 (rt-tests; the kernel needs CONFIG_HWLAT_TRACER)"
+            .to_owned(),
+    }
+}
