@@ -56,7 +56,7 @@ fn what_is_written_wrongly_is_refused_with_the_remedy() {
         (&["probe", "sim:?grip=iron"], 1, "iron"),
         (&["probe", "null:?depth=1"], 1, "depth"),
         (&["probe", "--seconds", "1e9"], 2, "0.1 to 60"),
-        (&["exercise", "touch:"], 1, "touch:"),
+        (&["exercise", "touch:"], 1, "over USB"),
         (&["exercise"], 2, "URI"),
         (&["faults", "touch:"], 1, "over USB"),
         (&["faults", "phantom:"], 1, "phantom:"),
@@ -75,6 +75,30 @@ fn what_is_written_wrongly_is_refused_with_the_remedy() {
         );
         assert!(output.stdout.is_empty(), "{arguments:?}");
     }
+}
+
+/// Claim: a simulated device is exercised as a real one is, and keeps every limit.
+#[test]
+fn a_simulated_device_is_exercised() {
+    let output = lab(&[
+        "exercise",
+        "sim:?time=stepped&seed=3",
+        "--ticks",
+        "4000",
+        "--json",
+    ]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let report = &told["report"];
+    assert_eq!(
+        (&report["ticks"], &report["fresh"]),
+        (&4000.into(), &4000.into())
+    );
+    assert_eq!(
+        (&report["beyond_limits"], &report["safe"]),
+        (&0.into(), &0.into())
+    );
+    assert!(report["contact"].as_u64() > Some(100) && told["link"].is_null());
 }
 
 /// What is on USB depends on the machine; `.ci/check-usb` and the tests of the list show each state.

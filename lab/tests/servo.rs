@@ -134,6 +134,7 @@ fn a_changed_file_is_felt_anew_and_a_broken_one_is_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let lower = |mu: f64| {
         let mut texture = asperity::builtin::texture();
+        texture.name = format!("grit of μ {mu}");
         texture.friction.mu = mu;
         asperity::lower::lower(&texture, None)
             .expect("built in")
@@ -170,6 +171,7 @@ fn a_changed_file_is_felt_anew_and_a_broken_one_is_not() {
     let told = json(&String::from_utf8(output.stdout).expect("text"));
     assert_eq!(told["ended_without_force"], true);
     assert_eq!(told["reloads"], 1);
+    assert_eq!(told["texture"], "grit of μ 1", "the texture that plays");
 }
 
 #[test]
@@ -400,6 +402,7 @@ fn what_cannot_be_is_refused_before_anything_runs() {
             "--rate 1000",
         ),
         (&["servo", "none.asp", "--device", "null:"], 1, "none.asp"),
+        (&["servo", "--device", "null:", "--look"], 2, "--look"),
         (&["jitter", "--inject", "read:1:1"], 2, "read:1:1"),
         (&["jitter", "--out", "no/such/folder"], 1, "no/such/folder"),
         (&["jitter", "--max-us=-1"], 2, "above 0"),

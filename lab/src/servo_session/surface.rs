@@ -6,6 +6,7 @@ use asperity::textures::Textures;
 use asperity_formats::{Asset, FormatError, Library};
 use asperity_host::profile::Compensation;
 use asperity_host::servo::RATES_HZ;
+use asperity_io::shown::counted;
 use std::path::Path;
 
 /// What is touched, as checked bytes.
@@ -88,7 +89,10 @@ impl Surface {
             let library = Library::parse(&bytes)?;
             let surfaces = library.scene().map_or(0, |scene| scene.surfaces().len());
             let models_hz = library.asset(0)?.grid().sample_rate_hz();
-            Ok((format!("a scene of {surfaces} surfaces"), models_hz))
+            Ok((
+                format!("a scene of {}", counted(surfaces, "surface", "surfaces")),
+                models_hz,
+            ))
         };
         match facts() {
             Ok((name, models_hz)) => Ok(Self {

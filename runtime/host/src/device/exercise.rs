@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use asperity_runtime::{Config, HostTexture, Output, Renderer, Sample, State};
+use asperity_runtime::{Config, HostTexture, MechanicsConfig, Output, Renderer, Sample, State};
 use serde::Serialize;
 
 use super::{Description, Device, DeviceError};
@@ -21,6 +21,8 @@ pub struct Plan {
     pub ticks: u32,
     /// Ticks a second; 0 waits for an answer of the device in each.
     pub rate_hz: f64,
+    /// The mechanics of the device.
+    pub mechanics: MechanicsConfig,
     /// Largest force, N; the device's limit if that is less.
     pub peak_n: f32,
     /// Seed of the texture's excitation.
@@ -33,7 +35,10 @@ impl Plan {
     /// The configuration of the renderer for a device.
     #[must_use]
     pub fn config(&self, device: &Description) -> Config {
-        let mut config = Config::default();
+        let mut config = Config {
+            mechanics: self.mechanics,
+            ..Config::default()
+        };
         let most = device.peak_force_n;
         config.limits.peak_n = if self.peak_n < most {
             self.peak_n

@@ -25,7 +25,7 @@ use super::{
 };
 use crate::device::supervised::{Plausible, Supervised};
 use crate::device::{Device, DeviceError, Reading};
-use asperity_runtime::{Sample, math::rounds_to_nearest};
+use asperity_runtime::{Counters, Sample, math::rounds_to_nearest};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Longest time that the force may take to reach zero at the end, s.
@@ -104,10 +104,15 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
             }
         };
         self.report.end = end;
-        // A device that falls silent while it is let go has no fault.
+        // Letting go is no fault: neither a device that falls silent meanwhile, nor the runtime's way
+        // to zero force.
         self.report.episodes = self.device.tally().episodes;
+        let faults = self.render.counters().faults;
         self.report.ended_without_force = self.fade_out();
-        self.report.counters = self.render.counters();
+        self.report.counters = Counters {
+            faults,
+            ..self.render.counters()
+        };
         let tally = self.device.tally();
         self.report.read_faults = tally.read_faults;
         self.report.write_faults = tally.write_faults;

@@ -46,7 +46,7 @@ pub struct Report {
     pub longest_gap_ns: u64,
     /// The last force was zero and reached the device.
     pub ended_without_force: bool,
-    /// Counts of the runtime.
+    /// Counts of the runtime; its safe states are those before the device was let go.
     pub counters: Counters,
 }
 

@@ -2,27 +2,29 @@
 
 use asperity_console::Console;
 use asperity_formats::Asset;
-use asperity_host::device::Scheme;
 use asperity_host::device::exercise::{Plan, exercise};
 use asperity_host::device::falcon::on_usb;
+use asperity_host::device::{Device, Scheme};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::shown::counted;
+use asperity_lab::servo_session;
 use asperity_runtime::{Config, HostTexture};
 use serde_json::json;
 
 use super::{failure, probe::parse};
 use crate::error::Plain;
 
-/// Run the built-in texture on a Falcon and count the outcome of every tick
+/// Run the built-in texture on a device and count the outcome of every tick
 ///
 /// The exit status is 1 if a force exceeded the limits, or if the device was lost for good. For a
 /// real-time loop, use `asperity-lab servo`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
+  asperity-lab device exercise sim:?time=stepped
   asperity-lab device exercise falcon: --ticks 10000
   asperity-lab device exercise 'falcon:?firmware=falcon.bin' --peak-n 2 --json > report.json")]
 pub(crate) struct Arguments {
-    /// Device to run on: falcon:, optionally followed by a serial number or BUS-ADDRESS
+    /// Device to run on, such as falcon: or sim:
     #[arg(value_name = "URI")]
     uri: String,
     /// Number of ticks
@@ -61,11 +63,8 @@ fn peak(text: &str) -> Result<f32, String> {
 /// Gives whether every force was within its limits.
 pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failures> {
     let uri = parse(&arguments.uri)?;
-    if uri.scheme != Scheme::Falcon {
-        return Err(Plain::failure(
-            format!("`{}` is not a Falcon on USB", arguments.uri),
-            "give a falcon:, or use `asperity-lab servo` for other devices",
-        ));
+    if uri.scheme == Scheme::Touch {
+        return Err(super::touch_cannot_be_driven());
     }
     let lowered = asperity::lower::lower(&asperity::builtin::texture(), None).map_err(one)?;
     let bug = |error: &dyn std::fmt::Display| Plain::failure(error, "report this as a bug");
@@ -73,8 +72,21 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     let mut texture = Box::new(HostTexture::new());
     let rate_hz = Config::default().servo_rate_hz;
     texture.load(&asset, rate_hz).map_err(|error| bug(&error))?;
-    let mut falcon = on_usb::open(&uri).map_err(|error| failure(&error, error.remedy()))?;
+    // A Falcon counts its transfers as well.
+    let (mut falcon, mut other) = (None, None);
+    let mut mechanics = Config::default().mechanics;
+    let device: &mut dyn Device = if uri.scheme == Scheme::Falcon {
+        let opened = on_usb::open(&uri).map_err(|error| failure(&error, error.remedy()))?;
+        falcon.insert(opened)
+    } else {
+        let opened = servo_session::open(&uri, rate_hz as u32).map_err(one)?;
+        let opened = other.insert(opened);
+        mechanics = opened.mechanics;
+        &mut *opened.device
+    };
+    let name = device.description().name.clone();
     let plan = Plan {
+        mechanics,
         ticks: arguments.ticks,
         rate_hz: arguments.rate,
         peak_n: arguments.peak_n,
@@ -82,20 +94,23 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
         patience: 600,
     };
     let activity = console.activity();
-    activity.set_message("a texture on the device; pull the grip out and push it in once");
-    let report = exercise(&mut falcon, &texture, &plan, |_, _| ()).map_err(|error| bug(&error))?;
+    activity.set_message(if uri.scheme == Scheme::Falcon {
+        "a texture on the device; pull the grip out and push it in once".to_owned()
+    } else {
+        format!("a texture on {name}")
+    });
+    let report = exercise(device, &texture, &plan, |_, _| ()).map_err(|error| bug(&error))?;
     activity.finish_and_clear();
-    let counts = falcon.counts();
     if arguments.json {
-        let value = json!({
-            "uri": arguments.uri,
-            "report": report,
-            "link": {
+        let link = falcon.as_ref().map(|falcon| {
+            let counts = falcon.counts();
+            json!({
                 "sent": counts.sent, "received": counts.received, "stalled": counts.stalled,
                 "short": counts.short, "timed_out": counts.timed_out, "failed": counts.failed,
                 "skipped_bytes": counts.skipped_bytes, "servo_silent": counts.servo_silent,
-            },
+            })
         });
+        let value = json!({ "uri": arguments.uri, "report": report, "link": link });
         super::json(console, &value)?;
     } else {
         let mut text = format!(

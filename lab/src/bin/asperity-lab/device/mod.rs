@@ -53,6 +53,14 @@ fn json(console: Console, value: &serde_json::Value) -> Result<(), Failures> {
     console.json(value).map_err(asperity_io::diagnostic::one)
 }
 
+/// A Touch on USB is only identified.
+fn touch_cannot_be_driven() -> Failures {
+    crate::error::Plain::failure(
+        "a Touch cannot be driven over USB, because its protocol is not public",
+        "install the vendor's OpenHaptics and its driver, and use `openhaptics:`",
+    )
+}
+
 /// A failure of a device, with its remedy.
 fn failure(error: &impl std::fmt::Display, remedy: String) -> Failures {
     crate::error::Plain::failure(error, remedy)

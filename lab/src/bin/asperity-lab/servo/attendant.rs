@@ -38,6 +38,8 @@ pub(super) struct Attendant<'c> {
     json: bool,
     lost: u64,
     reloads: u64,
+    /// Textures that were handed over, in order; the loop counts those it has begun to play.
+    handed_over: Vec<(String, String)>,
     last: Option<Record>,
     missed: u64,
     told_refusals: bool,
@@ -65,6 +67,7 @@ impl<'c> Attendant<'c> {
             json: arguments.json,
             lost: 0,
             reloads: 0,
+            handed_over: Vec::new(),
             last: None,
             missed: 0,
             told_refusals: false,
@@ -140,6 +143,8 @@ impl<'c> Attendant<'c> {
         match prepared {
             Ok(()) => {
                 self.reloads += 1;
+                let played = (texture.name.clone(), texture.origin.clone());
+                self.handed_over.push(played);
                 if let Some(recorder) = &mut self.recorder {
                     // Records of it are still in the queue at best.
                     recorder.announce(TextureInfo::of(texture.name.clone(), &texture.bytes));
@@ -257,9 +262,13 @@ impl<'c> Attendant<'c> {
     /// Writes what is left, and says what the loop did.
     pub(super) fn finish(self, session: &ServoSummary<'_>) -> Result<(), Failures> {
         self.status.finish_and_clear();
+        let exchanges = self.last.map_or(0, |record| record.exchanges as usize);
         let mut told = Told {
             lost: self.lost,
             reloads: self.reloads,
+            playing: exchanges
+                .checked_sub(1)
+                .and_then(|last| self.handed_over.get(last).cloned()),
             recorded: None,
         };
         let mut failure = Ok(());

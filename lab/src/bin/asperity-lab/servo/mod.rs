@@ -31,7 +31,7 @@ use summary::ServoSummary;
   asperity-lab servo brick.asp --device sim:
   asperity-lab servo brick.asp --device sim: --watch      compile in one window, feel in the other
   asperity-lab servo brick.asp --device sim: --seconds 30 --record brick.aspr
-  asperity-lab servo brick.asp --device replay:brick.aspr     are the forces bit-identical?
+  asperity-lab servo brick.asp --device replay:brick.aspr     are the forces bit-identical? (else exit 1)
   asperity-lab servo desk.aspl --device sim:?grip=firm --seconds 30 --record ticks.csv
   asperity-lab servo all.aspl --texture Cork --device null: --rate 2000 --policy deadline
 
@@ -58,6 +58,9 @@ pub(crate) struct Arguments {
     /// Record every tick: OUT.aspr for replay, OUT.csv for a table; `-` is a table on standard output
     #[arg(long, value_name = "OUT")]
     record: Option<PathBuf>,
+    /// Replay only to look: exit with 0 although forces differ from the recording
+    #[arg(long)]
+    look: bool,
     /// Stop after this many seconds (0.1 to 86400)
     #[arg(long, value_name = "S", value_parser = loop_options::seconds)]
     seconds: Option<f64>,
@@ -77,6 +80,12 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         return Err(Plain::usage(
             "--watch cannot be used with replay:, which renders the recorded session only",
             "leave out --watch",
+        ));
+    }
+    if arguments.look && !is_replay {
+        return Err(Plain::usage(
+            "--look is for replay:, whose forces are compared with the recording",
+            "leave out --look",
         ));
     }
     let mut outputs = Outputs::beside(inputs(arguments));
@@ -151,13 +160,21 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     drop(opened);
     interrupt.released.store(true, Relaxed);
     let Some(report) = sum else { return Ok(()) };
+    let repeated = replayed.map(|replayed| replayed.repeated.counts());
     attendant.finish(&ServoSummary {
         report,
         surface: &surface,
         device: &device,
         rate_hz,
-        repeated: replayed.map(|replayed| replayed.repeated.counts()),
-    })
+        repeated,
+    })?;
+    match repeated {
+        Some((forces, different)) if different > 0 && !arguments.look => Err(Plain::failure(
+            format!("{different} of {forces} forces differ from the recording"),
+            "replay the recorded texture and seed, or give --look if the difference is meant",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// The files that are read.

@@ -24,6 +24,8 @@ pub(super) struct Told {
     pub(super) lost: u64,
     /// Textures that were loaded anew.
     pub(super) reloads: u64,
+    /// Name and origin of the texture that plays, where it is not the first one.
+    pub(super) playing: Option<(String, String)>,
     /// The record, and the ticks in it.
     pub(super) recorded: Option<(PathBuf, u64)>,
 }
@@ -37,18 +39,27 @@ fn end(report: &Report) -> &'static str {
     }
 }
 
+/// Name and origin of what played last.
+fn playing<'s>(session: &'s ServoSummary<'_>, told: &'s Told) -> (&'s str, &'s str) {
+    let surface = session.surface;
+    let first = (surface.name.as_str(), surface.origin.as_str());
+    let last = told.playing.as_ref();
+    last.map_or(first, |(name, origin)| (name, origin))
+}
+
 pub(super) fn json(session: &ServoSummary<'_>, told: &Told) -> Value {
     let ServoSummary {
         report,
-        surface,
         device,
         rate_hz,
         repeated,
+        ..
     } = session;
+    let (name, origin) = playing(session, told);
     let repeated =
         repeated.map(|(forces, different)| json!({ "forces": forces, "different": different }));
     json!({
-        "texture": surface.name, "origin": surface.origin, "device": device,
+        "texture": name, "origin": origin, "device": device,
         "rate_hz": rate_hz, "end": end(report), "ticks": report.ticks, "missed": report.missed,
         "caught_up": report.caught_up, "paused": report.paused, "stale": report.stale,
         "read_faults": report.read_faults, "write_faults": report.write_faults,
@@ -68,15 +79,16 @@ pub(super) fn json(session: &ServoSummary<'_>, told: &Told) -> Value {
 pub(super) fn text(session: &ServoSummary<'_>, told: &Told) -> String {
     let ServoSummary {
         report,
-        surface,
         device,
         rate_hz,
         repeated,
+        ..
     } = session;
+    let (name, origin) = playing(session, told);
     let mut text = format!(
         "surface    {}, {}\ndevice     {device}\nloop       {rate_hz} Hz, {}, {} missed, longest gap {:.3} ms\n",
-        surface.name,
-        surface.origin,
+        name,
+        origin,
         counted(report.ticks, "tick", "ticks"),
         report.missed,
         1e-6 * report.longest_gap_ns as f64,
