@@ -158,4 +158,27 @@ mod tests {
             assert!(rerate(&grid, rate_hz).is_none());
         }
     }
+
+    /// Claim: the order grows as the rate does, up to the format's limit, and never falls.
+    #[test]
+    fn the_order_grows_with_the_rate() {
+        let mut grid = builtin::texture().grid;
+        grid.order = 4;
+        for vertex in &mut grid.vertices {
+            vertex.lsf_rad = vec![0.5, 1.1, 1.8, 2.5];
+        }
+        for (rate_hz, order) in [
+            (500.0, 4),
+            (1000.0, 4),
+            (1200.0, 5),
+            (1500.0, 6),
+            (2000.0, 8),
+        ] {
+            let converted = rerate(&grid, rate_hz).unwrap();
+            assert_eq!(converted.order, order, "{rate_hz} Hz");
+            assert!(converted.vertices.iter().all(|v| v.lsf_rad.len() == order));
+        }
+        let largest = builtin::texture().grid;
+        assert_eq!(rerate(&largest, 2000.0).unwrap().order, limits::MAX_ORDER);
+    }
 }

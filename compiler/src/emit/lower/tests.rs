@@ -192,3 +192,51 @@ fn what_an_asset_cannot_hold_is_named() {
         Err(LowerError::Encode(EncodeError::Rejected(_)))
     ));
 }
+
+/// Claim: what a runtime needs of an asset is counted of the bytes that it has, and bytes that are no
+/// asset change nothing.
+#[test]
+fn other_bytes_are_counted_anew() {
+    let texture = builtin::texture();
+    let mut lowered = lower(&texture, None).unwrap();
+    let before = lowered.clone();
+    let mut longer = texture.clone();
+    longer.friction.law = FrictionLaw::through(vec![
+        LawPoint {
+            speed_mm_s: 0.0,
+            factor: 1.0,
+        },
+        LawPoint {
+            speed_mm_s: 100.0,
+            factor: 0.5,
+        },
+    ]);
+    let other = lower(&longer, None).unwrap();
+    assert!(other.haptic_bytes > before.haptic_bytes);
+    lowered.set_bytes(other.bytes.clone()).unwrap();
+    assert_eq!(
+        (&lowered.bytes, lowered.haptic_bytes),
+        (&other.bytes, other.haptic_bytes)
+    );
+    assert!(lowered.set_bytes(b"no asset".to_vec()).is_err());
+    assert_eq!(lowered.bytes, other.bytes);
+}
+
+/// Claim: a trace without a scale of its own reaches the encoder as it is.
+#[test]
+fn a_trace_that_cannot_be_scaled_is_not_quantised() {
+    for accel_m_s2 in [
+        vec![0.0; 4],
+        vec![1.0, f64::INFINITY, -2.5],
+        vec![f64::NAN; 2],
+    ] {
+        let trace = TapTrace {
+            speed_m_s: 0.1,
+            accel_m_s2: accel_m_s2.clone(),
+        };
+        let quantised = quantise_trace(&trace);
+        let bits = |a: f32| a.to_bits();
+        let same = accel_m_s2.iter().map(|&a| bits(a as f32));
+        assert!(quantised.into_iter().map(bits).eq(same), "{accel_m_s2:?}");
+    }
+}

@@ -230,3 +230,67 @@ fn each_texture_is_looked_at_once_in_order() {
     fs::write(&path, &asset).unwrap();
     assert_eq!(look().unwrap(), [("Built-in Grit".to_owned(), asset.len())]);
 }
+
+/// Claim: a library gives its own bytes and says whether it has a scene; an asset is no library.
+#[test]
+fn a_library_gives_its_bytes_and_tells_of_its_scene() {
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let open = |bytes: &[u8]| Textures::from_reader(Path::new("-"), bytes).unwrap();
+    let plain = library_of(&["a".into(), "b".into()], &asset);
+    let surface = SceneSurface {
+        solid: asperity_formats::Solid::Plane {
+            point_m: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+        },
+        from_m: [-1.0; 3],
+        to_m: [1.0; 3],
+        texture: 0,
+    };
+    let mut scene = vec![0; 1 << 16];
+    let textures = [("a", asset.as_slice())];
+    let len = asperity_formats::library::encode_scene(&textures, &[surface], &mut scene).unwrap();
+    scene.truncate(len);
+    for (bytes, has_scene) in [(&plain, false), (&scene, true)] {
+        let mut textures = open(bytes);
+        assert!(textures.is_library());
+        assert_eq!(textures.has_scene(), has_scene);
+        assert_eq!(textures.surfaces().unwrap().len(), usize::from(has_scene));
+        assert_eq!(textures.library().unwrap().as_ref(), Some(bytes));
+    }
+    let mut alone = open(&asset);
+    assert!(!alone.is_library() && !alone.has_scene());
+    assert_eq!(alone.library().unwrap(), None);
+}
+
+/// Claim: every problem has a remedy that fits it and names the file where that helps.
+#[test]
+fn each_problem_has_its_remedy() {
+    let remedy = |problem| {
+        let path = "all.aspl".into();
+        TexturesError {
+            path,
+            texture: None,
+            problem,
+        }
+        .remedy()
+    };
+    let version = FormatError::Version {
+        found: 9,
+        supported: 2,
+    };
+    for (problem, words) in [
+        (TexturesProblem::Format(version), "update asperity"),
+        (TexturesProblem::WrongKind, "`asperity compile`"),
+        (TexturesProblem::NoneChosen { count: 3 }, "--texture"),
+        (
+            TexturesProblem::NoSuchTexture {
+                wanted: "x".into(),
+                count: 3,
+            },
+            "`asperity list \"all.aspl\"`",
+        ),
+    ] {
+        let found = remedy(problem);
+        assert!(found.contains(words), "{found}");
+    }
+}

@@ -29,7 +29,7 @@ pub use error::VerifyError;
 pub use spectra::SPECTRUM_BUDGET_DB;
 
 use asperity_formats::Asset;
-use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, State};
+use asperity_runtime::{Config, Flags, HostTexture, Output, Renderer, Sample, State};
 use asperity_texture::model::TextureModel;
 use serde::Serialize;
 
@@ -128,39 +128,44 @@ fn check(slot: &HostTexture, rate_hz: f32) -> Result<(usize, f32), VerifyError> 
     let step_n = config.limits.slew_n_s / rate_hz * slack + FORCE_SLACK;
     for (tick, sample) in script(rate_hz).iter().enumerate() {
         let output = renderer.tick(slot, &mut state, sample);
-        let force = output.force_n;
-        let norm = |v: [f32; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-        let step = norm([
-            force[0] - previous[0],
-            force[1] - previous[1],
-            force[2] - previous[2],
-        ]);
-        previous = force;
-        let numbers = [
-            output.depth_m,
-            output.speed_mm_s,
-            output.normal_force_n,
-            output.vib_m_s2,
-            output.tap_n,
-            output.friction_n,
-            norm(force),
-        ];
-        let what = if numbers.iter().any(|x| !x.is_finite()) {
-            "an output is not finite"
-        } else if norm(force) > peak_n {
-            "the force exceeds the device's peak"
-        } else if step > step_n {
-            "the force exceeds the device's slew"
-        } else if output.flags.contains(Flags::VIB_CLAMPED) {
-            "the vibration had to be clamped"
-        } else {
-            ticks += 1;
-            peak_force_n = peak_force_n.max(norm(force));
-            continue;
-        };
-        return Err(VerifyError::Tick { tick, what });
+        if let Some(what) = broken(&output, previous, peak_n, step_n) {
+            return Err(VerifyError::Tick { tick, what });
+        }
+        previous = output.force_n;
+        ticks += 1;
+        peak_force_n = peak_force_n.max(norm(output.force_n));
     }
     Ok((ticks, peak_force_n))
+}
+
+fn norm(v: [f32; 3]) -> f32 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
+/// What an output breaks, behind the force of the tick before.
+fn broken(output: &Output, previous: [f32; 3], peak_n: f32, step_n: f32) -> Option<&'static str> {
+    let force = output.force_n;
+    let step = norm(std::array::from_fn(|axis| force[axis] - previous[axis]));
+    let numbers = [
+        output.depth_m,
+        output.speed_mm_s,
+        output.normal_force_n,
+        output.vib_m_s2,
+        output.tap_n,
+        output.friction_n,
+        norm(force),
+    ];
+    if numbers.iter().any(|x| !x.is_finite()) {
+        Some("an output is not finite")
+    } else if norm(force) > peak_n {
+        Some("the force exceeds the device's peak")
+    } else if step > step_n {
+        Some("the force exceeds the device's slew")
+    } else if output.flags.contains(Flags::VIB_CLAMPED) {
+        Some("the vibration had to be clamped")
+    } else {
+        None
+    }
 }
 
 #[cfg(test)]
@@ -214,5 +219,76 @@ mod tests {
             verify(&texture, &bytes),
             Err(VerifyError::Tick { .. })
         ));
+    }
+
+    /// Claim: an output is refused for the first number that is not finite, a force beyond the peak, a
+    /// step beyond the slew along any axis, and a clamped vibration; at the bounds it is not.
+    #[test]
+    fn an_output_beyond_a_bound_is_named() {
+        // A tick in free air, whose numbers are all 0.
+        let texture = builtin::texture();
+        let lowered = lower(&texture, None).unwrap();
+        let mut slot = HostTexture::new();
+        slot.load(&Asset::parse(&lowered.bytes).unwrap(), 1000.0)
+            .unwrap();
+        let renderer = Renderer::new(&Config::default()).unwrap();
+        let free = renderer.tick(&slot, &mut State::new(1), &Sample::at([0.0, 0.0, 0.05]));
+        let of = |force_n: [f32; 3]| {
+            let mut output = free;
+            output.force_n = force_n;
+            output
+        };
+        let found = |output: &Output, previous| broken(output, previous, 3.0, 0.5);
+        assert_eq!(found(&of([0.0; 3]), [0.0; 3]), None);
+        for axis in 0..3 {
+            let along = |n: f32| std::array::from_fn(|other| if other == axis { n } else { 0.0 });
+            assert_eq!(found(&of(along(3.0)), along(2.5)), None);
+            assert_eq!(found(&of(along(-0.25)), along(0.25)), None);
+            let peak = found(&of(along(-3.1)), along(-3.0));
+            assert!(peak.is_some_and(|what| what.contains("peak")), "{axis}");
+            for (from, to) in [(0.0, 0.6), (0.25, -0.35), (2.0, 1.4)] {
+                let slew = found(&of(along(to)), along(from));
+                assert!(slew.is_some_and(|what| what.contains("slew")), "{axis}");
+            }
+        }
+        let numbers: [fn(&mut Output) -> &mut f32; 7] = [
+            |output| &mut output.depth_m,
+            |output| &mut output.speed_mm_s,
+            |output| &mut output.normal_force_n,
+            |output| &mut output.vib_m_s2,
+            |output| &mut output.tap_n,
+            |output| &mut output.friction_n,
+            |output| &mut output.force_n[1],
+        ];
+        for number in numbers {
+            for odd in [f32::NAN, f32::INFINITY] {
+                let mut output = of([0.0; 3]);
+                *number(&mut output) = odd;
+                let what = found(&output, [0.0; 3]);
+                assert!(what.is_some_and(|what| what.contains("finite")));
+            }
+        }
+        let mut clamped = of([0.0; 3]);
+        clamped.flags = Flags::VIB_CLAMPED;
+        assert!(found(&clamped, [0.0; 3]).is_some_and(|what| what.contains("clamped")));
+    }
+
+    /// Claim: a vertex next to silence passes whatever its level, at any loudness of the others.
+    #[test]
+    fn a_vertex_that_nobody_hears_is_not_compared() {
+        for loudness in [0.2, 1.0, 5.0] {
+            let mut texture = builtin::texture();
+            for vertex in &mut texture.grid.vertices {
+                vertex.sigma_m_s2 *= loudness;
+            }
+            let level =
+                |vertex: &asperity_texture::model::GridVertex| vertex.gain * vertex.sigma_m_s2;
+            let loudest = texture.grid.vertices.iter().map(level).fold(0.0, f64::max);
+            let vertex = &mut texture.grid.vertices[3];
+            vertex.sigma_m_s2 = 0.9 * spectra::SILENCE_SHARE * loudest / vertex.gain;
+            let bytes = lower(&texture, None).unwrap().bytes;
+            let report = verify(&texture, &bytes);
+            assert!(report.is_ok(), "{loudness}: {report:?}");
+        }
     }
 }

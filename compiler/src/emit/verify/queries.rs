@@ -136,3 +136,64 @@ fn check_query(
     }
     Ok(filter)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sources::builtin;
+
+    /// Claim: the places are all vertices, the middles of all edges and triangles, every side of the
+    /// border from end to end, and a quarter of the grid beyond it on all sides.
+    #[test]
+    fn every_kind_of_place_is_asked_for() {
+        let grid = builtin::texture().grid;
+        let places = places(&grid);
+        let near = |(v, f): (f64, f64)| {
+            let close = |a: f32, b: f64| (f64::from(a) - b).abs() <= 1e-4 * (1.0 + b.abs());
+            places
+                .iter()
+                .any(|place| close(place.0, v) && close(place.1, f))
+        };
+        let at = |index: usize| {
+            (
+                grid.vertices[index].speed_mm_s,
+                grid.vertices[index].force_n,
+            )
+        };
+        assert!((0..grid.vertices.len()).all(|index| near(at(index))));
+        for triangle in &grid.triangles {
+            let corners = triangle.map(at);
+            let mean = |of: &[(f64, f64)]| {
+                let n = of.len() as f64;
+                let sum = of.iter().fold((0.0, 0.0), |s, p| (s.0 + p.0, s.1 + p.1));
+                (sum.0 / n, sum.1 / n)
+            };
+            assert!(near(mean(&corners)), "the middle of {triangle:?}");
+            for side in [[0, 1], [1, 2], [2, 0]] {
+                assert!(near(mean(&side.map(|n| corners[n]))), "{triangle:?}");
+            }
+        }
+        let (width, height) = mesh::corner(&grid);
+        for step in 0..=BORDER_STEPS {
+            let t = step as f64 / BORDER_STEPS as f64;
+            let border = [
+                (t * width, 0.0),
+                (t * width, height),
+                (0.0, t * height),
+                (width, t * height),
+            ];
+            assert!(border.into_iter().all(near), "{t} of the border");
+        }
+        let outside = [(-0.25, -0.25), (1.25, -0.25), (-0.25, 1.25), (1.25, 1.25)];
+        assert!(
+            outside
+                .into_iter()
+                .all(|(v, f)| near((v * width, f * height)))
+        );
+        assert!(
+            places
+                .iter()
+                .any(|place| place.0.is_nan() && place.1.is_nan())
+        );
+    }
+}

@@ -10,7 +10,7 @@ use asperity_texture::{
 /// Largest RMS log-spectral error of a vertex as the runtime renders it, dB.
 pub const SPECTRUM_BUDGET_DB: f64 = 0.5;
 /// Sound allowed where the model is silent, relative to the loudest vertex.
-const SILENCE_SHARE: f64 = 1e-4;
+pub(super) const SILENCE_SHARE: f64 = 1e-4;
 
 fn monic(coefficients: &[f32], order: usize) -> Vec<f64> {
     std::iter::once(1.0)

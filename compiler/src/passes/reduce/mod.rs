@@ -297,4 +297,37 @@ mod tests {
         assert_eq!(five.texture.taps, full.taps);
         assert!(five.report.worst_db > 0.0);
     }
+
+    /// Claim: zeros that do nothing go even where no pole can.
+    #[test]
+    fn a_numerator_of_its_own_goes_where_every_pole_is_needed() {
+        let mut grid = builtin::texture().grid;
+        grid.order = 2;
+        grid.numerator = Numerator::Lsf;
+        for vertex in &mut grid.vertices {
+            // One resonance, and the frequencies of 1.
+            vertex.lsf_rad = vec![0.9, 1.1];
+            vertex.ma_lsf_rad = Some(vec![
+                std::f64::consts::PI / 3.0,
+                2.0 * std::f64::consts::PI / 3.0,
+            ]);
+        }
+        let least = least_order(&grid, &Reference::new(&grid).unwrap());
+        assert_eq!((least.numerator, least.order), (Numerator::None, 2));
+        assert!(least.vertices.iter().all(|v| v.ma_lsf_rad.is_none()));
+    }
+
+    /// Claim: frequencies out of order, which no stable filter has, are as far as can be.
+    #[test]
+    fn disordered_frequencies_are_in_no_budget() {
+        let grid = builtin::texture().grid;
+        let reference = Reference::new(&grid).unwrap();
+        assert!(reference.is_within_budget(&grid));
+        let mut disordered = grid.clone();
+        for vertex in &mut disordered.vertices {
+            vertex.lsf_rad.swap(3, 4);
+        }
+        let distances = reference.distances(&disordered);
+        assert!(distances.is_none_or(|distances| distances.summary().1 == f64::INFINITY));
+    }
 }

@@ -325,4 +325,26 @@ mod tests {
         let distances = Reference::new(&peak).unwrap().distances(&kept).unwrap();
         assert!(distances.are_within_budget());
     }
+
+    /// Claim: a vertex is missed by as much as its own model differs from its neighbours'.
+    #[test]
+    fn a_vertex_is_missed_at_its_own_place() {
+        let middle = (100.0, 1.0);
+        let peak = grid(|v, f| if (v, f) == middle { 10.0 } else { 1.0 });
+        let reference = Reference::new(&peak).unwrap();
+        let state = State::of(&peak, &reference);
+        let state = state.expect("a state");
+        let index = |at: (f64, f64)| {
+            let same = |v: &GridVertex| (v.speed_mm_s, v.force_n) == at;
+            peak.vertices.iter().position(same).expect("a vertex")
+        };
+        let missed = |at| state.missed(index(at), &reference).expect("removable");
+        assert!(
+            (missed(middle) - 20.0).abs() < 1e-6,
+            "{} dB",
+            missed(middle)
+        );
+        assert!(missed((50.0, 0.5)) > 0.0, "its neighbour stands beside it");
+        assert!(missed((150.0, 0.5)) < missed(middle));
+    }
 }

@@ -409,6 +409,8 @@ mod tests {
             ("30A silicone", "Shore A 30"),
             ("TPU 95A", "Shore A 95"),
             ("plastic, Shore D80", "Shore D 80"),
+            ("plastic, Shore 80D", "Shore D 80"),
+            ("rubber of Shore 60A", "Shore A 60"),
             ("75D durometer plastic", "Shore D 75"),
             ("durometer 40 rubber", "Shore A 40"),
             ("a mineral of Mohs hardness 7", "Mohs 7"),

@@ -236,4 +236,25 @@ mod tests {
         assert_eq!(grit_um(1000.0, "sandpaper").round(), 18.0);
         assert_eq!(grit_um(120.0, "oilstone"), grit_um(120.0, "sandpaper"));
     }
+
+    /// Claim: a grain is as coarse as the material's own where it has its size, and by as much coarser
+    /// as it is larger.
+    #[test]
+    fn coarser_is_a_ratio_of_grains() {
+        let coarser = |scale, value, name| Grade { scale, value }.coarser(name);
+        let (p, mesh) = (Scale::Grit { p: true }, Scale::Mesh);
+        let paper = coarser(p, 150.0, "sandpaper");
+        assert!((0.8..1.2).contains(&paper), "P150 is sandpaper: {paper}");
+        let ratio = coarser(p, 80.0, "sandpaper") / coarser(p, 150.0, "sandpaper");
+        assert!((ratio - grit_um(80.0, "sandpaper") / grit_um(150.0, "sandpaper")).abs() < 1e-12);
+        let sand = coarser(mesh, 40.0, "sand");
+        assert!((0.8..1.2).contains(&sand), "mesh 40 is sand: {sand}");
+        assert!(coarser(mesh, 20.0, "sand") > 1.5 && coarser(mesh, 80.0, "sand") < 0.7);
+    }
+
+    #[test]
+    fn paper_is_what_is_graded_as_paper() {
+        assert!(["sandpaper", "abrasive paper"].into_iter().all(is_paper));
+        assert!(!["wallpaper", "cork", "sand", ""].into_iter().any(is_paper));
+    }
 }

@@ -307,7 +307,9 @@ fn strength(change: Change) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{PLAIN, Use, is_lasting, turned};
+    use super::{
+        NOT, NOT_AT_ALL, NOT_VERY, PLAIN, Use, VERY, directed, is_lasting, quality, turned,
+    };
 
     /// "the friction up": as far as a plain comparative, in an edit alone.
     #[test]
@@ -332,5 +334,38 @@ mod tests {
         let lasting = ["rough", "rougher", "roughness"].map(is_lasting);
         assert_eq!(lasting, [true; 3]);
         assert_eq!(["boiled", "towel", "very", ""].map(is_lasting), [false; 4]);
+    }
+
+    /// Claim: denials are told apart by what they deny: the quality, its degree, or all of it.
+    #[test]
+    fn a_denial_is_as_far_as_it_is_stressed() {
+        for (text, expected) in [
+            ("rough", PLAIN),
+            ("very rough", VERY),
+            ("not rough", NOT),
+            ("not very rough", NOT_VERY),
+            ("not as rough", NOT_VERY),
+            ("not rough at all", NOT_AT_ALL),
+            ("not at all rough", NOT_AT_ALL),
+        ] {
+            let words: Vec<String> = text.split(' ').map(str::to_owned).collect();
+            let at = words
+                .iter()
+                .position(|word| word == "rough")
+                .expect("rough");
+            let found = quality(&words, at, Use::Thing).expect(text);
+            assert_eq!(found.range, expected, "{text}");
+        }
+    }
+
+    /// Claim: more and less of a noun are each other's mirror.
+    #[test]
+    fn a_direction_before_a_noun_turns_it() {
+        let range = |text: &str| {
+            let words: Vec<String> = text.split(' ').map(str::to_owned).collect();
+            directed(&words, 0, Use::Edit).map(|found| found.range)
+        };
+        assert_eq!(range("more friction"), Some(PLAIN));
+        assert_eq!(range("less friction"), Some((-PLAIN.1, -PLAIN.0)));
     }
 }

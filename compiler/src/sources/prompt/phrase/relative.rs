@@ -277,4 +277,20 @@ mod tests {
         assert_eq!(found.unread, ["purple"]);
         assert!(relative("").is_nothing());
     }
+
+    /// Claim: a likeness names its material, whichever words lead to it.
+    #[test]
+    fn a_likeness_names_its_material() {
+        for text in [
+            "more like silk",
+            "closer to silk",
+            "nearer to silk",
+            "halfway to silk",
+            "towards silk",
+            "resembling silk",
+        ] {
+            let towards = relative(text).towards.expect(text);
+            assert_eq!(towards.thing, "silk", "{text}");
+        }
+    }
 }

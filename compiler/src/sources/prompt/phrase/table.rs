@@ -255,6 +255,9 @@ mod tests {
     fn degrees_do_not_meet() {
         let mut ranges: Vec<Range> = DEGREES.iter().map(|(_, range)| *range).collect();
         ranges.extend([PLAIN, NOT, NOT_AT_ALL]);
+        // "Hardly" denies, but less than "not" does.
+        let hardly = degree("hardly").expect("a degree");
+        assert!(NOT.1 < hardly.0 && hardly.1 < 0.0);
         ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
         assert!(ranges.iter().all(|(least, most)| least <= most));
         assert!(ranges.windows(2).all(|pair| pair[0].1 < pair[1].0));
