@@ -101,6 +101,46 @@ fn a_simulated_device_is_exercised() {
     assert!(report["contact"].as_u64() > Some(100) && told["link"].is_null());
 }
 
+/// Claim: a report is written of a device that works and of one that does not.
+#[test]
+fn a_report_holds_versions_settings_and_every_position() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("probe.tar.gz");
+    let file = path.display().to_string();
+    for (uri, works) in [
+        ("sim:?seed=2", true),
+        ("openhaptics:?lib=/nowhere/libHD.so", false),
+    ] {
+        let output = lab(&["probe", uri, "--seconds", "0.3", "--report", &file]);
+        assert_eq!(output.status.success(), works, "{}", text(&output.stderr));
+        let archive = std::fs::File::open(&path).expect("an archive");
+        let mut archive = tar::Archive::new(flate2::read::GzDecoder::new(archive));
+        let mut files = std::collections::BTreeMap::new();
+        for entry in archive.entries().expect("entries") {
+            let mut entry = entry.expect("an entry");
+            let name = entry.path().expect("a name").display().to_string();
+            let mut content = String::new();
+            std::io::Read::read_to_string(&mut entry, &mut content).expect("text");
+            files.insert(name.replace("asperity-probe/", ""), content);
+        }
+        let names: Vec<&str> = files.keys().map(String::as_str).collect();
+        assert_eq!(
+            names,
+            ["README.txt", "positions.csv", "probe.json", "system.json"]
+        );
+        let json =
+            |name: &str| -> serde_json::Value { serde_json::from_str(&files[name]).expect("JSON") };
+        assert_eq!(json("probe.json")["works"], works);
+        assert!(json("probe.json").get("serial").is_none());
+        let system = json("system.json");
+        assert!(system["machine"]["kernel"].is_string() && system["settings"].is_array());
+        assert!(system["inventory"]["libraries"].is_array());
+        let rows = files["positions.csv"].lines().count();
+        assert_eq!(rows > 30, works, "{rows} rows");
+        std::fs::remove_file(&path).expect("removed");
+    }
+}
+
 /// What is on USB depends on the machine; `.ci/check-usb` and the tests of the list show each state.
 #[test]
 fn a_list_ends_well_whatever_is_plugged_in_and_a_probe_says_what_to_do() {

@@ -204,6 +204,7 @@ fn child_feels_a_texture() {
         .expect("it loads");
     let mut falcon = on_usb::open(&"falcon:".parse().expect("a name")).expect("a Falcon");
     let plan = Plan {
+        mechanics: Config::default().mechanics,
         ticks: told().parse().expect("ticks"),
         rate_hz: 0.0,
         peak_n: 3.3,

@@ -336,7 +336,7 @@ mod tests {
         assert_eq!(["boiled", "towel", "very", ""].map(is_lasting), [false; 4]);
     }
 
-    /// Claim: denials are told apart by what they deny: the quality, its degree, or all of it.
+    /// Claim: a denial of the degree, of the quality and of all of it go ever further.
     #[test]
     fn a_denial_is_as_far_as_it_is_stressed() {
         for (text, expected) in [

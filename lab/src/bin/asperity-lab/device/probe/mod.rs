@@ -1,5 +1,8 @@
 //! `asperity-lab device probe`: whether a device works.
 
+mod report;
+
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use asperity_console::Console;
@@ -9,11 +12,14 @@ use asperity_host::device::usb::scan::scan;
 use asperity_host::device::usb::{Ids, Kind, UsbError};
 use asperity_host::device::{Device as _, DeviceError, Scheme, Uri};
 use asperity_io::diagnostic::{Failures, one};
+use asperity_io::output::Outputs;
 use asperity_io::shown::counted;
 use serde_json::{Value, json};
 
 use super::failure;
+use super::inventory::{Inventory, libraries};
 use crate::error::Plain;
+use report::{Positions, Private, archive};
 
 /// Check whether a device works
 ///
@@ -26,6 +32,7 @@ use crate::error::Plain;
   asperity-lab device probe
   asperity-lab device probe 'falcon:?firmware=falcon.bin&tries=20'
   asperity-lab device probe touch: --json
+  asperity-lab device probe openhaptics: --report touch.tar.gz
   asperity-lab device probe openhaptics:?lib=/opt/openhaptics/libHD.so
 
 Settings of falcon: are firmware=FILE, tries=N, peak_n=N, motor_step=COUNTS, ids=TOML.")]
@@ -34,9 +41,13 @@ pub(crate) struct Arguments {
     /// a name or BUS-ADDRESS
     #[arg(value_name = "URI")]
     uri: Option<String>,
-    /// Duration of the test, s (0.1 to 60)
-    #[arg(long, default_value_t = 2.0, value_parser = seconds)]
-    seconds: f64,
+    /// Duration of the test, s (0.1 to 60) [default: 2, or 60 with --report]
+    #[arg(long, value_parser = seconds)]
+    seconds: Option<f64>,
+    /// Write what somebody else needs to help: versions, ids, permissions, rates, settings of this
+    /// machine, and every position, but no serial numbers
+    #[arg(long, value_name = "FILE.tar.gz")]
+    report: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -56,10 +67,30 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
         Some(text) => vec![parse(text)?],
         None => plugged_in()?,
     };
+    if arguments.report.is_some() && uris.len() > 1 {
+        return Err(Plain::usage(
+            "--report is of one device, but several are plugged in",
+            "name one, as `asperity-lab device list` does",
+        ));
+    }
+    let mut outputs = Outputs::beside::<PathBuf>([]);
+    let report = outputs.open_if(arguments.report.as_deref()).map_err(one)?;
+    let console = console.beside(&outputs);
+    let usual = if report.is_some() { 60.0 } else { 2.0 };
+    let seconds = arguments.seconds.unwrap_or(usual);
     let mut well = true;
     let mut values = Vec::new();
     for uri in &uris {
-        match probe(uri, arguments.seconds) {
+        let mut positions = Positions::new();
+        let probed = probe(uri, seconds, &mut positions);
+        if let Some(report) = report {
+            let bytes = reported(uri, &probed, &positions);
+            let bytes = bytes.map_err(|error| Plain::failure(error, "report this as a bug"))?;
+            outputs.fill(report, &bytes).map_err(one)?;
+            outputs.commit().map_err(one)?;
+            outputs = Outputs::beside::<PathBuf>([]);
+        }
+        match probed {
             Ok(probed) if arguments.json => values.push(probed.value),
             Ok(probed) => console.text(&probed.text).map_err(one)?,
             Err((problem, remedy)) => {
@@ -116,6 +147,38 @@ fn plugged_in() -> Result<Vec<Uri>, Failures> {
     Ok(uris)
 }
 
+/// The archive of a report: also, and above all, of a device that does not work.
+fn reported(
+    uri: &Uri,
+    probed: &Result<Probed, Problem>,
+    positions: &Positions,
+) -> std::io::Result<Vec<u8>> {
+    let value = match probed {
+        Ok(probed) => probed.value.clone(),
+        Err((problem, remedy)) => json!({
+            "uri": uri.to_string(), "works": false, "problem": problem, "remedy": remedy,
+        }),
+    };
+    let usb = Ids::load(None)
+        .map_err(UsbError::from)
+        .and_then(|ids| scan(&ids));
+    let found = usb
+        .iter()
+        .flatten()
+        .filter_map(|found| found.serial.clone());
+    let own = value["serial"].as_str().map(str::to_owned);
+    // A device is named by its serial number, among others.
+    let named = Some(uri.which.clone()).filter(|which| !which.contains(['/', '.']));
+    let home = std::env::home_dir().map(|home| home.display().to_string());
+    let private = Private::new(found.chain(own).chain(named), home);
+    let inventory = Inventory {
+        usb,
+        libraries: libraries(),
+        all: false,
+    };
+    archive(value, inventory.value(), positions, &private)
+}
+
 struct Probed {
     text: String,
     value: Value,
@@ -123,16 +186,16 @@ struct Probed {
 
 type Problem = (String, String);
 
-fn probe(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
+fn probe(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Problem> {
     match uri.scheme {
-        Scheme::Falcon => falcon(uri, seconds),
+        Scheme::Falcon => falcon(uri, seconds, positions),
         Scheme::Touch => touch(uri),
-        _ => any(uri, seconds),
+        _ => any(uri, seconds, positions),
     }
 }
 
 /// A device that is not on USB: it is read a thousand times a second and told to give no force.
-fn any(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
+fn any(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Problem> {
     use asperity_io::diagnostic::Diagnostic as _;
     const RATE_HZ: u32 = 1000;
     let opened = asperity_lab::servo_session::open(uri, RATE_HZ);
@@ -145,7 +208,9 @@ fn any(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
     let mut buttons = 0;
     while begun.elapsed().as_secs_f64() < seconds {
         readings += 1;
-        match device.read() {
+        let read = device.read();
+        positions.take(&read);
+        match read {
             Ok(reading) => {
                 fresh += u64::from(reading.fresh);
                 buttons |= reading.buttons;
@@ -237,7 +302,7 @@ fn touch(uri: &Uri) -> Result<Probed, Problem> {
     })
 }
 
-fn falcon(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
+fn falcon(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Problem> {
     let mut falcon = on_usb::open(uri).map_err(|error| (error.to_string(), error.remedy()))?;
     let begun = Instant::now();
     let (mut commands, mut last) = (0_u32, Err(DeviceError::TimedOut));
@@ -246,7 +311,9 @@ fn falcon(uri: &Uri, seconds: f64) -> Result<Probed, Problem> {
             commands += 1;
         }
         std::thread::sleep(Duration::from_millis(1));
-        match falcon.read() {
+        let read = falcon.read();
+        positions.take(&read);
+        match read {
             Ok(reading) if !reading.fresh => {}
             other => last = other,
         }
