@@ -51,6 +51,68 @@ fn bytes(folder: &Path, file: &str) -> Vec<u8> {
     fs::read(folder.join(file)).expect("a file")
 }
 
+/// Claim: a column that is misspelt is one error, whatever the rows, and says what may have been meant;
+/// so does the name of a texture that is not there.
+#[test]
+fn what_is_misspelt_is_reported_once_with_what_may_have_been_meant() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::write(
+        folder.join("a.csv"),
+        "name,prompts\nx,cork\ny,oak\nz,silk\n",
+    )
+    .expect("a manifest");
+    fs::write(
+        folder.join("b.jsonl"),
+        "{\"name\":\"x\",\"Prompt\":\"cork\"}\n",
+    )
+    .expect("a manifest");
+    fs::write(
+        folder.join("c.toml"),
+        "[[texture]]\nname = \"cork\"\nprompt = \"cork\"\n[[texture]]\nname = \"half\"\nblend = { a = \"cork\", b = \"crok\" }\n",
+    )
+    .expect("a manifest");
+    for (manifest, words) in [
+        (
+            "a.csv",
+            &["a.csv:2: prompts: no such key", "did you mean \"prompt\"?"][..],
+        ),
+        (
+            "b.jsonl",
+            &["b.jsonl:1: Prompt: no such key", "did you mean \"prompt\"?"],
+        ),
+        (
+            "c.toml",
+            &[
+                "no texture \"crok\" in this manifest",
+                "did you mean \"cork\"?",
+            ],
+        ),
+    ] {
+        let output = asperity(folder, &["build", manifest, "--check"]);
+        let error = text(&output.stderr);
+        assert_eq!(error.matches("error: ").count(), 1, "{error}");
+        assert!(words.iter().all(|words| error.contains(words)), "{error}");
+    }
+    fs::write(
+        folder.join("d.toml"),
+        "[[texture]]\nname = \"oak board\"\nprompt = \"oak\"\n",
+    )
+    .expect("a manifest");
+    let built = asperity(folder, &["build", "d.toml", "-o", "d.aspl", "--no-cache"]);
+    assert!(built.status.success(), "{}", text(&built.stderr));
+    for command in [
+        &["extract", "d.aspl", "oak_bord", "-o", "x.asp"][..],
+        &["inspect", "d.aspl", "--texture", "Oak Boards"],
+        &["rename", "d.aspl", "oakboard", "x", "-o", "x.aspl"],
+    ] {
+        let output = asperity(folder, command);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{command:?}: {error}");
+        assert!(error.contains("did you mean \"oak board\"?"), "{error}");
+    }
+}
+
 #[test]
 fn order_threads_cache_and_parts_do_not_change_a_byte() {
     let inputs = manifest();

@@ -7,6 +7,36 @@ const KEPT_CHARS: (usize, usize) = (300, 150);
 /// Lines that an excerpt keeps at its beginning and at its end.
 const KEPT_LINES: (usize, usize) = (12, 4);
 
+/// Most names that a suggestion holds.
+const SUGGESTED: usize = 3;
+
+/// What may have been meant by a name that is not there: `did you mean "cork" or "fork"?`, the
+/// nearest spelling first. `None` where nothing is near. Case, spaces, hyphens and underscores count
+/// for nothing.
+#[must_use]
+pub fn suggestion<'n>(wanted: &str, names: impl IntoIterator<Item = &'n str>) -> Option<String> {
+    let folded = |name: &str| -> String {
+        let letters = name.chars().filter(|c| !matches!(c, ' ' | '-' | '_'));
+        letters.flat_map(char::to_lowercase).collect()
+    };
+    let wanted = folded(wanted);
+    // One letter in three may be wrong: more is another name.
+    let most = (wanted.chars().count() / 3).clamp(1, 4);
+    let mut near: Vec<(usize, &str)> = names
+        .into_iter()
+        .map(|name| (strsim::osa_distance(&wanted, &folded(name)), name))
+        .filter(|(distance, _)| *distance <= most)
+        .collect();
+    near.sort();
+    near.dedup();
+    let near: Vec<String> = near
+        .into_iter()
+        .take(SUGGESTED)
+        .map(|(_, name)| format!("{:?}", plain(name)))
+        .collect();
+    (!near.is_empty()).then(|| format!("did you mean {}?", near.join(" or ")))
+}
+
 /// The text with control characters as escapes, so that no terminal obeys them, and with the marks
 /// that turn the direction of text. Line breaks and tabs stay.
 #[must_use]
@@ -104,6 +134,20 @@ mod tests {
         assert_eq!(format!("{:+.1}", rounded(-0.04, 1)), "+0.0");
         assert_eq!(format!("{:.0}", rounded(-0.4, 0)), "0");
         assert_eq!([rounded(-0.06, 1), rounded(2.449, 2)], [-0.1, 2.45]);
+    }
+
+    #[test]
+    fn a_name_that_is_not_there_is_likened_to_those_that_are() {
+        let names = ["cork", "oak board", "Silk", "prompt", "fork"];
+        let suggested = |wanted: &str| suggestion(wanted, names);
+        let is = |text: &str| Some(text.to_owned());
+        assert_eq!(suggested("Crok"), is("did you mean \"cork\"?"));
+        assert_eq!(suggested("oak_bord"), is("did you mean \"oak board\"?"));
+        assert_eq!(suggested("SILK"), is("did you mean \"Silk\"?"));
+        assert_eq!(suggested("prompts"), is("did you mean \"prompt\"?"));
+        assert_eq!(suggested("work"), is("did you mean \"cork\" or \"fork\"?"));
+        assert_eq!(suggested("granite"), None);
+        assert_eq!(suggested(""), None);
     }
 
     #[test]

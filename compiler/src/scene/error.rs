@@ -2,7 +2,7 @@
 
 use super::target::Target;
 use crate::library::LibraryError;
-use asperity_io::{diagnostic::Diagnostic, toml_error::TomlError};
+use asperity_io::{diagnostic::Diagnostic, shown::suggestion, toml_error::TomlError};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -26,7 +26,7 @@ pub enum SceneProblem {
     #[error("{0}")]
     Syntax(TomlError),
     /// One table in single brackets in a list.
-    #[error("one table in single brackets, but a list of tables is expected")]
+    #[error("{0}: one table in single brackets, but a list of tables is expected")]
     Single(&'static str),
     /// The scene has no surface.
     #[error("the scene has no surface")]
@@ -109,8 +109,12 @@ impl Diagnostic for SceneError {
                 "add a [[surface]] with a texture and a plane, sphere or box".into()
             }
             SceneProblem::TooMany(_) => "split the scene".into(),
-            SceneProblem::UnknownTexture { wanted, .. } => {
-                format!("add a [[texture]] with name = {wanted:?}, or correct the name")
+            SceneProblem::UnknownTexture { wanted, known } => {
+                let add = format!("add a [[texture]] with name = {wanted:?}, or correct the name");
+                match suggestion(wanted, known.iter().map(String::as_str)) {
+                    Some(suggestion) => format!("{suggestion} {add}"),
+                    None => add,
+                }
             }
             SceneProblem::Solid => {
                 "give one, such as plane = { point_m = [0, 0, 0], normal = [0, 0, 1] }".into()

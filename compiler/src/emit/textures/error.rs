@@ -62,6 +62,8 @@ pub enum TexturesProblem {
         wanted: String,
         /// Textures it holds.
         count: usize,
+        /// What may have been meant, in words.
+        suggestion: Option<String>,
     },
 }
 
@@ -84,10 +86,13 @@ impl Diagnostic for TexturesError {
                 "choose one with --texture NAME or INDEX; `asperity list {:?}` lists them",
                 self.path.display()
             ),
-            TexturesProblem::NoSuchTexture { .. } => format!(
-                "list the names with `asperity list {:?}`",
-                self.path.display()
-            ),
+            TexturesProblem::NoSuchTexture { suggestion, .. } => {
+                let list = format!("`asperity list {:?}`", self.path.display());
+                match suggestion {
+                    Some(suggestion) => format!("{suggestion} {list} lists all names"),
+                    None => format!("list the names with {list}"),
+                }
+            }
         }
     }
 }

@@ -24,6 +24,7 @@ pub(crate) use index::ENTRIES_READ;
 
 use asperity_formats::{Asset, FormatError, SceneSurface, library};
 use asperity_io::input::{self, Format, InputProblem, Kind, Opened};
+use asperity_io::shown::suggestion;
 use index::{Index, Place};
 use rayon::prelude::*;
 use std::{
@@ -382,8 +383,13 @@ impl Textures {
     }
 
     fn no_such_texture(&self, wanted: &str, count: usize) -> TexturesError {
-        let wanted = wanted.to_owned();
-        self.error(None, TexturesProblem::NoSuchTexture { wanted, count })
+        let names = self.names().unwrap_or_default();
+        let problem = TexturesProblem::NoSuchTexture {
+            suggestion: suggestion(wanted, names.iter().map(String::as_str)),
+            wanted: wanted.to_owned(),
+            count,
+        };
+        self.error(None, problem)
     }
 }
 

@@ -286,8 +286,17 @@ fn each_problem_has_its_remedy() {
             TexturesProblem::NoSuchTexture {
                 wanted: "x".into(),
                 count: 3,
+                suggestion: None,
             },
-            "`asperity list \"all.aspl\"`",
+            "list the names with `asperity list \"all.aspl\"`",
+        ),
+        (
+            TexturesProblem::NoSuchTexture {
+                wanted: "crok".into(),
+                count: 3,
+                suggestion: Some("did you mean \"cork\"?".into()),
+            },
+            "did you mean \"cork\"? `asperity list \"all.aspl\"`",
         ),
     ] {
         let found = remedy(problem);

@@ -14,6 +14,7 @@ use crate::{
 };
 use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::input::InputProblem;
+use asperity_io::shown::suggestion;
 use std::{fs, io, path::PathBuf, sync::Arc};
 
 /// Keys of what a texture is made of, where those are other textures.
@@ -112,15 +113,22 @@ impl Checker<'_> {
                 // It goes with `asset`, and is checked there.
                 "texture" => {}
                 key if is_origin(key, self.registry) => sources.push(field),
-                _ => {
+                // A column that is misspelt is so in every row.
+                key if row.untyped && self.columns.iter().any(|known| known == key) => {}
+                key => {
                     let origins = self.origins();
                     self.unknown(field, "", &[&OWN[..], &origins, &OPTIONS].concat());
+                    if row.untyped {
+                        self.columns.push(key.to_owned());
+                    }
                 }
             }
         }
         let all = stated.within(defaults);
         let origin = match sources[..] {
             [source] => self.origin(source, row, all.seed),
+            // It is there, and reported as a key that is misspelt.
+            [] if self.has_misspelt_origin(row) => None,
             [] => {
                 let problem = self.no_origin("no source".into());
                 self.fault(row.line, "", problem);
@@ -177,6 +185,15 @@ impl Checker<'_> {
             return None;
         }
         Some(name)
+    }
+
+    /// Whether a key that is none is spelt much like one of what a texture is made of.
+    fn has_misspelt_origin(&self, row: &Row) -> bool {
+        let mut strangers = row
+            .fields
+            .iter()
+            .filter(|field| !is_key(&field.key, self.registry));
+        strangers.any(|field| suggestion(&field.key, self.origins()).is_some())
     }
 
     /// All keys of what a texture is made of.

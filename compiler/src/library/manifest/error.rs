@@ -71,6 +71,8 @@ pub enum ManifestProblem {
     UnknownKey {
         /// What there is.
         known: String,
+        /// What may have been meant, in words.
+        suggestion: Option<String>,
     },
     /// One table `[texture]` in a list of textures.
     #[error("one table in single brackets, but a list of tables is expected")]
@@ -125,8 +127,13 @@ pub enum ManifestProblem {
         other: String,
     },
     /// A texture that is not in the manifest.
-    #[error("no texture {0:?} in this manifest")]
-    NoSuchTexture(String),
+    #[error("no texture {wanted:?} in this manifest")]
+    NoSuchTexture {
+        /// Its name.
+        wanted: String,
+        /// What may have been meant, in words.
+        suggestion: Option<String>,
+    },
     /// Blends that are made of each other.
     #[error("the texture depends on itself: {0}")]
     Cycle(String),
@@ -172,7 +179,10 @@ impl Diagnostic for ManifestError {
             ManifestProblem::Single => {
                 "write [[texture]], in two brackets, above each texture".into()
             }
-            ManifestProblem::UnknownKey { .. } => "correct the key, or remove it".into(),
+            ManifestProblem::UnknownKey { suggestion, .. } => match suggestion {
+                Some(suggestion) => format!("{suggestion} correct the key, or remove it"),
+                None => "correct the key, or remove it".into(),
+            },
             ManifestProblem::Type { .. } | ManifestProblem::Value { .. } => {
                 "correct the value".into()
             }
@@ -185,7 +195,10 @@ impl Diagnostic for ManifestError {
                     .into()
             }
             ManifestProblem::SameName { .. } => "rename one of them".into(),
-            ManifestProblem::NoSuchTexture(_) => "add it, or correct the name".into(),
+            ManifestProblem::NoSuchTexture { suggestion, .. } => match suggestion {
+                Some(suggestion) => format!("{suggestion} add it, or correct the name"),
+                None => "add it, or correct the name".into(),
+            },
             ManifestProblem::Cycle(_) => "give one of them another source".into(),
             ManifestProblem::IncludeCycle(_) | ManifestProblem::IncludedTwice(_) => {
                 "remove one of the includes".into()

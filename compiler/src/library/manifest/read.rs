@@ -12,6 +12,7 @@ use super::{
 };
 use crate::sources::Registry;
 use asperity_io::input::{self, Kind, Reach};
+use asperity_io::shown::suggestion;
 use std::{
     collections::HashMap,
     fs,
@@ -138,8 +139,10 @@ fn top_problem(field: &Field, scene: bool) -> ManifestProblem {
         _ => {
             let of_scenes: &[&str] = if scene { &OF_SCENES } else { &[] };
             let known = [&["include", "defaults", "texture"], of_scenes].concat();
-            let known = known.join(", ");
-            return ManifestProblem::UnknownKey { known };
+            return ManifestProblem::UnknownKey {
+                suggestion: suggestion(&field.key, known.iter().copied()),
+                known: known.join(", "),
+            };
         }
     };
     let found = field.value.kind();
@@ -220,6 +223,7 @@ impl Reader {
             reach: &self.reach,
             errors: &mut self.errors,
             registry: &self.registry,
+            columns: Vec::new(),
         };
         let scene = first && self.scene;
         for field in &sheet.wrong {
@@ -322,6 +326,7 @@ impl Reader {
             reach: &self.reach,
             errors: &mut self.errors,
             registry: &self.registry,
+            columns: Vec::new(),
         };
         let Value::Text(_) = field.value else {
             let (wanted, found) = ("the path of a manifest", field.value.kind());
@@ -454,7 +459,11 @@ impl Reader {
         let mut find = |reference: Reference| {
             let found = index.get(&reference.name).copied();
             if found.is_none() && complete {
-                let problem = ManifestProblem::NoSuchTexture(reference.name);
+                let names = index.keys().map(String::as_str);
+                let problem = ManifestProblem::NoSuchTexture {
+                    suggestion: suggestion(&reference.name, names),
+                    wanted: reference.name,
+                };
                 self.errors.push(ManifestError {
                     file: place.file.to_path_buf(),
                     line: Some(reference.line),

@@ -13,6 +13,7 @@ use crate::{
     views::preview,
 };
 use asperity_io::input::Reach;
+use asperity_io::shown::suggestion;
 use std::path::Path;
 
 /// Keys of a texture's options.
@@ -55,6 +56,8 @@ pub(super) struct Checker<'a> {
     pub(super) reach: &'a Reach,
     pub(super) errors: &'a mut Vec<ManifestError>,
     pub(super) registry: &'a Registry,
+    /// Columns of a CSV file that are no keys, and are reported already.
+    pub(super) columns: Vec<String>,
 }
 
 impl Checker<'_> {
@@ -183,8 +186,11 @@ impl Checker<'_> {
 
     pub(super) fn unknown(&mut self, field: &Field, prefix: &str, known: &[&str]) {
         let key = format!("{prefix}{}", field.key);
-        let known = known.join(", ");
-        self.fault(field.line, &key, ManifestProblem::UnknownKey { known });
+        let problem = ManifestProblem::UnknownKey {
+            suggestion: suggestion(&field.key, known.iter().copied()),
+            known: known.join(", "),
+        };
+        self.fault(field.line, &key, problem);
     }
 
     /// One option; whether the key is one.

@@ -11,6 +11,7 @@ use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{Outputs, display},
+    shown::suggestion,
 };
 
 pub(crate) fn run(args: &Rename, console: Console) -> Result<(), Failures> {
@@ -29,7 +30,12 @@ pub(crate) fn run(args: &Rename, console: Console) -> Result<(), Failures> {
         let count = shelf.textures.len();
         let wanted = args.texture.clone();
         let textures = Textures::open(&args.file).map_err(one)?;
-        let problem = TexturesProblem::NoSuchTexture { wanted, count };
+        let names = shelf.textures.iter().map(|(name, _)| name.as_str());
+        let problem = TexturesProblem::NoSuchTexture {
+            suggestion: suggestion(&wanted, names),
+            wanted,
+            count,
+        };
         return Err(one(textures.error(None, problem)));
     };
     let mut others = shelf.textures.iter().enumerate();
