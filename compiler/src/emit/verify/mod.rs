@@ -291,4 +291,22 @@ mod tests {
             assert!(report.is_ok(), "{loudness}: {report:?}");
         }
     }
+
+    /// Claim: an asset that sounds where its texture is silent is of another texture, however soft.
+    #[test]
+    fn a_vertex_that_should_be_silent_must_be() {
+        let mut silent = builtin::texture();
+        let mut sounding = silent.clone();
+        let level = |vertex: &asperity_texture::model::GridVertex| vertex.gain * vertex.sigma_m_s2;
+        let loudest = silent.grid.vertices.iter().map(level).fold(0.0, f64::max);
+        silent.grid.vertices[3].sigma_m_s2 = 0.0;
+        let vertex = &mut sounding.grid.vertices[3];
+        vertex.sigma_m_s2 = 20.0 * spectra::SILENCE_SHARE * loudest / vertex.gain;
+        let bytes = lower(&sounding, None).unwrap().bytes;
+        let refused = verify(&silent, &bytes);
+        assert!(
+            matches!(refused, Err(VerifyError::Spectrum { vertex: 3, .. })),
+            "{refused:?}"
+        );
+    }
 }

@@ -101,6 +101,14 @@ fn check_queries(
     Ok(largest.into_iter().fold(0.0, f64::max))
 }
 
+/// Whether weights mix that many vertices without leaving what lies between them.
+fn is_convex(weights: &[f32], vertices: &[u8], count: usize) -> bool {
+    let sum: f32 = weights.iter().sum();
+    weights.iter().all(|w| (0.0..=1.0).contains(w))
+        && (sum - 1.0).abs() <= SUM_TOLERANCE
+        && vertices.iter().all(|&v| usize::from(v) < count)
+}
+
 /// Checks the weights of a query and that its filter is finite.
 fn check_query(
     slot: &HostTexture,
@@ -109,14 +117,7 @@ fn check_query(
     force_n: f32,
 ) -> Result<Filter, VerifyError> {
     let found = slot.weights_at(speed_mm_s, force_n);
-    let sum: f32 = found.values().iter().sum();
-    let convex = found.values().iter().all(|w| (0.0..=1.0).contains(w))
-        && (sum - 1.0).abs() <= SUM_TOLERANCE
-        && found
-            .vertices
-            .iter()
-            .all(|&v| usize::from(v) < grid.vertices.len());
-    if !convex {
+    if !is_convex(&found.values(), &found.vertices, grid.vertices.len()) {
         return Err(VerifyError::Weights {
             speed_mm_s,
             force_n,
@@ -195,5 +196,17 @@ mod tests {
                 .iter()
                 .any(|place| place.0.is_nan() && place.1.is_nan())
         );
+    }
+
+    /// Claim: weights are convex if each is from 0 to 1, their sum is 1, and their vertices are there.
+    #[test]
+    fn weights_are_convex_by_all_three_rules() {
+        let is = |weights: [f32; 3], vertices: [u8; 3]| is_convex(&weights, &vertices, 40);
+        assert!(is([0.2, 0.3, 0.5], [0, 7, 39]) && is([1.0, 0.0, 0.0], [5, 5, 5]));
+        assert!(!is([1.2, -0.2, 0.0], [0, 1, 2]), "outside 0 to 1");
+        assert!(!is([0.2, 0.3, 0.4], [0, 1, 2]), "a sum below 1");
+        assert!(!is([0.5, 0.5, 0.5], [0, 1, 2]), "a sum above 1");
+        assert!(!is([0.2, 0.3, 0.5], [0, 1, 40]), "no such vertex");
+        assert!(!is([f32::NAN, 0.5, 0.5], [0, 1, 2]));
     }
 }
