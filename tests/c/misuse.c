@@ -84,6 +84,15 @@ static void of_configurations(void) {
   config = defaults();
   config.arithmetic = 2;
   EXPECT(CONFIG, asperity_renderer_init(renderer_memory, size, &config, &renderer, &error));
+  CHECK(strstr(error.message, "arithmetic is 2, but must be 0") != NULL);
+  config = defaults();
+  config.solid = 7;
+  EXPECT(CONFIG, asperity_renderer_init(renderer_memory, size, &config, &renderer, &error));
+  CHECK(strcmp(error.message, "solid is 7, but must be 0 (plane), 1 (sphere) or 2 (box)") == 0);
+  config = defaults();
+  config.vibration_axis = 3;
+  EXPECT(CONFIG, asperity_renderer_init(renderer_memory, size, &config, &renderer, &error));
+  CHECK(strstr(error.message, "vibration_axis is 3, but must be 0 (tangent)") != NULL);
   error.struct_size = 7; /* An error that was not begun: nothing is done and nothing written. */
   config = defaults();
   EXPECT(STRUCT_SIZE, asperity_renderer_init(renderer_memory, size, &config, &renderer, &error));
@@ -178,7 +187,7 @@ static void of_objects(unsigned char *library, size_t len) {
   EXPECT(OK, asperity_state_init(state_memory, sizeof state_memory, renderer, 1, &state));
 
   output.force_n[2] = 99.0f;
-  EXPECT(RATE, asperity_tick(renderer, texture, state, &pressed, &output)); /* nothing loaded */
+  EXPECT(NOT_LOADED, asperity_tick(renderer, texture, state, &pressed, &output));
   CHECK(output.force_n[2] == 0.0f && output.flags == ASPERITY_FLAG_SAFE_STATE);
   EXPECT(OK, asperity_texture_coupling(texture, &coupling));
   CHECK(coupling.stiffness_n_m == 0.0f && coupling.mu == 0.0f);

@@ -174,7 +174,7 @@ enum AsperityStatus
   ASPERITY_STATUS_NO_SUCH_TEXTURE = 5,
   // The texture is too large for a slot.
   ASPERITY_STATUS_CAPACITY = 6,
-  // The texture cannot be used at this servo rate, or none was loaded.
+  // The texture cannot be used at this servo rate, or was loaded for another.
   ASPERITY_STATUS_RATE = 7,
   // A field of the configuration is out of its range.
   ASPERITY_STATUS_CONFIG = 8,
@@ -193,6 +193,8 @@ enum AsperityStatus
   ASPERITY_STATUS_NO_SCENE = 14,
   // The processor is set to round otherwise than to nearest: forces would have other bits.
   ASPERITY_STATUS_ROUNDING = 15,
+  // The slot holds no texture: none was loaded, or the last load was refused.
+  ASPERITY_STATUS_NOT_LOADED = 16,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

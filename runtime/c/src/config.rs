@@ -5,7 +5,7 @@ use crate::{
     arithmetic::ASPERITY_ARITHMETIC_FLOAT,
     memory,
     sized::{self, sized},
-    status::call,
+    status::{Fault, call},
 };
 use asperity_runtime::{
     Config, FrictionConfig, Limits, MechanicsConfig, SafetyConfig, Solid, TapConfig, VibrationAxis,
@@ -179,12 +179,16 @@ impl From<Config> for AsperityConfig {
     }
 }
 
-impl TryFrom<&AsperityConfig> for Config {
-    type Error = AsperityStatus;
-
-    /// An unknown solid, axis or arithmetic is refused here. The renderer checks every other field.
-    fn try_from(c: &AsperityConfig) -> Result<Self, AsperityStatus> {
-        Ok(Self {
+impl AsperityConfig {
+    /// An unknown solid or axis is refused here. The renderer checks every other field.
+    pub(crate) fn checked(&self) -> Result<Config, Fault> {
+        let c = self;
+        let unknown = |field, value, known| Fault::Choice {
+            field,
+            value,
+            known,
+        };
+        Ok(Config {
             servo_rate_hz: c.servo_rate_hz,
             velocity_cutoff_hz: c.velocity_cutoff_hz,
             normal_cutoff_hz: c.normal_cutoff_hz,
@@ -201,12 +205,18 @@ impl TryFrom<&AsperityConfig> for Config {
                     center_m: c.solid_point_m,
                     half_extents_m: c.solid_half_extents_m,
                 },
-                _ => return Err(AsperityStatus::Config),
+                other => {
+                    let known = "0 (plane), 1 (sphere) or 2 (box)";
+                    return Err(unknown("solid", other, known));
+                }
             },
             vibration_axis: match c.vibration_axis {
                 ASPERITY_VIBRATION_TANGENT => VibrationAxis::Tangent,
                 ASPERITY_VIBRATION_BINORMAL => VibrationAxis::Binormal,
-                _ => return Err(AsperityStatus::Config),
+                other => {
+                    let known = "0 (tangent) or 1 (binormal)";
+                    return Err(unknown("vibration_axis", other, known));
+                }
             },
             limits: Limits {
                 peak_n: c.peak_n,
@@ -275,10 +285,7 @@ mod tests {
             half_extents_m: [4.0, 5.0, 6.0],
         };
         for config in configs {
-            assert_eq!(
-                Config::try_from(&AsperityConfig::from(config.clone())),
-                Ok(config)
-            );
+            assert_eq!(AsperityConfig::from(config.clone()).checked(), Ok(config));
         }
     }
 }

@@ -5,9 +5,9 @@ use crate::{
     arithmetic::{Numbered, by_arithmetic},
     memory::{Object, Tag, room, uninit},
     sized,
-    status::call,
+    status::{Fault, call},
 };
-use asperity_runtime::{Config, Renderer};
+use asperity_runtime::Renderer;
 use core::ffi::c_void;
 
 /// Size of the memory of an `AsperityRenderer`, bytes.
@@ -50,7 +50,7 @@ pub unsafe extern "C" fn asperity_renderer_init(
     unsafe {
         call(error, || {
             let config = sized::read(config)?;
-            let checked = Config::try_from(&config)?;
+            let checked = config.checked()?;
             by_arithmetic!(config.arithmetic, A => {
                 let object = room::<RendererOf<A>, _>(
                     memory,
@@ -62,7 +62,15 @@ pub unsafe extern "C" fn asperity_renderer_init(
                 (&raw mut (*object).tag).write(RendererOf::<A>::TAG);
                 renderer.write(object.cast());
                 Ok(())
-            }, else AsperityStatus::Config)
+            }, else Fault::Choice {
+                field: "arithmetic",
+                value: config.arithmetic,
+                known: if cfg!(feature = "fixed") {
+                    "0 (floats) or 1 (fixed point)"
+                } else {
+                    "0 (floats): this library is built without fixed point"
+                },
+            })
         })
     }
 }

@@ -31,7 +31,7 @@ pub enum AsperityStatus {
     NoSuchTexture = 5,
     /// The texture is too large for a slot.
     Capacity = 6,
-    /// The texture cannot be used at this servo rate, or none was loaded.
+    /// The texture cannot be used at this servo rate, or was loaded for another.
     Rate = 7,
     /// A field of the configuration is out of its range.
     Config = 8,
@@ -50,9 +50,11 @@ pub enum AsperityStatus {
     NoScene = 14,
     /// The processor is set to round otherwise than to nearest: forces would have other bits.
     Rounding = 15,
+    /// The slot holds no texture: none was loaded, or the last load was refused.
+    NotLoaded = 16,
 }
 
-const ALL: [(AsperityStatus, &CStr); 16] = [
+const ALL: [(AsperityStatus, &CStr); 17] = [
     (AsperityStatus::Ok, c"done"),
     (
         AsperityStatus::NullPointer,
@@ -77,7 +79,7 @@ const ALL: [(AsperityStatus, &CStr); 16] = [
     ),
     (
         AsperityStatus::Rate,
-        c"the texture's rate is not the servo's, or none was loaded",
+        c"the texture was loaded for another servo rate, or cannot be used at this one",
     ),
     (
         AsperityStatus::Config,
@@ -108,6 +110,10 @@ const ALL: [(AsperityStatus, &CStr); 16] = [
         AsperityStatus::Rounding,
         c"the processor rounds otherwise than to nearest: call fesetround(FE_TONEAREST)",
     ),
+    (
+        AsperityStatus::NotLoaded,
+        c"no texture was loaded into the slot, or its last load was refused",
+    ),
 ];
 
 /// Text of a status. Never null; an unknown number has a text, too.
@@ -133,12 +139,18 @@ pub struct AsperityError {
 const _: () = assert!(size_of::<AsperityError>() == 8 + ASPERITY_MESSAGE_SIZE);
 
 /// Why a call failed.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Fault {
     Plain(AsperityStatus),
     Load(LoadError),
     Config(ConfigError),
     Scene(SceneError),
+    /// A field of the configuration that holds none of the numbers it may.
+    Choice {
+        field: &'static str,
+        value: u32,
+        known: &'static str,
+    },
 }
 
 impl From<AsperityStatus> for Fault {
@@ -202,7 +214,7 @@ impl Fault {
             Self::Scene(SceneError::Capacity { .. }) => AsperityStatus::Capacity,
             Self::Scene(_) => AsperityStatus::Format,
             Self::Config(error) if *error == ConfigError::ROUNDING => AsperityStatus::Rounding,
-            Self::Config(_) => AsperityStatus::Config,
+            Self::Config(_) | Self::Choice { .. } => AsperityStatus::Config,
         }
     }
 }
@@ -217,6 +229,11 @@ impl fmt::Display for Fault {
             Self::Load(error) => error.fmt(f),
             Self::Config(error) => error.fmt(f),
             Self::Scene(error) => error.fmt(f),
+            Self::Choice {
+                field,
+                value,
+                known,
+            } => write!(f, "{field} is {value}, but must be {known}"),
         }
     }
 }

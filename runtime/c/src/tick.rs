@@ -179,6 +179,8 @@ pub(crate) fn same_rate<A: Numbered>(
 ) -> Result<(), AsperityStatus> {
     if servo_rate_hz == renderer.config().servo_rate_hz {
         Ok(())
+    } else if servo_rate_hz == 0.0 {
+        Err(AsperityStatus::NotLoaded)
     } else {
         Err(AsperityStatus::Rate)
     }
