@@ -304,6 +304,14 @@ static void of_exchanges(const unsigned char *library, size_t len) {
   for (int i = 0; i < 200; i++) EXPECT(OK, asperity_player_tick(renderer, player, &pressed, &output));
   CHECK(output.force_n[2] > 0.0f);
   EXPECT(OK, asperity_preparer_load_index(preparer, library, len, 0, &error));
+  /* A copy would play from the memory of the original. */
+  static ASPERITY_ALIGNED unsigned char copy[sizeof memory];
+  memcpy(copy, memory, sizeof memory);
+  AsperityPlayer *copied_player = (AsperityPlayer *)(copy + ((unsigned char *)player - memory));
+  AsperityPreparer *copied_preparer = (AsperityPreparer *)(copy + ((unsigned char *)preparer - memory));
+  EXPECT(NOT_INITIALISED, asperity_player_tick(renderer, copied_player, &pressed, &output));
+  EXPECT(NOT_INITIALISED, asperity_player_counters(copied_player, &counters));
+  EXPECT(NOT_INITIALISED, asperity_preparer_load_index(copied_preparer, library, len, 0, &error));
   EXPECT(NULL_POINTER, asperity_player_counters(player, NULL));
   EXPECT(OK, asperity_player_counters(player, &counters));
   CHECK(counters.ticks == 201);

@@ -166,7 +166,8 @@ enum AsperityStatus
   ASPERITY_STATUS_NULL_POINTER = 1,
   // The memory is too small or misaligned.
   ASPERITY_STATUS_MEMORY = 2,
-  // A pointer does not lead to an initialised object of the right kind.
+  // A pointer does not lead to an initialised object of the right kind, or leads to an exchange
+  // or a scene that was copied.
   ASPERITY_STATUS_NOT_INITIALISED = 3,
   // The bytes are not a valid library or asset.
   ASPERITY_STATUS_FORMAT = 4,
@@ -467,9 +468,9 @@ AsperityStatus asperity_exchange_size(uint32_t capacity, uint32_t spare, size_t 
 // Makes an exchange with an empty slot that plays and 1 to `ASPERITY_EXCHANGE_SPARE` spare ones of
 // `capacity` (`ASPERITY_CAPACITY_*`), in `memory` of at least as many bytes as
 // `asperity_exchange_size` says, for the servo rate and the arithmetic of a renderer. The memory
-// must not be copied elsewhere. `seed` selects the noise of the excitation. Until a texture is
-// loaded there is no force. One spare slot is enough; with two, a texture can be prepared while
-// another one is on its way.
+// must not be copied elsewhere: a copy is refused as not initialised. `seed` selects the noise of
+// the excitation. Until a texture is loaded there is no force. One spare slot is enough; with two,
+// a texture can be prepared while another one is on its way.
 //
 // # Safety
 // `memory` is null or `size` bytes that nothing else uses; `renderer` is null or an initialised
@@ -629,8 +630,8 @@ AsperityStatus asperity_scene_size(const uint8_t *library,
 
 // Loads every surface and texture of a library (`.aspl`) that holds a scene, in `memory` of at
 // least as many bytes as `asperity_scene_size` says, for the servo rate and the arithmetic of a
-// renderer. The memory must not be copied elsewhere. The bytes are not needed afterwards. A library
-// that is refused leaves no scene.
+// renderer. The memory must not be copied elsewhere: a copy is refused as not initialised. The
+// bytes are not needed afterwards. A library that is refused leaves no scene.
 //
 // # Safety
 // `memory` is null or `size` bytes that nothing else uses; `renderer` is null or an initialised

@@ -47,6 +47,8 @@ pub struct AsperityPlayer {
 #[repr(C, align(64))]
 struct PreparerOf<S: Class, A: Numbered> {
     tag: Tag,
+    /// Where it was initialised.
+    home: usize,
     servo_rate_hz: f32,
     preparer: Preparer<'static, 'static, S, A>,
 }
@@ -55,6 +57,8 @@ struct PreparerOf<S: Class, A: Numbered> {
 #[repr(C, align(64))]
 struct PlayerOf<S: Class, A: Numbered> {
     tag: Tag,
+    /// Where it was initialised.
+    home: usize,
     servo_rate_hz: f32,
     player: Player<'static, 'static, S, A>,
 }
@@ -70,11 +74,19 @@ struct Both<S: Class, A: Numbered> {
 // SAFETY: `repr(C)`, the tag is first.
 unsafe impl<S: Class, A: Numbered> Object for PreparerOf<S, A> {
     const TAG: Tag = Tag::new(b'E', A::NUMBER, S::NUMBER);
+
+    fn is_in_place(&self) -> bool {
+        self.home == ptr::from_ref(self).addr()
+    }
 }
 
 // SAFETY: `repr(C)`, the tag is first.
 unsafe impl<S: Class, A: Numbered> Object for PlayerOf<S, A> {
     const TAG: Tag = Tag::new(b'P', A::NUMBER, S::NUMBER);
+
+    fn is_in_place(&self) -> bool {
+        self.home == ptr::from_ref(self).addr()
+    }
 }
 
 /// Bytes of an exchange.
@@ -109,9 +121,9 @@ pub unsafe extern "C" fn asperity_exchange_size(
 /// Makes an exchange with an empty slot that plays and 1 to `ASPERITY_EXCHANGE_SPARE` spare ones of
 /// `capacity` (`ASPERITY_CAPACITY_*`), in `memory` of at least as many bytes as
 /// `asperity_exchange_size` says, for the servo rate and the arithmetic of a renderer. The memory
-/// must not be copied elsewhere. `seed` selects the noise of the excitation. Until a texture is
-/// loaded there is no force. One spare slot is enough; with two, a texture can be prepared while
-/// another one is on its way.
+/// must not be copied elsewhere: a copy is refused as not initialised. `seed` selects the noise of
+/// the excitation. Until a texture is loaded there is no force. One spare slot is enough; with two,
+/// a texture can be prepared while another one is on its way.
 ///
 /// # Safety
 /// `memory` is null or `size` bytes that nothing else uses; `renderer` is null or an initialised
@@ -179,9 +191,11 @@ unsafe fn make<S: Class, A: Numbered>(
         };
         (&raw mut (*both).preparer).write(PreparerOf {
             tag: PreparerOf::<S, A>::TAG,
+            home: (&raw const (*both).preparer).addr(),
             servo_rate_hz,
             preparer,
         });
+        (&raw mut (*both).player.home).write((&raw const (*both).player).addr());
         (&raw mut (*both).player.servo_rate_hz).write(servo_rate_hz);
         (&raw mut (*both).player.tag).write(PlayerOf::<S, A>::TAG);
     }

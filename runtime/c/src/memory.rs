@@ -41,6 +41,12 @@ impl Tag {
 pub(crate) unsafe trait Object: Sized {
     /// Different for every type.
     const TAG: Tag;
+
+    /// Whether it lies where it was initialised. What holds pointers into its own memory is none of
+    /// ours where it was copied to.
+    fn is_in_place(&self) -> bool {
+        true
+    }
 }
 
 /// Checks memory for an object of type `T` that the header gives `room` bytes.
@@ -98,7 +104,11 @@ unsafe fn check<T: Object, P>(object: *const P) -> Result<*const T, AsperityStat
     } else if found != T::TAG {
         Err(AsperityStatus::NotInitialised)
     } else {
-        Ok(object)
+        // SAFETY: aligned; a right tag means that `init` wrote the object, or somebody copied it.
+        let in_place = unsafe { (*object).is_in_place() };
+        in_place
+            .then_some(object)
+            .ok_or(AsperityStatus::NotInitialised)
     }
 }
 

@@ -35,6 +35,8 @@ pub struct AsperityScene {
 #[repr(C)]
 pub(crate) struct SceneOf<S: Class, A: Numbered> {
     tag: Tag,
+    /// Where it was initialised.
+    home: usize,
     servo_rate_hz: f32,
     scene: MaybeUninit<Scene<'static, MAX_SURFACES, S, A>>,
 }
@@ -42,6 +44,10 @@ pub(crate) struct SceneOf<S: Class, A: Numbered> {
 // SAFETY: `repr(C)`, the tag is first.
 unsafe impl<S: Class, A: Numbered> Object for SceneOf<S, A> {
     const TAG: Tag = Tag::new(b'C', A::NUMBER, S::NUMBER);
+
+    fn is_in_place(&self) -> bool {
+        self.home == ptr::from_ref(self).addr()
+    }
 }
 
 /// State of one stylus in a scene. One thread at a time may use it.
@@ -102,8 +108,8 @@ pub unsafe extern "C" fn asperity_scene_size(
 
 /// Loads every surface and texture of a library (`.aspl`) that holds a scene, in `memory` of at
 /// least as many bytes as `asperity_scene_size` says, for the servo rate and the arithmetic of a
-/// renderer. The memory must not be copied elsewhere. The bytes are not needed afterwards. A library
-/// that is refused leaves no scene.
+/// renderer. The memory must not be copied elsewhere: a copy is refused as not initialised. The
+/// bytes are not needed afterwards. A library that is refused leaves no scene.
 ///
 /// # Safety
 /// `memory` is null or `size` bytes that nothing else uses; `renderer` is null or an initialised
@@ -139,6 +145,7 @@ pub unsafe extern "C" fn asperity_scene_init(
                     }
                     // No scene while it is being made.
                     (&raw mut (*object).tag).write(Tag::NONE);
+                    (&raw mut (*object).home).write(object.addr());
                     (&raw mut (*object).servo_rate_hz).write(config.servo_rate_hz);
                     let slots: &'static mut [_] = from_raw_parts_mut(slots, count);
                     Scene::load_in(&mut (*object).scene, &library, config, slots)?;

@@ -23,7 +23,8 @@ pub enum AsperityStatus {
     NullPointer = 1,
     /// The memory is too small or misaligned.
     Memory = 2,
-    /// A pointer does not lead to an initialised object of the right kind.
+    /// A pointer does not lead to an initialised object of the right kind, or leads to an exchange
+    /// or a scene that was copied.
     NotInitialised = 3,
     /// The bytes are not a valid library or asset.
     Format = 4,
@@ -63,7 +64,7 @@ const ALL: [(AsperityStatus, &CStr); 17] = [
     (AsperityStatus::Memory, c"memory is too small or misaligned"),
     (
         AsperityStatus::NotInitialised,
-        c"a pointer leads to no object, or to one of another kind or arithmetic",
+        c"a pointer leads to no object, to one of another kind or arithmetic, or to a copied exchange or scene",
     ),
     (
         AsperityStatus::Format,

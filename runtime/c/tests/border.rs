@@ -190,6 +190,26 @@ fn a_scene_lies_in_one_block_of_memory() {
         let touched = rust_state.touched().map(|index| index as u32);
         assert_eq!(output.surface, touched.unwrap_or(ASPERITY_NO_SURFACE));
     }
+    // A copy would play from the memory of the original.
+    let mut copy = Memory::<{ ASPERITY_SCENE_SIZE + 4 * ASPERITY_TEXTURE_SIZE_LARGE }>::new();
+    let mut untouched = MaybeUninit::<AsperityOutput>::zeroed();
+    // SAFETY: both memories have this size; the copy is refused by its first bytes.
+    let status = unsafe {
+        let bytes = size_of_val(&*copy);
+        ptr::copy_nonoverlapping(
+            scene_memory.as_mut_ptr().cast::<MaybeUninit<u8>>(),
+            copy.as_mut_ptr().cast(),
+            bytes,
+        );
+        let output = untouched.as_mut_ptr();
+        output
+            .cast::<u32>()
+            .write(size_of::<AsperityOutput>() as u32);
+        let copied = copy.as_mut_ptr().cast();
+        let first = sample(0);
+        asperity_scene_tick(renderer, copied, state, &raw const first, output)
+    };
+    assert_eq!(status, AsperityStatus::NotInitialised);
 }
 
 #[test]
