@@ -281,4 +281,12 @@ mod tests {
         assert!(!with(40, 1, worst + 1e-9) && !with(40, 1, f64::INFINITY));
         assert!(with(40, 0, 0.0) && with(1, 0, 0.0));
     }
+
+    #[test]
+    fn frequencies_are_ordered_if_they_ascend_inside_the_circle() {
+        assert!(is_ordered(&[]) && is_ordered(&[0.3]) && is_ordered(&[0.9, 0.1, -0.8]));
+        assert!(!is_ordered(&[0.5, 0.5]), "two at one place");
+        assert!(!is_ordered(&[0.1, 0.9]) && !is_ordered(&[1.1, 0.0]));
+        assert!(!is_ordered(&[f64::NAN]));
+    }
 }

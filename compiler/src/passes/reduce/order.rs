@@ -212,4 +212,28 @@ mod tests {
             assert!(least > 1e-4, "{least}");
         }
     }
+
+    /// Claim: what a zero at half the rate takes away, the poles give back: a model without zeros keeps
+    /// its spectrum under either numerator.
+    #[test]
+    fn a_spectrum_is_kept_under_another_numerator() {
+        use asperity_texture::signal::spectrum::log_spectral_distance_db;
+        let mut full = builtin::texture().grid;
+        full.order = 4;
+        full.numerator = Numerator::None;
+        for vertex in &mut full.vertices {
+            vertex.lsf_rad = vec![0.4, 0.7, 1.6, 2.4];
+        }
+        let reduced = Fits::new(&full, Numerator::Nyquist)
+            .unwrap()
+            .at(16)
+            .unwrap();
+        for (x, y) in full.vertices.iter().zip(&reduced.vertices) {
+            if x.sigma_m_s2 > 0.0 {
+                let [x, y] = [(&full, x), (&reduced, y)].map(|(g, v)| ArmaModel::at_vertex(g, v));
+                let distance_db = log_spectral_distance_db(&x, &y);
+                assert!(distance_db < 1.0, "{distance_db} dB");
+            }
+        }
+    }
 }
