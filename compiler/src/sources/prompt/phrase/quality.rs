@@ -358,6 +358,20 @@ mod tests {
         }
     }
 
+    /// Claim: "being" belongs to a denial before it, and to nothing else.
+    #[test]
+    fn without_being_is_a_denial() {
+        let found = |text: &str| {
+            let words: Vec<String> = text.split(' ').map(str::to_owned).collect();
+            let found = quality(&words, words.len() - 1, Use::Thing).expect(text);
+            (found.from, found.range)
+        };
+        assert_eq!(found("without being rough"), (0, NOT));
+        assert_eq!(found("without rough"), (0, NOT));
+        assert_eq!(found("to be rough"), (2, PLAIN));
+        assert_eq!(found("being rough"), (1, PLAIN));
+    }
+
     /// Claim: more and less of a noun are each other's mirror.
     #[test]
     fn a_direction_before_a_noun_turns_it() {
