@@ -307,9 +307,7 @@ fn strength(change: Change) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        NOT, NOT_AT_ALL, NOT_VERY, PLAIN, Use, VERY, directed, is_lasting, quality, turned,
-    };
+    use super::*;
 
     /// "the friction up": as far as a plain comparative, in an edit alone.
     #[test]
@@ -356,6 +354,27 @@ mod tests {
             let found = quality(&words, at, Use::Thing).expect(text);
             assert_eq!(found.range, expected, "{text}");
         }
+    }
+
+    /// Claim: words that name a quality only where something is to be changed do so in edits alone, and a
+    /// degree stands between "without" and its noun in edits alone.
+    #[test]
+    fn what_only_an_edit_says_is_read_in_edits_alone() {
+        assert_eq!(noun("adhesion", Use::Thing), None);
+        assert!(noun("adhesion", Use::Edit).is_some());
+        assert_eq!(adjective("buzzy", Use::Thing), None);
+        assert!(adjective("buzzy", Use::Edit).is_some());
+        for word in ["bumps", "rough"] {
+            let of = |about| noun(word, about).or_else(|| adjective(word, about));
+            assert!(
+                of(Use::Thing).is_some() && of(Use::Thing) == of(Use::Edit),
+                "{word}"
+            );
+        }
+        let words = ["without", "much", "bumps"].map(str::to_owned);
+        let read = |about| lacked(&words, 0, about).map(|found| (found.range, found.to));
+        assert_eq!(read(Use::Edit), Some((NOT, 3)));
+        assert_eq!(read(Use::Thing), None);
     }
 
     /// Claim: "being" belongs to a denial before it, and to nothing else.
