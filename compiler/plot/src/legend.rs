@@ -64,6 +64,24 @@ impl Panel {
     }
 }
 
+impl Panel {
+    /// Draws data as a key shows it: a line through the points, or a marker at each.
+    pub fn keyed(
+        &self,
+        canvas: &mut Canvas,
+        points: impl IntoIterator<Item = (f64, f64)>,
+        key: Key,
+    ) {
+        match key {
+            Key::Line(stroke) => self.line(canvas, points, stroke),
+            Key::Point(marker, radius, fill, outline) => {
+                self.points(canvas, points, marker, radius, fill, outline);
+            }
+            Key::Text => {}
+        }
+    }
+}
+
 fn style() -> TextStyle {
     TextStyle::new(size::TICK)
         .color(ink::GREY)

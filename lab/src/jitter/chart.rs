@@ -176,15 +176,8 @@ fn over_time(canvas: &mut Canvas, outer: Rect, run: &Run) {
     let outline = Stroke::new(ink::BLACK, size::FRAME);
     let worst = run.facts.worst.iter();
     let worst = worst.map(|tick| (tick.t_s, us(tick.total_ns)));
-    panel.points(
-        canvas,
-        worst,
-        Marker::Circle,
-        7.0,
-        Some(ink::PAPER),
-        Some(outline),
-    );
     let key = Key::Point(Marker::Circle, 7.0, Some(ink::PAPER), Some(outline));
+    panel.keyed(canvas, worst, key);
     keys.push((Key::Line(period_stroke()), "a period"));
     keys.push((key, "the ten worst ticks"));
     panel.legend(canvas, &keys);

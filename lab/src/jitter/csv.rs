@@ -4,7 +4,8 @@ use asperity_host::latency::{Percentiles, QUANTILES, Run, Wakeups};
 use asperity_host::servo::Stage;
 use std::fmt::Write as _;
 
-/// Every stage, raw and corrected, in the percentiles that its count carries, and cyclictest's wake-ups where there are some.
+/// Every stage, raw and corrected, in the percentiles that its count carries, and cyclictest's
+/// wake-ups where there are some.
 #[must_use]
 pub fn percentiles(run: &Run, cyclictest: Option<&Wakeups>) -> String {
     let mut text = String::from("stage,kind,percentile,value_ns\n");

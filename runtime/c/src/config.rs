@@ -182,35 +182,34 @@ impl From<Config> for AsperityConfig {
 impl AsperityConfig {
     /// An unknown solid or axis is refused here. The renderer checks every other field.
     pub(crate) fn checked(&self) -> Result<Config, Fault> {
-        let c = self;
         let unknown = |field, value, known| Fault::Choice {
             field,
             value,
             known,
         };
         Ok(Config {
-            servo_rate_hz: c.servo_rate_hz,
-            velocity_cutoff_hz: c.velocity_cutoff_hz,
-            normal_cutoff_hz: c.normal_cutoff_hz,
-            solid: match c.solid {
+            servo_rate_hz: self.servo_rate_hz,
+            velocity_cutoff_hz: self.velocity_cutoff_hz,
+            normal_cutoff_hz: self.normal_cutoff_hz,
+            solid: match self.solid {
                 ASPERITY_SOLID_PLANE => Solid::Plane {
-                    point_m: c.solid_point_m,
-                    normal: c.solid_normal,
+                    point_m: self.solid_point_m,
+                    normal: self.solid_normal,
                 },
                 ASPERITY_SOLID_SPHERE => Solid::Sphere {
-                    center_m: c.solid_point_m,
-                    radius_m: c.solid_radius_m,
+                    center_m: self.solid_point_m,
+                    radius_m: self.solid_radius_m,
                 },
                 ASPERITY_SOLID_BOX => Solid::Box {
-                    center_m: c.solid_point_m,
-                    half_extents_m: c.solid_half_extents_m,
+                    center_m: self.solid_point_m,
+                    half_extents_m: self.solid_half_extents_m,
                 },
                 other => {
                     let known = "0 (plane), 1 (sphere) or 2 (box)";
                     return Err(unknown("solid", other, known));
                 }
             },
-            vibration_axis: match c.vibration_axis {
+            vibration_axis: match self.vibration_axis {
                 ASPERITY_VIBRATION_TANGENT => VibrationAxis::Tangent,
                 ASPERITY_VIBRATION_BINORMAL => VibrationAxis::Binormal,
                 other => {
@@ -219,30 +218,30 @@ impl AsperityConfig {
                 }
             },
             limits: Limits {
-                peak_n: c.peak_n,
-                slew_n_s: c.slew_n_s,
+                peak_n: self.peak_n,
+                slew_n_s: self.slew_n_s,
             },
             tap: TapConfig {
-                min_speed_m_s: c.tap_min_speed_m_s,
-                rearm_m: c.tap_rearm_m,
+                min_speed_m_s: self.tap_min_speed_m_s,
+                rearm_m: self.tap_rearm_m,
             },
             friction: FrictionConfig {
-                stiffness_n_m: c.friction_stiffness_n_m,
-                dead_zone_m: c.friction_dead_zone_m,
-                leak_speed_m_s: c.friction_leak_speed_m_s,
+                stiffness_n_m: self.friction_stiffness_n_m,
+                dead_zone_m: self.friction_dead_zone_m,
+                leak_speed_m_s: self.friction_leak_speed_m_s,
             },
             mechanics: MechanicsConfig {
-                damping_n_s_m: c.mechanics_damping_n_s_m,
-                coulomb_n: c.mechanics_coulomb_n,
-                fastest_m_s: c.mechanics_fastest_m_s,
-                position_step_m: c.mechanics_position_step_m,
-                delay_ticks: c.mechanics_delay_ticks,
+                damping_n_s_m: self.mechanics_damping_n_s_m,
+                coulomb_n: self.mechanics_coulomb_n,
+                fastest_m_s: self.mechanics_fastest_m_s,
+                position_step_m: self.mechanics_position_step_m,
+                delay_ticks: self.mechanics_delay_ticks,
             },
             safety: SafetyConfig {
-                hold_ticks: c.hold_ticks,
-                ramp_s: c.ramp_s,
+                hold_ticks: self.hold_ticks,
+                ramp_s: self.ramp_s,
             },
-            parameter_time_constant_s: c.parameter_time_constant_s,
+            parameter_time_constant_s: self.parameter_time_constant_s,
         })
     }
 }

@@ -7,6 +7,7 @@ mod read;
 #[cfg(test)]
 mod tests;
 
+use crate::shown::size;
 use files::Files;
 use read::{
     CAP_IPC_LOCK, CAP_SYS_NICE, governor, hardware, idle, interrupts, isolation, preemption,
@@ -45,13 +46,21 @@ pub fn settings_in(root: &Path, cpu: Option<usize>) -> Vec<Setting> {
     vec![
         preemption(&files),
         throttling(&files),
+        // A priority of 80 is what the loop asks for; it locks all its memory, also what it gets later.
         privilege(
             &files,
             "real-time priority",
             CAP_SYS_NICE,
-            "Max realtime priority",
+            ("Max realtime priority", 80),
+            |priority| priority.to_string(),
         ),
-        privilege(&files, "locked memory", CAP_IPC_LOCK, "Max locked memory"),
+        privilege(
+            &files,
+            "locked memory",
+            CAP_IPC_LOCK,
+            ("Max locked memory", u64::MAX),
+            size,
+        ),
         isolation(&files, cpu),
         interrupts(&files, cpu),
         governor(&files, cpu.unwrap_or(0)),

@@ -4,7 +4,7 @@ use super::{
     Setting,
     files::{Files, listed},
 };
-use crate::shown::{counted, size};
+use crate::shown::counted;
 
 /// Bits of the effective capabilities: memory may be locked, priorities may be raised.
 pub(super) const CAP_IPC_LOCK: u32 = 14;
@@ -14,30 +14,31 @@ const DEEP_US: u64 = 10;
 /// Grants what the loop asks for itself.
 const GRANT: &str = r#"sudo setcap cap_sys_nice,cap_ipc_lock+ep "$(which asperity-lab)""#;
 
+/// A setting that is so, and whether that suits; `None` where the system does not tell.
 fn setting(
     name: &'static str,
-    now: Option<String>,
-    good: impl FnOnce(&str) -> bool,
+    found: Option<(String, bool)>,
     change: impl Into<String>,
 ) -> Setting {
+    let good = found.as_ref().map(|(_, good)| *good);
     Setting {
         name,
-        good: now.as_deref().map(good),
-        now: now.unwrap_or_else(|| "unknown".into()),
+        now: found.map_or_else(|| "unknown".into(), |(now, _)| now),
+        good,
         change: change.into(),
     }
 }
 
 pub(super) fn preemption(files: &Files) -> Setting {
-    let now = files.text("proc/sys/kernel/version").map(|version| {
+    let found = files.text("proc/sys/kernel/version").map(|version| {
         let models = ["PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT"];
         let model = models.into_iter().find(|model| version.contains(model));
-        model.unwrap_or("not preemptible").to_owned()
+        let model = model.unwrap_or("not preemptible");
+        (model.to_owned(), model == "PREEMPT_RT")
     });
     setting(
         "kernel",
-        now,
-        |model| model == "PREEMPT_RT",
+        found,
         "sudo apt install linux-image-rt-amd64, or your distribution's real-time kernel",
     )
 }
@@ -46,27 +47,29 @@ pub(super) fn preemption(files: &Files) -> Setting {
 pub(super) fn throttling(files: &Files) -> Setting {
     let runtime_us: Option<i64> = files.number("proc/sys/kernel/sched_rt_runtime_us");
     let period_us: Option<i64> = files.number("proc/sys/kernel/sched_rt_period_us");
-    let now = runtime_us.zip(period_us).map(|(runtime_us, period_us)| {
+    let found = runtime_us.zip(period_us).map(|(runtime_us, period_us)| {
         if runtime_us < 0 || runtime_us >= period_us {
-            "off".to_owned()
+            ("off".to_owned(), true)
         } else {
-            format!("real-time threads get {runtime_us} of {period_us} µs")
+            let now = format!("real-time threads get {runtime_us} of {period_us} µs");
+            (now, false)
         }
     });
     setting(
         "throttling",
-        now,
-        |now| now == "off",
+        found,
         "sudo sysctl -w kernel.sched_rt_runtime_us=-1",
     )
 }
 
-/// Whether this process has a capability, or a limit above zero that stands for it.
+/// Whether this process has a capability, or a limit that stands for it: `enough` is the least that
+/// does, `shown` how a lower one is worded.
 pub(super) fn privilege(
     files: &Files,
     name: &'static str,
     capability: u32,
-    limit: &str,
+    (limit, enough): (&str, u64),
+    shown: fn(u64) -> String,
 ) -> Setting {
     let status = files.text("proc/self/status");
     let capable = status.as_deref().and_then(|status| {
@@ -79,30 +82,21 @@ pub(super) fn privilege(
     let limits = files.text("proc/self/limits");
     let allowed = limits.as_deref().and_then(|limits| {
         let line = limits.lines().find_map(|line| line.strip_prefix(limit))?;
-        line.split_whitespace().next().map(str::to_owned)
+        match line.split_whitespace().next()? {
+            "unlimited" => Some(u64::MAX),
+            limit => limit.parse().ok(),
+        }
     });
-    let now = match (capable, allowed) {
-        (Some(true), _) => Some("permitted".to_owned()),
-        (_, Some(allowed)) if allowed == "unlimited" => Some("permitted".to_owned()),
-        (_, Some(allowed)) => Some(match allowed.parse::<u64>() {
-            Ok(0) => "not permitted".to_owned(),
-            Ok(bytes) if capability == CAP_IPC_LOCK => {
-                format!("permitted up to {}", size(bytes))
-            }
-            _ => format!("permitted up to {allowed}"),
-        }),
-        (Some(false), None) => Some("not permitted".to_owned()),
+    let found = match (capable, allowed) {
+        (Some(true), _) | (_, Some(u64::MAX)) => Some(("permitted".to_owned(), true)),
+        (_, Some(0)) | (Some(false), None) => Some(("not permitted".to_owned(), false)),
+        (_, Some(limit)) => {
+            let now = format!("permitted up to {}", shown(limit));
+            Some((now, limit >= enough))
+        }
         (None, None) => None,
     };
-    // The loop's own memory is a few MB; a priority of 80 is what it asks for.
-    let enough = |now: &str| match now.strip_prefix("permitted up to ") {
-        Some(priority) if capability == CAP_SYS_NICE => {
-            priority.parse().is_ok_and(|priority: u32| priority >= 80)
-        }
-        Some(_) => false,
-        None => now == "permitted",
-    };
-    setting(name, now, enough, GRANT)
+    setting(name, found, GRANT)
 }
 
 pub(super) fn isolation(files: &Files, cpu: Option<usize>) -> Setting {
@@ -111,11 +105,14 @@ pub(super) fn isolation(files: &Files, cpu: Option<usize>) -> Setting {
     let isolated = files.text("sys/devices/system/cpu/isolated");
     let isolated = isolated.map_or_else(Vec::new, |list| listed(&list));
     let good = cpu.is_some_and(|cpu| isolated.contains(&cpu));
-    let others = match wanted {
-        0 => "1".to_owned(),
-        1 => "0".to_owned(),
-        _ => format!("0-{}", wanted - 1),
+    let range = |first: usize, last: usize| match last.checked_sub(first) {
+        Some(0) => Some(first.to_string()),
+        Some(_) => Some(format!("{first}-{last}")),
+        None => None,
     };
+    let below = wanted.checked_sub(1).and_then(|below| range(0, below));
+    let others: Vec<String> = below.into_iter().chain(range(wanted + 1, last)).collect();
+    let others = others.join(",");
     Setting {
         name: "isolated processor",
         now: match (isolated.as_slice(), cpu) {
@@ -148,32 +145,38 @@ pub(super) fn interrupts(files: &Files, cpu: Option<usize>) -> Setting {
         });
         served.count() as u64
     };
-    let count = (numbers().count() > 0).then(|| match cpu {
-        Some(cpu) => served_by(cpu),
-        None => numbers().count() as u64,
-    });
-    let now = count.map(|count| {
-        let count = counted(count, "interrupt", "interrupts");
+    let found = (numbers().count() > 0).then(|| {
+        let count = |count| counted(count, "interrupt", "interrupts");
         match cpu {
-            Some(cpu) => format!("{count} on processor {cpu}"),
-            None => format!("{count}, and the loop is not pinned (--cpu N)"),
+            Some(cpu) => {
+                let served = served_by(cpu);
+                (format!("{} on processor {cpu}", count(served)), served == 0)
+            }
+            None => {
+                let all = count(numbers().count() as u64);
+                (
+                    format!("{all}, and the loop is not pinned (--cpu N)"),
+                    false,
+                )
+            }
         }
     });
     setting(
         "interrupts",
-        now,
-        |now| now.starts_with("0 "),
+        found,
         "for f in /proc/irq/[0-9]*/smp_affinity_list; do echo 0 | sudo tee $f; done, where the loop is not on processor 0",
     )
 }
 
 pub(super) fn governor(files: &Files, cpu: usize) -> Setting {
+    let path = format!("sys/devices/system/cpu/cpu{cpu}/cpufreq/scaling_governor");
+    let found = files.text(&path).map(|governor| {
+        let good = governor == "performance";
+        (governor, good)
+    });
     setting(
         "frequency governor",
-        files.text(&format!(
-            "sys/devices/system/cpu/cpu{cpu}/cpufreq/scaling_governor"
-        )),
-        |governor| governor == "performance",
+        found,
         "sudo cpupower frequency-set -g performance",
     )
 }
@@ -188,29 +191,26 @@ pub(super) fn idle(files: &Files, cpu: usize) -> Setting {
         let name = files.text(&format!("{folder}/{state}/name"))?;
         enabled.then_some((latency_us, name))
     });
-    let deepest = states.max();
-    let shallow = deepest
-        .as_ref()
-        .map(|(latency_us, _)| *latency_us <= DEEP_US);
-    Setting {
-        name: "idle states",
-        now: deepest.map_or_else(
-            || "unknown".to_owned(),
-            |(latency_us, name)| format!("down to {name}, {latency_us} µs to leave"),
-        ),
-        good: shallow,
-        change: format!(
-            "sudo cpupower idle-set -D {DEEP_US}, or write access to /dev/cpu_dma_latency"
-        ),
-    }
+    let found = states.max().map(|(latency_us, name)| {
+        let now = format!("down to {name}, {latency_us} µs to leave");
+        (now, latency_us <= DEEP_US)
+    });
+    setting(
+        "idle states",
+        found,
+        format!("sudo cpupower idle-set -D {DEEP_US}, or write access to /dev/cpu_dma_latency"),
+    )
 }
 
 pub(super) fn smt(files: &Files) -> Setting {
     let active = files.text("sys/devices/system/cpu/smt/active");
+    let found = active.map(|active| match active.as_str() {
+        "1" => ("on".to_owned(), false),
+        _ => ("off".to_owned(), true),
+    });
     setting(
         "hyper-threading",
-        active.map(|active| if active == "1" { "on" } else { "off" }.to_owned()),
-        |now| now == "off",
+        found,
         "echo off | sudo tee /sys/devices/system/cpu/smt/control",
     )
 }

@@ -207,7 +207,7 @@ mod tests {
         {
             let (reflection, rms) = fit(&grid, vertex, Numerator::None).expect("a fit");
             assert!(reflection.iter().all(|k| k.abs() < 1.0) && rms > 0.0);
-            // A floor of −40 dB below the peak bounds what the poles can do at the zero.
+            // The floor, a share of the peak, bounds what the poles can do at the zero.
             let least = reflection.iter().map(|k| 1.0 - k.abs()).fold(1.0, f64::min);
             assert!(least > 1e-4, "{least}");
         }

@@ -96,9 +96,7 @@ fn draw_factor(
     panel.horizontal_line(canvas, BUDGET_DB.0, BUDGET);
     let at = |summary: &VariantSummary| (costs.value(summary), within(measure.value(summary)));
     let others = results.summaries.iter().map(at);
-    if let Key::Point(marker, radius, fill, outline) = OTHER {
-        panel.points(canvas, others, marker, radius, fill, outline);
-    }
+    panel.keyed(canvas, others, OTHER);
     for summary in &mine {
         mark(canvas, &panel, at(summary), summary);
     }

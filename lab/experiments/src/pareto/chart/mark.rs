@@ -45,7 +45,5 @@ pub(super) fn mark(canvas: &mut Canvas, panel: &Panel, at: (f64, f64), summary: 
         Some(_) if summary.unstable > 0.0 => UNSTABLE,
         Some(index) => of_factor(index),
     };
-    if let Key::Point(marker, radius, fill, outline) = key {
-        panel.points(canvas, [at], marker, radius, fill, outline);
-    }
+    panel.keyed(canvas, [at], key);
 }

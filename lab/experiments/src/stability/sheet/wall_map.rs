@@ -2,8 +2,8 @@
 //! by the bound.
 
 use asperity_plot::{
-    Axis, Canvas, Color, ColorMap, ColorScale, Key, Margins, Marker, Panel, Rect, Stroke, ink,
-    legend, size,
+    Axis, Canvas, ColorMap, ColorScale, Key, Margins, Marker, Panel, Rect, Stroke, ink, legend,
+    size,
 };
 use asperity_runtime::{Passivity, Wall};
 
@@ -99,13 +99,12 @@ fn cells(canvas: &mut Canvas, panel: &Panel, delay: u32, scale: &ColorScale) {
 const BOUND: Stroke = Stroke::new(ink::BLACK, size::LINE);
 const DAMPED: Stroke = BOUND.dashed();
 const OURS: Stroke = Stroke::new(ink::VERMILION, 2.0 * size::LINE);
-const DOT: (Marker, f32, Option<Color>, Option<Stroke>) = (
+const MEASURED: Key = Key::Point(
     Marker::Circle,
     7.0,
     Some(ink::PAPER),
     Some(Stroke::new(ink::BLACK, size::FRAME)),
 );
-const MEASURED: Key = Key::Point(DOT.0, DOT.1, DOT.2, DOT.3);
 
 /// Draws the bound without and with rendered damping, the boundary measured with it, and our
 /// wall.
@@ -127,7 +126,7 @@ fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32) {
     panel.line(canvas, dampings().map(ours_at), OURS);
     let measured = [20.0, 40.0, 80.0, 160.0, 320.0, 640.0, 1280.0, 2560.0]
         .map(|stiffness| (least_damping(stiffness, delay), stiffness));
-    panel.points(canvas, measured, DOT.0, DOT.1, DOT.2, DOT.3);
+    panel.keyed(canvas, measured, MEASURED);
 }
 
 /// Least physical damping, N·s/m, with which a wall of the rendered damping above is passive,

@@ -120,11 +120,13 @@ pub(super) fn measure(arguments: &Arguments, console: Console) -> Result<(), Fai
     let Some((run, written)) = measured else {
         return Ok(());
     };
-    if let Some((error, id)) = written.err().zip(series) {
-        return Err(one(outputs.file(id).error("write", error)));
-    }
-    outputs.commit().map_err(one)?;
-    tell(arguments, &run, wakeups.as_ref(), console)
+    let series = match written.err().zip(series) {
+        Some((error, id)) => Err(one(outputs.file(id).error("write", error))),
+        None => outputs.commit().map_err(one),
+    };
+    // The run is reported even where its series was lost.
+    tell(arguments, &run, wakeups.as_ref(), console)?;
+    series
 }
 
 /// The files by which a folder holds a run.

@@ -167,8 +167,13 @@ fn reported(
         .flatten()
         .filter_map(|found| found.serial.clone());
     let own = value["serial"].as_str().map(str::to_owned);
-    // A device is named by its serial number, among others.
-    let named = Some(uri.which.clone()).filter(|which| !which.contains(['/', '.']));
+    // A device is named by its serial number, or by its place on the bus, which tells nothing.
+    let is_place = |which: &str| {
+        let numbers = which.split_once('-').map(|(a, b)| [a, b]);
+        numbers.is_some_and(|numbers| numbers.iter().all(|number| number.parse::<u8>().is_ok()))
+    };
+    let named = Some(uri.which.clone());
+    let named = named.filter(|which| !which.contains(['/', '.']) && !is_place(which));
     let home = std::env::home_dir().map(|home| home.display().to_string());
     let private = Private::new(found.chain(own).chain(named), home);
     let inventory = Inventory {
