@@ -11,10 +11,6 @@ fn made(folder: &Path, arguments: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
-fn bytes(folder: &Path, file: &str) -> Vec<u8> {
-    fs::read(folder.join(file)).expect("a file")
-}
-
 /// What a hand can meet: all haptic sections but the name.
 fn felt(folder: &Path, file: &str) -> Vec<([u8; 4], Vec<u8>)> {
     let bytes = bytes(folder, file);

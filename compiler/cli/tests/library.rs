@@ -1,20 +1,8 @@
-//! Libraries as a user builds them: the same bytes whatever the way, faults by file and line, work
-//! that is not lost.
+//! Libraries as a user builds them: the same bytes whatever the way, work that is not lost.
 
 use super::*;
 use asperity_formats::Asset;
 use serde_json::Value;
-
-/// Runs what must succeed.
-fn good(folder: &Path, arguments: &[&str]) -> String {
-    let output = asperity(folder, arguments);
-    assert!(
-        output.status.success(),
-        "{arguments:?}: {}",
-        text(&output.stderr)
-    );
-    text(&output.stdout)
-}
 
 const MANIFEST: &str = "include = [\"more.csv\", \"lines.jsonl\"]\n\
     [defaults]\npreview = false\n\
@@ -30,7 +18,7 @@ const MANIFEST: &str = "include = [\"more.csv\", \"lines.jsonl\"]\n\
     edit = { prompt = \"a bit softer, more like leather\" }\n";
 
 /// A manifest of every kind of entry, with all that it names.
-fn manifest() -> TempDir {
+pub(crate) fn manifest() -> TempDir {
     let inputs = inputs();
     let write = |name: &str, content: &str| {
         fs::write(inputs.path().join(name), content).expect("an input");
@@ -45,72 +33,6 @@ fn manifest() -> TempDir {
         "{\"prompt\": \"brushed steel\", \"loudness\": -30}\n",
     );
     inputs
-}
-
-fn bytes(folder: &Path, file: &str) -> Vec<u8> {
-    fs::read(folder.join(file)).expect("a file")
-}
-
-/// Claim: a column that is misspelt is one error, whatever the rows, and says what may have been meant;
-/// so does the name of a texture that is not there.
-#[test]
-fn what_is_misspelt_is_reported_once_with_what_may_have_been_meant() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
-    fs::write(
-        folder.join("a.csv"),
-        "name,prompts\nx,cork\ny,oak\nz,silk\n",
-    )
-    .expect("a manifest");
-    fs::write(
-        folder.join("b.jsonl"),
-        "{\"name\":\"x\",\"Prompt\":\"cork\"}\n",
-    )
-    .expect("a manifest");
-    fs::write(
-        folder.join("c.toml"),
-        "[[texture]]\nname = \"cork\"\nprompt = \"cork\"\n[[texture]]\nname = \"half\"\nblend = { a = \"cork\", b = \"crok\" }\n",
-    )
-    .expect("a manifest");
-    for (manifest, words) in [
-        (
-            "a.csv",
-            &["a.csv:2: prompts: no such key", "did you mean \"prompt\"?"][..],
-        ),
-        (
-            "b.jsonl",
-            &["b.jsonl:1: Prompt: no such key", "did you mean \"prompt\"?"],
-        ),
-        (
-            "c.toml",
-            &[
-                "no texture \"crok\" in this manifest",
-                "did you mean \"cork\"?",
-            ],
-        ),
-    ] {
-        let output = asperity(folder, &["build", manifest, "--check"]);
-        let error = text(&output.stderr);
-        assert_eq!(error.matches("error: ").count(), 1, "{error}");
-        assert!(words.iter().all(|words| error.contains(words)), "{error}");
-    }
-    fs::write(
-        folder.join("d.toml"),
-        "[[texture]]\nname = \"oak board\"\nprompt = \"oak\"\n",
-    )
-    .expect("a manifest");
-    let built = asperity(folder, &["build", "d.toml", "-o", "d.aspl", "--no-cache"]);
-    assert!(built.status.success(), "{}", text(&built.stderr));
-    for command in [
-        &["extract", "d.aspl", "oak_bord", "-o", "x.asp"][..],
-        &["inspect", "d.aspl", "--texture", "Oak Boards"],
-        &["rename", "d.aspl", "oakboard", "x", "-o", "x.aspl"],
-    ] {
-        let output = asperity(folder, command);
-        let error = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{command:?}: {error}");
-        assert!(error.contains("did you mean \"oak board\"?"), "{error}");
-    }
 }
 
 #[test]
@@ -235,83 +157,6 @@ fn an_edit_of_a_library_is_that_of_the_command() {
 }
 
 #[test]
-fn every_fault_of_a_manifest_is_told_at_once_with_file_line_and_key() {
-    let inputs = inputs();
-    let folder = inputs.path();
-    fs::write(
-        folder.join("bad.toml"),
-        "include = [\"bad.csv\", \"none.toml\", \"bad.toml\"]\n[defaults]\nseeds = 1\n\
-         [[texture]]\nname = \"a\\u0007b\"\nprompt = \"x\"\n\
-         [[texture]]\nname = \"two\"\nprompt = \"x\"\nasset = \"good.asp\"\n\
-         [[texture]]\nname = \"gone\"\nimport = \"gone.xml\"\n\
-         [[texture]]\nname = \"same\"\nprompt = \"x\"\nfidelity = 99\n\
-         [[texture]]\nname = \"blend\"\nblend = { a = \"p\", t = 2 }\n\
-         [[texture]]\nname = \"nothing\"\n\
-         [[texture]]\nname = \"kept\"\nasset = \"good.asp\"\nseed = 4\n\
-         [[texture]]\nname = \"other\"\nof = \"kept\"\n\
-         edit = { prompt = \"nice\", rougher = 3, softer = 1 }\n",
-    )
-    .expect("a manifest");
-    fs::write(
-        folder.join("bad.csv"),
-        "name,prompt,seed\nx,,1\ny,stone,many\nsame,cork,1\n",
-    )
-    .expect("a manifest");
-    let output = asperity(folder, &["build", "bad.toml", "--check"]);
-    let error = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{error}");
-    for fault in [
-        "bad.toml:1: include: none.toml: cannot read it",
-        "bad.toml:1: include: the manifest includes itself: bad.toml → bad.toml",
-        "bad.toml:3: defaults.seeds: no such key",
-        "bad.toml:5: name: ",
-        "bad.toml:10: prompt and asset",
-        "bad.toml:13: import: gone.xml: cannot read it",
-        "bad.toml:17: fidelity: ",
-        "bad.toml:20: blend.b: must be the name of a texture, but is missing",
-        "bad.toml:20: blend.t: \"2\" must be a number from 0 to 1",
-        "bad.toml:21: no source",
-        "bad.toml:26: seed: cannot be combined with asset",
-        "bad.toml:30: edit.prompt: \"nice\" names neither a quality to change",
-        "bad.toml:30: edit.rougher: cannot be combined with edit.prompt",
-        "bad.toml:30: edit.softer: no such key",
-        "bad.csv:2: no source",
-        "bad.csv:3: seed: \"many\"",
-        // Its namesake has another fault.
-        "bad.csv:4: name: \"same\" is also",
-    ] {
-        assert!(error.contains(fault), "{fault:?} not in {error}");
-    }
-    assert!(!error.contains('\u{7}'));
-    assert_eq!(error.matches("error: ").count(), 17, "{error}");
-    // Faults that show only in all of it together.
-    fs::write(
-        folder.join("bad.toml"),
-        "[[texture]]\nname = \"a\"\nblend = { a = \"b\", b = \"cork\" }\n\
-         [[texture]]\nname = \"b\"\nblend = { a = \"a\", b = \"cork\" }\n\
-         [[texture]]\nname = \"cork\"\nprompt = \"cork\"\n",
-    )
-    .expect("a manifest");
-    refused(
-        folder,
-        &["build", "bad.toml", "--check"],
-        &["bad.toml:1", "depends on itself", "\"a\" → \"b\""],
-    );
-    fs::write(
-        folder.join("bad.toml"),
-        "[[texture]]\nname = \"a\"\nprompt = \"x\"\n[[texture]]\nname = \"a\"\nprompt = \"y\"\n\
-         [[texture]]\nname = \"b\"\nblend = { a = \"a\", b = \"c\" }\n",
-    )
-    .expect("a manifest");
-    let named = [
-        "bad.toml:4: name: \"a\" is also",
-        "bad.toml:1",
-        "bad.toml:9: blend.b: no texture \"c\"",
-    ];
-    refused(folder, &["build", "bad.toml", "-o", "out.aspl"], &named);
-}
-
-#[test]
 fn one_bad_entry_fails_with_its_line_and_the_others_are_kept() {
     let inputs = inputs();
     let folder = inputs.path();
@@ -396,135 +241,6 @@ fn a_lock_pins_the_model_and_refuses_another() {
         fs::read_to_string(folder.join("l.toml.lock")).expect("a lock"),
         lock
     );
-}
-
-#[test]
-fn a_difference_is_told_in_figures_and_by_the_exit_status() {
-    let inputs = inputs();
-    let folder = inputs.path();
-    let write = |name: &str, mu: &str, extra: &str| {
-        let other = material("Wood").replace("<mu>0.4</mu>", mu);
-        fs::write(folder.join("wood.xml"), other).expect("a material");
-        let manifest = format!("[[texture]]\nname = \"w\"\nimport = \"wood.xml\"\n{extra}");
-        fs::write(folder.join("m.toml"), manifest).expect("a manifest");
-        good(folder, &["build", "m.toml", "--no-cache", "-o", name]);
-    };
-    write("old.aspl", "<mu>0.4</mu>", "");
-    write(
-        "new.aspl",
-        "<mu>0.5</mu>",
-        "[[texture]]\nname = \"g\"\nasset = \"good.asp\"\n",
-    );
-    assert!(good(folder, &["diff", "old.aspl", "old.aspl"]).contains("1 unchanged"));
-    let output = asperity(folder, &["diff", "old.aspl", "new.aspl"]);
-    assert_eq!(output.status.code(), Some(1));
-    let said = text(&output.stdout);
-    assert!(
-        said.contains("+ g\n") && said.contains("~ w: μ 0.400 → 0.500"),
-        "{said}"
-    );
-    assert_eq!(text(&output.stderr), "");
-    let output = asperity(
-        folder,
-        &["diff", "old.aspl", "new.aspl", "--json", "--within", "1"],
-    );
-    assert_eq!(output.status.code(), Some(1));
-    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    assert_eq!(json["added"][0], "g");
-    assert_eq!(json["changed"]["w"]["spectrum_db"][1], 0.0);
-}
-
-#[test]
-fn textures_are_renamed_and_a_name_is_given_once() {
-    let inputs = manifest();
-    let folder = inputs.path();
-    good(folder, &["import", "hatt", "mixed/a.xml", "-o", "a.aspl"]);
-    good(folder, &["merge", "a.aspl", "good.asp", "-o", "two.aspl"]);
-    good(
-        folder,
-        &["rename", "two.aspl", "A", "B", "-o", "renamed.aspl"],
-    );
-    good(folder, &["extract", "renamed.aspl", "B", "-o", "b.asp"]);
-    let asset = bytes(folder, "b.asp");
-    assert_eq!(
-        asperity_formats::Asset::parse(&asset)
-            .expect("an asset")
-            .name(),
-        "B"
-    );
-    good(
-        folder,
-        &["rename", "renamed.aspl", "B", "A", "-o", "back.aspl"],
-    );
-    assert!(bytes(folder, "back.aspl") == bytes(folder, "two.aspl"));
-    let other = asperity_formats::Asset::parse(&bytes(folder, "good.asp"))
-        .expect("it")
-        .name()
-        .to_owned();
-    refused(
-        folder,
-        &["rename", "two.aspl", "A", &other, "-o", "x.aspl"],
-        &["already"],
-    );
-    refused(
-        folder,
-        &["rename", "two.aspl", "nobody", "x", "-o", "x.aspl"],
-        &["nobody"],
-    );
-    let output = asperity(
-        folder,
-        &["rename", "two.aspl", "A", "a\u{7}", "-o", "x.aspl"],
-    );
-    assert_eq!(output.status.code(), Some(2));
-    refused(
-        folder,
-        &[
-            "merge",
-            "a.aspl",
-            "renamed.aspl",
-            "none.aspl",
-            "-o",
-            "x.aspl",
-        ],
-        &["none.aspl"],
-    );
-}
-
-/// Names that a system obeys, refuses or hides become files that every system takes.
-#[test]
-fn split_writes_safe_files_and_says_which_names_they_lack() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
-    good(folder, &["builtin", "-o", "a.asp"]);
-    let names = ["NUL", "txt\u{202e}psa", ".ssh", "oak", "OAK"];
-    let mut parts = Vec::new();
-    for (index, name) in names.iter().enumerate() {
-        let part = format!("{index}.asp");
-        good(folder, &["rename", "a.asp", "0", name, "-o", &part]);
-        parts.push(part);
-    }
-    let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
-    good(
-        folder,
-        &[&["merge"], &parts[..], &["-o", "all.aspl"]].concat(),
-    );
-    let split = asperity(folder, &["split", "all.aspl", "-o", "files"]);
-    assert!(split.status.success(), "{}", text(&split.stderr));
-    let wanted = [
-        "OAK.asp",
-        "_.ssh.asp",
-        "_NUL.asp",
-        "oak (2).asp",
-        "txt_psa.asp",
-    ];
-    assert_eq!(entries(&folder.join("files")), wanted);
-    let told = text(&split.stderr);
-    assert_eq!(told.matches("is written as").count(), 4, "{told}");
-    assert!(
-        told.contains("\"NUL\" is written as \"_NUL.asp\""),
-        "{told}"
-    );
-    assert!(!told.contains('\u{202e}'), "{told}");
 }
 
 /// A cache that others can write to is neither read nor written, and the build says so.

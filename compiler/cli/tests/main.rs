@@ -6,7 +6,9 @@ mod effects;
 mod grammar;
 mod interrupted;
 mod library;
+mod library_commands;
 mod limits;
+mod manifest_faults;
 mod messages;
 mod mixing;
 mod models;
@@ -146,6 +148,21 @@ fn inputs() -> TempDir {
         material("B").replace("<mu>0.4</mu>", "").as_bytes(),
     );
     folder
+}
+
+/// Runs what must succeed.
+fn good(folder: &Path, arguments: &[&str]) -> String {
+    let output = asperity(folder, arguments);
+    assert!(
+        output.status.success(),
+        "{arguments:?}: {}",
+        text(&output.stderr)
+    );
+    text(&output.stdout)
+}
+
+fn bytes(folder: &Path, file: &str) -> Vec<u8> {
+    fs::read(folder.join(file)).expect("a file")
 }
 
 /// Runs what must fail: exit 1, an error that names each of `named`, a remedy, nothing on

@@ -10,10 +10,6 @@ fn made(folder: &Path, arguments: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
-fn bytes(folder: &Path, file: &str) -> Vec<u8> {
-    fs::read(folder.join(file)).expect("a file")
-}
-
 /// Two textures of prompts.
 fn textures() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
