@@ -191,28 +191,6 @@ mod tests {
         }
     }
 
-    /// Claim: a zero on the unit circle, where the power is none, leaves poles that are stable and near.
-    #[test]
-    fn a_zero_on_the_circle_is_followed_by_stable_poles() {
-        let mut grid = builtin::texture().grid;
-        grid.numerator = Numerator::Lsf;
-        for vertex in &mut grid.vertices {
-            // Frequencies that all but coincide: zeros next to the circle.
-            vertex.ma_lsf_rad = Some(vec![1.5, 1.5 + 1e-9]);
-        }
-        for vertex in grid
-            .vertices
-            .iter()
-            .filter(|vertex| vertex.sigma_m_s2 > 0.0)
-        {
-            let (reflection, rms) = fit(&grid, vertex, Numerator::None).expect("a fit");
-            assert!(reflection.iter().all(|k| k.abs() < 1.0) && rms > 0.0);
-            // The floor, a share of the peak, bounds what the poles can do at the zero.
-            let least = reflection.iter().map(|k| 1.0 - k.abs()).fold(1.0, f64::min);
-            assert!(least > 1e-4, "{least}");
-        }
-    }
-
     /// Claim: what a zero at half the rate takes away, the poles give back: a model without zeros keeps
     /// its spectrum under either numerator.
     #[test]
