@@ -12,9 +12,11 @@ pub(crate) use interchange::{Export, ImportEffects};
 pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
 pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};
 
-use asperity::{inference::BackendName, preview, reduce::Fidelity, text::TextEncoderChoice};
+use asperity::{
+    inference::BackendName, interchange::ranges, preview, reduce::Fidelity, text::TextEncoderChoice,
+};
 use clap::{Args, Parser, Subcommand};
-use std::path::PathBuf;
+use std::{ops::RangeInclusive, path::PathBuf};
 
 #[derive(Debug, Parser)]
 #[command(
@@ -163,10 +165,14 @@ fn pixels(text: &str) -> Result<u32, String> {
 }
 
 /// A number between two, for options that state a quantity.
-fn within(text: &str, low: f32, high: f32) -> Result<f32, String> {
+fn within(text: &str, range: &RangeInclusive<f32>) -> Result<f32, String> {
     match text.parse() {
-        Ok(value) if (low..=high).contains(&value) => Ok(value),
-        _ => Err(format!("must be a number from {low} to {high}")),
+        Ok(value) if range.contains(&value) => Ok(value),
+        _ => Err(format!(
+            "must be a number from {} to {}",
+            range.start(),
+            range.end()
+        )),
     }
 }
 
@@ -500,10 +506,10 @@ pub(crate) struct Listen {
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// One stroke at this speed, mm/s: 1 to 1000 [with --force alone: 100]
-    #[arg(long, value_name = "MM_S", value_parser = |text: &str| within(text, 1.0, 1000.0))]
+    #[arg(long, value_name = "MM_S", value_parser = |text: &str| within(text, &ranges::SPEED_MM_S))]
     pub(crate) speed: Option<f32>,
     /// One stroke at this normal force, N: 0.05 to 20 [with --speed alone: 1]
-    #[arg(long, value_name = "N", value_parser = |text: &str| within(text, 0.05, 20.0))]
+    #[arg(long, value_name = "N", value_parser = |text: &str| within(text, &ranges::FORCE_N))]
     pub(crate) force: Option<f32>,
     /// Render taps, and no stroke unless --speed or --force is given
     #[arg(long)]

@@ -64,12 +64,14 @@ impl Diagnostic for Stopped {
 /// Compiles the texture of a source. The same inputs and request give the same bytes.
 ///
 /// # Errors
-/// What the source says, or [`Stopped`] with the pass that failed. Nothing is written either way.
+/// What the source says, or [`Stopped`] with the pass that failed; where the tools say that no more is wanted. Nothing
+/// is written either way.
 pub fn compile(
     source: &dyn Source,
     request: &Request,
     tools: &Tools<'_>,
 ) -> Result<Compiled, Failure> {
+    tools.go_on()?;
     let mut pipeline = Pipeline::timed(tools.clock);
     let mut sourced = source.read(request, tools, &mut pipeline)?;
     if let Some(asset) = sourced.asset.take() {

@@ -18,6 +18,7 @@ use crate::{
 use asperity_formats::Asset;
 use asperity_texture::signal::resample::resample;
 use serde::Serialize;
+use serde_json::{Value, json};
 use std::{fmt, str::FromStr};
 
 /// Speed, mm/s, force, N, and time, s, of a stroke that nothing is said of.
@@ -28,6 +29,24 @@ const STROKE: Stroke = Stroke {
 };
 /// Bands up to this part of the rate of the loop count.
 const TOP: f64 = 0.45;
+
+/// What numbers of an export and of an import of effects may be.
+pub mod ranges {
+    use std::ops::RangeInclusive;
+
+    /// Speed of a stroke, mm/s.
+    pub const SPEED_MM_S: RangeInclusive<f32> = 1.0..=1000.0;
+    /// Normal force of a stroke, N.
+    pub const FORCE_N: RangeInclusive<f32> = 0.05..=20.0;
+    /// Duration of a stroke, s.
+    pub const TIME_S: RangeInclusive<f32> = 0.3..=60.0;
+    /// Acceleration at full scale, m/s².
+    pub const FULL_SCALE_M_S2: RangeInclusive<f32> = 0.001..=10_000.0;
+    /// Impact speed of a tap, m/s.
+    pub const TAP_SPEED_M_S: RangeInclusive<f32> = 0.01..=5.0;
+    /// Coefficient of friction.
+    pub const MU: RangeInclusive<f32> = 0.0..=2.0;
+}
 
 /// A format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -180,6 +199,20 @@ pub struct Exported {
     pub warnings: Vec<String>,
 }
 
+impl Exported {
+    /// The report for machines, of the texture of this name.
+    #[must_use]
+    pub fn json(&self, name: &str) -> Value {
+        json!({
+            "name": name,
+            "bytes": self.bytes.len(),
+            "full_scale": self.scale,
+            "parts": self.carried,
+            "warnings": self.warnings,
+        })
+    }
+}
+
 /// What a format carries of a stroke or a tap.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Carried {
@@ -189,7 +222,27 @@ pub struct Carried {
     pub loss: Option<Loss>,
 }
 
-/// The bytes of an asset or a library as source text: the file, and its header if `header` names one.
+/// The bytes of an asset or a library as source text that says what they are: the file, and its header if `header`
+/// names one.
+#[must_use]
+pub fn export_source(
+    language: Language,
+    name: &str,
+    bytes: &[u8],
+    header: Option<&str>,
+) -> (Vec<u8>, Option<Vec<u8>>) {
+    let about = [
+        format!(
+            "{name}: {} bytes, written by asperity {}",
+            bytes.len(),
+            env!("CARGO_PKG_VERSION")
+        ),
+        "An asset of Asperity, or a library; formats/SPEC.md says what each byte means.".to_owned(),
+    ];
+    export_bytes(language, name, &about, bytes, header)
+}
+
+/// As [`export_source`], with these lines before the bytes.
 #[must_use]
 pub fn export_bytes(
     language: Language,

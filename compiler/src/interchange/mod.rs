@@ -61,5 +61,6 @@ mod wav;
 pub use clip::{Clip, Scale, Take};
 pub use error::{EffectError, EffectProblem, ExportError};
 pub use export::{
-    Carried, ClipFormat, Exported, Format, Language, Options, clip, export, export_bytes, session,
+    Carried, ClipFormat, Exported, Format, Language, Options, clip, export, export_bytes,
+    export_source, ranges, session,
 };

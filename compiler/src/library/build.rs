@@ -28,7 +28,7 @@ use asperity_io::diagnostic::{Failure, Failures, one};
 use rayon::prelude::*;
 use std::{
     path::Path,
-    sync::{Mutex, PoisonError},
+    sync::{Mutex, PoisonError, atomic::AtomicBool},
 };
 
 /// Prompts that are read together before the first of them is made.
@@ -52,6 +52,8 @@ pub struct Request<'a> {
     /// The folder where a temporary file keeps textures until the library is written; that of the
     /// system if `None`.
     pub scratch: Option<&'a Path>,
+    /// Set, by another thread, once no more is wanted: textures that were not begun are then refused.
+    pub stop: Option<&'a AtomicBool>,
 }
 
 /// A library that was built.
@@ -139,8 +141,8 @@ impl<'a> Build<'a> {
         let learned = |n: &usize| entries[self.chosen[*n].0].origin.is_learned();
         let opened = missing.iter().any(learned).then(open).transpose()?;
         let editor = opened.as_ref().map(LatentEditor::new);
-        let clock = self.request.clock;
-        let maker = Maker::new(self.manifest, editor.as_ref(), &self.libraries, clock);
+        let (clock, stop) = (self.request.clock, self.request.stop);
+        let maker = Maker::new(self.manifest, editor.as_ref(), &self.libraries, clock, stop);
         let shared = Mutex::new((Timings::default(), None));
         let together = TOGETHER.min(missing.len().div_ceil(rayon::current_num_threads()));
         let made: Vec<Result<Texture, EntryError>> = missing

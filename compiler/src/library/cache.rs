@@ -71,6 +71,13 @@ impl Cache {
         }
     }
 
+    /// The cache in a folder that is chosen, else that of the user, else in `.asperity-cache` of this one.
+    #[must_use]
+    pub fn chosen(chosen: Option<PathBuf>, otherwise: &Path) -> Self {
+        let folder = chosen.or_else(default_folder);
+        Self::new(folder.unwrap_or_else(|| otherwise.join(".asperity-cache")))
+    }
+
     /// Its folder.
     #[must_use]
     pub fn folder(&self) -> &Path {

@@ -2,6 +2,7 @@
 
 use super::manifest::{Entry, Place};
 use crate::learned::Certainty;
+use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::diagnostic::{Diagnostic, Failure};
 use thiserror::Error;
 
@@ -88,6 +89,17 @@ pub enum LibraryFault {
     /// A name that no texture can have.
     #[error("{0:?} is not a valid name: a name has 1 to 64 bytes and no control characters")]
     Name(String),
+}
+
+/// Refuses a name that no texture can have.
+///
+/// # Errors
+/// [`LibraryFault::Name`].
+pub fn check_name(name: &str) -> Result<(), LibraryFault> {
+    if name.is_empty() || name.len() > MAX_NAME_BYTES || name.chars().any(char::is_control) {
+        return Err(LibraryFault::Name(name.to_owned()));
+    }
+    Ok(())
 }
 
 impl Diagnostic for LibraryFault {

@@ -1,9 +1,16 @@
 //! All textures of a library in memory.
 
-use super::error::LibraryFault;
-use crate::emit::textures::{Textures, TexturesError};
+use super::{
+    error::{LibraryFault, check_name},
+    pack::{LibraryError, NamedAsset, encode},
+};
+use crate::emit::{
+    lower::LowerError,
+    rename::renamed,
+    textures::{Textures, TexturesError},
+};
 use asperity_formats::Asset;
-use asperity_io::diagnostic::{Failures, one};
+use asperity_io::diagnostic::{Failure, Failures, one};
 use std::path::Path;
 
 /// All textures of a library, or the one of an asset, in order of name. Each is checked.
@@ -67,6 +74,41 @@ impl LoadedLibrary {
             return Err(one(LibraryFault::Scene(shelf.shown)));
         }
         Ok(shelf)
+    }
+
+    /// Gives a texture another name, in the index and in its asset, and returns the one that it had.
+    ///
+    /// # Errors
+    /// [`LibraryFault`] for a name that no texture can have or that another one has, and for a scene.
+    pub fn rename(&mut self, index: usize, name: &str) -> Result<String, Failure> {
+        check_name(name)?;
+        if self.has_scene {
+            return Err(LibraryFault::Scene(self.shown.clone()).into());
+        }
+        let mut others = self.textures.iter().enumerate();
+        if others.any(|(other, (taken, _))| other != index && taken == name) {
+            let (file, name) = (self.shown.clone(), name.to_owned());
+            return Err(LibraryFault::Taken { file, name }.into());
+        }
+        let bytes = renamed(&self.textures[index].1, name).map_err(LowerError::from)?;
+        let before = std::mem::replace(&mut self.textures[index], (name.to_owned(), bytes));
+        Ok(before.0)
+    }
+
+    /// The bytes of a file with these textures: a library, or the one asset.
+    ///
+    /// # Errors
+    /// [`LibraryError`] for an asset that does not parse.
+    pub fn encode(&self) -> Result<Vec<u8>, LibraryError> {
+        if let ([(_, bytes)], false) = (&self.textures[..], self.is_library) {
+            return Ok(bytes.clone());
+        }
+        let named: Vec<NamedAsset<'_>> = self
+            .textures
+            .iter()
+            .map(|(name, bytes)| NamedAsset { name, bytes })
+            .collect();
+        encode(&named)
     }
 
     /// The texture that `wanted` means: a name, or an index from 0.

@@ -4,6 +4,7 @@ use super::manifest::CONFINED_REMEDY;
 use asperity_io::{
     diagnostic::Diagnostic,
     input::{self, InputError, InputProblem, Kind, Outside, Reach},
+    output::write_atomic,
     toml_error::TomlError,
 };
 use serde::Deserialize;
@@ -223,6 +224,24 @@ impl Lock {
         } else {
             Err(LockError::Drift { file, drift })
         }
+    }
+
+    /// Writes the lock file where it pins something else, and returns a warning for everything that it pinned before
+    /// and for a file that cannot be written.
+    #[must_use]
+    pub fn update(&self, now: &Pinned) -> Vec<String> {
+        let file = self.file.display();
+        let mut warnings: Vec<String> = self
+            .drift(now)
+            .iter()
+            .map(|drift| format!("{file}: {drift}; it pins that now"))
+            .collect();
+        if let Some(text) = self.text(now)
+            && let Err(error) = write_atomic(&self.file, text.as_bytes())
+        {
+            warnings.push(format!("{error}: {}; nothing is pinned", error.source));
+        }
+        warnings
     }
 
     /// The text of a lock file; `None` where the lock holds it already.

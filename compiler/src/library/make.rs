@@ -15,7 +15,7 @@ use crate::{
 use asperity_formats::Asset;
 use std::{
     collections::HashMap,
-    sync::{Mutex, PoisonError},
+    sync::{Mutex, PoisonError, atomic::AtomicBool},
 };
 
 /// Compiles the textures of a manifest, on any number of threads.
@@ -25,6 +25,7 @@ pub(super) struct Maker<'a> {
     editor: Option<&'a LatentEditor<'a>>,
     libraries: &'a OpenLibraries,
     clock: Clock,
+    stop: Option<&'a AtomicBool>,
     /// Textures that others are made of, edits included. The level of loudness is that of the entry.
     known: Mutex<HashMap<usize, FromLatents>>,
 }
@@ -35,12 +36,14 @@ impl<'a> Maker<'a> {
         editor: Option<&'a LatentEditor<'a>>,
         libraries: &'a OpenLibraries,
         clock: Clock,
+        stop: Option<&'a AtomicBool>,
     ) -> Self {
         Self {
             manifest,
             editor,
             libraries,
             clock,
+            stop,
             known: Mutex::default(),
         }
     }
@@ -53,7 +56,7 @@ impl<'a> Maker<'a> {
                 _ => None,
             })
             .collect();
-        if let Some(editor) = self.editor {
+        if let (Some(editor), Ok(())) = (self.editor, self.tools().go_on()) {
             editor.prompt_compiler().read_ahead(&prompts);
         }
     }
@@ -79,6 +82,7 @@ impl<'a> Maker<'a> {
         Tools {
             libraries: Some(self.libraries),
             clock: self.clock,
+            stop: self.stop,
             ..prompt_compiler.map_or_else(Tools::default, Tools::of)
         }
     }

@@ -33,6 +33,7 @@
 //! ```
 
 mod build;
+mod build_file;
 mod cache;
 mod change;
 mod diff;
@@ -45,16 +46,19 @@ pub mod manifest;
 mod merge;
 mod pack;
 mod report;
+mod setup;
 mod shard;
 mod spill;
+mod split;
 mod user_folder;
 
 pub use crate::emit::rename::renamed;
 pub use build::{Build, Built, Request};
+pub use build_file::BuildFile;
 pub use cache::{Cache, default_folder};
 pub use change::Change;
 pub use diff::{Difference, diff};
-pub use error::{EntryError, LibraryFault};
+pub use error::{EntryError, LibraryFault, check_name};
 pub use facts::Facts;
 pub use loaded_library::LoadedLibrary;
 pub use lock::{Lock, LockError, Pinned};
@@ -62,5 +66,7 @@ pub use manifest::Manifest;
 pub use merge::merge;
 pub use pack::{LibraryError, NamedAsset, encode, encode_scene, scene_len};
 pub use report::{Report, Row};
+pub use setup::{Setup, model_files};
 pub use shard::Shard;
 pub use spill::Packed;
+pub use split::split;

@@ -54,23 +54,21 @@ fn open(stated: &Stated<'_>) -> Result<Arc<dyn Source>, Failure> {
             options: effects::Options::default(),
         })
     };
-    Ok(match found {
-        Some(Format::Hatt) => Arc::new(Hatt::new(file)),
-        Some(Format::Model) => Arc::new(ModelFile { file }),
-        Some(Format::Ahap) => effects(file, effects::Kind::Ahap),
-        Some(Format::Haptic) => effects(file, effects::Kind::Haptic),
-        Some(Format::Hjif) => effects(file, effects::Kind::Hjif),
+    let by_format = found.and_then(effects::Kind::of_format);
+    let by_name = effects::Kind::of_name(&file);
+    Ok(match (found, by_format, by_name) {
+        (Some(Format::Hatt), ..) => Arc::new(Hatt::new(file)),
+        (Some(Format::Model), ..) => Arc::new(ModelFile { file }),
+        (_, Some(kind), _) => effects(file, kind),
         // What is damaged is refused by the reader of what it is called, which knows best.
         _ if ends_in("xml") => Arc::new(Hatt::new(file)),
         _ if ends_in("json") => Arc::new(ModelFile { file }),
-        _ if ends_in("ahap") => effects(file, effects::Kind::Ahap),
-        _ if ends_in("haptic") => effects(file, effects::Kind::Haptic),
-        _ if ends_in("hjif") => effects(file, effects::Kind::Hjif),
-        Some(format) => {
+        (.., Some(kind)) => effects(file, kind),
+        (Some(format), ..) => {
             let wanted = WANTED.into();
             let problem = InputProblem::OtherFormat { format, wanted };
             return Err(InputError { file, problem }.into());
         }
-        None => return Err(Unknown(file).into()),
+        (None, ..) => return Err(Unknown(file).into()),
     })
 }

@@ -48,7 +48,14 @@ use asperity_texture::model::TextureModel;
 use key::Parts;
 use libraries::OpenLibraries;
 use prompt::PromptCompiler;
-use std::{fmt, path::PathBuf, sync::Arc};
+use std::{
+    fmt,
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
 use thiserror::Error;
 
 /// What a texture is made of. It reads and models; [`driver::compile`](crate::driver::compile) does
@@ -115,6 +122,8 @@ pub struct Tools<'a> {
     pub libraries: Option<&'a OpenLibraries>,
     /// What passes are timed by.
     pub clock: Clock,
+    /// Set, by another thread, once no more is wanted: the next texture is then refused.
+    pub stop: Option<&'a AtomicBool>,
 }
 
 impl<'a> Tools<'a> {
@@ -136,12 +145,31 @@ impl<'a> Tools<'a> {
         Ok(self.prompt_compiler.ok_or(NoModel)?)
     }
 
+    /// Refuses to begin another texture once no more is wanted.
+    pub(crate) fn go_on(&self) -> Result<(), Failure> {
+        match self.stop {
+            Some(stop) if stop.load(Ordering::Relaxed) => Err(Stopped.into()),
+            _ => Ok(()),
+        }
+    }
+
     /// The learned model.
     ///
     /// # Errors
     /// Where none was given.
     pub fn model(&self) -> Result<&'a LearnedModel, Failure> {
         Ok(self.model.ok_or(NoModel)?)
+    }
+}
+
+/// No more is wanted.
+#[derive(Debug, Error)]
+#[error("the work was stopped")]
+struct Stopped;
+
+impl Diagnostic for Stopped {
+    fn remedy(&self) -> String {
+        "start it again".into()
     }
 }
 

@@ -17,7 +17,7 @@ pub(crate) struct Diffusion {
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = value_parser!(u16).range(1..=1000), requires = "diffusion")]
     pub(crate) steps: u16,
     /// Guidance scale, 1 to 30: how closely to follow the prompt; 1 ignores the negative prompt
-    #[arg(long, value_name = "SCALE", default_value_t = 7.5, value_parser = |text: &str| super::within(text, 1.0, 30.0), requires = "diffusion")]
+    #[arg(long, value_name = "SCALE", default_value_t = 7.5, value_parser = |text: &str| super::within(text, &(1.0..=30.0)), requires = "diffusion")]
     pub(crate) guidance: f32,
     /// Scheduler of the denoising steps
     #[arg(

@@ -2,7 +2,11 @@
 
 use super::{PreviewOptions, ReportOptions};
 use super::{pixels, within};
-use asperity::{interchange::Format, preview, reduce::Fidelity};
+use asperity::{
+    interchange::{Format, ranges},
+    preview,
+    reduce::Fidelity,
+};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -32,22 +36,22 @@ pub(crate) struct Export {
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// Speed of the stroke, mm/s: 1 to 1000 [default: 100]
-    #[arg(long, value_name = "MM_S", value_parser = |text: &str| within(text, 1.0, 1000.0))]
+    #[arg(long, value_name = "MM_S", value_parser = |text: &str| within(text, &ranges::SPEED_MM_S))]
     pub(crate) speed: Option<f32>,
     /// Normal force of the stroke, N: 0.05 to 20 [default: 1]
-    #[arg(long, value_name = "N", value_parser = |text: &str| within(text, 0.05, 20.0))]
+    #[arg(long, value_name = "N", value_parser = |text: &str| within(text, &ranges::FORCE_N))]
     pub(crate) force: Option<f32>,
     /// Duration of the stroke, s: 0.3 to 60 [default: 1]
-    #[arg(long, value_name = "S", value_parser = |text: &str| within(text, 0.3, 60.0))]
+    #[arg(long, value_name = "S", value_parser = |text: &str| within(text, &ranges::TIME_S))]
     pub(crate) time: Option<f32>,
     /// Render taps, and no stroke unless --speed or --force is given
     #[arg(long)]
     pub(crate) taps: bool,
     /// Acceleration at full scale in strokes, m/s² [default: the largest in the clip]
-    #[arg(long, value_name = "M_S2", value_parser = |text: &str| within(text, 0.001, 10_000.0))]
+    #[arg(long, value_name = "M_S2", value_parser = |text: &str| within(text, &ranges::FULL_SCALE_M_S2))]
     pub(crate) full_scale: Option<f32>,
     /// Acceleration at full scale in taps, m/s² [default: the largest in the clip]
-    #[arg(long, value_name = "M_S2", value_parser = |text: &str| within(text, 0.001, 10_000.0))]
+    #[arg(long, value_name = "M_S2", value_parser = |text: &str| within(text, &ranges::FULL_SCALE_M_S2))]
     pub(crate) tap_full_scale: Option<f32>,
     /// Seed of the excitation
     #[arg(long, default_value_t = 0)]
@@ -88,22 +92,22 @@ pub(crate) struct ImportEffects {
     #[arg(long)]
     pub(crate) name: Option<String>,
     /// Speed of the stroke, mm/s: 1 to 1000
-    #[arg(long, value_name = "MM_S", default_value_t = 100.0, value_parser = |text: &str| within(text, 1.0, 1000.0))]
+    #[arg(long, value_name = "MM_S", default_value_t = 100.0, value_parser = |text: &str| within(text, &ranges::SPEED_MM_S))]
     pub(crate) speed: f32,
     /// Normal force of the stroke, N: 0.05 to 20
-    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = |text: &str| within(text, 0.05, 20.0))]
+    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = |text: &str| within(text, &ranges::FORCE_N))]
     pub(crate) force: f32,
     /// Acceleration at full scale in strokes, m/s²
-    #[arg(long, value_name = "M_S2", default_value_t = 5.0, value_parser = |text: &str| within(text, 0.001, 10_000.0))]
+    #[arg(long, value_name = "M_S2", default_value_t = 5.0, value_parser = |text: &str| within(text, &ranges::FULL_SCALE_M_S2))]
     pub(crate) full_scale: f32,
     /// Acceleration at full scale in taps, m/s²
-    #[arg(long, value_name = "M_S2", default_value_t = 50.0, value_parser = |text: &str| within(text, 0.001, 10_000.0))]
+    #[arg(long, value_name = "M_S2", default_value_t = 50.0, value_parser = |text: &str| within(text, &ranges::FULL_SCALE_M_S2))]
     pub(crate) tap_full_scale: f32,
     /// Impact speed of the loudest tap, m/s
-    #[arg(long, value_name = "M_S", default_value_t = 0.3, value_parser = |text: &str| within(text, 0.01, 5.0))]
+    #[arg(long, value_name = "M_S", default_value_t = 0.3, value_parser = |text: &str| within(text, &ranges::TAP_SPEED_M_S))]
     pub(crate) tap_speed: f32,
     /// Coefficient of friction
-    #[arg(long, default_value_t = 0.5, value_parser = |text: &str| within(text, 0.0, 2.0))]
+    #[arg(long, default_value_t = 0.5, value_parser = |text: &str| within(text, &ranges::MU))]
     pub(crate) mu: f32,
     /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]

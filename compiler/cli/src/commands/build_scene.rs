@@ -1,12 +1,12 @@
 //! `asperity build` of a scene.
 
 use super::{
-    inference,
     library::build::{Prepared, previews},
     timings,
 };
 use crate::cli::Build;
 use asperity::{
+    library::BuildFile,
     pipeline::{Clock, Pass, Pipeline},
     scene::{self, Budget, Description},
     sources::Registry,
@@ -15,7 +15,6 @@ use asperity_console::Console;
 use asperity_io::{
     clock::now,
     diagnostic::{Diagnostic, Failures, one},
-    input::Reach,
     output::display,
     shown::counted,
 };
@@ -36,17 +35,13 @@ impl Diagnostic for ForLibraries {
     }
 }
 
-pub(crate) fn run(
-    args: &Build,
-    text: &str,
-    reach: Reach,
-    console: Console,
-) -> Result<(), Failures> {
+pub(crate) fn run(args: &Build, build: BuildFile, console: Console) -> Result<(), Failures> {
     if args.shard.is_some() {
         return Err(one(ForLibraries("--shard")));
     }
+    let BuildFile { text, reach, .. } = build;
     let mut description =
-        Description::within(&args.scene, text, reach.clone(), &Registry::default())?;
+        Description::within(&args.scene, &text, reach.clone(), &Registry::default())?;
     previews(args, &mut description.manifest);
     if args.check {
         let file = args.scene.display();
@@ -63,7 +58,7 @@ pub(crate) fn run(
     let bar = build
         .console
         .rated_bar(description.worn().len(), "textures");
-    let open = || inference::prompt_compiler(&build.inference);
+    let open = || build.setup.prompt_compiler();
     let built = scene::build(&description, &budget, &build.request(), &open, &|| {
         bar.inc(1)
     });

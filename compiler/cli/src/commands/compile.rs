@@ -1,7 +1,7 @@
 //! `asperity compile`.
 
 use super::{
-    diffusion, inference,
+    diffusion,
     one_texture::{Job, Wanted},
 };
 use crate::cli::Compile;
@@ -23,7 +23,7 @@ use std::path::Path;
 pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     // Before half a second of loading.
     prompt::check(&args.prompt).map_err(one)?;
-    let mut inputs = inference::files(&args.inference);
+    let mut inputs = args.inference.setup().files();
     inputs.extend(diffusion::files(&args.diffusion));
     let wanted = Wanted {
         emit_model: args.emit_model.as_deref(),
@@ -33,7 +33,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
         ..Wanted::of(&args.output)
     };
     let job = Job::open(wanted, &inputs, console)?;
-    let prompt_compiler = inference::prompt_compiler(&args.inference)?;
+    let prompt_compiler = args.inference.setup().prompt_compiler()?;
     let request = Request {
         fidelity: args.fidelity,
         rate_hz: args.rate,

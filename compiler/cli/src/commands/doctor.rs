@@ -1,6 +1,5 @@
 //! `asperity doctor`.
 
-use super::inference;
 use crate::cli::Doctor;
 use asperity::{
     embedded,
@@ -104,10 +103,14 @@ fn findings(args: &Doctor) -> Vec<Finding> {
             })
             .map_err(|error| (error, "reinstall or rebuild asperity".to_owned())),
     ));
-    let model = inference::model(&args.inference, &Backend::Portable).and_then(|model| {
-        runs(&model).map_err(one)?;
-        Ok(model)
-    });
+    let model = args
+        .inference
+        .setup()
+        .model(&Backend::Portable)
+        .and_then(|model| {
+            runs(&model).map_err(one)?;
+            Ok(model)
+        });
     findings.push(check(
         "model",
         model
@@ -168,7 +171,7 @@ fn clip(args: &Doctor) -> Finding {
     };
     let opened = Backend::open(args.inference.backend)
         .map_err(one)
-        .and_then(|backend| inference::text_encoder(&args.inference, &backend));
+        .and_then(|backend| args.inference.setup().text_encoder(&backend));
     check(
         "clip",
         opened

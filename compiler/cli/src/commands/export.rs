@@ -3,7 +3,7 @@
 use crate::cli::Export;
 use asperity::{
     interchange::{
-        self, Carried, ClipFormat, Exported, Format, Language, Options, export_bytes, session,
+        self, Carried, ClipFormat, Exported, Format, Language, Options, export_source, session,
     },
     textures::Textures,
 };
@@ -46,18 +46,9 @@ fn source(args: &Export, language: Language, console: Console) -> Result<(), Fai
             (asset.name().to_owned(), bytes)
         }
     };
-    let about = [
-        format!(
-            "{name}: {} bytes, written by asperity {}",
-            bytes.len(),
-            env!("CARGO_PKG_VERSION")
-        ),
-        "An asset of Asperity, or a library; formats/SPEC.md says what each byte means.".to_owned(),
-    ];
     let header_name = header.as_deref().and_then(Path::file_name);
     let header_name = header_name.map(|name| name.to_string_lossy().into_owned());
-    let (text, declarations) =
-        export_bytes(language, &name, &about, &bytes, header_name.as_deref());
+    let (text, declarations) = export_source(language, &name, &bytes, header_name.as_deref());
     outputs.fill(file, &text).map_err(one)?;
     if let (Some(file), Some(text)) = (beside, &declarations) {
         outputs.fill(file, text).map_err(one)?;
@@ -108,7 +99,7 @@ fn clips(args: &Export, format: ClipFormat, console: Console) -> Result<(), Fail
     outputs.commit().map_err(one)?;
     console.warnings(&exported.warnings, args.json);
     let printed = if args.json {
-        let mut json = in_json(asset.name(), &exported);
+        let mut json = exported.json(asset.name());
         json["format"] = args.to.name().into();
         json["output"] = display(&args.output).to_string().into();
         console.json(&json)
@@ -158,7 +149,7 @@ fn folder(
     let printed = if args.json {
         let textures: Vec<Value> = all()
             .map(|((name, exported), (file, _))| {
-                let mut json = in_json(name, exported);
+                let mut json = exported.json(name);
                 json["file"] = file.as_str().into();
                 json
             })
@@ -177,16 +168,6 @@ fn folder(
         console.report(&text)
     };
     printed.map_err(one)
-}
-
-fn in_json(name: &str, exported: &Exported) -> Value {
-    json!({
-        "name": name,
-        "bytes": exported.bytes.len(),
-        "full_scale": exported.scale,
-        "parts": exported.carried,
-        "warnings": exported.warnings,
-    })
 }
 
 fn report(file: &str, exported: &Exported) -> String {

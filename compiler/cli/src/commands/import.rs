@@ -7,6 +7,7 @@ use super::{
 use crate::cli::{ImportEffects, ImportModel, ImportRecording};
 use asperity::{
     effects::{Effects, Kind, Options},
+    library::model_files,
     model_file::ModelFile,
     pipeline::Request,
     preview,
@@ -72,7 +73,7 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
         force: args.force,
     };
     let mut inputs = source.inputs();
-    inputs.extend(inference::model_files(args.model.as_deref()));
+    inputs.extend(model_files(args.model.as_deref()));
     let wanted = Wanted {
         emit_model: args.emit_model.as_deref(),
         plot: args.plot.as_deref(),

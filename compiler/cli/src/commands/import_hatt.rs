@@ -5,7 +5,7 @@ use crate::cli::ImportHatt;
 use asperity::{
     driver::{self, Compiled},
     hatt::{self, Hatt},
-    library::{self, NamedAsset},
+    library::{self, NamedAsset, model_files},
     pipeline::{Clock, Pass, Pipeline, Request},
     sources::Tools,
 };
@@ -150,7 +150,7 @@ impl Target {
 pub(crate) fn run(args: &ImportHatt, console: Console) -> Result<(), Failures> {
     let files = hatt::files(&args.input).map_err(one)?;
     let mut inputs = files.clone();
-    inputs.extend(inference::model_files(args.model.as_deref()));
+    inputs.extend(model_files(args.model.as_deref()));
     let target = Target::open(args, files.len(), &inputs)?;
     let console = target.console(console);
     let completer = args

@@ -17,9 +17,10 @@ use std::{path::PathBuf, str::FromStr};
 // The text encoder that a user names.
 
 /// Which text encoder a user names.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum TextEncoderChoice {
     /// `minilm`: the embedded one.
+    #[default]
     MiniLm,
     /// `clip:DIR`: an export of CLIP's text tower in a folder.
     Clip(PathBuf),

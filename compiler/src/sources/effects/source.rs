@@ -38,6 +38,22 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// The kind that the content of a file says.
+    #[must_use]
+    pub fn of_format(format: Format) -> Option<Self> {
+        let all = [Self::Haptic, Self::Ahap, Self::Hjif];
+        all.into_iter().find(|kind| kind.format() == format)
+    }
+
+    /// The kind that the end of a file's name says.
+    #[must_use]
+    pub fn of_name(file: &Path) -> Option<Self> {
+        let extension = file.extension()?;
+        let all = [Self::Haptic, Self::Ahap, Self::Hjif];
+        all.into_iter()
+            .find(|kind| extension.eq_ignore_ascii_case(kind.name()))
+    }
+
     const fn format(self) -> Format {
         match self {
             Self::Haptic => Format::Haptic,

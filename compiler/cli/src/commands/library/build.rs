@@ -1,30 +1,26 @@
 //! `asperity build` of a manifest.
 
 use crate::{
-    cli::{Build as Arguments, Inference},
+    cli::Build as Arguments,
     commands::{inference, timings},
 };
 use asperity::{
     library::{
-        Build, Cache, Lock, Manifest, Pinned, Request, default_folder, manifest::ManifestError,
+        Build, BuildFile, Cache, Lock, Manifest, Pinned, Request, Setup, manifest::ManifestError,
     },
     pipeline::{Clock, Pass, Pipeline},
     sources::Registry,
-    text::TextEncoderChoice,
 };
 use asperity_console::Console;
 use asperity_io::{
     clock::now,
     diagnostic::{Diagnostic, Failures, one},
     input::Reach,
-    output::{OutputId, Outputs, display, is_standard_output, write_atomic},
+    output::{OutputId, Outputs, display, is_standard_output},
     shown::counted,
 };
 use serde_json::json;
-use std::{
-    io::BufWriter,
-    path::{Path, PathBuf},
-};
+use std::{io::BufWriter, path::Path};
 use thiserror::Error;
 
 /// Warnings that are printed one by one.
@@ -32,46 +28,31 @@ const WARNINGS: usize = 20;
 
 /// Why the options do not go together.
 #[derive(Debug, Error)]
-enum Usage {
-    #[error("{0} applies only to scenes, but the manifest has no [[surface]]")]
-    ForScenes(&'static str),
-    #[error("{file}: defaults.{key}: {message}", file = file.display())]
-    Setup {
-        file: PathBuf,
-        key: &'static str,
-        message: String,
-    },
-}
+#[error("{0} applies only to scenes, but the manifest has no [[surface]]")]
+struct ForScenes(&'static str);
 
-impl Diagnostic for Usage {
+impl Diagnostic for ForScenes {
     fn remedy(&self) -> String {
-        match self {
-            Self::ForScenes(_) => "leave it out, or add a [[surface]] for every texture".into(),
-            Self::Setup { .. } => "correct the value".into(),
-        }
+        "leave it out, or add a [[surface]] for every texture".into()
     }
 
     fn is_usage(&self) -> bool {
-        matches!(self, Self::ForScenes(_))
+        true
     }
 }
 
-pub(crate) fn run(
-    args: &Arguments,
-    text: &str,
-    reach: Reach,
-    console: Console,
-) -> Result<(), Failures> {
+pub(crate) fn run(args: &Arguments, build: BuildFile, console: Console) -> Result<(), Failures> {
     for (given, option) in [
         (args.target.is_some(), "--target"),
         (args.budget_bytes.is_some(), "--budget-bytes"),
     ] {
         if given {
-            return Err(one(Usage::ForScenes(option)));
+            return Err(one(ForScenes(option)));
         }
     }
+    let BuildFile { text, reach, .. } = build;
     let mut manifest =
-        Manifest::within(&args.scene, text, reach.clone(), &Registry::default()).map_err(boxed)?;
+        Manifest::within(&args.scene, &text, reach.clone(), &Registry::default()).map_err(boxed)?;
     previews(args, &mut manifest);
     if args.check {
         return checked(args, &manifest, console);
@@ -80,9 +61,7 @@ pub(crate) fn run(
     let request = build.request();
     let textures = Build::new(&manifest, &request)?;
     let bar = build.console.rated_bar(textures.len(), "textures");
-    let built = textures.run(&|| inference::prompt_compiler(&build.inference), &|| {
-        bar.inc(1)
-    });
+    let built = textures.run(&|| build.setup.prompt_compiler(), &|| bar.inc(1));
     bar.finish_and_clear();
     let built = built?;
     let mut pipeline = Pipeline::timed(Clock(now));
@@ -129,7 +108,7 @@ pub(crate) struct Prepared<'a> {
     /// The library among the outputs.
     pub(crate) library: OutputId,
     pub(crate) console: Console,
-    pub(crate) inference: Inference,
+    pub(crate) setup: Setup,
     pub(crate) pins: Pins,
     cache: Option<Cache>,
 }
@@ -141,28 +120,28 @@ impl<'a> Prepared<'a> {
         reach: &Reach,
         console: Console,
     ) -> Result<Self, Failures> {
-        let inference = setup(&args.inference, manifest)?;
+        let setup = args.inference.setup().within(manifest)?;
         let output = args.output.as_deref().unwrap_or(Path::new("-"));
         let mut inputs = vec![args.scene.clone()];
         inputs.extend(manifest.sources.iter().cloned());
-        inputs.extend(inference::files(&inference));
+        inputs.extend(setup.files());
         let lock = Lock::within(&args.scene, reach).map_err(one)?;
         inputs.push(lock.file().to_owned());
         let mut outputs = Outputs::beside(&inputs);
         let library = outputs.open(output).map_err(one)?;
         let console = console.beside(&outputs);
-        let pinned = inference::pinned(&inference)?;
+        let pinned = setup.pinned()?;
         if args.locked {
             lock.hold(&pinned).map_err(one)?;
         }
-        let cache = (!args.no_cache).then(|| Cache::new(cache_folder(args, output)));
+        let cache = (!args.no_cache).then(|| Cache::chosen(args.cache.clone(), folder_of(output)));
         Ok(Self {
             args,
             output,
             outputs,
             library,
             console,
-            inference,
+            setup,
             pins: Pins { lock, pinned },
             cache,
         })
@@ -177,6 +156,7 @@ impl<'a> Prepared<'a> {
             clock: Clock(now),
             min_certainty: self.args.min_certainty,
             scratch: (!self.outputs.to_standard_output()).then(|| folder_of(self.output)),
+            stop: None,
         }
     }
 }
@@ -195,7 +175,9 @@ impl Pins {
         mut warnings: Vec<String>,
         console: Console,
     ) -> Vec<String> {
-        warnings.extend(pin(args, &self.lock, &self.pinned));
+        if !args.locked {
+            warnings.extend(self.lock.update(&self.pinned));
+        }
         let shown = warnings.len().min(WARNINGS);
         console.warnings(&warnings[..shown], args.reporting.json);
         if warnings.len() > shown && !args.reporting.json {
@@ -226,66 +208,10 @@ fn checked(args: &Arguments, manifest: &Manifest, console: Console) -> Result<()
     printed.map_err(one)
 }
 
-/// The options of the command, and those of the manifest where the command has the usual ones.
-fn setup(options: &Inference, manifest: &Manifest) -> Result<Inference, Failures> {
-    let wrong = |key: &'static str, message: String| {
-        one(Usage::Setup {
-            file: manifest.file.clone(),
-            key,
-            message,
-        })
-    };
-    let stated = &manifest.setup;
-    let mut setup = options.clone();
-    if setup.model.is_none() {
-        setup.model.clone_from(&stated.model);
-    }
-    if let (TextEncoderChoice::MiniLm, Some(text)) = (&options.text_encoder, &stated.text_encoder) {
-        setup.text_encoder = text.parse().map_err(|e: String| wrong("text_encoder", e))?;
-    }
-    if let (true, Some(text)) = (options.backend == Default::default(), &stated.backend) {
-        setup.backend = text.parse().map_err(|e: String| wrong("backend", e))?;
-    }
-    Ok(setup)
-}
-
-/// Where textures are kept: as the user says, the user's cache, or a folder beside the output.
-fn cache_folder(args: &Arguments, output: &Path) -> PathBuf {
-    let beside = || {
-        let folder = if is_standard_output(output) {
-            Path::new("")
-        } else {
-            folder_of(output)
-        };
-        folder.join(".asperity-cache")
-    };
-    let chosen = args.cache.clone().or_else(default_folder);
-    chosen.unwrap_or_else(beside)
-}
-
+/// The folder of an output; that of a pipe is where the command runs.
 fn folder_of(file: &Path) -> &Path {
     match file.parent() {
-        Some(folder) if folder != Path::new("") => folder,
+        Some(folder) if folder != Path::new("") && !is_standard_output(file) => folder,
         _ => Path::new("."),
     }
-}
-
-/// Writes the lock file where it says something else; a warning where it changes or cannot be
-/// written.
-fn pin(args: &Arguments, lock: &Lock, pinned: &Pinned) -> Vec<String> {
-    if args.locked {
-        return Vec::new();
-    }
-    let file = lock.file().display();
-    let mut warnings: Vec<String> = lock
-        .drift(pinned)
-        .iter()
-        .map(|drift| format!("{file}: {drift}; it pins that now"))
-        .collect();
-    if let Some(text) = lock.text(pinned)
-        && let Err(error) = write_atomic(lock.file(), text.as_bytes())
-    {
-        warnings.push(format!("{error}: {}; nothing is pinned", error.source));
-    }
-    warnings
 }

@@ -3,7 +3,7 @@
 use crate::cli::Split;
 use asperity::{
     edit::EditError,
-    library::{LoadedLibrary, NamedAsset, encode, renamed},
+    library::{LoadedLibrary, renamed, split},
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
@@ -57,19 +57,10 @@ fn assets(shelf: &LoadedLibrary) -> Result<(Files, Vec<String>), Failures> {
     Ok((files, changed))
 }
 
-/// Libraries of neighbouring textures, each as large as the others within one texture.
+/// As many libraries, numbered.
 fn parts(shelf: &LoadedLibrary, count: usize) -> Result<Files, Failures> {
-    let total = shelf.textures.len();
     let digits = count.to_string().len();
-    (0..count)
-        .map(|part| {
-            let range = part * total / count..(part + 1) * total / count;
-            let named: Vec<NamedAsset<'_>> = shelf.textures[range]
-                .iter()
-                .map(|(name, bytes)| NamedAsset { name, bytes })
-                .collect();
-            let name = format!("part-{:0digits$}.aspl", part + 1);
-            Ok((name, encode(&named).map_err(one)?))
-        })
-        .collect()
+    let parts = split(shelf, count).map_err(one)?.into_iter().enumerate();
+    let named = parts.map(|(part, bytes)| (format!("part-{:0digits$}.aspl", part + 1), bytes));
+    Ok(named.collect())
 }
