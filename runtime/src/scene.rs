@@ -165,6 +165,35 @@ impl<'a, const N: usize, S: Capacity, A: RenderArithmetic> Scene<'a, N, S, A> {
         Ok(scene)
     }
 
+    /// A scene on textures that [`Texture::load`] or [`Scene::load`] prepared before: for a caller that keeps the
+    /// textures and the surfaces of a library, and borrows them for as long as it renders.
+    ///
+    /// # Errors
+    /// [`SceneError::Capacity`] for more surfaces than there is room for, and for a texture that is not there;
+    /// [`SceneError::Surface`].
+    pub fn on_loaded(
+        surfaces: &[SceneSurface],
+        textures: &'a [Texture<S, A>],
+    ) -> Result<Self, SceneError> {
+        let room = |field, found, capacity| SceneError::Capacity {
+            field,
+            found,
+            capacity,
+        };
+        let named = surfaces
+            .iter()
+            .map(|surface| usize::from(surface.texture) + 1);
+        let named = named.max().ok_or(SceneError::NoScene)?;
+        let loaded = textures.get(..named).and_then(|_| textures.split_first());
+        let mut scene = Self::on(loaded.ok_or(room("textures", named, textures.len()))?);
+        for (index, surface) in surfaces.iter().enumerate() {
+            A::check_solid(&surface.solid).map_err(|cause| SceneError::Surface { index, cause })?;
+            let placed = scene.placed.push(Placed::new(*surface));
+            placed.map_err(|_| room("surfaces", surfaces.len(), N))?;
+        }
+        Ok(scene)
+    }
+
     /// Loads every texture, checks every surface, and gives the textures.
     fn prepare(
         library: &Library<'_>,

@@ -364,3 +364,45 @@ fn a_scene_made_in_place_renders_the_same() {
     assert_eq!(ours, theirs);
     assert!(ours.iter().any(|o| o.vib_m_s2 != 0.0));
 }
+
+#[test]
+fn a_scene_on_loaded_textures_goes_on_where_the_last_one_stopped() {
+    let surfaces = anywhere(&[level(0.0), ball([0.0; 3], 0.003)]);
+    let bytes = library(&surfaces);
+    let parsed = Library::parse(&bytes).unwrap();
+    let config = Config::default();
+    let renderer = Renderer::new(&config).unwrap();
+    let mut slots = vec![HostSlot::<Float>::new(), HostSlot::<Float>::new()];
+    Small::<8>::load(&parsed, &config, &mut slots).unwrap();
+    let samples: Vec<_> = strokes(8, 1000).into_iter().map(Sample::at).collect();
+    let mut state = SceneState::new(3);
+    let mut ours = Vec::new();
+    for some in samples.chunks(70) {
+        let scene = Small::<8>::on_loaded(&surfaces, &slots).unwrap();
+        let outputs = some
+            .iter()
+            .map(|s| renderer.tick_scene(&scene, &mut state, s));
+        ours.extend(outputs);
+    }
+    let theirs: Vec<_> = on_scene::<Float, _>(&surfaces, |scene, renderer| {
+        let mut state = SceneState::new(3);
+        let ticks = samples.iter();
+        ticks
+            .map(|s| renderer.tick_scene(scene, &mut state, s))
+            .collect()
+    });
+    assert_eq!(ours, theirs);
+
+    let refused = |surfaces: &[SceneSurface], textures| {
+        Small::<2>::on_loaded(surfaces, textures)
+            .err()
+            .map(|error| error.to_string())
+    };
+    let no_scene = Some(SceneError::NoScene.to_string());
+    assert_eq!(refused(&[], &slots), no_scene);
+    let textures = refused(&surfaces, &slots[..1]).unwrap();
+    assert_eq!(textures, "textures: the scene has 2, there is room for 1");
+    let many = anywhere(&[level(0.0); 3]);
+    let many = refused(&many, &slots).unwrap();
+    assert_eq!(many, "surfaces: the scene has 3, there is room for 2");
+}

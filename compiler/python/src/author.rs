@@ -1,21 +1,22 @@
 //! `asperity.compile` and `asperity.Author`.
 
 use crate::{
-    arguments::{Fidelity, Seed},
+    arguments::{Fidelity, Preview, Seed},
     error::{self, Failure},
     texture::Texture,
 };
 use asperity::{
     driver::{self, Compiled},
-    embedded,
-    inference::{Backend, BackendName},
+    inference::Backend,
+    library::Setup,
     pipeline::{Clock, Request},
     prompt::{self, Options, Prompt, PromptError},
     sources::Tools,
-    text::{TextEncoder, TextEncoderChoice, clip::Clip},
+    text::TextEncoderChoice,
 };
 use asperity_io::clock::now;
 use pyo3::prelude::*;
+use serde_json::Value;
 use std::{
     ffi::CString,
     path::PathBuf,
@@ -52,8 +53,8 @@ pub(crate) fn shared() -> Result<Arc<prompt::PromptCompiler>, Failure> {
 ///     How much of the texture is kept: all, the least within 0.5 dB, or an AR order.
 /// rate : float, optional
 ///     Rate of the models, Hz: that of the servo loop. The model's own by default.
-/// preview : bool, default True
-///     Whether the asset holds a preview.
+/// preview : bool or int, default True
+///     Whether the asset holds a preview, or its width and height in pixels.
 ///
 /// Returns
 /// -------
@@ -80,7 +81,7 @@ pub(crate) fn shared() -> Result<Arc<prompt::PromptCompiler>, Failure> {
 /// 'polished marble'
 #[pyfunction]
 #[pyo3(
-    signature = (prompt, *, seed=Seed(0), fidelity=Fidelity::AUTO, rate=None, preview=true),
+    signature = (prompt, *, seed=Seed(0), fidelity=Fidelity::AUTO, rate=None, preview=Preview::Usual),
     text_signature = "(prompt, *, seed=0, fidelity='auto', rate=None, preview=True)"
 )]
 pub(crate) fn compile(
@@ -89,7 +90,7 @@ pub(crate) fn compile(
     seed: Seed,
     fidelity: Fidelity,
     rate: Option<f64>,
-    preview: bool,
+    preview: Preview,
 ) -> PyResult<Texture> {
     let options = options(seed, fidelity, rate, preview);
     let authored = py.detach(|| {
@@ -100,7 +101,8 @@ pub(crate) fn compile(
         let author = shared()?;
         authored(&author, prompt, &options)
     })?;
-    told(py, authored)
+    let report = authored.json();
+    texture(py, authored, &report)
 }
 
 /// A model and a text encoder of one's own, loaded once, asked often.
@@ -122,7 +124,7 @@ pub(crate) fn compile(
 ///     Where the folder is no model, does not fit the encoder, or a library is missing.
 #[pyclass(frozen, module = "asperity")]
 pub(crate) struct Author {
-    author: prompt::PromptCompiler,
+    pub(crate) author: prompt::PromptCompiler,
 }
 
 #[pymethods]
@@ -135,15 +137,13 @@ impl Author {
         text_encoder: &str,
         backend: &str,
     ) -> Result<Self, Failure> {
-        let encoder: TextEncoderChoice = text_encoder.parse().map_err(|rule: String| {
-            let message = format!("text_encoder = {text_encoder:?}: not {rule}");
-            Failure::usage(message, "leave it out for the embedded encoder")
-        })?;
-        let name: BackendName = backend.parse().map_err(|rule: String| {
-            let message = format!("backend = {backend:?}: not {rule}");
-            Failure::usage(message, "leave it out for the portable engine")
-        })?;
-        let author = py.detach(|| author(model, &encoder, name))?;
+        let setup = networks(model, text_encoder, backend)?;
+        if let (TextEncoderChoice::Clip(_), None) = (&setup.text_encoder, &setup.model) {
+            let message = "text_encoder: the embedded model was not trained with CLIP";
+            let remedy = "give a model that was, as model=DIR";
+            return Err(Failure::usage(message, remedy));
+        }
+        let author = py.detach(|| setup.prompt_compiler().map_err(Failure::all))?;
         Ok(Self { author })
     }
 
@@ -159,14 +159,14 @@ impl Author {
     ///     How much of the texture is kept.
     /// rate : float, optional
     ///     Rate of the models, Hz.
-    /// preview : bool, default True
-    ///     Whether the asset holds a preview.
+    /// preview : bool or int, default True
+    ///     Whether the asset holds a preview, or its size.
     ///
     /// Returns
     /// -------
     /// Texture
     #[pyo3(
-        signature = (prompt, *, seed=Seed(0), fidelity=Fidelity::AUTO, rate=None, preview=true),
+        signature = (prompt, *, seed=Seed(0), fidelity=Fidelity::AUTO, rate=None, preview=Preview::Usual),
         text_signature = "($self, prompt, *, seed=0, fidelity='auto', rate=None, preview=True)"
     )]
     fn compile(
@@ -176,11 +176,12 @@ impl Author {
         seed: Seed,
         fidelity: Fidelity,
         rate: Option<f64>,
-        preview: bool,
+        preview: Preview,
     ) -> PyResult<Texture> {
         let options = options(seed, fidelity, rate, preview);
         let authored = py.detach(|| authored(&self.author, prompt, &options))?;
-        told(py, authored)
+        let report = authored.json();
+        texture(py, authored, &report)
     }
 }
 
@@ -202,54 +203,52 @@ fn authored(
     driver::compile(&source, &options.request, &tools).map_err(error::stopped)
 }
 
-fn author(
+/// The networks that arguments name.
+pub(crate) fn networks(
     model: Option<PathBuf>,
-    encoder: &TextEncoderChoice,
-    backend: BackendName,
-) -> Result<prompt::PromptCompiler, Failure> {
-    let backend = Backend::open(backend)?;
-    let (text, folder): (Box<dyn TextEncoder>, PathBuf) = match (encoder, model) {
-        (TextEncoderChoice::MiniLm, None) => {
-            return Ok(prompt::PromptCompiler::embedded(&backend)?);
-        }
-        (TextEncoderChoice::MiniLm, Some(folder)) => {
-            (Box::new(embedded::text_encoder(&backend)?), folder)
-        }
-        (TextEncoderChoice::Clip(clip), Some(folder)) => {
-            (Box::new(Clip::open(clip, &backend)?), folder)
-        }
-        (TextEncoderChoice::Clip(_), None) => {
-            let message = "text_encoder: the embedded model was not trained with CLIP";
-            return Err(Failure::usage(
-                message,
-                "give a model that was, as model=DIR",
-            ));
-        }
-    };
-    Ok(prompt::PromptCompiler::with_folder(
-        text, &folder, &backend,
-    )?)
+    text_encoder: &str,
+    backend: &str,
+) -> Result<Setup, Failure> {
+    Ok(Setup {
+        text_encoder: text_encoder.parse().map_err(|rule: String| {
+            let message = format!("text_encoder = {text_encoder:?}: not {rule}");
+            Failure::usage(message, "leave it out for the embedded encoder")
+        })?,
+        model,
+        backend: backend.parse().map_err(|rule: String| {
+            let message = format!("backend = {backend:?}: not {rule}");
+            Failure::usage(message, "leave it out for the portable engine")
+        })?,
+    })
 }
 
-fn options(seed: Seed, fidelity: Fidelity, rate_hz: Option<f64>, preview: bool) -> Options {
+fn options(seed: Seed, fidelity: Fidelity, rate_hz: Option<f64>, preview: Preview) -> Options {
     Options {
         seed: seed.0,
         request: Request {
             fidelity: fidelity.0,
             rate_hz,
-            preview_px: preview.then_some(asperity::preview::SIZE),
+            preview_px: preview.px(),
             ..Request::default()
         },
     }
 }
 
-/// The texture; its warnings are issued as `AsperityWarning`.
-fn told(py: Python<'_>, authored: Compiled) -> PyResult<Texture> {
+/// The texture with its report; its warnings are issued as `AsperityWarning`.
+pub(crate) fn texture(py: Python<'_>, compiled: Compiled, report: &Value) -> PyResult<Texture> {
+    warn(py, &compiled.warnings)?;
+    Ok(Texture::made(
+        compiled.lowered.bytes,
+        Some(report.to_string()),
+    )?)
+}
+
+/// Issues warnings.
+pub(crate) fn warn(py: Python<'_>, warnings: &[String]) -> PyResult<()> {
     let category = py.import("asperity._errors")?.getattr("AsperityWarning")?;
-    for warning in &authored.warnings {
+    for warning in warnings {
         let text = CString::new(warning.as_str()).unwrap_or_default();
         PyErr::warn(py, &category, &text, 1)?;
     }
-    let report = authored.json().to_string();
-    Ok(Texture::made(authored.lowered.bytes, Some(report))?)
+    Ok(())
 }

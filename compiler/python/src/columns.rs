@@ -18,11 +18,13 @@ pub(crate) struct Columns {
     tap_n: Vec<f32>,
     friction_n: Vec<f32>,
     flags: Vec<u16>,
+    /// Index of the surface in contact, -1 for none; only of a scene.
+    surface: Option<Vec<i16>>,
 }
 
 impl Columns {
     /// Columns of this many ticks, all zero.
-    pub(crate) fn zeros(ticks: usize) -> Self {
+    pub(crate) fn zeros(ticks: usize, is_scene: bool) -> Self {
         Self {
             force_n: vec![[0.0; 3]; ticks],
             depth_m: vec![0.0; ticks],
@@ -32,6 +34,7 @@ impl Columns {
             tap_n: vec![0.0; ticks],
             friction_n: vec![0.0; ticks],
             flags: vec![0; ticks],
+            surface: is_scene.then(|| vec![-1; ticks]),
         }
     }
 
@@ -48,8 +51,20 @@ impl Columns {
         self.flags[tick] = output.flags.bits();
     }
 
+    /// Writes which surface was touched; a scene has 64 at most.
+    #[inline]
+    pub(crate) fn touch(&mut self, tick: usize, surface: Option<usize>) {
+        if let Some(column) = &mut self.surface {
+            column[tick] = surface.map_or(-1, |index| index as i16);
+        }
+    }
+
     /// The record. No column is copied.
     pub(crate) fn record(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        let surface = match self.surface {
+            Some(column) => list(py, column),
+            None => py.None().into_bound(py),
+        };
         of_fields(
             py,
             "Rendered",
@@ -62,6 +77,7 @@ impl Columns {
                 ("tap_n", list(py, self.tap_n)),
                 ("friction_n", list(py, self.friction_n)),
                 ("flags", list(py, self.flags)),
+                ("surface", surface),
             ],
         )
     }

@@ -3,7 +3,7 @@
 use asperity::{
     driver::Stopped, pipeline::PipelineError, prompt::PromptError, rerate::RATE_RANGE_HZ,
 };
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::diagnostic::{Diagnostic, Failures};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::{error::Error, fmt::Display};
 
@@ -61,6 +61,16 @@ impl Failure {
     }
 }
 
+impl Failure {
+    /// All that went wrong with one work.
+    pub(crate) fn all(failures: Failures) -> Self {
+        let mut failures = failures.iter().map(|failure| Self::of(&**failure));
+        let first = failures.next();
+        let first = first.unwrap_or_else(|| Self::new("it failed", "see what was printed"));
+        failures.fold(first, Self::and)
+    }
+}
+
 impl<E: Diagnostic> From<E> for Failure {
     fn from(error: E) -> Self {
         Self::of(&error)
@@ -75,7 +85,7 @@ impl Failure {
             message = format!("{message}: {cause}");
             source = cause.source();
         }
-        let remedy = error.remedy();
+        let (message, remedy) = (in_python(&message), in_python(&error.remedy()));
         if error.is_usage() {
             Self::usage(message, remedy)
         } else {
@@ -98,6 +108,22 @@ impl From<Failure> for PyErr {
             }
         })
     }
+}
+
+/// A text with the options of the command as arguments: `--tap-speed` is `tap_speed`.
+fn in_python(text: &str) -> String {
+    let mut parts = text.split("--");
+    let mut result = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        if !part.starts_with(|first: char| first.is_ascii_lowercase()) {
+            result += "--";
+        }
+        let end = part.find(|c: char| c != '-' && !c.is_ascii_lowercase());
+        let (option, rest) = part.split_at(end.unwrap_or(part.len()));
+        result += &option.replace('-', "_");
+        result += rest;
+    }
+    result
 }
 
 /// What kept a source from becoming a texture, in the words of Python where those of the command

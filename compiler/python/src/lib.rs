@@ -7,29 +7,38 @@
 //! | file | holds |
 //! |---|---|
 //! | `author.rs` | `compile`, `Author`: prompts |
-//! | `import.rs` | `import_hatt`, `import_model`, `builtin` |
+//! | `mix.rs` | `blend`, `compose`, `encode`, edits |
+//! | `import.rs` | `import_hatt`, `import_model`, `import_recording`, `import_effect`, `builtin` |
+//! | `export.rs` | `export` |
 //! | `texture.rs` | `Texture`, over `contents.rs` and `arrays.rs` |
-//! | `library.rs`, `load.rs` | `Library`, `pack`, `load` |
+//! | `library.rs`, `scene.rs`, `load.rs` | `Library`, `Scene`, `pack`, `load` |
+//! | `build.rs`, `libraries.rs` | `build`, `merge`, `diff` |
 //! | `renderer.rs` | `Renderer`, over `motion.rs`, `servo.rs` and `columns.rs` |
 //! | `error.rs`, `records.rs` | exceptions and records that are Python |
 //!
-//! Long work releases the interpreter. A panic becomes a Python exception.
+//! Long work releases the interpreter; `watch.rs` lets Ctrl-C end what has steps. A panic becomes a Python exception.
 
 mod arguments;
 mod arrays;
 mod author;
+mod build;
 mod columns;
 mod contents;
 mod error;
+mod export;
 mod import;
+mod libraries;
 mod library;
 mod load;
+mod mix;
 mod motion;
 mod output;
 mod records;
 mod renderer;
+mod scene;
 mod servo;
 mod texture;
+mod watch;
 
 use pyo3::pymodule;
 
@@ -39,15 +48,25 @@ mod _native {
     #[pymodule_export]
     use crate::author::{Author, compile};
     #[pymodule_export]
-    use crate::import::{builtin, import_hatt, import_model};
+    use crate::build::build;
+    #[pymodule_export]
+    use crate::export::export;
+    #[pymodule_export]
+    use crate::import::{builtin, import_effect, import_hatt, import_model, import_recording};
+    #[pymodule_export]
+    use crate::libraries::{diff, merge};
     #[pymodule_export]
     use crate::library::{Library, pack};
     #[pymodule_export]
     use crate::load::load;
     #[pymodule_export]
+    use crate::mix::{blend, compose, encode};
+    #[pymodule_export]
     use crate::output::Output;
     #[pymodule_export]
     use crate::renderer::Renderer;
+    #[pymodule_export]
+    use crate::scene::Scene;
     #[pymodule_export]
     use crate::texture::{Texture, plot};
 

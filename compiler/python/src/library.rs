@@ -1,25 +1,34 @@
 //! `asperity.Library` and `asperity.pack`.
 
-use crate::{arguments::Choice, contents::Contents, error::Failure, records, texture::Texture};
+use crate::{
+    arguments::{Choice, within},
+    contents::Contents,
+    error::{Failure, stopped},
+    records,
+    scene::Scene,
+    texture::Texture,
+};
 use asperity::{
-    inspect::SurfaceDocument,
-    library::{self, NamedAsset},
+    library::{self, LibraryFault, LoadedLibrary, NamedAsset},
+    lower::LowerError,
     textures::{Textures, TexturesError, TexturesProblem},
 };
-use asperity_formats::{self as formats, FormatError};
+use asperity_formats::{self as formats, FormatError, SceneSurface};
 use asperity_io::output;
 use pyo3::{
     prelude::*,
-    types::{PyIterator, PyList},
+    types::{PyBytes, PyIterator, PyList},
 };
+use serde_json::Value;
 use std::{
+    borrow::Cow,
     path::{Path, PathBuf},
-    sync::{Mutex, PoisonError},
+    sync::{Mutex, MutexGuard, PoisonError},
 };
 
 /// Textures behind an index, in order of name.
 ///
-/// Libraries come from `load` and `pack`. ``library[3]`` and ``library["polished marble"]`` read one texture;
+/// Libraries come from `build`, `load`, `pack` and `merge`. ``library[3]`` and ``library["polished marble"]`` read one texture;
 /// of a file, the others are not read. Iteration gives every texture.
 ///
 /// Examples
@@ -30,10 +39,12 @@ use std::{
 /// ['Built-in Grit', 'polished marble']
 /// >>> library["polished marble"].name
 /// 'polished marble'
-#[pyclass(frozen, module = "asperity")]
+#[pyclass(frozen, subclass, module = "asperity")]
 pub(crate) struct Library {
     names: Vec<String>,
     place: Place,
+    /// JSON: what its build reported.
+    report: Option<String>,
 }
 
 /// Where the textures are.
@@ -48,6 +59,7 @@ impl Library {
         Self {
             names,
             place: Place::File(Mutex::new(textures)),
+            report: None,
         }
     }
 
@@ -64,6 +76,7 @@ impl Library {
         Ok(Self {
             names,
             place: Place::Memory(bytes),
+            report: None,
         })
     }
 
@@ -73,8 +86,7 @@ impl Library {
         let name = self.names.get(index).map(String::as_str);
         let (bytes, path) = match &self.place {
             Place::File(textures) => {
-                // A failed read leaves a file that can be read again.
-                let mut textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut textures = held(textures);
                 (textures.texture(index)?, textures.path().to_owned())
             }
             Place::Memory(bytes) => {
@@ -84,6 +96,81 @@ impl Library {
             }
         };
         Ok(Texture::new(Contents::new(bytes, &path, name)?, None))
+    }
+
+    /// The surfaces of its scene; none without a scene.
+    pub(crate) fn surfaces(&self) -> Result<Vec<SceneSurface>, Failure> {
+        Ok(match &self.place {
+            Place::File(textures) => held(textures).surfaces()?,
+            Place::Memory(bytes) => {
+                let library = formats::Library::parse(bytes).map_err(in_data)?;
+                let scene = library.scene();
+                scene.map_or_else(Vec::new, |scene| scene.surfaces().collect())
+            }
+        })
+    }
+
+    /// The bytes of the whole library.
+    pub(crate) fn bytes(&self) -> Result<Cow<'_, [u8]>, Failure> {
+        Ok(match &self.place {
+            Place::File(textures) => Cow::Owned(held(textures).library()?.unwrap_or_default()),
+            Place::Memory(bytes) => Cow::Borrowed(bytes),
+        })
+    }
+
+    /// The library with the report of its build.
+    pub(crate) fn reporting(self, report: &Value) -> Self {
+        Self {
+            report: Some(report.to_string()),
+            ..self
+        }
+    }
+
+    /// The name of its file without the ending.
+    pub(crate) fn name(&self) -> String {
+        match &self.place {
+            Place::File(textures) => {
+                let textures = held(textures);
+                let stem = textures.path().file_stem().unwrap_or_default();
+                stem.to_string_lossy().into_owned()
+            }
+            Place::Memory(_) => "library".to_owned(),
+        }
+    }
+
+    /// All its textures, checked. `shown` names it in errors.
+    pub(crate) fn loaded(&self, shown: String) -> Result<LoadedLibrary, Failure> {
+        let textures = self.names.iter().enumerate().map(|(index, name)| {
+            let texture = self.choose(&Choice::Index(index as isize))?;
+            Ok((name.clone(), texture.contents.bytes().to_vec()))
+        });
+        Ok(LoadedLibrary {
+            shown,
+            textures: textures.collect::<Result<_, Failure>>()?,
+            is_library: true,
+            has_scene: self.has_scene()?,
+        })
+    }
+
+    /// Names of the textures, in order.
+    pub(crate) fn listed(&self) -> &[String] {
+        &self.names
+    }
+
+    /// As Python has it: a scene where it has surfaces.
+    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        if self.has_scene()? {
+            Scene::over(self, py)
+        } else {
+            Ok(Py::new(py, self)?.into_any())
+        }
+    }
+
+    fn has_scene(&self) -> Result<bool, Failure> {
+        Ok(match &self.place {
+            Place::File(textures) => held(textures).has_scene(),
+            Place::Memory(_) => !self.surfaces()?.is_empty(),
+        })
     }
 
     fn index(&self, choice: &Choice) -> Result<usize, Failure> {
@@ -115,28 +202,120 @@ impl Library {
         self.names.clone()
     }
 
-    /// Surfaces of the scene: dicts as ``asperity inspect --json`` prints them. Empty without
-    /// a scene.
+    /// What the build reported, or None for a library that was loaded or packed.
+    ///
+    /// It is what ``asperity build --json`` prints, without the path.
     #[getter]
-    fn surfaces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let surfaces = match &self.place {
-            Place::File(textures) => {
-                let mut textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
-                textures.surfaces().map_err(Failure::from)?
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let report = self.report.as_deref();
+        report.map(|json| records::parsed(py, json)).transpose()
+    }
+
+    /// A texture under the name that the library gives it, as ``asperity extract`` writes it.
+    ///
+    /// Parameters
+    /// ----------
+    /// texture : str or int
+    ///     Its name or index.
+    ///
+    /// Returns
+    /// -------
+    /// Texture
+    ///
+    /// Raises
+    /// ------
+    /// NoSuchTextureError
+    ///     Where there is none.
+    fn extract(&self, py: Python<'_>, texture: Choice) -> Result<Texture, Failure> {
+        py.detach(|| {
+            let name = &self.names[self.index(&texture)?];
+            let found = self.choose(&texture)?;
+            if found.contents.asset()?.name() == name {
+                return Ok(found);
             }
-            Place::Memory(bytes) => {
-                let library = formats::Library::parse(bytes)
-                    .map_err(in_data)
-                    .map_err(Failure::from)?;
-                let scene = library.scene();
-                scene.map_or_else(Vec::new, |scene| scene.surfaces().collect())
+            let bytes = library::renamed(found.contents.bytes(), name).map_err(LowerError::from)?;
+            Texture::made(bytes, None)
+        })
+    }
+
+    /// The library with one texture under another name.
+    ///
+    /// Parameters
+    /// ----------
+    /// texture : str or int
+    ///     The texture, by name or index.
+    /// name : str
+    ///     Its new name: 1 to 64 bytes, no control characters.
+    ///
+    /// Returns
+    /// -------
+    /// Library
+    ///
+    /// Raises
+    /// ------
+    /// NoSuchTextureError
+    ///     Where there is no such texture.
+    /// AsperityError
+    ///     For a name that another texture has, or none can have, and for a scene.
+    fn rename(&self, py: Python<'_>, texture: Choice, name: &str) -> Result<Self, Failure> {
+        py.detach(|| {
+            let index = self.index(&texture)?;
+            let mut loaded = self.loaded("library".into())?;
+            loaded.rename(index, name).map_err(stopped)?;
+            Ok(Self::in_memory(loaded.encode()?)?)
+        })
+    }
+
+    /// Smaller libraries of neighbouring textures, each as large as the others within one texture.
+    ///
+    /// Parameters
+    /// ----------
+    /// into : int
+    ///     Their number, 1 to 9999.
+    ///
+    /// Returns
+    /// -------
+    /// list of Library
+    ///
+    /// Raises
+    /// ------
+    /// AsperityError
+    ///     For a scene.
+    fn split(&self, py: Python<'_>, into: usize) -> Result<Vec<Self>, Failure> {
+        let into = within("into", into, &(1..=9999))?;
+        py.detach(|| {
+            let loaded = self.loaded("library".into())?;
+            if loaded.has_scene {
+                return Err(LibraryFault::Scene(loaded.shown).into());
             }
-        };
-        let documents: Vec<SurfaceDocument> = surfaces
-            .iter()
-            .map(|surface| SurfaceDocument::of(surface, &self.names))
-            .collect();
-        records::value(py, &documents)
+            let parts = library::split(&loaded, into)?.into_iter();
+            parts.map(|bytes| Ok(Self::in_memory(bytes)?)).collect()
+        })
+    }
+
+    /// The bytes of the library, as a file holds them.
+    ///
+    /// Returns
+    /// -------
+    /// bytes
+    fn to_bytes<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyBytes>, Failure> {
+        let bytes = py.detach(|| self.bytes())?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// Writes the library, in full or not at all.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or os.PathLike
+    ///     The file (.aspl); one that is there is replaced.
+    ///
+    /// Raises
+    /// ------
+    /// AsperityError
+    ///     Where a texture is damaged, or the file cannot be written.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> Result<(), Failure> {
+        py.detach(|| Ok(output::write_atomic(&path, &self.bytes()?)?))
     }
 
     fn __len__(&self) -> usize {
@@ -217,6 +396,12 @@ pub(crate) fn pack(textures: &Bound<'_, PyAny>, path: Option<PathBuf>) -> PyResu
         Library::in_memory(bytes).map_err(Failure::from)
     })?;
     Ok(packed)
+}
+
+/// The file, once no other thread reads it.
+fn held(textures: &Mutex<Textures>) -> MutexGuard<'_, Textures> {
+    // A failed read leaves a file that can be read again.
+    textures.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn in_data(error: FormatError) -> TexturesError {

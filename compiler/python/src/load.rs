@@ -30,8 +30,8 @@ enum Loaded {
 ///
 /// Returns
 /// -------
-/// Texture or Library
-///     A texture of an asset, or where one of a library was named.
+/// Texture, Library or Scene
+///     A texture of an asset, or where one of a library was named; a scene where the library has one.
 ///
 /// Raises
 /// ------
@@ -70,7 +70,7 @@ pub(crate) fn load(py: Python<'_>, origin: Origin, texture: Option<Choice>) -> P
     })?;
     match loaded {
         Loaded::Texture(texture) => texture.into_py_any(py),
-        Loaded::Library(library) => library.into_py_any(py),
+        Loaded::Library(library) => library.into_python(py),
     }
 }
 

@@ -23,8 +23,10 @@ use pyo3::prelude::*;
 ///     Magnitude of the friction force, N.
 /// flags : Flags
 ///     What happened.
+/// surface : int or None
+///     Index of the surface in contact; only in a scene.
 #[pyclass(frozen, module = "asperity")]
-pub(crate) struct Output(pub(crate) runtime::Output);
+pub(crate) struct Output(pub(crate) runtime::Output, pub(crate) Option<usize>);
 
 #[pymethods]
 impl Output {
@@ -65,8 +67,13 @@ impl Output {
 
     #[getter]
     fn flags<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let flags = py.import("asperity._records")?.getattr("Flags")?;
+        let flags = py.import("asperity")?.getattr("Flags")?;
         flags.call1((self.0.flags.bits(),))
+    }
+
+    #[getter]
+    fn surface(&self) -> Option<usize> {
+        self.1
     }
 
     fn __repr__(&self) -> String {

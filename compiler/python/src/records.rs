@@ -1,4 +1,4 @@
-//! Values as the records of `asperity._records`.
+//! Values as the records that are Python.
 
 use pyo3::{
     prelude::*,
@@ -41,6 +41,6 @@ pub(crate) fn with_fields<'py>(
     class: &str,
     fields: &Bound<'py, PyDict>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let class = py.import("asperity._records")?.getattr(class)?;
+    let class = py.import("asperity")?.getattr(class)?;
     class.call((), Some(fields))
 }

@@ -1,31 +1,48 @@
 //! `asperity.Renderer`.
 
 use crate::{
-    arguments::Seed,
+    arguments::{Seed, Solid},
+    columns::Columns,
     error::Failure,
     motion,
     output::Output,
     records::{of_fields, with_fields},
-    servo::{Servo, ServoError, servo},
+    scene::Scene,
+    servo::{self, Servo, ServoError},
     texture::Texture,
 };
-use asperity_runtime::{Config, LoadError, Sample, VibrationAxis};
+use asperity::render::{MAX_SCENE_TEXTURES, RenderError};
+use asperity_formats::{FormatError, Library};
+use asperity_runtime::{Config, LoadError, Sample, SceneError, VibrationAxis};
 use pyo3::{IntoPyObjectExt as _, prelude::*, sync::MutexExt as _, types::IntoPyDict as _};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Renders one texture on the plane z = 0, as ``asperity render`` does, to the bit.
+/// Ticks between two looks for Ctrl-C, below 0.1 s.
+const TOGETHER: usize = 100_000;
+
+/// What is rendered.
+#[derive(FromPyObject)]
+pub(crate) enum Felt<'py> {
+    Texture(Bound<'py, Texture>),
+    Scene(Bound<'py, Scene>),
+}
+
+/// Renders a texture or a scene, as ``asperity render`` does, to the bit.
 ///
 /// A tick is one servo period. The renderer keeps its state from call to call: rendering half a
 /// trajectory and then the other half gives what rendering it at once gives.
 ///
 /// Parameters
 /// ----------
-/// texture : Texture
-///     The texture.
+/// texture : Texture or Scene
+///     The texture, or the scene with its surfaces.
+/// solid : Plane, Sphere or Box, optional
+///     What wears the texture, by default the plane z = 0. A scene has solids of its own.
 /// seed : int, default 0
 ///     Seed of the excitation.
 /// rate : float, optional
-///     Rate of the servo loop, Hz: 1 to 20 times that of the texture, which is the default.
+///     Rate of the servo loop, Hz: 1 to 20 times that of the texture, which is the default; of a
+///     scene, its first texture's.
 /// fixed_point : bool, default False
 ///     Whether to compute as processors without an FPU do.
 /// peak_n : float, default 3.3
@@ -50,11 +67,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// >>> felt = asperity.Renderer(asperity.builtin(), seed=1).render(stroke)
 /// >>> felt.force_n.shape
 /// (1000, 3)
+/// >>> ball = asperity.Sphere((0.0, 0.0, 0.0), radius_m=0.05)
+/// >>> asperity.Renderer(asperity.builtin(), solid=ball).tick([0.0, 0.049, 0.0]).flags
+/// <Flags.CONTACT: 1>
 #[pyclass(frozen, module = "asperity")]
 pub(crate) struct Renderer {
     name: String,
     rate_hz: f32,
     fixed_point: bool,
+    is_scene: bool,
     servo: Mutex<(Box<dyn Servo>, u64)>,
 }
 
@@ -73,15 +94,17 @@ impl Renderer {
     #[new]
     #[pyo3(
         signature = (
-            texture, *, seed=Seed(0), rate=None, fixed_point=false, peak_n=3.3, slew_n_s=2000.0,
-            vibration_axis="tangent"
+            texture, *, solid=None, seed=Seed(0), rate=None, fixed_point=false, peak_n=3.3,
+            slew_n_s=2000.0, vibration_axis="tangent"
         ),
-        text_signature = "(texture, *, seed=0, rate=None, fixed_point=False, peak_n=3.3, \
-                          slew_n_s=2000.0, vibration_axis='tangent')"
+        text_signature = "(texture, *, solid=None, seed=0, rate=None, fixed_point=False, \
+                          peak_n=3.3, slew_n_s=2000.0, vibration_axis='tangent')"
     )]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
     fn new(
-        texture: &Texture,
+        py: Python<'_>,
+        texture: Felt<'_>,
+        solid: Option<Solid>,
         seed: Seed,
         rate: Option<f32>,
         fixed_point: bool,
@@ -89,9 +112,7 @@ impl Renderer {
         slew_n_s: f32,
         vibration_axis: &str,
     ) -> Result<Self, Failure> {
-        let asset = texture.contents.asset()?;
         let mut config = Config {
-            servo_rate_hz: rate.unwrap_or(asset.grid().sample_rate_hz()),
             vibration_axis: match vibration_axis {
                 "tangent" => VibrationAxis::Tangent,
                 "binormal" => VibrationAxis::Binormal,
@@ -104,12 +125,44 @@ impl Renderer {
         };
         config.limits.peak_n = peak_n;
         config.limits.slew_n_s = slew_n_s;
-        let servo = servo(&asset, &config, seed.0, fixed_point)
-            .map_err(|error| refused(error).about(asset.name()))?;
+        let (name, is_scene, servo) = match &texture {
+            Felt::Texture(texture) => {
+                let asset = texture.get().contents.asset()?;
+                config.servo_rate_hz = rate.unwrap_or(asset.grid().sample_rate_hz());
+                if let Some(Solid(solid)) = solid {
+                    config.solid = solid;
+                }
+                let servo = servo::on_texture(&asset, &config, seed.0, fixed_point);
+                (asset.name().to_owned(), false, servo)
+            }
+            Felt::Scene(_) if solid.is_some() => {
+                let message = "solid: a scene has solids of its own";
+                return Err(Failure::usage(message, "leave it out, or render a texture"));
+            }
+            Felt::Scene(scene) => {
+                let scene = scene.as_super().get();
+                let bytes = py.detach(|| scene.bytes())?;
+                let library = Library::parse(&bytes).map_err(unreadable)?;
+                let textures = library.index().len();
+                if textures > MAX_SCENE_TEXTURES {
+                    return Err(RenderError::Textures { found: textures }.into());
+                }
+                let first = library.asset(0).map_err(unreadable)?;
+                config.servo_rate_hz = rate.unwrap_or(first.grid().sample_rate_hz());
+                let servo = servo::on_scene(&library, &config, seed.0, fixed_point);
+                (
+                    format!("scene with {}", scene.listed().join(", ")),
+                    true,
+                    servo,
+                )
+            }
+        };
+        let servo = servo.map_err(|error| refused(error).about(&name))?;
         Ok(Self {
-            name: asset.name().to_owned(),
+            name,
             rate_hz: config.servo_rate_hz,
             fixed_point,
+            is_scene,
             servo: Mutex::new((servo, seed.0)),
         })
     }
@@ -126,10 +179,13 @@ impl Renderer {
         self.fixed_point
     }
 
-    /// The wall that is rendered: the texture's, lowered to what the device can bear.
+    /// The wall that is rendered: the texture's, lowered to what the device can bear. None of a
+    /// scene, whose textures have one each.
     #[getter]
     fn wall<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let [stiffness, damping] = self.servo(py).0.wall();
+        let Some([stiffness, damping]) = self.servo(py).0.wall() else {
+            return Ok(py.None().into_bound(py));
+        };
         let fields = [
             ("stiffness_n_m", stiffness.into_bound_py_any(py)?),
             ("damping_n_s_m", damping.into_bound_py_any(py)?),
@@ -175,10 +231,12 @@ impl Renderer {
             position_m: position_m.map(|x| x as f32),
             elapsed_ticks,
         };
-        Output(self.servo(py).0.tick(&sample))
+        let (output, surface) = self.servo(py).0.tick(&sample);
+        Output(output, surface)
     }
 
-    /// Renders a servo period for every row. Other threads run meanwhile.
+    /// Renders a servo period for every row. Other threads run meanwhile. Ctrl-C stops between two
+    /// ticks, and the state is then that of the last one.
     ///
     /// Parameters
     /// ----------
@@ -208,10 +266,19 @@ impl Renderer {
         let elapsed_ticks = elapsed_ticks
             .map(|array| motion::elapsed_ticks(array, positions_m.len()))
             .transpose()?;
-        let columns = py.detach(|| {
+        let columns = py.detach(|| -> PyResult<Columns> {
             let mut servo = self.servo.lock().unwrap_or_else(PoisonError::into_inner);
-            servo.0.render(&positions_m, elapsed_ticks.as_deref())
-        });
+            let ticks = positions_m.len();
+            let mut columns = Columns::zeros(ticks, self.is_scene);
+            for from in (0..ticks).step_by(TOGETHER) {
+                let some = from..ticks.min(from + TOGETHER);
+                servo
+                    .0
+                    .render(some, &positions_m, elapsed_ticks.as_deref(), &mut columns);
+                Python::attach(|py| py.check_signals())?;
+            }
+            Ok(columns)
+        })?;
         columns.record(py)
     }
 
@@ -255,6 +322,10 @@ fn refused(error: ServoError) -> Failure {
             let message = format!("{field} = {}: {}", error.value, error.rule);
             Failure::usage(message, "leave the argument out, or give one in this range")
         }
+        ServoError::Scene(SceneError::Texture { index, cause }) => {
+            refused(ServoError::Load(cause)).about(format!("texture {index}"))
+        }
+        ServoError::Scene(error) => Failure::new(error, "build the scene again"),
         ServoError::Load(error @ LoadError::Rate { model_hz, .. }) => {
             let remedy = format!("give rate={model_hz} or 2, 3, … 20 times as much");
             Failure::usage(error, remedy)
@@ -267,4 +338,8 @@ fn refused(error: ServoError) -> Failure {
             "lower the rate, or make the texture again with fidelity=\"auto\"",
         ),
     }
+}
+
+fn unreadable(error: FormatError) -> Failure {
+    Failure::new(error, "build the scene again")
 }

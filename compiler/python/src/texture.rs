@@ -1,12 +1,20 @@
 //! `asperity.Texture`.
 
 use crate::{
+    arguments::Preview,
     arrays,
+    author::Author,
     contents::Contents,
     error::Failure,
+    mix::{self, Mixing},
     records::{of_fields, parsed, record, value},
 };
-use asperity::inspect::Document;
+use asperity::{
+    edit::Edit,
+    inspect::Document,
+    library::{check_name, renamed},
+    lower::LowerError,
+};
 use asperity_io::output;
 use pyo3::{
     IntoPyObjectExt as _,
@@ -21,8 +29,8 @@ use std::{
 
 /// A haptic texture: a compiled, verified asset.
 ///
-/// Textures come from `compile`, `load`, `import_hatt`, `import_model` and `builtin`. A texture
-/// does not change; what it holds is read when it is first asked for.
+/// Textures come from `compile`, `load`, `blend`, the imports and `builtin`. A texture does not
+/// change; what it holds is read when it is first asked for.
 ///
 /// Parameters
 /// ----------
@@ -229,6 +237,140 @@ impl Texture {
     ///     Where the file cannot be written. What was there is then unchanged.
     fn save(&self, py: Python<'_>, path: PathBuf) -> Result<(), Failure> {
         py.detach(|| Ok(output::write_atomic(&path, self.contents.bytes())?))
+    }
+
+    /// Edits the texture: along sliders, or in words. Other threads run meanwhile.
+    ///
+    /// The sliders run from 0 to 100 between the materials of the model. Each number moves its
+    /// attribute by as many steps, down if negative, and holds the others still. The asset remembers
+    /// every edit. The result equals that of ``asperity edit``.
+    ///
+    /// Parameters
+    /// ----------
+    /// rougher, sharper, harder, slipperier : float, default 0
+    ///     Steps of the vibration's level, its centroid, the taps' centroid and less friction, -100
+    ///     to 100.
+    /// prompt : str, optional
+    ///     The change in words, such as ``"less gritty, more like leather"``, without sliders.
+    /// name : str, optional
+    ///     Name of the result; that of this texture by default.
+    /// preview : bool or int, default True
+    ///     Whether a preview is drawn where this texture has one, or its size in pixels.
+    /// author : Author, optional
+    ///     Whose model the texture was compiled with; the embedded one by default.
+    ///
+    /// Returns
+    /// -------
+    /// Texture
+    ///     With the steps that each attribute moved as ``report["moved"]``.
+    ///
+    /// Warns
+    /// -----
+    /// AsperityWarning
+    ///     Where an attribute ends more than 3 steps from where it was asked to.
+    ///
+    /// Raises
+    /// ------
+    /// UsageError
+    ///     For an edit that asks for nothing, or for words that are not understood.
+    /// AsperityError
+    ///     For a texture without a latent, or with one of another model.
+    #[pyo3(
+        signature = (
+            *, rougher=0.0, sharper=0.0, harder=0.0, slipperier=0.0, prompt=None, name=None,
+            preview=Preview::Usual, author=None
+        ),
+        text_signature = "($self, *, rougher=0.0, sharper=0.0, harder=0.0, slipperier=0.0, \
+                          prompt=None, name=None, preview=True, author=None)"
+    )]
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
+    fn edit(
+        &self,
+        py: Python<'_>,
+        rougher: f64,
+        sharper: f64,
+        harder: f64,
+        slipperier: f64,
+        prompt: Option<String>,
+        name: Option<String>,
+        preview: Preview,
+        author: Option<&Bound<'_, Author>>,
+    ) -> PyResult<Self> {
+        let sliders = mix::sliders([
+            ("rougher", rougher),
+            ("sharper", sharper),
+            ("harder", harder),
+            ("slipperier", slipperier),
+        ])?;
+        let edit = match prompt {
+            Some(_) if !sliders.are_still() => {
+                let message = "prompt: it cannot be given with sliders";
+                return Err(Failure::usage(message, "edit twice, or leave one of them out").into());
+            }
+            Some(words) => Edit::Words(words),
+            None => Edit::Steps(sliders),
+        };
+        let mixing = Mixing {
+            name,
+            preview,
+            author,
+        };
+        mixing.changed(py, self, Some(&edit))
+    }
+
+    /// Takes the last edit back. Other threads run meanwhile.
+    ///
+    /// Parameters
+    /// ----------
+    /// name, preview, author
+    ///     As of `edit`.
+    ///
+    /// Returns
+    /// -------
+    /// Texture
+    ///
+    /// Raises
+    /// ------
+    /// AsperityError
+    ///     For a texture that was not edited.
+    #[pyo3(
+        signature = (*, name=None, preview=Preview::Usual, author=None),
+        text_signature = "($self, *, name=None, preview=True, author=None)"
+    )]
+    fn undo(
+        &self,
+        py: Python<'_>,
+        name: Option<String>,
+        preview: Preview,
+        author: Option<&Bound<'_, Author>>,
+    ) -> PyResult<Self> {
+        let mixing = Mixing {
+            name,
+            preview,
+            author,
+        };
+        mixing.changed(py, self, None)
+    }
+
+    /// The texture under another name; all else keeps its bytes.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     The name: 1 to 64 bytes, no control characters.
+    ///
+    /// Returns
+    /// -------
+    /// Texture
+    ///
+    /// Raises
+    /// ------
+    /// UsageError
+    ///     For a name that no texture can have.
+    fn rename(&self, name: &str) -> Result<Self, Failure> {
+        check_name(name)?;
+        let bytes = renamed(self.contents.bytes(), name).map_err(LowerError::from)?;
+        Self::made(bytes, None)
     }
 
     /// Draws the texture on one sheet: poles, spectra, taps, grid, friction.

@@ -1,4 +1,4 @@
-"""The examples of the docstrings and of docs/python.md run."""
+"""The examples of the docstrings, of docs/python.md and of the folder `examples` run."""
 
 from __future__ import annotations
 
@@ -40,3 +40,12 @@ def test_the_programs_of_the_document_run(tmp_path, monkeypatch):
     for program in programs:
         exec(compile(program, str(document), "exec"), names)
     assert (tmp_path / "sandpaper.asp").exists()
+
+
+EXAMPLES = sorted((ROOT / "compiler/python/examples").glob("*.py"))
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.name)
+def test_the_examples_run(example, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    exec(compile(example.read_text("utf-8"), str(example), "exec"), {})

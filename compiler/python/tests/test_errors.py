@@ -35,6 +35,10 @@ def test_what_makes_no_sense_is_a_usage_error_that_names_the_argument(texture):
         ("rate = 10", lambda: asperity.Renderer(texture, rate=10)),
         ("peak_n = -1", lambda: asperity.Renderer(texture, peak_n=-1)),
         ("slew_n_s = NaN", lambda: asperity.Renderer(texture, slew_n_s=float("nan"))),
+        ("solid = ", lambda: asperity.Renderer(texture, solid="ball")),
+        ("solid.center_m = ", lambda: asperity.Renderer(texture, solid=asperity.Sphere(0, 1))),
+        ("solid.radius_m = -1", lambda: asperity.Renderer(texture, solid=asperity.Sphere((0, 0, 0), -1))),
+        ("preview = 7", lambda: asperity.compile("cork", preview=7)),
         ("vibration_axis = ", lambda: asperity.Renderer(texture, vibration_axis="up")),
     ]:
         with raised(asperity.UsageError, part):

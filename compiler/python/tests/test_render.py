@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import csv
+import _thread
 import threading
 import time
 
@@ -10,42 +10,18 @@ import numpy as np
 import pytest
 
 import asperity
-
-COLUMNS = ("speed_mm_s", "normal_force_n", "vib_m_s2", "tap_n", "friction_n")
-
-
-def same_bits(one: np.ndarray, other: np.ndarray) -> None:
-    assert one.dtype == other.dtype and one.shape == other.shape
-    assert one.tobytes() == other.tobytes()
-
+from conftest import COLUMNS, same_bits, same_table
 
 @pytest.mark.parametrize("kind", ["texture", "grit"])
 @pytest.mark.parametrize("rate", [1, 5])
-def test_render_gives_the_bits_of_the_command(kind, rate, request, command, tmp_path, trajectory_mm):
+def test_render_gives_the_bits_of_the_command(kind, rate, request, printed, tmp_path, trajectory_mm):
     texture = request.getfixturevalue(kind)
     texture.save(tmp_path / "texture.asp")
     rate_hz = rate * texture.grid.sample_rate_hz
-    with open(tmp_path / "in.csv", "w", newline="") as file:
-        rows = csv.writer(file)
-        rows.writerow(["t_s", "x_mm", "y_mm", "z_mm"])
-        for tick, position in enumerate(trajectory_mm):
-            rows.writerow([repr(tick / rate_hz), *map(repr, position.tolist())])
-    command(
-        *("render", tmp_path / "texture.asp", "--trajectory", tmp_path / "in.csv"),
-        *("-o", tmp_path / "out.csv", "--seed", 7, "--rate", rate_hz),
-    )
-    with open(tmp_path / "out.csv", newline="") as file:
-        printed = list(csv.DictReader(file))
+    table = printed(tmp_path / "texture.asp", trajectory_mm, 7, rate_hz)
     rendered = asperity.Renderer(texture, seed=7, rate=rate_hz).render(trajectory_mm / 1000)
-
-    def column(name: str) -> np.ndarray:
-        return np.array([float(row[name]) for row in printed]).astype(np.float32)
-
-    for name in COLUMNS:
-        same_bits(getattr(rendered, name), column(name))
-    same_bits(rendered.force_n, np.stack([column(f"f{axis}_n") for axis in "xyz"], axis=1))
-    same_bits(rendered.depth_m * np.float32(1000), column("depth_mm"))
-    same_bits(rendered.flags, np.array([int(row["flags"]) for row in printed], dtype=np.uint16))
+    same_table(rendered, table)
+    assert rendered.surface is None
     # It is no comparison of silence.
     assert np.abs(rendered.vib_m_s2).max() > 0.1
     assert rendered.has(asperity.Flags.TAP_STARTED).any()
@@ -162,3 +138,16 @@ def test_two_threads_share_a_renderer(texture):
     for thread in work:
         thread.join()
     assert renderer.counters.ticks == 101_000
+
+
+def test_an_interrupt_ends_a_long_rendering_between_two_ticks(texture):
+    positions_m = np.tile(np.float32([[0, 0, -1e-3]]), (4_000_000, 1))
+    renderer = asperity.Renderer(texture, seed=1)
+    threading.Timer(0.3, _thread.interrupt_main).start()
+    with pytest.raises(KeyboardInterrupt):
+        renderer.render(positions_m)
+    ticks = renderer.counters.ticks
+    assert 0 < ticks < len(positions_m)
+    # The state is that of the last tick.
+    whole = asperity.Renderer(texture, seed=1).render(positions_m[: ticks + 100])
+    same_bits(renderer.render(positions_m[:100]).vib_m_s2, whole.vib_m_s2[ticks:])

@@ -77,6 +77,7 @@ def test_options_reach_the_compiler(texture):
     assert plain.preview_png is None
     assert texture.preview_png.startswith(b"\x89PNG")
     assert texture.sizes.preview == len(texture.preview_png)
+    assert asperity.compile("polished marble", fidelity=8, preview=64).preview_png[16:24] == bytes([0, 0, 0, 64] * 2)
     author = asperity.Author()
     assert author.compile("polished marble", fidelity=8, rate=1500, preview=False) == plain
 

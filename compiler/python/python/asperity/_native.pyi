@@ -1,6 +1,7 @@
 import os
 from typing import (
     Any,
+    Callable,
     Dict,
     Iterable,
     Iterator,
@@ -14,39 +15,53 @@ from typing import (
 )
 
 from numpy.typing import ArrayLike
+from typing_extensions import disjoint_base
 
 from ._records import (
     Attributes,
-    Counters,
-    Flags,
+    Exported,
     Friction,
     Gains,
     Grid,
     Provenance,
-    Rendered,
     Sizes,
     Taps,
     Wall,
 )
+from ._rendered import Counters, Flags, Rendered
+from ._solids import Box, Plane, Sphere
 
 __all__ = [
     "Author",
     "Library",
     "Output",
     "Renderer",
+    "Scene",
     "Texture",
     "__version__",
+    "blend",
+    "build",
     "builtin",
     "compile",
+    "compose",
+    "diff",
+    "encode",
+    "export",
+    "import_effect",
     "import_hatt",
     "import_model",
+    "import_recording",
     "load",
+    "merge",
     "pack",
     "plot",
 ]
 
 _Path = Union[str, "os.PathLike[str]"]
 _Fidelity = Union[int, str]
+_Preview = Union[bool, int]
+_Solid = Union[Plane, Sphere, Box]
+_Progress = Callable[[int, int], object]
 
 __version__: str
 
@@ -82,6 +97,26 @@ class Texture:
     def to_dict(self) -> Dict[str, Any]: ...
     def to_bytes(self) -> bytes: ...
     def save(self, path: _Path) -> None: ...
+    def edit(
+        self,
+        *,
+        rougher: float = 0.0,
+        sharper: float = 0.0,
+        harder: float = 0.0,
+        slipperier: float = 0.0,
+        prompt: Optional[str] = None,
+        name: Optional[str] = None,
+        preview: _Preview = True,
+        author: Optional[Author] = None,
+    ) -> Texture: ...
+    def undo(
+        self,
+        *,
+        name: Optional[str] = None,
+        preview: _Preview = True,
+        author: Optional[Author] = None,
+    ) -> Texture: ...
+    def rename(self, name: str) -> Texture: ...
     @overload
     def plot(self, path: None = None) -> bytes: ...
     @overload
@@ -93,16 +128,26 @@ class Texture:
     def __hash__(self) -> int: ...
     def __getnewargs__(self) -> Tuple[bytes]: ...
 
-@final
+@disjoint_base
 class Library:
     @property
     def names(self) -> List[str]: ...
     @property
-    def surfaces(self) -> List[Dict[str, Any]]: ...
+    def report(self) -> Optional[Dict[str, Any]]: ...
+    def extract(self, texture: Union[int, str]) -> Texture: ...
+    def rename(self, texture: Union[int, str], name: str) -> Library: ...
+    def split(self, into: int) -> List[Library]: ...
+    def to_bytes(self) -> bytes: ...
+    def save(self, path: _Path) -> None: ...
     def __len__(self) -> int: ...
     def __contains__(self, name: str, /) -> bool: ...
     def __getitem__(self, texture: Union[int, str], /) -> Texture: ...
     def __iter__(self) -> Iterator[Texture]: ...
+
+@final
+class Scene(Library):
+    @property
+    def surfaces(self) -> List[Dict[str, Any]]: ...
 
 @final
 class Author:
@@ -120,15 +165,16 @@ class Author:
         seed: int = 0,
         fidelity: _Fidelity = "auto",
         rate: Optional[float] = None,
-        preview: bool = True,
+        preview: _Preview = True,
     ) -> Texture: ...
 
 @final
 class Renderer:
     def __new__(
         cls,
-        texture: Texture,
+        texture: Union[Texture, Scene],
         *,
+        solid: Optional[_Solid] = None,
         seed: int = 0,
         rate: Optional[float] = None,
         fixed_point: bool = False,
@@ -141,7 +187,7 @@ class Renderer:
     @property
     def fixed_point(self) -> bool: ...
     @property
-    def wall(self) -> Wall: ...
+    def wall(self) -> Optional[Wall]: ...
     @property
     def counters(self) -> Counters: ...
     def tick(self, position_m: ArrayLike, elapsed_ticks: int = 1) -> Output: ...
@@ -168,6 +214,8 @@ class Output:
     def friction_n(self) -> float: ...
     @property
     def flags(self) -> Flags: ...
+    @property
+    def surface(self) -> Optional[int]: ...
 
 def compile(
     prompt: str,
@@ -175,22 +223,113 @@ def compile(
     seed: int = 0,
     fidelity: _Fidelity = "auto",
     rate: Optional[float] = None,
-    preview: bool = True,
+    preview: _Preview = True,
+) -> Texture: ...
+def blend(
+    a: Texture,
+    b: Texture,
+    t: float = 0.5,
+    *,
+    name: Optional[str] = None,
+    preview: _Preview = True,
+    author: Optional[Author] = None,
+) -> Texture: ...
+def compose(
+    *,
+    tap: Texture,
+    slide: Texture,
+    friction: Optional[Texture] = None,
+    name: Optional[str] = None,
+    preview: _Preview = True,
+    author: Optional[Author] = None,
+) -> Texture: ...
+def encode(
+    texture: Texture,
+    part: Optional[Literal["whole", "taps", "slide"]] = None,
+    *,
+    name: Optional[str] = None,
+    preview: _Preview = True,
+    author: Optional[Author] = None,
 ) -> Texture: ...
 def builtin() -> Texture: ...
 def import_hatt(
-    path: _Path, *, fidelity: _Fidelity = "full", complete_taps: bool = False
+    path: _Path,
+    *,
+    fidelity: _Fidelity = "full",
+    complete_taps: bool = False,
+    progress: Optional[_Progress] = None,
 ) -> Union[Texture, List[Texture]]: ...
+def import_recording(
+    folder: _Path,
+    *,
+    fidelity: _Fidelity = "auto",
+    rate: Optional[float] = None,
+    force: bool = False,
+    model: Optional[_Path] = None,
+    preview: _Preview = True,
+    plot: Optional[_Path] = None,
+) -> Texture: ...
+def import_effect(
+    path: _Path,
+    *,
+    name: Optional[str] = None,
+    speed_mm_s: float = 100.0,
+    force_n: float = 1.0,
+    full_scale_m_s2: float = 5.0,
+    tap_full_scale_m_s2: float = 50.0,
+    tap_speed_m_s: float = 0.3,
+    mu: float = 0.5,
+    fidelity: _Fidelity = "auto",
+    rate: Optional[float] = None,
+    preview: _Preview = True,
+) -> Texture: ...
 def import_model(
     path: _Path,
     *,
     fidelity: _Fidelity = "full",
     rate: Optional[float] = None,
-    preview: bool = True,
+    preview: _Preview = True,
 ) -> Texture: ...
 def load(
     origin: Union[_Path, bytes], texture: Union[str, int, None] = None
 ) -> Union[Texture, Library]: ...
+def build(
+    manifest: _Path,
+    path: Optional[_Path] = None,
+    *,
+    model: Optional[_Path] = None,
+    text_encoder: str = "minilm",
+    backend: Literal["portable", "onnxruntime"] = "portable",
+    preview: _Preview = True,
+    cache: Union[bool, _Path] = True,
+    shard: Optional[str] = None,
+    locked: bool = False,
+    confined: bool = False,
+    min_certainty: Optional[Literal["known", "close", "guess"]] = None,
+    target: Optional[str] = None,
+    share: float = 50.0,
+    budget_bytes: Optional[int] = None,
+    progress: Optional[_Progress] = None,
+) -> Library: ...
+def merge(
+    libraries: Iterable[Union[Library, Texture]], path: Optional[_Path] = None
+) -> Library: ...
+def diff(old: Union[Library, Texture], new: Union[Library, Texture]) -> Dict[str, Any]: ...
+def export(
+    texture: Union[Texture, Library],
+    to: Literal["c-array", "rust", "hjif", "hmpg", "ahap", "haptic", "gltf", "wav", "csv"],
+    path: Optional[_Path] = None,
+    *,
+    speed_mm_s: Optional[float] = None,
+    force_n: Optional[float] = None,
+    time_s: Optional[float] = None,
+    taps: bool = False,
+    full_scale_m_s2: Optional[float] = None,
+    tap_full_scale_m_s2: Optional[float] = None,
+    seed: int = 0,
+    rate: Optional[float] = None,
+    size: int = 256,
+) -> Exported: ...
 def pack(textures: Iterable[Texture], path: Optional[_Path] = None) -> Library: ...
 @overload
 def plot(texture: Texture, path: None = None) -> bytes: ...

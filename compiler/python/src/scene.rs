@@ -1,0 +1,51 @@
+//! `asperity.Scene`.
+
+use crate::{error::Failure, library::Library, records};
+use asperity::inspect::SurfaceDocument;
+use pyo3::{PyClassInitializer, prelude::*};
+
+/// Several surfaces, each a solid that wears a texture of this library.
+///
+/// Scenes come from `load`, and from `build` of a manifest with surfaces. `Renderer` renders one
+/// as a whole: of several surfaces, the nearest, or the one in which the stylus is deepest.
+///
+/// Examples
+/// --------
+/// >>> import asperity
+/// >>> isinstance(asperity.pack([asperity.builtin()]), asperity.Scene)
+/// False
+#[pyclass(frozen, extends = Library, module = "asperity")]
+pub(crate) struct Scene;
+
+impl Scene {
+    /// The scene of a library that has one.
+    pub(crate) fn over(library: Library, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let scene = PyClassInitializer::from(library).add_subclass(Self);
+        Ok(Py::new(py, scene)?.into_any())
+    }
+}
+
+#[pymethods]
+impl Scene {
+    /// The surfaces in their order: dicts as ``asperity inspect --json`` prints them.
+    #[getter]
+    fn surfaces<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let py = slf.py();
+        let library = slf.as_super().get();
+        let surfaces = py.detach(|| library.surfaces())?;
+        let documents: Vec<SurfaceDocument> = surfaces
+            .iter()
+            .map(|surface| SurfaceDocument::of(surface, library.listed()))
+            .collect();
+        records::value(py, &documents)
+    }
+
+    fn __repr__(slf: &Bound<'_, Self>) -> Result<String, Failure> {
+        let library = slf.as_super().get();
+        let surfaces = library.surfaces()?.len();
+        Ok(format!(
+            "<Scene of {surfaces} surfaces: {}>",
+            library.listed().join(", ")
+        ))
+    }
+}
