@@ -272,7 +272,7 @@ fn a_second_is_too_little_and_four_are_no_texture() {
     let import = asperity(folder.path(), &arguments);
     assert_eq!(import.status.code(), Some(1));
     assert!(
-        text(&import.stderr).contains("steady"),
+        text(&import.stderr).contains("usable strokes in 8 segments; at least 3 s are needed"),
         "{}",
         text(&import.stderr)
     );
