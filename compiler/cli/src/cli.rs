@@ -13,6 +13,7 @@ pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
 pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};
 
 use asperity::{inference::BackendName, preview, reduce::Fidelity, text::TextEncoderChoice};
+use asperity_formats::limits::MAX_NAME_BYTES;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -119,6 +120,9 @@ pub(crate) struct Compile {
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
+    /// Name of the texture, 1 to 64 bytes [default: the prompt, shortened]
+    #[arg(long, value_parser = name)]
+    pub(crate) name: Option<String>,
     /// Seed: 0 gives the texture that the prompt describes, other values give variations of it
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
@@ -159,6 +163,18 @@ fn pixels(text: &str) -> Result<u32, String> {
             sizes.start(),
             sizes.end()
         )),
+    }
+}
+
+/// A name that an asset can hold.
+fn name(text: &str) -> Result<String, String> {
+    let fits = (1..=MAX_NAME_BYTES).contains(&text.len());
+    if fits && !text.chars().any(char::is_control) {
+        Ok(text.to_owned())
+    } else {
+        Err(format!(
+            "must be 1 to {MAX_NAME_BYTES} bytes without control characters"
+        ))
     }
 }
 
@@ -355,9 +371,8 @@ pub(crate) struct Builtin {
     /// Also write the unreduced texture as JSON, which `asperity import model` reads
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
-    /// Print how long each pass took, on standard error
-    #[arg(long)]
-    pub(crate) timings: bool,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
 }
 
 #[derive(Debug, Args)]
@@ -397,6 +412,9 @@ pub(crate) struct Plot {
     /// One texture of a library, by name or index from 0
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -429,6 +447,9 @@ pub(crate) struct Render {
     /// One texture of a library, by name or index from 0
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -478,6 +499,9 @@ pub(crate) struct Preview {
     /// One texture of a library, by name or index from 0
     #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -517,4 +541,7 @@ pub(crate) struct Listen {
     /// One texture of a library, by name or index from 0
     #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }

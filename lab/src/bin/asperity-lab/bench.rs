@@ -25,14 +25,14 @@ const REFERENCE: usize = 24;
   asperity-lab bench
   asperity-lab bench --hatt materials/ --seconds 5,15,60,300
   asperity-lab bench --checks 100
-  asperity-lab bench --write oak --seconds 30        a recording to try an import on
+  asperity-lab bench -o oak --seconds 30        a recording to try an import on
 
 Without --hatt, the textures are the built-in one and materials of the learned model.")]
 pub(crate) struct Arguments {
     /// Folder of HaTT XML files
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
-    /// Seconds of strokes, one or more values; time in the air and taps are added. With --write, the
+    /// Seconds of strokes, one or more values; time in the air and taps are added. With --output, the
     /// length of the whole recording
     #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = seconds)]
     seconds: Vec<f64>,
@@ -64,7 +64,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", conflicts_with = "write")]
     checks: Option<usize>,
     /// Instead, write one recording of the first texture to this new folder, whose parent must exist
-    #[arg(long, value_name = "DIR")]
+    #[arg(short = 'o', long = "output", alias = "write", value_name = "DIR")]
     write: Option<PathBuf>,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]

@@ -18,12 +18,17 @@ use serde_json::{Value, json};
 /// Steps by which an attribute may miss its target before the user is warned.
 const NEAR: f64 = 3.0;
 
+/// The steps of one option, or the others of its opposite.
+fn either(up: Option<f64>, down: Option<f64>) -> f64 {
+    up.or(down.map(|steps| -steps)).unwrap_or(0.0)
+}
+
 pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
     let sliders = Sliders {
-        rougher: args.rougher.unwrap_or(0.0),
-        sharper: args.sharper.unwrap_or(0.0),
-        harder: args.harder.unwrap_or(0.0),
-        slipperier: args.slipperier.unwrap_or(0.0),
+        rougher: either(args.rougher, args.smoother),
+        sharper: either(args.sharper, args.duller),
+        harder: either(args.harder, args.softer),
+        slipperier: either(args.slipperier, args.stickier),
     };
     if sliders.are_still() && !args.undo && args.prompt.is_none() {
         return Err(one(EditError::NothingAsked));

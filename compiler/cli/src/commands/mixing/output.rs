@@ -12,7 +12,6 @@ use asperity::{
     attributes::Attributes,
     driver::Compiled,
     edit::{AXES, Axis, LatentEditor, Scale, attributes_line},
-    library,
     pipeline::Request,
     preview::SIZE,
     prompt::PromptCompiler,
@@ -20,7 +19,7 @@ use asperity::{
 };
 use asperity_console::Console;
 use asperity_formats::{Asset, limits::MAX_NAME_BYTES};
-use asperity_io::{diagnostic::Failures, diagnostic::one, output::display, shown::size};
+use asperity_io::{diagnostic::Failures, output::display, shown::size};
 use serde_json::{Map, Value, json};
 
 /// The output of a mixing command, opened before its work.
@@ -36,13 +35,6 @@ impl<'a> Mixing<'a> {
         inputs: &[&Input],
         console: Console,
     ) -> Result<Self, Failures> {
-        if let Some(name) = &args.name
-            && (name.is_empty()
-                || name.len() > MAX_NAME_BYTES
-                || name.chars().any(char::is_control))
-        {
-            return Err(one(library::LibraryFault::Name(name.clone())));
-        }
         let mut files: Vec<_> = inputs.iter().map(|input| input.path()).collect();
         files.extend(inference::files(&args.inference));
         let wanted = Wanted {
