@@ -231,15 +231,19 @@ pub(crate) enum Import {
     after_help = "A recording is a folder with recording.toml and CSV, WAV or NumPy files; \
 docs/recording.md lists every key. The check aligns the files and looks for clipping, drop-outs, \
 impossible values, clock drift, delays, hum and wrong units. If recording.toml is missing, a draft \
-of it is printed, based on the headers of the files. The exit status is 1 if there is a fault.
+of it is printed, based on the headers of the files; --init writes it instead. The exit status is 1 if there is a fault.
 
 Examples:
   asperity record-check oak/
+  asperity record-check oak/ --init
   asperity record-check oak/ --json"
 )]
 pub(crate) struct RecordCheck {
     /// Folder of the recording
     pub(crate) folder: PathBuf,
+    /// Write the draft of recording.toml into the folder; it must not exist yet
+    #[arg(long)]
+    pub(crate) init: bool,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
