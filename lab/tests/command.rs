@@ -113,7 +113,7 @@ fn a_device_and_a_grip_of_ones_own_are_used() {
 #[test]
 fn stability_passes_counts_on_its_last_line_and_draws() {
     let folder = tempfile::tempdir().expect("a folder");
-    let output = lab(folder.path(), &["stability", "--out", "pictures"]);
+    let output = lab(folder.path(), &["stability", "-o", "pictures"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let table = text(&output.stdout);
     let rows = table
@@ -410,4 +410,32 @@ fn an_interrupt_leaves_nothing_behind() {
     assert!(killed.expect("kill runs").success());
     assert_eq!(child.wait().expect("it ends").code(), Some(130));
     assert_eq!(entries(folder.path()), [""; 0]);
+}
+
+#[test]
+fn feel_gives_its_summary_as_json_and_every_output_is_spelled_alike() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = ["feel", "--csv", "f.csv", "--json", "-q"];
+    let output = lab(folder.path(), &arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let rows = fs::read_to_string(folder.path().join("f.csv")).expect("a table");
+    assert_eq!(json["ticks"], rows.lines().count() - 1);
+    assert_eq!(json["taps"]["scripted"].as_array().map(Vec::len), Some(4));
+    assert_eq!(json["strokes"].as_array().map(Vec::len), Some(4));
+    assert!(json["caveats"].as_array().is_some_and(|c| !c.is_empty()));
+    // Older spellings are taken, and not shown.
+    for (command, old) in [
+        (&["stability"][..], "--out "),
+        (&["pareto"], "--out "),
+        (&["jitter"], "--out "),
+        (&["servo"], "--record"),
+        (&["bench"], "--write"),
+        (&["device", "probe"], "--report"),
+    ] {
+        let help = lab(folder.path(), &[command, &["--help"]].concat());
+        let help = text(&help.stdout);
+        assert!(help.contains("-o, --output"), "{command:?}");
+        assert!(!help.contains(old), "{command:?}: {help}");
+    }
 }

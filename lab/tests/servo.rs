@@ -224,7 +224,7 @@ fn a_run_is_written_merged_and_compared() {
             .expect("a picture")
             .starts_with(b"\x89PNG")
     );
-    ok(folder.path(), &["jitter", "--seconds", "1", "--out", "b"]);
+    ok(folder.path(), &["jitter", "--seconds", "1", "-o", "b"]);
     ok(
         folder.path(),
         &[
@@ -406,7 +406,7 @@ fn what_cannot_be_is_refused_before_anything_runs() {
         (&["jitter", "--inject", "read:1:1"], 2, "read:1:1"),
         (&["jitter", "--out", "no/such/folder"], 1, "no/such/folder"),
         (&["jitter", "--max-us=-1"], 2, "above 0"),
-        (&["jitter", "--force"], 2, "--out"),
+        (&["jitter", "--force"], 2, "--output"),
         (&["jitter", "compare", "x.hlog", "x.hlog"], 1, "x.hlog"),
     ] {
         let output = run(folder.path(), arguments);

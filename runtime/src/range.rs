@@ -68,7 +68,7 @@ impl Checked for Fixed {
     }
 }
 
-/// Largest coordinate and size of a solid, m: as far as positions reach.
+/// Largest coordinate of a position, and size of a solid, m.
 const FARTHEST_M: f32 = 1.0;
 const STRONGEST_PEAK_N: f32 = 1000.0;
 const WEAKEST_PEAK_N: f32 = 1.0e-3;
@@ -109,6 +109,12 @@ fn check_config(config: &Config) -> Result<(), ConfigError> {
             config.normal_cutoff_hz,
             config.normal_cutoff_hz >= slowest_hz,
             too_slow,
+        ),
+        (
+            "safety.reach_m",
+            config.safety.reach_m,
+            config.safety.reach_m <= FARTHEST_M,
+            "in fixed point at most 1 m",
         ),
     ] {
         if !fits {

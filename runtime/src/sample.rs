@@ -12,8 +12,8 @@ use crate::{
 /// What the device says in one servo period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample<A: Arithmetic = Float> {
-    /// Stylus position in the world frame, m. Anything not finite, or beyond 10 km (in fixed
-    /// point 1 m), is a bad sample.
+    /// Stylus position in the world frame, m. Anything not finite, or beyond the
+    /// configuration's `reach_m`, is a bad sample.
     pub position_m: [Raw<A, Metre>; 3],
     /// Servo periods since the sample before: 1 in a healthy loop, more after missed
     /// periods, 0 when the device had nothing new.

@@ -18,7 +18,7 @@ use crate::{
     render_arithmetic::RenderArithmetic,
     renderer::Renderer,
     sample::{Output, Sample},
-    stage::{contact::DistanceField, sample_gate::is_usable},
+    stage::contact::DistanceField,
     state::State,
     texture::Texture,
     texture_change::TextureChange,
@@ -353,7 +353,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         state: &mut SceneState<A>,
         sample: &Sample<A>,
     ) -> Output<A> {
-        if is_usable(sample) {
+        if self.gate.is_usable(sample) {
             let at = scene.touched(state.at, Vector::load(sample.position_m));
             if at != state.at {
                 state.move_to(at, &scene.placed);

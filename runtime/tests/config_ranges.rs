@@ -135,6 +135,30 @@ fn every_field_takes_its_least_and_its_most_and_nothing_beyond() {
 }
 
 #[test]
+fn the_reach_is_a_millimetre_to_ten_kilometres_and_a_metre_in_fixed_point() {
+    let reach = |reach_m: f32| {
+        let mut config = Config::default();
+        config.safety.reach_m = reach_m;
+        let field = |refused: Option<(&'static str, f32)>| refused.map(|refused| refused.0);
+        (
+            field(refusal::<Float>(&config)),
+            field(refusal::<asperity_runtime::Fixed>(&config)),
+        )
+    };
+    let refused = Some("safety.reach_m");
+    assert_eq!(Config::default().safety.reach_m, 1.0);
+    assert_eq!([0.001, 1.0].map(reach), [(None, None); 2]);
+    assert_eq!(
+        [1.0_f32.next_up(), 10_000.0].map(reach),
+        [(None, refused); 2]
+    );
+    assert_eq!(
+        [0.001_f32.next_down(), 10_000.0_f32.next_up(), f32::NAN].map(reach),
+        [(refused, refused); 3]
+    );
+}
+
+#[test]
 fn whole_numbers_have_a_most() {
     let mut config = Config::default();
     (config.mechanics.delay_ticks, config.safety.hold_ticks) = (100, 2);

@@ -196,13 +196,20 @@ fn fours_are_exact_on_short_numbers() {
             assert_eq!(m.to_array().map(|x| f64::from(x.value())), a);
             let largest = a.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             for limit in [0.25, 0.5, 0.75, largest] {
-                assert_eq!(m.is_within(limit as f32), largest <= limit, "{a:?} {limit}");
+                assert_eq!(
+                    m.is_within(Quantity::of(limit as f32)),
+                    largest <= limit,
+                    "{a:?} {limit}"
+                );
             }
             let three = [a[0], a[1], a[2]];
             let largest = three.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             let vector = v::<A, Metre>(three);
             for limit in [0.25, 0.5, 0.75, largest] {
-                assert_eq!(vector.is_within(limit as f32), largest <= limit);
+                assert_eq!(
+                    vector.is_within(Quantity::of(limit as f32)),
+                    largest <= limit
+                );
             }
         }
         let whole = Four::<A, Metre>::whole([1, -2, 3, -4]);
@@ -226,22 +233,22 @@ fn within_a_limit_is_exact_in_every_lane() {
         for sign in [1.0_f32, -1.0] {
             let mut at = [0.1_f32; 4];
             at[lane] = sign * 0.75;
-            assert!(Four::<Float, Metre>::of(at).is_within(0.75));
-            assert!(Four::<Fixed, Metre>::of(at).is_within(0.75));
+            assert!(Four::<Float, Metre>::of(at).is_within(Quantity::of(0.75)));
+            assert!(Four::<Fixed, Metre>::of(at).is_within(Quantity::of(0.75)));
             at[lane] = sign * 0.75_f32.next_up();
-            assert!(!Four::<Float, Metre>::of(at).is_within(0.75));
+            assert!(!Four::<Float, Metre>::of(at).is_within(Quantity::of(0.75)));
             let mut bits = [FixedI32::<U28>::from_bits(5); 4];
             bits[lane] = FixedI32::from_bits((3 << 26) + 1);
             if sign < 0.0 {
                 bits[lane] = -bits[lane];
             }
-            assert!(!Four::<Fixed, Metre>::load(&bits).is_within(0.75));
+            assert!(!Four::<Fixed, Metre>::load(&bits).is_within(Quantity::of(0.75)));
             at[lane] = f32::NAN;
-            assert!(!Four::<Float, Metre>::of(at).is_within(0.75));
+            assert!(!Four::<Float, Metre>::of(at).is_within(Quantity::of(0.75)));
         }
     }
     let least = Four::<Fixed, Metre>::load(&[FixedI32::MIN; 4]);
-    assert!(!least.is_within(7.0));
+    assert!(!least.is_within(Quantity::of(7.0)));
 }
 
 #[test]

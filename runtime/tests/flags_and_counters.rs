@@ -38,10 +38,16 @@ fn flags_are_bits_in_the_order_of_their_names() {
 
 /// Ticks with a script, counted by hand.
 fn count<A: RenderArithmetic>(samples: &[Sample]) -> (Vec<Flags>, Counters) {
+    count_within::<A>(Config::default().safety.reach_m, samples)
+}
+
+fn count_within<A: RenderArithmetic>(reach_m: f32, samples: &[Sample]) -> (Vec<Flags>, Counters) {
     let bytes = random(1, Kind::nyquist(8)).encode();
     let mut slot = Box::new(HostSlot::<A>::new());
     slot.load(&Asset::parse(&bytes).unwrap(), 1000.0).unwrap();
-    let renderer = Renderer::<A>::prepare(&Config::default()).unwrap();
+    let mut config = Config::default();
+    config.safety.reach_m = reach_m;
+    let renderer = Renderer::<A>::prepare(&config).unwrap();
     let mut state = State::new(1);
     let tick = |s| renderer.tick(&slot, &mut state, &Sample::of(s)).flags;
     let flags = samples.iter().map(tick).collect();
@@ -153,18 +159,27 @@ fn contact_and_the_grid_are_told_apart_at_their_borders() {
 
 #[test]
 fn a_sample_out_of_reach_is_bad_in_either_arithmetic() {
-    fn usable<A: RenderArithmetic>(x: f32) -> bool {
+    fn usable_within<A: RenderArithmetic>(reach_m: f32, x: f32) -> bool {
         let bad = |axis: usize| {
             let mut position_m = [0.0; 3];
             position_m[axis] = x;
-            count::<A>(&[Sample::at(position_m)]).1.bad_samples
+            count_within::<A>(reach_m, &[Sample::at(position_m)])
+                .1
+                .bad_samples
         };
         let bad = [0, 1, 2].map(bad);
         assert!(bad == [0; 3] || bad == [1; 3], "{x}: {bad:?}");
         bad == [0; 3]
     }
+    fn usable<A: RenderArithmetic>(x: f32) -> bool {
+        usable_within::<A>(Config::default().safety.reach_m, x)
+    }
     for sign in [1.0_f32, -1.0] {
-        assert!(usable::<Float>(sign * 1e4) && !usable::<Float>(sign * 1e4_f32.next_up()));
+        let far = |x| usable_within::<Float>(1e4, sign * x);
+        assert!(far(1e4) && !far(1e4_f32.next_up()));
+        assert!(usable::<Float>(sign) && !usable::<Float>(sign * 1.0_f32.next_up()));
+        let near = |x| usable_within::<Fixed>(0.25, sign * x);
+        assert!(near(0.25) && !near(0.25_f32.next_up()));
         assert!(usable::<Fixed>(sign) && !usable::<Fixed>(sign * 1.0_f32.next_up()));
         assert!(!usable::<Float>(sign * f32::INFINITY) && !usable::<Fixed>(sign * f32::INFINITY));
         // Beyond what fixed point can hold, and far beyond.

@@ -68,7 +68,7 @@ fn everywhere(check: fn(u64, (usize, usize))) {
 
 /// In steps of 2⁻²⁰ a weight is off by less than 1e-4, in floats by rounding.
 fn tolerance<A: RenderArithmetic>() -> f64 {
-    if A::REACH_M < 10.0 { 3e-4 } else { 3e-6 }
+    if A::OUT_OF_REACH_M < 10.0 { 3e-4 } else { 3e-6 }
 }
 
 fn near<A: RenderArithmetic>(found: [f64; 2], (speed, force): (f32, f32)) {

@@ -148,6 +148,7 @@ fn a_gate_holds_exactly_as_many_bad_samples_as_it_is_told() {
             let config = SafetyConfig {
                 hold_ticks,
                 ramp_s: 0.004,
+                reach_m: 1.0,
             };
             let gate = Gate::<A>::new(&config, 1000.0);
             for bad in 0..6 {
@@ -197,6 +198,7 @@ fn a_ramp_shorter_than_a_tick_lets_all_of_the_force_through_at_once() {
     let config = SafetyConfig {
         hold_ticks: 0,
         ramp_s: 0.0,
+        reach_m: 1.0,
     };
     let gate = Gate::<Float>::new(&config, 1000.0);
     let mut state = GateState::new();

@@ -176,6 +176,7 @@ fn config(draw: &mut Draw, servo_rate_hz: f32) -> Config {
     config.limits.slew_n_s = 10_f64.powf(draw.range(-4.0, 2.0)) as f32 * servo_rate_hz;
     config.safety.hold_ticks = draw.below(3) as u32;
     config.safety.ramp_s = [0.0, 0.1, 10.0][draw.below(3)];
+    config.safety.reach_m = [0.1, 1.0][draw.below(2)];
     config.parameter_time_constant_s = [0.0, 0.005, 0.04][draw.below(3)];
     config.tap.min_speed_m_s = [0.0, 0.01][draw.below(2)];
     config

@@ -13,7 +13,8 @@ pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
 pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};
 
 use asperity::{
-    inference::BackendName, interchange::ranges, preview, reduce::Fidelity, text::TextEncoderChoice,
+    inference::BackendName, interchange::ranges, library::check_name, preview, reduce::Fidelity,
+    text::TextEncoderChoice,
 };
 use clap::{Args, Parser, Subcommand};
 use std::{ops::RangeInclusive, path::PathBuf};
@@ -121,6 +122,9 @@ pub(crate) struct Compile {
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
+    /// Name of the texture, 1 to 64 bytes [default: the prompt, shortened]
+    #[arg(long, value_parser = name)]
+    pub(crate) name: Option<String>,
     /// Seed: 0 gives the texture that the prompt describes, other values give variations of it
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
@@ -162,6 +166,13 @@ fn pixels(text: &str) -> Result<u32, String> {
             sizes.end()
         )),
     }
+}
+
+/// A name that an asset can hold.
+fn name(text: &str) -> Result<String, String> {
+    check_name(text)
+        .map(|()| text.to_owned())
+        .map_err(|fault| fault.to_string())
 }
 
 /// A number between two, for options that state a quantity.
@@ -221,15 +232,19 @@ pub(crate) enum Import {
     after_help = "A recording is a folder with recording.toml and CSV, WAV or NumPy files; \
 docs/recording.md lists every key. The check aligns the files and looks for clipping, drop-outs, \
 impossible values, clock drift, delays, hum and wrong units. If recording.toml is missing, a draft \
-of it is printed, based on the headers of the files. The exit status is 1 if there is a fault.
+of it is printed, based on the headers of the files; --init writes it instead. The exit status is 1 if there is a fault.
 
 Examples:
   asperity record-check oak/
+  asperity record-check oak/ --init
   asperity record-check oak/ --json"
 )]
 pub(crate) struct RecordCheck {
     /// Folder of the recording
     pub(crate) folder: PathBuf,
+    /// Write the draft of recording.toml into the folder; it must not exist yet
+    #[arg(long)]
+    pub(crate) init: bool,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -361,9 +376,8 @@ pub(crate) struct Builtin {
     /// Also write the unreduced texture as JSON, which `asperity import model` reads
     #[arg(long, value_name = "FILE.json")]
     pub(crate) emit_model: Option<PathBuf>,
-    /// Print how long each pass took, on standard error
-    #[arg(long)]
-    pub(crate) timings: bool,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
 }
 
 #[derive(Debug, Args)]
@@ -403,6 +417,9 @@ pub(crate) struct Plot {
     /// One texture of a library, by name or index from 0
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -435,6 +452,9 @@ pub(crate) struct Render {
     /// One texture of a library, by name or index from 0
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -484,6 +504,9 @@ pub(crate) struct Preview {
     /// One texture of a library, by name or index from 0
     #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -523,4 +546,7 @@ pub(crate) struct Listen {
     /// One texture of a library, by name or index from 0
     #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }

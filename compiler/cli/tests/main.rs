@@ -16,6 +16,7 @@ mod outputs;
 mod pictures;
 mod recording;
 mod refusals;
+mod reports;
 mod results;
 
 use std::{

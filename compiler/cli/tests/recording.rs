@@ -1,6 +1,6 @@
 //! `asperity record-check` and `asperity import recording`: what is accepted, what is refused and why.
 
-use super::{asperity, entries, text};
+use super::{asperity, entries, good, refused, text};
 use std::{f64::consts::TAU, fmt::Write as _, fs, path::Path};
 use tempfile::TempDir;
 
@@ -219,6 +219,27 @@ fn without_a_description_one_is_proposed_that_names_the_columns() {
     for part in ["clock = \"t\"", "column = \"ax\"", "column = \"fz\""] {
         assert!(proposed.contains(part), "{part} in {proposed}");
     }
+    // The same draft is written on request, once.
+    let init = ["record-check", "oak", "--init"];
+    let told = good(folder.path(), &init);
+    assert!(
+        told.contains("look at") && told.contains("a guess"),
+        "{told}"
+    );
+    let written = fs::read_to_string(folder.path().join("oak/recording.toml")).expect("a draft");
+    assert_eq!(written, proposed);
+    refused(folder.path(), &init, &["recording.toml", "already exists"]);
+    refused(
+        folder.path(),
+        &["record-check", "nowhere", "--init"],
+        &["nowhere"],
+    );
+    fs::create_dir(folder.path().join("empty")).expect("a folder");
+    refused(
+        folder.path(),
+        &["record-check", "empty", "--init"],
+        &["empty", ".wav"],
+    );
     // With its guesses corrected it is a description.
     fs::write(folder.path().join("oak/recording.toml"), proposed).expect("written");
     let again = asperity(folder.path(), &["record-check", "oak"]);
@@ -272,7 +293,7 @@ fn a_second_is_too_little_and_four_are_no_texture() {
     let import = asperity(folder.path(), &arguments);
     assert_eq!(import.status.code(), Some(1));
     assert!(
-        text(&import.stderr).contains("steady"),
+        text(&import.stderr).contains("usable strokes in 8 segments; at least 3 s are needed"),
         "{}",
         text(&import.stderr)
     );

@@ -49,6 +49,9 @@ pub(crate) enum Felt<'py> {
 ///     Largest force of the device, N.
 /// slew_n_s : float, default 2000
 ///     Largest change of force, N/s.
+/// reach_m : float, default 1
+///     Largest coordinate of a position, m: beyond it a sample is bad, so that millimetres given as
+///     metres are found out. ``asperity render`` takes 10 km.
 /// vibration_axis : {"tangent", "binormal"}, default "tangent"
 ///     Whether the vibration acts along the motion or across it.
 ///
@@ -95,10 +98,10 @@ impl Renderer {
     #[pyo3(
         signature = (
             texture, *, solid=None, seed=Seed(0), rate=None, fixed_point=false, peak_n=3.3,
-            slew_n_s=2000.0, vibration_axis="tangent"
+            slew_n_s=2000.0, reach_m=1.0, vibration_axis="tangent"
         ),
         text_signature = "(texture, *, solid=None, seed=0, rate=None, fixed_point=False, \
-                          peak_n=3.3, slew_n_s=2000.0, vibration_axis='tangent')"
+                          peak_n=3.3, slew_n_s=2000.0, reach_m=1.0, vibration_axis='tangent')"
     )]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
     fn new(
@@ -110,6 +113,7 @@ impl Renderer {
         fixed_point: bool,
         peak_n: f32,
         slew_n_s: f32,
+        reach_m: f32,
         vibration_axis: &str,
     ) -> Result<Self, Failure> {
         let mut config = Config {
@@ -125,6 +129,7 @@ impl Renderer {
         };
         config.limits.peak_n = peak_n;
         config.limits.slew_n_s = slew_n_s;
+        config.safety.reach_m = reach_m;
         let (name, is_scene, servo) = match &texture {
             Felt::Texture(texture) => {
                 let asset = texture.get().contents.asset()?;

@@ -82,6 +82,18 @@ def test_reset_starts_anew(texture, trajectory_mm):
     assert renderer.render(positions_m).force_n.tobytes() != once.force_n.tobytes()
 
 
+def test_millimetres_given_as_metres_enter_the_safe_state_and_the_reach_can_be_widened(texture):
+    stroke_mm = np.array([[0.1 * n, 0, -1.5] for n in range(20)])
+    renderer = asperity.Renderer(texture)
+    assert not renderer.render(stroke_mm).force_n[5:].any()
+    assert renderer.counters.bad_samples == 20
+    far = asperity.Renderer(texture, reach_m=10.0)
+    far.render(stroke_mm)
+    assert far.counters.bad_samples == 0
+    with pytest.raises(asperity.UsageError, match="reach_m"):
+        asperity.Renderer(texture, reach_m=0.0)
+
+
 def test_missing_samples_enter_the_safe_state(texture):
     positions_m = np.array([[0, 0, -1e-3]] * 10 + [[np.nan] * 3] * 10)
     elapsed_ticks = np.array([1] * 10 + [0] * 10)

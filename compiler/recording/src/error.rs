@@ -178,8 +178,7 @@ impl Problem {
         match self {
             Self::Unreadable(_) => "check the name under `file` in recording.toml".into(),
             Self::NoDescription { proposal: Some(_) } => {
-                "save the draft that `asperity record-check` prints as recording.toml in the folder, and \
-                 correct its guesses"
+                "`asperity record-check --init` writes a draft of it into the folder; correct its guesses"
                     .into()
             }
             Self::NoDescription { proposal: None } => {

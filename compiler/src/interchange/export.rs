@@ -259,6 +259,24 @@ pub fn export_bytes(
     (written.source, header.map(|_| written.header))
 }
 
+/// RMS over third octaves above which a part does not feel as it was, dB.
+const LARGEST_LOSS_DB: f64 = 6.0;
+
+/// A warning for the parts of which the format loses much.
+fn lossy(carried: &[Carried]) -> Option<String> {
+    let lossy = carried.iter().filter_map(|part| {
+        let loss_db = part.loss.as_ref()?.rms_db;
+        (loss_db > LARGEST_LOSS_DB).then(|| format!("{} ({loss_db:.1} dB)", part.part))
+    });
+    let parts: Vec<String> = lossy.collect();
+    (!parts.is_empty()).then(|| {
+        format!(
+            "this format loses more than {LARGEST_LOSS_DB} dB of: {}",
+            parts.join(", ")
+        )
+    })
+}
+
 /// The clip that an asset gives.
 ///
 /// # Errors
@@ -345,10 +363,12 @@ pub fn export(
             "{percent:.2} % of the samples exceed the full scale and are cut off"
         ));
     }
+    let carried = carried(&clip, played);
+    warnings.extend(lossy(&carried));
     Ok(Exported {
         bytes,
         scale: (format != ClipFormat::Csv).then_some(clip.scale),
-        carried: carried(&clip, played),
+        carried,
         warnings,
     })
 }

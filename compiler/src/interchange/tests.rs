@@ -397,3 +397,37 @@ fn strange_effects_are_refused_with_their_place() {
         hjif::read(&text.replace("\"timescale\":4000", "\"timescale\":0")).unwrap_err();
     assert_eq!(field, "timescale");
 }
+
+#[test]
+fn a_part_that_loses_more_than_six_decibels_is_warned_of_by_name() {
+    // One bit of amplitude and one frequency carry little of a grain.
+    for format in [
+        ClipFormat::Wav,
+        ClipFormat::Haptic,
+        ClipFormat::Ahap,
+        ClipFormat::Gltf,
+    ] {
+        let exported = with(|asset| export(asset, format, &options()).unwrap());
+        let lossy: Vec<&str> = exported
+            .carried
+            .iter()
+            .filter(|c| c.loss.as_ref().is_some_and(|loss| loss.rms_db > 6.0))
+            .map(|c| c.part.as_str())
+            .collect();
+        let warned: Vec<&String> = exported
+            .warnings
+            .iter()
+            .filter(|w| w.contains("loses more than 6 dB"))
+            .collect();
+        println!("{format:?}: {lossy:?} {warned:?}");
+        assert_eq!(warned.len(), usize::from(!lossy.is_empty()), "{format:?}");
+        for part in &lossy {
+            assert!(warned[0].contains(part), "{part} in {warned:?}");
+        }
+        match format {
+            ClipFormat::Wav => assert!(lossy.is_empty(), "{lossy:?}"),
+            ClipFormat::Gltf => assert!(!lossy.is_empty()),
+            _ => {}
+        }
+    }
+}

@@ -61,6 +61,8 @@ pub struct Hand {
     felt_n: f64,
     /// Compliance of the surface, as learned, m/N.
     compliance_m_n: f64,
+    /// Normal force with which a motion of changing force began, N.
+    from_n: f64,
     holding: Option<Holding>,
 }
 
@@ -85,6 +87,7 @@ impl Hand {
             target_m: start_m,
             felt_n: 0.0,
             compliance_m_n: 0.0,
+            from_n: 0.0,
             holding: None,
         };
         hand.begin();
@@ -161,8 +164,13 @@ impl Hand {
                         wanted_n: self.felt_n,
                         correction_n: free_n.clamp(-CORRECTION_N, CORRECTION_N),
                     });
-                    Stage::Settle {
-                        from_n: self.felt_n,
+                    self.from_n = self.felt_n;
+                    if changes_force(&motion) {
+                        Stage::Body
+                    } else {
+                        Stage::Settle {
+                            from_n: self.felt_n,
+                        }
                     }
                 }
                 Stage::Settle { .. } if self.stage_s >= FORCE_RAMP_S => Stage::Body,
@@ -182,12 +190,11 @@ impl Hand {
     fn begin(&mut self) {
         self.origin_m = self.target_m;
         self.stage_s = 0.0;
-        let holds = self
-            .script
-            .motions()
-            .get(self.index)
-            .is_some_and(holds_force);
+        let motion = self.script.motions().get(self.index);
+        let holds = motion.is_some_and(holds_force);
+        self.from_n = self.holding.map_or(0.0, |holding| holding.wanted_n);
         self.stage = match self.holding {
+            Some(_) if motion.is_some_and(changes_force) => Stage::Body,
             Some(holding) if holds => Stage::Settle {
                 from_n: holding.wanted_n,
             },
@@ -206,6 +213,8 @@ impl Hand {
         match *motion {
             Motion::Approach { duration_s, .. }
             | Motion::Press { duration_s, .. }
+            | Motion::Sweep { duration_s, .. }
+            | Motion::Loop { duration_s, .. }
             | Motion::Rest { duration_s, .. }
             | Motion::Lift { duration_s, .. } => duration_s,
             Motion::Tap { speed_m_s } => self.tap(speed_m_s).duration_s(),
@@ -279,6 +288,31 @@ impl Hand {
             } => {
                 at_m[0] += scrub_m(t_s, amplitude_m, frequency_hz, cycles);
             }
+            Motion::Sweep {
+                to_m,
+                bow_m,
+                duration_s,
+                ..
+            } => {
+                let way_m = [to_m[0] - at_m[0], to_m[1] - at_m[1]];
+                let length_m = way_m[0].hypot(way_m[1]).max(1e-9);
+                let covered = min_jerk(t_s / duration_s);
+                let aside_m = 4.0 * bow_m * covered * (1.0 - covered);
+                at_m[0] += way_m[0] * covered - way_m[1] / length_m * aside_m;
+                at_m[1] += way_m[1] * covered + way_m[0] / length_m * aside_m;
+            }
+            Motion::Loop {
+                radius_m,
+                aspect,
+                turns,
+                duration_s,
+                ..
+            } => {
+                let (sin, cos) =
+                    (std::f64::consts::TAU * turns * min_jerk(t_s / duration_s)).sin_cos();
+                at_m[0] += radius_m * (1.0 - cos);
+                at_m[1] += aspect * radius_m * sin;
+            }
             Motion::Press { .. } | Motion::Rest { .. } => {}
         }
         at_m
@@ -291,7 +325,9 @@ impl Hand {
             Motion::Press { force_n, .. } => 0.1 * force_n,
             Motion::Rest { force_n, .. }
             | Motion::Stroke { force_n, .. }
-            | Motion::Scrub { force_n, .. } => force_n,
+            | Motion::Scrub { force_n, .. }
+            | Motion::Sweep { force_n, .. }
+            | Motion::Loop { force_n, .. } => force_n,
             Motion::Approach { .. } | Motion::Tap { .. } | Motion::Lift { .. } => 0.0,
         };
         match (self.stage, *motion) {
@@ -308,6 +344,9 @@ impl Hand {
                 let s = (self.stage_s / duration_s).clamp(0.0, 1.0);
                 let up_and_down = min_jerk(2.2 * s) * min_jerk(2.2 * (1.0 - s));
                 level_n + (force_n - level_n) * up_and_down
+            }
+            (Stage::Body, Motion::Sweep { duration_s, .. } | Motion::Loop { duration_s, .. }) => {
+                self.from_n + (level_n - self.from_n) * min_jerk(self.stage_s / duration_s)
             }
             _ => level_n,
         }
@@ -342,9 +381,16 @@ fn holds_force(motion: &Motion) -> bool {
         Motion::Press { .. }
         | Motion::Stroke { .. }
         | Motion::Scrub { .. }
+        | Motion::Sweep { .. }
+        | Motion::Loop { .. }
         | Motion::Rest { .. } => true,
         Motion::Approach { .. } | Motion::Tap { .. } | Motion::Lift { .. } => false,
     }
+}
+
+/// Whether a motion changes the normal force while it lasts.
+fn changes_force(motion: &Motion) -> bool {
+    matches!(motion, Motion::Sweep { .. } | Motion::Loop { .. })
 }
 
 /// Force that moves an axis as intended, N: `m·a + b·v + f_c·sgn(v)`, the sign

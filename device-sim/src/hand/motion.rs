@@ -44,6 +44,30 @@ pub enum Motion {
         /// Normal force, N.
         force_n: f64,
     },
+    /// Slide along an arc with a minimum-jerk profile, from rest to rest, while the force changes.
+    Sweep {
+        /// Where to in the plane, m.
+        to_m: [f64; 2],
+        /// How far the middle of the arc lies left of the straight line, m.
+        bow_m: f64,
+        /// How long, s.
+        duration_s: f64,
+        /// Normal force at its end, N; it begins with the force of the motion before.
+        force_n: f64,
+    },
+    /// Slide in ellipses, from rest to rest, while the force changes.
+    Loop {
+        /// Radius along x, where the centre lies, m.
+        radius_m: f64,
+        /// Radius along y over that along x.
+        aspect: f64,
+        /// How often.
+        turns: f64,
+        /// How long, s.
+        duration_s: f64,
+        /// Normal force at its end, N; it begins with the force of the motion before.
+        force_n: f64,
+    },
     /// Rest on the surface.
     Rest {
         /// Normal force, N.
@@ -70,6 +94,8 @@ impl Motion {
             Self::Press { .. } => "press",
             Self::Stroke { .. } => "stroke",
             Self::Scrub { .. } => "scrub",
+            Self::Sweep { .. } => "sweep",
+            Self::Loop { .. } => "loop",
             Self::Rest { .. } => "rest",
             Self::Lift { .. } => "lift",
         }
@@ -82,7 +108,10 @@ impl fmt::Display for Motion {
         match *self {
             Self::Approach { .. } | Self::Lift { .. } => Ok(()),
             Self::Tap { speed_m_s } => write!(f, " {:.0} mm/s", speed_m_s * 1e3),
-            Self::Press { force_n, .. } | Self::Rest { force_n, .. } => {
+            Self::Press { force_n, .. }
+            | Self::Sweep { force_n, .. }
+            | Self::Loop { force_n, .. }
+            | Self::Rest { force_n, .. } => {
                 write!(f, " {force_n:.1} N")
             }
             Self::Stroke {

@@ -7,7 +7,7 @@ use asperity::{
     recording::{self, Analysis},
 };
 use asperity_experiments::import_accuracy::{
-    self, Comparison, Performance, Resonance, Sensors, Until,
+    self, Comparison, Performance, Resonance, Sensors, Strokes, Until,
 };
 use asperity_recording::{
     resonance,
@@ -63,8 +63,13 @@ fn errors_db(comparison: &Comparison) -> (f64, f64, f64) {
 
 #[test]
 fn a_tap_in_free_air_takes_the_resonance_away() {
-    let performance = import_accuracy::perform(&builtin::texture(), Until::Seconds(SECONDS), SEED)
-        .expect("it renders");
+    let performance = import_accuracy::perform(
+        &builtin::texture(),
+        Strokes::Steady,
+        Until::Seconds(SECONDS),
+        SEED,
+    )
+    .expect("it renders");
     let resonance = Some(Resonance {
         freq_hz: 300.0,
         q: 8.0,
@@ -104,7 +109,8 @@ fn sensors_without_a_resonance_show_none_with_and_without_a_tap() {
     let texture = builtin::texture();
     for seed in 1..=sized("recordings", 6, 20) {
         let performance =
-            import_accuracy::perform(&texture, Until::Seconds(8.0), seed).expect("it renders");
+            import_accuracy::perform(&texture, Strokes::Steady, Until::Seconds(8.0), seed)
+                .expect("it renders");
         let free_taps = (seed % 3) as usize;
         let (folder, _) = written(&performance, seed, |s| s.free_taps = free_taps);
         let (recording, checked, timeline) = recording::check(folder.path()).expect("read");
@@ -117,8 +123,13 @@ fn sensors_without_a_resonance_show_none_with_and_without_a_tap() {
 
 #[test]
 fn without_a_height_impact_speeds_come_from_the_acceleration() {
-    let performance = import_accuracy::perform(&builtin::texture(), Until::Seconds(SECONDS), SEED)
-        .expect("it renders");
+    let performance = import_accuracy::perform(
+        &builtin::texture(),
+        Strokes::Steady,
+        Until::Seconds(SECONDS),
+        SEED,
+    )
+    .expect("it renders");
     let (analysis, comparison) = imported(&performance, |s| s.has_height = false);
     assert_eq!(analysis.speed_source.source, "acceleration");
     let near = |at_s: f64| {

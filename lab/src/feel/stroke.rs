@@ -1,6 +1,7 @@
 //! Strokes: the speed and force that were wanted and reached, friction and vibration.
 
 use asperity_runtime::Flags;
+use serde::Serialize;
 
 use super::recording::{Recording, Span};
 use super::statistics::{mean, rms};
@@ -8,7 +9,7 @@ use asperity_sim::hand::Motion;
 use asperity_sim::session::Record;
 
 /// One stroke over its steady part.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StrokeReport {
     /// When its steady part starts and ends, s.
     pub steady_s: (f64, f64),

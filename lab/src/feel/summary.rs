@@ -5,6 +5,8 @@ use std::fmt;
 use asperity_io::shown::counted;
 use asperity_recording::signal::quantile::quantile;
 use asperity_runtime::Flags;
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::recording::Recording;
 use super::statistics::{mean, peak, rms};
@@ -19,7 +21,7 @@ const BANDS_MM_S: [f64; 5] = [0.0, 50.0, 100.0, 150.0, 200.0];
 const SLIDING_MM_S: f64 = 20.0;
 
 /// Vibration while the estimated speed is in a band.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Band {
     /// Lower end, mm/s.
     pub from_mm_s: f64,
@@ -113,6 +115,44 @@ impl<'a> Summary<'a> {
             vib_clamped: with(records, Flags::VIB_CLAMPED).count() as u64,
             safe_ticks: with(records, Flags::SAFE_STATE).count() as u64,
         }
+    }
+
+    /// The figures for machines, in the units of the fields.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let Recording {
+            device,
+            grip,
+            texture,
+            ..
+        } = self.recording;
+        let [mean_n, p5_n, p50_n, p95_n, max_n] = self.normal_n;
+        json!({
+            "texture": texture.name,
+            "origin": texture.origin,
+            "device": device.name,
+            "grip": grip.name,
+            "seed": self.recording.seed,
+            "rate_hz": device.timing.servo_rate_hz,
+            "seconds": self.recording.duration_s(),
+            "ticks": self.recording.records.len(),
+            "contact_fraction": self.contact_fraction,
+            "normal_n": {
+                "mean": mean_n, "p5": p5_n, "p50": p50_n, "p95": p95_n, "max": max_n,
+            },
+            "friction_n": self.friction_n,
+            "coulomb_n": self.coulomb_n,
+            "peak_n": self.peak_n,
+            "slew_n_s": self.slew_n_s,
+            "device_rms_n": self.device_rms_n,
+            "bands": self.bands,
+            "taps": self.taps,
+            "strokes": self.strokes,
+            "outside_grid_ticks": self.outside_grid,
+            "vib_clamped_ticks": self.vib_clamped,
+            "safe_ticks": self.safe_ticks,
+            "caveats": self.caveats(),
+        })
     }
 
     /// Every value of the session that nobody could confirm, and every synthetic part.

@@ -1,13 +1,14 @@
 //! Taps: what the script asked for, what the stylus did, what was rendered.
 
 use asperity_runtime::Flags;
+use serde::Serialize;
 
 use super::recording::Recording;
 use super::statistics::peak;
 use asperity_sim::hand::Motion;
 
 /// One scripted tap.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TapReport {
     /// When the surface was truly met, s; `None` if it never was.
     pub impact_s: Option<f64>,
@@ -22,7 +23,7 @@ pub struct TapReport {
 }
 
 /// All taps of a recording.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Taps {
     /// The scripted ones that ran.
     pub scripted: Vec<TapReport>,

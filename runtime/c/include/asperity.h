@@ -270,6 +270,9 @@ typedef struct AsperityConfig {
   float parameter_time_constant_s;
   // One of `ASPERITY_ARITHMETIC_*`.
   uint32_t arithmetic;
+  // Largest coordinate of a position, m, at most 1 in fixed point; beyond it a sample is bad. 1 in a
+  // struct of an older header.
+  float reach_m;
 } AsperityConfig;
 
 // What an object begins with: which kind it is, in which arithmetic, of which capacity.
@@ -296,8 +299,8 @@ typedef struct AsperityPlayer {
 typedef struct AsperitySample {
   // `sizeof(AsperitySample)`, from the caller.
   uint32_t struct_size;
-  // Stylus position in the world frame, m. Anything not finite, or beyond 10 km (in fixed point
-  // 1 m), is a bad sample.
+  // Stylus position in the world frame, m. Anything not finite, or beyond the
+  // configuration's `reach_m`, is a bad sample.
   float position_m[3];
   // Servo periods since the sample before: 1 in a healthy loop, more after missed
   // periods, 0 when the device had nothing new.

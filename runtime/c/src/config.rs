@@ -81,6 +81,9 @@ pub struct AsperityConfig {
     pub parameter_time_constant_s: f32,
     /// One of `ASPERITY_ARITHMETIC_*`.
     pub arithmetic: u32,
+    /// Largest coordinate of a position, m, at most 1 in fixed point; beyond it a sample is bad. 1 in a
+    /// struct of an older header.
+    pub reach_m: f32,
 }
 
 impl AsperityConfig {
@@ -113,6 +116,7 @@ impl AsperityConfig {
         ramp_s: 0.0,
         parameter_time_constant_s: 0.0,
         arithmetic: ASPERITY_ARITHMETIC_FLOAT,
+        reach_m: 1.0,
     };
 }
 
@@ -175,6 +179,7 @@ impl From<Config> for AsperityConfig {
             ramp_s: config.safety.ramp_s,
             parameter_time_constant_s: config.parameter_time_constant_s,
             arithmetic: ASPERITY_ARITHMETIC_FLOAT,
+            reach_m: config.safety.reach_m,
         }
     }
 }
@@ -240,6 +245,7 @@ impl AsperityConfig {
             safety: SafetyConfig {
                 hold_ticks: self.hold_ticks,
                 ramp_s: self.ramp_s,
+                reach_m: self.reach_m,
             },
             parameter_time_constant_s: self.parameter_time_constant_s,
         })
@@ -274,6 +280,7 @@ mod tests {
     fn a_configuration_survives_the_way_there_and_back() {
         let mut configs = [Config::default(), Config::default(), Config::default()];
         configs[0].limits.peak_n = 1.5;
+        configs[0].safety.reach_m = 0.25;
         configs[1].solid = Solid::Sphere {
             center_m: [1.0, 2.0, 3.0],
             radius_m: 0.5,

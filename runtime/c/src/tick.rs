@@ -30,8 +30,8 @@ pub const ASPERITY_NO_SURFACE: u32 = 0xffff_ffff;
 pub struct AsperitySample {
     /// `sizeof(AsperitySample)`, from the caller.
     pub struct_size: u32,
-    /// Stylus position in the world frame, m. Anything not finite, or beyond 10 km (in fixed point
-    /// 1 m), is a bad sample.
+    /// Stylus position in the world frame, m. Anything not finite, or beyond the
+    /// configuration's `reach_m`, is a bad sample.
     pub position_m: [f32; 3],
     /// Servo periods since the sample before: 1 in a healthy loop, more after missed
     /// periods, 0 when the device had nothing new.

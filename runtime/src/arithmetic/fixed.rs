@@ -251,8 +251,8 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn is_within<F: Point>(a: Quad<F>, limit: f32) -> bool {
-        let limit = bits_of::<F>(limit).unsigned_abs();
+    fn is_within<F: Point>(a: Quad<F>, limit: FixedI32<F>) -> bool {
+        let limit = limit.to_bits().unsigned_abs();
         a.0.iter().all(|a| a.to_bits().unsigned_abs() <= limit)
     }
 }

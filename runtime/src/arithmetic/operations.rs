@@ -99,5 +99,5 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     fn four_settled<F: Point>(a: Self::Four<F>, grid: f32) -> Self::Four<F>;
 
     /// Whether none of the four is beyond ±`limit`, or NaN.
-    fn is_within<F: Point>(a: Self::Four<F>, limit: f32) -> bool;
+    fn is_within<F: Point>(a: Self::Four<F>, limit: Self::Scalar<F>) -> bool;
 }

@@ -115,6 +115,13 @@ impl Config {
             ),
             ("safety.ramp_s", self.safety.ramp_s, 0.0, 10.0, "0 to 10 s"),
             (
+                "safety.reach_m",
+                self.safety.reach_m,
+                0.001,
+                10_000.0,
+                "1 mm to 10 km",
+            ),
+            (
                 "parameter_time_constant_s",
                 self.parameter_time_constant_s,
                 0.0,

@@ -107,6 +107,9 @@ pub struct SafetyConfig {
     pub hold_ticks: u32,
     /// Duration of the ramp after a fault, s.
     pub ramp_s: f32,
+    /// Largest coordinate of a position, m; beyond it a sample is bad. No desk is larger than the
+    /// default of 1 m, so that millimetres given as metres are found out. Fixed point takes no more.
+    pub reach_m: f32,
 }
 
 impl Default for Config {
@@ -143,6 +146,7 @@ impl Default for Config {
             safety: SafetyConfig {
                 hold_ticks: 2,
                 ramp_s: 0.1,
+                reach_m: 1.0,
             },
             parameter_time_constant_s: 0.005,
         }

@@ -186,8 +186,8 @@ impl<A: Arithmetic, U: Unit> Vector<A, U> {
     /// Whether no component is beyond ±`limit`, or NaN.
     #[inline(always)]
     #[must_use]
-    pub fn is_within(self, limit: f32) -> bool {
-        A::is_within(self.0, limit)
+    pub fn is_within(self, limit: Quantity<A, U>) -> bool {
+        A::is_within(self.0, limit.0)
     }
 }
 

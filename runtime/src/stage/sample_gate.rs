@@ -20,19 +20,15 @@ use crate::{
 
 /// How far positions reach in an arithmetic.
 pub trait Positions: Arithmetic {
-    /// A coordinate beyond this, m, is an error and no position.
-    const REACH_M: f32;
     /// Further away than every position in reach, m.
     const OUT_OF_REACH_M: f32;
 }
 
 impl Positions for Float {
-    const REACH_M: f32 = 1.0e4;
     const OUT_OF_REACH_M: f32 = 1.0e5;
 }
 
 impl Positions for Fixed {
-    const REACH_M: f32 = 1.0;
     const OUT_OF_REACH_M: f32 = 4.0;
 }
 
@@ -41,6 +37,8 @@ impl Positions for Fixed {
 pub struct Gate<A: Arithmetic = Float> {
     /// Bad samples in a row that hold the last good one.
     hold_ticks: u32,
+    /// A coordinate beyond this, m, is an error and no position.
+    reach: Quantity<A, Metre>,
     /// How much of the gain comes back in a tick.
     ramp: Quantity<A, Gain>,
 }
@@ -69,13 +67,6 @@ pub struct Gated<A: Arithmetic = Float> {
     /// What happened: held sample, safe state, ramp. Restart, bad sample and fault are for the
     /// other stages.
     pub flags: Flags,
-}
-
-/// Whether a sample holds a usable position.
-#[inline(always)]
-pub(crate) fn is_usable<A: Positions>(sample: &Sample<A>) -> bool {
-    let position = Vector::<A, Metre>::load(sample.position_m);
-    position.is_within(A::REACH_M) & (sample.elapsed_ticks > 0)
 }
 
 impl<A: Arithmetic> Default for GateState<A> {
@@ -109,8 +100,16 @@ impl<A: Positions> Gate<A> {
     pub fn new(config: &SafetyConfig, servo_rate_hz: f32) -> Self {
         Self {
             hold_ticks: config.hold_ticks,
+            reach: Quantity::of(config.reach_m),
             ramp: Quantity::of(1.0 / max(config.ramp_s * servo_rate_hz, 1.0)),
         }
+    }
+
+    /// Whether a sample holds a usable position.
+    #[inline(always)]
+    pub(crate) fn is_usable(&self, sample: &Sample<A>) -> bool {
+        let position = Vector::<A, Metre>::load(sample.position_m);
+        position.is_within(self.reach) & (sample.elapsed_ticks > 0)
     }
 
     /// One sample.
@@ -119,7 +118,7 @@ impl<A: Positions> Gate<A> {
         let position = Vector::load(sample.position_m);
         // 0 wraps to the largest number, so a stale sample counts as far too late.
         let missed = sample.elapsed_ticks.wrapping_sub(1);
-        let within = position.is_within(A::REACH_M);
+        let within = position.is_within(self.reach);
         // The bits of both are no less than either number. At worst a regular sample takes the
         // longer way.
         if missed | state.bad_in_a_row > self.hold_ticks || !within {
@@ -214,6 +213,7 @@ mod tests {
         let config = SafetyConfig {
             hold_ticks: 2,
             ramp_s: 4e-3,
+            reach_m: 1.0,
         };
         (Gate::new(&config, 1000.0), GateState::new())
     }
@@ -244,6 +244,21 @@ mod tests {
         );
         for gain in [0.5, 0.75, 1.0, 1.0] {
             assert_eq!(step(&GOOD).gain.0, gain);
+        }
+    }
+
+    #[test]
+    fn a_coordinate_beyond_the_reach_is_a_bad_sample() {
+        let (gate, mut state) = gate();
+        for coordinate in 0..3 {
+            for (size, is_bad) in [(1.0, false), (1.0 + f32::EPSILON, true), (40.0, true)] {
+                for sign in [1.0, -1.0] {
+                    let mut position = [0.0; 3];
+                    position[coordinate] = sign * size;
+                    let flags = gate.step(&mut state, &Sample::at(position)).flags;
+                    assert_eq!(flags.contains(Flags::BAD_SAMPLE), is_bad, "{position:?}");
+                }
+            }
         }
     }
 

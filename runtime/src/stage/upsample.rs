@@ -171,7 +171,8 @@ impl<A: InnerProduct> Held<A> {
     #[inline(always)]
     pub(crate) fn settle(&mut self) {
         let [re, im] = self.lanes();
-        if re.is_within(A::SILENCE_M_S2) & im.is_within(A::SILENCE_M_S2) {
+        let silence = Quantity::of(A::SILENCE_M_S2);
+        if re.is_within(silence) & im.is_within(silence) {
             *self = Self::SILENT;
         }
     }

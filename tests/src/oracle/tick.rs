@@ -196,7 +196,10 @@ impl Oracle {
     /// state is safe, the periods since the last position, and whether motion restarts.
     fn gate(&mut self, sample: &Sample) -> (bool, u32, bool) {
         let position = sample.position_m.map(f64::from);
-        let good = sample.elapsed_ticks > 0 && position.iter().all(|x| x.abs() <= 1e4);
+        let good = sample.elapsed_ticks > 0
+            && position
+                .iter()
+                .all(|x| x.abs() <= f64::from(self.config.safety.reach_m));
         let hold = self.config.safety.hold_ticks;
         let ramp =
             (f64::from(self.config.safety.ramp_s) * f64::from(self.config.servo_rate_hz)).max(1.0);

@@ -1,7 +1,7 @@
 //! Arguments of the commands that speak other tools' formats.
 
 use super::{PreviewOptions, ReportOptions};
-use super::{pixels, within};
+use super::{name, pixels, within};
 use asperity::{
     interchange::{Format, ranges},
     preview,
@@ -88,8 +88,8 @@ pub(crate) struct ImportEffects {
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// Name of the texture [default: the name of the file]
-    #[arg(long)]
+    /// Name of the texture, 1 to 64 bytes [default: the name of the file]
+    #[arg(long, value_parser = name)]
     pub(crate) name: Option<String>,
     /// Speed of the stroke, mm/s: 1 to 1000
     #[arg(long, value_name = "MM_S", default_value_t = 100.0, value_parser = |text: &str| within(text, &ranges::SPEED_MM_S))]

@@ -161,6 +161,9 @@ pub(crate) struct Split {
     /// Write this number of libraries instead of one asset per texture
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999))]
     pub(crate) into: Option<u32>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,6 +1,6 @@
 //! Arguments of the commands that mix and edit in the latent.
 
-use super::{Inference, PreviewOptions, ReportOptions};
+use super::{Inference, PreviewOptions, ReportOptions, name};
 use asperity::edit::Part;
 use clap::Args;
 use std::path::PathBuf;
@@ -11,8 +11,8 @@ pub(crate) struct Mixed {
     /// The asset to write (.asp); `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// Name of the texture
-    #[arg(long)]
+    /// Name of the texture, 1 to 64 bytes
+    #[arg(long, value_parser = name)]
     pub(crate) name: Option<String>,
     #[command(flatten)]
     pub(crate) preview: PreviewOptions,
@@ -76,14 +76,14 @@ pub(crate) struct Compose {
 #[derive(Debug, Args)]
 #[command(
     after_help = "The sliders run from 0 to 100, which are the 5th and the 95th percentile of that \
-attribute over the materials of the model. Each option moves its attribute by this many steps, down \
-if negative, and holds the others still. Changes that the model cannot reach are applied after \
+attribute over the materials of the model. Each option moves its attribute by this many steps, the \
+other way if negative, and holds the others still. Changes that the model cannot reach are applied after \
 decoding. --prompt describes the change in words: qualities with their degree, and materials to be \
 more like. The asset stores every edit; --undo reverts the last one.
 
 Examples:
   asperity edit sheet.asp --rougher 20 -o rougher.asp
-  asperity edit sheet.asp --rougher 20 --harder -10 --slipperier 5 -o other.asp
+  asperity edit sheet.asp --rougher 20 --softer 10 --slipperier 5 -o other.asp
   asperity edit sheet.asp --prompt \"less gritty, more waxy\" -o waxy.asp
   asperity edit sheet.asp --prompt \"a bit softer, more like leather\" -o soft.asp
   asperity edit other.asp --undo -o sheet-again.asp"
@@ -94,24 +94,48 @@ pub(crate) struct Edit {
     /// Raise the vibration level by this many steps
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true)]
     pub(crate) rougher: Option<f64>,
+    /// Lower the vibration level by this many steps
+    #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true, conflicts_with = "rougher")]
+    pub(crate) smoother: Option<f64>,
     /// Raise the spectral centroid of the vibration by this many steps
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true)]
     pub(crate) sharper: Option<f64>,
+    /// Lower the spectral centroid of the vibration by this many steps
+    #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true, conflicts_with = "sharper")]
+    pub(crate) duller: Option<f64>,
     /// Raise the spectral centroid of the taps by this many steps
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true)]
     pub(crate) harder: Option<f64>,
+    /// Lower the spectral centroid of the taps by this many steps
+    #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true, conflicts_with = "harder")]
+    pub(crate) softer: Option<f64>,
     /// Lower the friction by this many steps
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true)]
     pub(crate) slipperier: Option<f64>,
+    /// Raise the friction by this many steps
+    #[arg(long, value_name = "STEPS", value_parser = steps, allow_hyphen_values = true, conflicts_with = "slipperier")]
+    pub(crate) stickier: Option<f64>,
     /// Describe the change in words, such as "less gritty, more waxy"
-    #[arg(long, value_name = "TEXT", conflicts_with_all = ["rougher", "sharper", "harder", "slipperier"])]
+    #[arg(long, value_name = "TEXT", conflicts_with_all = SLIDERS)]
     pub(crate) prompt: Option<String>,
     /// Revert the last edit
-    #[arg(long, conflicts_with_all = ["rougher", "sharper", "harder", "slipperier", "prompt"])]
+    #[arg(long, conflicts_with = "prompt", conflicts_with_all = SLIDERS)]
     pub(crate) undo: bool,
     #[command(flatten)]
     pub(crate) mixed: Mixed,
 }
+
+/// The options that move sliders, both ways.
+const SLIDERS: [&str; 8] = [
+    "rougher",
+    "smoother",
+    "sharper",
+    "duller",
+    "harder",
+    "softer",
+    "slipperier",
+    "stickier",
+];
 
 fn steps(text: &str) -> Result<f64, String> {
     let largest = asperity::edit::Sliders::LARGEST;

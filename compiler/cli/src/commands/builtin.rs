@@ -9,7 +9,8 @@ use asperity_io::diagnostic::Failures;
 pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
     let wanted = Wanted {
         emit_model: args.emit_model.as_deref(),
-        timings: args.timings,
+        json: args.reporting.json,
+        timings: args.reporting.timings,
         ..Wanted::of(&args.output)
     };
     let job = Job::open(wanted, &[], console)?;

@@ -35,6 +35,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     let job = Job::open(wanted, &inputs, console)?;
     let prompt_compiler = args.inference.setup().prompt_compiler()?;
     let request = Request {
+        name: args.name.clone(),
         fidelity: args.fidelity,
         rate_hz: args.rate,
         preview_px: args.preview.px(Some(preview::SIZE)),

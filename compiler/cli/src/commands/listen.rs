@@ -2,7 +2,7 @@
 
 use crate::cli::Listen;
 use asperity::{
-    listen::{self, Gesture, Heard, Part},
+    listen::{self, Gesture, Heard, Part, SOUND_HZ},
     textures::Textures,
 };
 use asperity_console::Console;
@@ -12,6 +12,7 @@ use asperity_io::{
     output::{Outputs, display},
     shown::counted,
 };
+use serde_json::{Value, json};
 use std::path::Path;
 
 pub(crate) fn run(args: &Listen, console: Console) -> Result<(), Failures> {
@@ -26,8 +27,30 @@ pub(crate) fn run(args: &Listen, console: Console) -> Result<(), Failures> {
     let heard = listen::listen(&asset, &session, args.rate, args.seed).map_err(one)?;
     outputs.fill(sound, &heard.wav).map_err(one)?;
     outputs.commit().map_err(one)?;
-    console.warnings(&heard.warnings, false);
-    console.report(&report(&args.output, &heard)).map_err(one)
+    console.warnings(&heard.warnings, args.json);
+    if args.json {
+        console.json(&in_json(&args.output, &heard)).map_err(one)
+    } else {
+        console.report(&report(&args.output, &heard)).map_err(one)
+    }
+}
+
+fn in_json(path: &Path, heard: &Heard) -> Value {
+    let part = |part: &Part| {
+        json!({
+            "count": part.count,
+            "peak_m_s2": part.peak_m_s2,
+            "full_scale_per_m_s2": part.gain_per_m_s2,
+        })
+    };
+    json!({
+        "output": display(path).to_string(),
+        "seconds": heard.seconds,
+        "sample_rate_hz": SOUND_HZ,
+        "strokes": part(&heard.strokes),
+        "taps": part(&heard.taps),
+        "warnings": heard.warnings,
+    })
 }
 
 fn report(path: &Path, heard: &Heard) -> String {

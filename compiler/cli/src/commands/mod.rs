@@ -53,7 +53,7 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
         Command::Doctor(args) => doctor::run(&args, console),
         Command::Builtin(args) => builtin::run(&args, console),
         Command::Inspect(args) => inspect::run(&args, console),
-        Command::Plot(args) => plot::run(&args),
+        Command::Plot(args) => plot::run(&args, console),
         Command::Preview(args) => preview::run(&args, console),
         Command::Listen(args) => listen::run(&args, console),
         Command::Render(args) => render::run(&args, console),

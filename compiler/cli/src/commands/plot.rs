@@ -7,12 +7,15 @@ use asperity::{
     raise::raise,
     textures::Textures,
 };
+use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Diagnostic, Failures, one},
-    output::Outputs,
+    output::{Outputs, display},
+    shown::size,
 };
 use asperity_plot::PlotError;
+use serde_json::json;
 use thiserror::Error;
 
 /// The sheet could not be drawn.
@@ -26,15 +29,29 @@ impl Diagnostic for DrawError {
     }
 }
 
-pub(crate) fn run(args: &Plot) -> Result<(), Failures> {
+pub(crate) fn run(args: &Plot, console: Console) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file]);
     let picture = outputs.open(&args.output).map_err(one)?;
+    let console = console.beside(&outputs);
     let mut textures = Textures::open(&args.file).map_err(one)?;
     let bytes = textures.choose(args.texture.as_deref()).map_err(one)?;
     let asset =
         Asset::parse(&bytes).map_err(|e| one(textures.error(args.texture.as_deref(), e.into())))?;
-    outputs.fill(picture, &drawn(&asset)?).map_err(one)?;
-    outputs.commit().map_err(one)
+    let png = drawn(&asset)?;
+    outputs.fill(picture, &png).map_err(one)?;
+    outputs.commit().map_err(one)?;
+    let path = display(&args.output);
+    if args.json {
+        let report = json!({
+            "output": path.to_string(),
+            "name": asset.name(),
+            "bytes": png.len(),
+        });
+        console.json(&report).map_err(one)
+    } else {
+        let report = format!("{path}: {}\n", size(png.len() as u64));
+        console.report(&report).map_err(one)
+    }
 }
 
 /// The sheet of an asset as PNG.

@@ -15,6 +15,7 @@ use asperity_io::{
     output::{Outputs, display},
     shown::size,
 };
+use serde_json::json;
 
 pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
     let mut inputs = diffusion::files(&args.diffusion);
@@ -30,65 +31,66 @@ pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
     let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
     let anew = args.redraw || args.size.is_some() || height.is_some() || normal.is_some();
     let stored = asset.preview_png();
-    let report = match (&args.diffusion.diffusion, stored.filter(|_| !anew)) {
-        (Some(folder), _) => {
-            let texture = raise(&asset);
-            let prompt = args.prompt.clone();
-            let drawn = diffusion::drawn(
-                folder,
-                &args.diffusion,
-                prompt.unwrap_or_else(|| prompt_of(&texture)),
-                args.seed.unwrap_or(texture.provenance.seed),
-                args.size,
-                console,
-            )?;
-            let png = drawn.png().map_err(one)?;
-            outputs.fill(color, &png).map_err(one)?;
-            let size_px = drawn.size_px();
-            format!(
-                "{size_px} × {size_px} pixels, {}, {}",
-                size(png.len() as u64),
-                drawn.note
-            )
-        }
-        (None, Some(png)) => {
-            // Read before it is passed on, so that what is no picture is not written as one.
-            let stored = preview::stored(png).map_err(one)?;
-            outputs.fill(color, png).map_err(one)?;
-            format!(
-                "{} × {} pixels, {}, as stored in the asset",
-                stored.width,
-                stored.height,
-                size(png.len() as u64)
-            )
-        }
-        (None, None) => {
-            let size_px = args.size.unwrap_or(SIZE);
-            let encoded = |e| one(PreviewError::Encode(e));
-            let picture = preview::draw(&raise(&asset), size_px).map_err(one)?;
-            let png = picture.png().map_err(encoded)?;
-            outputs.fill(color, &png).map_err(one)?;
-            if let Some(file) = height {
-                let map = picture.height_png().map_err(encoded)?;
-                outputs.fill(file, &map).map_err(one)?;
+    let ((width, height_px), bytes, how) =
+        match (&args.diffusion.diffusion, stored.filter(|_| !anew)) {
+            (Some(folder), _) => {
+                let texture = raise(&asset);
+                let prompt = args.prompt.clone();
+                let drawn = diffusion::drawn(
+                    folder,
+                    &args.diffusion,
+                    prompt.unwrap_or_else(|| prompt_of(&texture)),
+                    args.seed.unwrap_or(texture.provenance.seed),
+                    args.size,
+                    console,
+                )?;
+                let png = drawn.png().map_err(one)?;
+                outputs.fill(color, &png).map_err(one)?;
+                let size_px = drawn.size_px();
+                ((size_px, size_px), png.len(), drawn.note)
             }
-            if let Some(file) = normal {
-                let map = picture.normal_png().map_err(encoded)?;
-                outputs.fill(file, &map).map_err(one)?;
+            (None, Some(png)) => {
+                // Read before it is passed on, so that what is no picture is not written as one.
+                let stored = preview::stored(png).map_err(one)?;
+                outputs.fill(color, png).map_err(one)?;
+                let pixels = (stored.width, stored.height);
+                (pixels, png.len(), "as stored in the asset".to_owned())
             }
-            let why = if stored.is_some() {
-                ""
-            } else {
-                ", because the asset has no picture"
-            };
-            format!(
-                "{size_px} × {size_px} pixels, {}, newly drawn{why}",
-                size(png.len() as u64)
-            )
-        }
-    };
+            (None, None) => {
+                let size_px = args.size.unwrap_or(SIZE);
+                let encoded = |e| one(PreviewError::Encode(e));
+                let picture = preview::draw(&raise(&asset), size_px).map_err(one)?;
+                let png = picture.png().map_err(encoded)?;
+                outputs.fill(color, &png).map_err(one)?;
+                if let Some(file) = height {
+                    let map = picture.height_png().map_err(encoded)?;
+                    outputs.fill(file, &map).map_err(one)?;
+                }
+                if let Some(file) = normal {
+                    let map = picture.normal_png().map_err(encoded)?;
+                    outputs.fill(file, &map).map_err(one)?;
+                }
+                let why = if stored.is_some() {
+                    ""
+                } else {
+                    ", because the asset has no picture"
+                };
+                ((size_px, size_px), png.len(), format!("newly drawn{why}"))
+            }
+        };
     outputs.commit().map_err(one)?;
-    console
-        .report(&format!("{}: {report}\n", display(&args.output)))
-        .map_err(one)
+    let path = display(&args.output);
+    if args.json {
+        let report = json!({
+            "output": path.to_string(),
+            "width_px": width,
+            "height_px": height_px,
+            "bytes": bytes,
+            "picture": how,
+        });
+        return console.json(&report).map_err(one);
+    }
+    let bytes = size(bytes as u64);
+    let report = format!("{path}: {width} × {height_px} pixels, {bytes}, {how}\n");
+    console.report(&report).map_err(one)
 }

@@ -5,12 +5,15 @@ use asperity::recording;
 use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Diagnostic, Failures, one},
+    output::{Outputs, display},
     shown::counted,
 };
 use asperity_recording::{
     Problem,
     check::{Checked, Severity},
+    description::{FILE_NAME, propose},
 };
+use serde_json::json;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -29,7 +32,60 @@ impl Diagnostic for Faulty {
     }
 }
 
+/// There is no draft to write.
+#[derive(Debug, Error)]
+enum NoDraft {
+    #[error("{}: already exists", _0.display())]
+    Exists(PathBuf),
+    #[error("{}: cannot be read as a folder: {_1}", _0.display())]
+    Folder(PathBuf, std::io::Error),
+    #[error("{}: the folder holds no .csv, .tsv, .txt, .wav or .npy file", _0.display())]
+    NoFiles(PathBuf),
+}
+
+impl Diagnostic for NoDraft {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Exists(_) => {
+                "edit it, or remove it to have a new draft written; without --init it is checked"
+                    .into()
+            }
+            Self::Folder(..) => "give the folder that holds the sensor files".into(),
+            Self::NoFiles(_) => "copy the sensor files into the folder first".into(),
+        }
+    }
+}
+
+/// Writes the draft of a description.
+fn init(args: &RecordCheck, console: Console) -> Result<(), Failures> {
+    std::fs::read_dir(&args.folder)
+        .map_err(|error| one(NoDraft::Folder(args.folder.clone(), error)))?;
+    let path = args.folder.join(FILE_NAME);
+    if path.exists() {
+        return Err(one(NoDraft::Exists(path)));
+    }
+    let draft = propose(&args.folder).map_err(one)?;
+    let draft = draft.ok_or_else(|| one(NoDraft::NoFiles(args.folder.clone())))?;
+    let mut outputs = Outputs::beside([&args.folder]);
+    let file = outputs.open(&path).map_err(one)?;
+    outputs.fill(file, draft.as_bytes()).map_err(one)?;
+    outputs.commit().map_err(one)?;
+    let open: Vec<&str> = draft.lines().filter(|line| line.contains('#')).collect();
+    if args.json {
+        let report = json!({ "output": display(&path).to_string(), "open": open });
+        return console.json(&report).map_err(one);
+    }
+    let mut text = format!("{}: written; look at\n", display(&path));
+    for line in open {
+        text += &format!("  {}\n", line.trim());
+    }
+    console.report(&text).map_err(one)
+}
+
 pub(crate) fn run(args: &RecordCheck, console: Console) -> Result<(), Failures> {
+    if args.init {
+        return init(args, console);
+    }
     let checked = match recording::check(&args.folder) {
         Ok((_, checked, _)) => checked,
         Err(error) => {

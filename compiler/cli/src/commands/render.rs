@@ -13,6 +13,7 @@ use asperity_io::{
     output::{Outputs, display},
     shown::counted,
 };
+use serde_json::json;
 use std::io::BufWriter;
 
 /// What the trajectory goes over: the surfaces of a scene, or a plane with one texture.
@@ -62,6 +63,17 @@ pub(crate) fn run(args: &Render, console: Console) -> Result<(), Failures> {
         other => one(other),
     })?;
     outputs.commit().map_err(one)?;
+    if args.json {
+        return console
+            .json(&json!({
+                "output": display(&args.output).to_string(),
+                "ticks": report.ticks,
+                "contact_ticks": report.contact_ticks,
+                "taps": report.taps,
+                "peak_force_n": report.peak_force_n,
+            }))
+            .map_err(one);
+    }
     let report = format!(
         "{}: {}, {} of them in contact; {}; peak force {:.3} N\n",
         display(&args.output),

@@ -128,7 +128,7 @@ impl Kind {
             Self::Settings => "compare with device-sim/devices/touch.toml or a file of grips/",
             Self::Corpus => "split the file: every .toml file of the folder is read",
             Self::Trajectory => "cut the trajectory into several files",
-            Self::Log => "give a run.hlog that `asperity-lab jitter --out` wrote",
+            Self::Log => "give a run.hlog that `asperity-lab jitter -o` wrote",
             Self::Counts => "give a table as `cortex-m designs` prints it",
             Self::Description | Self::Network => "give a folder that `asperity-train fit` wrote",
             Self::TextEncoder => "export the text tower alone, in half precision if need be",

@@ -180,6 +180,7 @@ class Renderer:
         fixed_point: bool = False,
         peak_n: float = 3.3,
         slew_n_s: float = 2000.0,
+        reach_m: float = 1.0,
         vibration_axis: Literal["tangent", "binormal"] = "tangent",
     ) -> Renderer: ...
     @property

@@ -16,8 +16,8 @@ use crate::{
 
 /// Largest delay that is looked for, s.
 const REACH_S: f64 = 0.08;
-/// Delay that is a fault, s: touch lags by more, and a stroke changes its speed meanwhile.
-const FAULT_S: f64 = 0.008;
+/// Delay that is warned of although it is corrected, s: a stroke changes its speed meanwhile.
+const WARNED_S: f64 = 0.008;
 /// Least correlation that tells a delay.
 const LEAST_CORRELATION: f64 = 0.25;
 /// A peak must stand above its rivals.
@@ -28,7 +28,7 @@ const VIBRATION_HZ: (f64, f64) = (30.0, 250.0);
 const MOTION_HZ: (f64, f64) = (2.0, 7.0);
 /// Turns of strokes, which friction and velocity share, Hz.
 const FRICTION_HZ: (f64, f64) = (0.5, 20.0);
-/// Standard deviations that a delay beyond `FAULT_S` must exceed to be reported.
+/// Standard deviations that a delay beyond `WARNED_S` must exceed to be reported.
 const SURE: f64 = 3.0;
 /// Half lengths of the filters, samples.
 const HALF: (usize, usize) = (60, 300);
@@ -107,8 +107,8 @@ pub(super) fn check(
             "misaligned: it comes {:.1} ms after the accelerometer; corrected",
             1e3 * late_s
         );
-        let severity = if late_s.abs() > FAULT_S {
-            Severity::Fault
+        let severity = if late_s.abs() > WARNED_S {
+            Severity::Warning
         } else {
             Severity::Good
         };
@@ -125,7 +125,7 @@ pub(super) fn check(
 }
 
 /// The delay by which pairs of signals are alike, in a band of so many Hz around a middle. What is not known
-/// well enough to tell it from a fault is not told.
+/// well enough to tell whether it deserves a warning is not told.
 fn lag(pairs: &Pairs, (low_hz, high_hz): (f64, f64)) -> Option<f64> {
     let pairs: Vec<(&[f64], &[f64])> = pairs.iter().map(|(x, y)| (&x[..], &y[..])).collect();
     let found = correlate::delay(&pairs, (REACH_S * RATE_HZ) as usize)?;
@@ -135,7 +135,7 @@ fn lag(pairs: &Pairs, (low_hz, high_hz): (f64, f64)) -> Option<f64> {
     let turns = std::f64::consts::PI * (low_hz + high_hz);
     let sigma_s = (noise / (2.0 * (high_hz - low_hz) * seconds)).sqrt() / turns;
     let late_s = found.samples / RATE_HZ;
-    let is_sure = late_s.abs() <= FAULT_S || late_s.abs() > SURE * sigma_s;
+    let is_sure = late_s.abs() <= WARNED_S || late_s.abs() > SURE * sigma_s;
     let clear = is_sure
         && found.correlation > LEAST_CORRELATION
         && found.correlation > found.rival + LEAST_LEAD;

@@ -129,9 +129,14 @@ fn entry(text: &mut String, path: &Path, file: &str, header: &Header) {
             }
             (None, _, quantity) => (usual(quantity), "  # a guess: the header names no unit"),
         };
+        let place = if header.named {
+            ""
+        } else {
+            "  # a guess: the file names no channels"
+        };
         let _ = writeln!(
             text,
-            "[[file.channel]]\ncolumn = {column}\nquantity = \"{}\"\naxis = \"{}\"\nunit = \"{unit}\"{why}",
+            "[[file.channel]]\ncolumn = {column}\nquantity = \"{}\"\naxis = \"{}\"{place}\nunit = \"{unit}\"{why}",
             channel.quantity, channel.axis
         );
         if header.full_scale {
@@ -356,6 +361,36 @@ mod tests {
                 "{text}"
             );
         }
+    }
+
+    #[test]
+    fn a_wav_of_three_channels_is_taken_for_an_accelerometer_along_x_y_and_z() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let header = |data: u32| {
+            let mut bytes = b"RIFF".to_vec();
+            bytes.extend((36 + data).to_le_bytes());
+            bytes.extend(b"WAVEfmt \x10\0\0\0\x01\0\x03\0");
+            bytes.extend(8000_u32.to_le_bytes());
+            bytes.extend(48_000_u32.to_le_bytes());
+            bytes.extend(b"\x06\0\x10\0data");
+            bytes.extend(data.to_le_bytes());
+            bytes
+        };
+        let file = [header(600), vec![1; 600]].concat();
+        std::fs::write(folder.path().join("oak.wav"), file).expect("written");
+        let text = propose(folder.path()).expect("read").expect("a file");
+        std::fs::write(folder.path().join("recording.toml"), &text).expect("written");
+        let read = crate::description::read(folder.path()).expect("valid");
+        let labels: Vec<String> = read.files[0].channels.iter().map(|c| c.label()).collect();
+        assert_eq!(
+            labels,
+            ["acceleration x", "acceleration y", "acceleration z"]
+        );
+        assert_eq!(
+            text.matches("# a guess: the file names no channels")
+                .count(),
+            3
+        );
     }
 
     #[test]

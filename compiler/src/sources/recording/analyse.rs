@@ -20,7 +20,7 @@ use asperity_recording::{
 };
 use std::{path::Path, time::Duration};
 
-/// Least time of steady strokes, s, and stretches.
+/// Least time of strokes, s, and stretches.
 const LEAST_STROKES: (f64, usize) = (3.0, 8);
 /// Order and number of stretches with which methods are compared.
 const COMPARED: (usize, usize) = (16, 40);
@@ -47,7 +47,7 @@ pub struct Analysis {
     pub free_air: FreeAir,
     /// Part of the vibration that lies along one direction, 0..=1: what a principal component keeps.
     pub principal_share: f64,
-    /// Steady strokes.
+    /// The stretches of its strokes.
     pub steady: Steady,
     /// How well methods predict, of the vibration as one axis.
     pub methods: Vec<Score>,

@@ -24,12 +24,12 @@ pub enum RecordingFailure {
         /// What to do.
         remedy: String,
     },
-    /// Too few steady strokes.
-    #[error("{}: {found_s:.1} s of steady strokes in {}; at least {least_s} s are needed", folder.display(), counted(*segments, "segment", "segments"))]
+    /// Too few strokes.
+    #[error("{}: {found_s:.1} s of usable strokes in {}; at least {least_s} s are needed", folder.display(), counted(*segments, "segment", "segments"))]
     TooFewStrokes {
         /// The folder.
         folder: PathBuf,
-        /// Time of steady strokes, s.
+        /// Time of usable strokes, s.
         found_s: f64,
         /// Stretches.
         segments: usize,
@@ -46,7 +46,7 @@ impl Diagnostic for RecordingFailure {
                 "{remedy}; `asperity record-check` lists every fault, and --force imports regardless"
             ),
             Self::TooFewStrokes { .. } => {
-                "stroke for a minute at many speeds and forces without stopping, as docs/recording.md explains"
+                "stroke for half a minute at many speeds and forces: a segment is 0.1 s or more of contact in which speed and force change by no more than a factor of four; docs/recording.md explains how to record"
                     .into()
             },
         }

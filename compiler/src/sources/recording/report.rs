@@ -19,7 +19,7 @@ pub(super) fn json(recorded: &Recorded, compiled: &Compiled) -> Value {
         .steady
         .segments
         .iter()
-        .map(|s| json!({ "start_s": s.start as f64 / 1000.0, "seconds": s.length as f64 / 1000.0, "speed_mm_s": s.speed_mm_s, "force_n": s.force_n, "stationarity": s.statistic }))
+        .map(|s| json!({ "start_s": s.start as f64 / 1000.0, "seconds": s.length as f64 / 1000.0, "speed_mm_s": s.speed_mm_s, "force_n": s.force_n, "steady": s.is_steady, "stationarity": s.statistic }))
         .collect();
     let taps: Vec<Value> = analysis
         .transients
@@ -77,7 +77,7 @@ fn lines(recorded: &Recorded, f: &mut String) -> fmt::Result {
     writeln!(f, "resonance {}", resonance_text(free_air))?;
     writeln!(
         f,
-        "strokes   {:.1} s of steady strokes in {}, out of {:.1} s in contact; {} rejected",
+        "strokes   {:.1} s of strokes used, in {}, out of {:.1} s in contact; {} rejected",
         steady.covered_s(),
         counted(steady.segments.len(), "segment", "segments"),
         checked.contact_s,

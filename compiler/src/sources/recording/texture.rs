@@ -65,7 +65,7 @@ pub fn texture(
         tap_scale,
     };
     let notes = format!(
-        "Grid recorded with {} over {:.0} s of steady strokes. Taps {}{}. Friction {}{}. Wall by the nearest materials of the learned model. Gains and masses are unconfirmed defaults.",
+        "Grid recorded with {} over {:.0} s of strokes. Taps {}{}. Friction {}{}. Wall by the nearest materials of the learned model. Gains and masses are unconfirmed defaults.",
         description.device.as_deref().unwrap_or("an unnamed device"),
         analysis.steady.covered_s(),
         parts.taps,

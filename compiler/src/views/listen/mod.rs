@@ -19,10 +19,11 @@
 
 mod hand;
 
+use super::offline_config;
 use crate::emit::raise::raise;
 use asperity_formats::Asset;
 use asperity_io::diagnostic::Diagnostic;
-use asperity_runtime::{Config, ConfigError, HostTexture, LoadError, Renderer};
+use asperity_runtime::{ConfigError, HostTexture, LoadError, Renderer};
 use asperity_texture::signal::resample::resample;
 use hand::Hand;
 use std::io::Cursor;
@@ -203,10 +204,7 @@ pub fn perform(
         return Err(ListenError::NoTaps { texture: texture() });
     }
     let rate_hz = rate_hz.unwrap_or(asset.grid().sample_rate_hz());
-    let config = Config {
-        servo_rate_hz: rate_hz,
-        ..Config::default()
-    };
+    let config = offline_config(rate_hz);
     let renderer = Renderer::new(&config).map_err(|cause| ListenError::Config {
         texture: texture(),
         cause,

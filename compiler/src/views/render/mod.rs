@@ -25,9 +25,10 @@ pub use columns::{INPUT_COLUMNS, OUTPUT_COLUMNS, SURFACE_COLUMN};
 pub use error::RenderError;
 pub use limits::{MAX_ROW_BYTES, MAX_SCENE_TEXTURES};
 
+use super::offline_config;
 use asperity_formats::{Asset, Library};
 use asperity_runtime::{
-    Config, Flags, HostScene, HostTexture, Output, Renderer, Sample, SceneError, SceneState, State,
+    Flags, HostScene, HostTexture, Output, Renderer, Sample, SceneError, SceneState, State,
 };
 use std::{
     io::{Read, Write},
@@ -67,10 +68,7 @@ pub fn render(
     seed: u64,
 ) -> Result<RenderReport, RenderError> {
     let rate_hz = rate_hz.unwrap_or(asset.grid().sample_rate_hz());
-    let config = Config {
-        servo_rate_hz: rate_hz,
-        ..Config::default()
-    };
+    let config = offline_config(rate_hz);
     let texture = || asset.name().to_owned();
     let renderer = Renderer::new(&config).map_err(|cause| RenderError::Config {
         texture: texture(),
@@ -111,10 +109,7 @@ pub fn render_scene(
         let (index, cause) = (0, cause.into());
         RenderError::Scene(SceneError::Texture { index, cause })
     })?;
-    let config = Config {
-        servo_rate_hz: rate_hz.unwrap_or(first.grid().sample_rate_hz()),
-        ..Config::default()
-    };
+    let config = offline_config(rate_hz.unwrap_or(first.grid().sample_rate_hz()));
     let renderer = Renderer::new(&config).map_err(|cause| RenderError::Config {
         texture: first.name().to_owned(),
         cause,

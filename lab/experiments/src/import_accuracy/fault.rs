@@ -53,7 +53,7 @@ impl RecordingFault {
     #[must_use]
     pub fn is_named(self, checked: &Checked, file: &str) -> bool {
         checked
-            .at_least(Severity::Fault)
+            .at_least(Severity::Warning)
             .any(|finding| finding.kind == self.kind() && finding.file == file)
     }
 }

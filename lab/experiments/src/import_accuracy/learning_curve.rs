@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::{
     error::ImportAccuracyError,
     fault::{RecordingFault, faulty},
-    perform::{Until, perform, perform_sine},
+    perform::{Strokes, Until, perform},
     sensors::{Sensors, record},
     truth::{Cell, Comparison, compare},
 };
@@ -37,6 +37,7 @@ pub struct Row {
 /// [`ImportAccuracyError`] of the first texture that cannot be rendered or recorded.
 pub fn learn(
     textures: &[TextureModel],
+    strokes: Strokes,
     seconds: f64,
     seed: u64,
     alter: impl Fn(&mut Sensors) + Sync,
@@ -47,7 +48,7 @@ pub fn learn(
         .enumerate()
         .map(|(index, texture)| {
             let seed = seed.wrapping_mul(1000).wrapping_add(index as u64);
-            let performance = perform(texture, Until::Strokes(seconds), seed)?;
+            let performance = perform(texture, strokes, Until::Strokes(seconds), seed)?;
             let folder = Scratch::new(seed)?;
             let mut sensors = Sensors::seeded(seed);
             alter(&mut sensors);
@@ -234,9 +235,10 @@ pub fn checks(
     let one = |index: usize| -> Result<(Option<String>, Vec<String>), ImportAccuracyError> {
         let seed = seed.wrapping_mul(10_000).wrapping_add(index as u64);
         let texture = &textures[index % textures.len()];
-        let performance = perform(texture, Until::Seconds(seconds), seed)?;
+        let perform = |strokes| perform(texture, strokes, Until::Seconds(seconds), seed);
+        let performance = perform(Strokes::Steady)?;
         let clean = if index % SINES == SINES - 1 {
-            &perform_sine(texture, seconds, seed)?
+            &perform(Strokes::Sine)?
         } else {
             &performance
         };

@@ -16,7 +16,7 @@ mod truth;
 pub use error::ImportAccuracyError;
 pub use fault::{RecordingFault, faulty};
 pub use learning_curve::{Checks, Figures, GOAL_DB, LOUD_DB, Row, checks, learn, summary};
-pub use perform::{Performance, Until, perform, perform_sine};
+pub use perform::{Performance, Strokes, Until, perform};
 pub use sensors::{BENT_S, GRAVITY_M_S2, HAND_HALF, across, of_tool};
 pub use sensors::{Sensors, record};
 pub use textures::materials;

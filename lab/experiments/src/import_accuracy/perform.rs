@@ -9,7 +9,7 @@ use asperity_sim::{
     device::DeviceConfig,
     hand::{
         Grip, GripPreset, Script,
-        recording::{script, sine},
+        recording::{free, script, sine},
     },
     servo::RenderedTexture,
     session::{Record, Session},
@@ -29,6 +29,18 @@ pub enum Until {
     Strokes(f64),
 }
 
+/// How the hand strokes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Strokes {
+    /// At one speed and force each.
+    #[default]
+    Steady,
+    /// With speed and force changing all the time.
+    Free,
+    /// To and fro as evenly as a machine.
+    Sine,
+}
+
 /// What happened, tick by tick.
 #[derive(Debug)]
 pub struct Performance {
@@ -38,36 +50,21 @@ pub struct Performance {
     pub impacts: Vec<(usize, f64)>,
 }
 
-/// Lets a hand explore a texture.
+/// Lets a hand tap and stroke a texture.
 ///
 /// # Errors
 /// [`ImportAccuracyError::Texture`] for a texture that the runtime cannot render.
 pub fn perform(
     texture: &TextureModel,
+    strokes: Strokes,
     until: Until,
     seed: u64,
 ) -> Result<Performance, ImportAccuracyError> {
-    follow(texture, until, seed, script)
-}
-
-/// Lets a hand stroke to and fro as evenly as a machine, after a few taps.
-///
-/// # Errors
-/// [`ImportAccuracyError::Texture`] for a texture that the runtime cannot render.
-pub fn perform_sine(
-    texture: &TextureModel,
-    seconds: f64,
-    seed: u64,
-) -> Result<Performance, ImportAccuracyError> {
-    follow(texture, Until::Seconds(seconds), seed, sine)
-}
-
-fn follow(
-    texture: &TextureModel,
-    until: Until,
-    seed: u64,
-    script: fn(u64, f64, (f64, f64)) -> Script,
-) -> Result<Performance, ImportAccuracyError> {
+    let script: fn(u64, f64, (f64, f64)) -> Script = match strokes {
+        Strokes::Steady => script,
+        Strokes::Free => free,
+        Strokes::Sine => sine,
+    };
     let fail = |what: String| ImportAccuracyError::Texture {
         name: texture.name.clone(),
         what,
@@ -102,7 +99,7 @@ fn follow(
     let mut session = Session::new(&device, grip, script(seed, planned_s, corner), servo);
     let records = match until {
         Until::Seconds(seconds) => session.run((seconds * rate_hz) as u64),
-        Until::Strokes(seconds) => strokes(&mut session, (seconds * rate_hz) as usize),
+        Until::Strokes(seconds) => until_stroked(&mut session, (seconds * rate_hz) as usize),
     };
     let mut impacts = Vec::new();
     for (tick, pair) in records.windows(2).enumerate() {
@@ -115,7 +112,7 @@ fn follow(
 }
 
 /// All ticks until so many of them were strokes.
-fn strokes(session: &mut Session<RenderedTexture<'_>>, ticks: usize) -> Vec<Record> {
+fn until_stroked(session: &mut Session<RenderedTexture<'_>>, ticks: usize) -> Vec<Record> {
     let mut records = Vec::new();
     let mut stroked = 0;
     while stroked < ticks

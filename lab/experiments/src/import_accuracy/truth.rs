@@ -33,8 +33,8 @@ pub struct Cell {
     pub force_n: f64,
     /// Time in contact, s.
     pub seconds: f64,
-    /// Time in steady strokes that the import used, s.
-    pub steady_s: f64,
+    /// Time in strokes that the import used, s.
+    pub used_s: f64,
     /// True level over the noise of the accelerometer's three axes, dB.
     pub over_noise_db: f64,
     /// RMS of the log spectra over 10–450 Hz, level included, dB.
@@ -79,7 +79,7 @@ pub fn compare_at(
     analysis: &Analysis,
 ) -> Comparison {
     let (found, exact) = (Field::new(&analysis.fit.grid), Field::new(&truth.grid));
-    let steady = steady_time(analysis);
+    let used = used_time(analysis);
     let noise = 3.0 * accel_noise.powi(2) * 0.5 * truth.grid.sample_rate_hz;
     let mut cells = Vec::new();
     for (place, visit) in visited(&truth.grid, visits) {
@@ -95,7 +95,7 @@ pub fn compare_at(
             speed_mm_s: visit.speed_mm_s,
             force_n: visit.force_n,
             seconds: visit.seconds,
-            steady_s: steady.get(&place).copied().unwrap_or(0.0),
+            used_s: used.get(&place).copied().unwrap_or(0.0),
             over_noise_db: 10.0 * libm::log10(true_level.power / noise.max(1e-30)),
             error_db: log_spectral_distance_db(&model, &true_model),
             level_db: 10.0 * libm::log10(level.power / true_level.power),
@@ -156,8 +156,8 @@ fn visited(grid: &ModelGrid, visits: impl IntoIterator<Item = (f32, f32)>) -> Ve
         .collect()
 }
 
-/// Time that the steady segments of an analysis spend in every cell, s.
-fn steady_time(analysis: &Analysis) -> BTreeMap<Place, f64> {
+/// Time that the segments of an analysis spend in every cell, s.
+fn used_time(analysis: &Analysis) -> BTreeMap<Place, f64> {
     let mut cells: BTreeMap<Place, f64> = BTreeMap::new();
     let mut end = 0;
     for segment in &analysis.steady.segments {

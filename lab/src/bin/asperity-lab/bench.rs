@@ -5,7 +5,7 @@ use std::{fmt::Write as _, path::PathBuf};
 use asperity::{hatt, model::TextureModel};
 use asperity_console::Console;
 use asperity_experiments::import_accuracy::{
-    self, Checks, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors, Until,
+    self, Checks, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors, Strokes, Until,
 };
 use asperity_io::diagnostic::{Failures, one};
 
@@ -25,17 +25,20 @@ const REFERENCE: usize = 24;
   asperity-lab bench
   asperity-lab bench --hatt materials/ --seconds 5,15,60,300
   asperity-lab bench --checks 100
-  asperity-lab bench --write oak --seconds 30        a recording to try an import on
+  asperity-lab bench -o oak --seconds 30        a recording to try an import on
 
 Without --hatt, the textures are the built-in one and materials of the learned model.")]
 pub(crate) struct Arguments {
     /// Folder of HaTT XML files
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
-    /// Seconds of strokes, one or more values; time in the air and taps are added. With --write, the
+    /// Seconds of strokes, one or more values; time in the air and taps are added. With --output, the
     /// length of the whole recording
     #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = seconds)]
     seconds: Vec<f64>,
+    /// Stroke freely: speed and force change all the time
+    #[arg(long, conflicts_with = "checks")]
+    free: bool,
     /// Use at most this many textures
     #[arg(long, value_name = "N")]
     textures: Option<usize>,
@@ -61,7 +64,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", conflicts_with = "write")]
     checks: Option<usize>,
     /// Instead, write one recording of the first texture to this new folder, whose parent must exist
-    #[arg(long, value_name = "DIR")]
+    #[arg(short = 'o', long = "output", alias = "write", value_name = "DIR")]
     write: Option<PathBuf>,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
@@ -72,6 +75,14 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
+    fn strokes(&self) -> Strokes {
+        if self.free {
+            Strokes::Free
+        } else {
+            Strokes::Steady
+        }
+    }
+
     /// Changes the usual sensors as asked.
     fn alter(&self, sensors: &mut Sensors) {
         sensors.accel_noise *= self.noise;
@@ -109,8 +120,15 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     for &seconds in &arguments.seconds {
         let bar = console.bar(textures.len(), "recording and importing");
         let alter = |sensors: &mut Sensors| arguments.alter(sensors);
-        let rows = import_accuracy::learn(&textures, seconds, arguments.seed, alter, || bar.inc(1))
-            .map_err(one)?;
+        let rows = import_accuracy::learn(
+            &textures,
+            arguments.strokes(),
+            seconds,
+            arguments.seed,
+            alter,
+            || bar.inc(1),
+        )
+        .map_err(one)?;
         bar.finish_and_clear();
         all.push((import_accuracy::summary(&rows), rows));
     }
@@ -182,7 +200,7 @@ fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
 
 fn cells_csv(all: &[(Figures, Vec<Row>)]) -> String {
     let mut csv = String::from(
-        "texture,recorded_s,vertices,order,speed_mm_s,force_n,seconds,steady_s,over_noise_db,error_db,level_db\n",
+        "texture,recorded_s,vertices,order,speed_mm_s,force_n,seconds,used_s,over_noise_db,error_db,level_db\n",
     );
     for row in all.iter().flat_map(|(_, rows)| rows) {
         for cell in row.comparison.iter().flat_map(|c| &c.cells) {
@@ -197,7 +215,7 @@ fn cells_csv(all: &[(Figures, Vec<Row>)]) -> String {
                 cell.speed_mm_s,
                 cell.force_n,
                 cell.seconds,
-                cell.steady_s,
+                cell.used_s,
                 cell.over_noise_db,
                 cell.error_db,
                 cell.level_db
@@ -247,7 +265,8 @@ fn write(
     }
     std::fs::create_dir(folder).map_err(fail)?;
     let until = Until::Seconds(arguments.seconds[0]);
-    let performance = import_accuracy::perform(texture, until, arguments.seed).map_err(one)?;
+    let performance = import_accuracy::perform(texture, arguments.strokes(), until, arguments.seed)
+        .map_err(one)?;
     let mut sensors = Sensors::seeded(arguments.seed);
     arguments.alter(&mut sensors);
     import_accuracy::record(&performance, texture, &sensors, arguments.seed, folder)

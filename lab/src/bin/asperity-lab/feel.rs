@@ -55,6 +55,9 @@ pub(crate) struct Arguments {
     /// Write the vibration as a 16-bit WAV at 48 kHz; `-` is standard output
     #[arg(long, value_name = "OUT.wav")]
     wav: Option<PathBuf>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -102,7 +105,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         )
     })?;
     let recording = record(&asset, &origin, &options).map_err(one)?;
-    let mut report = Summary::new(&recording).to_string();
+    let summary = Summary::new(&recording);
+    let mut report = summary.to_string();
     if let (Some(file), Some(path)) = (csv_file, &arguments.csv) {
         activity.set_message("writing the table");
         let rows = recording.records.len();
@@ -136,6 +140,9 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     }
     outputs.commit().map_err(one)?;
     activity.finish_and_clear();
+    if arguments.json {
+        return console.json(&summary.json()).map_err(one);
+    }
     let report = format!("{}\n", report.trim_end());
     let wrote = arguments.csv.is_some() || arguments.plot.is_some() || arguments.wav.is_some();
     console.result_of(wrote, &report).map_err(one)

@@ -30,7 +30,7 @@ use error::Plain;
   asperity-lab servo brick.asp --device sim: --watch
   asperity-lab jitter --seconds 10 --cyclictest
   asperity-lab stability
-  asperity-lab pareto --out charts
+  asperity-lab pareto -o charts
   asperity-lab device list
   asperity-lab bench --seconds 5,60
   asperity-lab record oak --device sim:?hand=record --accel sim:")]

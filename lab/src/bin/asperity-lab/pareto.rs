@@ -21,8 +21,8 @@ use crate::error::Plain;
 /// predicted from their neighbours. The same seed gives the same tables.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
-  asperity-lab pareto --out charts                      the reference corpus
-  asperity-lab pareto --hatt hatt/models --out charts   your own copy of the HaTT
+  asperity-lab pareto -o charts                      the reference corpus
+  asperity-lab pareto --hatt hatt/models -o charts   your own copy of the HaTT
   asperity-lab pareto --quick --json                    a few materials, no counting
 
 Writes summary.csv, designs.csv, held-out.csv, fidelity.csv, their tables.md, and charts as
@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
     /// Folder to write tables and charts to; created if its parent exists
-    #[arg(long, value_name = "DIR")]
+    #[arg(short = 'o', long = "output", alias = "out", value_name = "DIR")]
     out: Option<PathBuf>,
     /// Quick run of less than a minute: six materials, half a second of motion, no counting
     #[arg(long)]

@@ -18,17 +18,17 @@ use crate::error::Plain;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab stability
-  asperity-lab stability --hatt materials/ --out pictures/
+  asperity-lab stability --hatt materials/ -o pictures/
   asperity-lab stability --json > table.json
 
-With --out: wall-map.png (stiffness, delay and damping against the bound),
+With --output: wall-map.png (stiffness, delay and damping against the bound),
 waveforms.png (the worst cases) and tables.md (the rows in the form of docs/stability.md).")]
 pub(crate) struct Arguments {
     /// Folder of HaTT XML files, for rows that need real materials
     #[arg(long, value_name = "DIR")]
     hatt: Option<PathBuf>,
     /// Folder to write pictures and tables to; created if its parent exists
-    #[arg(long, value_name = "DIR")]
+    #[arg(short = 'o', long = "output", alias = "out", value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]

@@ -78,8 +78,8 @@ fn color(motion: &Motion) -> Color {
         Motion::Approach { .. } | Motion::Lift { .. } => ink::LIGHT,
         Motion::Tap { .. } => ink::VERMILION,
         Motion::Press { .. } => ink::PURPLE,
-        Motion::Stroke { .. } => ink::BLUE,
-        Motion::Scrub { .. } => ink::GREEN,
+        Motion::Stroke { .. } | Motion::Sweep { .. } => ink::BLUE,
+        Motion::Scrub { .. } | Motion::Loop { .. } => ink::GREEN,
         Motion::Rest { .. } => ink::ORANGE,
     }
 }

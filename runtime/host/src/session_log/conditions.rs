@@ -141,6 +141,13 @@ struct MechanicsFields {
 struct SafetyFields {
     hold_ticks: u32,
     ramp_s: f32,
+    #[serde(default = "reach_before_it_was_recorded")]
+    reach_m: f32,
+}
+
+/// Recordings that name no reach were made when it was 10 km.
+fn reach_before_it_was_recorded() -> f32 {
+    1.0e4
 }
 
 #[cfg(test)]
@@ -184,6 +191,26 @@ mod tests {
                 "the checksum's check value"
             );
         }
+    }
+
+    #[test]
+    fn a_recording_that_names_no_reach_is_replayed_with_that_of_its_time() {
+        let conditions = Conditions {
+            program: "test".into(),
+            device: "sim:".into(),
+            texture: None,
+            scene: None,
+            seed: 1,
+            config: Config::default(),
+        };
+        let mut value = serde_json::to_value(&conditions).expect("JSON");
+        assert_eq!(value["config"]["safety"]["reach_m"], 1.0);
+        let safety = value["config"]["safety"]
+            .as_object_mut()
+            .expect("an object");
+        safety.remove("reach_m");
+        let back: Conditions = serde_json::from_value(value).expect("an older recording");
+        assert_eq!(back.config.safety.reach_m, 1.0e4);
     }
 
     /// Other programs write and read the same version, with and without the scene.

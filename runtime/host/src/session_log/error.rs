@@ -48,7 +48,7 @@ impl SessionLogError {
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::Io(_) => "check the path, your rights and the space on the disk",
-            Self::Foreign { .. } => "name a file that `--record` wrote",
+            Self::Foreign { .. } => "name a file that `servo -o` wrote",
             Self::Version { .. } => {
                 "read it with the version of Asperity that wrote it, or a newer one"
             }

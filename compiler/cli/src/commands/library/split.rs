@@ -12,6 +12,7 @@ use asperity_io::{
     output::{FileNames, display, write_folder_beside},
     shown::counted,
 };
+use serde_json::{Value, json};
 
 pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
     let shelf = LoadedLibrary::library(&args.file)?;
@@ -24,6 +25,18 @@ pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
         .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
         .collect();
     write_folder_beside(std::slice::from_ref(&args.file), &args.output, &listed).map_err(one)?;
+    if args.json {
+        let files: Vec<Value> = files
+            .iter()
+            .map(|(file, bytes)| json!({ "file": file, "bytes": bytes.len() }))
+            .collect();
+        let report = json!({
+            "output": display(&args.output).to_string(),
+            "files": files,
+            "warnings": changed,
+        });
+        return console.json(&report).map_err(one);
+    }
     console.warn_of_many(&changed);
     let count = counted(files.len(), "file", "files");
     let report = format!("{}: wrote {count}\n", display(&args.output));

@@ -6,12 +6,17 @@ use asperity::edit::{Edit, EditError, LatentEditor, Sliders};
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 
+/// The steps of one option, or the others of its opposite.
+fn either(up: Option<f64>, down: Option<f64>) -> f64 {
+    up.or(down.map(|steps| -steps)).unwrap_or(0.0)
+}
+
 pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
     let sliders = Sliders {
-        rougher: args.rougher.unwrap_or(0.0),
-        sharper: args.sharper.unwrap_or(0.0),
-        harder: args.harder.unwrap_or(0.0),
-        slipperier: args.slipperier.unwrap_or(0.0),
+        rougher: either(args.rougher, args.smoother),
+        sharper: either(args.sharper, args.duller),
+        harder: either(args.harder, args.softer),
+        slipperier: either(args.slipperier, args.stickier),
     };
     let edit = match &args.prompt {
         Some(words) => Edit::Words(words.clone()),

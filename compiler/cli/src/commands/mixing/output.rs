@@ -7,12 +7,11 @@ use crate::{
 };
 use asperity::{
     edit::{LatentEditor, Mix, MixOptions, MixPreview},
-    library::check_name,
     prompt::PromptCompiler,
     sources::Tools,
 };
 use asperity_console::Console;
-use asperity_io::{diagnostic::Failures, diagnostic::one, output::display, shown::size};
+use asperity_io::{diagnostic::Failures, output::display, shown::size};
 
 /// The output of a mixing command, opened before its work.
 pub(super) struct Mixing<'a> {
@@ -27,10 +26,6 @@ impl<'a> Mixing<'a> {
         inputs: &[&Input],
         console: Console,
     ) -> Result<Self, Failures> {
-        args.name
-            .as_deref()
-            .map_or(Ok(()), check_name)
-            .map_err(one)?;
         let mut files: Vec<_> = inputs.iter().map(|input| input.path()).collect();
         files.extend(args.inference.setup().files());
         let wanted = Wanted {

@@ -93,6 +93,7 @@ mod tests {
                 force_n: 0.1 + 0.1 * f64::from(n / 20),
                 lags: Vec::new(),
                 power: Vec::new(),
+                is_steady: true,
                 statistic: 0.0,
             })
             .collect();

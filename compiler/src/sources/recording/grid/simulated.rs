@@ -31,6 +31,7 @@ pub(super) fn segments(
             force_n,
             lags: vec![power.iter().sum::<f64>() / POINTS as f64; LAGS + 1],
             power,
+            is_steady: true,
             statistic: 0.0,
         }
     };

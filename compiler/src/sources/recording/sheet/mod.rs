@@ -89,7 +89,7 @@ fn header(canvas: &mut Canvas, import: &Shown<'_>) {
         .at_least(asperity_recording::check::Severity::Warning)
         .count();
     let line = format!(
-        "{:.0} s recorded, {:.0} s in contact, {:.0} s steady; {faults} warnings and faults; taps {}, friction {}; nearest {}",
+        "{:.0} s recorded, {:.0} s in contact, {:.0} s of strokes used; {faults} warnings and faults; taps {}, friction {}; nearest {}",
         analysis.checked.duration_s,
         analysis.checked.contact_s,
         analysis.steady.covered_s(),

@@ -15,7 +15,7 @@ use crate::loop_options::{self, LoopOptions};
 
 /// What `compare` and `overlay` read.
 const FILES: &str =
-    "A run is a run.hlog that `asperity-lab jitter --out` wrote, a percentile distribution
+    "A run is a run.hlog that `asperity-lab jitter -o` wrote, a percentile distribution
 (.hgrm), what `cyclictest --json` writes, or CSV with a latency in each line.";
 
 /// Measure the latency and jitter of a servo loop
@@ -27,7 +27,7 @@ const FILES: &str =
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Examples:
   asperity-lab jitter                                  10 s at 1 kHz without a device
-  asperity-lab jitter --seconds 100 --rate 10000 --cpu 1 --cyclictest --out run
+  asperity-lab jitter --seconds 100 --rate 10000 --cpu 1 --cyclictest -o run
   asperity-lab jitter brick.asp --device sim: --load memory --json
   asperity-lab jitter --inject compute:300:1000        does the report find a delay of 300 µs?
   asperity-lab jitter --seconds 60 --max-us 500 --max-missed 0 --series ticks.csv
@@ -35,7 +35,7 @@ const FILES: &str =
   asperity-lab jitter compare calm/run.hlog loaded/run.hlog
   asperity-lab jitter overlay calm/run.hlog loaded/run.hlog cyclictest.json -o overlay.png
 
-With --out: run.json, percentiles.csv, jitter.png, run.hlog (an interval log), and a percentile
+With --output: run.json, percentiles.csv, jitter.png, run.hlog (an interval log), and a percentile
 distribution (.hgrm) of every stage, raw and corrected, as HdrHistogram's own tools read them.")]
 pub(crate) struct Arguments {
     #[command(subcommand)]
@@ -67,9 +67,9 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE.csv")]
     series: Option<PathBuf>,
     /// Folder to write all files to; created if its parent exists
-    #[arg(long, value_name = "DIR")]
+    #[arg(short = 'o', long = "output", alias = "out", value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace a run that the folder of --out holds
+    /// Replace a run that the folder of --output holds
     #[arg(long, requires = "out")]
     force: bool,
     /// Print JSON

@@ -46,7 +46,7 @@ fn log_of(path: &Path, bytes: &[u8]) -> Result<Run, Failures> {
     read_log(bytes).map_err(|error| {
         Plain::failure(
             format!("{}: {error}", path.display()),
-            "give a run.hlog that `asperity-lab jitter --out` wrote",
+            "give a run.hlog that `asperity-lab jitter -o` wrote",
         )
     })
 }

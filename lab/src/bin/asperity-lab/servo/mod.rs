@@ -30,9 +30,9 @@ use summary::ServoSummary;
 #[command(after_help = "Examples:
   asperity-lab servo brick.asp --device sim:
   asperity-lab servo brick.asp --device sim: --watch      compile in one window, feel in the other
-  asperity-lab servo brick.asp --device sim: --seconds 30 --record brick.aspr
+  asperity-lab servo brick.asp --device sim: --seconds 30 -o brick.aspr
   asperity-lab servo brick.asp --device replay:brick.aspr     are the forces bit-identical? (else exit 1)
-  asperity-lab servo desk.aspl --device sim:?grip=firm --seconds 30 --record ticks.csv
+  asperity-lab servo desk.aspl --device sim:?grip=firm --seconds 30 -o ticks.csv
   asperity-lab servo all.aspl --texture Cork --device null: --rate 2000 --policy deadline
 
 Devices:
@@ -56,7 +56,7 @@ pub(crate) struct Arguments {
     #[arg(long, requires = "file")]
     watch: bool,
     /// Record every tick: OUT.aspr for replay, OUT.csv for a table; `-` is a table on standard output
-    #[arg(long, value_name = "OUT")]
+    #[arg(short = 'o', long = "output", alias = "record", value_name = "OUT")]
     record: Option<PathBuf>,
     /// Replay only to look: exit with 0 although forces differ from the recording
     #[arg(long)]

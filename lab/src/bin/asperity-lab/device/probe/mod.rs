@@ -32,7 +32,7 @@ use report::{Positions, Private, archive};
   asperity-lab device probe
   asperity-lab device probe 'falcon:?firmware=falcon.bin&tries=20'
   asperity-lab device probe touch: --json
-  asperity-lab device probe openhaptics: --report touch.tar.gz
+  asperity-lab device probe openhaptics: -o touch.tar.gz
   asperity-lab device probe openhaptics:?lib=/opt/openhaptics/libHD.so
 
 Settings of falcon: are firmware=FILE, tries=N, peak_n=N, motor_step=COUNTS, ids=TOML.")]
@@ -41,12 +41,17 @@ pub(crate) struct Arguments {
     /// a name or BUS-ADDRESS
     #[arg(value_name = "URI")]
     uri: Option<String>,
-    /// Duration of the test, s (0.1 to 60) [default: 2, or 60 with --report]
+    /// Duration of the test, s (0.1 to 60) [default: 2, or 60 with --output]
     #[arg(long, value_parser = seconds)]
     seconds: Option<f64>,
     /// Write what somebody else needs to help: versions, ids, permissions, rates, settings of this
     /// machine, and every position, but no serial numbers
-    #[arg(long, value_name = "FILE.tar.gz")]
+    #[arg(
+        short = 'o',
+        long = "output",
+        alias = "report",
+        value_name = "FILE.tar.gz"
+    )]
     report: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
@@ -69,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     };
     if arguments.report.is_some() && uris.len() > 1 {
         return Err(Plain::usage(
-            "--report is of one device, but several are plugged in",
+            "--output is a report of one device, but several are plugged in",
             "name one, as `asperity-lab device list` does",
         ));
     }

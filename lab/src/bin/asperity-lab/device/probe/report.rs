@@ -36,7 +36,7 @@ impl Positions {
 }
 
 const README: &str = "\
-What `asperity-lab device probe --report` found on a haptic device. Please look through it before you
+What `asperity-lab device probe -o` found on a haptic device. Please look through it before you
 send it: serial numbers and the path of your home folder are taken out, positions are not.
 
 probe.json     what the device answered, or why it did not
