@@ -99,6 +99,7 @@ proptest! {
         seed in any::<u64>(),
     ) {
         let mut config = Config { solid, ..config() };
+        config.safety.reach_m = 1e4;
         (config.limits.peak_n, config.limits.slew_n_s) = (peak_n, slew_n_s);
         let renderer = Renderer::new(&config).unwrap();
         let (mut state, mut twin) = (State::new(seed), State::new(seed));
@@ -118,7 +119,8 @@ proptest! {
     /// there is none.
     #[test]
     fn good_samples_bring_the_force_back(samples in samples(), seed in any::<u64>()) {
-        let config = config();
+        let mut config = config();
+        config.safety.reach_m = 1e4;
         let renderer = Renderer::new(&config).unwrap();
         let mut state = State::new(seed);
         for sample in &samples {

@@ -61,7 +61,7 @@ static void drain(uint64_t *next) {
     for (size_t i = 0; i < count; i++) {
       /* A torn record would not name its tick twice. */
       if (records[i].tick < *next || records[i].elapsed_ticks != 1 ||
-          records[i].position_m[1] != (float)(records[i].tick % 1024)) {
+          records[i].position_m[1] != (float)(records[i].tick % 1024) / 1024.0f) {
         fprintf(stderr, "a record is out of order or torn\n");
         exit(EXIT_FAILURE);
       }
@@ -99,7 +99,7 @@ int main(int argc, char **argv) {
   for (uint64_t tick = 0; tick < TICKS; tick++) {
     const float way = (float)(tick % 400) * 1.0e-4f;
     sample.position_m[0] = way < 0.02f ? way : 0.04f - way;
-    sample.position_m[1] = (float)(tick % 1024);
+    sample.position_m[1] = (float)(tick % 1024) / 1024.0f;
     sample.position_m[2] = -0.001f;
     require(asperity_player_tick(renderer, player, &sample, &output), "tick");
     if (!isfinite(output.force_n[0]) || !isfinite(output.force_n[2])) return EXIT_FAILURE;

@@ -1,8 +1,9 @@
 //! A change of the texture in the middle of a stroke.
 
+use super::unbounded;
 use asperity::{lower::lower, lsf};
 use asperity_formats::Asset;
-use asperity_runtime::{Config, Exchange, Renderer, Sample, State, stage::excitation::Excitation};
+use asperity_runtime::{Exchange, Renderer, Sample, State, stage::excitation::Excitation};
 
 use super::error::StabilityError;
 use super::filters::resonant;
@@ -72,7 +73,7 @@ fn stroke(tick: usize) -> Sample {
 
 /// The vibration of the stroke over textures that take turns.
 fn ours(textures: &[Material; 2], seed: u64) -> Vec<f64> {
-    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let renderer = Renderer::new(&unbounded()).expect("the default");
     let mut state = State::new(seed);
     (0..PERIOD * CHANGES)
         .map(|n| {
@@ -93,7 +94,7 @@ fn step_n([from, to]: [[f32; 3]; 2]) -> f64 {
 fn largest_step_n(textures: [Material; 2], seed: u64) -> Result<f64, StabilityError> {
     let [first, second] = textures.each_ref().map(|m| lower(&m.model, None));
     let bytes = [first?.bytes, second?.bytes];
-    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let renderer = Renderer::new(&unbounded()).expect("the default");
     let [mut playing, mut spare] = textures.map(|material| material.slot);
     let mut exchange = Exchange::new();
     let (mut preparer, mut player) = exchange.split(&mut playing, [&mut spare], seed);
@@ -115,7 +116,7 @@ fn largest_step_n(textures: [Material; 2], seed: u64) -> Result<f64, StabilityEr
 
 /// Step of the force, N, where wall and friction change at once.
 fn step_at_once_n(textures: &[Material; 2], seed: u64) -> f64 {
-    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let renderer = Renderer::new(&unbounded()).expect("the default");
     step_n(textures.each_ref().map(|material| {
         let mut state = State::new(seed);
         let mut tick = |n| renderer.tick(&material.slot, &mut state, &stroke(n));

@@ -1,6 +1,7 @@
 //! Bad samples: NaN, infinity, and positions that stick.
 
-use asperity_runtime::{Config, Renderer, Sample, State};
+use super::unbounded;
+use asperity_runtime::{Renderer, Sample, State};
 
 use super::error::StabilityError;
 use super::material::Material;
@@ -31,7 +32,7 @@ pub fn deep(n: usize) -> Sample {
 
 /// Forces of the runtime over a second, N.
 pub fn ours(material: &Material, samples: impl Fn(usize) -> Sample, seed: u64) -> Vec<[f64; 3]> {
-    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let renderer = Renderer::new(&unbounded()).expect("the default");
     let mut state = State::new(seed);
     (0..1000)
         .map(|n| {

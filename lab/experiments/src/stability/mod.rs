@@ -36,7 +36,15 @@ mod table;
 pub mod tap;
 pub mod wall;
 
+use asperity_runtime::Config;
 pub use error::StabilityError;
 pub use material::Material;
 pub use row::{Other, Row, Verdict, Words};
 pub use table::{StabilityOptions, Table, run};
+
+/// The default configuration with a reach that no script leaves: a stroke of 20 s covers metres.
+fn unbounded() -> Config {
+    let mut config = Config::default();
+    config.safety.reach_m = 1.0e4;
+    config
+}

@@ -1,6 +1,7 @@
 //! Taps: bouncing, grazing the surface, while sliding, in close succession.
 
-use asperity_runtime::{Config, Renderer, Sample, State};
+use super::unbounded;
+use asperity_runtime::{Renderer, Sample, State};
 
 use super::error::StabilityError;
 use super::material::Material;
@@ -19,7 +20,7 @@ struct Felt {
 
 /// Renders `ticks` ticks along a path of positions, m.
 fn felt(material: &Material, ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> Felt {
-    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let renderer = Renderer::new(&unbounded()).expect("the default");
     let mut state = State::new(1);
     let (mut last, mut step_n, mut impulse_n_s, mut friction_n) = ([0.0; 3], 0.0_f64, 0.0, 0.0);
     for n in 0..ticks {
@@ -51,7 +52,7 @@ pub fn entries(ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> Vec<usize> {
 /// Tap force of the runtime at each tick, N.
 #[must_use]
 pub fn tap_forces(material: &Material, ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> Vec<f64> {
-    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let renderer = Renderer::new(&unbounded()).expect("the default");
     let mut state = State::new(1);
     (0..ticks)
         .map(|n| {

@@ -10,6 +10,7 @@ pub use law::{Law, laws, ours};
 pub use ramp::{SETTLE, departure, forces, ramp, steepest};
 pub use rest::stroke_and_rest;
 
+use super::unbounded;
 use super::{
     error::StabilityError,
     material::Material,
@@ -17,7 +18,7 @@ use super::{
     row::{Row, Words},
 };
 use crate::stability::observer::Observer;
-use asperity_runtime::{Config, Renderer};
+use asperity_runtime::Renderer;
 use asperity_sim::servo::RenderedTexture;
 use law::TICK_S;
 use ramp::{departure_of_all, lacking, steepest_of_all};
@@ -199,7 +200,7 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
     }
 
     let silent = Material::silent(500.0, 0.1)?;
-    let renderer = Renderer::new(&Config::default()).expect("the default");
+    let renderer = Renderer::new(&unbounded()).expect("the default");
     let [_, paper, reference] = laws(silent.model.friction.mu, 0);
     let runtime = RenderedTexture::new(renderer, &silent.slot, seed);
     rows.push(HAND.row(
