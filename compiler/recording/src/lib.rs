@@ -53,7 +53,7 @@
 //! | check | [`check`] | a verdict for each channel, and what to do about it |
 //! | resonance | [`resonance`] | that of tool and sensor, by taps in free air, and the acceleration without it |
 //! | one axis | [`axes`] | three axes as one signal with their spectrum |
-//! | segments | [`steady`] | stretches of steady speed and force, and of changing ones |
+//! | segments | [`segments`] | stretches of steady speed and force, and of changing ones |
 //! | models | [`autoregression`] | AR and ARMA models of a stretch, by several methods |
 //! | friction | [`friction`] | μ with its spread, and how it depends on speed and load |
 //! | taps | [`impact`] | impacts, their speeds, a mean transient for each speed |
@@ -72,8 +72,9 @@ pub mod friction;
 pub mod impact;
 pub mod reader;
 pub mod resonance;
+pub mod segments;
 pub mod signal;
-pub mod steady;
+
 #[cfg(test)]
 mod test_recordings;
 pub mod timeline;

@@ -3,7 +3,7 @@
 
 use asperity::{builtin, pipeline::Clock, recording};
 use asperity_experiments::import_accuracy::{self, Sensors, Strokes, Until};
-use asperity_recording::{signal::quantile::median, steady::Steady};
+use asperity_recording::{segments::Segments, signal::quantile::median};
 use asperity_tests::size::sized;
 
 #[test]
@@ -34,13 +34,13 @@ fn free_strokes_give_a_texture_although_they_are_hardly_ever_steady() {
     import_accuracy::record(&performance, &texture, &sensors, 3, folder.path()).expect("room");
     let analysis = recording::analyse(folder.path(), false, Clock::default()).expect("a texture");
     let covered_s = |is_steady: bool| {
-        let segments = analysis.steady.segments.iter();
-        let kind = Steady {
+        let segments = analysis.strokes.segments.iter();
+        let kind = Segments {
             segments: segments
                 .filter(|s| s.is_steady == is_steady)
                 .cloned()
                 .collect(),
-            ..Steady::default()
+            ..Segments::default()
         };
         kind.covered_s()
     };

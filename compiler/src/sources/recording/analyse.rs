@@ -15,7 +15,7 @@ use asperity_recording::{
     impact::{self, Impact, SpeedSource, Transient},
     reader::{self, Recording},
     resonance::{self, FreeAir},
-    steady::{self, Steady},
+    segments::{self, Segments},
     timeline::Timeline,
 };
 use std::{path::Path, time::Duration};
@@ -48,7 +48,7 @@ pub struct Analysis {
     /// Part of the vibration that lies along one direction, 0..=1: what a principal component keeps.
     pub principal_share: f64,
     /// The stretches of its strokes.
-    pub steady: Steady,
+    pub strokes: Segments,
     /// How well methods predict, of the vibration as one axis.
     pub methods: Vec<Score>,
     /// The grid.
@@ -119,25 +119,25 @@ pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Rec
         free_air
     });
     let (vibration, one_axis, principal_share) = steps.run("one axis", || {
-        let vibration = steady::vibration(&timeline);
+        let vibration = segments::vibration(&timeline);
         let one_axis = axes::dft321(&vibration);
         let (_, share) = axes::principal(&vibration);
         (vibration, one_axis, share)
     });
-    let steady = steps.run("segments", || steady::segments(&timeline, &vibration));
+    let strokes = steps.run("segments", || segments::segments(&timeline, &vibration));
     let (least_s, least) = LEAST_STROKES;
     let too_few = || RecordingFailure::TooFewStrokes {
         folder: folder.to_owned(),
-        found_s: steady.covered_s(),
-        segments: steady.segments.len(),
+        found_s: strokes.covered_s(),
+        segments: strokes.segments.len(),
         least_s,
     };
-    if steady.covered_s() < least_s || steady.segments.len() < least {
+    if strokes.covered_s() < least_s || strokes.segments.len() < least {
         return Err(too_few());
     }
     let methods = steps.run("models", || {
-        let every = steady.segments.len().div_ceil(COMPARED.1);
-        let stretches = steady
+        let every = strokes.segments.len().div_ceil(COMPARED.1);
+        let stretches = strokes
             .segments
             .iter()
             .step_by(every)
@@ -145,7 +145,7 @@ pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Rec
         autoregression::compare(stretches, COMPARED.0)
     });
     let fit = steps
-        .run("grid", || grid::fit(&steady))
+        .run("grid", || grid::fit(&strokes))
         .ok_or_else(too_few)?;
     let friction = steps.run("friction", || friction::friction(&timeline));
     let (impacts, transients) = steps.run("taps", || {
@@ -160,7 +160,7 @@ pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Rec
         timeline,
         free_air,
         principal_share,
-        steady,
+        strokes,
         methods,
         fit,
         friction,

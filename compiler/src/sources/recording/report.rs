@@ -16,7 +16,7 @@ pub(super) fn json(recorded: &Recorded, compiled: &Compiled) -> Value {
     let analysis = &recorded.analysis;
     let grid = &compiled.texture.grid;
     let segments: Vec<Value> = analysis
-        .steady
+        .strokes
         .segments
         .iter()
         .map(|s| json!({ "start_s": s.start as f64 / 1000.0, "seconds": s.length as f64 / 1000.0, "speed_mm_s": s.speed_mm_s, "force_n": s.force_n, "steady": s.is_steady, "stationarity": s.statistic }))
@@ -41,7 +41,7 @@ pub(super) fn json(recorded: &Recorded, compiled: &Compiled) -> Value {
         "check": analysis.checked,
         "resonance": { "free_air_taps": analysis.free_air.taps, "compensated": analysis.free_air.resonances },
         "axes": { "method": "dft321", "principal_share": analysis.principal_share },
-        "segments": { "used": segments, "rejected": analysis.steady.rejected, "covered_s": analysis.steady.covered_s() },
+        "segments": { "used": segments, "rejected": analysis.strokes.rejected, "covered_s": analysis.strokes.covered_s() },
         "methods": analysis.methods,
         "grid": { "chosen": analysis.fit.chosen, "tried": analysis.fit.tried, "vertices": analysis.fit.facts, "extrapolated": extrapolated, "slopes_kept": analysis.fit.beyond },
         "friction": analysis.friction,
@@ -66,7 +66,7 @@ fn lines(recorded: &Recorded, f: &mut String) -> fmt::Result {
     let Analysis {
         checked,
         free_air,
-        steady,
+        strokes,
         fit,
         friction,
         impacts,
@@ -78,10 +78,10 @@ fn lines(recorded: &Recorded, f: &mut String) -> fmt::Result {
     writeln!(
         f,
         "strokes   {:.1} s of strokes used, in {}, out of {:.1} s in contact; {} rejected",
-        steady.covered_s(),
-        counted(steady.segments.len(), "segment", "segments"),
+        strokes.covered_s(),
+        counted(strokes.segments.len(), "segment", "segments"),
         checked.contact_s,
-        counted(steady.rejected, "segment", "segments")
+        counted(strokes.rejected, "segment", "segments")
     )?;
     let chosen = &fit.chosen;
     let zero = if chosen.nyquist_zero {

@@ -67,7 +67,7 @@ pub fn texture(
     let notes = format!(
         "Grid recorded with {} over {:.0} s of strokes. Taps {}{}. Friction {}{}. Wall by the nearest materials of the learned model. Gains and masses are unconfirmed defaults.",
         description.device.as_deref().unwrap_or("an unnamed device"),
-        analysis.steady.covered_s(),
+        analysis.strokes.covered_s(),
         parts.taps,
         if tap_scale < 1.0 {
             format!(", scaled by {tap_scale:.2} to what the device can give")

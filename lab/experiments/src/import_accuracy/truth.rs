@@ -160,7 +160,7 @@ fn visited(grid: &ModelGrid, visits: impl IntoIterator<Item = (f32, f32)>) -> Ve
 fn used_time(analysis: &Analysis) -> BTreeMap<Place, f64> {
     let mut cells: BTreeMap<Place, f64> = BTreeMap::new();
     let mut end = 0;
-    for segment in &analysis.steady.segments {
+    for segment in &analysis.strokes.segments {
         let last = segment.start + segment.length;
         // Neighbours overlap.
         let new = last.saturating_sub(segment.start.max(end));

@@ -2,8 +2,8 @@
 
 use asperity::{model::mixture::Field, recording, spectrum::ArmaModel};
 use asperity_recording::{
+    segments::{self, Segments},
     signal::resample::Clock,
-    steady::{self, Steady},
     timeline::{RATE_HZ, Timeline},
 };
 use asperity_tests::size::sized;
@@ -69,7 +69,7 @@ fn read(listed: &Listed) -> Option<Vec<Vec<f64>>> {
 }
 
 /// The segments of all speeds but `left_out`, or of `left_out` alone.
-fn segments(axes: &[Vec<f64>], speeds: &[usize]) -> Steady {
+fn segments(axes: &[Vec<f64>], speeds: &[usize]) -> Segments {
     let count = axes[0].len();
     let speed_of = |n: usize| n / SPEED % (SPEEDS + 1);
     let timeline = Timeline {
@@ -99,12 +99,12 @@ fn segments(axes: &[Vec<f64>], speeds: &[usize]) -> Steady {
             })
             .collect(),
     };
-    steady::segments(&timeline, &steady::vibration(&timeline))
+    segments::segments(&timeline, &segments::vibration(&timeline))
 }
 
 /// What was measured at one speed, in bands of 10 Hz, dB.
-fn measured(steady: &Steady) -> Vec<f64> {
-    let mut sum = vec![0.0; steady::POINTS];
+fn measured(steady: &Segments) -> Vec<f64> {
+    let mut sum = vec![0.0; segments::POINTS];
     for segment in &steady.segments {
         for (sum, p) in sum.iter_mut().zip(&segment.power) {
             *sum += p * segment.length as f64;
@@ -126,7 +126,7 @@ fn bands(power: &[f64]) -> Vec<f64> {
 }
 
 fn of_model(model: &ArmaModel) -> Vec<f64> {
-    let power: Vec<f64> = steady::frequencies_hz()
+    let power: Vec<f64> = segments::frequencies_hz()
         .into_iter()
         .map(|freq_hz| model.power(freq_hz))
         .collect();
@@ -138,7 +138,7 @@ fn rms(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// The spectrum that the grid of some segments renders at a speed.
-fn predicted(steady: &Steady, speed: usize) -> Option<Vec<f64>> {
+fn predicted(steady: &Segments, speed: usize) -> Option<Vec<f64>> {
     let fit = recording::fit(steady)?;
     let field = Field::new(&fit.grid);
     let place = field.locate(STEP_MM_S * speed as f64, LOAD_N)?;
@@ -164,7 +164,7 @@ fn models_of_the_other_speeds_are_held_against_the_nearest_speed() {
         let Some(axes) = read(&listed) else {
             continue;
         };
-        let alone: Vec<Steady> = (1..=SPEEDS)
+        let alone: Vec<Segments> = (1..=SPEEDS)
             .map(|speed| segments(&axes, &[speed]))
             .collect();
         let spectra: Vec<Vec<f64>> = alone.iter().map(measured).collect();

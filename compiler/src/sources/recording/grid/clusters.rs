@@ -1,6 +1,6 @@
 //! Clusters of segments in the plane of speed and force.
 
-use asperity_recording::steady::Segment;
+use asperity_recording::segments::Segment;
 
 /// Speed and force in parts of the corner, and height.
 type Place = [f64; 3];

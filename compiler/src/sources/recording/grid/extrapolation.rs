@@ -13,8 +13,8 @@ use super::{
 };
 use asperity_formats::limits::{MAX_FORCE_N, MAX_SPEED_MM_S};
 use asperity_recording::{
+    segments::{Segment, Segments},
     signal::quantile::quantile,
-    steady::{Segment, Steady},
 };
 use asperity_texture::model::{GridVertex, VertexKind};
 use serde::Serialize;
@@ -58,10 +58,10 @@ pub struct Slopes {
 
 impl Slopes {
     /// As held-out segments have it.
-    pub(super) fn of(steady: &Steady) -> Self {
+    pub(super) fn of(strokes: &Segments) -> Self {
         let speed = |s: &Segment| s.speed_mm_s;
         let force = |s: &Segment| s.force_n;
-        let end = |of, above| kept(steady, of, above).unwrap_or(UNKNOWN);
+        let end = |of, above| kept(strokes, of, above).unwrap_or(UNKNOWN);
         Self {
             speed: [end(speed, false), end(speed, true)],
             force: [end(force, false), end(force, true)],
@@ -70,15 +70,15 @@ impl Slopes {
 }
 
 /// The least part of the slopes that predicts the outermost segments of an end as well as any.
-fn kept(steady: &Steady, of: fn(&Segment) -> f64, above: bool) -> Option<f64> {
-    let all: Vec<&Segment> = steady.segments.iter().collect();
+fn kept(strokes: &Segments, of: fn(&Segment) -> f64, above: bool) -> Option<f64> {
+    let all: Vec<&Segment> = strokes.segments.iter().collect();
     let (least, largest) = range(&all, of);
     if largest < NARROW * least {
         return Some(0.0);
     }
     let at = if above { 1.0 - OUTERMOST } else { OUTERMOST };
-    let cut = quantile(steady.segments.iter().map(of), at);
-    let (out, rest): (Vec<&Segment>, Vec<&Segment>) = steady
+    let cut = quantile(strokes.segments.iter().map(of), at);
+    let (out, rest): (Vec<&Segment>, Vec<&Segment>) = strokes
         .segments
         .iter()
         .partition(|s| if above { of(s) > cut } else { of(s) < cut });
@@ -86,14 +86,14 @@ fn kept(steady: &Steady, of: fn(&Segment) -> f64, above: bool) -> Option<f64> {
         return None;
     }
     let visited = Visited::new(&rest);
-    let local = Local::new(steady, rest.into_iter());
+    let local = Local::new(strokes, rest.into_iter());
     let mut errors = Vec::new();
     for segment in out.iter().step_by(out.len().div_ceil(LOOKED_AT)) {
         let to = (segment.speed_mm_s, segment.force_n);
         let from = at_border(&local, visited.nearest(to), WIDTHS.0)?;
         errors.push(PARTS.map(|part| {
             let power = local.moved(&from, visited.nearest(to), to, [part; 2]);
-            segment.length as f64 * whittle::of_power(steady, &power, segment)
+            segment.length as f64 * whittle::of_power(strokes, &power, segment)
         }));
     }
     Some(PARTS[simplest(&errors)])

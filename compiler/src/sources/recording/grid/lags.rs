@@ -1,7 +1,7 @@
 //! The autocorrelation of a spectrum that is known over the band of the segments.
 
 use asperity_recording::{
-    steady::{BAND_HZ, LAGS, POINTS, frequencies_hz},
+    segments::{BAND_HZ, LAGS, POINTS, frequencies_hz},
     timeline::RATE_HZ,
 };
 use std::f64::consts::TAU;

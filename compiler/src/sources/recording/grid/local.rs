@@ -12,7 +12,7 @@ use super::{
     band::{BANDS, Fit, Measured, add, inverse, ridge},
     lags::Transform,
 };
-use asperity_recording::steady::{POINTS, Segment, Steady};
+use asperity_recording::segments::{POINTS, Segment, Segments};
 
 /// Offsets of the logarithms: below them, speed and force count linearly.
 const OFFSETS: (f64, f64) = (3.0, 0.03);
@@ -82,7 +82,7 @@ type Near<'a> = (&'a Row, [f64; 2], f64);
 
 impl Local {
     /// Of segments, under the sensors' noise.
-    pub(super) fn new<'a>(steady: &Steady, segments: impl Iterator<Item = &'a Segment>) -> Self {
+    pub(super) fn new<'a>(strokes: &Segments, segments: impl Iterator<Item = &'a Segment>) -> Self {
         let mut rows: Vec<Row> = segments
             .map(|segment| Row {
                 place: coordinates(segment.speed_mm_s, segment.force_n),
@@ -103,7 +103,7 @@ impl Local {
         for row in &mut rows {
             row.place = [0, 1].map(|axis| (row.place[axis] - centre[axis]) / scale[axis]);
         }
-        let noise = steady
+        let noise = strokes
             .noise_power
             .clone()
             .unwrap_or_else(|| vec![0.0; POINTS]);
@@ -306,7 +306,7 @@ mod tests {
         simulated::segments,
         vertex::{Form, vertex},
     };
-    use asperity_recording::{steady::frequencies_hz, timeline::RATE_HZ};
+    use asperity_recording::{segments::frequencies_hz, timeline::RATE_HZ};
     use asperity_texture::{
         model::Numerator,
         signal::{lsf, spectrum::squared_magnitude},
@@ -323,10 +323,10 @@ mod tests {
     }
 
     /// Segments of half a second at irregular places, under white noise.
-    fn steady(noise_is_known: bool) -> Steady {
+    fn strokes(noise_is_known: bool) -> Segments {
         let ranges = ((12.0, 192.0), (0.25, 2.0));
         let segments = segments(9, 150, ranges, |v, f, hz| truth(v, f, hz) + NOISE);
-        Steady {
+        Segments {
             segments,
             noise_lags: None,
             noise_power: noise_is_known.then(|| vec![NOISE; POINTS]),
@@ -335,8 +335,8 @@ mod tests {
     }
 
     /// Mean and RMS of the model over the truth, dB.
-    fn error_db(steady: &Steady, speed_mm_s: f64, force_n: f64) -> (f64, f64) {
-        let local = Local::new(steady, steady.segments.iter());
+    fn error_db(strokes: &Segments, speed_mm_s: f64, force_n: f64) -> (f64, f64) {
+        let local = Local::new(strokes, strokes.segments.iter());
         let lags = local.at(speed_mm_s, force_n, 0.5).expect("segments").lags;
         let form = Form {
             order: 6,
@@ -361,10 +361,10 @@ mod tests {
     fn an_ar_model_under_white_noise_of_known_power_comes_back_without_bias() {
         // The mean power is 4 dB above the noise, and 5 dB below it.
         for (speed_mm_s, force_n) in [(80.0, 0.8), (25.0, 0.5)] {
-            let (mean, rms) = error_db(&steady(true), speed_mm_s, force_n);
+            let (mean, rms) = error_db(&strokes(true), speed_mm_s, force_n);
             assert!(mean.abs() < 0.7 && rms < 1.2, "{mean} {rms}");
         }
-        let (mean, _) = error_db(&steady(false), 25.0, 0.5);
+        let (mean, _) = error_db(&strokes(false), 25.0, 0.5);
         assert!(
             mean > 5.0,
             "noise that is not known counts as signal: {mean}"

@@ -27,7 +27,7 @@ mod whittle;
 
 use crate::passes::triangulate;
 use asperity_recording::{
-    steady::{Segment, Steady},
+    segments::{Segment, Segments},
     timeline::RATE_HZ,
 };
 use asperity_texture::model::{GridVertex, ModelGrid, Numerator};
@@ -129,11 +129,11 @@ struct Choice {
 
 /// The grid of the segments; `None` of fewer than two.
 #[must_use]
-pub fn fit(steady: &Steady) -> Option<GridFit> {
-    if steady.segments.len() < 2 {
+pub fn fit(strokes: &Segments) -> Option<GridFit> {
+    if strokes.segments.len() < 2 {
         return None;
     }
-    let beyond = Slopes::of(steady);
+    let beyond = Slopes::of(strokes);
     let mut tried = Vec::new();
     let mut best = Choice {
         form: Form {
@@ -146,24 +146,24 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
         prior_s: None,
         beyond,
     };
-    let at_most = (steady.segments.len() / 3).max(1);
+    let at_most = (strokes.segments.len() / 3).max(1);
     for round in 0..2 {
         let widths = WIDTHS.map(|width| Choice { width, ..best });
-        best = least(steady, widths.into_iter(), 0.0, &mut tried);
+        best = least(strokes, widths.into_iter(), 0.0, &mut tried);
         let counts: Vec<Choice> = COUNTS
             .into_iter()
             .filter(|count| *count <= at_most)
             .map(|vertices| Choice { vertices, ..best })
             .collect();
-        best = least(steady, counts.into_iter(), LEAST_GAIN, &mut tried);
+        best = least(strokes, counts.into_iter(), LEAST_GAIN, &mut tried);
         let steepnesses = STEEPNESSES.map(|steepness| Choice { steepness, ..best });
-        best = least(steady, steepnesses.into_iter(), 0.0, &mut tried);
+        best = least(strokes, steepnesses.into_iter(), 0.0, &mut tried);
         if round == 0 {
             let forms = ORDERS.into_iter().flat_map(|order| {
                 [Numerator::None, Numerator::Nyquist].map(|numerator| Form { order, numerator })
             });
             best = least(
-                steady,
+                strokes,
                 forms.map(|form| Choice { form, ..best }),
                 LEAST_GAIN,
                 &mut tried,
@@ -181,8 +181,8 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
             })
         });
     let together: Vec<Choice> = [best].into_iter().chain(together).collect();
-    best = least(steady, together.into_iter(), 0.0, &mut tried);
-    let (grid, facts) = build(steady, &steady.segments.iter().collect::<Vec<_>>(), best)?;
+    best = least(strokes, together.into_iter(), 0.0, &mut tried);
+    let (grid, facts) = build(strokes, &strokes.segments.iter().collect::<Vec<_>>(), best)?;
     let chosen = *tried.iter().rev().find(|tried| {
         tried.vertices == best.vertices
             && tried.width == best.width
@@ -200,7 +200,7 @@ pub fn fit(steady: &Steady) -> Option<GridFit> {
 
 /// The first choice that no later one beats by more than `gain`.
 fn least(
-    steady: &Steady,
+    strokes: &Segments,
     choices: impl Iterator<Item = Choice>,
     gain: f64,
     tried: &mut Vec<Tried>,
@@ -208,7 +208,7 @@ fn least(
     let choices: Vec<Choice> = choices.collect();
     let errors: Vec<f64> = choices
         .par_iter()
-        .map(|choice| held_out(steady, *choice))
+        .map(|choice| held_out(strokes, *choice))
         .collect();
     let record = |(choice, held_out): (&Choice, &f64)| Tried {
         order: choice.form.order,
@@ -234,18 +234,18 @@ fn fold(segment: &Segment) -> usize {
 }
 
 /// Whittle's measure of held-out segments.
-fn held_out(steady: &Steady, choice: Choice) -> f64 {
+fn held_out(strokes: &Segments, choice: Choice) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for part in 0..FOLDS {
-        let (out, seen): (Vec<&Segment>, Vec<&Segment>) = steady
+        let (out, seen): (Vec<&Segment>, Vec<&Segment>) = strokes
             .segments
             .iter()
             .partition(|segment| fold(segment) == part);
         if out.is_empty() {
             continue;
         }
-        let measured = build(steady, &seen, choice)
-            .and_then(|(grid, _)| whittle::measure(steady, &grid, &out));
+        let measured = build(strokes, &seen, choice)
+            .and_then(|(grid, _)| whittle::measure(strokes, &grid, &out));
         let Some((own, weight)) = measured else {
             return f64::INFINITY;
         };
@@ -261,29 +261,29 @@ fn held_out(steady: &Steady, choice: Choice) -> f64 {
 
 /// The logarithm of a segment's power without the sensors' noise, and of a fifth of the noise where
 /// there is less.
-fn ln_level(steady: &Steady, segment: &Segment) -> f64 {
-    let noise = steady.noise_lags.as_ref().map_or(0.0, |lags| lags[0]);
+fn ln_level(strokes: &Segments, segment: &Segment) -> f64 {
+    let noise = strokes.noise_lags.as_ref().map_or(0.0, |lags| lags[0]);
     libm::log((segment.lags[0] - noise).max(0.2 * noise).max(1e-300))
 }
 
 /// The grid of some segments, and the facts of its measured vertices.
 fn build(
-    steady: &Steady,
+    strokes: &Segments,
     segments: &[&Segment],
     choice: Choice,
 ) -> Option<(ModelGrid, Vec<VertexFacts>)> {
     if segments.is_empty() {
         return None;
     }
-    let visited = Visited::new(&steady.segments.iter().collect::<Vec<_>>());
-    let largest = |pick: fn(&Segment) -> f64| steady.segments.iter().map(pick).fold(0.0, f64::max);
+    let visited = Visited::new(&strokes.segments.iter().collect::<Vec<_>>());
+    let largest = |pick: fn(&Segment) -> f64| strokes.segments.iter().map(pick).fold(0.0, f64::max);
     let corner = (largest(|s| s.speed_mm_s), largest(|s| s.force_n));
-    let local = Local::new(steady, segments.iter().copied());
+    let local = Local::new(strokes, segments.iter().copied());
     let mut seconds = Vec::new();
     let mut interior: Vec<GridVertex> = Vec::new();
     let heights: Vec<f64> = segments
         .iter()
-        .map(|segment| choice.steepness * ln_level(steady, segment))
+        .map(|segment| choice.steepness * ln_level(strokes, segment))
         .collect();
     for (speed_mm_s, force_n) in centres(segments, &heights, choice.vertices, corner) {
         let estimate = local.at(speed_mm_s, force_n, choice.width)?;
@@ -307,7 +307,7 @@ fn build(
     };
     if let Some(prior_s) = choice.prior_s {
         // The places stay, and with them the triangles.
-        let interior = refine(&grid, steady, segments, prior_s);
+        let interior = refine(&grid, strokes, segments, prior_s);
         grid.vertices = [interior, ring].concat();
     }
     let facts = grid
@@ -318,7 +318,7 @@ fn build(
             speed_mm_s: vertex.speed_mm_s,
             force_n: vertex.force_n,
             seconds,
-            residual_db: whittle::residual_db(steady, segments, vertex, choice.form),
+            residual_db: whittle::residual_db(strokes, segments, vertex, choice.form),
         })
         .collect();
     Some((grid, facts))

@@ -15,7 +15,7 @@ use super::{
     whittle::noise,
 };
 use asperity_recording::{
-    steady::{Segment, Steady, frequencies_hz},
+    segments::{Segment, Segments, frequencies_hz},
     timeline::RATE_HZ,
 };
 use asperity_texture::model::{GridVertex, ModelGrid, VertexKind, mixture::Field};
@@ -38,11 +38,11 @@ const OVERLAP: f64 = 0.5;
 /// segments best. What each was before counts as `prior_s` seconds.
 pub(super) fn refine(
     grid: &ModelGrid,
-    steady: &Steady,
+    strokes: &Segments,
     segments: &[&Segment],
     prior_s: f64,
 ) -> Vec<GridVertex> {
-    let problem = Problem::new(grid, steady, segments, prior_s);
+    let problem = Problem::new(grid, strokes, segments, prior_s);
     let mut at = problem.start.clone();
     let mut error = problem.error(&at);
     for _ in 0..STEPS {
@@ -97,7 +97,7 @@ struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    fn new(grid: &ModelGrid, steady: &Steady, segments: &[&'a Segment], prior_s: f64) -> Self {
+    fn new(grid: &ModelGrid, strokes: &Segments, segments: &[&'a Segment], prior_s: f64) -> Self {
         let interior = grid
             .vertices
             .iter()
@@ -149,7 +149,7 @@ impl<'a> Problem<'a> {
             segments,
             prior: Vec::new(),
             shape: Shape::new(&omegas, grid.numerator),
-            noise: (0..omegas.len()).map(|n| noise(steady, n, 0.0)).collect(),
+            noise: (0..omegas.len()).map(|n| noise(strokes, n, 0.0)).collect(),
         };
         problem.prior = problem
             .start

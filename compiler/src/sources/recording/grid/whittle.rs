@@ -3,7 +3,7 @@
 
 use super::vertex::Form;
 use asperity_recording::{
-    steady::{POINTS, Segment, Steady, frequencies_hz},
+    segments::{POINTS, Segment, Segments, frequencies_hz},
     timeline::RATE_HZ,
 };
 use asperity_texture::{
@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 /// The sum over segments and frequencies, and its weight; `None` where the grid has no place for a
 /// segment.
 pub(super) fn measure(
-    steady: &Steady,
+    strokes: &Segments,
     grid: &ModelGrid,
     segments: &[&Segment],
 ) -> Option<(f64, f64)> {
@@ -26,7 +26,7 @@ pub(super) fn measure(
         let model = powers(&field, &angles, segment.speed_mm_s, segment.force_n)?;
         let weight = segment.length as f64;
         for (n, (model, power)) in model.iter().zip(&segment.power).enumerate() {
-            let s = model + noise(steady, n, *power);
+            let s = model + noise(strokes, n, *power);
             sum += weight * (libm::log(s) + power / s);
             count += weight;
         }
@@ -35,13 +35,13 @@ pub(super) fn measure(
 }
 
 /// The mean over frequencies of one segment, of a power that is known at each of them.
-pub(super) fn of_power(steady: &Steady, model: &[f64], segment: &Segment) -> f64 {
+pub(super) fn of_power(strokes: &Segments, model: &[f64], segment: &Segment) -> f64 {
     let sum: f64 = model
         .iter()
         .zip(&segment.power)
         .enumerate()
         .map(|(n, (model, power))| {
-            let s = model + noise(steady, n, *power);
+            let s = model + noise(strokes, n, *power);
             libm::log(s) + power / s
         })
         .sum();
@@ -57,8 +57,8 @@ fn angles() -> Angles {
 }
 
 /// Power of the sensors' noise at a frequency, and never nothing.
-pub(super) fn noise(steady: &Steady, n: usize, power: f64) -> f64 {
-    steady.noise_power.as_ref().map_or(0.0, |noise| noise[n]) + 1e-9 * power + 1e-15
+pub(super) fn noise(strokes: &Segments, n: usize, power: f64) -> f64 {
+    strokes.noise_power.as_ref().map_or(0.0, |noise| noise[n]) + 1e-9 * power + 1e-15
 }
 
 fn powers(field: &Field<'_>, angles: &Angles, speed_mm_s: f64, force_n: f64) -> Option<Vec<f64>> {
@@ -77,7 +77,7 @@ fn powers(field: &Field<'_>, angles: &Angles, speed_mm_s: f64, force_n: f64) -> 
 
 /// RMS over bands of the power of the nearest segments over the model, dB.
 pub(super) fn residual_db(
-    steady: &Steady,
+    strokes: &Segments,
     segments: &[&Segment],
     vertex: &GridVertex,
     form: Form,
@@ -109,7 +109,7 @@ pub(super) fn residual_db(
                         s.power[n]
                             / (level
                                 * (vertex.sigma_m_s2.powi(2) * above[n] / below[n]
-                                    + noise(steady, n, 0.0)))
+                                    + noise(strokes, n, 0.0)))
                     })
                     .sum::<f64>()
             };

@@ -40,7 +40,7 @@ pub(super) fn motion(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
         .letter(if row == 0 { 'a' } else { 'b' })
         .title(title);
         if row == 0 {
-            for segment in &import.analysis.steady.segments {
+            for segment in &import.analysis.strokes.segments {
                 let from = segment.start as f64 / RATE_HZ;
                 panel.band(
                     canvas,
@@ -107,7 +107,7 @@ pub(super) fn coverage(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
     }
     let dots: Vec<(f64, f64)> = import
         .analysis
-        .steady
+        .strokes
         .segments
         .iter()
         .map(|s| (s.speed_mm_s, s.force_n))

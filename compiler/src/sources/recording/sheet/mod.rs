@@ -92,7 +92,7 @@ fn header(canvas: &mut Canvas, import: &Shown<'_>) {
         "{:.0} s recorded, {:.0} s in contact, {:.0} s of strokes used; {faults} warnings and faults; taps {}, friction {}; nearest {}",
         analysis.checked.duration_s,
         analysis.checked.contact_s,
-        analysis.steady.covered_s(),
+        analysis.strokes.covered_s(),
         import.parts.taps,
         import.parts.friction,
         import

@@ -2,12 +2,12 @@
 
 use crate::sources::recording::{grid::Tried, sheet::Shown};
 use asperity_plot::{Axis, Canvas, Key, Marker, Panel, Rect, Stroke, ink};
-use asperity_recording::steady::frequencies_hz;
+use asperity_recording::segments::frequencies_hz;
 use asperity_texture::model::mixture::Field;
 
 /// The mean spectrum of slow or fast segments, and what the grid renders there.
 pub(super) fn spectra(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>, part: usize) {
-    let mut segments: Vec<_> = import.analysis.steady.segments.iter().collect();
+    let mut segments: Vec<_> = import.analysis.strokes.segments.iter().collect();
     segments.sort_by(|a, b| a.speed_mm_s.total_cmp(&b.speed_mm_s));
     let third = segments.len().div_ceil(3);
     let chosen = if part == 0 {
@@ -44,7 +44,7 @@ pub(super) fn spectra(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>, part:
     });
     let noise = import
         .analysis
-        .steady
+        .strokes
         .noise_power
         .as_ref()
         .map(|noise| mean(&|n| noise[n]));

@@ -1,19 +1,19 @@
 use super::*;
 use crate::sources::recording::grid::{Choice, build, simulated::segments};
 use asperity_formats::limits::{MAX_TRIANGLES, MAX_VERTICES};
-use asperity_recording::steady::POINTS;
+use asperity_recording::segments::POINTS;
 use asperity_texture::model::{ModelGrid, Numerator, mesh, mixture::Field};
 
 /// Segments of half a second of white vibration whose mean power is a function of speed and force.
-fn steady(speeds: (f64, f64), forces: (f64, f64), power: impl Fn(f64, f64) -> f64) -> Steady {
+fn strokes(speeds: (f64, f64), forces: (f64, f64), power: impl Fn(f64, f64) -> f64) -> Segments {
     let segments = segments(5, 120, (speeds, forces), |v, f, _| power(v, f));
-    Steady {
+    Segments {
         segments,
-        ..Steady::default()
+        ..Segments::default()
     }
 }
 
-fn grid(steady: &Steady, vertices: usize) -> ModelGrid {
+fn grid(strokes: &Segments, vertices: usize) -> ModelGrid {
     let choice = Choice {
         form: Form {
             order: 4,
@@ -23,10 +23,10 @@ fn grid(steady: &Steady, vertices: usize) -> ModelGrid {
         vertices,
         steepness: 0.05,
         prior_s: Some(0.5),
-        beyond: Slopes::of(steady),
+        beyond: Slopes::of(strokes),
     };
-    let all: Vec<&Segment> = steady.segments.iter().collect();
-    build(steady, &all, choice).expect("a grid").0
+    let all: Vec<&Segment> = strokes.segments.iter().collect();
+    build(strokes, &all, choice).expect("a grid").0
 }
 
 /// Power of the grid over another one, dB.
@@ -40,7 +40,7 @@ fn over_db(grid: &ModelGrid, place: (f64, f64), power: f64) -> f64 {
 #[test]
 fn a_power_law_goes_on_beyond_what_was_visited_and_rest_is_silent() {
     let law = |v: f64, f: f64| libm::pow(v / 100.0, 1.6) * libm::pow(f, 0.8);
-    let grid = grid(&steady((40.0, 160.0), (0.5, 2.0), law), 12);
+    let grid = grid(&strokes((40.0, 160.0), (0.5, 2.0), law), 12);
     // A quarter of the slowest speed may be louder: speeds count as ln(v + 3 mm/s), which alone is 1 dB.
     for (v, f, most_db) in [
         (20.0, 1.0, 2.0),
@@ -59,7 +59,7 @@ fn a_power_law_goes_on_beyond_what_was_visited_and_rest_is_silent() {
 
 #[test]
 fn a_level_that_speed_and_force_do_not_change_stays_beyond_what_was_visited() {
-    let grid = grid(&steady((40.0, 160.0), (0.5, 2.0), |_, _| 1.0), 12);
+    let grid = grid(&strokes((40.0, 160.0), (0.5, 2.0), |_, _| 1.0), 12);
     for (v, f) in [
         (20.0, 1.0),
         (10.0, 1.0),
@@ -80,13 +80,13 @@ fn any_visited_range_makes_a_grid_within_the_limits_that_is_not_much_louder() {
         ((99.0, 101.0), (1.0, 1.0)),
         ((8.0, 9_000.0), (0.03, 500.0)),
     ] {
-        let steady = steady(speeds, forces, steep);
-        let grid = grid(&steady, 25);
+        let strokes = strokes(speeds, forces, steep);
+        let grid = grid(&strokes, 25);
         assert!(grid.vertices.len() <= MAX_VERTICES, "{speeds:?}");
         assert!(grid.triangles.len() <= MAX_TRIANGLES, "{speeds:?}");
         assert_eq!(mesh::check(&grid), Ok(()), "{speeds:?}");
-        let all: Vec<&Segment> = steady.segments.iter().collect();
-        let local = Local::new(&steady, all.iter().copied());
+        let all: Vec<&Segment> = strokes.segments.iter().collect();
+        let local = Local::new(&strokes, all.iter().copied());
         let visited = Visited::new(&all);
         let mean = |place| {
             let power = local.spectrum(place, 0.5).expect("segments");

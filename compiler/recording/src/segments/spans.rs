@@ -20,7 +20,7 @@ pub(super) const STEADY: Bounds = Bounds {
     load: (0.15, 0.08),
 };
 /// One in which speed and load change. Under its window the standard deviation of a speed that changes
-/// evenly is a quarter of the fraction, so that a power of v² is found 0.2 dB too high at most.
+/// evenly is 0.28 of the fraction, so that a power of v² is found 0.2 dB too high at most.
 pub(super) const CHANGING: Bounds = Bounds {
     lengths: (100, 160),
     speed: (0.6, 5.0),

@@ -130,12 +130,12 @@ fn time_that_two_segments_share_is_covered_once() {
         is_steady: true,
         statistic: 0.0,
     };
-    let steady = Steady {
+    let steady = Segments {
         segments: vec![segment(100, 400), segment(300, 400), segment(900, 100)],
-        ..Steady::default()
+        ..Segments::default()
     };
     near(steady.covered_s(), 0.7, 1e-12);
-    assert_eq!(Steady::default().covered_s(), 0.0);
+    assert_eq!(Segments::default().covered_s(), 0.0);
 }
 
 #[test]

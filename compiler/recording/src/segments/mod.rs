@@ -1,6 +1,6 @@
-//! Stretches of steady speed and load, chosen by test statistics, with the spectra of their vibration.
+//! Stretches of strokes, chosen by test statistics, with the spectra of their vibration.
 //!
-//! A stretch is as long as speed and load stay near their means, within bounds. Hands that stroke freely
+//! A steady stretch is as long as speed and load stay near their means, within bounds. Hands that stroke freely
 //! hold neither for long. So between steady stretches there are shorter ones in which both may change by
 //! more: they count at their mean under the window of the spectrum, which its middle dominates. What the
 //! sensors themselves make is known from the air and reported beside it. What lies below [`FLOOR_HZ`] is
@@ -37,6 +37,7 @@ pub const CEILING_HZ: f64 = 448.0;
 const HIGH_PASS: (f64, usize) = (11.0, 400);
 /// A stretch in the air with more than so many times the power of their lower quartile is no rest.
 const LOUD: f64 = 1.3;
+
 /// A stretch of steady speed and load, or a shorter one in which they change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
@@ -60,7 +61,7 @@ pub struct Segment {
 
 /// What the vibration of a recording is made of.
 #[derive(Debug, Clone, Default)]
-pub struct Steady {
+pub struct Segments {
     /// The segments.
     pub segments: Vec<Segment>,
     /// Autocorrelation of the sensors' noise, from stretches in the air.
@@ -71,7 +72,7 @@ pub struct Steady {
     pub rejected: usize,
 }
 
-impl Steady {
+impl Segments {
     /// Time that the segments cover, s.
     #[must_use]
     pub fn covered_s(&self) -> f64 {
@@ -114,9 +115,9 @@ pub fn vibration(timeline: &Timeline) -> Vec<Vec<f64>> {
 
 /// Finds the segments of a recording. `axes` is its [`vibration`].
 #[must_use]
-pub fn segments(timeline: &Timeline, axes: &[Vec<f64>]) -> Steady {
+pub fn segments(timeline: &Timeline, axes: &[Vec<f64>]) -> Segments {
     let analyser = Analyser::new();
-    let mut found = Steady::default();
+    let mut found = Segments::default();
     let usable = usable(timeline);
     let steady = spans(timeline, &usable, STEADY);
     let changing = spans(timeline, &outside(&usable, &steady), CHANGING);
