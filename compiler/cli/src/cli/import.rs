@@ -1,0 +1,160 @@
+//! Arguments of the commands that check and import what others measured or modelled.
+
+use super::{ImportEffects, PreviewOptions, ReportOptions};
+use asperity::reduce::Fidelity;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A recording is a folder with recording.toml and CSV, WAV or NumPy files; \
+docs/recording.md lists every key. The check aligns the files and looks for clipping, drop-outs, \
+impossible values, clock drift, delays, hum and wrong units. If recording.toml is missing, a draft \
+of it is printed, based on the headers of the files; --init writes it instead. The exit status is 1 if there is a fault.
+
+Examples:
+  asperity record-check oak/
+  asperity record-check oak/ --init
+  asperity record-check oak/ --json"
+)]
+pub(crate) struct RecordCheck {
+    /// Folder of the recording
+    pub(crate) folder: PathBuf,
+    /// Write the draft of recording.toml into the folder; it must not exist yet
+    #[arg(long)]
+    pub(crate) init: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Import {
+    /// Import materials of the Penn Haptic Texture Toolkit
+    Hatt(ImportHatt),
+    /// Import an AR model in JSON: your own, or one that --emit-model wrote
+    Model(ImportModel),
+    /// Compile a recording of a tool on a surface: its acceleration, force and motion
+    Recording(ImportRecording),
+    /// Compile a NiceVibrations `.haptic` file into a texture
+    Haptic(ImportEffects),
+    /// Compile an Apple Haptic and Audio Pattern into a texture
+    Ahap(ImportEffects),
+    /// Compile an HJIF file (MPEG haptics) into a texture
+    Hjif(ImportEffects),
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The recording is checked and aligned, cut into segments by speed and \
+force, and fitted by AR models on a grid of speed and force; friction and taps are measured. \
+Vertices, order and smoothing are those that predict held-out segments best. The learned model \
+fills in what was not recorded, as the report then states. docs/recording.md explains every step.
+
+Examples:
+  asperity import recording oak/ -o oak.asp
+  asperity import recording oak/ -o oak.asp --plot oak.png --report oak.json
+  asperity import recording oak/ -o oak.asp --fidelity full --emit-model oak-model.json"
+)]
+pub(crate) struct ImportRecording {
+    /// Folder of the recording
+    pub(crate) folder: PathBuf,
+    /// The asset to write; `-` is standard output
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
+    #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
+    pub(crate) fidelity: Fidelity,
+    /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: 1000]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
+    /// Import even if the check found faults
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Model folder written by `asperity-train fit` [default: the embedded model]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) model: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
+    /// Plot every step of the import on one sheet
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) plot: Option<PathBuf>,
+    /// Write the report of every step as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// Also write the unreduced texture as JSON, which `asperity import model` reads
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) emit_model: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Prints one line per material: the RMS distance of its log spectra from \
+the source over 10–450 Hz, level included, and its size. `full` keeps every vertex and triangle; \
+`auto` keeps the smallest order and numerator, the fewest vertices and the shortest taps within \
+0.5 dB at 95 % of the grid and 1 dB at worst. HaTT has no recordings of taps, so they are \
+synthesised or, with --complete-taps, decoded by the learned model from the AR grid. Either way \
+the asset marks them as synthetic.
+
+Examples:
+  asperity import hatt Models_Cork.xml -o cork.asp
+  asperity import hatt Models_Cork.xml -o cork.asp --complete-taps
+  asperity import hatt hatt/models -o assets
+  asperity import hatt hatt/models -o hatt.aspl --fidelity auto"
+)]
+pub(crate) struct ImportHatt {
+    /// One `Models_<name>.xml`, or a folder of them
+    pub(crate) input: PathBuf,
+    /// One asset (.asp), a folder for one asset per material, or a library (.aspl); `-` is standard
+    /// output: a file is then written as an asset, a folder as a library
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
+    #[arg(long, default_value = "full", value_name = "full|auto|ORDER")]
+    pub(crate) fidelity: Fidelity,
+    /// Decode taps from the AR grid with the learned model instead of synthesising them
+    #[arg(long)]
+    pub(crate) complete_taps: bool,
+    /// Model folder written by `asperity-train fit` [default: the embedded model]
+    #[arg(long, value_name = "DIR", requires = "complete_taps")]
+    pub(crate) model: Option<PathBuf>,
+    /// Also write the unreduced texture as JSON; only for a single material
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) emit_model: Option<PathBuf>,
+    /// Print how long each pass took, on standard error
+    #[arg(long)]
+    pub(crate) timings: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The file gives AR or ARMA models over speed and force, and optionally taps, \
+wall, gains and provenance; docs/model.md lists every key. As with any other source, the texture \
+is reduced, verified with the runtime itself, and written. Prints how far the log spectra are from \
+those of the file over 10–450 Hz, level included, and the size.
+
+Examples:
+  asperity import model bench.json -o bench.asp
+  asperity import model bench.json -o bench.asp --fidelity auto --json
+  asperity builtin -o grit.asp --emit-model grit.json
+  asperity import model grit.json -o again.asp --no-preview"
+)]
+pub(crate) struct ImportModel {
+    /// The model (.json)
+    pub(crate) input: PathBuf,
+    /// The asset to write; `-` is standard output
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
+    #[arg(long, default_value = "full", value_name = "full|auto|ORDER")]
+    pub(crate) fidelity: Fidelity,
+    /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: the file's]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
+}
