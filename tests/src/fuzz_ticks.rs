@@ -60,7 +60,7 @@ pub fn fuzz_ticks<A: RenderArithmetic>(seed: u64, ticks: u64) -> Summary {
         let mut draw = Draw::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ session);
         let rate = draw.below(TICKS_PER_SAMPLE.len());
         let servo_rate_hz = f32::from(TICKS_PER_SAMPLE[rate]) * MODEL_RATE_HZ;
-        let config = config(&mut draw, servo_rate_hz);
+        let config = config::<A>(&mut draw, servo_rate_hz);
         run(&mut draw, &config, &textures[rate], count, &mut summary);
         session += 1;
     }
@@ -148,7 +148,7 @@ fn texture<A: RenderArithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<H
     }
 }
 
-fn config(draw: &mut Draw, servo_rate_hz: f32) -> Config {
+fn config<A: RenderArithmetic>(draw: &mut Draw, servo_rate_hz: f32) -> Config {
     let mut config = Config {
         solid: match draw.below(4) {
             0 => Solid::Sphere {
@@ -176,7 +176,9 @@ fn config(draw: &mut Draw, servo_rate_hz: f32) -> Config {
     config.limits.slew_n_s = 10_f64.powf(draw.range(-4.0, 2.0)) as f32 * servo_rate_hz;
     config.safety.hold_ticks = draw.below(3) as u32;
     config.safety.ramp_s = [0.0, 0.1, 10.0][draw.below(3)];
-    config.safety.reach_m = [0.1, 1.0][draw.below(2)];
+    // As far as the arithmetic goes, or a desk.
+    let farthest_m = if A::OUT_OF_REACH_M < 10.0 { 1.0 } else { 1.0e4 };
+    config.safety.reach_m = [0.1, farthest_m][draw.below(2)];
     config.parameter_time_constant_s = [0.0, 0.005, 0.04][draw.below(3)];
     config.tap.min_speed_m_s = [0.0, 0.01][draw.below(2)];
     config

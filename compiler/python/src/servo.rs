@@ -1,7 +1,7 @@
 //! A renderer with its texture or scene and a state, in one arithmetic.
 
 use crate::columns::Columns;
-use asperity_formats::{Asset, Coupling, Library, SceneSurface};
+use asperity_formats::{Asset, Coupling, Library, SceneSurface, limits::MAX_SURFACES};
 use asperity_runtime::{
     Config, ConfigError, Counters, Fixed, Flags, Float, HostCapacities, LoadError, Output,
     RenderArithmetic, Renderer, Sample, Scene, SceneError, SceneState, State, Texture,
@@ -134,7 +134,7 @@ where
 }
 
 /// As many surfaces as a library can hold.
-type Surfaces<'a, A> = Scene<'a, 64, HostCapacities, A>;
+type Surfaces<'a, A> = Scene<'a, MAX_SURFACES, HostCapacities, A>;
 
 struct OnScene<A: RenderArithmetic> {
     renderer: Renderer<A>,

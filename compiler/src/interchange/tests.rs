@@ -400,7 +400,7 @@ fn strange_effects_are_refused_with_their_place() {
 
 #[test]
 fn a_part_that_loses_more_than_six_decibels_is_warned_of_by_name() {
-    // One bit of amplitude and one frequency carry little of a grain.
+    // glTF holds one level and one frequency.
     for format in [
         ClipFormat::Wav,
         ClipFormat::Haptic,

@@ -23,15 +23,8 @@ const REACH_M: [f64; 2] = [0.06, 0.04];
 /// An irregular session of at least `seconds` over a grid that reaches to a speed and a force.
 #[must_use]
 pub fn script(seed: u64, seconds: f64, (max_speed_mm_s, max_force_n): (f64, f64)) -> Script {
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut between = |low: f64, high: f64| low + (high - low) * unit(&mut rng);
     let (fastest, hardest) = (MOST.0.min(max_speed_mm_s), MOST.1.min(max_force_n));
-    let mut motions = Vec::new();
-    let mut planned_s = 0.0;
-    while planned_s < seconds {
-        let hover_m = land(&mut between, &mut motions);
-        planned_s += LANDING_S;
-        let mut at_m = [hover_m[0], hover_m[1]];
+    rounds(seed, seconds, |between, mut at_m, motions, planned_s| {
         for _ in 0..STROKES {
             // As many slow strokes as fast ones, as many light ones as hard ones.
             let speed_m_s = 1e-3 * LEAST.0 * libm::pow(fastest / LEAST.0, between(0.0, 1.0));
@@ -52,7 +45,7 @@ pub fn script(seed: u64, seconds: f64, (max_speed_mm_s, max_force_n): (f64, f64)
                     cycles: 2.0,
                     force_n,
                 });
-                planned_s += 2.0 / frequency_hz + 0.4;
+                *planned_s += 2.0 / frequency_hz + 0.4;
                 at_m = to_m;
                 continue;
             }
@@ -68,28 +61,18 @@ pub fn script(seed: u64, seconds: f64, (max_speed_mm_s, max_force_n): (f64, f64)
                 speed_m_s,
                 force_n,
             });
-            planned_s += libm::hypot(to_m[0] - at_m[0], to_m[1] - at_m[1]) / speed_m_s + 0.3;
+            *planned_s += libm::hypot(to_m[0] - at_m[0], to_m[1] - at_m[1]) / speed_m_s + 0.3;
             at_m = to_m;
         }
-        motions.push(LIFT);
-        planned_s += 0.5;
-    }
-    Script::new(motions)
+    })
 }
 
 /// The same session by a hand that strokes as it likes: to and fro with minimum-jerk reversals, in arcs and
 /// in ellipses, while its force changes.
 #[must_use]
 pub fn free(seed: u64, seconds: f64, (max_speed_mm_s, max_force_n): (f64, f64)) -> Script {
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut between = |low: f64, high: f64| low + (high - low) * unit(&mut rng);
     let (fastest, hardest) = (MOST.0.min(max_speed_mm_s), MOST.1.min(max_force_n));
-    let mut motions = Vec::new();
-    let mut planned_s = 0.0;
-    while planned_s < seconds {
-        let hover_m = land(&mut between, &mut motions);
-        planned_s += LANDING_S;
-        let mut at_m = [hover_m[0], hover_m[1]];
+    rounds(seed, seconds, |between, mut at_m, motions, planned_s| {
         for _ in 0..FREE_STROKES {
             // The largest speed of the motion, which begins and ends at rest.
             let (least, most) = (3.0 * LEAST.0, fastest.max(3.0 * LEAST.0));
@@ -107,7 +90,7 @@ pub fn free(seed: u64, seconds: f64, (max_speed_mm_s, max_force_n): (f64, f64)) 
                     duration_s,
                     force_n,
                 });
-                planned_s += duration_s;
+                *planned_s += duration_s;
                 continue;
             }
             let duration_s = between(0.25, 0.7);
@@ -124,13 +107,10 @@ pub fn free(seed: u64, seconds: f64, (max_speed_mm_s, max_force_n): (f64, f64)) 
                 duration_s,
                 force_n,
             });
-            planned_s += duration_s;
+            *planned_s += duration_s;
             at_m = to_m;
         }
-        motions.push(LIFT);
-        planned_s += 0.5;
-    }
-    Script::new(motions)
+    })
 }
 
 /// Time of an approach and its taps, s.
@@ -140,19 +120,39 @@ const LIFT: Motion = Motion::Lift {
     duration_s: 0.5,
 };
 
-/// Approaches a place and taps there; returns the place, m.
-fn land(between: &mut impl FnMut(f64, f64) -> f64, motions: &mut Vec<Motion>) -> [f64; 3] {
-    let hover_m = [between(-0.05, 0.0), between(-0.03, 0.03), HOVER_M];
-    motions.push(Motion::Approach {
-        to_m: hover_m,
-        duration_s: between(1.2, 1.8),
-    });
-    for speed_m_s in TAPS_M_S.into_iter().chain(TAPS_M_S) {
-        motions.push(Motion::Tap {
-            speed_m_s: speed_m_s * between(0.92, 1.08),
+/// Rounds of an approach, taps, strokes and a lift, until the planned time is over. `strokes` gets a draw between
+/// two numbers, the place in the plane, m, the motions so far and their planned time, s.
+fn rounds(
+    seed: u64,
+    seconds: f64,
+    strokes: impl Fn(&mut dyn FnMut(f64, f64) -> f64, [f64; 2], &mut Vec<Motion>, &mut f64),
+) -> Script {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut between = |low: f64, high: f64| low + (high - low) * unit(&mut rng);
+    let mut motions = Vec::new();
+    let mut planned_s = 0.0;
+    while planned_s < seconds {
+        let hover_m = [between(-0.05, 0.0), between(-0.03, 0.03), HOVER_M];
+        motions.push(Motion::Approach {
+            to_m: hover_m,
+            duration_s: between(1.2, 1.8),
         });
+        for speed_m_s in TAPS_M_S.into_iter().chain(TAPS_M_S) {
+            motions.push(Motion::Tap {
+                speed_m_s: speed_m_s * between(0.92, 1.08),
+            });
+        }
+        planned_s += LANDING_S;
+        strokes(
+            &mut between,
+            [hover_m[0], hover_m[1]],
+            &mut motions,
+            &mut planned_s,
+        );
+        motions.push(LIFT);
+        planned_s += 0.5;
     }
-    hover_m
+    Script::new(motions)
 }
 
 /// Two taps, then strokes of one sine under one load for the rest of `seconds`.
