@@ -47,7 +47,10 @@ fn stroke(bytes: &[u8], seconds: usize) -> Vec<Output> {
     let mut texture = Box::new(HostTexture::new());
     let asset = Asset::parse(bytes).expect("an asset");
     texture.load(&asset, RATE_HZ as f32).expect("it fits");
-    let renderer = Renderer::new(&Config::default()).expect("a configuration");
+    let mut config = Config::default();
+    // A straight stroke of 60 s is 6 m long.
+    config.safety.reach_m = 1.0e4;
+    let renderer = Renderer::new(&config).expect("a configuration");
     let mut state = State::new(7);
     let outputs: Vec<Output> = (0..seconds * RATE_HZ as usize)
         .map(|n| {
@@ -63,6 +66,11 @@ fn stroke(bytes: &[u8], seconds: usize) -> Vec<Output> {
         })
         .collect();
     assert_eq!(state.counters().peak_limited, 0, "nothing clips a force");
+    assert_eq!(
+        state.counters().bad_samples,
+        0,
+        "the stroke stays within reach"
+    );
     outputs
 }
 
