@@ -3,7 +3,7 @@
 use crate::{
     autoregression::solve,
     signal::quantile::{RMS_OF_MEDIAN, mean, median, quantile},
-    timeline::Timeline,
+    timeline::{RATE_HZ, Timeline},
 };
 use serde::Serialize;
 
@@ -11,6 +11,11 @@ use serde::Serialize;
 const BLOCK: usize = 100;
 /// Slowest sliding, mm/s: below, tool and skin stick.
 const SLOWEST_MM_S: f64 = 20.0;
+/// Way after a turn until friction opposes the motion fully, mm: up to there the contact is still stretched the
+/// old way. Circles that are much smaller count as turning all the time.
+const STRETCH_MM: f64 = 2.0;
+/// Least cosine between headings that are no turn.
+const LEAST_COSINE: f64 = 0.5;
 /// Least load, N: below, the sensor's bias decides.
 const LEAST_LOAD_N: f64 = 0.2;
 /// Fewest blocks.
@@ -108,8 +113,8 @@ struct Block {
 pub fn friction(timeline: &Timeline) -> Option<Friction> {
     let drag = timeline.drag_n.as_ref()?;
     let (mut blocks, mut sticking, mut sliding) = (Vec::new(), 0, 0);
-    for start in (0..timeline.len().saturating_sub(BLOCK)).step_by(BLOCK) {
-        let span = start..start + BLOCK;
+    for block in 0..timeline.len() / BLOCK {
+        let span = block * BLOCK..(block + 1) * BLOCK;
         if !timeline.contact[span.clone()]
             .iter()
             .zip(&timeline.good[span.clone()])
@@ -121,7 +126,7 @@ pub fn friction(timeline: &Timeline) -> Option<Friction> {
         let (speed_mm_s, load_n, drag_n) = (
             mean(speeds),
             mean(&timeline.load_n[span.clone()]),
-            mean(&drag[span]),
+            mean(&drag[span.clone()]),
         );
         let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
         let fastest = speeds.iter().copied().fold(0.0, f64::max);
@@ -132,7 +137,8 @@ pub fn friction(timeline: &Timeline) -> Option<Friction> {
         if slowest < 0.1 * speed_mm_s && fastest > 2.0 * speed_mm_s {
             sticking += 1;
         }
-        if slowest > 0.5 * SLOWEST_MM_S {
+        if slowest > 0.5 * SLOWEST_MM_S && span.clone().all(|sample| is_straight(timeline, sample))
+        {
             blocks.push(Block {
                 speed_mm_s,
                 load_n,
@@ -154,6 +160,24 @@ pub fn friction(timeline: &Timeline) -> Option<Friction> {
         load_n: median(blocks.iter().map(|b| b.load_n)),
         stick_slip: f64::from(sticking) / f64::from(sliding.max(1)),
     })
+}
+
+/// Whether the tool came to a sample in touch and the way it goes there, over the stretch of the contact.
+fn is_straight(timeline: &Timeline, sample: usize) -> bool {
+    let [x, y] = timeline.heading[sample];
+    let mut way_mm = 0.0;
+    for before in (0..sample).rev() {
+        if way_mm >= STRETCH_MM {
+            return true;
+        }
+        let [x_before, y_before] = timeline.heading[before];
+        let cosine = x * x_before + y * y_before;
+        if cosine < LEAST_COSINE || !timeline.contact[before] {
+            return false;
+        }
+        way_mm += timeline.speed_mm_s[before] / RATE_HZ;
+    }
+    true
 }
 
 /// The blocks without those in which the tool caught or turned: far from the median of their neighbours in

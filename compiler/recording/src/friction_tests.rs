@@ -3,9 +3,9 @@
 use super::*;
 use crate::test_recordings::{near, timeline};
 
-/// What a timeline of these blocks gives: speed, load, μ. One sample more than the blocks.
+/// What a timeline of these blocks gives: speed, load, μ.
 fn of(blocks: &[(f64, f64, f64)]) -> Timeline {
-    let mut made = timeline(blocks.len() * BLOCK + 1);
+    let mut made = timeline(blocks.len() * BLOCK);
     let drag = made.drag_n.as_mut().expect("a drag");
     for (n, (speed_mm_s, load_n, mu)) in blocks.iter().enumerate() {
         let span = n * BLOCK..(n + 1) * BLOCK;
@@ -60,7 +60,6 @@ fn a_block_counts_if_all_of_it_touches_is_good_slides_and_presses() {
     };
     assert_eq!(count(&|_| ()), 14);
     assert_eq!(count(&|t| t.contact[300] = false), 13);
-    assert_eq!(count(&|t| t.contact[399] = false), 13);
     assert_eq!(count(&|t| t.good[399..=400].fill(false)), 12);
     assert_eq!(count(&|t| t.load_n[300..400].fill(0.19)), 13);
     assert_eq!(count(&|t| t.load_n[300..400].fill(0.21)), 14);
@@ -69,6 +68,46 @@ fn a_block_counts_if_all_of_it_touches_is_good_slides_and_presses() {
     // Sliding, and for a moment too slow to be sure of it.
     assert_eq!(count(&|t| t.speed_mm_s[350] = 10.0), 13);
     assert_eq!(count(&|t| t.speed_mm_s[350] = 10.1), 14);
+}
+
+#[test]
+fn a_block_counts_if_the_tool_came_its_way_for_two_millimetres() {
+    let count = |spoil: &dyn Fn(&mut Timeline)| {
+        let mut made = of(&[(50.0, 1.0, 0.4); 14]);
+        spoil(&mut made);
+        friction(&made).expect("enough").blocks
+    };
+    let degrees = |angle: f64| [libm::cos(angle.to_radians()), libm::sin(angle.to_radians())];
+    // At 50 mm/s, 2 mm take 40 samples.
+    let turn_at = |sample: usize, angle: f64| {
+        count(&|t| {
+            t.heading[sample..]
+                .iter_mut()
+                .for_each(|heading| *heading = degrees(angle))
+        })
+    };
+    assert_eq!(turn_at(300, 180.0), 13);
+    assert_eq!(turn_at(350, 180.0), 13);
+    assert_eq!(turn_at(261, 180.0), 12);
+    assert_eq!(
+        turn_at(260, 180.0),
+        13,
+        "the way is behind it when the block begins"
+    );
+    assert_eq!(turn_at(300, 61.0), 13);
+    assert_eq!(turn_at(300, 59.0), 14);
+    // So far it goes in touch, too.
+    assert_eq!(count(&|t| t.contact[399] = false), 12);
+    // Circles of 10 mm turn by 11.5° over the way, those of 1.5 mm by 76°.
+    let circle = |radius_mm: f64| {
+        let mut made = of(&[(50.0, 1.0, 0.4); 14]);
+        for (n, heading) in made.heading.iter_mut().enumerate() {
+            *heading = degrees((0.05 * n as f64 / radius_mm).to_degrees());
+        }
+        friction(&made).map(|friction| friction.blocks)
+    };
+    assert_eq!(circle(10.0), Some(14));
+    assert_eq!(circle(1.5), None);
 }
 
 #[test]

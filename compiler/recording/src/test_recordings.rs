@@ -79,6 +79,7 @@ pub(crate) fn timeline(count: usize) -> Timeline {
         accel_m_s2: vec![vec![0.0; count]],
         steady_m_s2: vec![0.0],
         speed_mm_s: vec![50.0; count],
+        heading: vec![[1.0, 0.0]; count],
         height_m: None,
         load_n: vec![1.0; count],
         unsmoothed_load_n: vec![1.0; count],

@@ -140,6 +140,8 @@ pub struct Timeline {
     pub steady_m_s2: Vec<f64>,
     /// Speed along the surface, mm/s.
     pub speed_mm_s: Vec<f64>,
+    /// Direction of the motion in the plane, a unit vector per sample; along one axis, its sign.
+    pub heading: Vec<[f64; 2]>,
     /// Height of the tip, m, if it was recorded.
     pub height_m: Option<Vec<f64>>,
     /// Load along the normal, N, pressing counted positive.
@@ -185,7 +187,7 @@ impl Timeline {
         let force = aligned.axes(recording, Quantity::Force);
         let load = force[2].ok_or_else(|| missing("force along the normal, axis z"))?;
         let velocity = velocity(recording, aligned);
-        let speed_mm_s = speed_mm_s(recording, aligned, velocity.as_ref())
+        let (speed_mm_s, heading) = motion(recording, aligned, velocity.as_ref())
             .ok_or_else(|| missing("position in the plane, axes x and y, and no speed"))?;
         let (load_n, bias_n, sign) = pressing(load);
         let steady_m_s2: Vec<f64> = accel.iter().map(|axis| mean(axis)).collect();
@@ -204,6 +206,7 @@ impl Timeline {
             accel_m_s2,
             steady_m_s2,
             speed_mm_s,
+            heading,
             height_m: aligned.axes(recording, Quantity::Position)[2].map(<[f64]>::to_vec),
             drag_n: drag_n(recording, aligned, velocity.as_ref(), &contact),
             unsmoothed_load_n: load.iter().map(|x| sign * x - sign * bias_n).collect(),
@@ -262,35 +265,40 @@ pub(crate) fn velocity(recording: &Recording, aligned: &Aligned) -> Option<[Vec<
     }))
 }
 
-fn speed_mm_s(
+/// Speed, mm/s: along one axis where that was recorded, or else in the plane. And the heading: in the plane where
+/// that was recorded, for a speed along an axis may have no sign.
+fn motion(
     recording: &Recording,
     aligned: &Aligned,
     velocity: Option<&[Vec<f64>; 2]>,
-) -> Option<Vec<f64>> {
-    if let Some(along) = aligned.find(recording, Quantity::Speed, Axis::Along) {
-        return Some(
-            slow(&aligned.channels[along])
-                .into_iter()
-                .map(|v| 1e3 * v.abs())
-                .collect(),
-        );
-    }
-    if let Some([x, y]) = velocity {
-        return Some(
-            x.iter()
-                .zip(y)
-                .map(|(x, y)| 1e3 * libm::hypot(*x, *y))
-                .collect(),
-        );
-    }
-    let along = aligned.find(recording, Quantity::Position, Axis::Along)?;
-    let steps = slow(&derivative(&aligned.channels[along]));
-    Some(
-        steps
-            .into_iter()
-            .map(|step| 1e3 * RATE_HZ * step.abs())
+) -> Option<(Vec<f64>, Vec<[f64; 2]>)> {
+    let along = |quantity| {
+        let channel = aligned.find(recording, quantity, Axis::Along)?;
+        Some(&aligned.channels[channel])
+    };
+    let along_m_s = match (along(Quantity::Speed), velocity) {
+        (Some(speed), _) => Some(slow(speed)),
+        (None, Some(_)) => None,
+        (None, None) => {
+            let steps = slow(&derivative(along(Quantity::Position)?));
+            Some(steps.iter().map(|step| RATE_HZ * step).collect())
+        }
+    };
+    let plane_m_s: Vec<[f64; 2]> = match velocity {
+        Some([x, y]) => x.iter().zip(y).map(|(&x, &y)| [x, y]).collect(),
+        None => along_m_s
+            .iter()
+            .flatten()
+            .map(|&v: &f64| [v, 0.0])
             .collect(),
-    )
+    };
+    let length = |v: &[f64; 2]| libm::hypot(v[0], v[1]);
+    let speed_mm_s = match &along_m_s {
+        Some(along) => along.iter().map(|v: &f64| 1e3 * v.abs()).collect(),
+        None => plane_m_s.iter().map(|v| 1e3 * length(v)).collect(),
+    };
+    let unit = |v: &[f64; 2]| v.map(|axis| axis / length(v).max(f64::MIN_POSITIVE));
+    Some((speed_mm_s, plane_m_s.iter().map(unit).collect()))
 }
 
 /// The load with pressing positive, free of the bias that it shows in the air, that bias, and the sign

@@ -106,6 +106,32 @@ fn speeds_are_those_of_the_plane_however_they_are_told() {
 }
 
 #[test]
+fn a_heading_is_that_of_the_plane_or_the_sign_along_an_axis() {
+    let middle = |channels| {
+        let [x, y] = made(channels).expect("a timeline").heading[2000];
+        near(libm::hypot(x, y), 1.0, 1e-9);
+        libm::atan2(y, x).to_degrees()
+    };
+    let position = |axis, slope: f64| along(Quantity::Position, axis, move |t| slope * t);
+    let speed = |axis, value: f64| along(Quantity::Speed, axis, move |_| value);
+    near(
+        middle(vec![position(Axis::X, 0.03), position(Axis::Y, -0.03)]),
+        -45.0,
+        0.01,
+    );
+    near(middle(vec![position(Axis::Y, 0.03)]), 90.0, 0.01);
+    near(middle(vec![position(Axis::Along, 0.03)]), 0.0, 0.01);
+    near(middle(vec![position(Axis::Along, -0.03)]), 180.0, 0.01);
+    near(middle(vec![speed(Axis::Along, -0.11)]), 180.0, 0.01);
+    // A speed that has no sign beside a position that has one.
+    near(
+        middle(vec![speed(Axis::Along, 0.11), position(Axis::X, -0.03)]),
+        180.0,
+        0.01,
+    );
+}
+
+#[test]
 fn a_timeline_is_free_of_gravity_and_of_the_bias_of_the_load() {
     let height = along(Quantity::Position, Axis::Z, |t| 0.25 * t);
     let found = made(vec![

@@ -86,6 +86,7 @@ fn segments(axes: &[Vec<f64>], speeds: &[usize]) -> Segments {
             .collect(),
         steady_m_s2: vec![0.0; axes.len()],
         speed_mm_s: (0..count).map(|n| STEP_MM_S * speed_of(n) as f64).collect(),
+        heading: vec![[1.0, 0.0]; count],
         height_m: None,
         load_n: vec![LOAD_N; count],
         unsmoothed_load_n: vec![LOAD_N; count],
