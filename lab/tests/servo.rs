@@ -230,7 +230,7 @@ fn a_run_is_written_merged_and_compared() {
         &[
             "jitter",
             "merge",
-            "a/run.hlog",
+            "a",
             "b/run.hlog",
             "-o",
             "both.hlog",
@@ -238,7 +238,7 @@ fn a_run_is_written_merged_and_compared() {
     );
     let shifts = ok(
         folder.path(),
-        &["jitter", "compare", "a/run.hlog", "both.hlog", "--json"],
+        &["jitter", "compare", "a", "both.hlog", "--json"],
     );
     let shifts = json(&shifts);
     let median = shifts["shifts"].as_array().expect("an array").iter();

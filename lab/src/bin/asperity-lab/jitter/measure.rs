@@ -129,8 +129,10 @@ pub(super) fn measure(arguments: &Arguments, console: Console) -> Result<(), Fai
     series
 }
 
+/// The interval log of a run, in its folder.
+pub(super) const LOG_OF_A_RUN: &str = "run.hlog";
 /// The files by which a folder holds a run.
-const OF_A_RUN: [&str; 2] = ["run.json", "run.hlog"];
+const OF_A_RUN: [&str; 2] = ["run.json", LOG_OF_A_RUN];
 
 /// Whether a folder is there or can be made, and holds no run that would be lost, before anything
 /// is measured.
@@ -236,7 +238,7 @@ fn tell(
                 percentiles(run, wakeups).into_bytes(),
             ),
             ("jitter.png".to_owned(), draw(run, wakeups).map_err(bug)?),
-            ("run.hlog".to_owned(), write_log(run).map_err(bug)?),
+            (LOG_OF_A_RUN.to_owned(), write_log(run).map_err(bug)?),
         ];
         for stage in Stage::ALL {
             let kinds = [("", run.raw(stage)), ("-corrected", run.corrected(stage))];

@@ -15,8 +15,8 @@ use crate::loop_options::{self, LoopOptions};
 
 /// What `compare` and `overlay` read.
 const FILES: &str =
-    "A run is a run.hlog that `asperity-lab jitter -o` wrote, a percentile distribution
-(.hgrm), what `cyclictest --json` writes, or CSV with a latency in each line.";
+    "A run is a folder that `asperity-lab jitter -o` wrote or the run.hlog in it, a percentile
+distribution (.hgrm), what `cyclictest --json` writes, or CSV with a latency in each line.";
 
 /// Measure the latency and jitter of a servo loop
 ///
@@ -32,8 +32,8 @@ const FILES: &str =
   asperity-lab jitter --inject compute:300:1000        does the report find a delay of 300 µs?
   asperity-lab jitter --seconds 60 --max-us 500 --max-missed 0 --series ticks.csv
   asperity-lab jitter merge monday.hlog tuesday.hlog -o both.hlog
-  asperity-lab jitter compare calm/run.hlog loaded/run.hlog
-  asperity-lab jitter overlay calm/run.hlog loaded/run.hlog cyclictest.json -o overlay.png
+  asperity-lab jitter compare calm loaded
+  asperity-lab jitter overlay calm loaded cyclictest.json -o overlay.png
 
 With --output: run.json, percentiles.csv, jitter.png, run.hlog (an interval log), and a percentile
 distribution (.hgrm) of every stage, raw and corrected, as HdrHistogram's own tools read them.")]
@@ -81,7 +81,7 @@ pub(crate) struct Arguments {
 enum Command {
     /// Merge the interval logs of several runs into one
     Merge {
-        /// Interval logs (run.hlog) to merge
+        /// Runs to merge: folders of --output, or the run.hlog in them
         #[arg(required = true, num_args = 2..)]
         logs: Vec<PathBuf>,
         /// The merged log; `-` is standard output

@@ -1,6 +1,6 @@
 //! Runs that were measured: merged, compared, and drawn over each other.
 
-use super::Foreign;
+use super::{Foreign, measure::LOG_OF_A_RUN};
 use crate::error::Plain;
 use asperity_console::Console;
 use asperity_host::latency::{self, Run, read_distribution, read_log, write_log};
@@ -12,6 +12,15 @@ use asperity_io::{
 use asperity_lab::jitter::{draw_overlay, encode_runs, encode_shifts, shifts, side_by_side};
 use std::path::{Path, PathBuf};
 
+/// The file of a run: its interval log, where the folder of `jitter --output` is given.
+fn file_of(path: &Path) -> PathBuf {
+    if path.is_dir() {
+        path.join(LOG_OF_A_RUN)
+    } else {
+        path.to_owned()
+    }
+}
+
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Failures> {
     input::read(path, Kind::Log).map_err(|problem| {
         let file = path.to_owned();
@@ -21,6 +30,7 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, Failures> {
 
 /// Reads an interval log of ours, or latencies that another tool counted.
 fn read(path: &Path, foreign: &Foreign) -> Result<Run, Failures> {
+    let path = &file_of(path);
     let bytes = bytes_of(path)?;
     if bytes.starts_with(b"#") {
         return log_of(path, &bytes);
@@ -105,7 +115,10 @@ pub(super) fn merge(logs: &[PathBuf], output: &Path, console: Console) -> Result
     let mut outputs = Outputs::beside(logs);
     let file = outputs.open(output).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut runs = logs.iter().map(|path| log_of(path, &bytes_of(path)?));
+    let mut runs = logs.iter().map(|path| {
+        let path = file_of(path);
+        log_of(&path, &bytes_of(&path)?)
+    });
     let Some(first) = runs.next() else {
         return Ok(());
     };
