@@ -227,14 +227,7 @@ fn a_run_is_written_merged_and_compared() {
     ok(folder.path(), &["jitter", "--seconds", "1", "-o", "b"]);
     ok(
         folder.path(),
-        &[
-            "jitter",
-            "merge",
-            "a",
-            "b/run.hlog",
-            "-o",
-            "both.hlog",
-        ],
+        &["jitter", "merge", "a", "b/run.hlog", "-o", "both.hlog"],
     );
     let shifts = ok(
         folder.path(),

@@ -7,8 +7,9 @@ use crate::support::{
     self, c,
     c::{root, succeeded},
 };
-use asperity::interchange::{Language, export_bytes};
-use asperity_formats::library;
+use asperity::interchange::{Language, SourceOptions, export_source};
+use asperity::library::{NamedAsset, encode, encode_scene};
+use asperity_formats::{SceneSurface, Solid, library};
 use std::{
     env, fs,
     path::{Path, PathBuf},
@@ -34,9 +35,7 @@ fn packed() -> Vec<u8> {
 }
 
 const C_PROGRAM: &str = r#"
-#include "grit.h"
-#include "hall.h"
-#include <asperity.h>
+INCLUDES#include <asperity.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -48,14 +47,14 @@ int main(void) {
     struct AsperityConfig config;
     struct AsperityRenderer *renderer;
     struct AsperityTexture *texture;
-    if ((uintptr_t)asperity_grit % 8 != 0 || (uintptr_t)asperity_hall % 8 != 0) return 2;
+    if ((uintptr_t)asperity_image_tick % 8 != 0 || (uintptr_t)hall % 8 != 0) return 2;
     if (asperity_config_default(&config, sizeof config)) return 3;
     if (asperity_renderer_init(renderer_memory, sizeof renderer_memory, &config, &renderer, NULL)) return 4;
     if (asperity_texture_init(texture_memory, sizeof texture_memory, renderer,
                               ASPERITY_CAPACITY_LARGE, &texture)) return 5;
-    if (asperity_texture_load_asset(texture, asperity_grit, ASPERITY_GRIT_SIZE, NULL)) return 6;
-    if (asperity_texture_load_name(texture, asperity_hall, ASPERITY_HALL_SIZE, "grit", NULL)) return 7;
-    puts("loaded");
+    if (asperity_texture_load_asset(texture, asperity_image_tick, ASPERITY_IMAGE_TICK_SIZE, NULL)) return 6;
+    if (asperity_texture_load_name(texture, hall, HALL_SIZE, "grit", NULL)) return 7;
+SIZES    puts("loaded");
     return 0;
 }
 "#;
@@ -64,17 +63,44 @@ int main(void) {
 fn a_c_array_is_compiled_without_a_warning_and_loaded_in_place() {
     let folder = folder("c");
     let library = packed();
+    let grit = support::builtin();
+    // Names of the C face, names without a letter of ASCII, and one that would end the comment.
+    let exported = [
+        ("tick", "tick", &grit, None),
+        ("State", "State", &grit, None),
+        ("木", "tree", &grit, None),
+        ("林", "wood", &grit, None),
+        ("*/ \\ ??/", "odd", &grit, None),
+        ("hall", "hall", &library, Some("hall")),
+    ];
     let mut sources = Vec::new();
-    for (name, bytes) in [("grit", support::builtin()), ("hall", library)] {
-        let header = format!("{name}.h");
-        let about = [format!("{name} */ \\ ??/")];
-        let (source, declarations) = export_bytes(Language::C, name, &about, &bytes, Some(&header));
-        fs::write(folder.join(&header), declarations.unwrap()).unwrap();
-        let source_file = folder.join(format!("{name}.c"));
-        fs::write(&source_file, source).unwrap();
+    let mut symbols = Vec::new();
+    for (name, file, bytes, symbol) in exported {
+        let header = format!("{file}.h");
+        let options = SourceOptions {
+            header: Some(&header),
+            symbol,
+            keep_preview: false,
+        };
+        let written = export_source(Language::C, name, bytes, &options).unwrap();
+        fs::write(folder.join(&header), written.header.unwrap()).unwrap();
+        let source_file = folder.join(format!("{file}.c"));
+        fs::write(&source_file, written.text).unwrap();
         sources.push(source_file);
+        symbols.push(written.symbol);
     }
-    fs::write(folder.join("main.c"), C_PROGRAM).unwrap();
+    let includes: String = exported
+        .iter()
+        .map(|(_, file, ..)| format!("#include \"{file}.h\"\n"))
+        .collect();
+    let sizes: String = symbols
+        .iter()
+        .map(|symbol| format!("    if (sizeof {symbol} < 1000) return 8;\n"))
+        .collect();
+    let program = C_PROGRAM
+        .replace("INCLUDES", &includes)
+        .replace("SIZES", &sizes);
+    fs::write(folder.join("main.c"), program).unwrap();
     let program = folder.join("program");
     for standard in ["-std=c99", "-std=c11"] {
         // The alignment of C99 is an attribute, which `-pedantic` lets pass.
@@ -98,10 +124,24 @@ fn a_c_array_is_compiled_without_a_warning_and_loaded_in_place() {
 #[test]
 fn a_c_array_without_a_header_stands_alone() {
     let folder = folder("alone");
-    let (source, header) = export_bytes(Language::C, "grit", &[], &[1, 2, 3], None);
-    assert!(header.is_none());
+    let written = |header| {
+        let options = SourceOptions {
+            header,
+            ..SourceOptions::default()
+        };
+        export_source(Language::C, "grit", &support::builtin(), &options).unwrap()
+    };
+    let alone = written(None);
+    assert!(alone.header.is_none());
+    // `#include` knows no escapes, so a header that it cannot name is not included.
+    for header in ["a\"b.h", "a\\b.h", "a\nb.h", "a??/b.h"] {
+        let odd = written(Some(header));
+        assert_eq!(odd.text, alone.text, "{header:?}");
+        assert!(odd.header.is_some());
+    }
+    assert_ne!(written(Some("a b – ä.h")).text, alone.text);
     let file = folder.join("grit.c");
-    fs::write(&file, source).unwrap();
+    fs::write(&file, alone.text).unwrap();
     succeeded(
         Command::new("cc")
             .args(["-std=c11", "-Wall", "-Wextra", "-pedantic", "-Werror", "-c"])
@@ -115,13 +155,15 @@ fn a_c_array_without_a_header_stands_alone() {
 fn a_rust_static_is_aligned_and_holds_the_bytes() {
     let folder = folder("rust");
     let bytes = support::builtin();
-    let about = ["text \u{202e} with\ncontrols".to_owned()];
-    let (source, _) = export_bytes(Language::Rust, "grit", &about, &bytes, None);
+    let written =
+        |name| export_source(Language::Rust, name, &bytes, &SourceOptions::default()).unwrap();
+    // Two in one module do not collide.
+    let mut source = written("grit").text;
+    source.extend(written("text \u{202e} with\ncontrols").text);
     fs::write(folder.join("grit.rs"), source).unwrap();
-    let program = "mod grit;\nuse std::io::Write;\nfn main() {\n    \
-        let image: &[u8] = grit::ASPERITY_GRIT;\n    \
+    let program = "#[allow(dead_code)]\nmod grit;\nuse std::io::Write;\nfn main() {\n    \
+        let image: &[u8] = grit::ASPERITY_IMAGE_GRIT;\n    \
         assert_eq!(image.as_ptr() as usize % 8, 0);\n    \
-        assert_eq!(image.len(), grit::ASPERITY_GRIT_IMAGE.0.len());\n    \
         std::io::stdout().write_all(image).unwrap();\n}\n";
     fs::write(folder.join("main.rs"), program).unwrap();
     let output = folder.join("program");
@@ -136,4 +178,76 @@ fn a_rust_static_is_aligned_and_holds_the_bytes() {
     let printed = succeeded(&mut Command::new(&output)).stdout;
     assert_eq!(printed, bytes);
     asperity_formats::Asset::parse(&printed).unwrap();
+}
+
+/// Claim: no name of the C face begins as the symbols of images do, so no image collides with it.
+#[test]
+fn the_names_of_images_are_theirs_alone() {
+    let include = root().join("runtime/c/include");
+    for header in ["asperity.h", "asperity.hpp", "asperity_base.hpp"] {
+        let text = fs::read_to_string(include.join(header)).unwrap();
+        assert!(
+            text.len() > 1000 && !text.to_lowercase().contains("asperity_image"),
+            "{header}"
+        );
+    }
+}
+
+/// Claim: without --keep-preview, an image is the asset or library without its pictures, and a scene stays one.
+#[test]
+fn pictures_stay_out_of_images() {
+    let plain = support::builtin();
+    let png = b"\x89PNG\r\n\x1a\n and pixels";
+    let pictured = asperity::lower::lower(&asperity::builtin::texture(), Some(png))
+        .unwrap()
+        .bytes;
+    let library_of = |asset: &[u8], surfaces: &[SceneSurface]| {
+        let named = [NamedAsset {
+            name: "grit",
+            bytes: asset,
+        }];
+        if surfaces.is_empty() {
+            encode(&named).unwrap()
+        } else {
+            encode_scene(&named, surfaces).unwrap()
+        }
+    };
+    let surface = SceneSurface {
+        solid: Solid::Sphere {
+            center_m: [0.0; 3],
+            radius_m: 0.05,
+        },
+        from_m: [-0.1; 3],
+        to_m: [0.1; 3],
+        texture: 0,
+    };
+    for (with, without) in [
+        (pictured.clone(), plain.clone()),
+        (library_of(&pictured, &[]), library_of(&plain, &[])),
+        (
+            library_of(&pictured, &[surface]),
+            library_of(&plain, &[surface]),
+        ),
+    ] {
+        let image_of = |bytes: &[u8], keep_preview| {
+            let options = SourceOptions {
+                keep_preview,
+                ..SourceOptions::default()
+            };
+            let written = export_source(Language::C, "grit", bytes, &options).unwrap();
+            let text = String::from_utf8(written.text).unwrap();
+            let (_, data) = text.split_once("= {").unwrap();
+            let numbers = data
+                .split([',', '}', ';'])
+                .map(str::trim)
+                .filter(|number| !number.is_empty());
+            let image: Vec<u8> = numbers.map(|number| number.parse().unwrap()).collect();
+            assert_eq!(image.len(), written.image_len);
+            image
+        };
+        assert!(with.len() > without.len());
+        assert_eq!(image_of(&with, false), without);
+        assert_eq!(image_of(&with, true), with);
+    }
+    assert!(export_source(Language::C, "grit", &plain[1..], &SourceOptions::default()).is_err());
 }

@@ -9,7 +9,7 @@ fn wrong_usage_exits_with_2_and_every_command_has_examples() {
     for name in ["two/a.xml", "two/b.xml"] {
         fs::write(folder.path().join(name), material(name)).expect("a file");
     }
-    let wrong: [&[&str]; 10] = [
+    let wrong: [&[&str]; 13] = [
         // Two materials do not fit one asset.
         &["import", "hatt", "two", "-o", "out.asp"],
         &[],
@@ -38,6 +38,21 @@ fn wrong_usage_exits_with_2_and_every_command_has_examples() {
             "7.5",
         ],
         &["import", "wav", "a.wav"],
+        &[
+            "export", "a.asp", "--to", "rust", "-o", "a.rs", "--symbol", "a-b",
+        ],
+        &[
+            "export", "a.asp", "--to", "wav", "-o", "a.wav", "--symbol", "a",
+        ],
+        &[
+            "export",
+            "a.asp",
+            "--to",
+            "wav",
+            "-o",
+            "a.wav",
+            "--keep-preview",
+        ],
     ];
     for arguments in wrong {
         let output = asperity(folder.path(), arguments);

@@ -8,7 +8,10 @@ use crate::{
     texture::Texture,
 };
 use asperity::{
-    interchange::{self, ClipFormat, Format, Language, Options, export_source, ranges, session},
+    interchange::{
+        self, ClipFormat, Format, Language, Options, SourceOptions, export_source, parse_symbol,
+        ranges, session,
+    },
     preview,
 };
 use asperity_io::output::Outputs;
@@ -60,6 +63,10 @@ struct Written {
 ///     Rate of the servo loop, Hz; that of the texture by default.
 /// size : int, default 256
 ///     Width and height of the pictures of glTF, pixels.
+/// symbol : str, optional
+///     Symbol of the array in source text; ``asperity_image_`` and the name by default.
+/// keep_preview : bool, default False
+///     Whether source text keeps preview pictures, which a runtime does not read.
 ///
 /// Returns
 /// -------
@@ -86,11 +93,12 @@ struct Written {
 #[pyo3(
     signature = (
         texture, to, path=None, *, speed_mm_s=None, force_n=None, time_s=None, taps=false,
-        full_scale_m_s2=None, tap_full_scale_m_s2=None, seed=Seed(0), rate=None, size=preview::SIZE
+        full_scale_m_s2=None, tap_full_scale_m_s2=None, seed=Seed(0), rate=None, size=preview::SIZE,
+        symbol=None, keep_preview=false
     ),
     text_signature = "(texture, to, path=None, *, speed_mm_s=None, force_n=None, time_s=None, \
                       taps=False, full_scale_m_s2=None, tap_full_scale_m_s2=None, seed=0, \
-                      rate=None, size=256)"
+                      rate=None, size=256, symbol=None, keep_preview=False)"
 )]
 #[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 pub(crate) fn export<'py>(
@@ -107,6 +115,8 @@ pub(crate) fn export<'py>(
     seed: Seed,
     rate: Option<f32>,
     size: u32,
+    symbol: Option<&str>,
+    keep_preview: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
     let format: Format = to.parse().map_err(|rule: String| {
         Failure::usage(
@@ -135,12 +145,37 @@ pub(crate) fn export<'py>(
         tap_full_scale_m_s2: tap_full_scale_m_s2.map(f64::from),
         size_px: within("size", size, &preview::SIZES)?,
     };
+    if matches!(format, Format::Clip(_)) && (symbol.is_some() || keep_preview) {
+        let name = if keep_preview {
+            "keep_preview"
+        } else {
+            "symbol"
+        };
+        return Err(Failure::usage(
+            format!("{name}: a {format} file has none"),
+            "give it with to=\"c-array\" or to=\"rust\" alone",
+        )
+        .into());
+    }
+    if let Some(symbol) = symbol {
+        parse_symbol(symbol).map_err(|rule| {
+            Failure::usage(
+                format!("symbol = {symbol:?}: not {rule}"),
+                "give another name",
+            )
+        })?;
+    }
+    let source_options = SourceOptions {
+        header: None,
+        symbol,
+        keep_preview,
+    };
     let what = match &texture {
         Exportable::Texture(texture) => What::Texture(texture.get()),
         Exportable::Library(library) => What::Library(library.get()),
     };
     let written = py.detach(|| {
-        let written = what.written(format, path.as_deref(), &options)?;
+        let written = what.written(format, path.as_deref(), &options, source_options)?;
         if let Some(path) = &path {
             written.write(path)?;
         }
@@ -170,21 +205,22 @@ impl What<'_> {
         format: Format,
         path: Option<&Path>,
         options: &Options,
+        source_options: SourceOptions<'_>,
     ) -> Result<Written, Failure> {
         match (self, format) {
             (Self::Texture(texture), Format::Clip(format)) => clip(texture, format, options),
             (Self::Texture(texture), Format::Source(language)) => {
                 let contents = &texture.contents;
-                Ok(source(
-                    contents.asset()?.name(),
-                    contents.bytes(),
-                    language,
-                    path,
-                ))
+                let name = contents.asset()?.name();
+                source(name, contents.bytes(), language, path, source_options)
             }
-            (Self::Library(library), Format::Source(language)) => {
-                Ok(source(&library.name(), &library.bytes()?, language, path))
-            }
+            (Self::Library(library), Format::Source(language)) => source(
+                &library.name(),
+                &library.bytes()?,
+                language,
+                path,
+                source_options,
+            ),
             (Self::Library(_), Format::Clip(_)) => Err(Failure::usage(
                 format!("texture: a {format} file holds one texture, not a library"),
                 "export each texture of the library",
@@ -207,22 +243,33 @@ fn clip(texture: &Texture, format: ClipFormat, options: &Options) -> Result<Writ
 }
 
 /// The bytes of an asset or a library as source text.
-fn source(name: &str, bytes: &[u8], language: Language, path: Option<&Path>) -> Written {
+fn source(
+    name: &str,
+    bytes: &[u8],
+    language: Language,
+    path: Option<&Path>,
+    options: SourceOptions<'_>,
+) -> Result<Written, Failure> {
     let beside = path.and_then(|path| header(language, path));
     let header = beside.as_deref().and_then(Path::file_name);
     let header = header.map(|name| name.to_string_lossy().into_owned());
-    let (data, header) = export_source(language, name, bytes, header.as_deref());
+    let options = SourceOptions {
+        header: header.as_deref(),
+        ..options
+    };
+    let written = export_source(language, name, bytes, &options)?;
     let report = json!({
         "format": Format::Source(language).name(),
         "name": name,
-        "bytes": { "image": bytes.len(), "written": data.len() },
+        "symbol": written.symbol,
+        "bytes": { "image": written.image_len, "written": written.text.len(), "left_out": bytes.len() - written.image_len },
         "lossless": true,
     });
-    Written {
-        data,
-        header,
+    Ok(Written {
+        data: written.text,
+        header: written.header,
         report,
-    }
+    })
 }
 
 /// The header that goes beside a source file.

@@ -38,6 +38,9 @@ def test_what_makes_no_sense_is_a_usage_error_that_names_the_argument(texture):
         ("solid = ", lambda: asperity.Renderer(texture, solid="ball")),
         ("solid.center_m = ", lambda: asperity.Renderer(texture, solid=asperity.Sphere(0, 1))),
         ("solid.radius_m = -1", lambda: asperity.Renderer(texture, solid=asperity.Sphere((0, 0, 0), -1))),
+        ("symbol = .a-b", lambda: asperity.export(texture, "rust", symbol="a-b")),
+        ("symbol: a wav file", lambda: asperity.export(texture, "wav", symbol="a")),
+        ("keep_preview: a wav file", lambda: asperity.export(texture, "wav", keep_preview=True)),
         ("preview = 7", lambda: asperity.compile("cork", preview=7)),
         ("vibration_axis = ", lambda: asperity.Renderer(texture, vibration_axis="up")),
     ]:

@@ -39,6 +39,7 @@ def test_every_format_has_the_bytes_and_the_loss_of_the_command(to, grit, comman
 def test_options_of_an_export_are_those_of_the_command(grit, command, tmp_path):
     grit.save(tmp_path / "grit.asp")
     for to, options, arguments in [
+        ("rust", {"symbol": "rough", "keep_preview": True}, ["--symbol", "rough", "--keep-preview"]),
         ("wav", {"taps": True}, ["--taps"]),
         ("hjif", {"speed_mm_s": 200, "force_n": 1.5, "time_s": 0.5}, ["--speed", 200, "--force", 1.5, "--time", 0.5]),
         ("ahap", {"full_scale_m_s2": 10, "tap_full_scale_m_s2": 50}, ["--full-scale", 10, "--tap-full-scale", 50]),

@@ -27,7 +27,7 @@ use crate::{
     edit_memory::remembered,
     emit::{
         lower::{ErrorSummary, LowerError, Lowered},
-        rename::renamed,
+        sections::renamed,
     },
     passes::reduce::{Fidelity, reduce},
     pipeline::{Beside, Pass, Pipeline, PipelineError, Request},

@@ -3,6 +3,6 @@
 
 pub mod lower;
 pub mod raise;
-pub(crate) mod rename;
+pub(crate) mod sections;
 pub mod textures;
 pub mod verify;

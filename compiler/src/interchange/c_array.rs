@@ -81,34 +81,9 @@ pub(super) fn safe(text: &str) -> String {
         .collect()
 }
 
-/// A name as an identifier: letters, digits and `_`, not beginning with a digit.
-pub(super) fn symbol(name: &str) -> String {
-    let mut symbol = "asperity".to_owned();
-    let mut gap = true;
-    for c in name.chars() {
-        if c.is_ascii_alphanumeric() {
-            if gap {
-                symbol.push('_');
-            }
-            symbol.push(c.to_ascii_lowercase());
-            gap = false;
-        } else {
-            gap = true;
-        }
-    }
-    symbol
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_name_becomes_an_identifier() {
-        assert_eq!(symbol("Built-in Grit"), "asperity_built_in_grit");
-        assert_eq!(symbol("木 2"), "asperity_2");
-        assert_eq!(symbol("🔥"), "asperity");
-    }
 
     #[test]
     fn what_a_texture_is_called_ends_no_comment() {

@@ -1,13 +1,12 @@
 //! A texture in a format by its name, and what of it the format carries.
 
 use super::{
-    ahap, c_array,
+    ahap,
     clip::{Clip, Scale, Take},
     csv,
     error::{ExportError, Fault},
     gltf, haptic, hjif, hmpg,
     playback::{PLAY_HZ, Track},
-    rust_source,
     third_octave::{Loss, Shape, loss},
     wav,
 };
@@ -220,43 +219,6 @@ pub struct Carried {
     pub part: String,
     /// The difference in third octaves; `None` for a part that does not sound.
     pub loss: Option<Loss>,
-}
-
-/// The bytes of an asset or a library as source text that says what they are: the file, and its header if `header`
-/// names one.
-#[must_use]
-pub fn export_source(
-    language: Language,
-    name: &str,
-    bytes: &[u8],
-    header: Option<&str>,
-) -> (Vec<u8>, Option<Vec<u8>>) {
-    let about = [
-        format!(
-            "{name}: {} bytes, written by asperity {}",
-            bytes.len(),
-            env!("CARGO_PKG_VERSION")
-        ),
-        "An asset of Asperity, or a library; formats/SPEC.md says what each byte means.".to_owned(),
-    ];
-    export_bytes(language, name, &about, bytes, header)
-}
-
-/// As [`export_source`], with these lines before the bytes.
-#[must_use]
-pub fn export_bytes(
-    language: Language,
-    name: &str,
-    about: &[String],
-    bytes: &[u8],
-    header: Option<&str>,
-) -> (Vec<u8>, Option<Vec<u8>>) {
-    let symbol = c_array::symbol(name);
-    if language == Language::Rust {
-        return (rust_source::write(&symbol, about, bytes), None);
-    }
-    let written = c_array::write(&symbol, about, bytes, header);
-    (written.source, header.map(|_| written.header))
 }
 
 /// RMS over third octaves above which a part does not feel as it was, dB.

@@ -33,7 +33,7 @@
 //! | `clip`, `envelope` | strokes and taps on one time line; amplitude and frequency over time |
 //! | `playback` | how a player renders tones, curves and transients |
 //! | `third_octave` | band levels, and the difference of two of them |
-//! | `c_array`, `rust_source` | the bytes of an asset or a library as source text |
+//! | `source`, `c_array`, `rust_source` | the bytes of an asset or a library as source text |
 //! | `wav`, `csv` | the clip sample by sample |
 //! | `haptic`, `ahap`, `hjif`, `hmpg` | the clip as effects; the first three are also read |
 //! | `gltf` | a material that looks and feels: MPEG_haptic_material |
@@ -53,6 +53,7 @@ mod hmpg;
 mod parse;
 pub mod playback;
 mod rust_source;
+mod source;
 #[cfg(test)]
 mod tests;
 pub mod third_octave;
@@ -61,6 +62,6 @@ mod wav;
 pub use clip::{Clip, Scale, Take};
 pub use error::{EffectError, EffectProblem, ExportError};
 pub use export::{
-    Carried, ClipFormat, Exported, Format, Language, Options, clip, export, export_bytes,
-    export_source, ranges, session,
+    Carried, ClipFormat, Exported, Format, Language, Options, clip, export, ranges, session,
 };
+pub use source::{SourceError, SourceOptions, SourceText, export_source, parse_symbol};

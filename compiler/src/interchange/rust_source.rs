@@ -17,12 +17,10 @@ pub(super) fn write(symbol: &str, about: &[String], bytes: &[u8]) -> Vec<u8> {
     let len = bytes.len();
     let _ = write!(
         text,
-        "\n/// Bytes that begin at a multiple of 8.\n\
-         #[repr(C, align(8))]\npub struct Aligned<const N: usize>(pub [u8; N]);\n\n\
-         /// The image, e.g. for `asperity_formats::Asset::parse`.\n\
-         pub static {name}: &[u8] = &{name}_IMAGE.0;\n\n\
-         /// The image, aligned.\n\
-         #[rustfmt::skip]\npub static {name}_IMAGE: Aligned<{len}> = Aligned([\n"
+        "\n/// The image, e.g. for `asperity_formats::Asset::parse`; it begins at a multiple of 8.\n\
+         #[rustfmt::skip]\npub static {name}: &[u8] = {{\n\
+         #[repr(C, align(8))]\nstruct Aligned([u8; {len}]);\n\
+         static IMAGE: Aligned = Aligned([\n"
     );
     for line in bytes.chunks(LINE) {
         text.push_str("   ");
@@ -31,6 +29,6 @@ pub(super) fn write(symbol: &str, about: &[String], bytes: &[u8]) -> Vec<u8> {
         }
         text.push('\n');
     }
-    text.push_str("]);\n");
+    text.push_str("]);\n&IMAGE.0\n};\n");
     text.into_bytes()
 }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::emit::{
     lower::LowerError,
-    rename::renamed,
+    sections::renamed,
     textures::{Textures, TexturesError},
 };
 use asperity_formats::Asset;

@@ -52,7 +52,7 @@ mod spill;
 mod split;
 mod user_folder;
 
-pub use crate::emit::rename::renamed;
+pub use crate::emit::sections::{renamed, without_preview};
 pub use build::{Build, Built, Request};
 pub use build_file::BuildFile;
 pub use cache::{Cache, default_folder};

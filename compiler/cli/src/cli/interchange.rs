@@ -3,7 +3,7 @@
 use super::{PreviewOptions, ReportOptions};
 use super::{name, pixels, within};
 use asperity::{
-    interchange::{Format, ranges},
+    interchange::{Format, parse_symbol, ranges},
     preview,
     reduce::Fidelity,
 };
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Formats: c-array and rust embed the asset, or a whole library, as an aligned \
-constant array; `-o NAME.c` also writes NAME.h. hjif and hmpg (MPEG haptics), ahap (Apple), haptic \
+constant array without its previews; `-o NAME.c` also writes NAME.h. hjif and hmpg (MPEG haptics), ahap (Apple), haptic \
 (NiceVibrations), wav and csv contain strokes and taps as the runtime renders them, by default one \
 stroke and three taps. gltf contains a material with the MPEG_haptic_material extension. A library \
 is exported to a folder, with one file per texture. The report gives the loss of each stroke and \
@@ -65,6 +65,12 @@ pub(crate) struct Export {
     /// One texture of a library, by name or index from 0
     #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
+    /// Symbol of the array in c-array and rust [default: asperity_image_ and the name]
+    #[arg(long, value_name = "IDENTIFIER", value_parser = parse_symbol)]
+    pub(crate) symbol: Option<String>,
+    /// Keep preview pictures in c-array and rust, although a runtime does not read them
+    #[arg(long)]
+    pub(crate) keep_preview: bool,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -3,24 +3,54 @@
 use crate::cli::Export;
 use asperity::{
     interchange::{
-        self, Carried, ClipFormat, Exported, Format, Language, Options, export_source, session,
+        self, Carried, ClipFormat, Exported, Format, Language, Options, SourceOptions,
+        export_source, session,
     },
     textures::Textures,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{
-    diagnostic::{Failures, one},
+    diagnostic::{Diagnostic, Failures, one},
     output::{FileNames, Outputs, display, write_folder_beside},
     shown::{counted, size},
 };
 use serde_json::{Value, json};
 use std::{fmt::Write as _, path::Path};
+use thiserror::Error;
+
+/// An option of source text was given with a format that holds none.
+#[derive(Debug, Error)]
+#[error("{option}: a {format} file has none")]
+struct NoSource {
+    option: &'static str,
+    format: Format,
+}
+
+impl Diagnostic for NoSource {
+    fn is_usage(&self) -> bool {
+        true
+    }
+
+    fn remedy(&self) -> String {
+        format!("give {} with --to c-array or --to rust alone", self.option)
+    }
+}
 
 pub(crate) fn run(args: &Export, console: Console) -> Result<(), Failures> {
     match args.to {
         Format::Source(language) => source(args, language, console),
-        Format::Clip(format) => clips(args, format, console),
+        Format::Clip(format) => {
+            let given = [
+                ("--symbol", args.symbol.is_some()),
+                ("--keep-preview", args.keep_preview),
+            ];
+            if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
+                let format = args.to;
+                return Err(one(NoSource { option, format }));
+            }
+            clips(args, format, console)
+        }
     }
 }
 
@@ -48,9 +78,14 @@ fn source(args: &Export, language: Language, console: Console) -> Result<(), Fai
     };
     let header_name = header.as_deref().and_then(Path::file_name);
     let header_name = header_name.map(|name| name.to_string_lossy().into_owned());
-    let (text, declarations) = export_source(language, &name, &bytes, header_name.as_deref());
-    outputs.fill(file, &text).map_err(one)?;
-    if let (Some(file), Some(text)) = (beside, &declarations) {
+    let options = SourceOptions {
+        header: header_name.as_deref(),
+        symbol: args.symbol.as_deref(),
+        keep_preview: args.keep_preview,
+    };
+    let written = export_source(language, &name, &bytes, &options).map_err(one)?;
+    outputs.fill(file, &written.text).map_err(one)?;
+    if let (Some(file), Some(text)) = (beside, &written.header) {
         outputs.fill(file, text).map_err(one)?;
     }
     outputs.commit().map_err(one)?;
@@ -59,15 +94,21 @@ fn source(args: &Export, language: Language, console: Console) -> Result<(), Fai
             "format": args.to.name(),
             "output": display(&args.output).to_string(),
             "name": name,
-            "bytes": { "image": bytes.len(), "written": text.len() },
+            "symbol": written.symbol,
+            "bytes": { "image": written.image_len, "written": written.text.len(), "left_out": bytes.len() - written.image_len },
             "lossless": true,
         }))
     } else {
         let to = display(&args.output);
+        let left_out = match bytes.len() - written.image_len {
+            0 => String::new(),
+            previews => format!(", without {} of previews", size(previews as u64)),
+        };
         console.report(&format!(
-            "{to}: {name} as {}, {} of data\n",
+            "{to}: {name} as {}, {} of data in {}{left_out}\n",
             args.to,
-            size(bytes.len() as u64)
+            size(written.image_len as u64),
+            written.symbol
         ))
     };
     printed.map_err(one)

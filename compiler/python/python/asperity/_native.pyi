@@ -330,6 +330,8 @@ def export(
     seed: int = 0,
     rate: Optional[float] = None,
     size: int = 256,
+    symbol: Optional[str] = None,
+    keep_preview: bool = False,
 ) -> Exported: ...
 def pack(textures: Iterable[Texture], path: Optional[_Path] = None) -> Library: ...
 @overload
