@@ -19,6 +19,7 @@ pub(crate) use views::{Inspect, Listen, Plot, Preview, Render};
 use asperity::{
     inference::BackendName, library::check_name, preview, reduce::Fidelity, text::TextEncoderChoice,
 };
+use asperity_console::manual::{Completions, Manual};
 use clap::{Args, Parser, Subcommand};
 use std::{ops::RangeInclusive, path::PathBuf};
 
@@ -102,6 +103,14 @@ pub(crate) enum Command {
     Render(Render),
     /// Show which encoders, models and back ends are available, and how to get the others
     Doctor(Doctor),
+    /// Print what a shell needs to complete arguments
+    #[command(after_help = "Example:
+  asperity completions bash > ~/.local/share/bash-completion/completions/asperity")]
+    Completions(Completions),
+    /// Write manual pages
+    #[command(after_help = "Example:
+  asperity manual -o ~/.local/share/man/man1")]
+    Manual(Manual),
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,7 @@
 //! Nothing here fails or panics because a reader has gone away.
 
 mod interrupt;
+pub mod manual;
 pub mod progress;
 mod threads;
 
@@ -94,7 +95,7 @@ impl Console {
         self.print(&format!("{json:#}\n"))
     }
 
-    fn print(&self, text: &str) -> Result<(), OutputError> {
+    pub(crate) fn print(&self, text: &str) -> Result<(), OutputError> {
         let (stream, printed) = if self.results_on_stderr {
             ("standard error", send(io::stderr().lock(), text))
         } else {

@@ -57,5 +57,7 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
         Command::Preview(args) => preview::run(&args, console),
         Command::Listen(args) => listen::run(&args, console),
         Command::Render(args) => render::run(&args, console),
+        Command::Completions(args) => args.run::<Cli>(console),
+        Command::Manual(args) => args.run::<Cli>(console),
     }
 }

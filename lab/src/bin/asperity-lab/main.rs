@@ -14,7 +14,10 @@ mod stability;
 
 use std::process::ExitCode;
 
-use asperity_console::Console;
+use asperity_console::{
+    Console,
+    manual::{Completions, Manual},
+};
 use asperity_experiments::pareto::cost;
 use asperity_io::diagnostic::{Failures, one};
 use clap::{Parser, Subcommand};
@@ -53,6 +56,14 @@ enum Command {
     Device(device::Arguments),
     Bench(bench::Arguments),
     Record(record::Arguments),
+    /// Print what a shell needs to complete arguments
+    #[command(after_help = "Example:
+  asperity-lab completions bash > ~/.local/share/bash-completion/completions/asperity-lab")]
+    Completions(Completions),
+    /// Write manual pages
+    #[command(after_help = "Example:
+  asperity-lab manual -o ~/.local/share/man/man1")]
+    Manual(Manual),
     /// Run one kernel, for counting
     #[command(name = cost::COMMAND, hide = true)]
     Kernel {
@@ -83,6 +94,8 @@ fn main() -> ExitCode {
         Command::Pareto(arguments) => pareto::run(arguments, console).map(|()| true),
         Command::Bench(arguments) => bench::run(arguments, console).map(|()| true),
         Command::Record(arguments) => record::run(arguments, console).map(|()| true),
+        Command::Completions(arguments) => arguments.run::<Arguments>(console).map(|()| true),
+        Command::Manual(arguments) => arguments.run::<Arguments>(console).map(|()| true),
         Command::Kernel { numbers } => kernel(numbers).map(|()| true),
     };
     match result {
