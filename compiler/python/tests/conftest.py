@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import os
+import signal
 import subprocess
 from pathlib import Path
 from typing import Callable, Dict, List
@@ -15,6 +16,8 @@ import asperity
 
 PROMPT = "rough abrasive sheet with gritty particles"
 ROOT = Path(__file__).parents[3]
+# A shell starts what runs in the background without Ctrl-C, and Python then leaves it so.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 COLUMNS = ("speed_mm_s", "normal_force_n", "vib_m_s2", "tap_n", "friction_n")
 
 
