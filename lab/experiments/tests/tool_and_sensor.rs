@@ -17,10 +17,17 @@ use asperity_recording::{
     },
 };
 use asperity_tests::size::sized;
+use std::sync::LazyLock;
 
 /// Two rounds of taps.
 const SECONDS: f64 = 42.0;
 const SEED: u64 = 21;
+/// What two tests record, and what an import makes of it with a rigid tool and a height.
+static STROKED: LazyLock<Performance> = LazyLock::new(|| {
+    let until = Until::Seconds(SECONDS);
+    import_accuracy::perform(&builtin::texture(), Strokes::Steady, until, SEED).expect("it renders")
+});
+static RIGID: LazyLock<(Analysis, Comparison)> = LazyLock::new(|| imported(|_| ()));
 
 /// Records a performance with altered sensors.
 fn written(
@@ -43,7 +50,8 @@ fn written(
 }
 
 /// The same, and what an import makes of it.
-fn imported(performance: &Performance, alter: impl Fn(&mut Sensors)) -> (Analysis, Comparison) {
+fn imported(alter: impl Fn(&mut Sensors)) -> (Analysis, Comparison) {
+    let performance = &*STROKED;
     let (folder, sensors) = written(performance, SEED, alter);
     let analysis = recording::analyse(folder.path(), false, Clock::default()).expect("a texture");
     let comparison =
@@ -63,20 +71,13 @@ fn errors_db(comparison: &Comparison) -> (f64, f64, f64) {
 
 #[test]
 fn a_tap_in_free_air_takes_the_resonance_away() {
-    let performance = import_accuracy::perform(
-        &builtin::texture(),
-        Strokes::Steady,
-        Until::Seconds(SECONDS),
-        SEED,
-    )
-    .expect("it renders");
     let resonance = Some(Resonance {
         freq_hz: 300.0,
         q: 8.0,
     });
-    let (rigid, with_none) = imported(&performance, |_| ());
-    let (left, with_resonance) = imported(&performance, |s| s.resonance = resonance);
-    let (found, compensated) = imported(&performance, |s| {
+    let (rigid, with_none) = &*RIGID;
+    let (left, with_resonance) = imported(|s| s.resonance = resonance);
+    let (found, compensated) = imported(|s| {
         (s.resonance, s.free_taps) = (resonance, 1);
     });
     assert_eq!((rigid.free_air.taps, left.free_air.taps), (0, 0));
@@ -88,7 +89,7 @@ fn a_tap_in_free_air_takes_the_resonance_away() {
         assert!((axis.q / 8.0 - 1.0).abs() < 0.1, "{axis:?}");
     }
     let (rigid_db, left_db, compensated_db) = (
-        errors_db(&with_none),
+        errors_db(with_none),
         errors_db(&with_resonance),
         errors_db(&compensated),
     );
@@ -123,14 +124,8 @@ fn sensors_without_a_resonance_show_none_with_and_without_a_tap() {
 
 #[test]
 fn without_a_height_impact_speeds_come_from_the_acceleration() {
-    let performance = import_accuracy::perform(
-        &builtin::texture(),
-        Strokes::Steady,
-        Until::Seconds(SECONDS),
-        SEED,
-    )
-    .expect("it renders");
-    let (analysis, comparison) = imported(&performance, |s| s.has_height = false);
+    let performance = &*STROKED;
+    let (analysis, comparison) = imported(|s| s.has_height = false);
     assert_eq!(analysis.speed_source.source, "acceleration");
     let near = |at_s: f64| {
         let apart = |tick: usize| (tick as f64 / 1000.0 - at_s).abs();
@@ -156,7 +151,7 @@ fn without_a_height_impact_speeds_come_from_the_acceleration() {
             -1000.0 * before.copied().fold(0.0, f64::min) / speed_m_s - 1.0
         })
         .collect();
-    let (with_height, by_height) = imported(&performance, |_| ());
+    let (with_height, by_height) = &*RIGID;
     println!(
         "{} impacts of {}: {:+.3} in the median, {:.3} at 90 %, and {:+.3} of what is felt; taps {:.2?} dB, with the height {:.2?} dB; {:?}",
         ratios.len(),
