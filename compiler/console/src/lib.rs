@@ -95,7 +95,7 @@ impl Console {
         self.print(&format!("{json:#}\n"))
     }
 
-    pub(crate) fn print(&self, text: &str) -> Result<(), OutputError> {
+    fn print(&self, text: &str) -> Result<(), OutputError> {
         let (stream, printed) = if self.results_on_stderr {
             ("standard error", send(io::stderr().lock(), text))
         } else {

@@ -9,14 +9,14 @@ use crate::{
 };
 use asperity::{
     interchange::{
-        self, ClipFormat, Format, Language, Options, SourceOptions, export_source, parse_symbol,
-        ranges, session,
+        self, ClipFormat, Format, Language, Options, SourceOptions, export_source, header_beside,
+        parse_symbol, ranges, session,
     },
     preview,
 };
 use asperity_io::output::Outputs;
 use pyo3::{IntoPyObjectExt as _, prelude::*, types::PyBytes};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// What is exported.
@@ -250,7 +250,7 @@ fn source(
     path: Option<&Path>,
     options: SourceOptions<'_>,
 ) -> Result<Written, Failure> {
-    let beside = path.and_then(|path| header(language, path));
+    let beside = path.and_then(|path| header_beside(language, path));
     let header = beside.as_deref().and_then(Path::file_name);
     let header = header.map(|name| name.to_string_lossy().into_owned());
     let options = SourceOptions {
@@ -258,24 +258,12 @@ fn source(
         ..options
     };
     let written = export_source(language, name, bytes, &options)?;
-    let report = json!({
-        "format": Format::Source(language).name(),
-        "name": name,
-        "symbol": written.symbol,
-        "bytes": { "image": written.image_len, "written": written.text.len(), "left_out": bytes.len() - written.image_len },
-        "lossless": true,
-    });
+    let report = written.json(language, name);
     Ok(Written {
         data: written.text,
         header: written.header,
         report,
     })
-}
-
-/// The header that goes beside a source file.
-fn header(language: Language, path: &Path) -> Option<PathBuf> {
-    let is_c = path.extension().is_some_and(|end| end == "c");
-    (language == Language::C && is_c).then(|| path.with_extension("h"))
 }
 
 impl Written {

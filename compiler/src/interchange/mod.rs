@@ -64,4 +64,6 @@ pub use error::{EffectError, EffectProblem, ExportError};
 pub use export::{
     Carried, ClipFormat, Exported, Format, Language, Options, clip, export, ranges, session,
 };
-pub use source::{SourceError, SourceOptions, SourceText, export_source, parse_symbol};
+pub use source::{
+    SourceError, SourceOptions, SourceText, export_source, header_beside, parse_symbol,
+};

@@ -1,9 +1,15 @@
 //! An asset or a library as source text: under which symbol, with which bytes, and what the text says of them.
 
-use super::{c_array, export::Language, rust_source};
+use super::{
+    c_array,
+    export::{Format, Language},
+    rust_source,
+};
 use crate::library::{LibraryError, NamedAsset, encode, encode_scene, without_preview};
 use asperity_formats::{EncodeError, Library, SceneSurface};
 use asperity_io::diagnostic::Diagnostic;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Before every symbol that is made of a name. No name of the C face begins so, nor will one.
@@ -33,6 +39,29 @@ pub struct SourceText {
     pub symbol: String,
     /// Bytes of the image.
     pub image_len: usize,
+    /// Bytes of the previews that were left out.
+    pub left_out: usize,
+}
+
+impl SourceText {
+    /// The report for machines, of the asset or library of this name.
+    #[must_use]
+    pub fn json(&self, language: Language, name: &str) -> Value {
+        json!({
+            "format": Format::Source(language).name(),
+            "name": name,
+            "symbol": self.symbol,
+            "bytes": { "image": self.image_len, "written": self.text.len(), "left_out": self.left_out },
+            "lossless": true,
+        })
+    }
+}
+
+/// The header that goes beside a source file: `NAME.h` beside `NAME.c`.
+#[must_use]
+pub fn header_beside(language: Language, source: &Path) -> Option<PathBuf> {
+    let is_c = source.extension().is_some_and(|end| end == "c");
+    (language == Language::C && is_c).then(|| source.with_extension("h"))
 }
 
 /// Why there is no source text.
@@ -77,6 +106,7 @@ pub fn export_source(
         "An asset of Asperity, or a library; formats/SPEC.md says what each byte means.".to_owned(),
     ];
     let image_len = image.len();
+    let left_out = bytes.len().saturating_sub(image_len);
     let (text, header) = match language {
         Language::Rust => (rust_source::write(&symbol, &about, &image), None),
         Language::C => {
@@ -90,6 +120,7 @@ pub fn export_source(
         header,
         symbol,
         image_len,
+        left_out,
     })
 }
 
@@ -157,7 +188,7 @@ pub fn parse_symbol(text: &str) -> Result<String, String> {
     }
 }
 
-/// Whether `#include \"…\"` can name a file: it knows no escapes. A source without it declares the array itself.
+/// Whether `#include "…"` can name a file: it knows no escapes. A source without it declares the array itself.
 fn can_be_included(name: &str) -> bool {
     !name
         .chars()

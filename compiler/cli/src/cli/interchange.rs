@@ -13,9 +13,9 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Formats: c-array and rust embed the asset, or a whole library, as an aligned \
-constant array without its previews; `-o NAME.c` also writes NAME.h. hjif and hmpg (MPEG haptics), ahap (Apple), haptic \
-(NiceVibrations), wav and csv contain strokes and taps as the runtime renders them, by default one \
-stroke and three taps. gltf contains a material with the MPEG_haptic_material extension. A library \
+constant array without its previews; `-o NAME.c` also writes NAME.h. hjif and hmpg (MPEG haptics), \
+ahap (Apple), haptic (NiceVibrations), wav and csv contain strokes and taps as the runtime renders \
+them, by default one stroke and three taps. gltf contains a material with the MPEG_haptic_material extension. A library \
 is exported to a folder, with one file per texture. The report gives the loss of each stroke and \
 tap in dB over third octaves; docs/export.md explains how it is measured.
 

@@ -4,7 +4,7 @@ use crate::cli::Export;
 use asperity::{
     interchange::{
         self, Carried, ClipFormat, Exported, Format, Language, Options, SourceOptions,
-        export_source, session,
+        export_source, header_beside, session,
     },
     textures::Textures,
 };
@@ -58,8 +58,7 @@ pub(crate) fn run(args: &Export, console: Console) -> Result<(), Failures> {
 fn source(args: &Export, language: Language, console: Console) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file]);
     let file = outputs.open(&args.output).map_err(one)?;
-    let is_c = args.output.extension().is_some_and(|end| end == "c");
-    let header = (language == Language::C && is_c).then(|| args.output.with_extension("h"));
+    let header = header_beside(language, &args.output);
     let beside = outputs.open_if(header.as_deref()).map_err(one)?;
     let console = console.beside(&outputs);
     let mut textures = Textures::open(&args.file).map_err(one)?;
@@ -90,17 +89,12 @@ fn source(args: &Export, language: Language, console: Console) -> Result<(), Fai
     }
     outputs.commit().map_err(one)?;
     let printed = if args.json {
-        console.json(&json!({
-            "format": args.to.name(),
-            "output": display(&args.output).to_string(),
-            "name": name,
-            "symbol": written.symbol,
-            "bytes": { "image": written.image_len, "written": written.text.len(), "left_out": bytes.len() - written.image_len },
-            "lossless": true,
-        }))
+        let mut json = written.json(language, &name);
+        json["output"] = display(&args.output).to_string().into();
+        console.json(&json)
     } else {
         let to = display(&args.output);
-        let left_out = match bytes.len() - written.image_len {
+        let left_out = match written.left_out {
             0 => String::new(),
             previews => format!(", without {} of previews", size(previews as u64)),
         };
