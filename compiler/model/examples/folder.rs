@@ -15,7 +15,7 @@ fn main() -> io::Result<()> {
     };
     let folder = Path::new(&folder);
     fs::create_dir_all(folder)?;
-    for (name, bytes) in asperity_model::FOLDER.into_iter().chain(PROVENANCE) {
+    for (name, bytes) in asperity_model::folder().into_iter().chain(PROVENANCE) {
         fs::write(folder.join(name), bytes)?;
     }
     Ok(())

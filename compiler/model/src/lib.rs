@@ -28,14 +28,18 @@ pub static VOCABULARY: &str = include_str!("../vocab.tsv");
 /// 49,408 tokens are made by.
 pub static CLIP_MERGES: &str = include_str!("../clip_merges.txt");
 
-/// CRC-32 of the files of [`FOLDER`], one after another. A test compares.
+/// CRC-32 of the files of [`folder`], one after another. A test compares.
 pub const MODEL_CRC32: u32 = 0x25ed_de97;
 
-/// The files of a model folder, which `--model DIR` takes, with their names.
-pub static FOLDER: [(&str, &[u8]); 5] = [
-    ("model.json", DESCRIPTION.as_bytes()),
-    ("text_projection.onnx", TEXT_PROJECTION),
-    ("ar_decoder.onnx", AR_DECODER),
-    ("tap_decoder.onnx", TAP_DECODER),
-    ("encoder.onnx", ENCODER),
-];
+/// The files of a model folder, which `--model DIR` takes, with their names. No static, for some linkers would put every
+/// file into a program twice.
+#[must_use]
+pub const fn folder() -> [(&'static str, &'static [u8]); 5] {
+    [
+        ("model.json", DESCRIPTION.as_bytes()),
+        ("text_projection.onnx", TEXT_PROJECTION),
+        ("ar_decoder.onnx", AR_DECODER),
+        ("tap_decoder.onnx", TAP_DECODER),
+        ("encoder.onnx", ENCODER),
+    ]
+}

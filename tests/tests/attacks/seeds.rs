@@ -195,7 +195,7 @@ impl Seeds {
         let other = other.encode();
         let named = [("a", &asset[..]), ("b", &other[..])];
         let shipped = tempfile::tempdir().expect("a folder");
-        for (name, bytes) in asperity_model::FOLDER {
+        for (name, bytes) in asperity_model::folder() {
             fs::write(shipped.path().join(name), bytes).expect("the shipped model");
         }
         Self {
@@ -293,7 +293,7 @@ impl Seeds {
         }
         let other = self.material.replace("<material>Wood", "<material>Test");
         fs::write(folder.join("materials/other.xml"), other).expect("a valid input");
-        for (name, _) in asperity_model::FOLDER {
+        for (name, _) in asperity_model::folder() {
             let file = self.shipped.path().join(name);
             symlink(file, folder.join("model").join(name)).expect("a link");
         }
