@@ -1,0 +1,108 @@
+// The hand and its panel: force, the hand that moves by itself, and the readout.
+
+import { Auto, PATHS } from "./auto.js";
+import { element, find, recall, remember } from "./dom.js";
+import { Force } from "./force.js";
+import { Hand, now_s } from "./hand.js";
+import { followKeys } from "./keys.js";
+import { notify } from "./notices.js";
+import { followPointer } from "./pointer.js";
+import { meansOf, Readout } from "./readout.js";
+import { texts } from "./texts.js";
+
+const reduced = matchMedia("(prefers-reduced-motion: reduce)");
+/** Without the renderer's ticks, the hand's own numbers are shown so often. */
+const READOUT_MS = 100;
+
+/** A slider with its text; `use` takes its value now and after every change. */
+function slider(name, otherwise, text, use) {
+  const input = find(name);
+  const recalled = recall(name, otherwise);
+  input.value = Number.isFinite(recalled) ? recalled : otherwise;
+  const update = () => {
+    const value = Number(input.value);
+    find(`${name}-text`).textContent = text(value);
+    input.setAttribute("aria-valuetext", text(value));
+    use(value);
+  };
+  input.addEventListener("input", () => {
+    update();
+    remember(name, Number(input.value));
+  });
+  update();
+  return (by) => {
+    input.value = Number(input.value) + by;
+    input.dispatchEvent(new Event("input"));
+  };
+}
+
+function choosePath(auto) {
+  const recalled = recall("path", PATHS[0]);
+  auto.path = PATHS.includes(recalled) ? recalled : PATHS[0];
+  const choose = ({ target: { value } }) => {
+    auto.path = value;
+    remember("path", value);
+    if (auto.on) auto.start();
+  };
+  find("auto-path").replaceChildren(...PATHS.map((path) => element("label", {},
+    element("input", { type: "radio", name: "path", value: path, checked: path === auto.path, onchange: choose }),
+    element("span", {}, texts.hand.paths[path]))));
+}
+
+export function startHandPanel({ surface, sound, state }) {
+  const hand = new Hand((events) => sound.hand(events));
+  const force = new Force(() => notify("pen", { text: texts.hand.constant, help: texts.hand.constant_help }));
+  const readout = new Readout();
+  const auto = new Auto({ surface, hand, force });
+
+  const turn = slider("force", force.slider_n, texts.hand.force_text, (newtons) => (force.slider_n = newtons));
+  slider("auto-speed", auto.speed_mm_s, texts.hand.speed_text, (mm_s) => (auto.speed_mm_s = mm_s));
+  choosePath(auto);
+
+  const button = find("auto");
+  const showAuto = () => {
+    button.setAttribute("aria-pressed", String(auto.on));
+    button.textContent = auto.on ? texts.hand.stop : texts.hand.start;
+    if (!auto.on) surface.light();
+  };
+  button.addEventListener("click", () => {
+    if (auto.on) auto.stop();
+    else {
+      sound.start();
+      auto.start();
+    }
+    showAuto();
+  });
+  auto.onend = showAuto;
+  surface.onzoom = () => {
+    auto.outline();
+    if (hand.last) surface.touch(hand.last);
+  };
+  showAuto();
+
+  // Touching the surface is a gesture, so it may start the sound; not after it was stopped on purpose.
+  const begun = () => !sound.stopped && sound.start();
+  const parts = { surface, hand, force, begun };
+  followPointer({ ...parts, turn });
+  followKeys({ ...parts, speed_mm_s: () => auto.speed_mm_s });
+
+  const source = find("force-source");
+  hand.onmove = (last) => {
+    surface.touch(reduced.matches && hand.owner === "auto" ? null : last);
+    const kind = ["pen", "touch", "mouse"].find((pointerType) => force.proved(pointerType));
+    source.textContent = kind ? texts.hand.from_pressure(force.full_n) : texts.hand.from_slider;
+  };
+  source.textContent = texts.hand.from_slider;
+
+  sound.onticks = (ticks) => readout.show(meansOf(ticks));
+  setInterval(() => {
+    if (sound.state === "on" && state.get("texture")) return;
+    readout.show(hand.last && { speed: hand.speed_mm_s(now_s()), force: hand.last.force_n });
+  }, READOUT_MS);
+
+  state.on(["texture"], ({ texture }) => {
+    if (!texture) return;
+    hand.stiffness_n_m = texture.inspect.wall.stiffness_n_m;
+  });
+  return hand;
+}

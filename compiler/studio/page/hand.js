@@ -1,0 +1,78 @@
+// The hand, whoever moves it: pointer, keys, or the hand that moves by itself. Their samples become the
+// events of the worklet: time, position, depth by force and stiffness, and the number of the stroke.
+
+/** How high the hand is lifted, mm. A tap falls from there within 25 ms, at 0.1 m/s and up. */
+export const LIFT_MM = 3;
+/** Stiffness until the renderer says that of its texture, N/m. */
+const USUAL_N_M = 500;
+/** Window of the speed, s. */
+const SPEED_S = 0.08;
+
+export class Hand {
+  stiffness_n_m = USUAL_N_M;
+  #stroke = 0;
+  #owner = null;
+  #recent = [];
+  #post;
+
+  /** `post` takes a Float64Array of five numbers an event. */
+  constructor(post) {
+    this.#post = post;
+  }
+
+  /** What the hand did last while it touches: { t_s, x_mm, y_mm, force_n }; `null` while lifted. */
+  get last() {
+    return this.#recent.at(-1) ?? null;
+  }
+
+  get owner() {
+    return this.#owner;
+  }
+
+  /** Called after every change, with `last`. */
+  onmove = () => {};
+
+  /** Puts the hand down at a sample; another owner loses it. */
+  press(owner, sample) {
+    if (this.#owner !== null && this.#owner !== owner) this.lift(this.#owner, sample.t_s);
+    this.#owner = owner;
+    this.#stroke++;
+    this.#recent = [];
+    this.move(owner, [sample]);
+  }
+
+  /** Moves it over samples. Those of anybody but its owner are dropped. */
+  move(owner, samples) {
+    if (owner !== this.#owner || samples.length === 0) return;
+    const events = new Float64Array(5 * samples.length);
+    samples.forEach(({ t_s, x_mm, y_mm, force_n }, n) => {
+      events.set([t_s, x_mm, y_mm, (-1000 * force_n) / this.stiffness_n_m, this.#stroke], 5 * n);
+    });
+    this.#post(events);
+    this.#recent.push(...samples);
+    const from_s = this.last.t_s - SPEED_S;
+    this.#recent = this.#recent.filter(({ t_s }, n) => t_s >= from_s || n === this.#recent.length - 1);
+    this.onmove(this.last);
+  }
+
+  lift(owner, t_s) {
+    if (owner !== this.#owner) return;
+    const { x_mm, y_mm } = this.last;
+    this.#owner = null;
+    this.#recent = [];
+    this.#post(Float64Array.of(t_s, x_mm, y_mm, LIFT_MM, this.#stroke));
+    this.onmove(null);
+  }
+
+  /** Speed over the last samples at a time, mm/s. */
+  speed_mm_s(now_s) {
+    const [first, last] = [this.#recent[0], this.last];
+    if (!last || now_s - last.t_s > SPEED_S || last.t_s <= first.t_s) return 0;
+    const way_mm = this.#recent.slice(1).reduce((sum, { x_mm, y_mm }, n) =>
+      sum + Math.hypot(x_mm - this.#recent[n].x_mm, y_mm - this.#recent[n].y_mm), 0);
+    return way_mm / (last.t_s - first.t_s);
+  }
+}
+
+/** Time of the page's clock, s; that of events. */
+export const now_s = () => performance.now() / 1000;

@@ -1,0 +1,78 @@
+// Prompts to the server, textures to surface and sound; the latest request wins. While the server does
+// not answer, that is said and tried again.
+
+import { notify, withdraw } from "./notices.js";
+import { Refusal, Silence } from "./server.js";
+import { texts } from "./texts.js";
+
+const RETRY_MS = 3000;
+
+export class Loader {
+  #parts;
+  #abort = new AbortController();
+  #timer = null;
+
+  constructor(parts) {
+    this.#parts = parts;
+  }
+
+  /** Called when a prompt compiled, and when it was refused. */
+  oncompiled = () => {};
+  onrefused = () => {};
+
+  /** Asks what the server has. */
+  begin() {
+    return this.#attempt(async () => {
+      const { server, state } = this.#parts;
+      state.set({ about: await server.about() });
+    });
+  }
+
+  compile(prompt) {
+    const { server, state } = this.#parts;
+    this.#abort.abort();
+    this.#abort = new AbortController();
+    const { signal } = this.#abort;
+    return this.#attempt(async () => {
+      state.set({ busy: true });
+      const texture = await server.compile(prompt, signal);
+      await this.#show(texture, signal);
+      this.oncompiled(prompt, texture);
+      state.set({ busy: false });
+    });
+  }
+
+  /** Sound first: the picture may have to be drawn. */
+  async #show(texture, signal) {
+    const { server, state, surface, sound } = this.#parts;
+    sound.play(await server.asset(texture, signal));
+    state.set({ texture });
+    Promise.all([server.picture(texture, signal), server.normals(texture, signal)])
+      .then(([picture, normals]) => !signal.aborted && surface.show(picture, normals, texture.preview.width_mm))
+      .then(() => withdraw("picture"))
+      .catch((error) => error.name !== "AbortError" && notify("picture", { text: texts.surface.no_picture, help: error.help ?? error.message }));
+  }
+
+  async #attempt(action) {
+    clearTimeout(this.#timer);
+    try {
+      await action();
+      withdraw("server");
+      // What failed before the server was back.
+      if (!this.#parts.state.get("about")) this.begin();
+    } catch (error) {
+      if (error.name === "AbortError") return;
+      if (error instanceof Silence) return this.#wait(action);
+      this.#parts.state.set({ busy: false });
+      withdraw("server");
+      if (!(error instanceof Refusal)) throw error;
+      this.onrefused(error);
+    }
+  }
+
+  #wait(action) {
+    const again = () => this.#attempt(action);
+    notify("server", { text: texts.server.gone, help: texts.server.gone_help, action: { label: texts.server.retry, run: again } });
+    this.#timer = setTimeout(again, RETRY_MS);
+  }
+}

@@ -1,0 +1,66 @@
+// The field: typing, suggestions, history, and what the server said against the prompt.
+
+import { element, find } from "./dom.js";
+import { History } from "./history.js";
+import { Suggestions } from "./suggest.js";
+import { texts } from "./texts.js";
+
+export class Prompt {
+  #input = find("prompt");
+  #error = find("prompt-error");
+  #suggestions = new Suggestions(find("prompt"), find("suggestions"));
+  #history;
+
+  /** `compile` takes the text of a prompt. */
+  constructor(compile) {
+    this.compile = (prompt) => {
+      const text = prompt.trim();
+      this.#input.value = text;
+      this.#suggestions.close();
+      if (text) compile(text);
+      else this.refuse(texts.prompt.empty);
+    };
+    this.#history = new History(this.compile);
+    find("prompt-form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.compile(this.#input.value);
+    });
+    this.#input.addEventListener("input", () => this.#history.leave());
+    this.#input.addEventListener("keydown", (event) => this.#key(event));
+  }
+
+  set words(words) {
+    this.#suggestions.words = words;
+  }
+
+  set busy(busy) {
+    find("compile").textContent = busy ? texts.prompt.compiling : texts.prompt.compile;
+    find("prompt-form").setAttribute("aria-busy", String(busy));
+  }
+
+  /** The prompt compiled. */
+  accept(prompt) {
+    this.refuse(null);
+    this.#history.add(prompt);
+  }
+
+  /** Shows an error with its help, or none. */
+  refuse(text, help) {
+    this.#input.setAttribute("aria-invalid", String(text !== null));
+    const parts = text === null ? [] : [element("p", {}, element("strong", {}, text)), ...(help ? [element("p", {}, help)] : [])];
+    this.#error.replaceChildren(...parts);
+  }
+
+  #key(event) {
+    // An input method is composing.
+    if (event.isComposing || event.altKey || event.ctrlKey || event.metaKey) return;
+    if (this.#suggestions.key(event)) return event.preventDefault();
+    const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (by === undefined) return;
+    event.preventDefault();
+    const earlier = this.#history.step(by, this.#input.value);
+    if (earlier === null) return;
+    this.#input.value = earlier;
+    this.#input.setSelectionRange(earlier.length, earlier.length);
+  }
+}

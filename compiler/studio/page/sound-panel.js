@@ -1,0 +1,57 @@
+// The panel of the sound: switch, level, meter, device, and what went wrong.
+
+import { startDevices } from "./devices.js";
+import { find } from "./dom.js";
+import { notify, withdraw } from "./notices.js";
+import { Meter } from "./readout.js";
+import { texts } from "./texts.js";
+
+function showState(sound, meter) {
+  const { state } = sound;
+  const button = find("sound-switch");
+  button.setAttribute("aria-pressed", String(state === "on"));
+  button.textContent = { on: texts.sound.stop, starting: texts.sound.starting }[state] ?? texts.sound.start;
+  find("sound-text").textContent = state === "on" ? texts.sound.latency(1000 * sound.total_latency_s) : texts.sound.off;
+  meter.on = state === "on";
+  if (state === "on") withdraw("sound");
+  if (state !== "suspended") return;
+  notify("sound", { text: texts.sound.suspended, help: texts.sound.suspended_help,
+    action: { label: texts.sound.resume, run: () => sound.start() } });
+}
+
+export function startSoundPanel({ sound, hand }) {
+  const meter = new Meter(() => sound.measure());
+  sound.onstate = () => showState(sound, meter);
+  sound.onlimit = () => meter.limits();
+  // The renderer's wall may be softer than the asset's.
+  sound.onloaded = ({ stiffness_n_m }) => {
+    hand.stiffness_n_m = stiffness_n_m;
+    withdraw("renderer");
+  };
+  sound.onrefused = ({ name }) => notify("renderer", { text: texts.sound.refused(name), help: texts.sound.refused_help });
+  sound.onfailure = ({ kind, detail }) => {
+    const text = texts.sound[kind];
+    notify("sound", { text: typeof text === "function" ? text(detail) : text, help: texts.sound[`${kind}_help`],
+      action: { label: texts.sound.restart, run: () => sound.start() } });
+  };
+  showState(sound, meter);
+
+  find("sound-switch").addEventListener("click", () => {
+    sound.stopped = sound.state === "on" || sound.state === "starting";
+    if (sound.stopped) sound.stop();
+    else sound.start();
+  });
+
+  // The level is not remembered: every visit begins at a safe one.
+  const level = find("level");
+  const update = () => {
+    sound.level = Number(level.value);
+    const text = texts.sound.level_text(sound.level_db);
+    find("level-text").textContent = text;
+    level.setAttribute("aria-valuetext", text);
+  };
+  level.value = sound.level_db;
+  level.addEventListener("input", update);
+  update();
+  return startDevices(sound);
+}

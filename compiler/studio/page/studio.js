@@ -1,0 +1,31 @@
+// The page's entry: builds the parts and lets them hear of each other.
+
+import { fillTexts, find } from "./dom.js";
+import { startHandPanel } from "./hand-panel.js";
+import { Loader } from "./loader.js";
+import { notify } from "./notices.js";
+import { Server } from "./server.js";
+import { Sound } from "./sound.js";
+import { startSoundPanel } from "./sound-panel.js";
+import { State } from "./state.js";
+import { Surface } from "./surface.js";
+import { texts } from "./texts.js";
+import { startTexturePanels } from "./texture-panels.js";
+import { startTheme } from "./theme.js";
+
+const server = new Server();
+const state = new State({ about: null, texture: null, busy: false });
+const broken = () => notify("broken", { text: texts.broken, help: texts.broken_help });
+addEventListener("error", broken);
+addEventListener("unhandledrejection", broken);
+
+fillTexts();
+startTheme();
+const surface = new Surface();
+const sound = new Sound((name) => server.file(name));
+const hand = startHandPanel({ surface, sound, state });
+startSoundPanel({ sound, hand });
+const loader = new Loader({ server, state, surface, sound });
+startTexturePanels({ state, loader });
+find("prompt").focus({ preventScroll: true });
+loader.begin();

@@ -1,0 +1,138 @@
+// The stage: the surface under a lamp that follows the hand, its scale, and where the hand touches.
+
+import { element, find } from "./dom.js";
+import { Lit } from "./lit.js";
+import { Plain } from "./plain.js";
+import { texts } from "./texts.js";
+import { View } from "./view.js";
+
+const ZOOM_STEP = 1.25;
+/** Finer than this nobody sees, and the lamp costs by the pixel. */
+const MOST_PIXELS_PX = 2;
+/** Where the lamp hangs when nobody moves it. */
+const REST = [0.32, 0.28];
+
+const reduced = matchMedia("(prefers-reduced-motion: reduce)");
+
+export class Surface {
+  view = new View();
+  stage = find("stage");
+  #contact = find("contact");
+  #canvas;
+  #layer;
+  /** Picture, normals and width of the texture; `null` before the first. */
+  #shown = null;
+  #lamp_px = null;
+  #scheduled = false;
+
+  constructor() {
+    this.#begin(true);
+    new ResizeObserver(() => this.#resize()).observe(this.stage);
+    matchMedia("(resolution: 1dppx)").addEventListener("change", () => this.#resize());
+    find("zoom-in").addEventListener("click", () => this.zoom(ZOOM_STEP));
+    find("zoom-out").addEventListener("click", () => this.zoom(1 / ZOOM_STEP));
+    find("zoom-reset").addEventListener("click", () => this.reset());
+    this.#resize();
+  }
+
+  /** Shows a texture by the Blobs of its picture and its normal map. */
+  async show(picture, normals, width_mm) {
+    const options = { premultiplyAlpha: "none", colorSpaceConversion: "none" };
+    const images = await Promise.all([picture, normals].map((blob) => createImageBitmap(blob, options)));
+    this.#shown = [...images, width_mm];
+    this.#layer.setPicture(...this.#shown);
+    this.stage.classList.add("loaded");
+    this.#draw();
+  }
+
+  zoom(factor, at_px) {
+    this.view.zoom(factor, at_px);
+    this.#zoomed();
+  }
+
+  reset() {
+    this.view.reset();
+    this.#zoomed();
+  }
+
+  /** Moves what the stage shows by pixels. */
+  shift(by_px) {
+    this.view.centre_mm = this.view.toMm([this.view.width_px / 2 + by_px[0], this.view.height_px / 2 + by_px[1]]);
+    this.#zoomed();
+  }
+
+  /** Where the pointer is over the stage, px. */
+  at(event) {
+    const { left, top } = this.stage.getBoundingClientRect();
+    return [event.clientX - left, event.clientY - top];
+  }
+
+  /** Hangs the lamp over a place; without one, where it rests. */
+  light(at_px = null) {
+    this.#lamp_px = reduced.matches ? null : at_px;
+    this.#draw();
+  }
+
+  /** Shows where the hand touches and how hard; `null` while it is lifted. */
+  touch(sample) {
+    this.#contact.hidden = sample === null;
+    if (sample === null) return;
+    const [x, y] = this.view.toPx([sample.x_mm, sample.y_mm]);
+    this.#contact.style.transform = `translate(${x}px, ${y}px) scale(${0.6 + 0.4 * sample.force_n})`;
+  }
+
+  /** Outlines the path of the hand that moves by itself, in mm, or takes it away. */
+  outline(box) {
+    const path = find("path");
+    path.hidden = !box;
+    if (!box) return;
+    const [left, top] = this.view.toPx([box.centre_mm[0] - box.half_mm[0], box.centre_mm[1] + box.half_mm[1]]);
+    Object.assign(path.style, { left: `${left}px`, top: `${top}px`,
+      width: `${2 * box.half_mm[0] * this.view.px_mm}px`, height: `${2 * box.half_mm[1] * this.view.px_mm}px` });
+  }
+
+  /** Called after every change of what the stage shows. */
+  onzoom = () => {};
+
+  #begin(lit) {
+    const canvas = element("canvas", { "aria-hidden": "true" });
+    this.#layer = (lit && Lit.on(canvas)) || new Plain(canvas);
+    if (this.#layer instanceof Lit) {
+      // A driver that fails once may fail again; the plain picture always works.
+      canvas.addEventListener("webglcontextlost", () => this.#begin(false));
+    } else this.stage.title = texts.surface.plain;
+    this.#canvas?.remove();
+    this.#canvas = canvas;
+    this.stage.prepend(canvas);
+    if (this.#shown) this.#layer.setPicture(...this.#shown);
+    this.#resize();
+  }
+
+  #resize() {
+    const { clientWidth, clientHeight } = this.stage;
+    const pixels = Math.min(devicePixelRatio, MOST_PIXELS_PX);
+    this.view.resize(clientWidth, clientHeight);
+    this.#canvas.width = Math.max(Math.round(clientWidth * pixels), 1);
+    this.#canvas.height = Math.max(Math.round(clientHeight * pixels), 1);
+    this.#zoomed();
+  }
+
+  #zoomed() {
+    const bar_mm = this.view.bar_mm();
+    const scale = find("scale");
+    scale.firstElementChild.style.width = `${bar_mm * this.view.px_mm}px`;
+    scale.dataset.text = texts.surface.scale(bar_mm);
+    this.onzoom();
+    this.#draw();
+  }
+
+  #draw() {
+    if (this.#scheduled || !this.#shown) return;
+    this.#scheduled = true;
+    requestAnimationFrame(() => {
+      this.#scheduled = false;
+      const { width_px, height_px } = this.view;
+      this.#layer.draw(this.view, this.#lamp_px ?? [REST[0] * width_px, REST[1] * height_px]);
+    });
+  }
+}

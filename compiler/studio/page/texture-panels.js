@@ -1,0 +1,48 @@
+// What the page says about the texture: the prompt's reading, its neighbours, its feel, its facts.
+
+import { announce, element, find } from "./dom.js";
+import { showCommand, showFeel } from "./feel.js";
+import { Prompt } from "./prompt.js";
+import { certaintyText, showNearest, showReading } from "./reading.js";
+import { texts } from "./texts.js";
+
+function showFacts(texture) {
+  find("surface-title").textContent = texture?.name ?? texts.surface.empty;
+  if (!texture) return;
+  const { asset_bytes, model_rate_hz, worklet_rate_hz } = texture;
+  const rerated = worklet_rate_hz !== model_rate_hz;
+  find("facts").replaceChildren(
+    element("span", {}, `${texts.surface.kilobytes(asset_bytes)} · ${texts.surface.rate(model_rate_hz)}`),
+    ...(rerated ? [" ", element("span", { class: "badge" }, texts.surface.rerated(model_rate_hz, worklet_rate_hz))] : []));
+}
+
+function invite(compile) {
+  find("invitation").replaceChildren(element("p", {}, texts.prompt.invitation),
+    ...texts.prompt.examples.map((example) => element("button", { type: "button", onclick: () => compile(example) }, example)));
+}
+
+export function startTexturePanels({ state, loader }) {
+  const prompt = new Prompt((text) => loader.compile(text));
+  invite(prompt.compile);
+
+  loader.oncompiled = (text, texture) => {
+    prompt.accept(text);
+    announce(texts.prompt.compiled(texture.name, texture.compiled ? certaintyText(texture.compiled) : ""));
+  };
+  loader.onrefused = ({ message, help }) => prompt.refuse(message, help);
+
+  state.on(["busy"], ({ busy }) => (prompt.busy = busy));
+  state.on(["about"], ({ about }) => {
+    if (!about) return;
+    prompt.words = about.words;
+    find("edition").textContent = texts.edition(about.version, about.library);
+  });
+  state.on(["texture", "about"], ({ texture, about }) => showFeel(texture, about?.sliders));
+  state.on(["texture"], ({ texture }) => {
+    find("invitation").hidden = texture !== null;
+    showFacts(texture);
+    showReading(texture?.compiled ?? null);
+    showNearest(texture, prompt.compile);
+    showCommand(texture);
+  });
+}
