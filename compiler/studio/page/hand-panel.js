@@ -102,6 +102,8 @@ export function startHandPanel({ surface, sound, state }) {
 
   state.on(["texture"], ({ texture }) => {
     if (!texture) return;
+    button.disabled = false;
+    // Until the renderer says its own.
     hand.stiffness_n_m = texture.inspect.wall.stiffness_n_m;
   });
   return hand;

@@ -55,7 +55,7 @@ export function followKeys({ surface, hand, force, speed_mm_s, begun }) {
   };
 
   stage.addEventListener("keydown", (event) => {
-    if (event.target !== stage || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!surface.loaded || event.ctrlKey || event.metaKey || event.altKey) return;
     const { key } = event;
     if (key in DIRECTIONS || key === " ") {
       event.preventDefault();

@@ -25,7 +25,7 @@ export function followPointer({ surface, hand, force, turn, begun }) {
   };
 
   stage.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0 || event.target.closest("button")) return;
+    if (event.button !== 0 || !surface.loaded) return;
     stage.focus({ preventScroll: true });
     stage.setPointerCapture(event.pointerId);
     down.set(event.pointerId, surface.at(event));
@@ -42,14 +42,19 @@ export function followPointer({ surface, hand, force, turn, begun }) {
     event.preventDefault();
   });
 
+  // Raw updates do not wait for the next frame, which a slow picture may hold up.
+  const raw = "onpointerrawupdate" in stage;
+  stage.addEventListener(raw ? "pointerrawupdate" : "pointermove", (event) => {
+    if (event.pointerId !== stroking) return;
+    const coalesced = event.getCoalescedEvents?.() ?? [];
+    hand.move(owner(stroking), (coalesced.length ? coalesced : [event]).map(sample));
+  });
+
   stage.addEventListener("pointermove", (event) => {
     if (hand.owner === null || event.pointerId === stroking) surface.light(surface.at(event));
     if (!down.has(event.pointerId)) return;
     down.set(event.pointerId, surface.at(event));
-    if (event.pointerId === stroking) {
-      const coalesced = event.getCoalescedEvents?.() ?? [];
-      hand.move(owner(stroking), (coalesced.length ? coalesced : [event]).map(sample));
-    } else if (pinch && down.size === 2) {
+    if (pinch && down.size === 2) {
       const now = spread();
       surface.zoom(now.apart_px / pinch.apart_px, now.middle_px);
       pinch = now;

@@ -61,6 +61,7 @@ export function showReading(compiled) {
     ...(not_understood.length ? row(texts.reading.rows.unread, not_understood.join(", ")) : []),
     ...notes(compiled).flatMap((text) => row(texts.reading.rows.note, text)),
   ];
+  panel.scrollTop = 0;
   panel.replaceChildren(
     element("ul", { class: "words", "aria-label": texts.reading.words, title: texts.reading.words },
       ...wordsWithRoles(compiled).map(wordElement)),

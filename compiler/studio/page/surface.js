@@ -7,8 +7,12 @@ import { texts } from "./texts.js";
 import { View } from "./view.js";
 
 const ZOOM_STEP = 1.25;
-/** Finer than this nobody sees, and the lamp costs by the pixel. */
-const MOST_PIXELS_PX = 2;
+/** Pixels of the picture a pixel of the page: more nobody sees, fewer would blur. */
+const [FEWEST, MOST] = [0.4, 2];
+/** A frame that takes longer than this, ms, is slow; after so many in a row the picture gets coarser. */
+const SLOW_MS = 30;
+const SLOW_FRAMES = 6;
+const COARSER = 0.7;
 /** Where the lamp hangs when nobody moves it. */
 const REST = [0.32, 0.28];
 
@@ -24,6 +28,10 @@ export class Surface {
   #shown = null;
   #lamp_px = null;
   #scheduled = false;
+  #drawn_ms = 0;
+  #slow = 0;
+  /** Share of the screen's pixels that the machine draws in time. */
+  #share = 1;
 
   constructor() {
     this.#begin(true);
@@ -41,7 +49,7 @@ export class Surface {
     const images = await Promise.all([picture, normals].map((blob) => createImageBitmap(blob, options)));
     this.#shown = [...images, width_mm];
     this.#layer.setPicture(...this.#shown);
-    this.stage.classList.add("loaded");
+    this.stage.parentElement.classList.add("loaded");
     this.#draw();
   }
 
@@ -59,6 +67,11 @@ export class Surface {
   shift(by_px) {
     this.view.centre_mm = this.view.toMm([this.view.width_px / 2 + by_px[0], this.view.height_px / 2 + by_px[1]]);
     this.#zoomed();
+  }
+
+  /** Whether there is something to stroke. */
+  get loaded() {
+    return this.#shown !== null;
   }
 
   /** Where the pointer is over the stage, px. */
@@ -100,7 +113,7 @@ export class Surface {
     if (this.#layer instanceof Lit) {
       // A driver that fails once may fail again; the plain picture always works.
       canvas.addEventListener("webglcontextlost", () => this.#begin(false));
-    } else this.stage.title = texts.surface.plain;
+    } else find("stage-hint").textContent = `${texts.surface.hint} ${texts.surface.plain}`;
     this.#canvas?.remove();
     this.#canvas = canvas;
     this.stage.prepend(canvas);
@@ -110,7 +123,7 @@ export class Surface {
 
   #resize() {
     const { clientWidth, clientHeight } = this.stage;
-    const pixels = Math.min(devicePixelRatio, MOST_PIXELS_PX);
+    const pixels = Math.max(Math.min(devicePixelRatio, MOST) * this.#share, FEWEST);
     this.view.resize(clientWidth, clientHeight);
     this.#canvas.width = Math.max(Math.round(clientWidth * pixels), 1);
     this.#canvas.height = Math.max(Math.round(clientHeight * pixels), 1);
@@ -126,11 +139,25 @@ export class Surface {
     this.#draw();
   }
 
+  /** Machines without a graphics processor draw fewer pixels, so that the hand is not held up. */
+  #judge(now_ms) {
+    const took_ms = now_ms - this.#drawn_ms;
+    this.#drawn_ms = now_ms;
+    // After a rest nothing is known.
+    if (took_ms > 10 * SLOW_MS) return;
+    this.#slow = took_ms > SLOW_MS ? this.#slow + 1 : 0;
+    if (this.#slow < SLOW_FRAMES || this.#share < FEWEST) return;
+    this.#slow = 0;
+    this.#share *= COARSER;
+    this.#resize();
+  }
+
   #draw() {
     if (this.#scheduled || !this.#shown) return;
     this.#scheduled = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now_ms) => {
       this.#scheduled = false;
+      this.#judge(now_ms);
       const { width_px, height_px } = this.view;
       this.#layer.draw(this.view, this.#lamp_px ?? [REST[0] * width_px, REST[1] * height_px]);
     });

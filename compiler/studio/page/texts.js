@@ -14,7 +14,7 @@ export const texts = {
     placeholder: "rough abrasive sheet with gritty particles",
     compile: "Compile",
     compiling: "Compiling …",
-    hint: "Enter compiles; ↑ ↓ choose a suggestion or an earlier prompt.",
+    hint: "↑ ↓ choose a suggestion or an earlier prompt.",
     suggestions: "Known materials and qualities",
     suggested: (count) => (count === 1 ? "1 suggestion" : `${count} suggestions`),
     empty: "Describe a surface first, such as “wet ice”.",
@@ -24,6 +24,7 @@ export const texts = {
   },
 
   reading: {
+    label: "What the words were taken for",
     words: "What each word was taken for, and how far it moved the texture, in steps of 100",
     roles: {
       name: "material", number: "number", quality: "quality", degree: "degree", word: "word", "left out": "left out",
@@ -58,7 +59,7 @@ export const texts = {
   surface: {
     empty: "No texture yet",
     label: "Surface to stroke",
-    hint: "Drag to stroke, press to tap. Keys: arrows stroke, Space presses, Shift doubles the force, + − 0 zoom. Wheel: zoom, or force while you press.",
+    hint: "Drag to stroke, press to tap; the wheel zooms, or changes the force while you press. Keys: arrows stroke, Space presses, Shift doubles the force, + − 0 zoom.",
     zoom: "Zoom",
     zoom_in: "Zoom in",
     zoom_out: "Zoom out",
@@ -93,15 +94,15 @@ export const texts = {
     slippery: (mu) => `μ ${number(mu, 2)}`,
     hard: (hz) => `${number(hz, 0)} Hz`,
     undefined: "not defined",
-    about: "0 and 100 are the 5th and 95th percentile of the model’s materials.",
+    about: "0–100: 5th–95th percentile of materials",
   },
 
   hand: {
     title: "Hand",
     force: "Force",
     force_text: (newtons) => `${number(newtons, 1)} N`,
-    from_slider: "From this slider. Shift doubles it; the wheel changes it while you press.",
-    from_pressure: (full_n) => `From the pressure of your pen or finger; full pressure is ${number(full_n, 1)} N.`,
+    from_slider: "From this slider; Shift doubles it.",
+    from_pressure: (full_n) => `From your pen’s pressure, up to ${number(full_n, 1)} N; the slider serves keys.`,
     auto: "Let a hand move by itself",
     paths: { circle: "Circles", line: "To and fro", tap: "Taps" },
     speed: "Speed",
@@ -117,8 +118,8 @@ export const texts = {
     start: "Start sound",
     starting: "Starting …",
     stop: "Stop sound",
-    off: "Off. It also starts when you touch the surface.",
-    latency: (ms) => `On. About ${number(ms, 0)} ms from the hand to the sound.`,
+    off: "Off; a touch of the surface starts it.",
+    latency: (ms) => `${number(ms, 0)} ms from hand to sound`,
     level: "Level",
     level_text: (db) => `${db > 0 ? "+" : db < 0 ? "−" : ""}${number(Math.abs(db), 0)} dB`,
     meter: "Output level in dB of full scale",

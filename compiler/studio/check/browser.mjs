@@ -1,0 +1,264 @@
+// Drives the studio's page in a real Chromium, as people do: keys, pen, fingers; and asserts what comes out.
+//
+//   STUDIO_MODULES=…/node_modules node browser.mjs ADDRESS CHROMIUM [PICTURES]
+//
+// STUDIO_MODULES has playwright-core and axe-core. ADDRESS is that of a running studio. With ASPERITY, a
+// path of the command, the worklet's ticks are compared with those of `asperity render`. PICTURES is a
+// folder that takes screenshots.
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { firstSession, sameAsCommand } from "./ticks.mjs";
+import { Visit } from "./visit.mjs";
+
+const PROMPT = "rough abrasive sheet with gritty particles";
+/** Force of a pen's full pressure, and what the slider begins with, N. */
+const [FULL_N, SLIDER_N] = [3, 1];
+const TICK_HZ = 16000;
+/** Pixels of the page a millimetre, before any zoom. */
+const PX_MM = 5;
+const WIDTHS = [360, 1280, 2560];
+
+const [address, executablePath, pictures] = process.argv.slice(2);
+const need = createRequire(join(resolve(process.env.STUDIO_MODULES ?? "node_modules"), "/"));
+const { chromium } = need("playwright-core");
+const axe = readFileSync(need.resolve("axe-core/axe.min.js"), "utf8");
+
+let count = 0;
+function assert(holds, text) {
+  if (!holds) throw new Error(`not so: ${text}`);
+  count++;
+  console.log(`  ${text}`);
+}
+const near = (x, wanted, share) => Math.abs(x - wanted) <= share * wanted;
+
+async function prompts(visit) {
+  const { page } = visit;
+  assert(await page.evaluate(() => document.activeElement.id === "prompt"), "the prompt has the focus at first");
+  await page.keyboard.type("coarse sandpa");
+  await page.waitForSelector("#suggestions [role=option]");
+  await page.keyboard.press("ArrowDown");
+  const active = await page.getAttribute("#prompt", "aria-activedescendant");
+  const chosen = await page.textContent(`#${active}`);
+  await page.keyboard.press("Enter");
+  assert((await page.inputValue("#prompt")) === `coarse ${chosen}` && chosen.includes("sandpaper"), `a suggestion ends the prompt: “coarse ${chosen}”`);
+  assert((await page.getAttribute("#prompt", "aria-expanded")) === "false", "the list is closed then");
+
+  await page.keyboard.press("Control+a");
+  await page.keyboard.press("Backspace");
+  await page.keyboard.press("Enter");
+  assert((await page.textContent("#prompt-error")).includes("Describe a surface"), "an empty prompt is refused with help");
+
+  await visit.compile(PROMPT);
+  assert((await page.textContent("#prompt-error")) === "", "an error goes when a prompt compiles");
+  const words = await page.$$eval(".word", (all) => all.map(({ dataset, children }) => [children[0].textContent, dataset.role, dataset.moved]));
+  assert(words.map(([word]) => word).join(" ") === PROMPT, "every word of the prompt is shown");
+  assert(words.some(([word, role, moved]) => word === "rough" && role === "quality" && moved === "rough"), "“rough” is a quality that moved rough");
+  assert(/(Known|Close|A guess)/.test(await page.textContent(".certainty")), "the certainty is in words");
+  assert((await page.textContent("#command code")).startsWith("asperity compile "), "the command is shown");
+  assert((await page.$$(".bars li")).length === 3, "rough, slippery and hard have bars");
+  assert((await page.$$(".material")).length > 0, "nearest materials are offered");
+}
+
+async function pen(visit) {
+  const { page } = visit;
+  const pressure = 0.4;
+  await visit.penStroke({ pressure: () => pressure, seconds: 1.2, px_s: 400 });
+  const ticks = await visit.take();
+  const moving = ticks.filter(({ depth_mm, speed_mm_s }) => depth_mm > 0 && speed_mm_s > 40);
+  assert(moving.length > 4000, `a pen's stroke comes out as ${moving.length} ticks in contact`);
+  const mean = (name) => moving.reduce((sum, tick) => sum + Math.abs(tick[name]), 0) / moving.length;
+  assert(near(mean("normal_force_n"), pressure * FULL_N, 0.08), `their force is that of the pressure: ${mean("normal_force_n").toFixed(2)} N`);
+  // Not the mean of the speed: a busy machine sends a pen's events in bursts, and the hand cuts jumps.
+  const way_mm = ticks.reduce((sum, { depth_mm, speed_mm_s }) => sum + (depth_mm > 0 ? speed_mm_s / TICK_HZ : 0), 0);
+  const pen_mm = (1.2 * 400) / PX_MM;
+  assert(way_mm > 0.5 * pen_mm && way_mm < 1.1 * pen_mm, `their way is that of the pen: ${way_mm.toFixed(0)} of ${pen_mm} mm`);
+  assert(mean("vib_m_s2") > 0.1, `they vibrate: ${mean("vib_m_s2").toFixed(2)} m/s² in the mean`);
+  assert(mean("friction_n") > 0.05, `they rub: ${mean("friction_n").toFixed(2)} N`);
+  assert(ticks.some(({ tap_n }) => Math.abs(tap_n) > 0.01), "putting the pen down taps");
+  const peak = await page.evaluate(() => window.studioCheck.peak);
+  assert(peak > 1e-4 && peak <= 0.1, `the first sound peaks at ${(20 * Math.log10(peak)).toFixed(0)} dB of full scale, −20 at most`);
+  assert((await page.textContent("#force-source")).includes("pressure"), "the page says that force comes from the pressure");
+}
+
+async function keyboard(visit) {
+  const { page } = visit;
+  await page.focus("#prompt");
+  let tabs = 0;
+  while (tabs < 12 && (await page.evaluate(() => document.activeElement.id)) !== "stage") {
+    await page.keyboard.press("Tab");
+    tabs++;
+  }
+  assert(tabs < 12, `the surface is ${tabs} tabs from the prompt`);
+  const outlined = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle !== "none");
+  assert(outlined, "its focus is visible");
+  await visit.take();
+  await page.keyboard.down("ArrowRight");
+  await page.waitForTimeout(500);
+  await page.keyboard.up("ArrowRight");
+  await page.waitForTimeout(200);
+  const stroke = (await visit.take()).filter(({ speed_mm_s, depth_mm }) => depth_mm > 0 && speed_mm_s > 80);
+  assert(stroke.length > 3000, "an arrow strokes");
+  await page.keyboard.press(" ", { delay: 150 });
+  await page.waitForTimeout(250);
+  const taps = await visit.take();
+  assert(taps.some(({ tap_n }) => Math.abs(tap_n) > 0.01) && taps.every(({ speed_mm_s }) => speed_mm_s < 5), "Space taps");
+  const before = await page.getAttribute("#scale", "data-text");
+  for (let n = 0; n < 6; n++) await page.keyboard.press("+");
+  assert((await page.getAttribute("#scale", "data-text")) !== before, `+ zooms: ${before}, then ${await page.getAttribute("#scale", "data-text")}`);
+  await page.keyboard.press("0");
+  assert((await page.getAttribute("#scale", "data-text")) === before, "0 resets the zoom");
+
+  const title = () => page.textContent("#surface-title");
+  const was = await title();
+  await page.focus(".material");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction((name) => document.getElementById("surface-title").textContent !== name, was);
+  assert((await title()) !== was, `a nearest material is compiled by a key: ${await title()}`);
+  await page.waitForFunction(() => window.studioCheck.statuses.some(({ about, name }) => about === "swap" && name === "ok"));
+  assert(true, "what plays is cross-faded to it");
+  await page.focus("#prompt");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("ArrowUp");
+  assert((await page.inputValue("#prompt")) === PROMPT, "↑ brings back the earlier prompt");
+  await page.focus("#theme");
+  await page.keyboard.press("Enter");
+  assert((await page.getAttribute("html", "data-theme")) === "light", "the theme is switched by a key");
+}
+
+async function selfMoving(visit) {
+  const { page } = visit;
+  await visit.take();
+  await page.focus("#auto");
+  await page.keyboard.press("Enter");
+  await page.waitForTimeout(900);
+  const circle = (await visit.take()).filter(({ speed_mm_s }) => speed_mm_s > 50);
+  assert(circle.length > 6000, "a hand moves by itself");
+  const force_n = circle.reduce((sum, tick) => sum + tick.normal_force_n, 0) / circle.length;
+  assert(near(force_n, SLIDER_N, 0.08), `with the force of the slider: ${force_n.toFixed(2)} N`);
+  await page.waitForFunction(() => Number(document.querySelector("#readout [data-name=friction] .value").textContent) > 0);
+  assert(true, "the readout has its friction");
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  await page.waitForTimeout(100);
+  assert(await page.isHidden("#contact"), "with reduced motion its mark does not move about");
+  await page.emulateMedia({ reducedMotion: "no-preference" });
+  await page.keyboard.press("Enter");
+  await page.waitForTimeout(200);
+  await visit.take();
+  await page.waitForTimeout(300);
+  assert((await visit.take()).every(({ depth_mm }) => depth_mm <= 0), "and is lifted when it is stopped");
+}
+
+async function fingers(visit) {
+  const { page } = visit;
+  const before = await page.getAttribute("#scale", "data-text");
+  await visit.pinch(60, 260);
+  assert((await page.getAttribute("#scale", "data-text")) !== before, "two fingers zoom");
+  await page.click("#zoom-reset");
+  await visit.take();
+  await visit.fingerStroke();
+  assert((await visit.take()).some(({ depth_mm, speed_mm_s }) => depth_mm > 0 && speed_mm_s > 20), "one finger strokes");
+}
+
+async function markup(visit) {
+  const { page } = visit;
+  const prompt = "<img src=x onerror=alert(1)> <b>cork</b>";
+  await visit.compile(prompt);
+  const found = await page.evaluate(() => document.querySelectorAll("main img, main b, [onerror]").length);
+  assert(found === 0, "markup in a prompt stays text");
+  const texts = await page.$$eval("#surface-title, #history button", (all) => all.map(({ textContent }) => textContent));
+  assert(texts[0].includes("<img") && texts[1] === prompt, "and is shown as it is");
+}
+
+async function accessible(visit, schemes, what) {
+  const { page } = visit;
+  for (const scheme of schemes) {
+    await page.emulateMedia({ colorScheme: scheme, reducedMotion: "reduce" });
+    for (const width of WIDTHS) {
+      await page.setViewportSize({ width, height: width < 700 ? 740 : width > 2000 ? 1440 : 800 });
+      await page.waitForTimeout(150);
+      const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+      const list = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target).join(", ")}`);
+      assert(list.length === 0, `axe finds nothing ${what}, ${scheme}, ${width} px${list.length ? `: ${list.join("; ")}` : ""}`);
+      const beyond = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert(beyond <= 0, "nothing is cut off at the side");
+      if (pictures) await page.screenshot({ path: join(pictures, `studio-${what.replaceAll(" ", "-")}-${scheme}-${width}.png`), fullPage: width < 700 });
+    }
+  }
+  await page.setViewportSize({ width: 1280, height: 800 });
+}
+
+/** What goes wrong is said, with its remedy. The browser logs some of these itself. */
+async function failures(browser) {
+  const visit = await Visit.begin(browser, address);
+  const { page } = visit;
+  await visit.compile("cork");
+  await visit.penStroke({ pressure: () => 0.5, seconds: 0.8, px_s: 300 });
+  assert((await page.textContent("#notices")).includes("no changing pressure"), "a pen that always says 0.5 is found out");
+  const forces = (await visit.take()).filter(({ depth_mm, speed_mm_s }) => depth_mm > 0 && speed_mm_s > 40);
+  const force_n = forces.reduce((sum, tick) => sum + tick.normal_force_n, 0) / forces.length;
+  assert(near(force_n, SLIDER_N, 0.1), `and presses by the slider: ${force_n.toFixed(2)} N`);
+
+  await page.evaluate(() => window.studioCheck.contexts.at(-1).suspend());
+  await page.click("[data-key=sound] button");
+  await page.waitForFunction(() => window.studioCheck.contexts.at(-1).state === "running");
+  assert((await page.$$("[data-key=sound]")).length === 0, "a sound that the browser paused is said and resumed");
+
+  await visit.context.setOffline(true);
+  await page.fill("#prompt", "wet ice");
+  await page.press("#prompt", "Enter");
+  await page.waitForSelector("[data-key=server]");
+  assert((await page.textContent("[data-key=server]")).includes("asperity studio"), "a server that is gone is said");
+  assert((await page.textContent("#surface-title")) === "cork", "what was loaded stays");
+  await visit.context.setOffline(false);
+  await page.waitForFunction(() => document.getElementById("surface-title").textContent === "wet ice", null, { timeout: 8000 });
+  assert((await page.$$("[data-key=server]")).length === 0, "and the prompt is tried again until it is back");
+  await visit.end();
+
+  const other = await Visit.begin(browser, address, async (context) => {
+    await context.route("**/asperity.wasm", (route) => route.fulfill({ contentType: "application/wasm", body: "no module" }));
+    await context.route("**/api/compile", (route) => (route.request().postDataJSON().prompt === "refused"
+      ? route.fulfill({ status: 400, json: { error: "the prompt <i>is</i> refused", help: "write another" } }) : route.continue()));
+  });
+  await other.page.fill("#prompt", "refused");
+  await other.page.press("#prompt", "Enter");
+  await other.page.waitForSelector("#prompt-error p");
+  assert((await other.page.innerText("#prompt-error")).includes("<i>is</i> refused\n\nwrite another"), "a refusal is shown with its help, as text");
+  await other.compile("cork");
+  await other.page.click("#sound-switch");
+  await other.page.waitForSelector("[data-key=sound]");
+  assert((await other.page.textContent("[data-key=sound]")).includes("Restart"), "a renderer that fails is said, with a restart");
+  await other.end();
+}
+
+const work = mkdtempSync(join(tmpdir(), "studio-"));
+const began = Date.now();
+const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required", "--no-sandbox"] });
+try {
+  console.log(`${browser.browserType().name()} ${browser.version()}`);
+  const visit = await Visit.begin(browser, address);
+  await visit.page.evaluate(axe);
+  await accessible(visit, ["light"], "before a prompt");
+  await prompts(visit);
+  await pen(visit);
+  if (process.env.ASPERITY) {
+    const played = firstSession(visit.chunks);
+    const difference = sameAsCommand(process.env.ASPERITY, work, await visit.asset(), played);
+    assert(difference === null, difference ?? `${played.flags.length} ticks have the bits of asperity render`);
+  }
+  await keyboard(visit);
+  await selfMoving(visit);
+  await fingers(visit);
+  await markup(visit);
+  await visit.compile("ruff sandpapr with very high grit, and quantum");
+  await accessible(visit, ["light", "dark"], "with a texture");
+  assert(visit.foreign.length === 0, `${visit.requests} requests, none to another address`);
+  assert(visit.errors.length === 0, `no error on the console${visit.errors.map((text) => `: ${text}`).join("")}`);
+  await visit.end();
+  await failures(browser);
+  console.log(`${count} assertions in ${((Date.now() - began) / 1000).toFixed(0)} s`);
+} finally {
+  await browser.close();
+  rmSync(work, { recursive: true });
+}
