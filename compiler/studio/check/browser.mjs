@@ -175,6 +175,55 @@ async function markup(visit) {
   assert(texts[0].includes("<img") && texts[1] === prompt, "and is shown as it is");
 }
 
+/** The limiter by itself, in an OfflineAudioContext. */
+async function limiter(visit) {
+  const [most, late] = await visit.page.evaluate(async () => {
+    const ceiling = 0.8;
+    const run = async (sample) => {
+      const context = new OfflineAudioContext(1, 48000, 48000);
+      await context.audioWorklet.addModule(new URL("limiter.js", document.baseURI));
+      const input = Float32Array.from({ length: 48000 }, (_, n) => sample(n));
+      const buffer = new AudioBuffer({ length: 48000, sampleRate: 48000 });
+      buffer.copyToChannel(input, 0);
+      const source = new AudioBufferSourceNode(context, { buffer });
+      const node = new AudioWorkletNode(context, "limiter", { outputChannelCount: [1], processorOptions: { ceiling } });
+      source.connect(node).connect(context.destination);
+      source.start();
+      return { input, output: (await context.startRendering()).getChannelData(0) };
+    };
+    // Clicks, bursts and a hum, a hundred times too loud.
+    const loud = await run((n) => (n % 997 === 0 ? 80 : n % 6000 < 900 ? 5 * Math.sin(n * n) : 0.9 * Math.sin(n / 90)));
+    const soft = await run((n) => 0.79 * Math.sin(n * 0.37));
+    const late = [...Array(100).keys()].find((by) => soft.output.subarray(by).every((x, n) => x === soft.input[n]));
+    return [loud.output.reduce((most, x) => Math.max(most, Math.abs(x)), 0) / ceiling, late];
+  });
+  assert(most <= 1 + 1e-6 && most > 0.9, `the limiter lets ${(100 * most).toFixed(1)} % of its ceiling through`);
+  assert(late === 47, `and changes nothing below it but the time, by ${late} frames`);
+}
+
+/** The choice of the device, with those that Chromium imitates. */
+async function devices(browser) {
+  const visit = await Visit.begin(browser, address, (context) => context.grantPermissions(["microphone"]));
+  const { page } = visit;
+  const names = () => page.$$eval("#device option", (all) => all.map(({ textContent }) => textContent));
+  if (await page.isVisible("#find-devices")) await page.click("#find-devices");
+  await page.waitForFunction(() => document.querySelectorAll("#device option").length > 1);
+  assert((await names())[0] === "System default", `sound devices are listed: ${(await names()).join(", ")}`);
+  await visit.compile("cork");
+  await page.click("#sound-switch");
+  await page.waitForFunction(() => window.studioCheck.contexts.at(-1)?.state === "running");
+  await page.selectOption("#device", { index: 1 });
+  await page.waitForFunction(() => window.studioCheck.contexts.at(-1).sinkId === document.getElementById("device").value);
+  assert(true, "the chosen one plays");
+  await page.evaluate(() => {
+    navigator.mediaDevices.enumerateDevices = async () => [];
+    navigator.mediaDevices.dispatchEvent(new Event("devicechange"));
+  });
+  await page.waitForSelector("[data-key=device]");
+  assert((await page.evaluate(() => window.studioCheck.contexts.at(-1).sinkId)) === "", "where it is unplugged, that is said and the default plays");
+  await visit.end();
+}
+
 async function accessible(visit, schemes, what) {
   const { page } = visit;
   for (const scheme of schemes) {
@@ -238,7 +287,8 @@ async function failures(browser) {
 
 const work = mkdtempSync(join(tmpdir(), "studio-"));
 const began = Date.now();
-const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required", "--no-sandbox"] });
+const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required", "--no-sandbox",
+  "--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream"] });
 try {
   console.log(`${browser.browserType().name()} ${browser.version()}`);
   const visit = await Visit.begin(browser, address);
@@ -255,11 +305,13 @@ try {
   await selfMoving(visit);
   await fingers(visit);
   await markup(visit);
+  await limiter(visit);
   await visit.compile("ruff sandpapr with very high grit, and quantum");
   await accessible(visit, ["light", "dark"], "with a texture");
   assert(visit.foreign.length === 0, `${visit.requests} requests, none to another address`);
   assert(visit.errors.length === 0, `no error on the console${visit.errors.map((text) => `: ${text}`).join("")}`);
   await visit.end();
+  await devices(browser);
   await failures(browser);
   console.log(`${count} assertions in ${((Date.now() - began) / 1000).toFixed(0)} s`);
 } finally {

@@ -59,6 +59,8 @@ export function startHandPanel({ surface, sound, state }) {
   slider("auto-speed", auto.speed_mm_s, texts.hand.speed_text, (mm_s) => (auto.speed_mm_s = mm_s));
   choosePath(auto);
 
+  // What moves the hand is a gesture, so it may start the sound; not after it was stopped on purpose.
+  const begun = () => !sound.stopped && sound.start();
   const button = find("auto");
   const showAuto = () => {
     button.setAttribute("aria-pressed", String(auto.on));
@@ -68,7 +70,7 @@ export function startHandPanel({ surface, sound, state }) {
   button.addEventListener("click", () => {
     if (auto.on) auto.stop();
     else {
-      sound.start();
+      begun();
       auto.start();
     }
     showAuto();
@@ -80,8 +82,6 @@ export function startHandPanel({ surface, sound, state }) {
   };
   showAuto();
 
-  // Touching the surface is a gesture, so it may start the sound; not after it was stopped on purpose.
-  const begun = () => !sound.stopped && sound.start();
   const parts = { surface, hand, force, begun };
   followPointer({ ...parts, turn });
   followKeys({ ...parts, speed_mm_s: () => auto.speed_mm_s });

@@ -7,6 +7,8 @@ import { texts } from "./texts.js";
 const ATTRIBUTES = ["rough", "slippery", "hard"];
 /** Smallest move that a word is coloured by, in steps of 100. */
 const LEAST = 5;
+/** Smallest second move that is shown. */
+const LEAST_SECOND = 15;
 const MOST_MATERIALS = 6;
 
 const plain = (word) => word.toLowerCase().replace(/[^\p{L}\p{N}-]/gu, "");
@@ -35,7 +37,7 @@ function wordElement({ word, role, moved }) {
   return element("li", { class: "word", "data-role": role ?? "unused", "data-moved": gone ? undefined : moves[0]?.[0] },
     element("span", { class: "said" }, word),
     element("span", { class: "role" }, role === null ? texts.reading.unused : (texts.reading.roles[role] ?? role)),
-    ...moves.slice(0, 2).map(([name, by]) => element("span", { class: `move ${name}` }, `${name} ${signed(by)}`)));
+    ...moves.filter(([, by], n) => n === 0 || (n === 1 && Math.abs(by) >= LEAST_SECOND)).map(([name, by]) => element("span", { class: `move ${name}` }, `${name} ${signed(by)}`)));
 }
 
 /** Warnings of the command that no row shows. */

@@ -76,6 +76,8 @@ export class Sound {
       if (this.#context.state === "running") this.#running();
       else this.#enter("suspended");
     } catch (error) {
+      // The device or the renderer failed meanwhile, which is known already.
+      if (this.state !== "starting") return;
       this.#fail(error instanceof SoundFailure ? error : new SoundFailure("failed", String(error)));
     }
   }

@@ -13,6 +13,8 @@ const [FEWEST, MOST] = [0.4, 2];
 const SLOW_MS = 30;
 const SLOW_FRAMES = 6;
 const COARSER = 0.7;
+/** After such a rest the picture is drawn with all its pixels again, ms. */
+const REST_MS = 200;
 /** Where the lamp hangs when nobody moves it. */
 const REST = [0.32, 0.28];
 
@@ -30,8 +32,9 @@ export class Surface {
   #scheduled = false;
   #drawn_ms = 0;
   #slow = 0;
-  /** Share of the screen's pixels that the machine draws in time. */
+  /** Share of the screen's pixels that the machine draws in time, while something moves. */
   #share = 1;
+  #rest = null;
 
   constructor() {
     this.#begin(true);
@@ -122,11 +125,7 @@ export class Surface {
   }
 
   #resize() {
-    const { clientWidth, clientHeight } = this.stage;
-    const pixels = Math.max(Math.min(devicePixelRatio, MOST) * this.#share, FEWEST);
-    this.view.resize(clientWidth, clientHeight);
-    this.#canvas.width = Math.max(Math.round(clientWidth * pixels), 1);
-    this.#canvas.height = Math.max(Math.round(clientHeight * pixels), 1);
+    this.view.resize(this.stage.clientWidth, this.stage.clientHeight);
     this.#zoomed();
   }
 
@@ -149,7 +148,6 @@ export class Surface {
     if (this.#slow < SLOW_FRAMES || this.#share < FEWEST) return;
     this.#slow = 0;
     this.#share *= COARSER;
-    this.#resize();
   }
 
   #draw() {
@@ -158,8 +156,18 @@ export class Surface {
     requestAnimationFrame((now_ms) => {
       this.#scheduled = false;
       this.#judge(now_ms);
-      const { width_px, height_px } = this.view;
-      this.#layer.draw(this.view, this.#lamp_px ?? [REST[0] * width_px, REST[1] * height_px]);
+      this.#paint(this.#share);
+      clearTimeout(this.#rest);
+      if (this.#share < 1) this.#rest = setTimeout(() => this.#paint(1), REST_MS);
     });
+  }
+
+  #paint(share) {
+    const { width_px, height_px } = this.view;
+    const pixels = Math.max(Math.min(devicePixelRatio, MOST) * share, FEWEST);
+    const sizes = { width: Math.max(Math.round(width_px * pixels), 1), height: Math.max(Math.round(height_px * pixels), 1) };
+    // Setting a size clears the canvas, the same one too.
+    for (const [name, size] of Object.entries(sizes)) if (this.#canvas[name] !== size) this.#canvas[name] = size;
+    this.#layer.draw(this.view, this.#lamp_px ?? [REST[0] * width_px, REST[1] * height_px]);
   }
 }

@@ -4,6 +4,7 @@ const number = (value, digits) => value.toLocaleString("en", { minimumFractionDi
 
 export const texts = {
   title: "Asperity Studio",
+  titled: (name) => `${name} – Asperity Studio`,
   edition: (version, library) => (library ? `${library.name}, ${library.textures} textures · ${version}` : version),
 
   theme: { auto: "Theme: system", light: "Theme: light", dark: "Theme: dark" },
@@ -14,7 +15,7 @@ export const texts = {
     placeholder: "rough abrasive sheet with gritty particles",
     compile: "Compile",
     compiling: "Compiling …",
-    hint: "↑ ↓ choose a suggestion or an earlier prompt.",
+    hint: "↑ ↓ suggestions, earlier prompts",
     suggestions: "Known materials and qualities",
     suggested: (count) => (count === 1 ? "1 suggestion" : `${count} suggestions`),
     empty: "Describe a surface first, such as “wet ice”.",

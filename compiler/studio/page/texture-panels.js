@@ -9,6 +9,7 @@ import { texts } from "./texts.js";
 function showFacts(texture) {
   find("surface-title").textContent = texture?.name ?? texts.surface.empty;
   if (!texture) return;
+  document.title = texts.titled(texture.name);
   const { asset_bytes, model_rate_hz, worklet_rate_hz } = texture;
   const rerated = worklet_rate_hz !== model_rate_hz;
   find("facts").replaceChildren(
