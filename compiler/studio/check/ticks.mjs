@@ -21,8 +21,8 @@ export function firstSession(chunks) {
     if (first !== count) throw new Error(`tick ${first} follows ${count} ticks`);
     count += flags.length;
   }
-  return { positions_mm: join32(own.map((chunk) => chunk.positions_mm), Float32Array),
-    columns: join32(own.map((chunk) => chunk.columns), Float32Array), flags: join32(own.map((chunk) => chunk.flags), Uint32Array) };
+  const all = (name, Type) => join32(own.map((chunk) => chunk[name]), Type);
+  return { positions_mm: all("positions_mm", Float32Array), columns: all("columns", Float32Array), flags: all("flags", Uint32Array) };
 }
 
 /** `null` where the command renders the same bits for the same positions, else the first difference. */
@@ -31,8 +31,8 @@ export function sameAsCommand(asperity, folder, asset, { positions_mm, columns, 
   writeFileSync(texture, asset);
   const row = (_, n) => [n / TICK_HZ, ...positions_mm.subarray(3 * n, 3 * n + 3)].join(",");
   writeFileSync(input, ["t_s,x_mm,y_mm,z_mm", ...Array.from(flags, row)].join("\n") + "\n");
-  execFileSync(asperity, ["render", texture, "--rate", `${TICK_HZ}`, "--trajectory", input, "-o", output, "--seed", `${SEED}`, "--quiet"],
-    { stdio: ["ignore", "ignore", "inherit"] });
+  execFileSync(asperity, ["render", texture, "--rate", `${TICK_HZ}`, "--trajectory", input, "-o", output,
+    "--seed", `${SEED}`, "--quiet"], { stdio: ["ignore", "ignore", "inherit"] });
   const [header, ...lines] = readFileSync(output, "utf8").trimEnd().split("\n");
   const names = header.split(",").slice(2, 11);
   if (lines.length !== flags.length) return `${flags.length} ticks for ${lines.length} rows`;

@@ -40,14 +40,15 @@ export class Visit {
     const page = await context.newPage();
     Object.assign(visit, { context, page, errors: [], foreign: [], requests: 0, chunks: [], assets: [] });
     page.on("console", (message) => message.type() === "error" && visit.errors.push(message.text()));
-    page.on("pageerror", (error) => visit.errors.push(error.stack));
+    page.on("pageerror", (error) => visit.errors.push(error.stack || String(error)));
     page.on("request", (request) => {
       visit.requests++;
       if (!/^(blob|data):/.test(request.url()) && !request.url().startsWith(address)) visit.foreign.push(request.url());
     });
     page.on("response", (response) => response.url().endsWith(".worklet.asp") && visit.assets.push(response.body()));
     await page.goto(address);
-    await page.waitForFunction(() => document.getElementById("edition").textContent !== "");
+    await page.waitForFunction(() => document.getElementById("edition").textContent !== "", null, { timeout: 10000 })
+      .catch(() => { throw new Error(`the page does not begin: ${visit.errors.join("; ")}`); });
     visit.cdp = await context.newCDPSession(page);
     return visit;
   }
@@ -103,7 +104,8 @@ export class Visit {
 
   async fingerStroke() {
     const [x, y] = await this.middle();
-    const send = (type, at) => this.cdp.send("Input.dispatchTouchEvent", { type, touchPoints: at === null ? [] : [{ x: x + at, y }] });
+    const send = (type, at) =>
+      this.cdp.send("Input.dispatchTouchEvent", { type, touchPoints: at === null ? [] : [{ x: x + at, y }] });
     await send("touchStart", 0);
     for (let n = 1; n <= 40; n++) {
       await send("touchMove", 4 * n);
@@ -116,10 +118,14 @@ export class Visit {
   /** The ticks since the last call, with the names of `asperity render`. */
   async take() {
     // As text, since numbers would be written out one by one.
-    const got = await this.page.evaluate(() => window.studioCheck.chunks.splice(0).map(({ session, first, ...arrays }) => ({ session, first,
-      ...Object.fromEntries(["positions_mm", "columns", "flags"].map((name) => [name, window.studioCheck.text(arrays[name].buffer)])) })));
-    const chunks = got.map(({ session, first, positions_mm, columns, flags }) => ({ session, first,
-      positions_mm: numbers(positions_mm, Float32Array), columns: numbers(columns, Float32Array), flags: numbers(flags, Uint32Array) }));
+    const got = await this.page.evaluate(() => {
+      const { chunks, text } = window.studioCheck;
+      return chunks.splice(0).map(({ session, first, positions_mm, columns, flags }) =>
+        ({ session, first, arrays: [positions_mm, columns, flags].map(({ buffer }) => text(buffer)) }));
+    });
+    const chunks = got.map(({ session, first, arrays: [positions_mm, columns, flags] }) => ({ session, first,
+      positions_mm: numbers(positions_mm, Float32Array), columns: numbers(columns, Float32Array),
+      flags: numbers(flags, Uint32Array) }));
     this.chunks.push(...chunks);
     return chunks.flatMap(({ columns, flags }) => Array.from(flags, (_, n) =>
       Object.fromEntries(COLUMNS.map((name, k) => [name, columns[n * COLUMNS.length + k]]))));

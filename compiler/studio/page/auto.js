@@ -14,7 +14,11 @@ const REACH_MM = [4, 60];
 export const PATHS = ["circle", "line", "tap"];
 
 /** Where a path is at a phase, in radii from its centre; a full turn has the phase 2π. */
-const PLACES = { circle: (phase) => [Math.cos(phase), Math.sin(phase)], line: (phase) => [Math.sin(phase), 0], tap: () => [0, 0] };
+const PLACES = {
+  circle: (phase) => [Math.cos(phase), Math.sin(phase)],
+  line: (phase) => [Math.sin(phase), 0],
+  tap: () => [0, 0],
+};
 
 export class Auto {
   path = PATHS[0];
@@ -44,7 +48,8 @@ export class Auto {
   start() {
     const { view } = this.#surface;
     this.#centre_mm = view.centre_mm;
-    this.#radius_mm = Math.min(Math.max((REACH * Math.min(view.width_px, view.height_px)) / view.px_mm, REACH_MM[0]), REACH_MM[1]);
+    const wanted_mm = (REACH * Math.min(view.width_px, view.height_px)) / view.px_mm;
+    this.#radius_mm = Math.min(Math.max(wanted_mm, REACH_MM[0]), REACH_MM[1]);
     this.#phase = 0;
     this.#t_s = now_s();
     this.#press();

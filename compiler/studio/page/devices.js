@@ -20,13 +20,12 @@ async function list(sound) {
   return found;
 }
 
-/** A browser without a sound to choose from shows the reason instead. */
+/** Lists the devices; a browser that always plays on the system's default says so instead. */
 export async function startDevices(sound) {
   const button = find("find-devices");
   if (!("setSinkId" in (globalThis.AudioContext?.prototype ?? {}))) {
-    select.replaceChildren(element("option", { value: "" }, texts.sound.default_device));
+    select.replaceChildren(element("option", { value: "" }, texts.sound.no_choice));
     select.disabled = true;
-    select.title = texts.sound.no_choice;
     button.hidden = true;
     return;
   }

@@ -3,10 +3,7 @@
 import { announce, element, find } from "./dom.js";
 import { texts } from "./texts.js";
 
-/**
- * The attributes at 0 and at 100: the 5th and 95th percentile of the embedded model's materials, where
- * the server does not say its own.
- */
+/** The attributes at 0 and at 100 of the embedded model, where the server's `about` has no `sliders`. */
 const ENDS = { rough: [-12.5, 12.8], slippery: [0.893, 0.192], hard: [121, 1149] };
 const ATTRIBUTE = { rough: "rough_db", slippery: "mu", hard: "hard_hz" };
 
@@ -27,8 +24,9 @@ export function showFeel(texture, ends) {
     const physical = place === null ? texts.feel.undefined : texts.feel[name](attributes[ATTRIBUTE[name]]);
     const fill = element("span", { class: `fill ${name}` });
     fill.style.setProperty("--share", Math.min(Math.max((place ?? 0) / 100, 0), 1));
+    const label = place === null ? `${title}: ${physical}` : texts.feel.place(title, place, physical);
     return element("li", {}, element("span", {}, title),
-      element("span", { class: "track", role: "img", "aria-label": place === null ? `${title}: ${physical}` : texts.feel.place(title, place, physical) }, fill),
+      element("span", { class: "track", role: "img", "aria-label": label }, fill),
       element("span", { class: "place" }, place === null ? texts.readout.none : texts.feel.of_100(place)),
       element("span", { class: "physical" }, physical));
   });

@@ -50,7 +50,9 @@ export class Loader {
     Promise.all([server.picture(texture, signal), server.normals(texture, signal)])
       .then(([picture, normals]) => !signal.aborted && surface.show(picture, normals, texture.preview.width_mm))
       .then(() => withdraw("picture"))
-      .catch((error) => error.name !== "AbortError" && notify("picture", { text: texts.surface.no_picture, help: error.help ?? error.message }));
+      .catch(({ name, help, message }) => {
+        if (name !== "AbortError") notify("picture", { text: texts.surface.no_picture, help: help ?? message });
+      });
   }
 
   async #attempt(action) {
@@ -72,7 +74,8 @@ export class Loader {
 
   #wait(action) {
     const again = () => this.#attempt(action);
-    notify("server", { text: texts.server.gone, help: texts.server.gone_help, action: { label: texts.server.retry, run: again } });
+    const button = { label: texts.server.retry, run: again };
+    notify("server", { text: texts.server.gone, help: texts.server.gone_help, action: button });
     this.#timer = setTimeout(again, RETRY_MS);
   }
 }

@@ -34,16 +34,18 @@ function wordElement({ word, role, moved }) {
     .sort((a, b) => Math.abs(b[1]) - Math.abs(a[1]));
   const signed = (by) => `${by < 0 ? "−" : "+"}${Math.abs(by).toFixed(0)}`;
   const gone = role === null || role === "left out";
+  const shown = moves.filter(([, by], n) => n === 0 || (n === 1 && Math.abs(by) >= LEAST_SECOND));
   return element("li", { class: "word", "data-role": role ?? "unused", "data-moved": gone ? undefined : moves[0]?.[0] },
     element("span", { class: "said" }, word),
     element("span", { class: "role" }, role === null ? texts.reading.unused : (texts.reading.roles[role] ?? role)),
-    ...moves.filter(([, by], n) => n === 0 || (n === 1 && Math.abs(by) >= LEAST_SECOND)).map(([name, by]) => element("span", { class: `move ${name}` }, `${name} ${signed(by)}`)));
+    ...shown.map(([name, by]) => element("span", { class: `move ${name}` }, `${name} ${signed(by)}`)));
 }
 
 /** Warnings of the command that no row shows. */
 function notes({ warnings = [], corrected, not_understood = [], certainty_level }) {
   const shown = [corrected?.said, ...not_understood].filter(Boolean);
-  return warnings.filter((text) => !shown.some((word) => text.includes(word)) && !(certainty_level === "guess" && text.startsWith("a guess")));
+  const isShown = (text) => shown.some((word) => text.includes(word)) || (certainty_level === "guess" && text.startsWith("a guess"));
+  return warnings.filter((text) => !isShown(text));
 }
 
 export function certaintyText({ certainty_level: level }) {
@@ -56,10 +58,10 @@ export function showReading(compiled) {
   if (!compiled) return panel.replaceChildren();
   const { certainty_level: level, certainty, corrected, not_understood = [], taken_as, prompt } = compiled;
   const row = (name, text) => [element("dt", {}, name), element("dd", {}, text)];
-  const same = (a, b) => a.split(/\s+/).map(plain).join(" ").trim() === b.split(/\s+/).map(plain).join(" ").trim();
+  const words = (text) => text.split(/\s+/).map(plain).filter(Boolean).join(" ");
   const rows = [
     ...(corrected ? row(texts.reading.rows.corrected, texts.reading.corrected(corrected.said, corrected.taken)) : []),
-    ...(taken_as && !same(taken_as, prompt ?? "") ? row(texts.reading.rows.taken, taken_as) : []),
+    ...(taken_as && words(taken_as) !== words(prompt ?? "") ? row(texts.reading.rows.taken, taken_as) : []),
     ...(not_understood.length ? row(texts.reading.rows.unread, not_understood.join(", ")) : []),
     ...notes(compiled).flatMap((text) => row(texts.reading.rows.note, text)),
   ];

@@ -1,20 +1,21 @@
-// From the hand to the loudspeaker: the renderer's worklet, scale and level, limiter, meter.
+// From the hand to the loudspeaker: the renderer's worklet, drive, limiter, volume, meter.
 //
-// Connection order is that of `chain`. What prepares the signal for an ear or an actuator belongs
-// between the renderer and the level, so that the limiter stays last.
+// A level above 0 dB drives the limiter, one below turns down what leaves it. So no output exceeds the
+// level, whatever the texture does. Connection order is that of `chain`; what prepares the signal for
+// an ear or an actuator belongs between the renderer and the drive.
+
+const fromDb = (db) => 10 ** (db / 20);
 
 const RATE_HZ = 48000;
-/** Acceleration of full scale at a level of 0 dB, m/s²: the loudest peaks of taps. */
-const FULL_SCALE_M_S2 = 22;
-/** Level to begin with: peaks stay below −20 dB of full scale. */
+/** Acceleration of full scale at a level of 0 dB, m/s²: nearly twice the usual peaks of taps, 22 m/s². */
+const FULL_SCALE_M_S2 = 40;
+/** Level to begin with, hence the loudest peak at first, dB of full scale. */
 export const START_LEVEL_DB = -20;
 /** What the limiter lets through, −1 dB of full scale. */
-const CEILING = 10 ** (-1 / 20);
+const CEILING = fromDb(-1);
 const FADE_S = 0.03;
 /** How long a browser may take to start, ms, until that is said. */
 const PATIENCE_MS = 3000;
-
-const gainOf = (level_db) => 10 ** (level_db / 20) / FULL_SCALE_M_S2;
 
 /** Why the sound does not start or has stopped. */
 export class SoundFailure extends Error {
@@ -36,7 +37,8 @@ export class Sound {
   sink = "";
   #context = null;
   #renderer = null;
-  #level;
+  #drive;
+  #volume;
   #analyser;
   #samples;
   #asset = null;
@@ -85,14 +87,14 @@ export class Sound {
   async stop() {
     if (this.state === "off") return;
     this.#enter("off");
-    this.#fade(0);
+    this.#turn(0);
     await new Promise((done) => setTimeout(done, 4000 * FADE_S));
     if (this.state === "off") await this.#context?.suspend();
   }
 
   set level(level_db) {
     this.level_db = level_db;
-    if (this.state === "on") this.#fade(gainOf(level_db));
+    if (this.state === "on") this.#turn(1);
   }
 
   /** Plays another texture: from its first tick on, or by a cross-fade where one plays. */
@@ -143,15 +145,18 @@ export class Sound {
     const [module] = await Promise.all([this.#file("asperity.wasm"), ...modules]);
     if (this.sink) await context.setSinkId(this.sink).catch(() => (this.sink = ""));
 
-    const renderer = new AudioWorkletNode(context, "asperity", { numberOfInputs: 0, outputChannelCount: [1], processorOptions: { module } });
-    const level = new GainNode(context, { gain: 0 });
-    const limiter = new AudioWorkletNode(context, "limiter", { outputChannelCount: [1], processorOptions: { ceiling: CEILING } });
+    const renderer = new AudioWorkletNode(context, "asperity",
+      { numberOfInputs: 0, outputChannelCount: [1], processorOptions: { module } });
+    const [drive, volume] = [1 / FULL_SCALE_M_S2, 0].map((gain) => new GainNode(context, { gain }));
+    const limiter = new AudioWorkletNode(context, "limiter",
+      { outputChannelCount: [1], processorOptions: { ceiling: CEILING } });
     const analyser = new AnalyserNode(context, { fftSize: 2048 });
-    const chain = [renderer, level, limiter, analyser, context.destination];
+    const chain = [renderer, drive, limiter, volume, analyser, context.destination];
     chain.slice(1).forEach((node, n) => chain[n].connect(node));
 
     this.#renderer = renderer;
-    this.#level = level;
+    this.#drive = drive;
+    this.#volume = volume;
     this.#analyser = analyser;
     this.#samples = new Float32Array(analyser.fftSize);
     this.#loaded = false;
@@ -190,7 +195,7 @@ export class Sound {
 
   #running() {
     if (this.state === "off" || !this.#renderer) return;
-    this.#fade(gainOf(this.level_db));
+    this.#turn(1);
     this.#enter("on");
   }
 
@@ -207,8 +212,13 @@ export class Sound {
     this.onfailure(failure);
   }
 
-  #fade(gain) {
-    if (this.#renderer) this.#level.gain.setTargetAtTime(gain, this.#context.currentTime, FADE_S);
+  /** Fades to the level, or to silence where `on` is 0. */
+  #turn(on) {
+    if (!this.#renderer) return;
+    const now_s = this.#context.currentTime;
+    const [drive, volume] = [fromDb(Math.max(this.level_db, 0)) / FULL_SCALE_M_S2, on * fromDb(Math.min(this.level_db, 0))];
+    this.#drive.gain.setTargetAtTime(drive, now_s, FADE_S);
+    this.#volume.gain.setTargetAtTime(volume, now_s, FADE_S);
   }
 
   #enter(state) {

@@ -1,6 +1,7 @@
 // Every text of the page, in English. Functions take what they name.
 
-const number = (value, digits) => value.toLocaleString("en", { minimumFractionDigits: digits, maximumFractionDigits: digits });
+const number = (value, digits) =>
+  value.toLocaleString("en", { minimumFractionDigits: digits, maximumFractionDigits: digits }).replace("-", "−");
 
 export const texts = {
   title: "Asperity Studio",
@@ -15,7 +16,7 @@ export const texts = {
     placeholder: "rough abrasive sheet with gritty particles",
     compile: "Compile",
     compiling: "Compiling …",
-    hint: "↑ ↓ suggestions, earlier prompts",
+    hint: "↑ brings earlier prompts",
     suggestions: "Known materials and qualities",
     suggested: (count) => (count === 1 ? "1 suggestion" : `${count} suggestions`),
     empty: "Describe a surface first, such as “wet ice”.",
@@ -60,7 +61,8 @@ export const texts = {
   surface: {
     empty: "No texture yet",
     label: "Surface to stroke",
-    hint: "Drag to stroke, press to tap; the wheel zooms, or changes the force while you press. Keys: arrows stroke, Space presses, Shift doubles the force, + − 0 zoom.",
+    hint: "Drag to stroke, press to tap; the wheel zooms, or changes the force while you press. "
+      + "Keys: arrows stroke, Space presses, Shift doubles the force, + − 0 zoom.",
     zoom: "Zoom",
     zoom_in: "Zoom in",
     zoom_out: "Zoom out",
@@ -120,7 +122,7 @@ export const texts = {
     starting: "Starting …",
     stop: "Stop sound",
     off: "Off; a touch of the surface starts it.",
-    latency: (ms) => `${number(ms, 0)} ms from hand to sound`,
+    latency: (ms) => `latency ${number(ms, 0)} ms`,
     level: "Level",
     level_text: (db) => `${db > 0 ? "+" : db < 0 ? "−" : ""}${number(Math.abs(db), 0)} dB`,
     meter: "Output level in dB of full scale",
@@ -131,7 +133,7 @@ export const texts = {
     device_number: (number) => `Output ${number}`,
     find_devices: "Find devices …",
     find_help: "Browsers name sound devices only to pages that may use the microphone. Allow it once; nothing is recorded.",
-    no_choice: "This browser always plays on the system’s default device; change it in the system’s sound settings.",
+    no_choice: "System default (this browser has no choice)",
     denied: "The browser did not allow access to the list of sound devices.",
     denied_help: "Allow the microphone for this address in the browser’s site settings, or change the default device of the system.",
     lost: (name) => `The sound device “${name}” is gone; playing on the system’s default.`,
@@ -139,7 +141,7 @@ export const texts = {
     sink_failed: (name) => `The sound device “${name}” cannot be used.`,
     sink_help: "Another program may hold it. Close that, or choose another device.",
     suspended: "The browser has paused the sound.",
-    suspended_help: "Browsers start sound only after a click or a key.",
+    suspended_help: "Browsers start sound only after a click or a key, and some wait for a sound device.",
     resume: "Resume",
     failed: "The sound has stopped: its renderer failed.",
     failed_help: "Restart it. If it fails again, reload the page; the texture files are not affected.",

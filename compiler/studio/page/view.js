@@ -24,11 +24,13 @@ export class View {
   }
 
   toMm([x_px, y_px]) {
-    return [this.centre_mm[0] + (x_px - this.width_px / 2) / this.px_mm, this.centre_mm[1] - (y_px - this.height_px / 2) / this.px_mm];
+    const [x_mm, y_mm] = this.centre_mm;
+    return [x_mm + (x_px - this.width_px / 2) / this.px_mm, y_mm - (y_px - this.height_px / 2) / this.px_mm];
   }
 
   toPx([x_mm, y_mm]) {
-    return [(x_mm - this.centre_mm[0]) * this.px_mm + this.width_px / 2, (this.centre_mm[1] - y_mm) * this.px_mm + this.height_px / 2];
+    const [right_mm, up_mm] = [x_mm - this.centre_mm[0], y_mm - this.centre_mm[1]];
+    return [this.width_px / 2 + right_mm * this.px_mm, this.height_px / 2 - up_mm * this.px_mm];
   }
 
   /** Zooms by a factor; what is at `at_px` stays there. */
