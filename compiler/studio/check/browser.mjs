@@ -240,7 +240,7 @@ async function accessible(visit, schemes, what) {
   for (const scheme of schemes) {
     await page.emulateMedia({ colorScheme: scheme, reducedMotion: "reduce" });
     for (const width of WIDTHS) {
-      await page.setViewportSize({ width, height: width < 700 ? 740 : width > 2000 ? 1440 : 800 });
+      await page.setViewportSize({ width, height: width < 700 ? 740 : width > 2000 ? 1000 : 800 });
       await page.waitForTimeout(150);
       const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
       const list = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target).join(", ")}`);

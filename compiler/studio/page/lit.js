@@ -26,7 +26,9 @@ void main() {
   float diffuse = max(dot(normal, to_lamp), 0.0);
   vec3 between = normalize(to_lamp + vec3(0.0, 0.0, 1.0));
   float shine = pow(max(dot(normal, between), 0.0), 32.0);
-  vec3 light = base * (0.3 + 1.05 * diffuse * falloff) + 0.07 * shine * falloff;
+  // Dark cloth does not gleam like dark ice would.
+  float gleam = 0.01 + 0.15 * dot(base, vec3(0.2126, 0.7152, 0.0722));
+  vec3 light = base * (0.3 + 1.05 * diffuse * falloff) + gleam * shine * falloff;
   colour = vec4(pow(min(light, vec3(1.0)), vec3(1.0 / 2.2)), 1.0);
 }`;
 

@@ -8,7 +8,7 @@ import { View } from "./view.js";
 
 const ZOOM_STEP = 1.25;
 /** Pixels of the picture a pixel of the page: more nobody sees, fewer would blur. */
-const [FEWEST, MOST] = [0.4, 2];
+const [FEWEST, MOST] = [0.5, 2];
 /** A frame that takes longer than this, ms, is slow; after so many in a row the picture gets coarser. */
 const SLOW_MS = 30;
 const SLOW_FRAMES = 6;
