@@ -6,6 +6,7 @@ mod import;
 mod interchange;
 mod library;
 mod mixing;
+mod studio;
 mod views;
 
 pub(crate) use diffusion::Diffusion;
@@ -14,6 +15,7 @@ pub(crate) use import::{Import, ImportHatt, ImportModel, ImportRecording, Record
 pub(crate) use interchange::{Export, ImportEffects};
 pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
 pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};
+pub(crate) use studio::Studio;
 pub(crate) use views::{Inspect, Listen, Plot, Preview, Render};
 
 use asperity::{
@@ -41,6 +43,7 @@ use std::{ops::RangeInclusive, path::PathBuf};
   asperity import recording oak/ -o oak.asp --plot oak.png
   asperity export grit.asp --to ahap -o grit.ahap
   asperity build desk.toml -o desk.aspl --target cortex-m4f@16MHz
+  asperity studio
 
 Give `-` as an output to write it to standard output; the report then goes to standard error. An
 output must not be the same file as an input or as another output.
@@ -101,6 +104,8 @@ pub(crate) enum Command {
     Listen(Listen),
     /// Render a trajectory offline, with the runtime itself
     Render(Render),
+    /// Open the studio: a page to type prompts, see surfaces, stroke and hear them
+    Studio(Studio),
     /// Show which encoders, models and back ends are available, and how to get the others
     Doctor(Doctor),
     /// Print what a shell needs to complete arguments

@@ -18,6 +18,7 @@ mod recording;
 mod refusals;
 mod reports;
 mod results;
+mod studio;
 
 use std::{
     fmt::Write as _,

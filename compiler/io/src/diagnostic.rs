@@ -40,18 +40,21 @@ pub fn one(error: impl Diagnostic + 'static) -> Failures {
 /// and users say, so control characters are escaped and the long is shortened.
 #[must_use]
 pub fn report(error: &dyn Diagnostic) -> String {
+    let (text, remedy) = texts(error);
+    format!("error: {text}\n  help: {remedy}")
+}
+
+/// What is wrong, with its causes, and the remedy: escaped and shortened as in [`report`].
+#[must_use]
+pub fn texts(error: &dyn Diagnostic) -> (String, String) {
     let mut text = error.to_string();
     let mut source = error.source();
     while let Some(cause) = source {
         text += &format!(": {cause}");
         source = cause.source();
     }
-    let remedy = error.remedy();
-    format!(
-        "error: {}\n  help: {}",
-        excerpt(&plain(&text)),
-        excerpt(&plain(&remedy))
-    )
+    let shown = |text: &str| excerpt(&plain(text));
+    (shown(&text), shown(&error.remedy()))
 }
 
 #[cfg(test)]

@@ -68,6 +68,18 @@ fn commands(character: char) -> bool {
     }
 }
 
+/// A text as one word of a POSIX shell: as it is where the shell takes every character of it for itself, else in
+/// single quotes.
+#[must_use]
+pub fn shell_word(text: &str) -> Cow<'_, str> {
+    let plain = |c: char| c.is_alphanumeric() || "/._-".contains(c);
+    if !text.is_empty() && text.chars().all(plain) {
+        Cow::Borrowed(text)
+    } else {
+        Cow::Owned(format!("'{}'", text.replace('\'', r"'\''")))
+    }
+}
+
 /// A count with its noun: `1 fault`, `2 faults`.
 #[must_use]
 pub fn counted<N: Display + PartialEq + From<u8>>(count: N, one: &str, many: &str) -> String {

@@ -1,6 +1,7 @@
 //! From a description to a look.
 
 use crate::{
+    WIDTH_MM,
     color::{Rgb, lit, luminance, mix},
     description::{Description, Feel},
     look::Look,
@@ -11,8 +12,6 @@ use crate::{
     words::{Said, read},
 };
 
-/// Width of the piece of surface that fine grain is drawn on, mm.
-const PATCH_MM: f64 = 60.0;
 /// Wavelength at which a pattern has its own number of features, mm.
 const USUAL_MM: f64 = 0.9;
 /// Level at which a pattern has its own depth, dB re 1 (m/s²)².
@@ -68,7 +67,7 @@ fn felt(look: &mut Look, feel: Feel) {
     let louder = ((feel.level_db - USUAL_DB) / 24.0).clamp(-0.6, 0.6);
     look.relief *= (1.0 + 0.55 * louder) as f32;
     look.slick += (0.5 * (USUAL_MU - feel.mu)).clamp(-0.15, 0.15) as f32;
-    let cells = (PATCH_MM / feel.wavelength_mm.clamp(0.3, 12.0)) as i32;
+    let cells = (WIDTH_MM / feel.wavelength_mm.clamp(0.3, 12.0)) as i32;
     let soft = (feel.hard_hz / SOFT_HZ).clamp(0.3, 1.0);
     let strength = 0.0016 * ((feel.level_db + 30.0) / 30.0).clamp(0.0, 1.5) * soft;
     look.grain = (cells.clamp(5, 90), strength as f32);

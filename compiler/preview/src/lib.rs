@@ -47,6 +47,9 @@ use thiserror::Error;
 pub const SIZE: u32 = 256;
 /// Sizes that a picture can have, pixels.
 pub const SIZES: RangeInclusive<u32> = 64..=1024;
+/// Width of the piece of surface that a picture shows, mm, whatever its pixels: what fine grain is drawn for.
+/// Coarser patterns are drawn to be recognised, not to scale.
+pub const WIDTH_MM: f64 = 60.0;
 /// Bytes that a preview of the usual size takes at most.
 pub const COMPACT_BYTES: usize = 24_000;
 

@@ -18,7 +18,7 @@ use asperity_preview::{Description, EncodeError, Feel, SizeError};
 use asperity_texture::model::{TextureModel, VertexKind, attributes};
 use thiserror::Error;
 
-pub use asperity_preview::{Picture, SIZE, SIZES};
+pub use asperity_preview::{Picture, SIZE, SIZES, WIDTH_MM};
 
 /// Centroid of a tap where a texture has none, Hz.
 const NO_TAP_HZ: f64 = 800.0;

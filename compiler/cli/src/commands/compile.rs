@@ -17,6 +17,7 @@ use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{display, is_standard_output},
+    shown::shell_word,
 };
 use std::path::Path;
 
@@ -80,10 +81,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     if args.explain {
         let explanation =
             explain(&LatentEditor::new(&prompt_compiler), &args.prompt).map_err(one)?;
-        // Plain structures of numbers and strings always serialise.
-        json["words"] = serde_json::to_value(&explanation.words).unwrap_or_default();
-        json["reading"] = serde_json::to_value(&explanation.reading).unwrap_or_default();
-        json["phrase"] = explanation.phrase.as_str().into();
+        explanation.add_to(&mut json);
         words = explanation.text();
     }
     if !is_standard_output(&args.output) {
@@ -94,6 +92,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
 
 /// What to try with a texture.
 fn next(asset: &Path) -> String {
+    let quoted = |path: &Path| shell_word(&display(path).to_string()).into_owned();
     let beside = |extension: &str| quoted(&asset.with_extension(extension));
     let asset = quoted(asset);
     format!(
@@ -103,15 +102,4 @@ fn next(asset: &Path) -> String {
         beside("wav"),
         beside("rougher.asp"),
     )
-}
-
-/// A path as a shell takes it.
-fn quoted(path: &Path) -> String {
-    let text = display(path).to_string();
-    let plain = |c: char| c.is_alphanumeric() || "/._-".contains(c);
-    if text.chars().all(plain) {
-        text
-    } else {
-        format!("'{}'", text.replace('\'', r"'\''"))
-    }
 }

@@ -111,7 +111,5 @@ fn row(name: &str, d: &Document) -> String {
 }
 
 fn print_json(document: &impl Serialize, console: Console) -> Result<(), Failures> {
-    // Plain structures of numbers and strings always serialise.
-    let json = serde_json::to_string(document).unwrap_or_default();
-    console.json(&json).map_err(one)
+    console.json(&inspect::json(document)).map_err(one)
 }

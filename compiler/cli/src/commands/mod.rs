@@ -20,12 +20,21 @@ mod plot;
 mod preview;
 mod record_check;
 mod render;
+mod studio;
 mod timings;
 
 use crate::cli::{Cli, Command, Import};
 use asperity::effects::Kind;
-use asperity_console::Console;
-use asperity_io::diagnostic::Failures;
+use asperity_console::{Console, clean_up_on_interrupt};
+use asperity_io::diagnostic::{Failures, one};
+
+/// Prepares for an interrupt: the studio ends by it with status 0, every other command removes what is unfinished.
+pub(crate) fn prepare(cli: &Cli) -> Result<(), Failures> {
+    match cli.command {
+        Command::Studio(_) => Ok(()),
+        _ => clean_up_on_interrupt().map_err(one),
+    }
+}
 
 pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     let console = Console::new(cli.quiet);
@@ -57,6 +66,7 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
         Command::Preview(args) => preview::run(&args, console),
         Command::Listen(args) => listen::run(&args, console),
         Command::Render(args) => render::run(&args, console),
+        Command::Studio(args) => studio::run(&args, console),
         Command::Completions(args) => args.run::<Cli>(console),
         Command::Manual(args) => args.run::<Cli>(console),
     }

@@ -10,6 +10,7 @@ use asperity_io::shown::rounded;
 use asperity_texture::model::attributes::{self, Attributes};
 use rayon::prelude::*;
 use serde::Serialize;
+use serde_json::Value;
 use std::fmt::Write as _;
 
 /// What one word did.
@@ -171,6 +172,14 @@ fn mean(editor: &LatentEditor<'_>) -> Latent {
 }
 
 impl Explanation {
+    /// Adds `words`, `reading` and `phrase` to the report of the prompt, an object.
+    pub fn add_to(&self, report: &mut Value) {
+        // Plain structures of numbers and strings always serialise.
+        report["words"] = serde_json::to_value(&self.words).unwrap_or_default();
+        report["reading"] = serde_json::to_value(&self.reading).unwrap_or_default();
+        report["phrase"] = self.phrase.as_str().into();
+    }
+
     /// A table for people: a row a word, a column a slider.
     #[must_use]
     pub fn text(&self) -> String {

@@ -36,6 +36,7 @@ mod prompt_compiler;
 pub mod reading;
 mod report;
 mod source;
+mod suggestions;
 mod understood;
 
 pub use crate::words::grade::woods;
@@ -46,4 +47,5 @@ pub use explained::Taken;
 pub use meaning::Meaning;
 pub use prompt_compiler::{Projection, PromptCompiler};
 pub use source::{KIND, Picture, Prompt};
+pub use suggestions::suggestions;
 pub use understood::{Understood, check};

@@ -25,3 +25,12 @@ mod text;
 pub use json::{Document, LibraryDocument};
 pub use scene::SurfaceDocument;
 pub use text::text;
+
+use serde::Serialize;
+
+/// A document as `inspect --json` prints it, without the line break.
+#[must_use]
+pub fn json(document: &impl Serialize) -> String {
+    // Plain structures of numbers and strings always serialise.
+    serde_json::to_string(document).unwrap_or_default()
+}

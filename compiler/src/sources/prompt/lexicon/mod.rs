@@ -4,7 +4,7 @@
 mod names;
 
 pub use names::key;
-pub(super) use names::{LONGEST, is_quality, keys, name, vocabulary};
+pub(super) use names::{LONGEST, is_quality, keys, name, names, qualities, vocabulary};
 
 use crate::{learned::text::Vocabulary, words::singular};
 

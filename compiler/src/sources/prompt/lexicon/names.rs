@@ -55,6 +55,16 @@ pub(in crate::sources::prompt) fn vocabulary() -> impl Iterator<Item = &'static 
         .chain(QUALITIES.lines())
 }
 
+/// Every name, as the corpus spells it.
+pub(in crate::sources::prompt) fn names() -> impl Iterator<Item = &'static str> {
+    NAMES.lines().filter_map(|line| line.rsplit('\t').next())
+}
+
+/// The words by which the lexicon says how something feels.
+pub(in crate::sources::prompt) fn qualities() -> impl Iterator<Item = &'static str> {
+    QUALITIES.lines()
+}
+
 /// The key of every name.
 pub(in crate::sources::prompt) fn keys() -> impl Iterator<Item = &'static str> {
     let key = |line: &'static str| line.split_once('\t').map_or(line, |(key, _)| key);

@@ -30,6 +30,7 @@ pub use changed::{STEP, changed, from_base};
 pub use parse::{is_cover, parse};
 pub use quality::{is_degree, is_lasting, is_quality};
 pub use relative::{Relative, Towards, relative};
+pub(super) use table::quality_words;
 
 /// How far one attribute is to go from that of the base, in steps of [`STEP`].
 ///

@@ -30,6 +30,11 @@ fn read(table: &'static str) -> HashMap<&'static str, Signs> {
     table.lines().filter_map(line).collect()
 }
 
+/// Every adjective of a quality, and every state.
+pub(in crate::sources::prompt) fn quality_words() -> impl Iterator<Item = &'static str> {
+    ADJECTIVES.keys().chain(STATES.keys()).copied()
+}
+
 /// The signs of a quality's adjective, plain.
 pub(super) fn adjective(word: &str) -> Option<Signs> {
     ADJECTIVES.get(word).copied()

@@ -1,0 +1,27 @@
+//! Arguments of the studio.
+
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Prints the address of the page and opens it in a browser. The page is served to this machine alone, and \
+only under that address, which holds a secret: whoever has it can use the studio until it ends. Prompts are compiled as \
+`asperity compile` does, to the same bytes. Ctrl-C ends it.
+
+Examples:
+  asperity studio
+  asperity studio hatt.aspl
+  asperity studio textures/ --port 8016 --no-open"
+)]
+pub(crate) struct Studio {
+    /// A library (.aspl), or a folder of assets (.asp), to have at hand
+    #[arg(value_name = "LIBRARY|FOLDER")]
+    pub(crate) collection: Option<PathBuf>,
+    /// Port to listen on [default: a free one]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub(crate) port: u16,
+    /// Only print the address, and open no browser
+    #[arg(long)]
+    pub(crate) no_open: bool,
+}

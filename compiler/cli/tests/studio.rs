@@ -1,0 +1,231 @@
+//! `asperity studio` as a user starts it: one line with the address, the bytes of `compile`, a clean end.
+
+use super::*;
+use serde_json::{Value, json};
+use std::{
+    io::{BufRead as _, BufReader, Read as _, Write as _},
+    net::{TcpListener, TcpStream},
+    process::{Child, Stdio},
+};
+
+/// A studio that runs; it is killed where a test fails.
+struct Running {
+    child: Child,
+    /// `127.0.0.1:PORT`
+    host: String,
+    /// `/TOKEN/`
+    page: String,
+}
+
+impl Running {
+    fn start(folder: &Path, arguments: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
+            .args([&["studio", "--no-open"], arguments].concat())
+            .current_dir(folder)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("it starts");
+        let mut line = String::new();
+        let stdout = child.stdout.as_mut().expect("a pipe");
+        BufReader::new(stdout).read_line(&mut line).expect("a line");
+        let url = line.trim_end().strip_prefix("http://").expect("an address");
+        let (host, page) = url.split_once('/').expect("a path");
+        Self {
+            host: host.to_owned(),
+            page: format!("/{page}"),
+            child,
+        }
+    }
+
+    /// The body of a good answer.
+    fn ask(&self, request: &str, body: &str) -> Vec<u8> {
+        let (method, path) = request.split_once(' ').expect("a method and a path");
+        let mut stream = TcpStream::connect(&self.host).expect("it listens");
+        write!(
+            stream,
+            "{method} {}{path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Length: {}\r\n\r\n{body}",
+            self.page,
+            self.host,
+            body.len()
+        )
+        .expect("it reads");
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer).expect("an answer");
+        assert!(answer.starts_with(b"HTTP/1.1 200 "), "{}", text(&answer));
+        let end = answer.windows(4).position(|four| four == b"\r\n\r\n");
+        answer.split_off(end.expect("a head") + 4)
+    }
+
+    fn compile(&self, prompt: &str, seed: u64) -> Value {
+        let body = json!({ "prompt": prompt, "seed": seed }).to_string();
+        serde_json::from_slice(&self.ask("POST api/compile", &body)).expect("JSON")
+    }
+
+    fn file(&self, texture: &Value, ending: &str) -> Vec<u8> {
+        let id = texture["id"].as_str().expect("a name");
+        self.ask(&format!("GET api/texture/{id}.{ending}"), "")
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // It has ended already where the test did that.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// JSON without what differs from run to run: times.
+fn timeless(json: &[u8]) -> Value {
+    let mut json: Value = serde_json::from_slice(json).expect("JSON");
+    json.as_object_mut().expect("an object").remove("stages_ms");
+    json
+}
+
+#[test]
+fn a_prompt_on_the_page_and_in_a_shell_gives_the_bytes_of_the_command() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let studio = Running::start(folder, &[]);
+    for (prompt, seed) in [
+        ("rough abrasive sheet with gritty particles", 0),
+        ("-a 'wet' \"ice\" $(touch x) `id` \\ 100% ", 7),
+    ] {
+        let texture = studio.compile(prompt, seed);
+        let asset = studio.file(&texture, "asp");
+        let seed = seed.to_string();
+        let command = [
+            "compile",
+            "-o",
+            "c.asp",
+            "--seed",
+            &seed,
+            "--json",
+            "--explain",
+            "--",
+            prompt,
+        ];
+        let report = good(folder, &command);
+        assert!(bytes(folder, "c.asp") == asset, "{prompt}");
+        let compiled = texture["compiled"].to_string();
+        assert_eq!(timeless(compiled.as_bytes()), timeless(report.as_bytes()));
+        assert_eq!(
+            good(folder, &["inspect", "c.asp", "--json"]).as_bytes(),
+            studio.file(&texture, "json")
+        );
+        #[cfg(unix)]
+        {
+            let line = texture["command"].as_str().expect("a command");
+            let shell = tempfile::tempdir().expect("a folder");
+            let programs = Path::new(env!("CARGO_BIN_EXE_asperity"))
+                .parent()
+                .expect("a folder");
+            let run = Command::new("sh")
+                .args(["-c", line])
+                .env("PATH", format!("{}:/usr/bin:/bin", programs.display()))
+                .current_dir(shell.path())
+                .output()
+                .expect("a shell");
+            assert!(run.status.success(), "{line}: {}", text(&run.stderr));
+            let written = entries(shell.path());
+            assert_eq!(written.len(), 1, "{line}: {written:?}");
+            assert!(bytes(shell.path(), &written[0]) == asset, "{line}");
+        }
+    }
+}
+
+#[test]
+fn a_port_that_is_taken_and_a_path_that_is_no_library_are_refused_with_a_remedy() {
+    let inputs = inputs();
+    let folder = inputs.path();
+    let taken = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = taken.local_addr().expect("an address").port().to_string();
+    refused(
+        folder,
+        &["studio", "--no-open", "--port", &port],
+        &[&port, "another --port"],
+    );
+    for (path, named) in [
+        ("good.asp", "not a library"),
+        ("flipped.asp", "flipped.asp"),
+        ("missing.aspl", "missing.aspl"),
+        ("dir", "no asset"),
+    ] {
+        refused(folder, &["studio", "--no-open", path], &[named]);
+    }
+    let usage = asperity(folder, &["studio", "--port", "65536"]);
+    assert_eq!(usage.status.code(), Some(2));
+}
+
+#[test]
+fn a_folder_of_assets_is_named_on_the_page() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::create_dir(folder.join("mine")).expect("a folder");
+    good(folder, &["builtin", "-o", "mine/grit.asp"]);
+    let studio = Running::start(folder, &["mine"]);
+    let about: Value = serde_json::from_slice(&studio.ask("GET api/about", "")).expect("JSON");
+    assert_eq!(about["library"], json!({ "name": "mine", "textures": 1 }));
+    assert_eq!(about["folder"], "mine");
+    assert!(text(&studio.ask("GET index.html", "")).starts_with("<!doctype html>"));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_it_with_success_and_prints_nothing_more() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for signal in ["INT", "TERM"] {
+        let mut studio = Running::start(folder.path(), &[]);
+        studio.compile("cork", 0);
+        // An open connection keeps it no longer.
+        let open = TcpStream::connect(&studio.host).expect("it listens");
+        let id = studio.child.id().to_string();
+        let killed = Command::new("sh")
+            .args(["-c", &format!("kill -{signal} {id}")])
+            .status();
+        assert!(killed.expect("a shell").success());
+        let status = studio.child.wait().expect("it ends");
+        assert_eq!(status.code(), Some(0), "{signal}");
+        let mut rest = Vec::new();
+        studio
+            .child
+            .stdout
+            .take()
+            .expect("a pipe")
+            .read_to_end(&mut rest)
+            .expect("an end");
+        studio
+            .child
+            .stderr
+            .take()
+            .expect("a pipe")
+            .read_to_end(&mut rest)
+            .expect("an end");
+        assert_eq!(text(&rest), "", "{signal}");
+        drop(open);
+    }
+}
+
+/// Without a browser, the address is still there, and what to do is said.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_missing_browser_is_a_warning_with_the_remedy() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .arg("studio")
+        .env("DISPLAY", ":0")
+        .env("PATH", folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    let mut said = String::new();
+    let stderr = child.stderr.take().expect("a pipe");
+    BufReader::new(stderr).read_line(&mut said).expect("a line");
+    let _ = child.kill();
+    let _ = child.wait();
+    for part in ["warning: ", "xdg-open", "open the address above by hand"] {
+        assert!(said.contains(part), "{said}");
+    }
+}

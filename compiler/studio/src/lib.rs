@@ -1,0 +1,51 @@
+//! The studio: a page on which a person types a prompt, sees the surface, strokes it and hears it, and the server
+//! behind that page.
+//!
+//! ```no_run
+//! use asperity_studio::{Limits, Server, Studio};
+//!
+//! let studio = Studio::new(None);
+//! let server = Server::bind(0, studio, Limits::default())?; // a free port
+//! println!("{}", server.url());
+//! server.run(); // until `server.stopper().stop()`
+//! # Ok::<(), asperity_studio::BindError>(())
+//! ```
+//!
+//! # What it trusts
+//!
+//! Nothing. It listens on 127.0.0.1 alone, yet every program of the machine and every page in the user's browser can
+//! connect. So each request passes, in this order and before any byte of its body is read:
+//!
+//! 1. `server` and `connections`: at most so many connections; one that keeps silent goes first, and none is waited
+//!    for longer than the limit.
+//! 2. `http/`: a head of at most 16 KiB, a body of stated length.
+//! 3. `guard`: the `Host` and the `Origin` are this server's, against pages that reach it by a name of their own (DNS
+//!    rebinding) and pages of others; the path begins with the secret token; no other site asked for it.
+//! 4. `api`: the page's files by the table in `page`, so that no path reaches a file system; then the requests of the
+//!    interface, each with its limit of bytes.
+//!
+//! What is compiled or opened, it compiles and opens with the same calls as the commands, so that bytes, reports and
+//! errors are theirs. A panic in one of these ends one request.
+#![forbid(unsafe_code)]
+
+mod api;
+mod browser;
+mod collection;
+mod command_line;
+mod connections;
+mod error;
+mod guard;
+mod http;
+mod page;
+mod recent;
+mod server;
+mod studio;
+mod texture;
+mod token;
+mod turns;
+mod worklet_asset;
+
+pub use browser::{BrowserError, has_display, open_in_browser};
+pub use collection::{Collection, CollectionError};
+pub use server::{BindError, Limits, Server, Stopper};
+pub use studio::Studio;

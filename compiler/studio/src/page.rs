@@ -1,0 +1,59 @@
+//! The files of the page, embedded. A request names one of this table or gets none.
+
+/// A file of the page.
+pub(crate) struct File {
+    /// Its name in the address, relative to the page.
+    pub(crate) name: &'static str,
+    /// Its type.
+    pub(crate) content_type: &'static str,
+    /// Its bytes.
+    pub(crate) bytes: &'static [u8],
+}
+
+macro_rules! files {
+    ($($content_type:literal: $($name:literal)*;)*) => {
+        &[$($(File {
+            name: $name,
+            content_type: $content_type,
+            bytes: include_bytes!(concat!("../page/", $name)),
+        },)*)*]
+    };
+}
+
+/// Every file of `page/`.
+pub(crate) const FILES: &[File] = files! {
+    "text/html; charset=utf-8": "index.html";
+    "text/css; charset=utf-8": "studio.css";
+    "text/javascript; charset=utf-8":
+        "auto.js" "devices.js" "dom.js" "feel.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js"
+        "limiter.js" "lit.js" "loader.js" "notices.js" "plain.js" "pointer.js" "prompt.js" "reading.js"
+        "readout.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
+        "texts.js" "texture-panels.js" "theme.js" "view.js" "worklet.js";
+    "application/wasm": "asperity.wasm";
+    "image/svg+xml": "icon.svg";
+};
+
+/// The file of this name; the empty name is the page itself.
+pub(crate) fn file(name: &str) -> Option<&'static File> {
+    let name = if name.is_empty() { "index.html" } else { name };
+    FILES.iter().find(|file| file.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn the_table_holds_every_file_of_the_folder() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("page");
+        let mut found: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        found.sort();
+        let mut listed: Vec<&str> = FILES.iter().map(|file| file.name).collect();
+        listed.sort_unstable();
+        assert_eq!(found, listed, "FILES in src/page.rs must list page/");
+    }
+}

@@ -1,0 +1,63 @@
+//! The textures that were made last, by what names their bytes.
+
+use crate::texture::Texture;
+use std::{
+    collections::VecDeque,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+/// Textures that are kept.
+const MOST: usize = 256;
+/// Bytes of assets that are kept: opened ones may be large.
+const MOST_BYTES: usize = 256 << 20;
+
+/// The last textures, the newest at the end.
+#[derive(Default)]
+pub(crate) struct Recent(Mutex<VecDeque<Arc<Texture>>>);
+
+impl Recent {
+    /// Keeps a texture. What has the same bytes makes room, then the oldest.
+    pub(crate) fn keep(&self, texture: Arc<Texture>) {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.retain(|other| other.id() != texture.id());
+        kept.push_back(texture);
+        let mut bytes: usize = kept.iter().map(|texture| texture.asset().len()).sum();
+        while kept.len() > MOST || (bytes > MOST_BYTES && kept.len() > 1) {
+            bytes -= kept.pop_front().map_or(0, |oldest| oldest.asset().len());
+        }
+    }
+
+    /// The texture of this name.
+    pub(crate) fn get(&self, id: &str) -> Option<Arc<Texture>> {
+        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.iter().find(|texture| texture.id() == id).cloned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity::{builtin, library::renamed, lower::lower};
+
+    #[test]
+    fn the_last_256_are_kept_each_once() {
+        let asset = lower(&builtin::texture(), None).unwrap().bytes;
+        let named = |n: usize| {
+            let asset = renamed(&asset, &format!("texture {n}")).unwrap();
+            Arc::new(Texture::opened("x.asp", asset).unwrap())
+        };
+        let recent = Recent::default();
+        let first = named(0);
+        recent.keep(Arc::clone(&first));
+        for n in 1..MOST {
+            recent.keep(named(n));
+        }
+        recent.keep(named(MOST - 1));
+        assert!(recent.get(first.id()).is_some(), "{MOST} fit");
+        recent.keep(named(MOST));
+        assert!(recent.get(first.id()).is_none(), "the oldest goes");
+        let second = named(1);
+        assert!(recent.get(second.id()).is_some());
+        assert!(recent.get("").is_none());
+    }
+}

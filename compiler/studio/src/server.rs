@@ -1,0 +1,259 @@
+//! The server: accepts connections, gives each a thread, and answers one request of it after another.
+
+use crate::{
+    api,
+    connections::{Connections, Place},
+    error::ApiError,
+    guard::{Guard, Refusal, Target},
+    http::{Answer, Body, Head, Method, Status, Timed, read_head},
+    studio::Studio,
+    token::Token,
+};
+use asperity_io::{diagnostic::Diagnostic, system};
+use std::{
+    io::{self, ErrorKind, Read as _},
+    net::{Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream},
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+use thiserror::Error;
+
+/// How long bytes are read that nobody wants. A socket that is closed before takes its last answer with it.
+const LINGER: Duration = Duration::from_secs(2);
+/// How long the server waits where the system gives it no socket or thread.
+const RECOVERY: Duration = Duration::from_millis(20);
+/// How long a client that is turned away may take to read why.
+const TURNED_AWAY: Duration = Duration::from_millis(50);
+
+/// What clients may take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Connections at once, at least 1.
+    pub connections: usize,
+    /// Time for a request to come, and again for its answer to go.
+    pub time: Duration,
+}
+
+/// 64 connections, 10 s.
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            connections: 64,
+            time: Duration::from_secs(10),
+        }
+    }
+}
+
+/// The server cannot listen.
+#[derive(Debug, Error)]
+pub enum BindError {
+    /// The system refuses the port.
+    #[error("cannot listen on port {port}")]
+    Port {
+        /// The port.
+        port: u16,
+        /// Why.
+        source: io::Error,
+    },
+    /// The system has no random numbers.
+    #[error("the system gives no random numbers for the address")]
+    Random(#[source] getrandom::Error),
+}
+
+impl Diagnostic for BindError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Port { source, .. } => match source.kind() {
+                ErrorKind::AddrInUse => {
+                    "another program listens there: end it, give another --port, or leave it out for a free one".into()
+                }
+                ErrorKind::PermissionDenied => {
+                    "give a --port from 1024 on, or leave it out for a free one".into()
+                }
+                _ => system::remedy(source)
+                    .unwrap_or("leave --port out for a free one")
+                    .into(),
+            },
+            Self::Random(_) => "see that the system offers random numbers (getrandom, /dev/urandom)".into(),
+        }
+    }
+}
+
+/// A server that listens.
+pub struct Server {
+    listener: TcpListener,
+    address: SocketAddr,
+    stopped: Arc<AtomicBool>,
+    shared: Arc<Shared>,
+}
+
+/// What the threads of connections share.
+struct Shared {
+    guard: Guard,
+    studio: Arc<Studio>,
+    limits: Limits,
+}
+
+/// Stops a server, from any thread.
+#[derive(Debug, Clone)]
+pub struct Stopper {
+    address: SocketAddr,
+    stopped: Arc<AtomicBool>,
+}
+
+impl Stopper {
+    /// [`Server::run`] returns; connections that are open are left to the end of the process.
+    pub fn stop(&self) {
+        self.stopped.store(true, Ordering::SeqCst);
+        // It waits for a connection; this is one.
+        drop(TcpStream::connect(self.address));
+    }
+}
+
+impl Server {
+    /// Listens on 127.0.0.1, at this port or, for 0, at a free one.
+    ///
+    /// # Errors
+    /// [`BindError`] for a port that cannot be had, and a system without random numbers.
+    pub fn bind(port: u16, studio: Studio, limits: Limits) -> Result<Self, BindError> {
+        let refused = |source| BindError::Port { port, source };
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(refused)?;
+        let address = listener.local_addr().map_err(refused)?;
+        let token = Token::random().map_err(BindError::Random)?;
+        Ok(Self {
+            listener,
+            address,
+            stopped: Arc::default(),
+            shared: Arc::new(Shared {
+                guard: Guard::new(address, token),
+                studio: Arc::new(studio),
+                limits,
+            }),
+        })
+    }
+
+    /// The page's address, with the token: whoever knows it may use the server.
+    #[must_use]
+    pub fn url(&self) -> String {
+        format!("http://{}{}", self.address, self.shared.guard.page())
+    }
+
+    /// What stops it.
+    #[must_use]
+    pub fn stopper(&self) -> Stopper {
+        Stopper {
+            address: self.address,
+            stopped: Arc::clone(&self.stopped),
+        }
+    }
+
+    /// Answers until it is stopped. Meanwhile another thread loads the networks, so that the page is there at once.
+    pub fn run(self) {
+        let studio = Arc::clone(&self.shared.studio);
+        // Without this thread, the first prompt loads them.
+        let _ = thread::Builder::new()
+            .name("networks".into())
+            .spawn(move || studio.load());
+        let connections = Connections::new(self.shared.limits.connections);
+        for stream in self.listener.incoming() {
+            if self.stopped.load(Ordering::SeqCst) {
+                return;
+            }
+            match stream {
+                Ok(stream) => self.accept(stream, &connections),
+                Err(_) => thread::sleep(RECOVERY),
+            }
+        }
+    }
+
+    fn accept(&self, stream: TcpStream, connections: &Arc<Connections>) {
+        let stream = Arc::new(stream);
+        // Without it, answers are a little slower.
+        let _ = stream.set_nodelay(true);
+        let Some(place) = connections.admit(&stream) else {
+            return turn_away(&stream);
+        };
+        let shared = Arc::clone(&self.shared);
+        let of_thread = Arc::clone(&stream);
+        let started = thread::Builder::new()
+            .name("connection".into())
+            .spawn(move || shared.serve(&of_thread, &place));
+        if started.is_err() {
+            turn_away(&stream);
+            thread::sleep(RECOVERY);
+        }
+    }
+}
+
+/// Tells a client that there is no room.
+fn turn_away(stream: &TcpStream) {
+    let error = ApiError::new(
+        Status::Busy,
+        "too many connections are open",
+        "close other tabs of the studio, and try again",
+    );
+    // It may be gone already.
+    let _ = Answer::from(&error).send(&mut Timed::new(stream, TURNED_AWAY), true, false);
+}
+
+impl Shared {
+    /// Answers the requests of a connection until it ends.
+    fn serve(&self, stream: &TcpStream, place: &Place) {
+        let mut buffer = Vec::new();
+        loop {
+            place.waits();
+            let mut timed = Timed::new(stream, self.limits.time);
+            let head = match read_head(&mut timed, &mut buffer) {
+                Ok(Some(head)) => head,
+                Ok(None) => return,
+                Err(error) => return self.end(stream, &Answer::from(&error), false),
+            };
+            place.works();
+            let mut body = Body::new(&mut timed, &mut buffer, head.length, head.expects_continue);
+            let answer = self.answer(&head, &mut body, place);
+            let bare = head.method == Method::Head;
+            if head.closes || !body.is_over() {
+                return self.end(stream, &answer, bare);
+            }
+            let sent = answer.send(&mut Timed::new(stream, self.limits.time), false, bare);
+            if sent.is_err() {
+                return;
+            }
+        }
+    }
+
+    fn answer(&self, head: &Head, body: &mut Body<'_, '_>, place: &Place) -> Answer {
+        let below = match self.guard.pass(head) {
+            Ok(Target::Below(below)) => below,
+            Ok(Target::WithoutSlash) => return Answer::moved(&self.guard.page()),
+            Err(Refusal::Foreign(error)) => return Answer::from(&error),
+            Err(Refusal::NoToken) => return Answer::empty(Status::NotFound),
+        };
+        place.is_trusted();
+        let work = AssertUnwindSafe(|| api::answer(&self.studio, head, below, body));
+        match catch_unwind(work) {
+            Ok(Ok(answer)) => answer,
+            Ok(Err(error)) => Answer::from(&error),
+            // What panicked has said why on standard error.
+            Err(_) => Answer::from(&ApiError::panicked()),
+        }
+    }
+
+    /// Sends the last answer of a connection, and reads what still comes.
+    fn end(&self, stream: &TcpStream, answer: &Answer, bare: bool) {
+        let mut timed = Timed::new(stream, self.limits.time);
+        if answer.send(&mut timed, true, bare).is_err() || stream.shutdown(Shutdown::Write).is_err()
+        {
+            return;
+        }
+        let mut rest = Timed::new(stream, LINGER.min(self.limits.time));
+        let began = Instant::now();
+        let mut unwanted = [0; 1 << 14];
+        while began.elapsed() < LINGER && rest.read(&mut unwanted).is_ok_and(|count| count > 0) {}
+    }
+}

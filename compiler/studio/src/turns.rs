@@ -1,0 +1,84 @@
+//! Who may compute now: compiling takes all processors, so a few at a time are as fast as many, and take less memory.
+
+use std::{
+    sync::{Condvar, Mutex, PoisonError},
+    thread::available_parallelism,
+};
+
+/// Most requests that compute at once.
+const MOST: usize = 4;
+
+/// Turns that are free.
+pub(crate) struct Turns {
+    free: Mutex<usize>,
+    given_back: Condvar,
+}
+
+impl Turns {
+    pub(crate) fn new() -> Self {
+        let processors = available_parallelism().map_or(1, usize::from);
+        Self {
+            free: Mutex::new(processors.min(MOST)),
+            given_back: Condvar::new(),
+        }
+    }
+
+    /// Does this once it has a turn; gives it back even after a panic.
+    pub(crate) fn take<T>(&self, work: impl FnOnce() -> T) -> T {
+        let free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
+        let none = |free: &mut usize| *free == 0;
+        let mut free = self
+            .given_back
+            .wait_while(free, none)
+            .unwrap_or_else(PoisonError::into_inner);
+        *free -= 1;
+        drop(free);
+        let _turn = Turn(self);
+        work()
+    }
+}
+
+/// A turn that was taken.
+struct Turn<'a>(&'a Turns);
+
+impl Drop for Turn<'_> {
+    fn drop(&mut self) {
+        let mut free = self.0.free.lock().unwrap_or_else(PoisonError::into_inner);
+        *free += 1;
+        self.0.given_back.notify_one();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::{
+        panic::{AssertUnwindSafe, catch_unwind},
+        sync::atomic::{AtomicUsize, Ordering},
+        thread::{scope, yield_now},
+    };
+
+    #[test]
+    fn no_more_work_at_once_than_turns_and_a_panic_keeps_none() {
+        let turns = Turns::new();
+        let all = *turns.free.lock().unwrap();
+        for _ in 0..all {
+            let work = AssertUnwindSafe(|| turns.take(|| panic!("a test's panic")));
+            assert!(catch_unwind(work).is_err());
+        }
+        let (now, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        scope(|threads| {
+            for _ in 0..16 {
+                threads.spawn(|| {
+                    turns.take(|| {
+                        most.fetch_max(now.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
+                        (0..100).for_each(|_| yield_now());
+                        now.fetch_sub(1, Ordering::SeqCst);
+                    });
+                });
+            }
+        });
+        assert!((1..=all).contains(&most.into_inner()));
+        assert_eq!(*turns.free.lock().unwrap(), all);
+    }
+}

@@ -1,0 +1,7 @@
+//! The server as its page and its enemies meet it: over a socket.
+
+mod answers;
+mod attacks;
+mod client;
+mod hostile_files;
+mod waits;
