@@ -38,7 +38,7 @@ fn asperity(folder: &Path, arguments: &[&str]) -> Output {
 
 /// The shipped model as a folder.
 fn write_model(folder: &Path) {
-    for (name, bytes) in asperity_model::FOLDER {
+    for (name, bytes) in asperity_model::folder() {
         fs::write(folder.join(name), bytes).expect("a model's file");
     }
 }

@@ -88,10 +88,7 @@ fn a_prompt_on_the_page_and_in_a_shell_gives_the_bytes_of_the_command() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
     let studio = Running::start(folder, &[]);
-    for (prompt, seed) in [
-        ("rough abrasive sheet with gritty particles", 0),
-        ("-a 'wet' \"ice\" $(touch x) `id` \\ 100% ", 7),
-    ] {
+    for (prompt, seed) in [("gritty sheet", 0), ("-wet 'ice' \"$(id)\\`", 7)] {
         let texture = studio.compile(prompt, seed);
         let asset = studio.file(&texture, "asp");
         let seed = seed.to_string();

@@ -26,7 +26,7 @@ pub(crate) fn rate_hz(own_hz: f64) -> f64 {
     }
     let (low, high) = RATE_RANGE_HZ;
     (1..=MOST_TICKS)
-        .filter(|ticks| TICK_HZ % ticks == 0)
+        .filter(|ticks| TICK_HZ.is_multiple_of(*ticks))
         .map(|ticks| f64::from(TICK_HZ / ticks))
         .filter(|rate_hz| (low..=high).contains(rate_hz))
         .min_by(|a, b| (a - own_hz).abs().total_cmp(&(b - own_hz).abs()))
