@@ -25,6 +25,7 @@ fn every_answer_has_the_headers_that_bind_the_page() {
         ("studio.css", "text/css; charset=utf-8"),
         ("studio.js", "text/javascript; charset=utf-8"),
         ("worklet.js", "text/javascript; charset=utf-8"),
+        ("icon.svg", "image/svg+xml"),
         ("asperity.wasm", "application/wasm"),
         ("api/about", "application/json"),
         ("none", "application/json"),
