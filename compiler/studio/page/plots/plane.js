@@ -1,0 +1,255 @@
+// The speed × force plane: the level of the vibration wherever the hand may go, the models that it
+// is mixed from, and the hand itself.
+
+import { axes, clipped } from "./axes.js";
+import { contour } from "./contour.js";
+import { Figure } from "./figure.js";
+import { fieldPicture, colourBar } from "./field.js";
+import { FLOOR_HZ } from "./level.js";
+import { COLUMN, FLAG } from "./ring.js";
+import { PlanePointer } from "./plane-pointer.js";
+
+const TRAIL_S = 1.5;
+/** Distance of two points of the trail, s. */
+const STEP_S = 0.01;
+/** The trail fades in so many steps. */
+const FADES = 10;
+/** Room right of the plane: a mark of the hand outside, the colour bar, its numbers. */
+const RIGHT_PX = 70;
+const CONTOUR_DB = 5;
+/** What is drawn on the field shows on every colour of it in this pair. */
+const [LIGHT, DARK] = ["#fff", "rgb(0 0 0 / 75%)"];
+
+export class Plane extends Figure {
+  constructor(stage, scope, texts, chosen) {
+    const contour = texts.legend.contour({ every_db: CONTOUR_DB, floor_hz: FLOOR_HZ });
+    super(stage, "plane", texts, { ...texts.legend, contour });
+    this.scope = scope;
+    this.texts = texts;
+    this.pointer = new PlanePointer(this, chosen);
+    this.placed = null;
+  }
+
+  draw(ctx, now_s) {
+    const { levels } = this.scope;
+    if (!levels) {
+      this.read(() => "", now_s);
+      return;
+    }
+    const { grid } = levels;
+    const key = `${this.version}|${levels.isComplete}`;
+    this.placed = this.layer(ctx, "field", key, (on) => this.#field(on, levels));
+    const { box, x, y } = this.placed;
+    this.#trail(ctx, grid);
+    const { hand, chosen } = this.scope;
+    if (chosen) this.#cross(ctx, box, x(chosen.speed_mm_s), y(chosen.force_n));
+    if (hand) this.#hand(ctx, grid, hand);
+    this.read(() => this.#text(), now_s);
+  }
+
+  /** A new texture. */
+  renew() {
+    this.version = (this.version ?? 0) + 1;
+    this.pointer.leave();
+    this.invalidate();
+  }
+
+  #field(ctx, levels) {
+    const { grid } = levels;
+    const { palette } = this.stage;
+    const placed = axes(
+      ctx,
+      this,
+      { low: 0, high: grid.max_speed_mm_s, title: this.texts.speed_axis },
+      { low: 0, high: grid.max_force_n, title: this.texts.force_axis },
+      { right: RIGHT_PX, grid: false, frame: false },
+    );
+    const { box } = placed;
+    if (levels.isComplete) {
+      const picture = fieldPicture(
+        levels,
+        Math.ceil((box.right - box.left) / 2),
+        Math.ceil((box.bottom - box.top) / 2),
+      );
+      ctx.imageSmoothingQuality = "high";
+      ctx.drawImage(picture, box.left, box.top, box.right - box.left, box.bottom - box.top);
+      clipped(ctx, box, () => this.#contours(ctx, levels, placed));
+      colourBar(ctx, palette, levels, box, CONTOUR_DB);
+      ctx.fillStyle = palette.ink;
+      ctx.textAlign = "right";
+      ctx.fillText(this.texts.level_axis, this.width, box.top - 10);
+    }
+    this.#mesh(ctx, grid, placed);
+    ctx.strokeStyle = palette.ink;
+    ctx.lineWidth = 1.5;
+    ctx.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
+    return placed;
+  }
+
+  #contours(ctx, levels, { box }) {
+    const across = (box.right - box.left) / (levels.columns - 1);
+    const down = (box.bottom - box.top) / (levels.rows - 1);
+    ctx.beginPath();
+    for (let db = levels.low_db + CONTOUR_DB; db < levels.high_db; db += CONTOUR_DB) {
+      for (const [x0, y0, x1, y1] of contour(levels.rms_m_s2, levels.columns, 10 ** (db / 20))) {
+        ctx.moveTo(box.left + across * x0, box.bottom - down * y0);
+        ctx.lineTo(box.left + across * x1, box.bottom - down * y1);
+      }
+    }
+    ctx.strokeStyle = "rgb(0 0 0 / 50%)";
+    ctx.stroke();
+  }
+
+  #mesh(ctx, grid, { x, y }) {
+    const at = (vertex) => [x(grid.vertices[vertex].speed_mm_s), y(grid.vertices[vertex].force_n)];
+    ctx.beginPath();
+    const drawn = new Set();
+    for (const triangle of grid.triangles) {
+      triangle.forEach((from, n) => {
+        const to = triangle[(n + 1) % 3];
+        const key = from < to ? `${from} ${to}` : `${to} ${from}`;
+        if (drawn.has(key)) return;
+        drawn.add(key);
+        ctx.moveTo(...at(from));
+        ctx.lineTo(...at(to));
+      });
+    }
+    ctx.strokeStyle = "rgb(0 0 0 / 30%)";
+    ctx.lineWidth = 2.5;
+    ctx.stroke();
+    ctx.strokeStyle = "rgb(255 255 255 / 80%)";
+    ctx.lineWidth = 1;
+    ctx.stroke();
+    for (const [vertex, { kind }] of grid.vertices.entries()) {
+      const [px, py] = at(vertex);
+      const inner = kind === "interior";
+      ctx.beginPath();
+      if (inner) ctx.arc(px, py, 4, 0, 2 * Math.PI);
+      else ctx.rect(px - 2.5, py - 2.5, 5, 5);
+      [ctx.fillStyle, ctx.strokeStyle] = inner ? [LIGHT, DARK] : [DARK, LIGHT];
+      ctx.fill();
+      ctx.stroke();
+    }
+  }
+
+  /** Where the hand was, fainter the longer ago. */
+  #trail(ctx, grid) {
+    const { ring, now } = this.scope;
+    const step = Math.max(1, this.scope.ticks(STEP_S));
+    const [from, to] = ring.kept(now - this.scope.ticks(TRAIL_S), now);
+    const points = [];
+    // Points stay where they are while time passes: they lie on multiples of the step.
+    for (let tick = step * Math.ceil(from / step); tick < to; tick += step) {
+      const touches = (ring.flagsAt(tick) & FLAG.contact) !== 0;
+      points.push(
+        touches ? this.#at(grid, ring.at(tick, COLUMN.speed_mm_s), ring.at(tick, COLUMN.normal_force_n)) : null,
+      );
+    }
+    for (let fade = 0; fade < FADES; fade++) {
+      ctx.beginPath();
+      const last = Math.floor((points.length * (fade + 1)) / FADES);
+      for (let n = Math.floor((points.length * fade) / FADES); n < last && n + 1 < points.length; n++) {
+        if (points[n] === null || points[n + 1] === null) continue;
+        ctx.moveTo(...points[n]);
+        ctx.lineTo(...points[n + 1]);
+      }
+      const strength = (fade + 1) / FADES;
+      ctx.strokeStyle = `rgb(0 0 0 / ${70 * strength}%)`;
+      ctx.lineWidth = 4;
+      ctx.stroke();
+      ctx.strokeStyle = `rgb(255 255 255 / ${100 * strength}%)`;
+      ctx.lineWidth = 2;
+      ctx.stroke();
+    }
+    ctx.lineWidth = 1;
+  }
+
+  #at(grid, speed_mm_s, force_n) {
+    const [speed, force] = grid.nearest(speed_mm_s, force_n);
+    return [this.placed.x(speed), this.placed.y(force)];
+  }
+
+  #hand(ctx, grid, { speed_mm_s, force_n, touches }) {
+    const { palette } = this.stage;
+    const [px, py] = this.#at(grid, speed_mm_s, force_n);
+    if (touches && grid.isOutside(speed_mm_s, force_n)) {
+      if (speed_mm_s > grid.max_speed_mm_s) this.#arrow(ctx, px, py, 1, 0);
+      if (force_n > grid.max_force_n) this.#arrow(ctx, px, py, 0, -1);
+    }
+    ctx.beginPath();
+    ctx.arc(px, py, 7, 0, 2 * Math.PI);
+    ctx.fillStyle = touches ? palette.accent : palette.paper;
+    ctx.fill();
+    ctx.strokeStyle = "#000";
+    ctx.lineWidth = 4;
+    ctx.stroke();
+    ctx.strokeStyle = "#fff";
+    ctx.lineWidth = 2;
+    ctx.stroke();
+    ctx.lineWidth = 1;
+  }
+
+  /** An arrow out of the plane: the hand is beyond, and the edge model at its foot answers. */
+  #arrow(ctx, px, py, dx, dy) {
+    const [bx, by] = [px + 9 * dx, py + 9 * dy];
+    ctx.beginPath();
+    ctx.moveTo(bx + 7 * dx, by + 7 * dy);
+    ctx.lineTo(bx + 6 * dy, by - 6 * dx);
+    ctx.lineTo(bx - 6 * dy, by + 6 * dx);
+    ctx.closePath();
+    ctx.fillStyle = this.stage.palette.ink;
+    ctx.fill();
+  }
+
+  #cross(ctx, box, px, py) {
+    const lines = () => {
+      ctx.beginPath();
+      ctx.moveTo(px, box.top);
+      ctx.lineTo(px, box.bottom);
+      ctx.moveTo(box.left, py);
+      ctx.lineTo(box.right, py);
+      ctx.stroke();
+      ctx.beginPath();
+      ctx.arc(px, py, 6, 0, 2 * Math.PI);
+      ctx.stroke();
+    };
+    ctx.strokeStyle = "#000";
+    ctx.lineWidth = 3;
+    lines();
+    ctx.strokeStyle = "#fff";
+    ctx.lineWidth = 1;
+    lines();
+  }
+
+  #text() {
+    const { levels, hand, chosen } = this.scope;
+    if (chosen) return this.texts.chosen(this.#facts(chosen));
+    if (!hand) return this.texts.no_hand;
+    if (!hand.touches) return this.texts.lifted(hand);
+    const outside = levels.grid.isOutside(hand.speed_mm_s, hand.force_n);
+    return this.texts.hand({ ...this.#facts(hand), outside });
+  }
+
+  #facts({ speed_mm_s, force_n, vertex }) {
+    const { levels } = this.scope;
+    const kind = vertex === undefined || vertex === null ? null : levels.grid.vertices[vertex].kind;
+    return { speed_mm_s, force_n, level_db: levels.level_db(speed_mm_s, force_n), kind };
+  }
+
+  summary() {
+    const { levels } = this.scope;
+    if (!levels) return `${this.title}. ${this.texts.no_texture}`;
+    const { grid } = levels;
+    const interior = grid.vertices.filter(({ kind }) => kind === "interior").length;
+    const about = this.texts.about({
+      max_speed_mm_s: grid.max_speed_mm_s,
+      max_force_n: grid.max_force_n,
+      interior,
+      edge: grid.vertices.length - interior,
+      triangles: grid.triangles.length,
+      low_db: levels.low_db,
+      high_db: levels.high_db,
+    });
+    return [this.title, this.#text(), about].join(". ");
+  }
+}

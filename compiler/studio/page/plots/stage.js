@@ -1,0 +1,95 @@
+// When figures draw: at most once an animation frame, only what changed, only what is seen.
+
+import { Palette } from "./palette.js";
+
+/** Least time between two drawings for those who want little motion, s. */
+const CALM_S = 0.25;
+/** Least time between two descriptions of a figure, s. */
+const DESCRIBE_S = 1;
+
+export class Stage {
+  /** `advance(now_s)` runs before every frame and says whether another one is due. */
+  constructor(container, advance) {
+    this.advance = advance;
+    this.figures = new Set();
+    this.frame = 0;
+    this.frame_ms = 0;
+    this.palette = new Palette(container, () => this.redrawAll());
+    this.motion = matchMedia("(prefers-reduced-motion: reduce)");
+    this.seen = new IntersectionObserver((entries) => {
+      for (const entry of entries) this.#of(entry.target)?.see(entry.isIntersecting);
+    });
+    this.sizes = new ResizeObserver((entries) => {
+      for (const entry of entries) this.#of(entry.target)?.resize(entry.contentRect);
+    });
+    this.announcer = container.ownerDocument.createElement("p");
+    this.announcer.className = "plot-unseen";
+    this.announcer.setAttribute("aria-live", "polite");
+    container.append(this.announcer);
+  }
+
+  get isCalm() {
+    return this.motion.matches;
+  }
+
+  #of(canvas) {
+    return [...this.figures].find((figure) => figure.canvas === canvas);
+  }
+
+  add(figure) {
+    this.figures.add(figure);
+    this.seen.observe(figure.canvas);
+    this.sizes.observe(figure.canvas);
+  }
+
+  redrawAll() {
+    for (const figure of this.figures) figure.dirty = true;
+    this.request();
+  }
+
+  request() {
+    this.frame ||= requestAnimationFrame((now_ms) => {
+      this.frame = 0;
+      this.#draw(now_ms / 1000);
+    });
+  }
+
+  #draw(now_s) {
+    const began_ms = performance.now();
+    let goes_on = this.advance(now_s);
+    for (const figure of this.figures) {
+      if (!figure.isDrawable) continue;
+      const least_s = Math.max(figure.least_s, this.isCalm ? CALM_S : 0);
+      // Half a frame early is on time.
+      if (figure.dirty && now_s - figure.drawn_s >= least_s - 0.008) {
+        figure.drawn_s = now_s;
+        figure.dirty = false;
+        figure.render(now_s);
+      }
+      if (figure.dirty) goes_on = true;
+      if (figure.described || !figure.isFocused) continue;
+      if (now_s - figure.described_s >= DESCRIBE_S) {
+        figure.described_s = now_s;
+        figure.describe();
+      } else goes_on = true;
+    }
+    this.frame_ms = performance.now() - began_ms;
+    if (goes_on) this.request();
+  }
+
+  /** Has a screen reader say a text. */
+  announce(text) {
+    // The same text twice would not be said again.
+    this.announcer.textContent = this.announcer.textContent === text ? `${text}\u00a0` : text;
+  }
+
+  destroy() {
+    cancelAnimationFrame(this.frame);
+    // A request after the end does nothing.
+    this.frame = -1;
+    this.seen.disconnect();
+    this.sizes.disconnect();
+    this.palette.destroy();
+    this.announcer.remove();
+  }
+}
