@@ -94,7 +94,7 @@ export function startHandPanel({ surface, sound, state }) {
   };
   source.textContent = texts.hand.from_slider;
 
-  sound.onticks = (ticks) => readout.show(meansOf(ticks));
+  sound.onticks.push((ticks) => readout.show(meansOf(ticks)));
   setInterval(() => {
     if (sound.state === "on" && state.get("texture")) return;
     readout.show(hand.last && { speed: hand.speed_mm_s(now_s()), force: hand.last.force_n });

@@ -55,7 +55,7 @@ export class Sound {
   onfailure = () => {};
   onloaded = () => {};
   onrefused = () => {};
-  onticks = () => {};
+  onticks = [];
   onlimit = () => {};
 
   /** From the hand to the sound as far as the browser knows, s. */
@@ -175,7 +175,7 @@ export class Sound {
   }
 
   #heard(message) {
-    if (message.type === "ticks") return this.onticks(message);
+    if (message.type === "ticks") return this.onticks.forEach((hear) => hear(message));
     const { about, name, latency_s } = message;
     if (about === "module" && name === "ok") this.latency_s = latency_s;
     else if (about === "load" || about === "swap") {

@@ -1,9 +1,13 @@
-// Every text of the page, in English. Functions take what they name.
+// Every text of the page, in English, but those of the plots, which have a file of their own. Functions take what they name.
+
+import { texts as plots } from "./plots/texts.js";
 
 const number = (value, digits) =>
   value.toLocaleString("en", { minimumFractionDigits: digits, maximumFractionDigits: digits }).replace("-", "−");
 
 export const texts = {
+  plots,
+  live: "Live plots",
   title: "Asperity Studio",
   titled: (name) => `${name} – Asperity Studio`,
   edition: (version, library) => (library ? `${library.name}, ${library.textures} textures · ${version}` : version),

@@ -23,12 +23,17 @@ macro_rules! files {
 /// Every file of `page/`.
 pub(crate) const FILES: &[File] = files! {
     "text/html; charset=utf-8": "index.html";
-    "text/css; charset=utf-8": "studio.css";
+    "text/css; charset=utf-8": "studio.css" "plots/plots.css";
     "text/javascript; charset=utf-8":
         "auto.js" "devices.js" "dom.js" "feel.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js"
         "limiter.js" "lit.js" "loader.js" "notices.js" "plain.js" "pointer.js" "prompt.js" "reading.js"
         "readout.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
-        "texts.js" "texture-panels.js" "theme.js" "view.js" "worklet.js";
+        "texts.js" "texture-panels.js" "theme.js" "view.js" "worklet.js"
+        "plots/axes.js" "plots/colormap.js" "plots/contour.js" "plots/controls.js" "plots/csv.js" "plots/fft.js"
+        "plots/field.js" "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/grid.js" "plots/level.js"
+        "plots/levels.js" "plots/lsf.js" "plots/palette.js" "plots/plane-pointer.js" "plots/plane.js"
+        "plots/playhead.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js" "plots/shortest.js"
+        "plots/spectrum.js" "plots/stage.js" "plots/strip.js" "plots/texts.js" "plots/waveform.js";
     "application/wasm": "asperity.wasm";
     "image/svg+xml": "icon.svg";
 };
@@ -46,11 +51,22 @@ mod tests {
 
     #[test]
     fn the_table_holds_every_file_of_the_folder() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("page");
-        let mut found: Vec<String> = std::fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
+        let mut found = Vec::new();
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("page");
+        for folder in ["", "plots/"] {
+            for entry in std::fs::read_dir(page.join(folder)).unwrap() {
+                let entry = entry.unwrap();
+                if entry.file_type().unwrap().is_dir() {
+                    assert_eq!(
+                        entry.file_name(),
+                        "plots",
+                        "a folder that this test does not know"
+                    );
+                } else {
+                    found.push(format!("{folder}{}", entry.file_name().to_str().unwrap()));
+                }
+            }
+        }
         found.sort();
         let mut listed: Vec<&str> = FILES.iter().map(|file| file.name).collect();
         listed.sort_unstable();
