@@ -1,6 +1,7 @@
 // One visit of the page: what a person does there, and what its renderer posts meanwhile.
 
-const COLUMNS = ["depth_mm", "speed_mm_s", "normal_force_n", "vib_m_s2", "tap_n", "friction_n", "fx_n", "fy_n", "fz_n"];
+import { COLUMNS } from "../page/plots/ring.js";
+
 const PEN_HZ = 120;
 
 /** Runs in the page before its scripts: keeps contexts, and what comes from the renderer's port. */

@@ -1,10 +1,9 @@
 // Numbers of the moving hand, and the level meter.
 
 import { element, find } from "./dom.js";
+import { COLUMN, WIDTH } from "./plots/ring.js";
 import { texts } from "./texts.js";
 
-/** Columns of a tick, in the order of `asperity render`. */
-const COLUMNS = ["depth_mm", "speed_mm_s", "normal_force_n", "vib_m_s2", "tap_n", "friction_n", "fx_n", "fy_n", "fz_n"];
 const SHOWN = ["speed", "force", "friction", "vibration"];
 const FLOOR_DB = -60;
 /** The peak that is shown falls by so much a second, dB. */
@@ -13,8 +12,8 @@ const LAMP_MS = 400;
 
 /** Means over the ticks of a message while the hand touches; RMS of the vibration. */
 export function meansOf({ columns }) {
-  const ticks = columns.length / COLUMNS.length;
-  const column = (name, n) => columns[n * COLUMNS.length + COLUMNS.indexOf(name)];
+  const ticks = columns.length / WIDTH;
+  const column = (name, n) => columns[n * WIDTH + COLUMN[name]];
   const sums = { speed: 0, force: 0, friction: 0, vibration: 0 };
   let touching = 0;
   for (let n = 0; n < ticks; n++) {
