@@ -1,4 +1,4 @@
-// Prompts to the server, textures to surface and sound; the latest request wins. While the server does
+// What a person asks of the server, and its textures to surface and sound; the latest request wins. While the server does
 // not answer, that is said and tried again.
 
 import { notify, withdraw } from "./notices.js";
@@ -16,9 +16,9 @@ export class Loader {
     this.#parts = parts;
   }
 
-  /** Called when a prompt compiled, and when it was refused. */
-  oncompiled = () => {};
-  onrefused = () => {};
+  /** Called when a texture was shown, and when one was refused; `how` is what `take` was given. */
+  onshown = [];
+  onrefused = [];
 
   /** Asks what the server has. */
   begin() {
@@ -28,18 +28,26 @@ export class Loader {
     });
   }
 
-  compile(prompt) {
-    const { server, state } = this.#parts;
+  compile(prompt, seed = 0) {
+    return this.take((signal) => this.#parts.server.compile({ prompt, seed }, signal), { kind: "prompt", prompt, seed });
+  }
+
+  /**
+   * Shows the texture that `make(signal)` gives; a later call takes its place. `how` says what a person did:
+   * its `kind`, and what belongs to that.
+   */
+  take(make, how) {
+    const { state } = this.#parts;
     this.#abort.abort();
     this.#abort = new AbortController();
     const { signal } = this.#abort;
     return this.#attempt(async () => {
       state.set({ busy: true });
-      const texture = await server.compile(prompt, signal);
+      const texture = await make(signal);
       await this.#show(texture, signal);
-      this.oncompiled(prompt, texture);
+      for (const hear of this.onshown) hear(texture, how);
       state.set({ busy: false });
-    });
+    }, how);
   }
 
   /** Sound first: the picture may have to be drawn. */
@@ -55,7 +63,7 @@ export class Loader {
       });
   }
 
-  async #attempt(action) {
+  async #attempt(action, how) {
     clearTimeout(this.#timer);
     try {
       await action();
@@ -64,16 +72,16 @@ export class Loader {
       if (!this.#parts.state.get("about")) this.begin();
     } catch (error) {
       if (error.name === "AbortError") return;
-      if (error instanceof Silence) return this.#wait(action);
+      if (error instanceof Silence) return this.#wait(action, how);
       this.#parts.state.set({ busy: false });
       withdraw("server");
       if (!(error instanceof Refusal)) throw error;
-      this.onrefused(error);
+      for (const hear of this.onrefused) hear(error, how);
     }
   }
 
-  #wait(action) {
-    const again = () => this.#attempt(action);
+  #wait(action, how) {
+    const again = () => this.#attempt(action, how);
     const button = { label: texts.server.retry, run: again };
     notify("server", { text: texts.server.gone, help: texts.server.gone_help, action: button });
     this.#timer = setTimeout(again, RETRY_MS);

@@ -25,9 +25,65 @@ export class Server {
     return this.#json("api/about", { signal });
   }
 
-  compile(prompt, signal) {
-    const body = JSON.stringify({ prompt, seed: 0 });
-    return this.#json("api/compile", { method: "POST", headers: { "Content-Type": "application/json" }, body, signal });
+  compile({ prompt, seed = 0 }, signal) {
+    return this.#post("api/compile", { prompt, seed }, signal);
+  }
+
+  /** Another texture of one: `change` is { steps } or { words }, as of `asperity edit`. */
+  edit(texture, change, signal) {
+    return this.#post("api/edit", { texture: texture.id, ...change }, signal);
+  }
+
+  /** Between two textures: `a` at 0, `b` at 1. */
+  blend(a, b, t, signal) {
+    return this.#post("api/blend", { a: a.id, b: b.id, t }, signal);
+  }
+
+  /** Taps of one texture, vibration of another, friction of a third. */
+  compose({ tap, slide, friction }, signal) {
+    return this.#post("api/compose", { tap: tap.id, slide: slide.id, friction: friction.id }, signal);
+  }
+
+  /** The latent of a texture that has none, as of `asperity encode`, so that it can be edited. */
+  encode(texture, signal) {
+    return this.#post("api/encode", { texture: texture.id }, signal);
+  }
+
+  /** A dropped file: { texture }, or { library } for one with several textures. */
+  open(file, signal) {
+    const options = { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: file, signal };
+    return this.#json(`api/open?name=${encodeURIComponent(file.name)}`, options);
+  }
+
+  /** One library of a library's description in `about`, with the columns of its textures. */
+  library(id, signal) {
+    return this.#json(`api/library/${id}.json`, { signal });
+  }
+
+  /** The texture at a place in a library. */
+  pick(library, index, signal) {
+    return this.#post(`api/library/${library.id}/${index}`, {}, signal);
+  }
+
+  /** The address of its picture, for an image. */
+  thumbnail(library, index) {
+    return new URL(`api/library/${library.id}/${index}.png`, this.#base).href;
+  }
+
+  /** What `asperity diff --json` prints of two libraries. */
+  difference(old, now, signal) {
+    return this.#json(`api/difference/${old.id}/${now.id}.json`, { signal });
+  }
+
+  /** A library of textures, each with its name there: [{ texture, name }]; a Blob. */
+  async pack(named, signal) {
+    const textures = named.map(({ texture, name }) => ({ texture: texture.id, name }));
+    return (await this.#posted("api/pack", { textures }, signal)).blob();
+  }
+
+  /** A file of a texture by its ending, such as "asp" or "export.wav": a Blob. */
+  async download(texture, ending, signal) {
+    return (await this.#answer(`api/texture/${texture.id}.${ending}`, { signal })).blob();
   }
 
   /** The asset for the worklet, an ArrayBuffer. */
@@ -35,12 +91,12 @@ export class Server {
     return (await this.#answer(`api/texture/${texture.id}.worklet.asp`, { signal })).arrayBuffer();
   }
 
-  async picture(texture, signal) {
-    return (await this.#answer(`api/texture/${texture.id}.png`, { signal })).blob();
+  picture(texture, signal) {
+    return this.download(texture, "png", signal);
   }
 
-  async normals(texture, signal) {
-    return (await this.#answer(`api/texture/${texture.id}.normal.png`, { signal })).blob();
+  normals(texture, signal) {
+    return this.download(texture, "normal.png", signal);
   }
 
   /** A file of the page itself. */
@@ -48,8 +104,20 @@ export class Server {
     return (await this.#answer(name, {})).arrayBuffer();
   }
 
+  #posted(path, value, signal) {
+    return this.#answer(path,
+      { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(value), signal });
+  }
+
+  async #post(path, value, signal) {
+    return this.#read(await this.#posted(path, value, signal));
+  }
+
   async #json(path, options) {
-    const response = await this.#answer(path, options);
+    return this.#read(await this.#answer(path, options));
+  }
+
+  async #read(response) {
     try {
       return await response.json();
     } catch (error) {

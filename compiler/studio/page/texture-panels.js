@@ -26,11 +26,12 @@ export function startTexturePanels({ state, loader }) {
   const prompt = new Prompt((text) => loader.compile(text));
   invite(prompt.compile);
 
-  loader.oncompiled = (text, texture) => {
-    prompt.accept(text);
+  loader.onshown.push((texture, how) => {
+    if (how.kind !== "prompt") return;
+    prompt.accept(how.prompt);
     announce(texts.prompt.compiled(texture.name, texture.compiled ? certaintyText(texture.compiled) : ""));
-  };
-  loader.onrefused = ({ message, help }) => prompt.refuse(message, help);
+  });
+  loader.onrefused.push(({ message, help }, how) => how?.kind === "prompt" && prompt.refuse(message, help));
 
   state.on(["busy"], ({ busy }) => (prompt.busy = busy));
   state.on(["about"], ({ about }) => {

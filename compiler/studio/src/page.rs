@@ -49,24 +49,24 @@ mod tests {
     use super::*;
     use std::path::Path;
 
+    /// Every file below a folder, named from there.
+    fn files_below(folder: &Path, name: &str, found: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let entry = entry.unwrap();
+            let name = format!("{name}{}", entry.file_name().to_str().unwrap());
+            if entry.file_type().unwrap().is_dir() {
+                files_below(&entry.path(), &format!("{name}/"), found);
+            } else {
+                found.push(name);
+            }
+        }
+    }
+
     #[test]
     fn the_table_holds_every_file_of_the_folder() {
         let mut found = Vec::new();
         let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("page");
-        for folder in ["", "plots/"] {
-            for entry in std::fs::read_dir(page.join(folder)).unwrap() {
-                let entry = entry.unwrap();
-                if entry.file_type().unwrap().is_dir() {
-                    assert_eq!(
-                        entry.file_name(),
-                        "plots",
-                        "a folder that this test does not know"
-                    );
-                } else {
-                    found.push(format!("{folder}{}", entry.file_name().to_str().unwrap()));
-                }
-            }
-        }
+        files_below(&page, "", &mut found);
         found.sort();
         let mut listed: Vec<&str> = FILES.iter().map(|file| file.name).collect();
         listed.sort_unstable();
