@@ -81,6 +81,16 @@ export class Server {
     return (await this.#posted("api/pack", { textures }, signal)).blob();
   }
 
+  /** What the servo loop behind the server did from the number `after` on. */
+  deviceTicks(after) {
+    return this.#json(`api/device/ticks${after === undefined ? "" : `?after=${after}`}`, {});
+  }
+
+  /** Has the device play a texture. */
+  playOnDevice(texture) {
+    return this.#post("api/device/play", { texture: texture.id });
+  }
+
   /** A file of a texture by its ending, such as "asp" or "export.wav": a Blob. */
   async download(texture, ending, signal) {
     return (await this.#answer(`api/texture/${texture.id}.${ending}`, { signal })).blob();

@@ -1,5 +1,6 @@
 // The page's entry: builds the parts and lets them hear of each other.
 
+import { startDevicePanel } from "./device/panel.js";
 import { fillTexts, find } from "./dom.js";
 import { startHandPanel } from "./hand-panel.js";
 import { Loader } from "./loader.js";
@@ -28,8 +29,18 @@ const hand = startHandPanel({ surface, sound, state });
 startSoundPanel({ sound, hand });
 const loader = new Loader({ server, state, surface, sound });
 startTexturePanels({ state, loader });
-const plots = mountPlots(find("plots"), texts.plots);
-sound.onticks.push((ticks) => plots.addTicks(ticks));
+let plots = mountPlots(find("plots"), texts.plots);
+const hearTicks = (ticks) => plots.addTicks(ticks);
+sound.onticks.push(hearTicks);
 state.on(["texture"], ({ texture }) => plots.setTexture(texture && texture.inspect));
+/** The plots show the device instead of the page's own hand. */
+const plotsOfDevice = (tick_hz) => {
+  sound.onticks.splice(sound.onticks.indexOf(hearTicks), 1);
+  plots.destroy();
+  plots = mountPlots(find("plots"), texts.plots, { tick_hz });
+  plots.setTexture(state.get("texture")?.inspect ?? null);
+  return plots;
+};
+startDevicePanel({ server, state, surface, plots: plotsOfDevice });
 find("prompt").focus({ preventScroll: true });
 loader.begin();

@@ -160,6 +160,30 @@ export const texts = {
     refused_help: "Compile it again. If that does not help, please report the command shown under the surface.",
   },
 
+  device: {
+    title: "Device",
+    name: (name, hz) => `${name}, ${number(hz, 0)} Hz`,
+    states: { safe: "Safe state: the force goes to zero", ramping: "The force comes back", contact: "In contact",
+      free: "In the air", ended: "The loop has ended" },
+    playing: "Plays",
+    force: "Force",
+    force_text: (newtons) => `${number(newtons, 2)} N`,
+    wakeup: "Wakes late by",
+    compute: "A tick takes",
+    missed: "Periods missed",
+    lost: "Ticks not shown",
+    count: (count) => number(count, 0),
+    percentiles: (p50, p99, p99_9, max) =>
+      `${number(p50, 1)} · ${number(p99, 1)} · ${number(p99_9, 1)} · ${number(max, 1)} µs`,
+    jitter: "Wake-up latency of the last 10 s; each row above: median, 99 %, 99.9 %, maximum since the start",
+    jitter_label: (percentiles) => `Histogram of the wake-up latency; median, 99 %, 99.9 % and maximum: ${percentiles}`,
+    play: "Play this texture on the device",
+    follow: "Play every texture that this page shows",
+    scene: "The loop plays a scene, which takes no other texture.",
+    silent: "The servo loop’s program does not answer.",
+    silent_help: "It has ended, or the machine is busy. The forces do not depend on this page.",
+  },
+
   server: {
     gone: "The studio’s server does not answer. What is loaded keeps playing.",
     gone_help: "Run “asperity studio” again if it has ended. This page tries again every three seconds.",

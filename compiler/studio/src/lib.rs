@@ -33,6 +33,7 @@ mod browser;
 mod collection;
 mod command_line;
 mod connections;
+mod device;
 mod error;
 mod guard;
 mod http;
@@ -47,5 +48,6 @@ mod worklet_asset;
 
 pub use browser::{BrowserError, has_display, open_in_browser};
 pub use collection::{Collection, CollectionError};
+pub use device::{LiveDevice, LiveStatus, LiveTick, Percentiles, Wanted};
 pub use server::{BindError, Limits, Server, Stopper};
 pub use studio::Studio;

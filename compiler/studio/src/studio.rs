@@ -1,7 +1,7 @@
 //! What the server knows: networks, what it was started with, the last textures.
 
 use crate::{
-    collection::Collection, error::ApiError, recent::Recent, texture::Texture, turns::Turns,
+    collection::Collection, device::{Description, LiveDevice}, error::ApiError, recent::Recent, texture::Texture, turns::Turns,
 };
 use asperity::{
     inference::Backend,
@@ -13,6 +13,7 @@ use std::sync::{Arc, OnceLock};
 /// A studio for one person.
 pub struct Studio {
     collection: Option<Collection>,
+    device: Option<LiveDevice>,
     prompt_compiler: OnceLock<Result<PromptCompiler, ApiError>>,
     recent: Recent,
     turns: Turns,
@@ -25,6 +26,7 @@ struct About<'a> {
     library: Option<Library<'a>>,
     folder: Option<String>,
     words: Vec<&'static str>,
+    device: Option<Description<'a>>,
 }
 
 #[derive(Serialize)]
@@ -39,10 +41,25 @@ impl Studio {
     pub fn new(collection: Option<Collection>) -> Self {
         Self {
             collection,
+            device: None,
             prompt_compiler: OnceLock::new(),
             recent: Recent::default(),
             turns: Turns::new(),
         }
+    }
+
+    /// The same, beside the servo loop of this device.
+    #[must_use]
+    pub fn with_device(self, device: LiveDevice) -> Self {
+        Self {
+            device: Some(device),
+            ..self
+        }
+    }
+
+    /// The device beside it.
+    pub(crate) fn device(&self) -> Option<&LiveDevice> {
+        self.device.as_ref()
     }
 
     /// Loads the networks, unless they are loaded; others who need them wait.
@@ -63,6 +80,7 @@ impl Studio {
                 .and_then(Collection::folder)
                 .map(|folder| folder.display().to_string()),
             words: suggestions(),
+            device: self.device.as_ref().map(LiveDevice::description),
         };
         // Plain structures of numbers and strings always serialise.
         serde_json::to_vec(&about).unwrap_or_default()

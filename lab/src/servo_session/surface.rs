@@ -71,7 +71,11 @@ impl Surface {
         }
     }
 
-    fn of_texture(bytes: Vec<u8>, origin: String) -> Result<Self, ServoSessionError> {
+    /// The bytes of an asset, from `origin`.
+    ///
+    /// # Errors
+    /// [`ServoSessionError::Format`].
+    pub fn of_texture(bytes: Vec<u8>, origin: String) -> Result<Self, ServoSessionError> {
         match Asset::parse(&bytes) {
             Ok(asset) => Ok(Self {
                 name: asset.name().to_owned(),

@@ -71,6 +71,11 @@ impl LoopOptions {
             None => Surface::built_in(),
             Some(path) => Surface::read(path, self.texture.as_deref()),
         }?;
+        self.in_voice(surface)
+    }
+
+    /// A surface in the voice of the device's profile, where one was given.
+    pub(crate) fn in_voice(&self, surface: Surface) -> Result<Surface, ServoSessionError> {
         match self.profile()?.and_then(|profile| profile.compensation) {
             Some(filter) => surface.compensated(&filter),
             None => Ok(surface),

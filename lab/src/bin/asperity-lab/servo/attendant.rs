@@ -17,6 +17,7 @@ use asperity_runtime::{Flags, PrepareError, Preparer};
 use indicatif::ProgressBar;
 
 use super::Arguments;
+use super::live::Live;
 use super::summary::{self, ServoSummary, Told};
 use crate::loop_options::{LoopOptions, refusals};
 
@@ -30,8 +31,10 @@ pub(super) struct Attendant<'c> {
     console: Console,
     /// The file that may change, and what it is read with.
     watched: Option<(&'c Path, &'c LoopOptions)>,
+    options: &'c LoopOptions,
     seen: Option<(SystemTime, u64)>,
     recorder: Option<Recorder>,
+    live: Option<Live>,
     /// Whether the user knows that nothing is recorded any more.
     told_of_recorder: bool,
     status: ProgressBar,
@@ -51,6 +54,7 @@ impl<'c> Attendant<'c> {
         arguments: &'c Arguments,
         console: Console,
         recorder: Option<Recorder>,
+        live: Option<Live>,
         rate_hz: u32,
     ) -> Self {
         let file = arguments.options.file.as_deref();
@@ -60,8 +64,10 @@ impl<'c> Attendant<'c> {
         Self {
             console,
             watched,
+            options: &arguments.options,
             seen: watched.and_then(|(path, _)| stamp(path)),
             recorder,
+            live,
             told_of_recorder: false,
             status: console.activity(),
             json: arguments.json,
@@ -106,6 +112,7 @@ impl<'c> Attendant<'c> {
             }
             if seldom.elapsed() >= SELDOM {
                 self.show(ticks, seldom.elapsed());
+                self.summarise(surface);
                 (ticks, seldom) = (0, Instant::now());
                 if let Some(changed) = self.changed() {
                     if changed.is_scene || surface.is_scene {
@@ -115,11 +122,12 @@ impl<'c> Attendant<'c> {
                         waiting = Some(changed);
                     }
                 }
-                if let (Some(texture), Some(preparer)) = (&waiting, &mut attended.preparer)
-                    && self.exchange(texture, preparer)
-                {
-                    waiting = None;
-                }
+            }
+            waiting = self.wanted().or(waiting);
+            if let (Some(texture), Some(preparer)) = (&waiting, &mut attended.preparer)
+                && self.exchange(texture, preparer)
+            {
+                waiting = None;
             }
             sleep(LOOK);
         }
@@ -172,10 +180,16 @@ impl<'c> Attendant<'c> {
             if let Some(recorder) = &mut self.recorder {
                 recorder.take(&record);
             }
+            if let Some(live) = &mut self.live {
+                live.take(&record);
+            }
             self.last = Some(record);
         }
         if let Some(recorder) = &mut self.recorder {
             recorder.hand_over();
+        }
+        if let Some(live) = &mut self.live {
+            live.hand_over();
         }
         self.tell_of_recorder();
         while let Some(event) = inlet.event() {
@@ -208,10 +222,45 @@ impl<'c> Attendant<'c> {
         }
     }
 
-    /// A line for the user, beside the status line.
+    /// A line for the user, beside the status line and on the studio's page.
     fn say(&self, text: &str) {
         self.status
             .suspend(|| self.console.aside(&format!("{text}\n")));
+        if let Some(live) = &self.live {
+            live.say(text);
+        }
+    }
+
+    /// The texture that the studio's page wants played, in the voice of the device.
+    fn wanted(&self) -> Option<Surface> {
+        let wanted = self.live.as_ref()?.wanted()?;
+        let origin = format!("the studio's {:?}", wanted.name);
+        let surface = Surface::of_texture(wanted.asset.to_vec(), origin.clone());
+        match surface.and_then(|surface| self.options.in_voice(surface)) {
+            Ok(surface) => Some(surface),
+            Err(error) => {
+                self.say(&format!(
+                    "{origin}: {}\n  the previous texture stays in use",
+                    told(&error)
+                ));
+                None
+            }
+        }
+    }
+
+    /// The texture that plays, where it is not the first one: its name and where it came from.
+    fn playing(&self) -> Option<&(String, String)> {
+        let exchanges = self.last.map_or(0, |record| record.exchanges as usize);
+        self.handed_over.get(exchanges.checked_sub(1)?)
+    }
+
+    /// Tells the studio of the loop as a whole.
+    fn summarise(&mut self, surface: &Surface) {
+        let first = &surface.name;
+        let name = self.playing().map_or(first, |(name, _)| name).clone();
+        if let Some(live) = &mut self.live {
+            live.summarise(&name);
+        }
     }
 
     /// The status line: rate, missed periods, force, contact, safe state.
@@ -260,15 +309,15 @@ impl<'c> Attendant<'c> {
     }
 
     /// Writes what is left, and says what the loop did.
-    pub(super) fn finish(self, session: &ServoSummary<'_>) -> Result<(), Failures> {
+    pub(super) fn finish(mut self, session: &ServoSummary<'_>) -> Result<(), Failures> {
         self.status.finish_and_clear();
-        let exchanges = self.last.map_or(0, |record| record.exchanges as usize);
+        if let Some(live) = &mut self.live {
+            live.end();
+        }
         let mut told = Told {
             lost: self.lost,
             reloads: self.reloads,
-            playing: exchanges
-                .checked_sub(1)
-                .and_then(|last| self.handed_over.get(last).cloned()),
+            playing: self.playing().cloned(),
             recorded: None,
         };
         let mut failure = Ok(());

@@ -1,6 +1,7 @@
 //! `asperity-lab servo`: feel a texture or a scene, live.
 
 mod attendant;
+mod live;
 mod summary;
 
 use std::path::PathBuf;
@@ -20,6 +21,7 @@ use asperity_runtime::Counters;
 use crate::error::Plain;
 use crate::loop_options::{self, LoopOptions, stop_on_interrupt};
 use attendant::Attendant;
+use live::Live;
 use summary::ServoSummary;
 
 /// Render a texture or a scene on a device in real time
@@ -30,6 +32,7 @@ use summary::ServoSummary;
 #[command(after_help = "Examples:
   asperity-lab servo brick.asp --device sim:
   asperity-lab servo brick.asp --device sim: --watch      compile in one window, feel in the other
+  asperity-lab servo all.aspl --texture Cork --device sim: --studio     see it, and swap textures at a click
   asperity-lab servo brick.asp --device sim: --seconds 30 -o brick.aspr
   asperity-lab servo brick.asp --device replay:brick.aspr     are the forces bit-identical? (else exit 1)
   asperity-lab servo desk.aspl --device sim:?grip=firm --seconds 30 -o ticks.csv
@@ -55,6 +58,16 @@ pub(crate) struct Arguments {
     /// Reload the file whenever it changes
     #[arg(long, requires = "file")]
     watch: bool,
+    /// Serve the studio's page beside the loop: the hand, the force and the wake-up latency live, and other textures at
+    /// a click
+    #[arg(long, conflicts_with = "watch")]
+    studio: bool,
+    /// Port of the studio [default: a free one]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true, requires = "studio")]
+    port: u16,
+    /// Only print the studio's address, and open no browser
+    #[arg(long, requires = "studio")]
+    no_open: bool,
     /// Record every tick: OUT.aspr for replay, OUT.csv for a table; `-` is a table on standard output
     #[arg(short = 'o', long = "output", alias = "record", value_name = "OUT")]
     record: Option<PathBuf>,
@@ -80,6 +93,12 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         return Err(Plain::usage(
             "--watch cannot be used with replay:, which renders the recorded session only",
             "leave out --watch",
+        ));
+    }
+    if arguments.studio && is_replay {
+        return Err(Plain::usage(
+            "--studio cannot be used with replay:, which renders the recorded session only",
+            "leave out --studio",
         ));
     }
     if arguments.look && !is_replay {
@@ -123,7 +142,10 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         }
         _ => None,
     };
-    let mut attendant = Attendant::new(arguments, console, recorder, rate_hz);
+    let device_name = opened.device.description().name.clone();
+    let live = arguments.studio.then(|| Live::start(arguments, &surface, &device_name, rate_hz, console));
+    let live = live.transpose()?;
+    let mut attendant = Attendant::new(arguments, console, recorder, live, rate_hz);
     let began = Instant::now();
     let mut sum: Option<Report> = None;
     loop {
@@ -155,7 +177,6 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         }
     }
     // The device is released before anything else can fail or wait.
-    let device = opened.device.description().name.clone();
     let replayed = opened.replayed.take();
     drop(opened);
     interrupt.released.store(true, Relaxed);
@@ -164,7 +185,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     attendant.finish(&ServoSummary {
         report,
         surface: &surface,
-        device: &device,
+        device: &device_name,
         rate_hz,
         repeated,
     })?;

@@ -1,0 +1,58 @@
+// Ticks of the servo loop behind the server. The next ones are asked for when the last ones are dealt
+// with, so that a page that is slow skips ticks and never falls behind.
+
+/** At most so often, ms: a frame shows no more. */
+const LEAST_MS = 30;
+/** Rest after a failure, ms. */
+const RETRY_MS = 2000;
+
+const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
+const nextFrame = () => new Promise((done) => requestAnimationFrame(done));
+
+export class Feed {
+  /** Ticks that the page did not get. */
+  lost = 0;
+  #server;
+  /** Each run of the loop begins with tick 0, which is another session of the plots. */
+  #session = -1;
+  #last = Infinity;
+
+  constructor(server) {
+    this.#server = server;
+  }
+
+  /** Called with the server's news, and with messages for the plots as those of the worklet. */
+  onnews = () => {};
+  onticks = () => {};
+  /** Called where the server does not answer, with the error, and when it does again, with `null`. */
+  onsilence = () => {};
+
+  /** Asks until the loop is over. */
+  async run() {
+    let after;
+    for (let ended = false; !ended;) {
+      // A page that nobody sees gets no frame, and so asks for nothing.
+      await nextFrame();
+      const began_ms = performance.now();
+      try {
+        const news = await this.#server.deviceTicks(after);
+        ({ next: after, ended } = news);
+        this.lost += news.lost;
+        this.onsilence(null);
+        this.onnews(news);
+        for (const run of news.ticks.runs) this.onticks(this.#message(run));
+      } catch (error) {
+        this.onsilence(error);
+        await sleep(RETRY_MS);
+      }
+      await sleep(Math.max(0, LEAST_MS - (performance.now() - began_ms)));
+    }
+  }
+
+  #message({ first, positions_mm, columns, flags, wakeup_us }) {
+    if (first < this.#last) this.#session--;
+    this.#last = first + flags.length;
+    return { type: "ticks", session: this.#session, first, wakeup_us, positions_mm: Float32Array.from(positions_mm),
+      columns: Float32Array.from(columns), flags: Uint32Array.from(flags) };
+  }
+}
