@@ -4,4 +4,5 @@ mod answers;
 mod attacks;
 mod client;
 mod hostile_files;
+mod mixing;
 mod waits;
