@@ -10,3 +10,5 @@ mod record;
 mod record_command;
 mod servo;
 mod servo_record;
+#[cfg(unix)]
+mod servo_studio;

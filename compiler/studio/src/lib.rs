@@ -4,7 +4,7 @@
 //! ```no_run
 //! use asperity_studio::{Limits, Server, Studio};
 //!
-//! let studio = Studio::new(None);
+//! let studio = Studio::new(None, None); // without prompts
 //! let server = Server::bind(0, studio, Limits::default())?; // a free port
 //! println!("{}", server.url());
 //! server.run(); // until `server.stopper().stop()`
@@ -28,17 +28,20 @@
 //! errors are theirs. A panic in one of these ends one request.
 #![forbid(unsafe_code)]
 
+mod about;
 mod api;
 mod browser;
 mod collection;
-mod command_line;
 mod connections;
 mod device;
 mod error;
 mod guard;
 mod http;
+mod making;
 mod page;
+mod prompts;
 mod recent;
+mod recipe;
 mod server;
 mod studio;
 mod texture;
@@ -49,5 +52,6 @@ mod worklet_asset;
 pub use browser::{BrowserError, has_display, open_in_browser};
 pub use collection::{Collection, CollectionError};
 pub use device::{LiveDevice, LiveStatus, LiveTick, Percentiles, Wanted};
+pub use prompts::LoadPrompts;
 pub use server::{BindError, Limits, Server, Stopper};
 pub use studio::Studio;

@@ -37,6 +37,7 @@ impl Recent {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::making;
     use asperity::{builtin, library::renamed, lower::lower};
 
     #[test]
@@ -44,7 +45,7 @@ mod tests {
         let asset = lower(&builtin::texture(), None).unwrap().bytes;
         let named = |n: usize| {
             let asset = renamed(&asset, &format!("texture {n}")).unwrap();
-            Arc::new(Texture::opened("x.asp", asset).unwrap())
+            Arc::new(making::open("x.asp", asset).unwrap())
         };
         let recent = Recent::default();
         let first = named(0);

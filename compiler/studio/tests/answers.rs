@@ -212,7 +212,7 @@ fn a_library_and_a_folder_are_checked_and_named() {
         let about = site.get("api/about").json();
         assert_eq!(
             about["library"],
-            serde_json::json!({ "name": path, "textures": 2 })
+            serde_json::json!({ "id": "0", "name": path, "textures": 2 })
         );
         assert_eq!(about["folder"].is_string(), is_folder);
         assert_eq!(about["version"], env!("CARGO_PKG_VERSION"));

@@ -228,6 +228,8 @@ fn methods_that_an_address_does_not_answer_are_named() {
         ("DELETE", "worklet.js", "GET, HEAD"),
         ("PUT", "api/about", "GET, HEAD"),
         ("GET", "api/compile", "POST"),
+        ("GET", "api/edit", "POST"),
+        ("PUT", "api/blend", "POST"),
         ("TRACE", "api/open", "POST"),
         ("POST", "api/texture/a.asp", "GET, HEAD"),
     ] {

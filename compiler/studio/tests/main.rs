@@ -3,5 +3,7 @@
 mod answers;
 mod attacks;
 mod client;
+mod device;
 mod hostile_files;
+mod mixing;
 mod waits;

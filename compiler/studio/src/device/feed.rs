@@ -184,7 +184,7 @@ mod tests {
     fn a_page_gets_each_tick_once_and_a_slow_one_is_told_what_it_lost() {
         let mut feed = Feed::of_a_second(100);
         let status = LiveStatus::default();
-        let mut read = |feed: &Feed, after| -> Value {
+        let read = |feed: &Feed, after| -> Value {
             serde_json::from_str(&feed.after(after)).expect("JSON")
         };
         feed.publish(&ticks(0..30), &status);
@@ -205,7 +205,10 @@ mod tests {
         assert_eq!(firsts_and_lengths(&third), [(250, 100)]);
         assert_eq!(third["lost"], 200);
         // A number that this loop has not reached is of another one.
-        assert_eq!(firsts_and_lengths(&read(&feed, Some(1 << 40))), [(250, 100)]);
+        assert_eq!(
+            firsts_and_lengths(&read(&feed, Some(1 << 40))),
+            [(250, 100)]
+        );
         feed.end();
         assert!(feed.has_news(third["next"].as_u64()));
     }

@@ -63,7 +63,13 @@ pub(crate) struct Arguments {
     #[arg(long, conflicts_with = "watch")]
     studio: bool,
     /// Port of the studio [default: a free one]
-    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true, requires = "studio")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        hide_default_value = true,
+        requires = "studio"
+    )]
     port: u16,
     /// Only print the studio's address, and open no browser
     #[arg(long, requires = "studio")]
@@ -143,7 +149,9 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         _ => None,
     };
     let device_name = opened.device.description().name.clone();
-    let live = arguments.studio.then(|| Live::start(arguments, &surface, &device_name, rate_hz, console));
+    let live = arguments
+        .studio
+        .then(|| Live::start(arguments, &surface, &device_name, rate_hz, console));
     let live = live.transpose()?;
     let mut attendant = Attendant::new(arguments, console, recorder, live, rate_hz);
     let began = Instant::now();

@@ -1,13 +1,15 @@
 //! The interface between page and server: which address answers what.
 
+mod requests;
+
 use crate::{
+    device,
     error::ApiError,
     http::{Answer, Body, Content, Head, Keep, Method, Status},
     page,
     studio::Studio,
     texture::Texture,
 };
-use serde::Deserialize;
 use std::sync::Arc;
 
 /// Bytes of a request in JSON.
@@ -16,15 +18,6 @@ const JSON_BYTES: u64 = 64 << 10;
 const ASSET_BYTES: u64 = 16 << 20;
 /// Bytes of the name of a file, as systems have them.
 const NAME_BYTES: usize = 255;
-
-/// `POST api/compile`.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Compile {
-    prompt: String,
-    #[serde(default)]
-    seed: u64,
-}
 
 /// Answers a request for a path below the page's address.
 ///
@@ -45,12 +38,22 @@ pub(crate) fn answer(
             Answer::only("GET, HEAD")
         });
     }
+    if let Some(make) = requests::make(path) {
+        if !posts {
+            return Ok(Answer::only("POST"));
+        }
+        let texture = make(studio, &body.read(JSON_BYTES)?)?;
+        return Ok(Answer::json(studio.shown(&texture)));
+    }
     match path {
         "api/about" if reads => Ok(Answer::json(studio.about())),
-        "api/compile" if posts => compile(studio, body),
-        "api/open" if posts => open(studio, head, body),
         "api/about" => Ok(Answer::only("GET, HEAD")),
-        "api/compile" | "api/open" => Ok(Answer::only("POST")),
+        "api/open" if posts => open(studio, head, body),
+        "api/device/ticks" if reads => device::requests::ticks(studio.device(), &head.target),
+        "api/device/ticks" => Ok(Answer::only("GET, HEAD")),
+        "api/device/play" if posts => play(studio, body),
+        "api/device/play" => Ok(Answer::only("POST")),
+        "api/open" => Ok(Answer::only("POST")),
         _ => match path.strip_prefix("api/texture/") {
             Some(file) if reads => texture(studio, file),
             Some(_) => Ok(Answer::only("GET, HEAD")),
@@ -59,20 +62,16 @@ pub(crate) fn answer(
     }
 }
 
-fn compile(studio: &Studio, body: &mut Body<'_, '_>) -> Result<Answer, ApiError> {
-    let bytes = body.read(JSON_BYTES)?;
-    let Compile { prompt, seed } = serde_json::from_slice(&bytes).map_err(|error| {
-        let error = format!("the request is not as expected: {error}");
-        let help = "send {\"prompt\": TEXT, \"seed\": NUMBER}, in UTF-8; the seed may be left out";
-        ApiError::new(Status::BadRequest, error, help)
-    })?;
-    Ok(Answer::json(studio.compile(&prompt, seed)?.shown()))
-}
-
 fn open(studio: &Studio, head: &Head, body: &mut Body<'_, '_>) -> Result<Answer, ApiError> {
     let name = file_name(&head.target)?;
     let bytes = body.read(ASSET_BYTES)?;
-    Ok(Answer::json(studio.open(&name, bytes)?.shown()))
+    let texture = studio.open(&name, bytes)?;
+    Ok(Answer::json(studio.shown(&texture)))
+}
+
+fn play(studio: &Studio, body: &mut Body<'_, '_>) -> Result<Answer, ApiError> {
+    let texture = studio.texture(&requests::texture(&body.read(JSON_BYTES)?)?)?;
+    device::requests::play(studio.device(), &texture)
 }
 
 /// A file of a texture: `ID.ENDING`.
@@ -92,13 +91,7 @@ fn texture(studio: &Studio, file: &str) -> Result<Answer, ApiError> {
         Some("json") => "application/json",
         _ => "application/octet-stream",
     };
-    let texture = studio.texture(id).ok_or_else(|| {
-        ApiError::new(
-            Status::NotFound,
-            "the server does not have this texture, or no longer",
-            "compile or open it again",
-        )
-    })?;
+    let texture = studio.texture(id)?;
     let bytes = studio.compute(|| content(&texture))?;
     Ok(Answer::new(
         content_type,

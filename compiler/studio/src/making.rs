@@ -1,0 +1,168 @@
+//! Textures as the commands `compile`, `edit`, `blend`, `compose` and `encode` make them, without options of theirs that
+//! are not stated here.
+
+use crate::{
+    error::ApiError,
+    http::Status,
+    prompts::Loaded,
+    recipe::{Opened, What},
+    texture::{Making, Texture, damaged},
+};
+use asperity::{
+    driver,
+    edit::{Edit, Mix, MixOptions, explain},
+    pipeline::{Clock, Request},
+    prompt::{self, Options, Prompt},
+    sources::Tools,
+    textures::Textures,
+};
+use asperity_io::{clock::now, diagnostic::Diagnostic};
+use std::path::Path;
+
+/// Compiles a prompt, as `asperity compile`.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture, ApiError> {
+    prompt::check(text).map_err(|e| ApiError::of(&e))?;
+    let request: Request = Options::default().request;
+    let source = Prompt {
+        text: text.to_owned(),
+        seed,
+        picture: None,
+    };
+    let compiled = driver::compile(&source, &request, &tools(loaded))
+        .map_err(|failure| ApiError::of(failure.as_ref()))?;
+    let explanation = explain(&loaded.editor(), text).map_err(|e| ApiError::of(&e))?;
+    let mut report = compiled.json();
+    explanation.add_to(&mut report);
+    let making = Making {
+        compiled: Some(report),
+        ..Making::default()
+    };
+    let prompt = text.to_owned();
+    let what = |_: &str| What::Compile { prompt, seed };
+    Texture::new(compiled.lowered.bytes, making, what).map_err(damaged)
+}
+
+/// Opens the bytes of an asset, or of a library with one texture. `file` names them in errors.
+///
+/// # Errors
+/// As a command that opens such a file.
+pub(crate) fn open(file: &str, bytes: Vec<u8>) -> Result<Texture, ApiError> {
+    let refused = |error: &dyn Diagnostic| ApiError {
+        status: Status::Unprocessable,
+        ..ApiError::of(error)
+    };
+    let mut textures =
+        Textures::from_reader(Path::new(file), &bytes[..]).map_err(|e| refused(&e))?;
+    let indexed = textures.chosen_name(None).map_err(|e| refused(&e))?;
+    let asset = textures.choose(None).map_err(|e| refused(&e))?;
+    let making = Making {
+        indexed,
+        ..Making::default()
+    };
+    let path = file.to_owned();
+    let what = |id: &str| {
+        What::File(Opened {
+            path,
+            id: id.to_owned(),
+        })
+    };
+    Texture::new(asset, making, what).map_err(|e| refused(&textures.error(None, e.into())))
+}
+
+/// Edits a texture, as `asperity edit`.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn edit(loaded: &Loaded, texture: &Texture, edit: Edit) -> Result<Texture, ApiError> {
+    let asset = texture.parsed()?;
+    let mix = loaded
+        .editor()
+        .change(&asset, Some(&edit), &MixOptions::default())
+        .map_err(|e| ApiError::of(&e))?;
+    let what = What::Edit {
+        texture: texture.id().to_owned(),
+        edit,
+    };
+    mixed(loaded, mix, &[texture], what)
+}
+
+/// A texture between two, as `asperity blend`.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn blend(loaded: &Loaded, [a, b]: [&Texture; 2], t: f64) -> Result<Texture, ApiError> {
+    let mix = loaded
+        .editor()
+        .blend(&a.parsed()?, &b.parsed()?, t, &MixOptions::default())
+        .map_err(|e| ApiError::of(&e))?;
+    let what = What::Blend {
+        a: a.id().to_owned(),
+        b: b.id().to_owned(),
+        t,
+    };
+    mixed(loaded, mix, &[a, b], what)
+}
+
+/// A texture that taps, slides and rubs like these, as `asperity compose`.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn compose(
+    loaded: &Loaded,
+    [tap, slide, friction]: [&Texture; 3],
+) -> Result<Texture, ApiError> {
+    let rubbed = friction.parsed()?;
+    let mix = loaded
+        .editor()
+        .compose(
+            &tap.parsed()?,
+            &slide.parsed()?,
+            Some(&rubbed),
+            &MixOptions::default(),
+        )
+        .map_err(|e| ApiError::of(&e))?;
+    let what = What::Compose {
+        tap: tap.id().to_owned(),
+        slide: slide.id().to_owned(),
+        friction: friction.id().to_owned(),
+    };
+    mixed(loaded, mix, &[tap, slide, friction], what)
+}
+
+/// The texture that the latent of a recording decodes to, as `asperity encode`.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn encode(loaded: &Loaded, texture: &Texture) -> Result<Texture, ApiError> {
+    let mix = loaded
+        .editor()
+        .encoded(&texture.parsed()?, None, &MixOptions::default())
+        .map_err(|e| ApiError::of(&e))?;
+    let what = What::Encode {
+        texture: texture.id().to_owned(),
+    };
+    mixed(loaded, mix, &[texture], what)
+}
+
+/// Compiles a mixture, with the report of the command.
+fn mixed(loaded: &Loaded, mix: Mix, others: &[&Texture], what: What) -> Result<Texture, ApiError> {
+    let compiled = driver::compile(&mix.source, &mix.request, &tools(loaded))
+        .map_err(|failure| ApiError::of(failure.as_ref()))?;
+    let report = mix.report(&loaded.editor(), &compiled);
+    let making = Making {
+        made: Some(report.json),
+        others,
+        ..Making::default()
+    };
+    Texture::new(compiled.lowered.bytes, making, |_| what).map_err(damaged)
+}
+
+fn tools(loaded: &Loaded) -> Tools<'_> {
+    Tools {
+        clock: Clock(now),
+        ..Tools::of(&loaded.compiler)
+    }
+}
