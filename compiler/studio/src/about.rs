@@ -1,6 +1,6 @@
 //! What the page asks first: what the server is and can do.
 
-use crate::{collection::Collection, prompts::Prompts};
+use crate::{prompts::Prompts, shelf::Named};
 use asperity::{
     edit::{AXES, Axis, Scale},
     interchange::{Format, Language},
@@ -21,11 +21,22 @@ struct About<'a> {
     exports: Vec<Export>,
 }
 
+/// A library, as the page knows it.
 #[derive(Serialize)]
-struct Library<'a> {
+pub(crate) struct Library<'a> {
     id: &'a str,
     name: &'a str,
     textures: usize,
+}
+
+impl<'a> Library<'a> {
+    pub(crate) fn of(named: &'a Named) -> Self {
+        Self {
+            id: &named.id,
+            name: named.library.name(),
+            textures: named.library.textures(),
+        }
+    }
 }
 
 /// A slider of the page, from 0 to 100.
@@ -54,17 +65,13 @@ struct Export {
 }
 
 /// What the server is, JSON. It waits for the networks where there are any.
-pub(crate) fn about(prompts: &Prompts, collection: Option<&Collection>) -> Vec<u8> {
+pub(crate) fn about(prompts: &Prompts, start: Option<&Named>) -> Vec<u8> {
     let about = About {
         version: env!("CARGO_PKG_VERSION"),
         prompts: prompts.exist(),
-        library: collection.map(|collection| Library {
-            id: "0",
-            name: collection.name(),
-            textures: collection.textures(),
-        }),
-        folder: collection
-            .and_then(Collection::folder)
+        library: start.map(Library::of),
+        folder: start
+            .and_then(|named| named.library.folder())
             .map(|folder| folder.display().to_string()),
         words: suggestions(),
         // Those of a compiler that cannot be loaded are missed by nobody.

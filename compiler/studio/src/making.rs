@@ -3,21 +3,18 @@
 
 use crate::{
     error::ApiError,
-    http::Status,
     prompts::Loaded,
-    recipe::{Opened, What},
+    recipe::What,
     texture::{Making, Texture, damaged},
 };
 use asperity::{
     driver,
-    edit::{Edit, Mix, MixOptions, explain},
+    edit::{Edit, Mix, MixOptions, MixPreview, explain},
     pipeline::{Clock, Request},
     prompt::{self, Options, Prompt},
     sources::Tools,
-    textures::Textures,
 };
-use asperity_io::{clock::now, diagnostic::Diagnostic};
-use std::path::Path;
+use asperity_io::clock::now;
 
 /// Compiles a prompt, as `asperity compile`.
 ///
@@ -45,46 +42,34 @@ pub(crate) fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture,
     Texture::new(compiled.lowered.bytes, making, what).map_err(damaged)
 }
 
-/// Opens the bytes of an asset, or of a library with one texture. `file` names them in errors.
-///
-/// # Errors
-/// As a command that opens such a file.
-pub(crate) fn open(file: &str, bytes: Vec<u8>) -> Result<Texture, ApiError> {
-    let refused = |error: &dyn Diagnostic| ApiError {
-        status: Status::Unprocessable,
-        ..ApiError::of(error)
-    };
-    let mut textures =
-        Textures::from_reader(Path::new(file), &bytes[..]).map_err(|e| refused(&e))?;
-    let indexed = textures.chosen_name(None).map_err(|e| refused(&e))?;
-    let asset = textures.choose(None).map_err(|e| refused(&e))?;
-    let making = Making {
-        indexed,
-        ..Making::default()
-    };
-    let path = file.to_owned();
-    let what = |id: &str| {
-        What::File(Opened {
-            path,
-            id: id.to_owned(),
-        })
-    };
-    Texture::new(asset, making, what).map_err(|e| refused(&textures.error(None, e.into())))
-}
-
-/// Edits a texture, as `asperity edit`.
+/// Edits a texture, as `asperity edit`. A draft has no picture, as with `--no-preview`: drawing one takes longer than all
+/// else, and what is felt and verified is the same.
 ///
 /// # Errors
 /// As the command.
-pub(crate) fn edit(loaded: &Loaded, texture: &Texture, edit: Edit) -> Result<Texture, ApiError> {
+pub(crate) fn edit(
+    loaded: &Loaded,
+    texture: &Texture,
+    edit: Edit,
+    draft: bool,
+) -> Result<Texture, ApiError> {
     let asset = texture.parsed()?;
+    let options = MixOptions {
+        preview: if draft {
+            MixPreview::None
+        } else {
+            MixPreview::Kept
+        },
+        ..MixOptions::default()
+    };
     let mix = loaded
         .editor()
-        .change(&asset, Some(&edit), &MixOptions::default())
+        .change(&asset, Some(&edit), &options)
         .map_err(|e| ApiError::of(&e))?;
     let what = What::Edit {
         texture: texture.id().to_owned(),
         edit,
+        draft,
     };
     mixed(loaded, mix, &[texture], what)
 }

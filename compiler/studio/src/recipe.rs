@@ -34,10 +34,18 @@ pub(crate) struct Opened {
 pub(crate) enum What {
     /// A file holds the texture.
     File(Opened),
+    /// `asperity import`, of a file as `hatt` or another kind
+    Import { kind: &'static str, file: Opened },
+    /// `asperity extract`
+    Extract { library: Opened, texture: String },
     /// `asperity compile`
     Compile { prompt: String, seed: u64 },
-    /// `asperity edit`
-    Edit { texture: String, edit: Edit },
+    /// `asperity edit`; a draft has no picture
+    Edit {
+        texture: String,
+        edit: Edit,
+        draft: bool,
+    },
     /// `asperity blend`
     Blend { a: String, b: String, t: f64 },
     /// `asperity compose`
@@ -137,6 +145,17 @@ impl Step {
         let to = format!("-o {}", file(&self.id));
         Some(match &self.what {
             What::File(_) => return None,
+            What::Import { kind, file } => {
+                format!("asperity import {kind} {} {to}", path_word(&file.path))
+            }
+            What::Extract { library, texture } => {
+                let (library, word) = (path_word(&library.path), shell_word(texture));
+                if texture.starts_with('-') {
+                    format!("asperity extract {to} -- {library} {word}")
+                } else {
+                    format!("asperity extract {library} {word} {to}")
+                }
+            }
             What::Compile { prompt, seed } => {
                 let seed = match seed {
                     0 => String::new(),
@@ -150,7 +169,11 @@ impl Step {
                     format!("asperity compile {quoted} {to}{seed}")
                 }
             }
-            What::Edit { texture, edit } => {
+            What::Edit {
+                texture,
+                edit,
+                draft,
+            } => {
                 let asked = match edit {
                     Edit::Steps(sliders) => options(sliders),
                     Edit::Words(words) if words.starts_with('-') => {
@@ -158,7 +181,8 @@ impl Step {
                     }
                     Edit::Words(words) => format!("--prompt {}", quoted(words)),
                 };
-                format!("asperity edit {} {asked} {to}", file(texture))
+                let picture = if *draft { " --no-preview" } else { "" };
+                format!("asperity edit {} {asked}{picture} {to}", file(texture))
             }
             What::Blend { a, b, t } => {
                 format!("asperity blend {} {} -t {t} {to}", file(a), file(b))
@@ -179,7 +203,9 @@ impl Step {
 impl What {
     fn opened(&self) -> Option<&Opened> {
         match self {
-            Self::File(opened) => Some(opened),
+            Self::File(file) | Self::Import { file, .. } | Self::Extract { library: file, .. } => {
+                Some(file)
+            }
             _ => None,
         }
     }
@@ -255,7 +281,16 @@ mod tests {
 
     fn edited(of: &Recipe, from: &str, id: &str, name: &str, edit: Edit) -> Option<Recipe> {
         let texture = from.to_owned();
-        Recipe::new([Some(of)], id, name, What::Edit { texture, edit })
+        Recipe::new(
+            [Some(of)],
+            id,
+            name,
+            What::Edit {
+                texture,
+                edit,
+                draft: false,
+            },
+        )
     }
 
     fn file(id: &str, path: &str) -> Recipe {
@@ -343,6 +378,27 @@ mod tests {
         let other = file("g", "cork.asp");
         let blend = Recipe::new([Some(&dropped), Some(&other)], "b", "two", what).unwrap();
         assert_eq!(blend.command(), None, "two files of one path");
+    }
+
+    #[test]
+    fn other_files_are_imported_and_textures_of_libraries_extracted() {
+        let opened = |path: &str| Opened {
+            path: path.into(),
+            id: "o".into(),
+        };
+        let (kind, file) = ("hatt", opened("Models_Oak.xml"));
+        let oak = Recipe::new([], "1", "Oak", What::Import { kind, file }).unwrap();
+        let command = "asperity import hatt Models_Oak.xml -o Oak.asp";
+        assert_eq!(oak.command().as_deref(), Some(command));
+        for (texture, command) in [
+            ("wet ice", "asperity extract my.aspl 'wet ice' -o any.asp"),
+            ("-x", "asperity extract -o any.asp -- my.aspl -x"),
+        ] {
+            let (library, texture) = (opened("my.aspl"), texture.to_owned());
+            let what = What::Extract { library, texture };
+            let recipe = Recipe::new([], "2", "any", what).unwrap();
+            assert_eq!(recipe.command().as_deref(), Some(command));
+        }
     }
 
     #[test]

@@ -3,6 +3,8 @@
 mod answers;
 mod attacks;
 mod client;
+mod files;
+mod gallery;
 mod hostile_files;
 mod mixing;
 mod waits;

@@ -3,7 +3,7 @@
 use crate::client::{Reply, SHARED, Site};
 use asperity::{
     attributes, builtin, driver,
-    edit::{AXES, Edit, LatentEditor, Mix, MixOptions, Sliders},
+    edit::{AXES, Edit, LatentEditor, Mix, MixOptions, MixPreview, Sliders},
     inference::Backend,
     lower::lower,
     prompt::{Options, PromptCompiler},
@@ -73,6 +73,14 @@ fn edits_have_the_bytes_and_the_report_of_the_command() {
     let words = "less gritty, more waxy";
     for (change, edit, option) in [
         (
+            json!({ "steps": { "slipperier": 1.5 }, "draft": true }),
+            Edit::Steps(Sliders {
+                slipperier: 1.5,
+                ..Sliders::default()
+            }),
+            "--slipperier 1.5 --no-preview",
+        ),
+        (
             json!({ "steps": { "rougher": 20, "harder": -5.5 } }),
             Edit::Steps(sliders),
             "--rougher 20 --softer 5.5",
@@ -86,7 +94,14 @@ fn edits_have_the_bytes_and_the_report_of_the_command() {
         let mut body = change;
         body["texture"] = start["id"].clone();
         let edited = made("api/edit", &body);
-        let mix = editor.change(&asset, Some(&edit), &MixOptions::default());
+        let options = MixOptions {
+            preview: match body["draft"] {
+                Value::Null => MixPreview::Kept,
+                _ => MixPreview::None,
+            },
+            ..MixOptions::default()
+        };
+        let mix = editor.change(&asset, Some(&edit), &options);
         let (expected, report) = finished(&editor, mix.expect("an edit"));
         assert!(bytes(&edited) == expected, "{body}");
         assert_eq!(untimed(&edited["made"]), untimed(&report));
@@ -154,7 +169,7 @@ fn blends_compositions_and_encodings_have_the_bytes_of_the_commands() {
     );
     // A recording has no latent until it is encoded.
     let recorded = lower(&builtin::texture(), None).expect("an asset").bytes;
-    let opened = SHARED.post("api/open?name=grit.asp", &recorded).json();
+    let opened = SHARED.post("api/open?name=grit.asp", &recorded).json()["texture"].clone();
     assert_eq!(
         (&opened["editable"], &opened["file"]),
         (&json!(false), &json!("grit.asp"))
@@ -347,7 +362,7 @@ fn a_server_without_prompts_shows_textures_and_makes_none() {
     );
     let opened = site.post("api/open", &compiled("cork"));
     assert_eq!(opened.status, 200);
-    let opened = opened.json();
+    let opened = opened.json()["texture"].clone();
     assert_eq!(
         (&opened["editable"], &opened["places"]["rough"]),
         (&json!(false), &Value::Null)
