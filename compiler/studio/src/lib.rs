@@ -24,8 +24,10 @@
 //! 4. `api`: the page's files by the table in `page`, so that no path reaches a file system; then the requests of the
 //!    interface, each with its limit of bytes.
 //!
-//! What is compiled or opened, it compiles and opens with the same calls as the commands, so that bytes, reports and
-//! errors are theirs. A panic in one of these ends one request.
+//! What is compiled, mixed, opened or exported goes through the same calls as in the commands, so that bytes, reports and
+//! errors are theirs. A panic in one of these ends one request. Files that are dropped on the page stay in memory: nothing
+//! is written to a disk. At most four large bodies are in memory at once, and no more requests compute at once than
+//! there are processors.
 #![forbid(unsafe_code)]
 
 mod about;

@@ -27,9 +27,9 @@ const WANTED: &str = "an asset, a library, a HaTT material, a model, AHAP, .hapt
 
 /// What a file holds.
 pub(crate) enum Found {
-    Texture(Texture),
+    Texture(Box<Texture>),
     /// A library with several textures.
-    Library(Collection),
+    Library(Box<Collection>),
 }
 
 /// Opens the bytes of a file. Its name tells what damaged ones were meant to be, and is repeated in errors; nothing of
@@ -47,7 +47,9 @@ pub(crate) fn open(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
     match (format, Imported::of(path, format)) {
         (Some(Format::Asset | Format::Library), _) => textures(file, bytes),
         (None, _) if ours => textures(file, bytes),
-        (_, Some(imported)) => import(imported, file, &bytes).map(Found::Texture),
+        (_, Some(imported)) => {
+            import(imported, file, &bytes).map(|texture| Found::Texture(Box::new(texture)))
+        }
         (Some(format), None) => {
             let wanted = WANTED.into();
             let problem = InputProblem::OtherFormat { format, wanted };
@@ -68,7 +70,8 @@ fn textures(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
     let path = Path::new(file);
     let mut textures = Textures::from_bytes(path, bytes).map_err(|e| refused(&e))?;
     if textures.names().is_some_and(|names| names.len() != 1) {
-        return Ok(Found::Library(Collection::dropped(textures, id)?));
+        let library = Collection::dropped(textures, id)?;
+        return Ok(Found::Library(Box::new(library)));
     }
     let indexed = textures.chosen_name(None).map_err(|e| refused(&e))?;
     let asset = textures.choose(None).map_err(|e| refused(&e))?;
@@ -78,9 +81,8 @@ fn textures(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
     };
     let path = file.to_owned();
     let texture = Texture::new(asset, making, |_| What::File(Opened { path, id }));
-    Ok(Found::Texture(
-        texture.map_err(|e| refused(&textures.error(None, e.into())))?,
-    ))
+    let texture = texture.map_err(|e| refused(&textures.error(None, e.into())))?;
+    Ok(Found::Texture(Box::new(texture)))
 }
 
 /// A file of another tool.

@@ -81,8 +81,8 @@ impl Studio {
     pub(crate) fn open(&self, file: &str, bytes: Vec<u8>) -> Result<Kept, ApiError> {
         let found = self.compute(|| opening::open(file, bytes))?;
         Ok(match found {
-            Found::Texture(texture) => Kept::Texture(self.keep(texture)),
-            Found::Library(library) => Kept::Library(self.shelf.keep(library)),
+            Found::Texture(texture) => Kept::Texture(self.keep(*texture)),
+            Found::Library(library) => Kept::Library(self.shelf.keep(*library)),
         })
     }
 

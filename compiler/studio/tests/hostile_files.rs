@@ -85,10 +85,14 @@ fn sealed_damage_is_refused_or_shown_and_never_a_bug() {
             .as_str()
             .expect("a name")
             .to_owned();
-        // Sheets take a while to draw.
-        let sheets = if shown < 3 { &["plot.png"][..] } else { &[] };
-        let usual = ["json", "worklet.asp", "png", "normal.png", "export.csv"];
-        for ending in usual.iter().chain(sheets) {
+        // Sheets and strokes take a while.
+        let slow = if shown < 3 {
+            &["plot.png", "export.csv"][..]
+        } else {
+            &[]
+        };
+        let usual = ["json", "worklet.asp", "png", "normal.png"];
+        for ending in usual.iter().chain(slow) {
             let file = site.get(&format!("api/texture/{id}.{ending}"));
             if file.status != 200 {
                 refused(&file, 422, &format!("case {case}, {ending}"));

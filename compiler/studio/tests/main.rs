@@ -7,4 +7,5 @@ mod files;
 mod gallery;
 mod hostile_files;
 mod mixing;
+mod refusals;
 mod waits;
