@@ -9,9 +9,9 @@ use crate::{
 };
 use asperity::{
     driver,
-    edit::{Edit, Mix, MixOptions, MixPreview, explain},
+    edit::{Edit, LatentEditor, Mix, MixOptions, MixPreview, explain},
     pipeline::{Clock, Request},
-    prompt::{self, Options, Prompt},
+    prompt::{self, Options, Prompt, PromptCompiler},
     sources::Tools,
 };
 use asperity_io::clock::now;
@@ -28,7 +28,7 @@ pub(crate) fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture,
         seed,
         picture: None,
     };
-    let compiled = driver::compile(&source, &request, &tools(loaded))
+    let compiled = driver::compile(&source, &request, &tools(&loaded.compiler))
         .map_err(|failure| ApiError::of(failure.as_ref()))?;
     let explanation = explain(&loaded.editor(), text).map_err(|e| ApiError::of(&e))?;
     let mut report = compiled.json();
@@ -53,6 +53,7 @@ pub(crate) fn edit(
     edit: Edit,
     draft: bool,
 ) -> Result<Texture, ApiError> {
+    let editor = loaded.editor();
     let asset = texture.parsed()?;
     let options = MixOptions {
         preview: if draft {
@@ -62,8 +63,7 @@ pub(crate) fn edit(
         },
         ..MixOptions::default()
     };
-    let mix = loaded
-        .editor()
+    let mix = editor
         .change(&asset, Some(&edit), &options)
         .map_err(|e| ApiError::of(&e))?;
     let what = What::Edit {
@@ -71,7 +71,7 @@ pub(crate) fn edit(
         edit,
         draft,
     };
-    mixed(loaded, mix, &[texture], what)
+    mixed(&editor, mix, &[texture], what)
 }
 
 /// A texture between two, as `asperity blend`.
@@ -79,8 +79,8 @@ pub(crate) fn edit(
 /// # Errors
 /// As the command.
 pub(crate) fn blend(loaded: &Loaded, [a, b]: [&Texture; 2], t: f64) -> Result<Texture, ApiError> {
-    let mix = loaded
-        .editor()
+    let editor = loaded.editor();
+    let mix = editor
         .blend(&a.parsed()?, &b.parsed()?, t, &MixOptions::default())
         .map_err(|e| ApiError::of(&e))?;
     let what = What::Blend {
@@ -88,7 +88,7 @@ pub(crate) fn blend(loaded: &Loaded, [a, b]: [&Texture; 2], t: f64) -> Result<Te
         b: b.id().to_owned(),
         t,
     };
-    mixed(loaded, mix, &[a, b], what)
+    mixed(&editor, mix, &[a, b], what)
 }
 
 /// A texture that taps, slides and rubs like these, as `asperity compose`.
@@ -99,9 +99,9 @@ pub(crate) fn compose(
     loaded: &Loaded,
     [tap, slide, friction]: [&Texture; 3],
 ) -> Result<Texture, ApiError> {
+    let editor = loaded.editor();
     let rubbed = friction.parsed()?;
-    let mix = loaded
-        .editor()
+    let mix = editor
         .compose(
             &tap.parsed()?,
             &slide.parsed()?,
@@ -114,7 +114,7 @@ pub(crate) fn compose(
         slide: slide.id().to_owned(),
         friction: friction.id().to_owned(),
     };
-    mixed(loaded, mix, &[tap, slide, friction], what)
+    mixed(&editor, mix, &[tap, slide, friction], what)
 }
 
 /// The texture that the latent of a recording decodes to, as `asperity encode`.
@@ -122,21 +122,26 @@ pub(crate) fn compose(
 /// # Errors
 /// As the command.
 pub(crate) fn encode(loaded: &Loaded, texture: &Texture) -> Result<Texture, ApiError> {
-    let mix = loaded
-        .editor()
+    let editor = loaded.editor();
+    let mix = editor
         .encoded(&texture.parsed()?, None, &MixOptions::default())
         .map_err(|e| ApiError::of(&e))?;
     let what = What::Encode {
         texture: texture.id().to_owned(),
     };
-    mixed(loaded, mix, &[texture], what)
+    mixed(&editor, mix, &[texture], what)
 }
 
 /// Compiles a mixture, with the report of the command.
-fn mixed(loaded: &Loaded, mix: Mix, others: &[&Texture], what: What) -> Result<Texture, ApiError> {
-    let compiled = driver::compile(&mix.source, &mix.request, &tools(loaded))
+fn mixed(
+    editor: &LatentEditor<'_>,
+    mix: Mix,
+    others: &[&Texture],
+    what: What,
+) -> Result<Texture, ApiError> {
+    let compiled = driver::compile(&mix.source, &mix.request, &tools(editor.prompt_compiler()))
         .map_err(|failure| ApiError::of(failure.as_ref()))?;
-    let report = mix.report(&loaded.editor(), &compiled);
+    let report = mix.report(editor, &compiled);
     let making = Making {
         made: Some(report.json),
         others,
@@ -145,9 +150,9 @@ fn mixed(loaded: &Loaded, mix: Mix, others: &[&Texture], what: What) -> Result<T
     Texture::new(compiled.lowered.bytes, making, |_| what).map_err(damaged)
 }
 
-fn tools(loaded: &Loaded) -> Tools<'_> {
+fn tools(compiler: &PromptCompiler) -> Tools<'_> {
     Tools {
         clock: Clock(now),
-        ..Tools::of(&loaded.compiler)
+        ..Tools::of(compiler)
     }
 }
