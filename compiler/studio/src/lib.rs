@@ -4,7 +4,7 @@
 //! ```no_run
 //! use asperity_studio::{Limits, Server, Studio};
 //!
-//! let studio = Studio::new(None);
+//! let studio = Studio::new(None, None); // without prompts
 //! let server = Server::bind(0, studio, Limits::default())?; // a free port
 //! println!("{}", server.url());
 //! server.run(); // until `server.stopper().stop()`
@@ -24,28 +24,41 @@
 //! 4. `api`: the page's files by the table in `page`, so that no path reaches a file system; then the requests of the
 //!    interface, each with its limit of bytes.
 //!
-//! What is compiled or opened, it compiles and opens with the same calls as the commands, so that bytes, reports and
-//! errors are theirs. A panic in one of these ends one request.
+//! What is compiled, mixed, opened or exported goes through the same calls as in the commands, so that bytes, reports and
+//! errors are theirs. A panic in one of these ends one request. Files that are dropped on the page stay in memory: nothing
+//! is written to a disk. At most four large bodies are in memory at once, and no more requests compute at once than
+//! there are processors.
 #![forbid(unsafe_code)]
 
+mod about;
 mod api;
 mod browser;
 mod collection;
-mod command_line;
 mod connections;
+mod difference;
+mod download;
 mod error;
 mod guard;
 mod http;
+mod making;
+mod opening;
+mod packing;
 mod page;
+mod prompts;
 mod recent;
+mod recipe;
+mod row;
 mod server;
+mod shelf;
 mod studio;
 mod texture;
+mod thumbnails;
 mod token;
 mod turns;
 mod worklet_asset;
 
 pub use browser::{BrowserError, has_display, open_in_browser};
 pub use collection::{Collection, CollectionError};
+pub use prompts::LoadPrompts;
 pub use server::{BindError, Limits, Server, Stopper};
 pub use studio::Studio;

@@ -1,105 +1,140 @@
 //! What the server knows: networks, what it was started with, the last textures.
 
 use crate::{
-    collection::Collection, error::ApiError, recent::Recent, texture::Texture, turns::Turns,
+    about,
+    collection::Collection,
+    error::ApiError,
+    http::Status,
+    making,
+    opening::{self, Found},
+    prompts::{LoadPrompts, Loaded, Prompts},
+    recent::Recent,
+    shelf::{Named, Shelf},
+    texture::Texture,
+    turns::Turns,
 };
-use asperity::{
-    inference::Backend,
-    prompt::{PromptCompiler, suggestions},
-};
-use serde::Serialize;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// A studio for one person.
 pub struct Studio {
-    collection: Option<Collection>,
-    prompt_compiler: OnceLock<Result<PromptCompiler, ApiError>>,
+    shelf: Shelf,
+    prompts: Prompts,
     recent: Recent,
-    turns: Turns,
+    computing: Turns,
+    sending: Turns,
 }
 
-/// What the page asks first.
-#[derive(Serialize)]
-struct About<'a> {
-    version: &'a str,
-    library: Option<Library<'a>>,
-    folder: Option<String>,
-    words: Vec<&'static str>,
-}
-
-#[derive(Serialize)]
-struct Library<'a> {
-    name: &'a str,
-    textures: usize,
+/// What was opened and kept.
+pub(crate) enum Kept {
+    Texture(Arc<Texture>),
+    Library(Named),
 }
 
 impl Studio {
-    /// A studio, with the textures that it was started with.
+    /// A studio with the textures that it was started with, and with how the prompt compiler is loaded. Without the
+    /// latter it shows textures, and makes none.
     #[must_use]
-    pub fn new(collection: Option<Collection>) -> Self {
+    pub fn new(collection: Option<Collection>, prompts: Option<LoadPrompts>) -> Self {
         Self {
-            collection,
-            prompt_compiler: OnceLock::new(),
+            shelf: Shelf::new(collection),
+            prompts: Prompts::new(prompts),
             recent: Recent::default(),
-            turns: Turns::new(),
+            computing: Turns::computing(),
+            sending: Turns::sending(),
         }
     }
 
     /// Loads the networks, unless they are loaded; others who need them wait.
     pub(crate) fn load(&self) {
-        let _ = self.prompt_compiler();
+        let _ = self.prompts.get();
     }
 
     /// What the server is, JSON.
     pub(crate) fn about(&self) -> Vec<u8> {
-        let collection = self.collection.as_ref();
-        let about = About {
-            version: env!("CARGO_PKG_VERSION"),
-            library: collection.map(|collection| Library {
-                name: collection.name(),
-                textures: collection.textures(),
-            }),
-            folder: collection
-                .and_then(Collection::folder)
-                .map(|folder| folder.display().to_string()),
-            words: suggestions(),
-        };
-        // Plain structures of numbers and strings always serialise.
-        serde_json::to_vec(&about).unwrap_or_default()
+        about::about(&self.prompts, self.shelf.start().as_ref())
     }
 
     /// Compiles a prompt, and keeps the texture.
+    ///
+    /// # Errors
+    /// As the command, and without a prompt compiler.
     pub(crate) fn compile(&self, prompt: &str, seed: u64) -> Result<Arc<Texture>, ApiError> {
-        let texture = self.compute(|| Texture::compiled(self.prompt_compiler()?, prompt, seed))?;
+        self.make(|loaded| making::compile(loaded, prompt, seed))
+    }
+
+    /// Makes a texture with the prompt compiler, and keeps it.
+    ///
+    /// # Errors
+    /// As `make`, and without a prompt compiler.
+    pub(crate) fn make(
+        &self,
+        make: impl FnOnce(&Loaded) -> Result<Texture, ApiError>,
+    ) -> Result<Arc<Texture>, ApiError> {
+        let texture = self.compute(|| make(self.prompts.get()?))?;
         Ok(self.keep(texture))
     }
 
-    /// Opens the bytes of an asset, and keeps it.
-    pub(crate) fn open(&self, file: &str, bytes: Vec<u8>) -> Result<Arc<Texture>, ApiError> {
-        let texture = self.compute(|| Texture::opened(file, bytes))?;
+    /// Opens the bytes of a file, and keeps what it holds.
+    ///
+    /// # Errors
+    /// As a command that opens such a file.
+    pub(crate) fn open(&self, file: &str, bytes: Vec<u8>) -> Result<Kept, ApiError> {
+        let found = self.compute(|| opening::open(file, bytes))?;
+        Ok(match found {
+            Found::Texture(texture) => Kept::Texture(self.keep(*texture)),
+            Found::Library(library) => Kept::Library(self.shelf.keep(*library)),
+        })
+    }
+
+    /// The library of this name.
+    ///
+    /// # Errors
+    /// Where there is none, or no longer.
+    pub(crate) fn library(&self, id: &str) -> Result<Named, ApiError> {
+        self.shelf.get(id)
+    }
+
+    /// Takes the texture at a place of a library, and keeps it.
+    ///
+    /// # Errors
+    /// As `asperity extract`.
+    pub(crate) fn pick(&self, library: &Named, at: usize) -> Result<Arc<Texture>, ApiError> {
+        let texture = self.compute(|| library.library.texture(at))?;
         Ok(self.keep(texture))
     }
 
-    /// A texture that was compiled or opened lately.
-    pub(crate) fn texture(&self, id: &str) -> Option<Arc<Texture>> {
-        self.recent.get(id)
+    /// A texture that was made or opened lately.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub(crate) fn texture(&self, id: &str) -> Result<Arc<Texture>, ApiError> {
+        self.recent.get(id).ok_or_else(|| {
+            ApiError::new(
+                Status::NotFound,
+                "the server does not have this texture, or no longer",
+                "compile or open it again",
+            )
+        })
+    }
+
+    /// What the page gets of a texture, JSON.
+    pub(crate) fn shown(&self, texture: &Texture) -> String {
+        texture.shown(self.prompts.get().ok())
     }
 
     /// Does this once few others compute.
     pub(crate) fn compute<T>(&self, work: impl FnOnce() -> T) -> T {
-        self.turns.take(work)
+        self.computing.take(work)
+    }
+
+    /// Does this, which reads a large body, once few others do.
+    pub(crate) fn send<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.sending.take(work)
     }
 
     fn keep(&self, texture: Texture) -> Arc<Texture> {
         let texture = Arc::new(texture);
         self.recent.keep(Arc::clone(&texture));
         texture
-    }
-
-    fn prompt_compiler(&self) -> Result<&PromptCompiler, ApiError> {
-        let loaded = self.prompt_compiler.get_or_init(|| {
-            PromptCompiler::embedded(&Backend::Portable).map_err(|error| ApiError::of(&error))
-        });
-        loaded.as_ref().map_err(Clone::clone)
     }
 }

@@ -1,29 +1,29 @@
 //! A texture on the page: its bytes, and what the page shows of it.
 
-use crate::{command_line, error::ApiError, http::Status, worklet_asset};
+use crate::{
+    error::ApiError,
+    prompts::Loaded,
+    recipe::{Recipe, What},
+    worklet_asset,
+};
 use asperity::{
-    edit::{LatentEditor, explain},
+    edit::{AXES, Axis, remembered},
     inspect::{self, Document},
-    pipeline::{Clock, Request},
     preview::{self, PreviewError, SIZE, WIDTH_MM},
-    prompt::{self, Options, Prompt, PromptCompiler},
     raise::raise,
-    sources::Tools,
-    textures::Textures,
     verify::VerifyError,
 };
 use asperity_formats::{Asset, FormatError};
-use asperity_io::{clock::now, diagnostic::Diagnostic};
+use asperity_io::output::FileNames;
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 use sha2::{Digest as _, Sha256};
 use std::{
     fmt::Write as _,
-    path::Path,
     sync::{Arc, OnceLock},
 };
 
-/// Bytes of the hash that names a texture: no two textures share it, even where someone tries.
+/// Bytes of the hash that names a texture.
 const ID_BYTES: usize = 16;
 
 /// A texture with what was found of it. What is rarely asked for is computed when it is.
@@ -33,7 +33,8 @@ pub(crate) struct Texture {
     document: Document,
     pixels: u32,
     compiled: Option<Value>,
-    command: Option<String>,
+    made: Option<Value>,
+    recipe: Option<Recipe>,
     worklet: OnceLock<Result<Arc<[u8]>, ApiError>>,
     pictures: OnceLock<Result<Pictures, ApiError>>,
 }
@@ -61,7 +62,11 @@ struct Shown<'a> {
     preview: Size,
     inspect: &'a Document,
     compiled: &'a Option<Value>,
-    command: &'a Option<String>,
+    made: &'a Option<Value>,
+    places: Map<String, Value>,
+    editable: bool,
+    file: String,
+    command: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -71,81 +76,47 @@ struct Size {
     width_mm: f64,
 }
 
+/// How a texture came about, as far as anyone wants to know.
+#[derive(Default)]
+pub(crate) struct Making<'a> {
+    /// The report of a prompt's compilation.
+    pub(crate) compiled: Option<Value>,
+    /// The report of a mixture or an edit.
+    pub(crate) made: Option<Value>,
+    /// The name in the index of the library that it was opened from.
+    pub(crate) indexed: Option<String>,
+    /// What it was made of.
+    pub(crate) others: &'a [&'a Texture],
+}
+
 impl Texture {
-    /// Compiles a prompt with the options that `asperity compile` has without any.
+    /// The texture of these bytes; `what` says how a command comes to them, from what names them.
     ///
     /// # Errors
-    /// As the command.
-    pub(crate) fn compiled(
-        prompt_compiler: &PromptCompiler,
-        text: &str,
-        seed: u64,
-    ) -> Result<Self, ApiError> {
-        prompt::check(text).map_err(|e| ApiError::of(&e))?;
-        let request: Request = Options::default().request;
-        let source = Prompt {
-            text: text.to_owned(),
-            seed,
-            picture: None,
-        };
-        let tools = Tools {
-            clock: Clock(now),
-            ..Tools::of(prompt_compiler)
-        };
-        let compiled = asperity::driver::compile(&source, &request, &tools)
-            .map_err(|failure| ApiError::of(failure.as_ref()))?;
-        let explanation =
-            explain(&LatentEditor::new(prompt_compiler), text).map_err(|e| ApiError::of(&e))?;
-        let mut report = compiled.json();
-        explanation.add_to(&mut report);
-        let command = command_line::compile(text, seed, &compiled.texture.name);
-        Self::of(compiled.lowered.bytes, None, Some(report), command).map_err(damaged)
-    }
-
-    /// Opens the bytes of an asset, or of a library with one texture. `file` names them in errors.
-    ///
-    /// # Errors
-    /// As a command that opens such a file.
-    pub(crate) fn opened(file: &str, bytes: Vec<u8>) -> Result<Self, ApiError> {
-        let refused = |error: &dyn Diagnostic| ApiError {
-            status: Status::Unprocessable,
-            ..ApiError::of(error)
-        };
-        let mut textures =
-            Textures::from_reader(Path::new(file), &bytes[..]).map_err(|e| refused(&e))?;
-        let name = textures.chosen_name(None).map_err(|e| refused(&e))?;
-        let asset = textures.choose(None).map_err(|e| refused(&e))?;
-        Self::of(asset, name, None, None).map_err(|e| refused(&textures.error(None, e.into())))
-    }
-
-    fn of(
+    /// For damaged bytes.
+    pub(crate) fn new(
         asset: Vec<u8>,
-        name: Option<String>,
-        compiled: Option<Value>,
-        command: Option<String>,
+        making: Making<'_>,
+        what: impl FnOnce(&str) -> What,
     ) -> Result<Self, FormatError> {
         let parsed = Asset::parse(&asset)?;
         let stored = parsed
             .preview_png()
             .and_then(|png| preview::stored(png).ok());
-        let digest = Sha256::digest(&asset);
-        let id = digest[..ID_BYTES]
-            .iter()
-            .fold(String::new(), |mut id, byte| {
-                // Writing to a string cannot fail.
-                let _ = write!(id, "{byte:02x}");
-                id
-            });
+        let id = hash(&asset);
+        let document = match making.indexed {
+            Some(name) => Document::named(&parsed, name),
+            None => Document::of(&parsed),
+        };
+        let others = making.others.iter().map(|other| other.recipe.as_ref());
         Ok(Self {
+            recipe: Recipe::new(others, &id, &document.name, what(&id)),
+            document,
             id,
-            document: match name {
-                Some(name) => Document::named(&parsed, name),
-                None => Document::of(&parsed),
-            },
             pixels: stored.map_or(SIZE, |picture| picture.width),
             asset: asset.into(),
-            compiled,
-            command,
+            compiled: making.compiled,
+            made: making.made,
             worklet: OnceLock::new(),
             pictures: OnceLock::new(),
         })
@@ -166,9 +137,29 @@ impl Texture {
         inspect::json(&self.document) + "\n"
     }
 
-    /// The answer of the interface, JSON.
-    pub(crate) fn shown(&self) -> String {
+    /// The asset, read.
+    ///
+    /// # Errors
+    /// Never, for it was read before.
+    pub(crate) fn parsed(&self) -> Result<Asset<'_>, ApiError> {
+        Asset::parse(&self.asset).map_err(damaged)
+    }
+
+    /// The name of a file for it: that which its command writes.
+    pub(crate) fn file(&self) -> String {
+        let own = self.recipe.as_ref().and_then(Recipe::file);
+        let named = || FileNames::of(&[&self.document.name], "asp").files.pop();
+        own.or_else(named).unwrap_or_default()
+    }
+
+    /// The answer of the interface, JSON. Without a prompt compiler there are no sliders, and nothing is edited.
+    pub(crate) fn shown(&self, prompts: Option<&Loaded>) -> String {
         let rate_hz = self.document.ar.sample_rate_hz;
+        let place = |axis: Axis| {
+            let place =
+                prompts.and_then(|loaded| loaded.scale.place(axis, &self.document.attributes));
+            (axis.name().to_owned(), json!(place))
+        };
         inspect::json(&Shown {
             id: &self.id,
             name: &self.document.name,
@@ -182,8 +173,19 @@ impl Texture {
             },
             inspect: &self.document,
             compiled: &self.compiled,
-            command: &self.command,
+            made: &self.made,
+            places: AXES.into_iter().map(place).collect(),
+            editable: prompts.is_some_and(|loaded| self.is_editable(loaded)),
+            file: self.file(),
+            command: self.recipe.as_ref().and_then(Recipe::command),
         })
+    }
+
+    /// Whether it remembers a latent of the model.
+    fn is_editable(&self, loaded: &Loaded) -> bool {
+        let asset = Asset::parse(&self.asset).ok();
+        let memory = asset.and_then(|asset| remembered(&asset).ok().flatten());
+        memory.is_some_and(|memory| loaded.compiler.model().has_latent_of(memory.model_crc32))
     }
 
     /// The asset for the AudioWorklet.
@@ -206,7 +208,7 @@ impl Texture {
     /// Where they cannot be drawn.
     pub(crate) fn pictures(&self) -> Result<Pictures, ApiError> {
         let drawn = self.pictures.get_or_init(|| {
-            let asset = Asset::parse(&self.asset).map_err(damaged)?;
+            let asset = self.parsed()?;
             self.draw(&asset).map_err(|e| ApiError::of(&e))
         });
         drawn.clone()
@@ -229,6 +231,19 @@ impl Texture {
     }
 }
 
-fn damaged(error: FormatError) -> ApiError {
+/// What names bytes: no two texts share it, even where someone tries.
+pub(crate) fn hash(bytes: &[u8]) -> String {
+    let digest = Sha256::digest(bytes);
+    digest[..ID_BYTES]
+        .iter()
+        .fold(String::new(), |mut id, byte| {
+            // Writing to a string cannot fail.
+            let _ = write!(id, "{byte:02x}");
+            id
+        })
+}
+
+/// The words of commands for bytes that are no asset.
+pub(crate) fn damaged(error: FormatError) -> ApiError {
     ApiError::of(&VerifyError::from(error))
 }

@@ -1,5 +1,6 @@
 //! A client that sends any bytes, and a server to send them to.
 
+use asperity::{driver::Failure, inference::Backend, prompt::PromptCompiler};
 use asperity_studio::{Collection, Limits, Server, Stopper, Studio};
 use serde_json::Value;
 use std::{
@@ -15,6 +16,11 @@ const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A server that tests share, with its usual limits.
 pub(crate) static SHARED: LazyLock<Site> = LazyLock::new(|| Site::start(None, Limits::default()));
+
+/// The prompt compiler of the command.
+fn embedded() -> Result<PromptCompiler, Failure> {
+    Ok(PromptCompiler::embedded(&Backend::Portable)?)
+}
 
 /// A server at work.
 pub(crate) struct Site {
@@ -35,7 +41,12 @@ pub(crate) struct Reply {
 
 impl Site {
     pub(crate) fn start(collection: Option<Collection>, limits: Limits) -> Self {
-        let server = Server::bind(0, Studio::new(collection), limits).expect("a free port");
+        Self::of(Studio::new(collection, Some(embedded)), limits)
+    }
+
+    /// A server of this studio.
+    pub(crate) fn of(studio: Studio, limits: Limits) -> Self {
+        let server = Server::bind(0, studio, limits).expect("a free port");
         let url = server.url();
         let (address, page) = url
             .strip_prefix("http://")

@@ -3,5 +3,9 @@
 mod answers;
 mod attacks;
 mod client;
+mod files;
+mod gallery;
 mod hostile_files;
+mod mixing;
+mod refusals;
 mod waits;

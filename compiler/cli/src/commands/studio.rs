@@ -1,6 +1,7 @@
 //! `asperity studio`.
 
 use crate::cli::Studio as Arguments;
+use asperity::{inference::Backend, prompt::PromptCompiler};
 use asperity_console::{Console, on_interrupt};
 use asperity_io::diagnostic::{Failures, one, texts};
 use asperity_studio::{Collection, Limits, Server, Studio, has_display, open_in_browser};
@@ -12,8 +13,11 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
         .as_deref()
         .map(Collection::open)
         .transpose()?;
-    let server =
-        Server::bind(args.port, Studio::new(collection), Limits::default()).map_err(one)?;
+    let studio = Studio::new(
+        collection,
+        Some(|| Ok(PromptCompiler::embedded(&Backend::Portable)?)),
+    );
+    let server = Server::bind(args.port, studio, Limits::default()).map_err(one)?;
     let stopper = server.stopper();
     on_interrupt(move || stopper.stop()).map_err(one)?;
     let url = server.url();

@@ -1,0 +1,124 @@
+//! What the page asks first: what the server is and can do.
+
+use crate::{prompts::Prompts, shelf::Named};
+use asperity::{
+    edit::{AXES, Axis, Scale},
+    interchange::{Format, Language},
+    prompt::suggestions,
+};
+use serde::Serialize;
+
+/// The answer of the interface.
+#[derive(Serialize)]
+struct About<'a> {
+    version: &'a str,
+    /// Whether prompts are compiled, and textures edited.
+    prompts: bool,
+    library: Option<Library<'a>>,
+    folder: Option<String>,
+    words: Vec<&'static str>,
+    sliders: Vec<Slider>,
+    exports: Vec<Export>,
+}
+
+/// A library, as the page knows it.
+#[derive(Serialize)]
+pub(crate) struct Library<'a> {
+    id: &'a str,
+    name: &'a str,
+    textures: usize,
+}
+
+impl<'a> Library<'a> {
+    pub(crate) fn of(named: &'a Named) -> Self {
+        Self {
+            id: &named.id,
+            name: named.library.name(),
+            textures: named.library.textures(),
+        }
+    }
+}
+
+/// A slider of the page, from 0 to 100.
+#[derive(Serialize)]
+struct Slider {
+    axis: Axis,
+    unit: &'static str,
+    /// What it moves, as reports call it.
+    attribute: &'static str,
+    /// The attribute at 0.
+    low: f64,
+    /// The attribute at 100.
+    high: f64,
+    /// Towards 100, in a word.
+    up: &'static str,
+    /// Towards 0.
+    down: &'static str,
+}
+
+/// A file of `asperity export`, as `api/texture` gives it.
+#[derive(Serialize)]
+struct Export {
+    ending: String,
+    format: &'static str,
+    file_ending: &'static str,
+}
+
+/// What the server is, JSON. It waits for the networks where there are any.
+pub(crate) fn about(prompts: &Prompts, start: Option<&Named>) -> Vec<u8> {
+    let about = About {
+        version: env!("CARGO_PKG_VERSION"),
+        prompts: prompts.exist(),
+        library: start.map(Library::of),
+        folder: start
+            .and_then(|named| named.library.folder())
+            .map(|folder| folder.display().to_string()),
+        words: suggestions(),
+        // Those of a compiler that cannot be loaded are missed by nobody.
+        sliders: prompts
+            .get()
+            .map(|loaded| AXES.map(|axis| slider(axis, &loaded.scale)).into())
+            .unwrap_or_default(),
+        exports: exports(),
+    };
+    // Plain structures of numbers and strings always serialise.
+    serde_json::to_vec(&about).unwrap_or_default()
+}
+
+fn slider(axis: Axis, scale: &Scale) -> Slider {
+    let (unit, attribute, up, down) = match axis {
+        Axis::Rough => ("dB", "rough_db", "rougher", "smoother"),
+        Axis::Sharp => ("Hz", "sharp_hz", "sharper", "duller"),
+        Axis::Hard => ("Hz", "hard_hz", "harder", "softer"),
+        Axis::Slippery => ("", "mu", "slipperier", "stickier"),
+    };
+    let (low, high) = match (axis, scale.range(axis)) {
+        // Slipperiness is −μ.
+        (Axis::Slippery, (low, high)) => (-low, -high),
+        (_, range) => range,
+    };
+    Slider {
+        axis,
+        unit,
+        attribute,
+        low,
+        high,
+        up,
+        down,
+    }
+}
+
+fn exports() -> Vec<Export> {
+    let export = |format: Format, file_ending: &'static str| Export {
+        ending: format!("export.{file_ending}"),
+        format: format.name(),
+        file_ending,
+    };
+    Format::ALL
+        .into_iter()
+        .flat_map(|format| {
+            let header = (format == Format::Source(Language::C)).then(|| export(format, "h"));
+            std::iter::once(export(format, format.extension())).chain(header)
+        })
+        .collect()
+}

@@ -1,0 +1,66 @@
+//! The interface between page and server: which address answers what.
+
+mod files;
+mod libraries;
+mod requests;
+
+use crate::{
+    error::ApiError,
+    http::{Answer, Body, Content, Head, Keep, Method, Status},
+    page,
+    studio::Studio,
+};
+
+/// Answers a request for a path below the page's address.
+///
+/// # Errors
+/// [`ApiError`] for a path that nothing answers, and for what cannot be answered.
+pub(crate) fn answer(
+    studio: &Studio,
+    head: &Head,
+    path: &str,
+    body: &mut Body<'_, '_>,
+) -> Result<Answer, ApiError> {
+    let reads = matches!(head.method, Method::Get | Method::Head);
+    let posts = head.method == Method::Post;
+    if let Some(file) = page::file(path) {
+        return Ok(if reads {
+            Answer::new(file.content_type, Content::Static(file.bytes), Keep::No)
+        } else {
+            Answer::only("GET, HEAD")
+        });
+    }
+    if let Some(make) = requests::make(path) {
+        if !posts {
+            return Ok(Answer::only("POST"));
+        }
+        let texture = make(studio, &body.read(requests::JSON_BYTES)?)?;
+        return Ok(Answer::json(studio.shown(&texture)));
+    }
+    if let Some(below) = path.strip_prefix("api/library/") {
+        return libraries::answer(studio, below, (reads, posts), body);
+    }
+    if let Some(below) = path.strip_prefix("api/difference/") {
+        return libraries::difference(studio, below, reads);
+    }
+    match path {
+        "api/about" if reads => Ok(Answer::json(studio.about())),
+        "api/about" => Ok(Answer::only("GET, HEAD")),
+        "api/open" if posts => files::open(studio, head, body),
+        "api/pack" if posts => files::pack(studio, body),
+        "api/open" | "api/pack" => Ok(Answer::only("POST")),
+        _ => match path.strip_prefix("api/texture/") {
+            Some(file) if reads => files::download(studio, file),
+            Some(_) => Ok(Answer::only("GET, HEAD")),
+            None => Err(nothing_here()),
+        },
+    }
+}
+
+fn nothing_here() -> ApiError {
+    ApiError::new(
+        Status::NotFound,
+        "nothing has this address",
+        "reload the page",
+    )
+}

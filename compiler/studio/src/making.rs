@@ -1,0 +1,158 @@
+//! Textures as the commands `compile`, `edit`, `blend`, `compose` and `encode` make them, without options of theirs that
+//! are not stated here.
+
+use crate::{
+    error::ApiError,
+    prompts::Loaded,
+    recipe::What,
+    texture::{Making, Texture, damaged},
+};
+use asperity::{
+    driver,
+    edit::{Edit, LatentEditor, Mix, MixOptions, MixPreview, explain},
+    pipeline::{Clock, Request},
+    prompt::{self, Options, Prompt, PromptCompiler},
+    sources::Tools,
+};
+use asperity_io::clock::now;
+
+/// Compiles a prompt, as `asperity compile`.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture, ApiError> {
+    prompt::check(text).map_err(|e| ApiError::of(&e))?;
+    let request: Request = Options::default().request;
+    let source = Prompt {
+        text: text.to_owned(),
+        seed,
+        picture: None,
+    };
+    let compiled = driver::compile(&source, &request, &tools(&loaded.compiler))
+        .map_err(|failure| ApiError::of(failure.as_ref()))?;
+    let explanation = explain(&loaded.editor(), text).map_err(|e| ApiError::of(&e))?;
+    let mut report = compiled.json();
+    explanation.add_to(&mut report);
+    let making = Making {
+        compiled: Some(report),
+        ..Making::default()
+    };
+    let prompt = text.to_owned();
+    let what = |_: &str| What::Compile { prompt, seed };
+    Texture::new(compiled.lowered.bytes, making, what).map_err(damaged)
+}
+
+/// Edits a texture, as `asperity edit`. A draft has no picture, as with `--no-preview`: drawing one takes longer than all
+/// else, and what is felt and verified is the same.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn edit(
+    loaded: &Loaded,
+    texture: &Texture,
+    edit: Edit,
+    draft: bool,
+) -> Result<Texture, ApiError> {
+    let editor = loaded.editor();
+    let asset = texture.parsed()?;
+    let options = MixOptions {
+        preview: if draft {
+            MixPreview::None
+        } else {
+            MixPreview::Kept
+        },
+        ..MixOptions::default()
+    };
+    let mix = editor
+        .change(&asset, Some(&edit), &options)
+        .map_err(|e| ApiError::of(&e))?;
+    let what = What::Edit {
+        texture: texture.id().to_owned(),
+        edit,
+        draft,
+    };
+    mixed(&editor, mix, &[texture], what)
+}
+
+/// A texture between two, as `asperity blend`.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn blend(loaded: &Loaded, [a, b]: [&Texture; 2], t: f64) -> Result<Texture, ApiError> {
+    let editor = loaded.editor();
+    let mix = editor
+        .blend(&a.parsed()?, &b.parsed()?, t, &MixOptions::default())
+        .map_err(|e| ApiError::of(&e))?;
+    let what = What::Blend {
+        a: a.id().to_owned(),
+        b: b.id().to_owned(),
+        t,
+    };
+    mixed(&editor, mix, &[a, b], what)
+}
+
+/// A texture that taps, slides and rubs like these, as `asperity compose`.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn compose(
+    loaded: &Loaded,
+    [tap, slide, friction]: [&Texture; 3],
+) -> Result<Texture, ApiError> {
+    let editor = loaded.editor();
+    let rubbed = friction.parsed()?;
+    let mix = editor
+        .compose(
+            &tap.parsed()?,
+            &slide.parsed()?,
+            Some(&rubbed),
+            &MixOptions::default(),
+        )
+        .map_err(|e| ApiError::of(&e))?;
+    let what = What::Compose {
+        tap: tap.id().to_owned(),
+        slide: slide.id().to_owned(),
+        friction: friction.id().to_owned(),
+    };
+    mixed(&editor, mix, &[tap, slide, friction], what)
+}
+
+/// The texture that the latent of a recording decodes to, as `asperity encode`.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn encode(loaded: &Loaded, texture: &Texture) -> Result<Texture, ApiError> {
+    let editor = loaded.editor();
+    let mix = editor
+        .encoded(&texture.parsed()?, None, &MixOptions::default())
+        .map_err(|e| ApiError::of(&e))?;
+    let what = What::Encode {
+        texture: texture.id().to_owned(),
+    };
+    mixed(&editor, mix, &[texture], what)
+}
+
+/// Compiles a mixture, with the report of the command.
+fn mixed(
+    editor: &LatentEditor<'_>,
+    mix: Mix,
+    others: &[&Texture],
+    what: What,
+) -> Result<Texture, ApiError> {
+    let compiled = driver::compile(&mix.source, &mix.request, &tools(editor.prompt_compiler()))
+        .map_err(|failure| ApiError::of(failure.as_ref()))?;
+    let report = mix.report(editor, &compiled);
+    let making = Making {
+        made: Some(report.json),
+        others,
+        ..Making::default()
+    };
+    Texture::new(compiled.lowered.bytes, making, |_| what).map_err(damaged)
+}
+
+fn tools(compiler: &PromptCompiler) -> Tools<'_> {
+    Tools {
+        clock: Clock(now),
+        ..Tools::of(compiler)
+    }
+}

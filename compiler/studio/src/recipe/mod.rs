@@ -1,0 +1,242 @@
+//! How a texture came about, and the commands that write its bytes again.
+
+#[cfg(test)]
+mod tests;
+mod words;
+
+use asperity::edit::Edit;
+use asperity_io::{output::FileNames, shown::shell_word};
+use std::{collections::HashMap, path::Path, sync::Arc};
+use words::{options, path_word, quoted};
+
+/// Steps that are remembered: more are no command that anyone would copy.
+const MOST: usize = 64;
+
+/// Steps from prompts and files to a texture; each after those that it takes textures of. The last one gives the
+/// texture itself.
+#[derive(Clone)]
+pub(crate) struct Recipe(Vec<Arc<Step>>);
+
+/// A step, which gives one texture.
+struct Step {
+    /// What names the bytes of its texture.
+    id: String,
+    /// The name of its texture.
+    name: String,
+    what: What,
+}
+
+/// A file that commands find where the user has it.
+#[derive(Clone, PartialEq, Eq)]
+pub(crate) struct Opened {
+    /// Its path, or its name alone where it was dropped on the page.
+    pub(crate) path: String,
+    /// What tells it from others of this path.
+    pub(crate) id: String,
+}
+
+/// What a step does. Other textures are named by what names their bytes.
+pub(crate) enum What {
+    /// A file holds the texture.
+    File(Opened),
+    /// `asperity import`, of a file as `hatt` or another kind
+    Import { kind: &'static str, file: Opened },
+    /// `asperity extract`
+    Extract { library: Opened, texture: String },
+    /// `asperity compile`
+    Compile { prompt: String, seed: u64 },
+    /// `asperity edit`; a draft has no picture
+    Edit {
+        texture: String,
+        edit: Edit,
+        draft: bool,
+    },
+    /// `asperity blend`
+    Blend { a: String, b: String, t: f64 },
+    /// `asperity compose`
+    Compose {
+        tap: String,
+        slide: String,
+        friction: String,
+    },
+    /// `asperity encode`
+    Encode { texture: String },
+}
+
+impl Recipe {
+    /// The recipe of a texture that is made of others. `None` where one of those has none, for what no command line can
+    /// hold, and for very many steps.
+    pub(crate) fn new<'a>(
+        others: impl IntoIterator<Item = Option<&'a Self>>,
+        id: &str,
+        name: &str,
+        what: What,
+    ) -> Option<Self> {
+        let mut steps: Vec<Arc<Step>> = Vec::new();
+        for other in others {
+            for step in &other?.0 {
+                if !steps.iter().any(|known| known.id == step.id) {
+                    steps.push(Arc::clone(step));
+                }
+            }
+        }
+        // The same bytes came before: how they did is shorter.
+        if let Some(at) = steps.iter().position(|step| step.id == id) {
+            steps.truncate(at + 1);
+            return Some(Self(steps));
+        }
+        if steps.len() == MOST || !what.is_sayable() {
+            return None;
+        }
+        steps.push(Arc::new(Step {
+            id: id.to_owned(),
+            name: name.to_owned(),
+            what,
+        }));
+        Some(Self(steps))
+    }
+
+    /// The file that the last command writes, by its name alone.
+    pub(crate) fn file(&self) -> Option<String> {
+        let last = self.0.last()?;
+        match &last.what {
+            What::File(opened) => {
+                let stem = opened.asset_stem()?;
+                FileNames::of(&[stem], "asp").files.pop()
+            }
+            _ => self.files().remove(last.id.as_str()),
+        }
+    }
+
+    /// The commands, one a line, for a POSIX shell. `None` where a file holds the texture already, and where two files
+    /// have the same path.
+    pub(crate) fn command(&self) -> Option<String> {
+        let opened = || self.0.iter().filter_map(|step| step.what.opened());
+        let ambiguous = |file: &Opened| opened().any(|o| o.path == file.path && o.id != file.id);
+        if opened().any(ambiguous) {
+            return None;
+        }
+        let files = self.files();
+        let lines: Vec<String> = self.0.iter().filter_map(|step| step.line(&files)).collect();
+        let writes = !matches!(self.0.last()?.what, What::File(_));
+        writes.then(|| lines.join("\n"))
+    }
+
+    /// The file of each step: where it lies, or to which the step writes it. All differ.
+    fn files(&self) -> HashMap<&str, String> {
+        let opened = self.0.iter().filter_map(|step| step.what.opened());
+        let mut names: Vec<&str> = opened.filter_map(Opened::asset_stem).collect();
+        let taken = names.len();
+        let written = || {
+            let steps = self.0.iter();
+            steps.filter(|step| !matches!(step.what, What::File(_)))
+        };
+        names.extend(written().map(|step| step.name.as_str()));
+        let outputs = FileNames::of(&names, "asp").files.into_iter().skip(taken);
+        let outputs = written().map(|step| step.id.as_str()).zip(outputs);
+        let found = self.0.iter().filter_map(|step| match &step.what {
+            What::File(opened) => Some((step.id.as_str(), opened.path.clone())),
+            _ => None,
+        });
+        found.chain(outputs).collect()
+    }
+}
+
+impl Step {
+    /// The command of this step, where these are the files of the textures.
+    fn line(&self, files: &HashMap<&str, String>) -> Option<String> {
+        // Each step comes after those that it takes textures of.
+        let file = |id: &str| path_word(files.get(id).map_or("", String::as_str)).into_owned();
+        let to = format!("-o {}", file(&self.id));
+        Some(match &self.what {
+            What::File(_) => return None,
+            What::Import { kind, file } => {
+                format!("asperity import {kind} {} {to}", path_word(&file.path))
+            }
+            What::Extract { library, texture } => {
+                let (library, word) = (path_word(&library.path), shell_word(texture));
+                if texture.starts_with('-') {
+                    format!("asperity extract {to} -- {library} {word}")
+                } else {
+                    format!("asperity extract {library} {word} {to}")
+                }
+            }
+            What::Compile { prompt, seed } => {
+                let seed = match seed {
+                    0 => String::new(),
+                    _ => format!(" --seed {seed}"),
+                };
+                let quoted = quoted(prompt);
+                if prompt.starts_with('-') {
+                    // What begins with a dash is no prompt unless options have ended.
+                    format!("asperity compile {to}{seed} -- {quoted}")
+                } else {
+                    format!("asperity compile {quoted} {to}{seed}")
+                }
+            }
+            What::Edit {
+                texture,
+                edit,
+                draft,
+            } => {
+                let asked = match edit {
+                    Edit::Steps(sliders) => options(sliders),
+                    Edit::Words(words) if words.starts_with('-') => {
+                        format!("--prompt={}", quoted(words))
+                    }
+                    Edit::Words(words) => format!("--prompt {}", quoted(words)),
+                };
+                let picture = if *draft { " --no-preview" } else { "" };
+                format!("asperity edit {} {asked}{picture} {to}", file(texture))
+            }
+            What::Blend { a, b, t } => {
+                format!("asperity blend {} {} -t {t} {to}", file(a), file(b))
+            }
+            What::Compose {
+                tap,
+                slide,
+                friction,
+            } => {
+                let [tap, slide, friction] = [tap, slide, friction].map(|id| file(id));
+                format!("asperity compose --tap {tap} --slide {slide} --friction {friction} {to}")
+            }
+            What::Encode { texture } => format!("asperity encode {} {to}", file(texture)),
+        })
+    }
+}
+
+impl What {
+    fn opened(&self) -> Option<&Opened> {
+        match self {
+            Self::File(file) | Self::Import { file, .. } | Self::Extract { library: file, .. } => {
+                Some(file)
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a command line can hold it, which ends texts at U+0000. Files with control characters in their names are
+    /// for no one to type.
+    fn is_sayable(&self) -> bool {
+        let text = match self {
+            Self::Compile { prompt, .. } => Some(prompt),
+            Self::Edit {
+                edit: Edit::Words(words),
+                ..
+            } => Some(words),
+            _ => None,
+        };
+        let path_is_plain = |opened: &Opened| !opened.path.contains(char::is_control);
+        !text.is_some_and(|text| text.contains('\0')) && self.opened().is_none_or(path_is_plain)
+    }
+}
+
+impl Opened {
+    /// Its name without the ending, if it is called an asset.
+    fn asset_stem(&self) -> Option<&str> {
+        let path = Path::new(&self.path);
+        let ending = path.extension()?;
+        let stem = path.file_stem()?.to_str();
+        stem.filter(|_| ending.eq_ignore_ascii_case("asp"))
+    }
+}
