@@ -12,7 +12,10 @@ use super::{
 };
 use crate::{
     emit::raise::raise,
-    views::listen::{Gesture, Stroke, perform},
+    views::{
+        listen::{Gesture, Stroke, perform},
+        preview,
+    },
 };
 use asperity_formats::Asset;
 use asperity_texture::signal::resample::resample;
@@ -159,6 +162,20 @@ pub struct Options {
     pub tap_full_scale_m_s2: Option<f64>,
     /// Width and height of pictures, pixels.
     pub size_px: u32,
+}
+
+/// What the command asks for where a user states nothing.
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            session: session(None, None, None, false),
+            rate_hz: None,
+            seed: 0,
+            full_scale_m_s2: None,
+            tap_full_scale_m_s2: None,
+            size_px: preview::SIZE,
+        }
+    }
 }
 
 /// One stroke and the taps, or what is asked for: a stroke, or taps alone.

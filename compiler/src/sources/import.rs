@@ -7,12 +7,15 @@ use super::{
     kind::{Kind, Operand, Stated},
     model_file::ModelFile,
 };
-use crate::passes::reduce::Fidelity;
+use crate::{passes::reduce::Fidelity, pipeline::Request, views::preview};
 use asperity_io::{
     diagnostic::{Diagnostic, Failure},
     input::{self, Format, InputError, InputProblem},
 };
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 use thiserror::Error;
 
 /// `import` of a manifest.
@@ -39,36 +42,91 @@ impl Diagnostic for Unknown {
     }
 }
 
+/// What a file is imported as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Imported {
+    /// A material of the Penn Haptic Texture Toolkit.
+    Hatt,
+    /// A model of one's own.
+    Model,
+    /// Effects of another tool.
+    Effects(effects::Kind),
+}
+
+impl Imported {
+    /// What a file of this format and name is imported as; `None` for one that is not. What is damaged is taken for what
+    /// it is called: the reader of that knows best why it is refused.
+    #[must_use]
+    pub fn of(file: &Path, found: Option<Format>) -> Option<Self> {
+        let extension = file.extension().unwrap_or_default();
+        let ends_in = |wanted: &str| extension.eq_ignore_ascii_case(wanted);
+        match found {
+            Some(Format::Hatt) => return Some(Self::Hatt),
+            Some(Format::Model) => return Some(Self::Model),
+            _ => {}
+        }
+        if let Some(kind) = found.and_then(effects::Kind::of_format) {
+            Some(Self::Effects(kind))
+        } else if ends_in("xml") {
+            Some(Self::Hatt)
+        } else if ends_in("json") {
+            Some(Self::Model)
+        } else {
+            effects::Kind::of_name(file).map(Self::Effects)
+        }
+    }
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hatt => "hatt",
+            Self::Model => "model",
+            Self::Effects(kind) => kind.name(),
+        }
+    }
+
+    /// The source that a file is.
+    #[must_use]
+    pub fn source(self, file: PathBuf) -> Arc<dyn Source> {
+        match self {
+            Self::Hatt => Arc::new(Hatt::new(file)),
+            Self::Model => Arc::new(ModelFile { file }),
+            Self::Effects(kind) => Arc::new(Effects {
+                file,
+                kind,
+                options: effects::Options::default(),
+            }),
+        }
+    }
+
+    /// What `asperity import` asks of such a file where a user states nothing.
+    #[must_use]
+    pub fn request(self) -> Request {
+        Request {
+            fidelity: match self {
+                Self::Hatt | Self::Model => Fidelity::Full,
+                Self::Effects(_) => Fidelity::Auto,
+            },
+            preview_px: (self != Self::Hatt).then_some(preview::SIZE),
+            ..Request::default()
+        }
+    }
+}
+
 fn open(stated: &Stated<'_>) -> Result<Arc<dyn Source>, Failure> {
     let file = stated.path.to_owned();
-    let extension = file.extension().unwrap_or_default();
-    let ends_in = |wanted: &str| extension.eq_ignore_ascii_case(wanted);
     let found = input::format_of(&file).map_err(|problem| InputError {
         file: file.clone(),
         problem,
     })?;
-    let effects = |file: PathBuf, kind| -> Arc<dyn Source> {
-        Arc::new(Effects {
-            file,
-            kind,
-            options: effects::Options::default(),
-        })
-    };
-    let by_format = found.and_then(effects::Kind::of_format);
-    let by_name = effects::Kind::of_name(&file);
-    Ok(match (found, by_format, by_name) {
-        (Some(Format::Hatt), ..) => Arc::new(Hatt::new(file)),
-        (Some(Format::Model), ..) => Arc::new(ModelFile { file }),
-        (_, Some(kind), _) => effects(file, kind),
-        // What is damaged is refused by the reader of what it is called, which knows best.
-        _ if ends_in("xml") => Arc::new(Hatt::new(file)),
-        _ if ends_in("json") => Arc::new(ModelFile { file }),
-        (.., Some(kind)) => effects(file, kind),
-        (Some(format), ..) => {
+    match (Imported::of(&file, found), found) {
+        (Some(imported), _) => Ok(imported.source(file)),
+        (None, Some(format)) => {
             let wanted = WANTED.into();
             let problem = InputProblem::OtherFormat { format, wanted };
-            return Err(InputError { file, problem }.into());
+            Err(InputError { file, problem }.into())
         }
-        (None, ..) => return Err(Unknown(file).into()),
-    })
+        (None, None) => Err(Unknown(file).into()),
+    }
 }

@@ -43,14 +43,18 @@ use crate::{
     learned::LearnedModel,
     pipeline::{Clock, Pipeline, Request, Ringing},
 };
-use asperity_io::diagnostic::{Diagnostic, Failure};
+use asperity_io::{
+    diagnostic::{Diagnostic, Failure},
+    input::{self, InputProblem},
+};
 use asperity_texture::model::TextureModel;
 use key::Parts;
 use libraries::OpenLibraries;
 use prompt::PromptCompiler;
 use std::{
+    borrow::Cow,
     fmt,
-    path::PathBuf,
+    path::{Path, PathBuf},
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
@@ -118,6 +122,8 @@ pub struct Tools<'a> {
     pub model: Option<&'a LearnedModel>,
     /// What reads prompts.
     pub prompt_compiler: Option<&'a PromptCompiler>,
+    /// A path and its bytes, where they are in memory already: the file is not read then, and need not be there.
+    pub given: Option<(&'a Path, &'a [u8])>,
     /// Libraries that stay open while textures are taken of them.
     pub libraries: Option<&'a OpenLibraries>,
     /// What passes are timed by.
@@ -143,6 +149,21 @@ impl<'a> Tools<'a> {
     /// Where none was given.
     pub fn prompt_compiler(&self) -> Result<&'a PromptCompiler, Failure> {
         Ok(self.prompt_compiler.ok_or(NoModel)?)
+    }
+
+    /// The bytes of a file: those that were given under its path, or those that are read.
+    pub(crate) fn file(
+        &self,
+        path: &Path,
+        kind: input::Kind,
+    ) -> Result<Cow<'a, [u8]>, InputProblem> {
+        match self.given {
+            Some((given, bytes)) if given == path => {
+                input::admit(bytes, kind)?;
+                Ok(Cow::Borrowed(bytes))
+            }
+            _ => input::read(path, kind).map(Cow::Owned),
+        }
     }
 
     /// Refuses to begin another texture once no more is wanted.

@@ -1,9 +1,9 @@
 //! What the page asks first: what the server is and can do.
 
 use crate::{
-    collection::Collection,
     device::{Description, LiveDevice},
     prompts::Prompts,
+    shelf::Named,
 };
 use asperity::{
     edit::{AXES, Axis, Scale},
@@ -26,11 +26,22 @@ struct About<'a> {
     device: Option<Description<'a>>,
 }
 
+/// A library, as the page knows it.
 #[derive(Serialize)]
-struct Library<'a> {
+pub(crate) struct Library<'a> {
     id: &'a str,
     name: &'a str,
     textures: usize,
+}
+
+impl<'a> Library<'a> {
+    pub(crate) fn of(named: &'a Named) -> Self {
+        Self {
+            id: &named.id,
+            name: named.library.name(),
+            textures: named.library.textures(),
+        }
+    }
 }
 
 /// A slider of the page, from 0 to 100.
@@ -61,19 +72,15 @@ struct Export {
 /// What the server is, JSON. It waits for the networks where there are any.
 pub(crate) fn about(
     prompts: &Prompts,
-    collection: Option<&Collection>,
+    start: Option<&Named>,
     device: Option<&LiveDevice>,
 ) -> Vec<u8> {
     let about = About {
         version: env!("CARGO_PKG_VERSION"),
         prompts: prompts.exist(),
-        library: collection.map(|collection| Library {
-            id: "0",
-            name: collection.name(),
-            textures: collection.textures(),
-        }),
-        folder: collection
-            .and_then(Collection::folder)
+        library: start.map(Library::of),
+        folder: start
+            .and_then(|named| named.library.folder())
             .map(|folder| folder.display().to_string()),
         words: suggestions(),
         // Those of a compiler that cannot be loaded are missed by nobody.

@@ -1,22 +1,52 @@
-//! The textures that the studio was started with: a library, or a folder of assets.
+//! Textures that belong together: a library, or a folder of assets. Of one on a disk, textures are read when they are
+//! asked for.
 
-use asperity::textures::Textures;
+use crate::{
+    error::ApiError,
+    http::Status,
+    opening::refused,
+    recipe::{Opened, What},
+    row::{Row, columns},
+    texture::{Making, Texture, damaged},
+    thumbnails::Thumbnails,
+};
+use asperity::{
+    attributes::Meter,
+    library::renamed,
+    lower::LowerError,
+    textures::{Textures, TexturesError},
+};
+use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Diagnostic, Failures, one},
+    shown::counted,
     system,
 };
+use rayon::prelude::*;
 use std::{
     io,
     path::{Path, PathBuf},
+    sync::{Arc, Mutex, OnceLock, PoisonError},
 };
 use thiserror::Error;
 
 /// A library or a folder whose textures were all checked.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug)]
 pub struct Collection {
     name: String,
-    textures: usize,
-    folder: Option<PathBuf>,
+    /// What tells it from others of its name.
+    id: String,
+    place: Place,
+    rows: Vec<Row>,
+    columns: OnceLock<Arc<[u8]>>,
+    thumbnails: Thumbnails,
+}
+
+/// Where the textures are.
+#[derive(Debug)]
+enum Place {
+    Library(Mutex<Textures>),
+    Folder { path: PathBuf, files: Vec<PathBuf> },
 }
 
 /// A path that is neither a library nor a folder of assets.
@@ -52,7 +82,7 @@ impl Diagnostic for CollectionError {
 
 impl Collection {
     /// Opens a library (.aspl), or a folder with assets (.asp), and checks every texture: checksums, structure,
-    /// meaning.
+    /// meaning. What the page shows of all of them is found in the same pass.
     ///
     /// # Errors
     /// For a path that is neither, and for every texture of a folder, or the first of a library, that is damaged.
@@ -60,15 +90,31 @@ impl Collection {
         if path.is_dir() {
             return Self::folder_of(path);
         }
-        let mut textures = Textures::open(path).map_err(one)?;
+        let textures = Textures::open(path).map_err(one)?;
         if !textures.is_library() {
             return Err(one(CollectionError::Asset(path.to_owned())));
         }
-        let checked = textures.each(|| (), |(), _, _| ()).map_err(one)?;
+        Self::library(textures, String::new()).map_err(one)
+    }
+
+    /// A library that is in memory; the path of its textures is the name of its file. `id` tells it from others of that
+    /// name.
+    ///
+    /// # Errors
+    /// For the first texture that is damaged.
+    pub(crate) fn dropped(textures: Textures, id: String) -> Result<Self, ApiError> {
+        Self::library(textures, id).map_err(|e| refused(&e))
+    }
+
+    fn library(mut textures: Textures, id: String) -> Result<Self, TexturesError> {
+        let rows = textures.each(Meter::default, Row::of)?;
         Ok(Self {
-            name: name(path),
-            textures: checked.len(),
-            folder: None,
+            name: name(textures.path()),
+            id,
+            place: Place::Library(Mutex::new(textures)),
+            rows,
+            columns: OnceLock::new(),
+            thumbnails: Thumbnails::default(),
         })
     }
 
@@ -91,19 +137,39 @@ impl Collection {
         if files.is_empty() {
             return Err(one(CollectionError::Empty(path.to_owned())));
         }
-        let check = |file: &PathBuf| Textures::open(file)?.choose(None).map(drop);
-        let damaged: Failures = files
-            .iter()
-            .filter_map(|file| check(file).err())
-            .map(|error| Box::new(error) as Box<dyn Diagnostic>)
-            .collect();
+        let row = |meter: &mut Meter, file: &PathBuf| {
+            let bytes = asset_of(file)?;
+            let parsed = Asset::parse(&bytes);
+            let asset = parsed.map_err(|e| TexturesError {
+                path: file.clone(),
+                texture: None,
+                problem: e.into(),
+            })?;
+            Ok(Row::of(meter, asset.name(), &asset))
+        };
+        let checked: Vec<Result<Row, TexturesError>> =
+            files.par_iter().map_init(Meter::default, row).collect();
+        let mut damaged = Failures::new();
+        let mut rows = Vec::with_capacity(files.len());
+        for row in checked {
+            match row {
+                Ok(row) => rows.push(row),
+                Err(error) => damaged.push(Box::new(error)),
+            }
+        }
         if !damaged.is_empty() {
             return Err(damaged);
         }
         Ok(Self {
             name: name(path),
-            textures: files.len(),
-            folder: Some(path.to_owned()),
+            id: String::new(),
+            place: Place::Folder {
+                path: path.to_owned(),
+                files,
+            },
+            rows,
+            columns: OnceLock::new(),
+            thumbnails: Thumbnails::default(),
         })
     }
 
@@ -116,14 +182,93 @@ impl Collection {
     /// How many textures it has.
     #[must_use]
     pub fn textures(&self) -> usize {
-        self.textures
+        self.rows.len()
     }
 
     /// The folder, if it is one.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
-        self.folder.as_deref()
+        match &self.place {
+            Place::Folder { path, .. } => Some(path),
+            Place::Library(_) => None,
+        }
     }
+
+    /// What the gallery shows of all its textures, JSON.
+    pub(crate) fn columns(&self, id: &str) -> Arc<[u8]> {
+        let written = self
+            .columns
+            .get_or_init(|| columns(id, &self.name, &self.rows).into());
+        Arc::clone(written)
+    }
+
+    /// The names of its textures, in their order.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.rows.iter().map(|row| row.name.as_str())
+    }
+
+    /// The bytes of the texture at a place.
+    ///
+    /// # Errors
+    /// Where there is none, and as a command that opens it.
+    pub(crate) fn asset(&self, at: usize) -> Result<Vec<u8>, ApiError> {
+        if at >= self.rows.len() {
+            let count = counted(self.rows.len(), "texture", "textures");
+            let error = format!("{}: no texture {at}; it has {count}", self.name);
+            let help = "ask for one from 0 on";
+            return Err(ApiError::new(Status::NotFound, error, help));
+        }
+        let read = match &self.place {
+            Place::Library(textures) => {
+                let mut textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
+                textures.texture(at)
+            }
+            Place::Folder { files, .. } => asset_of(&files[at]),
+        };
+        read.map_err(|e| refused(&e))
+    }
+
+    /// The texture at a place, as `asperity extract` writes it.
+    ///
+    /// # Errors
+    /// As [`asset`](Self::asset).
+    pub(crate) fn texture(&self, at: usize) -> Result<Texture, ApiError> {
+        let mut bytes = self.asset(at)?;
+        let Row { name, .. } = &self.rows[at];
+        if Asset::parse(&bytes).map_err(damaged)?.name() != name {
+            // The name in the index counts.
+            bytes = renamed(&bytes, name).map_err(|e| refused(&LowerError::from(e)))?;
+        }
+        let what = |id: &str| match &self.place {
+            Place::Library(textures) => {
+                let textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
+                let library = Opened {
+                    path: textures.path().to_string_lossy().into_owned(),
+                    id: self.id.clone(),
+                };
+                let texture = name.clone();
+                What::Extract { library, texture }
+            }
+            Place::Folder { files, .. } => What::File(Opened {
+                path: files[at].to_string_lossy().into_owned(),
+                id: id.to_owned(),
+            }),
+        };
+        Texture::new(bytes, Making::default(), what).map_err(damaged)
+    }
+
+    /// The picture of the texture at a place, PNG.
+    ///
+    /// # Errors
+    /// As [`asset`](Self::asset), and where it cannot be drawn.
+    pub(crate) fn thumbnail(&self, at: usize) -> Result<Arc<[u8]>, ApiError> {
+        self.thumbnails.get(at, || self.asset(at))
+    }
+}
+
+/// The bytes of the one texture of a file.
+fn asset_of(file: &Path) -> Result<Vec<u8>, TexturesError> {
+    Textures::open(file)?.choose(None)
 }
 
 /// The last part of a path, or all of it where that has no name, as `..`.

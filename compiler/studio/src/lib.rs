@@ -24,8 +24,10 @@
 //! 4. `api`: the page's files by the table in `page`, so that no path reaches a file system; then the requests of the
 //!    interface, each with its limit of bytes.
 //!
-//! What is compiled or opened, it compiles and opens with the same calls as the commands, so that bytes, reports and
-//! errors are theirs. A panic in one of these ends one request.
+//! What is compiled, mixed, opened or exported goes through the same calls as in the commands, so that bytes, reports and
+//! errors are theirs. A panic in one of these ends one request. Files that are dropped on the page stay in memory: nothing
+//! is written to a disk. At most four large bodies are in memory at once, and no more requests compute at once than
+//! there are processors.
 #![forbid(unsafe_code)]
 
 mod about;
@@ -34,17 +36,24 @@ mod browser;
 mod collection;
 mod connections;
 mod device;
+mod difference;
+mod download;
 mod error;
 mod guard;
 mod http;
 mod making;
+mod opening;
+mod packing;
 mod page;
 mod prompts;
 mod recent;
 mod recipe;
+mod row;
 mod server;
+mod shelf;
 mod studio;
 mod texture;
+mod thumbnails;
 mod token;
 mod turns;
 mod worklet_asset;

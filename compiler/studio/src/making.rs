@@ -3,21 +3,18 @@
 
 use crate::{
     error::ApiError,
-    http::Status,
     prompts::Loaded,
-    recipe::{Opened, What},
+    recipe::What,
     texture::{Making, Texture, damaged},
 };
 use asperity::{
     driver,
-    edit::{Edit, Mix, MixOptions, explain},
+    edit::{Edit, LatentEditor, Mix, MixOptions, MixPreview, explain},
     pipeline::{Clock, Request},
-    prompt::{self, Options, Prompt},
+    prompt::{self, Options, Prompt, PromptCompiler},
     sources::Tools,
-    textures::Textures,
 };
-use asperity_io::{clock::now, diagnostic::Diagnostic};
-use std::path::Path;
+use asperity_io::clock::now;
 
 /// Compiles a prompt, as `asperity compile`.
 ///
@@ -31,7 +28,7 @@ pub(crate) fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture,
         seed,
         picture: None,
     };
-    let compiled = driver::compile(&source, &request, &tools(loaded))
+    let compiled = driver::compile(&source, &request, &tools(&loaded.compiler))
         .map_err(|failure| ApiError::of(failure.as_ref()))?;
     let explanation = explain(&loaded.editor(), text).map_err(|e| ApiError::of(&e))?;
     let mut report = compiled.json();
@@ -45,48 +42,36 @@ pub(crate) fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture,
     Texture::new(compiled.lowered.bytes, making, what).map_err(damaged)
 }
 
-/// Opens the bytes of an asset, or of a library with one texture. `file` names them in errors.
-///
-/// # Errors
-/// As a command that opens such a file.
-pub(crate) fn open(file: &str, bytes: Vec<u8>) -> Result<Texture, ApiError> {
-    let refused = |error: &dyn Diagnostic| ApiError {
-        status: Status::Unprocessable,
-        ..ApiError::of(error)
-    };
-    let mut textures =
-        Textures::from_reader(Path::new(file), &bytes[..]).map_err(|e| refused(&e))?;
-    let indexed = textures.chosen_name(None).map_err(|e| refused(&e))?;
-    let asset = textures.choose(None).map_err(|e| refused(&e))?;
-    let making = Making {
-        indexed,
-        ..Making::default()
-    };
-    let path = file.to_owned();
-    let what = |id: &str| {
-        What::File(Opened {
-            path,
-            id: id.to_owned(),
-        })
-    };
-    Texture::new(asset, making, what).map_err(|e| refused(&textures.error(None, e.into())))
-}
-
-/// Edits a texture, as `asperity edit`.
+/// Edits a texture, as `asperity edit`. A draft has no picture, as with `--no-preview`: drawing one takes longer than all
+/// else, and what is felt and verified is the same.
 ///
 /// # Errors
 /// As the command.
-pub(crate) fn edit(loaded: &Loaded, texture: &Texture, edit: Edit) -> Result<Texture, ApiError> {
+pub(crate) fn edit(
+    loaded: &Loaded,
+    texture: &Texture,
+    edit: Edit,
+    draft: bool,
+) -> Result<Texture, ApiError> {
+    let editor = loaded.editor();
     let asset = texture.parsed()?;
-    let mix = loaded
-        .editor()
-        .change(&asset, Some(&edit), &MixOptions::default())
+    let options = MixOptions {
+        preview: if draft {
+            MixPreview::None
+        } else {
+            MixPreview::Kept
+        },
+        ..MixOptions::default()
+    };
+    let mix = editor
+        .change(&asset, Some(&edit), &options)
         .map_err(|e| ApiError::of(&e))?;
     let what = What::Edit {
         texture: texture.id().to_owned(),
         edit,
+        draft,
     };
-    mixed(loaded, mix, &[texture], what)
+    mixed(&editor, mix, &[texture], what)
 }
 
 /// A texture between two, as `asperity blend`.
@@ -94,8 +79,8 @@ pub(crate) fn edit(loaded: &Loaded, texture: &Texture, edit: Edit) -> Result<Tex
 /// # Errors
 /// As the command.
 pub(crate) fn blend(loaded: &Loaded, [a, b]: [&Texture; 2], t: f64) -> Result<Texture, ApiError> {
-    let mix = loaded
-        .editor()
+    let editor = loaded.editor();
+    let mix = editor
         .blend(&a.parsed()?, &b.parsed()?, t, &MixOptions::default())
         .map_err(|e| ApiError::of(&e))?;
     let what = What::Blend {
@@ -103,7 +88,7 @@ pub(crate) fn blend(loaded: &Loaded, [a, b]: [&Texture; 2], t: f64) -> Result<Te
         b: b.id().to_owned(),
         t,
     };
-    mixed(loaded, mix, &[a, b], what)
+    mixed(&editor, mix, &[a, b], what)
 }
 
 /// A texture that taps, slides and rubs like these, as `asperity compose`.
@@ -114,9 +99,9 @@ pub(crate) fn compose(
     loaded: &Loaded,
     [tap, slide, friction]: [&Texture; 3],
 ) -> Result<Texture, ApiError> {
+    let editor = loaded.editor();
     let rubbed = friction.parsed()?;
-    let mix = loaded
-        .editor()
+    let mix = editor
         .compose(
             &tap.parsed()?,
             &slide.parsed()?,
@@ -129,7 +114,7 @@ pub(crate) fn compose(
         slide: slide.id().to_owned(),
         friction: friction.id().to_owned(),
     };
-    mixed(loaded, mix, &[tap, slide, friction], what)
+    mixed(&editor, mix, &[tap, slide, friction], what)
 }
 
 /// The texture that the latent of a recording decodes to, as `asperity encode`.
@@ -137,21 +122,26 @@ pub(crate) fn compose(
 /// # Errors
 /// As the command.
 pub(crate) fn encode(loaded: &Loaded, texture: &Texture) -> Result<Texture, ApiError> {
-    let mix = loaded
-        .editor()
+    let editor = loaded.editor();
+    let mix = editor
         .encoded(&texture.parsed()?, None, &MixOptions::default())
         .map_err(|e| ApiError::of(&e))?;
     let what = What::Encode {
         texture: texture.id().to_owned(),
     };
-    mixed(loaded, mix, &[texture], what)
+    mixed(&editor, mix, &[texture], what)
 }
 
 /// Compiles a mixture, with the report of the command.
-fn mixed(loaded: &Loaded, mix: Mix, others: &[&Texture], what: What) -> Result<Texture, ApiError> {
-    let compiled = driver::compile(&mix.source, &mix.request, &tools(loaded))
+fn mixed(
+    editor: &LatentEditor<'_>,
+    mix: Mix,
+    others: &[&Texture],
+    what: What,
+) -> Result<Texture, ApiError> {
+    let compiled = driver::compile(&mix.source, &mix.request, &tools(editor.prompt_compiler()))
         .map_err(|failure| ApiError::of(failure.as_ref()))?;
-    let report = mix.report(&loaded.editor(), &compiled);
+    let report = mix.report(editor, &compiled);
     let making = Making {
         made: Some(report.json),
         others,
@@ -160,9 +150,9 @@ fn mixed(loaded: &Loaded, mix: Mix, others: &[&Texture], what: What) -> Result<T
     Texture::new(compiled.lowered.bytes, making, |_| what).map_err(damaged)
 }
 
-fn tools(loaded: &Loaded) -> Tools<'_> {
+fn tools(compiler: &PromptCompiler) -> Tools<'_> {
     Tools {
         clock: Clock(now),
-        ..Tools::of(&loaded.compiler)
+        ..Tools::of(compiler)
     }
 }

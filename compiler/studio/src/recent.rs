@@ -37,7 +37,7 @@ impl Recent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::making;
+    use crate::{recipe::What, texture::Making};
     use asperity::{builtin, library::renamed, lower::lower};
 
     #[test]
@@ -45,7 +45,10 @@ mod tests {
         let asset = lower(&builtin::texture(), None).unwrap().bytes;
         let named = |n: usize| {
             let asset = renamed(&asset, &format!("texture {n}")).unwrap();
-            Arc::new(making::open("x.asp", asset).unwrap())
+            let what = |id: &str| What::Encode {
+                texture: id.to_owned(),
+            };
+            Arc::new(Texture::new(asset, Making::default(), what).unwrap())
         };
         let recent = Recent::default();
         let first = named(0);

@@ -7,8 +7,10 @@ use crate::{
     error::ApiError,
     http::Status,
     making,
+    opening::{self, Found},
     prompts::{LoadPrompts, Loaded, Prompts},
     recent::Recent,
+    shelf::{Named, Shelf},
     texture::Texture,
     turns::Turns,
 };
@@ -16,11 +18,18 @@ use std::sync::Arc;
 
 /// A studio for one person.
 pub struct Studio {
-    collection: Option<Collection>,
+    shelf: Shelf,
     device: Option<LiveDevice>,
     prompts: Prompts,
     recent: Recent,
-    turns: Turns,
+    computing: Turns,
+    sending: Turns,
+}
+
+/// What was opened and kept.
+pub(crate) enum Kept {
+    Texture(Arc<Texture>),
+    Library(Named),
 }
 
 impl Studio {
@@ -29,11 +38,12 @@ impl Studio {
     #[must_use]
     pub fn new(collection: Option<Collection>, prompts: Option<LoadPrompts>) -> Self {
         Self {
-            collection,
+            shelf: Shelf::new(collection),
             device: None,
             prompts: Prompts::new(prompts),
             recent: Recent::default(),
-            turns: Turns::new(),
+            computing: Turns::computing(),
+            sending: Turns::sending(),
         }
     }
 
@@ -60,7 +70,7 @@ impl Studio {
     pub(crate) fn about(&self) -> Vec<u8> {
         about::about(
             &self.prompts,
-            self.collection.as_ref(),
+            self.shelf.start().as_ref(),
             self.device.as_ref(),
         )
     }
@@ -85,12 +95,32 @@ impl Studio {
         Ok(self.keep(texture))
     }
 
-    /// Opens the bytes of an asset, and keeps it.
+    /// Opens the bytes of a file, and keeps what it holds.
     ///
     /// # Errors
     /// As a command that opens such a file.
-    pub(crate) fn open(&self, file: &str, bytes: Vec<u8>) -> Result<Arc<Texture>, ApiError> {
-        let texture = self.compute(|| making::open(file, bytes))?;
+    pub(crate) fn open(&self, file: &str, bytes: Vec<u8>) -> Result<Kept, ApiError> {
+        let found = self.compute(|| opening::open(file, bytes))?;
+        Ok(match found {
+            Found::Texture(texture) => Kept::Texture(self.keep(*texture)),
+            Found::Library(library) => Kept::Library(self.shelf.keep(*library)),
+        })
+    }
+
+    /// The library of this name.
+    ///
+    /// # Errors
+    /// Where there is none, or no longer.
+    pub(crate) fn library(&self, id: &str) -> Result<Named, ApiError> {
+        self.shelf.get(id)
+    }
+
+    /// Takes the texture at a place of a library, and keeps it.
+    ///
+    /// # Errors
+    /// As `asperity extract`.
+    pub(crate) fn pick(&self, library: &Named, at: usize) -> Result<Arc<Texture>, ApiError> {
+        let texture = self.compute(|| library.library.texture(at))?;
         Ok(self.keep(texture))
     }
 
@@ -115,7 +145,12 @@ impl Studio {
 
     /// Does this once few others compute.
     pub(crate) fn compute<T>(&self, work: impl FnOnce() -> T) -> T {
-        self.turns.take(work)
+        self.computing.take(work)
+    }
+
+    /// Does this, which reads a large body, once few others do.
+    pub(crate) fn send<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.sending.take(work)
     }
 
     fn keep(&self, texture: Texture) -> Arc<Texture> {

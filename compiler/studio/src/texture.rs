@@ -7,7 +7,7 @@ use crate::{
     worklet_asset,
 };
 use asperity::{
-    edit::{AXES, Axis},
+    edit::{AXES, Axis, remembered},
     inspect::{self, Document},
     preview::{self, PreviewError, SIZE, WIDTH_MM},
     raise::raise,
@@ -165,10 +165,6 @@ impl Texture {
                 prompts.and_then(|loaded| loaded.scale.place(axis, &self.document.attributes));
             (axis.name().to_owned(), json!(place))
         };
-        let editable = |loaded: &Loaded| {
-            let asset = Asset::parse(&self.asset);
-            asset.is_ok_and(|asset| loaded.editor().memory(&asset).is_ok())
-        };
         inspect::json(&Shown {
             id: &self.id,
             name: &self.document.name,
@@ -184,10 +180,17 @@ impl Texture {
             compiled: &self.compiled,
             made: &self.made,
             places: AXES.into_iter().map(place).collect(),
-            editable: prompts.is_some_and(editable),
+            editable: prompts.is_some_and(|loaded| self.is_editable(loaded)),
             file: self.file(),
             command: self.recipe.as_ref().and_then(Recipe::command),
         })
+    }
+
+    /// Whether it remembers a latent of the model.
+    fn is_editable(&self, loaded: &Loaded) -> bool {
+        let asset = Asset::parse(&self.asset).ok();
+        let memory = asset.and_then(|asset| remembered(&asset).ok().flatten());
+        memory.is_some_and(|memory| loaded.compiler.model().has_latent_of(memory.model_crc32))
     }
 
     /// The asset for the AudioWorklet.

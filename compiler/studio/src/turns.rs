@@ -1,11 +1,11 @@
-//! Who may compute now: compiling takes all processors, so a few at a time are as fast as many, and take less memory.
+//! Who may work now: compiling takes all processors, so a few at a time are as fast as many, and take less memory.
 
 use std::{
     sync::{Condvar, Mutex, PoisonError},
     thread::available_parallelism,
 };
 
-/// Most requests that compute at once.
+/// Most requests that compute, or whose large bodies are in memory, at once.
 const MOST: usize = 4;
 
 /// Turns that are free.
@@ -15,10 +15,19 @@ pub(crate) struct Turns {
 }
 
 impl Turns {
-    pub(crate) fn new() -> Self {
-        let processors = available_parallelism().map_or(1, usize::from);
+    /// Turns of those who compute.
+    pub(crate) fn computing() -> Self {
+        Self::new(available_parallelism().map_or(1, usize::from).min(MOST))
+    }
+
+    /// Turns of those who send large bodies.
+    pub(crate) fn sending() -> Self {
+        Self::new(MOST)
+    }
+
+    fn new(turns: usize) -> Self {
         Self {
-            free: Mutex::new(processors.min(MOST)),
+            free: Mutex::new(turns),
             given_back: Condvar::new(),
         }
     }
@@ -60,7 +69,7 @@ mod tests {
 
     #[test]
     fn no_more_work_at_once_than_turns_and_a_panic_keeps_none() {
-        let turns = Turns::new();
+        let turns = Turns::computing();
         let all = *turns.free.lock().unwrap();
         for _ in 0..all {
             let work = AssertUnwindSafe(|| turns.take(|| panic!("a test's panic")));

@@ -137,7 +137,7 @@ fn an_asset_at_a_rate_that_the_worklet_does_not_serve_is_converted_for_it() {
     let source = Sourced::new(builtin::texture());
     let compiled = driver::compile(&source, &request, &Tools::default()).expect("a texture");
     let bytes = compiled.lowered.bytes;
-    let json = site.post("api/open?name=grit.asp", &bytes).json();
+    let json = site.post("api/open?name=grit.asp", &bytes).json()["texture"].clone();
     assert_eq!(
         (&json["model_rate_hz"], &json["worklet_rate_hz"]),
         (&1500.0.into(), &1600.0.into())

@@ -208,6 +208,11 @@ fn no_path_leaves_the_table_of_files() {
         "api/texture/%30.asp",
         "api/texture/.asp",
         "api/texture/a.exe",
+        "api/texture/../../../etc/passwd.export.c",
+        "api/texture/0123456789abcdef0123456789abcdef.export.",
+        "api/library/..%2f..%2fetc%2fpasswd.json",
+        "api/library/0/../../x.png",
+        "api/difference/../../etc/passwd.json",
     ] {
         let reply = site.get(path);
         assert_eq!(reply.status, 404, "{path}: {reply:?}");
@@ -231,6 +236,7 @@ fn methods_that_an_address_does_not_answer_are_named() {
         ("GET", "api/edit", "POST"),
         ("PUT", "api/blend", "POST"),
         ("TRACE", "api/open", "POST"),
+        ("GET", "api/pack", "POST"),
         ("POST", "api/texture/a.asp", "GET, HEAD"),
     ] {
         let reply = site.request(method, path, "", b"");
@@ -247,7 +253,7 @@ fn bodies_end_at_their_limit() {
         format!("{}{frame}", " ".repeat(bytes - frame.len())).into_bytes()
     };
     assert_eq!(site.post("api/compile", &json(64 << 10)).status, 200);
-    let open = vec![0; (16 << 20) + 1];
+    let open = vec![0; (64 << 20) + 1];
     for (path, body) in [
         ("api/compile", json((64 << 10) + 1)),
         ("api/open?name=x.asp", open),

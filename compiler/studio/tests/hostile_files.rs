@@ -1,7 +1,14 @@
 //! What the page sends may come from anyone: prompts that were copied, files that were dropped.
 
 use crate::client::{Reply, SHARED, Site};
-use asperity::{builtin, library::renamed, lower::lower, preview};
+use asperity::{
+    builtin,
+    interchange::{self, ClipFormat, Options},
+    library::renamed,
+    lower::lower,
+    preview,
+};
+use asperity_formats::Asset;
 use asperity_tests::{damage::seal, draw::Draw};
 use serde_json::{Value, json};
 
@@ -74,8 +81,18 @@ fn sealed_damage_is_refused_or_shown_and_never_a_bug() {
             continue;
         }
         shown += 1;
-        let id = reply.json()["id"].as_str().expect("a name").to_owned();
-        for ending in ["json", "worklet.asp", "png", "normal.png"] {
+        let id = reply.json()["texture"]["id"]
+            .as_str()
+            .expect("a name")
+            .to_owned();
+        // Sheets and strokes take a while.
+        let slow = if shown < 3 {
+            &["plot.png", "export.csv"][..]
+        } else {
+            &[]
+        };
+        let usual = ["json", "worklet.asp", "png", "normal.png"];
+        for ending in usual.iter().chain(slow) {
             let file = site.get(&format!("api/texture/{id}.{ending}"));
             if file.status != 200 {
                 refused(&file, 422, &format!("case {case}, {ending}"));
@@ -86,6 +103,66 @@ fn sealed_damage_is_refused_or_shown_and_never_a_bug() {
     site.still_compiles();
 }
 
+/// Files of other tools, cut and changed anywhere.
+#[test]
+fn damaged_files_of_other_tools_are_refused_or_shown_and_never_a_bug() {
+    let site = &*SHARED;
+    let bytes = asset();
+    let parsed = Asset::parse(&bytes).expect("an asset");
+    let clip = |format: ClipFormat| {
+        let exported = interchange::export(&parsed, format, &Options::default());
+        exported.expect("a file").bytes
+    };
+    let deep = "[".repeat(100_000);
+    let open = |name: &str, bytes: &[u8]| {
+        let reply = site.post(&format!("api/open?name={name}"), bytes);
+        if reply.status != 200 {
+            let json = refused(&reply, 422, name);
+            assert!(json["error"].to_string().contains(name), "{name}: {json}");
+        }
+    };
+    let mut draw = Draw::new(7);
+    for (name, good) in [
+        ("x.haptic", clip(ClipFormat::Haptic)),
+        ("x.ahap", clip(ClipFormat::Ahap)),
+        ("x.hjif", clip(ClipFormat::Hjif)),
+    ] {
+        for _ in 0..8 {
+            let mut bytes = good[..=draw.below(good.len())].to_vec();
+            let at = draw.below(bytes.len());
+            bytes[at] = draw.below(256) as u8;
+            open(name, &bytes);
+            let mut bytes = good.clone();
+            let at = draw.below(bytes.len());
+            bytes[at] = b'9';
+            open(name, &bytes);
+        }
+        open(name, deep.as_bytes());
+    }
+    for (name, text) in [
+        ("x.xml", "<modelSet>".repeat(10_000)),
+        (
+            "x.xml",
+            "<!DOCTYPE modelSet [<!ENTITY a \"&a;&a;\">]><modelSet>&a;</modelSet>".into(),
+        ),
+        (
+            "x.json",
+            format!("{{\"format\":\"asperity-model\",\"version\":1,\"x\":{deep}"),
+        ),
+        (
+            "x.json",
+            "{\"format\":\"asperity-model\",\"version\":1e999}".into(),
+        ),
+        (
+            "x.ahap",
+            "{\"Pattern\":[{\"Event\":{\"Time\":1e300}}]}".into(),
+        ),
+    ] {
+        open(name, text.as_bytes());
+    }
+    site.still_compiles();
+}
+
 #[test]
 fn a_picture_that_is_none_is_drawn_anew() {
     let site = &*SHARED;
@@ -93,7 +170,7 @@ fn a_picture_that_is_none_is_drawn_anew() {
     let bomb = [b"\x89PNG\r\n\x1a\n", &[0xff; 64][..]].concat();
     for stored in [Some(&bomb[..]), None] {
         let bytes = lower(&texture, stored).expect("an asset").bytes;
-        let json = site.post("api/open", &bytes).json();
+        let json = site.post("api/open", &bytes).json()["texture"].clone();
         let id = json["id"].as_str().expect("a name");
         let png = site.get(&format!("api/texture/{id}.png"));
         assert_eq!(preview::width(&png.body), Some(preview::SIZE));
@@ -113,7 +190,7 @@ fn markup_stays_text_in_json() {
     let name = "<img src=x onerror=alert(1)>";
     let bytes = renamed(&asset(), name).expect("a name");
     let reply = site.post("api/open", &bytes);
-    assert_eq!(reply.json()["name"], name);
+    assert_eq!(reply.json()["texture"]["name"], name);
     // The name of a file comes back in an error.
     let reply = site.post(
         "api/open?name=%3Cimg%20src%3Dx%3E%0D%0ASet-Cookie:%20a=b",

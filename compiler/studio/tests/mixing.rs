@@ -3,7 +3,7 @@
 use crate::client::{Reply, SHARED, Site};
 use asperity::{
     attributes, builtin, driver,
-    edit::{AXES, Edit, LatentEditor, Mix, MixOptions, Sliders},
+    edit::{AXES, Edit, LatentEditor, Mix, MixOptions, MixPreview, Sliders},
     inference::Backend,
     lower::lower,
     prompt::{Options, PromptCompiler},
@@ -11,7 +11,6 @@ use asperity::{
     sources::Tools,
 };
 use asperity_formats::Asset;
-use asperity_studio::{Limits, Studio};
 use serde_json::{Value, json};
 use std::sync::LazyLock;
 
@@ -19,7 +18,7 @@ static PROMPTS: LazyLock<PromptCompiler> =
     LazyLock::new(|| PromptCompiler::embedded(&Backend::Portable).expect("the model"));
 
 /// The bytes of a prompt.
-fn compiled(prompt: &str) -> Vec<u8> {
+pub(crate) fn compiled(prompt: &str) -> Vec<u8> {
     let compiled = PROMPTS.compile(prompt, &Options::default());
     compiled.expect("a texture").lowered.bytes
 }
@@ -32,7 +31,7 @@ fn finished(editor: &LatentEditor<'_>, mix: Mix) -> (Vec<u8>, Value) {
     (compiled.lowered.bytes, report)
 }
 
-fn post(site: &Site, path: &str, body: &Value) -> Reply {
+pub(crate) fn post(site: &Site, path: &str, body: &Value) -> Reply {
     site.post(path, body.to_string().as_bytes())
 }
 
@@ -43,7 +42,7 @@ fn made(path: &str, body: &Value) -> Value {
     reply.json()
 }
 
-fn prompted(prompt: &str) -> Value {
+pub(crate) fn prompted(prompt: &str) -> Value {
     made("api/compile", &json!({ "prompt": prompt }))
 }
 
@@ -73,6 +72,14 @@ fn edits_have_the_bytes_and_the_report_of_the_command() {
     let words = "less gritty, more waxy";
     for (change, edit, option) in [
         (
+            json!({ "steps": { "slipperier": 1.5 }, "draft": true }),
+            Edit::Steps(Sliders {
+                slipperier: 1.5,
+                ..Sliders::default()
+            }),
+            "--slipperier 1.5 --no-preview",
+        ),
+        (
             json!({ "steps": { "rougher": 20, "harder": -5.5 } }),
             Edit::Steps(sliders),
             "--rougher 20 --softer 5.5",
@@ -86,7 +93,14 @@ fn edits_have_the_bytes_and_the_report_of_the_command() {
         let mut body = change;
         body["texture"] = start["id"].clone();
         let edited = made("api/edit", &body);
-        let mix = editor.change(&asset, Some(&edit), &MixOptions::default());
+        let options = MixOptions {
+            preview: match body["draft"] {
+                Value::Null => MixPreview::Kept,
+                _ => MixPreview::None,
+            },
+            ..MixOptions::default()
+        };
+        let mix = editor.change(&asset, Some(&edit), &options);
         let (expected, report) = finished(&editor, mix.expect("an edit"));
         assert!(bytes(&edited) == expected, "{body}");
         assert_eq!(untimed(&edited["made"]), untimed(&report));
@@ -154,7 +168,7 @@ fn blends_compositions_and_encodings_have_the_bytes_of_the_commands() {
     );
     // A recording has no latent until it is encoded.
     let recorded = lower(&builtin::texture(), None).expect("an asset").bytes;
-    let opened = SHARED.post("api/open?name=grit.asp", &recorded).json();
+    let opened = SHARED.post("api/open?name=grit.asp", &recorded).json()["texture"].clone();
     assert_eq!(
         (&opened["editable"], &opened["file"]),
         (&json!(false), &json!("grit.asp"))
@@ -179,133 +193,6 @@ fn blends_compositions_and_encodings_have_the_bytes_of_the_commands() {
         "asperity encode grit.asp -o 'Built-in Grit.asp'",
     );
     assert_eq!(encoded["editable"], true);
-}
-
-#[test]
-fn requests_that_are_wrong_are_refused_with_their_field() {
-    let id = prompted("cork")["id"].clone();
-    let gone = "0123456789abcdef0123456789abcdef";
-    for (path, body, status, named) in [
-        (
-            "api/edit",
-            json!({ "texture": gone, "words": "softer" }),
-            404,
-            "does not have",
-        ),
-        (
-            "api/edit",
-            json!({ "texture": id }),
-            400,
-            "neither steps nor words",
-        ),
-        ("api/edit", json!({ "words": "softer" }), 400, "texture"),
-        (
-            "api/edit",
-            json!({ "texture": id, "words": "softer", "steps": {} }),
-            400,
-            "both",
-        ),
-        (
-            "api/edit",
-            json!({ "texture": id, "steps": {} }),
-            400,
-            "no edit is given",
-        ),
-        (
-            "api/edit",
-            json!({ "texture": id, "steps": { "rougher": 0 } }),
-            400,
-            "no edit",
-        ),
-        (
-            "api/edit",
-            json!({ "texture": id, "steps": { "rougher": 101 } }),
-            400,
-            "steps.rougher",
-        ),
-        (
-            "api/edit",
-            json!({ "texture": id, "steps": { "softer": 1 } }),
-            400,
-            "softer",
-        ),
-        (
-            "api/edit",
-            json!({ "texture": id, "steps": { "harder": null } }),
-            400,
-            "null",
-        ),
-        (
-            "api/edit",
-            json!({ "texture": id, "words": "" }),
-            400,
-            "names neither",
-        ),
-        (
-            "api/edit",
-            json!({ "texture": id, "words": "zzz" }),
-            400,
-            "names neither",
-        ),
-        (
-            "api/edit",
-            json!({ "texture": 7, "words": "softer" }),
-            400,
-            "integer",
-        ),
-        ("api/blend", json!({ "a": id, "b": id }), 400, "`t`"),
-        (
-            "api/blend",
-            json!({ "a": id, "b": id, "t": 1.01 }),
-            400,
-            "t is 1.01",
-        ),
-        (
-            "api/blend",
-            json!({ "a": id, "b": id, "t": -0.1 }),
-            400,
-            "t is -0.1",
-        ),
-        (
-            "api/blend",
-            json!({ "a": id, "b": gone, "t": 0.5 }),
-            404,
-            "does not have",
-        ),
-        (
-            "api/compose",
-            json!({ "tap": id, "slide": id }),
-            400,
-            "friction",
-        ),
-        (
-            "api/compose",
-            json!({ "tap": "../x", "slide": id, "friction": id }),
-            404,
-            "does not",
-        ),
-        ("api/encode", json!({}), 400, "texture"),
-        (
-            "api/encode",
-            json!({ "texture": id, "part": "taps" }),
-            400,
-            "part",
-        ),
-    ] {
-        let reply = post(&SHARED, path, &body);
-        assert_eq!(reply.status, status, "{path} {body}: {reply:?}");
-        let json = reply.json();
-        assert!(json["error"].to_string().contains(named), "{body}: {json}");
-        assert!(json["help"].is_string(), "{body}: {json}");
-    }
-    // Numbers that JSON does not know.
-    for number in ["NaN", "1e999", "Infinity", "-1e999"] {
-        let steps = format!(r#"{{"texture": {id}, "steps": {{"rougher": {number}}}}}"#);
-        let share = format!(r#"{{"a": {id}, "b": {id}, "t": {number}}}"#);
-        for (path, body) in [("api/edit", steps), ("api/blend", share)] {
-            assert_eq!(SHARED.post(path, body.as_bytes()).status, 400, "{body}");
-        }
-    }
 }
 
 #[test]
@@ -335,39 +222,4 @@ fn the_page_learns_the_scale_of_the_sliders_and_the_exports() {
         endings.join(" "),
         "export.c export.h export.rs export.hjif export.hmpg export.ahap export.haptic export.gltf export.wav export.csv"
     );
-}
-
-#[test]
-fn a_server_without_prompts_shows_textures_and_makes_none() {
-    let site = Site::of(Studio::new(None, None), Limits::default());
-    let about = site.get("api/about").json();
-    assert_eq!(
-        (&about["prompts"], &about["sliders"]),
-        (&json!(false), &json!([]))
-    );
-    let opened = site.post("api/open", &compiled("cork"));
-    assert_eq!(opened.status, 200);
-    let opened = opened.json();
-    assert_eq!(
-        (&opened["editable"], &opened["places"]["rough"]),
-        (&json!(false), &Value::Null)
-    );
-    let id = &opened["id"];
-    for (path, body) in [
-        ("api/compile", json!({ "prompt": "cork" })),
-        ("api/edit", json!({ "texture": id, "words": "softer" })),
-        ("api/blend", json!({ "a": id, "b": id, "t": 0.5 })),
-        (
-            "api/compose",
-            json!({ "tap": id, "slide": id, "friction": id }),
-        ),
-        ("api/encode", json!({ "texture": id })),
-    ] {
-        let reply = post(&site, path, &body);
-        assert_eq!(reply.status, 422, "{path}");
-        let help = reply.json()["help"].to_string();
-        assert!(help.contains("asperity studio"), "{help}");
-    }
-    site.stopper.stop();
-    site.thread.join().expect("it ends");
 }

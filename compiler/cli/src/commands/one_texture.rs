@@ -1,9 +1,10 @@
 //! What every command does that compiles one texture: open the outputs, compile, write, report.
 
-use super::{outputs::TextureOutputs, plot, timings};
+use super::{outputs::TextureOutputs, timings};
 use asperity::{
     driver::{self, Compiled},
     pipeline::{Clock, Pipeline, Request},
+    plot,
     sources::{Source, Tools},
     verify::VerifyError,
 };
@@ -129,7 +130,7 @@ impl<'a> Job<'a> {
                 Some(sheet) => sheet,
                 None => {
                     let asset = Asset::parse(&compiled.lowered.bytes);
-                    plot::drawn(&asset.map_err(|e| one(VerifyError::from(e)))?)?
+                    plot::of_asset(&asset.map_err(|e| one(VerifyError::from(e)))?).map_err(one)?
                 }
             };
             self.outputs.beside(file, sheet);

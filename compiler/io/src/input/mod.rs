@@ -24,6 +24,6 @@ pub use open::{Opened, format_of, open, open_as};
 pub use pipe_timeout::{MAX_SILENCE, MAX_WAIT};
 pub use problem::{InputError, InputProblem};
 pub use reach::{Outside, Reach};
-pub use read::{read, read_text, text, to_end};
+pub use read::{admit, read, read_text, text, to_end};
 pub use trailing_commas::without_trailing_commas;
 pub use xml::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES, Nesting, NestingProblem, check_nesting};

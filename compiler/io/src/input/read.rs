@@ -37,11 +37,19 @@ pub fn to_end(reader: impl Read, kind: Kind) -> Result<Vec<u8>, InputProblem> {
         .take(limit + 1)
         .read_to_end(&mut bytes)
         .map_err(|error: io::Error| InputProblem::from(error))?;
-    if bytes.len() as u64 > limit {
+    admit(&bytes, kind)?;
+    Ok(bytes)
+}
+
+/// Whether these bytes may be those of a file of a kind.
+///
+/// # Errors
+/// [`InputProblem`] for more bytes than the kind may have, and for those of another [`Format`](super::Format).
+pub fn admit(bytes: &[u8], kind: Kind) -> Result<(), InputProblem> {
+    if bytes.len() as u64 > kind.max_bytes() {
         return Err(InputProblem::TooLarge { kind });
     }
-    kind.check(kind.format(&bytes))?;
-    Ok(bytes)
+    kind.check(kind.format(bytes))
 }
 
 /// The text of a file in UTF-8, without a byte order mark.

@@ -92,6 +92,15 @@ impl Textures {
         Self::with(path, Box::new(Cursor::new(bytes)))
     }
 
+    /// The same of bytes that are in memory already, which are not copied.
+    ///
+    /// # Errors
+    /// As [`Textures::open`].
+    pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, TexturesError> {
+        input::admit(&bytes, Kind::Asset).map_err(|e| refused(path, e.into()))?;
+        Self::with(path, Box::new(Cursor::new(bytes)))
+    }
+
     fn with(path: &Path, bytes: Box<dyn Bytes>) -> Result<Self, TexturesError> {
         Self::try_with(path, bytes).map_err(|problem| refused(path, problem))
     }

@@ -137,7 +137,7 @@ impl Source for Effects {
     fn read(
         &self,
         request: &Request,
-        _: &Tools<'_>,
+        tools: &Tools<'_>,
         pipeline: &mut Pipeline,
     ) -> Result<Sourced, Failure> {
         let Self {
@@ -145,7 +145,7 @@ impl Source for Effects {
             kind,
             options,
         } = self;
-        let (track, crc32) = pipeline.run(Pass::Read, || self.track())?;
+        let (track, crc32) = pipeline.run(Pass::Read, || self.track(tools))?;
         let mut warnings = track.warnings.clone();
         let name = request.name.clone().unwrap_or_else(|| stem(file));
         if name.is_empty() || name.len() > MAX_NAME_BYTES || name.chars().any(char::is_control) {
@@ -176,8 +176,9 @@ impl Source for Effects {
 
 impl Effects {
     /// What the file holds, and its CRC-32.
-    fn track(&self) -> Result<(Track, u32), EffectError> {
-        let bytes = input::read(&self.file, input::Kind::Effects)
+    fn track(&self, tools: &Tools<'_>) -> Result<(Track, u32), EffectError> {
+        let bytes = tools
+            .file(&self.file, input::Kind::Effects)
             .map_err(|problem| self.refused(problem.into()))?;
         let wanted = self.kind.format();
         if let Some(format) = Format::of(&bytes).filter(|format| *format != wanted) {

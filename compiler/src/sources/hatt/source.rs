@@ -125,7 +125,7 @@ impl Source for Hatt {
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
     ) -> Result<Sourced, Failure> {
-        let (material, mut texture) = pipeline.run(Pass::Read, || read(&self.file))?;
+        let (material, mut texture) = pipeline.run(Pass::Read, || read(&self.file, tools))?;
         if self.complete_taps {
             let model = tools.model()?;
             pipeline
@@ -178,15 +178,21 @@ impl Diagnostic for NotCompleted {
 /// # Errors
 /// [`HattError`] for a file that cannot be read or is too large.
 pub fn bytes(file: &Path) -> Result<Vec<u8>, HattError> {
-    input::read(file, Kind::Hatt).map_err(|problem| HattError {
+    input::read(file, Kind::Hatt).map_err(|problem| unreadable(file, problem))
+}
+
+fn unreadable(file: &Path, problem: InputProblem) -> HattError {
+    HattError {
         file: file.to_owned(),
         line: None,
         problem: problem.into(),
-    })
+    }
 }
 
-fn read(file: &Path) -> Result<(Material, TextureModel), HattError> {
-    let source = bytes(file)?;
+fn read(file: &Path, tools: &Tools<'_>) -> Result<(Material, TextureModel), HattError> {
+    let source = tools
+        .file(file, Kind::Hatt)
+        .map_err(|problem| unreadable(file, problem))?;
     let material = material::parse(file, &source)?;
     let source_name = file.file_name().unwrap_or_default().to_string_lossy();
     let whole = to_model(&material, &source_name, crc32fast::hash(&source));

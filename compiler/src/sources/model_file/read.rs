@@ -5,6 +5,7 @@ use super::{
     error::{Fault, ModelFileError, ModelFileProblem},
     schema::{Document, FORMAT, VERSION},
 };
+use crate::sources::Tools;
 use asperity_io::input::{self, Kind};
 use asperity_texture::model::TextureModel;
 use serde::{Deserialize, de::DeserializeOwned};
@@ -16,12 +17,21 @@ use std::path::Path;
 /// # Errors
 /// [`ModelFileError`] with the field at fault.
 pub fn read(file: &Path) -> Result<(TextureModel, u32), ModelFileError> {
+    read_with(file, &Tools::default())
+}
+
+/// As [`read`], of a file that may have been given.
+pub(super) fn read_with(
+    file: &Path,
+    tools: &Tools<'_>,
+) -> Result<(TextureModel, u32), ModelFileError> {
     let fail = |(field, problem)| ModelFileError {
         file: file.to_owned(),
         field,
         problem,
     };
-    let bytes = input::read(file, Kind::Model).map_err(|e| fail((String::new(), e.into())))?;
+    let bytes = tools.file(file, Kind::Model);
+    let bytes = bytes.map_err(|e| fail((String::new(), e.into())))?;
     let texture = from_json(&bytes).map_err(fail)?;
     Ok((texture, crc32fast::hash(&bytes)))
 }

@@ -1,6 +1,6 @@
 //! A model file as a source.
 
-use super::read::read;
+use super::read::read_with;
 use crate::{
     compiled::ErrorReference,
     pipeline::{Pass, Pipeline, Request},
@@ -33,10 +33,10 @@ impl Source for ModelFile {
     fn read(
         &self,
         _: &Request,
-        _: &Tools<'_>,
+        tools: &Tools<'_>,
         pipeline: &mut Pipeline,
     ) -> Result<Sourced, Failure> {
-        let (mut texture, crc32) = pipeline.run(Pass::Read, || read(&self.file))?;
+        let (mut texture, crc32) = pipeline.run(Pass::Read, || read_with(&self.file, tools))?;
         // Prompt, seed and notes are those of the file.
         let provenance = &mut texture.provenance;
         provenance.generator = format!("asperity {} import model", env!("CARGO_PKG_VERSION"));

@@ -9,7 +9,9 @@
 //! assert!(png.starts_with(b"\x89PNG"));
 //! ```
 
+mod of_asset;
 mod roots;
 mod sheet;
 
+pub use of_asset::{DrawError, of_asset};
 pub use sheet::{AssetBytes, HEIGHT_PX, WIDTH_PX, sheet, sheet_with_picture};

@@ -5,6 +5,9 @@ use asperity::edit::{AXES, Axis, Edit as Asked, Sliders};
 use serde::{Deserialize, de::DeserializeOwned};
 use std::sync::Arc;
 
+/// Bytes of a request.
+pub(super) const JSON_BYTES: u64 = 64 << 10;
+
 /// `POST api/compile`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -21,6 +24,8 @@ struct Edit {
     texture: String,
     steps: Option<Sliders>,
     words: Option<String>,
+    #[serde(default)]
+    draft: bool,
 }
 
 /// `POST api/blend`.
@@ -71,7 +76,7 @@ fn compile(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
 
 fn edit(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
     const EXPECTED: &str = "{\"texture\": ID, \"steps\": {\"rougher\": NUMBER, …}} with rougher, sharper, harder, \
-         slipperier, or {\"texture\": ID, \"words\": TEXT}";
+         slipperier, or {\"texture\": ID, \"words\": TEXT}; \"draft\": true leaves the picture out";
     let request: Edit = parsed(bytes, EXPECTED)?;
     let asked = match (request.steps, request.words) {
         (Some(steps), None) => Asked::Steps(within(steps)?),
@@ -80,7 +85,7 @@ fn edit(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
         (None, None) => return Err(unexpected("it has neither steps nor words", EXPECTED)),
     };
     let texture = studio.texture(&request.texture)?;
-    studio.make(|loaded| making::edit(loaded, &texture, asked))
+    studio.make(|loaded| making::edit(loaded, &texture, asked, request.draft))
 }
 
 fn blend(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {

@@ -1,8 +1,13 @@
 //! How a texture came about, and the commands that write its bytes again.
 
-use asperity::edit::{AXES, Axis, Edit, Sliders};
+#[cfg(test)]
+mod tests;
+mod words;
+
+use asperity::edit::Edit;
 use asperity_io::{output::FileNames, shown::shell_word};
-use std::{borrow::Cow, collections::HashMap, path::Path, sync::Arc};
+use std::{collections::HashMap, path::Path, sync::Arc};
+use words::{options, path_word, quoted};
 
 /// Steps that are remembered: more are no command that anyone would copy.
 const MOST: usize = 64;
@@ -34,10 +39,18 @@ pub(crate) struct Opened {
 pub(crate) enum What {
     /// A file holds the texture.
     File(Opened),
+    /// `asperity import`, of a file as `hatt` or another kind
+    Import { kind: &'static str, file: Opened },
+    /// `asperity extract`
+    Extract { library: Opened, texture: String },
     /// `asperity compile`
     Compile { prompt: String, seed: u64 },
-    /// `asperity edit`
-    Edit { texture: String, edit: Edit },
+    /// `asperity edit`; a draft has no picture
+    Edit {
+        texture: String,
+        edit: Edit,
+        draft: bool,
+    },
     /// `asperity blend`
     Blend { a: String, b: String, t: f64 },
     /// `asperity compose`
@@ -137,6 +150,17 @@ impl Step {
         let to = format!("-o {}", file(&self.id));
         Some(match &self.what {
             What::File(_) => return None,
+            What::Import { kind, file } => {
+                format!("asperity import {kind} {} {to}", path_word(&file.path))
+            }
+            What::Extract { library, texture } => {
+                let (library, word) = (path_word(&library.path), shell_word(texture));
+                if texture.starts_with('-') {
+                    format!("asperity extract {to} -- {library} {word}")
+                } else {
+                    format!("asperity extract {library} {word} {to}")
+                }
+            }
             What::Compile { prompt, seed } => {
                 let seed = match seed {
                     0 => String::new(),
@@ -150,7 +174,11 @@ impl Step {
                     format!("asperity compile {quoted} {to}{seed}")
                 }
             }
-            What::Edit { texture, edit } => {
+            What::Edit {
+                texture,
+                edit,
+                draft,
+            } => {
                 let asked = match edit {
                     Edit::Steps(sliders) => options(sliders),
                     Edit::Words(words) if words.starts_with('-') => {
@@ -158,7 +186,8 @@ impl Step {
                     }
                     Edit::Words(words) => format!("--prompt {}", quoted(words)),
                 };
-                format!("asperity edit {} {asked} {to}", file(texture))
+                let picture = if *draft { " --no-preview" } else { "" };
+                format!("asperity edit {} {asked}{picture} {to}", file(texture))
             }
             What::Blend { a, b, t } => {
                 format!("asperity blend {} {} -t {t} {to}", file(a), file(b))
@@ -179,7 +208,9 @@ impl Step {
 impl What {
     fn opened(&self) -> Option<&Opened> {
         match self {
-            Self::File(opened) => Some(opened),
+            Self::File(file) | Self::Import { file, .. } | Self::Extract { library: file, .. } => {
+                Some(file)
+            }
             _ => None,
         }
     }
@@ -207,156 +238,5 @@ impl Opened {
         let ending = path.extension()?;
         let stem = path.file_stem()?.to_str();
         stem.filter(|_| ending.eq_ignore_ascii_case("asp"))
-    }
-}
-
-/// The options of `asperity edit` for these sliders.
-fn options(sliders: &Sliders) -> String {
-    let option = |axis: Axis| {
-        let steps = sliders.along(axis);
-        let (up, down) = match axis {
-            Axis::Rough => ("rougher", "smoother"),
-            Axis::Sharp => ("sharper", "duller"),
-            Axis::Hard => ("harder", "softer"),
-            Axis::Slippery => ("slipperier", "stickier"),
-        };
-        let name = if steps > 0.0 { up } else { down };
-        (steps != 0.0).then(|| format!("--{name} {}", steps.abs()))
-    };
-    let given: Vec<String> = AXES.into_iter().filter_map(option).collect();
-    given.join(" ")
-}
-
-/// A path as a word of a shell, that no command takes for an option.
-fn path_word(path: &str) -> Cow<'_, str> {
-    if path.starts_with('-') {
-        Cow::Owned(shell_word(&format!("./{path}")).into_owned())
-    } else {
-        shell_word(path)
-    }
-}
-
-/// A text in quotation marks, even if it is one word: people change it.
-fn quoted(text: &str) -> String {
-    match shell_word(text) {
-        quoted if quoted.starts_with('\'') => quoted.into_owned(),
-        plain => format!("'{plain}'"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn compiled(id: &str, prompt: &str, seed: u64) -> Recipe {
-        let prompt = prompt.to_owned();
-        Recipe::new([], id, &prompt.clone(), What::Compile { prompt, seed }).unwrap()
-    }
-
-    fn edited(of: &Recipe, from: &str, id: &str, name: &str, edit: Edit) -> Option<Recipe> {
-        let texture = from.to_owned();
-        Recipe::new([Some(of)], id, name, What::Edit { texture, edit })
-    }
-
-    fn file(id: &str, path: &str) -> Recipe {
-        let (path, id) = (path.to_owned(), id.to_owned());
-        let opened = Opened { path, id };
-        Recipe::new([], &opened.id.clone(), "any", What::File(opened)).unwrap()
-    }
-
-    fn softer(steps: f64) -> Edit {
-        Edit::Steps(Sliders {
-            harder: -steps,
-            slipperier: 2.5,
-            ..Sliders::default()
-        })
-    }
-
-    #[test]
-    fn a_prompt_is_one_word_of_a_shell() {
-        let cases = [
-            ("cork", 0, "asperity compile 'cork' -o cork.asp"),
-            (
-                "wet ice",
-                7,
-                "asperity compile 'wet ice' -o 'wet ice.asp' --seed 7",
-            ),
-            ("-x", 1, "asperity compile -o _-x.asp --seed 1 -- '-x'"),
-            ("a'b", 0, r"asperity compile 'a'\''b' -o 'a'\''b.asp'"),
-            ("$(id)", 0, "asperity compile '$(id)' -o '$(id).asp'"),
-        ];
-        for (prompt, seed, command) in cases {
-            let recipe = compiled("1", prompt, seed);
-            assert_eq!(recipe.command().as_deref(), Some(command));
-        }
-        let what = What::Compile {
-            prompt: "a\0b".into(),
-            seed: 0,
-        };
-        assert!(Recipe::new([], "1", "a b", what).is_none());
-    }
-
-    #[test]
-    fn each_line_writes_a_file_of_its_own_and_reads_those_before() {
-        let cork = compiled("c", "cork", 0);
-        let edited = edited(&cork, "c", "e", "cork", softer(20.0)).unwrap();
-        let dropped = file("f", "-cork (2).asp");
-        let what = What::Blend {
-            a: "e".into(),
-            b: "f".into(),
-            t: 0.25,
-        };
-        let blend = Recipe::new([Some(&edited), Some(&dropped)], "b", "cork – any", what).unwrap();
-        let what = What::Compose {
-            tap: "b".into(),
-            slide: "c".into(),
-            friction: "e".into(),
-        };
-        let all = [&blend, &cork, &edited].map(Some);
-        let composed = Recipe::new(all, "x", "cork", what).unwrap();
-        assert_eq!(
-            composed.command().unwrap(),
-            "asperity compile 'cork' -o cork.asp\n\
-             asperity edit cork.asp --softer 20 --slipperier 2.5 -o 'cork (2).asp'\n\
-             asperity blend 'cork (2).asp' './-cork (2).asp' -t 0.25 -o 'cork – any.asp'\n\
-             asperity compose --tap 'cork – any.asp' --slide cork.asp --friction 'cork (2).asp' -o 'cork (3).asp'"
-        );
-        assert_eq!(composed.file().as_deref(), Some("cork (3).asp"));
-    }
-
-    #[test]
-    fn no_line_overwrites_a_file_that_was_opened() {
-        let dropped = file("f", "cork.asp");
-        assert_eq!(dropped.command(), None);
-        assert_eq!(dropped.file().as_deref(), Some("cork.asp"));
-        let words = Edit::Words("-a bit softer".into());
-        let edited = edited(&dropped, "f", "e", "cork", words).unwrap();
-        assert_eq!(
-            edited.command().unwrap(),
-            "asperity edit cork.asp --prompt='-a bit softer' -o 'cork (2).asp'"
-        );
-        let what = What::Blend {
-            a: "f".into(),
-            b: "g".into(),
-            t: 0.5,
-        };
-        let other = file("g", "cork.asp");
-        let blend = Recipe::new([Some(&dropped), Some(&other)], "b", "two", what).unwrap();
-        assert_eq!(blend.command(), None, "two files of one path");
-    }
-
-    #[test]
-    fn what_no_one_can_type_has_no_recipe() {
-        let cork = compiled("0", "cork", 0);
-        let words = Edit::Words("softer\0".into());
-        assert!(edited(&cork, "0", "1", "cork", words).is_none());
-        let mut last = cork;
-        for n in 1..MOST {
-            let (from, id) = ((n - 1).to_string(), n.to_string());
-            last = edited(&last, &from, &id, "cork", softer(1.0)).unwrap();
-        }
-        assert_eq!(last.command().unwrap().lines().count(), MOST);
-        let from = (MOST - 1).to_string();
-        assert!(edited(&last, &from, "more", "cork", softer(1.0)).is_none());
     }
 }

@@ -1,0 +1,39 @@
+//! The sheet of an asset, with its sizes and its picture.
+
+use super::{AssetBytes, sheet_with_picture};
+use crate::{emit::raise::raise, views::preview};
+use asperity_formats::Asset;
+use asperity_io::diagnostic::Diagnostic;
+use asperity_plot::PlotError;
+use thiserror::Error;
+
+/// The sheet could not be drawn.
+#[derive(Debug, Error)]
+#[error("the sheet cannot be drawn: {0}")]
+pub struct DrawError(#[from] PlotError);
+
+impl Diagnostic for DrawError {
+    fn remedy(&self) -> String {
+        "free memory and try again".into()
+    }
+}
+
+/// The sheet of an asset as PNG.
+///
+/// # Errors
+/// As [`sheet`](super::sheet).
+pub fn of_asset(asset: &Asset<'_>) -> Result<Vec<u8>, DrawError> {
+    let sizes = AssetBytes {
+        haptic: asset.haptic_len(),
+        total: asset.total_len(),
+    };
+    // A picture that cannot be read leaves its place empty; `asperity preview` says why.
+    let picture = asset
+        .preview_png()
+        .and_then(|png| preview::stored(png).ok());
+    Ok(sheet_with_picture(
+        &raise(asset),
+        Some(sizes),
+        picture.as_ref(),
+    )?)
+}

@@ -1,0 +1,116 @@
+//! The gallery: what it shows of a library, and what is taken of it.
+
+use super::{
+    nothing_here,
+    requests::{JSON_BYTES, parsed},
+};
+use crate::{
+    difference,
+    error::ApiError,
+    http::{Answer, Body, Content, Keep},
+    studio::Studio,
+};
+use serde::Deserialize;
+
+/// `POST api/library/LIB/N`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Pick {}
+
+/// What is wanted of a library: the path below `api/library/`.
+#[derive(Debug, PartialEq, Eq)]
+enum Wanted<'a> {
+    /// `LIB.json`
+    Columns(&'a str),
+    /// `LIB/N.png`
+    Picture(&'a str, usize),
+    /// `LIB/N`
+    Texture(&'a str, usize),
+}
+
+impl<'a> Wanted<'a> {
+    fn of(path: &'a str) -> Option<Self> {
+        let number = |text: &str| {
+            let digits = text.bytes().all(|b| b.is_ascii_digit());
+            digits.then(|| text.parse().ok()).flatten()
+        };
+        Some(match path.split_once('/') {
+            None => Self::Columns(path.strip_suffix(".json")?),
+            Some((library, file)) => match file.strip_suffix(".png") {
+                Some(place) => Self::Picture(library, number(place)?),
+                None => Self::Texture(library, number(file)?),
+            },
+        })
+    }
+}
+
+/// Answers a request for a path below `api/library/`.
+pub(super) fn answer(
+    studio: &Studio,
+    path: &str,
+    (reads, posts): (bool, bool),
+    body: &mut Body<'_, '_>,
+) -> Result<Answer, ApiError> {
+    match Wanted::of(path).ok_or_else(nothing_here)? {
+        Wanted::Columns(id) if reads => {
+            let named = studio.library(id)?;
+            let columns = Content::Shared(named.library.columns(id));
+            Ok(Answer::new("application/json", columns, Keep::Forever))
+        }
+        Wanted::Picture(id, at) if reads => {
+            let named = studio.library(id)?;
+            let png = studio.compute(|| named.library.thumbnail(at))?;
+            Ok(Answer::new(
+                "image/png",
+                Content::Shared(png),
+                Keep::Forever,
+            ))
+        }
+        Wanted::Texture(id, at) if posts => {
+            let Pick {} = parsed(&body.read(JSON_BYTES)?, "{}")?;
+            let texture = studio.pick(&studio.library(id)?, at)?;
+            Ok(Answer::json(studio.shown(&texture)))
+        }
+        Wanted::Columns(_) | Wanted::Picture(..) => Ok(Answer::only("GET, HEAD")),
+        Wanted::Texture(..) => Ok(Answer::only("POST")),
+    }
+}
+
+/// Answers a request for a path below `api/difference/`: `OLD/NOW.json`.
+pub(super) fn difference(studio: &Studio, path: &str, reads: bool) -> Result<Answer, ApiError> {
+    let two = path
+        .strip_suffix(".json")
+        .and_then(|ids| ids.split_once('/'));
+    let (old, now) = two.ok_or_else(nothing_here)?;
+    if !reads {
+        return Ok(Answer::only("GET, HEAD"));
+    }
+    let (old, now) = (studio.library(old)?, studio.library(now)?);
+    let found = studio.compute(|| difference::difference(&old.library, &now.library))?;
+    Ok(Answer::json(found))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_digits_alone() {
+        assert_eq!(Wanted::of("0.json"), Some(Wanted::Columns("0")));
+        assert_eq!(Wanted::of("0/12.png"), Some(Wanted::Picture("0", 12)));
+        assert_eq!(Wanted::of("0/12"), Some(Wanted::Texture("0", 12)));
+        for path in [
+            "",
+            "0",
+            "0/",
+            "0/+1",
+            "0/-1",
+            "0/1.asp",
+            "0/1/2",
+            "0/x.png",
+            "0/99999999999999999999",
+        ] {
+            assert_eq!(Wanted::of(path), None, "{path}");
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Files that are dropped on the page: ours as they are, those of other tools as `asperity import` takes them.
+
+use crate::{
+    collection::Collection,
+    error::ApiError,
+    http::Status,
+    recipe::{Opened, What},
+    texture::{Making, Texture, damaged, hash},
+};
+use asperity::{
+    driver,
+    pipeline::Clock,
+    sources::{Tools, import::Imported},
+    textures::Textures,
+};
+use asperity_io::{
+    clock::now,
+    diagnostic::Diagnostic,
+    input::{Format, InputError, InputProblem},
+};
+use std::path::Path;
+
+/// Leading bytes that tell what a file is, as for commands.
+const TELLING: usize = 64 << 10;
+/// What can be opened.
+const WANTED: &str = "an asset, a library, a HaTT material, a model, AHAP, .haptic or HJIF";
+
+/// What a file holds.
+pub(crate) enum Found {
+    Texture(Box<Texture>),
+    /// A library with several textures.
+    Library(Box<Collection>),
+}
+
+/// Opens the bytes of a file. Its name tells what damaged ones were meant to be, and is repeated in errors; nothing of
+/// that name is looked for on a disk.
+///
+/// # Errors
+/// As the command that reads such a file.
+pub(crate) fn open(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
+    let path = Path::new(file);
+    let format = Format::of(&bytes[..bytes.len().min(TELLING)]);
+    let ending = path.extension().unwrap_or_default();
+    let ours = ["asp", "aspl"]
+        .iter()
+        .any(|own| ending.eq_ignore_ascii_case(own));
+    match (format, Imported::of(path, format)) {
+        (Some(Format::Asset | Format::Library), _) => textures(file, bytes),
+        (None, _) if ours => textures(file, bytes),
+        (_, Some(imported)) => {
+            import(imported, file, &bytes).map(|texture| Found::Texture(Box::new(texture)))
+        }
+        (Some(format), None) => {
+            let wanted = WANTED.into();
+            let problem = InputProblem::OtherFormat { format, wanted };
+            let file = path.to_owned();
+            Err(refused(&InputError { file, problem }))
+        }
+        (None, None) => Err(ApiError::new(
+            Status::Unprocessable,
+            format!("{file}: unknown format; must be {WANTED}"),
+            "give another file, or convert this one to one of these",
+        )),
+    }
+}
+
+/// An asset, or a library of one or more.
+fn textures(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
+    let id = hash(&bytes);
+    let path = Path::new(file);
+    let mut textures = Textures::from_bytes(path, bytes).map_err(|e| refused(&e))?;
+    if textures.names().is_some_and(|names| names.len() != 1) {
+        let library = Collection::dropped(textures, id)?;
+        return Ok(Found::Library(Box::new(library)));
+    }
+    let indexed = textures.chosen_name(None).map_err(|e| refused(&e))?;
+    let asset = textures.choose(None).map_err(|e| refused(&e))?;
+    let making = Making {
+        indexed,
+        ..Making::default()
+    };
+    let path = file.to_owned();
+    let texture = Texture::new(asset, making, |_| What::File(Opened { path, id }));
+    let texture = texture.map_err(|e| refused(&textures.error(None, e.into())))?;
+    Ok(Found::Texture(Box::new(texture)))
+}
+
+/// A file of another tool.
+fn import(imported: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiError> {
+    let path = Path::new(file);
+    let tools = Tools {
+        given: Some((path, bytes)),
+        clock: Clock(now),
+        ..Tools::default()
+    };
+    let source = imported.source(path.to_owned());
+    let compiled = driver::compile(source.as_ref(), &imported.request(), &tools)
+        .map_err(|failure| refused(failure.as_ref()))?;
+    let making = Making {
+        made: Some(compiled.json()),
+        ..Making::default()
+    };
+    let opened = Opened {
+        path: file.to_owned(),
+        id: hash(bytes),
+    };
+    let what = |_: &str| What::Import {
+        kind: imported.name(),
+        file: opened,
+    };
+    Texture::new(compiled.lowered.bytes, making, what).map_err(damaged)
+}
+
+/// What is wrong with a file is no fault of the request.
+pub(crate) fn refused(error: &dyn Diagnostic) -> ApiError {
+    ApiError {
+        status: Status::Unprocessable,
+        ..ApiError::of(error)
+    }
+}

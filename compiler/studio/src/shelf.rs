@@ -1,0 +1,82 @@
+//! The libraries that the page can show: the one at the start, and the last that were dropped.
+
+use crate::{collection::Collection, error::ApiError, http::Status};
+use std::{
+    collections::VecDeque,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+/// Dropped libraries that are kept, each of which is in memory.
+const MOST: usize = 2;
+/// What names the library at the start.
+const START: &str = "0";
+
+/// Libraries by what names them, as long as the server runs.
+pub(crate) struct Shelf {
+    start: Option<Arc<Collection>>,
+    dropped: Mutex<Dropped>,
+}
+
+#[derive(Default)]
+struct Dropped {
+    /// How many there were.
+    count: u64,
+    /// The last ones, the newest at the end.
+    kept: VecDeque<Named>,
+}
+
+/// A library, and what names it.
+#[derive(Clone)]
+pub(crate) struct Named {
+    pub(crate) id: String,
+    pub(crate) library: Arc<Collection>,
+}
+
+impl Shelf {
+    pub(crate) fn new(start: Option<Collection>) -> Self {
+        Self {
+            start: start.map(Arc::new),
+            dropped: Mutex::default(),
+        }
+    }
+
+    /// The library at the start.
+    pub(crate) fn start(&self) -> Option<Named> {
+        self.start.as_ref().map(|library| Named {
+            id: START.to_owned(),
+            library: Arc::clone(library),
+        })
+    }
+
+    /// Keeps a library that was dropped; the oldest makes room for it.
+    pub(crate) fn keep(&self, library: Collection) -> Named {
+        let mut dropped = self.dropped.lock().unwrap_or_else(PoisonError::into_inner);
+        dropped.count += 1;
+        let named = Named {
+            id: dropped.count.to_string(),
+            library: Arc::new(library),
+        };
+        dropped.kept.push_back(named.clone());
+        while dropped.kept.len() > MOST {
+            dropped.kept.pop_front();
+        }
+        named
+    }
+
+    /// The library of this name.
+    ///
+    /// # Errors
+    /// Where there is none, or no longer.
+    pub(crate) fn get(&self, id: &str) -> Result<Named, ApiError> {
+        let dropped = self.dropped.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = dropped.kept.iter().find(|named| named.id == id).cloned();
+        let start = || self.start().filter(|named| named.id == id);
+        found.or_else(start).ok_or_else(|| {
+            ApiError::new(
+                Status::NotFound,
+                "the server does not have this library, or no longer",
+                "drop its file on the page again",
+            )
+        })
+    }
+}
