@@ -86,6 +86,11 @@ export class Server {
     return (await this.#answer(`api/texture/${texture.id}.${ending}`, { signal })).blob();
   }
 
+  /** The address of its picture, for an image. */
+  portrait(texture) {
+    return new URL(`api/texture/${texture.id}.png`, this.#base).href;
+  }
+
   /** The asset for the worklet, an ArrayBuffer. */
   async asset(texture, signal) {
     return (await this.#answer(`api/texture/${texture.id}.worklet.asp`, { signal })).arrayBuffer();

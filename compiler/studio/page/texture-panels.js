@@ -1,7 +1,7 @@
-// What the page says about the texture: the prompt's reading, its neighbours, its feel, its facts.
+// What the page says about the texture: the prompt's reading, its neighbours, its facts.
 
+import { showCommand } from "./command.js";
 import { announce, element, find } from "./dom.js";
-import { showCommand, showFeel } from "./feel.js";
 import { Prompt } from "./prompt.js";
 import { certaintyText, showNearest, showReading } from "./reading.js";
 import { texts } from "./texts.js";
@@ -27,19 +27,19 @@ export function startTexturePanels({ state, loader }) {
   invite(prompt.compile);
 
   loader.onshown.push((texture, how) => {
+    if (how.kind === "undo" && texture.compiled) prompt.bring(texture.compiled.prompt);
     if (how.kind !== "prompt") return;
     prompt.accept(how.prompt);
     announce(texts.prompt.compiled(texture.name, texture.compiled ? certaintyText(texture.compiled) : ""));
   });
   loader.onrefused.push(({ message, help }, how) => how?.kind === "prompt" && prompt.refuse(message, help));
 
-  state.on(["busy"], ({ busy }) => (prompt.busy = busy));
+  state.on(["busy"], ({ busy }) => (prompt.busy = busy?.kind === "prompt"));
   state.on(["about"], ({ about }) => {
     if (!about) return;
     prompt.words = about.words;
     find("edition").textContent = texts.edition(about.version, about.library);
   });
-  state.on(["texture", "about"], ({ texture, about }) => showFeel(texture, about?.sliders));
   state.on(["texture"], ({ texture }) => {
     find("invitation").hidden = texture !== null;
     showFacts(texture);
