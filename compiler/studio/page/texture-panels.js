@@ -25,9 +25,17 @@ function invite(compile) {
 export function startTexturePanels({ state, loader }) {
   const prompt = new Prompt((text) => loader.compile(text));
   invite(prompt.compile);
+  showNearest(null, prompt.compile);
 
+  // Sliders and words keep to the prompt that they began with, by the names of textures.
+  const prompted = new Map();
   loader.onshown.push((texture, how) => {
-    if (how.kind === "undo" && texture.compiled) prompt.bring(texture.compiled.prompt);
+    if (texture.compiled) prompted.set(texture.id, texture);
+    else if (!prompted.has(texture.id)) prompted.set(texture.id, prompted.get((how.base ?? how.of)?.id));
+    const from = prompted.get(texture.id) ?? texture;
+    showReading(from.compiled);
+    showNearest(from, prompt.compile);
+    if (how.kind === "undo" && from.compiled) prompt.bring(from.compiled.prompt);
     if (how.kind !== "prompt") return;
     prompt.accept(how.prompt);
     announce(texts.prompt.compiled(texture.name, texture.compiled ? certaintyText(texture.compiled) : ""));
@@ -43,8 +51,6 @@ export function startTexturePanels({ state, loader }) {
   state.on(["texture"], ({ texture }) => {
     find("invitation").hidden = texture !== null;
     showFacts(texture);
-    showReading(texture?.compiled ?? null);
-    showNearest(texture, prompt.compile);
     showCommand(texture);
   });
 }

@@ -6,7 +6,7 @@ const MAKERS = {
   steps: ({ base, steps }) => [[base], (server, [from], signal) =>
     (Object.keys(steps).length ? server.edit(from, { steps }, signal) : Promise.resolve(from))],
   words: ({ of, words }) => [[of], (server, [from], signal) => server.edit(from, { words }, signal)],
-  encode: ({ of }) => [[of], (server, [from], signal) => server.encode(from, signal)],
+  encode: ({ from }) => [[from], (server, [of], signal) => server.encode(of, signal)],
   blend: ({ a, b, t }) => [[a, b], (server, [from, to], signal) => server.blend(from, to, t, signal)],
   compose: ({ tap, slide, friction }) => [[tap, slide, friction], (server, [taps, slides, rubs], signal) =>
     server.compose({ tap: taps, slide: slides, friction: rubs }, signal)],

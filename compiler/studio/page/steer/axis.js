@@ -28,7 +28,7 @@ export class Axis {
     this.attribute = about.attribute;
     const id = `slider-${about.axis}`;
     const title = axes[about.axis] ?? about.axis;
-    this.#input = element("input", { type: "range", id, step: 1, min: LEAST, max: MOST, title: `${about.down} – ${about.up}` });
+    this.#input = element("input", { type: "range", id, step: 1, min: LEAST, max: MOST, title: about.up && `${about.down} – ${about.up}` });
     this.#place.htmlFor = id;
     this.element = element("div", { class: `axis ${about.axis}` },
       element("label", { for: id }, title), this.#physical, this.#place, this.#input);
@@ -52,7 +52,7 @@ export class Axis {
       if (this.#byPointer) return release();
       this.#rest = setTimeout(release, REST_MS);
     });
-    this.#input.addEventListener("blur", release);
+    for (const end of ["pointerup", "pointercancel", "blur"]) this.#input.addEventListener(end, release);
     this.release = release;
   }
 

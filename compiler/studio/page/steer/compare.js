@@ -86,7 +86,13 @@ export class Compare {
   async #playBlind(n) {
     if (n === undefined) return;
     // Played alone: nothing else on the page hears of it.
-    if (!(await this.#loader.draft(async () => this.slots[n].texture))) return;
+    try {
+      if (!(await this.#loader.draft(async () => this.slots[n].texture))) return;
+    } catch {
+      // The server has it no longer, which cannot be said blindly.
+      this.heard = n;
+      return this.reveal();
+    }
     this.heard = n;
     this.#turn();
     this.#changed();

@@ -9,6 +9,9 @@ import { showRefusal } from "./refused.js";
 /** Axes that are shown first; the others are finer ones. */
 const FIRST = ["rough", "slippery", "hard"];
 const KINDS = ["steps", "encode"];
+/** Without the model's scale, attributes are shown alone. */
+const UNSCALED = Object.entries({ rough: "rough_db", slippery: "mu", hard: "hard_hz", sharp: "sharp_hz" })
+  .map(([axis, attribute]) => ({ axis, attribute }));
 
 const none = (steps) => Object.keys(steps).length === 0;
 
@@ -33,7 +36,7 @@ export class Feel {
     const { state, loader, session } = parts;
     this.#live = new Live(loader, (texture) => this.#heard(texture), (refusal) => showRefusal(this.#error, refusal));
     find("feel").append(this.#sliders, this.#finer, this.#note, this.#encode, this.#error);
-    state.on(["about"], ({ about }) => about && this.#build(about.sliders ?? []));
+    state.on(["about"], ({ about }) => about && this.#build(about.sliders?.length ? about.sliders : UNSCALED));
     session.onchange.push(() => {
       showRefusal(this.#error, null);
       this.#live.forget();
@@ -91,14 +94,14 @@ export class Feel {
   }
 
   #released() {
-    const { server, session, loader, state } = this.#parts;
-    const { base, steps, texture } = session.current;
+    const { server, session, state } = this.#parts;
+    const { base, steps } = session.current;
     const wanted = this.#steps;
     if (JSON.stringify(wanted) === JSON.stringify(steps)) {
       this.#live.forget();
       state.set({ draft: false });
       this.#show();
-      return loader.draft(async () => texture);
+      return session.sound();
     }
     return this.#live.settle(this.#key(base), () => stepped(server, base, wanted), { kind: "steps", base, steps: wanted });
   }
@@ -113,17 +116,16 @@ export class Feel {
 
   /** The sliders, and what is heard, go back to what is shown. */
   #refused(refusal) {
-    const { session, loader } = this.#parts;
     showRefusal(this.#error, refusal);
     this.#live.forget();
     this.#show();
-    if (session.current) loader.draft(async () => session.current.texture).catch(() => {});
+    this.#parts.session.sound();
   }
 
   #encoded() {
     const { server, session, loader } = this.#parts;
     const { texture } = session.current;
     announce(texts.steer.encoding);
-    loader.take((signal) => server.encode(texture, signal), { kind: "encode", of: texture });
+    loader.take((signal) => server.encode(texture, signal), { kind: "encode", from: texture });
   }
 }

@@ -3,6 +3,8 @@
 export class Live {
   #loader;
   #made = new Map();
+  /** Done when the last request is. */
+  #last = Promise.resolve();
   #next = null;
   #running = false;
   #heard;
@@ -48,9 +50,9 @@ export class Live {
 
   #once(key, make) {
     if (!this.#made.has(key)) {
-      const making = make();
+      const making = this.#last.then(make);
+      this.#last = making.catch(() => this.#made.delete(key));
       this.#made.set(key, making);
-      making.catch(() => this.#made.delete(key));
     }
     return this.#made.get(key);
   }

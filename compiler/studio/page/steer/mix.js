@@ -46,7 +46,7 @@ export class Mix {
     loader.onrefused.push((refusal, how) => {
       if (!["blend", "compose"].includes(how?.kind)) return;
       showRefusal(this.#error, refusal);
-      if (session.current) loader.draft(async () => session.current.texture).catch(() => {});
+      session.sound();
     });
     this.#offer();
     this.#say();

@@ -51,6 +51,13 @@ export class Session {
     return this.#loader.take(async () => entry.texture, { kind: "undo", entry });
   }
 
+  /** Plays what is shown, after drafts of something else. */
+  sound() {
+    const { current } = this;
+    // Where the server has it no longer, what plays stays.
+    if (current) this.#loader.draft(async () => current.texture).catch(() => {});
+  }
+
   #step(by) {
     const entry = this.entries[(this.#aim ?? this.#at) + by];
     if (entry) this.show(entry);

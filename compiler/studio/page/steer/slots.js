@@ -41,7 +41,7 @@ export function startSlots({ server, session }, compare) {
 
   const open = (entry, n) => {
     const label = entry ? said.slot(LETTERS[n], describe(entry)) : said.empty(LETTERS[n]);
-    const choose = element("button", { type: "button", class: "slot", "aria-label": label, title: label,
+    const choose = element("button", { type: "button", class: "slot", title: label,
       "aria-pressed": String(Boolean(entry) && compare.heard === n), disabled: !entry && !session.current,
       onclick: () => compare.choose(n) },
     element("span", { class: "letter" }, LETTERS[n]),
@@ -52,7 +52,7 @@ export function startSlots({ server, session }, compare) {
     return element("div", { class: "slot-place" }, choose, ...(entry ? [put] : []));
   };
   const hidden = (n, at) => element("div", { class: "slot-place" }, element("button", { type: "button", class: "slot unknown",
-    "aria-label": said.unknown(at + 1), "aria-pressed": String(compare.heard === n), onclick: () => compare.choose(at) },
+    "aria-pressed": String(compare.heard === n), onclick: () => compare.choose(at) },
   element("span", { class: "letter" }, "?"), named(String(at + 1))));
 
   const show = () => {
