@@ -4,6 +4,7 @@ import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Fft } from "../page/plots/fft.js";
+import { Session } from "../page/steer/session.js";
 
 /** Time after which what rests is released, and what is asked for is shown, ms. */
 const PATIENCE_MS = 15000;
@@ -119,6 +120,26 @@ async function sliders(visit, tools) {
   await page.focus("#slider-hard");
   const again = await after(page, () => page.keyboard.press("ArrowLeft"), ({ count, told }, was) => told !== was.told);
   assert(again.command.split("\n").length === 2, "a slider goes on from where it began");
+}
+
+/** The list of textures by itself: how many it keeps, and which one a step leads to. */
+function session({ assert }) {
+  const loader = { onshown: [], onrefused: [], take: (make, how) => loader.show(how.entry.texture, how),
+    show: (texture, how) => loader.onshown.forEach((hear) => hear(texture, how)) };
+  const kept = new Session(loader);
+  const texture = (n) => ({ id: `${n}` });
+  for (let n = 0; n < 260; n++) loader.show(texture(n), { kind: "prompt" });
+  assert(kept.entries.length === 200 && kept.current.texture.id === "259", "200 textures are kept for undo, the last ones");
+  for (let n = 0; n < 300; n++) kept.undo();
+  assert(kept.current.texture.id === "60" && !kept.canUndo, "undo ends at the oldest");
+  kept.redo();
+  const dropped = kept.entries[3];
+  loader.show(texture(260), { kind: "prompt" });
+  loader.show(texture(260), { kind: "prompt" });
+  assert(kept.entries.map(({ texture: { id } }) => id).join() === "60,61,260", "what is new takes the place of what was undone, once");
+  kept.undo();
+  kept.show(dropped);
+  assert(kept.entries.map(({ texture: { id } }) => id).join() === "60,61,63,260" && kept.current === dropped, "a slot brings back what was dropped");
 }
 
 async function words(visit, tools) {
@@ -300,6 +321,7 @@ async function refusals(visit, { assert }) {
 
 /** `tools`: { assert, asperity, work }; without `asperity`, no bytes are compared. */
 export async function steer(visit, tools) {
+  session(tools);
   await sliders(visit, tools);
   await words(visit, tools);
   await seed(visit, tools);

@@ -147,7 +147,7 @@ export const texts = {
       none: "What you compile, edit and open is kept here.",
       undo: "Undo", redo: "Redo",
       at: (at, count, what) => `${at} of ${count} · ${what}`,
-      entry: (at, what) => `${at}: ${what}`,
+      entry: (at, what) => `${at}. ${what}`,
     },
     gone: (name, error) => `“${name}” cannot be shown again: ${error}.`,
     gone_help: "The server keeps the last 256 textures. The same steps make the same bytes again.",

@@ -35,8 +35,8 @@ pub(crate) const FILES: &[File] = files! {
         "plots/playhead.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js" "plots/shortest.js"
         "plots/spectrum.js" "plots/stage.js" "plots/strip.js" "plots/texts.js" "plots/waveform.js"
         "steer/again.js" "steer/axis.js" "steer/blind.js" "steer/choice.js" "steer/compare.js" "steer/feel.js"
-        "steer/live.js" "steer/mix.js" "steer/piece.js" "steer/portrait.js" "steer/refused.js" "steer/session.js"
-        "steer/shortcuts.js" "steer/slots.js" "steer/steer.js" "steer/timeline.js" "steer/words.js";
+        "steer/held.js" "steer/live.js" "steer/mix.js" "steer/piece.js" "steer/portrait.js" "steer/refused.js"
+        "steer/session.js" "steer/shortcuts.js" "steer/slots.js" "steer/steer.js" "steer/timeline.js" "steer/words.js";
     "application/wasm": "asperity.wasm";
     "image/svg+xml": "icon.svg";
 };

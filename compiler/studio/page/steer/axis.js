@@ -2,13 +2,12 @@
 
 import { element } from "../dom.js";
 import { texts } from "../texts.js";
+import { Held } from "./held.js";
 
 /** What the slider shows beyond 0 and 100. */
 const [LEAST, MOST] = [-25, 125];
 /** The most that one edit moves, steps. */
 const FARTHEST = 100;
-/** After a key, the slider counts as released when it rests so long. */
-const REST_MS = 400;
 
 const { axes } = texts.steer;
 
@@ -17,9 +16,6 @@ export class Axis {
   #place = element("output", { class: "place" });
   #physical = element("span", { class: "physical" });
   #base = null;
-  #byPointer = false;
-  #rest = null;
-  #held = false;
 
   /** `about` is the axis as the server describes it; `moved` and `released` hear of a person's hand. */
   constructor(about, { moved, released }) {
@@ -33,32 +29,11 @@ export class Axis {
     this.element = element("div", { class: `axis ${about.axis}` },
       element("label", { for: id }, title), this.#physical, this.#place, this.#input);
 
-    this.#input.addEventListener("pointerdown", () => (this.#byPointer = true));
-    this.#input.addEventListener("keydown", () => (this.#byPointer = false));
-    this.#input.addEventListener("input", () => {
-      this.#held = true;
-      clearTimeout(this.#rest);
+    this.held = new Held(this.#input, { released, moved: () => {
       this.#limit();
       this.#say();
       moved(this, Number(this.#input.value));
-    });
-    const release = () => {
-      clearTimeout(this.#rest);
-      if (!this.#held) return;
-      this.#held = false;
-      released(this);
-    };
-    this.#input.addEventListener("change", () => {
-      if (this.#byPointer) return release();
-      this.#rest = setTimeout(release, REST_MS);
-    });
-    for (const end of ["pointerup", "pointercancel", "blur"]) this.#input.addEventListener(end, release);
-    this.release = release;
-  }
-
-  /** Whether a person moves it. */
-  get held() {
-    return this.#held;
+    } });
   }
 
   /** Steps from the base to a position of the slider. */
@@ -75,7 +50,7 @@ export class Axis {
     this.#physical.textContent = !texture ? "" : Number.isFinite(value) ? texts.steer.physical[this.name](value) : texts.steer.undefined;
     this.element.dataset.place = place === null ? "none" : "known";
     this.#input.disabled = !enabled || place === null || from === null;
-    if (!this.#held) {
+    if (!this.held.on) {
       const shown = Math.round(place ?? 50);
       this.#input.min = Math.min(LEAST, shown);
       this.#input.max = Math.max(MOST, shown);

@@ -42,11 +42,11 @@ export class Choice {
     this.#select.replaceChildren(
       ...group(texts.steer.mix.session, entries.map((entry, n) =>
         option(`e${n}`, texts.steer.timeline.entry(n + 1, describe(entry)), entry.texture))),
-      ...group(texts.steer.mix.slots, slots.map(({ letter, texture }) => option(`s${letter}`, `${letter}: ${texture.name}`, texture))),
+      ...group(texts.steer.mix.slots, slots.map(({ label, texture }, n) => option(`s${n}`, label, texture))),
       ...(known ? group(texts.steer.mix.chosen, [option("c", chosen.name, chosen)]) : []),
       element("option", { value: WORDS }, texts.steer.mix.words));
     const wanted = keeps ? undefined : (chosen || otherwise)?.id;
-    const key = wanted === undefined ? WORDS : [...this.#pool].findLast(([, texture]) => texture.id === wanted)?.[0] ?? WORDS;
+    const key = wanted === undefined ? WORDS : [...this.#pool].find(([, texture]) => texture.id === wanted)?.[0] ?? WORDS;
     this.#select.value = key;
     this.#input.hidden = key !== WORDS;
   }

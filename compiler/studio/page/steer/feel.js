@@ -48,7 +48,7 @@ export class Feel {
 
   /** Lets go of what a person holds, before something else happens. */
   release() {
-    for (const axis of this.#axes) axis.release();
+    for (const axis of this.#axes) axis.held.release();
   }
 
   #build(sliders) {
@@ -72,7 +72,7 @@ export class Feel {
     const { state, session } = this.#parts;
     const about = state.get("about");
     const entry = session.current;
-    if (!this.#axes.some((axis) => axis.held)) this.#steps = entry?.steps ?? {};
+    if (!this.#axes.some((axis) => axis.held.on)) this.#steps = entry?.steps ?? {};
     for (const axis of this.#axes) axis.show(texture, entry?.base, this.#editable);
     const offered = Boolean(entry) && !entry.texture.editable && about?.prompts !== false;
     this.#encode.hidden = !offered;
@@ -111,7 +111,7 @@ export class Feel {
   }
 
   #heard(texture) {
-    if (this.#axes.some((axis) => axis.held)) this.#show(texture);
+    if (this.#axes.some((axis) => axis.held.on)) this.#show(texture);
   }
 
   /** The sliders, and what is heard, go back to what is shown. */

@@ -3,11 +3,12 @@
 import { element, find } from "../dom.js";
 import { texts } from "../texts.js";
 import { Choice } from "./choice.js";
+import { Held } from "./held.js";
 import { Live } from "./live.js";
 import { showRefusal } from "./refused.js";
+import { describe } from "./timeline.js";
 
 const PARTS = ["tap", "slide", "friction"];
-const REST_MS = 400;
 
 export class Mix {
   #parts;
@@ -19,7 +20,6 @@ export class Mix {
   #blended;
   #composed;
   #compose = element("button", { type: "button", onclick: () => this.#composes() }, texts.steer.mix.compose_now);
-  #rest = null;
 
   constructor(parts, compare) {
     this.#parts = parts;
@@ -36,7 +36,7 @@ export class Mix {
       group(texts.steer.mix.blend, a.element, b.element,
         element("div", { class: "slider" }, element("label", { for: "mix-t" }, texts.steer.mix.t), this.#t_text, this.#t)),
       group(texts.steer.mix.compose, ...PARTS.map((name) => this.#composed[name].element), this.#compose), this.#error, words);
-    this.#follow();
+    new Held(this.#t, { moved: () => this.#moves(), released: () => this.#settles() });
     state.on(["about"], ({ about }) => words.replaceChildren(...(about?.words ?? []).map((word) => element("option", { value: word }))));
     session.onchange.push(() => {
       showRefusal(this.#error, null);
@@ -52,25 +52,9 @@ export class Mix {
     this.#say();
   }
 
-  #follow() {
-    let byPointer = false;
-    this.#t.addEventListener("pointerdown", () => (byPointer = true));
-    this.#t.addEventListener("keydown", () => (byPointer = false));
-    this.#t.addEventListener("input", () => {
-      clearTimeout(this.#rest);
-      this.#say();
-      this.#parts.state.set({ draft: true });
-      this.#live.hear(this.#key, this.#blend().make);
-    });
-    this.#t.addEventListener("change", () => {
-      if (byPointer) return this.#settles();
-      this.#rest = setTimeout(() => this.#settles(), REST_MS);
-    });
-  }
-
   #offer() {
     const { session } = this.#parts;
-    const slots = this.#compare.filled.map(({ letter, entry }) => ({ letter, texture: entry.texture }));
+    const slots = this.#compare.filled.map(({ letter, entry }) => ({ label: `${letter}: ${describe(entry)}`, texture: entry.texture }));
     const { entries, at } = session;
     const [now, before] = [entries[at]?.texture, entries[at - 1]?.texture];
     const { kind, a, b, t } = session.current?.how ?? {};
@@ -106,6 +90,12 @@ export class Mix {
     const t = Number(this.#t.value);
     const sources = Promise.all(this.#blended.map((choice) => choice.texture()));
     return { t, sources, make: async () => this.#parts.server.blend(...(await sources), t) };
+  }
+
+  #moves() {
+    this.#say();
+    this.#parts.state.set({ draft: true });
+    this.#live.hear(this.#key, this.#blend().make);
   }
 
   #settles() {

@@ -57,9 +57,9 @@ export function startSlots({ server, session }, compare) {
 
   const show = () => {
     const { order, filled, matched } = compare;
-    const focused = [...slots.querySelectorAll(".slot")].indexOf(document.activeElement);
+    const focused = [...slots.children].findIndex((slot) => slot.contains(document.activeElement));
     slots.replaceChildren(...(order ? order.map(hidden) : compare.slots.map(open)));
-    if (focused >= 0) slots.querySelectorAll(".slot")[focused]?.focus();
+    if (focused >= 0) slots.children[focused]?.firstElementChild.focus();
     blind.textContent = order ? said.reveal : said.blind;
     blind.disabled = !order && filled.length < 2;
     const level = !matched ? "" : order || compare.heard < 0 ? said.matched : said.matched_by(LETTERS[compare.heard], compare.gain_db(compare.heard));

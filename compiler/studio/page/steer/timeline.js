@@ -17,7 +17,7 @@ export function describe(entry) {
 
 export function startTimeline({ server, state, session, loader }) {
   const list = element("ol", { class: "strip", "aria-label": texts.steer.timeline.label });
-  const button = (label, run, key) => element("button", { type: "button", class: "quiet", onclick: run, title: key }, label);
+  const button = (label, onclick, title) => element("button", { type: "button", class: "quiet", onclick, title }, label);
   const undo = button(texts.steer.timeline.undo, () => session.undo(), "Ctrl+Z");
   const redo = button(texts.steer.timeline.redo, () => session.redo(), "Ctrl+Shift+Z");
   const told = element("p", { class: "small told" });
@@ -33,8 +33,9 @@ export function startTimeline({ server, state, session, loader }) {
   };
   const show = () => {
     const { entries, at } = session;
-    undo.disabled = !session.canUndo;
-    redo.disabled = !session.canRedo;
+    // Not `disabled`, which would lose the focus at the ends.
+    undo.setAttribute("aria-disabled", String(!session.canUndo));
+    redo.setAttribute("aria-disabled", String(!session.canRedo));
     told.textContent = entries.length ? texts.steer.timeline.at(at + 1, entries.length, describe(session.current)) : texts.steer.timeline.none;
     for (const entry of shown.keys()) if (!entries.includes(entry)) shown.delete(entry);
     const items = entries.map(item);
