@@ -1,70 +1,11 @@
 // Steering as a person does it: sliders, words, seed, blend, compose, undo, slots; every texture has the bytes that the shown
 // command lines write.
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { Fft } from "../page/plots/fft.js";
 import { Session } from "../page/steer/session.js";
-
-/** Time after which what rests is released, and what is asked for is shown, ms. */
-const PATIENCE_MS = 15000;
-const STROKE = { speed_mm_s: 100, force_n: 1, seconds: 30, rate_hz: 1000 };
-const FLOOR_HZ = 40;
-
-/** What the page shows now: the identity of the texture, and how many the session has. */
-const shown = (page) => page.evaluate(() => ({
-  told: document.querySelector("#timeline .told").textContent,
-  id: document.querySelector("#timeline .tile[aria-current] img")?.src.match(/texture\/(\w+)/)[1],
-  count: document.querySelectorAll("#timeline .tile").length,
-  command: document.querySelector("#command code")?.textContent,
-}));
-
-/** Does something, and waits for what the page shows then. */
-async function after(page, act, what = ({ told }, before) => told !== before.told) {
-  const before = await shown(page);
-  await act();
-  const began = Date.now();
-  for (;;) {
-    const now = await shown(page);
-    if (what(now, before)) return now;
-    if (Date.now() - began > PATIENCE_MS) throw new Error(`the page shows ${now.told} still`);
-    await page.waitForTimeout(20);
-  }
-}
-
-const bytesOf = async (page, id) => Buffer.from(await page.evaluate(async (id) => {
-  const response = await fetch(`api/texture/${id}.asp`);
-  return Array.from(new Uint8Array(await response.arrayBuffer()));
-}, id));
-
-/** Runs command lines in a folder of their own; the bytes of the file that the last one writes. */
-function written({ asperity, work }, lines, name) {
-  const folder = join(work, name);
-  mkdirSync(folder);
-  execFileSync("sh", ["-ec", `asperity() { "$PROGRAM" "$@" --quiet >/dev/null; }\n${lines}`],
-    { cwd: folder, env: { ...process.env, PROGRAM: asperity }, stdio: ["ignore", "ignore", "inherit"] });
-  const [, quoted, plain] = /-o (?:'((?:[^']|'\\'')*)'|(\S+))/.exec(lines.split("\n").at(-1));
-  return readFileSync(join(folder, plain ?? quoted.replaceAll("'\\''", "'")));
-}
-
-async function same(page, tools, now, what) {
-  if (!tools.asperity) return;
-  const wanted = written(tools, now.command, what.replaceAll(/\W+/g, "-"));
-  tools.assert(wanted.equals(await bytesOf(page, now.id)), `${what}: the bytes of ${now.command.split("\n").at(-1)}`);
-}
-
-/** What axe says of the page as it is; nothing where the page was not given axe. */
-async function clean(page, { assert }, media, width, what) {
-  await page.emulateMedia({ ...media, reducedMotion: "reduce" });
-  await page.setViewportSize({ width, height: 800 });
-  await page.waitForTimeout(150);
-  const violations = await page.evaluate(async () => (window.axe ? (await window.axe.run(document, { resultTypes: ["violations"] })).violations : []));
-  const list = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target).join(", ")}`);
-  assert(list.length === 0, `axe finds nothing ${what}, ${media.colorScheme}, ${width} px${list.map((text) => `; ${text}`).join("")}`);
-  assert(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing is cut off at the side");
-  await page.emulateMedia({ colorScheme: "light", reducedMotion: "no-preference" });
-  await page.setViewportSize({ width: 1280, height: 800 });
-}
+import { compare } from "./compare.mjs";
+import { after, bytesOf, clean, same, shown } from "./steering.mjs";
 
 async function sliders(visit, tools) {
   const { page } = visit;
@@ -189,106 +130,27 @@ async function mixtures(visit, tools) {
   for (const part of [".mix", ".finer"]) await page.click(`${part} summary`);
 }
 
-/** Level above 40 Hz that the command renders for a steady stroke, dB. */
-function level_db({ asperity, work }, bytes, name) {
-  const { speed_mm_s, force_n, seconds, rate_hz } = STROKE;
-  const [texture, input, output] = [".asp", "-in.csv", "-out.csv"].map((ending) => join(work, name + ending));
-  writeFileSync(texture, bytes);
-  const { wall } = JSON.parse(execFileSync(asperity, ["inspect", texture, "--json"], { maxBuffer: 1 << 26 }));
-  const z_mm = (-1000 * force_n) / wall.stiffness_n_m;
-  const rows = Array.from({ length: seconds * rate_hz }, (_, n) => `${n / rate_hz},${(speed_mm_s * n) / rate_hz},0,${z_mm}`);
-  writeFileSync(input, `t_s,x_mm,y_mm,z_mm\n${rows.join("\n")}\n`);
-  execFileSync(asperity, ["render", texture, "--rate", `${rate_hz}`, "--trajectory", input, "-o", output, "--seed", "1", "--quiet"],
-    { stdio: "ignore" });
-  const [header, ...lines] = readFileSync(output, "utf8").trimEnd().split("\n");
-  const column = header.split(",").indexOf("vib_m_s2");
-  const x = Float64Array.from(lines.slice(rate_hz), (line) => Number(line.split(",")[column]));
-  const fft = new Fft(1024);
-  let [power, windows] = [0, 0];
-  for (let at = 0; at + fft.size <= x.length; at += fft.size / 2, windows++) {
-    fft.density(x.subarray(at, at + fft.size), rate_hz).forEach((density, k) => {
-      if ((k * rate_hz) / fft.size >= FLOOR_HZ) power += (density * rate_hz) / fft.size;
-    });
-  }
-  return 10 * Math.log10(power / windows);
-}
-
-async function slots(visit, tools) {
+/** A texture without a latent, as of a file. */
+async function encoded(visit, tools) {
   const { page } = visit;
-  const { assert } = tools;
-  const slot = (n) => `#compare .slot >> nth=${n}`;
-  const prompts = ["rough abrasive sheet with gritty particles", "cork", "wet ice"];
-  for (const [n, prompt] of prompts.entries()) {
-    await visit.compile(prompt);
-    await page.click(slot(n));
-  }
-  const title = () => page.textContent("#surface-title");
-  await page.focus("#stage");
-  await page.keyboard.press("1");
-  await page.waitForFunction((name) => document.getElementById("surface-title").textContent === name, prompts[0]);
-  assert((await page.getAttribute(slot(0), "aria-pressed")) === "true", "key 1 switches to slot A");
-  await page.focus("#prompt");
-  await page.keyboard.type("2");
-  assert((await title()) === prompts[0] && (await page.inputValue("#prompt")).endsWith("2"), "but not in a text field");
-
-  await page.click("#sound-switch");
-  await page.waitForFunction(() => window.studioCheck.contexts.at(-1)?.state === "running");
-  const swaps = () => page.evaluate(() => window.studioCheck.statuses.filter(({ about, name }) => about === "swap" && name === "ok").length);
-  const was = await swaps();
-  await page.click(slot(1));
-  await page.waitForFunction((was) => window.studioCheck.statuses.filter(({ about, name }) => about === "swap" && name === "ok").length > was, was);
-  assert((await title()) === "cork", "a click cross-fades to slot B");
-
-  await page.check("#match");
-  const found = [];
-  for (const n of [0, 1]) {
-    await after(page, () => page.click(slot(n)), ({ told }) => told.includes(prompts[n]));
-    await page.waitForTimeout(300);
-    const { id } = await shown(page);
-    const said_db = Number(/ (−?[\d.]+) dB$/.exec(await page.textContent("#compare .told"))[1].replace("−", "-"));
-    const gains_db = await page.evaluate(() => window.studioCheck.gains.map(({ gain }) => 20 * Math.log10(gain.value)));
-    assert(gains_db.some((gain_db) => Math.abs(gain_db - said_db) < 0.1), `slot ${"AB"[n]} is turned by the ${said_db} dB that the page says`);
-    const level = tools.asperity ? level_db(tools, await bytesOf(page, id), `level-${n}`) : 0;
-    found.push({ gain_db: said_db, level });
-  }
-  const [a, b] = found.map(({ gain_db, level }) => gain_db + level);
-  const apart = Math.abs(found[0].level - found[1].level).toFixed(1);
-  if (tools.asperity) assert(Math.abs(a - b) < 0.5, `slots ${apart} dB apart play ${(a - b).toFixed(2)} dB apart with matched levels`);
-  assert((await page.textContent("#compare .told")).includes("100 mm/s"), "the page says what they are matched at");
-
-  await clean(page, tools, { colorScheme: "light" }, 1280, "with slots");
-  await page.click("#compare .row button");
-  await page.waitForFunction(() => document.body.classList.contains("blind"));
-  await page.waitForTimeout(300);
-  const seen = () => page.evaluate(() => {
-    const texts = [document.title];
-    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_ELEMENT);
-    for (let at = walker.currentNode; at; at = walker.nextNode()) {
-      if (!at.checkVisibility({ visibilityProperty: true, checkVisibilityCSS: true }) || at.closest("[inert]")) continue;
-      texts.push(at.getAttribute("aria-label") ?? "", at.getAttribute("title") ?? "", at.tagName === "IMG" ? at.src : "", at.value ?? "");
-      for (const child of at.childNodes) if (child.nodeType === 3) texts.push(child.textContent);
-    }
-    return texts.join("\n");
-  });
-  const names = [...prompts, "api/texture"];
-  for (const n of [1, 2, 3]) {
-    const before = await swaps();
-    await page.focus("#stage");
-    await page.keyboard.press(String(n));
-    await page.waitForFunction((n) => document.querySelectorAll("#compare .slot")[n - 1].getAttribute("aria-pressed") === "true", n);
-    const text = await seen();
-    assert(names.every((name) => !text.includes(name)), `blind, number ${n} plays and no name is seen${(await swaps()) > before ? "" : " (it played already)"}`);
-  }
-  await clean(page, tools, { colorScheme: "dark" }, 1280, "while comparing blindly");
-  await page.keyboard.press("Control+z");
-  assert(await page.evaluate(() => document.body.classList.contains("blind")), "undo does not give it away");
-  await page.click("#compare .row button");
-  await page.waitForFunction(() => !document.body.classList.contains("blind"));
-  const told = await page.textContent("#compare .told");
-  const third = /3 was ([A-D]), ([^;·]+)/.exec(told);
-  await page.waitForFunction((name) => document.getElementById("surface-title").textContent === name, third[2].trim());
-  assert(/1 was [A-D], .*2 was [A-D], /.test(told), `revealed: ${told}`);
-  await page.uncheck("#match");
+  if (!tools.asperity) return;
+  const file = join(tools.work, "grit.asp");
+  execFileSync(tools.asperity, ["builtin", "-o", file, "--quiet"], { stdio: "ignore" });
+  const bytes = readFileSync(file);
+  const opened = await page.evaluate(async (bytes) => {
+    const response = await fetch("api/open?name=grit.asp", { method: "POST", headers: { "Content-Type": "application/octet-stream" },
+      body: new Uint8Array(bytes) });
+    const answer = await response.json();
+    return answer.texture ?? answer;
+  }, [...bytes]);
+  const open = (route) => route.fulfill({ json: opened });
+  await page.route("**/api/compile", open);
+  await after(page, () => page.fill("#prompt", "grit").then(() => page.press("#prompt", "Enter")));
+  await page.unroute("**/api/compile", open);
+  tools.assert((await page.$$(".axis input:enabled")).length === 0, "a texture without a latent has no sliders to move");
+  const now = await after(page, () => page.click("#feel > button"));
+  tools.assert((await page.$$(".axis input:enabled")).length === 4, "but once it is encoded");
+  await same(page, tools, now, "encoding", { "grit.asp": bytes });
 }
 
 /** The server refuses, or has a texture no longer. */
@@ -315,6 +177,7 @@ async function refusals(visit, { assert }) {
   await page.unroute("**/*.worklet.asp", lose);
   const made = await after(page, () => page.click("[data-key=gone] button"));
   assert(made.told.includes("cork") && (await page.$$("[data-key=gone]")).length === 0, "and made again by its own steps");
+  assert((await page.inputValue("#prompt")) === "cork", "with its prompt");
   // The browser logs refused requests by itself.
   visit.errors.splice(0, visit.errors.length, ...visit.errors.filter((text) => !text.includes("status of 4")));
 }
@@ -326,6 +189,7 @@ export async function steer(visit, tools) {
   await words(visit, tools);
   await seed(visit, tools);
   await mixtures(visit, tools);
-  await slots(visit, tools);
+  await compare(visit, tools);
+  await encoded(visit, tools);
   await refusals(visit, tools);
 }

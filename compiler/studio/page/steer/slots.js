@@ -21,7 +21,7 @@ export function startSlots({ server, session }, compare) {
   const match = check("match", said.match, said.match_title, (on) => (compare.matched = on));
   const keys = check("slot-keys", said.keys, said.keys_title, (on) => remember("slot-keys", on));
   keys.input.checked = recall("slot-keys", true) === true;
-  const blind = element("button", { type: "button", class: "quiet", onclick: () => turn() });
+  const blind = element("button", { type: "button", id: "blind", class: "quiet", onclick: () => turn() });
   const told = element("p", { class: "small told", role: "status" });
   const slots = element("div", { class: "slots", role: "group", "aria-labelledby": "compare-title" });
   find("compare").append(
