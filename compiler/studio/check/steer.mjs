@@ -19,7 +19,7 @@ async function sliders(visit, tools) {
     for (let n = 0; n < 12; n++) await page.keyboard.press("ArrowRight");
     assert((await page.textContent("#draft")) === "Draft", "what a slider plays is marked as a draft");
   }, ({ count }, { count: was }) => count > was);
-  assert((await place("rough")) === before + 12 && keyed.told.includes("rougher +12"), "twelve keys make one edit of 12 steps");
+  assert((await place("rough")) === before + 12 && keyed.told.includes("rough +12"), "twelve keys make one edit of 12 steps");
   assert((await page.textContent("#draft")) === "", "which is no draft once the slider rests");
   await same(page, tools, keyed, "a slider by keys");
 

@@ -112,7 +112,8 @@ export const texts = {
     encode: "Encode it",
     encoding: "Encoding …",
     moved: (axis, by) => `${axis} ${by < 0 ? "−" : "+"}${number(Math.abs(by), 0)}`,
-    steps: (steps) => Object.entries(steps).map(([up, by]) => `${up} ${by < 0 ? "−" : "+"}${number(Math.abs(by), 0)}`).join(", "),
+    steps: (steps) => Object.entries(steps).map(([up, by]) => texts.steer.moved(texts.steer.ups[up] ?? up, by)).join(", "),
+    ups: { rougher: "rough", slipperier: "slippery", harder: "hard", sharper: "sharp" },
     kinds: { encode: () => "encoded", blend: ({ t }) => `at ${number(t, 2)}`, prompt: ({ seed }) => (seed ? `seed ${seed}` : "") },
     words: {
       label: "In words",
