@@ -29,7 +29,7 @@ export class Server {
     return this.#post("api/compile", { prompt, seed }, signal);
   }
 
-  /** Another texture of one: `change` is { steps } or { words }, as of `asperity edit`. */
+  /** Another texture of one: `change` is { steps } or { words }, as of `asperity edit`; with { draft: true } it has no picture. */
   edit(texture, change, signal) {
     return this.#post("api/edit", { texture: texture.id, ...change }, signal);
   }

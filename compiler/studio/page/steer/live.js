@@ -36,7 +36,7 @@ export class Live {
     this.#running = false;
   }
 
-  /** Shows what `make()` gives; `how` as of the loader. What is heard already is not asked for again. */
+  /** Shows what `make()` gives; `how` as of the loader. What has the key of a draft is not asked for again. */
   settle(key, make, how) {
     this.#next = null;
     return this.#loader.take(() => this.#once(key, make), how);
