@@ -9,6 +9,7 @@ import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { steer } from "./steer.mjs";
 import { firstSession, sameAsCommand } from "./ticks.mjs";
 import { Visit } from "./visit.mjs";
 
@@ -60,7 +61,7 @@ async function prompts(visit) {
   assert(role === "quality" && moved === "rough", "“rough” is a quality that moved rough");
   assert(/(Known|Close|A guess)/.test(await page.textContent(".certainty")), "the certainty is in words");
   assert((await page.textContent("#command code")).startsWith("asperity compile "), "the command is shown");
-  assert((await page.$$(".bars li")).length === 3, "rough, slippery and hard have bars");
+  assert((await page.$$(".axis input:enabled")).length === 4, "rough, slippery, hard and sharp have sliders");
   assert((await page.$$(".material")).length > 0, "nearest materials are offered");
 }
 
@@ -180,7 +181,7 @@ async function markup(visit) {
   const { page } = visit;
   const prompt = "<img src=x onerror=alert(1)> <b>cork</b>";
   await visit.compile(prompt);
-  const found = await page.evaluate(() => document.querySelectorAll("main img, main b, [onerror]").length);
+  const found = await page.evaluate(() => document.querySelectorAll("main img[src=x], main b, [onerror]").length);
   assert(found === 0, "markup in a prompt stays text");
   const texts = await page.$$eval("#surface-title, #history button", (all) => all.map(({ textContent }) => textContent));
   assert(texts[0].includes("<img") && texts[1] === prompt, "and is shown as it is");
@@ -326,6 +327,11 @@ try {
   assert(visit.foreign.length === 0, `${visit.requests} requests, none to another address`);
   assert(visit.errors.length === 0, `no error on the console${visit.errors.map((text) => `: ${text}`).join("")}`);
   await visit.end();
+  const steered = await Visit.begin(browser, address);
+  await steered.page.evaluate(axe);
+  await steer(steered, { assert, asperity: process.env.ASPERITY, work });
+  assert(steered.errors.length === 0, `no error while steering${steered.errors.map((text) => `: ${text}`).join("")}`);
+  await steered.end();
   await devices(browser);
   await failures(browser);
   console.log(`${count} assertions in ${((Date.now() - began) / 1000).toFixed(0)} s`);

@@ -4,9 +4,9 @@ import { COLUMNS } from "../page/plots/ring.js";
 
 const PEN_HZ = 120;
 
-/** Runs in the page before its scripts: keeps contexts, and what comes from the renderer's port. */
+/** Runs in the page before its scripts: keeps contexts and gains, and what comes from the renderer's port. */
 function watch() {
-  const check = (window.studioCheck = { contexts: [], chunks: [], statuses: [], peak: 0 });
+  const check = (window.studioCheck = { contexts: [], chunks: [], statuses: [], gains: [], peak: 0 });
   check.text = (buffer) => btoa(Array.from(new Uint8Array(buffer), (byte) => String.fromCharCode(byte)).join(""));
   window.AudioContext = class extends AudioContext {
     constructor(...options) {
@@ -24,6 +24,12 @@ function watch() {
       });
     }
   };
+  window.GainNode = class extends GainNode {
+    constructor(...options) {
+      super(...options);
+      check.gains.push(this);
+    }
+  };
   // What the loudspeaker gets at most.
   const measure = AnalyserNode.prototype.getFloatTimeDomainData;
   AnalyserNode.prototype.getFloatTimeDomainData = function (samples) {
@@ -39,14 +45,14 @@ export class Visit {
     await prepare(context);
     const visit = new Visit();
     const page = await context.newPage();
-    Object.assign(visit, { context, page, errors: [], foreign: [], requests: 0, chunks: [], assets: [] });
+    Object.assign(visit, { context, page, errors: [], foreign: [], requests: 0, chunks: [] });
     page.on("console", (message) => message.type() === "error" && visit.errors.push(message.text()));
     page.on("pageerror", (error) => visit.errors.push(error.stack || String(error)));
     page.on("request", (request) => {
       visit.requests++;
       if (!/^(blob|data):/.test(request.url()) && !request.url().startsWith(address)) visit.foreign.push(request.url());
     });
-    page.on("response", (response) => response.url().endsWith(".worklet.asp") && visit.assets.push(response.body()));
+    page.on("response", (response) => response.url().endsWith(".worklet.asp") && (visit.first ??= response.body()));
     await page.goto(address);
     await page.waitForFunction(() => document.getElementById("edition").textContent !== "", null, { timeout: 10000 })
       .catch(() => { throw new Error(`the page does not begin: ${visit.errors.join("; ")}`); });
@@ -134,7 +140,7 @@ export class Visit {
 
   /** The first asset that the page fetched for its renderer. */
   asset() {
-    return this.assets[0];
+    return this.first;
   }
 
   end() {

@@ -42,12 +42,31 @@ export class Loader {
     this.#abort = new AbortController();
     const { signal } = this.#abort;
     return this.#attempt(async () => {
-      state.set({ busy: true });
+      state.set({ busy: how });
       const texture = await make(signal);
       await this.#show(texture, signal);
       for (const hear of this.onshown) hear(texture, how);
       state.set({ busy: false });
     }, how);
+  }
+
+  /**
+   * Plays the texture that `make()` gives, as a draft: nothing else shows it, and what is shown next takes its place.
+   * Its texture, or `null` where it comes too late or the server is silent.
+   */
+  async draft(make) {
+    const { server, sound } = this.#parts;
+    const { signal } = this.#abort;
+    try {
+      const texture = await make();
+      const asset = await server.asset(texture, signal);
+      if (signal.aborted) return null;
+      sound.play(asset);
+      return texture;
+    } catch (error) {
+      if (error.name === "AbortError" || error instanceof Silence) return null;
+      throw error;
+    }
   }
 
   /** Sound first: the picture may have to be drawn. */

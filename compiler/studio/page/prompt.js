@@ -10,6 +10,8 @@ export class Prompt {
   #error = find("prompt-error");
   #suggestions = new Suggestions(find("prompt"), find("suggestions"));
   #history;
+  /** What compiled last. */
+  #compiled = "";
 
   /** `compile` takes the text of a prompt. */
   constructor(compile) {
@@ -41,7 +43,15 @@ export class Prompt {
   /** The prompt compiled. */
   accept(prompt) {
     this.refuse(null);
+    this.#compiled = prompt;
     this.#history.add(prompt);
+  }
+
+  /** An earlier prompt is back; what is being typed stays. */
+  bring(prompt) {
+    if (this.#input.value !== this.#compiled) return;
+    this.#input.value = prompt;
+    this.#compiled = prompt;
   }
 
   /** Shows an error with its help, or none. */

@@ -29,7 +29,7 @@ export class Server {
     return this.#post("api/compile", { prompt, seed }, signal);
   }
 
-  /** Another texture of one: `change` is { steps } or { words }, as of `asperity edit`. */
+  /** Another texture of one: `change` is { steps } or { words }, as of `asperity edit`; with { draft: true } it has no picture. */
   edit(texture, change, signal) {
     return this.#post("api/edit", { texture: texture.id, ...change }, signal);
   }
@@ -94,6 +94,11 @@ export class Server {
   /** A file of a texture by its ending, such as "asp" or "export.wav": a Blob. */
   async download(texture, ending, signal) {
     return (await this.#answer(`api/texture/${texture.id}.${ending}`, { signal })).blob();
+  }
+
+  /** The address of its picture, for an image. */
+  portrait(texture) {
+    return new URL(`api/texture/${texture.id}.png`, this.#base).href;
   }
 
   /** The asset for the worklet, an ArrayBuffer. */

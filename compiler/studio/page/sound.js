@@ -1,4 +1,4 @@
-// From the hand to the loudspeaker: the renderer's worklet, drive, limiter, volume, meter.
+// From the hand to the loudspeaker: the renderer's worklet, trim, drive, limiter, volume, meter.
 //
 // A level above 0 dB drives the limiter, one below turns down what leaves it. So no output exceeds the
 // level, whatever the texture does. Connection order is that of `chain`; what prepares the signal for
@@ -30,6 +30,8 @@ export class Sound {
   /** "off", "starting", "on" or "suspended". */
   state = "off";
   level_db = START_LEVEL_DB;
+  /** What this texture is turned down by so that others are as loud, dB. */
+  #trim_db = 0;
   latency_s = 0;
   /** Stopped by a person, so that only a person starts it again. */
   stopped = false;
@@ -37,6 +39,7 @@ export class Sound {
   sink = "";
   #context = null;
   #renderer = null;
+  #trim;
   #drive;
   #volume;
   #analyser;
@@ -97,6 +100,11 @@ export class Sound {
     if (this.state === "on") this.#turn(1);
   }
 
+  set trim(trim_db) {
+    this.#trim_db = trim_db;
+    this.#trim?.gain.setTargetAtTime(fromDb(trim_db), this.#context.currentTime, FADE_S);
+  }
+
   /** Plays another texture: from its first tick on, or by a cross-fade where one plays. */
   play(asset) {
     this.#asset = asset;
@@ -147,14 +155,15 @@ export class Sound {
 
     const renderer = new AudioWorkletNode(context, "asperity",
       { numberOfInputs: 0, outputChannelCount: [1], processorOptions: { module } });
-    const [drive, volume] = [1 / FULL_SCALE_M_S2, 0].map((gain) => new GainNode(context, { gain }));
+    const [trim, drive, volume] = [fromDb(this.#trim_db), 1 / FULL_SCALE_M_S2, 0].map((gain) => new GainNode(context, { gain }));
     const limiter = new AudioWorkletNode(context, "limiter",
       { outputChannelCount: [1], processorOptions: { ceiling: CEILING } });
     const analyser = new AnalyserNode(context, { fftSize: 2048 });
-    const chain = [renderer, drive, limiter, volume, analyser, context.destination];
+    const chain = [renderer, trim, drive, limiter, volume, analyser, context.destination];
     chain.slice(1).forEach((node, n) => chain[n].connect(node));
 
     this.#renderer = renderer;
+    this.#trim = trim;
     this.#drive = drive;
     this.#volume = volume;
     this.#analyser = analyser;
@@ -204,6 +213,7 @@ export class Sound {
     const context = this.#context;
     this.#context = null;
     this.#renderer = null;
+    this.#trim = null;
     this.#enter("off");
     if (context) {
       context.onstatechange = null;

@@ -1,7 +1,7 @@
-// What the page says about the texture: the prompt's reading, its neighbours, its feel, its facts.
+// What the page says about the texture: the prompt's reading, its neighbours, its facts.
 
+import { showCommand } from "./command.js";
 import { announce, element, find } from "./dom.js";
-import { showCommand, showFeel } from "./feel.js";
 import { Prompt } from "./prompt.js";
 import { certaintyText, showNearest, showReading } from "./reading.js";
 import { texts } from "./texts.js";
@@ -25,26 +25,32 @@ function invite(compile) {
 export function startTexturePanels({ state, loader }) {
   const prompt = new Prompt((text) => loader.compile(text));
   invite(prompt.compile);
+  showNearest(null, prompt.compile);
 
+  // Sliders and words keep to the prompt that they began with, by the names of textures.
+  const prompted = new Map();
   loader.onshown.push((texture, how) => {
+    if (texture.compiled) prompted.set(texture.id, texture);
+    else if (!prompted.has(texture.id)) prompted.set(texture.id, prompted.get((how.base ?? how.of)?.id));
+    const from = prompted.get(texture.id) ?? texture;
+    showReading(from.compiled);
+    showNearest(from, prompt.compile);
+    if (how.kind === "undo" && from.compiled) prompt.bring(from.compiled.prompt);
     if (how.kind !== "prompt") return;
     prompt.accept(how.prompt);
     announce(texts.prompt.compiled(texture.name, texture.compiled ? certaintyText(texture.compiled) : ""));
   });
   loader.onrefused.push(({ message, help }, how) => how?.kind === "prompt" && prompt.refuse(message, help));
 
-  state.on(["busy"], ({ busy }) => (prompt.busy = busy));
+  state.on(["busy"], ({ busy }) => (prompt.busy = busy?.kind === "prompt"));
   state.on(["about"], ({ about }) => {
     if (!about) return;
     prompt.words = about.words;
     find("edition").textContent = texts.edition(about.version, about.library);
   });
-  state.on(["texture", "about"], ({ texture, about }) => showFeel(texture, about?.sliders));
   state.on(["texture"], ({ texture }) => {
     find("invitation").hidden = texture !== null;
     showFacts(texture);
-    showReading(texture?.compiled ?? null);
-    showNearest(texture, prompt.compile);
     showCommand(texture);
   });
 }

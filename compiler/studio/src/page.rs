@@ -23,9 +23,9 @@ macro_rules! files {
 /// Every file of `page/`.
 pub(crate) const FILES: &[File] = files! {
     "text/html; charset=utf-8": "index.html";
-    "text/css; charset=utf-8": "studio.css" "plots/plots.css" "device/device.css";
+    "text/css; charset=utf-8": "studio.css" "plots/plots.css" "device/device.css" "steer/steer.css";
     "text/javascript; charset=utf-8":
-        "auto.js" "devices.js" "dom.js" "feel.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js"
+        "auto.js" "command.js" "devices.js" "dom.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js"
         "limiter.js" "lit.js" "loader.js" "notices.js" "plain.js" "pointer.js" "prompt.js" "reading.js"
         "readout.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
         "texts.js" "texture-panels.js" "theme.js" "view.js" "worklet.js"
@@ -34,7 +34,10 @@ pub(crate) const FILES: &[File] = files! {
         "plots/field.js" "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/grid.js" "plots/level.js"
         "plots/levels.js" "plots/lsf.js" "plots/palette.js" "plots/plane-pointer.js" "plots/plane.js"
         "plots/playhead.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js" "plots/shortest.js"
-        "plots/spectrum.js" "plots/stage.js" "plots/strip.js" "plots/texts.js" "plots/waveform.js";
+        "plots/spectrum.js" "plots/stage.js" "plots/strip.js" "plots/texts.js" "plots/waveform.js"
+        "steer/again.js" "steer/axis.js" "steer/blind.js" "steer/choice.js" "steer/compare.js" "steer/feel.js"
+        "steer/held.js" "steer/live.js" "steer/mix.js" "steer/piece.js" "steer/portrait.js" "steer/refused.js"
+        "steer/session.js" "steer/shortcuts.js" "steer/slots.js" "steer/steer.js" "steer/timeline.js" "steer/words.js";
     "application/wasm": "asperity.wasm";
     "image/svg+xml": "icon.svg";
 };

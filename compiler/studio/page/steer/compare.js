@@ -1,0 +1,123 @@
+// Four slots to compare textures by ear, with their levels matched, and blind. For comparison only: nothing here proposes
+// a texture.
+
+export const LETTERS = ["A", "B", "C", "D"];
+
+export class Compare {
+  /** Entries of the session, `null` where a slot is empty. */
+  slots = LETTERS.map(() => null);
+  /** Number of the slot that is heard, −1 for none. */
+  heard = -1;
+  /** Order of the slots while they are compared blindly, else `null`. */
+  order = null;
+  onchange = [];
+  #matched = false;
+  #loader;
+  #session;
+  #sound;
+  #state;
+
+  constructor({ loader, session, sound, state }) {
+    this.#loader = loader;
+    this.#session = session;
+    this.#sound = sound;
+    this.#state = state;
+    session.onchange.push(() => this.#shown());
+  }
+
+  get filled() {
+    return this.slots.flatMap((entry, n) => (entry ? [{ n, letter: LETTERS[n], entry }] : []));
+  }
+
+  get matched() {
+    return this.#matched;
+  }
+
+  set matched(matched) {
+    this.#matched = matched;
+    this.#turn();
+    this.#changed();
+  }
+
+  /** How far a slot is turned down to the quietest one, dB. */
+  gain_db(n) {
+    const level_db = (entry) => entry?.texture.inspect.attributes.rough_db;
+    const levels = this.filled.map(({ entry }) => level_db(entry)).filter(Number.isFinite);
+    const own = level_db(this.slots[n]);
+    return Number.isFinite(own) ? Math.min(...levels) - own : 0;
+  }
+
+  /** Puts what is shown into a slot. */
+  put(n) {
+    this.slots[n] = this.#session.current;
+    this.heard = n;
+    this.#turn();
+    this.#changed();
+  }
+
+  /** Plays a slot: while blind, the one at this place of the order; an empty one takes what is shown. */
+  choose(n) {
+    if (this.order) return this.#playBlind(this.order[n]);
+    if (!this.slots[n]) return this.#session.current && this.put(n);
+    this.heard = n;
+    return this.#session.show(this.slots[n]);
+  }
+
+  /** Shuffles the filled slots and hides which is which. */
+  blind() {
+    const order = this.filled.map(({ n }) => n);
+    const random = crypto.getRandomValues(new Uint32Array(order.length));
+    for (let n = order.length - 1; n > 0; n--) {
+      const other = random[n] % (n + 1);
+      [order[n], order[other]] = [order[other], order[n]];
+    }
+    this.order = order;
+    this.#state.set({ blind: true });
+    return this.#playBlind(order[0]);
+  }
+
+  /** Shows which was which, and the one that is heard. */
+  reveal() {
+    const { heard } = this;
+    this.#end();
+    if (this.slots[heard]) this.#session.show(this.slots[heard]);
+  }
+
+  async #playBlind(n) {
+    if (n === undefined) return;
+    // Played alone: nothing else on the page hears of it.
+    try {
+      if (!(await this.#loader.draft(async () => this.slots[n].texture))) return;
+    } catch {
+      // The server has it no longer, which cannot be said blindly.
+      this.heard = n;
+      return this.reveal();
+    }
+    this.heard = n;
+    this.#turn();
+    this.#changed();
+  }
+
+  #end() {
+    this.order = null;
+    this.#state.set({ blind: false });
+    this.#changed();
+  }
+
+  /** Something was shown: a slot, or what is in none. */
+  #shown() {
+    if (this.order) this.#end();
+    const { current } = this.#session;
+    if (this.slots[this.heard] !== current) this.heard = this.slots.indexOf(current);
+    this.#turn();
+    this.#changed();
+  }
+
+  #turn() {
+    this.#sound.trim = this.#matched && this.heard >= 0 ? this.gain_db(this.heard) : 0;
+  }
+
+  #changed() {
+    for (const hear of this.onchange) hear();
+  }
+}

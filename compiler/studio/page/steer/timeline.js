@@ -1,0 +1,70 @@
+// The textures of this session as a strip of pictures, with undo and redo.
+
+import { element, find } from "../dom.js";
+import { notify, withdraw } from "../notices.js";
+import { texts } from "../texts.js";
+import { madeAgain } from "./again.js";
+import { portrait } from "./portrait.js";
+
+/** What led to an entry, in a few words; empty for a prompt. */
+export const changeOf = ({ how, steps }) =>
+  how.kind === "steps" ? texts.steer.steps(steps) : how.kind === "words" ? how.words : texts.steer.kinds[how.kind]?.(how) ?? "";
+
+export function describe(entry) {
+  const by = changeOf(entry);
+  return by ? `${entry.texture.name}: ${by}` : entry.texture.name;
+}
+
+export function startTimeline({ server, state, session, loader }) {
+  const list = element("ol", { class: "strip", "aria-label": texts.steer.timeline.label });
+  const button = (label, onclick, title) => element("button", { type: "button", class: "quiet", onclick, title }, label);
+  const undo = button(texts.steer.timeline.undo, () => session.undo(), "Ctrl+Z");
+  const redo = button(texts.steer.timeline.redo, () => session.redo(), "Ctrl+Shift+Z");
+  const told = element("p", { class: "small told" });
+  find("timeline").append(element("div", { class: "row" }, element("h2", { id: "session-title" }, texts.steer.timeline.title), told, undo, redo), list);
+
+  const shown = new Map();
+  const item = (entry) => {
+    if (!shown.has(entry)) {
+      const choose = element("button", { type: "button", class: "tile", onclick: () => session.show(entry) }, portrait(server, entry.texture));
+      shown.set(entry, element("li", {}, choose));
+    }
+    return shown.get(entry);
+  };
+  const show = () => {
+    const { entries, at } = session;
+    // Not `disabled`, which would lose the focus at the ends.
+    undo.setAttribute("aria-disabled", String(!session.canUndo));
+    redo.setAttribute("aria-disabled", String(!session.canRedo));
+    told.textContent = entries.length ? texts.steer.timeline.at(at + 1, entries.length, describe(session.current)) : texts.steer.timeline.none;
+    for (const entry of shown.keys()) if (!entries.includes(entry)) shown.delete(entry);
+    const items = entries.map(item);
+    // Buttons that stay keep the focus.
+    items.forEach((made, n) => list.children[n] !== made && list.insertBefore(made, list.children[n] ?? null));
+    while (list.children.length > items.length) list.lastElementChild.remove();
+    items.forEach((made, n) => {
+      const tile = made.firstElementChild;
+      const label = texts.steer.timeline.entry(n + 1, describe(entries[n]));
+      tile.title = label;
+      tile.setAttribute("aria-label", label);
+      if (n === at) tile.setAttribute("aria-current", "true");
+      else tile.removeAttribute("aria-current");
+    });
+    const current = list.children[at];
+    if (current) list.scrollLeft = current.offsetLeft - (list.clientWidth - current.offsetWidth) / 2;
+  };
+  session.onchange.push(() => {
+    withdraw("gone");
+    show();
+  });
+  state.on(["blind"], show);
+
+  loader.onrefused.push(({ message }, how) => {
+    if (how?.kind !== "undo") return;
+    const { entry } = how;
+    const make = madeAgain(server, session, entry.texture);
+    const again = () => loader.take(make, { kind: "undo", entry });
+    notify("gone", { text: texts.steer.gone(entry.texture.name, message), help: make ? texts.steer.gone_help : texts.steer.gone_file,
+      ...(make ? { action: { label: texts.steer.gone_again, run: again } } : {}) });
+  });
+}
