@@ -142,7 +142,8 @@ export class Visit {
   }
 }
 
-function numbers(text, Type) {
+/** What `studioCheck.text` wrote. */
+export function numbers(text, Type) {
   const bytes = Buffer.from(text, "base64");
   return new Type(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
 }
