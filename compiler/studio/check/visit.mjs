@@ -17,7 +17,7 @@ function watch() {
   window.AudioWorkletNode = class extends AudioWorkletNode {
     constructor(context, name, options) {
       super(context, name, options);
-      if (name !== "asperity") return;
+      if (name !== "asperity" || !(context instanceof AudioContext)) return;
       this.port.addEventListener("message", ({ data }) => {
         if (data.type === "status") check.statuses.push(data);
         if (data.type === "ticks") check.chunks.push(data);

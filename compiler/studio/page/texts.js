@@ -193,7 +193,7 @@ export const texts = {
     tones: "Play test tones",
     tones_stop: "Stop the tones",
     tone: (hz) => `${number(hz, 0)} Hz`,
-    tones_about: "Set the bands so that all tones feel equally strong. They play 12 dB below the level. Any key stops them at once, except those that set a band.",
+    tones_about: "Set the bands so that all tones feel equally strong. They play 12 dB below the level, at −12 dB at most. Any key stops them at once, except those that set a band.",
 
     more: "Gamepad and phone",
     more_state: (on) => (on ? "on" : "off"),

@@ -32,7 +32,7 @@ pub(crate) const FILES: &[File] = files! {
         "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/modes.js" "output/motors-panel.js"
         "output/motors.js" "output/panel.js" "output/response.js" "output/shift.js" "output/tones-button.js"
         "output/tones.js"
-        "plots/axes.js" "plots/colormap.js" "plots/contour.js" "plots/controls.js" "plots/csv.js" "plots/fft.js"
+        "plots/axes.js" "plots/colormap.js" "plots/contour.js" "plots/controls.js" "plots/csv-worker.js" "plots/csv.js" "plots/fft.js"
         "plots/field.js" "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/grid.js" "plots/level.js"
         "plots/levels.js" "plots/lsf.js" "plots/palette.js" "plots/plane-pointer.js" "plots/plane.js"
         "plots/playhead.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js" "plots/shortest.js"

@@ -1,6 +1,5 @@
 // The controls of the strip: freeze, scroll, save.
 
-import { renderedCsv, trajectoryCsv } from "./csv.js";
 import { element } from "./figure.js";
 
 export class Controls {
@@ -19,15 +18,24 @@ export class Controls {
       scope.scroll(Number(this.slider.value) * scope.tick_hz);
       scrolled();
     });
-    const save = (label, name, text) => {
+    const save = (label, name, table) => {
       const button = element("button", "plot-button", label);
       button.type = "button";
-      button.addEventListener("click", () => download(name, text(scope.ring, scope.tick_hz)));
+      button.addEventListener("click", async () => {
+        // Not disabled, which would take the focus away.
+        if (button.getAttribute("aria-busy") === "true") return;
+        button.setAttribute("aria-busy", "true");
+        try {
+          download(name, await written(table, scope));
+        } finally {
+          button.removeAttribute("aria-busy");
+        }
+      });
       return button;
     };
     this.saves = [
-      save(texts.save, texts.file, renderedCsv),
-      save(texts.save_trajectory, texts.trajectory_file, trajectoryCsv),
+      save(texts.save, texts.file, "rendered"),
+      save(texts.save_trajectory, texts.trajectory_file, "trajectory"),
     ];
     this.element = element("div", "plot-controls", this.button, this.slider, ...this.saves);
     this.update();
@@ -45,9 +53,19 @@ export class Controls {
   }
 }
 
-function download(name, text) {
+/** A table as a Blob, written by a worker: half a million rows would hold the page up for seconds. */
+function written(table, { ring, tick_hz }) {
+  const worker = new Worker(new URL("csv-worker.js", import.meta.url), { type: "module" });
+  return new Promise((done, failed) => {
+    worker.onmessage = ({ data }) => done(data);
+    worker.onerror = ({ message }) => failed(new Error(message));
+    worker.postMessage({ table, ring: ring.copy(), tick_hz });
+  }).finally(() => worker.terminate());
+}
+
+function download(name, blob) {
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+  link.href = URL.createObjectURL(blob);
   link.download = name;
   link.click();
   // Some browsers read it later than the click.

@@ -43,6 +43,17 @@ export class Ring {
     return arrays.reduce((sum, array) => sum + array.byteLength, 0);
   }
 
+  /** What a worker needs of it; see `of`. */
+  copy() {
+    const { capacity, first, end, columns, positions_mm, flags } = this;
+    return { capacity, first, end, columns, positions_mm, flags };
+  }
+
+  /** A ring to read, of what a message brought of another. */
+  static of(copy) {
+    return Object.assign(Object.create(Ring.prototype), copy);
+  }
+
   clear() {
     this.first = this.end;
   }
