@@ -1,5 +1,6 @@
 // From the hand to the loudspeaker: the sound's state, its texture, its level, its device. `output/chain.js` has the nodes.
 
+import { now_s } from "./hand.js";
 import { buildChain, FADE_S } from "./output/chain.js";
 import { MODES } from "./output/modes.js";
 
@@ -30,8 +31,9 @@ export class Sound {
   stopped = false;
   /** Sink that was chosen; empty is the system's default. */
   sink = "";
+  /** The nodes, while there are some; others look at them. */
+  chain = null;
   #context = null;
-  #chain = null;
   #gains_db = null;
   #path = null;
   #asset = null;
@@ -43,20 +45,15 @@ export class Sound {
     this.#file = file;
   }
 
-  // What others hear of. `onloaded` has the renderer's status of a texture that plays now.
+  // What others hear of. `onloaded` has the renderer's status of a texture that plays now; `onpath` the phase of the hand
+  // that moves by itself, or null when another took its place.
   onstate = [];
   onfailure = () => {};
   onloaded = () => {};
   onrefused = () => {};
   onticks = [];
   onlimit = () => {};
-  /** Phase of the path of the hand that moves by itself; null when another took its place. */
   onpath = () => {};
-
-  /** The nodes, while there is a context. */
-  get chain() {
-    return this.#chain;
-  }
 
   /** From the hand to the sound as far as the browser knows, s. */
   get total_latency_s() {
@@ -101,11 +98,11 @@ export class Sound {
   async use(mode) {
     this.mode = mode;
     this.level_db = MODES[mode].start_db;
-    const chain = this.#chain;
+    const chain = this.chain;
     this.#turn(0);
     await silence();
     // Another one may have been chosen meanwhile.
-    if (!chain || this.mode !== mode || chain !== this.#chain) return;
+    if (!chain || this.mode !== mode || chain !== this.chain) return;
     chain.mode = mode;
     if (this.state === "on") this.#turn(1);
     this.#tell();
@@ -114,24 +111,24 @@ export class Sound {
   /** Gains of the equaliser, dB. */
   equalise(gains_db) {
     this.#gains_db = gains_db;
-    if (this.#chain) this.#chain.equaliser.gains_db = gains_db;
+    if (this.chain) this.chain.equaliser.gains_db = gains_db;
   }
 
   /** Plays another texture: from its first tick on, or by a cross-fade where one plays. */
   play(asset) {
     this.#asset = asset;
-    if (this.#chain) this.#send();
+    if (this.chain) this.#send();
   }
 
   /** Events of the hand; nobody hears them while the sound is off. */
   hand(events) {
-    if (this.state === "on") this.#chain.renderer.port.postMessage({ type: "hand", events });
+    if (this.state === "on") this.#post({ type: "hand", events });
   }
 
   /** The path of the hand that moves by itself (`path.js`), as soon as the sound is on; null lifts it. */
   follow(path) {
     this.#path = path;
-    if (this.state === "on") this.#chain.renderer.port.postMessage({ type: "path", path, t_s: performance.now() / 1000 });
+    if (this.state === "on") this.#post({ type: "path", path, t_s: now_s() });
   }
 
   /** Plays on another device; false where that fails. */
@@ -151,7 +148,7 @@ export class Sound {
 
   /** Peak and RMS of the last 40 ms of the output, in full scales. */
   measure() {
-    return this.state === "on" ? this.#chain.measure() : { peak: 0, rms: 0 };
+    return this.state === "on" ? this.chain.measure() : { peak: 0, rms: 0 };
   }
 
   async #build() {
@@ -166,7 +163,7 @@ export class Sound {
     if (this.sink) await context.setSinkId(this.sink).catch(() => (this.sink = ""));
 
     // Another mode may have been chosen meanwhile, and another device have other channels.
-    this.#chain = chain;
+    this.chain = chain;
     this.#loaded = false;
     chain.mode = this.mode;
     if (this.#gains_db) chain.equaliser.gains_db = this.#gains_db;
@@ -175,22 +172,25 @@ export class Sound {
     limiter.port.onmessage = ({ data }) => this.onlimit(data.reduction_db);
     for (const node of chain.worklets) node.onprocessorerror = () => this.#fail(new SoundFailure("failed", "processor"));
     context.onstatechange = () => this.#changed(context);
-    renderer.port.postMessage({ type: "record", on: true });
+    this.#post({ type: "record", on: true });
     if (this.#asset) this.#send();
   }
 
   /** Another device may have other channels. */
   #reroute() {
-    if (!this.#chain) return;
-    this.#chain.route();
+    if (!this.chain) return;
+    this.chain.route();
     if (this.state === "on") this.#turn(1);
     this.#tell();
   }
 
   #send() {
-    const type = this.#loaded ? "swap" : "load";
+    this.#post({ type: this.#loaded ? "swap" : "load", asset: this.#asset });
     this.#loaded = true;
-    this.#chain.renderer.port.postMessage({ type, asset: this.#asset });
+  }
+
+  #post(message) {
+    this.chain.renderer.port.postMessage(message);
   }
 
   #heard(message) {
@@ -214,7 +214,7 @@ export class Sound {
   }
 
   #running() {
-    if (this.state === "off" || !this.#chain) return;
+    if (this.state === "off" || !this.chain) return;
     this.#turn(1);
     this.#enter("on");
     if (this.#path) this.follow(this.#path);
@@ -224,7 +224,7 @@ export class Sound {
   #fail(failure) {
     const context = this.#context;
     this.#context = null;
-    this.#chain = null;
+    this.chain = null;
     this.#enter("off");
     if (context) {
       context.onstatechange = null;
@@ -235,8 +235,7 @@ export class Sound {
 
   /** Fades to the level, or to silence where `on` is 0 and until the mode is the one chosen. */
   #turn(on) {
-    const chain = this.#chain;
-    chain?.turn(this.level_db, on && chain.mode === this.mode);
+    this.chain?.turn(this.level_db, on && this.chain.mode === this.mode);
   }
 
   #enter(state) {

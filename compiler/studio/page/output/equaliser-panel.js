@@ -55,7 +55,8 @@ export function startEqualiser(sound) {
     const option = (value, text) => element("option", { value, selected: value === (known === null ? "" : `=${known}`) }, text);
     // A name may be anything, so that values of names have a mark.
     choice.replaceChildren(option("", flat ? own.flat : own.unsaved),
-      ...(flat ? [] : [element("option", { value: "flat" }, own.flat)]), ...[...actuators.keys()].map((key) => option(`=${key}`, key)));
+      ...(flat ? [] : [element("option", { value: "flat" }, own.flat)]),
+      ...[...actuators.keys()].map((key) => option(`=${key}`, key)));
     remove.hidden = known === null;
     keepButton.disabled = flat;
     state.textContent = use.checked ? (flat ? own.flat : known ?? own.unsaved).toLowerCase() : own.equaliser_off;

@@ -20,7 +20,8 @@ export function startMotors(sound) {
   };
   const option = (name, label, about) => element("div", {},
     element("label", { class: "switch" },
-      element("input", { type: "checkbox", id: name, checked: on[name], onchange: ({ target }) => turn(name, target.checked) }), label),
+      element("input", { type: "checkbox", id: name, checked: on[name],
+        onchange: ({ target }) => turn(name, target.checked) }), label),
     line(about));
 
   const show = () => {

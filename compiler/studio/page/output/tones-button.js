@@ -6,14 +6,16 @@ import { playSteps } from "./tones.js";
 
 const own = texts.output;
 const SHOWN_MS = 100;
-const SETS = new Set(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "PageUp", "PageDown", "Home", "End", "Tab", "Shift"]);
+/** Keys that set a band, and those that lead to one. */
+const SETS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "PageUp", "PageDown", "Home", "End"];
+const LEADS = ["Tab", "Shift"];
 
 /** `bands` are their sliders; `mark` shows the frequency that plays, or none by null. */
 export function tonesButton(sound, { bands, mark }) {
   let playing = null;
   let timer = null;
-  const button = element("button", { type: "button", id: "tones", "aria-pressed": "false", onclick: () => (playing ? stop() : start()) },
-    own.tones);
+  const button = element("button", { type: "button", id: "tones", "aria-pressed": "false",
+    onclick: () => (playing ? stop() : start()) }, own.tones);
   const shown = element("output", { class: "hz", for: "tones" });
 
   const show = () => {
@@ -39,9 +41,10 @@ export function tonesButton(sound, { bands, mark }) {
   };
   const swallow = (event) => event.preventDefault();
   addEventListener("keydown", (event) => {
-    if (!playing || (SETS.has(event.key) && (bands.includes(event.target) || event.key === "Tab" || event.key === "Shift"))) return;
+    const { key, target } = event;
+    if (!playing || LEADS.includes(key) || (SETS.includes(key) && bands.includes(target))) return;
     stop();
-    // Nor does the key do anything else, when it is released neither.
+    // The key does nothing else, also when it is released.
     event.preventDefault();
     event.stopPropagation();
     addEventListener("keyup", swallow, { capture: true, once: true });

@@ -61,7 +61,7 @@ export function playSteps(chain) {
   };
 }
 
-/** Plays a burst on each channel from `at_s` on, one after another; resolves when the mode's channels play what is rendered again. */
+/** Plays a burst on each channel from `at_s` on, one after another. Resolves when what is rendered plays again. */
 export function testChannels(chain, at_s = chain.context.currentTime) {
   const { oscillator, gain } = toneInto(chain, BURST_HZ);
   chain.renders = false;
