@@ -2,6 +2,9 @@
 
 import { element } from "./figure.js";
 
+/** Ticks copied at once, a megabyte. */
+const PART_TICKS = 20_000;
+
 export class Controls {
   /** `freeze(on)` and `scrolled()` tell the other parts. */
   constructor(scope, texts, { freeze, scrolled }) {
@@ -59,8 +62,21 @@ function written(table, { ring, tick_hz }) {
   return new Promise((done, failed) => {
     worker.onmessage = ({ data }) => done(data);
     worker.onerror = ({ message }) => failed(new Error(message));
-    worker.postMessage({ table, ring: ring.copy(), tick_hz });
+    worker.postMessage({ ticks: ring.capacity });
+    copyInto(worker, ring).then(() => worker.postMessage({ table, tick_hz }), failed);
   }).finally(() => worker.terminate());
+}
+
+/** Sends the ticks kept now, in parts. A page that stands still meanwhile may lose the oldest; the table then begins later. */
+async function copyInto(worker, ring) {
+  const { session, end } = ring;
+  for (let tick = ring.first; tick < end && ring.session === session;) {
+    const part = ring.part(tick, Math.min(PART_TICKS, end - tick));
+    tick += part.flags.length;
+    worker.postMessage({ part }, [part.positions_mm, part.columns, part.flags].map(({ buffer }) => buffer));
+    await new Promise((done) => setTimeout(done));
+    tick = Math.max(tick, ring.first);
+  }
 }
 
 function download(name, blob) {

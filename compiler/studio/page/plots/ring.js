@@ -43,15 +43,18 @@ export class Ring {
     return arrays.reduce((sum, array) => sum + array.byteLength, 0);
   }
 
-  /** What a worker needs of it; see `of`. */
-  copy() {
-    const { capacity, first, end, columns, positions_mm, flags } = this;
-    return { capacity, first, end, columns, positions_mm, flags };
-  }
-
-  /** A ring to read, of what a message brought of another. */
-  static of(copy) {
-    return Object.assign(Object.create(Ring.prototype), copy);
+  /** Copies ticks from a kept one on, `most` of them or up to where the arrays begin again, as a message for `add`. */
+  part(from, most) {
+    const slot = from % this.capacity;
+    const count = Math.min(most, this.end - from, this.capacity - slot);
+    const cut = (array, width) => array.slice(width * slot, width * (slot + count));
+    return {
+      session: this.session,
+      first: from,
+      positions_mm: cut(this.positions_mm, 3),
+      columns: cut(this.columns, WIDTH),
+      flags: cut(this.flags, 1),
+    };
   }
 
   clear() {
